@@ -1,0 +1,29 @@
+# How everything is compiled. One language level, one set of warnings, all of them errors.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+# -O2 on purpose: the tick is counted in instructions, and -O3 trades them for code size.
+set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O2 -g1")
+
+option(ASTROLABE_SANITIZE "AddressSanitizer and UBSan, any finding ends the program" OFF)
+option(ASTROLABE_COVERAGE "gcov instrumentation" OFF)
+
+add_library(astro_compile INTERFACE)
+target_include_directories(astro_compile INTERFACE ${CMAKE_SOURCE_DIR})
+target_compile_options(astro_compile INTERFACE
+  -Wall -Wextra -Wconversion -Wdouble-promotion -Wshadow -Wnon-virtual-dtor -Werror)
+if(ASTROLABE_SANITIZE)
+  target_compile_options(astro_compile INTERFACE
+    -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -O1)
+  target_link_options(astro_compile INTERFACE -fsanitize=address,undefined)
+endif()
+if(ASTROLABE_COVERAGE)
+  target_compile_options(astro_compile INTERFACE --coverage -O0)
+  target_link_options(astro_compile INTERFACE --coverage)
+endif()
+
+find_program(ASTROLABE_CCACHE ccache)
+if(ASTROLABE_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${ASTROLABE_CCACHE})
+endif()
