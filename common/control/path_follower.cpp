@@ -72,7 +72,8 @@ BodyTwist PathFollower::correction(const Pose& actual, std::int32_t v_ref_umps) 
 
   // (um/s) * um = 1e-12, brought back to 1e-6 by 1 / 10^6 = 4295 / 2^32.
   const auto swept = static_cast<std::int32_t>(((std::int64_t{v_ref_umps} * cross_um >> 8) * 4295) >> 24);
-  return {saturate32(k_along_.scale(along_um)), saturate32(k_heading_.scale(heading_urad) + k_cross_.scale(swept))};
+  return {saturate32(k_along_.scale(along_um)),
+          saturate32(k_heading_.scale(heading_urad) + k_cross_.scale(swept))};
 }
 
 }  // namespace astro

@@ -10,14 +10,15 @@
 
 namespace astro {
 
-/// Follows segments: a reference pose moves along the path exactly as planned, and what the odometry lags behind it
-/// is added to the set point.
+/// Follows segments: a reference pose moves along the path exactly as planned, and what the odometry lags
+/// behind it is added to the set point.
 ///
 ///   v = v_ref + k_along e_along
 ///   omega = omega_ref + k_heading e_theta + k_cross v_ref e_cross
 ///
-/// with the errors taken in the reference's frame. Segments that run without a rest between them are one path: the
-/// next starts where the reference, not the robot, has arrived, so errors do not add up around a square.
+/// with the errors taken in the reference's frame. Segments that run without a rest between them are one
+/// path: the next starts where the reference, not the robot, has arrived, so errors do not add up around a
+/// square.
 ///
 /// Cost    constant, two sines and cosines, no division; callable from the control tick.
 /// Source  Kanayama et al., ICRA 1990, linearised.

@@ -7,7 +7,9 @@ constexpr std::int32_t kStanding_umps = 3'000;       // slower than this is stan
 constexpr std::uint32_t kSettled_ticks = 50;         // and for so long
 constexpr std::uint32_t kSettleAtMost_ticks = 1000;  // a robot held by friction is as settled as it will be
 
-std::int32_t per_tick(std::int32_t per_second2) { return per_second2 / kTickHz > 0 ? per_second2 / kTickHz : 1; }
+std::int32_t per_tick(std::int32_t per_second2) {
+  return per_second2 / kTickHz > 0 ? per_second2 / kTickHz : 1;
+}
 
 // Scales both components, so that a command beyond the limits keeps its curvature.
 BodyTwist within(const BodyTwist& twist, const MotionLimits& limits) {
@@ -19,7 +21,8 @@ BodyTwist within(const BodyTwist& twist, const MotionLimits& limits) {
     scaled.omega_uradps = static_cast<std::int32_t>(std::int64_t{twist.omega_uradps} * limits.speed_umps / v);
   } else if (omega > limits.yaw_rate_uradps) {
     scaled.v_umps = static_cast<std::int32_t>(std::int64_t{twist.v_umps} * limits.yaw_rate_uradps / omega);
-    scaled.omega_uradps = static_cast<std::int32_t>(std::int64_t{twist.omega_uradps} * limits.yaw_rate_uradps / omega);
+    scaled.omega_uradps =
+        static_cast<std::int32_t>(std::int64_t{twist.omega_uradps} * limits.yaw_rate_uradps / omega);
   }
   return scaled;
 }
@@ -137,8 +140,10 @@ Drive::Wish Drive::wish() {
     next_segment();
   }
   switch (mode_) {
-    case Mode::velocity: return slewed(target_);
-    case Mode::segment: return follow();
+    case Mode::velocity:
+      return slewed(target_);
+    case Mode::segment:
+      return follow();
     case Mode::stopping: {
       const Wish ramp = slewed({});
       if (ramp.twist == BodyTwist{} && standing()) {
@@ -147,15 +152,17 @@ Drive::Wish Drive::wish() {
       }
       return ramp;
     }
-    default: return {};
+    default:
+      return {};
   }
 }
 
 Drive::Wish Drive::slewed(const BodyTwist& target) {
   v_.advance(target.v_umps, slew_step_.v_umps);
   omega_.advance(target.omega_uradps, slew_step_.omega_uradps);
-  return {{v_.value(), omega_.value()},
-          {saturate32(std::int64_t{v_.change()} * kTickHz), saturate32(std::int64_t{omega_.change()} * kTickHz)}};
+  return {
+      {v_.value(), omega_.value()},
+      {saturate32(std::int64_t{v_.change()} * kTickHz), saturate32(std::int64_t{omega_.change()} * kTickHz)}};
 }
 
 void Drive::next_segment() {
@@ -168,7 +175,8 @@ void Drive::next_segment() {
 Drive::Wish Drive::follow() {
   const PathFollower::Command command = follower_.advance(odometry_.pose());
   if (follower_.arrived()) {
-    // A segment goes from rest to rest: the next one begins when the wheels stand, or will not get any closer.
+    // A segment goes from rest to rest: the next one begins when the wheels stand, or will not get any
+    // closer.
     ++settling_ticks_;
     if ((settling_ticks_ >= kSettled_ticks && standing()) || settling_ticks_ >= kSettleAtMost_ticks) {
       events_.push({running_.tag, protocol::SegmentOutcome::completed, now_us_});

@@ -15,10 +15,11 @@
 
 namespace astro {
 
-/// The robot's behaviour, without a board: counts, voltage and time in, duty out, once a tick. The single place that
-/// decides whether the motors may run.
+/// The robot's behaviour, without a board: counts, voltage and time in, duty out, once a tick. The single
+/// place that decides whether the motors may run.
 ///
-/// Concurrency  one owner; on the MCU the main loop calls it only while it holds the tick (hal::Board::hold_tick).
+/// Concurrency  one owner; on the MCU the main loop calls it only while it holds the tick
+/// (hal::Board::hold_tick).
 class Drive {
  public:
   using Mode = protocol::Mode;
@@ -42,9 +43,9 @@ class Drive {
   void disarm();  // coasts at once, empties the queue
   void stop();    // ramps to rest, empties the queue, stays armed
   void emergency_stop() { raise(Fault::emergency_stop); }
-  bool drive_velocity(const BodyTwist& twist);                               // false unless armed
-  bool add_segment(const Trapezoid& profile, std::uint16_t tag);             // false unless armed with room
-  void set_pose(const Pose& pose) { odometry_.set_pose(pose); }              // only at rest
+  bool drive_velocity(const BodyTwist& twist);                    // false unless armed
+  bool add_segment(const Trapezoid& profile, std::uint16_t tag);  // false unless armed with room
+  void set_pose(const Pose& pose) { odometry_.set_pose(pose); }   // only at rest
   void raise(Fault fault);
   void clear_faults();
 

@@ -69,14 +69,17 @@ class ParameterDesk {
   /// Flash first, then memory: what is in force is always what a restart would find.
   Answer<protocol::Ack> commit() {
     const auto verdict = validate(staged_);
-    if (!verdict) return error(protocol::ErrorCode::invalid_parameter, static_cast<std::uint16_t>(verdict.error()));
+    if (!verdict)
+      return error(protocol::ErrorCode::invalid_parameter, static_cast<std::uint16_t>(verdict.error()));
     if (!store_.commit(staged_)) return error(protocol::ErrorCode::flash_failed);
     active_ = staged_;
     return protocol::Ack{};
   }
 
  private:
-  static protocol::ErrorReply error(protocol::ErrorCode code, std::uint16_t detail = 0) { return {code, detail}; }
+  static protocol::ErrorReply error(protocol::ErrorCode code, std::uint16_t detail = 0) {
+    return {code, detail};
+  }
 
   static const ParamRow* find(std::uint16_t id) {
     for (const ParamRow& row : kParamTable)

@@ -17,10 +17,11 @@
 
 namespace astro {
 
-/// The whole robot on a board: `tick()` from a 1 kHz interrupt, `poll()` from the main loop as often as it goes.
+/// The whole robot on a board: `tick()` from a 1 kHz interrupt, `poll()` from the main loop as often as it
+/// goes.
 ///
-/// The tick is control and safety; the main loop is the link. They share `drive_` only, and the main loop touches it
-/// only while it holds the tick.
+/// The tick is control and safety; the main loop is the link. They share `drive_` only, and the main loop
+/// touches it only while it holds the tick.
 template <hal::Board Board>
 class Robot {
  public:
@@ -65,9 +66,15 @@ class Robot {
 
   void apply(const Drive::Output& output) {
     switch (output.bridge) {
-      case Drive::Output::Bridge::drive: board_.motors().drive(output.duty); break;
-      case Drive::Output::Bridge::brake: board_.motors().brake(); break;
-      case Drive::Output::Bridge::coast: board_.motors().coast(); break;
+      case Drive::Output::Bridge::drive:
+        board_.motors().drive(output.duty);
+        break;
+      case Drive::Output::Bridge::brake:
+        board_.motors().brake();
+        break;
+      case Drive::Output::Bridge::coast:
+        board_.motors().coast();
+        break;
     }
   }
 
@@ -122,7 +129,8 @@ class Robot {
                                 : frame(reply.error(), header.request_id, session.answer);
     send(port, std::span(session.answer).first(session.answer_size));
     // These two answers are about now, or about who asks: never repeated from memory.
-    if (header.message_id == protocol::Ping::kId || header.message_id == protocol::Hello::kId) session.forget_answer();
+    if (header.message_id == protocol::Ping::kId || header.message_id == protocol::Hello::kId)
+      session.forget_answer();
   }
 
   static protocol::ErrorReply error(ErrorCode code, std::uint16_t detail = 0) { return {code, detail}; }
@@ -149,7 +157,9 @@ class Robot {
                                 .tick_hz = static_cast<std::uint16_t>(kTickHz)};
   }
 
-  Answer<protocol::Pong> handle(int, const protocol::Ping&) { return protocol::Pong{board_.clock().now_us()}; }
+  Answer<protocol::Pong> handle(int, const protocol::Ping&) {
+    return protocol::Pong{board_.clock().now_us()};
+  }
 
   Answer<protocol::Status> handle(int, const protocol::GetStatus&) {
     std::uint32_t bad = 0;
@@ -228,7 +238,8 @@ class Robot {
   Answer<Ack> handle(int, const protocol::StageParameter& request) { return desk_.stage(request); }
 
   Answer<Ack> handle(int, const protocol::CommitParameters&) {
-    // At rest only: the processor may stand still while the flash erases. Only this loop can set the robot moving.
+    // At rest only: the processor may stand still while the flash erases. Only this loop can set the robot
+    // moving.
     if (!drive_.at_rest() || drive_.queued() != 0) return error(ErrorCode::moving);
     const Answer<Ack> done = desk_.commit();
     if (done) {
@@ -284,7 +295,8 @@ class Robot {
   // ---- to hosts
 
   template <protocol::Message M>
-  static std::size_t frame(const M& message, std::uint16_t request, std::span<std::uint8_t, protocol::kMaxFrame> out) {
+  static std::size_t frame(const M& message, std::uint16_t request,
+                           std::span<std::uint8_t, protocol::kMaxFrame> out) {
     std::array<std::uint8_t, protocol::kMaxBody> body;  // NOLINT(cppcoreguidelines-pro-type-member-init)
     const std::size_t size = protocol::encode(message, request, body);
     return protocol::encode_frame(std::span(body).first(size), out);

@@ -51,7 +51,8 @@ struct SegmentEvent {
 
 inline constexpr std::size_t kQueueLength = 16;
 using SegmentQueue = Ring<QueuedSegment, kQueueLength>;
-/// Room for the ends of a whole queue and the segment that runs, so that no end is lost between two main loops.
+/// Room for the ends of a whole queue and the segment that runs, so that no end is lost between two main
+/// loops.
 using SegmentEvents = Ring<SegmentEvent, 2 * kQueueLength>;
 
 }  // namespace astro

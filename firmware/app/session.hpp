@@ -14,8 +14,8 @@ namespace astro {
 struct Session {
   protocol::Framer framer;
 
-  // The last answered request and its answer: a host that missed the answer asks again with the same id, and a
-  // segment must not be driven twice for that.
+  // The last answered request and its answer: a host that missed the answer asks again with the same id, and
+  // a segment must not be driven twice for that.
   std::uint8_t answered_message = 0;
   std::uint16_t answered_request = 0;
   std::array<std::uint8_t, protocol::kMaxFrame> answer{};
@@ -30,7 +30,9 @@ struct Session {
     return answer_size != 0 && request != 0 && answered_message == message && answered_request == request;
   }
 
-  bool telemetry_due(std::uint64_t now_us) const { return telemetry_period_us != 0 && now_us >= telemetry_due_us; }
+  bool telemetry_due(std::uint64_t now_us) const {
+    return telemetry_period_us != 0 && now_us >= telemetry_due_us;
+  }
   void telemetry_sent(std::uint64_t now_us) {
     telemetry_due_us += telemetry_period_us;
     if (telemetry_due_us <= now_us) telemetry_due_us = now_us + telemetry_period_us;  // late: do not catch up

@@ -21,7 +21,8 @@ void Supervisor::configure(const ParameterSet& set) {
 }
 
 void Supervisor::reset() {
-  for (Watch* watch : {&under_voltage_, &over_voltage_, &over_speed_, &left_stall_, &right_stall_}) watch->reset();
+  for (Watch* watch : {&under_voltage_, &over_voltage_, &over_speed_, &left_stall_, &right_stall_})
+    watch->reset();
 }
 
 void Supervisor::advance(const TickInput& input, bool plausible, bool powered, const Wheels& wheels,
@@ -35,11 +36,12 @@ void Supervisor::advance(const TickInput& input, bool plausible, bool powered, c
   raise_if(powered && input.driver_fault, Fault::driver);
   raise_if(under_voltage_.advance(powered && input.battery_mv < battery_low_mv_, kUnderVoltage_ticks),
            Fault::under_voltage);
-  raise_if(over_voltage_.advance(battery_high_mv_ != 0 && input.battery_mv > battery_high_mv_, kOverVoltage_ticks),
-           Fault::over_voltage);
-  raise_if(over_speed_.advance(exceeds(speeds.left_umps, over_speed_umps_) ||
-                                   exceeds(speeds.right_umps, over_speed_umps_),
-                               kOverSpeed_ticks),
+  raise_if(
+      over_voltage_.advance(battery_high_mv_ != 0 && input.battery_mv > battery_high_mv_, kOverVoltage_ticks),
+      Fault::over_voltage);
+  raise_if(over_speed_.advance(
+               exceeds(speeds.left_umps, over_speed_umps_) || exceeds(speeds.right_umps, over_speed_umps_),
+               kOverSpeed_ticks),
            Fault::over_speed);
   raise_if(left_stall_.advance(
                powered && exceeds(duty.left, kStallDuty) && !exceeds(speeds.left_umps, kStallSpeed_umps),

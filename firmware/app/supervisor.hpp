@@ -21,7 +21,8 @@ class Supervisor {
  public:
   void configure(const ParameterSet& set);
   /// Raises what it finds; `powered`: the bridges are driving.
-  void advance(const TickInput& input, bool plausible, bool powered, const Wheels& wheels, FaultLatch& faults);
+  void advance(const TickInput& input, bool plausible, bool powered, const Wheels& wheels,
+               FaultLatch& faults);
   void reset();
 
  private:

@@ -20,11 +20,12 @@ std::int32_t wrapping_sum(std::int32_t a, std::int32_t b) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
 }
 
-// One tick may not turn the robot by more than an eighth of a turn per wheel (the domain of the odometry), nor be
-// more than the speed observer takes. Both are hundreds of times what a motor does.
+// One tick may not turn the robot by more than an eighth of a turn per wheel (the domain of the odometry),
+// nor be more than the speed observer takes. Both are hundreds of times what a motor does.
 std::int32_t most_counts(const Geometry& geometry) {
   constexpr std::int64_t kEighthTurn = std::int64_t{1} << 61;
-  const std::int64_t turn = geometry.left.turn > geometry.right.turn ? geometry.left.turn : geometry.right.turn;
+  const std::int64_t turn =
+      geometry.left.turn > geometry.right.turn ? geometry.left.turn : geometry.right.turn;
   const std::int64_t counts = kEighthTurn / turn;
   return counts < 1000 ? static_cast<std::int32_t>(counts) : 1000;
 }
@@ -76,14 +77,15 @@ std::int16_t Wheels::to_duty(std::int32_t voltage_uv, std::int32_t battery_mv) {
   return static_cast<std::int16_t>(clamp_abs<std::int64_t>(duty, kFullDuty));
 }
 
-hal::Duty Wheels::control(const WheelSpeeds& set_points, const WheelSpeeds& accelerations, std::int32_t battery_mv) {
+hal::Duty Wheels::control(const WheelSpeeds& set_points, const WheelSpeeds& accelerations,
+                          std::int32_t battery_mv) {
   const std::int32_t supply_mv = battery_mv > 1000 ? battery_mv : 1000;
   const std::int32_t limit_uv = 1000 * (voltage_limit_mv_ < supply_mv ? voltage_limit_mv_ : supply_mv);
   set_points_ = set_points;
   const std::int32_t left_uv =
       left_.controller.advance(set_points.left_umps, accelerations.left_umps, speeds_.left_umps, limit_uv);
-  const std::int32_t right_uv =
-      right_.controller.advance(set_points.right_umps, accelerations.right_umps, speeds_.right_umps, limit_uv);
+  const std::int32_t right_uv = right_.controller.advance(set_points.right_umps, accelerations.right_umps,
+                                                          speeds_.right_umps, limit_uv);
   forward_duty_ = {to_duty(left_uv, supply_mv), to_duty(right_uv, supply_mv)};
   return {static_cast<std::int16_t>(forward_duty_.left * left_.motor_sign),
           static_cast<std::int16_t>(forward_duty_.right * right_.motor_sign)};
