@@ -14,7 +14,7 @@ namespace {
 using namespace test;
 
 constexpr unsigned kSeed = 271828;
-constexpr int kExperiments = 4000;
+constexpr int kExperiments = 2000;
 constexpr int kRunsPerDirection = 5;
 
 /// Normal scatter of the size of the thesis's, x, y and theta correlated as a heading error makes them.
