@@ -12,7 +12,7 @@
 #include "firmware/app/session.hpp"
 #include "firmware/app/snapshot.hpp"
 #include "firmware/app/tick_clock.hpp"
-#include "firmware/app/version.hpp"
+#include "common/base/version.hpp"
 #include "hal/interface/board.hpp"
 
 namespace astro {
