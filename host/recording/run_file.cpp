@@ -52,9 +52,7 @@ void refuse_damage(const std::string& file, const McapReport& report) {
               "): copy it again from where it was recorded, or record the run again");
 }
 
-RunFile load_run(const std::filesystem::path& path, bool with_data) {
-  const Bytes bytes = load_file(path);
-  const std::string file = path.string();
+RunFile parse(ByteView bytes, const std::string& file, bool with_data) {
   RunFile out;
   std::optional<mcap::Map> entries;
   McapHandlers handlers;
@@ -123,15 +121,19 @@ void write_run(const std::filesystem::path& path, const Run& run) {
   writer.close(run.info);
 }
 
-Run read_run(const std::filesystem::path& path) {
-  RunFile file = load_run(path, true);
-  pair_counts(path.string(), !file.warning.empty(), file.streams);
+Run run_from_bytes(ByteView bytes, const std::string& name) {
+  RunFile file = parse(bytes, name, true);
+  pair_counts(name, !file.warning.empty(), file.streams);
   unwrap(file.streams.odometry, file.record.first_odometry_heading_rad);
   unwrap(file.streams.truth, file.record.first_truth_heading_rad);
   return {std::move(file.record.info), std::move(file.streams.odometry), std::move(file.streams.truth),
           std::move(file.warning)};
 }
 
-RunInfo read_run_info(const std::filesystem::path& path) { return load_run(path, false).record.info; }
+Run read_run(const std::filesystem::path& path) { return run_from_bytes(load_file(path), path.string()); }
+
+RunInfo read_run_info(const std::filesystem::path& path) {
+  return parse(load_file(path), path.string(), false).record.info;
+}
 
 }  // namespace astro::recording

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
+#include "host/recording/bytes.hpp"
 #include "host/recording/run.hpp"
 
 /// Runs on disk, one MCAP file each. See run_writer.hpp for topics and limits.
@@ -20,6 +22,9 @@ void write_run(const std::filesystem::path& path, const Run& run);
 /// not a recording of a run, or is damaged: a hole in the middle would calibrate wrongly without anyone
 /// noticing.
 Run read_run(const std::filesystem::path& path);
+
+/// The same for a file that is in memory; `name` is what complaints call it.
+Run run_from_bytes(ByteView file, const std::string& name);
 
 /// The info alone, without expanding the data: for lists. Throws as read_run, but overlooks damage in the
 /// data that leaves the file's checksums out of play.
