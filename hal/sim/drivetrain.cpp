@@ -72,38 +72,37 @@ inline Pair Drivetrain::gained_by(double left_Nm, double right_Nm) const {
   return {gain_[0] * left_Nm + gain_between_ * right_Nm, gain_between_ * left_Nm + gain_[1] * right_Nm};
 }
 
-// The usual tick: both wheels, and both torques, keep their sense. Then friction is linear in the speeds too,
-// and a step is one affine map. False, and nothing done, if that was not so.
-inline bool Drivetrain::roll(const Torque& torque, Pair& turned) {
-  const double left0 = speed_[0], right0 = speed_[1];
-  if (left0 == 0.0 || right0 == 0.0) return false;
-  const Pair before = torque(speed_);
-  const double through_left = 1.0 - std::copysign(motor_[0].mesh_loss, before[0] * left0);
-  const double through_right = 1.0 - std::copysign(motor_[1].mesh_loss, before[1] * right0);
-  const double dry_left = std::copysign(motor_[0].coulomb_Nm + load_[0].drag_Nm, left0);
-  const double dry_right = std::copysign(motor_[1].coulomb_Nm + load_[1].drag_Nm, right0);
+// With every sense known, friction is linear in the speeds like all the rest, and a step is one affine map.
+inline Drivetrain::Step Drivetrain::rolling(const Torque& torque, const Pair& motor_Nm) const {
+  const double through_left = 1.0 - std::copysign(motor_[0].mesh_loss, motor_Nm[0] * speed_[0]);
+  const double through_right = 1.0 - std::copysign(motor_[1].mesh_loss, motor_Nm[1] * speed_[1]);
+  const double dry_left = std::copysign(motor_[0].coulomb_Nm + load_[0].drag_Nm, speed_[0]);
+  const double dry_right = std::copysign(motor_[1].coulomb_Nm + load_[1].drag_Nm, speed_[1]);
   const Pair by_left =
       gained_by(through_left * torque.left - motor_[0].viscous_Nmspr, through_right * torque.between);
   const Pair by_right =
       gained_by(through_left * torque.between, through_right * torque.right - motor_[1].viscous_Nmspr);
-  const Pair always = gained_by(through_left * torque.at_rest[0] + load_[0].torque_Nm - dry_left,
-                                through_right * torque.at_rest[1] + load_[1].torque_Nm - dry_right);
-  const double keep_left = 1.0 + by_left[0], keep_right = 1.0 + by_right[1];
-  double left = left0, right = right0, sum_left = -0.5 * left0, sum_right = -0.5 * right0;
-  for (int step = 0; step < kStepsPerTick; ++step) {
-    sum_left += left;
-    sum_right += right;
-    const double next_left = keep_left * left + (by_right[0] * right + always[0]);
-    right = keep_right * right + (by_left[1] * left + always[1]);
-    left = next_left;
-  }
-  const Pair after = torque({left, right});
-  const bool same_sense = left * left0 > 0.0 && right * right0 > 0.0 && after[0] * before[0] >= 0.0 &&
-                          after[1] * before[1] >= 0.0;
+  return {1.0 + by_left[0], by_right[0], by_left[1], 1.0 + by_right[1],
+          gained_by(through_left * torque.at_rest[0] + load_[0].torque_Nm - dry_left,
+                    through_right * torque.at_rest[1] + load_[1].torque_Nm - dry_right)};
+}
+
+// The usual tick: both wheels, and both motor torques, keep their sense. False, and nothing done, if not so.
+bool Drivetrain::roll(const Torque& torque, Pair& turned) {
+  if (speed_[0] == 0.0 || speed_[1] == 0.0) return false;
+  const Pair before = torque(speed_);
+  const Step step = rolling(torque, before);
+  const Pair one = step(speed_), two = step(one), three = step(two), four = step(three);
+  static_assert(kStepsPerTick == 4);
+
+  const Pair after = torque(four);
+  const bool same_sense = four[0] * speed_[0] > 0.0 && four[1] * speed_[1] > 0.0 &&
+                          after[0] * before[0] >= 0.0 && after[1] * before[1] >= 0.0;
   if (!same_sense) return false;
-  speed_ = {left, right};
   // The mean of the speeds before and after each step: so work and kinetic energy balance exactly.
-  turned = {kStep_s * (sum_left + 0.5 * left), kStep_s * (sum_right + 0.5 * right)};
+  turned = {kStep_s * (0.5 * (speed_[0] + four[0]) + one[0] + two[0] + three[0]),
+            kStep_s * (0.5 * (speed_[1] + four[1]) + one[1] + two[1] + three[1])};
+  speed_ = four;
   return true;
 }
 

@@ -62,8 +62,18 @@ class Drivetrain {
               at_rest[1] + between * speed[0] + right * speed[1]};
     }
   };
+  // One step while every sense stays as it is: left' = keep_left left + from_right right + always[0], ...
+  struct Step {
+    double keep_left, from_right, from_left, keep_right;
+    Pair always;
+    Pair operator()(const Pair& speed) const {
+      return {keep_left * speed[0] + (from_right * speed[1] + always[0]),
+              keep_right * speed[1] + (from_left * speed[0] + always[1])};
+    }
+  };
   Drive conducting(const Drive& drive) const;
   Torque torque_for(const Drive& drive) const;
+  Step rolling(const Torque& torque, const Pair& motor_Nm) const;
   bool roll(const Torque& torque, Pair& turned);
   Pair creep(const Torque& torque);
   Pair settle(const Pair& push, const Pair& grip) const;
