@@ -1,0 +1,95 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "common/protocol/field.hpp"
+
+/// Enumerations on the wire: one byte each, values append only.
+namespace astro::protocol {
+
+/// What the robot is doing. Only disarmed and fault leave the bridges open.
+enum class Mode : std::uint8_t { disarmed, idle, velocity, segment, stopping, fault };
+inline constexpr std::array<std::string_view, 6> kModeNames{"disarmed", "idle",     "velocity",
+                                                            "segment",  "stopping", "fault"};
+constexpr std::span<const std::string_view> names(Mode) { return kModeNames; }
+
+enum class SegmentKind : std::uint8_t { line, spin, arc };
+inline constexpr std::array<std::string_view, 3> kSegmentKindNames{"line", "spin", "arc"};
+constexpr std::span<const std::string_view> names(SegmentKind) { return kSegmentKindNames; }
+
+enum class SegmentOutcome : std::uint8_t { completed, aborted };
+inline constexpr std::array<std::string_view, 2> kSegmentOutcomeNames{"completed", "aborted"};
+constexpr std::span<const std::string_view> names(SegmentOutcome) { return kSegmentOutcomeNames; }
+
+/// How a parameter's raw integer becomes a value: raw * 2^exponent, raw * 10^exponent, raw itself, 0 or 1; a
+/// text has no raw value.
+enum class ParameterKind : std::uint8_t { binary_scaled, decimal_scaled, integer, flag, text };
+inline constexpr std::array<std::string_view, 5> kParameterKindNames{"binary_scaled", "decimal_scaled",
+                                                                     "integer", "flag", "text"};
+constexpr std::span<const std::string_view> names(ParameterKind) { return kParameterKindNames; }
+
+/// Why the processor last started; the same values as the board's own reset cause.
+enum class ResetCause : std::uint8_t { power_on, software, watchdog, fault, pin, unknown };
+inline constexpr std::array<std::string_view, 6> kResetCauseNames{"power_on", "software", "watchdog",
+                                                                  "fault",    "pin",      "unknown"};
+constexpr std::span<const std::string_view> names(ResetCause) { return kResetCauseNames; }
+
+/// Why a request was refused; a refused request has changed nothing. ErrorReply's detail is 0 where the
+/// meaning below names none.
+enum class ErrorCode : std::uint8_t {
+  unknown_message,
+  malformed,
+  wrong_version,
+  not_armed,
+  faulted,
+  queue_full,
+  invalid_parameter,
+  unknown_parameter,
+  moving,
+  flash_failed,
+  out_of_range,
+  unsupported,
+  busy,
+};
+inline constexpr std::array<std::string_view, 13> kErrorCodeNames{"unknown_message",
+                                                                  "malformed",
+                                                                  "wrong_version",
+                                                                  "not_armed",
+                                                                  "faulted",
+                                                                  "queue_full",
+                                                                  "invalid_parameter",
+                                                                  "unknown_parameter",
+                                                                  "moving",
+                                                                  "flash_failed",
+                                                                  "out_of_range",
+                                                                  "unsupported",
+                                                                  "busy"};
+inline constexpr std::array<std::string_view, 13> kErrorCodeMeanings{
+    "no request of this protocol version has this id",
+    "the fields do not decode: wrong length, or a value outside its enumeration",
+    "the host's Hello named another protocol version; detail: the robot's version",
+    "the request needs an armed robot",
+    "a fault is latched; detail: the first fault",
+    "the segment queue has no room: send it again after a SegmentDone",
+    "the value or the staged set is not valid; detail: id of the offending parameter",
+    "no parameter has this id or index",
+    "the robot must be at rest for this",
+    "flash did not read back what was written; the last committed set stays in force",
+    "a value of the request lies outside what the robot can do",
+    "this board cannot do it",
+    "an earlier request of this kind is still under way",
+};
+constexpr std::span<const std::string_view> names(ErrorCode) { return kErrorCodeNames; }
+
+/// One clause for people.
+constexpr std::string_view meaning(ErrorCode code) {
+  return known(code) ? kErrorCodeMeanings[static_cast<std::size_t>(code)]
+                     : "an error of another protocol version";
+}
+static_assert(known(ErrorCode::busy) && !known(ErrorCode{kErrorCodeNames.size()}));
+
+}  // namespace astro::protocol

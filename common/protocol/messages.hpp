@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "common/protocol/motion.hpp"
+#include "common/protocol/parameters.hpp"
+#include "common/protocol/session.hpp"
+#include "common/protocol/status.hpp"
+#include "common/protocol/telemetry.hpp"
+
+/// THE schema: every message of the protocol. Wire order and layout follow from the kFields tuples; README.md
+/// beside this file is written from them.
+///
+/// Ids     0x01-0x3F requests, 0x80 | request its own reply, 0x7E and 0x7F the general replies, 0xC0-0xFF
+/// events.
+///         Append only: an id that was once used keeps its meaning or is left unused.
+namespace astro::protocol {
+
+/// A list of message types. `visit` calls `f.template operator()<M>()` for each, in order.
+template <Message... M>
+struct MessageList {
+  static constexpr std::size_t kSize = sizeof...(M);
+  static constexpr std::array<std::uint8_t, kSize> kIds{M::kId...};
+  static constexpr std::array<std::string_view, kSize> kNames{M::kName...};
+
+  template <class F>
+  static constexpr void visit(F&& f) {
+    (f.template operator()<M>(), ...);
+  }
+};
+
+using Requests =
+    MessageList<Hello, Ping, GetStatus, Arm, Disarm, Stop, EmergencyStop, Velocity, AddSegment, SetPose,
+                GetParameterInfo, GetParameter, StageParameter, CommitParameters, RevertParameters,
+                DefaultParameters, SetTelemetry, GetFaults, ClearFaults, Reboot, EnterBootloader>;
+using Replies =
+    MessageList<Ack, ErrorReply, HelloReply, Pong, Status, ParameterInfo, ParameterValue, FaultReport>;
+using Events = MessageList<Telemetry, SegmentDone, FaultRaised, Booted>;
+
+/// For people and logs; "?" for an id that this version does not know.
+constexpr std::string_view message_name(std::uint8_t id) {
+  std::string_view found = "?";
+  const auto look = [&]<Message M>() {
+    if (M::kId == id) found = M::kName;
+  };
+  Requests::visit(look);
+  Replies::visit(look);
+  Events::visit(look);
+  return found;
+}
+
+}  // namespace astro::protocol

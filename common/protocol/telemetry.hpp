@@ -1,0 +1,143 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <tuple>
+
+#include "common/protocol/enums.hpp"
+#include "common/protocol/field.hpp"
+#include "common/protocol/session.hpp"
+
+/// The stream of measurements. The host chooses groups by a bit mask; one Telemetry carries the chosen groups
+/// in bit order, all taken at the same tick.
+namespace astro::protocol {
+
+struct PoseGroup {
+  std::int64_t x = 0;
+  std::int64_t y = 0;
+  std::uint64_t theta = 0;
+  std::int32_t turns = 0;
+  static constexpr std::tuple kFields{
+      Field{&PoseGroup::x, "x", "2^-40 m", "base in the odom frame"},
+      Field{&PoseGroup::y, "y", "2^-40 m", "base in the odom frame"},
+      Field{&PoseGroup::theta, "theta", "2^-64 turn", "heading"},
+      Field{&PoseGroup::turns, "turns", "turns", "whole turns to add to theta: the heading without wraps"},
+  };
+  bool operator==(const PoseGroup&) const = default;
+};
+
+struct CountsGroup {
+  std::int32_t left = 0;
+  std::int32_t right = 0;
+  static constexpr std::tuple kFields{
+      Field{&CountsGroup::left, "left", "counts", "forward positive, wraps at 2^32"},
+      Field{&CountsGroup::right, "right", "counts", "forward positive, wraps at 2^32"},
+  };
+  bool operator==(const CountsGroup&) const = default;
+};
+
+struct TwistGroup {
+  std::int32_t v_umps = 0;
+  std::int32_t omega_uradps = 0;
+  static constexpr std::tuple kFields{
+      Field{&TwistGroup::v_umps, "v_umps", "1e-6 m/s", "observed, of the robot centre"},
+      Field{&TwistGroup::omega_uradps, "omega_uradps", "1e-6 rad/s", "observed, counter-clockwise positive"},
+  };
+  bool operator==(const TwistGroup&) const = default;
+};
+
+struct WheelGroup {
+  std::int32_t left_umps = 0;
+  std::int32_t right_umps = 0;
+  static constexpr std::tuple kFields{
+      Field{&WheelGroup::left_umps, "left_umps", "1e-6 m/s", "at the left wheel's rim, forward positive"},
+      Field{&WheelGroup::right_umps, "right_umps", "1e-6 m/s", "at the right wheel's rim, forward positive"},
+  };
+  bool operator==(const WheelGroup&) const = default;
+};
+
+struct DutyGroup {
+  std::int16_t left = 0;
+  std::int16_t right = 0;
+  static constexpr std::tuple kFields{
+      Field{&DutyGroup::left, "left", "2^-15", "fraction of the bus voltage, forward positive"},
+      Field{&DutyGroup::right, "right", "2^-15", "fraction of the bus voltage, forward positive"},
+  };
+  bool operator==(const DutyGroup&) const = default;
+};
+
+struct BatteryGroup {
+  std::int32_t mv = 0;
+  static constexpr std::tuple kFields{Field{&BatteryGroup::mv, "mv", "mV", "motor supply, filtered"}};
+  bool operator==(const BatteryGroup&) const = default;
+};
+
+struct StateGroup {
+  Mode mode{};
+  std::uint16_t tag = 0;
+  std::uint32_t latched_faults = 0;
+  static constexpr std::tuple kFields{
+      Field{&StateGroup::mode, "mode", "", "what the robot is doing"},
+      Field{&StateGroup::tag, "tag", "", "of the running segment, 0 if none runs"},
+      Field{&StateGroup::latched_faults, "latched_faults", "bit mask", "bit n is Fault n"},
+  };
+  bool operator==(const StateGroup&) const = default;
+};
+
+struct Telemetry {
+  static constexpr std::uint32_t kPose = 1U << 0;
+  static constexpr std::uint32_t kCounts = 1U << 1;
+  static constexpr std::uint32_t kTwist = 1U << 2;
+  static constexpr std::uint32_t kWheelSpeed = 1U << 3;
+  static constexpr std::uint32_t kSetpoint = 1U << 4;
+  static constexpr std::uint32_t kDuty = 1U << 5;
+  static constexpr std::uint32_t kBattery = 1U << 6;
+  static constexpr std::uint32_t kState = 1U << 7;
+  static constexpr std::uint32_t kAll = 0xFF;
+
+  std::uint64_t device_time_us = 0;
+  std::uint32_t fields = 0;
+  PoseGroup pose{};
+  CountsGroup counts{};
+  TwistGroup twist{};
+  WheelGroup wheel_speed{};
+  WheelGroup setpoint{};
+  DutyGroup duty{};
+  BatteryGroup battery{};
+  StateGroup state{};
+
+  static constexpr std::uint8_t kId = 0xC0;
+  static constexpr std::string_view kName = "Telemetry";
+  static constexpr std::string_view kDoc =
+      "One sample; groups whose bit is not set in `fields` are not on the wire.";
+  static constexpr std::tuple kFields{
+      Field{&Telemetry::device_time_us, "device_time_us", "us", "of the tick that all groups belong to"},
+      Field{&Telemetry::fields, "fields", "bit mask", "which groups follow"},
+      Group{&Telemetry::pose, 0, "pose", "odometry"},
+      Group{&Telemetry::counts, 1, "counts", "encoder counts since start"},
+      Group{&Telemetry::twist, 2, "twist", "velocity of the base"},
+      Group{&Telemetry::wheel_speed, 3, "wheel_speed", "observed wheel speeds"},
+      Group{&Telemetry::setpoint, 4, "setpoint", "commanded wheel speeds"},
+      Group{&Telemetry::duty, 5, "duty", "commanded duty"},
+      Group{&Telemetry::battery, 6, "battery", "supply"},
+      Group{&Telemetry::state, 7, "state", "mode, segment and faults"},
+  };
+  bool operator==(const Telemetry&) const = default;
+};
+
+struct SetTelemetry {
+  std::uint16_t period_ms = 0;
+  std::uint32_t fields = 0;
+
+  using Reply = Ack;
+  static constexpr std::uint8_t kId = 0x11;
+  static constexpr std::string_view kName = "SetTelemetry";
+  static constexpr std::string_view kDoc = "Chooses what Telemetry carries to this port and how often.";
+  static constexpr std::tuple kFields{
+      Field{&SetTelemetry::period_ms, "period_ms", "ms", "0: off"},
+      Field{&SetTelemetry::fields, "fields", "bit mask", "as in Telemetry"},
+  };
+  bool operator==(const SetTelemetry&) const = default;
+};
+
+}  // namespace astro::protocol

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace astro {
+
+/// What can stop the robot by itself. Each is latched until cleared and means zero duty. The values go over
+/// the wire and into logs: append only.
+enum class Fault : std::uint8_t {
+  none,
+  command_timeout,  // no velocity command for longer than the parameter allows
+  link_lost,        // no good frame from any host while driving
+  driver,           // the H-bridge reports over-current or over-temperature
+  under_voltage,    // battery below its lower limit
+  over_voltage,     // battery above its upper limit
+  over_speed,       // a wheel turns faster than the limits allow
+  stall,            // duty without motion
+  encoder,          // counts that the motor cannot have produced
+  tick_overrun,     // the control tick did not end in time
+  parameters,       // no valid parameter set
+  flash,            // flash did not read back what was written
+  emergency_stop,   // commanded by a host
+};
+
+inline constexpr std::array<std::string_view, 13> kFaultNames{
+    "none",  "command_timeout", "link_lost",    "driver",     "under_voltage", "over_voltage",  "over_speed",
+    "stall", "encoder",         "tick_overrun", "parameters", "flash",         "emergency_stop"};
+static_assert(kFaultNames.size() == static_cast<std::size_t>(Fault::emergency_stop) + 1);
+
+constexpr std::span<const std::string_view> names(Fault) { return kFaultNames; }
+
+/// For people and logs; "?" for a value that this version does not know.
+constexpr std::string_view name(Fault fault) {
+  const auto index = static_cast<std::size_t>(fault);
+  return index < kFaultNames.size() ? kFaultNames[index] : "?";
+}
+
+/// The fault's bit in a mask of latched faults: bit n is fault n. `none` has no bit.
+constexpr std::uint32_t bit(Fault fault) {
+  return fault == Fault::none ? 0U : std::uint32_t{1} << static_cast<unsigned>(fault);
+}
+
+}  // namespace astro
