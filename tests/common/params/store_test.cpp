@@ -72,6 +72,18 @@ TYPED_TEST(StoreOn, WearIsSpreadEvenlyOverTheSectors) {
   EXPECT_LE(most - least, 1U);
 }
 
+TYPED_TEST(StoreOn, SectorIsFilledBeforeTheNextOneIsErased) {
+  Record record;
+  ASSERT_TRUE(record.rewrite(ParameterSet(), 0));
+  constexpr std::uint32_t kUnit = RecordLog<TypeParam>::kUnit;
+  const auto padded = (static_cast<std::uint32_t>(record.size()) + kUnit - 1) / kUnit * kUnit;
+  const std::uint32_t per_sector = TypeParam::kSectorBytes / padded;
+  for (std::uint32_t i = 0; i < 1000; ++i) commit(this->flash, random_valid_set(this->random));
+  std::uint32_t erases = 0;
+  for (std::uint32_t sector = 0; sector < TypeParam::kSectors; ++sector) erases += this->flash.erases(sector);
+  EXPECT_EQ(erases, (1000 + per_sector - 1) / per_sector);
+}
+
 TYPED_TEST(StoreOn, BitRotInTheNewestRecordFallsBackToTheOneBefore) {
   const ParameterSet older = random_valid_set(this->random);
   const ParameterSet newer = random_valid_set(this->random);
