@@ -1,0 +1,145 @@
+#include <memory>
+
+#include "host/cli/command.hpp"
+#include "host/cli/drive_run.hpp"
+#include "host/cli/options.hpp"
+
+namespace astro::cli {
+namespace {
+
+struct PathOptions {
+  DriveOptions drive;
+  link::PathLimits limits;
+  double length_m = 0, angle_deg = 0, radius_m = 0, turns = 1;
+  bool cw = false, ccw = false;
+
+  link::Sense sense() const { return cw ? link::Sense::cw : link::Sense::ccw; }
+};
+
+struct VelocityOptions {
+  DriveOptions drive;
+  double v_mps = 0, omega_radps = 0, seconds = 0;
+};
+
+void add_common_options(CLI::App& command, DriveOptions& options) {
+  add_connection_options(command, options.connection);
+  add_json_flag(command, options.json);
+}
+
+CLI::Option* add_number(CLI::App& command, const std::string& name, double& value, const std::string& what) {
+  return command.add_option(name, value, what)->type_name("");
+}
+
+void add_limits(CLI::App& command, link::PathLimits& limits) {
+  add_number(command, "--speed", limits.speed_mps, "Greatest speed in m/s; default: the robot's own limit")
+      ->type_name("M/S")
+      ->check(between(0.001, 100, "m/s"));
+  add_number(command, "--yaw-rate", limits.yaw_rate_radps,
+             "Greatest yaw rate in rad/s; default: the robot's own limit")
+      ->type_name("RAD/S")
+      ->check(between(0.001, 100, "rad/s"));
+}
+
+void add_sense(CLI::App& command, PathOptions& options) {
+  CLI::Option* ccw = command.add_flag("--ccw", options.ccw, "Counter-clockwise, turning left (default)");
+  command.add_flag("--cw", options.cw, "Clockwise, turning right")->excludes(ccw);
+}
+
+/// A leaf of `drive` that follows a path.
+CLI::App& add_path(CLI::App& drive, const std::string& name, const std::string& what,
+                   const std::shared_ptr<PathOptions>& options, link::Path (*path)(const PathOptions&)) {
+  CLI::App& command = *drive.add_subcommand(name, what);
+  add_limits(command, options->limits);
+  add_common_options(command, options->drive);
+  command.callback([options, path] { drive_path(options->drive, path(*options)); });
+  return command;
+}
+
+void add_line(CLI::App& drive) {
+  const auto options = std::make_shared<PathOptions>();
+  CLI::App& command = add_path(drive, "line", "Drive straight on", options,
+                               [](const PathOptions& o) { return link::line(o.length_m, o.limits); });
+  add_number(command, "LENGTH", options->length_m, "Metres; backwards if negative")
+      ->required()
+      ->check(finite());
+  examples(command, {"astrolabe drive line 1", "astrolabe drive line -0.5 --speed 0.2"});
+}
+
+void add_spin(CLI::App& drive) {
+  const auto options = std::make_shared<PathOptions>();
+  CLI::App& command = add_path(drive, "spin", "Turn on the spot", options, [](const PathOptions& o) {
+    return link::spin(link::turns_from_degrees(o.angle_deg), o.limits);
+  });
+  add_number(command, "ANGLE", options->angle_deg, "Degrees; to the left if positive")
+      ->required()
+      ->check(finite());
+  examples(command, {"astrolabe drive spin 90", "astrolabe drive spin -3600 --yaw-rate 1"});
+}
+
+void add_arc(CLI::App& drive) {
+  const auto options = std::make_shared<PathOptions>();
+  CLI::App& command = add_path(drive, "arc", "Drive a part of a circle", options, [](const PathOptions& o) {
+    return link::arc(o.length_m, link::turns_from_degrees(o.angle_deg), o.limits);
+  });
+  add_number(command, "LENGTH", options->length_m, "Metres along the arc; backwards if negative")
+      ->required()
+      ->check(finite());
+  add_number(command, "ANGLE", options->angle_deg,
+             "Degrees that the heading changes; to the left if positive")
+      ->required()
+      ->check(finite());
+  examples(command, {"astrolabe drive arc 1.5708 90", "astrolabe drive arc 2 -45 --speed 0.3"});
+}
+
+void add_square(CLI::App& drive) {
+  const auto options = std::make_shared<PathOptions>();
+  CLI::App& command =
+      add_path(drive, "square", "Drive a square with turns on the spot", options,
+               [](const PathOptions& o) { return link::square(o.length_m, o.sense(), o.limits); });
+  add_number(command, "SIDE", options->length_m, "Metres")->required()->check(positive("m"));
+  add_sense(command, *options);
+  examples(command, {"astrolabe drive square 3 --cw", "astrolabe drive square 1 --ccw --speed 0.3 --json"});
+}
+
+void add_circle(CLI::App& drive) {
+  const auto options = std::make_shared<PathOptions>();
+  CLI::App& command =
+      add_path(drive, "circle", "Drive circles beside the start", options,
+               [](const PathOptions& o) { return link::circle(o.radius_m, o.turns, o.sense(), o.limits); });
+  add_number(command, "RADIUS", options->radius_m, "Metres")->required()->check(positive("m"));
+  add_sense(command, *options);
+  add_number(command, "--turns", options->turns, "How many times round")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(positive(""));
+  examples(command, {"astrolabe drive circle 1", "astrolabe drive circle 0.5 --cw --turns 3"});
+}
+
+void add_velocity(CLI::App& drive) {
+  const auto options = std::make_shared<VelocityOptions>();
+  CLI::App& command = *drive.add_subcommand("velocity", "Hold a velocity for a while");
+  add_number(command, "V", options->v_mps, "Speed in m/s, forward positive")->required()->check(finite());
+  add_number(command, "OMEGA", options->omega_radps, "Yaw rate in rad/s, to the left positive")
+      ->required()
+      ->check(finite());
+  add_number(command, "--for", options->seconds, "How long, in seconds on the robot's clock")
+      ->type_name("SECONDS")
+      ->required()
+      ->check(between(0.001, 86'400, "s"));
+  add_common_options(command, options->drive);
+  examples(command, {"astrolabe drive velocity 0.3 0 --for 2", "astrolabe drive velocity 0 -0.5 --for 10"});
+  command.callback(
+      [options] { drive_velocity(options->drive, options->v_mps, options->omega_radps, options->seconds); });
+}
+
+}  // namespace
+
+void add_drive(CLI::App& app) {
+  CLI::App& command = *app.add_subcommand("drive", "Drive a path, hold a velocity or steer by keyboard");
+  command.require_subcommand(1);
+  for (const auto add : {add_line, add_spin, add_arc, add_square, add_circle, add_velocity}) add(command);
+  examples(command,
+           {"astrolabe drive line 1", "astrolabe drive square 3 --cw --speed 0.5", "astrolabe drive teleop"});
+}
+
+}  // namespace astro::cli

@@ -1,0 +1,108 @@
+#include "host/cli/drive_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "host/cli/console.hpp"
+#include "host/cli/interrupt.hpp"
+#include "host/cli/path_progress.hpp"
+#include "host/cli/robot_view.hpp"
+
+namespace astro::cli {
+namespace {
+
+constexpr std::uint16_t kPeriod_ms = 50;
+
+void report(const DriveOptions& options, const char* outcome, const recording::OdometrySample& start,
+            const recording::OdometrySample& end) {
+  const recording::PlanarPose moved = recording::in_frame_of(pose_of(start), pose_of(end));
+  const double seconds = static_cast<double>(end.time_us - start.time_us) * 1e-6;
+  if (options.json)
+    return print(Json{{"outcome", outcome},
+                      {"duration_s", seconds},
+                      {"moved", to_json(moved)},
+                      {"odometry", to_json(pose_of(end))}});
+  print(fmt::format("moved     {}   in {:.1f} s", in_words(moved), seconds));
+  print(fmt::format("odometry  {}", in_words(pose_of(end))));
+}
+
+// The robot has been told to stop when this is called; how it is now is worth a look, not a guess.
+std::string how_it_stands(link::Client& client) {
+  const protocol::Status status = client.request(protocol::GetStatus{});
+  const bool stands = status.mode == protocol::Mode::disarmed || status.mode == protocol::Mode::fault;
+  return stands ? "stopped: the robot is at rest and disarmed"
+                : fmt::format("stopped: the robot's mode is {}", protocol::name(status.mode));
+}
+
+/// A bar that exists only while the work goes on: what comes after it begins on a clean line.
+class BarDuring {
+ public:
+  explicit BarDuring(std::optional<Progress>& bar) : bar_(bar) { bar_.emplace("driving"); }
+  BarDuring(const BarDuring&) = delete;
+  BarDuring& operator=(const BarDuring&) = delete;
+  ~BarDuring() { bar_.reset(); }
+
+ private:
+  std::optional<Progress>& bar_;
+};
+
+std::string short_words(const recording::OdometrySample& at) {
+  return fmt::format("x {:.3f} m  y {:.3f} m  {:.1f} deg", at.x_m, at.y_m, degrees(at.theta_rad));
+}
+
+}  // namespace
+
+void drive(const DriveOptions& options, const DriveJob& job) {
+  const auto client = connect(options.connection);
+  OdometryWatch odometry(*client, kPeriod_ms, job.moved);
+  const recording::OdometrySample start = odometry.fresh();
+  try {
+    link::DriveSession session(*client, {interrupted, say, job.segment_done});
+    job.work(session);
+  } catch (const link::Interrupted&) {
+    report(options, "interrupted", start, odometry.fresh());
+    throw link::Interrupted(how_it_stands(*client));
+  }
+  report(options, "completed", start, odometry.fresh());
+}
+
+void drive_path(const DriveOptions& options, const link::Path& path) {
+  PathProgress way(path);
+  std::optional<Progress> bar;
+  DriveJob job;
+  job.work = [&](link::DriveSession& session) {
+    const BarDuring showing(bar);
+    session.run(path);
+  };
+  job.segment_done = [&](const protocol::SegmentDone& done) { way.segment_done(done.tag); };
+  job.moved = [&](const recording::OdometrySample& sample) {
+    if (!bar) return;
+    way.moved_to(sample);
+    const std::string part =
+        way.segments() > 1 ? fmt::format("  {}/{}", std::min(way.done() + 1, way.segments()), way.segments())
+                           : "";
+    bar->show(way.fraction(), short_words(sample) + part);
+  };
+  drive(options, job);
+}
+
+void drive_velocity(const DriveOptions& options, double v_mps, double omega_radps, double seconds) {
+  std::optional<Progress> bar;
+  std::int64_t begun_us = 0;
+  DriveJob job;
+  job.work = [&](link::DriveSession& session) {
+    const BarDuring showing(bar);
+    session.hold_velocity(v_mps, omega_radps, link::microseconds(std::llround(seconds * 1e6)));
+  };
+  job.moved = [&](const recording::OdometrySample& sample) {
+    if (!bar) return;
+    if (begun_us == 0) begun_us = sample.time_us;
+    bar->show(static_cast<double>(sample.time_us - begun_us) * 1e-6 / seconds, short_words(sample));
+  };
+  drive(options, job);
+}
+
+}  // namespace astro::cli

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "host/cli/connection.hpp"
+#include "host/cli/odometry_watch.hpp"
+#include "host/link/drive.hpp"
+#include "host/link/paths.hpp"
+
+/// One drive from a command line, from connecting to the line that says where the odometry ended.
+namespace astro::cli {
+
+struct DriveOptions {
+  ConnectionOptions connection;
+  bool json = false;
+};
+
+/// What a drive does while the robot is armed, and what it is told meanwhile.
+struct DriveJob {
+  std::function<void(link::DriveSession&)> work;
+  std::function<void(const recording::OdometrySample&)> moved = [](const auto&) {};
+  std::function<void(const protocol::SegmentDone&)> segment_done = [](const auto&) {};
+};
+
+/// Connects, arms, works, lets the robot come to rest, disarms it and prints where the odometry ended; that
+/// too if Ctrl-C ended the work, then throws link::Interrupted.
+void drive(const DriveOptions& options, const DriveJob& job);
+
+/// The same for a path, with a progress bar.
+void drive_path(const DriveOptions& options, const link::Path& path);
+
+/// The same for a velocity that is held for `seconds` on the robot's clock.
+void drive_velocity(const DriveOptions& options, double v_mps, double omega_radps, double seconds);
+
+}  // namespace astro::cli

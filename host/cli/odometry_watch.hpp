@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "host/link/client.hpp"
+#include "host/recording/planar_pose.hpp"
+#include "host/recording/run.hpp"
+
+namespace astro::cli {
+
+/// Asks the robot for its odometry for as long as it lives, and keeps the newest sample.
+class OdometryWatch {
+ public:
+  using Listener = std::function<void(const recording::OdometrySample&)>;
+
+  /// `listener` hears of every sample; it must not call the client.
+  OdometryWatch(
+      link::Client& client, std::uint16_t period_ms, Listener listener = [](const auto&) {});
+  ~OdometryWatch();
+  OdometryWatch(const OdometryWatch&) = delete;
+  OdometryWatch& operator=(const OdometryWatch&) = delete;
+
+  /// Newest sample; all zero before the first.
+  const recording::OdometrySample& newest() const { return newest_; }
+
+  /// Waits for a sample that the robot took after this call. Throws LinkLost if none comes.
+  const recording::OdometrySample& fresh();
+
+ private:
+  link::Client& client_;
+  recording::OdometrySample newest_;
+  link::Subscription subscription_;
+};
+
+inline recording::PlanarPose pose_of(const recording::OdometrySample& sample) {
+  return {sample.x_m, sample.y_m, sample.theta_rad};
+}
+
+}  // namespace astro::cli

@@ -1,0 +1,59 @@
+#include "host/cli/options.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace astro::cli {
+namespace {
+
+std::optional<double> finite_number(const std::string& text) {
+  const char* end = text.data() + text.size();
+  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
+  double value = 0;
+  const auto parsed = std::from_chars(begin, end, value);
+  if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+template <class Accept>
+CLI::Validator number(Accept accept, const std::string& allowed) {
+  return {[=](std::string& text) -> std::string {
+            const auto value = finite_number(text);
+            if (value && accept(*value)) return {};
+            return fmt::format("'{}' is not {}", text, allowed);
+          },
+          ""};
+}
+
+}  // namespace
+
+CLI::Validator between(double least, double greatest, const std::string& unit) {
+  const std::string limits =
+      fmt::format("a number from {:g} to {:g}{}{}", least, greatest, unit.empty() ? "" : " ", unit);
+  return number([=](double value) { return value >= least && value <= greatest; }, limits);
+}
+
+CLI::Validator positive(const std::string& unit) {
+  const std::string allowed = unit.empty() ? "a number above 0" : "a number above 0 (in " + unit + ")";
+  return number([](double value) { return value > 0; }, allowed);
+}
+
+CLI::Validator finite() {
+  return number([](double) { return true; }, "a number");
+}
+
+void examples(CLI::App& command, std::initializer_list<const char*> lines) {
+  std::string footer = "\nExamples:";
+  for (const char* line : lines) footer += std::string("\n  ") + line;
+  command.footer(footer);
+}
+
+void add_json_flag(CLI::App& command, bool& json) {
+  command.add_flag("--json", json, "Print JSON instead of text for people");
+}
+
+}  // namespace astro::cli

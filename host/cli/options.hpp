@@ -1,0 +1,25 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <initializer_list>
+#include <string>
+
+/// Pieces that the options of many commands are made of.
+namespace astro::cli {
+
+/// Accepts finite numbers from `least` to `greatest`; the complaint names both and the unit.
+CLI::Validator between(double least, double greatest, const std::string& unit);
+
+/// Accepts finite numbers greater than 0.
+CLI::Validator positive(const std::string& unit);
+
+/// Accepts finite numbers.
+CLI::Validator finite();
+
+/// "Examples:" and one line each, as the footer of a command's help.
+void examples(CLI::App& command, std::initializer_list<const char*> lines);
+
+/// Adds --json.
+void add_json_flag(CLI::App& command, bool& json);
+
+}  // namespace astro::cli

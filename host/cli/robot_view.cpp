@@ -1,0 +1,55 @@
+#include "host/cli/robot_view.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "common/safety/fault.hpp"
+#include "host/link/refusal.hpp"
+
+namespace astro::cli {
+
+void print(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  std::fputc('\n', stdout);
+  std::fflush(stdout);
+}
+
+void print(const Json& json) { print(json.dump(2)); }
+
+std::string firmware_version(const protocol::HelloReply& robot) {
+  return fmt::format("{}.{}.{}", robot.fw_major, robot.fw_minor, robot.fw_patch);
+}
+
+std::string hex_id(const protocol::HelloReply& robot) {
+  std::string text;
+  for (const std::uint8_t byte : robot.unique_id) text += fmt::format("{:02x}", byte);
+  return text;
+}
+
+std::vector<std::string> fault_list(std::uint32_t mask) {
+  std::vector<std::string> list;
+  for (unsigned i = 0; i < 32; ++i)
+    if (const std::uint32_t one = mask & (1U << i)) list.push_back(link::fault_names(one));
+  return list;
+}
+
+std::string faults_in_words(std::uint32_t mask) { return mask == 0 ? "none" : link::fault_names(mask); }
+
+std::string duration_in_words(std::uint64_t us) {
+  const std::uint64_t seconds = us / 1'000'000;
+  if (seconds < 60) return fmt::format("{:.1f} s", static_cast<double>(us) * 1e-6);
+  if (seconds < 3600) return fmt::format("{} min {:02} s", seconds / 60, seconds % 60);
+  return fmt::format("{} h {:02} min {:02} s", seconds / 3600, seconds / 60 % 60, seconds % 60);
+}
+
+Json to_json(const recording::PlanarPose& pose) {
+  return {{"x_m", pose.x_m}, {"y_m", pose.y_m}, {"theta_rad", pose.theta_rad}};
+}
+
+std::string in_words(const recording::PlanarPose& pose) {
+  return fmt::format("x {:8.4f} m   y {:8.4f} m   heading {:9.3f} deg", pose.x_m, pose.y_m,
+                     degrees(pose.theta_rad));
+}
+
+}  // namespace astro::cli
