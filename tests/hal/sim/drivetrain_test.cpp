@@ -19,7 +19,7 @@ double acceleration(double volts_left, double volts_right, const Config& config)
 }
 
 double expected_acceleration(double extra_kgm2) {
-  constexpr Motor motor = motor_from(MotorSheet{}, 43.8);
+  const Motor motor = motor_from(MotorSheet{}, 43.8);
   const double torque_Nm =
       (1.0 - motor.mesh_loss) * motor.emf_Vspr * 12.0 / motor.resistance_ohm - motor.coulomb_Nm;
   return torque_Nm / (motor.inertia_kgm2 + extra_kgm2);
@@ -200,7 +200,7 @@ TEST(Battery, SagsUnderLoadByItsResistance) {
 
 // Ohm's law of source and winding, for a turning and loaded motor at part duty.
 TEST(Battery, SupplyAndMotorsAgreeOnTheCurrent) {
-  constexpr Motor motor = motor_from(MotorSheet{}, 43.8);
+  const Motor motor = motor_from(MotorSheet{}, 43.8);
   Config config;
   config.on_stand = true;
   config.supply_ohm = 0.5;
