@@ -58,7 +58,7 @@ void run(Options& options) {
   const recording::Run run = experiment::record_until(*client, *truth, info, done);
   progress.clear();
   recording::write_run(options.out, run);
-  if (!options.csv.empty()) recording::export_csv(options.csv, run);
+  if (!options.csv.empty()) recording::export_csv(run, options.csv);
   say(fmt::format("{} odometry and {} truth samples", run.odometry.size(), run.truth.size()));
   std::cout << std::filesystem::absolute(options.out).string() << '\n';
 }
