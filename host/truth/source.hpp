@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/recording/run.hpp"
+
+/// Where ground truth comes from while a robot drives.
+namespace astro::truth {
+
+/// A stream of poses of the tracked body, in the tracker's own frame.
+///
+/// Threads one.
+class Source {
+ public:
+  Source() = default;
+  Source(const Source&) = delete;
+  Source& operator=(const Source&) = delete;
+  virtual ~Source() = default;
+
+  /// All samples that arrived since the last call, oldest first; never waits. Times are on the robot's clock if
+  /// clock() is "robot". Throws astro::Error once the tracker is gone.
+  virtual std::vector<recording::TruthSample> poll() = 0;
+
+  /// "sim", "vrpn", ...: what a recording says of it.
+  virtual std::string name() const = 0;
+  virtual std::string clock() const = 0;
+};
+
+}  // namespace astro::truth
