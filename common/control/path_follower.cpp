@@ -22,6 +22,9 @@ constexpr std::int32_t to_uradps(std::int64_t turn_52) {
 constexpr std::int64_t kMostError_30 = std::int64_t{1} << 28;  // 0.25 m
 constexpr std::int64_t kMostTurn_33 = std::int64_t{1} << 29;   // 1/16 turn
 
+constexpr std::int32_t kClose_um = 500;
+constexpr std::int32_t kClose_urad = 1'000;
+
 constexpr std::int32_t um_from_30(std::int64_t metres_30) {
   return static_cast<std::int32_t>((metres_30 * 1'000'000) >> 30);
 }
@@ -57,7 +60,7 @@ PathFollower::Command PathFollower::advance(const Pose& actual) {
   return command;
 }
 
-BodyTwist PathFollower::correction(const Pose& actual, std::int32_t v_ref_umps) const {
+BodyTwist PathFollower::correction(const Pose& actual, std::int32_t v_ref_umps) {
   const Pose& reference = reference_.pose();
   const std::int64_t dx_30 = clamp_abs((reference.x - actual.x) >> 10, kMostError_30);
   const std::int64_t dy_30 = clamp_abs((reference.y - actual.y) >> 10, kMostError_30);
@@ -69,6 +72,8 @@ BodyTwist PathFollower::correction(const Pose& actual, std::int32_t v_ref_umps) 
   const std::int64_t turn_33 = clamp_abs((reference.theta - actual.theta) >> 31, kMostTurn_33);
   constexpr std::int64_t kTwoPi_urad = 6'283'185;
   const auto heading_urad = static_cast<std::int32_t>((turn_33 * kTwoPi_urad) >> 33);
+
+  close_ = clamp_abs(along_um, kClose_um) == along_um && clamp_abs(heading_urad, kClose_urad) == heading_urad;
 
   // (um/s) * um = 1e-12, brought back to 1e-6 by 1 / 10^6 = 4295 / 2^32.
   const auto swept = static_cast<std::int32_t>(((std::int64_t{v_ref_umps} * cross_um >> 8) * 4295) >> 24);

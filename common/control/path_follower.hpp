@@ -40,15 +40,18 @@ class PathFollower {
 
   /// The reference has arrived; the robot may still be settling.
   bool arrived() const { return profile_.done(); }
+  /// At the last advance the robot was within half a millimetre and a milliradian of the reference.
+  bool close() const { return close_; }
   const Pose& reference() const { return reference_.pose(); }
 
  private:
-  BodyTwist correction(const Pose& actual, std::int32_t v_ref_umps) const;
+  BodyTwist correction(const Pose& actual, std::int32_t v_ref_umps);
 
   Q16 k_along_, k_cross_, k_heading_;
   Trapezoid profile_;
   ArcIntegrator reference_;
   BodyTwist last_;
+  bool close_ = false;
 };
 
 }  // namespace astro

@@ -3,9 +3,9 @@
 namespace astro {
 namespace {
 
-constexpr std::int32_t kStanding_umps = 3'000;       // slower than this is standing: about 40 counts a second
-constexpr std::uint32_t kSettled_ticks = 50;         // and for so long
-constexpr std::uint32_t kSettleAtMost_ticks = 1000;  // a robot held by friction is as settled as it will be
+constexpr std::int32_t kStanding_umps = 3'000;      // slower than this is standing: about 40 counts a second
+constexpr std::uint32_t kSettled_ticks = 50;        // and for so long
+constexpr std::uint32_t kSettleAtMost_ticks = 700;  // a robot held by friction is as settled as it will be
 
 std::int32_t per_tick(std::int32_t per_second2) {
   return per_second2 / kTickHz > 0 ? per_second2 / kTickHz : 1;
@@ -169,16 +169,18 @@ void Drive::next_segment() {
   running_ = queue_.pop();
   follower_.begin(running_.profile);
   settling_ticks_ = 0;
+  settled_.reset();
   mode_ = Mode::segment;
 }
 
 Drive::Wish Drive::follow() {
   const PathFollower::Command command = follower_.advance(odometry_.pose());
   if (follower_.arrived()) {
-    // A segment goes from rest to rest: the next one begins when the wheels stand, or will not get any
-    // closer.
+    // A segment goes from rest to rest: the next one begins when the wheels stand at its end, or will not get
+    // any closer.
     ++settling_ticks_;
-    if ((settling_ticks_ >= kSettled_ticks && standing()) || settling_ticks_ >= kSettleAtMost_ticks) {
+    const bool rests = settled_.advance(standing() && follower_.close(), kSettled_ticks);
+    if (rests || settling_ticks_ >= kSettleAtMost_ticks) {
       events_.push({running_.tag, protocol::SegmentOutcome::completed, now_us_});
       mode_ = Mode::idle;
       if (!queue_.empty()) next_segment();

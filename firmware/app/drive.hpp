@@ -9,6 +9,7 @@
 #include "common/params/parameter_set.hpp"
 #include "common/protocol/enums.hpp"
 #include "common/safety/fault_latch.hpp"
+#include "common/safety/watch.hpp"
 #include "firmware/app/segment_queue.hpp"
 #include "firmware/app/supervisor.hpp"
 #include "firmware/app/wheels.hpp"
@@ -97,6 +98,7 @@ class Drive {
   bool fault_after_stop_ = false;
   QueuedSegment running_;
   std::uint32_t settling_ticks_ = 0;
+  Watch settled_;
   BodyTwist target_;
   Slew v_, omega_;
   std::uint64_t now_us_ = 0;

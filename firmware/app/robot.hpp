@@ -12,7 +12,7 @@
 #include "firmware/app/session.hpp"
 #include "firmware/app/snapshot.hpp"
 #include "firmware/app/tick_clock.hpp"
-#include "firmware/app/version.hpp"
+#include "common/base/version.hpp"
 #include "hal/interface/board.hpp"
 
 namespace astro {
@@ -98,8 +98,8 @@ class Robot {
   void answer(int port, std::span<const std::uint8_t> body) {
     Session& session = sessions_[port];
     const protocol::Header header = *protocol::peek(body);  // the framer drops what has no header
-    if (session.answered(header.message_id, header.request_id)) {
-      board_.ports().write(port, std::span(session.answer).first(session.answer_size));
+    if (session.answered(header)) {
+      send(port, session.answer());
       return;
     }
     {
@@ -122,15 +122,14 @@ class Robot {
 
   template <class Reply>
   void respond(int port, const protocol::Header& header, const Answer<Reply>& reply) {
-    Session& session = sessions_[port];
-    session.answered_message = header.message_id;
-    session.answered_request = header.request_id;
-    session.answer_size = reply ? frame(*reply, header.request_id, session.answer)
-                                : frame(reply.error(), header.request_id, session.answer);
-    send(port, std::span(session.answer).first(session.answer_size));
-    // These two answers are about now, or about who asks: never repeated from memory.
-    if (header.message_id == protocol::Ping::kId || header.message_id == protocol::Hello::kId)
-      session.forget_answer();
+    std::array<std::uint8_t, protocol::kMaxFrame> out;  // NOLINT(cppcoreguidelines-pro-type-member-init)
+    const std::size_t size =
+        reply ? frame(*reply, header.request_id, out) : frame(reply.error(), header.request_id, out);
+    send(port, std::span(out).first(size));
+    // A Pong is about now and never repeated; a Hello begins a new session, which remembers nothing.
+    if (header.message_id == protocol::Ping::kId) return;
+    sessions_[port].remember(header,
+                             std::span(out).first(header.message_id == protocol::Hello::kId ? 0 : size));
   }
 
   static protocol::ErrorReply error(ErrorCode code, std::uint16_t detail = 0) { return {code, detail}; }

@@ -30,7 +30,7 @@ struct WheelLoad {
 /// State of the H-bridges and the supply during one tick, as the wheels see it.
 struct Drive {
   Pair duty{};                 // fraction of the supply; 0 is a short, that is, a brake
-  std::array<bool, 2> open{};  // open bridge: current flows only when back-EMF exceeds the supply
+  std::array<bool, 2> open{};  // open bridge: its diodes conduct once back-EMF exceeds the supply
   double supply_V = 12.0;      // unloaded
   double supply_ohm = 0.0;
 };
@@ -49,24 +49,44 @@ class Drivetrain {
 
   const Pair& speed_radps() const { return speed_; }
   const Pair& current_A() const { return current_; }
-  double bus_V() const { return bus_V_; }
+  double bus_V() const { return bus_V_; }  // at the end of the tick
   double kinetic_energy_J() const;
 
  private:
-  struct Bus {
-    double supply_V, droop, gain;  // bus = (supply + droop sum(duty emf)) gain
+  // Motor torque during one tick as a function of both speeds: at_rest + slope speed, N m.
+  struct Torque {
+    Pair at_rest;
+    double left, right, between;  // the slope, a symmetric matrix
+    Pair operator()(const Pair& speed) const {
+      return {at_rest[0] + left * speed[0] + between * speed[1],
+              at_rest[1] + between * speed[0] + right * speed[1]};
+    }
   };
-  Bus bus_for(const Drive& drive) const;
-  void flow(const Drive& drive, const Bus& bus);
-  Pair resolve(const Pair& push, const Pair& grip) const;
+  // One step while every sense stays as it is: left' = keep_left left + from_right right + always[0], ...
+  struct Step {
+    double keep_left, from_right, from_left, keep_right;
+    Pair always;
+    Pair operator()(const Pair& speed) const {
+      return {keep_left * speed[0] + (from_right * speed[1] + always[0]),
+              keep_right * speed[1] + (from_left * speed[0] + always[1])};
+    }
+  };
+  Drive conducting(const Drive& drive) const;
+  Torque torque_for(const Drive& drive) const;
+  Step rolling(const Torque& torque, const Pair& motor_Nm) const;
+  bool roll(const Torque& torque, Pair& turned);
+  Pair creep(const Torque& torque);
   Pair settle(const Pair& push, const Pair& grip) const;
-  Pair after(const Pair& impulse) const;
+  Pair slide(const Pair& push, const Pair& grip) const;
+  Pair gained_by(double left_Nm, double right_Nm) const;
+  Pair grip(const Pair& torque_Nm) const;
 
   std::array<Motor, 2> motor_;
   std::array<WheelLoad, 2> load_{};
-  Pair mass_{}, lightness_{};  // diagonals of M and of its inverse
-  double mass_between_ = 0, lightness_between_ = 0;
+  Pair mass_{}, gain_{};  // diagonals of M / step and of its inverse: torque <-> change of speed in one step
+  double mass_between_ = 0, gain_between_ = 0;
   double conductance_ = 0;
+  Pair amperes_per_Nm_{};
   Pair speed_{}, current_{};
   double bus_V_;
 };

@@ -71,6 +71,12 @@ void require_width(const CsvTable& table, const CsvRow& row, std::string_view na
              std::to_string(expected) + ": give every column a cell, and write numbers with a decimal point");
 }
 
+void require_commas(const CsvRow& header, std::string_view name) {
+  if (header.cells.size() > 1 || header.cells[0].find(';') == std::string::npos) return;
+  refuse(name, header.line,
+         "the cells are separated by semicolons: use commas, and decimal points in the numbers");
+}
+
 }  // namespace
 
 void refuse(std::string_view name, int line, const std::string& what) {
@@ -88,6 +94,7 @@ CsvTable split_csv(std::string_view text, std::string_view name) {
     if (is_blank(row)) continue;
     if (out.header.line == 0) {
       out.header = std::move(row);
+      require_commas(out.header, name);
     } else {
       require_width(out, row, name);
       out.rows.push_back(std::move(row));

@@ -98,11 +98,7 @@ std::optional<Column> find_column(const CsvTable& table, const Quantity& quantit
 
 Column require_column(const CsvTable& table, const Quantity& quantity, std::string_view name) {
   if (const auto found = find_column(table, quantity, name)) return *found;
-  const bool semicolons =
-      table.header.cells.size() == 1 && table.header.cells[0].find(';') != std::string::npos;
-  refuse(name, table.header.line,
-         semicolons ? "the cells are separated by semicolons: use commas, and decimal points in the numbers"
-                    : "there is no column " + spellings(quantity));
+  refuse(name, table.header.line, "there is no column " + spellings(quantity));
 }
 
 double number(const CsvRow& row, const Column& column, std::string_view name) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "host/base/error.hpp"
@@ -60,12 +61,20 @@ void require_inputs(std::span<const EndPose> cw, std::span<const EndPose> ccw, d
   }
 }
 
-void require_headings(const ExperimentSummary& summary) {
-  if (summary.cw.has_theta && summary.ccw.has_theta) return;
-  throw Error(
-      std::string("the ") + (summary.cw.has_theta ? "counter-clockwise" : "clockwise") +
-      " runs have no heading error, which the extended method calibrates from: measure the end headings "
-      "(etheta_rad or etheta_deg), or use the method umbmark");
+void require_headings(std::span<const EndPose> runs, const std::string& direction) {
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (std::isnan(runs[i].theta_rad)) {
+      throw Error(
+          "the " + direction +
+          " runs have no heading error, which the extended method calibrates from: measure the end headings "
+          "(etheta_rad or etheta_deg), or use the method umbmark");
+    }
+    if (std::abs(runs[i].theta_rad) > std::numbers::pi) {
+      throw Error(direction + " run " + std::to_string(i + 1) + " has a heading error of " +
+                  std::to_string(runs[i].theta_rad) +
+                  " rad, more than half a turn: check the units, and write it between -180 and 180 degrees");
+    }
+  }
 }
 
 void require_plausible(const Ratios& r) {
@@ -95,10 +104,10 @@ Eigen::Matrix3d covariance_of_mean(std::span<const EndPose> runs) {
   return deviations * deviations.transpose() / (n * (n - 1));  // 0 / 0 = NaN for one run, as promised
 }
 
-/// Delta method: J C J^T with a central difference for J. The step is a millionth of the square: three orders
-/// above the rounding of the results, and far below where their curvature shows.
+/// Delta method: J C J^T with a central difference for J. The step leaves 1e-9 of J to rounding and less to
+/// curvature.
 StandardErrors standard_errors(const Experiment& experiment, const Vector6& mean, const Matrix6& covariance) {
-  constexpr double kStep = 1e-6;
+  constexpr double kStep = 1e-5;  // of the side, or radians
   Eigen::Matrix<double, 5, 6> jacobian;
   for (int column = 0; column < 6; ++column) {
     const double h = column % 3 == 2 ? kStep : kStep * experiment.side_m;
@@ -119,7 +128,10 @@ Estimate estimate_factors(std::span<const EndPose> cw, std::span<const EndPose> 
   out.side_m = side_m;
   out.carried = carried;
   out.summary = summarize(cw, ccw);
-  if (options.method == Method::extended) require_headings(out.summary);
+  if (options.method == Method::extended) {
+    require_headings(cw, "clockwise");
+    require_headings(ccw, "counter-clockwise");
+  }
 
   const Experiment experiment{side_m, carried, options, {out.summary.cw.runs, out.summary.ccw.runs}};
   const Vector6 mean = means_of(out.summary);

@@ -46,7 +46,7 @@ struct Estimate {
 ///
 /// Throws astro::Error, each with its remedy, when
 ///   a direction is missing, a value is not finite, or only some runs of a direction have a heading
-///   the method is extended and a direction has no headings
+///   the method is extended and a run has no heading, or one beyond half a turn
 ///   the side or a carried factor is not positive and finite
 ///   a ratio comes out beyond 0.5..2: wrong units, side or sets, not a robot
 Estimate estimate_factors(std::span<const EndPose> cw, std::span<const EndPose> ccw, double side_m,

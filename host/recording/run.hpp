@@ -22,7 +22,7 @@ struct OdometrySample {
 struct TruthSample {
   std::int64_t time_us = 0;
   double x_m = 0, y_m = 0, theta_rad = 0;  // theta continuous, not wrapped
-  bool valid = true;                       // false: the tracker had lost the body
+  bool valid = true;  // false: the tracker had lost the body; the pose means nothing then
 };
 
 /// Which way round a closed path was driven; none for paths without a sense.
@@ -47,6 +47,8 @@ struct Run {
   RunInfo info;
   std::vector<OdometrySample> odometry;
   std::vector<TruthSample> truth;
+  std::string
+      warning;  // "" or one sentence about what the file had lost, e.g. because the recorder was cut off
 };
 
 }  // namespace astro::recording

@@ -18,8 +18,8 @@ struct MocapConfig {
   double origin_x_m = 1.25, origin_y_m = -0.75, origin_theta_rad = 0.4;
 };
 
-/// Eight cameras that see a simulated robot: the true pose at a fixed rate, in the tracker's own frame, with white
-/// noise. Deterministic: the same seed and poses give the same samples.
+/// Eight cameras that see a simulated robot: the true pose at a fixed rate, in the tracker's own frame, with
+/// white noise. Deterministic: the same seed and poses give the same samples.
 class VirtualMocap {
  public:
   explicit VirtualMocap(const MocapConfig& config);

@@ -7,7 +7,8 @@ namespace {
 constexpr std::size_t kMinute = 60 * 60;  // samples at 60 Hz
 }
 
-VirtualRobot::VirtualRobot(const sim::Config& config, const MocapConfig& mocap) : board_(config), mocap_(mocap) {
+VirtualRobot::VirtualRobot(const sim::Config& config, const MocapConfig& mocap)
+    : board_(config), mocap_(mocap) {
   robot_.emplace(board_);
 }
 

@@ -9,7 +9,8 @@
 
 namespace astro::simulator {
 
-/// The firmware on the simulated board, watched by the virtual cameras; time is virtual and moves only in step().
+/// The firmware on the simulated board, watched by the virtual cameras; time is virtual and moves only in
+/// step().
 ///
 /// The same configuration and the same bytes at the same times give the same bytes back.
 class VirtualRobot {

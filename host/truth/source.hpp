@@ -18,8 +18,8 @@ class Source {
   Source& operator=(const Source&) = delete;
   virtual ~Source() = default;
 
-  /// All samples that arrived since the last call, oldest first; never waits. Times are on the robot's clock if
-  /// clock() is "robot". Throws astro::Error once the tracker is gone.
+  /// All samples that arrived since the last call, oldest first; never waits. Times are on the robot's clock
+  /// if clock() is "robot". Throws astro::Error once the tracker is gone.
   virtual std::vector<recording::TruthSample> poll() = 0;
 
   /// "sim", "vrpn", ...: what a recording says of it.

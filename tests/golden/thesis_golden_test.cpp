@@ -43,7 +43,7 @@ const std::vector<TableCase> kTables{
      "89.9576"},
     {"15 CW extended", "T15_cw_ext.csv", &kTable15CwExtended, "93.6299", "74.2328", "119.487", "0.038582",
      "28.4891"},
-    {"16 CCW extended", "T16_ccw_ext.csv", &kTable16CcwExtended, "55.1410", "47.2979", "72.6473", "0.021354",
+    {"16 CCW extended", "T16_ccw_ext.csv", &kTable16CcwExtended, "55.1410", "47.2979", "72.6472", "0.021354",
      "37.4484"},
 };
 

@@ -4,7 +4,7 @@
 
 namespace astro {
 
-/// Of the firmware; Hello tells it to hosts.
+/// Of firmware and host tools, which are released together. Hello tells it to hosts.
 struct Version {
   std::uint8_t major = 0, minor = 1, patch = 0;
 };
