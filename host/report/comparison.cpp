@@ -91,14 +91,14 @@ std::string verdict_sentence(const Estimate& before, const Estimate& after) {
 
 std::string describe(const Improvement& improvement) {
   const auto digits = [](double value) { return fixed(value, factor_decimals(value)); };
-  std::string text = digits(improvement.factor);
-  if (std::isfinite(improvement.standard_error)) {
-    text += " ± " + fixed(improvement.standard_error, factor_decimals(improvement.factor));
+  const std::string value = digits(improvement.factor);
+  if (!std::isfinite(improvement.low)) return value;
+  if (!std::isfinite(improvement.high)) {
+    return fmt::format("{} (95 %: at least {})", value, digits(improvement.low));
   }
-  if (!std::isfinite(improvement.low)) return text;
-  if (!std::isfinite(improvement.high))
-    return text + fmt::format(" (95 %: at least {})", digits(improvement.low));
-  return text + fmt::format(" (95 %: {} to {})", digits(improvement.low), digits(improvement.high));
+  return fmt::format("{} ± {} (95 %: {} to {})", value,
+                     fixed(improvement.standard_error, factor_decimals(improvement.factor)),
+                     digits(improvement.low), digits(improvement.high));
 }
 
 Estimate root_mean_square(std::span<const double> values) {

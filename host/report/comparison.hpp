@@ -32,7 +32,8 @@ Verdict judge(const Estimate& before, const Estimate& after);
 /// One plain sentence about the two estimates, values in millimetres.
 std::string verdict_sentence(const Estimate& before, const Estimate& after);
 
-/// "4.5 ± 0.7 (95 %: 3.2 to 6.9)", as much of it as is known.
+/// "4.5 ± 0.7 (95 %: 3.2 to 6.9)"; "82 (95 %: at least 10)" where there is no upper bound, for then the
+/// first-order error means nothing; "4.5" where nothing is known.
 std::string describe(const Improvement& improvement);
 
 /// Two-sided 5 % quantile of Student's t; infinite for less than one degree of freedom.

@@ -40,14 +40,14 @@ json run_data(const recording::Run& run, std::size_t position) {
   json t = json::array(), x = json::array(), y = json::array();
   json ex = json::array(), ey = json::array(), eh = json::array();
   bool tracked = false;
-  for (const auto& p : thin(align(run), kPointsPerRun)) {
+  for (const auto& p : thin(series_of(run), kPointsPerRun)) {
     t.push_back(rounded(p.time_s, 1e3));
-    x.push_back(rounded(p.odometry_x_m, 1e4));
-    y.push_back(rounded(p.odometry_y_m, 1e4));
-    ex.push_back(rounded((p.truth_x_m - p.odometry_x_m) * 1e3, 100));
-    ey.push_back(rounded((p.truth_y_m - p.odometry_y_m) * 1e3, 100));
-    eh.push_back(rounded(p.truth_theta_rad - p.odometry_theta_rad, 1e5));
-    tracked |= std::isfinite(p.truth_x_m);
+    x.push_back(rounded(p.odometry.x_m, 1e4));
+    y.push_back(rounded(p.odometry.y_m, 1e4));
+    ex.push_back(rounded(p.error.x_m * 1e3, 100));
+    ey.push_back(rounded(p.error.y_m * 1e3, 100));
+    eh.push_back(rounded(p.error.theta_rad, 1e5));
+    tracked |= std::isfinite(p.error.x_m);
   }
   const auto number = run.info.index > 0 ? static_cast<std::size_t>(run.info.index) : position + 1;
   return {{"number", number}, {"tracked", tracked}, {"t", t},   {"x", x},

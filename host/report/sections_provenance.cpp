@@ -11,17 +11,17 @@ namespace astro::report {
 
 namespace {
 
-using recording::RunInfo;
+using recording::Run;
 
 /// What the runs of a phase say about themselves; several answers stand side by side.
 struct Fact {
   std::string label;
-  std::function<std::string(const RunInfo&)> of;
+  std::function<std::string(const Run&)> of;
 };
 
 std::string answers(const Phase& phase, const Fact& fact) {
   std::set<std::string> seen;
-  for (const auto& run : phase.runs) seen.insert(fact.of(run.info));
+  for (const auto& run : phase.runs) seen.insert(fact.of(run));
   seen.erase("");
   std::string out;
   for (const auto& answer : seen) out += (out.empty() ? "" : ", ") + escape(answer);
@@ -29,20 +29,22 @@ std::string answers(const Phase& phase, const Fact& fact) {
 }
 
 std::vector<Fact> facts_of(const ReportInput& input) {
-  std::vector<Fact> facts{{"Robot", [](const RunInfo& i) { return i.robot_name; }},
-                          {"Robot id", [](const RunInfo& i) { return i.robot_id; }},
-                          {"Board", [](const RunInfo& i) { return i.board; }},
-                          {"Firmware", [](const RunInfo& i) { return i.firmware; }},
-                          {"Ground truth", [](const RunInfo& i) { return i.truth_source; }},
-                          {"Clock of the ground truth", [](const RunInfo& i) { return i.truth_clock; }},
-                          {"Speed", [](const RunInfo& i) {
-                             return i.speed_mps > 0 ? fmt::format("{:g} m/s", i.speed_mps) : "";
+  std::vector<Fact> facts{{"Robot", [](const Run& run) { return run.info.robot_name; }},
+                          {"Robot id", [](const Run& run) { return run.info.robot_id; }},
+                          {"Board", [](const Run& run) { return run.info.board; }},
+                          {"Firmware", [](const Run& run) { return run.info.firmware; }},
+                          {"Ground truth", [](const Run& run) { return run.info.truth_source; }},
+                          {"Clock of the ground truth", [](const Run& run) { return run.info.truth_clock; }},
+                          {"Warnings", [](const Run& run) { return run.warning; }},
+                          {"Speed", [](const Run& run) {
+                             return run.info.speed_mps > 0 ? fmt::format("{:g} m/s", run.info.speed_mps) : "";
                            }}};
   for (const auto& p : input.parameters) {
-    facts.push_back({"Carried " + p.name, [name = p.name](const RunInfo& i) {
-                       const auto found = i.parameters.find(name);
-                       return found == i.parameters.end() ? ""
-                                                          : fixed(found->second, six_digits(found->second));
+    facts.push_back({"Carried " + p.name, [name = p.name](const Run& run) {
+                       const auto found = run.info.parameters.find(name);
+                       return found == run.info.parameters.end()
+                                  ? ""
+                                  : fixed(found->second, six_digits(found->second));
                      }});
   }
   return facts;

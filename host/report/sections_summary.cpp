@@ -22,16 +22,22 @@ std::string phase_value(const SquarePhase& square) {
           : " mm");
 }
 
+/// What may be claimed in large letters: the factor, or its lower bound where there is no upper one.
+std::string gain_text(const Improvement& gain) {
+  const bool bounded = !std::isinf(gain.high);
+  const double claim = bounded ? gain.factor : gain.low;
+  const double size = claim >= 1 ? claim : 1 / claim;
+  if (!bounded && claim < 1) return "<strong>no certain change</strong>";
+  return fmt::format("{}<strong>{}×</strong> {}", bounded ? "" : "at least ",
+                     fixed(size, factor_decimals(size)), claim >= 1 ? "smaller" : "larger");
+}
+
 std::string comparison(const Phase& first, const Phase& last) {
   const Estimate before = largest_error_mm(first), after = largest_error_mm(last);
   const Improvement gain = improvement(before, after);
-  const bool smaller = gain.factor >= 1;
-  const double size = smaller ? gain.factor : 1 / gain.factor;
-  return fmt::format(
-      R"(<p class="gain"><strong>{}×</strong> {} <span class="detail">improvement factor {}</span></p>
+  return fmt::format(R"(<p class="gain">{} <span class="detail">improvement factor {}</span></p>
 <p class="sentence">{}</p>)",
-      fixed(size, factor_decimals(size)), smaller ? "smaller" : "larger", describe(gain),
-      verdict_sentence(before, after));
+                     gain_text(gain), describe(gain), verdict_sentence(before, after));
 }
 
 std::string direction_text(const char* name, const calibration::ClusterSummary& c) {

@@ -5,12 +5,12 @@
   const dashes = ['dash', 'solid', 'dashdot', 'dot'];
   const marks = { cw: ['circle-open', 'circle', 'circle', 'circle'], ccw: ['diamond-open', 'diamond', 'diamond', 'diamond'] };
   const names = { cw: 'clockwise', ccw: 'counter-clockwise' };
-  const coarse = matchMedia('(pointer: coarse)').matches;
+  // Without a mouse, dragging must scroll the page and there is nothing to hover with.
+  const touch = !matchMedia('(hover: hover) and (pointer: fine)').matches;
   const config = {
     displaylogo: false,
-    displayModeBar: coarse ? false : 'hover',
-    modeBarButtonsToRemove: ['select2d', 'lasso2d', 'autoScale2d'],
-    plotlyServerURL: '',
+    displayModeBar: touch ? false : 'hover',
+    modeBarButtons: [['toImage', 'zoom2d', 'pan2d', 'zoomIn2d', 'zoomOut2d', 'resetScale2d']],  // none that uploads
   };
 
   const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -28,7 +28,7 @@
 
   const axis = (title, more) => ({
     title: { text: title, standoff: 6 }, gridcolor: style('--grid'), zerolinecolor: style('--line'), zerolinewidth: 1.5,
-    linecolor: style('--line'), tickcolor: style('--line'), automargin: true, fixedrange: coarse, ...more,
+    linecolor: style('--line'), tickcolor: style('--line'), automargin: true, fixedrange: touch, ...more,
   });
   const layout = (more) => ({
     autosize: false, margin: { l: 56, r: 12, t: 30, b: 44 }, paper_bgcolor: 'rgba(0,0,0,0)', plot_bgcolor: 'rgba(0,0,0,0)',
@@ -36,7 +36,7 @@
     hoverlabel: { bgcolor: style('--raised'), bordercolor: style('--line'), font: { color: style('--ink') } },
     legend: { orientation: 'h', x: 0, y: 1, xanchor: 'left', yanchor: 'bottom', font: { size: 12 } },
     modebar: { bgcolor: 'rgba(0,0,0,0)', color: style('--muted'), activecolor: style('--ink') },
-    dragmode: coarse ? false : 'zoom', ...more,
+    dragmode: touch ? false : 'zoom', ...more,
   });
 
   // Each drawing takes the figure's dataset and the width it has, and returns what to plot and how high.
@@ -55,7 +55,7 @@
       });
       const most = largest(data.clusters.map((c) => c.r + (c.se_r ?? 0)));
       return [traces, layout({
-        xaxis: axis('r<sub>cg</sub> in mm', { range: [0, most * 1.06 || 1] }),
+        xaxis: axis('r<sub>cg</sub> in mm', { range: [-0.03 * most, most * 1.06 || 1] }),
         yaxis: axis('', { range: [1.6, -0.6], fixedrange: true, zeroline: false }),
       }), 230];
     },
@@ -78,7 +78,7 @@
             marker: { symbol: marks[c.direction][0], size: 15, color: style('--ink'), line: { width: 2, color: style('--ink') } },
             error_x: { type: 'data', array: [c.se[0]], color: style('--ink'), thickness: 1.5, width: 3 },
             error_y: { type: 'data', array: [c.se[1]], color: style('--ink'), thickness: 1.5, width: 3 },
-            showlegend: false, hovertemplate: 'mean: x %{x:.1f} mm, y %{y:.1f} mm' },
+            showlegend: false, cliponaxis: false, hovertemplate: 'mean: x %{x:.1f} mm, y %{y:.1f} mm' },
         ];
       }).map((trace) => ({ type: 'scatter', ...trace }));
       return [traces, layout({
@@ -161,6 +161,7 @@
       const plot = figure.querySelector('.plot');
       const [traces, how, height] = drawings[figure.dataset.figure](data, figure.dataset, plot.clientWidth);
       plot.style.minHeight = '0';
+      figure.dataset.width = plot.clientWidth;
       await Plotly.react(plot, traces, { ...how, width: plot.clientWidth, height }, config);
       figure.dataset.drawn = 'true';
     } catch (error) {
@@ -184,17 +185,18 @@
     document.querySelector('[data-scale]')?.addEventListener('change', ({ target }) => redraw(target.closest('section')));
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => redraw());
 
-    let width = innerWidth, waiting;
-    addEventListener('resize', () => {
-      if (innerWidth === width || 'printing' in document.body.dataset) return;
-      width = innerWidth;
+    // Also catches a window that changed its size while the figures were being drawn.
+    let waiting;
+    const watch = new ResizeObserver(() => {
       clearTimeout(waiting);
-      waiting = setTimeout(redraw, 150);
+      waiting = setTimeout(() => figures().forEach((figure) => {
+        const plot = figure.querySelector('.plot');
+        if (plot.clientWidth !== Number(figure.dataset.width)) draw(data, figure);
+      }), 100);
     });
+    figures().forEach((figure) => watch.observe(figure));
     const paper = (on) => {
-      document.body.toggleAttribute('data-printing', on);
-      document.documentElement.toggleAttribute('data-theme', false);
-      if (on) document.documentElement.dataset.theme = 'light';
+      document.documentElement.toggleAttribute('data-printing', on);
       redraw();
     };
     addEventListener('beforeprint', () => paper(true));

@@ -86,6 +86,7 @@ TEST(Report, EscapesEveryTextOfItsInput) {
     for (auto& run : phase.runs) {
       run.info.kind = run.info.robot_name = run.info.robot_id = run.info.board = run.info.firmware = evil;
       run.info.started_at = run.info.truth_source = run.info.truth_clock = evil;
+      run.warning = evil;
       run.info.parameters = {{evil, 1.0}};
     }
   }
@@ -143,6 +144,26 @@ TEST(Report, LeavesOutWhatWasNotMeasured) {
   EXPECT_THAT(html, Not(HasSubstr("data-figure=\"scatter\"")));
   EXPECT_THAT(html, HasSubstr("data-figure=\"path\""));
   EXPECT_NO_THROW(render_html({}));
+}
+
+TEST(Report, PutsRunsThatWereDrivenAlikeUnderOneHeading) {
+  ReportInput input = thesis_input(2);
+  std::reverse(input.phases[1].runs.begin(), input.phases[1].runs.end());  // recorded in another order
+  const std::string html = our_part(render_html(input));
+  std::size_t at = 0;
+  for (const char* heading : {"Squares of 3 m, clockwise", "Squares of 3 m, counter-clockwise",
+                              "Circles of 1.2 m radius, clockwise",
+                              "Circles of 1.2 m radius, counter-clockwise", "Straight lines of 3 m"}) {
+    const auto next = html.find(std::string("<h3>") + heading + "</h3>");
+    ASSERT_NE(next, std::string::npos) << heading;
+    EXPECT_GT(next, at) << heading << " stands too early";
+    at = next;
+  }
+  const auto group = data_of(html)["groups"][0];
+  for (const int phase : {0, 1}) {
+    EXPECT_EQ(group["phases"][phase][0]["number"], 1);
+    EXPECT_EQ(group["phases"][phase][1]["number"], 2);
+  }
 }
 
 TEST(Report, ShowsADashForHeadingsThatWereNotMeasured) {
