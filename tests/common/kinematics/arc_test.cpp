@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "common/kinematics/odometry.hpp"
-#include "tests/common/kinematics/exact.hpp"
+#include "tests/common/kinematics/near.hpp"
 
 namespace astro {
 namespace {

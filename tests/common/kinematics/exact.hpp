@@ -1,7 +1,5 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <numbers>
 
@@ -14,16 +12,6 @@
 namespace astro::tests {
 
 using Real = long double;
-
-/// For ASSERT_PRED_FORMAT3: EXPECT_NEAR compares in double, which is coarser than what is tested here.
-inline testing::AssertionResult near(const char* what, const char* expected_text, const char* bound_text,
-                                     Real got, Real expected, Real bound) {
-  if (std::fabs(got - expected) <= bound) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << what << " is " << static_cast<double>(got) << ", " << expected_text
-                                     << " is " << static_cast<double>(expected) << ": apart by "
-                                     << static_cast<double>(got - expected) << ", bound " << bound_text
-                                     << " = " << static_cast<double>(bound);
-}
 
 inline constexpr Real kPi = std::numbers::pi_v<Real>;
 /// What odometry carries to the next step: below 2^-29 m of way, below 2^-40 m of x and of y.

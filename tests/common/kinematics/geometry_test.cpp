@@ -4,7 +4,7 @@
 
 #include <boost/multiprecision/cpp_int.hpp>
 
-#include "tests/common/kinematics/exact.hpp"
+#include "tests/common/kinematics/near.hpp"
 
 namespace astro {
 namespace {

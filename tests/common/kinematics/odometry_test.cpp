@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "tests/common/kinematics/exact.hpp"
+#include "tests/common/kinematics/near.hpp"
 
 namespace astro {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/common/kinematics/exact.hpp"
+#include "tests/common/kinematics/near.hpp"
 
 namespace astro {
 namespace {
