@@ -35,7 +35,8 @@ constexpr std::uint32_t isqrt(std::uint64_t n) {
 }
 
 /// A 256-bit natural number for formulas that run once per parameter change: exact products of many factors,
-/// then exact division. Overflow of 256 bits is the caller's to rule out (tests/common/fixed sweeps the extremes).
+/// then exact division. Overflow of 256 bits is the caller's to rule out (tests/common/fixed sweeps the
+/// extremes).
 class Natural {
  public:
   constexpr explicit Natural(std::uint64_t value)
@@ -73,7 +74,8 @@ class Natural {
     return (limbs_[1] >> 31) == 0;
   }
 
-  /// Half of the number, rounded to nearest; saturates at 2^63 - 1. Compute with one bit too many, then call this.
+  /// Half of the number, rounded to nearest; saturates at 2^63 - 1. Compute with one bit too many, then call
+  /// this.
   constexpr std::int64_t half_rounded() const {
     Natural rounded = *this;
     for (std::uint32_t& limb : rounded.limbs_)

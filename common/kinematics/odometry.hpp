@@ -7,13 +7,16 @@
 
 namespace astro {
 
-/// Moves a pose along exact arcs, T <- T * exp(travel, 0, turn): a steady turn gives the same pose at any rate.
+/// Moves a pose along exact arcs, T <- T * exp(travel, 0, turn): a steady turn gives the same pose at any
+/// rate.
 ///
 /// Domain  |travel| < 4 m and |turn| < 1/4 turn a step; the robot refuses encoder steps beyond.
-/// Errors  heading none, ever: it is an integer sum. Position: what the Q40 sine leaves, below 1e-10 of the way.
+/// Errors  heading none, ever: it is an integer sum. Position: what the Q40 sine leaves, below 1e-10 of the
+/// way.
 ///         A step shorter than the 2^-29 m that a product can hold is not lost: the remainder is carried.
 /// Cost    constant, one sine and cosine, no division; callable from the control tick.
-/// Source  Sola, Deray, Atchuthan, arXiv:1812.01537v9, eqs. 156-158: the chord of an arc of length s and angle a is
+/// Source  Sola, Deray, Atchuthan, arXiv:1812.01537v9, eqs. 156-158: the chord of an arc of length s and
+/// angle a is
 ///         s * sin(a/2) / (a/2), and points along the mean of both headings.
 class ArcIntegrator {
  public:
@@ -30,8 +33,8 @@ class ArcIntegrator {
 
 /// Dead reckoning from wheel counts.
 ///
-/// The heading is an exact integer-linear function of the counts since the last set_pose or set_geometry: it holds
-/// no rounding at all beyond the one of the two increments (2^-65 turn per count).
+/// The heading is an exact integer-linear function of the counts since the last set_pose or set_geometry: it
+/// holds no rounding at all beyond the one of the two increments (2^-65 turn per count).
 ///
 /// Errors  none. Steps beyond ArcIntegrator's domain are the caller's to refuse.
 class Odometry {

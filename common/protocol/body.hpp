@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "common/base/result.hpp"
+
+/// What a frame carries: a header, then the fields of one message.
+namespace astro::protocol {
+
+inline constexpr std::size_t kHeaderSize = 3;
+inline constexpr std::size_t kMaxBody = 256;
+
+/// `request_id` is the host's choice, and the reply repeats it; 0 marks an event.
+struct Header {
+  std::uint8_t message_id = 0;
+  std::uint16_t request_id = 0;
+  constexpr bool operator==(const Header&) const = default;
+};
+
+enum class DecodeError : std::uint8_t {
+  too_short,  // the body ends before the message does
+  too_long,   // bytes are left over: a peer of another version
+  wrong_id,   // the body holds another message
+  bad_value,  // an enumeration, a text's padding or a group mask that this version does not know
+};
+
+constexpr std::string_view name(DecodeError error) {
+  constexpr std::string_view kNames[] = {"too_short", "too_long", "wrong_id", "bad_value"};
+  return kNames[static_cast<std::size_t>(error)];
+}
+
+/// The header alone, to choose what to decode. Errors: too_short.
+constexpr Result<Header, DecodeError> peek(std::span<const std::uint8_t> body) {
+  if (body.size() < kHeaderSize) return DecodeError::too_short;
+  return Header{body[0], static_cast<std::uint16_t>(body[1] | (body[2] << 8))};
+}
+
+}  // namespace astro::protocol

@@ -1,0 +1,44 @@
+#include "common/protocol/framer.hpp"
+
+#include <algorithm>
+
+#include "common/protocol/crc32.hpp"
+#include "common/protocol/value_codec.hpp"
+
+namespace astro::protocol {
+
+std::size_t encode_frame(std::span<const std::uint8_t> body,
+                         std::span<std::uint8_t, kMaxFrame> out) noexcept {
+  if (body.size() < kHeaderSize || body.size() > kMaxBody) return 0;
+  std::array<std::uint8_t, kMaxBody + kCrcSize> plain;
+  auto* const end = std::copy(body.begin(), body.end(), plain.data());
+  detail::Wire<std::uint32_t>::put(end, crc32(body));
+  const auto code = cobs::encode(std::span(plain).first(body.size() + kCrcSize), out);
+  out[*code] = 0;
+  return *code + 1;
+}
+
+std::optional<std::span<const std::uint8_t>> Framer::finish() noexcept {
+  const std::size_t received = size_;
+  size_ = 0;
+  const auto drop = [](std::uint32_t& count) {
+    ++count;
+    return std::nullopt;
+  };
+  if (received == 0) return std::nullopt;
+  if (received > code_.size()) return drop(counts_.oversize);
+  const auto plain = cobs::decode(std::span(code_).first(received), code_);
+  if (!plain) return drop(counts_.bad_cobs);
+  if (*plain < kHeaderSize + kCrcSize) return drop(counts_.undersize);
+  const std::size_t body_size = *plain - kCrcSize;
+  if (body_size > kMaxBody) return drop(counts_.oversize);
+  const auto body = std::span<const std::uint8_t>(code_).first(body_size);
+  std::uint32_t sent = 0;
+  bool good = true;
+  detail::Wire<std::uint32_t>::get(code_.data() + body_size, sent, good);
+  if (sent != crc32(body)) return drop(counts_.bad_crc);
+  ++counts_.good;
+  return body;
+}
+
+}  // namespace astro::protocol

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "common/protocol/body.hpp"
+#include "common/protocol/cobs.hpp"
+
+/// Bodies to frames and back. A frame is COBS(body, CRC-32 of the body, little-endian) and one 0x00.
+namespace astro::protocol {
+
+inline constexpr std::size_t kCrcSize = 4;
+inline constexpr std::size_t kMaxFrame = cobs::max_encoded_size(kMaxBody + kCrcSize) + 1;
+
+/// Writes the frame that carries `body`, its 0x00 included, and returns its size; 0 if the body has more than
+/// kMaxBody or fewer than kHeaderSize bytes.
+std::size_t encode_frame(std::span<const std::uint8_t> body, std::span<std::uint8_t, kMaxFrame> out) noexcept;
+
+/// What a receiver has seen. Each wraps at 2^32. A stray 0x00 between frames is nothing.
+struct FrameCounts {
+  std::uint32_t good = 0;
+  std::uint32_t bad_crc = 0;
+  std::uint32_t bad_cobs = 0;
+  std::uint32_t oversize = 0;   // the body would exceed kMaxBody
+  std::uint32_t undersize = 0;  // no room for a header
+  constexpr std::uint32_t bad() const { return bad_crc + bad_cobs + oversize + undersize; }
+};
+
+/// Receives a byte stream from any point on: whatever is damaged is counted and dropped, and the next 0x00
+/// starts afresh. No input makes it read or write outside its buffer.
+///
+/// Cost    a compare and a store per byte; decoding and CRC at each 0x00, at most kMaxFrame bytes. Main loop.
+class Framer {
+ public:
+  /// The body that this byte completes, if any; valid until the next push. Copying a Framer copies a frame
+  /// under way.
+  std::optional<std::span<const std::uint8_t>> push(std::uint8_t byte) noexcept {
+    if (byte == 0) return finish();
+    if (size_ < code_.size()) code_[size_] = byte;
+    size_ += size_ <= code_.size() ? 1 : 0;
+    return std::nullopt;
+  }
+
+  const FrameCounts& counts() const noexcept { return counts_; }
+
+ private:
+  std::optional<std::span<const std::uint8_t>> finish() noexcept;
+
+  std::array<std::uint8_t, kMaxFrame - 1> code_{};  // decoded in place
+  std::size_t size_ = 0;                            // kMaxFrame: more came than fits
+  FrameCounts counts_;
+};
+
+}  // namespace astro::protocol
