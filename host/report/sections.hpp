@@ -12,6 +12,9 @@
 /// out.
 namespace astro::report {
 
+/// Phases beyond the fourth take the colours of the first again, as in web/report.js.
+inline constexpr std::size_t kAccents = 4;
+
 struct Section {
   std::string id, heading, body;
 };

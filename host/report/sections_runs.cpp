@@ -38,7 +38,8 @@ std::string path_figure(const ReportInput& input, const RunGroup& group, std::si
   return fmt::format(
       R"(<figure data-figure="path" data-group="{}" data-phase="{}"><figcaption class="phase-{}">{}, <span class="chosen">run {}</span></figcaption>
 <div class="plot" role="img" aria-label="{}, {}: true path and path by odometry"></div></figure>)",
-      number, phase, phase, escape(title), run_number(group, 0), escape(group.title), escape(title));
+      number, phase, phase % kAccents, escape(title), run_number(group, 0), escape(group.title),
+      escape(title));
 }
 
 std::string error_figure(const RunGroup& group, std::size_t number) {

@@ -15,7 +15,7 @@ std::string phase_value(const SquarePhase& square) {
   const Estimate e = largest_error_mm(*square.phase);
   return fmt::format(
       R"(<li class="phase-{}"><span class="label">{}</span> <span class="value"><strong>{}</strong>{}</span></li>)",
-      square.index, escape(capitalised(square.phase->title)),
+      square.index % kAccents, escape(capitalised(square.phase->title)),
       fixed(e.value, decimals_for(e.standard_error, e.value < 10 ? 2 : 1)),
       std::isfinite(e.standard_error)
           ? " ± " + fixed(e.standard_error, decimals_for(e.standard_error, 1)) + " mm"
@@ -95,7 +95,7 @@ Section scatter(const ReportInput& input) {
     panels += fmt::format(
         R"(<figure data-figure="scatter" data-phase="{}"><figcaption class="phase-{}">{}</figcaption>
 <div class="plot" role="img" aria-label="End errors {}"></div></figure>)",
-        s.index, s.index, escape(capitalised(s.phase->title)), escape(cluster_text(*s.phase)));
+        s.index, s.index % kAccents, escape(capitalised(s.phase->title)), escape(cluster_text(*s.phase)));
   }
   if (panels.empty()) return out;
   out.body = R"(<p>Each mark is one run: true minus believed end pose, in the frame of its start.

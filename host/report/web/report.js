@@ -3,6 +3,7 @@
 // Colour means phase everywhere; dashes and open marks say the same to readers who do not see the colour.
 (() => {
   const dashes = ['dash', 'solid', 'dashdot', 'dot'];
+  const phaseMarks = ['circle-open', 'circle', 'square', 'triangle-up'];
   const marks = { cw: ['circle-open', 'circle', 'circle', 'circle'], ccw: ['diamond-open', 'diamond', 'diamond', 'diamond'] };
   const names = { cw: 'clockwise', ccw: 'counter-clockwise' };
   // Without a mouse, dragging must scroll the page and there is nothing to hover with.
@@ -49,7 +50,7 @@
           type: 'scatter', mode: 'markers', name: phaseName(data, phase),
           x: clusters.map((c) => c.r), y: clusters.map((c) => capital(names[c.direction])),
           error_x: { type: 'data', array: clusters.map((c) => c.se_r), color: phaseColour(phase), thickness: 1.5 },
-          marker: { symbol: marks.cw[phase % 4], size: 11, color: phaseColour(phase), line: { width: 2, color: phaseColour(phase) } },
+          marker: { symbol: phaseMarks[phase % 4], size: 11, color: phaseColour(phase), line: { width: 2, color: phaseColour(phase) } },
           hovertemplate: '%{y}: %{x:.1f} mm',
         };
       });

@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <regex>
 
 namespace astro::report {
 
@@ -16,8 +15,10 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string attribute(const std::string& tag, const std::string& name) {
-  std::smatch match;
-  return std::regex_search(tag, match, std::regex(name + "=\"([^\"]*)\"")) ? match[1].str() : "";
+  const auto at = tag.find(name + "=\"");
+  if (at == tag.npos) return "";
+  const auto begin = at + name.size() + 2;
+  return tag.substr(begin, tag.find('"', begin) - begin);
 }
 
 int count(const std::string& text, const std::string& part) {

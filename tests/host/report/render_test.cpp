@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <sstream>
 
 #include "host/base/error.hpp"
@@ -41,9 +40,10 @@ std::vector<std::string> row_of(const std::string& html, const std::string& capt
   if (row == std::string::npos) return {"no such row"};
   const std::string cells = part.substr(row, part.find("</tr>", row) - row);
   std::vector<std::string> out;
-  const std::regex cell("<td[^>]*>(.*?)</td>");
-  for (std::sregex_iterator it(cells.begin(), cells.end(), cell), end; it != end; ++it)
-    out.push_back((*it)[1]);
+  for (auto at = cells.find("<td"); at != cells.npos; at = cells.find("<td", at + 1)) {
+    const auto begin = cells.find('>', at) + 1;
+    out.push_back(cells.substr(begin, cells.find("</td>", begin) - begin));
+  }
   return out;
 }
 
@@ -111,8 +111,9 @@ TEST(Report, LoadsNothingFromAnywhere) {
   const std::string html = render_html(thesis_input(1));
   EXPECT_THAT(our_part(html), Not(HasSubstr("http://")));
   EXPECT_THAT(our_part(html), Not(HasSubstr("https://")));
-  EXPECT_FALSE(std::regex_search(our_part(html),
-                                 std::regex("<(link|img|iframe|script)[^>]+(src|href)=|@import|url\\(")));
+  for (const char* loader : {"<link", "<img", "<iframe", "<script src", " src=", "@import", "url("}) {
+    EXPECT_THAT(our_part(html), Not(HasSubstr(loader)));
+  }
   EXPECT_THAT(html, HasSubstr("Content-Security-Policy\" content=\"default-src 'none'"));
   EXPECT_THAT(std::string(assets::library_js()), Not(HasSubstr("</script")));
 }
