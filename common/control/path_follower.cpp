@@ -38,7 +38,6 @@ void PathFollower::set_gains(const ParameterSet& set) {
 }
 
 void PathFollower::begin_path(const Pose& pose) {
-  reference_ = ArcIntegrator{};
   reference_.set_pose(pose);
   profile_ = Trapezoid{};
   last_ = {};
