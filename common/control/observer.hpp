@@ -4,9 +4,9 @@
 
 namespace astro {
 
-/// Wheel speed from encoder counts: a tracking loop (type-2 phase-locked loop) whose state is an estimated position
-/// and speed, corrected by the count that the encoder shows. Smooth where a difference of counts would toggle
-/// between 0 and 1, and without lag at constant speed.
+/// Wheel speed from encoder counts: a tracking loop (type-2 phase-locked loop) whose state is an estimated
+/// position and speed, corrected by the count that the encoder shows. Smooth where a difference of counts
+/// would toggle between 0 and 1, and without lag at constant speed.
 ///
 /// Units   speed in 2^-20 counts per tick.
 /// Cost    constant, two multiplies; callable from the control tick.

@@ -6,8 +6,8 @@
 
 namespace astro {
 
-/// One piece of a path: a constant twist. Line: angle 0. Spin: length 0. Arc: both, the sign of length says forward
-/// or backward along it, the sign of angle which way the robot turns.
+/// One piece of a path: a constant twist. Line: angle 0. Spin: length 0. Arc: both, the sign of length says
+/// forward or backward along it, the sign of angle which way the robot turns.
 struct Segment {
   std::int64_t length_nm = 0;        // of the path of the robot's centre
   std::int64_t angle_32 = 0;         // heading change, 2^-32 turn

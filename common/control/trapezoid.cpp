@@ -12,9 +12,12 @@ constexpr std::int32_t tighter(std::int32_t wanted, std::int32_t limit) {
 }
 
 // ceil(distance / rate) in ticks, distance in 1e-6 m or 1e-6 rad, rate per second.
-constexpr std::int64_t ticks_at(std::int64_t distance, std::int64_t rate) { return (distance * 1000 + rate - 1) / rate; }
+constexpr std::int64_t ticks_at(std::int64_t distance, std::int64_t rate) {
+  return (distance * 1000 + rate - 1) / rate;
+}
 
-// Ticks in which the acceleration limit takes the speed from rest over half the distance:  t^2 = distance / rate.
+// Ticks in which the acceleration limit takes the speed from rest over half the distance:  t^2 = distance /
+// rate.
 constexpr std::int64_t triangle_ticks(std::int64_t distance, std::int64_t acceleration) {
   const std::int64_t square = distance * 1'000'000 / acceleration;
   return isqrt(static_cast<std::uint64_t>(square)) + 1;
@@ -35,13 +38,14 @@ MotionLimits make_limits(const ParameterSet& set) {
 }
 
 bool Trapezoid::plan(const Segment& segment, const MotionLimits& limits, Trapezoid& out) {
-  if (magnitude(segment.length_nm) > kMaxLength_nm || magnitude(segment.angle_32) > kMaxAngle_32) return false;
+  if (magnitude(segment.length_nm) > kMaxLength_nm || magnitude(segment.angle_32) > kMaxAngle_32)
+    return false;
   const std::int64_t length_um = magnitude(segment.length_nm) / 1000;
   const std::int64_t angle = angle_urad(segment.angle_32);
   if (length_um == 0 && angle == 0) return false;
 
-  // At the level speed the whole segment would take `cruise` ticks; the ramp is as long as the tighter of the two
-  // accelerations needs to reach that speed, and no longer than a triangle's.
+  // At the level speed the whole segment would take `cruise` ticks; the ramp is as long as the tighter of the
+  // two accelerations needs to reach that speed, and no longer than a triangle's.
   const std::int64_t speed = tighter(segment.speed_umps, limits.speed_umps);
   const std::int64_t yaw_rate = tighter(segment.yaw_rate_uradps, limits.yaw_rate_uradps);
   const std::int64_t cruise = larger(1, larger(ticks_at(length_um, speed), ticks_at(angle, yaw_rate)));

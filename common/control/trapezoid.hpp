@@ -6,9 +6,9 @@
 
 namespace astro {
 
-/// Trapezoidal speed profile of one segment, in whole ticks: up for `ramp` ticks, level for `level`, down for `ramp`.
-/// Length and angle advance together, so an arc keeps its curvature. The steps are integers whose sum is the
-/// segment exactly; no rounding is left at the end.
+/// Trapezoidal speed profile of one segment, in whole ticks: up for `ramp` ticks, level for `level`, down for
+/// `ramp`. Length and angle advance together, so an arc keeps its curvature. The steps are integers whose sum
+/// is the segment exactly; no rounding is left at the end.
 ///
 /// Units   travel 2^-50 m, turn 2^-52 turn (of a step and in total).
 /// Cost    plan: two square roots and some divisions, for the start of a segment (main loop).

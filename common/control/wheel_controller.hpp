@@ -7,7 +7,8 @@
 
 namespace astro {
 
-/// Speed control of one wheel: feed-forward of the motor's own model, and PI for what the model does not know.
+/// Speed control of one wheel: feed-forward of the motor's own model, and PI for what the model does not
+/// know.
 ///
 ///   u = kS sign(v) + kV v + kA a + kp e + ki integral(e) dt,   e = v - measured
 ///
@@ -22,8 +23,8 @@ class WheelController {
   void set_gains(const ParameterSet& set);
 
   /// Returns the motor voltage, within +-limit_uv.
-  std::int32_t advance(std::int32_t set_point_umps, std::int32_t acceleration_umps2, std::int32_t measured_umps,
-                       std::int32_t limit_uv);
+  std::int32_t advance(std::int32_t set_point_umps, std::int32_t acceleration_umps2,
+                       std::int32_t measured_umps, std::int32_t limit_uv);
   void reset() { integral_24_ = 0; }
 
  private:

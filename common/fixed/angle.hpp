@@ -20,7 +20,9 @@ class Angle {
     return from_raw(a.raw_ + static_cast<std::uint64_t>(turn));
   }
   /// The short way round from b to a, 2^-64 turn, in [-1/2, 1/2) turn.
-  friend constexpr std::int64_t operator-(Angle a, Angle b) { return static_cast<std::int64_t>(a.raw_ - b.raw_); }
+  friend constexpr std::int64_t operator-(Angle a, Angle b) {
+    return static_cast<std::int64_t>(a.raw_ - b.raw_);
+  }
   friend constexpr bool operator==(Angle, Angle) = default;
 
  private:

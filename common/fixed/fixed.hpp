@@ -27,8 +27,12 @@ class Fixed {
   }
   constexpr std::int32_t raw() const { return raw_; }
 
-  friend constexpr Fixed operator+(Fixed a, Fixed b) { return from_raw(saturate32(std::int64_t{a.raw_} + b.raw_)); }
-  friend constexpr Fixed operator-(Fixed a, Fixed b) { return from_raw(saturate32(std::int64_t{a.raw_} - b.raw_)); }
+  friend constexpr Fixed operator+(Fixed a, Fixed b) {
+    return from_raw(saturate32(std::int64_t{a.raw_} + b.raw_));
+  }
+  friend constexpr Fixed operator-(Fixed a, Fixed b) {
+    return from_raw(saturate32(std::int64_t{a.raw_} - b.raw_));
+  }
   friend constexpr Fixed operator-(Fixed a) { return from_raw(saturate32(-std::int64_t{a.raw_})); }
   friend constexpr Fixed operator*(Fixed a, Fixed b) { return from_raw(saturate32(a.scale(b.raw_))); }
   friend constexpr auto operator<=>(Fixed, Fixed) = default;

@@ -5,8 +5,8 @@
 namespace astro {
 namespace {
 
-// Computed in double, whose rounding is the same on every compiler that builds us: the table, and so odometry, has
-// the same bits on the host and on the MCU. (long double differs between the two.)
+// Computed in double, whose rounding is the same on every compiler that builds us: the table, and so
+// odometry, has the same bits on the host and on the MCU. (long double differs between the two.)
 consteval double sine(double x) {
   double term = x;
   double sum = x;
@@ -40,7 +40,9 @@ SinCos at_grid(unsigned index) {
   return {quadrant >= 2 ? -sine : sine, quadrant == 1 || quadrant == 2 ? -cosine : cosine};
 }
 
-constexpr std::int32_t high(std::int64_t product, int bits) { return static_cast<std::int32_t>(product >> bits); }
+constexpr std::int32_t high(std::int64_t product, int bits) {
+  return static_cast<std::int32_t>(product >> bits);
+}
 
 }  // namespace
 
@@ -62,8 +64,10 @@ SinCos sin_cos(Angle angle) {
 
   const std::int64_t sin_30 = high(grid.sin + 512, 10);
   const std::int64_t cos_30 = high(grid.cos + 512, 10);
-  return {grid.sin + ((cos_30 * sin_rho_37 + (1 << 26)) >> 27) - ((sin_30 * versed_44 + (std::int64_t{1} << 33)) >> 34),
-          grid.cos - ((sin_30 * sin_rho_37 + (1 << 26)) >> 27) - ((cos_30 * versed_44 + (std::int64_t{1} << 33)) >> 34)};
+  return {grid.sin + ((cos_30 * sin_rho_37 + (1 << 26)) >> 27) -
+              ((sin_30 * versed_44 + (std::int64_t{1} << 33)) >> 34),
+          grid.cos - ((sin_30 * sin_rho_37 + (1 << 26)) >> 27) -
+              ((cos_30 * versed_44 + (std::int64_t{1} << 33)) >> 34)};
 }
 
 }  // namespace astro

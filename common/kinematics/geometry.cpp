@@ -62,7 +62,8 @@ Geometry make_geometry(const ParameterSet& set) {
   Geometry geometry;
   geometry.left = make_wheel(set, Param::c_L);
   geometry.right = make_wheel(set, Param::c_R);
-  geometry.half_base_30 = static_cast<std::int32_t>(((base_nm << 29) + kNanometresPerMetre / 2) / kNanometresPerMetre);
+  geometry.half_base_30 =
+      static_cast<std::int32_t>(((base_nm << 29) + kNanometresPerMetre / 2) / kNanometresPerMetre);
   geometry.inverse_base_25 = static_cast<std::int32_t>(((kNanometresPerMetre << 25) + base_nm / 2) / base_nm);
   return geometry;
 }

@@ -7,7 +7,8 @@
 namespace astro {
 
 /// What the parameters c_R, c_L, b, wheel diameter, counts per revolution and gear ratio mean for one encoder
-/// count, in the units that the tick works in. Computed once per parameter change, exactly, then rounded once.
+/// count, in the units that the tick works in. Computed once per parameter change, exactly, then rounded
+/// once.
 ///
 ///   travel of a wheel per count     c * pi * D / (n * gear)                 metres
 ///   turn of the robot per count     travel / (2 pi b) = c * D / (2 n gear b)   turns

@@ -6,8 +6,8 @@
 namespace astro {
 namespace {
 
-// 1 - sin(h)/h for h = turn / 2, 32 fraction bits. |turn| < 1/4 turn, so that h^2 < 0.62 and the first term left
-// out, h^10 / 11!, is below 2e-9 there and below 1e-30 at 1 kHz.
+// 1 - sin(h)/h for h = turn / 2, 32 fraction bits. |turn| < 1/4 turn, so that h^2 < 0.62 and the first term
+// left out, h^10 / 11!, is below 2e-9 there and below 1e-30 at 1 kHz.
 std::int32_t chord_deficit(std::int64_t turn) {
   constexpr std::int64_t kPiSquared_28 = 2649351758;  // pi^2 * 2^28
   const std::int64_t half_turns_33 = turn >> 31;      // turn in 2^-33: 31 bits and sign
@@ -29,8 +29,8 @@ void ArcIntegrator::advance(std::int64_t travel, std::int64_t turn) {
   remainder_ = chord & ((std::int64_t{1} << 27) - 1);
 
   const SinCos heading = sin_cos(pose_.theta + (turn >> 1));
-  pose_.x += mul_shift<29>(heading.cos, step_29);
-  pose_.y += mul_shift<29>(heading.sin, step_29);
+  pose_.x += mul_shift_carry<29>(heading.cos, step_29, x_rest_);
+  pose_.y += mul_shift_carry<29>(heading.sin, step_29, y_rest_);
 
   const Angle before = pose_.theta;
   pose_.theta = before + turn;

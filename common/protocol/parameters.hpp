@@ -14,14 +14,14 @@ namespace astro::protocol {
 
 struct ParameterInfo {
   std::uint16_t id = 0;
-  Text<24> name;
-  Text<8> unit;
+  Text<24> name{};
+  Text<8> unit{};
   ParameterKind kind{};
   std::int8_t scale_exponent = 0;
   std::int32_t minimum = 0;
   std::int32_t maximum = 0;
   std::int32_t default_value = 0;
-  Text<120> doc;
+  Text<120> doc{};
 
   static constexpr std::uint8_t kId = 0x8B;
   static constexpr std::string_view kName = "ParameterInfo";
@@ -60,8 +60,8 @@ struct ParameterValue {
   std::uint16_t id = 0;
   std::int32_t active = 0;
   std::int32_t staged = 0;
-  Text<24> active_text;
-  Text<24> staged_text;
+  Text<24> active_text{};
+  Text<24> staged_text{};
 
   static constexpr std::uint8_t kId = 0x8C;
   static constexpr std::string_view kName = "ParameterValue";
@@ -92,7 +92,7 @@ struct GetParameter {
 struct StageParameter {
   std::uint16_t id = 0;
   std::int32_t value = 0;
-  Text<24> text;
+  Text<24> text{};
 
   using Reply = Ack;
   static constexpr std::uint8_t kId = 0x0D;

@@ -44,8 +44,8 @@ struct HelloReply {
   std::uint8_t fw_minor = 0;
   std::uint8_t fw_patch = 0;
   std::array<std::uint8_t, 16> unique_id{};
-  Text<24> board;
-  Text<24> robot_name;
+  Text<24> board{};
+  Text<24> robot_name{};
   std::uint16_t parameter_count = 0;
   std::uint16_t tick_hz = 0;
 

@@ -97,14 +97,14 @@ struct Telemetry {
 
   std::uint64_t device_time_us = 0;
   std::uint32_t fields = 0;
-  PoseGroup pose;
-  CountsGroup counts;
-  TwistGroup twist;
-  WheelGroup wheel_speed;
-  WheelGroup setpoint;
-  DutyGroup duty;
-  BatteryGroup battery;
-  StateGroup state;
+  PoseGroup pose{};
+  CountsGroup counts{};
+  TwistGroup twist{};
+  WheelGroup wheel_speed{};
+  WheelGroup setpoint{};
+  DutyGroup duty{};
+  BatteryGroup battery{};
+  StateGroup state{};
 
   static constexpr std::uint8_t kId = 0xC0;
   static constexpr std::string_view kName = "Telemetry";

@@ -1,0 +1,47 @@
+#include "common/protocol/crc32.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace astro {
+namespace {
+
+std::uint32_t crc_of(std::string_view text) {
+  return crc32(std::vector<std::uint8_t>(text.begin(), text.end()));
+}
+
+TEST(Crc32, GivesThePublishedCheckValues) {
+  EXPECT_EQ(crc_of("123456789"), 0xCBF43926U);  // catalogue of parametrised CRC algorithms, CRC-32/ISO-HDLC
+  EXPECT_EQ(crc_of(""), 0x00000000U);
+  EXPECT_EQ(crc_of("a"), 0xE8B7BE43U);  // RFC 1952 and zlib agree on these, known from many test suites
+  EXPECT_EQ(crc_of("abc"), 0x352441C2U);
+  EXPECT_EQ(crc_of("The quick brown fox jumps over the lazy dog"), 0x414FA339U);
+  // Bit order and preset in one: 32 bytes of zeros and of ones, as in zlib.
+  EXPECT_EQ(crc32(std::vector<std::uint8_t>(32, 0x00)), 0x190A55ADU);
+  EXPECT_EQ(crc32(std::vector<std::uint8_t>(32, 0xFF)), 0xFF6CAB0BU);
+}
+
+TEST(Crc32, IsKnownAtCompileTime) {
+  constexpr std::uint8_t kDigits[] = {'1', '2', '3', '4', '5', '6', '7', '8', '9'};
+  static_assert(crc32(kDigits) == 0xCBF43926U);
+}
+
+RC_GTEST_PROP(Crc32, OfTwoPartsOneAfterTheOtherIsTheCrcOfTheWhole, (std::vector<std::uint8_t> bytes)) {
+  const auto cut = *rc::gen::inRange<std::size_t>(0, bytes.size() + 1);
+  const std::span<const std::uint8_t> all(bytes);
+  RC_ASSERT(crc32(all.subspan(cut), crc32(all.first(cut))) == crc32(all));
+}
+
+RC_GTEST_PROP(Crc32, OfAMessageWithItsOwnCrcBehindIsTheResidue, (std::vector<std::uint8_t> bytes)) {
+  const std::uint32_t crc = crc32(bytes);
+  for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::uint8_t>(crc >> shift));
+  RC_ASSERT(crc32(bytes) == ~0xDEBB20E3U);  // the catalogue's residue, here after the final inversion
+}
+
+}  // namespace
+}  // namespace astro
