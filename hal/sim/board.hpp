@@ -59,7 +59,7 @@ class Board {
   std::uint64_t world_us() const { return world_us_; }
 
   /// Where the robot really is; starts at the origin. It is of one instant with the encoder counts.
-  const Pose& truth() const { return chassis_.pose(); }
+  Pose truth() const { return chassis_.pose(); }
   void place(const Pose& pose) { chassis_.place(pose); }
 
   const Drivetrain& drivetrain() const { return drivetrain_; }

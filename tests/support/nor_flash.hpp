@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <random>
 #include <span>
@@ -24,7 +25,8 @@ class NorFlash {
   static constexpr std::uint32_t kSectorBytes = SectorBytes;
   static constexpr std::uint32_t kProgramBytes = ProgramBytes;
 
-  explicit NorFlash(std::uint32_t seed = 1) : random_(seed), cells_(kSectors * kSectorBytes, 0xFF) {}
+  explicit NorFlash(std::uint32_t seed = 1)
+      : random_(seed), cells_(std::size_t{kSectors} * kSectorBytes, 0xFF) {}
 
   bool erase(std::uint32_t sector) noexcept {
     if (sector >= kSectors) return misuse();

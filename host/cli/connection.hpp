@@ -1,0 +1,28 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "host/link/client.hpp"
+#include "host/link/drive.hpp"
+#include "host/link/open_transport.hpp"
+
+namespace astro::cli {
+
+/// --port and --baud of every command that talks to a robot.
+struct ConnectionOptions {
+  std::string port;
+  unsigned baud = link::kDefaultBaud;
+};
+
+void add_connection(CLI::App& command, ConnectionOptions& options);
+
+/// A robot that has answered. Without --port: the only one found; throws astro::Error listing them if there
+/// are none or several. `options.port` then says which it was.
+std::unique_ptr<link::Client> connect(ConnectionOptions& options);
+
+/// Ctrl-C, and notices on stderr.
+link::DriveHooks drive_hooks();
+
+}  // namespace astro::cli
