@@ -6,8 +6,8 @@
 /// End-pose errors of closed runs, the raw material of UMBmark.
 namespace astro::calibration {
 
-/// Error of one run at its end: absolute (ground truth) - odometry, in the run's start frame: x forward, y left,
-/// theta counter-clockwise. theta is NaN where no heading was measured.
+/// Error of one run at its end: absolute (ground truth) - odometry, in the run's start frame:
+/// x forward, y left, theta counter-clockwise. theta is NaN where no heading was measured.
 struct EndPose {
   double x_m = 0, y_m = 0, theta_rad = 0;
 };
@@ -17,13 +17,17 @@ struct WheelFactors {
   double c_r = 1, c_l = 1, b_m = 0;
 };
 
-/// The figures of the thesis's tables for one direction.
+/// The figures of the thesis's tables for one direction, with the standard errors of the means.
+///
+/// se_r is hypot(se_x, se_y), the rms distance of the measured centre from the true one. The first-order
+/// error along the direction of the centre would be smaller, and wrong where it matters: after a calibration
+/// the centre lies within its own scatter and has no direction worth the name. All are NaN for one run.
 struct ClusterSummary {
   int runs = 0;
   double x_cg_m = 0, y_cg_m = 0, theta_cg_rad = 0;  // centre of gravity: mean over the runs
   double r_cg_m = 0;                                // hypot(x_cg, y_cg)
   double rms_x_m = 0, rms_y_m = 0, rms_r_m = 0, rms_theta_rad = 0;
-  double se_x_m = 0, se_y_m = 0, se_theta_rad = 0, se_r_m = 0;  // standard errors of the means; NaN for one run
+  double se_x_m = 0, se_y_m = 0, se_theta_rad = 0, se_r_m = 0;
   bool has_theta = true;
 };
 
@@ -33,7 +37,8 @@ struct ExperimentSummary {
   double se_E_max_syst_m = 0;  // of the cluster that is the maximum
 };
 
-/// Throws astro::Error if a set is empty or holds a value that is not finite (theta may be NaN in all or none).
+/// Throws astro::Error if a set is empty or holds a value that is not finite.
+/// A missing heading (NaN) is no error if it is missing in the whole set.
 ClusterSummary summarize(std::span<const EndPose> runs);
 ExperimentSummary summarize(std::span<const EndPose> cw, std::span<const EndPose> ccw);
 

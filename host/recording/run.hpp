@@ -14,31 +14,31 @@ namespace astro::recording {
 
 struct OdometrySample {
   std::int64_t time_us = 0;
-  double x_m = 0, y_m = 0, theta_rad = 0;  // theta continuous, not wrapped
-  double v_mps = 0, omega_radps = 0;       // measured body twist
+  double x_m = 0, y_m = 0, theta_rad = 0;          // theta continuous, not wrapped
+  double v_mps = 0, omega_radps = 0;               // measured body twist
   std::int32_t left_counts = 0, right_counts = 0;  // running encoder counts, forward positive, wrap at 2^32
 };
 
 struct TruthSample {
   std::int64_t time_us = 0;
   double x_m = 0, y_m = 0, theta_rad = 0;  // theta continuous, not wrapped
-  bool valid = true;                       // false: the tracker had lost the body
+  bool valid = true;  // false: the tracker had lost the body; the pose means nothing then
 };
 
 /// Which way round a closed path was driven; none for paths without a sense.
 enum class Direction { none, cw, ccw };
 
 struct RunInfo {
-  std::string kind;    // "square", "line", "circle", "free"
+  std::string kind;  // "square", "line", "circle", "free"
   Direction direction = Direction::none;
-  std::string phase;   // "before", "after", "repeat-1", ... or "" for a free recording
-  int index = 0;       // 1, 2, ... within its kind, direction and phase
-  double size_m = 0;   // square: side; circle: radius; line: length
+  std::string phase;  // "before", "after", "repeat-1", ... or "" for a free recording
+  int index = 0;      // 1, 2, ... within its kind, direction and phase
+  double size_m = 0;  // square: side; circle: radius; line: length
   double speed_mps = 0;
   std::string robot_name, robot_id, board, firmware;
-  std::string started_at;   // ISO 8601, UTC
-  std::string truth_source; // "sim", "manual", "file", "" if none
-  std::string truth_clock;  // "robot" or how the times were mapped
+  std::string started_at;    // ISO 8601, UTC
+  std::string truth_source;  // "sim", "manual", "file", "" if none
+  std::string truth_clock;   // "robot" or how the times were mapped
   /// The parameters that the robot carried while it drove, SI values by table name: c_R, c_L, b, ...
   std::map<std::string, double> parameters;
 };
@@ -47,6 +47,8 @@ struct Run {
   RunInfo info;
   std::vector<OdometrySample> odometry;
   std::vector<TruthSample> truth;
+  std::string
+      warning;  // "" or one sentence about what the file had lost, e.g. because the recorder was cut off
 };
 
 }  // namespace astro::recording

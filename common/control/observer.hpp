@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+
+namespace astro {
+
+/// Wheel speed from encoder counts: a tracking loop (type-2 phase-locked loop) whose state is an estimated
+/// position and speed, corrected by the count that the encoder shows. Smooth where a difference of counts
+/// would toggle between 0 and 1, and without lag at constant speed.
+///
+/// Units   speed in 2^-20 counts per tick.
+/// Cost    constant, two multiplies; callable from the control tick.
+/// Source  critically damped: kp = 2 w T, ki = (w T)^2 for bandwidth w and tick T.
+class SpeedObserver {
+ public:
+  static constexpr int kSpeedBits = 20;
+
+  /// bandwidth in 2^-16 rad/s; the estimate so far is kept, so the parameter may change while driving.
+  void set_bandwidth(std::int32_t bandwidth_16);
+
+  /// `counts`: signed counts since the last tick, forward positive.
+  void advance(std::int32_t counts);
+
+  std::int32_t speed() const { return static_cast<std::int32_t>(speed_28_ >> 8); }
+  void reset() { error_20_ = speed_28_ = 0; }
+
+ private:
+  std::int32_t proportional_20_ = 0;
+  std::int32_t integral_20_ = 0;
+  std::int64_t error_20_ = 0;  // position seen minus position estimated
+  std::int64_t speed_28_ = 0;  // eight more bits than shown: ki is about 0.01 and must not lose its products
+};
+
+}  // namespace astro

@@ -1,0 +1,84 @@
+#include "common/control/path_follower.hpp"
+
+#include "common/fixed/saturate.hpp"
+#include "common/fixed/trig.hpp"
+#include "common/fixed/wide.hpp"
+
+namespace astro {
+namespace {
+
+// 2^-50 m per tick to 1e-6 m/s: * 1000 * 10^6 / 2^50.
+constexpr std::int32_t to_umps(std::int64_t travel_50) {
+  return saturate32(((travel_50 >> 18) * 1'000'000'000 + (std::int64_t{1} << 31)) >> 32);
+}
+
+// 2^-52 turn per tick to 1e-6 rad/s: * 2 pi * 1000 * 10^6 / 2^52.
+constexpr std::int32_t to_uradps(std::int64_t turn_52) {
+  constexpr std::int64_t kTwoPi_9 = 6'283'185'307;
+  return saturate32(((turn_52 >> 20) * kTwoPi_9 + (std::int64_t{1} << 31)) >> 32);
+}
+
+// The robot never corrects more than this much at once: far behind, it hurries, it does not leap.
+constexpr std::int64_t kMostError_30 = std::int64_t{1} << 28;  // 0.25 m
+constexpr std::int64_t kMostTurn_33 = std::int64_t{1} << 29;   // 1/16 turn
+
+constexpr std::int32_t kClose_um = 500;
+constexpr std::int32_t kClose_urad = 1'000;
+
+constexpr std::int32_t um_from_30(std::int64_t metres_30) {
+  return static_cast<std::int32_t>((metres_30 * 1'000'000) >> 30);
+}
+
+}  // namespace
+
+void PathFollower::set_gains(const ParameterSet& set) {
+  k_along_ = Q16::from_raw(set.get(Param::path_k_along));
+  k_cross_ = Q16::from_raw(set.get(Param::path_k_cross));
+  k_heading_ = Q16::from_raw(set.get(Param::path_k_heading));
+}
+
+void PathFollower::begin_path(const Pose& pose) {
+  reference_ = ArcIntegrator{};
+  reference_.set_pose(pose);
+  profile_ = Trapezoid{};
+  last_ = {};
+}
+
+PathFollower::Command PathFollower::advance(const Pose& actual) {
+  BodyTwist wanted;
+  if (!profile_.done()) {
+    const Trapezoid::Step step = profile_.advance();
+    reference_.advance(step.travel * 64, step.turn * 4096);
+    wanted = {to_umps(step.travel), to_uradps(step.turn)};
+  }
+  const BodyTwist correction_now = correction(actual, wanted.v_umps);
+  Command command;
+  command.twist = {wanted.v_umps + correction_now.v_umps, wanted.omega_uradps + correction_now.omega_uradps};
+  command.acceleration = {saturate32(std::int64_t{wanted.v_umps - last_.v_umps} * kTickHz),
+                          saturate32(std::int64_t{wanted.omega_uradps - last_.omega_uradps} * kTickHz)};
+  last_ = wanted;
+  return command;
+}
+
+BodyTwist PathFollower::correction(const Pose& actual, std::int32_t v_ref_umps) {
+  const Pose& reference = reference_.pose();
+  const std::int64_t dx_30 = clamp_abs((reference.x - actual.x) >> 10, kMostError_30);
+  const std::int64_t dy_30 = clamp_abs((reference.y - actual.y) >> 10, kMostError_30);
+  const SinCos heading = sin_cos(reference.theta);
+  const std::int64_t cos_30 = heading.cos >> 10;
+  const std::int64_t sin_30 = heading.sin >> 10;
+  const std::int32_t along_um = um_from_30((dx_30 * cos_30 + dy_30 * sin_30) >> 30);
+  const std::int32_t cross_um = um_from_30((dy_30 * cos_30 - dx_30 * sin_30) >> 30);
+  const std::int64_t turn_33 = clamp_abs((reference.theta - actual.theta) >> 31, kMostTurn_33);
+  constexpr std::int64_t kTwoPi_urad = 6'283'185;
+  const auto heading_urad = static_cast<std::int32_t>((turn_33 * kTwoPi_urad) >> 33);
+
+  close_ = clamp_abs(along_um, kClose_um) == along_um && clamp_abs(heading_urad, kClose_urad) == heading_urad;
+
+  // (um/s) * um = 1e-12, brought back to 1e-6 by 1 / 10^6 = 4295 / 2^32.
+  const auto swept = static_cast<std::int32_t>(((std::int64_t{v_ref_umps} * cross_um >> 8) * 4295) >> 24);
+  return {saturate32(k_along_.scale(along_um)),
+          saturate32(k_heading_.scale(heading_urad) + k_cross_.scale(swept))};
+}
+
+}  // namespace astro

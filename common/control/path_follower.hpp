@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+
+#include "common/control/trapezoid.hpp"
+#include "common/fixed/fixed.hpp"
+#include "common/kinematics/odometry.hpp"
+#include "common/kinematics/twist.hpp"
+#include "common/params/parameter_set.hpp"
+
+namespace astro {
+
+/// Follows segments: a reference pose moves along the path exactly as planned, and what the odometry lags
+/// behind it is added to the set point.
+///
+///   v = v_ref + k_along e_along
+///   omega = omega_ref + k_heading e_theta + k_cross v_ref e_cross
+///
+/// with the errors taken in the reference's frame. Segments that run without a rest between them are one
+/// path: the next starts where the reference, not the robot, has arrived, so errors do not add up around a
+/// square.
+///
+/// Cost    constant, two sines and cosines, no division; callable from the control tick.
+/// Source  Kanayama et al., ICRA 1990, linearised.
+class PathFollower {
+ public:
+  struct Command {
+    BodyTwist twist;
+    BodyTwist acceleration;  // of the reference, 1e-6 m/s^2 and 1e-6 rad/s^2
+  };
+
+  void set_gains(const ParameterSet& set);
+
+  /// The robot stands at `pose` and a path begins there.
+  void begin_path(const Pose& pose);
+  /// The next segment of the path.
+  void begin(const Trapezoid& profile) { profile_ = profile; }
+
+  Command advance(const Pose& actual);
+
+  /// The reference has arrived; the robot may still be settling.
+  bool arrived() const { return profile_.done(); }
+  /// At the last advance the robot was within half a millimetre and a milliradian of the reference.
+  bool close() const { return close_; }
+  const Pose& reference() const { return reference_.pose(); }
+
+ private:
+  BodyTwist correction(const Pose& actual, std::int32_t v_ref_umps);
+
+  Q16 k_along_, k_cross_, k_heading_;
+  Trapezoid profile_;
+  ArcIntegrator reference_;
+  BodyTwist last_;
+  bool close_ = false;
+};
+
+}  // namespace astro

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+
+#include "common/control/segment.hpp"
+
+namespace astro {
+
+/// Trapezoidal speed profile of one segment, in whole ticks: up for `ramp` ticks, level for `level`, down for
+/// `ramp`. Length and angle advance together, so an arc keeps its curvature. The steps are integers whose sum
+/// is the segment exactly; no rounding is left at the end.
+///
+/// Units   travel 2^-50 m, turn 2^-52 turn (of a step and in total).
+/// Cost    plan: two square roots and some divisions, for the start of a segment (main loop).
+///         advance: constant, two multiplies; callable from the control tick.
+class Trapezoid {
+ public:
+  struct Step {
+    std::int64_t travel = 0;
+    std::int64_t turn = 0;
+  };
+
+  Trapezoid() = default;  // an empty profile: done at once
+
+  /// False if the segment is empty, beyond kMaxLength / kMaxAngle, or would take longer than kMaxTicks.
+  static bool plan(const Segment& segment, const MotionLimits& limits, Trapezoid& out);
+
+  bool done() const { return tick_ >= 2 * ramp_ + level_; }
+  /// The next tick's share of the segment. Not when done().
+  Step advance();
+
+  std::int64_t ticks() const { return 2 * ramp_ + level_; }
+
+ private:
+  std::int64_t ramp_ = 0, level_ = 0;
+  std::int64_t tick_ = 0;
+  Step unit_;   // what one of the profile's 2 ramp (ramp + level) equal shares is worth
+  Step total_;  // the whole segment
+  Step given_;  // sum of the steps so far
+};
+
+}  // namespace astro

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstdint>
+
+/// Wide integer arithmetic without __int128, which the MCU's compiler does not have.
+namespace astro {
+
+/// round(a * b / 2^Shift) through 96 bits, ties upward. The result must fit 64 bits.
+///
+/// Cost    two 32x32 multiplies and a few adds; callable from the control tick.
+template <int Shift>
+constexpr std::int64_t mul_shift(std::int64_t a, std::int32_t b) {
+  static_assert(Shift >= 1 && Shift <= 32);
+  const std::int64_t low = std::int64_t{static_cast<std::uint32_t>(a)} * b + (std::int64_t{1} << (Shift - 1));
+  const std::int64_t high = (a >> 32) * b;
+  if constexpr (Shift == 32) return high + (low >> Shift);
+  // In two's complement the shifted-out bits of `high` cannot matter once the result fits.
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(high) << (32 - Shift)) + (low >> Shift);
+}
+
+/// Largest r with r * r <= n.
+///
+/// Cost    32 rounds; for planning, not for the tick.
+constexpr std::uint32_t isqrt(std::uint64_t n) {
+  std::uint64_t root = 0;
+  for (std::uint64_t bit = std::uint64_t{1} << 62; bit != 0; bit >>= 2) {
+    const std::uint64_t trial = root + bit;
+    root >>= 1;
+    if (n >= trial) {
+      n -= trial;
+      root += bit;
+    }
+  }
+  return static_cast<std::uint32_t>(root);
+}
+
+/// A 256-bit natural number for formulas that run once per parameter change: exact products of many factors,
+/// then exact division. Overflow of 256 bits is the caller's to rule out (tests/common/fixed sweeps the
+/// extremes).
+class Natural {
+ public:
+  constexpr explicit Natural(std::uint64_t value)
+      : limbs_{static_cast<std::uint32_t>(value), static_cast<std::uint32_t>(value >> 32)} {}
+
+  constexpr Natural& operator*=(std::uint32_t factor) {
+    std::uint64_t carry = 0;
+    for (std::uint32_t& limb : limbs_) {
+      carry += std::uint64_t{limb} * factor;
+      limb = static_cast<std::uint32_t>(carry);
+      carry >>= 32;
+    }
+    return *this;
+  }
+
+  /// Floor division. Dividing by a and then by b is dividing by a * b. `divisor` is not 0.
+  constexpr Natural& operator/=(std::uint32_t divisor) {
+    std::uint64_t rest = 0;
+    for (int i = kLimbs - 1; i >= 0; --i) {
+      const std::uint64_t part = (rest << 32) | limbs_[i];
+      limbs_[i] = static_cast<std::uint32_t>(part / divisor);
+      rest = part % divisor;
+    }
+    return *this;
+  }
+
+  constexpr Natural& operator<<=(int bits) {
+    for (; bits >= 16; bits -= 16) *this *= std::uint32_t{1} << 16;
+    return *this *= std::uint32_t{1} << bits;
+  }
+
+  constexpr bool fits_63_bits() const {
+    for (int i = 2; i < kLimbs; ++i)
+      if (limbs_[i] != 0) return false;
+    return (limbs_[1] >> 31) == 0;
+  }
+
+  /// Half of the number, rounded to nearest; saturates at 2^63 - 1. Compute with one bit too many, then call
+  /// this.
+  constexpr std::int64_t half_rounded() const {
+    Natural rounded = *this;
+    for (std::uint32_t& limb : rounded.limbs_)
+      if (++limb != 0) break;
+    rounded /= 2;
+    if (!rounded.fits_63_bits()) return INT64_MAX;
+    return static_cast<std::int64_t>(std::uint64_t{rounded.limbs_[1]} << 32 | rounded.limbs_[0]);
+  }
+
+ private:
+  static constexpr int kLimbs = 8;
+  std::uint32_t limbs_[kLimbs];
+};
+
+}  // namespace astro

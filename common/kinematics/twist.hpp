@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+
+#include "common/fixed/saturate.hpp"
+#include "common/kinematics/geometry.hpp"
+
+namespace astro {
+
+/// Speeds in 1e-6 m/s and 1e-6 rad/s: what people type, exactly (0.1 m/s is no binary fraction).
+struct WheelSpeeds {
+  std::int32_t left_umps = 0;
+  std::int32_t right_umps = 0;
+  friend constexpr bool operator==(const WheelSpeeds&, const WheelSpeeds&) = default;
+};
+
+struct BodyTwist {
+  std::int32_t v_umps = 0;
+  std::int32_t omega_uradps = 0;
+  friend constexpr bool operator==(const BodyTwist&, const BodyTwist&) = default;
+};
+
+/// v -+ omega b / 2. With the calibrated b: a commanded spin turns by what was commanded.
+constexpr WheelSpeeds to_wheels(const Geometry& geometry, const BodyTwist& twist) {
+  const std::int64_t half =
+      (std::int64_t{geometry.half_base_30} * twist.omega_uradps + (std::int64_t{1} << 29)) >> 30;
+  return {saturate32(twist.v_umps - half), saturate32(twist.v_umps + half)};
+}
+
+/// (R + L) / 2 and (R - L) / b.
+constexpr BodyTwist to_body(const Geometry& geometry, const WheelSpeeds& wheels) {
+  const std::int64_t difference = std::int64_t{wheels.right_umps} - wheels.left_umps;
+  return {static_cast<std::int32_t>((std::int64_t{wheels.right_umps} + wheels.left_umps) >> 1),
+          saturate32((difference * geometry.inverse_base_25 + (1 << 24)) >> 25)};
+}
+
+}  // namespace astro

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "common/base/result.hpp"
+#include "common/base/text.hpp"
+#include "common/params/table.hpp"
+
+namespace astro {
+
+using ParamText = Text<24>;
+
+namespace set_detail {
+
+constexpr std::size_t count_texts(std::size_t rows) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < rows; ++i) count += kParamTable[i].kind == ParamKind::text ? 1 : 0;
+  return count;
+}
+
+}  // namespace set_detail
+
+/// One value for every row of the table. A value type: stage a copy, validate it, commit it, swap it in.
+///
+/// Units   raw integers; the row's kind and exponent say what one step is worth.
+/// Errors  none here: a set may hold anything, validate() judges it as a whole.
+/// Cost    4 bytes per row and 24 per text; get and set of a number are one array access.
+class ParameterSet {
+ public:
+  /// Factory defaults: a set is never without values.
+  constexpr ParameterSet() {
+    for (const ParamRow& row : kParamTable) {
+      if (row.kind == ParamKind::text) {
+        set_text(row.id, ParamText(row.default_text));
+      } else {
+        set(row.id, row.default_raw);
+      }
+    }
+  }
+  static constexpr ParameterSet defaults() { return {}; }
+
+  /// Rows of every kind but text.
+  constexpr std::int32_t get(Param id) const { return raw_[param_index(id)]; }
+  constexpr void set(Param id, std::int32_t raw) { raw_[param_index(id)] = raw; }
+
+  /// Text rows only.
+  constexpr const ParamText& text(Param id) const { return texts_[text_index(id)]; }
+  constexpr void set_text(Param id, const ParamText& text) { texts_[text_index(id)] = text; }
+
+  constexpr bool operator==(const ParameterSet&) const = default;
+
+ private:
+  static constexpr std::size_t text_index(Param id) { return set_detail::count_texts(param_index(id)); }
+
+  std::array<std::int32_t, kParamCount> raw_{};  // 0 where the row is a text
+  std::array<ParamText, set_detail::count_texts(kParamCount)> texts_{};
+};
+
+/// Refuses a set that the robot could not run with and names the row to change:
+///   any row                a value outside its limits; a text too short, too long or not printable ASCII
+///   a polarity             0
+///   battery_high           not above battery_low, while neither is 0
+///   over_speed             not above speed_limit: full speed would be a fault
+///   counts_per_motor_rev   one count moves a wheel by 2^-3 m or more, or by less than 1 nm, so that it does
+///   not
+///                          fit the fixed point of the odometry
+///   b                      one count turns the robot by an eighth of a turn or more, so that heading aliases
+/// The rows come first, in table order. Integers only; called when parameters change, not in the tick.
+Result<void, Param> validate(const ParameterSet& set);
+
+}  // namespace astro

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstdint>
+
+#include "common/base/result.hpp"
+#include "common/params/parameter_set.hpp"
+#include "common/params/record_log.hpp"
+
+namespace astro {
+
+enum class LoadStatus : std::uint8_t {
+  loaded,     // the newest set that was committed
+  no_record,  // fresh or wholly damaged flash: factory defaults
+  refused,    // this firmware's validate() refuses the newest set: factory defaults
+};
+
+struct Load {
+  ParameterSet set;
+  LoadStatus status = LoadStatus::no_record;
+  Param refused = Param::none;  // what validate() named
+  std::uint32_t sequence = 0;   // of the newest record; 0 without one
+  std::uint32_t skipped = 0;    // damaged places: bit rot, torn writes, a sector whose erase was cut
+};
+
+enum class CommitError : std::uint8_t {
+  none,
+  refused,       // validate() refuses the set
+  no_room,       // rows that newer firmware left in the record fill it
+  flash_failed,  // no sector takes the record
+};
+
+/// Keeps parameter sets in flash as a log of records that runs through the sectors in turn, so wear is even.
+/// The sector that holds the newest record is never erased: whenever the power goes, the next load() finds
+/// either the old set or the new one.
+///
+/// Flash   at least two sectors of at least one record. Used only while the robot is at rest.
+/// Cost    load and commit read all sectors once; commit programs one record, and erases a sector each time
+/// one
+///         is full. RAM: one Record, no heap.
+template <ParameterFlash Flash>
+class Store {
+ public:
+  explicit Store(Flash& flash) : log_(flash) {}
+
+  /// The newest intact set, whatever lies around it.
+  Load load() {
+    const auto newest = log_.newest(record_);
+    Load load{.set = {}, .sequence = newest.sequence, .skipped = newest.skipped};
+    if (!newest.found) return load;
+    const ParameterSet set = record_.set();
+    const auto verdict = validate(set);
+    load.status = verdict ? LoadStatus::loaded : LoadStatus::refused;
+    if (verdict) {
+      load.set = set;
+    } else {
+      load.refused = verdict.error();
+    }
+    return load;
+  }
+
+  /// Makes `set` the one that load() finds, and proves it by reading back. Rows that only newer firmware
+  /// knows stay as they are. After any error load() finds what it found before.
+  Result<void, CommitError> commit(const ParameterSet& set) {
+    if (!validate(set)) return CommitError::refused;
+    const auto newest = log_.newest(record_);
+    if (!record_.rewrite(set, newest.found ? newest.sequence + 1 : 0)) return CommitError::no_room;
+    const bool written = newest.found ? write_after(newest.sector()) : write_first();
+    if (!written) return CommitError::flash_failed;
+    return {};
+  }
+
+ private:
+  static constexpr std::uint32_t kSectors = RecordLog<Flash>::kSectors;
+  static_assert(kSectors >= 2, "one sector is erased while another holds the set");
+
+  /// Behind the newest record or at the start of the next sector, which is the oldest; of any other if that
+  /// one is worn out.
+  bool write_after(std::uint32_t sector) {
+    if (log_.append(sector, record_)) return true;
+    for (std::uint32_t step = 1; step < kSectors; ++step) {
+      if (log_.restart((sector + step) % kSectors, record_)) return true;
+    }
+    return false;
+  }
+
+  bool write_first() {
+    for (std::uint32_t sector = 0; sector < kSectors; ++sector) {
+      if (log_.restart(sector, record_)) return true;
+    }
+    return false;
+  }
+
+  RecordLog<Flash> log_;
+  Record record_;
+};
+
+}  // namespace astro

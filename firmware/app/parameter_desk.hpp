@@ -1,0 +1,94 @@
+#pragma once
+
+#include "common/params/store.hpp"
+#include "common/protocol/parameters.hpp"
+
+namespace astro {
+
+/// The parameter set in force, the one being prepared, and the flash that keeps it. Main loop only.
+template <ParameterFlash Flash>
+class ParameterDesk {
+ public:
+  template <class Reply>
+  using Answer = Result<Reply, protocol::ErrorReply>;
+
+  explicit ParameterDesk(Flash& flash) : store_(flash) {}
+
+  /// Reads the flash. False if it holds a set that this firmware refuses; the defaults are then in force.
+  bool load() {
+    const Load loaded = store_.load();
+    active_ = staged_ = loaded.set;
+    return loaded.status != LoadStatus::refused;
+  }
+
+  const ParameterSet& active() const { return active_; }
+
+  Answer<protocol::ParameterInfo> info(std::uint16_t index) const {
+    if (index >= kParamCount) return error(protocol::ErrorCode::unknown_parameter);
+    const ParamRow& row = kParamTable[index];
+    return protocol::ParameterInfo{.id = static_cast<std::uint16_t>(row.id),
+                                   .name = Text<24>(row.name),
+                                   .unit = Text<8>(row.unit),
+                                   .kind = static_cast<protocol::ParameterKind>(row.kind),
+                                   .scale_exponent = row.exponent,
+                                   .minimum = row.minimum_raw,
+                                   .maximum = row.maximum_raw,
+                                   .default_value = row.default_raw,
+                                   .doc = Text<120>(row.doc)};
+  }
+
+  Answer<protocol::ParameterValue> value(std::uint16_t id) const {
+    const ParamRow* row = find(id);
+    if (row == nullptr) return error(protocol::ErrorCode::unknown_parameter);
+    protocol::ParameterValue value{.id = id};
+    if (row->kind == ParamKind::text) {
+      value.active_text = active_.text(row->id);
+      value.staged_text = staged_.text(row->id);
+    } else {
+      value.active = active_.get(row->id);
+      value.staged = staged_.get(row->id);
+    }
+    return value;
+  }
+
+  /// Staging judges nothing: the set is judged as a whole when it is committed.
+  Answer<protocol::Ack> stage(const protocol::StageParameter& request) {
+    const ParamRow* row = find(request.id);
+    if (row == nullptr) return error(protocol::ErrorCode::unknown_parameter);
+    if (row->kind == ParamKind::text) {
+      staged_.set_text(row->id, request.text);
+    } else {
+      staged_.set(row->id, request.value);
+    }
+    return protocol::Ack{};
+  }
+
+  void revert() { staged_ = active_; }
+  void stage_defaults() { staged_ = ParameterSet::defaults(); }
+
+  /// Flash first, then memory: what is in force is always what a restart would find.
+  Answer<protocol::Ack> commit() {
+    const auto verdict = validate(staged_);
+    if (!verdict)
+      return error(protocol::ErrorCode::invalid_parameter, static_cast<std::uint16_t>(verdict.error()));
+    if (!store_.commit(staged_)) return error(protocol::ErrorCode::flash_failed);
+    active_ = staged_;
+    return protocol::Ack{};
+  }
+
+ private:
+  static protocol::ErrorReply error(protocol::ErrorCode code, std::uint16_t detail = 0) {
+    return {code, detail};
+  }
+
+  static const ParamRow* find(std::uint16_t id) {
+    for (const ParamRow& row : kParamTable)
+      if (static_cast<std::uint16_t>(row.id) == id) return &row;
+    return nullptr;
+  }
+
+  ParameterSet active_, staged_;
+  Store<Flash> store_;
+};
+
+}  // namespace astro

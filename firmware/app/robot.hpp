@@ -1,0 +1,377 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "common/protocol/codec.hpp"
+#include "common/protocol/framer.hpp"
+#include "common/protocol/messages.hpp"
+#include "firmware/app/drive.hpp"
+#include "firmware/app/parameter_desk.hpp"
+#include "firmware/app/session.hpp"
+#include "firmware/app/snapshot.hpp"
+#include "firmware/app/tick_clock.hpp"
+#include "common/base/version.hpp"
+#include "hal/interface/board.hpp"
+
+namespace astro {
+
+/// The whole robot on a board: `tick()` from a 1 kHz interrupt, `poll()` from the main loop as often as it
+/// goes.
+///
+/// The tick is control and safety; the main loop is the link. They share `drive_` only, and the main loop
+/// touches it only while it holds the tick.
+template <hal::Board Board>
+class Robot {
+ public:
+  /// Outputs are off until a host arms the robot.
+  explicit Robot(Board& board) : board_(board), desk_(board.flash()), drive_(ParameterSet::defaults()) {
+    board_.motors().coast();
+    const bool readable = desk_.load();
+    drive_.configure(desk_.active());
+    if (!readable) drive_.raise(Fault::parameters);
+    announce(protocol::Booted{reset_cause()});
+  }
+
+  void tick() {
+    TickInput input;
+    input.now_us = board_.clock().now_us();
+    input.counts = board_.encoders().read();
+    input.battery_mv = board_.battery().millivolts();
+    input.driver_fault = board_.motors().fault();
+    if (ticks_.advance(input.now_us) && !drive_.at_rest()) drive_.raise(Fault::tick_overrun);
+    apply(drive_.advance(input));
+    battery_mv_ = input.battery_mv;
+  }
+
+  void poll() {
+    for (int port = 0; port < kPorts; ++port) receive(port);
+    report_events();
+    for (int port = 0; port < kPorts; ++port) stream(port);
+    if (reset_wanted_ != Reset::none) reset();
+  }
+
+  const Drive& drive() const { return drive_; }
+  const ParameterSet& parameters() const { return desk_.active(); }
+
+ private:
+  template <class Reply>
+  using Answer = Result<Reply, protocol::ErrorReply>;
+  using Ack = protocol::Ack;
+  using ErrorCode = protocol::ErrorCode;
+  enum class Reset : std::uint8_t { none, reboot, bootloader };
+  static constexpr int kPorts = std::remove_reference_t<decltype(std::declval<Board&>().ports())>::kPorts;
+  using Flash = std::remove_reference_t<decltype(std::declval<Board&>().flash())>;
+
+  void apply(const Drive::Output& output) {
+    switch (output.bridge) {
+      case Drive::Output::Bridge::drive:
+        board_.motors().drive(output.duty);
+        break;
+      case Drive::Output::Bridge::brake:
+        board_.motors().brake();
+        break;
+      case Drive::Output::Bridge::coast:
+        board_.motors().coast();
+        break;
+    }
+  }
+
+  protocol::ResetCause reset_cause() {
+    return static_cast<protocol::ResetCause>(board_.system().reset_cause());  // the same values in both
+  }
+
+  // ---- from hosts
+
+  void receive(int port) {
+    std::array<std::uint8_t, 64> bytes;  // NOLINT(cppcoreguidelines-pro-type-member-init): read fills it
+    // A bounded share per turn: a port that never falls silent must not starve the others.
+    for (int turn = 0; turn < 8; ++turn) {
+      const std::size_t count = board_.ports().read(port, bytes);
+      for (std::size_t i = 0; i < count; ++i)
+        if (const auto body = sessions_[port].framer.push(bytes[i])) answer(port, *body);
+      if (count < bytes.size()) return;
+    }
+  }
+
+  void answer(int port, std::span<const std::uint8_t> body) {
+    Session& session = sessions_[port];
+    const protocol::Header header = *protocol::peek(body);  // the framer drops what has no header
+    if (session.answered(header)) {
+      send(port, session.answer());
+      return;
+    }
+    {
+      auto hold = board_.hold_tick();
+      drive_.host_seen();
+    }
+    bool known = false;
+    protocol::Requests::visit([&]<protocol::Message M>() {
+      if (M::kId != header.message_id) return;
+      known = true;
+      const auto request = protocol::decode<M>(body);
+      if (request) {
+        respond(port, header, handle(port, *request));
+      } else {
+        respond(port, header, Answer<typename M::Reply>(error(ErrorCode::malformed)));
+      }
+    });
+    if (!known) respond(port, header, Answer<Ack>(error(ErrorCode::unknown_message)));
+  }
+
+  template <class Reply>
+  void respond(int port, const protocol::Header& header, const Answer<Reply>& reply) {
+    std::array<std::uint8_t, protocol::kMaxFrame> out;  // NOLINT(cppcoreguidelines-pro-type-member-init)
+    const std::size_t size =
+        reply ? frame(*reply, header.request_id, out) : frame(reply.error(), header.request_id, out);
+    send(port, std::span(out).first(size));
+    // A Pong is about now and never repeated; a Hello begins a new session, which remembers nothing.
+    if (header.message_id == protocol::Ping::kId) return;
+    sessions_[port].remember(header,
+                             std::span(out).first(header.message_id == protocol::Hello::kId ? 0 : size));
+  }
+
+  static protocol::ErrorReply error(ErrorCode code, std::uint16_t detail = 0) { return {code, detail}; }
+
+  /// The answer to a request that needs an armed, fault-free robot and was not taken.
+  protocol::ErrorReply not_ready() const {
+    if (drive_.faults().any())
+      return error(ErrorCode::faulted, static_cast<std::uint16_t>(drive_.faults().first()));
+    return error(drive_.armed() ? ErrorCode::queue_full : ErrorCode::not_armed);
+  }
+
+  Answer<protocol::HelloReply> handle(int port, const protocol::Hello& request) {
+    if (request.protocol_version != protocol::kProtocolVersion)
+      return error(ErrorCode::wrong_version, protocol::kProtocolVersion);
+    sessions_[port].telemetry_period_us = 0;
+    desk_.revert();  // what an earlier host staged and did not commit is nobody's
+    return protocol::HelloReply{.fw_major = kFirmwareVersion.major,
+                                .fw_minor = kFirmwareVersion.minor,
+                                .fw_patch = kFirmwareVersion.patch,
+                                .unique_id = board_.system().unique_id(),
+                                .board = Text<24>(board_.system().name()),
+                                .robot_name = desk_.active().text(Param::robot_name),
+                                .parameter_count = static_cast<std::uint16_t>(kParamCount),
+                                .tick_hz = static_cast<std::uint16_t>(kTickHz)};
+  }
+
+  Answer<protocol::Pong> handle(int, const protocol::Ping&) {
+    return protocol::Pong{board_.clock().now_us()};
+  }
+
+  Answer<protocol::Status> handle(int, const protocol::GetStatus&) {
+    std::uint32_t bad = 0;
+    for (const Session& session : sessions_) bad += session.framer.counts().bad();
+    auto hold = board_.hold_tick();
+    return protocol::Status{.device_time_us = board_.clock().now_us(),
+                            .mode = drive_.mode(),
+                            .latched_faults = drive_.faults().mask(),
+                            .queued_segments = static_cast<std::uint16_t>(drive_.queued()),
+                            .running_tag = drive_.running_tag(),
+                            .battery_mv = battery_mv_,
+                            .tick_count = ticks_.count(),
+                            .tick_overruns = ticks_.overruns(),
+                            .rx_bad_frames = bad,
+                            .reset_cause = reset_cause()};
+  }
+
+  Answer<Ack> handle(int, const protocol::Arm&) {
+    auto hold = board_.hold_tick();
+    if (!drive_.arm()) return not_ready();
+    return Ack{};
+  }
+
+  Answer<Ack> handle(int, const protocol::Disarm&) {
+    auto hold = board_.hold_tick();
+    drive_.disarm();
+    board_.motors().coast();
+    return Ack{};
+  }
+
+  Answer<Ack> handle(int, const protocol::Stop&) {
+    auto hold = board_.hold_tick();
+    drive_.stop();
+    return Ack{};
+  }
+
+  Answer<Ack> handle(int, const protocol::EmergencyStop&) {
+    auto hold = board_.hold_tick();
+    drive_.emergency_stop();
+    board_.motors().coast();
+    return Ack{};
+  }
+
+  Answer<Ack> handle(int, const protocol::Velocity& request) {
+    auto hold = board_.hold_tick();
+    if (!drive_.drive_velocity({request.v_umps, request.omega_uradps})) return not_ready();
+    return Ack{};
+  }
+
+  Answer<Ack> handle(int, const protocol::AddSegment& request) {
+    const bool matches = (request.kind != protocol::SegmentKind::line || request.angle == 0) &&
+                         (request.kind != protocol::SegmentKind::spin || request.length_nm == 0);
+    Trapezoid profile;  // planned before the tick is held: it takes two square roots
+    if (!matches || request.speed_umps < 0 || request.yaw_rate_uradps < 0 ||
+        !Trapezoid::plan({request.length_nm, request.angle, request.speed_umps, request.yaw_rate_uradps},
+                         make_limits(desk_.active()), profile))
+      return error(ErrorCode::out_of_range);
+    auto hold = board_.hold_tick();
+    if (!drive_.add_segment(profile, request.tag)) return not_ready();
+    return Ack{};
+  }
+
+  Answer<Ack> handle(int, const protocol::SetPose& request) {
+    auto hold = board_.hold_tick();
+    if (!drive_.at_rest()) return error(ErrorCode::moving);
+    drive_.set_pose({request.x, request.y, Angle::from_raw(request.theta), 0});
+    return Ack{};
+  }
+
+  Answer<protocol::ParameterInfo> handle(int, const protocol::GetParameterInfo& request) {
+    return desk_.info(request.index);
+  }
+  Answer<protocol::ParameterValue> handle(int, const protocol::GetParameter& request) {
+    return desk_.value(request.id);
+  }
+  Answer<Ack> handle(int, const protocol::StageParameter& request) { return desk_.stage(request); }
+
+  Answer<Ack> handle(int, const protocol::CommitParameters&) {
+    // At rest only: the processor may stand still while the flash erases. Only this loop can set the robot
+    // moving.
+    if (!drive_.at_rest() || drive_.queued() != 0) return error(ErrorCode::moving);
+    const Answer<Ack> done = desk_.commit();
+    if (done) {
+      auto hold = board_.hold_tick();
+      drive_.configure(desk_.active());
+    }
+    return done;
+  }
+
+  Answer<Ack> handle(int, const protocol::RevertParameters&) {
+    desk_.revert();
+    return Ack{};
+  }
+  Answer<Ack> handle(int, const protocol::DefaultParameters&) {
+    desk_.stage_defaults();
+    return Ack{};
+  }
+
+  Answer<Ack> handle(int port, const protocol::SetTelemetry& request) {
+    if ((request.fields & ~protocol::Telemetry::kAll) != 0) return error(ErrorCode::out_of_range);
+    Session& session = sessions_[port];
+    session.telemetry_period_us = std::uint64_t{request.period_ms} * 1000;
+    session.telemetry_fields = request.fields;
+    session.telemetry_due_us = board_.clock().now_us();
+    return Ack{};
+  }
+
+  Answer<protocol::FaultReport> handle(int, const protocol::GetFaults&) {
+    auto hold = board_.hold_tick();
+    const FaultLatch& faults = drive_.faults();
+    return protocol::FaultReport{faults.mask(), faults.first(), faults.first_time_us(), faults.raised()};
+  }
+
+  Answer<Ack> handle(int, const protocol::ClearFaults&) {
+    auto hold = board_.hold_tick();
+    if (!drive_.at_rest()) return error(ErrorCode::moving);
+    drive_.clear_faults();
+    reported_faults_ = 0;
+    return Ack{};
+  }
+
+  Answer<Ack> handle(int, const protocol::Reboot&) {
+    if (!drive_.at_rest()) return error(ErrorCode::moving);
+    reset_wanted_ = Reset::reboot;
+    return Ack{};
+  }
+  Answer<Ack> handle(int, const protocol::EnterBootloader&) {
+    if (!drive_.at_rest()) return error(ErrorCode::moving);
+    reset_wanted_ = Reset::bootloader;
+    return Ack{};
+  }
+
+  // ---- to hosts
+
+  template <protocol::Message M>
+  static std::size_t frame(const M& message, std::uint16_t request,
+                           std::span<std::uint8_t, protocol::kMaxFrame> out) {
+    std::array<std::uint8_t, protocol::kMaxBody> body;  // NOLINT(cppcoreguidelines-pro-type-member-init)
+    const std::size_t size = protocol::encode(message, request, body);
+    return protocol::encode_frame(std::span(body).first(size), out);
+  }
+
+  /// Whole frames or nothing: a host that does not read loses frames, never halves of them.
+  bool send(int port, std::span<const std::uint8_t> bytes) {
+    if (board_.ports().room(port) < bytes.size()) return false;
+    return board_.ports().write(port, bytes) == bytes.size();
+  }
+
+  template <protocol::Message M>
+  void announce(const M& event) {
+    std::array<std::uint8_t, protocol::kMaxFrame> out;  // NOLINT(cppcoreguidelines-pro-type-member-init)
+    const std::size_t size = frame(event, 0, out);
+    for (int port = 0; port < kPorts; ++port) send(port, std::span(out).first(size));
+  }
+
+  void report_events() {
+    while (true) {
+      SegmentEvent event;
+      {
+        auto hold = board_.hold_tick();
+        if (drive_.events().empty()) break;
+        event = drive_.events().pop();
+      }
+      announce(protocol::SegmentDone{event.tag, event.outcome, event.time_us});
+    }
+    std::uint32_t fresh = 0;
+    std::uint64_t now_us = 0;
+    {
+      auto hold = board_.hold_tick();
+      fresh = drive_.faults().mask() & ~reported_faults_;
+      reported_faults_ = drive_.faults().mask();
+      now_us = board_.clock().now_us();
+    }
+    for (std::size_t i = 1; fresh != 0 && i < kFaultNames.size(); ++i) {
+      const auto fault = static_cast<Fault>(i);
+      if ((fresh & bit(fault)) != 0) announce(protocol::FaultRaised{fault, now_us});
+    }
+  }
+
+  void stream(int port) {
+    Session& session = sessions_[port];
+    if (!session.telemetry_due(board_.clock().now_us())) return;
+    protocol::Telemetry telemetry;
+    {
+      auto hold = board_.hold_tick();
+      telemetry = snapshot(drive_, ticks_.last_us(), battery_mv_);
+    }
+    telemetry.fields = session.telemetry_fields;
+    std::array<std::uint8_t, protocol::kMaxFrame> out;  // NOLINT(cppcoreguidelines-pro-type-member-init)
+    send(port, std::span(out).first(frame(telemetry, 0, out)));
+    session.telemetry_sent(board_.clock().now_us());
+  }
+
+  void reset() {
+    {
+      auto hold = board_.hold_tick();
+      drive_.disarm();
+      board_.motors().coast();
+    }
+    const Reset wanted = reset_wanted_;
+    reset_wanted_ = Reset::none;
+    if (wanted == Reset::bootloader && board_.system().enter_bootloader()) return;
+    if (wanted == Reset::reboot) board_.system().reboot();
+  }
+
+  Board& board_;
+  ParameterDesk<Flash> desk_;
+  Drive drive_;
+  TickClock ticks_;
+  std::array<Session, kPorts> sessions_{};
+  std::int32_t battery_mv_ = 0;
+  std::uint32_t reported_faults_ = 0;
+  Reset reset_wanted_ = Reset::none;
+};
+
+}  // namespace astro

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+
+#include "common/control/observer.hpp"
+#include "common/control/wheel_controller.hpp"
+#include "common/kinematics/twist.hpp"
+#include "firmware/app/tick_input.hpp"
+
+namespace astro {
+
+/// Both wheels: polarity, counting, speed, and from voltage to duty.
+class Wheels {
+ public:
+  struct Steps {
+    std::int32_t left = 0, right = 0;  // counts of this tick, forward positive
+    bool plausible = true;             // false: more than a motor can turn; nothing was counted
+  };
+
+  void configure(const ParameterSet& set, const Geometry& geometry);
+
+  /// The first call after a start only learns where the decoders stand.
+  Steps read(const TickInput& input);
+
+  /// The duty that brings both wheels to the set points, the bridges' own sense.
+  hal::Duty control(const WheelSpeeds& set_points, const WheelSpeeds& accelerations, std::int32_t battery_mv);
+  /// No set point: the integrals are forgotten.
+  void release();
+
+  WheelSpeeds speeds() const { return speeds_; }
+  WheelSpeeds set_points() const { return set_points_; }
+  hal::Duty forward_duty() const { return forward_duty_; }  // forward positive, whatever the wiring
+  std::int32_t left_counts() const { return left_counts_; }
+  std::int32_t right_counts() const { return right_counts_; }
+
+ private:
+  struct Side {
+    WheelController controller;
+    SpeedObserver observer;
+    std::int32_t motor_sign = 1;
+    std::int32_t encoder_sign = 1;
+    std::int32_t seen = 0;  // decoder's last reading
+  };
+
+  std::int32_t step(Side& side, std::int32_t counts) const;
+  static std::int16_t to_duty(std::int32_t voltage_uv, std::int32_t battery_mv);
+
+  Side left_, right_;
+  Geometry geometry_;
+  std::int32_t voltage_limit_mv_ = 0;
+  std::int32_t most_counts_ = 0;
+  bool started_ = false;
+  std::int32_t left_counts_ = 0, right_counts_ = 0;
+  WheelSpeeds speeds_, set_points_;
+  hal::Duty forward_duty_;
+};
+
+}  // namespace astro

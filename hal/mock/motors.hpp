@@ -1,0 +1,32 @@
+#pragma once
+
+#include "hal/interface/board.hpp"
+
+namespace astro::mock {
+
+enum class Bridge : std::uint8_t { coast, brake, drive };
+
+/// H-bridges that drive nothing and remember what they were told.
+struct Motors {
+  Bridge state = Bridge::coast;
+  hal::Duty duty;  // of the last drive(); stays through brake() and coast()
+  bool faulted = false;
+  int drives = 0, brakes = 0, coasts = 0;  // calls so far
+
+  void drive(hal::Duty wanted) noexcept {
+    state = Bridge::drive;
+    duty = wanted;
+    ++drives;
+  }
+  void brake() noexcept {
+    state = Bridge::brake;
+    ++brakes;
+  }
+  void coast() noexcept {
+    state = Bridge::coast;
+    ++coasts;
+  }
+  bool fault() noexcept { return faulted; }
+};
+
+}  // namespace astro::mock

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+/// What one simulated robot is: its geometry as designed and as built, its noise, its wiring, its supply.
+namespace astro::sim {
+
+enum class Side : std::uint8_t { left, right };
+
+/// One value per wheel, indexed by `at`.
+using Pair = std::array<double, 2>;
+constexpr std::size_t at(Side side) { return static_cast<std::size_t>(side); }
+
+/// Wiring as found on a robot that somebody else built. Reversing a motor turns its leads round (its encoder
+/// stays as it is); reversing an encoder exchanges its two channels; swapped means left for right.
+struct Wiring {
+  bool left_motor_reversed = false, right_motor_reversed = false, motors_swapped = false;
+  bool left_encoder_reversed = false, right_encoder_reversed = false, encoders_swapped = false;
+};
+
+struct Config {
+  // As designed: what an uncalibrated robot believes of itself.
+  double nominal_diameter_m = 0.072;
+  double nominal_wheelbase_m = 0.290;
+  double counts_per_motor_rev = 64.0;  // 16 pulses, both channels, both edges
+  double gear_ratio = 43.8;
+
+  // As built.
+  double true_wheelbase_m = 0.290;
+  double true_ed = 1.0;         // D_R / D_L
+  double scale = 1.0;           // mean true diameter over nominal diameter
+  double motor_mismatch = 0.0;  // right motor constant over left, minus one
+  double body_kg = 4.7;
+  double yaw_inertia_kgm2 = 0.0858;  // uniform 0.325 m x 0.337 m plate of 4.7 kg: m (a^2 + b^2) / 12
+  bool on_stand = false;             // wheels off the ground: they drive nothing but themselves
+  Wiring wiring;
+
+  // Noise. Travel of each wheel has variance slip_m * |distance|; this figure gives the scatter of the
+  // thesis.
+  double slip_m = 2.645e-6;
+  std::uint64_t seed = 1;  // also decides the board's unique id
+
+  // Motor supply seen from the H-bridges: battery, regulator and leads as one source with one resistance.
+  double supply_V = 12.0;
+  double supply_ohm = 0.08;
+
+  // Content of the parameter flash at power-on; empty: erased.
+  std::vector<std::uint8_t> flash;
+};
+
+struct Geometry {
+  Pair diameter_m{};  // left, right
+  double wheelbase_m = 0;
+};
+
+/// The geometry that the robot really has: D_R / D_L = true_ed and D_R + D_L = 2 scale nominal_diameter_m.
+constexpr Geometry true_geometry(const Config& config) {
+  const double left_m = 2.0 * config.scale * config.nominal_diameter_m / (1.0 + config.true_ed);
+  return {{left_m, config.true_ed * left_m}, config.true_wheelbase_m};
+}
+
+/// E_b, the other unknown of UMBmark: true over nominal wheelbase.
+constexpr double true_eb(const Config& config) {
+  return config.true_wheelbase_m / config.nominal_wheelbase_m;
+}
+
+}  // namespace astro::sim

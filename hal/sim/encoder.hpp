@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <numbers>
+
+#include "hal/interface/board.hpp"
+#include "hal/sim/config.hpp"
+
+namespace astro::sim {
+
+/// One quadrature decoder: the running count is the floor of the shaft's angle in counts. The fraction is
+/// carried from call to call, so no movement is too small to be counted in the end.
+class Encoder {
+ public:
+  /// `counts` is the shaft's movement, in counts, signed.
+  void turn(double counts) {
+    const double sum = fraction_ + counts;
+    auto whole = static_cast<std::int64_t>(sum);
+    if (sum < static_cast<double>(whole)) --whole;  // floor, without a call
+    fraction_ = sum - static_cast<double>(whole);
+    count_ += static_cast<std::uint32_t>(whole);
+  }
+
+  /// Sets the register, not the shaft.
+  void preset(std::int32_t count) { count_ = static_cast<std::uint32_t>(count); }
+
+  /// Wraps at 2^32.
+  std::int32_t count() const { return static_cast<std::int32_t>(count_); }
+
+ private:
+  double fraction_ = 0.0;
+  std::uint32_t count_ = 0;
+};
+
+/// Both decoders, as they are wired.
+class Encoders {
+ public:
+  explicit Encoders(const Config& config)
+      : swapped_(config.wiring.encoders_swapped),
+        connected_per_rad_(signed_scale(config)),
+        counts_per_rad_(connected_per_rad_) {}
+
+  hal::EncoderCounts read() noexcept { return {decoder_[0].count(), decoder_[1].count()}; }
+
+  /// Rotation of both wheels, rad, forward positive.
+  void turn(const Pair& wheels_rad) {
+    for (std::size_t wheel = 0; wheel < 2; ++wheel)
+      decoder_of(wheel).turn(wheels_rad[wheel] * counts_per_rad_[wheel]);
+  }
+
+  void preset(const hal::EncoderCounts& value) {
+    decoder_[0].preset(value.left);
+    decoder_[1].preset(value.right);
+  }
+
+  /// The cable of one wheel's encoder falls off: its count stands still.
+  void unplug(Side wheel) { counts_per_rad_[at(wheel)] = 0.0; }
+  void plug_in(Side wheel) { counts_per_rad_[at(wheel)] = connected_per_rad_[at(wheel)]; }
+
+ private:
+  static Pair signed_scale(const Config& config) {
+    const double per_rad = config.counts_per_motor_rev * config.gear_ratio / (2.0 * std::numbers::pi);
+    return {config.wiring.left_encoder_reversed ? -per_rad : per_rad,
+            config.wiring.right_encoder_reversed ? -per_rad : per_rad};
+  }
+  Encoder& decoder_of(std::size_t wheel) { return decoder_[swapped_ ? 1 - wheel : wheel]; }
+
+  bool swapped_;
+  Pair connected_per_rad_, counts_per_rad_;  // by wheel
+  std::array<Encoder, 2> decoder_;           // by the name that the firmware knows
+};
+
+}  // namespace astro::sim

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace astro::calibration {
+
+struct CsvRow {
+  int line = 0;  // in the file, from 1
+  std::vector<std::string> cells;
+};
+
+/// A header and rows that all have as many cells as it; cells without quotes and outer spaces.
+struct CsvTable {
+  CsvRow header;
+  std::vector<CsvRow> rows;
+};
+
+/// Splits comma separated text. What is accepted and refused: see end_pose_csv.hpp.
+CsvTable split_csv(std::string_view text, std::string_view name);
+
+/// Throws astro::Error("NAME, line N: WHAT").
+[[noreturn]] void refuse(std::string_view name, int line, const std::string& what);
+
+}  // namespace astro::calibration

@@ -1,0 +1,99 @@
+#include "host/cli/console.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+
+#include "host/base/error.hpp"
+
+namespace astro::cli {
+namespace {
+
+constexpr auto kPatience = std::chrono::seconds(1);
+constexpr auto kBetweenRedraws = std::chrono::milliseconds(80);
+constexpr std::string_view kClearLine = "\r\033[K";
+
+// Columns a terminal uses for UTF-8 text: every byte that does not continue a character.
+std::size_t width_of(std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+void to_stderr(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
+}  // namespace
+
+bool stdout_is_terminal() { return isatty(STDOUT_FILENO) == 1; }
+bool stderr_is_terminal() { return isatty(STDERR_FILENO) == 1; }
+
+void say(std::string_view line) { to_stderr(fmt::format("{}\n", line)); }
+
+void complain(std::string_view sentence) {
+  const bool colour = stderr_is_terminal();
+  to_stderr(fmt::format("{}astrolabe:{} {}\n", colour ? "\033[31m" : "", colour ? "\033[0m" : "", sentence));
+}
+
+std::string ask(const std::string& prompt) {
+  to_stderr(prompt);
+  std::string line;
+  if (!std::getline(std::cin, line)) throw Error("the input ended where an answer was expected: " + prompt);
+  return line;
+}
+
+bool confirm(const std::string& question) {
+  if (isatty(STDIN_FILENO) != 1)
+    throw Error("'" + question +
+                "' needs an answer and the input is no terminal: give --yes to agree beforehand");
+  const std::string answer = ask(question + " [y/N] ");
+  return answer == "y" || answer == "Y" || answer == "yes";
+}
+
+Progress::Progress(std::string what) : what_(std::move(what)), started_(std::chrono::steady_clock::now()) {}
+
+Progress::~Progress() { clear(); }
+
+void Progress::show(double fraction, std::string_view note) {
+  const auto now = std::chrono::steady_clock::now();
+  if (!stderr_is_terminal() || now - started_ < kPatience || now - shown_ < kBetweenRedraws) return;
+  shown_ = now;
+  visible_ = true;
+  constexpr int kCells = 30;
+  const int full = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * kCells + 0.5);
+  std::string bar;
+  for (int i = 0; i < kCells; ++i) bar += i < full ? "█" : "░";
+  to_stderr(fmt::format("{}{} {} {:3.0f} %  {}", kClearLine, what_, bar, 100 * std::clamp(fraction, 0.0, 1.0),
+                        note));
+}
+
+void Progress::clear() {
+  if (visible_) to_stderr(kClearLine);
+  visible_ = false;
+}
+
+std::string table(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows)
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (i == widths.size()) widths.push_back(0);
+      widths[i] = std::max(widths[i], width_of(row[i]));
+    }
+  std::string text;
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string padding(widths[i] - width_of(row[i]), ' ');
+      line += i == 0 ? row[i] + padding : "  " + padding + row[i];
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + '\n';
+  }
+  return text;
+}
+
+}  // namespace astro::cli

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// The terminal: what a person sees on stderr, and what they answer.
+namespace astro::cli {
+
+bool stdout_is_terminal();
+bool stderr_is_terminal();
+
+/// One line to stderr.
+void say(std::string_view line);
+
+/// "astrolabe: sentence" to stderr, the first word in red on a terminal.
+void complain(std::string_view sentence);
+
+/// Asks on stderr, reads a line from stdin. Throws astro::Error if stdin is no terminal: says that --yes
+/// answers.
+bool confirm(const std::string& question);
+
+/// A line from stdin after a prompt on stderr; throws astro::Error at the end of input.
+std::string ask(const std::string& prompt);
+
+/// A bar on stderr that rewrites its line; silent unless stderr is a terminal. Shown only once a second has
+/// passed.
+class Progress {
+ public:
+  explicit Progress(std::string what);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// `fraction` in [0, 1]; `note` stands behind the bar.
+  void show(double fraction, std::string_view note = {});
+  /// Takes the bar away, so that a line can be printed.
+  void clear();
+
+ private:
+  std::string what_;
+  std::chrono::steady_clock::time_point started_;
+  std::chrono::steady_clock::time_point shown_;
+  bool visible_ = false;
+};
+
+/// Plain text columns, first one left-aligned, the others right-aligned; the first row is the heading.
+std::string table(const std::vector<std::vector<std::string>>& rows);
+
+}  // namespace astro::cli

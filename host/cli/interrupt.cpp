@@ -1,0 +1,34 @@
+#include "host/cli/interrupt.hpp"
+
+#include <csignal>
+#include <cstdlib>
+
+#include "host/link/drive.hpp"
+
+namespace astro::cli {
+namespace {
+
+volatile std::sig_atomic_t raised = 0;
+
+void on_signal(int) {
+  if (raised != 0) std::_Exit(130);
+  raised = 1;
+}
+
+}  // namespace
+
+void watch_for_interrupt() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction action = {};
+    action.sa_handler = on_signal;  // without SA_RESTART: a blocked read returns
+    sigaction(signal, &action, nullptr);
+  }
+}
+
+bool interrupted() { return raised != 0; }
+
+void check_interrupt() {
+  if (interrupted()) throw link::Interrupted("interrupted");
+}
+
+}  // namespace astro::cli

@@ -1,0 +1,60 @@
+#include "host/experiment/change_guard.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace astro::experiment {
+namespace {
+
+constexpr double kMostChange = 0.10;
+
+bool is_factor(const std::string& name) { return name == "c_R" || name == "c_L" || name == "b"; }
+
+double relative(const Change& change) {
+  const double* before = std::get_if<double>(&change.before);
+  const double* after = std::get_if<double>(&change.after);
+  return before != nullptr && after != nullptr && *before != 0 ? *after / *before - 1 : 0;
+}
+
+std::string shown(const link::Value& value) {
+  if (const double* number = std::get_if<double>(&value)) return fmt::format("{:.9g}", *number);
+  return std::get<std::string>(value);
+}
+
+}  // namespace
+
+std::vector<Change> changes(const link::RemoteParameters& robot, const ParameterValues& values) {
+  for (const auto& [name, value] : values) robot.row(name);  // throws for names that the robot does not have
+  std::vector<Change> list;
+  for (const link::ParameterRow& row : robot.rows()) {
+    const auto found = values.find(row.name);
+    if (found == values.end()) continue;
+    const link::RawValue raw = link::to_raw(row, found->second);
+    if (raw == row.active) continue;
+    list.push_back({row.name, row.unit, link::to_value(row, row.active), link::to_value(row, raw)});
+  }
+  return list;
+}
+
+std::string suspicion(const std::vector<Change>& changes) {
+  for (const Change& change : changes)
+    if (is_factor(change.name) && std::abs(relative(change)) > kMostChange)
+      return fmt::format(
+          "{} would change by {:+.1f} %, and a calibration moves it by a few at most: check units, side "
+          "and robot, or give --force",
+          change.name, 100 * relative(change));
+  return {};
+}
+
+std::vector<std::vector<std::string>> side_by_side(const std::vector<Change>& changes) {
+  std::vector<std::vector<std::string>> rows{{"parameter", "unit", "on the robot", "new", "change"}};
+  for (const Change& change : changes) {
+    const double ratio = relative(change);
+    rows.push_back({change.name, change.unit, shown(change.before), shown(change.after),
+                    ratio == 0 ? "" : fmt::format("{:+.4f} %", 100 * ratio)});
+  }
+  return rows;
+}
+
+}  // namespace astro::experiment

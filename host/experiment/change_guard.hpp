@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/experiment/calibration_file.hpp"
+#include "host/link/parameters.hpp"
+
+namespace astro::experiment {
+
+/// One parameter that an upload would change.
+struct Change {
+  std::string name, unit;
+  link::Value before, after;
+};
+
+/// What `values` would change on the robot, in the order of its table; values that it holds already are left
+/// out. Throws astro::Error for a name that the robot does not have or a value that its table does not allow.
+std::vector<Change> changes(const link::RemoteParameters& robot, const ParameterValues& values);
+
+/// Wheel factors that move by more than a tenth are a mistake (units, sides, another robot) before they are a
+/// calibration: the sentence that says so, or "" if there is none. Looks at c_R, c_L and b only.
+std::string suspicion(const std::vector<Change>& changes);
+
+/// Old and new side by side, for people.
+std::vector<std::vector<std::string>> side_by_side(const std::vector<Change>& changes);
+
+}  // namespace astro::experiment

@@ -1,0 +1,189 @@
+#include "host/experiment/experiment.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "host/base/error.hpp"
+#include "host/link/upload.hpp"
+#include "host/recording/run_file.hpp"
+
+namespace astro::experiment {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+constexpr int kTriesPerRun = 3;
+constexpr auto kReconnectPatience = 10s;
+
+class Session {
+ public:
+  Session(link::Client& client, truth::Source& truth, const Plan& plan, fs::path folder,
+          const ExperimentHooks& hooks)
+      : client_(client), truth_(truth), folder_(std::move(folder)), hooks_(hooks) {
+    open_journal(plan);
+  }
+
+  Results run() {
+    const std::vector<std::string> phases = phase_names(journal_.plan);
+    for (std::size_t i = 0; i < phases.size(); ++i) {
+      drive_phase(i);
+      if (i + 1 < phases.size()) calibrate(i);
+    }
+    return read_results(folder_);
+  }
+
+ private:
+  void open_journal(const Plan& plan) {
+    const protocol::HelloReply& robot = client_.robot();
+    const std::string id = hex(robot.unique_id);
+    if (has_journal(folder_)) {
+      journal_ = read_journal(folder_);
+      if (nlohmann::json(journal_.plan) != nlohmann::json(plan))
+        throw Error("'" + folder_.string() +
+                    "' holds an experiment with other settings: give the same ones to go on with it, or "
+                    "another --out");
+      if (journal_.robot_id != id)
+        throw Error(fmt::format(
+            "'{}' holds the experiment of robot {} ({}), and this is {} ({}): choose another --out",
+            folder_.string(), journal_.robot_name, journal_.robot_id, robot.robot_name.view(), id));
+      return;
+    }
+    journal_.plan = plan;
+    journal_.robot_id = id;
+    journal_.robot_name = robot.robot_name.view();
+    journal_.board = robot.board.view();
+    journal_.firmware = fmt::format("{}.{}.{}", robot.fw_major, robot.fw_minor, robot.fw_patch);
+    journal_.started_at = utc_now();
+    write_journal(folder_, journal_);
+  }
+
+  static std::string hex(const std::array<std::uint8_t, 16>& bytes) {
+    std::string text;
+    for (const std::uint8_t byte : bytes) text += fmt::format("{:02x}", byte);
+    return text;
+  }
+
+  static calibration::WheelFactors factors_of(const link::RemoteParameters& robot) {
+    return {std::get<double>(robot.value("c_R")), std::get<double>(robot.value("c_L")),
+            std::get<double>(robot.value("b"))};
+  }
+
+  static bool same(const calibration::WheelFactors& a, const calibration::WheelFactors& b) {
+    constexpr double kSame = 1e-8;  // above a step of the wire format, far below a calibration
+    return std::abs(a.c_r - b.c_r) < kSame && std::abs(a.c_l - b.c_l) < kSame &&
+           std::abs(a.b_m - b.b_m) < kSame;
+  }
+
+  fs::path file_of(const RunSpec& spec) const { return folder_ / spec.phase / spec.file_name(); }
+
+  void drive_phase(std::size_t phase) {
+    const std::vector<RunSpec> specs = runs_of_phase(journal_.plan, phase);
+    std::vector<RunSpec> missing;
+    for (const RunSpec& spec : specs)
+      if (!fs::exists(file_of(spec))) missing.push_back(spec);
+    if (missing.empty()) return;
+
+    const link::RemoteParameters parameters = link::RemoteParameters::fetch(client_);
+    begin_phase(specs.front().phase, factors_of(parameters));
+    if (missing.size() < specs.size())
+      hooks_.run.notice(fmt::format("{}: {} of {} runs are recorded already", specs.front().phase,
+                                    specs.size() - missing.size(), specs.size()));
+    const auto total = static_cast<int>(specs.size());
+    int number = total - static_cast<int>(missing.size());
+    for (const RunSpec& spec : missing) {
+      hooks_.ready(spec);
+      hooks_.run_started(spec, ++number, total);
+      const recording::Run run = drive(spec, parameters);
+      recording::write_run(file_of(spec), run);
+      hooks_.run_finished(spec, run);
+    }
+  }
+
+  /// A phase is driven with one set of parameters, also when it is resumed.
+  void begin_phase(const std::string& phase, const calibration::WheelFactors& factors) {
+    const auto known = journal_.carried.find(phase);
+    if (known != journal_.carried.end()) {
+      if (!same(known->second, factors))
+        throw Error(fmt::format(
+            "the robot carries c_R {:.9f}, c_L {:.9f}, b {:.9f} m, but phase '{}' of this experiment "
+            "began with {:.9f}, {:.9f}, {:.9f} m: load those, or choose another --out",
+            factors.c_r, factors.c_l, factors.b_m, phase, known->second.c_r, known->second.c_l,
+            known->second.b_m));
+      return;
+    }
+    journal_.carried[phase] = factors;
+    write_journal(folder_, journal_);
+  }
+
+  recording::Run drive(const RunSpec& spec, const link::RemoteParameters& parameters) {
+    recording::RunInfo info = info_of(journal_.plan, spec);
+    info.robot_name = journal_.robot_name;
+    info.robot_id = journal_.robot_id;
+    info.board = journal_.board;
+    info.firmware = journal_.firmware;
+    for (const link::ParameterRow& row : parameters.rows())
+      if (row.kind != protocol::ParameterKind::text)
+        info.parameters[row.name] = link::to_real(row, row.active.raw);
+    const link::Path path = path_of(journal_.plan, spec);
+    for (int attempt = 1;; ++attempt) {
+      info.started_at = utc_now();
+      try {
+        return record_run(client_, truth_, path, info, hooks_.run);
+      } catch (const link::LinkLost& lost) {
+        if (attempt == kTriesPerRun) throw;
+        hooks_.run.notice(fmt::format("{}; this run starts again", lost.what()));
+        client_.reconnect(kReconnectPatience);
+        hooks_.ready(spec);
+      }
+    }
+  }
+
+  void calibrate(std::size_t phase) {
+    std::vector<recording::Run> runs;
+    const std::vector<RunSpec> specs = runs_of_phase(journal_.plan, phase);
+    for (const RunSpec& spec : specs) runs.push_back(recording::read_run(file_of(spec)));
+    const calibration::Estimate found = estimate(squares_of(runs), journal_.plan.method);
+    write_calibration(folder_ / fmt::format("calib-{}.toml", specs.front().phase), found);
+    const std::string next = phase_names(journal_.plan)[phase + 1];
+    if (!journal_.carried.contains(next)) upload(found);
+  }
+
+  void upload(const calibration::Estimate& found) {
+    const ParameterValues values{
+        {"c_R", found.factors.c_r}, {"c_L", found.factors.c_l}, {"b", found.factors.b_m}};
+    const link::RemoteParameters robot = link::RemoteParameters::fetch(client_);
+    const std::vector<Change> list = changes(robot, values);
+    if (list.empty()) return;  // an earlier session got this far
+    if (!same(factors_of(robot), found.carried))
+      throw Error(
+          "the robot no longer carries the parameters that the squares were driven with: load them again, or "
+          "choose another --out");
+    if (const std::string doubt = suspicion(list); !doubt.empty()) throw Error(doubt);
+    if (!hooks_.agree(found, list))
+      throw Error("the new parameters were not uploaded; 'astrolabe umbmark --out " + folder_.string() +
+                  "' goes on from here");
+    const link::UploadReport report = link::upload(client_, values);
+    if (report.active != link::ActiveSet::new_set) throw Error(report.sentence());
+    hooks_.uploaded(report.sentence());
+  }
+
+  link::Client& client_;
+  truth::Source& truth_;
+  fs::path folder_;
+  const ExperimentHooks& hooks_;
+  Journal journal_;
+};
+
+}  // namespace
+
+Results run_experiment(link::Client& client, truth::Source& truth, const Plan& plan, const fs::path& folder,
+                       const ExperimentHooks& hooks) {
+  plan.check();
+  return Session(client, truth, plan, folder, hooks).run();
+}
+
+}  // namespace astro::experiment

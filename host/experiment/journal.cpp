@@ -1,0 +1,71 @@
+#include "host/experiment/journal.hpp"
+
+#include <fmt/chrono.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "host/base/error.hpp"
+#include "host/recording/files.hpp"
+
+namespace astro::experiment {
+namespace {
+
+constexpr int kFormat = 1;
+
+std::filesystem::path file_in(const std::filesystem::path& folder) { return folder / "experiment.json"; }
+
+}  // namespace
+
+std::string utc_now() {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::now()));
+}
+
+bool has_journal(const std::filesystem::path& folder) { return std::filesystem::exists(file_in(folder)); }
+
+Journal read_journal(const std::filesystem::path& folder) {
+  const std::filesystem::path path = file_in(folder);
+  const recording::Bytes bytes = recording::load_file(path);
+  try {
+    const auto json = nlohmann::json::parse(bytes.begin(), bytes.end());
+    if (json.at("format") != kFormat)
+      throw Error("'" + path.string() +
+                  "' was written by another version of Astrolabe: use that one to go on with it");
+    Journal journal;
+    json.at("plan").get_to(journal.plan);
+    const auto& robot = json.at("robot");
+    robot.at("id").get_to(journal.robot_id);
+    robot.at("name").get_to(journal.robot_name);
+    robot.at("board").get_to(journal.board);
+    robot.at("firmware").get_to(journal.firmware);
+    json.at("started_at").get_to(journal.started_at);
+    for (const auto& [phase, carried] : json.at("carried").items())
+      journal.carried[phase] = {carried.at("c_R"), carried.at("c_L"), carried.at("b_m")};
+    return journal;
+  } catch (const nlohmann::json::exception&) {
+    throw Error("'" + path.string() +
+                "' is damaged: the recordings beside it can still be calibrated with "
+                "'astrolabe calibrate runs'");
+  }
+}
+
+void write_journal(const std::filesystem::path& folder, const Journal& journal) {
+  nlohmann::json carried = nlohmann::json::object();
+  for (const auto& [phase, factors] : journal.carried)
+    carried[phase] = {{"c_R", factors.c_r}, {"c_L", factors.c_l}, {"b_m", factors.b_m}};
+  const nlohmann::json json = {{"format", kFormat},
+                               {"started_at", journal.started_at},
+                               {"plan", journal.plan},
+                               {"robot",
+                                {{"id", journal.robot_id},
+                                 {"name", journal.robot_name},
+                                 {"board", journal.board},
+                                 {"firmware", journal.firmware}}},
+                               {"carried", carried}};
+  const std::string text = json.dump(2) + "\n";
+  recording::PartFile file(file_in(folder));
+  file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  file.commit();
+}
+
+}  // namespace astro::experiment

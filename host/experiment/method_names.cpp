@@ -1,0 +1,46 @@
+#include "host/experiment/method_names.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <vector>
+
+#include "host/base/error.hpp"
+
+namespace astro::experiment {
+namespace {
+
+using calibration::AngleSource;
+using calibration::Formula;
+using calibration::Method;
+
+template <class Enum>
+Enum find(const std::string& word, const char* what, const std::vector<Enum>& values) {
+  std::vector<std::string> names;
+  for (const Enum value : values) {
+    names.emplace_back(name_of(value));
+    if (names.back() == word) return value;
+  }
+  throw Error(fmt::format("'{}' is no {}: choose {}", word, what, fmt::join(names, ", ")));
+}
+
+}  // namespace
+
+MethodChoice method_named(const std::string& method, const std::string& angles, const std::string& formula) {
+  MethodChoice choice;
+  choice.automatic = method == "auto";
+  if (!choice.automatic)
+    choice.options.method =
+        find<Method>(method, "method", {Method::umbmark, Method::extended, Method::least_squares});
+  choice.options.angles =
+      find<AngleSource>(angles, "source of angles",
+                        {AngleSource::x, AngleSource::y, AngleSource::thesis, AngleSource::average});
+  choice.options.formula = find<Formula>(formula, "formula", {Formula::exact, Formula::published});
+  return choice;
+}
+
+Order order_named(const std::string& order) {
+  return find<Order>(order, "order of directions", {Order::alternating, Order::cw_first, Order::ccw_first});
+}
+
+}  // namespace astro::experiment

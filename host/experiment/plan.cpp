@@ -1,0 +1,131 @@
+#include "host/experiment/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "host/base/error.hpp"
+#include "host/experiment/method_names.hpp"
+
+namespace astro::experiment {
+namespace {
+
+using recording::Direction;
+
+void need(bool condition, const std::string& sentence) {
+  if (!condition) throw Error(sentence);
+}
+
+bool within(double value, double least, double most) { return value >= least && value <= most; }
+
+}  // namespace
+
+void Plan::check() const {
+  need(runs >= 1 && runs <= 1000,
+       fmt::format("{} runs in each direction cannot be driven: choose 1 to 1000", runs));
+  need(rounds >= 1 && rounds <= 20, fmt::format("{} rounds cannot be driven: choose 1 to 20", rounds));
+  need(within(side_m, 0.2, 100),
+       fmt::format("a square of side {} m cannot be driven: choose 0.2 m to 100 m", side_m));
+  need(within(speed_mps, 0.01, 5),
+       fmt::format("a speed of {} m/s cannot be driven: choose 0.01 to 5 m/s", speed_mps));
+  need(within(yaw_rate_radps, 0.05, 20),
+       fmt::format("a yaw rate of {} rad/s cannot be driven: choose 0.05 to 20 rad/s", yaw_rate_radps));
+  need(within(line_m, 0.1, 100),
+       fmt::format("a line of {} m cannot be driven: choose 0.1 m to 100 m", line_m));
+  need(within(circle_radius_m, 0.1, 50),
+       fmt::format("a circle of radius {} m cannot be driven: choose 0.1 m to 50 m", circle_radius_m));
+}
+
+std::string_view name_of(Direction direction) {
+  switch (direction) {
+    case Direction::cw:
+      return "cw";
+    case Direction::ccw:
+      return "ccw";
+    default:
+      return "";
+  }
+}
+
+std::string_view name_of(Order order) {
+  switch (order) {
+    case Order::cw_first:
+      return "cw-first";
+    case Order::ccw_first:
+      return "ccw-first";
+    default:
+      return "alternating";
+  }
+}
+
+std::string RunSpec::file_name() const {
+  if (direction == Direction::none) return fmt::format("{}-{}.mcap", kind, index);
+  return fmt::format("{}-{}-{}.mcap", kind, name_of(direction), index);
+}
+
+std::string RunSpec::title() const {
+  if (direction == Direction::none) return fmt::format("{}: {} {}", phase, kind, index);
+  return fmt::format("{}: {} {} {}", phase, kind, name_of(direction), index);
+}
+
+std::vector<std::string> phase_names(const Plan& plan) {
+  std::vector<std::string> names{"before"};
+  if (plan.rounds == 1) names.emplace_back("after");
+  for (int i = 1; plan.rounds > 1 && i <= plan.rounds; ++i) names.push_back(fmt::format("after-{}", i));
+  return names;
+}
+
+std::vector<RunSpec> runs_of_phase(const Plan& plan, std::size_t phase) {
+  const std::string name = phase_names(plan).at(phase);
+  const Direction first = plan.order == Order::ccw_first ? Direction::ccw : Direction::cw;
+  const Direction second = first == Direction::cw ? Direction::ccw : Direction::cw;
+  std::vector<RunSpec> specs;
+  for (int i = 1; i <= plan.runs; ++i) {
+    specs.push_back({name, "square", first, i});
+    if (plan.order == Order::alternating) specs.push_back({name, "square", second, i});
+  }
+  for (int i = 1; plan.order != Order::alternating && i <= plan.runs; ++i)
+    specs.push_back({name, "square", second, i});
+  const bool last = phase + 1 == phase_names(plan).size();
+  if (plan.extras && (phase == 0 || last)) {
+    specs.push_back({name, "line", Direction::none, 1});
+    specs.push_back({name, "circle", Direction::cw, 1});
+    specs.push_back({name, "circle", Direction::ccw, 1});
+  }
+  return specs;
+}
+
+void to_json(nlohmann::json& json, const Plan& plan) {
+  json = {{"runs", plan.runs},
+          {"side_m", plan.side_m},
+          {"speed_mps", plan.speed_mps},
+          {"yaw_rate_radps", plan.yaw_rate_radps},
+          {"order", name_of(plan.order)},
+          {"rounds", plan.rounds},
+          {"line_m", plan.line_m},
+          {"circle_radius_m", plan.circle_radius_m},
+          {"extras", plan.extras},
+          {"method", plan.method.automatic ? "auto" : calibration::name_of(plan.method.options.method)},
+          {"angles", calibration::name_of(plan.method.options.angles)},
+          {"formula", calibration::name_of(plan.method.options.formula)},
+          {"truth", plan.truth}};
+}
+
+void from_json(const nlohmann::json& json, Plan& plan) {
+  json.at("runs").get_to(plan.runs);
+  json.at("side_m").get_to(plan.side_m);
+  json.at("speed_mps").get_to(plan.speed_mps);
+  json.at("yaw_rate_radps").get_to(plan.yaw_rate_radps);
+  plan.order = order_named(json.at("order").get<std::string>());
+  json.at("rounds").get_to(plan.rounds);
+  json.at("line_m").get_to(plan.line_m);
+  json.at("circle_radius_m").get_to(plan.circle_radius_m);
+  json.at("extras").get_to(plan.extras);
+  plan.method = method_named(json.at("method").get<std::string>(), json.at("angles").get<std::string>(),
+                             json.at("formula").get<std::string>());
+  json.at("truth").get_to(plan.truth);
+}
+
+}  // namespace astro::experiment

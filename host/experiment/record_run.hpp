@@ -1,0 +1,41 @@
+#pragma once
+
+#include <functional>
+
+#include "host/experiment/plan.hpp"
+#include "host/link/drive.hpp"
+#include "host/link/paths.hpp"
+#include "host/recording/run.hpp"
+#include "host/truth/source.hpp"
+
+namespace astro::experiment {
+
+/// What somebody in front of the program wants to know, and to say, while a robot drives.
+struct RunHooks {
+  std::function<void(double fraction)> progress = [](double) {};
+  std::function<void(const std::string&)> notice = [](const std::string&) {};
+  std::function<bool()> interrupted = [] { return false; };
+};
+
+/// The path that a spec stands for.
+link::Path path_of(const Plan& plan, const RunSpec& spec);
+
+/// Size, speed and names of a run before it is driven; robot and parameters are the caller's to add.
+recording::RunInfo info_of(const Plan& plan, const RunSpec& spec);
+
+/// Drives one run from rest to rest, starting at odometry pose 0, and records what the robot believed and
+/// what the truth saw. The robot stands still for more than half a second at both ends, so that the poses
+/// there can be averaged.
+///
+/// Throws what link::DriveSession throws (the robot stands then), and astro::Error if the truth ends.
+recording::Run record_run(link::Client& client, truth::Source& truth, const link::Path& path,
+                          const recording::RunInfo& info, const RunHooks& hooks);
+
+/// As above without driving: records whatever the robot does until `done` says so; asked about every 50 ms.
+recording::Run record_until(link::Client& client, truth::Source& truth, const recording::RunInfo& info,
+                            const std::function<bool()>& done);
+
+/// From the robot's fixed point to metres and radians.
+recording::OdometrySample to_sample(const protocol::Telemetry& telemetry);
+
+}  // namespace astro::experiment

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/calibration/umbmark.hpp"
+#include "host/experiment/journal.hpp"
+#include "host/experiment/squares.hpp"
+#include "host/recording/run.hpp"
+#include "host/report/report.hpp"
+
+/// What came out of an experiment, worked out from its folder alone.
+namespace astro::experiment {
+
+struct PhaseResult {
+  std::string name;
+  std::vector<recording::Run> runs;
+  Squares squares;
+  calibration::ExperimentSummary summary;
+  std::optional<calibration::Estimate> estimate;  // none after the last phase
+};
+
+struct Results {
+  Journal journal;
+  std::vector<PhaseResult> phases;
+
+  const PhaseResult& before() const { return phases.front(); }
+  const PhaseResult& after() const { return phases.back(); }
+  /// The one whose factors the last phase carried; none if nothing was uploaded yet.
+  const calibration::Estimate* last_estimate() const;
+  /// E_max_syst before over after.
+  double improvement() const;
+};
+
+/// Reads the phases that are complete. Throws astro::Error if the first one is not.
+Results read_results(const std::filesystem::path& folder);
+
+/// The one object that `umbmark --json` prints.
+nlohmann::json to_json(const Results& results);
+
+/// The table that a person reads.
+std::vector<std::vector<std::string>> before_after_table(const Results& results);
+
+report::ReportInput report_input(const Results& results);
+
+}  // namespace astro::experiment

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "host/calibration/umbmark.hpp"
+#include "host/experiment/plan.hpp"
+#include "host/recording/run.hpp"
+
+/// From recorded squares to wheel factors.
+namespace astro::experiment {
+
+/// All squares that were driven with one set of parameters.
+struct Squares {
+  std::vector<calibration::EndPose> cw, ccw;
+  double side_m = 0;
+  calibration::WheelFactors carried;
+};
+
+/// Picks the squares out of `runs`. Throws astro::Error if there are none, or if they differ in side or in
+/// the parameters that the robot carried: such runs cannot be averaged.
+Squares squares_of(std::span<const recording::Run> runs);
+
+/// The factors that a run's robot carried; throws astro::Error where the recording does not say.
+calibration::WheelFactors carried_factors(const recording::RunInfo& info);
+
+calibration::Estimate estimate(const Squares& squares, const MethodChoice& method);
+
+}  // namespace astro::experiment

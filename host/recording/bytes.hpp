@@ -1,0 +1,70 @@
+#pragma once
+
+#include <bit>
+#include <concepts>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string_view>
+#include <vector>
+
+/// Little-endian numbers in byte strings.
+namespace astro::recording {
+
+static_assert(std::endian::native == std::endian::little, "bytes.hpp copies numbers as they lie in memory");
+
+using Bytes = std::vector<std::uint8_t>;
+using ByteView = std::span<const std::uint8_t>;
+
+template <class T>
+concept Number = std::integral<T> || std::floating_point<T>;
+
+template <Number T>
+void append(Bytes& bytes, T value) {
+  const auto* raw = reinterpret_cast<const std::uint8_t*>(&value);
+  bytes.insert(bytes.end(), raw, raw + sizeof(T));
+}
+
+inline void append(Bytes& bytes, ByteView more) { bytes.insert(bytes.end(), more.begin(), more.end()); }
+
+/// A cursor over bytes that nobody vouches for. A read past the end gives zero or nothing and makes ok()
+/// false for good, so that a caller checks once, after the last field.
+class ByteCursor {
+ public:
+  explicit ByteCursor(ByteView bytes) : bytes_(bytes) {}
+
+  bool ok() const { return ok_; }
+  std::size_t offset() const { return offset_; }
+  std::size_t left() const { return bytes_.size() - offset_; }
+
+  ByteView take(std::uint64_t size) {
+    if (!ok_ || size > left()) {
+      ok_ = false;
+      return {};
+    }
+    const ByteView taken = bytes_.subspan(offset_, static_cast<std::size_t>(size));
+    offset_ += taken.size();
+    return taken;
+  }
+
+  template <Number T>
+  T number() {
+    T value{};
+    if (const ByteView raw = take(sizeof(T)); ok_) std::memcpy(&value, raw.data(), sizeof(T));
+    return value;
+  }
+
+ private:
+  ByteView bytes_;
+  std::size_t offset_ = 0;
+  bool ok_ = true;
+};
+
+inline ByteView as_bytes(std::string_view text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+inline std::string_view as_text(ByteView bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+}  // namespace astro::recording

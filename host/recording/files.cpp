@@ -1,0 +1,97 @@
+#include "host/recording/files.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include "host/base/error.hpp"
+
+namespace astro::recording {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{4} << 30;
+
+std::string reason(int code) { return std::generic_category().message(code); }
+
+fs::path part_of(fs::path path) { return path += ".part"; }
+
+/// So that the new name, too, survives a power cut. Some file systems cannot; then there is nothing to be
+/// done.
+void sync_folder(const fs::path& folder) {
+  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+}  // namespace
+
+Bytes load_file(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) {
+    if (fs::exists(part_of(path), error)) {
+      throw Error(path.string() + " was never finished: what was recorded of it is in " +
+                  part_of(path).string() + "; rename that file to use it, or record the run again");
+    }
+    throw Error(path.string() + " does not exist: check the path");
+  }
+  if (!fs::is_regular_file(status)) throw Error(path.string() + " is not a file: name a single recording");
+  const std::uintmax_t size = fs::file_size(path, error);
+  if (error) throw Error("cannot read " + path.string() + ": " + error.message());
+  if (size > kMaxFileBytes) throw Error(path.string() + " is larger than 4 GiB: split it into shorter runs");
+
+  Bytes bytes(static_cast<std::size_t>(size));
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (!file.is_open() || file.bad()) {
+    throw Error("cannot read " + path.string() + ": check its permissions and the disk");
+  }
+  bytes.resize(static_cast<std::size_t>(file.gcount()));  // a file that shrank meanwhile
+  return bytes;
+}
+
+PartFile::PartFile(fs::path path) : path_(std::move(path)), part_(part_of(path_)) {
+  std::error_code error;
+  if (path_.has_parent_path()) fs::create_directories(path_.parent_path(), error);
+  if (error) {
+    throw Error("cannot make the folder " + path_.parent_path().string() + ": " + error.message());
+  }
+  descriptor_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) fail("create");
+}
+
+PartFile::~PartFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void PartFile::fail(const std::string& what) const {
+  throw Error("cannot " + what + " " + part_.string() + ": " + reason(errno) +
+              "; check the disk or choose another folder");
+}
+
+void PartFile::write(ByteView bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail("write");
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+}
+
+void PartFile::commit() {
+  if (::fsync(descriptor_) != 0) fail("bring to the disk");
+  if (::close(std::exchange(descriptor_, -1)) != 0) fail("close");
+  std::error_code error;
+  fs::rename(part_, path_, error);
+  if (error)
+    throw Error("cannot rename " + part_.string() + " to " + path_.string() + ": " + error.message());
+  sync_folder(path_.parent_path());
+}
+
+}  // namespace astro::recording

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+
+#include "host/recording/bytes.hpp"
+
+namespace astro::recording {
+
+/// The whole file. Throws astro::Error if it is not there, is no regular file, cannot be read, or is larger
+/// than 4 GiB; a missing file whose `.part` is there is told apart.
+Bytes load_file(const std::filesystem::path& path);
+
+/// A file that carries its name only once it is whole. Bytes go to `<path>.part`; commit() brings them to the
+/// disk and gives them the name, replacing what had it. Without commit the `.part` stays, for whoever wants
+/// to rescue what was recorded, until the same path is written again. Folders on the way are made.
+///
+/// Errors  astro::Error naming the file and what the system said.
+class PartFile {
+ public:
+  explicit PartFile(std::filesystem::path path);
+  ~PartFile();
+  PartFile(const PartFile&) = delete;
+  PartFile& operator=(const PartFile&) = delete;
+
+  /// The operating system has the bytes on return: they survive the death of this process, not that of the
+  /// machine.
+  void write(ByteView bytes);
+  void commit();
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const;
+
+  std::filesystem::path path_, part_;
+  int descriptor_ = -1;
+};
+
+}  // namespace astro::recording

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "host/recording/mcap_records.hpp"
+
+namespace astro::recording {
+
+/// What the reader hands out as it walks. The views live only during the call. `schema` is null for channels
+/// without one. A handler that is empty is not called, and without `message` chunks are not even expanded.
+struct McapHandlers {
+  std::function<void(const mcap::Channel& channel, const mcap::Schema* schema, const mcap::Message& message)>
+      message;
+  std::function<void(const mcap::Metadata& metadata)> metadata;
+};
+
+struct McapLimits {
+  std::uint64_t chunk_bytes = std::uint64_t{256} << 20;  // of an expanded chunk; usual are 1 to 4 MiB
+};
+
+/// What became of the walk.
+struct McapReport {
+  bool is_mcap = false;    // false: the file does not begin like one; nothing else was looked at
+  bool truncated = false;  // the end is missing; everything handed out before it is good
+  bool damaged = false;    // a checksum or a length inside the file is wrong; that part was left out
+  std::string profile, library;
+  std::vector<std::string> warnings;  // the first few reasons for the two, with places in the file
+};
+
+/// Walks an MCAP file from front to back. Needs no index, so that a file of a recorder that was killed reads
+/// up to its last whole chunk; checks the checksum of every chunk, of the data section and of the summary;
+/// skips records and trailing fields that it does not know. Whatever the bytes are, it ends, and allocates no
+/// more than the limits and the file's own size allow. Throws only what a handler throws.
+McapReport read_mcap(ByteView file, const McapHandlers& handlers, const McapLimits& limits = {});
+
+}  // namespace astro::recording

@@ -1,0 +1,139 @@
+#include "host/recording/run_file.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "host/base/error.hpp"
+#include "host/recording/files.hpp"
+#include "host/recording/mcap_reader.hpp"
+#include "host/recording/planar_pose.hpp"
+#include "host/recording/ros_messages.hpp"
+#include "host/recording/run_metadata.hpp"
+#include "host/recording/run_writer.hpp"
+
+namespace astro::recording {
+namespace {
+
+/// What the messages of a file hold, before the streams are put together.
+struct Streams {
+  std::vector<OdometrySample> odometry;
+  std::vector<WheelCounts> counts;
+  std::vector<TruthSample> truth;
+  bool unreadable = false;
+
+  template <class T>
+  void keep(std::vector<T>& stream, const std::optional<T>& sample) {
+    if (sample) stream.push_back(*sample);
+    unreadable = unreadable || !sample;
+  }
+  void take(const mcap::Channel& channel, const mcap::Schema* schema, const mcap::Message& message) {
+    if (schema == nullptr || channel.message_encoding != "cdr") return;
+    if (schema->name == kOdometryType.name && channel.topic == "/odom") {
+      keep(odometry, decode_odometry(message.data));
+    } else if (schema->name == kWheelCountsType.name && channel.topic == "/wheel_counts") {
+      keep(counts, decode_counts(message.data));
+    } else if (schema->name == kPoseStampedType.name && channel.topic == "/truth") {
+      keep(truth, decode_truth(message.data));
+    }
+  }
+};
+
+struct RunFile {
+  RunRecord record;
+  Streams streams;
+  std::string warning;
+};
+
+void refuse_damage(const std::string& file, const McapReport& report) {
+  if (!report.is_mcap) throw Error(file + " is not an MCAP file: name a recording made by astrolabe");
+  if (!report.damaged) return;
+  throw Error(file + " is damaged (" + report.warnings.front() +
+              "): copy it again from where it was recorded, or record the run again");
+}
+
+RunFile parse(ByteView bytes, const std::string& file, bool with_data) {
+  RunFile out;
+  std::optional<mcap::Map> entries;
+  McapHandlers handlers;
+  // The last record counts: the first is written before the run, the last after it.
+  handlers.metadata = [&](const mcap::Metadata& metadata) {
+    if (metadata.name == kRunRecordName) entries = metadata.entries;
+  };
+  if (with_data) {
+    handlers.message = [&](const mcap::Channel& channel, const mcap::Schema* schema,
+                           const mcap::Message& message) { out.streams.take(channel, schema, message); };
+  }
+  const McapReport report = read_mcap(bytes, handlers);
+  refuse_damage(file, report);
+  if (report.truncated) {
+    out.warning = file + " was cut off while it was recorded: what was driven last is missing";
+  }
+  if (!entries) {
+    throw Error(file + " is not a recording of a run (it has no record " + std::string(kRunRecordName) +
+                "): name one made by astrolabe");
+  }
+  out.record = run_record(*entries, file);
+  return out;
+}
+
+/// Gives every pose the counts of its instant; the writer puts them into the file in pairs.
+void pair_counts(const std::string& file, bool cut_off, Streams& streams) {
+  const std::size_t pairs = std::min(streams.odometry.size(), streams.counts.size());
+  bool good = !streams.unreadable && (cut_off || streams.odometry.size() == streams.counts.size());
+  for (std::size_t i = 0; i < pairs && good; ++i) {
+    good = streams.odometry[i].time_us == streams.counts[i].time_us;
+    streams.odometry[i].left_counts = streams.counts[i].left;
+    streams.odometry[i].right_counts = streams.counts[i].right;
+  }
+  if (!good) {
+    throw Error(file + " holds messages that do not belong to a run (the poses of /odom do not match the " +
+                "counts of /wheel_counts): the file was edited, use the original");
+  }
+  streams.odometry.resize(pairs);
+}
+
+/// Makes headings continuous: each within half a turn of the last finite one, the first at `first_rad` but
+/// for rounding.
+template <class Sample>
+void unwrap(std::vector<Sample>& samples, const std::optional<double>& first_rad) {
+  double last_rad = first_rad.value_or(std::numeric_limits<double>::quiet_NaN());
+  for (Sample& sample : samples) {
+    if (!std::isfinite(sample.theta_rad)) continue;
+    if (std::isfinite(last_rad)) {
+      const double turns = std::round((last_rad - sample.theta_rad) / (2 * std::numbers::pi));
+      sample.theta_rad += turns * (2 * std::numbers::pi);
+    }
+    last_rad = sample.theta_rad;
+  }
+}
+
+}  // namespace
+
+void write_run(const std::filesystem::path& path, const Run& run) {
+  RunWriter writer(path, run.info);
+  auto truth = run.truth.begin();
+  for (const OdometrySample& sample : run.odometry) {
+    while (truth != run.truth.end() && truth->time_us <= sample.time_us) writer.add(*truth++);
+    writer.add(sample);
+  }
+  while (truth != run.truth.end()) writer.add(*truth++);
+  writer.close(run.info);
+}
+
+Run run_from_bytes(ByteView bytes, const std::string& name) {
+  RunFile file = parse(bytes, name, true);
+  pair_counts(name, !file.warning.empty(), file.streams);
+  unwrap(file.streams.odometry, file.record.first_odometry_heading_rad);
+  unwrap(file.streams.truth, file.record.first_truth_heading_rad);
+  return {std::move(file.record.info), std::move(file.streams.odometry), std::move(file.streams.truth),
+          std::move(file.warning)};
+}
+
+Run read_run(const std::filesystem::path& path) { return run_from_bytes(load_file(path), path.string()); }
+
+RunInfo read_run_info(const std::filesystem::path& path) {
+  return parse(load_file(path), path.string(), false).record.info;
+}
+
+}  // namespace astro::recording

@@ -1,0 +1,65 @@
+#include "host/recording/run_writer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/base/error.hpp"
+#include "host/recording/ros_messages.hpp"
+
+namespace astro::recording {
+namespace {
+
+std::uint16_t add_topic(McapWriter& mcap, std::string_view topic, const RosType& type) {
+  const std::uint16_t schema = mcap.add_schema(type.name, "ros2msg", type.definition);
+  // Readers of bags look the key up; empty means that nothing is known about the publisher's quality of
+  // service.
+  return mcap.add_channel(schema, topic, "cdr", {{"offered_qos_profiles", ""}});
+}
+
+void keep_first(std::optional<double>& first, double heading_rad) {
+  if (!first && std::isfinite(heading_rad)) first = heading_rad;
+}
+
+}  // namespace
+
+RunWriter::RunWriter(const std::filesystem::path& path, const RunInfo& info, McapWriterOptions options)
+    : path_(path),
+      file_(path),
+      mcap_([this](ByteView bytes) { file_.write(bytes); }, {"ros2", "astrolabe"}, options) {
+  record_.info = info;
+  mcap_.write_metadata({std::string(kRunRecordName), to_map(record_)});
+  odometry_ = add_topic(mcap_, "/odom", kOdometryType);
+  counts_ = add_topic(mcap_, "/wheel_counts", kWheelCountsType);
+  truth_ = add_topic(mcap_, "/truth", kPoseStampedType);
+}
+
+/// MCAP knows no time before zero; the stamp inside the message keeps the true one.
+std::uint64_t RunWriter::log_time_ns(std::int64_t time_us) const {
+  if (!fits_stamp(time_us)) {
+    throw Error(path_.string() + " cannot hold the time " + std::to_string(time_us) +
+                " us: times are microseconds of the robot's clock, within 2^31 s");
+  }
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(0, time_us)) * 1000;
+}
+
+void RunWriter::add(const OdometrySample& sample) {
+  const std::uint64_t time_ns = log_time_ns(sample.time_us);
+  keep_first(record_.first_odometry_heading_rad, sample.theta_rad);
+  mcap_.write(odometry_, time_ns, encode_odometry(sample));
+  mcap_.write(counts_, time_ns, encode_counts({sample.time_us, sample.left_counts, sample.right_counts}));
+}
+
+void RunWriter::add(const TruthSample& sample) {
+  const std::uint64_t time_ns = log_time_ns(sample.time_us);
+  if (sample.valid) keep_first(record_.first_truth_heading_rad, sample.theta_rad);
+  mcap_.write(truth_, time_ns, encode_truth(sample));
+}
+
+void RunWriter::close(const RunInfo& final) {
+  record_.info = final;
+  mcap_.write_metadata({std::string(kRunRecordName), to_map(record_)});
+  mcap_.close();
+  file_.commit();
+}
+
+}  // namespace astro::recording

@@ -1,0 +1,102 @@
+#include "host/simulator/pty.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+#include "host/base/error.hpp"
+
+namespace astro::simulator {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const std::string& what) {
+  throw Error("no pseudo terminal can be opened: " + what + ": " + std::strerror(errno));
+}
+
+int open_master() {
+  const int fd = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
+  if (fd < 0) fail("posix_openpt");
+  if (grantpt(fd) != 0 || unlockpt(fd) != 0) fail("unlockpt");
+  return fd;
+}
+
+std::string device_of(int fd) {
+  std::array<char, 128> name{};
+  if (ptsname_r(fd, name.data(), name.size()) != 0) fail("ptsname");
+  return name.data();
+}
+
+// The settings belong to the terminal, not to who has it open: they stay when this descriptor is closed.
+void make_raw(const std::string& device) {
+  const int fd = open(device.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+  if (fd < 0) fail(device);
+  termios settings{};
+  if (tcgetattr(fd, &settings) != 0) fail("tcgetattr");
+  cfmakeraw(&settings);
+  if (tcsetattr(fd, TCSANOW, &settings) != 0) fail("tcsetattr");
+  close(fd);
+}
+
+bool in_use(const fs::path& link) {
+  const fs::path target = fs::read_symlink(link);
+  return fs::exists(target);
+}
+
+void make_link(const fs::path& device, const fs::path& link) {
+  std::error_code error;
+  if (fs::is_symlink(link)) {
+    if (in_use(link))
+      throw Error("'" + link.string() + "' is in use by another simulator: stop it or choose another --pty");
+    fs::remove(link);
+  } else if (fs::exists(link)) {
+    throw Error("'" + link.string() + "' exists and is not a simulator's: choose another path for --pty");
+  }
+  fs::create_symlink(device, link, error);
+  if (error)
+    throw Error("'" + link.string() + "' cannot be made: " + error.message() +
+                "; choose another path for --pty");
+}
+
+}  // namespace
+
+Pty::Pty(fs::path link) : fd_(open_master()), device_(device_of(fd_)) {
+  make_raw(device_);
+  add_link(link);
+}
+
+Pty::~Pty() {
+  std::error_code ignored;
+  for (const fs::path& link : links_)
+    if (fs::is_symlink(link) && fs::read_symlink(link, ignored) == device_) fs::remove(link, ignored);
+  close(fd_);
+}
+
+void Pty::add_link(const fs::path& link) {
+  make_link(device_, link);
+  links_.push_back(link);
+}
+
+bool Pty::connected() const {
+  pollfd state{fd_, POLLOUT, 0};
+  return poll(&state, 1, 0) >= 0 && (state.revents & POLLHUP) == 0;
+}
+
+std::size_t Pty::read(std::span<std::uint8_t> into) {
+  const ssize_t count = ::read(fd_, into.data(), into.size());
+  return count > 0 ? static_cast<std::size_t>(count) : 0;  // EAGAIN, or EIO while nobody is there
+}
+
+std::size_t Pty::write(std::span<const std::uint8_t> bytes) {
+  const ssize_t count = ::write(fd_, bytes.data(), bytes.size());
+  return count > 0 ? static_cast<std::size_t>(count) : 0;
+}
+
+}  // namespace astro::simulator

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace astro::simulator {
+
+/// The robot's end of a pseudo terminal, and a symlink by which hosts find the other end. Raw from the start:
+/// nothing is echoed or translated, whoever opens it.
+class Pty {
+ public:
+  /// Throws astro::Error if `link` exists and is no symlink left behind by another simulator, or cannot be
+  /// made.
+  explicit Pty(std::filesystem::path link);
+  ~Pty();
+  Pty(const Pty&) = delete;
+  Pty& operator=(const Pty&) = delete;
+
+  /// Another name for the same terminal, taken away with it.
+  void add_link(const std::filesystem::path& link);
+
+  int fd() const { return fd_; }
+  const std::filesystem::path& link() const { return links_.front(); }
+
+  /// True while a host has the other end open.
+  bool connected() const;
+
+  /// Bytes moved, 0 if none could be; never block.
+  std::size_t read(std::span<std::uint8_t> into);
+  std::size_t write(std::span<const std::uint8_t> bytes);
+
+ private:
+  int fd_ = -1;
+  std::filesystem::path device_;
+  std::vector<std::filesystem::path> links_;
+};
+
+}  // namespace astro::simulator

@@ -1,0 +1,142 @@
+#include "host/simulator/server.hpp"
+
+#include <poll.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <thread>
+
+#include "host/base/error.hpp"
+
+namespace astro::simulator {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+constexpr std::uint64_t kLease_us = 100'000;  // virtual time that one word of the host is good for
+constexpr auto kPatience = 200ms;  // real time that a host may take nothing before it is left behind
+constexpr auto kTick = 1ms;
+constexpr std::size_t kMostOutgoing = 1U
+                                      << 16;  // beyond that the robot's own queue fills, and it drops frames
+constexpr int kStepsPerLook = 20;             // virtual ms between two looks at the host while running ahead
+
+std::vector<std::uint8_t> load(const fs::path& path) {
+  if (path.empty() || !fs::exists(path)) return {};
+  std::ifstream file(path, std::ios::binary);
+  std::vector<std::uint8_t> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (!file) throw Error("the robot's flash cannot be read from '" + path.string() + "'");
+  return bytes;
+}
+
+sim::Config with_flash(sim::Config config, const fs::path& path) {
+  config.flash = load(path);
+  return config;
+}
+
+fs::path beside(fs::path pty, const char* suffix) { return pty += suffix; }
+
+}  // namespace
+
+Server::Server(const sim::Config& robot, const MocapConfig& mocap, const ServerConfig& config)
+    : config_(config),
+      robot_(with_flash(robot, config.flash), mocap),
+      pty_(config.pty),
+      truth_(beside(config.pty, ".mocap")),
+      due_(Clock::now()) {
+  const auto content = robot_.board().flash().content();
+  saved_flash_.assign(content.begin(), content.end());
+}
+
+Server::~Server() {
+  try {
+    save_flash();
+  } catch (const std::exception&) {  // said while running; nobody listens any more
+  }
+}
+
+void Server::run(const std::function<bool()>& stop) {
+  while (!stop()) {
+    receive();
+    const bool host_is_behind = transmit();
+    if (runs_ahead(host_is_behind)) {
+      for (int i = 0; i < kStepsPerLook; ++i) step();
+      due_ = Clock::now() + kTick;
+    } else if (Clock::now() >= due_) {
+      step();
+      due_ += kTick;
+      if (Clock::now() - due_ > 50 * kTick) due_ = Clock::now();  // we were held up: do not hurry after it
+    } else {
+      wait();
+    }
+  }
+}
+
+void Server::receive() {
+  truth_.accept_clients();
+  std::array<std::uint8_t, 4096> bytes;  // NOLINT(cppcoreguidelines-pro-type-member-init)
+  const std::size_t room = std::min(bytes.size(), robot_.board().ports().host_room(0));
+  const std::size_t count = pty_.read(std::span(bytes).first(room));
+  if (count == 0) return;
+  robot_.board().ports().host_write(0, std::span(bytes).first(count));
+  last_heard_us_ = robot_.now_us();
+  step();  // answered at once, whatever the pace
+  save_flash();
+}
+
+bool Server::transmit() {
+  std::array<std::uint8_t, 4096> bytes;  // NOLINT(cppcoreguidelines-pro-type-member-init)
+  std::size_t count = 0;
+  while (outgoing_.size() < kMostOutgoing && (count = robot_.board().ports().host_read(0, bytes)) != 0)
+    outgoing_.insert(outgoing_.end(), bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(count));
+  if (!pty_.connected()) outgoing_.clear();  // nobody listens: the bytes are lost, as on a wire
+  if (!outgoing_.empty())
+    outgoing_.erase(outgoing_.begin(),
+                    outgoing_.begin() + static_cast<std::ptrdiff_t>(pty_.write(outgoing_)));
+  const bool truth_waits = truth_.flush();
+  return !outgoing_.empty() || truth_waits;
+}
+
+bool Server::runs_ahead(bool host_is_behind) {
+  if (!config_.fast || robot_.now_us() - last_heard_us_ >= kLease_us) return false;
+  if (!host_is_behind) {
+    behind_since_ = Clock::now();
+    return true;
+  }
+  // Stand still for a host that is busy, but not for one that hangs.
+  if (Clock::now() - behind_since_ < kPatience) due_ = Clock::now() + kTick;
+  return false;
+}
+
+void Server::step() {
+  robot_.step();
+  for (const recording::TruthSample& sample : robot_.take_truth()) truth_.send(sample);
+  if (robot_.now_us() < last_heard_us_) last_heard_us_ = 0;  // the robot restarted
+}
+
+void Server::wait() {
+  const auto until = std::chrono::duration_cast<std::chrono::microseconds>(due_ - Clock::now());
+  if (until <= 0us) return;
+  if (!pty_.connected()) {
+    std::this_thread::sleep_for(until);
+    return;
+  }
+  pollfd state{pty_.fd(), static_cast<short>(POLLIN | (outgoing_.empty() ? 0 : POLLOUT)), 0};
+  const timespec timeout{0, static_cast<long>(std::min<std::int64_t>(until.count(), 20'000) * 1000)};
+  ppoll(&state, 1, &timeout, nullptr);
+}
+
+void Server::save_flash() {
+  const auto content = robot_.board().flash().content();
+  if (config_.flash.empty() || std::equal(content.begin(), content.end(), saved_flash_.begin())) return;
+  const fs::path part = beside(config_.flash, ".part");
+  std::ofstream file(part, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(content.data()), static_cast<std::streamsize>(content.size()));
+  file.close();
+  if (!file) throw Error("the robot's flash cannot be written to '" + config_.flash.string() + "'");
+  fs::rename(part, config_.flash);
+  saved_flash_.assign(content.begin(), content.end());
+}
+
+}  // namespace astro::simulator

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+#include "host/simulator/pty.hpp"
+#include "host/simulator/truth_server.hpp"
+#include "host/simulator/virtual_robot.hpp"
+
+namespace astro::simulator {
+
+struct ServerConfig {
+  std::filesystem::path pty;    // symlink to make; the cameras' socket is beside it, with ".mocap" added
+  std::filesystem::path flash;  // file that keeps the robot's flash between starts; empty: nothing is kept
+  bool fast = false;
+};
+
+/// A simulated robot behind a pty, for as long as the process lives.
+///
+/// Real time: one virtual millisecond each real one. Fast: virtual time runs ahead as long as a host says
+/// something at least every 100 virtual ms (its client pings by the robot's clock) and takes what it is sent;
+/// otherwise it falls back to real time, so a host that dies is still noticed by the robot's own command
+/// timeout.
+class Server {
+ public:
+  Server(const sim::Config& robot, const MocapConfig& mocap, const ServerConfig& config);
+  ~Server();
+
+  /// Until `stop` says so; asked at least every 20 ms.
+  void run(const std::function<bool()>& stop);
+
+  const Pty& pty() const { return pty_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void receive();
+  /// True if the host has not taken all bytes yet.
+  bool transmit();
+  bool runs_ahead(bool host_is_behind);
+  void step();
+  void wait();
+  void save_flash();
+
+  ServerConfig config_;
+  VirtualRobot robot_;
+  Pty pty_;
+  TruthServer truth_;
+  std::vector<std::uint8_t> outgoing_;
+  std::uint64_t last_heard_us_ = 0;   // virtual
+  Clock::time_point behind_since_{};  // real time since when the host takes nothing
+  Clock::time_point due_;             // of the next millisecond, in real time
+  std::vector<std::uint8_t> saved_flash_;
+};
+
+}  // namespace astro::simulator

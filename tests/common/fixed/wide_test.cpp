@@ -1,0 +1,167 @@
+#include "common/fixed/wide.hpp"
+
+#include <gtest/gtest.h>
+
+#include <boost/multiprecision/cpp_int.hpp>
+#include <vector>
+
+#include "tests/common/fixed/seeded.hpp"
+
+namespace astro {
+namespace {
+
+using Int128 = __int128;
+using boost::multiprecision::cpp_int;
+
+constexpr std::int64_t kMost64 = INT64_MAX, kLeast64 = INT64_MIN;
+constexpr std::int32_t kMost32 = INT32_MAX, kLeast32 = INT32_MIN;
+
+template <int Shift>
+Int128 exact(std::int64_t a, std::int32_t b) {
+  return (Int128{a} * b + (Int128{1} << (Shift - 1))) >> Shift;
+}
+
+template <int Shift>
+void expect_exact(std::int64_t a, std::int32_t b) {
+  const Int128 expected = exact<Shift>(a, b);
+  if (expected > kMost64 || expected < kLeast64) return;  // the result must fit, says the contract
+  ASSERT_EQ(mul_shift<Shift>(a, b), static_cast<std::int64_t>(expected))
+      << a << " * " << b << " >> " << Shift;
+}
+
+template <int Shift>
+void sweep() {
+  for (const std::int64_t a :
+       {kLeast64, kLeast64 + 1, std::int64_t{-1} << 32, std::int64_t{-1}, std::int64_t{0}, std::int64_t{1},
+        std::int64_t{0xFFFF'FFFF}, std::int64_t{1} << 32, kMost64})
+    for (const std::int32_t b : {kLeast32, kLeast32 + 1, -1, 0, 1, kMost32}) expect_exact<Shift>(a, b);
+  tests::Seeded random(Shift);
+  for (int i = 0; i < 100'000; ++i)
+    expect_exact<Shift>(random.any_size(64), static_cast<std::int32_t>(random.any_size(31)));
+}
+
+TEST(MulShift, IsTheRoundedProductForAllSizesAndExtremes) {
+  sweep<1>();
+  sweep<2>();
+  sweep<16>();
+  sweep<29>();
+  sweep<31>();
+  sweep<32>();
+}
+
+TEST(MulShift, RoundsTiesUpwardAlsoBelowZero) {
+  EXPECT_EQ(mul_shift<1>(1, 1), 1);    //  0.5
+  EXPECT_EQ(mul_shift<1>(-1, 1), 0);   // -0.5
+  EXPECT_EQ(mul_shift<1>(-3, 1), -1);  // -1.5
+  EXPECT_EQ(mul_shift<32>(std::int64_t{1} << 31, -1), 0);
+  EXPECT_EQ(mul_shift<32>((std::int64_t{1} << 31) + 1, -1), -1);
+}
+
+TEST(Isqrt, IsTheLargestRootThatDoesNotExceed) {
+  tests::Seeded random(20);
+  const auto holds = [](std::uint64_t n) {
+    const std::uint64_t r = isqrt(n);
+    return r * r <= n && Int128{r + 1} * Int128{r + 1} > Int128{n};
+  };
+  for (std::uint64_t n = 0; n < 100'000; ++n) ASSERT_TRUE(holds(n)) << n;
+  for (int i = 0; i < 100'000; ++i) {
+    const std::uint64_t n = random.bits() >> random.between(0, 63);
+    ASSERT_TRUE(holds(n)) << n;
+  }
+  EXPECT_EQ(isqrt(~std::uint64_t{0}), 0xFFFF'FFFFU);
+}
+
+TEST(Isqrt, IsExactOnBothSidesOfSquares) {
+  tests::Seeded random(21);
+  for (int i = 0; i < 10'000; ++i) {
+    const std::uint64_t r = random.bits() >> 32 >> random.between(0, 30) | 1U;
+    ASSERT_EQ(isqrt(r * r), r);
+    ASSERT_EQ(isqrt(r * r - 1), r - 1);
+  }
+}
+
+struct Formula {
+  std::uint64_t start;
+  std::vector<std::uint32_t> factors;
+  int shift;
+  std::vector<std::uint32_t> divisors;
+
+  Natural natural() const {
+    Natural n(start);
+    for (const std::uint32_t factor : factors) n *= factor;
+    n <<= shift;
+    for (const std::uint32_t divisor : divisors) n /= divisor;
+    return n;
+  }
+  cpp_int bignum() const {
+    cpp_int n = start;
+    for (const std::uint32_t factor : factors) n *= factor;
+    n <<= shift;
+    for (const std::uint32_t divisor : divisors) n /= divisor;
+    return n;
+  }
+};
+
+std::int64_t half_rounded(const cpp_int& n) {
+  const cpp_int half = (n + 1) / 2;
+  return half > kMost64 ? kMost64 : static_cast<std::int64_t>(half);
+}
+
+TEST(Natural, ProductsShiftsAndDivisionsEqualABignumsUpTo256Bits) {
+  tests::Seeded random(30);
+  const auto limb = [&] {
+    return static_cast<std::uint32_t>(random.bits() >> 32 >> random.between(0, 31)) | 1U;
+  };
+  int within = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    Formula formula{random.bits(), {}, static_cast<int>(random.between(0, 63)), {}};
+    for (std::int64_t n = random.between(0, 4); n > 0; --n)
+      formula.factors.push_back(limb());  // 64 + 4*32 + 63 bits
+    for (std::int64_t n = random.between(0, 7); n > 0; --n) formula.divisors.push_back(limb());
+    const cpp_int expected = formula.bignum();
+    ASSERT_EQ(formula.natural().fits_63_bits(), expected <= kMost64) << expected;
+    ASSERT_EQ(formula.natural().half_rounded(), half_rounded(expected)) << expected;
+    within += expected <= kMost64 ? 1 : 0;
+  }
+  EXPECT_GT(within, 10'000) << "most cases only saturate: they prove little";
+}
+
+TEST(Natural, HoldsTheExtremesOfTheFormulasThatUseIt) {
+  // The largest products of geometry.cpp (c_R 1.5, wheel 1 m, gear denominator 10^6, pi, shift 26) and
+  // trapezoid.cpp (1 km, shift 42), undone by dividing: nothing was lost at the top.
+  const Formula geometry{1'610'612'736, {1'000'000'000, 1'000'000, 2549491779}, 26, {}};
+  EXPECT_LT(msb(geometry.bignum()), 256U);
+  Formula undone = geometry;
+  undone.divisors = {2549491779, 1'000'000, 1'000'000'000, 1U << 26};
+  EXPECT_EQ(undone.natural().half_rounded(), 1'610'612'736 / 2);
+  EXPECT_EQ((Formula{1'000'000'000'000, {}, 42, {1U << 31, 1U << 11}}.natural().half_rounded()),
+            500'000'000'000);
+}
+
+TEST(Natural, DividingTwiceIsDividingByTheProduct) {
+  tests::Seeded random(31);
+  for (int i = 0; i < 10'000; ++i) {
+    const std::uint64_t n = random.bits();
+    const auto a = static_cast<std::uint32_t>(random.between(1, 65535));
+    const auto b = static_cast<std::uint32_t>(random.between(1, 65535));
+    Natural once(n), twice(n);
+    once /= a * b;
+    (twice /= a) /= b;
+    ASSERT_EQ(once.half_rounded(), twice.half_rounded()) << n << " " << a << " " << b;
+  }
+}
+
+TEST(Natural, HalfRoundedRoundsUpAtTheHalfAndSaturates) {
+  EXPECT_EQ(Natural(0).half_rounded(), 0);
+  EXPECT_EQ(Natural(1).half_rounded(), 1);
+  EXPECT_EQ(Natural(2).half_rounded(), 1);
+  EXPECT_EQ(Natural(3).half_rounded(), 2);
+  EXPECT_EQ(Natural(~std::uint64_t{0} - 1).half_rounded(), kMost64);  // 2^63 - 1 exactly
+  EXPECT_EQ(Natural(~std::uint64_t{0}).half_rounded(), kMost64);      // 2^63 saturates
+  Natural large(1);
+  large <<= 200;
+  EXPECT_EQ(large.half_rounded(), kMost64);
+}
+
+}  // namespace
+}  // namespace astro

@@ -1,0 +1,118 @@
+#include "common/params/table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "common/params/parameter_set.hpp"
+
+namespace astro {
+namespace {
+
+TEST(ParamTable, IdsAreTheRowNumbersAndNamesAreUnique) {
+  std::set<std::string_view> names;
+  for (std::size_t i = 0; i < kParamCount; ++i) {
+    EXPECT_EQ(static_cast<std::size_t>(kParamTable[i].id), i + 1) << kParamTable[i].name;
+    EXPECT_TRUE(names.insert(kParamTable[i].name).second) << kParamTable[i].name;
+  }
+}
+
+TEST(ParamTable, EveryRowIsFoundByItsIdAndByItsName) {
+  for (const ParamRow& row : kParamTable) {
+    EXPECT_EQ(find_param(static_cast<std::uint16_t>(row.id)), &row);
+    EXPECT_EQ(find_param(row.name), &row);
+    EXPECT_EQ(&param_row(row.id), &row);
+  }
+}
+
+TEST(ParamTable, IdsAndNamesItDoesNotHaveAreNotFound) {
+  EXPECT_EQ(find_param(std::uint16_t{0}), nullptr);
+  EXPECT_EQ(find_param(static_cast<std::uint16_t>(kParamCount + 1)), nullptr);
+  EXPECT_EQ(find_param(std::uint16_t{0xFFFF}), nullptr);
+  EXPECT_EQ(find_param("no_such_parameter"), nullptr);
+  EXPECT_EQ(find_param("c_"), nullptr);
+  EXPECT_EQ(find_param(""), nullptr);
+}
+
+TEST(ParamTable, EveryRowSaysWhatItIsAndFitsTheMessagesThatCarryIt) {
+  for (const ParamRow& row : kParamTable) {
+    SCOPED_TRACE(std::string(row.name));
+    EXPECT_FALSE(row.name.empty());
+    EXPECT_LE(row.name.size(), kParamNameMax);
+    EXPECT_LE(row.unit.size(), kParamUnitMax);
+    EXPECT_EQ(row.unit.empty(), row.kind == ParamKind::text) << "numbers have a unit, 1 if need be";
+    EXPECT_GE(row.doc.size(), 10U);
+    EXPECT_LE(row.doc.size(), kParamDocMax);
+  }
+}
+
+TEST(ParamTable, DefaultsLieWithinTheirLimits) {
+  for (const ParamRow& row : kParamTable) {
+    SCOPED_TRACE(std::string(row.name));
+    EXPECT_LT(row.minimum_raw, row.maximum_raw);
+    if (row.kind == ParamKind::text) {
+      EXPECT_GE(row.default_text.size(), static_cast<std::size_t>(row.minimum_raw));
+      EXPECT_LE(row.default_text.size(), static_cast<std::size_t>(row.maximum_raw));
+      EXPECT_LE(static_cast<std::size_t>(row.maximum_raw), ParamText::kCapacity);
+    } else {
+      EXPECT_GE(row.default_raw, row.minimum_raw);
+      EXPECT_LE(row.default_raw, row.maximum_raw);
+    }
+  }
+}
+
+TEST(ParamTable, ExponentsBelongToTheirKind) {
+  for (const ParamRow& row : kParamTable) {
+    SCOPED_TRACE(std::string(row.name));
+    if (row.kind == ParamKind::binary_scaled || row.kind == ParamKind::decimal_scaled) {
+      EXPECT_LT(row.exponent, 0);
+    } else {
+      EXPECT_EQ(row.exponent, 0);
+    }
+  }
+}
+
+TEST(ParamTable, ScalesAreExact) {
+  EXPECT_EQ(param_row(Param::c_R).default_raw, 1 << 30);
+  EXPECT_EQ(param_row(Param::c_L).minimum_raw, 1 << 29);
+  EXPECT_EQ(param_row(Param::c_L).maximum_raw, 3 << 29);
+  EXPECT_EQ(param_row(Param::b).default_raw, 290'000'000);  // 0.29 is no double: rounding, not cutting
+  EXPECT_EQ(param_row(Param::b).maximum_raw, 2'000'000'000);
+  EXPECT_EQ(param_row(Param::wheel_diameter).default_raw, 72'000'000);
+  EXPECT_EQ(param_row(Param::speed_limit).default_raw, 750'000);
+  EXPECT_EQ(param_row(Param::motor_voltage_max).default_raw, 12'000);
+  EXPECT_EQ(param_row(Param::observer_bandwidth).default_raw, 100 << 16);
+  EXPECT_EQ(param_row(Param::gear_numerator).default_raw, 438);
+  EXPECT_EQ(param_row(Param::motor_polarity_left).minimum_raw, -1);
+}
+
+TEST(ParamTable, MakersRoundToTheNearestStepOnBothSidesOfZero) {
+  constexpr ParamRow row = decimal_row(Param::b, "b", "m", 3, {0.0014, -0.0016, 0.0016}, "");
+  EXPECT_EQ(row.default_raw, 1);
+  EXPECT_EQ(row.minimum_raw, -2);
+  EXPECT_EQ(row.maximum_raw, 2);
+  constexpr ParamRow ends = integer_row(Param::b, "b", "m", {0, -2147483648.0, 2147483647.0}, "");
+  EXPECT_EQ(ends.minimum_raw, INT32_MIN);
+  EXPECT_EQ(ends.maximum_raw, INT32_MAX);
+}
+
+TEST(ParamTable, DescribesTheReferenceRobot) {
+  const auto value = [](Param id) {
+    const ParamRow& row = param_row(id);
+    const double base = row.kind == ParamKind::binary_scaled ? 2.0 : 10.0;
+    return row.default_raw * std::pow(base, row.exponent);
+  };
+  // 64 edges per motor revolution, gear 43.8 : 1.
+  EXPECT_DOUBLE_EQ(
+      value(Param::counts_per_motor_rev) * value(Param::gear_numerator) / value(Param::gear_denominator),
+      2803.2);
+  // 12 V over the no-load speed of 251 rpm, less the dead zone: the feed-forward reaches full speed near 12
+  // V.
+  const double no_load_mps = 251.0 / 60 * M_PI * value(Param::wheel_diameter);
+  EXPECT_NEAR(value(Param::kS) + value(Param::kV) * no_load_mps, 12.0, 0.5);
+}
+
+}  // namespace
+}  // namespace astro

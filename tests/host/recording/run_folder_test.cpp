@@ -1,0 +1,76 @@
+#include "host/recording/run_folder.hpp"
+
+#include <gmock/gmock.h>
+
+#include "host/base/error.hpp"
+#include "host/recording/run_file.hpp"
+#include "tests/host/recording/support.hpp"
+
+namespace astro::recording {
+namespace {
+
+using support::complaint;
+using support::TempFolder;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+Run numbered(int index) {
+  recording::Run run;
+  run.info.index = index;
+  run.odometry.resize(static_cast<std::size_t>(index));
+  return run;
+}
+
+TEST(RunFolder, RunsComeInNaturalOrderFromEveryDepth) {
+  const TempFolder folder;
+  write_run(folder / "before/cw-10.mcap", numbered(4));
+  write_run(folder / "before/cw-2.mcap", numbered(3));
+  write_run(folder / "after/cw-1.mcap", numbered(1));
+  write_run(folder / "after/cw-1b.mcap", numbered(2));
+  support::spill(folder / "notes.txt", as_bytes("not a run"));
+  support::spill(folder / "before/cw-3.mcap.part", as_bytes("cut off"));
+  std::vector<int> from_infos;
+  for (const RunEntry& entry : read_run_infos(folder.path())) from_infos.push_back(entry.info.index);
+  EXPECT_THAT(from_infos, ElementsAre(1, 2, 3, 4));
+  std::vector<std::size_t> from_runs;
+  for (const recording::Run& run : read_runs(folder.path())) from_runs.push_back(run.odometry.size());
+  EXPECT_THAT(from_runs, ElementsAre(1U, 2U, 3U, 4U));
+}
+
+TEST(RunFolder, NaturalOrderIsAStrictOrder) {
+  const std::vector<std::string> sorted = {"",
+                                           "a",
+                                           "a/1",
+                                           "a/01",
+                                           "a1",
+                                           "a1b",
+                                           "a2",
+                                           "a09",
+                                           "a10",
+                                           "a99999999999999999999",
+                                           "a100000000000000000000",
+                                           "b",
+                                           "b-1"};
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    for (std::size_t j = 0; j < sorted.size(); ++j) {
+      if (sorted[i] == "a/1" || sorted[i] == "a/01") continue;  // equal as numbers: told apart as text
+      if (sorted[j] == "a/1" || sorted[j] == "a/01") continue;
+      EXPECT_EQ(natural_less(sorted[i], sorted[j]), i < j) << sorted[i] << " " << sorted[j];
+    }
+  }
+  EXPECT_NE(natural_less("a/1", "a/01"), natural_less("a/01", "a/1"));
+}
+
+TEST(RunFolder, ComplaintsNameTheFolderAndTheRemedy) {
+  const TempFolder folder;
+  EXPECT_THAT(complaint([&] { list_runs(folder / "none"); }),
+              AllOf(HasSubstr("none"), HasSubstr("not a folder")));
+  EXPECT_THAT(complaint([&] { read_runs(folder.path()); }),
+              AllOf(HasSubstr(folder.path().string()), HasSubstr("record some")));
+  support::spill(folder / "x/bad.mcap", as_bytes("nonsense"));
+  EXPECT_THAT(complaint([&] { read_run_infos(folder.path()); }), HasSubstr("bad.mcap"));
+}
+
+}  // namespace
+}  // namespace astro::recording
