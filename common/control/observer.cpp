@@ -10,8 +10,9 @@ constexpr std::int64_t kMostCounts = 1024;
 
 void SpeedObserver::set_bandwidth(std::int32_t bandwidth_16) {
   const std::int64_t w_20 = (std::int64_t{bandwidth_16} << 4) / 1000;  // w T
-  proportional_20_ = static_cast<std::int32_t>(2 * w_20);
-  integral_20_ = static_cast<std::int32_t>((w_20 * w_20) >> 20);
+  const std::int64_t square_20 = (w_20 * w_20) >> 20;
+  proportional_20_ = static_cast<std::int32_t>(2 * w_20 - square_20);
+  integral_20_ = static_cast<std::int32_t>(square_20);
 }
 
 void SpeedObserver::advance(std::int32_t counts) {

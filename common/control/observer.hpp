@@ -10,7 +10,8 @@ namespace astro {
 ///
 /// Units   speed in 2^-20 counts per tick.
 /// Cost    constant, two multiplies; callable from the control tick.
-/// Source  critically damped: kp = 2 w T, ki = (w T)^2 for bandwidth w and tick T.
+/// Source  critically damped: kp = 2 w T - (w T)^2, ki = (w T)^2 put both poles at 1 - w T, for bandwidth w
+/// and tick T.
 class SpeedObserver {
  public:
   static constexpr int kSpeedBits = 20;

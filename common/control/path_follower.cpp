@@ -38,7 +38,6 @@ void PathFollower::set_gains(const ParameterSet& set) {
 }
 
 void PathFollower::begin_path(const Pose& pose) {
-  reference_ = ArcIntegrator{};
   reference_.set_pose(pose);
   profile_ = Trapezoid{};
   last_ = {};
@@ -53,7 +52,8 @@ PathFollower::Command PathFollower::advance(const Pose& actual) {
   }
   const BodyTwist correction_now = correction(actual, wanted.v_umps);
   Command command;
-  command.twist = {wanted.v_umps + correction_now.v_umps, wanted.omega_uradps + correction_now.omega_uradps};
+  command.twist = {saturate32(std::int64_t{wanted.v_umps} + correction_now.v_umps),
+                   saturate32(std::int64_t{wanted.omega_uradps} + correction_now.omega_uradps)};
   command.acceleration = {saturate32(std::int64_t{wanted.v_umps - last_.v_umps} * kTickHz),
                           saturate32(std::int64_t{wanted.omega_uradps - last_.omega_uradps} * kTickHz)};
   last_ = wanted;

@@ -6,28 +6,58 @@ namespace astro {
 namespace {
 
 constexpr std::int64_t magnitude(std::int64_t value) { return value < 0 ? -value : value; }
+constexpr std::int64_t larger(std::int64_t a, std::int64_t b) { return a > b ? a : b; }
 
 constexpr std::int32_t tighter(std::int32_t wanted, std::int32_t limit) {
   return wanted > 0 && wanted < limit ? wanted : limit;
 }
 
-// ceil(distance / rate) in ticks, distance in 1e-6 m or 1e-6 rad, rate per second.
-constexpr std::int64_t ticks_at(std::int64_t distance, std::int64_t rate) {
-  return (distance * 1000 + rate - 1) / rate;
-}
+constexpr std::int64_t ceil_divide(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }
 
-// Ticks in which the acceleration limit takes the speed from rest over half the distance:  t^2 = distance /
-// rate.
-constexpr std::int64_t triangle_ticks(std::int64_t distance, std::int64_t acceleration) {
-  const std::int64_t square = distance * 1'000'000 / acceleration;
-  return isqrt(static_cast<std::uint64_t>(square)) + 1;
-}
+// One of the two motions of a segment. Distances and ticks are rounded up, so that no limit is exceeded.
+struct Motion {
+  std::int64_t distance;      // 1e-6 m or 1e-6 rad
+  std::int64_t rate;          // per second
+  std::int64_t acceleration;  // per second squared
 
-constexpr std::int64_t larger(std::int64_t a, std::int64_t b) { return a > b ? a : b; }
+  // Ticks that the whole segment would take at the level speed.
+  constexpr std::int64_t cruise() const { return ceil_divide(distance * 1000, rate); }
+  // Ticks to reach distance / cruise from rest.
+  constexpr std::int64_t ramp(std::int64_t cruise) const {
+    return ceil_divide(distance * 1'000'000, cruise * acceleration);
+  }
+  // Ticks to the middle of the segment, without a level part: t^2 = distance / acceleration.
+  constexpr std::int64_t half() const {
+    return isqrt(static_cast<std::uint64_t>(distance * 1'000'000 / acceleration)) + 1;
+  }
+};
+
+constexpr std::int64_t length_um(std::int64_t length_nm) { return ceil_divide(magnitude(length_nm), 1000); }
 
 constexpr std::int64_t angle_urad(std::int64_t angle_32) {
-  constexpr std::int64_t kTurn_urad = 6'283'185;
-  return (magnitude(angle_32) >> 16) * kTurn_urad >> 16;
+  constexpr std::int64_t kTurn_urad = 6'283'186;  // rounded up
+  if (angle_32 == 0) return 0;
+  return (((magnitude(angle_32) >> 4) + 1) * kTurn_urad >> 28) + 1;
+}
+
+bool acceptable(const Segment& segment) {
+  const auto within = [](std::int64_t value, std::int64_t most) { return value >= -most && value <= most; };
+  return within(segment.length_nm, kMaxLength_nm) && within(segment.angle_32, kMaxAngle_32) &&
+         (segment.length_nm != 0 || segment.angle_32 != 0);
+}
+
+// 2^-50 m per nm is 2^50 / 10^9 = 2^41 / 5^9.
+std::int64_t travel_50(std::int64_t length_nm) {
+  Natural travel(static_cast<std::uint64_t>(magnitude(length_nm)));
+  travel <<= 41 + 1;
+  travel /= 1'953'125;
+  return length_nm < 0 ? -travel.half_rounded() : travel.half_rounded();
+}
+
+// total * 2^bits / shares towards zero, for a quotient that fits.
+constexpr std::int64_t share(std::int64_t total, std::int64_t shares, int bits) {
+  const std::int64_t scale = std::int64_t{1} << bits;
+  return total / shares * scale + total % shares * scale / shares;
 }
 
 }  // namespace
@@ -38,40 +68,26 @@ MotionLimits make_limits(const ParameterSet& set) {
 }
 
 bool Trapezoid::plan(const Segment& segment, const MotionLimits& limits, Trapezoid& out) {
-  if (magnitude(segment.length_nm) > kMaxLength_nm || magnitude(segment.angle_32) > kMaxAngle_32)
-    return false;
-  const std::int64_t length_um = magnitude(segment.length_nm) / 1000;
-  const std::int64_t angle = angle_urad(segment.angle_32);
-  if (length_um == 0 && angle == 0) return false;
-
-  // At the level speed the whole segment would take `cruise` ticks; the ramp is as long as the tighter of the
-  // two accelerations needs to reach that speed, and no longer than a triangle's.
-  const std::int64_t speed = tighter(segment.speed_umps, limits.speed_umps);
-  const std::int64_t yaw_rate = tighter(segment.yaw_rate_uradps, limits.yaw_rate_uradps);
-  const std::int64_t cruise = larger(1, larger(ticks_at(length_um, speed), ticks_at(angle, yaw_rate)));
+  if (!acceptable(segment)) return false;
+  const Motion length{length_um(segment.length_nm), tighter(segment.speed_umps, limits.speed_umps),
+                      limits.acceleration_umps2};
+  const Motion angle{angle_urad(segment.angle_32), tighter(segment.yaw_rate_uradps, limits.yaw_rate_uradps),
+                     limits.yaw_acceleration_uradps2};
+  const std::int64_t cruise = larger(1, larger(length.cruise(), angle.cruise()));
   if (cruise > kMaxTicks) return false;
-  const std::int64_t reached_speed = length_um * 1000 / cruise;
-  const std::int64_t reached_yaw_rate = angle * 1000 / cruise;
-  std::int64_t ramp = larger(1, larger(ticks_at(reached_speed, limits.acceleration_umps2),
-                                       ticks_at(reached_yaw_rate, limits.yaw_acceleration_uradps2)));
-  std::int64_t level = cruise - ramp;
-  if (level < 0) {
-    ramp = larger(triangle_ticks(length_um, limits.acceleration_umps2),
-                  triangle_ticks(angle, limits.yaw_acceleration_uradps2));
-    level = 0;
-  }
 
   Trapezoid planned;
-  planned.ramp_ = ramp;
-  planned.level_ = level;
-  // 2^-50 m per nm is 2^50 / 10^9 = 2^41 / 5^9.
-  Natural travel(static_cast<std::uint64_t>(magnitude(segment.length_nm)));
-  travel <<= 41 + 1;
-  travel /= 1'953'125;
-  planned.total_ = {segment.length_nm < 0 ? -travel.half_rounded() : travel.half_rounded(),
-                    segment.angle_32 * (std::int64_t{1} << 20)};
-  const std::int64_t shares = 2 * ramp * (ramp + level);
-  planned.unit_ = {planned.total_.travel / shares, planned.total_.turn / shares};
+  planned.ramp_ = larger(1, larger(length.ramp(cruise), angle.ramp(cruise)));
+  planned.level_ = cruise - planned.ramp_;
+  if (planned.level_ < 0) {
+    planned.ramp_ = larger(length.half(), angle.half());
+    planned.level_ = 0;
+  }
+  if (planned.ticks() > kMaxTicks) return false;
+  const std::int64_t shares = 2 * planned.ramp_ * (planned.ramp_ + planned.level_);
+  planned.total_ = {travel_50(segment.length_nm), segment.angle_32 * (std::int64_t{1} << 20)};
+  planned.unit_ = {share(planned.total_.travel, shares, kUnitBits),
+                   share(planned.total_.turn, shares, kUnitBits)};
   out = planned;
   return true;
 }
@@ -82,7 +98,11 @@ Trapezoid::Step Trapezoid::advance() {
   const std::int64_t edge = tick_ < from_end ? tick_ : from_end;
   const std::int64_t shares = edge < ramp_ ? 2 * edge + 1 : 2 * ramp_;
   ++tick_;
-  Step step{unit_.travel * shares, unit_.turn * shares};
+  rest_.travel += unit_.travel * shares;
+  rest_.turn += unit_.turn * shares;
+  Step step{rest_.travel >> kUnitBits, rest_.turn >> kUnitBits};
+  constexpr std::int64_t kBelowUnit = (std::int64_t{1} << kUnitBits) - 1;
+  rest_ = {rest_.travel & kBelowUnit, rest_.turn & kBelowUnit};
   if (done()) step = {total_.travel - given_.travel, total_.turn - given_.turn};
   given_.travel += step.travel;
   given_.turn += step.turn;

@@ -8,7 +8,8 @@ namespace astro {
 
 /// Trapezoidal speed profile of one segment, in whole ticks: up for `ramp` ticks, level for `level`, down for
 /// `ramp`. Length and angle advance together, so an arc keeps its curvature. The steps are integers whose sum
-/// is the segment exactly; no rounding is left at the end.
+/// is the segment exactly; no rounding is left at the end. Ticks are rounded up, so that no limit is
+/// exceeded.
 ///
 /// Units   travel 2^-50 m, turn 2^-52 turn (of a step and in total).
 /// Cost    plan: two square roots and some divisions, for the start of a segment (main loop).
@@ -34,7 +35,11 @@ class Trapezoid {
  private:
   std::int64_t ramp_ = 0, level_ = 0;
   std::int64_t tick_ = 0;
-  Step unit_;   // what one of the profile's 2 ramp (ramp + level) equal shares is worth
+  // Fine enough that what the last step makes up is less than one share, for any segment and any valid
+  // limits.
+  static constexpr int kUnitBits = 17;
+  Step unit_;   // what one of the profile's 2 ramp (ramp + level) equal shares is worth, kUnitBits finer
+  Step rest_;   // kUnitBits finer: what the steps so far have rounded away
   Step total_;  // the whole segment
   Step given_;  // sum of the steps so far
 };

@@ -5,17 +5,25 @@
 /// Wide integer arithmetic without __int128, which the MCU's compiler does not have.
 namespace astro {
 
-/// round(a * b / 2^Shift) through 96 bits, ties upward. The result must fit 64 bits.
+/// floor((a * b + rest) / 2^Shift) through 96 bits; what is left over becomes the new `rest`, so that a long
+/// sum of products loses nothing. rest < 2^Shift before and after; the result must fit 64 bits.
 ///
 /// Cost    two 32x32 multiplies and a few adds; callable from the control tick.
 template <int Shift>
-constexpr std::int64_t mul_shift(std::int64_t a, std::int32_t b) {
+constexpr std::int64_t mul_shift_carry(std::int64_t a, std::int32_t b, std::uint32_t& rest) {
   static_assert(Shift >= 1 && Shift <= 32);
-  const std::int64_t low = std::int64_t{static_cast<std::uint32_t>(a)} * b + (std::int64_t{1} << (Shift - 1));
+  const std::int64_t low = std::int64_t{static_cast<std::uint32_t>(a)} * b + rest;
   const std::int64_t high = (a >> 32) * b;
-  if constexpr (Shift == 32) return high + (low >> Shift);
+  rest = static_cast<std::uint32_t>(low & ((std::int64_t{1} << Shift) - 1));
   // In two's complement the shifted-out bits of `high` cannot matter once the result fits.
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(high) << (32 - Shift)) + (low >> Shift);
+}
+
+/// round(a * b / 2^Shift), ties upward. The result must fit 64 bits.
+template <int Shift>
+constexpr std::int64_t mul_shift(std::int64_t a, std::int32_t b) {
+  std::uint32_t half = std::uint32_t{1} << (Shift - 1);
+  return mul_shift_carry<Shift>(a, b, half);
 }
 
 /// Largest r with r * r <= n.

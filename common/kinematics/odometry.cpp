@@ -29,8 +29,8 @@ void ArcIntegrator::advance(std::int64_t travel, std::int64_t turn) {
   remainder_ = chord & ((std::int64_t{1} << 27) - 1);
 
   const SinCos heading = sin_cos(pose_.theta + (turn >> 1));
-  pose_.x += mul_shift<29>(heading.cos, step_29);
-  pose_.y += mul_shift<29>(heading.sin, step_29);
+  pose_.x += mul_shift_carry<29>(heading.cos, step_29, x_rest_);
+  pose_.y += mul_shift_carry<29>(heading.sin, step_29, y_rest_);
 
   const Angle before = pose_.theta;
   pose_.theta = before + turn;

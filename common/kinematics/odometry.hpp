@@ -11,9 +11,9 @@ namespace astro {
 /// rate.
 ///
 /// Domain  |travel| < 4 m and |turn| < 1/4 turn a step; the robot refuses encoder steps beyond.
-/// Errors  heading none, ever: it is an integer sum. Position: what the Q40 sine leaves, below 1e-10 of the
-/// way.
-///         A step shorter than the 2^-29 m that a product can hold is not lost: the remainder is carried.
+/// Errors  heading none, ever: it is an integer sum. Position: what the Q40 sine and the 32-bit chord leave,
+///         below 2e-10 of the way. Nothing is rounded per step: travel below the 2^-29 m that a product can
+///         hold and position below 2^-40 m are carried to the next step.
 /// Cost    constant, one sine and cosine, no division; callable from the control tick.
 /// Source  Sola, Deray, Atchuthan, arXiv:1812.01537v9, eqs. 156-158: the chord of an arc of length s and
 /// angle a is
@@ -24,11 +24,16 @@ class ArcIntegrator {
   void advance(std::int64_t travel, std::int64_t turn);
 
   const Pose& pose() const { return pose_; }
-  void set_pose(const Pose& pose) { pose_ = pose; }
+  /// Goes on from here; nothing of the past remains.
+  void set_pose(const Pose& pose) {
+    *this = ArcIntegrator{};
+    pose_ = pose;
+  }
 
  private:
   Pose pose_;
-  std::int64_t remainder_ = 0;  // 2^-56 m, less than 2^-29 m: travel not yet in the position
+  std::int64_t remainder_ = 0;             // 2^-56 m, less than 2^-29 m: travel not yet in the position
+  std::uint32_t x_rest_ = 0, y_rest_ = 0;  // 2^-69 m, less than 2^-40 m: position not yet in the pose
 };
 
 /// Dead reckoning from wheel counts.

@@ -23,7 +23,7 @@ struct Flash {
   bool erase(std::uint32_t sector) noexcept {
     ++erases;
     if (broken || sector >= kSectors) return false;
-    std::fill_n(content.begin() + sector * kSectorBytes, kSectorBytes, std::uint8_t{0xFF});
+    std::fill_n(content.begin() + std::size_t{sector} * kSectorBytes, kSectorBytes, std::uint8_t{0xFF});
     return true;
   }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "hal/sim/config.hpp"
@@ -13,7 +14,7 @@ class Battery {
       : open_circuit_V_(config.supply_V), resistance_ohm_(config.supply_ohm), filtered_V_(config.supply_V) {}
 
   /// Supply voltage under load through a first-order filter of about 50 Hz.
-  std::int32_t millivolts() noexcept { return static_cast<std::int32_t>(filtered_V_ * 1000.0 + 0.5); }
+  std::int32_t millivolts() noexcept { return static_cast<std::int32_t>(std::lround(filtered_V_ * 1000.0)); }
 
   /// Charge falls, or somebody turns the bench supply's knob.
   void set_open_circuit_V(double volts) { open_circuit_V_ = volts; }

@@ -14,7 +14,7 @@ namespace astro::calibration {
 ///
 /// Units   E_d = D_R / D_L and E_b = b_actual / b_believed are pure ratios.
 /// Errors  none; the arguments are positive.
-/// Source  Borenstein & Feng 1996, eqs. (3.9)-(3.17), with c_R + c_L free instead of 2.
+/// Source  Borenstein & Feng 1996, who have c_R + c_L = 2.
 WheelFactors compose(const WheelFactors& carried, double E_d, double E_b);
 
 /// Throws astro::Error unless all three factors are finite and positive.

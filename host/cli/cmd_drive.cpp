@@ -22,7 +22,7 @@ struct VelocityOptions {
 };
 
 void add_common_options(CLI::App& command, DriveOptions& options) {
-  add_connection_options(command, options.connection);
+  add_connection(command, options.connection);
   add_json_flag(command, options.json);
 }
 
@@ -31,18 +31,18 @@ CLI::Option* add_number(CLI::App& command, const std::string& name, double& valu
 }
 
 void add_limits(CLI::App& command, link::PathLimits& limits) {
-  add_number(command, "--speed", limits.speed_mps, "Greatest speed in m/s; default: the robot's own limit")
+  add_number(command, "--speed", limits.speed_mps, "greatest speed in m/s; default: the robot's own limit")
       ->type_name("M/S")
       ->check(between(0.001, 100, "m/s"));
   add_number(command, "--yaw-rate", limits.yaw_rate_radps,
-             "Greatest yaw rate in rad/s; default: the robot's own limit")
+             "greatest yaw rate in rad/s; default: the robot's own limit")
       ->type_name("RAD/S")
       ->check(between(0.001, 100, "rad/s"));
 }
 
 void add_sense(CLI::App& command, PathOptions& options) {
-  CLI::Option* ccw = command.add_flag("--ccw", options.ccw, "Counter-clockwise, turning left (default)");
-  command.add_flag("--cw", options.cw, "Clockwise, turning right")->excludes(ccw);
+  CLI::Option* ccw = command.add_flag("--ccw", options.ccw, "counter-clockwise, turning left (default)");
+  command.add_flag("--cw", options.cw, "clockwise, turning right")->excludes(ccw);
 }
 
 /// A leaf of `drive` that follows a path.
@@ -57,9 +57,9 @@ CLI::App& add_path(CLI::App& drive, const std::string& name, const std::string& 
 
 void add_line(CLI::App& drive) {
   const auto options = std::make_shared<PathOptions>();
-  CLI::App& command = add_path(drive, "line", "Drive straight on", options,
+  CLI::App& command = add_path(drive, "line", "drive straight on", options,
                                [](const PathOptions& o) { return link::line(o.length_m, o.limits); });
-  add_number(command, "LENGTH", options->length_m, "Metres; backwards if negative")
+  add_number(command, "LENGTH", options->length_m, "metres; backwards if negative")
       ->required()
       ->check(finite());
   examples(command, {"astrolabe drive line 1", "astrolabe drive line -0.5 --speed 0.2"});
@@ -67,10 +67,10 @@ void add_line(CLI::App& drive) {
 
 void add_spin(CLI::App& drive) {
   const auto options = std::make_shared<PathOptions>();
-  CLI::App& command = add_path(drive, "spin", "Turn on the spot", options, [](const PathOptions& o) {
+  CLI::App& command = add_path(drive, "spin", "turn on the spot", options, [](const PathOptions& o) {
     return link::spin(link::turns_from_degrees(o.angle_deg), o.limits);
   });
-  add_number(command, "ANGLE", options->angle_deg, "Degrees; to the left if positive")
+  add_number(command, "ANGLE", options->angle_deg, "degrees; to the left if positive")
       ->required()
       ->check(finite());
   examples(command, {"astrolabe drive spin 90", "astrolabe drive spin -3600 --yaw-rate 1"});
@@ -78,14 +78,14 @@ void add_spin(CLI::App& drive) {
 
 void add_arc(CLI::App& drive) {
   const auto options = std::make_shared<PathOptions>();
-  CLI::App& command = add_path(drive, "arc", "Drive a part of a circle", options, [](const PathOptions& o) {
+  CLI::App& command = add_path(drive, "arc", "drive a part of a circle", options, [](const PathOptions& o) {
     return link::arc(o.length_m, link::turns_from_degrees(o.angle_deg), o.limits);
   });
-  add_number(command, "LENGTH", options->length_m, "Metres along the arc; backwards if negative")
+  add_number(command, "LENGTH", options->length_m, "metres along the arc; backwards if negative")
       ->required()
       ->check(finite());
   add_number(command, "ANGLE", options->angle_deg,
-             "Degrees that the heading changes; to the left if positive")
+             "degrees that the heading changes; to the left if positive")
       ->required()
       ->check(finite());
   examples(command, {"astrolabe drive arc 1.5708 90", "astrolabe drive arc 2 -45 --speed 0.3"});
@@ -94,9 +94,9 @@ void add_arc(CLI::App& drive) {
 void add_square(CLI::App& drive) {
   const auto options = std::make_shared<PathOptions>();
   CLI::App& command =
-      add_path(drive, "square", "Drive a square with turns on the spot", options,
+      add_path(drive, "square", "drive a square with turns on the spot", options,
                [](const PathOptions& o) { return link::square(o.length_m, o.sense(), o.limits); });
-  add_number(command, "SIDE", options->length_m, "Metres")->required()->check(positive("m"));
+  add_number(command, "SIDE", options->length_m, "metres")->required()->check(positive("m"));
   add_sense(command, *options);
   examples(command, {"astrolabe drive square 3 --cw", "astrolabe drive square 1 --ccw --speed 0.3 --json"});
 }
@@ -104,11 +104,11 @@ void add_square(CLI::App& drive) {
 void add_circle(CLI::App& drive) {
   const auto options = std::make_shared<PathOptions>();
   CLI::App& command =
-      add_path(drive, "circle", "Drive circles beside the start", options,
+      add_path(drive, "circle", "drive circles beside the start", options,
                [](const PathOptions& o) { return link::circle(o.radius_m, o.turns, o.sense(), o.limits); });
-  add_number(command, "RADIUS", options->radius_m, "Metres")->required()->check(positive("m"));
+  add_number(command, "RADIUS", options->radius_m, "metres")->required()->check(positive("m"));
   add_sense(command, *options);
-  add_number(command, "--turns", options->turns, "How many times round")
+  add_number(command, "--turns", options->turns, "how many times round")
       ->type_name("N")
       ->capture_default_str()
       ->check(positive(""));
@@ -117,12 +117,12 @@ void add_circle(CLI::App& drive) {
 
 void add_velocity(CLI::App& drive) {
   const auto options = std::make_shared<VelocityOptions>();
-  CLI::App& command = *drive.add_subcommand("velocity", "Hold a velocity for a while");
-  add_number(command, "V", options->v_mps, "Speed in m/s, forward positive")->required()->check(finite());
-  add_number(command, "OMEGA", options->omega_radps, "Yaw rate in rad/s, to the left positive")
+  CLI::App& command = *drive.add_subcommand("velocity", "hold a velocity for a while");
+  add_number(command, "V", options->v_mps, "speed in m/s, forward positive")->required()->check(finite());
+  add_number(command, "OMEGA", options->omega_radps, "yaw rate in rad/s, to the left positive")
       ->required()
       ->check(finite());
-  add_number(command, "--for", options->seconds, "How long, in seconds on the robot's clock")
+  add_number(command, "--for", options->seconds, "how long, in seconds on the robot's clock")
       ->type_name("SECONDS")
       ->required()
       ->check(between(0.001, 86'400, "s"));
@@ -135,7 +135,7 @@ void add_velocity(CLI::App& drive) {
 }  // namespace
 
 void add_drive(CLI::App& app) {
-  CLI::App& command = *app.add_subcommand("drive", "Drive a path, hold a velocity or steer by keyboard");
+  CLI::App& command = *app.add_subcommand("drive", "drive a path, hold a velocity or steer by keyboard");
   command.require_subcommand(1);
   for (const auto add : {add_line, add_spin, add_arc, add_square, add_circle, add_velocity}) add(command);
   examples(command,

@@ -71,7 +71,7 @@ std::string as_text(const link::Client& client, const protocol::Status& status,
   return text;
 }
 
-void run(const InfoOptions& options) {
+void run(InfoOptions& options) {
   const auto client = connect(options.connection);
   const link::microseconds round_trip = best_round_trip(*client);
   const protocol::Status status = client->request(protocol::GetStatus{});
@@ -86,8 +86,8 @@ void run(const InfoOptions& options) {
 
 void add_info(CLI::App& app) {
   const auto options = std::make_shared<InfoOptions>();
-  CLI::App& command = *app.add_subcommand("info", "Say which robot answers and how it is");
-  add_connection_options(command, options->connection);
+  CLI::App& command = *app.add_subcommand("info", "say which robot answers and how it is");
+  add_connection(command, options->connection);
   add_json_flag(command, options->json);
   examples(command,
            {"astrolabe info", "astrolabe info --port /dev/ttyACM0", "astrolabe info --json | jq .faults"});

@@ -58,23 +58,23 @@ void run(const SimOptions& wanted) {
 }
 
 void add_robot_options(CLI::App& command, sim::Config& robot) {
-  command.add_option("--true-wheelbase", robot.true_wheelbase_m, "Wheelbase that the robot really has, in m")
+  command.add_option("--true-wheelbase", robot.true_wheelbase_m, "wheelbase that the robot really has, in m")
       ->type_name("M")
       ->capture_default_str()
       ->check(between(0.05, 2, "m"));
-  command.add_option("--true-ed", robot.true_ed, "True ratio of the wheel diameters, right over left")
+  command.add_option("--true-ed", robot.true_ed, "true ratio of the wheel diameters, right over left")
       ->type_name("RATIO")
       ->capture_default_str()
       ->check(between(0.5, 2, ""));
-  command.add_option("--scale", robot.scale, "True mean wheel diameter over the nominal one")
+  command.add_option("--scale", robot.scale, "true mean wheel diameter over the nominal one")
       ->type_name("RATIO")
       ->capture_default_str()
       ->check(between(0.5, 2, ""));
-  command.add_option("--slip", robot.slip_m, "Wheel slip: variance of the travel per metre, in m; 0: none")
+  command.add_option("--slip", robot.slip_m, "wheel slip: variance of the travel per metre, in m; 0: none")
       ->type_name("M")
       ->capture_default_str()
       ->check(between(0, 0.01, "m"));
-  command.add_option("--seed", robot.seed, "Seed of all noise; also decides the robot's unique id")
+  command.add_option("--seed", robot.seed, "seed of all noise; also decides the robot's unique id")
       ->type_name("N")
       ->capture_default_str();
 }
@@ -84,13 +84,13 @@ void add_robot_options(CLI::App& command, sim::Config& robot) {
 void add_sim(CLI::App& app) {
   const auto options = std::make_shared<SimOptions>();
   CLI::App& command = *app.add_subcommand(
-      "sim", "Run a simulated robot behind a pseudo terminal, with virtual cameras beside it");
-  command.add_option("--pty", options->server.pty, "Path to put the robot at; default: where 'ports' looks")
+      "sim", "run a simulated robot behind a pseudo terminal, with virtual cameras beside it");
+  command.add_option("--pty", options->server.pty, "path to put the robot at; default: where 'ports' looks")
       ->type_name("PATH");
   add_robot_options(command, options->robot);
   command.add_flag("--fast", options->server.fast,
-                   "Let virtual time run ahead while a host keeps up with it");
-  command.add_option("--flash", options->server.flash, "File that keeps the parameters between starts")
+                   "let virtual time run ahead while a host keeps up with it");
+  command.add_option("--flash", options->server.flash, "file that keeps the parameters between starts")
       ->type_name("FILE");
   examples(command, {"astrolabe sim", "astrolabe sim --pty /tmp/astro --fast",
                      "astrolabe sim --true-ed 1 --true-wheelbase 0.29 --slip 0 --flash astro.flash"});

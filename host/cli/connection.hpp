@@ -5,24 +5,24 @@
 #include <string>
 
 #include "host/link/client.hpp"
+#include "host/link/drive.hpp"
 #include "host/link/open_transport.hpp"
 
-/// How a command finds its robot.
 namespace astro::cli {
 
+/// --port and --baud of every command that talks to a robot.
 struct ConnectionOptions {
-  std::string port;  // empty: the only robot that is here
+  std::string port;
   unsigned baud = link::kDefaultBaud;
 };
 
-/// Adds --port and --baud.
-void add_connection_options(CLI::App& command, ConnectionOptions& options);
+void add_connection(CLI::App& command, ConnectionOptions& options);
 
-/// The port that was named; else that of the only robot found. Throws astro::Error with a sentence that lists
-/// what is here if there is none or more than one.
-std::string port_of(const ConnectionOptions& options);
+/// A robot that has answered. Without --port: the only one found; throws astro::Error with one sentence that
+/// lists what is here if there are none or several. `options.port` then says which it was.
+std::unique_ptr<link::Client> connect(ConnectionOptions& options);
 
-/// Opens the port and shakes hands. Throws what open_transport and Client::connect throw.
-std::unique_ptr<link::Client> connect(const ConnectionOptions& options);
+/// Ctrl-C, and notices on stderr.
+link::DriveHooks drive_hooks();
 
 }  // namespace astro::cli

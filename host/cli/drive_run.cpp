@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "host/cli/console.hpp"
-#include "host/cli/interrupt.hpp"
 #include "host/cli/path_progress.hpp"
 #include "host/cli/robot_view.hpp"
 
@@ -55,12 +54,14 @@ std::string short_words(const recording::OdometrySample& at) {
 
 }  // namespace
 
-void drive(const DriveOptions& options, const DriveJob& job) {
+void drive(DriveOptions& options, const DriveJob& job) {
   const auto client = connect(options.connection);
   OdometryWatch odometry(*client, kPeriod_ms, job.moved);
   const recording::OdometrySample start = odometry.fresh();
   try {
-    link::DriveSession session(*client, {interrupted, say, job.segment_done});
+    link::DriveHooks hooks = drive_hooks();
+    hooks.segment_done = job.segment_done;
+    link::DriveSession session(*client, hooks);
     job.work(session);
   } catch (const link::Interrupted&) {
     report(options, "interrupted", start, odometry.fresh());
@@ -69,7 +70,7 @@ void drive(const DriveOptions& options, const DriveJob& job) {
   report(options, "completed", start, odometry.fresh());
 }
 
-void drive_path(const DriveOptions& options, const link::Path& path) {
+void drive_path(DriveOptions& options, const link::Path& path) {
   PathProgress way(path);
   std::optional<Progress> bar;
   DriveJob job;
@@ -89,7 +90,7 @@ void drive_path(const DriveOptions& options, const link::Path& path) {
   drive(options, job);
 }
 
-void drive_velocity(const DriveOptions& options, double v_mps, double omega_radps, double seconds) {
+void drive_velocity(DriveOptions& options, double v_mps, double omega_radps, double seconds) {
   std::optional<Progress> bar;
   std::int64_t begun_us = 0;
   DriveJob job;

@@ -25,12 +25,12 @@ struct DriveJob {
 
 /// Connects, arms, works, lets the robot come to rest, disarms it and prints where the odometry ended; that
 /// too if Ctrl-C ended the work, then throws link::Interrupted.
-void drive(const DriveOptions& options, const DriveJob& job);
+void drive(DriveOptions& options, const DriveJob& job);
 
 /// The same for a path, with a progress bar.
-void drive_path(const DriveOptions& options, const link::Path& path);
+void drive_path(DriveOptions& options, const link::Path& path);
 
 /// The same for a velocity that is held for `seconds` on the robot's clock.
-void drive_velocity(const DriveOptions& options, double v_mps, double omega_radps, double seconds);
+void drive_velocity(DriveOptions& options, double v_mps, double omega_radps, double seconds);
 
 }  // namespace astro::cli

@@ -5,8 +5,8 @@ namespace astro::cli {
 /// SIGINT, SIGTERM and SIGHUP set a flag from now on; a second one ends the program at once.
 void watch_for_interrupt();
 
-/// What whoever drives a robot asks (link::DriveHooks::interrupted); a drive that is interrupted stops the robot and
-/// throws link::Interrupted, and main exits with 130.
+/// What whoever drives a robot asks (link::DriveHooks::interrupted); a drive that is interrupted stops the
+/// robot and throws link::Interrupted, and main exits with 130.
 bool interrupted();
 
 /// Throws link::Interrupted if the flag is set.

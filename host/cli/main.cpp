@@ -17,7 +17,9 @@ constexpr int kFailed = 1, kWrongUsage = 2, kInterrupted = 130;
 
 void add_commands(CLI::App& app) {
   using namespace astro::cli;
-  for (const auto add : {add_sim, add_info, add_drive}) add(app);
+  for (const auto add : {add_umbmark, add_calibrate, add_upload, add_record, add_compare, add_report, add_sim,
+                         add_info, add_drive})
+    add(app);
 }
 
 // CLI11 says "The following argument was not expected: foo"; a person typed a word and wants to know about

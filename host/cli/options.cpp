@@ -53,7 +53,7 @@ void examples(CLI::App& command, std::initializer_list<const char*> lines) {
 }
 
 void add_json_flag(CLI::App& command, bool& json) {
-  command.add_flag("--json", json, "Print JSON instead of text for people");
+  command.add_flag("--json", json, "print JSON instead of text for people");
 }
 
 }  // namespace astro::cli

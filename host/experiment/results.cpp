@@ -7,6 +7,7 @@
 #include "host/base/error.hpp"
 #include "host/experiment/json.hpp"
 #include "host/recording/run_file.hpp"
+#include "host/recording/run_folder.hpp"
 
 namespace astro::experiment {
 namespace {
@@ -68,6 +69,30 @@ Results read_results(const fs::path& folder) {
                 "' has not driven its first phase to the end: run 'astrolabe "
                 "umbmark --out " +
                 folder.string() + "' again to go on with it");
+  return results;
+}
+
+Results read_folders(const std::vector<fs::path>& folders) {
+  Results results;
+  for (const fs::path& folder : folders) {
+    PhaseResult phase;
+    phase.name = fs::absolute(folder).lexically_normal().filename().string();
+    phase.runs = recording::read_runs(folder);
+    phase.squares = squares_of(phase.runs);
+    phase.summary = calibration::summarize(phase.squares.cw, phase.squares.ccw);
+    results.phases.push_back(std::move(phase));
+  }
+  const recording::RunInfo& info = results.before().runs.front().info;
+  Journal& journal = results.journal;
+  journal.robot_id = info.robot_id;
+  journal.robot_name = info.robot_name;
+  journal.board = info.board;
+  journal.firmware = info.firmware;
+  journal.started_at = info.started_at;
+  journal.plan.truth = info.truth_source;
+  journal.plan.side_m = results.before().squares.side_m;
+  journal.plan.speed_mps = info.speed_mps;
+  journal.plan.runs = results.before().summary.cw.runs;
   return results;
 }
 

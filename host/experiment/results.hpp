@@ -38,6 +38,10 @@ struct Results {
 /// Reads the phases that are complete. Throws astro::Error if the first one is not.
 Results read_results(const std::filesystem::path& folder);
 
+/// The same from folders of recordings that no experiment made: one phase each, named after its folder. The
+/// first is the reference.
+Results read_folders(const std::vector<std::filesystem::path>& folders);
+
 /// The one object that `umbmark --json` prints.
 nlohmann::json to_json(const Results& results);
 

@@ -98,7 +98,7 @@ AlignedPaths align_paths(const Run& run) {
   if (!anchor.truth) return paths;
   paths.truth = seen_from(*anchor.truth, truth, zero_us);
   for (std::size_t i = 0; i < odometry.size(); ++i) {
-    const auto pose = pose_at(truth, odometry[i].time_us, kLongestTruthGap_us);
+    const auto pose = pose_at(truth, odometry[i].time_us, kLongestTruthGapUs);
     if (!pose) continue;
     paths.error.push_back(
         {paths.odometry[i].time_s, difference(in_frame_of(*anchor.truth, *pose), paths.odometry[i].pose)});

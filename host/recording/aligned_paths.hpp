@@ -22,7 +22,7 @@ struct AlignedPaths {
 
 /// Truth is interpolated between samples no further apart than this; where it is lost for longer there is no
 /// error.
-inline constexpr std::int64_t kLongestTruthGap_us = 250'000;
+inline constexpr std::int64_t kLongestTruthGapUs = 250'000;
 
 /// The start is the standstill at the beginning (rest.hpp), or for runs that begin in motion the first valid
 /// truth sample with a heading. Without truth the odometry path starts at its first pose and the others are

@@ -123,13 +123,8 @@ std::optional<Channel> decode_channel(ByteView content) {
 
 std::optional<Message> decode_message(ByteView content) {
   ByteCursor c(content);
-  Message message{c.number<std::uint16_t>(),
-                  c.number<std::uint32_t>(),
-                  c.number<std::uint64_t>(),
-                  c.number<std::uint64_t>(),
-                  {}};
-  message.data = c.take(c.left());
-  return if_whole(c, std::move(message));
+  return if_whole(c, Message{c.number<std::uint16_t>(), c.number<std::uint32_t>(), c.number<std::uint64_t>(),
+                             c.number<std::uint64_t>(), c.take(c.left())});
 }
 
 std::optional<Metadata> decode_metadata(ByteView content) {

@@ -145,23 +145,18 @@ Bytes McapWriter::statistics() const {
   return out;
 }
 
-void McapWriter::close() {
-  flush();
-  Bytes data_end;
-  append(data_end, crc_);
-  emit_record(Op::data_end, data_end);
-
-  const std::uint64_t summary_start = size_;
-  Bytes summary;
-  Bytes offsets;
+/// The groups of the summary, to stand at `start` in the file; appends the SummaryOffset record of each to
+/// `offsets`.
+Bytes McapWriter::summary_groups(std::uint64_t start, Bytes& offsets) const {
+  Bytes out;
   const auto group = [&](Op op, const std::vector<Bytes>& contents) {
     if (contents.empty()) return;
-    const std::size_t start = summary.size();
-    for (const Bytes& content : contents) mcap::append_record(summary, op, content);
+    const std::size_t begin = out.size();
+    for (const Bytes& content : contents) mcap::append_record(out, op, content);
     Bytes offset;
     append(offset, static_cast<std::uint8_t>(op));
-    append(offset, summary_start + start);
-    append(offset, std::uint64_t{summary.size() - start});
+    append(offset, start + begin);
+    append(offset, std::uint64_t{out.size() - begin});
     mcap::append_record(offsets, Op::summary_offset, offset);
   };
   std::vector<Bytes> schemas;
@@ -173,7 +168,18 @@ void McapWriter::close() {
   group(Op::statistics, {statistics()});
   group(Op::chunk_index, chunk_indexes_);
   group(Op::metadata_index, metadata_indexes_);
+  return out;
+}
 
+void McapWriter::close() {
+  flush();
+  Bytes data_end;
+  append(data_end, crc_);
+  emit_record(Op::data_end, data_end);
+
+  const std::uint64_t summary_start = size_;
+  Bytes offsets;
+  Bytes summary = summary_groups(summary_start, offsets);
   const std::uint64_t offsets_start = summary_start + summary.size();
   append(summary, offsets);
   // The footer's checksum covers the summary and the footer up to the checksum itself, head included.

@@ -57,6 +57,7 @@ class McapWriter {
   std::uint64_t emit_record(mcap::Op op, ByteView content);
   Bytes take_message_indexes(std::uint64_t start, Bytes& offsets);
   Bytes statistics() const;
+  Bytes summary_groups(std::uint64_t start, Bytes& offsets) const;
 
   Sink sink_;
   McapWriterOptions options_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <ranges>
 
 namespace astro::recording {
 namespace {
@@ -42,24 +41,25 @@ class PoseMean {
 };
 
 template <class Sample>
-auto within(const std::vector<Sample>& samples, std::int64_t from_us, std::int64_t to_us) {
-  return samples | std::views::filter([=](const Sample& sample) {
-           return sample.time_us >= from_us && sample.time_us <= to_us && std::isfinite(sample.x_m) &&
-                  std::isfinite(sample.y_m);
-         });
+bool counts_within(const Sample& sample, std::int64_t from_us, std::int64_t to_us) {
+  return sample.time_us >= from_us && sample.time_us <= to_us && std::isfinite(sample.x_m) &&
+         std::isfinite(sample.y_m);
 }
 
 std::optional<Rest> average(const Run& run, std::int64_t from_us, std::int64_t to_us) {
   PoseMean odometry;
   PoseMean truth;
-  for (const OdometrySample& sample : within(run.odometry, from_us, to_us)) {
-    odometry.add(sample.x_m, sample.y_m, sample.theta_rad);
+  for (const OdometrySample& sample : run.odometry) {
+    if (counts_within(sample, from_us, to_us)) odometry.add(sample.x_m, sample.y_m, sample.theta_rad);
   }
-  for (const TruthSample& sample : within(run.truth, from_us, to_us)) {
-    if (sample.valid) truth.add(sample.x_m, sample.y_m, sample.theta_rad);
+  for (const TruthSample& sample : run.truth) {
+    if (sample.valid && counts_within(sample, from_us, to_us)) {
+      truth.add(sample.x_m, sample.y_m, sample.theta_rad);
+    }
   }
-  if (!odometry.mean()) return std::nullopt;
-  return Rest{from_us, to_us, *odometry.mean(), truth.mean()};
+  const auto odometry_mean = odometry.mean();
+  if (!odometry_mean) return std::nullopt;
+  return Rest{from_us, to_us, *odometry_mean, truth.mean()};
 }
 
 /// Time of the sample furthest from the end at which `[first, last)` starts that no wheel has left.
@@ -75,16 +75,16 @@ std::optional<Rest> rest_at_start(const Run& run) {
   if (run.odometry.empty()) return std::nullopt;
   const std::int64_t from_us = run.odometry.front().time_us;
   const std::int64_t to_us = last_still_us(run.odometry.begin(), run.odometry.end());
-  if (to_us - from_us < kShortestRest_us) return std::nullopt;
-  return average(run, from_us, to_us - kSettling_us);
+  if (to_us - from_us < kShortestRestUs) return std::nullopt;
+  return average(run, from_us, to_us - kSettlingUs);
 }
 
 std::optional<Rest> rest_at_end(const Run& run) {
   if (run.odometry.empty()) return std::nullopt;
   const std::int64_t to_us = run.odometry.back().time_us;
   const std::int64_t from_us = last_still_us(run.odometry.rbegin(), run.odometry.rend());
-  if (to_us - from_us < kShortestRest_us) return std::nullopt;
-  return average(run, from_us + kSettling_us, to_us);
+  if (to_us - from_us < kShortestRestUs) return std::nullopt;
+  return average(run, from_us + kSettlingUs, to_us);
 }
 
 }  // namespace astro::recording

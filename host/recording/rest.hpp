@@ -14,9 +14,9 @@ namespace astro::recording {
 inline constexpr std::int32_t kStillCounts = 1;
 /// A shorter stop is not called standing still: two frames of the slowest tracker (30 Hz) must fit well
 /// inside.
-inline constexpr std::int64_t kShortestRest_us = 200'000;
+inline constexpr std::int64_t kShortestRestUs = 200'000;
 /// Left out next to the motion, for body sway and for the error of the truth's clock.
-inline constexpr std::int64_t kSettling_us = 50'000;
+inline constexpr std::int64_t kSettlingUs = 50'000;
 
 struct Rest {
   std::int64_t from_us = 0, to_us = 0;  // what was averaged over
@@ -26,7 +26,7 @@ struct Rest {
   std::optional<PlanarPose> truth;
 };
 
-/// Nothing if the run does not stand still at that end for kShortestRest_us. Samples are in order of time;
+/// Nothing if the run does not stand still at that end for kShortestRestUs. Samples are in order of time;
 /// truth before the first or after the last odometry sample does not count, as nobody knows whether the robot
 /// moved.
 std::optional<Rest> rest_at_start(const Run& run);

@@ -23,6 +23,23 @@
 namespace astro::recording {
 namespace {
 
+constexpr RosType kOdometryType{
+    "nav_msgs/msg/Odometry",
+    "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/PoseWithCovariance pose\n"
+    "geometry_msgs/TwistWithCovariance twist\n" ASTRO_MSG_HEADER ASTRO_MSG_RULE
+    "MSG: geometry_msgs/PoseWithCovariance\ngeometry_msgs/Pose pose\nfloat64[36] covariance\n" ASTRO_MSG_POSE
+        ASTRO_MSG_RULE
+    "MSG: geometry_msgs/TwistWithCovariance\ngeometry_msgs/Twist twist\nfloat64[36] "
+    "covariance\n" ASTRO_MSG_TWIST};
+
+constexpr RosType kPoseStampedType{
+    "geometry_msgs/msg/PoseStamped",
+    "std_msgs/Header header\ngeometry_msgs/Pose pose\n" ASTRO_MSG_HEADER ASTRO_MSG_POSE};
+
+constexpr RosType kWheelCountsType{"astrolabe_msgs/msg/WheelCounts",
+                                   "# Running encoder counts: forward is positive, each wraps at 2^32.\n"
+                                   "builtin_interfaces/Time stamp\nint32 left\nint32 right\n" ASTRO_MSG_TIME};
+
 constexpr std::int64_t kMicrosPerSecond = 1'000'000;
 constexpr int kCovarianceCells = 36;
 
@@ -68,22 +85,9 @@ double take_pose(CdrReader& in, double& x_m, double& y_m) {
 
 }  // namespace
 
-const RosType kOdometryType{
-    "nav_msgs/msg/Odometry",
-    "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/PoseWithCovariance pose\n"
-    "geometry_msgs/TwistWithCovariance twist\n" ASTRO_MSG_HEADER ASTRO_MSG_RULE
-    "MSG: geometry_msgs/PoseWithCovariance\ngeometry_msgs/Pose pose\nfloat64[36] covariance\n" ASTRO_MSG_POSE
-        ASTRO_MSG_RULE
-    "MSG: geometry_msgs/TwistWithCovariance\ngeometry_msgs/Twist twist\nfloat64[36] "
-    "covariance\n" ASTRO_MSG_TWIST};
-
-const RosType kPoseStampedType{
-    "geometry_msgs/msg/PoseStamped",
-    "std_msgs/Header header\ngeometry_msgs/Pose pose\n" ASTRO_MSG_HEADER ASTRO_MSG_POSE};
-
-const RosType kWheelCountsType{"astrolabe_msgs/msg/WheelCounts",
-                               "# Running encoder counts: forward is positive, each wraps at 2^32.\n"
-                               "builtin_interfaces/Time stamp\nint32 left\nint32 right\n" ASTRO_MSG_TIME};
+const RosType& odometry_type() { return kOdometryType; }
+const RosType& pose_stamped_type() { return kPoseStampedType; }
+const RosType& wheel_counts_type() { return kWheelCountsType; }
 
 bool fits_stamp(std::int64_t time_us) {
   constexpr std::int64_t kEdge = (std::int64_t{1} << 31) * kMicrosPerSecond;

@@ -16,9 +16,9 @@ struct RosType {
   std::string_view definition;  // ros2msg: the .msg text, then those it refers to
 };
 
-extern const RosType kOdometryType;     // nav_msgs/msg/Odometry
-extern const RosType kPoseStampedType;  // geometry_msgs/msg/PoseStamped
-extern const RosType kWheelCountsType;  // astrolabe_msgs/msg/WheelCounts: stamp, left, right
+const RosType& odometry_type();      // nav_msgs/msg/Odometry
+const RosType& pose_stamped_type();  // geometry_msgs/msg/PoseStamped
+const RosType& wheel_counts_type();  // astrolabe_msgs/msg/WheelCounts: stamp, left, right
 
 inline constexpr std::string_view kOdomFrame = "odom", kBaseFrame = "base_link", kTruthFrame = "truth";
 

@@ -29,11 +29,11 @@ struct Streams {
   }
   void take(const mcap::Channel& channel, const mcap::Schema* schema, const mcap::Message& message) {
     if (schema == nullptr || channel.message_encoding != "cdr") return;
-    if (schema->name == kOdometryType.name && channel.topic == "/odom") {
+    if (schema->name == odometry_type().name && channel.topic == "/odom") {
       keep(odometry, decode_odometry(message.data));
-    } else if (schema->name == kWheelCountsType.name && channel.topic == "/wheel_counts") {
+    } else if (schema->name == wheel_counts_type().name && channel.topic == "/wheel_counts") {
       keep(counts, decode_counts(message.data));
-    } else if (schema->name == kPoseStampedType.name && channel.topic == "/truth") {
+    } else if (schema->name == pose_stamped_type().name && channel.topic == "/truth") {
       keep(truth, decode_truth(message.data));
     }
   }

@@ -28,9 +28,9 @@ RunWriter::RunWriter(const std::filesystem::path& path, const RunInfo& info, Mca
       mcap_([this](ByteView bytes) { file_.write(bytes); }, {"ros2", "astrolabe"}, options) {
   record_.info = info;
   mcap_.write_metadata({std::string(kRunRecordName), to_map(record_)});
-  odometry_ = add_topic(mcap_, "/odom", kOdometryType);
-  counts_ = add_topic(mcap_, "/wheel_counts", kWheelCountsType);
-  truth_ = add_topic(mcap_, "/truth", kPoseStampedType);
+  odometry_ = add_topic(mcap_, "/odom", odometry_type());
+  counts_ = add_topic(mcap_, "/wheel_counts", wheel_counts_type());
+  truth_ = add_topic(mcap_, "/truth", pose_stamped_type());
 }
 
 /// MCAP knows no time before zero; the stamp inside the message keeps the true one.

@@ -57,6 +57,32 @@ TEST(MulShift, RoundsTiesUpwardAlsoBelowZero) {
   EXPECT_EQ(mul_shift<32>((std::int64_t{1} << 31) + 1, -1), -1);
 }
 
+TEST(MulShiftCarry, ASumOfProductsIsTheProductOfTheSumToTheLastBit) {
+  tests::Seeded random(10);
+  for (int run = 0; run < 1000; ++run) {
+    const auto start = static_cast<std::uint32_t>(random.bits() >> (64 - 29));
+    std::uint32_t rest = start;
+    Int128 sum = 0, exact_sum = start;
+    for (int i = 0; i < 100; ++i) {
+      const std::int64_t a = random.any_size(41);
+      const auto b = static_cast<std::int32_t>(random.any_size(31));
+      sum += mul_shift_carry<29>(a, b, rest);
+      exact_sum += Int128{a} * b;
+      ASSERT_LT(rest, 1U << 29);
+    }
+    ASSERT_TRUE((sum << 29) + rest == exact_sum);
+  }
+}
+
+TEST(MulShiftCarry, HoldsAtTheExtremes) {
+  for (const std::int64_t a : {std::int64_t{0xFFFF'FFFF}, -(std::int64_t{1} << 40), std::int64_t{1} << 40})
+    for (const std::int32_t b : {kLeast32, kMost32}) {
+      std::uint32_t rest = ~std::uint32_t{0};
+      const std::int64_t got = mul_shift_carry<32>(a, b, rest);
+      EXPECT_TRUE((Int128{got} << 32) + rest == Int128{a} * b + Int128{~std::uint32_t{0}});
+    }
+}
+
 TEST(Isqrt, IsTheLargestRootThatDoesNotExceed) {
   tests::Seeded random(20);
   const auto holds = [](std::uint64_t n) {

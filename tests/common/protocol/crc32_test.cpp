@@ -31,6 +31,22 @@ TEST(Crc32, IsKnownAtCompileTime) {
   static_assert(crc32(kDigits) == 0xCBF43926U);
 }
 
+/// The definition, one bit at a time.
+std::uint32_t crc_by_definition(const std::vector<std::uint8_t>& bytes) {
+  std::uint32_t crc = 0xFFFFFFFFU;
+  for (const std::uint8_t byte : bytes) {
+    for (int bit = 0; bit < 8; ++bit) {
+      const bool feedback = ((crc ^ static_cast<std::uint32_t>(byte >> bit)) & 1U) != 0;
+      crc = (crc >> 1) ^ (feedback ? 0xEDB88320U : 0U);
+    }
+  }
+  return ~crc;
+}
+
+RC_GTEST_PROP(Crc32, IsTheDivisionBitByBit, (std::vector<std::uint8_t> bytes)) {
+  RC_ASSERT(crc32(bytes) == crc_by_definition(bytes));
+}
+
 RC_GTEST_PROP(Crc32, OfTwoPartsOneAfterTheOtherIsTheCrcOfTheWhole, (std::vector<std::uint8_t> bytes)) {
   const auto cut = *rc::gen::inRange<std::size_t>(0, bytes.size() + 1);
   const std::span<const std::uint8_t> all(bytes);

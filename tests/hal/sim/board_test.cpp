@@ -11,7 +11,7 @@ namespace astro::sim {
 namespace {
 
 // Everything that a run leaves behind, as bits.
-std::vector<std::uint64_t> trace(Config config) {
+std::vector<std::uint64_t> trace(const Config& config) {
   Board board(config);
   std::vector<std::uint64_t> bits;
   for (int part = 0; part < 3; ++part) {

@@ -19,7 +19,7 @@ double acceleration(double volts_left, double volts_right, const Config& config)
 }
 
 double expected_acceleration(double extra_kgm2) {
-  constexpr Motor motor = motor_from(MotorSheet{}, 43.8);
+  const Motor motor = motor_from(MotorSheet{}, 43.8);
   const double torque_Nm =
       (1.0 - motor.mesh_loss) * motor.emf_Vspr * 12.0 / motor.resistance_ohm - motor.coulomb_Nm;
   return torque_Nm / (motor.inertia_kgm2 + extra_kgm2);
@@ -53,7 +53,6 @@ TEST(Drivetrain, OppositeDutiesSpinOnTheSpot) {
   EXPECT_EQ(board.truth().y_m, 0.0);
 }
 
-// The body drags the idle wheel along through its mass, unless that wheel's friction holds.
 TEST(Drivetrain, BlockedWheelBecomesThePivot) {
   Board board(ideal());
   board.set_load(Side::left, {.drag_Nm = 100.0});
@@ -65,6 +64,24 @@ TEST(Drivetrain, BlockedWheelBecomesThePivot) {
   // The left wheel's contact point stays where it was, 145 mm to the left of the start.
   EXPECT_NEAR(pose.x_m - 0.145 * std::sin(pose.theta_rad), 0.0, 1e-12);
   EXPECT_NEAR(pose.y_m + 0.145 * std::cos(pose.theta_rad), 0.145, 1e-12);
+}
+
+// One wheel pulls away; the body's mass lags and turns the idle wheel backwards, if that overcomes its
+// friction: 0.06 N m against 0.15 at 4.7 kg, ten times that at 47 kg.
+TEST(Drivetrain, BodyTurnsTheIdleWheelBackwardsOnceItIsHeavyEnough) {
+  for (const double body_kg : {4.7, 47.0}) {
+    Config config = ideal();
+    config.body_kg = body_kg;
+    Board board(config);
+    board.motors().drive({0, 32767});
+    run_ms(board, 5);
+    if (body_kg < 10.0) {
+      EXPECT_EQ(board.drivetrain().speed_radps()[0], 0.0);
+    } else {
+      EXPECT_LT(board.drivetrain().speed_radps()[0], 0.0);
+    }
+    EXPECT_GT(board.drivetrain().speed_radps()[1], 0.0);
+  }
 }
 
 TEST(Drivetrain, BrakeStopsSoonerThanCoastAndZeroDutyBrakes) {
@@ -179,6 +196,27 @@ TEST(Battery, SagsUnderLoadByItsResistance) {
   board.motors().coast();
   run_ms(board, 100);
   EXPECT_EQ(board.battery().millivolts(), 12000);
+}
+
+// Ohm's law of source and winding, for a turning and loaded motor at part duty.
+TEST(Battery, SupplyAndMotorsAgreeOnTheCurrent) {
+  const Motor motor = motor_from(MotorSheet{}, 43.8);
+  Config config;
+  config.on_stand = true;
+  config.supply_ohm = 0.5;
+  Board board(config);
+  board.set_load(Side::left, {.drag_Nm = 0.4});
+  board.motors().drive({duty_for(9), duty_for(-6)});
+  run_ms(board, 2000);
+  const Drivetrain& wheels = board.drivetrain();
+  const Pair current = wheels.current_A(), speed = wheels.speed_radps();
+  const Pair duty = {duty_for(9) / 32767.0, duty_for(-6) / 32767.0};
+  EXPECT_GT(speed[0], 1.0);
+  EXPECT_LT(speed[1], -1.0);
+  EXPECT_NEAR(wheels.bus_V(), 12.0 - 0.5 * (duty[0] * current[0] + duty[1] * current[1]), 1e-9);
+  for (std::size_t k = 0; k < 2; ++k)
+    EXPECT_NEAR(current[k] * motor.resistance_ohm, duty[k] * wheels.bus_V() - motor.emf_Vspr * speed[k],
+                1e-9);
 }
 
 TEST(Battery, ReadingIsFilteredToAFewMilliseconds) {

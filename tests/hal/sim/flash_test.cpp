@@ -85,6 +85,14 @@ TEST(Flash, PowerCutInAnEraseLeavesPartOfTheSector) {
   EXPECT_EQ(flash.content()[4096 + 1000], 0x00);
 }
 
+TEST(Flash, TornProgramMixesBits) {
+  Flash flash;
+  flash.cut_power_after(0, Tear::torn);
+  EXPECT_FALSE(flash.program(0, Bytes(4096, 0x00)));
+  const auto sector = flash.content().first<4096>();
+  EXPECT_GT(std::count_if(sector.begin(), sector.end(), [](auto b) { return b != 0x00 && b != 0xFF; }), 3000);
+}
+
 TEST(Flash, TornEraseMixesBits) {
   Flash flash;
   ASSERT_TRUE(flash.program(0, Bytes(4096, 0x00)));

@@ -16,7 +16,8 @@ TEST(Noise, QuantileInvertsTheNormalDistribution) {
     EXPECT_NEAR(0.5 * std::erfc(-normal_quantile(p) / std::sqrt(2.0)), p, 1e-7);
   }
   // In the tail a relative error of the deviate x grows to x^2 times that of p.
-  for (double p = 1e-3; p > 1e-16; p /= 7.0) {
+  for (int exponent = 10; exponent < 53; ++exponent) {
+    const double p = std::ldexp(1.0, -exponent);
     const double x = normal_quantile(p);
     EXPECT_NEAR(0.5 * std::erfc(-x / std::sqrt(2.0)) / p, 1.0, 2e-7 * x * x) << p;
   }

@@ -59,6 +59,23 @@ TEST(Extended, ExactFormulaGivesAnyNoiseFreeRobotBack) {
   }
 }
 
+TEST(Extended, OnARobotThatCarriesFactorsEdIsExactAndTheWheelbaseToSecondOrder) {
+  std::mt19937_64 random(kSeed);
+  std::printf("seed %u\n", kSeed);
+  for (int i = 0; i < 1000; ++i) {
+    const WheelFactors carried{uniform(random, 0.98, 1.02), uniform(random, 0.98, 1.02),
+                               uniform(random, 0.2, 0.4)};
+    const double E_d = uniform(random, 0.99, 1.01), E_b = uniform(random, 0.95, 1.05);
+    const WheelFactors truth = compose(carried, E_d, E_b);
+    const Estimate e = calibrate(drive(kSide_m, carried, truth), carried, kExact);
+    EXPECT_NEAR(e.E_d, E_d, 1e-9) << "run " << i;
+    // The sum c_R + c_L is kept, and with unequal carried wheels the mean of their two changes is not 1.
+    const double mean_change = (truth.c_r / carried.c_r + truth.c_l / carried.c_l) / 2;
+    EXPECT_NEAR(e.E_b, E_b / mean_change, 1e-9) << "run " << i;
+    EXPECT_NEAR(mean_change, 1, 0.02 * 0.01) << "run " << i;  // |c_R - c_L| / 2 times |E_d - 1|, at most
+  }
+}
+
 TEST(Extended, AlphaEdOfThePublishedFormulaBiasesTheWheelbaseByHalfOfEd) {
   const Estimate e = calibrate(drive(kSide_m, kNominal, kThesisRobot), kNominal, kPublished);
   // (E_d - 1) / 2 to first order; the second order is of the size of E_d - 1 times 1 - E_b.
@@ -165,7 +182,7 @@ TEST(EveryMethod, MirroredRunsGiveTheMirroredRobot) {
     return poses;
   };
   const Runs mirror{mirrored(runs.ccw), mirrored(runs.cw)};
-  // All but Formula::published, whose alpha_Ed takes the same side whichever wheel is larger.
+  // All but Formula::published, whose bias of the wheelbase changes its sign with the larger wheel.
   for (const Options& options : {umbmark(AngleSource::x), umbmark(AngleSource::y),
                                  umbmark(AngleSource::thesis), umbmark(AngleSource::average), kExact, kFit}) {
     const Estimate e = calibrate(runs, kNominal, options);

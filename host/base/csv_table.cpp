@@ -1,8 +1,8 @@
-#include "host/calibration/csv_table.hpp"
+#include "host/base/csv_table.hpp"
 
 #include "host/base/error.hpp"
 
-namespace astro::calibration {
+namespace astro {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
@@ -107,4 +107,4 @@ CsvTable split_csv(std::string_view text, std::string_view name) {
   return out;
 }
 
-}  // namespace astro::calibration
+}  // namespace astro

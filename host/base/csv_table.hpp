@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace astro::calibration {
+namespace astro {
 
 struct CsvRow {
   int line = 0;  // in the file, from 1
@@ -17,10 +17,12 @@ struct CsvTable {
   std::vector<CsvRow> rows;
 };
 
-/// Splits comma separated text. What is accepted and refused: see end_pose_csv.hpp.
+/// Splits comma separated text. What is accepted and refused: a byte order mark, CRLF or CR line ends, blank
+/// lines, spaces round a cell and quoted cells are accepted; an open quote, rows of other lengths, semicolons
+/// and text that is not UTF-8 are refused.
 CsvTable split_csv(std::string_view text, std::string_view name);
 
 /// Throws astro::Error("NAME, line N: WHAT").
 [[noreturn]] void refuse(std::string_view name, int line, const std::string& what);
 
-}  // namespace astro::calibration
+}  // namespace astro

@@ -1,0 +1,45 @@
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+
+#include "host/base/error.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/console.hpp"
+#include "host/experiment/results.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace astro::cli {
+
+void add_compare(CLI::App& app) {
+  struct Options {
+    std::vector<std::filesystem::path> folders;
+    bool json = false;
+  };
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("compare", "put recorded squares side by side: before, after, ...");
+  command
+      ->add_option("folders", options->folders,
+                   "an experiment's folder, or two or more folders of recordings")
+      ->required();
+  command->add_flag("--json", options->json, "print one JSON object");
+  command->footer(
+      "Examples:\n"
+      "  astrolabe compare my-experiment\n"
+      "  astrolabe compare monday/before friday/after --json");
+  command->callback([options] {
+    const experiment::Results results = options->folders.size() == 1
+                                            ? experiment::read_results(options->folders.front())
+                                            : experiment::read_folders(options->folders);
+    if (options->json) {
+      std::cout << experiment::to_json(results).dump(2) << '\n';
+      return;
+    }
+    std::cout << table(experiment::before_after_table(results));
+    if (results.phases.size() > 1)
+      std::cout << fmt::format("E_max_syst is {:.1f} times smaller\n", results.improvement());
+  });
+}
+
+}  // namespace astro::cli

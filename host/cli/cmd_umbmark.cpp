@@ -1,0 +1,147 @@
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "host/base/error.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/connection.hpp"
+#include "host/cli/console.hpp"
+#include "host/cli/interrupt.hpp"
+#include "host/cli/truth_option.hpp"
+#include "host/experiment/experiment.hpp"
+#include "host/experiment/method_names.hpp"
+#include "host/report/report.hpp"
+
+namespace astro::cli {
+namespace {
+
+struct Options {
+  ConnectionOptions connection;
+  TruthOption truth;
+  experiment::Plan plan;
+  std::filesystem::path out;
+  std::string order = "alternating", method = "auto", angles = "average", formula = "exact";
+  bool yes = false, json = false, no_extras = false, pause = false;
+};
+
+void add_options(CLI::App& command, Options& options) {
+  experiment::Plan& plan = options.plan;
+  add_connection(command, options.connection);
+  command.add_option("--truth", options.truth.source, "sim, manual (tape measure) or file")
+      ->check(CLI::IsMember({"sim", "manual", "file"}))
+      ->required();
+  command.add_option("--truth-folder", options.truth.folder,
+                     "--truth file: where the CSV of each run appears");
+  command
+      .add_option("--out", options.out,
+                  "folder of the experiment; the same folder again goes on where it was")
+      ->required();
+  command.add_option("--runs", plan.runs, "squares in each direction, before and after")
+      ->capture_default_str();
+  command.add_option("--side", plan.side_m, "side of the square, m")->capture_default_str();
+  command.add_option("--speed", plan.speed_mps, "m/s")->capture_default_str();
+  command.add_option("--yaw-rate", plan.yaw_rate_radps, "of the turns, rad/s")->capture_default_str();
+  command.add_option("--order", options.order, "of the directions")
+      ->check(CLI::IsMember({"alternating", "cw-first", "ccw-first"}))
+      ->capture_default_str();
+  command.add_option("--rounds", plan.rounds, "calibrate, upload and drive again so often")
+      ->capture_default_str();
+  command.add_option("--line", plan.line_m, "length of the straight line, m")->capture_default_str();
+  command.add_option("--circle", plan.circle_radius_m, "radius of the circles, m")->capture_default_str();
+  command.add_flag("--no-extras", options.no_extras, "squares only, no line and circles");
+  command
+      .add_option("--method", options.method,
+                  "auto: extended where every run has an end heading, umbmark where not")
+      ->check(CLI::IsMember({"auto", "umbmark", "extended", "least-squares"}))
+      ->capture_default_str();
+  command.add_option("--angles", options.angles, "umbmark: which end coordinates the angles are taken from")
+      ->check(CLI::IsMember({"x", "y", "thesis", "average"}))
+      ->capture_default_str();
+  command.add_option("--formula", options.formula, "extended: exact, or as published")
+      ->check(CLI::IsMember({"exact", "published"}))
+      ->capture_default_str();
+  command.add_flag("--pause", options.pause, "wait for Enter before each run (always with --truth manual)");
+  command.add_flag("--yes,-y", options.yes, "upload without asking");
+  command.add_flag("--json", options.json, "print the result as one JSON object");
+}
+
+experiment::ExperimentHooks hooks_for(const Options& options, Progress& progress) {
+  experiment::ExperimentHooks hooks;
+  const auto done = std::make_shared<std::pair<int, int>>(0, 1);  // of the runs of the phase
+  hooks.run.interrupted = interrupted;
+  hooks.run.notice = [&progress](const std::string& text) {
+    progress.clear();
+    say(text);
+  };
+  hooks.run_started = [done, &progress](const experiment::RunSpec& spec, int number, int total) {
+    *done = {number - 1, total};
+    progress.show(1.0 * done->first / total, spec.title());
+  };
+  hooks.run.progress = [done, &progress](double fraction) {
+    progress.show((done->first + fraction) / done->second,
+                  fmt::format("run {} of {}", done->first + 1, done->second));
+  };
+  hooks.run_finished = [&progress](const experiment::RunSpec& spec, const recording::Run&) {
+    progress.clear();
+    say("recorded " + spec.title());
+  };
+  const bool pauses = options.pause || options.truth.source == "manual";
+  hooks.ready = [pauses, &progress](const experiment::RunSpec& spec) {
+    if (!pauses) return;
+    progress.clear();
+    ask(fmt::format("next is {}: put the robot on its start mark and press Enter ", spec.title()));
+  };
+  hooks.agree = [&options, &progress](const calibration::Estimate& estimate, const auto& changes) {
+    progress.clear();
+    say(fmt::format("\ncalibrated by {}:", calibration::name_of(estimate.options.method)));
+    say(table(experiment::side_by_side(changes)));
+    return options.yes || confirm("Load these into the robot?");
+  };
+  hooks.uploaded = [](const std::string& sentence) { say(sentence + "\n"); };
+  return hooks;
+}
+
+void run(Options& options) {
+  options.plan.order = experiment::order_named(options.order);
+  options.plan.method = experiment::method_named(options.method, options.angles, options.formula);
+  options.plan.extras = !options.no_extras;
+  options.plan.truth = options.truth.source;
+  options.plan.check();
+  if (options.truth.folder.empty()) options.truth.folder = options.out / "truth";
+  const auto client = connect(options.connection);
+  const auto truth = open_truth(options.truth, options.connection.port);
+  Progress progress("driving");
+  const experiment::Results results =
+      run_experiment(*client, *truth, options.plan, options.out, hooks_for(options, progress));
+  const std::filesystem::path report = std::filesystem::absolute(options.out / "report.html");
+  report::write_report(report, experiment::report_input(results));
+  if (options.json) {
+    nlohmann::json json = to_json(results);
+    json["report"] = report.string();
+    std::cout << json.dump(2) << '\n';
+    return;
+  }
+  std::cout << table(experiment::before_after_table(results))
+            << fmt::format("\nE_max_syst is {:.1f} times smaller.\nReport: {}\n", results.improvement(),
+                           report.string());
+}
+
+}  // namespace
+
+void add_umbmark(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "umbmark", "the whole experiment: squares, calibration, upload, squares again, report");
+  add_options(*command, *options);
+  command->footer(
+      "Ctrl-C stops the robot; the same command goes on from the last recorded run.\n"
+      "Examples:\n"
+      "  astrolabe umbmark --truth sim --out my-experiment\n"
+      "  astrolabe umbmark --port /dev/ttyACM0 --truth manual --runs 5 --side 3 --out my-experiment\n"
+      "  astrolabe umbmark --port P --truth sim --runs 5 --side 3 --out DIR --yes --json");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace astro::cli

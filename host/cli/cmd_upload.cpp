@@ -1,0 +1,101 @@
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "host/base/error.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/connection.hpp"
+#include "host/cli/console.hpp"
+#include "host/experiment/calibration_file.hpp"
+#include "host/experiment/change_guard.hpp"
+#include "host/link/upload.hpp"
+
+namespace astro::cli {
+namespace {
+
+struct Options {
+  ConnectionOptions connection;
+  std::filesystem::path file;
+  bool yes = false, force = false, json = false;
+};
+
+nlohmann::json to_json(const link::Value& value) {
+  if (const double* number = std::get_if<double>(&value)) return *number;
+  return std::get<std::string>(value);
+}
+
+void print(const link::UploadReport& report, bool json) {
+  if (!json) {
+    std::cout << report.sentence() << '\n';
+    return;
+  }
+  nlohmann::json object = {{"active", report.active == link::ActiveSet::new_set ? "new" : "old"},
+                           {"link_dropped", report.link_dropped},
+                           {"parameters", nlohmann::json::object()}};
+  for (const link::UploadedValue& value : report.values)
+    object["parameters"][value.name] = {{"unit", value.unit},
+                                        {"before", to_json(value.before)},
+                                        {"wanted", to_json(value.wanted)},
+                                        {"now", to_json(value.now)}};
+  std::cout << object.dump(2) << '\n';
+}
+
+/// A calibration replaces what the robot carried while it was driven; on top of anything else it would be
+/// wrong.
+void check_carried(const link::RemoteParameters& robot, const experiment::ParameterFile& file, bool force) {
+  constexpr double kSame = 1e-8;
+  for (const auto& [name, carried] : file.carried) {
+    const double now = std::get<double>(robot.value(name));
+    if (std::abs(now - carried) > kSame && !force)
+      throw Error(fmt::format(
+          "the calibration was driven with {} = {:.9g}, and the robot now carries {:.9g}: load the old "
+          "value or drive again (--force uploads all the same)",
+          name, carried, now));
+  }
+}
+
+void run(Options& options) {
+  const experiment::ParameterFile file = experiment::read_parameter_file(options.file);
+  const auto client = connect(options.connection);
+  const link::RemoteParameters robot = link::RemoteParameters::fetch(*client);
+  const std::vector<experiment::Change> changes = experiment::changes(robot, file.parameters);
+  if (changes.empty()) {
+    say("the robot holds these values already");
+    if (options.json) print(link::UploadReport{link::ActiveSet::new_set, false, {}}, true);
+    return;
+  }
+  check_carried(robot, file, options.force);
+  say(table(experiment::side_by_side(changes)));
+  if (const std::string doubt = experiment::suspicion(changes); !doubt.empty() && !options.force)
+    throw Error(doubt);
+  if (!options.yes && !confirm("Load these into the robot?")) throw Error("nothing was uploaded");
+  const link::UploadReport report = link::upload(*client, file.parameters);
+  print(report, options.json);
+  if (report.active != link::ActiveSet::new_set)
+    throw Error("the robot still holds the old parameters: upload again");
+}
+
+}  // namespace
+
+void add_upload(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("upload", "load a calibration into the robot, checked and read back");
+  command->add_option("file", options->file, "calib.toml of 'calibrate', or a file of 'params export'")
+      ->required();
+  add_connection(*command, options->connection);
+  command->add_flag("--yes,-y", options->yes, "do not ask");
+  command->add_flag("--force", options->force,
+                    "also a change of more than 10 %, or on top of other parameters");
+  command->add_flag("--json", options->json, "print what the robot now holds as one JSON object");
+  command->footer(
+      "All values come in force together or not at all, also when the link drops in the middle.\n"
+      "Examples:\n"
+      "  astrolabe upload calib.toml\n"
+      "  astrolabe upload calib.toml --port /dev/ttyACM0 --yes --json");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace astro::cli

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/protocol/session.hpp"
+#include "host/link/open_transport.hpp"
+#include "host/link/ports.hpp"
+
+namespace astro::link {
+
+struct FoundPort {
+  Port port;
+  std::optional<protocol::HelloReply> robot;
+  std::string reason;  // one sentence, where there is no robot
+};
+
+/// Says Hello at each port, one after the other, at most about `timeout` per port. A port that another
+/// program uses is left alone: its reason says so.
+std::vector<FoundPort> find_robots(const std::vector<Port>& ports, microseconds timeout,
+                                   unsigned baud = kDefaultBaud);
+
+/// At every candidate port of this machine.
+std::vector<FoundPort> find_robots(microseconds timeout = std::chrono::milliseconds(500));
+
+}  // namespace astro::link

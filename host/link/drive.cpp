@@ -1,0 +1,179 @@
+#include "host/link/drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/link/restore.hpp"
+
+namespace astro::link {
+
+using namespace protocol;  // NOLINT(google-build-using-namespace): this file is all messages
+using std::chrono::milliseconds;
+
+namespace {
+
+constexpr microseconds kPoll =
+    milliseconds(1000);  // an event must have been lost by then, or the segment is long
+constexpr microseconds kRestPoll = milliseconds(50);
+constexpr microseconds kTimeToRest = milliseconds(5000);
+constexpr microseconds kVelocityPeriod = milliseconds(50);
+constexpr std::size_t kMostSegments = 0xFFFF;
+
+std::int32_t micro(double value, const char* what) {
+  const double steps = std::round(value * 1e6);
+  if (!(std::abs(steps) <= 0x7FFFFFFF))
+    throw Error(std::string(what) + " of " + std::to_string(value) + " is not possible");
+  return static_cast<std::int32_t>(steps);
+}
+
+bool at_rest(const Status& status) {
+  return status.mode == Mode::disarmed || status.mode == Mode::idle || status.mode == Mode::fault;
+}
+
+Fault first_fault(std::uint32_t mask) {
+  for (unsigned i = 1; i < 32; ++i) {
+    if (((mask >> i) & 1U) != 0) return static_cast<Fault>(i);
+  }
+  return Fault::none;
+}
+
+}  // namespace
+
+DriveSession::DriveSession(Client& client, DriveHooks hooks) : client_(client), hooks_(std::move(hooks)) {
+  on_done_ = client_.on<SegmentDone>([this](const SegmentDone& done) {
+    done_ = std::max(done_, done.tag);
+    if (done.outcome == SegmentOutcome::aborted) aborted_ = done.tag;
+    hooks_.segment_done(done);
+  });
+  on_fault_ = client_.on<FaultRaised>([this](const FaultRaised& raised) {
+    if (!fault_) fault_ = raised.fault;
+  });
+  on_boot_ = client_.on<Booted>([this](const Booted&) { booted_ = true; });
+  arm();
+}
+
+DriveSession::~DriveSession() {
+  // Nothing here may throw, and a robot that cannot be told stops by its own time-out.
+  try {
+    stop();
+  } catch (const LinkLost&) {
+    return;
+  } catch (const std::exception&) {
+  }
+  try {
+    client_.request(Disarm{});
+  } catch (const std::exception&) {
+  }
+}
+
+void DriveSession::arm() {
+  constexpr std::uint32_t kLeftBehind = bit(Fault::command_timeout) | bit(Fault::link_lost);
+  const FaultReport report = client_.request(GetFaults{});
+  if ((report.latched & ~kLeftBehind) != 0) {
+    throw DriveFault("the robot is not armed because of a latched fault: " + fault_names(report.latched) +
+                         "; remove its cause, then run 'astrolabe faults --clear'",
+                     first_fault(report.latched & ~kLeftBehind));
+  }
+  if (report.latched != 0) {
+    client_.request(ClearFaults{});
+    hooks_.notice("cleared " + fault_names(report.latched) + ", which an earlier drive left behind");
+  }
+  fault_.reset();
+  client_.request(Arm{});
+}
+
+void DriveSession::run(std::span<const AddSegment> segments) {
+  if (segments.size() > kMostSegments) throw Error("a path of more than 65535 segments is not possible");
+  accepted_ = done_ = aborted_ = 0;
+  for (AddSegment segment : segments) {
+    segment.tag = static_cast<std::uint16_t>(accepted_ + 1);
+    while (!add(segment)) wait_for_progress();
+    accepted_ = segment.tag;
+  }
+  while (done_ < accepted_) wait_for_progress();
+  check();
+}
+
+bool DriveSession::add(const AddSegment& segment) {
+  check();
+  try {
+    client_.request(segment);
+    return true;
+  } catch (const RobotRefused& refused) {
+    if (refused.code() == ErrorCode::faulted) fail(static_cast<Fault>(refused.detail()));
+    if (refused.code() != ErrorCode::queue_full) throw;
+    return false;
+  }
+}
+
+void DriveSession::wait_for_progress() {
+  const std::uint16_t before = done_;
+  const auto something = [&] { return done_ != before || fault_ || booted_ || hooks_.interrupted(); };
+  const bool happened = client_.pump_until(something, kPoll);
+  check();
+  if (!happened) ask_for_progress();
+}
+
+void DriveSession::ask_for_progress() {
+  const Status status = client_.request(GetStatus{});
+  if (status.latched_faults != 0) fail(first_fault(status.latched_faults));
+  if (status.mode == Mode::disarmed) throw Error("the drive ended early: another program disarmed the robot");
+  if (status.mode == Mode::idle && status.queued_segments == 0) done_ = accepted_;
+  check();
+}
+
+void DriveSession::check() {
+  if (fault_) fail(*fault_);
+  if (booted_) throw LinkLost("the robot at " + client_.name() + " has restarted: the drive is lost");
+  if (aborted_ != 0 && !stopping_) {
+    throw Error("segment " + std::to_string(aborted_) + " was aborted: another program stopped the robot");
+  }
+  if (!stopping_ && hooks_.interrupted()) throw Interrupted("stopped at your wish");
+}
+
+void DriveSession::set_velocity(double v_mps, double omega_radps) {
+  check();
+  client_.request(Velocity{micro(v_mps, "a speed in m/s"), micro(omega_radps, "a yaw rate in rad/s")});
+}
+
+void DriveSession::hold_velocity(double v_mps, double omega_radps, microseconds duration) {
+  const std::uint64_t start = client_.request(Ping{}).device_time_us;
+  while (true) {
+    set_velocity(v_mps, omega_radps);
+    const std::uint64_t now = client_.request(Ping{}).device_time_us;
+    const auto left = duration - microseconds(static_cast<std::int64_t>(now - start));
+    if (left <= microseconds::zero()) break;
+    const microseconds period = std::min(kVelocityPeriod, left);
+    const std::uint64_t next = now + static_cast<std::uint64_t>(period.count());
+    client_.pump_until([&] { return client_.device_time_us() >= next || fault_ || booted_; }, period);
+  }
+  stop();
+}
+
+void DriveSession::pump(microseconds duration) {
+  client_.pump_until([&] { return fault_ || booted_ || hooks_.interrupted(); }, duration);
+  check();
+}
+
+void DriveSession::stop() {
+  const Restore stopping(stopping_, true);
+  client_.request(Stop{});
+  wait_for_rest();
+  aborted_ = 0;  // by us
+}
+
+void DriveSession::wait_for_rest() {
+  const microseconds deadline = client_.now() + kTimeToRest;
+  while (!at_rest(client_.request(GetStatus{}))) {
+    if (client_.now() >= deadline) throw Error("the robot does not come to rest: switch it off");
+    client_.pump(kRestPoll);
+  }
+}
+
+void DriveSession::fail(Fault fault) const {
+  throw DriveFault("the robot stopped by itself: " + std::string(name(fault)) +
+                       "; remove its cause, then run 'astrolabe faults --clear'",
+                   fault);
+}
+
+}  // namespace astro::link

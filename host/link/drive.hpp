@@ -1,0 +1,85 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "common/safety/fault.hpp"
+#include "host/link/client.hpp"
+
+namespace astro::link {
+
+/// The robot stopped by itself, or is not to be armed because it once did.
+class DriveFault : public Error {
+ public:
+  DriveFault(const std::string& sentence, Fault fault) : Error(sentence), fault_(fault) {}
+  Fault fault() const { return fault_; }
+
+ private:
+  Fault fault_;
+};
+
+/// The person in front of the program wants the robot to stop.
+class Interrupted : public Error {
+ public:
+  using Error::Error;
+};
+
+struct DriveHooks {
+  /// Asked at least every 50 ms; true ends the drive with Interrupted. For the flag that Ctrl-C sets.
+  std::function<bool()> interrupted = [] { return false; };
+  /// Sentences worth showing that are not errors.
+  std::function<void(const std::string&)> notice = [](const std::string&) {};
+  /// Each segment that ended; tags count from 1 in the order of the run.
+  std::function<void(const protocol::SegmentDone&)> segment_done = [](const protocol::SegmentDone&) {};
+};
+
+/// An armed robot. It is disarmed at the end, however that comes: at rest, unless the link is gone.
+///
+/// Errors  DriveFault: a fault was latched; Interrupted; LinkLost, also for a robot that restarted; Error if
+///         another program stopped or disarmed the robot; all that Client::request throws.
+class DriveSession {
+ public:
+  /// Arms. Clears command_timeout and link_lost first, which an earlier program left behind by ending, and
+  /// says so in a notice; any other latched fault is thrown.
+  explicit DriveSession(Client& client, DriveHooks hooks = {});
+  DriveSession(const DriveSession&) = delete;
+  DriveSession& operator=(const DriveSession&) = delete;
+  ~DriveSession();
+
+  /// Drives the segments one after the other and returns when the last has ended. Keeps the robot's queue as
+  /// full as it goes; numbers them itself. An event that was lost on the way is made up for by asking.
+  void run(std::span<const protocol::AddSegment> segments);
+
+  /// One velocity; holds until the robot's command time-out.
+  void set_velocity(double v_mps, double omega_radps);
+
+  /// Holds a velocity for this long on the robot's clock, then ramps to rest.
+  void hold_velocity(double v_mps, double omega_radps, microseconds duration);
+
+  /// As Client::pump, and throws as run() does.
+  void pump(microseconds duration);
+
+  /// Ramps to rest, empties the queue and returns once the robot stands.
+  void stop();
+
+ private:
+  void arm();
+  bool add(const protocol::AddSegment& segment);
+  void wait_for_progress();
+  void ask_for_progress();
+  void check();
+  void wait_for_rest();
+  [[noreturn]] void fail(Fault fault) const;
+
+  Client& client_;
+  DriveHooks hooks_;
+  std::optional<Fault> fault_;
+  bool booted_ = false;
+  bool stopping_ = false;
+  std::uint16_t accepted_ = 0, done_ = 0, aborted_ = 0;  // tags; of the run under way
+  Subscription on_done_, on_fault_, on_boot_;
+};
+
+}  // namespace astro::link

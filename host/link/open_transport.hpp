@@ -1,0 +1,23 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "host/link/transport.hpp"
+
+namespace astro::link {
+
+inline constexpr unsigned kDefaultBaud = 115200;
+
+/// Opens the way to a robot.
+///
+///   a path          a serial port or a pty, or a symlink to one: raw mode, 8N1, any baud, locked against
+///   other
+///                   programs for as long as it is open
+///   tcp:HOST:PORT   only on this machine: localhost or a loopback address ("tcp:[::1]:5555")
+///
+/// Throws Error: no such port (and which ones there are), no permission, in use, a terminal that somebody
+/// works at, not a serial port, not on this machine, nobody listens, not an address.
+std::unique_ptr<Transport> open_transport(const std::string& address, unsigned baud = kDefaultBaud);
+
+}  // namespace astro::link

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "host/link/client.hpp"
+#include "host/link/parameter_row.hpp"
+
+namespace astro::link {
+
+/// The robot's parameter table as the robot itself describes it: works for firmware with parameters that this
+/// program has never heard of.
+///
+/// Errors  what Client::request throws; a refused value or set is named by its parameter.
+class RemoteParameters {
+ public:
+  /// Two requests per parameter. The Client must outlive the result.
+  static RemoteParameters fetch(Client& client);
+
+  const std::vector<ParameterRow>& rows() const { return rows_; }
+  const ParameterRow* find(std::string_view name) const;
+
+  /// Throws Error where the robot has no such parameter.
+  const ParameterRow& row(std::string_view name) const;
+
+  /// In force, in the row's unit or as text.
+  Value value(std::string_view name) const;
+
+  /// Nothing changes on the robot before commit(). Throws as to_raw does, without asking the robot.
+  void stage(std::string_view name, const Value& value);
+
+  /// All staged values come in force and into flash, or none.
+  void commit();
+
+  /// The staged set becomes the one in force; the factory defaults.
+  void revert();
+  void defaults();
+
+  /// Reads all values again: one request per parameter.
+  void refresh();
+
+ private:
+  explicit RemoteParameters(Client& client) : client_(&client) {}
+  void read_value(ParameterRow& row);
+  ParameterRow& mutable_row(std::string_view name);
+
+  Client* client_;
+  std::vector<ParameterRow> rows_;
+};
+
+}  // namespace astro::link

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <boost/asio/io_context.hpp>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "host/link/transport.hpp"
+
+/// Transport over an Asio stream (posix::stream_descriptor, ip::tcp::socket). Internal to host/link.
+namespace astro::link {
+
+template <class Stream>
+class StreamTransport final : public Transport {
+ public:
+  /// Opens the address anew each time; throws Error where it cannot.
+  using Opener = std::function<Stream(boost::asio::io_context&)>;
+
+  StreamTransport(std::string name, Opener open);
+
+  void write(std::span<const std::uint8_t> bytes) override;
+  std::size_t read(std::span<std::uint8_t> into, microseconds timeout) override;
+  microseconds now() const override;
+  void reopen(microseconds timeout) override;
+  const std::string& name() const override { return name_; }
+
+ private:
+  template <class Wait>
+  bool wait_for(Wait what, microseconds timeout);
+  Stream& stream();
+  [[noreturn]] void lose(const std::string& why);
+  void pause(microseconds duration);
+
+  std::string name_;
+  Opener open_;
+  boost::asio::io_context context_;  // before stream_: outlives it
+  std::optional<Stream> stream_;     // nothing once the other end is gone
+  std::optional<microseconds> reopened_;
+};
+
+}  // namespace astro::link

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "host/report/groups.hpp"
+
+/// The numbers behind the figures, as web/report.js reads them.
+namespace astro::report {
+
+/// {"phases": [title], "clusters": [...], "groups": [...]}. Units: mm and rad in clusters; in a run t in s,
+/// the odometry path x, y in m, the errors ex, ey in mm and eh in rad (null where the tracker had lost the
+/// robot), so the true path is odometry + error. Rounded to a tenth of what the ground truth resolves, 1500
+/// points a run.
+nlohmann::json figure_data(const std::vector<Phase>& phases, const std::vector<RunGroup>& groups);
+
+/// True if both directions of the square were driven, which E_max_syst needs.
+bool has_squares(const Phase& phase);
+
+}  // namespace astro::report

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/report/report.hpp"
+
+/// The runs sorted for comparison: what was driven the same way stands together, phase beside phase.
+namespace astro::report {
+
+struct RunGroup {
+  std::string title;                                       // "Squares of 3 m, clockwise"
+  std::string kind;                                        // of recording::RunInfo
+  std::vector<std::vector<const recording::Run*>> phases;  // one list per phase of the input, by run index
+  std::size_t most_runs() const;
+};
+
+/// Squares first, then circles, lines and the rest; clockwise before counter-clockwise. Runs without an
+/// odometry sample are left out. The pointers live as long as `phases`.
+std::vector<RunGroup> group_runs(const std::vector<Phase>& phases);
+
+/// "clockwise", "counter-clockwise", "".
+std::string direction_name(recording::Direction direction);
+
+}  // namespace astro::report

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+
+/// Putting foreign text into a page without letting it become markup or script.
+namespace astro::report {
+
+/// For element content and double-quoted attributes.
+std::string escape(std::string_view text);
+
+/// For the inside of <script type="application/json">: no character that could end the element is left.
+/// Bytes that are not UTF-8 become U+FFFD; NaN becomes null.
+std::string script_json(const nlohmann::json& value);
+
+/// Replaces each {{name}} of the template in one pass, so a value is never searched for placeholders.
+/// Throws std::out_of_range for a name without a value: a mistake of ours, not of the user.
+std::string fill(std::string_view page, const std::map<std::string, std::string, std::less<>>& values);
+
+/// "before" -> "Before".
+std::string capitalised(std::string text);
+
+}  // namespace astro::report

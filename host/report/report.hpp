@@ -1,0 +1,51 @@
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "host/calibration/end_pose.hpp"
+#include "host/recording/run.hpp"
+
+/// The before/after report: one HTML file that needs nothing but a browser.
+namespace astro::report {
+
+/// A calibrated parameter. Values in `unit`; standard_error belongs to `after` and is NaN where unknown.
+struct ParameterRow {
+  std::string name, unit;
+  double before = 0, after = 0;
+  double standard_error = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// A line of a two-column description: "Robot", "ASTRO".
+struct DescriptionRow {
+  std::string name, value;
+};
+
+/// The robot driven with one set of parameters.
+struct Phase {
+  std::string title;                          // "before", "after", "after repeat 1", ...
+  std::vector<recording::Run> runs;           // any kinds, any order
+  calibration::ExperimentSummary squares;     // of cw and ccw; not looked at where one of them is empty
+  std::vector<calibration::EndPose> cw, ccw;  // end errors of the squares in the order of the runs
+};
+
+struct ReportInput {
+  std::string title;
+  std::vector<DescriptionRow> description;  // the robot and the set-up
+  std::vector<Phase> phases;                // in the order they were driven; the first is the reference
+  std::vector<ParameterRow> parameters;
+  std::string method;              // how the parameters were found; a blank line starts a new paragraph
+  std::vector<std::string> notes;  // seeds, incidents, anything a reader should know
+};
+
+/// The whole page. Equal inputs give equal bytes; every text of the input is escaped.
+/// Size: the plotting library (1.2 MB) and at most about 80 kB for each run.
+std::string render_html(const ReportInput& input);
+
+/// Writes the page to a neighbouring temporary file first and renames it, so `path` never holds half a
+/// report. Throws astro::Error if the folder does not take it.
+void write_report(const std::filesystem::path& path, const ReportInput& input);
+
+}  // namespace astro::report

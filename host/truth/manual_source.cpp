@@ -1,0 +1,57 @@
+#include "host/truth/manual_source.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace astro::truth {
+namespace {
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t\r");
+  if (first == std::string::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+}  // namespace
+
+double ManualSource::number(const std::string& prompt, bool may_be_empty) {
+  std::string hint;
+  while (true) {
+    const std::string answer = trimmed(ask_(hint + prompt));
+    if (answer.empty() && may_be_empty) return std::numeric_limits<double>::quiet_NaN();
+    const char* first = answer.data() + (answer.starts_with('+') ? 1 : 0);
+    const char* last = answer.data() + answer.size();
+    double value = 0;
+    const auto [end, error] = std::from_chars(first, last, value);
+    if (error == std::errc{} && end == last && std::isfinite(value)) return value;
+    hint = "'" + answer + "' is no number, a decimal point is needed. ";
+  }
+}
+
+std::vector<recording::TruthSample> ManualSource::complete(const recording::Run& run) {
+  recording::TruthSample end;
+  end.x_m = number("measured end x (m, forward of the start): ", false);
+  end.y_m = number("measured end y (m, left of the start): ", false);
+  end.theta_rad = number("measured end heading (degrees, counter-clockwise; empty: not measured): ", true) *
+                  std::numbers::pi / 180;
+  return at_both_ends(run, {}, end);
+}
+
+std::vector<recording::TruthSample> at_both_ends(const recording::Run& run,
+                                                 const recording::TruthSample& start,
+                                                 const recording::TruthSample& end, std::int64_t stretch_us) {
+  std::vector<recording::TruthSample> samples;
+  for (const recording::OdometrySample& odometry : run.odometry) {
+    const bool early = odometry.time_us - run.odometry.front().time_us <= stretch_us;
+    const bool late = run.odometry.back().time_us - odometry.time_us <= stretch_us;
+    if (!early && !late) continue;
+    recording::TruthSample sample = early ? start : end;
+    sample.time_us = odometry.time_us;
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+}  // namespace astro::truth
