@@ -22,7 +22,7 @@ struct VelocityOptions {
 };
 
 void add_common_options(CLI::App& command, DriveOptions& options) {
-  add_connection_options(command, options.connection);
+  add_connection(command, options.connection);
   add_json_flag(command, options.json);
 }
 

@@ -44,7 +44,6 @@ recording::RunInfo describe(link::Client& client) {
 
 void run(Options& options) {
   if (options.seconds < 0) throw Error("--seconds must not be negative");
-  options.connection.port = port_of(options.connection);
   const auto client = connect(options.connection);
   const auto truth = open_truth(options.truth, options.connection.port);
   const recording::RunInfo info = describe(*client);
@@ -71,7 +70,7 @@ void add_record(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("record", "record odometry and ground truth while somebody else drives");
   command->add_option("--out", options->out, "the MCAP file to write")->required();
-  add_connection_options(*command, options->connection);
+  add_connection(*command, options->connection);
   command->add_option("--truth", options->truth.source, "sim or none")
       ->check(CLI::IsMember({"sim", "none"}))
       ->capture_default_str();

@@ -28,7 +28,7 @@ struct Options {
 
 void add_options(CLI::App& command, Options& options) {
   experiment::Plan& plan = options.plan;
-  add_connection_options(command, options.connection);
+  add_connection(command, options.connection);
   command.add_option("--truth", options.truth.source, "sim, manual (tape measure) or file")
       ->check(CLI::IsMember({"sim", "manual", "file"}))
       ->required();
@@ -110,7 +110,6 @@ void run(Options& options) {
   options.plan.truth = options.truth.source;
   options.plan.check();
   if (options.truth.folder.empty()) options.truth.folder = options.out / "truth";
-  options.connection.port = port_of(options.connection);
   const auto client = connect(options.connection);
   const auto truth = open_truth(options.truth, options.connection.port);
   Progress progress("driving");

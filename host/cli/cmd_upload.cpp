@@ -58,7 +58,6 @@ void check_carried(const link::RemoteParameters& robot, const experiment::Parame
 
 void run(Options& options) {
   const experiment::ParameterFile file = experiment::read_parameter_file(options.file);
-  options.connection.port = port_of(options.connection);
   const auto client = connect(options.connection);
   const link::RemoteParameters robot = link::RemoteParameters::fetch(*client);
   const std::vector<experiment::Change> changes = experiment::changes(robot, file.parameters);
@@ -86,7 +85,7 @@ void add_upload(CLI::App& app) {
       app.add_subcommand("upload", "load a calibration into the robot, checked and read back");
   command->add_option("file", options->file, "calib.toml of 'calibrate', or a file of 'params export'")
       ->required();
-  add_connection_options(*command, options->connection);
+  add_connection(*command, options->connection);
   command->add_flag("--yes,-y", options->yes, "do not ask");
   command->add_flag("--force", options->force,
                     "also a change of more than 10 %, or on top of other parameters");
