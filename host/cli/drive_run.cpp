@@ -9,11 +9,12 @@
 #include "host/cli/console.hpp"
 #include "host/cli/path_progress.hpp"
 #include "host/cli/robot_view.hpp"
+#include "host/cli/steering.hpp"
 
 namespace astro::cli {
 namespace {
 
-constexpr std::uint16_t kPeriod_ms = 50;
+constexpr std::uint16_t kPeriod_ms = 20;  // Steering wants no less
 
 void report(const DriveOptions& options, const char* outcome, const recording::OdometrySample& start,
             const recording::OdometrySample& end) {
@@ -62,7 +63,7 @@ void drive(DriveOptions& options, const DriveJob& job) {
     link::DriveHooks hooks = drive_hooks();
     hooks.segment_done = job.segment_done;
     link::DriveSession session(*client, hooks);
-    job.work(session);
+    job.work(*client, session);
   } catch (const link::Interrupted&) {
     report(options, "interrupted", start, odometry.fresh());
     throw link::Interrupted(how_it_stands(*client));
@@ -74,7 +75,7 @@ void drive_path(DriveOptions& options, const link::Path& path) {
   PathProgress way(path);
   std::optional<Progress> bar;
   DriveJob job;
-  job.work = [&](link::DriveSession& session) {
+  job.work = [&](link::Client&, link::DriveSession& session) {
     const BarDuring showing(bar);
     session.run(path);
   };
@@ -94,9 +95,9 @@ void drive_velocity(DriveOptions& options, double v_mps, double omega_radps, dou
   std::optional<Progress> bar;
   std::int64_t begun_us = 0;
   DriveJob job;
-  job.work = [&](link::DriveSession& session) {
+  job.work = [&](link::Client& client, link::DriveSession& session) {
     const BarDuring showing(bar);
-    session.hold_velocity(v_mps, omega_radps, link::microseconds(std::llround(seconds * 1e6)));
+    Steering(client, session).hold(v_mps, omega_radps, link::microseconds(std::llround(seconds * 1e6)));
   };
   job.moved = [&](const recording::OdometrySample& sample) {
     if (!bar) return;
