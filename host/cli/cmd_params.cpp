@@ -1,0 +1,241 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+#include "host/base/error.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/connection.hpp"
+#include "host/cli/console.hpp"
+#include "host/cli/options.hpp"
+#include "host/cli/params_view.hpp"
+#include "host/cli/terminal.hpp"
+#include "host/cli/wrong_usage.hpp"
+#include "host/experiment/calibration_file.hpp"
+#include "host/link/upload.hpp"
+
+namespace astro::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using experiment::Change;
+using experiment::ParameterValues;
+using link::RemoteParameters;
+
+struct ParamsOptions {
+  ConnectionOptions connection;
+  std::vector<std::string> words;
+  fs::path file;
+  bool json = false, yes = false, stage_only = false;
+};
+
+Json changed_json(const std::vector<Change>& changes, bool in_force) {
+  Json list = Json::array();
+  for (const Change& change : changes)
+    list.push_back({{"name", change.name},
+                    {"unit", change.unit},
+                    {"before", to_json(change.before)},
+                    {"after", to_json(change.after)}});
+  return {{"in_force", in_force}, {"changed", list}};
+}
+
+void report(const ParamsOptions& options, const std::vector<Change>& changes, bool in_force) {
+  if (options.json) print_json(changed_json(changes, in_force));
+}
+
+/// Before and after; then asks if there is more than one change and nobody agreed beforehand. False: the
+/// person does not want them.
+bool agreed(const ParamsOptions& options, const std::vector<Change>& changes) {
+  say(table(experiment::side_by_side(changes), "llrrr"));
+  return changes.size() <= 1 || options.yes ||
+         confirm(fmt::format("Put these {} values in force?", changes.size()));
+}
+
+void list(const ParamsOptions& options, RemoteParameters& robot) {
+  if (!options.json)
+    return write(parameter_table(robot, stdout_is_terminal() ? terminal_size(STDOUT_FILENO).columns : 0));
+  Json rows = Json::array();
+  for (const link::ParameterRow& row : robot.rows()) rows.push_back(to_json(row));
+  print_json(rows);
+}
+
+void get(const ParamsOptions& options, RemoteParameters& robot) {
+  Json json = Json::array();
+  std::string text;
+  for (const std::string& name : options.words) {
+    const link::ParameterRow& row = robot.row(name);
+    json.push_back(to_json(row));
+    text += (options.words.size() > 1 ? name + "=" : "") + plain(robot.value(name)) + '\n';
+    if (!options.json && stderr_is_terminal()) say(fmt::format("{}: {}", name, explanation(row)));
+  }
+  if (!options.json) return write(text);
+  print_json(options.words.size() == 1 ? json.front() : json);
+}
+
+/// All of them or none: checked, staged, committed and read back.
+void load(link::Client& client, const ParamsOptions& options, const RemoteParameters& robot,
+          const ParameterValues& values) {
+  const std::vector<Change> changes = experiment::changes(robot, values);
+  if (changes.empty()) {
+    say("the robot holds these values already");
+    return report(options, changes, true);
+  }
+  if (const std::string doubt = experiment::suspicion(changes); !doubt.empty()) say("careful: " + doubt);
+  if (!agreed(options, changes)) throw Error("nothing was changed");
+  const link::UploadReport done = link::upload(client, values);
+  if (done.active != link::ActiveSet::new_set) throw Error(done.sentence());
+  say(done.sentence());
+  report(options, changes, true);
+}
+
+ParameterValues assignments(const RemoteParameters& robot, const std::vector<std::string>& words) {
+  ParameterValues values;
+  for (const std::string& word : words) {
+    const auto equals = word.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw WrongUsage(fmt::format("'{}' sets nothing: write NAME=VALUE, for example b=0.2886", word));
+    const std::string name = word.substr(0, equals);
+    const auto value = parse_value(robot.row(name), word.substr(equals + 1));
+    if (!values.emplace(name, value).second) throw WrongUsage(name + " is given twice");
+  }
+  return values;
+}
+
+void set(link::Client& client, const ParamsOptions& options, RemoteParameters& robot) {
+  const ParameterValues values = assignments(robot, options.words);
+  if (!options.stage_only) return load(client, options, robot, values);
+  const std::vector<Change> changes = experiment::changes(robot, values);
+  for (const auto& [name, value] : values) robot.stage(name, value);
+  say(table(experiment::side_by_side(changes), "llrrr"));
+  say("staged, not in force: 'astrolabe params save' puts them in force, 'revert' drops them");
+  report(options, changes, false);
+}
+
+void commit_staged(const ParamsOptions& options, RemoteParameters& robot, const char* if_none) {
+  const std::vector<Change> changes = staged_changes(robot);
+  if (changes.empty()) {
+    say(if_none);
+    return report(options, changes, true);
+  }
+  if (!agreed(options, changes)) {
+    robot.revert();
+    throw Error("nothing was changed");
+  }
+  robot.commit();
+  say("in force, and in the robot's flash");
+  report(options, changes, true);
+}
+
+void save(const ParamsOptions& options, RemoteParameters& robot) {
+  commit_staged(options, robot, "nothing is staged: the robot keeps its values");
+}
+
+void defaults(const ParamsOptions& options, RemoteParameters& robot) {
+  robot.defaults();
+  commit_staged(options, robot, "the robot holds its defaults already");
+}
+
+void revert(const ParamsOptions& options, RemoteParameters& robot) {
+  const std::vector<Change> changes = staged_changes(robot);
+  robot.revert();
+  say(changes.empty() ? "nothing was staged" : fmt::format("{} staged values dropped", changes.size()));
+  report(options, {}, true);
+}
+
+void export_to_file(const ParamsOptions& options, RemoteParameters& robot) {
+  ParameterValues values;
+  for (const link::ParameterRow& row : robot.rows()) values[row.name] = link::to_value(row, row.active);
+  experiment::write_parameters(options.file, values);
+  say(fmt::format("{} parameters are in {}", values.size(), options.file.string()));
+}
+
+using Work = std::function<void(link::Client&, ParamsOptions&, RemoteParameters&)>;
+
+CLI::App& add(CLI::App& params, const std::string& name, const std::string& what,
+              const std::shared_ptr<ParamsOptions>& options, Work work) {
+  CLI::App& command = *params.add_subcommand(name, what);
+  add_connection(command, options->connection);
+  command.callback([options, work = std::move(work)] {
+    const auto client = connect(options->connection);
+    RemoteParameters robot = RemoteParameters::fetch(*client);
+    work(*client, *options, robot);
+  });
+  return command;
+}
+
+Work without_client(void (*work)(const ParamsOptions&, RemoteParameters&)) {
+  return [work](link::Client&, ParamsOptions& options, RemoteParameters& robot) { work(options, robot); };
+}
+
+void add_yes_flag(CLI::App& command, const std::shared_ptr<ParamsOptions>& options) {
+  command.add_flag("--yes,-y", options->yes, "do not ask");
+}
+
+void add_readers(CLI::App& params, const std::shared_ptr<ParamsOptions>& options) {
+  CLI::App& all = add(params, "list", "show all parameters; * marks those that are not at their default",
+                      options, without_client(list));
+  add_json_flag(all, options->json);
+  examples(all, {"astrolabe params list", "astrolabe params list --json | jq -r '.[].name'"});
+
+  CLI::App& one = add(params, "get", "print values", options, without_client(get));
+  one.add_option("name", options->words, "what 'params list' calls it")->required()->type_name("");
+  add_json_flag(one, options->json);
+  examples(one,
+           {"astrolabe params get b", "astrolabe params get c_R c_L b", "astrolabe params get b --json"});
+
+  CLI::App& file =
+      add(params, "export", "write all values into a TOML file", options, without_client(export_to_file));
+  file.add_option("file", options->file, "to be written")->required()->type_name("");
+  examples(file, {"astrolabe params export astro.toml"});
+}
+
+void add_writers(CLI::App& params, const std::shared_ptr<ParamsOptions>& options) {
+  CLI::App& some = add(params, "set", "change values, all together or not at all", options, set);
+  some.add_option("assignment", options->words, "NAME=VALUE, in the unit that 'params list' shows")
+      ->required()
+      ->type_name("");
+  some.add_flag("--stage-only", options->stage_only, "leave them staged: 'params save' puts them in force");
+  examples(some, {"astrolabe params set b=0.2886", "astrolabe params set c_R=1.0021 c_L=0.9979 --yes",
+                  "astrolabe params set robot_name=Astro-2"});
+
+  CLI::App& file = add(params, "import", "load values from a TOML file, all together or not at all", options,
+                       [](link::Client& client, ParamsOptions& o, RemoteParameters& robot) {
+                         load(client, o, robot, experiment::read_parameter_file(o.file).parameters);
+                       });
+  file.add_option("file", options->file, "of 'params export', or a calibration")->required()->type_name("");
+  examples(file, {"astrolabe params import astro.toml", "astrolabe params import astro.toml --yes --json"});
+  for (CLI::App* command : {&some, &file}) {
+    add_yes_flag(*command, options);
+    add_json_flag(*command, options->json);
+  }
+}
+
+void add_stage_commands(CLI::App& params, const std::shared_ptr<ParamsOptions>& options) {
+  CLI::App& keep =
+      add(params, "save", "put staged values in force and into flash", options, without_client(save));
+  examples(keep, {"astrolabe params save", "astrolabe params save --yes"});
+  CLI::App& drop = add(params, "revert", "drop staged values", options, without_client(revert));
+  examples(drop, {"astrolabe params revert"});
+  CLI::App& factory =
+      add(params, "defaults", "put all parameters back to their defaults", options, without_client(defaults));
+  examples(factory, {"astrolabe params defaults", "astrolabe params defaults --yes"});
+  for (CLI::App* command : {&keep, &factory}) add_yes_flag(*command, options);
+  for (CLI::App* command : {&keep, &drop, &factory}) add_json_flag(*command, options->json);
+}
+
+}  // namespace
+
+void add_params(CLI::App& app) {
+  const auto options = std::make_shared<ParamsOptions>();
+  CLI::App& command = *app.add_subcommand("params", "show, change, save and load the robot's parameters");
+  command.require_subcommand(1);
+  add_readers(command, options);
+  add_writers(command, options);
+  add_stage_commands(command, options);
+  examples(command,
+           {"astrolabe params list", "astrolabe params set b=0.2886", "astrolabe params export before.toml"});
+}
+
+}  // namespace astro::cli

@@ -1,0 +1,69 @@
+#include <memory>
+
+#include "host/cli/command.hpp"
+#include "host/cli/console.hpp"
+#include "host/cli/options.hpp"
+#include "host/cli/robot_view.hpp"
+#include "host/link/discovery.hpp"
+
+namespace astro::cli {
+namespace {
+
+struct PortsOptions {
+  unsigned baud = link::kDefaultBaud;
+  bool json = false;
+};
+
+Json as_json(const std::vector<link::FoundPort>& found) {
+  Json list = Json::array();
+  for (const link::FoundPort& at : found) {
+    Json entry = {{"port", at.port.address},
+                  {"device", at.port.device},
+                  {"simulator", at.port.simulator},
+                  {"robot", nullptr}};
+    if (at.robot) {
+      entry["robot"] = {{"name", std::string(at.robot->robot_name.view())},
+                        {"id", hex_id(*at.robot)},
+                        {"board", std::string(at.robot->board.view())},
+                        {"firmware", firmware_version(*at.robot)}};
+    } else {
+      entry["reason"] = at.reason;
+    }
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+void show(const std::vector<link::FoundPort>& found) {
+  std::vector<std::vector<std::string>> rows{{"port", "robot", "board", "firmware"}};
+  for (const link::FoundPort& at : found)
+    if (at.robot)
+      rows.push_back({at.port.address, std::string(at.robot->robot_name.view()),
+                      std::string(at.robot->board.view()), firmware_version(*at.robot)});
+  if (rows.size() > 1) write(table(rows, "llll"));
+  if (rows.size() == 1) say("no robot was found; 'astrolabe sim' starts a simulated one");
+  for (const link::FoundPort& at : found)
+    if (!at.robot) say("no robot: " + at.reason);
+}
+
+void run(const PortsOptions& options) {
+  const auto found = link::find_robots(link::candidate_ports(), std::chrono::milliseconds(500), options.baud);
+  if (options.json) return print_json(as_json(found));
+  show(found);
+}
+
+}  // namespace
+
+void add_ports(CLI::App& app) {
+  const auto options = std::make_shared<PortsOptions>();
+  CLI::App& command = *app.add_subcommand("ports", "find robots at serial ports and simulators of yours");
+  command.add_option("--baud", options->baud, "speed of serial ports; USB and ptys do not care")
+      ->type_name("BAUD")
+      ->capture_default_str()
+      ->check(CLI::Range(1U, 20'000'000U));
+  add_json_flag(command, options->json);
+  examples(command, {"astrolabe ports", "astrolabe ports --json | jq -r '.[].port'"});
+  command.callback([options] { run(*options); });
+}
+
+}  // namespace astro::cli
