@@ -3,6 +3,7 @@
 #include "host/cli/command.hpp"
 #include "host/cli/drive_run.hpp"
 #include "host/cli/options.hpp"
+#include "host/cli/teleop.hpp"
 
 namespace astro::cli {
 namespace {
@@ -137,7 +138,8 @@ void add_velocity(CLI::App& drive) {
 void add_drive(CLI::App& app) {
   CLI::App& command = *app.add_subcommand("drive", "drive a path, hold a velocity or steer by keyboard");
   command.require_subcommand(1);
-  for (const auto add : {add_line, add_spin, add_arc, add_square, add_circle, add_velocity}) add(command);
+  for (const auto add : {add_line, add_spin, add_arc, add_square, add_circle, add_velocity, add_teleop})
+    add(command);
   examples(command,
            {"astrolabe drive line 1", "astrolabe drive square 3 --cw --speed 0.5", "astrolabe drive teleop"});
 }

@@ -2,47 +2,61 @@
 
 #include <memory>
 
-#include "common/safety/fault.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/connection.hpp"
 #include "host/cli/console.hpp"
+#include "host/cli/fault_help.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/robot_view.hpp"
 
 namespace astro::cli {
 namespace {
 
-struct FaultOptions {
+struct FaultsOptions {
   ConnectionOptions connection;
   bool clear = false, json = false;
 };
 
-void run(FaultOptions& options) {
+void show(const protocol::FaultReport& report) {
+  if (report.latched == 0) return print("no fault is latched");
+  std::vector<std::vector<std::string>> rows;
+  for (unsigned i = 1; i < 32; ++i) {
+    if ((report.latched >> i & 1U) == 0) continue;
+    const auto fault = static_cast<Fault>(i);
+    rows.push_back({link::fault_names(1U << i), std::string(fault_help(fault))});
+  }
+  write(table(rows, "ll"));
+  print(fmt::format("first: {}, {} after the robot's start", name(report.first),
+                    duration_in_words(report.first_time_us)));
+}
+
+Json as_json(const protocol::FaultReport& report, bool cleared) {
+  Json json = {{"latched", fault_list(report.latched)}, {"first", nullptr}, {"first_time_s", nullptr}};
+  if (report.latched != 0) {
+    json["first"] = std::string(name(report.first));
+    json["first_time_s"] = static_cast<double>(report.first_time_us) * 1e-6;
+  }
+  json["raised_since_start"] = report.raised_count;
+  json["cleared"] = cleared;
+  return json;
+}
+
+void run(FaultsOptions& options) {
   const auto client = connect(options.connection);
   const protocol::FaultReport report = client->request(protocol::GetFaults{});
-  const protocol::Pong now = client->request(protocol::Ping{});
   if (options.clear) client->request(protocol::ClearFaults{});
-  const double ago_s = static_cast<double>(now.device_time_us - report.first_time_us) * 1e-6;
-  if (options.json) {
-    Json json = {{"faults", fault_list(report.latched)}, {"raised_since_start", report.raised_count}};
-    json["first"] = report.latched == 0 ? Json() : Json(std::string(name(report.first)));
-    json["first_seconds_ago"] = report.latched == 0 ? Json() : Json(ago_s);
-    json["cleared"] = options.clear;
-    return print(json);
-  }
-  if (report.latched == 0) return print(std::string("no fault is latched"));
-  print(fmt::format("{}; {} came first, {:.1f} s ago{}", faults_in_words(report.latched), name(report.first),
-                    ago_s, options.clear ? "; cleared" : ""));
+  if (options.json) return print_json(as_json(report, options.clear));
+  show(report);
+  if (options.clear && report.latched != 0) say("cleared; the robot stays disarmed");
 }
 
 }  // namespace
 
 void add_faults(CLI::App& app) {
-  const auto options = std::make_shared<FaultOptions>();
-  CLI::App& command = *app.add_subcommand("faults", "what stopped the robot, and say that it has been seen");
+  const auto options = std::make_shared<FaultsOptions>();
+  CLI::App& command = *app.add_subcommand("faults", "show what stopped the robot, and release it");
+  command.add_flag("--clear", options->clear, "release all latched faults; the robot stays disarmed");
   add_connection(command, options->connection);
-  command.add_flag("--clear", options->clear,
-                   "clear the latched faults, so that the robot can be armed again");
   add_json_flag(command, options->json);
   examples(command, {"astrolabe faults", "astrolabe faults --clear", "astrolabe faults --json"});
   command.callback([options] { run(*options); });

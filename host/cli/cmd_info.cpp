@@ -76,7 +76,7 @@ void run(InfoOptions& options) {
   const link::microseconds round_trip = best_round_trip(*client);
   const protocol::Status status = client->request(protocol::GetStatus{});
   if (options.json) {
-    print(as_json(*client, status, round_trip));
+    print_json(as_json(*client, status, round_trip));
   } else {
     print(as_text(*client, status, round_trip));
   }

@@ -1,7 +1,8 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
-#include <algorithm>
-#include <charconv>
+#include <filesystem>
+#include <functional>
 #include <memory>
 
 #include "host/base/error.hpp"
@@ -9,226 +10,232 @@
 #include "host/cli/connection.hpp"
 #include "host/cli/console.hpp"
 #include "host/cli/options.hpp"
-#include "host/cli/robot_view.hpp"
+#include "host/cli/params_view.hpp"
+#include "host/cli/terminal.hpp"
+#include "host/cli/wrong_usage.hpp"
 #include "host/experiment/calibration_file.hpp"
-#include "host/experiment/change_guard.hpp"
-#include "host/link/parameters.hpp"
 #include "host/link/upload.hpp"
 
 namespace astro::cli {
 namespace {
 
-using link::ParameterRow;
+namespace fs = std::filesystem;
+using experiment::Change;
+using experiment::ParameterValues;
 using link::RemoteParameters;
 
 struct ParamsOptions {
   ConnectionOptions connection;
-  std::string name;
-  std::vector<std::string> assignments;
-  std::filesystem::path file;
-  bool yes = false, force = false, stage_only = false, json = false;
+  std::vector<std::string> words;
+  fs::path file;
+  bool json = false, yes = false, stage_only = false;
 };
 
-bool is_text(const ParameterRow& row) { return row.kind == protocol::ParameterKind::text; }
-
-std::string shown(const ParameterRow& row, const link::RawValue& raw) {
-  const link::Value value = to_value(row, raw);
-  if (const double* number = std::get_if<double>(&value)) return fmt::format("{:.9g}", *number);
-  return std::get<std::string>(value);
+Json changed_json(const std::vector<Change>& changes, bool in_force) {
+  Json list = Json::array();
+  for (const Change& change : changes)
+    list.push_back({{"name", change.name},
+                    {"unit", change.unit},
+                    {"before", to_json(change.before)},
+                    {"after", to_json(change.after)}});
+  return {{"in_force", in_force}, {"changed", list}};
 }
 
-std::string limits(const ParameterRow& row) {
-  if (is_text(row)) return fmt::format("{} to {} characters", row.minimum, row.maximum);
-  return fmt::format("{:.6g} to {:.6g}", to_real(row, row.minimum), to_real(row, row.maximum));
+void report(const ParamsOptions& options, const std::vector<Change>& changes, bool in_force) {
+  if (options.json) print_json(changed_json(changes, in_force));
 }
 
-Json as_json(const ParameterRow& row) {
-  Json json = {{"name", row.name}, {"unit", row.unit}};
-  const auto put = [&](const char* key, const link::RawValue& raw) {
-    const link::Value value = to_value(row, raw);
-    if (const double* number = std::get_if<double>(&value)) {
-      json[key] = *number;
-    } else {
-      json[key] = std::get<std::string>(value);
-    }
-  };
-  put("value", row.active);
-  put("staged", row.staged);
-  if (!is_text(row)) {
-    json["default"] = to_real(row, row.default_value);
-    json["minimum"] = to_real(row, row.minimum);
-    json["maximum"] = to_real(row, row.maximum);
+/// Before and after; then asks if there is more than one change and nobody agreed beforehand. False: the
+/// person does not want them.
+bool agreed(const ParamsOptions& options, const std::vector<Change>& changes) {
+  say(table(experiment::side_by_side(changes), "llrrr"));
+  return changes.size() <= 1 || options.yes ||
+         confirm(fmt::format("Put these {} values in force?", changes.size()));
+}
+
+void list(const ParamsOptions& options, RemoteParameters& robot) {
+  if (!options.json)
+    return write(parameter_table(robot, stdout_is_terminal() ? terminal_size(STDOUT_FILENO).columns : 0));
+  Json rows = Json::array();
+  for (const link::ParameterRow& row : robot.rows()) rows.push_back(to_json(row));
+  print_json(rows);
+}
+
+void get(const ParamsOptions& options, RemoteParameters& robot) {
+  Json json = Json::array();
+  std::string text;
+  for (const std::string& name : options.words) {
+    const link::ParameterRow& row = robot.row(name);
+    json.push_back(to_json(row));
+    text += (options.words.size() > 1 ? name + "=" : "") + plain(robot.value(name)) + '\n';
+    if (!options.json && stderr_is_terminal()) say(fmt::format("{}: {}", name, explanation(row)));
   }
-  json["doc"] = row.doc;
-  return json;
+  if (!options.json) return write(text);
+  print_json(options.words.size() == 1 ? json.front() : json);
 }
 
-void list(ParamsOptions& options) {
-  const auto client = connect(options.connection);
-  const RemoteParameters parameters = RemoteParameters::fetch(*client);
-  if (options.json) {
-    Json json = Json::array();
-    for (const ParameterRow& row : parameters.rows()) json.push_back(as_json(row));
-    return print(json);
+/// All of them or none: checked, staged, committed and read back.
+void load(link::Client& client, const ParamsOptions& options, const RemoteParameters& robot,
+          const ParameterValues& values) {
+  const std::vector<Change> changes = experiment::changes(robot, values);
+  if (changes.empty()) {
+    say("the robot holds these values already");
+    return report(options, changes, true);
   }
-  std::vector<std::vector<std::string>> rows{{"parameter", "value", "unit", "default", "limits"}};
-  for (const ParameterRow& row : parameters.rows()) {
-    const bool changed = !is_text(row) && row.active.raw != row.default_value;
-    const std::string staged = row.staged == row.active ? "" : " (staged " + shown(row, row.staged) + ")";
-    rows.push_back({(changed ? "* " : "  ") + row.name, shown(row, row.active) + staged, row.unit,
-                    is_text(row) ? "" : fmt::format("{:.9g}", to_real(row, row.default_value)), limits(row)});
+  if (const std::string doubt = experiment::suspicion(changes); !doubt.empty()) say("careful: " + doubt);
+  if (!agreed(options, changes)) throw Error("nothing was changed");
+  const link::UploadReport done = link::upload(client, values);
+  if (done.active != link::ActiveSet::new_set) throw Error(done.sentence());
+  say(done.sentence());
+  report(options, changes, true);
+}
+
+ParameterValues assignments(const RemoteParameters& robot, const std::vector<std::string>& words) {
+  ParameterValues values;
+  for (const std::string& word : words) {
+    const auto equals = word.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw WrongUsage(fmt::format("'{}' sets nothing: write NAME=VALUE, for example b=0.2886", word));
+    const std::string name = word.substr(0, equals);
+    const auto value = parse_value(robot.row(name), word.substr(equals + 1));
+    if (!values.emplace(name, value).second) throw WrongUsage(name + " is given twice");
   }
-  print(table(rows) + "\n* differs from the default; 'astrolabe params get NAME' explains a parameter");
+  return values;
 }
 
-void get(ParamsOptions& options) {
-  const auto client = connect(options.connection);
-  const RemoteParameters parameters = RemoteParameters::fetch(*client);
-  const ParameterRow& row = parameters.row(options.name);
-  if (options.json) return print(as_json(row));
-  print(fmt::format("{} = {} {}\n  {}\n  limits {}{}", row.name, shown(row, row.active), row.unit, row.doc,
-                    limits(row),
-                    is_text(row) ? "" : fmt::format(", default {:.9g}", to_real(row, row.default_value))));
+void set(link::Client& client, const ParamsOptions& options, RemoteParameters& robot) {
+  const ParameterValues values = assignments(robot, options.words);
+  if (!options.stage_only) return load(client, options, robot, values);
+  const std::vector<Change> changes = experiment::changes(robot, values);
+  for (const auto& [name, value] : values) robot.stage(name, value);
+  say(table(experiment::side_by_side(changes), "llrrr"));
+  say("staged, not in force: 'astrolabe params save' puts them in force, 'revert' drops them");
+  report(options, changes, false);
 }
 
-/// "c_R=1.002" as the robot's own table understands it.
-void take(const std::string& assignment, const RemoteParameters& parameters,
-          experiment::ParameterValues& values) {
-  const std::size_t equals = assignment.find('=');
-  if (equals == std::string::npos || equals == 0)
-    throw Error("'" + assignment + "' assigns nothing: write NAME=VALUE, such as c_R=1.002");
-  const std::string name = assignment.substr(0, equals);
-  const std::string text = assignment.substr(equals + 1);
-  if (is_text(parameters.row(name))) {
-    values[name] = text;
-    return;
+void commit_staged(const ParamsOptions& options, RemoteParameters& robot, const char* if_none) {
+  const std::vector<Change> changes = staged_changes(robot);
+  if (changes.empty()) {
+    say(if_none);
+    return report(options, changes, true);
   }
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || end != text.data() + text.size())
-    throw Error(fmt::format("{} takes a number, and '{}' is none", name, text));
-  values[name] = number;
-}
-
-/// Shows what changes, asks where it is more than one value, loads all or nothing.
-void load(link::Client& client, const RemoteParameters& parameters, const experiment::ParameterValues& values,
-          const ParamsOptions& options) {
-  const std::vector<experiment::Change> list = experiment::changes(parameters, values);
-  if (list.empty()) return say("the robot holds these values already");
-  say(table(experiment::side_by_side(list)));
-  if (const std::string doubt = experiment::suspicion(list); !doubt.empty() && !options.force)
-    throw Error(doubt);
-  if (list.size() > 1 && !options.yes && !confirm("Load these into the robot?"))
+  if (!agreed(options, changes)) {
+    robot.revert();
     throw Error("nothing was changed");
-  const link::UploadReport report = link::upload(client, values);
-  say(report.sentence());
-  if (report.active != link::ActiveSet::new_set)
-    throw Error("the robot still holds the old parameters: try again");
+  }
+  robot.commit();
+  say("in force, and in the robot's flash");
+  report(options, changes, true);
 }
 
-void set(ParamsOptions& options) {
-  const auto client = connect(options.connection);
-  RemoteParameters parameters = RemoteParameters::fetch(*client);
-  experiment::ParameterValues values;
-  for (const std::string& assignment : options.assignments) take(assignment, parameters, values);
-  if (!options.stage_only) return load(*client, parameters, values, options);
-  for (const auto& [name, value] : values) parameters.stage(name, value);
-  say("staged; 'astrolabe params save' puts it in force, 'astrolabe params revert' drops it");
+void save(const ParamsOptions& options, RemoteParameters& robot) {
+  commit_staged(options, robot, "nothing is staged: the robot keeps its values");
 }
 
-std::size_t staged_count(const RemoteParameters& parameters) {
-  return static_cast<std::size_t>(
-      std::count_if(parameters.rows().begin(), parameters.rows().end(),
-                    [](const ParameterRow& row) { return row.staged != row.active; }));
+void defaults(const ParamsOptions& options, RemoteParameters& robot) {
+  robot.defaults();
+  commit_staged(options, robot, "the robot holds its defaults already");
 }
 
-void save(ParamsOptions& options) {
-  const auto client = connect(options.connection);
-  RemoteParameters parameters = RemoteParameters::fetch(*client);
-  const std::size_t staged = staged_count(parameters);
-  if (staged == 0) return say("nothing is staged");
-  parameters.commit();
-  say(fmt::format("{} staged values are in force and in flash", staged));
+void revert(const ParamsOptions& options, RemoteParameters& robot) {
+  const std::vector<Change> changes = staged_changes(robot);
+  robot.revert();
+  say(changes.empty() ? "nothing was staged" : fmt::format("{} staged values dropped", changes.size()));
+  report(options, {}, true);
 }
 
-void revert(ParamsOptions& options) {
-  const auto client = connect(options.connection);
-  RemoteParameters parameters = RemoteParameters::fetch(*client);
-  const std::size_t staged = staged_count(parameters);
-  parameters.revert();
-  say(staged == 0 ? std::string("nothing was staged") : fmt::format("{} staged values are dropped", staged));
-}
-
-void export_to(ParamsOptions& options) {
-  const auto client = connect(options.connection);
-  const RemoteParameters parameters = RemoteParameters::fetch(*client);
-  experiment::ParameterValues values;
-  for (const ParameterRow& row : parameters.rows()) values[row.name] = to_value(row, row.active);
+void export_to_file(const ParamsOptions& options, RemoteParameters& robot) {
+  ParameterValues values;
+  for (const link::ParameterRow& row : robot.rows()) values[row.name] = link::to_value(row, row.active);
   experiment::write_parameters(options.file, values);
-  say(fmt::format("{} parameters written to {}", values.size(), options.file.string()));
+  say(fmt::format("{} parameters are in {}", values.size(), options.file.string()));
 }
 
-void import_from(ParamsOptions& options) {
-  const experiment::ParameterValues values = experiment::read_parameter_file(options.file).parameters;
-  const auto client = connect(options.connection);
-  load(*client, RemoteParameters::fetch(*client), values, options);
+using Work = std::function<void(link::Client&, ParamsOptions&, RemoteParameters&)>;
+
+CLI::App& add(CLI::App& params, const std::string& name, const std::string& what,
+              const std::shared_ptr<ParamsOptions>& options, Work work) {
+  CLI::App& command = *params.add_subcommand(name, what);
+  add_connection(command, options->connection);
+  command.callback([options, work = std::move(work)] {
+    const auto client = connect(options->connection);
+    RemoteParameters robot = RemoteParameters::fetch(*client);
+    work(*client, *options, robot);
+  });
+  return command;
 }
 
-void defaults(ParamsOptions& options) {
-  const auto client = connect(options.connection);
-  RemoteParameters parameters = RemoteParameters::fetch(*client);
-  if (!options.yes && !confirm("Put all parameters back to factory defaults, the calibration included?"))
-    throw Error("nothing was changed");
-  parameters.defaults();
-  parameters.commit();
-  say("the robot holds the factory defaults");
+Work without_client(void (*work)(const ParamsOptions&, RemoteParameters&)) {
+  return [work](link::Client&, ParamsOptions& options, RemoteParameters& robot) { work(options, robot); };
+}
+
+void add_yes_flag(CLI::App& command, const std::shared_ptr<ParamsOptions>& options) {
+  command.add_flag("--yes,-y", options->yes, "do not ask");
+}
+
+void add_readers(CLI::App& params, const std::shared_ptr<ParamsOptions>& options) {
+  CLI::App& all = add(params, "list", "show all parameters; * marks those that are not at their default",
+                      options, without_client(list));
+  add_json_flag(all, options->json);
+  examples(all, {"astrolabe params list", "astrolabe params list --json | jq -r '.[].name'"});
+
+  CLI::App& one = add(params, "get", "print values", options, without_client(get));
+  one.add_option("name", options->words, "what 'params list' calls it")->required()->type_name("");
+  add_json_flag(one, options->json);
+  examples(one,
+           {"astrolabe params get b", "astrolabe params get c_R c_L b", "astrolabe params get b --json"});
+
+  CLI::App& file =
+      add(params, "export", "write all values into a TOML file", options, without_client(export_to_file));
+  file.add_option("file", options->file, "to be written")->required()->type_name("");
+  examples(file, {"astrolabe params export astro.toml"});
+}
+
+void add_writers(CLI::App& params, const std::shared_ptr<ParamsOptions>& options) {
+  CLI::App& some = add(params, "set", "change values, all together or not at all", options, set);
+  some.add_option("assignment", options->words, "NAME=VALUE, in the unit that 'params list' shows")
+      ->required()
+      ->type_name("");
+  some.add_flag("--stage-only", options->stage_only, "leave them staged: 'params save' puts them in force");
+  examples(some, {"astrolabe params set b=0.2886", "astrolabe params set c_R=1.0021 c_L=0.9979 --yes",
+                  "astrolabe params set robot_name=Astro-2"});
+
+  CLI::App& file = add(params, "import", "load values from a TOML file, all together or not at all", options,
+                       [](link::Client& client, ParamsOptions& o, RemoteParameters& robot) {
+                         load(client, o, robot, experiment::read_parameter_file(o.file).parameters);
+                       });
+  file.add_option("file", options->file, "of 'params export', or a calibration")->required()->type_name("");
+  examples(file, {"astrolabe params import astro.toml", "astrolabe params import astro.toml --yes --json"});
+  for (CLI::App* command : {&some, &file}) {
+    add_yes_flag(*command, options);
+    add_json_flag(*command, options->json);
+  }
+}
+
+void add_stage_commands(CLI::App& params, const std::shared_ptr<ParamsOptions>& options) {
+  CLI::App& keep =
+      add(params, "save", "put staged values in force and into flash", options, without_client(save));
+  examples(keep, {"astrolabe params save", "astrolabe params save --yes"});
+  CLI::App& drop = add(params, "revert", "drop staged values", options, without_client(revert));
+  examples(drop, {"astrolabe params revert"});
+  CLI::App& factory =
+      add(params, "defaults", "put all parameters back to their defaults", options, without_client(defaults));
+  examples(factory, {"astrolabe params defaults", "astrolabe params defaults --yes"});
+  for (CLI::App* command : {&keep, &factory}) add_yes_flag(*command, options);
+  for (CLI::App* command : {&keep, &drop, &factory}) add_json_flag(*command, options->json);
 }
 
 }  // namespace
 
 void add_params(CLI::App& app) {
   const auto options = std::make_shared<ParamsOptions>();
-  CLI::App& command = *app.add_subcommand("params", "read and change the robot's parameters");
+  CLI::App& command = *app.add_subcommand("params", "show, change, save and load the robot's parameters");
   command.require_subcommand(1);
-  examples(command, {"astrolabe params list", "astrolabe params get b",
-                     "astrolabe params set c_R=1.002 c_L=0.998 --yes", "astrolabe params export robot.toml",
-                     "astrolabe params import robot.toml"});
-  const auto add = [&](const char* name, const char* what, void (*run)(ParamsOptions&),
-                       std::initializer_list<const char*> lines) -> CLI::App& {
-    CLI::App& sub = *command.add_subcommand(name, what);
-    add_connection(sub, options->connection);
-    examples(sub, lines);
-    sub.callback([options, run] { run(*options); });
-    return sub;
-  };
-  const auto add_assent = [&](CLI::App& sub) {
-    sub.add_flag("--yes,-y", options->yes, "do not ask");
-    sub.add_flag("--force", options->force, "also where c_R, c_L or b change by more than 10 %");
-  };
-  add_json_flag(add("list", "all parameters with units and limits", list,
-                    {"astrolabe params list", "astrolabe params list --json"}),
-                options->json);
-  CLI::App& get_command =
-      add("get", "one parameter", get, {"astrolabe params get b", "astrolabe params get b --json"});
-  get_command.add_option("name", options->name, "the parameter")->required();
-  add_json_flag(get_command, options->json);
-  CLI::App& set_command =
-      add("set", "change parameters; in force and in flash together or not at all", set,
-          {"astrolabe params set robot_name=Rosie", "astrolabe params set c_R=1.002 c_L=0.998 --yes"});
-  set_command.add_option("assignments", options->assignments, "NAME=VALUE, SI units")->required();
-  set_command.add_flag("--stage-only", options->stage_only, "prepare only: 'params save' puts it in force");
-  add_assent(set_command);
-  add("save", "put staged values in force and into flash", save, {"astrolabe params save"});
-  add("revert", "drop staged values", revert, {"astrolabe params revert"});
-  add("export", "write all parameters to a TOML file", export_to, {"astrolabe params export robot.toml"})
-      .add_option("file", options->file, "the file to write")
-      ->required();
-  CLI::App& import_command = add("import", "load parameters from a TOML file", import_from,
-                                 {"astrolabe params import robot.toml --yes"});
-  import_command.add_option("file", options->file, "the file to read")->required();
-  add_assent(import_command);
-  add_assent(add("defaults", "put everything back to factory defaults", defaults,
-                 {"astrolabe params defaults --yes"}));
+  add_readers(command, options);
+  add_writers(command, options);
+  add_stage_commands(command, options);
+  examples(command,
+           {"astrolabe params list", "astrolabe params set b=0.2886", "astrolabe params export before.toml"});
 }
 
 }  // namespace astro::cli

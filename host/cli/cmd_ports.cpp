@@ -9,51 +9,61 @@
 namespace astro::cli {
 namespace {
 
-Json as_json(const std::vector<link::FoundPort>& ports) {
+struct PortsOptions {
+  unsigned baud = link::kDefaultBaud;
+  bool json = false;
+};
+
+Json as_json(const std::vector<link::FoundPort>& found) {
   Json list = Json::array();
-  for (const link::FoundPort& found : ports) {
-    Json entry = {{"port", found.port.address},
-                  {"device", found.port.device},
-                  {"simulator", found.port.simulator},
-                  {"robot", found.robot.has_value()}};
-    if (found.robot) {
-      entry["name"] = std::string(found.robot->robot_name.view());
-      entry["id"] = hex_id(*found.robot);
-      entry["firmware"] = firmware_version(*found.robot);
+  for (const link::FoundPort& at : found) {
+    Json entry = {{"port", at.port.address},
+                  {"device", at.port.device},
+                  {"simulator", at.port.simulator},
+                  {"robot", nullptr}};
+    if (at.robot) {
+      entry["robot"] = {{"name", std::string(at.robot->robot_name.view())},
+                        {"id", hex_id(*at.robot)},
+                        {"board", std::string(at.robot->board.view())},
+                        {"firmware", firmware_version(*at.robot)}};
     } else {
-      entry["reason"] = found.reason;
+      entry["reason"] = at.reason;
     }
-    list.push_back(entry);
+    list.push_back(std::move(entry));
   }
   return list;
 }
 
-std::string as_text(const std::vector<link::FoundPort>& ports) {
-  std::vector<std::vector<std::string>> rows;
-  for (const link::FoundPort& found : ports)
-    rows.push_back(
-        {found.port.address, found.robot ? std::string(found.robot->robot_name.view()) : "no robot"});
-  std::string text = table(rows);
-  if (!text.empty()) text.pop_back();
-  for (const link::FoundPort& found : ports)
-    if (!found.robot) text += "\n" + found.port.address + ": " + found.reason;
-  return text;
+void show(const std::vector<link::FoundPort>& found) {
+  std::vector<std::vector<std::string>> rows{{"port", "robot", "board", "firmware"}};
+  for (const link::FoundPort& at : found)
+    if (at.robot)
+      rows.push_back({at.port.address, std::string(at.robot->robot_name.view()),
+                      std::string(at.robot->board.view()), firmware_version(*at.robot)});
+  if (rows.size() > 1) write(table(rows, "llll"));
+  if (rows.size() == 1) say("no robot was found; 'astrolabe sim' starts a simulated one");
+  for (const link::FoundPort& at : found)
+    if (!at.robot) say("no robot: " + at.reason);
+}
+
+void run(const PortsOptions& options) {
+  const auto found = link::find_robots(link::candidate_ports(), std::chrono::milliseconds(500), options.baud);
+  if (options.json) return print_json(as_json(found));
+  show(found);
 }
 
 }  // namespace
 
 void add_ports(CLI::App& app) {
-  const auto json = std::make_shared<bool>(false);
-  CLI::App& command =
-      *app.add_subcommand("ports", "find robots at the serial ports and simulators of this machine");
-  add_json_flag(command, *json);
-  examples(command, {"astrolabe ports", "astrolabe ports --json"});
-  command.callback([json] {
-    const std::vector<link::FoundPort> ports = link::find_robots();
-    if (*json) return print(as_json(ports));
-    if (ports.empty()) return say("no serial port and no simulator is here; 'astrolabe sim' starts one");
-    print(as_text(ports));
-  });
+  const auto options = std::make_shared<PortsOptions>();
+  CLI::App& command = *app.add_subcommand("ports", "find robots at serial ports and simulators of yours");
+  command.add_option("--baud", options->baud, "speed of serial ports; USB and ptys do not care")
+      ->type_name("BAUD")
+      ->capture_default_str()
+      ->check(CLI::Range(1U, 20'000'000U));
+  add_json_flag(command, options->json);
+  examples(command, {"astrolabe ports", "astrolabe ports --json | jq -r '.[].port'"});
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace astro::cli

@@ -45,7 +45,8 @@ class Progress {
   bool visible_ = false;
 };
 
-/// Plain text columns, first one left-aligned, the others right-aligned; the first row is the heading.
-std::string table(const std::vector<std::vector<std::string>>& rows);
+/// Plain text columns; the first row is the heading. `alignment`: 'l' or 'r' per column; where it says
+/// nothing the first is left-aligned and the others are right-aligned.
+std::string table(const std::vector<std::vector<std::string>>& rows, std::string_view alignment = {});
 
 }  // namespace astro::cli

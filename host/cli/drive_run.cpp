@@ -9,21 +9,36 @@
 #include "host/cli/console.hpp"
 #include "host/cli/path_progress.hpp"
 #include "host/cli/robot_view.hpp"
+#include "host/cli/steering.hpp"
 
 namespace astro::cli {
 namespace {
 
-constexpr std::uint16_t kPeriod_ms = 50;
+constexpr std::uint16_t kPeriod_ms = 20;  // Steering wants no less
+
+/// How long the robot moved, on its own clock.
+class Stopwatch {
+ public:
+  void moved_to(const recording::OdometrySample& sample) {
+    constexpr double kStill_mps = 0.002, kStill_radps = 0.01;
+    if (std::abs(sample.v_mps) < kStill_mps && std::abs(sample.omega_radps) < kStill_radps) return;
+    if (first_us_ == 0) first_us_ = sample.time_us;
+    last_us_ = sample.time_us;
+  }
+  double seconds() const { return static_cast<double>(last_us_ - first_us_) * 1e-6; }
+
+ private:
+  std::int64_t first_us_ = 0, last_us_ = 0;
+};
 
 void report(const DriveOptions& options, const char* outcome, const recording::OdometrySample& start,
-            const recording::OdometrySample& end) {
+            const recording::OdometrySample& end, double seconds) {
   const recording::PlanarPose moved = recording::in_frame_of(pose_of(start), pose_of(end));
-  const double seconds = static_cast<double>(end.time_us - start.time_us) * 1e-6;
   if (options.json)
-    return print(Json{{"outcome", outcome},
-                      {"duration_s", seconds},
-                      {"moved", to_json(moved)},
-                      {"odometry", to_json(pose_of(end))}});
+    return print_json(Json{{"outcome", outcome},
+                           {"duration_s", seconds},
+                           {"moved", to_json(moved)},
+                           {"odometry", to_json(pose_of(end))}});
   print(fmt::format("moved     {}   in {:.1f} s", in_words(moved), seconds));
   print(fmt::format("odometry  {}", in_words(pose_of(end))));
 }
@@ -56,25 +71,29 @@ std::string short_words(const recording::OdometrySample& at) {
 
 void drive(DriveOptions& options, const DriveJob& job) {
   const auto client = connect(options.connection);
-  OdometryWatch odometry(*client, kPeriod_ms, job.moved);
+  Stopwatch stopwatch;
+  OdometryWatch odometry(*client, kPeriod_ms, [&](const recording::OdometrySample& sample) {
+    stopwatch.moved_to(sample);
+    job.moved(sample);
+  });
   const recording::OdometrySample start = odometry.fresh();
   try {
     link::DriveHooks hooks = drive_hooks();
     hooks.segment_done = job.segment_done;
     link::DriveSession session(*client, hooks);
-    job.work(session);
+    job.work(*client, session);
   } catch (const link::Interrupted&) {
-    report(options, "interrupted", start, odometry.fresh());
+    report(options, "interrupted", start, odometry.fresh(), stopwatch.seconds());
     throw link::Interrupted(how_it_stands(*client));
   }
-  report(options, "completed", start, odometry.fresh());
+  report(options, "completed", start, odometry.fresh(), stopwatch.seconds());
 }
 
 void drive_path(DriveOptions& options, const link::Path& path) {
   PathProgress way(path);
   std::optional<Progress> bar;
   DriveJob job;
-  job.work = [&](link::DriveSession& session) {
+  job.work = [&](link::Client&, link::DriveSession& session) {
     const BarDuring showing(bar);
     session.run(path);
   };
@@ -94,9 +113,9 @@ void drive_velocity(DriveOptions& options, double v_mps, double omega_radps, dou
   std::optional<Progress> bar;
   std::int64_t begun_us = 0;
   DriveJob job;
-  job.work = [&](link::DriveSession& session) {
+  job.work = [&](link::Client& client, link::DriveSession& session) {
     const BarDuring showing(bar);
-    session.hold_velocity(v_mps, omega_radps, link::microseconds(std::llround(seconds * 1e6)));
+    Steering(client, session).hold(v_mps, omega_radps, link::microseconds(std::llround(seconds * 1e6)));
   };
   job.moved = [&](const recording::OdometrySample& sample) {
     if (!bar) return;

@@ -1,5 +1,6 @@
 #include "host/cli/interrupt.hpp"
 
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
 
@@ -9,9 +10,14 @@ namespace astro::cli {
 namespace {
 
 volatile std::sig_atomic_t raised = 0;
+std::atomic<void (*)()> last_act = nullptr;
+static_assert(decltype(last_act)::is_always_lock_free, "a signal handler reads it");
 
 void on_signal(int) {
-  if (raised != 0) std::_Exit(130);
+  if (raised != 0) {
+    if (const auto act = last_act.load()) act();
+    std::_Exit(130);
+  }
   raised = 1;
 }
 
@@ -30,5 +36,7 @@ bool interrupted() { return raised != 0; }
 void check_interrupt() {
   if (interrupted()) throw link::Interrupted("interrupted");
 }
+
+void before_forced_exit(void (*act)()) { last_act = act; }
 
 }  // namespace astro::cli

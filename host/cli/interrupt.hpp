@@ -12,4 +12,8 @@ bool interrupted();
 /// Throws link::Interrupted if the flag is set.
 void check_interrupt();
 
+/// Called by the second signal before it ends the program, and so restricted to what a signal handler may do;
+/// nullptr: nothing.
+void before_forced_exit(void (*act)());
+
 }  // namespace astro::cli

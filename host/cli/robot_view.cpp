@@ -4,18 +4,19 @@
 
 #include <cstdio>
 
-#include "common/safety/fault.hpp"
+#include "host/base/error.hpp"
 #include "host/link/refusal.hpp"
 
 namespace astro::cli {
 
-void print(const std::string& text) {
-  std::fwrite(text.data(), 1, text.size(), stdout);
-  std::fputc('\n', stdout);
-  std::fflush(stdout);
+void write(const std::string& text) {
+  const bool taken = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (!taken || std::fflush(stdout) != 0) throw Error("the output cannot be written: is the disk full?");
 }
 
-void print(const Json& json) { print(json.dump(2)); }
+void print(const std::string& text) { write(text + '\n'); }
+
+void print_json(const Json& json) { print(json.dump(2)); }
 
 std::string firmware_version(const protocol::HelloReply& robot) {
   return fmt::format("{}.{}.{}", robot.fw_major, robot.fw_minor, robot.fw_patch);

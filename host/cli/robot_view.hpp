@@ -15,9 +15,10 @@ namespace astro::cli {
 /// Keys keep the order in which a person would ask.
 using Json = nlohmann::ordered_json;
 
-/// To stdout, with a newline.
+/// To stdout as it stands; print adds a newline. Throws astro::Error if stdout takes no more.
+void write(const std::string& text);
 void print(const std::string& text);
-void print(const Json& json);
+void print_json(const Json& json);
 
 std::string firmware_version(const protocol::HelloReply& robot);
 std::string hex_id(const protocol::HelloReply& robot);

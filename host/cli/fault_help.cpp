@@ -1,0 +1,31 @@
+#include "host/cli/fault_help.hpp"
+
+#include <array>
+
+namespace astro::cli {
+namespace {
+
+constexpr std::array<std::string_view, kFaultNames.size()> kHelp{
+    "",
+    "no velocity came for longer than the parameter command_timeout: its sender ended or hung",
+    "the host fell silent during a drive: its program ended or the cable came off",
+    "the motor driver reports too much current or heat: let it cool, look for a blocked wheel or a short",
+    "the supply fell below battery_low: charge the battery",
+    "the supply rose above battery_high: check battery and regulator",
+    "a wheel turned faster than over_speed: check encoder_polarity and motor_polarity",
+    "voltage on a motor and no motion: look for a blocked wheel or a loose motor or encoder lead",
+    "counts that no motor can produce: check the encoder's leads",
+    "the control tick came late while driving: report it, the firmware should never do that",
+    "no valid parameter set was found at the start: 'astrolabe params import' or 'params defaults'",
+    "the flash did not keep what was written: the last set stays in force, the part may be worn",
+    "somebody pressed emergency stop",
+};
+
+}  // namespace
+
+std::string_view fault_help(Fault fault) {
+  const auto index = static_cast<std::size_t>(fault);
+  return index < kHelp.size() ? kHelp[index] : "";
+}
+
+}  // namespace astro::cli

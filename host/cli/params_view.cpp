@@ -1,0 +1,108 @@
+#include "host/cli/params_view.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "host/base/error.hpp"
+#include "host/cli/console.hpp"
+#include "host/cli/terminal.hpp"
+
+namespace astro::cli {
+namespace {
+
+bool is_text(const link::ParameterRow& row) { return row.kind == protocol::ParameterKind::text; }
+
+// The robot's table does not carry the default of a text.
+bool is_changed(const link::ParameterRow& row) {
+  return !is_text(row) && row.active.raw != row.default_value;
+}
+
+std::string number(double value) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+std::string limits(const link::ParameterRow& row) {
+  if (is_text(row)) return fmt::format("{} to {} characters", row.minimum, row.maximum);
+  return fmt::format("{} to {}", number(link::to_real(row, row.minimum)),
+                     number(link::to_real(row, row.maximum)));
+}
+
+std::string unit(const link::ParameterRow& row) { return row.unit == "1" ? "" : row.unit; }
+
+}  // namespace
+
+std::string plain(const link::Value& value) {
+  if (const double* real = std::get_if<double>(&value)) return number(*real);
+  return std::get<std::string>(value);
+}
+
+Json to_json(const link::Value& value) {
+  if (const double* real = std::get_if<double>(&value)) return *real;
+  return std::get<std::string>(value);
+}
+
+Json to_json(const link::ParameterRow& row) {
+  Json json = {{"name", row.name},
+               {"value", to_json(link::to_value(row, row.active))},
+               {"unit", row.unit},
+               {"kind", std::string(protocol::name(row.kind))}};
+  if (is_text(row)) {
+    json["least_characters"] = row.minimum;
+    json["most_characters"] = row.maximum;
+  } else {
+    json["default"] = link::to_real(row, row.default_value);
+    json["minimum"] = link::to_real(row, row.minimum);
+    json["maximum"] = link::to_real(row, row.maximum);
+    json["changed"] = is_changed(row);
+  }
+  if (row.staged != row.active) json["staged"] = to_json(link::to_value(row, row.staged));
+  json["doc"] = row.doc;
+  return json;
+}
+
+std::string explanation(const link::ParameterRow& row) {
+  const std::string standard =
+      is_text(row) ? "" : ", default " + number(link::to_real(row, row.default_value));
+  const std::string of = unit(row).empty() ? "" : unit(row) + ", ";
+  return fmt::format("{}{}{}: {}", of, limits(row), standard, row.doc);
+}
+
+std::string parameter_table(const link::RemoteParameters& robot, std::size_t columns) {
+  std::vector<std::vector<std::string>> rows{{"", "name", "value", "unit", "limits", "meaning"}};
+  for (const link::ParameterRow& row : robot.rows())
+    rows.push_back({is_changed(row) ? "*" : "", row.name, plain(link::to_value(row, row.active)), unit(row),
+                    limits(row), row.doc});
+  const std::string whole = table(rows, "llrlll");
+  if (columns == 0) return whole;
+  std::string text;
+  for (std::size_t at = 0, end; (end = whole.find('\n', at)) != std::string::npos; at = end + 1) {
+    const std::string line = whole.substr(at, end - at);
+    const std::string head = clipped(line, columns);
+    text += (head.size() == line.size() ? line : clipped(line, columns - 1) + "…") + '\n';
+  }
+  return text;
+}
+
+link::Value parse_value(const link::ParameterRow& row, const std::string& text) {
+  if (is_text(row)) return text;
+  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
+  const char* end = text.data() + text.size();
+  double value = 0;
+  const auto parsed = std::from_chars(begin, end, value);
+  if (parsed.ec != std::errc() || parsed.ptr != end)
+    throw Error(fmt::format("{} = '{}' is not a number{}", row.name, text,
+                            unit(row).empty() ? "" : " (in " + unit(row) + ", without writing the unit)"));
+  return value;
+}
+
+std::vector<experiment::Change> staged_changes(const link::RemoteParameters& robot) {
+  std::vector<experiment::Change> list;
+  for (const link::ParameterRow& row : robot.rows())
+    if (row.staged != row.active)
+      list.push_back({row.name, row.unit, link::to_value(row, row.active), link::to_value(row, row.staged)});
+  return list;
+}
+
+}  // namespace astro::cli

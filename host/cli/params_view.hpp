@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/cli/robot_view.hpp"
+#include "host/experiment/change_guard.hpp"
+#include "host/link/parameters.hpp"
+
+/// A robot's parameters for people and for programs.
+namespace astro::cli {
+
+/// All rows; a star marks those that differ from the default. Lines longer than `columns` are cut; 0: none.
+std::string parameter_table(const link::RemoteParameters& robot, std::size_t columns);
+
+/// One parameter with all that its table says.
+Json to_json(const link::ParameterRow& row);
+
+Json to_json(const link::Value& value);
+
+/// "0.29" or the text itself: what `params set` takes again.
+std::string plain(const link::Value& value);
+
+/// "m, 0.05 to 2, default 0.29: Wheelbase".
+std::string explanation(const link::ParameterRow& row);
+
+/// What a person typed as a value of this row. Throws astro::Error if it is no number where one is needed.
+link::Value parse_value(const link::ParameterRow& row, const std::string& text);
+
+/// What a commit would change.
+std::vector<experiment::Change> staged_changes(const link::RemoteParameters& robot);
+
+}  // namespace astro::cli

@@ -1,0 +1,116 @@
+#include "host/cli/wrong_usage.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <string_view>
+#include <vector>
+
+namespace astro::cli {
+namespace {
+
+/// The command that was being given when the mistake came up, and the word that was to name the next one.
+struct Place {
+  const CLI::App* command;
+  std::string path;
+  std::string unknown;  // "": no word there that could have been a command
+};
+
+const CLI::App* find(const CLI::App& app, std::string_view name) {
+  const auto found = app.get_subcommands([&](const CLI::App* sub) { return sub->get_name() == name; });
+  return found.empty() ? nullptr : found.front();
+}
+
+bool has_commands(const CLI::App& app) {
+  return !app.get_subcommands([](const CLI::App*) { return true; }).empty();
+}
+
+Place place_of(const CLI::App& app, int argc, char** argv) {
+  Place place{&app, "astrolabe", ""};
+  for (int i = 1; i < argc && has_commands(*place.command); ++i) {
+    const std::string word = argv[i];
+    const CLI::App* next = find(*place.command, word);
+    if (next == nullptr) {
+      if (!word.starts_with('-')) place.unknown = word;
+      break;
+    }
+    place.command = next;
+    place.path += " " + word;
+  }
+  return place;
+}
+
+/// Levenshtein's distance.
+std::size_t distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = std::exchange(row[j + 1], std::min({row[j] + 1, row[j + 1] + 1, replaced}));
+    }
+  }
+  return row.back();
+}
+
+template <class Names>
+std::string suggestion(const std::string& word, const Names& names) {
+  std::string best;
+  std::size_t least = word.size() < 4 ? 2 : 3;  // further apart it is another word
+  for (const std::string& name : names)
+    if (const std::size_t apart = distance(word, name); apart < least) {
+      least = apart;
+      best = name;
+    }
+  return best.empty() ? "" : fmt::format("; did you mean '{}'?", best);
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(sub->get_name());
+  return names;
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+std::string unknown_argument(const Place& place, const std::string& word) {
+  const std::string name = word.substr(0, word.find('='));
+  if (!name.starts_with('-')) return fmt::format("'{}' has no place for '{}'", place.path, word);
+  return fmt::format("'{}' has no option '{}'{}", place.path, name,
+                     suggestion(name, option_names(*place.command)));
+}
+
+// The first word that CLI11 could not place stands behind the last colon of what it says.
+std::string first_extra(const CLI::ParseError& error) {
+  const std::string text = error.what();
+  const std::size_t begin = text.find(": ");
+  if (begin == std::string::npos) return text;
+  return text.substr(begin + 2, text.find(' ', begin + 2) - begin - 2);
+}
+
+std::string what_is_wrong(const Place& place, const CLI::ParseError& error) {
+  if (!place.unknown.empty())
+    return fmt::format("there is no command '{} {}'{}", place.path, place.unknown,
+                       suggestion(place.unknown, command_names(*place.command)));
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
+    return unknown_argument(place, first_extra(error));
+  if (has_commands(*place.command)) return fmt::format("'{}' needs a command", place.path);
+  return error.what();
+}
+
+}  // namespace
+
+std::string sentence_for(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  const Place place = place_of(app, argc, argv);
+  return fmt::format("{} ('{} --help' explains)", what_is_wrong(place, error), place.path);
+}
+
+}  // namespace astro::cli
