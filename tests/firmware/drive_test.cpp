@@ -1,0 +1,221 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/support/bench_robot.hpp"
+
+namespace astro {
+namespace {
+
+using protocol::ErrorCode;
+using protocol::Mode;
+
+class Driving : public support::RobotOnBench {
+ protected:
+  void arm() { ask(protocol::Arm{}); }
+  void add(const link::Path& path, std::uint16_t first_tag = 1) {
+    for (protocol::AddSegment segment : path) {
+      segment.tag = first_tag++;
+      ask(segment);
+    }
+  }
+  /// Keeps the robot alive until it rests; false after a minute.
+  bool until_rest() {
+    return client_.pump_until([&] { return mode() == Mode::idle && drive().queued() == 0; },
+                              std::chrono::minutes(1));
+  }
+  double x_m() { return std::ldexp(static_cast<double>(drive().pose().x), -40); }
+  double y_m() { return std::ldexp(static_cast<double>(drive().pose().y), -40); }
+  double theta_rad() {
+    return std::ldexp(static_cast<double>(static_cast<std::int64_t>(drive().pose().theta.raw())), -63) *
+           std::numbers::pi;
+  }
+};
+
+TEST_F(Driving, OutputsAreOffAtBootAndStayOffUntilArmed) {
+  EXPECT_TRUE(open());
+  EXPECT_EQ(refusal(protocol::Velocity{100'000, 0}).code(), ErrorCode::not_armed);
+  EXPECT_EQ(refusal(link::line(1).front()).code(), ErrorCode::not_armed);
+  silence_ms(100);
+  EXPECT_TRUE(open());
+  EXPECT_EQ(mode(), Mode::disarmed);
+}
+
+TEST_F(Driving, AnArmedRobotAtRestDoesNotPowerItsMotors) {
+  arm();
+  silence_ms(1000);
+  EXPECT_FALSE(powered());
+  EXPECT_EQ(mode(), Mode::idle);
+}
+
+TEST_F(Driving, ACommandOfATenthOfAMetrePerSecondIsExactlyThat) {
+  arm();
+  for (int i = 0; i < 10; ++i) {
+    ask(protocol::Velocity{100'000, 0});
+    silence_ms(100);
+  }
+  EXPECT_EQ(drive().wheels().set_points(), (WheelSpeeds{100'000, 100'000})) << "no dither";
+}
+
+TEST_F(Driving, APureSpinHasEqualAndOppositeSetPoints) {
+  arm();
+  for (int i = 0; i < 10; ++i) {
+    ask(protocol::Velocity{0, 1'000'000});
+    silence_ms(100);
+  }
+  EXPECT_EQ(drive().wheels().set_points().left_umps, -drive().wheels().set_points().right_umps);
+  EXPECT_EQ(drive().wheels().set_points().right_umps, 145'000);  // half of 0.290 m
+}
+
+TEST_F(Driving, ACommandBeyondTheLimitsKeepsItsCurvature) {
+  arm();
+  for (int i = 0; i < 30; ++i) {
+    ask(protocol::Velocity{3'000'000, 1'000'000});  // 4 times the speed limit of 0.75 m/s
+    silence_ms(100);
+  }
+  const WheelSpeeds set = drive().wheels().set_points();
+  EXPECT_NEAR((set.left_umps + set.right_umps) / 2.0, 750'000, 1);
+  EXPECT_NEAR((set.right_umps - set.left_umps) / 0.290, 250'000, 5);
+}
+
+TEST_F(Driving, StopRampsWithinTheAccelerationLimitAndStaysArmed) {
+  arm();
+  for (int i = 0; i < 10; ++i) {
+    ask(protocol::Velocity{300'000, 0});
+    silence_ms(100);
+  }
+  ask(protocol::Stop{});
+  std::int32_t last = drive().wheels().set_points().left_umps;
+  for (int i = 0; i < 2000 && mode() == Mode::stopping; ++i) {
+    silence_ms(1);
+    const std::int32_t now = drive().wheels().set_points().left_umps;
+    EXPECT_LE(last - now, 500) << "0.5 m/s^2 is 500 um/s a tick";
+    last = now;
+  }
+  EXPECT_EQ(mode(), Mode::idle);
+}
+
+TEST_F(Driving, ALineEndsWhereItShould) {
+  arm();
+  add(link::line(1));
+  ASSERT_TRUE(until_rest());
+  EXPECT_NEAR(x_m(), 1, 0.001);  // settles within half a millimetre
+  EXPECT_NEAR(y_m(), 0, 0.001);
+}
+
+TEST_F(Driving, ASquareClosesInItsOwnOdometry) {
+  arm();
+  add(link::square(3, link::Sense::ccw, {0.3, 1.0}));
+  ASSERT_TRUE(until_rest());
+  std::printf("3 m square: closes to %.2f mm, %.2f mrad\n", 1000 * std::hypot(x_m(), y_m()),
+              1000 * theta_rad());
+  EXPECT_LT(std::hypot(x_m(), y_m()), 0.003);
+  EXPECT_LT(std::abs(theta_rad()), 0.003);
+}
+
+TEST_F(Driving, AnArcTurnsByItsAngleAlongItsLength) {
+  arm();
+  add(link::arc(0.5 * std::numbers::pi, 0.25));  // quarter circle of radius 1 m
+  ASSERT_TRUE(until_rest());
+  EXPECT_NEAR(x_m(), 1, 0.003);
+  EXPECT_NEAR(y_m(), 1, 0.003);
+  EXPECT_NEAR(theta_rad(), std::numbers::pi / 2, 0.003);
+}
+
+TEST_F(Driving, SegmentsEndInOrderUnderTheirTags) {
+  std::vector<int> tags;
+  const auto subscription = client_.on<protocol::SegmentDone>([&](const protocol::SegmentDone& done) {
+    EXPECT_EQ(done.outcome, protocol::SegmentOutcome::completed);
+    tags.push_back(done.tag);
+  });
+  arm();
+  add(link::square(0.2, link::Sense::cw), 11);
+  ASSERT_TRUE(until_rest());
+  run_ms(20);
+  EXPECT_EQ(tags, (std::vector<int>{11, 12, 13, 14, 15, 16, 17, 18}));
+}
+
+TEST_F(Driving, StopAbortsTheQueueAndSaysSo) {
+  int aborted = 0;
+  const auto subscription = client_.on<protocol::SegmentDone>([&](const protocol::SegmentDone& done) {
+    aborted += done.outcome == protocol::SegmentOutcome::aborted ? 1 : 0;
+  });
+  arm();
+  add(link::square(1, link::Sense::cw));
+  run_ms(500);
+  ask(protocol::Stop{});
+  ASSERT_TRUE(until_rest());
+  run_ms(20);
+  EXPECT_EQ(aborted, 8);
+}
+
+TEST_F(Driving, TheQueueTakesSixteenBesidesTheOneUnderWay) {
+  arm();
+  add(link::line(5));
+  run_ms(10);
+  protocol::AddSegment more = link::line(0.1).front();
+  for (int i = 0; i < 16; ++i) ask(more);
+  EXPECT_EQ(refusal(more).code(), ErrorCode::queue_full);
+}
+
+TEST_F(Driving, RefusesSegmentsThatAreNone) {
+  arm();
+  EXPECT_EQ(refusal(protocol::AddSegment{}).code(), ErrorCode::out_of_range) << "empty";
+  protocol::AddSegment bent = link::line(1).front();
+  bent.angle = 1 << 20;
+  EXPECT_EQ(refusal(bent).code(), ErrorCode::out_of_range) << "a line does not turn";
+  protocol::AddSegment backward_speed = link::line(1).front();
+  backward_speed.speed_umps = -1;
+  EXPECT_EQ(refusal(backward_speed).code(), ErrorCode::out_of_range);
+}
+
+TEST_F(Driving, WhatNeedsRestIsRefusedWhileMoving) {
+  arm();
+  add(link::line(1));
+  run_ms(200);
+  EXPECT_EQ(refusal(protocol::SetPose{}).code(), ErrorCode::moving);
+  EXPECT_EQ(refusal(protocol::CommitParameters{}).code(), ErrorCode::moving);
+  EXPECT_EQ(refusal(protocol::Reboot{}).code(), ErrorCode::moving);
+  EXPECT_EQ(refusal(protocol::EnterBootloader{}).code(), ErrorCode::moving);
+  EXPECT_EQ(refusal(protocol::ClearFaults{}).code(), ErrorCode::moving);
+}
+
+TEST_F(Driving, DisarmOpensTheBridgesAtOnce) {
+  arm();
+  add(link::line(1));
+  run_ms(500);
+  ASSERT_TRUE(powered());
+  ask(protocol::Disarm{});
+  EXPECT_TRUE(open());
+  EXPECT_EQ(mode(), Mode::disarmed);
+}
+
+TEST_F(Driving, SetPoseMovesTheOdometryAndNothingElse) {
+  ask(protocol::SetPose{std::int64_t{3} << 40, -(std::int64_t{1} << 40), std::uint64_t{1} << 62});
+  EXPECT_EQ(x_m(), 3);
+  EXPECT_EQ(y_m(), -1);
+  EXPECT_NEAR(theta_rad(), std::numbers::pi / 2, 1e-12);
+}
+
+/// Left motor and encoder the other way round, and parameters that say so.
+TEST(Wiring, PolarityParametersMakeForwardForward) {
+  sim::Config config;
+  config.slip_m = 0;
+  config.wiring.left_motor_reversed = true;
+  config.wiring.left_encoder_reversed = true;
+  auto robot = std::make_shared<simulator::VirtualRobot>(config, simulator::MocapConfig{});
+  link::Client client(std::make_unique<simulator::InProcessTransport>(robot));
+  client.connect();
+  client.request(protocol::StageParameter{static_cast<std::uint16_t>(Param::motor_polarity_left), -1, {}});
+  client.request(protocol::StageParameter{static_cast<std::uint16_t>(Param::encoder_polarity_left), -1, {}});
+  client.request(protocol::CommitParameters{});
+  client.request(protocol::Arm{});
+  client.request(link::line(0.5).front());
+  client.pump(std::chrono::seconds(4));
+  EXPECT_NEAR(robot->board().truth().x_m, 0.5, 0.002);
+  EXPECT_NEAR(robot->board().truth().theta_rad, 0, 0.003);
+}
+
+}  // namespace
+}  // namespace astro

@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+
+#include "tests/support/bench_robot.hpp"
+
+namespace astro {
+namespace {
+
+using protocol::ErrorCode;
+
+class Parameters : public support::RobotOnBench {
+ protected:
+  static std::uint16_t id(Param param) { return static_cast<std::uint16_t>(param); }
+  void stage(Param param, std::int32_t raw) { ask(protocol::StageParameter{id(param), raw, {}}); }
+  std::int32_t active(Param param) { return ask(protocol::GetParameter{id(param)}).active; }
+  static constexpr std::int32_t kOne_30 = 1 << 30;
+};
+
+TEST_F(Parameters, StagedValuesAreNotInForceUntilCommitted) {
+  stage(Param::b, 300'000'000);
+  EXPECT_EQ(active(Param::b), 290'000'000);
+  EXPECT_EQ(ask(protocol::GetParameter{id(Param::b)}).staged, 300'000'000);
+  ask(protocol::CommitParameters{});
+  EXPECT_EQ(active(Param::b), 300'000'000);
+}
+
+TEST_F(Parameters, CommittedValuesSurviveARestart) {
+  stage(Param::c_R, kOne_30 + 1000);
+  ask(protocol::StageParameter{id(Param::robot_name), 0, Text<24>("Rosie")});
+  ask(protocol::CommitParameters{});
+  ask(protocol::Reboot{});
+  silence_ms(100);
+  EXPECT_EQ(client_.connect().robot_name.view(), "Rosie");
+  EXPECT_EQ(active(Param::c_R), kOne_30 + 1000);
+}
+
+TEST_F(Parameters, AnInvalidSetNamesTheParameterAndChangesNothing) {
+  stage(Param::c_R, kOne_30 + 1000);
+  stage(Param::b, 1);  // a nanometre
+  const link::RobotRefused refused = refusal(protocol::CommitParameters{});
+  EXPECT_EQ(refused.code(), ErrorCode::invalid_parameter);
+  EXPECT_EQ(refused.detail(), id(Param::b));
+  EXPECT_EQ(active(Param::c_R), kOne_30);
+}
+
+TEST_F(Parameters, RevertDropsAndDefaultsStage) {
+  stage(Param::b, 300'000'000);
+  ask(protocol::RevertParameters{});
+  ask(protocol::CommitParameters{});
+  EXPECT_EQ(active(Param::b), 290'000'000);
+  stage(Param::b, 300'000'000);
+  ask(protocol::CommitParameters{});
+  ask(protocol::DefaultParameters{});
+  EXPECT_EQ(active(Param::b), 300'000'000) << "staged, not in force";
+  ask(protocol::CommitParameters{});
+  EXPECT_EQ(active(Param::b), 290'000'000);
+}
+
+TEST_F(Parameters, ThePoseStaysWhereItIsAcrossACommit) {
+  ask(protocol::Arm{});
+  ask(link::line(0.3).front());
+  run_ms(3000);
+  const Pose before = drive().pose();
+  ask(protocol::Disarm{});
+  stage(Param::c_R, kOne_30 + 5'000'000);
+  ask(protocol::CommitParameters{});
+  silence_ms(10);
+  EXPECT_EQ(drive().pose(), before);
+}
+
+TEST_F(Parameters, UnknownIdsAndIndicesAreRefused) {
+  EXPECT_EQ(refusal(protocol::GetParameter{9999}).code(), ErrorCode::unknown_parameter);
+  EXPECT_EQ(refusal(protocol::StageParameter{0, 1, {}}).code(), ErrorCode::unknown_parameter);
+  EXPECT_EQ(refusal(protocol::GetParameterInfo{9999}).code(), ErrorCode::unknown_parameter);
+}
+
+TEST_F(Parameters, TheTableDescribesItself) {
+  const std::uint16_t count = client_.connect().parameter_count;
+  ASSERT_EQ(count, kParamCount);
+  for (std::uint16_t i = 0; i < count; ++i) {
+    const protocol::ParameterInfo info = ask(protocol::GetParameterInfo{i});
+    EXPECT_EQ(info.name.view(), kParamTable[i].name);
+    EXPECT_EQ(info.doc.view(), kParamTable[i].doc);
+    EXPECT_EQ(info.scale_exponent, kParamTable[i].exponent);
+  }
+}
+
+}  // namespace
+}  // namespace astro

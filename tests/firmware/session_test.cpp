@@ -1,0 +1,167 @@
+#include <gtest/gtest.h>
+
+#include "common/protocol/frame.hpp"
+#include "common/protocol/framer.hpp"
+#include "tests/support/bench_robot.hpp"
+
+// What the robot does with frames themselves: repeated, malformed, of other versions, on two ports, to
+// nobody.
+namespace astro {
+namespace {
+
+using protocol::ErrorCode;
+
+class Frames : public support::RobotOnBench {
+ protected:
+  struct Answer {
+    protocol::Header header;
+    std::vector<std::uint8_t> body;
+  };
+
+  void send(std::span<const std::uint8_t> bytes, int port = 1) { board().ports().host_write(port, bytes); }
+  template <class Message>
+  void send(const Message& message, std::uint16_t request, int port = 1) {
+    send(protocol::Frame(message, request).bytes(), port);
+  }
+  void send_body(std::vector<std::uint8_t> body) {
+    std::array<std::uint8_t, protocol::kMaxFrame> out{};
+    send(std::span(out).first(protocol::encode_frame(body, out)));
+  }
+  std::vector<Answer> received(int port = 1) {
+    silence_ms(2);
+    std::vector<Answer> answers;
+    std::array<std::uint8_t, 512> bytes{};
+    for (std::size_t count; (count = board().ports().host_read(port, bytes)) != 0;)
+      for (std::size_t i = 0; i < count; ++i)
+        if (const auto body = framers_[static_cast<std::size_t>(port)].push(bytes[i]))
+          answers.push_back({*protocol::peek(*body), {body->begin(), body->end()}});
+    return answers;
+  }
+  ErrorCode error(const Answer& answer) {
+    const auto decoded = protocol::decode<protocol::ErrorReply>(answer.body);
+    EXPECT_TRUE(decoded.ok());
+    return decoded.ok() ? decoded->code : ErrorCode::unsupported;
+  }
+
+  std::array<protocol::Framer, 2> framers_;
+};
+
+TEST_F(Frames, ARepeatedRequestIsAnsweredAgainAndCarriedOutOnce) {
+  received();  // Booted
+  send(protocol::Arm{}, 1);
+  send(link::line(1).front(), 2);
+  send(link::line(1).front(), 2);
+  EXPECT_EQ(received().size(), 3U);
+  EXPECT_EQ(drive().queued() + (drive().mode() == protocol::Mode::segment ? 1U : 0U), 1U);
+}
+
+TEST_F(Frames, APingInBetweenDoesNotMakeTheRobotForget) {
+  send(protocol::Arm{}, 1);
+  send(link::line(1).front(), 2);
+  send(protocol::Ping{}, 3);
+  send(link::line(1).front(), 2);
+  received();
+  EXPECT_EQ(drive().queued() + (drive().mode() == protocol::Mode::segment ? 1U : 0U), 1U);
+}
+
+TEST_F(Frames, ANewSessionMayReuseIds) {
+  send(protocol::Arm{}, 1);
+  send(link::line(1).front(), 2);
+  received();
+  send(protocol::Hello{}, 1);
+  send(link::line(1).front(), 2);
+  received();
+  EXPECT_EQ(drive().queued() + (drive().mode() == protocol::Mode::segment ? 1U : 0U), 2U);
+}
+
+TEST_F(Frames, AnotherProtocolVersionIsToldOurs) {
+  received();
+  send(protocol::Hello{protocol::kProtocolVersion + 1}, 1);
+  const auto answers = received();
+  ASSERT_EQ(answers.size(), 1U);
+  const auto reply = protocol::decode<protocol::ErrorReply>(answers[0].body);
+  ASSERT_TRUE(reply.ok());
+  EXPECT_EQ(reply->code, ErrorCode::wrong_version);
+  EXPECT_EQ(reply->detail, protocol::kProtocolVersion);
+}
+
+TEST_F(Frames, MalformedAndUnknownRequestsAreNamedAndHarmless) {
+  received();
+  send_body({0x3F, 7, 0});        // no such request
+  send_body({0x08, 8, 0, 1, 2});  // a Velocity cut short
+  const auto answers = received();
+  ASSERT_EQ(answers.size(), 2U);
+  EXPECT_EQ(error(answers[0]), ErrorCode::unknown_message);
+  EXPECT_EQ(answers[0].header.request_id, 7);
+  EXPECT_EQ(error(answers[1]), ErrorCode::malformed);
+}
+
+TEST_F(Frames, GarbageIsCountedAndDoesNotDisturb) {
+  std::vector<std::uint8_t> garbage;
+  for (int i = 0; i < 5000; ++i) garbage.push_back(static_cast<std::uint8_t>(i * 7 + i / 13));
+  for (std::size_t at = 0; at < garbage.size(); at += 500) {
+    send(std::span(garbage).subspan(at, 500));
+    silence_ms(1);
+  }
+  send(std::vector<std::uint8_t>{0});
+  received();
+  send(protocol::Ping{}, 1);
+  EXPECT_EQ(received().size(), 1U);
+  EXPECT_GT(ask(protocol::GetStatus{}).rx_bad_frames, 0U);
+}
+
+TEST_F(Frames, TelemetryComesAtItsRateWithItsFields) {
+  received();
+  send(protocol::SetTelemetry{20, protocol::Telemetry::kCounts | protocol::Telemetry::kBattery}, 1);
+  received();
+  silence_ms(998);
+  const auto answers = received();
+  EXPECT_NEAR(static_cast<double>(answers.size()), 50, 1);
+  for (const Answer& answer : answers) {
+    const auto telemetry = protocol::decode<protocol::Telemetry>(answer.body);
+    ASSERT_TRUE(telemetry.ok());
+    EXPECT_EQ(telemetry->fields, protocol::Telemetry::kCounts | protocol::Telemetry::kBattery);
+    EXPECT_GT(telemetry->battery.mv, 11'000);
+  }
+}
+
+TEST_F(Frames, UnknownTelemetryFieldsAreRefused) {
+  EXPECT_EQ(refusal(protocol::SetTelemetry{10, 1U << 20}).code(), ErrorCode::out_of_range);
+}
+
+TEST_F(Frames, AHostThatNeverReadsDoesNotHoldTheRobotUp) {
+  send(protocol::SetTelemetry{1, protocol::Telemetry::kAll}, 1);
+  silence_ms(5000);  // far more than the queue holds
+  ask(protocol::Arm{});
+  ask(link::line(0.2).front());
+  run_ms(3000);
+  EXPECT_NEAR(board().truth().x_m, 0.2, 0.002);
+}
+
+TEST_F(Frames, TwoHostsAtTwoPortsAreAnsweredEach) {
+  received();
+  send(protocol::Ping{}, 5);
+  const protocol::Pong pong = ask(protocol::Ping{});  // at port 0
+  EXPECT_GT(pong.device_time_us, 0U);
+  const auto answers = received();
+  ASSERT_EQ(answers.size(), 1U);
+  EXPECT_EQ(answers[0].header.message_id, protocol::Pong::kId);
+  EXPECT_EQ(answers[0].header.request_id, 5);
+}
+
+TEST_F(Frames, ARebootIsAnsweredBeforeItHappens) {
+  received();
+  send(protocol::Reboot{}, 1);
+  const auto answers = received();
+  ASSERT_EQ(answers.size(), 1U);
+  EXPECT_EQ(answers[0].header.message_id, protocol::Ack::kId);
+  silence_ms(100);
+  const auto events = received();
+  ASSERT_FALSE(events.empty());
+  const auto booted = protocol::decode<protocol::Booted>(events[0].body);
+  ASSERT_TRUE(booted.ok());
+  EXPECT_EQ(booted->reset_cause, protocol::ResetCause::software);
+}
+
+}  // namespace
+}  // namespace astro

@@ -1,0 +1,39 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/program.hpp"
+
+// A host program that dies must not leave a robot driving, and the next one must find the robot as it is.
+namespace astro {
+namespace {
+
+using support::astrolabe;
+
+nlohmann::json info(const support::Simulator& simulator) {
+  return nlohmann::json::parse(astrolabe({"info", "--port", simulator.port(), "--json"}).out);
+}
+
+TEST(Survival, ARobotWhoseHostIsKilledStopsByItselfAndServesTheNextHost) {
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{}, std::vector<std::string>{"--fast"}}) {
+    const support::Simulator simulator(options);  // real time, then as fast as the host keeps up
+    support::Program drive({ASTROLABE_PROGRAM, "drive", "line", "500", "--port", simulator.port()});
+    // The port is locked while the drive has it: a second program is refused until the first one is dead.
+    ASSERT_TRUE(support::eventually([&] {
+      return astrolabe({"info", "--port", simulator.port()}).err.find("in use") != std::string::npos;
+    }));
+    poll(nullptr, 0, 300);  // it is under way
+    drive.send(SIGKILL);
+    drive.wait();
+    ASSERT_TRUE(support::eventually([&] { return info(simulator)["mode"] == "fault"; }))
+        << info(simulator).dump();
+    EXPECT_EQ(info(simulator)["faults"], nlohmann::json::array({"link_lost"}));
+    const support::Outcome again = astrolabe({"drive", "line", "0.1", "--port", simulator.port()});
+    EXPECT_EQ(again.code, 0) << again.err;
+  }
+}
+
+}  // namespace
+}  // namespace astro

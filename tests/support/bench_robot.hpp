@@ -1,0 +1,65 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "host/link/client.hpp"
+#include "host/link/paths.hpp"
+#include "host/simulator/in_process.hpp"
+
+/// The firmware on the simulated board with a host's client, in virtual time, for claims about what the robot
+/// does.
+namespace astro::support {
+
+class RobotOnBench : public testing::Test {
+ protected:
+  using Bridge = sim::Bridge;
+
+  explicit RobotOnBench(const sim::Config& config = quiet())
+      : robot_(std::make_shared<simulator::VirtualRobot>(config, simulator::MocapConfig{})),
+        client_(std::make_unique<simulator::InProcessTransport>(robot_)) {
+    client_.connect();
+  }
+
+  static sim::Config quiet() {
+    sim::Config config;
+    config.slip_m = 0;
+    return config;
+  }
+
+  template <class Message>
+  typename Message::Reply ask(const Message& message) {
+    return client_.request(message);
+  }
+  /// The code that the robot refuses with; fails the test if it does not refuse.
+  template <class Message>
+  link::RobotRefused refusal(const Message& message) {
+    try {
+      client_.request(message);
+    } catch (const link::RobotRefused& refused) {
+      return refused;
+    }
+    ADD_FAILURE() << Message::kName << " was not refused";
+    return {"", protocol::ErrorCode::unsupported, 0};
+  }
+
+  /// Time passes and no host says anything.
+  void silence_ms(int ms) {
+    for (int i = 0; i < ms; ++i) robot_->step();
+  }
+  /// Time passes and the host keeps the robot alive.
+  void run_ms(int ms) { client_.pump(std::chrono::milliseconds(ms)); }
+
+  protocol::Mode mode() { return robot_->robot().drive().mode(); }
+  const Drive& drive() { return robot_->robot().drive(); }
+  sim::Board& board() { return robot_->board(); }
+  bool powered() { return board().motors().state() == Bridge::drive; }
+  bool open() { return board().motors().state() == Bridge::coast; }
+
+  std::shared_ptr<simulator::VirtualRobot> robot_;
+  link::Client client_;
+};
+
+}  // namespace astro::support
