@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -76,7 +77,8 @@ void add_robot_options(CLI::App& command, sim::Config& robot) {
       ->check(between(0, 0.01, "m"));
   command.add_option("--seed", robot.seed, "seed of all noise; also decides the robot's unique id")
       ->type_name("N")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(whole(0, std::numeric_limits<std::uint64_t>::max()));
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ class Stopwatch {
     if (first_us_ == 0) first_us_ = sample.time_us;
     last_us_ = sample.time_us;
   }
-  double seconds() const { return static_cast<double>(last_us_ - first_us_) * 1e-6; }
+  double seconds() const { return static_cast<double>(last_us_ - first_us_) / 1e6; }
 
  private:
   std::int64_t first_us_ = 0, last_us_ = 0;
@@ -120,7 +120,7 @@ void drive_velocity(DriveOptions& options, double v_mps, double omega_radps, dou
   job.moved = [&](const recording::OdometrySample& sample) {
     if (!bar) return;
     if (begun_us == 0) begun_us = sample.time_us;
-    bar->show(static_cast<double>(sample.time_us - begun_us) * 1e-6 / seconds, short_words(sample));
+    bar->show(static_cast<double>(sample.time_us - begun_us) / 1e6 / seconds, short_words(sample));
   };
   drive(options, job);
 }
