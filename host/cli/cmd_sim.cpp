@@ -52,9 +52,8 @@ void run(const SimOptions& wanted) {
   mocap.seed = options.robot.seed;
   simulator::Server server(options.robot, mocap, options.server);
   const RuntimeLink link(folder, server.pty().link());
-  say(fmt::format("a simulated robot is at {} ({}; Ctrl-C ends it)", server.pty().link().string(),
-                  options.server.fast ? "as fast as its host keeps up" : "in real time"));
-  say(fmt::format("next: astrolabe info --port {}", server.pty().link().string()));
+  say(fmt::format("a simulated robot is at {}", server.pty().link().string()));
+  say(fmt::format("next: astrolabe info --port {}   (Ctrl-C here ends it)", server.pty().link().string()));
   server.run(interrupted);
 }
 

@@ -64,7 +64,7 @@ class BarDuring {
 };
 
 std::string short_words(const recording::OdometrySample& at) {
-  return fmt::format("x {:.3f} m  y {:.3f} m  {:.1f} deg", at.x_m, at.y_m, degrees(at.theta_rad));
+  return fmt::format("x {:7.3f} m  y {:7.3f} m  {:7.1f} deg", at.x_m, at.y_m, degrees(at.theta_rad));
 }
 
 }  // namespace
@@ -102,9 +102,9 @@ void drive_path(DriveOptions& options, const link::Path& path) {
     if (!bar) return;
     way.moved_to(sample);
     const std::string part =
-        way.segments() > 1 ? fmt::format("  {}/{}", std::min(way.done() + 1, way.segments()), way.segments())
+        way.segments() > 1 ? fmt::format("{}/{}  ", std::min(way.done() + 1, way.segments()), way.segments())
                            : "";
-    bar->show(way.fraction(), short_words(sample) + part);
+    bar->show(way.fraction(), part + short_words(sample));
   };
   drive(options, job);
 }

@@ -60,7 +60,7 @@ std::string monitor_picture(const std::string& robot, const Telemetry& telemetry
          fmt::format("  battery   {:.2f} V\n\n", telemetry.battery.mv / 1e3) +
          fmt::format("  pose      x {:10.4f} m     y {:10.4f} m     heading {:10.2f} deg\n", at.x_m, at.y_m,
                      degrees(at.theta_rad)) +
-         fmt::format("  velocity  v {:+10.3f} m/s   w {:+10.3f} rad/s\n\n", at.v_mps, at.omega_radps) +
+         fmt::format("  velocity  v {:+10.3f} m/s   omega {:+8.3f} rad/s\n\n", at.v_mps, at.omega_radps) +
          wheels(telemetry) + "\n" + link_line(link) + "\n  Q quits\n";
 }
 
