@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "common/base/version.hpp"
 #include "common/protocol/codec.hpp"
 #include "common/protocol/framer.hpp"
 #include "common/protocol/messages.hpp"
@@ -12,7 +13,6 @@
 #include "firmware/app/session.hpp"
 #include "firmware/app/snapshot.hpp"
 #include "firmware/app/tick_clock.hpp"
-#include "common/base/version.hpp"
 #include "hal/interface/board.hpp"
 
 namespace astro {
@@ -49,7 +49,7 @@ class Robot {
     for (int port = 0; port < kPorts; ++port) receive(port);
     report_events();
     for (int port = 0; port < kPorts; ++port) stream(port);
-    if (reset_wanted_ != Reset::none) reset();
+    if (reset_wanted_ != Reset::none && board_.clock().now_us() >= reset_due_us_) reset();
   }
 
   const Drive& drive() const { return drive_; }
@@ -145,7 +145,6 @@ class Robot {
     if (request.protocol_version != protocol::kProtocolVersion)
       return error(ErrorCode::wrong_version, protocol::kProtocolVersion);
     sessions_[port].telemetry_period_us = 0;
-    desk_.revert();  // what an earlier host staged and did not commit is nobody's
     return protocol::HelloReply{.fw_major = kFirmwareVersion.major,
                                 .fw_minor = kFirmwareVersion.minor,
                                 .fw_patch = kFirmwareVersion.patch,
@@ -282,13 +281,19 @@ class Robot {
 
   Answer<Ack> handle(int, const protocol::Reboot&) {
     if (!drive_.at_rest()) return error(ErrorCode::moving);
-    reset_wanted_ = Reset::reboot;
-    return Ack{};
+    return reset_soon(Reset::reboot);
   }
   Answer<Ack> handle(int, const protocol::EnterBootloader&) {
     if (!drive_.at_rest()) return error(ErrorCode::moving);
-    reset_wanted_ = Reset::bootloader;
-    return Ack{};
+    return reset_soon(Reset::bootloader);
+  }
+
+  /// Not at once: the answer has to leave the robot first.
+  Ack reset_soon(Reset wanted) {
+    constexpr std::uint64_t kFlush_us = 50'000;
+    reset_wanted_ = wanted;
+    reset_due_us_ = board_.clock().now_us() + kFlush_us;
+    return {};
   }
 
   // ---- to hosts
@@ -372,6 +377,7 @@ class Robot {
   std::int32_t battery_mv_ = 0;
   std::uint32_t reported_faults_ = 0;
   Reset reset_wanted_ = Reset::none;
+  std::uint64_t reset_due_us_ = 0;
 };
 
 }  // namespace astro

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/base/error.hpp"
+
 namespace astro::experiment {
 namespace {
 
@@ -33,6 +35,20 @@ class Collector {
         })) {
     truth_.poll();  // what was seen before is not of this run
     client_.request(protocol::SetTelemetry{kPeriod_ms, kFields});
+  }
+
+  /// Records for so long, by the robot's clock: a simulator in fast motion would stand for minutes in a
+  /// second of ours.
+  void stand(std::chrono::microseconds duration, const std::function<bool()>& interrupted) {
+    const std::size_t first = run_.odometry.size();
+    const auto done = [&] {
+      return interrupted() ||
+             (run_.odometry.size() > first &&
+              run_.odometry.back().time_us - run_.odometry[first].time_us >= duration.count());
+    };
+    if (!client_.pump_until(done, 10 * duration))
+      throw Error("the robot's telemetry has dried up while it stood: is the link good?");
+    if (interrupted()) throw link::Interrupted("interrupted");
   }
 
   /// Stops the stream. The truth may arrive a little later than the robot's word: waits until it is there.
@@ -115,9 +131,9 @@ recording::Run record_run(link::Client& client, truth::Source& truth, const link
   link::DriveSession drive(client, drive_hooks);
   client.request(protocol::SetPose{});
   Collector collector(client, truth, run);
-  drive.pump(kRest);
+  collector.stand(kRest, hooks.interrupted);
   drive.run(path);
-  drive.pump(kRest);
+  collector.stand(kRest, hooks.interrupted);
   collector.finish();
   return run;
 }

@@ -22,20 +22,18 @@ namespace astro::link {
 
 /// One robot at the other end of a Transport.
 ///
-/// Replies  One request is under way at a time, besides at most one Ping. A request that is not answered is
-/// sent
-///          again with the same request id. What this assumes of the robot: per port it remembers message id
+/// Replies  One request is under way at a time, besides at most one Ping. A request without an answer is sent
+///          again under the same request id. What this assumes of the robot: per port it remembers message id
 ///          and request id of the last request and the reply it gave; the same pair again gets the same reply
-///          and is not carried out again. So a lost AddSegment or a lost Ack never adds a segment twice.
-///          Nothing is sent between the tries, so one remembered reply is enough. A robot that restarts
-///          meanwhile (Booted) forgets it; then the request fails with LinkLost.
+///          and is not carried out again (Hello and Ping may be: they leave the robot as it is after one). So
+///          a lost AddSegment or a lost Ack never adds a segment twice. Nothing is sent between the tries:
+///          one remembered reply is enough. A robot that restarts meanwhile (Booted) forgets it; then the
+///          request fails with LinkLost.
 /// Time     All from Transport::now(); waits only inside Transport::read().
 /// Alive    While pump() runs a Ping is sent when 50 ms passed since the last request on the host's clock, or
 ///          50 ms on the robot's clock since the last answer: a simulator in fast motion stops its clock to
-///          wait for us. Whoever does not pump or ask lets a moving robot stop by its own time-out, as it
-///          should.
-/// Errors   LinkLost: gone, silent or restarted. RobotRefused: ErrorReply. Error: the robot cannot be
-/// understood.
+///          wait for us. Whoever neither pumps nor asks lets a moving robot stop by its own time-out.
+/// Errors   LinkLost: gone, silent or restarted. RobotRefused: ErrorReply. Error: it cannot be understood.
 class Client {
  public:
   explicit Client(std::unique_ptr<Transport> transport);

@@ -20,7 +20,7 @@ constexpr auto kPatience = 200ms;  // real time that a host may take nothing bef
 constexpr auto kTick = 1ms;
 constexpr std::size_t kMostOutgoing = 1U
                                       << 16;  // beyond that the robot's own queue fills, and it drops frames
-constexpr int kStepsPerLook = 20;             // virtual ms between two looks at the host while running ahead
+constexpr int kStepsPerLook = 50;             // virtual ms between two looks at the host while running ahead
 
 std::vector<std::uint8_t> load(const fs::path& path) {
   if (path.empty() || !fs::exists(path)) return {};

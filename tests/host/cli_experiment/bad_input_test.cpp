@@ -1,0 +1,101 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "tests/support/program.hpp"
+
+// Whatever is wrong outside: one clear sentence that names the thing, a non-zero exit, nothing on stdout.
+namespace astro {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class BadInput : public testing::Test {
+ protected:
+  std::string file(const std::string& name, const std::string& text) const {
+    const std::filesystem::path path = folder_.path() / name;
+    std::ofstream(path, std::ios::binary) << text;
+    return path.string();
+  }
+
+  static void refuses(const std::vector<std::string>& arguments, const std::vector<std::string>& words) {
+    const support::Outcome outcome = support::astrolabe(arguments);
+    EXPECT_TRUE(outcome.code == 1 || outcome.code == 2) << outcome.code;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_TRUE(outcome.err.starts_with("astrolabe: ")) << outcome.err;
+    for (const std::string& word : words) EXPECT_THAT(outcome.err, HasSubstr(word));
+  }
+
+  void refuses_end_poses(const std::string& cw, const std::vector<std::string>& words) {
+    refuses({"calibrate", "end-poses", "--cw", file("cw.csv", cw), "--ccw", file("ccw.csv", kGood), "--side",
+             "3", "--wheelbase", "0.29"},
+            words);
+  }
+
+  static constexpr const char* kGood = "ex_mm,ey_mm,etheta_rad\n300,-250,0.17\n310,-260,0.18\n";
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(BadInput, UnknownCommand) { refuses({"calibrat"}, {"calibrat", "--help"}); }
+TEST_F(BadInput, UnknownOption) { refuses({"info", "--colour"}, {"--colour"}); }
+TEST_F(BadInput, MissingOption) { refuses({"calibrate", "end-poses"}, {"--cw"}); }
+TEST_F(BadInput, NoCommand) { refuses({}, {"--help"}); }
+
+TEST_F(BadInput, MissingFile) {
+  refuses({"calibrate", "end-poses", "--cw", "/nowhere/cw.csv", "--ccw", file("ccw.csv", kGood), "--side",
+           "3", "--wheelbase", "0.29"},
+          {"/nowhere/cw.csv"});
+}
+TEST_F(BadInput, FolderInPlaceOfAFile) {
+  refuses({"calibrate", "end-poses", "--cw", folder_.path().string(), "--ccw", file("ccw.csv", kGood),
+           "--side", "3", "--wheelbase", "0.29"},
+          {folder_.path().string()});
+}
+TEST_F(BadInput, EmptyFile) { refuses_end_poses("", {"cw.csv"}); }
+TEST_F(BadInput, HeaderAlone) { refuses_end_poses("ex_mm,ey_mm\n", {"cw.csv"}); }
+TEST_F(BadInput, ColumnsWithoutUnits) { refuses_end_poses("ex,ey\n1,2\n", {"cw.csv", "ex"}); }
+TEST_F(BadInput, NotANumber) { refuses_end_poses("ex_mm,ey_mm\n1,two\n", {"cw.csv", "line 2", "two"}); }
+TEST_F(BadInput, Nan) { refuses_end_poses("ex_mm,ey_mm\n1,nan\n", {"cw.csv", "line 2"}); }
+TEST_F(BadInput, WrongNumberOfCells) { refuses_end_poses("ex_mm,ey_mm\n1,2\n3\n", {"cw.csv", "line 3"}); }
+TEST_F(BadInput, BinaryFile) { refuses_end_poses(std::string("\0\xff\xfe\x01", 4), {"cw.csv"}); }
+
+TEST_F(BadInput, SideOfZero) {
+  refuses({"calibrate", "end-poses", "--cw", file("cw.csv", kGood), "--ccw", file("ccw.csv", kGood), "--side",
+           "0", "--wheelbase", "0.29"},
+          {"side"});
+}
+TEST_F(BadInput, NegativeWheelbase) {
+  refuses({"calibrate", "end-poses", "--cw", file("cw.csv", kGood), "--ccw", file("ccw.csv", kGood), "--side",
+           "3", "--wheelbase", "-0.29"},
+          {"-0.29"});
+}
+TEST_F(BadInput, FolderWithoutRecordings) {
+  refuses({"calibrate", "runs", folder_.path().string()}, {folder_.path().string()});
+  refuses({"compare", folder_.path().string()}, {folder_.path().string()});
+  refuses({"report", "/nowhere"}, {"/nowhere"});
+}
+TEST_F(BadInput, RecordingThatIsNone) {
+  file("run.mcap", "this is no recording");
+  refuses({"calibrate", "runs", folder_.path().string()}, {"run.mcap"});
+}
+TEST_F(BadInput, UploadOfSomethingElse) {
+  refuses({"upload", file("x.toml", "a = 1\n"), "--port", "/nowhere"}, {"x.toml", "[parameters]"});
+  refuses({"upload", file("y.toml", "[parameters\n"), "--port", "/nowhere"}, {"y.toml", "line 1"});
+}
+TEST_F(BadInput, PortThatIsNotThere) {
+  refuses({"umbmark", "--port", "/dev/nowhere", "--truth", "sim", "--out", (folder_.path() / "x").string()},
+          {"/dev/nowhere"});
+}
+TEST_F(BadInput, SettingsThatCannotBeDriven) {
+  const std::string out = (folder_.path() / "x").string();
+  refuses({"umbmark", "--truth", "sim", "--out", out, "--side", "0"}, {"side 0 m"});
+  refuses({"umbmark", "--truth", "sim", "--out", out, "--runs", "0"}, {"0 runs"});
+  refuses({"umbmark", "--truth", "moon", "--out", out}, {"moon"});
+}
+
+}  // namespace
+}  // namespace astro

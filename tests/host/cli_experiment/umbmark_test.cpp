@@ -1,0 +1,107 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/program.hpp"
+
+// The whole experiment with the real program over a real pty.
+namespace astro {
+namespace {
+
+namespace fs = std::filesystem;
+using support::astrolabe;
+using support::Simulator;
+using testing::HasSubstr;
+
+std::vector<std::string> umbmark(const Simulator& simulator, const std::string& out,
+                                 std::vector<std::string> more = {}) {
+  std::vector<std::string> arguments{"umbmark", "--port", simulator.port(), "--truth", "sim",
+                                     "--out",   out,      "--yes"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+TEST(Umbmark, CalibratesASimulatedRobotOverAPty) {
+  const Simulator simulator({"--fast", "--true-ed", "1.00416", "--true-wheelbase", "0.28861", "--seed", "1"});
+  const std::string out = (simulator.folder() / "x").string();
+  const support::Outcome outcome =
+      astrolabe(umbmark(simulator, out, {"--runs", "5", "--side", "3", "--json"}));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const nlohmann::json json = nlohmann::json::parse(outcome.out);
+  const double before_m = json["before"]["E_max_syst_m"], after_m = json["after"]["E_max_syst_m"];
+  std::printf("over a pty: E_max_syst %.1f mm -> %.1f mm, %.1f times smaller\n", 1000 * before_m,
+              1000 * after_m, before_m / after_m);
+  EXPECT_NEAR(before_m, 0.42, 0.08);  // five runs know it to some 0.04 m
+  EXPECT_GE(before_m / after_m, 5);
+  for (const char* phase : {"before", "after"})
+    for (const char* direction : {"cw", "ccw"})
+      for (const char* key : {"x_cg_m", "y_cg_m", "theta_cg_rad", "r_cg_m", "rms_x_m", "rms_y_m", "rms_r_m"})
+        EXPECT_TRUE(json[phase][direction][key].is_number()) << phase << ' ' << direction << ' ' << key;
+  for (const char* set : {"old", "new", "standard_errors"})
+    for (const char* key : {"c_R", "c_L", "b_m"})
+      EXPECT_TRUE(json["parameters"][set][key].is_number()) << set << key;
+  EXPECT_TRUE(fs::exists(json["report"].get<std::string>()));
+
+  const nlohmann::json b =
+      nlohmann::json::parse(astrolabe({"params", "get", "b", "--port", simulator.port(), "--json"}).out);
+  EXPECT_THAT(b.dump(),
+              HasSubstr(std::to_string(json["parameters"]["new"]["b_m"].get<double>()).substr(0, 7)))
+      << "the robot holds what the result says";
+
+  EXPECT_EQ(astrolabe({"compare", out}).code, 0);
+  EXPECT_EQ(astrolabe({"report", out, "--out", (simulator.folder() / "again.html").string()}).code, 0);
+  EXPECT_GT(fs::file_size(simulator.folder() / "again.html"), 1'000'000U);
+  const support::Outcome runs = astrolabe({"calibrate", "runs", out + "/before", "--json"});
+  EXPECT_EQ(nlohmann::json::parse(runs.out)["c_R"], json["phases"][0]["estimate"]["c_R"]);
+  const support::Outcome two = astrolabe({"compare", out + "/before", out + "/after", "--json"});
+  EXPECT_EQ(nlohmann::json::parse(two.out)["improvement"], json["improvement"]);
+}
+
+TEST(Umbmark, WithoutSlipOneRepeatLeavesAThirtiethAtMost) {
+  const Simulator simulator({"--fast", "--slip", "0"});
+  const std::string out = (simulator.folder() / "x").string();
+  const support::Outcome outcome =
+      astrolabe(umbmark(simulator, out, {"--runs", "2", "--rounds", "2", "--no-extras", "--json"}));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const double improvement = nlohmann::json::parse(outcome.out)["improvement"];
+  std::printf("over a pty without slip, two rounds: %.0f times smaller\n", improvement);
+  EXPECT_GE(improvement, 30);
+}
+
+TEST(Umbmark, CtrlCStopsTheRobotAndTheSameCommandGoesOn) {
+  const Simulator simulator;
+  const std::string out = (simulator.folder() / "x").string();
+  const std::vector<std::string> arguments = umbmark(simulator, out, {"--runs", "1", "--no-extras"});
+  std::vector<std::string> command = arguments;
+  command.insert(command.begin(), ASTROLABE_PROGRAM);
+  support::Program first(command);
+  ASSERT_TRUE(support::eventually(
+      [&] { return first.err().find("recorded before: square cw 1") != std::string::npos; }));
+  first.send(SIGINT);
+  const int code = first.wait();
+  if (code == 0) GTEST_SKIP() << "the experiment was over before it could be interrupted";
+  EXPECT_EQ(code, 130);
+  const nlohmann::json info =
+      nlohmann::json::parse(astrolabe({"info", "--port", simulator.port(), "--json"}).out);
+  EXPECT_EQ(info["mode"], "disarmed");
+  const support::Outcome second = astrolabe(arguments);
+  EXPECT_EQ(second.code, 0) << second.err;
+  EXPECT_THAT(second.err, testing::Not(HasSubstr("recorded before: square cw 1")))
+      << "it was recorded already";
+  EXPECT_THAT(second.out, HasSubstr("report.html"));
+}
+
+TEST(Record, WritesWhatTheRobotDid) {
+  const Simulator simulator;
+  const std::string out = (simulator.folder() / "drive.mcap").string();
+  const support::Outcome outcome =
+      astrolabe({"record", "--port", simulator.port(), "--truth", "sim", "--seconds", "0.2", "--out", out,
+                 "--csv", (simulator.folder() / "csv").string()});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("drive.mcap"));
+  EXPECT_TRUE(fs::exists(simulator.folder() / "csv" / "odometry.csv"));
+}
+
+}  // namespace
+}  // namespace astro

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "host/experiment/experiment.hpp"
+#include "host/simulator/in_process.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+/// A simulated robot on a desk, in process and in virtual time: what scenario and experiment tests drive.
+namespace astro::support {
+
+/// The robot that the thesis found: wheels that differ, a wheelbase that is not what it believes.
+inline sim::Config thesis_robot(double slip_m, std::uint64_t seed) {
+  sim::Config config;
+  config.true_ed = 1.00416;
+  config.true_wheelbase_m = 0.99521 * config.nominal_wheelbase_m;
+  config.slip_m = slip_m;
+  config.seed = seed;
+  return config;
+}
+
+inline constexpr double kThesisSlip_m = 2.645e-6;
+
+struct Desk {
+  explicit Desk(const sim::Config& config)
+      : robot(std::make_shared<simulator::VirtualRobot>(config, simulator::MocapConfig{.seed = config.seed})),
+        client(std::make_unique<simulator::InProcessTransport>(robot)),
+        truth(robot) {
+    client.connect();
+  }
+
+  std::shared_ptr<simulator::VirtualRobot> robot;
+  link::Client client;
+  simulator::InProcessTruth truth;
+};
+
+using test::TemporaryFolder;
+
+}  // namespace astro::support
