@@ -34,7 +34,7 @@ Json as_json(const protocol::FaultReport& report, bool cleared) {
   Json json = {{"latched", fault_list(report.latched)}, {"first", nullptr}, {"first_time_s", nullptr}};
   if (report.latched != 0) {
     json["first"] = std::string(name(report.first));
-    json["first_time_s"] = static_cast<double>(report.first_time_us) * 1e-6;
+    json["first_time_s"] = static_cast<double>(report.first_time_us) / 1e6;
   }
   json["raised_since_start"] = report.raised_count;
   json["cleared"] = cleared;

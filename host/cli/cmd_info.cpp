@@ -38,8 +38,8 @@ Json as_json(const link::Client& client, const protocol::Status& status, link::m
           {"protocol", robot.protocol_version},
           {"mode", std::string(protocol::name(status.mode))},
           {"faults", fault_list(status.latched_faults)},
-          {"battery_V", status.battery_mv * 1e-3},
-          {"uptime_s", static_cast<double>(status.device_time_us) * 1e-6},
+          {"battery_V", status.battery_mv / 1e3},
+          {"uptime_s", static_cast<double>(status.device_time_us) / 1e6},
           {"reset_cause", std::string(protocol::name(status.reset_cause))},
           {"tick_hz", robot.tick_hz},
           {"tick_count", status.tick_count},
@@ -62,12 +62,12 @@ std::string as_text(const link::Client& client, const protocol::Status& status,
   line("firmware", fmt::format("{}, protocol {}", firmware_version(robot), robot.protocol_version));
   line("mode", std::string(protocol::name(status.mode)));
   line("faults", faults_in_words(status.latched_faults));
-  line("battery", fmt::format("{:.2f} V", status.battery_mv * 1e-3));
+  line("battery", fmt::format("{:.2f} V", status.battery_mv / 1e3));
   line("running", fmt::format("{} since {}", duration_in_words(status.device_time_us),
                               protocol::name(status.reset_cause)));
   line("control", fmt::format("{} Hz, {} ticks late", robot.tick_hz, status.tick_overruns));
   line("link", fmt::format("round trip {:.2f} ms, {} bad frames at the robot",
-                           static_cast<double>(round_trip.count()) * 1e-3, status.rx_bad_frames));
+                           static_cast<double>(round_trip.count()) / 1e3, status.rx_bad_frames));
   return text;
 }
 

@@ -163,7 +163,7 @@ void add_monitor(CLI::App& app) {
       ->check(between(1, 200, "Hz"));
   command.add_option("--count", options->count, "end after this many samples")
       ->type_name("N")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 53));
+      ->check(whole(1, std::uint64_t{1} << 53));
   add_connection(command, options->connection);
   add_json_flag(command, options->json);
   examples(command, {"astrolabe monitor", "astrolabe monitor --json --rate 100 --count 1000 > samples.jsonl",

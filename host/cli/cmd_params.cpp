@@ -67,7 +67,7 @@ void get(const ParamsOptions& options, RemoteParameters& robot) {
   for (const std::string& name : options.words) {
     const link::ParameterRow& row = robot.row(name);
     json.push_back(to_json(row));
-    text += (options.words.size() > 1 ? name + "=" : "") + plain(robot.value(name)) + '\n';
+    text += (options.words.size() > 1 ? name + "=" : "") + plain(row) + '\n';
     if (!options.json && stderr_is_terminal()) say(fmt::format("{}: {}", name, explanation(row)));
   }
   if (!options.json) return write(text);
@@ -82,7 +82,6 @@ void load(link::Client& client, const ParamsOptions& options, const RemoteParame
     say("the robot holds these values already");
     return report(options, changes, true);
   }
-  if (const std::string doubt = experiment::suspicion(changes); !doubt.empty()) say("careful: " + doubt);
   if (!agreed(options, changes)) throw Error("nothing was changed");
   const link::UploadReport done = link::upload(client, values);
   if (done.active != link::ActiveSet::new_set) throw Error(done.sentence());

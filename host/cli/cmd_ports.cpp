@@ -60,7 +60,7 @@ void add_ports(CLI::App& app) {
   command.add_option("--baud", options->baud, "speed of serial ports; USB and ptys do not care")
       ->type_name("BAUD")
       ->capture_default_str()
-      ->check(CLI::Range(1U, 20'000'000U));
+      ->check(whole(1, 20'000'000));
   add_json_flag(command, options->json);
   examples(command, {"astrolabe ports", "astrolabe ports --json | jq -r '.[].port'"});
   command.callback([options] { run(*options); });

@@ -15,26 +15,27 @@ struct RebootOptions {
   bool bootloader = false;
 };
 
-// The restart itself takes the link with it: whether a request was heard shows in what comes after it.
-void wait_for_start(link::Client& client) {
-  constexpr auto kPatience = std::chrono::seconds(10);
+// The restart may take its own acknowledgement with it, and the USB device; what comes after tells.
+template <protocol::Request M>
+void request_restart(link::Client& client) {
+  constexpr auto kUntilItGoes = std::chrono::milliseconds(500);
   bool booted = false;
   const auto subscription = client.on<protocol::Booted>([&](const protocol::Booted&) { booted = true; });
   try {
-    client.pump_until([&] { return booted; }, std::chrono::milliseconds(500));
-  } catch (const link::LinkLost&) {  // a USB device goes away and comes again
+    client.request(M{});
+    client.pump_until([&] { return booted; }, kUntilItGoes);
+  } catch (const link::LinkLost&) {
   }
-  client.reconnect(kPatience);
 }
 
 void run(RebootOptions& options) {
   const auto client = connect(options.connection);
   if (options.bootloader) {
-    client->request(protocol::EnterBootloader{});
-    return say("the robot is in its bootloader and waits for firmware");
+    request_restart<protocol::EnterBootloader>(*client);
+    return say("the robot is on its way into its bootloader, where it waits for firmware");
   }
-  client->request(protocol::Reboot{});
-  wait_for_start(*client);
+  request_restart<protocol::Reboot>(*client);
+  client->reconnect(std::chrono::seconds(10));
   const protocol::Status status = client->request(protocol::GetStatus{});
   say(fmt::format("the robot is back ({}), {}", protocol::name(status.reset_cause),
                   protocol::name(status.mode)));

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -51,9 +52,8 @@ void run(const SimOptions& wanted) {
   mocap.seed = options.robot.seed;
   simulator::Server server(options.robot, mocap, options.server);
   const RuntimeLink link(folder, server.pty().link());
-  say(fmt::format("a simulated robot is at {} ({}; Ctrl-C ends it)", server.pty().link().string(),
-                  options.server.fast ? "as fast as its host keeps up" : "in real time"));
-  say(fmt::format("next: astrolabe info --port {}", server.pty().link().string()));
+  say(fmt::format("a simulated robot is at {}", server.pty().link().string()));
+  say(fmt::format("next: astrolabe info --port {}   (Ctrl-C here ends it)", server.pty().link().string()));
   server.run(interrupted);
 }
 
@@ -76,7 +76,8 @@ void add_robot_options(CLI::App& command, sim::Config& robot) {
       ->check(between(0, 0.01, "m"));
   command.add_option("--seed", robot.seed, "seed of all noise; also decides the robot's unique id")
       ->type_name("N")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(whole(0, std::numeric_limits<std::uint64_t>::max()));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "host/base/error.hpp"
 #include "host/cli/console.hpp"
 #include "host/cli/interrupt.hpp"
+#include "host/cli/options.hpp"
 #include "host/link/discovery.hpp"
 
 namespace astro::cli {
@@ -40,7 +41,7 @@ void add_connection(CLI::App& command, ConnectionOptions& options) {
   command.add_option("--baud", options.baud, "speed of a serial port; USB and ptys do not care")
       ->type_name("BAUD")
       ->capture_default_str()
-      ->check(CLI::Range(1U, 20'000'000U));
+      ->check(whole(1, 20'000'000));
 }
 
 std::unique_ptr<link::Client> connect(ConnectionOptions& options) {

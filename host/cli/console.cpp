@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "host/base/error.hpp"
+#include "host/cli/terminal.hpp"
 
 namespace astro::cli {
 namespace {
@@ -63,12 +64,14 @@ void Progress::show(double fraction, std::string_view note) {
   if (!stderr_is_terminal() || now - started_ < kPatience || now - shown_ < kBetweenRedraws) return;
   shown_ = now;
   visible_ = true;
-  constexpr int kCells = 30;
+  constexpr int kCells = 20;
   const int full = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * kCells + 0.5);
   std::string bar;
   for (int i = 0; i < kCells; ++i) bar += i < full ? "█" : "░";
-  to_stderr(fmt::format("{}{} {} {:3.0f} %  {}", kClearLine, what_, bar, 100 * std::clamp(fraction, 0.0, 1.0),
-                        note));
+  const std::string line =
+      fmt::format("{} {} {:3.0f} %  {}", what_, bar, 100 * std::clamp(fraction, 0.0, 1.0), note);
+  // A line that wraps could not be rewritten.
+  to_stderr(fmt::format("{}{}", kClearLine, clipped(line, terminal_size(STDERR_FILENO).columns - 1)));
 }
 
 void Progress::clear() {

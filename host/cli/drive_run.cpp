@@ -25,7 +25,7 @@ class Stopwatch {
     if (first_us_ == 0) first_us_ = sample.time_us;
     last_us_ = sample.time_us;
   }
-  double seconds() const { return static_cast<double>(last_us_ - first_us_) * 1e-6; }
+  double seconds() const { return static_cast<double>(last_us_ - first_us_) / 1e6; }
 
  private:
   std::int64_t first_us_ = 0, last_us_ = 0;
@@ -64,7 +64,7 @@ class BarDuring {
 };
 
 std::string short_words(const recording::OdometrySample& at) {
-  return fmt::format("x {:.3f} m  y {:.3f} m  {:.1f} deg", at.x_m, at.y_m, degrees(at.theta_rad));
+  return fmt::format("x {:7.3f} m  y {:7.3f} m  {:7.1f} deg", at.x_m, at.y_m, degrees(at.theta_rad));
 }
 
 }  // namespace
@@ -102,9 +102,9 @@ void drive_path(DriveOptions& options, const link::Path& path) {
     if (!bar) return;
     way.moved_to(sample);
     const std::string part =
-        way.segments() > 1 ? fmt::format("  {}/{}", std::min(way.done() + 1, way.segments()), way.segments())
+        way.segments() > 1 ? fmt::format("{}/{}  ", std::min(way.done() + 1, way.segments()), way.segments())
                            : "";
-    bar->show(way.fraction(), short_words(sample) + part);
+    bar->show(way.fraction(), part + short_words(sample));
   };
   drive(options, job);
 }
@@ -120,7 +120,7 @@ void drive_velocity(DriveOptions& options, double v_mps, double omega_radps, dou
   job.moved = [&](const recording::OdometrySample& sample) {
     if (!bar) return;
     if (begun_us == 0) begun_us = sample.time_us;
-    bar->show(static_cast<double>(sample.time_us - begun_us) * 1e-6 / seconds, short_words(sample));
+    bar->show(static_cast<double>(sample.time_us - begun_us) / 1e6 / seconds, short_words(sample));
   };
   drive(options, job);
 }

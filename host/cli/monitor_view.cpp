@@ -14,7 +14,7 @@ namespace {
 using protocol::Telemetry;
 
 double duty(std::int16_t raw) { return std::ldexp(raw, -15); }
-double mps(std::int32_t umps) { return umps * 1e-6; }
+double mps(std::int32_t umps) { return umps / 1e6; }
 
 std::string mode_in_words(const protocol::StateGroup& state) {
   const std::string mode(protocol::name(state.mode));
@@ -57,20 +57,20 @@ std::string monitor_picture(const std::string& robot, const Telemetry& telemetry
   return fmt::format("\n  {}   running for {}\n\n", robot, duration_in_words(telemetry.device_time_us)) +
          fmt::format("  mode      {}\n", mode_in_words(telemetry.state)) +
          fmt::format("  faults    {}\n", faults_in_words(telemetry.state.latched_faults)) +
-         fmt::format("  battery   {:.2f} V\n\n", telemetry.battery.mv * 1e-3) +
+         fmt::format("  battery   {:.2f} V\n\n", telemetry.battery.mv / 1e3) +
          fmt::format("  pose      x {:10.4f} m     y {:10.4f} m     heading {:10.2f} deg\n", at.x_m, at.y_m,
                      degrees(at.theta_rad)) +
-         fmt::format("  velocity  v {:+10.3f} m/s   w {:+10.3f} rad/s\n\n", at.v_mps, at.omega_radps) +
+         fmt::format("  velocity  v {:+10.3f} m/s   omega {:+8.3f} rad/s\n\n", at.v_mps, at.omega_radps) +
          wheels(telemetry) + "\n" + link_line(link) + "\n  Q quits\n";
 }
 
 Json to_json(const Telemetry& telemetry) {
   const recording::OdometrySample at = experiment::to_sample(telemetry);
-  return {{"time_s", static_cast<double>(telemetry.device_time_us) * 1e-6},
+  return {{"time_s", static_cast<double>(telemetry.device_time_us) / 1e6},
           {"mode", std::string(protocol::name(telemetry.state.mode))},
           {"segment", telemetry.state.tag},
           {"faults", fault_list(telemetry.state.latched_faults)},
-          {"battery_V", telemetry.battery.mv * 1e-3},
+          {"battery_V", telemetry.battery.mv / 1e3},
           {"x_m", at.x_m},
           {"y_m", at.y_m},
           {"theta_rad", at.theta_rad},

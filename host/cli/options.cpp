@@ -42,6 +42,18 @@ CLI::Validator positive(const std::string& unit) {
   return number([](double value) { return value > 0; }, allowed);
 }
 
+CLI::Validator whole(std::uint64_t least, std::uint64_t greatest) {
+  return {[=](std::string& text) -> std::string {
+            std::uint64_t value = 0;
+            const char* end = text.data() + text.size();
+            const auto parsed = std::from_chars(text.data(), end, value);
+            if (parsed.ec == std::errc() && parsed.ptr == end && value >= least && value <= greatest)
+              return {};
+            return fmt::format("'{}' is not a whole number from {} to {}", text, least, greatest);
+          },
+          ""};
+}
+
 CLI::Validator finite() {
   return number([](double) { return true; }, "a number");
 }

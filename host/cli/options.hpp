@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <initializer_list>
 #include <string>
 
@@ -12,6 +13,9 @@ CLI::Validator between(double least, double greatest, const std::string& unit);
 
 /// Accepts finite numbers greater than 0.
 CLI::Validator positive(const std::string& unit);
+
+/// Accepts whole numbers in decimal digits.
+CLI::Validator whole(std::uint64_t least, std::uint64_t greatest);
 
 /// Accepts finite numbers.
 CLI::Validator finite();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cstdlib>
 
 #include "host/base/error.hpp"
 #include "host/cli/console.hpp"
@@ -18,24 +19,30 @@ bool is_changed(const link::ParameterRow& row) {
   return !is_text(row) && row.active.raw != row.default_value;
 }
 
-std::string number(double value) {
-  char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+// The fewest digits that give the same raw value: a gain of 0.9 is held as 0.899993896484375.
+std::string number(const link::ParameterRow& row, std::int32_t raw) {
+  const double value = link::to_real(row, raw);
+  for (int digits = 1; digits < 17; ++digits) {
+    const std::string text = fmt::format("{:.{}g}", value, digits);
+    const double rounded = std::strtod(text.c_str(), nullptr);
+    const bool allowed =
+        rounded >= link::to_real(row, row.minimum) && rounded <= link::to_real(row, row.maximum);
+    if (allowed && link::to_raw(row, rounded).raw == raw) return fmt::format("{}", rounded);
+  }
+  return fmt::format("{}", value);
 }
 
 std::string limits(const link::ParameterRow& row) {
   if (is_text(row)) return fmt::format("{} to {} characters", row.minimum, row.maximum);
-  return fmt::format("{} to {}", number(link::to_real(row, row.minimum)),
-                     number(link::to_real(row, row.maximum)));
+  return fmt::format("{} to {}", number(row, row.minimum), number(row, row.maximum));
 }
 
 std::string unit(const link::ParameterRow& row) { return row.unit == "1" ? "" : row.unit; }
 
 }  // namespace
 
-std::string plain(const link::Value& value) {
-  if (const double* real = std::get_if<double>(&value)) return number(*real);
-  return std::get<std::string>(value);
+std::string plain(const link::ParameterRow& row) {
+  return is_text(row) ? row.active.text : number(row, row.active.raw);
 }
 
 Json to_json(const link::Value& value) {
@@ -63,8 +70,7 @@ Json to_json(const link::ParameterRow& row) {
 }
 
 std::string explanation(const link::ParameterRow& row) {
-  const std::string standard =
-      is_text(row) ? "" : ", default " + number(link::to_real(row, row.default_value));
+  const std::string standard = is_text(row) ? "" : ", default " + number(row, row.default_value);
   const std::string of = unit(row).empty() ? "" : unit(row) + ", ";
   return fmt::format("{}{}{}: {}", of, limits(row), standard, row.doc);
 }
@@ -72,8 +78,7 @@ std::string explanation(const link::ParameterRow& row) {
 std::string parameter_table(const link::RemoteParameters& robot, std::size_t columns) {
   std::vector<std::vector<std::string>> rows{{"", "name", "value", "unit", "limits", "meaning"}};
   for (const link::ParameterRow& row : robot.rows())
-    rows.push_back({is_changed(row) ? "*" : "", row.name, plain(link::to_value(row, row.active)), unit(row),
-                    limits(row), row.doc});
+    rows.push_back({is_changed(row) ? "*" : "", row.name, plain(row), unit(row), limits(row), row.doc});
   const std::string whole = table(rows, "llrlll");
   if (columns == 0) return whole;
   std::string text;

@@ -18,8 +18,8 @@ Json to_json(const link::ParameterRow& row);
 
 Json to_json(const link::Value& value);
 
-/// "0.29" or the text itself: what `params set` takes again.
-std::string plain(const link::Value& value);
+/// The value in force in the fewest digits that give it again, or the text itself: what `params set` takes.
+std::string plain(const link::ParameterRow& row);
 
 /// "m, 0.05 to 2, default 0.29: Wheelbase".
 std::string explanation(const link::ParameterRow& row);

@@ -10,11 +10,11 @@
 namespace astro::cli {
 namespace {
 
-/// The command that was being given when the mistake came up, and the word that was to name the next one.
+/// The command that was being given when the mistake came up.
 struct Place {
   const CLI::App* command;
   std::string path;
-  std::string unknown;  // "": no word there that could have been a command
+  std::string unknown;  // the word that was to name the next command, or an option; "": there is none
 };
 
 const CLI::App* find(const CLI::App& app, std::string_view name) {
@@ -32,7 +32,7 @@ Place place_of(const CLI::App& app, int argc, char** argv) {
     const std::string word = argv[i];
     const CLI::App* next = find(*place.command, word);
     if (next == nullptr) {
-      if (!word.starts_with('-')) place.unknown = word;
+      place.unknown = word;
       break;
     }
     place.command = next;
@@ -88,29 +88,43 @@ std::string unknown_argument(const Place& place, const std::string& word) {
                      suggestion(name, option_names(*place.command)));
 }
 
-// The first word that CLI11 could not place stands behind the last colon of what it says.
-std::string first_extra(const CLI::ParseError& error) {
-  const std::string text = error.what();
-  const std::size_t begin = text.find(": ");
-  if (begin == std::string::npos) return text;
-  return text.substr(begin + 2, text.find(' ', begin + 2) - begin - 2);
+// CLI11 lists the words that it could not place behind a colon, in no helpful order. The one to name is the
+// first option among them: what follows it is its value, and innocent.
+std::string first_extra(const std::string& said, int argc, char** argv) {
+  std::string first;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if ((said + " ").find(" " + word + " ") == std::string::npos) continue;
+    if (word.starts_with("-")) return word;
+    if (first.empty()) first = word;
+  }
+  return first;
 }
 
-std::string what_is_wrong(const Place& place, const CLI::ParseError& error) {
-  if (!place.unknown.empty())
+bool takes(const CLI::App& command, const std::string& option) {
+  return command.get_option_no_throw(option.substr(0, option.find('='))) != nullptr;
+}
+
+std::string what_is_wrong(const Place& place, const CLI::ParseError& error, int argc, char** argv) {
+  if (place.unknown.starts_with('-') && !takes(*place.command, place.unknown))
+    return unknown_argument(place, place.unknown);
+  if (!place.unknown.empty() && !place.unknown.starts_with('-'))
     return fmt::format("there is no command '{} {}'{}", place.path, place.unknown,
                        suggestion(place.unknown, command_names(*place.command)));
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
-    return unknown_argument(place, first_extra(error));
+    return unknown_argument(place, first_extra(error.what(), argc, argv));
   if (has_commands(*place.command)) return fmt::format("'{}' needs a command", place.path);
-  return error.what();
+  const std::string said = error.what();
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr && said.find(": ") != std::string::npos)
+    return said.substr(0, said.find(": ")) + " needs a value";
+  return said;
 }
 
 }  // namespace
 
 std::string sentence_for(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   const Place place = place_of(app, argc, argv);
-  return fmt::format("{} ('{} --help' explains)", what_is_wrong(place, error), place.path);
+  return fmt::format("{} ('{} --help' explains)", what_is_wrong(place, error, argc, argv), place.path);
 }
 
 }  // namespace astro::cli
