@@ -13,7 +13,7 @@ namespace astro {
 enum class Fault : std::uint8_t {
   none,
   command_timeout,  // no velocity command for longer than the parameter allows
-  link_lost,        // no good frame from any host while driving
+  link_lost,        // no good frame from the host that drives
   driver,           // the H-bridge reports over-current or over-temperature
   under_voltage,    // battery below its lower limit
   over_voltage,     // battery above its upper limit

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -60,6 +61,7 @@ class Robot {
   using Answer = Result<Reply, protocol::ErrorReply>;
   using Ack = protocol::Ack;
   using ErrorCode = protocol::ErrorCode;
+  static constexpr int kNobody = -1;
   enum class Reset : std::uint8_t { none, reboot, bootloader };
   static constexpr int kPorts = std::remove_reference_t<decltype(std::declval<Board&>().ports())>::kPorts;
   using Flash = std::remove_reference_t<decltype(std::declval<Board&>().flash())>;
@@ -102,10 +104,7 @@ class Robot {
       send(port, session.answer());
       return;
     }
-    {
-      auto hold = board_.hold_tick();
-      drive_.host_seen();
-    }
+    note_driver(port, header.message_id);
     bool known = false;
     protocol::Requests::visit([&]<protocol::Message M>() {
       if (M::kId != header.message_id) return;
@@ -118,6 +117,17 @@ class Robot {
       }
     });
     if (!known) respond(port, header, Answer<Ack>(error(ErrorCode::unknown_message)));
+  }
+
+  /// Only the host that drives keeps a drive alive: not one that looks on at another port, and not one that
+  /// says Hello where the driver was, which must have gone.
+  void note_driver(int port, std::uint8_t message) {
+    constexpr std::array kDriving{protocol::Arm::kId, protocol::Velocity::kId, protocol::AddSegment::kId};
+    if (std::find(kDriving.begin(), kDriving.end(), message) != kDriving.end()) driver_port_ = port;
+    if (port == driver_port_ && message == protocol::Hello::kId) driver_port_ = kNobody;
+    if (port != driver_port_) return;
+    auto hold = board_.hold_tick();
+    drive_.host_seen();
   }
 
   template <class Reply>
@@ -376,6 +386,7 @@ class Robot {
   std::array<Session, kPorts> sessions_{};
   std::int32_t battery_mv_ = 0;
   std::uint32_t reported_faults_ = 0;
+  int driver_port_ = kNobody;
   Reset reset_wanted_ = Reset::none;
   std::uint64_t reset_due_us_ = 0;
 };

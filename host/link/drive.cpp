@@ -75,6 +75,7 @@ void DriveSession::arm() {
                      first_fault(report.latched & ~kLeftBehind));
   }
   if (report.latched != 0) {
+    wait_for_rest();  // its host may have died a moment ago, and it is still ramping down
     client_.request(ClearFaults{});
     hooks_.notice("cleared " + fault_names(report.latched) + ", which an earlier drive left behind");
   }

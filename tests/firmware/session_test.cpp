@@ -74,6 +74,25 @@ TEST_F(Frames, ANewSessionMayReuseIds) {
   EXPECT_EQ(drive().queued() + (drive().mode() == protocol::Mode::segment ? 1U : 0U), 2U);
 }
 
+TEST_F(Frames, AnOnlookerAtAnotherPortDoesNotKeepADriveAlive) {
+  ask(protocol::Arm{});
+  ask(link::line(5).front());  // from port 0, which then falls silent
+  for (int i = 0; i < 30; ++i) {
+    send(protocol::Ping{}, 1, 1);
+    silence_ms(100);
+  }
+  EXPECT_EQ(drive().faults().first(), Fault::link_lost);
+}
+
+TEST_F(Frames, ANewSessionDoesNotKeepTheDriveOfTheLastOneAlive) {
+  ask(protocol::Arm{});
+  ask(link::line(5).front());
+  run_ms(300);
+  client_.connect();
+  run_ms(3000);  // pings all the time
+  EXPECT_EQ(drive().faults().first(), Fault::link_lost);
+}
+
 TEST_F(Frames, AnotherProtocolVersionIsToldOurs) {
   received();
   send(protocol::Hello{protocol::kProtocolVersion + 1}, 1);

@@ -20,11 +20,9 @@ TEST(Survival, ARobotWhoseHostIsKilledStopsByItselfAndServesTheNextHost) {
        {std::vector<std::string>{}, std::vector<std::string>{"--fast"}}) {
     const support::Simulator simulator(options);  // real time, then as fast as the host keeps up
     support::Program drive({ASTROLABE_PROGRAM, "drive", "line", "500", "--port", simulator.port()});
-    // The port is locked while the drive has it: a second program is refused until the first one is dead.
-    ASSERT_TRUE(support::eventually([&] {
-      return astrolabe({"info", "--port", simulator.port()}).err.find("in use") != std::string::npos;
-    }));
-    poll(nullptr, 0, 300);  // it is under way
+    poll(nullptr, 0, 500);  // it is under way; looking earlier would take the port from it
+    ASSERT_THAT(astrolabe({"info", "--port", simulator.port()}).err, testing::HasSubstr("in use"))
+        << drive.err();
     drive.send(SIGKILL);
     drive.wait();
     ASSERT_TRUE(support::eventually([&] { return info(simulator)["mode"] == "fault"; }))
