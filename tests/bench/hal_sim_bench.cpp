@@ -2,8 +2,8 @@
 
 #include "hal/sim/board.hpp"
 
-// Cost of one simulated millisecond, apart from the firmware. The bar for the whole robot, firmware included, is
-// 333 ns (3000x real time); the plant may take 120 ns of it.
+// Cost of one simulated millisecond, apart from the firmware. The bar for the whole robot, firmware included,
+// is 333 ns (3000x real time); the plant may take 120 ns of it.
 namespace astro::sim {
 namespace {
 
@@ -14,8 +14,7 @@ void run(benchmark::State& state, Board& board, hal::Duty even, hal::Duty odd) {
     board.advance_tick();
     benchmark::DoNotOptimize(board.encoders().read());
   }
-  state.counters["x_real_time"] =
-      benchmark::Counter(1e-3, benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["x_real_time"] = benchmark::Counter(1e-3, benchmark::Counter::kIsIterationInvariantRate);
 }
 
 void drive_straight(benchmark::State& state) {

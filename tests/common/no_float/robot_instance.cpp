@@ -2,7 +2,8 @@
 
 namespace {
 
-/// The smallest board: no heap, no float of its own, so that whatever the object code shows is the firmware's.
+/// The smallest board: no heap, no float of its own, so that whatever the object code shows is the
+/// firmware's.
 struct Board {
   struct Clock {
     std::uint64_t now_us() const noexcept { return 0; }

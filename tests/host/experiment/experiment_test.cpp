@@ -58,8 +58,8 @@ TEST(Experiment, MakesTheThesisRobotFiveTimesBetterInTheMedianOverSeeds) {
   for (std::uint64_t seed = 1; seed <= 9; ++seed)
     factors.push_back(calibrate(thesis_robot(kThesisSlip_m, seed), squares_only(5)).improvement());
   std::sort(factors.begin(), factors.end());
-  fmt::print("improvement over seeds 1 to 9: least {:.1f}, median {:.1f}, greatest {:.1f}\n",
-             factors.front(), factors[4], factors.back());
+  fmt::print("improvement over seeds 1 to 9: least {:.1f}, median {:.1f}, greatest {:.1f}\n", factors.front(),
+             factors[4], factors.back());
   EXPECT_GE(factors[4], 5);
 }
 
