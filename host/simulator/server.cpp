@@ -17,6 +17,7 @@ using namespace std::chrono_literals;
 
 constexpr std::uint64_t kLease_us = 100'000;  // virtual time that one word of the host is good for
 constexpr auto kPatience = 200ms;  // real time that a host may take nothing before it is left behind
+constexpr auto kSilence = 1s;      // real time that a host may say nothing before time goes on without it
 constexpr auto kTick = 1ms;
 constexpr std::size_t kMostOutgoing = 1U
                                       << 16;  // beyond that the robot's own queue fills, and it drops frames
@@ -81,6 +82,7 @@ void Server::receive() {
   if (count == 0) return;
   robot_.board().ports().host_write(0, std::span(bytes).first(count));
   last_heard_us_ = robot_.now_us();
+  heard_at_ = Clock::now();
   step();  // answered at once, whatever the pace
   save_flash();
 }
@@ -99,7 +101,13 @@ bool Server::transmit() {
 }
 
 bool Server::runs_ahead(bool host_is_behind) {
-  if (!config_.fast || robot_.now_us() - last_heard_us_ >= kLease_us) return false;
+  if (!config_.fast) return false;
+  if (robot_.now_us() - last_heard_us_ >= kLease_us) {
+    // Stand still for a host that is late, be its machine ever so busy, but not for one that hangs or has
+    // gone.
+    if (pty_.connected() && Clock::now() - heard_at_ < kSilence) due_ = Clock::now() + kTick;
+    return false;
+  }
   if (!host_is_behind) {
     behind_since_ = Clock::now();
     return true;

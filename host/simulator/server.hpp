@@ -21,7 +21,7 @@ struct ServerConfig {
 /// A simulated robot behind a pty, for as long as the process lives.
 ///
 /// Real time: one virtual millisecond each real one. Fast: virtual time runs ahead as long as a host says
-/// something at least every 150 virtual ms (its client pings by the robot's clock) and takes what it is sent;
+/// something at least every 100 virtual ms (its client pings by the robot's clock) and takes what it is sent;
 /// otherwise it falls back to real time, so a host that dies is still noticed by the robot's own command
 /// timeout.
 class Server {
@@ -51,6 +51,7 @@ class Server {
   TruthServer truth_;
   std::vector<std::uint8_t> outgoing_;
   std::uint64_t last_heard_us_ = 0;   // virtual
+  Clock::time_point heard_at_{};      // the same in real time
   Clock::time_point behind_since_{};  // real time since when the host takes nothing
   Clock::time_point due_;             // of the next millisecond, in real time
   std::vector<std::uint8_t> saved_flash_;
