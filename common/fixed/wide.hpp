@@ -15,8 +15,10 @@ constexpr std::int64_t mul_shift_carry(std::int64_t a, std::int32_t b, std::uint
   const std::int64_t low = std::int64_t{static_cast<std::uint32_t>(a)} * b + rest;
   const std::int64_t high = (a >> 32) * b;
   rest = static_cast<std::uint32_t>(low & ((std::int64_t{1} << Shift) - 1));
-  // In two's complement the shifted-out bits of `high` cannot matter once the result fits.
-  return static_cast<std::int64_t>(static_cast<std::uint64_t>(high) << (32 - Shift)) + (low >> Shift);
+  // In two's complement the shifted-out bits of `high` cannot matter once the result fits; nor can a wrap of
+  // the sum, so it is unsigned.
+  return static_cast<std::int64_t>((static_cast<std::uint64_t>(high) << (32 - Shift)) +
+                                   static_cast<std::uint64_t>(low >> Shift));
 }
 
 /// round(a * b / 2^Shift), ties upward. The result must fit 64 bits.
