@@ -3,7 +3,9 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "host/base/error.hpp"
 #include "host/cli/command.hpp"
@@ -43,17 +45,35 @@ void check_flash(const fs::path& path) {
                             path.string(), fs::file_size(path), sim::Flash::kBytes));
 }
 
+// The pty of a simulator that was killed has gone, and its number may be given to ours in a moment: then its
+// link would look alive.
+void remove_dead_link(const fs::path& link) {
+  std::error_code error;
+  if (fs::is_symlink(link, error) && !fs::exists(link, error)) fs::remove(link, error);
+}
+
+// Only what is to be put there needs the runtime folder; for a simulator elsewhere it is a courtesy.
+std::optional<RuntimeLink> make_it_found(const fs::path& pty) {
+  try {
+    return std::optional<RuntimeLink>(std::in_place, make_runtime_folder(), pty);
+  } catch (const Error& error) {
+    say(fmt::format("'astrolabe ports' will not find this robot: {}", error.what()));
+    return std::nullopt;
+  }
+}
+
 void run(const SimOptions& wanted) {
   SimOptions options = wanted;
-  const fs::path folder = make_runtime_folder();
-  if (options.server.pty.empty()) options.server.pty = folder / "astro.pty";
+  if (options.server.pty.empty()) options.server.pty = make_runtime_folder() / "astro.pty";
   check_flash(options.server.flash);
+  remove_dead_link(options.server.pty);
   simulator::MocapConfig mocap;
   mocap.seed = options.robot.seed;
   simulator::Server server(options.robot, mocap, options.server);
-  const RuntimeLink link(folder, server.pty().link());
-  say(fmt::format("a simulated robot is at {}", server.pty().link().string()));
-  say(fmt::format("next: astrolabe info --port {}   (Ctrl-C here ends it)", server.pty().link().string()));
+  const fs::path& pty = server.pty().link();
+  const auto link = make_it_found(pty);
+  say(fmt::format("a simulated robot is at {}", pty.string()));
+  say(fmt::format("next: astrolabe info --port {}   (Ctrl-C here ends it)", pty.string()));
   server.run(interrupted);
 }
 

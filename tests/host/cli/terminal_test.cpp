@@ -1,0 +1,148 @@
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/program.hpp"
+#include "tests/support/terminal_program.hpp"
+
+// What a person sees in a terminal, and that a pipe gets none of it.
+namespace astro {
+namespace {
+
+using nlohmann::json;
+using support::astrolabe;
+using support::Outcome;
+using support::TerminalProgram;
+using testing::HasSubstr;
+using testing::Not;
+using Words = std::vector<std::string>;
+
+constexpr const char* kUp = "\033[A";
+constexpr const char* kCtrlC = "\003";
+
+class Terminal : public testing::Test {
+ protected:
+  Words command(Words words) const {
+    words.insert(words.begin(), ASTROLABE_PROGRAM);
+    words.insert(words.end(), {"--port", simulator_.port()});
+    return words;
+  }
+  json info() const { return json::parse(astrolabe({"info", "--json", "--port", simulator_.port()}).out); }
+
+  support::Simulator simulator_{{}};  // in real time, as people do
+};
+
+TEST_F(Terminal, TeleopDrivesByKeysAndLeavesTheTerminalAsItWas) {
+  TerminalProgram teleop(command({"drive", "teleop"}));
+  ASSERT_TRUE(teleop.shows("space   stop")) << teleop.seen();
+  EXPECT_FALSE(teleop.is_cooked());
+  teleop.type(kUp);
+  teleop.type("w");
+  ASSERT_TRUE(teleop.shows("+0.16 m/s    is +0.1")) << teleop.seen();  // two fifths of 0.4, and it moves
+  teleop.type(" ");
+  ASSERT_TRUE(teleop.shows("+0.00 m/s")) << teleop.seen();
+  teleop.type("q");
+  EXPECT_EQ(teleop.wait(), 0);
+  EXPECT_THAT(teleop.seen(), HasSubstr("odometry  x"));
+  EXPECT_TRUE(teleop.is_cooked());
+  EXPECT_EQ(info()["mode"], "disarmed");
+}
+
+TEST_F(Terminal, TeleopEndsOnCtrlCWithTheRobotAtRestAndTheTerminalAsItWas) {
+  TerminalProgram teleop(command({"drive", "teleop"}));
+  teleop.type(kUp);
+  ASSERT_TRUE(teleop.shows("is +0.0")) << teleop.seen();
+  teleop.type(kCtrlC);
+  EXPECT_EQ(teleop.wait(), 130);
+  EXPECT_TRUE(teleop.is_cooked());
+  EXPECT_EQ(info()["mode"], "disarmed");
+}
+
+TEST_F(Terminal, TeleopPutsTheTerminalBackWhenTheRobotGoesAway) {
+  TerminalProgram teleop(command({"drive", "teleop"}));
+  ASSERT_TRUE(teleop.shows("turn left")) << teleop.seen();
+  simulator_.program().send(SIGKILL);
+  EXPECT_EQ(teleop.wait(), 1);
+  EXPECT_TRUE(teleop.is_cooked());
+}
+
+TEST_F(Terminal, TeleopPutsTheTerminalBackWhenItIsEndedByForce) {
+  TerminalProgram teleop(command({"drive", "teleop"}));
+  ASSERT_TRUE(teleop.shows("turn left")) << teleop.seen();
+  teleop.send(SIGSTOP);
+  teleop.send(SIGINT);
+  teleop.send(SIGTERM);
+  teleop.send(SIGCONT);
+  EXPECT_EQ(teleop.wait(), 130);
+  EXPECT_TRUE(teleop.is_cooked());
+}
+
+TEST_F(Terminal, TeleopWithoutATerminalSaysWhatToDo) {
+  const Outcome outcome = astrolabe({"drive", "teleop", "--port", simulator_.port()});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("terminal"));
+}
+
+TEST_F(Terminal, MonitorIsAPictureInPlaceUntilQ) {
+  TerminalProgram monitor(command({"monitor"}));
+  ASSERT_TRUE(monitor.shows("battery   1")) << monitor.seen();
+  ASSERT_TRUE(monitor.shows("\033[18F")) << "it is drawn over, not below";
+  monitor.type("q");
+  EXPECT_EQ(monitor.wait(), 0);
+  EXPECT_TRUE(monitor.is_cooked());
+}
+
+TEST_F(Terminal, MonitorFindsARobotAgainThatRestarts) {
+  TerminalProgram monitor(command({"monitor"}));
+  ASSERT_TRUE(monitor.shows("battery   1")) << monitor.seen();
+  simulator_.program().send(SIGTERM);
+  ASSERT_TRUE(monitor.shows("LOST")) << monitor.seen();
+  support::Program again({ASTROLABE_PROGRAM, "sim", "--pty", simulator_.port()});
+  EXPECT_TRUE(monitor.shows("round trip")) << monitor.seen();
+  monitor.type("q");
+  EXPECT_EQ(monitor.wait(), 0);
+}
+
+TEST_F(Terminal, DriveShowsABarOnceASecondHasPassed) {
+  TerminalProgram drive(command({"drive", "line", "0.5", "--speed", "0.2"}));
+  EXPECT_EQ(drive.wait(), 0);
+  EXPECT_THAT(drive.seen(), HasSubstr("driving ██"));
+  EXPECT_THAT(drive.seen(), HasSubstr("\r\033[Kmoved     x")) << "the bar makes room for what is said";
+}
+
+TEST_F(Terminal, OfAPipeSeesNoEscapeCodesAndNoBar) {
+  for (const Words& words : {Words{"info"}, Words{"ports"}, Words{"params", "list"},
+                             Words{"params", "get", "b"}, Words{"faults"}, Words{"monitor", "--count", "3"},
+                             Words{"drive", "line", "0.3"}, Words{"stop"}, Words{"drive", "teleop"}}) {
+    Words all = words;
+    if (words[0] != "ports") all.insert(all.end(), {"--port", simulator_.port()});
+    const Outcome outcome = astrolabe(all);
+    EXPECT_THAT(outcome.out + outcome.err, Not(HasSubstr("\033"))) << words[0];
+    EXPECT_THAT(outcome.out + outcome.err, Not(HasSubstr("\r"))) << words[0];
+  }
+}
+
+TEST_F(Terminal, ParameterListIsCutToItsWidth) {
+  TerminalProgram list(command({"params", "list"}));
+  EXPECT_EQ(list.wait(), 0);
+  std::istringstream lines(list.seen());
+  std::string line;
+  while (std::getline(lines, line)) {
+    const auto width = std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; });
+    EXPECT_LE(width, 81) << line;  // a carriage return is not seen
+  }
+}
+
+TEST_F(Terminal, QuestionsAreAnsweredByHand) {
+  for (const auto& [answer, code, value] :
+       {std::tuple{"n\n", 1, "1\n"}, std::tuple{"\n", 1, "1\n"}, std::tuple{"y\n", 0, "1.001\n"}}) {
+    TerminalProgram set(command({"params", "set", "c_R=1.001", "c_L=0.999"}));
+    ASSERT_TRUE(set.shows("[y/N]")) << set.seen();
+    set.type(answer);
+    EXPECT_EQ(set.wait(), code);
+    EXPECT_EQ(astrolabe({"params", "get", "c_R", "--port", simulator_.port()}).out, value);
+  }
+}
+
+}  // namespace
+}  // namespace astro

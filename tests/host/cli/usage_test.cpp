@@ -1,0 +1,136 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "tests/support/program.hpp"
+
+// What the program says about itself, and about words that it cannot place.
+namespace astro {
+namespace {
+
+using support::astrolabe;
+using support::Outcome;
+using testing::HasSubstr;
+using Words = std::vector<std::string>;
+
+Words with(Words words, const std::string& more) {
+  words.push_back(more);
+  return words;
+}
+
+// As --help lists them: two blanks, the name, its description.
+Words commands_in(const std::string& help) {
+  Words names;
+  std::istringstream lines(help.substr(std::min(help.size(), help.find("Subcommands:"))));
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line) && line.starts_with("  "))
+    names.push_back(line.substr(2, line.find(' ', 2) - 2));
+  return names;
+}
+
+std::string joined(const Words& words) {
+  std::string text;
+  for (const std::string& word : words) text += " " + word;
+  return text;
+}
+
+int explain(const Words& command) {
+  const Outcome outcome = astrolabe(with(command, "--help"));
+  EXPECT_EQ(outcome.code, 0) << joined(command);
+  EXPECT_EQ(outcome.err, "");
+  const std::size_t examples = outcome.out.find("Examples:");
+  EXPECT_TRUE(command.empty() || examples != std::string::npos) << joined(command);
+  if (!command.empty() && examples != std::string::npos) {
+    EXPECT_THAT(outcome.out.substr(examples), HasSubstr("astrolabe" + joined(command)));
+  }
+  int explained = 1;
+  for (const std::string& name : commands_in(outcome.out)) explained += explain(with(command, name));
+  return explained;
+}
+
+TEST(Help, OfEveryCommandShowsExamplesOfIt) {
+  EXPECT_GE(explain({}), 1 + 15 + 7 + 8);  // the program, its commands, those of drive and of params
+}
+
+TEST(Version, IsOneLine) {
+  const Outcome outcome = astrolabe({"--version"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_TRUE(outcome.out.starts_with("astrolabe ")) << outcome.out;
+}
+
+struct Mistake {
+  Words arguments;
+  Words named;
+};
+
+class WrongUsage : public testing::TestWithParam<Mistake> {};
+
+TEST_P(WrongUsage, IsOneLineThatNamesTheWordAndExitsWith2) {
+  const Outcome outcome = astrolabe(GetParam().arguments);
+  EXPECT_EQ(outcome.code, 2) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_TRUE(outcome.err.starts_with("astrolabe: ")) << outcome.err;
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  for (const std::string& word : GetParam().named) EXPECT_THAT(outcome.err, HasSubstr(word));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, WrongUsage,
+    testing::Values(
+        Mistake{{}, {"needs a command", "astrolabe --help"}},
+        Mistake{{"calibarte"}, {"'astrolabe calibarte'", "did you mean 'calibrate'"}},
+        Mistake{{"xyz", "--port", "a"}, {"'astrolabe xyz'"}}, Mistake{{"--foo"}, {"no option '--foo'"}},
+        Mistake{{"drive"}, {"'astrolabe drive' needs a command", "astrolabe drive --help"}},
+        Mistake{{"drive", "lin", "1"}, {"'astrolabe drive lin'", "did you mean 'line'"}},
+        Mistake{{"drive", "line"}, {"LENGTH is required", "astrolabe drive line --help"}},
+        Mistake{{"drive", "line", "1", "2"}, {"no place for '2'"}},
+        Mistake{{"drive", "line", "1", "--sped", "2"}, {"no option '--sped'", "did you mean '--speed'"}},
+        Mistake{{"drive", "line", "one"}, {"'one' is not a number"}},
+        Mistake{{"drive", "line", "nan"}, {"'nan' is not a number"}},
+        Mistake{{"drive", "spin", "1e999"}, {"'1e999' is not a number"}},
+        Mistake{{"drive", "line", "1", "--speed", "0"}, {"--speed", "'0' is not a number from"}},
+        Mistake{{"drive", "square", "-1"}, {"'-1' is not a number above 0"}},
+        Mistake{{"drive", "square", "1", "--cw", "--ccw"}, {"excludes"}},
+        Mistake{{"drive", "velocity", "1", "1"}, {"--for is required"}},
+        Mistake{{"info", "--port"}, {"--port needs a value"}},
+        Mistake{{"info", "--baud", "fast"}, {"--baud", "'fast' is not a whole number"}},
+        Mistake{{"monitor", "--count", "0"}, {"--count", "'0' is not a whole number"}},
+        Mistake{{"monitor", "--rate", "-3"}, {"--rate", "'-3' is not a number from"}},
+        Mistake{{"params", "set"}, {"is required", "astrolabe params set --help"}},
+        Mistake{{"sim", "--slip", "-1e-6"}, {"--slip", "'-1e-6' is not a number from"}},
+        Mistake{{"sim", "--true-wheelbase", "0"}, {"--true-wheelbase", "'0' is not a number from"}},
+        Mistake{{"sim", "--true-wheelbase", "nan"}, {"--true-wheelbase", "'nan'"}},
+        Mistake{{"sim", "--true-ed", "inf"}, {"--true-ed", "'inf'"}},
+        Mistake{{"sim", "--scale", "-1"}, {"--scale", "'-1'"}},
+        Mistake{{"sim", "--seed", "-1"}, {"--seed", "'-1' is not a whole number"}},
+        Mistake{{"sim", "--seed", "18446744073709551616"}, {"--seed", "not a whole number"}}));
+
+struct BadPath {
+  Words options;
+  std::string named;
+};
+
+class SimulatorPaths : public testing::TestWithParam<BadPath> {};
+
+TEST_P(SimulatorPaths, ThatCannotBeAreNamedInOneSentence) {
+  Words arguments{"sim"};
+  arguments.insert(arguments.end(), GetParam().options.begin(), GetParam().options.end());
+  const Outcome outcome = astrolabe(arguments);
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr(GetParam().named));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SimulatorPaths,
+                         testing::Values(BadPath{{"--pty", "/no/such/folder/astro"}, "/no/such/folder/astro"},
+                                         BadPath{{"--pty", "/etc/passwd"}, "'/etc/passwd' exists"},
+                                         BadPath{{"--pty", "/tmp"}, "'/tmp' exists"},
+                                         BadPath{{"--flash", "/no/such/folder/flash"}, "'/no/such/folder'"},
+                                         BadPath{{"--flash", "/tmp"}, "'/tmp' is not a file"},
+                                         BadPath{{"--flash", "/etc/passwd"}, "bytes"},
+                                         BadPath{{"--pty", "/tmp/" + std::string(200, 'x')}, "too long"}));
+
+}  // namespace
+}  // namespace astro

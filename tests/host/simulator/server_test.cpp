@@ -1,0 +1,168 @@
+#include "host/simulator/server.hpp"
+
+#include <gmock/gmock.h>
+#include <poll.h>
+
+#include <atomic>
+#include <fstream>
+#include <optional>
+#include <thread>
+
+#include "common/safety/fault.hpp"
+#include "host/base/error.hpp"
+#include "host/link/client.hpp"
+#include "host/link/drive.hpp"
+#include "host/link/open_transport.hpp"
+#include "host/link/parameters.hpp"
+#include "host/link/paths.hpp"
+#include "host/truth/socket_source.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace astro::simulator {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using std::chrono::steady_clock;
+
+/// A server on a thread of its own, and a host at its pty.
+class Served {
+ public:
+  explicit Served(bool fast, const std::filesystem::path& flash = {})
+      : server_(sim::Config(), MocapConfig(), {folder_.path() / "robot.pty", flash, fast}),
+        thread_([this] { server_.run([this] { return stop_.load(); }); }) {}
+  ~Served() {
+    stop_ = true;
+    thread_.join();
+  }
+  std::string port() const { return folder_.path() / "robot.pty"; }
+  std::filesystem::path folder() const { return folder_.path(); }
+
+ private:
+  test::TemporaryFolder folder_;
+  std::atomic<bool> stop_ = false;
+  Server server_;
+  std::thread thread_;
+};
+
+struct Host {
+  explicit Host(const Served& served) : client(link::open_transport(served.port())) { client.connect(); }
+  std::uint64_t device_us() { return client.request(protocol::Ping{}).device_time_us; }
+  link::Client client;
+};
+
+TEST(Server, InRealTimeNeverRunsAheadOfTheWallClock) {
+  const Served served(false);
+  Host host(served);
+  const auto wall = steady_clock::now();
+  const std::uint64_t start_us = host.device_us();
+  // Without a word: every word may be worth a step, so that it is answered at once.
+  while (steady_clock::now() - wall < milliseconds(400)) ::poll(nullptr, 0, 5);
+  const std::uint64_t passed_us = host.device_us() - start_us;
+  const auto wall_us =
+      std::chrono::duration_cast<std::chrono::microseconds>(steady_clock::now() - wall).count();
+  constexpr std::int64_t kTwoWords_us = 2 * 1000;
+  EXPECT_LE(static_cast<std::int64_t>(passed_us), wall_us + kTwoWords_us);
+  EXPECT_GE(passed_us, 100'000U) << "and it runs, also on a machine with much else to do";
+}
+
+TEST(Server, InFastMotionRunsAheadOfAHostThatKeepsUp) {
+  const Served served(true);
+  Host host(served);
+  host.client.request(protocol::SetTelemetry{10, protocol::Telemetry::kPose});
+  const auto wall = steady_clock::now();
+  link::DriveSession drive(host.client);
+  const std::uint64_t start_us = host.device_us();
+  drive.run(link::line(10, {0.5, 0}));  // 21 s of the robot's time
+  const double virtual_s = static_cast<double>(host.device_us() - start_us) / 1e6;
+  const double wall_s = std::chrono::duration<double>(steady_clock::now() - wall).count();
+  EXPECT_GT(virtual_s, 20);
+  EXPECT_GT(virtual_s, 3 * wall_s) << virtual_s << " s in " << wall_s
+                                   << " s";  // by hundreds where nothing else runs
+}
+
+TEST(Server, InFastMotionStillNoticesAHostThatFallsSilent) {
+  const Served served(true);
+  truth::SocketSource cameras(truth::mocap_socket_of(served.port()));
+  {
+    Host host(served);
+    host.client.request(protocol::Arm{});
+    host.client.request(link::line(100, {0.2, 0}).front());
+  }  // gone without a word
+  // The robot's own time-out and the ramp after it take 0.6 s of its time: three camera seconds are enough.
+  std::size_t seen = 0;
+  const auto end = steady_clock::now() + seconds(30);
+  while (seen < 180 && steady_clock::now() < end) seen += cameras.poll().size();
+  ASSERT_GE(seen, 180U);
+  Host second(served);
+  EXPECT_EQ(second.client.request(protocol::GetFaults{}).latched, bit(Fault::link_lost));
+}
+
+TEST(Server, TheCamerasSeeTheRobotDrive) {
+  const Served served(true);
+  truth::SocketSource cameras(truth::mocap_socket_of(served.port()));
+  Host host(served);
+  link::DriveSession drive(host.client);
+  drive.run(link::line(0.5));
+  drive.pump(milliseconds(20));
+  const auto samples = cameras.poll();
+  ASSERT_GT(samples.size(), 60U);
+  const double gone_m =
+      std::hypot(samples.back().x_m - samples.front().x_m, samples.back().y_m - samples.front().y_m);
+  EXPECT_NEAR(gone_m, 0.5, 0.01);  // wheels of nominal size; slip and camera noise are some millimetres
+}
+
+TEST(Server, KeepsTheFlashInItsFile) {
+  const test::TemporaryFolder folder;
+  const auto flash = folder.path() / "flash";
+  for (const double expected : {0.29, 0.2886}) {
+    const Served served(true, flash);
+    Host host(served);
+    auto parameters = link::RemoteParameters::fetch(host.client);
+    EXPECT_EQ(std::get<double>(parameters.value("b")), expected);
+    parameters.stage("b", 0.2886);
+    parameters.commit();
+  }
+  EXPECT_EQ(std::filesystem::file_size(flash), sim::Flash::kBytes);
+}
+
+TEST(Server, TakesItsFilesAwayWithIt) {
+  std::filesystem::path folder;
+  {
+    const Served served(true);
+    folder = served.folder();
+    EXPECT_TRUE(std::filesystem::exists(served.port()));
+    EXPECT_TRUE(std::filesystem::exists(served.port() + ".mocap"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "robot.pty"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "robot.pty.mocap"));
+}
+
+TEST(Pty, DoesNotReplaceWhatIsNoSimulators) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.path() / "precious";
+  std::ofstream(path) << "text";
+  EXPECT_THROW(Pty{path}, Error);
+  EXPECT_EQ(std::filesystem::file_size(path), 4U);
+}
+
+TEST(Pty, ReplacesALinkThatLeadsNowhere) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.path() / "robot.pty";
+  std::filesystem::create_symlink("/dev/pts/no-such", path);
+  const Pty pty(path);
+  EXPECT_TRUE(std::filesystem::exists(path));
+}
+
+TEST(Pty, KnowsWhetherAHostIsThere) {
+  const test::TemporaryFolder folder;
+  const Pty pty(folder.path() / "robot.pty");
+  EXPECT_FALSE(pty.connected());
+  std::optional<std::unique_ptr<link::Transport>> host(link::open_transport(folder.path() / "robot.pty"));
+  EXPECT_TRUE(pty.connected());
+  host.reset();
+  EXPECT_FALSE(pty.connected());
+}
+
+}  // namespace
+}  // namespace astro::simulator
