@@ -15,7 +15,7 @@ target_compile_options(astro_compile INTERFACE
   -Wall -Wextra -Wconversion -Wdouble-promotion -Wshadow -Wnon-virtual-dtor -Werror)
 if(ASTROLABE_SANITIZE)
   target_compile_options(astro_compile INTERFACE
-    -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -O1)
+    -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -O1 -g1)
   target_link_options(astro_compile INTERFACE -fsanitize=address,undefined)
 endif()
 if(ASTROLABE_COVERAGE)
