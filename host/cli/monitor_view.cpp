@@ -39,8 +39,8 @@ std::string link_line(const LinkFigures& link) {
   if (!link.lost.empty()) return "  link      LOST: " + link.lost + "\n";
   const std::string drift = link.drift ? fmt::format("{:+.1f} ppm", *link.drift * 1e6) : "not known yet";
   return fmt::format("  link      round trip {:.2f} ms   robot's clock {}\n", link.round_trip_ms, drift) +
-         fmt::format("            frames {} good, {} bad   repeated {}   lost pings {}\n",
-                     link.frames.good, link.frames.bad(), link.counts.repeats, link.counts.lost_pings);
+         fmt::format("            frames {} good, {} bad   repeated {}   lost pings {}\n", link.frames.good,
+                     link.frames.bad(), link.counts.repeats, link.counts.lost_pings);
 }
 
 Json wheel(std::int32_t set_umps, std::int32_t is_umps, std::int16_t drive, std::int32_t counts) {
