@@ -8,6 +8,9 @@
 
 namespace astro {
 
+/// Never defined: calling it at compile time is an error that shows its name.
+void literal_does_not_fit_this_fixed();
+
 /// Signed fixed point, F fraction bits in 32: range [-2^(31-F), 2^(31-F)), step 2^-F.
 /// Sums and products saturate; products round to nearest, ties upward.
 template <int F>
@@ -46,7 +49,7 @@ class Fixed {
  private:
   static consteval std::int32_t nearest(double value) {
     const double scaled = value * static_cast<double>(std::int64_t{1} << F);
-    if (!(scaled >= -2147483648.5 && scaled < 2147483647.5)) throw "literal does not fit this Fixed";
+    if (!(scaled >= -2147483648.5 && scaled < 2147483647.5)) literal_does_not_fit_this_fixed();
     return static_cast<std::int32_t>(scaled < 0 ? scaled - 0.5 : scaled + 0.5);
   }
 

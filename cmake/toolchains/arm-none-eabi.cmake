@@ -1,0 +1,8 @@
+# Debian's bare-metal compiler for the Cortex-M7 of the Teensy 4.0.
+set(CMAKE_SYSTEM_NAME Generic)
+set(CMAKE_SYSTEM_PROCESSOR cortex-m7)
+set(CMAKE_CXX_COMPILER arm-none-eabi-g++)
+set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
+# Soft float on purpose: a float that slips in becomes a library call, which the image check finds by name.
+set(CMAKE_CXX_FLAGS_INIT "-mcpu=cortex-m7 -mthumb -mfloat-abi=soft -ffreestanding -fno-exceptions -fno-rtti \
+-fno-threadsafe-statics -fno-use-cxa-atexit -fno-common -ffunction-sections -fdata-sections")
