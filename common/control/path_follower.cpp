@@ -47,7 +47,7 @@ PathFollower::Command PathFollower::advance(const Pose& actual) {
   BodyTwist wanted;
   if (!profile_.done()) {
     const Trapezoid::Step step = profile_.advance();
-    reference_.advance(step.travel * 64, step.turn * 4096);
+    reference_.advance(step.travel * 2048, step.turn * 4096);
     wanted = {to_umps(step.travel), to_uradps(step.turn)};
   }
   const BodyTwist correction_now = correction(actual, wanted.v_umps);
@@ -65,8 +65,8 @@ BodyTwist PathFollower::correction(const Pose& actual, std::int32_t v_ref_umps) 
   const std::int64_t dx_30 = clamp_abs((reference.x - actual.x) >> 10, kMostError_30);
   const std::int64_t dy_30 = clamp_abs((reference.y - actual.y) >> 10, kMostError_30);
   const SinCos heading = sin_cos(reference.theta);
-  const std::int64_t cos_30 = heading.cos >> 10;
-  const std::int64_t sin_30 = heading.sin >> 10;
+  const std::int64_t cos_30 = heading.cos >> 13;
+  const std::int64_t sin_30 = heading.sin >> 13;
   const std::int32_t along_um = um_from_30((dx_30 * cos_30 + dy_30 * sin_30) >> 30);
   const std::int32_t cross_um = um_from_30((dy_30 * cos_30 - dx_30 * sin_30) >> 30);
   const std::int64_t turn_33 = clamp_abs((reference.theta - actual.theta) >> 31, kMostTurn_33);

@@ -18,16 +18,30 @@ void WheelController::set_gains(const ParameterSet& set) {
 
 std::int32_t WheelController::advance(std::int32_t set_point_umps, std::int32_t acceleration_umps2,
                                       std::int32_t measured_umps, std::int32_t limit_uv) {
-  const std::int32_t error = saturate32(std::int64_t{set_point_umps} - measured_umps);
-  const std::int64_t open_loop = kS_per_fade_.scale(clamp_abs(set_point_umps, kFadeIn_umps)) +
-                                 kV_.scale(set_point_umps) + kA_.scale(acceleration_umps2) + kp_.scale(error);
-  const std::int64_t wanted = open_loop + (integral_24_ >> 24);
-  const bool winds_up = (wanted >= limit_uv && error > 0) || (wanted <= -limit_uv && error < 0);
-  if (!winds_up) {
-    integral_24_ += std::int64_t{error} * ki_tick_24_;
-    integral_24_ = clamp_abs(integral_24_, std::int64_t{limit_uv} << 24);
+  const std::int32_t error = subtract_saturated(set_point_umps, measured_umps);
+  std::int64_t sum_16 = mul_wide(kS_per_fade_.raw(), clamp_abs(set_point_umps, kFadeIn_umps));
+  sum_16 = mul_add(sum_16, kV_.raw(), set_point_umps);
+  sum_16 = mul_add(sum_16, kA_.raw(), acceleration_umps2);
+  sum_16 = mul_add(sum_16, kp_.raw(), error) + (integral_24_ >> 8);
+
+  const std::int64_t limit_16 = std::int64_t{limit_uv} << 16;
+  if (sum_16 >= limit_16) {
+    if (error < 0) integrate(error, limit_uv);
+    return limit_uv;
   }
-  return static_cast<std::int32_t>(clamp_abs<std::int64_t>(wanted, limit_uv));
+  if (sum_16 <= -limit_16) {
+    if (error > 0) integrate(error, limit_uv);
+    return -limit_uv;
+  }
+  integrate(error, limit_uv);
+  return static_cast<std::int32_t>(sum_16 >> 16);
+}
+
+void WheelController::integrate(std::int32_t error_umps, std::int32_t limit_uv) {
+  integral_24_ = mul_add(integral_24_, error_umps, ki_tick_24_);
+  const auto integral_uv_8 = static_cast<std::int32_t>(integral_24_ >> 32);  // in 256 uV: enough to clamp by
+  if (integral_uv_8 > limit_uv >> 8) integral_24_ = std::int64_t{limit_uv} << 24;
+  if (integral_uv_8 < -limit_uv >> 8) integral_24_ = -(std::int64_t{limit_uv} << 24);
 }
 
 }  // namespace astro

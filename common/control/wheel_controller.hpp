@@ -28,6 +28,8 @@ class WheelController {
   void reset() { integral_24_ = 0; }
 
  private:
+  void integrate(std::int32_t error_umps, std::int32_t limit_uv);
+
   Q16 kp_, kS_per_fade_, kV_, kA_;
   std::int32_t ki_tick_24_ = 0;   // uV per (um/s) and tick
   std::int64_t integral_24_ = 0;  // uV

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
+
+#include "common/fixed/multiply.hpp"
 
 namespace astro {
 
@@ -8,6 +11,29 @@ constexpr std::int32_t saturate32(std::int64_t value) {
   if (value > INT32_MAX) return INT32_MAX;
   if (value < INT32_MIN) return INT32_MIN;
   return static_cast<std::int32_t>(value);
+}
+
+/// a + b and a - b, held within 32 bits: one instruction on the Cortex-M7.
+constexpr std::int32_t add_saturated(std::int32_t a, std::int32_t b) {
+#if ASTRO_ON_CORTEX_M7
+  if (!std::is_constant_evaluated()) {
+    std::int32_t sum = 0;
+    asm("qadd %0, %1, %2" : "=r"(sum) : "r"(a), "r"(b));
+    return sum;
+  }
+#endif
+  return saturate32(std::int64_t{a} + b);
+}
+
+constexpr std::int32_t subtract_saturated(std::int32_t a, std::int32_t b) {
+#if ASTRO_ON_CORTEX_M7
+  if (!std::is_constant_evaluated()) {
+    std::int32_t difference = 0;
+    asm("qsub %0, %1, %2" : "=r"(difference) : "r"(a), "r"(b));
+    return difference;
+  }
+#endif
+  return saturate32(std::int64_t{a} - b);
 }
 
 /// `value` held within [-limit, limit]; limit >= 0.

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "common/fixed/multiply.hpp"
+
 namespace astro {
 namespace {
 
@@ -17,57 +19,59 @@ consteval double sine(double x) {
   return sum;
 }
 
-constexpr int kStepsPerQuarter = 64;
+constexpr int kSteps = 256;  // per turn
+constexpr int kQuarter = kSteps / 4;
 
-consteval auto make_quarter_wave() {
-  std::array<std::int64_t, kStepsPerQuarter + 1> table{};
-  for (int i = 0; i <= kStepsPerQuarter; ++i) {
-    const double value = sine(1.5707963267948966 * i / kStepsPerQuarter);
-    table[static_cast<std::size_t>(i)] = static_cast<std::int64_t>(value * 0x1p40 + 0.5);
-  }
+consteval std::int64_t grid_sine(int step) {
+  const int quadrant = step / kQuarter % 4;
+  const int rest = step % kQuarter;
+  const double value = sine(1.5707963267948966 * (quadrant % 2 != 0 ? kQuarter - rest : rest) / kQuarter);
+  const auto rounded = static_cast<std::int64_t>(value * 0x1p43 + 0.5);
+  return quadrant >= 2 ? -rounded : rounded;
+}
+
+// A turn and a quarter, so that the cosine is the sine a quarter further on.
+consteval auto make_wave() {
+  std::array<std::int64_t, kSteps + kQuarter> table{};
+  for (int step = 0; step < kSteps + kQuarter; ++step)
+    table[static_cast<std::size_t>(step)] = grid_sine(step);
   return table;
 }
 
-constexpr auto kQuarterWave = make_quarter_wave();
-static_assert(kQuarterWave[0] == 0 && kQuarterWave[kStepsPerQuarter] == std::int64_t{1} << 40);
+constexpr auto kWave = make_wave();
+static_assert(kWave[0] == 0 && kWave[kQuarter] == std::int64_t{1} << SinCos::kFractionBits);
 
-SinCos at_grid(unsigned index) {
-  const unsigned quadrant = index / kStepsPerQuarter % 4;
-  const unsigned step = index % kStepsPerQuarter;
-  const bool odd = (quadrant & 1U) != 0;
-  const std::int64_t sine = kQuarterWave[odd ? kStepsPerQuarter - step : step];
-  const std::int64_t cosine = kQuarterWave[odd ? step : kStepsPerQuarter - step];
-  return {quadrant >= 2 ? -sine : sine, quadrant == 1 || quadrant == 2 ? -cosine : cosine};
+constexpr std::int32_t rounded_30(std::int64_t value_43) {
+  return static_cast<std::int32_t>((value_43 + 4096) >> 13);
 }
 
-constexpr std::int32_t high(std::int64_t product, int bits) {
-  return static_cast<std::int32_t>(product >> bits);
-}
+// Coefficients of sin and 1 - cos of rho = x pi / 256 in x, the suffix is the number of fraction bits.
+constexpr double kRho = 3.141592653589793 / kSteps;
+constexpr auto kLinear_37 = static_cast<std::int32_t>(kRho * 0x1p37 + 0.5);
+constexpr auto kCubic_39 = static_cast<std::int32_t>(kRho * kRho * kRho / 6 * 0x1p39 + 0.5);
+constexpr auto kSquare_38 = static_cast<std::int32_t>(kRho * kRho / 2 * 0x1p38 + 0.5);
+constexpr auto kFourth_40 = static_cast<std::int32_t>(kRho * kRho * kRho * kRho / 24 * 0x1p40 + 0.5);
 
 }  // namespace
 
 SinCos sin_cos(Angle angle) {
   const std::uint64_t nearest = angle.raw() + (std::uint64_t{1} << 55);
-  const SinCos grid = at_grid(static_cast<unsigned>(nearest >> 56));
-  const auto rest = static_cast<std::int64_t>((nearest & 0x00FF'FFFF'FFFF'FFFFU) - (std::uint64_t{1} << 55));
+  const auto step = static_cast<std::size_t>(nearest >> 56);
+  const std::int64_t sine = kWave[step];
+  const std::int64_t cosine = kWave[step + kQuarter];
+  const std::int32_t sine_30 = rounded_30(sine);
+  const std::int32_t cosine_30 = rounded_30(cosine);
 
-  // rho = rest in radians; the suffix is the number of fraction bits.
-  constexpr std::int64_t kPiOver4_31 = 1686629713;
-  constexpr std::int64_t kThird_32 = 0x5555'5555;
-  constexpr std::int64_t kSixth_32 = 0x2AAA'AAAB;
-  const std::int64_t rho_37 = high((rest >> 24) * kPiOver4_31 + (std::int64_t{1} << 30), 31);
-  const std::int64_t half_square_44 = high(rho_37 * rho_37, 31);
-  const std::int64_t cube_49 = high(rho_37 * half_square_44, 32);  // rho^3 / 2
-  const std::int64_t sin_rho_37 = rho_37 - high(cube_49 * kThird_32, 44);
-  const std::int64_t fourth_56 = high(half_square_44 * half_square_44, 32);  // rho^4 / 4
-  const std::int64_t versed_44 = half_square_44 - high(fourth_56 * kSixth_32, 44);
+  // What is left to the angle, as a part of half a step: x in [-1, 1).
+  const auto x_31 = static_cast<std::int32_t>(static_cast<std::uint32_t>(nearest >> 24) ^ 0x8000'0000U);
+  const std::int32_t square_30 = mul_high(x_31, x_31);
+  const std::int32_t sin_rho_36 = mul_high(x_31, kLinear_37 - mul_high(square_30, kCubic_39));
+  const std::int32_t versed_36 = mul_high(square_30, kSquare_38 - mul_high(square_30, kFourth_40));
 
-  const std::int64_t sin_30 = high(grid.sin + 512, 10);
-  const std::int64_t cos_30 = high(grid.cos + 512, 10);
-  return {grid.sin + ((cos_30 * sin_rho_37 + (1 << 26)) >> 27) -
-              ((sin_30 * versed_44 + (std::int64_t{1} << 33)) >> 34),
-          grid.cos - ((sin_30 * sin_rho_37 + (1 << 26)) >> 27) -
-              ((cos_30 * versed_44 + (std::int64_t{1} << 33)) >> 34)};
+  constexpr std::int64_t kHalf = 1 << 22;
+  const std::int64_t up = mul_add(mul_add(kHalf, cosine_30, sin_rho_36), sine_30, -versed_36);
+  const std::int64_t across = mul_add(mul_add(kHalf, cosine_30, -versed_36), sine_30, -sin_rho_36);
+  return {sine + (up >> 23), cosine + (across >> 23)};
 }
 
 }  // namespace astro

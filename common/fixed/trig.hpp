@@ -6,9 +6,9 @@
 
 namespace astro {
 
-/// Sine and cosine as Q23.40: 2^40 is one.
+/// Sine and cosine as Q20.43: 2^43 is one.
 struct SinCos {
-  static constexpr int kFractionBits = 40;
+  static constexpr int kFractionBits = 43;
   std::int64_t sin = 0;
   std::int64_t cos = 0;
 };

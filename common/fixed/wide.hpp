@@ -2,30 +2,36 @@
 
 #include <cstdint>
 
+#include "common/fixed/multiply.hpp"
+
 /// Wide integer arithmetic without __int128, which the MCU's compiler does not have.
 namespace astro {
 
-/// floor((a * b + rest) / 2^Shift) through 96 bits; what is left over becomes the new `rest`, so that a long
-/// sum of products loses nothing. rest < 2^Shift before and after; the result must fit 64 bits.
+/// floor((a * b + rest) / 2^32); what is left over becomes the new `rest`, so that a long sum of products
+/// loses nothing. |a| < 2^62; the result must fit 64 bits.
+///
+/// Cost    two multiplies and three adds; callable from the control tick.
+constexpr std::int64_t mul_carry(std::int64_t a, std::int32_t b, std::uint32_t& rest) {
+  // a = high * 2^32 + low, with low taken as signed: both products are of one instruction then.
+  const auto low = static_cast<std::int32_t>(static_cast<std::uint32_t>(a));
+  const auto high = static_cast<std::int32_t>((a >> 32) + (low < 0 ? 1 : 0));
+  const std::int64_t sum = mul_add(rest, low, b);
+  rest = static_cast<std::uint32_t>(sum);
+  return mul_add(sum >> 32, high, b);
+}
+
+/// round(a * b / 2^Shift) through 96 bits, ties upward. The result must fit 64 bits.
 ///
 /// Cost    two 32x32 multiplies and a few adds; callable from the control tick.
 template <int Shift>
-constexpr std::int64_t mul_shift_carry(std::int64_t a, std::int32_t b, std::uint32_t& rest) {
+constexpr std::int64_t mul_shift(std::int64_t a, std::int32_t b) {
   static_assert(Shift >= 1 && Shift <= 32);
-  const std::int64_t low = std::int64_t{static_cast<std::uint32_t>(a)} * b + rest;
+  const std::int64_t low = std::int64_t{static_cast<std::uint32_t>(a)} * b + (std::int64_t{1} << (Shift - 1));
   const std::int64_t high = (a >> 32) * b;
-  rest = static_cast<std::uint32_t>(low & ((std::int64_t{1} << Shift) - 1));
   // In two's complement the shifted-out bits of `high` cannot matter once the result fits; nor can a wrap of
   // the sum, so it is unsigned.
   return static_cast<std::int64_t>((static_cast<std::uint64_t>(high) << (32 - Shift)) +
                                    static_cast<std::uint64_t>(low >> Shift));
-}
-
-/// round(a * b / 2^Shift), ties upward. The result must fit 64 bits.
-template <int Shift>
-constexpr std::int64_t mul_shift(std::int64_t a, std::int32_t b) {
-  std::uint32_t half = std::uint32_t{1} << (Shift - 1);
-  return mul_shift_carry<Shift>(a, b, half);
 }
 
 /// Largest r with r * r <= n.

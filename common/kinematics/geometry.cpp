@@ -18,13 +18,17 @@ void divide_by_counts(Natural& value, const ParameterSet& set) {
   value /= static_cast<std::uint32_t>(set.get(Param::counts_per_motor_rev));
 }
 
-// A convergent of the continued fraction of pi: good to 6e-19, and both numbers fit a limb.
-constexpr std::uint32_t kPiNumerator = 2549491779;
-constexpr std::uint32_t kPiDenominator = 811528438;
-
+// pi = 21053343141 / 6701487259, a convergent of its continued fraction that is good to 9e-23, in factors
+// that fit a limb.
 Natural times_pi(Natural value) {
-  value *= kPiNumerator;
+  value *= 14'007'547;
+  value *= 1'503;
   return value;
+}
+
+void divide_by_pis_denominator(Natural& value) {
+  value /= 450'157;
+  value /= 14'887;
 }
 
 Geometry::Wheel make_wheel(const ParameterSet& set, Param factor) {
@@ -32,9 +36,9 @@ Geometry::Wheel make_wheel(const ParameterSet& set, Param factor) {
   Geometry::Wheel wheel;
 
   Natural half_travel = times_pi(scaled_diameter(set, factor));  // 2^-30 nm, for the whole travel
-  half_travel <<= 56 - 30 - 1 + 1;                               // half the travel, one bit for rounding
+  half_travel <<= 61 - 30 - 1 + 1;                               // half the travel, one bit for rounding
   divide_by_counts(half_travel, set);
-  half_travel /= kPiDenominator;
+  divide_by_pis_denominator(half_travel);
   half_travel /= kNanometresPerMetre;
   wheel.half_travel = half_travel.half_rounded();
 
@@ -47,7 +51,7 @@ Geometry::Wheel make_wheel(const ParameterSet& set, Param factor) {
   Natural speed = times_pi(scaled_diameter(set, factor));  // per tick: * 1000; in um: / 1000
   speed <<= 12 + 1;
   divide_by_counts(speed, set);
-  speed /= kPiDenominator;
+  divide_by_pis_denominator(speed);
   speed /= std::uint32_t{1} << 30;
   static_assert(kTickHz == 1000, "nanometres per tick are micrometres per second only at 1 kHz");
   wheel.speed = speed.half_rounded();

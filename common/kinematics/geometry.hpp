@@ -16,7 +16,7 @@ namespace astro {
 /// Source  thesis (5)-(9) with c_R, c_L of Borenstein & Feng.
 struct Geometry {
   struct Wheel {
-    std::int64_t half_travel = 0;  // 2^-56 m per count: what one count adds to the path of the robot's centre
+    std::int64_t half_travel = 0;  // 2^-61 m per count: what one count adds to the path of the robot's centre
     std::int64_t turn = 0;         // 2^-64 turn per count; positive for both wheels
     std::int64_t speed = 0;        // (2^-12 um/s) per (count per tick)
   };

@@ -1,5 +1,6 @@
 #include "common/kinematics/odometry.hpp"
 
+#include "common/fixed/multiply.hpp"
 #include "common/fixed/trig.hpp"
 #include "common/fixed/wide.hpp"
 
@@ -7,30 +8,32 @@ namespace astro {
 namespace {
 
 // 1 - sin(h)/h for h = turn / 2, 32 fraction bits. |turn| < 1/4 turn, so that h^2 < 0.62 and the first term
-// left out, h^10 / 11!, is below 2e-9 there and below 1e-30 at 1 kHz.
+// left out, h^10 / 11!, is below 3e-9 there and below 1e-30 at 1 kHz.
 std::int32_t chord_deficit(std::int64_t turn) {
-  constexpr std::int64_t kPiSquared_28 = 2649351758;  // pi^2 * 2^28
-  const std::int64_t half_turns_33 = turn >> 31;      // turn in 2^-33: 31 bits and sign
-  const std::int64_t square_35 = (half_turns_33 * half_turns_33 + (1 << 30)) >> 31;
-  const std::int64_t h2 = (square_35 * kPiSquared_28 + (1 << 30)) >> 31;  // (pi * turn)^2, 32 bits
-
-  constexpr std::int64_t kOver6 = 715827883, kOver120 = 35791394, kOver5040 = 852176, kOver362880 = 11836;
-  std::int64_t sum = kOver5040 - ((h2 * kOver362880) >> 32);
-  sum = kOver120 - ((h2 * sum) >> 32);
-  sum = kOver6 - ((h2 * sum) >> 32);
-  return static_cast<std::int32_t>((h2 * sum + (std::int64_t{1} << 31)) >> 32);
+  const auto turn_33 = static_cast<std::int32_t>(turn >> 31);
+  const std::int32_t square_34 = mul_high(turn_33, turn_33);
+  // h = pi turn, and each product with a square of 34 fraction bits gains two.
+  constexpr double kPi2 = 9.869604401089358;
+  constexpr auto k1_30 = static_cast<std::int32_t>(kPi2 / 6 * 0x1p30 + 0.5);
+  constexpr auto k2_28 = static_cast<std::int32_t>(kPi2 * kPi2 / 120 * 0x1p28 + 0.5);
+  constexpr auto k3_26 = static_cast<std::int32_t>(kPi2 * kPi2 * kPi2 / 5040 * 0x1p26 + 0.5);
+  constexpr auto k4_24 = static_cast<std::int32_t>(kPi2 * kPi2 * kPi2 * kPi2 / 362880 * 0x1p24 + 0.5);
+  const std::int32_t sum_26 = k3_26 - mul_high(square_34, k4_24);
+  const std::int32_t sum_28 = k2_28 - mul_high(square_34, sum_26);
+  return mul_high(square_34, k1_30 - mul_high(square_34, sum_28));
 }
 
 }  // namespace
 
 void ArcIntegrator::advance(std::int64_t travel, std::int64_t turn) {
-  const std::int64_t chord = travel - mul_shift<32>(travel, chord_deficit(turn)) + remainder_;
-  const auto step_29 = static_cast<std::int32_t>(chord >> 27);
-  remainder_ = chord & ((std::int64_t{1} << 27) - 1);
+  const std::int64_t lost = mul_wide(static_cast<std::int32_t>(travel >> 32), chord_deficit(turn));
+  const std::int64_t chord = travel - lost + remainder_;
+  const auto step_29 = static_cast<std::int32_t>(chord >> 32);
+  remainder_ = static_cast<std::uint32_t>(chord);
 
   const SinCos heading = sin_cos(pose_.theta + (turn >> 1));
-  pose_.x += mul_shift_carry<29>(heading.cos, step_29, x_rest_);
-  pose_.y += mul_shift_carry<29>(heading.sin, step_29, y_rest_);
+  pose_.x += mul_carry(heading.cos, step_29, x_rest_);
+  pose_.y += mul_carry(heading.sin, step_29, y_rest_);
 
   const Angle before = pose_.theta;
   pose_.theta = before + turn;
@@ -39,8 +42,9 @@ void ArcIntegrator::advance(std::int64_t travel, std::int64_t turn) {
 }
 
 void Odometry::advance(std::int32_t left_counts, std::int32_t right_counts) {
-  integrator_.advance(geometry_.left.half_travel * left_counts + geometry_.right.half_travel * right_counts,
-                      geometry_.right.turn * right_counts - geometry_.left.turn * left_counts);
+  integrator_.advance(
+      mul_low(geometry_.left.half_travel, left_counts) + mul_low(geometry_.right.half_travel, right_counts),
+      mul_low(geometry_.right.turn, right_counts) - mul_low(geometry_.left.turn, left_counts));
 }
 
 }  // namespace astro

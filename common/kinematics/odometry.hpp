@@ -11,7 +11,7 @@ namespace astro {
 /// rate.
 ///
 /// Domain  |travel| < 4 m and |turn| < 1/4 turn a step; the robot refuses encoder steps beyond.
-/// Errors  heading none, ever: it is an integer sum. Position: what the Q40 sine and the 32-bit chord leave,
+/// Errors  heading none, ever: it is an integer sum. Position: what the Q43 sine and the 32-bit chord leave,
 ///         below 2e-10 of the way. Nothing is rounded per step: travel below the 2^-29 m that a product can
 ///         hold and position below 2^-40 m are carried to the next step.
 /// Cost    constant, one sine and cosine, no division; callable from the control tick.
@@ -20,7 +20,7 @@ namespace astro {
 ///         s * sin(a/2) / (a/2), and points along the mean of both headings.
 class ArcIntegrator {
  public:
-  /// travel in 2^-56 m, turn in 2^-64 turn.
+  /// travel in 2^-61 m, turn in 2^-64 turn.
   void advance(std::int64_t travel, std::int64_t turn);
 
   const Pose& pose() const { return pose_; }
@@ -32,8 +32,8 @@ class ArcIntegrator {
 
  private:
   Pose pose_;
-  std::int64_t remainder_ = 0;             // 2^-56 m, less than 2^-29 m: travel not yet in the position
-  std::uint32_t x_rest_ = 0, y_rest_ = 0;  // 2^-69 m, less than 2^-40 m: position not yet in the pose
+  std::uint32_t remainder_ = 0;            // 2^-61 m, less than 2^-29 m: travel not yet in the position
+  std::uint32_t x_rest_ = 0, y_rest_ = 0;  // 2^-72 m, less than 2^-40 m: position not yet in the pose
 };
 
 /// Dead reckoning from wheel counts.

@@ -22,9 +22,10 @@ struct BodyTwist {
 
 /// v -+ omega b / 2. With the calibrated b: a commanded spin turns by what was commanded.
 constexpr WheelSpeeds to_wheels(const Geometry& geometry, const BodyTwist& twist) {
-  const std::int64_t half =
-      (std::int64_t{geometry.half_base_30} * twist.omega_uradps + (std::int64_t{1} << 29)) >> 30;
-  return {saturate32(twist.v_umps - half), saturate32(twist.v_umps + half)};
+  // b is at most 2 m, so that half of it times omega is no more than omega.
+  const auto half = static_cast<std::int32_t>(
+      mul_add(std::int64_t{1} << 29, geometry.half_base_30, twist.omega_uradps) >> 30);
+  return {subtract_saturated(twist.v_umps, half), add_saturated(twist.v_umps, half)};
 }
 
 /// (R + L) / 2 and (R - L) / b.

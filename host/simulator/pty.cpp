@@ -1,14 +1,19 @@
 #include "host/simulator/pty.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <poll.h>
+#include <sys/socket.h>
+#include <sys/un.h>
 #include <termios.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
+#include <functional>
 
 #include "host/base/error.hpp"
 
@@ -45,18 +50,32 @@ void make_raw(const std::string& device) {
   close(fd);
 }
 
-bool in_use(const fs::path& link) {
-  const fs::path target = fs::read_symlink(link);
-  return fs::exists(target);
+// An abstract socket's name belongs to one process and goes with it, however it ends; that the link's target
+// exists says nothing, because the number of a dead simulator's terminal is soon another program's.
+int claim(const fs::path& link) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  const std::string path = fs::absolute(link).lexically_normal();
+  const std::string name = fmt::format("astrolabe-pty-{:016x}", std::hash<std::string>{}(path));
+  name.copy(address.sun_path + 1, sizeof(address.sun_path) - 1);  // a leading zero byte makes it abstract
+  const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
+  const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  if (fd < 0) fail("socket");
+  if (bind(fd, reinterpret_cast<const sockaddr*>(&address), size) == 0) return fd;
+  if (errno != EADDRINUSE) fail("bind");
+  close(fd);
+  throw Error("'" + link.string() + "' is in use by another simulator: stop it or choose another --pty");
+}
+
+bool left_behind(const fs::path& link) {
+  return fs::is_symlink(link) && fs::read_symlink(link).parent_path() == "/dev/pts";
 }
 
 void make_link(const fs::path& device, const fs::path& link) {
   std::error_code error;
-  if (fs::is_symlink(link)) {
-    if (in_use(link))
-      throw Error("'" + link.string() + "' is in use by another simulator: stop it or choose another --pty");
+  if (left_behind(link)) {
     fs::remove(link);
-  } else if (fs::exists(link)) {
+  } else if (fs::exists(fs::symlink_status(link))) {
     throw Error("'" + link.string() + "' exists and is not a simulator's: choose another path for --pty");
   }
   fs::create_symlink(device, link, error);
@@ -76,10 +95,12 @@ Pty::~Pty() {
   std::error_code ignored;
   for (const fs::path& link : links_)
     if (fs::is_symlink(link) && fs::read_symlink(link, ignored) == device_) fs::remove(link, ignored);
+  for (const int claimed : claims_) close(claimed);
   close(fd_);
 }
 
 void Pty::add_link(const fs::path& link) {
+  claims_.push_back(claim(link));
   make_link(device_, link);
   links_.push_back(link);
 }

@@ -35,6 +35,7 @@ class Pty {
   int fd_ = -1;
   std::filesystem::path device_;
   std::vector<std::filesystem::path> links_;
+  std::vector<int> claims_;  // sockets whose names say that the links are taken
 };
 
 }  // namespace astro::simulator

@@ -43,7 +43,7 @@ class Unicycle {
   explicit Unicycle(const Pose& pose) { integrator_.set_pose(pose); }
   void drive(const BodyTwist& twist) {
     integrator_.advance(
-        static_cast<std::int64_t>(std::ldexp(twist.v_umps * 1e-9, 56)),
+        static_cast<std::int64_t>(std::ldexp(twist.v_umps * 1e-9, 61)),
         static_cast<std::int64_t>(std::ldexp(twist.omega_uradps * 1e-9 / (2 * std::numbers::pi), 64)));
   }
   const Pose& pose() const { return integrator_.pose(); }

@@ -32,8 +32,8 @@ std::int64_t exact_turn(const ParameterSet& set, Param correction) {
 void expect_exact(const ParameterSet& set) {
   const Geometry got = make_geometry(set);
   const ExactGeometry real(set);
-  EXPECT_PRED_FORMAT3(tests::near, got.left.half_travel, unit(real.left_m / 2, 56), kOneRounding);
-  EXPECT_PRED_FORMAT3(tests::near, got.right.half_travel, unit(real.right_m / 2, 56), kOneRounding);
+  EXPECT_PRED_FORMAT3(tests::near, got.left.half_travel, unit(real.left_m / 2, 61), kOneRounding);
+  EXPECT_PRED_FORMAT3(tests::near, got.right.half_travel, unit(real.right_m / 2, 61), kOneRounding);
   EXPECT_EQ(got.left.turn, exact_turn(set, Param::c_L));
   EXPECT_EQ(got.right.turn, exact_turn(set, Param::c_R));
   EXPECT_PRED_FORMAT3(tests::near, got.left.speed, unit(real.left_m * 1e9L, 12),
@@ -57,10 +57,13 @@ TEST(Geometry, LeavesRoomForTheCountsOfATick) {
   tests::Seeded random(2);
   for (int i = 0; i < 20'000; ++i) {
     const Geometry got = make_geometry(tests::random_robot(random));
+    // The robot refuses counts of more than an eighth of a turn. So many of both wheels stay below 2^63,
+    // which is 4 m.
+    constexpr std::int64_t kEighthTurn = std::int64_t{1} << 61, kTwoMetres = std::int64_t{1} << 62;
     for (const Geometry::Wheel& wheel : {got.left, got.right}) {
       ASSERT_GT(wheel.turn, 0);
       ASSERT_GT(wheel.half_travel, 0);
-      ASSERT_LT(wheel.half_travel, std::int64_t{1} << 53);  // 1000 counts of both wheels stay below 2^63
+      ASSERT_LT(wheel.half_travel, kTwoMetres / (kEighthTurn / wheel.turn + 1));
     }
   }
 }
@@ -68,7 +71,7 @@ TEST(Geometry, LeavesRoomForTheCountsOfATick) {
 TEST(Geometry, OfTheReferenceRobotHasTheValuesOfItsDataSheet) {
   // 64 * 43.8 = 2803.2 counts per wheel turn of pi * 72 mm: 80.6916 um per count.
   const Geometry got = make_geometry(ParameterSet::defaults());
-  EXPECT_PRED_FORMAT3(tests::near, std::ldexp(static_cast<Real>(got.left.half_travel), -55), 80.6916e-6L,
+  EXPECT_PRED_FORMAT3(tests::near, std::ldexp(static_cast<Real>(got.left.half_travel), -60), 80.6916e-6L,
                       0.0001e-6L);
   EXPECT_PRED_FORMAT3(tests::near, std::ldexp(static_cast<Real>(got.left.turn), -64),
                       0.072L / (2 * 2803.2L * 0.29L), 1e-15L);

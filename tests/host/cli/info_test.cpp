@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/program.hpp"
+#include "tests/support/pty.hpp"
 
 // What the program finds out about a robot: info, ports, monitor, faults; and where the simulator puts
 // itself.
@@ -130,6 +131,16 @@ TEST_F(Sim, TakesThePlaceOfOneThatWasKilled) {
   support::Program second({ASTROLABE_PROGRAM, "sim", "--pty", path});
   ASSERT_TRUE(support::eventually([&] { return second.err().find("next") != std::string::npos; }))
       << second.err();
+  EXPECT_EQ(astrolabe({"info", "--port", path}).code, 0);
+}
+
+TEST_F(Sim, TakesThePlaceOfADeadOneWhoseTerminalIsAnotherProgramsNow) {
+  const auto path = folder_.path() / "robot.pty";
+  const test::Pty anothers;
+  std::filesystem::create_symlink(anothers.path(), path);
+  support::Program simulator({ASTROLABE_PROGRAM, "sim", "--pty", path});
+  ASSERT_TRUE(support::eventually([&] { return simulator.err().find("next") != std::string::npos; }))
+      << simulator.err();
   EXPECT_EQ(astrolabe({"info", "--port", path}).code, 0);
 }
 

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+/// 32-bit products in one instruction each. The compiler for the Cortex-M7 turns a widened product that it
+/// uses twice into a 64 x 64 bit one, six instructions; naming the instruction keeps it at one. Elsewhere,
+/// and at compile time, the same value is computed in plain C++ (tests/target proves the two equal).
+namespace astro {
+
+#if defined(__ARM_FEATURE_DSP)
+#define ASTRO_ON_CORTEX_M7 1
+#else
+#define ASTRO_ON_CORTEX_M7 0
+#endif
+
+/// round(a * b / 2^32), ties upward.
+constexpr std::int32_t mul_high(std::int32_t a, std::int32_t b) {
+#if ASTRO_ON_CORTEX_M7
+  if (!std::is_constant_evaluated()) {
+    std::int32_t high = 0;
+    asm("smmulr %0, %1, %2" : "=r"(high) : "r"(a), "r"(b));
+    return high;
+  }
+#endif
+  return static_cast<std::int32_t>((std::int64_t{a} * b + (std::int64_t{1} << 31)) >> 32);
+}
+
+/// a * b, exactly.
+constexpr std::int64_t mul_wide(std::int32_t a, std::int32_t b) {
+#if ASTRO_ON_CORTEX_M7
+  if (!std::is_constant_evaluated()) {
+    std::int64_t product = 0;
+    asm("smull %Q0, %R0, %1, %2" : "=&r"(product) : "r"(a), "r"(b));
+    return product;
+  }
+#endif
+  return std::int64_t{a} * b;
+}
+
+/// sum + a * b; the sum must fit.
+constexpr std::int64_t mul_add(std::int64_t sum, std::int32_t a, std::int32_t b) {
+#if ASTRO_ON_CORTEX_M7
+  if (!std::is_constant_evaluated()) {
+    asm("smlal %Q0, %R0, %1, %2" : "+r"(sum) : "r"(a), "r"(b));
+    return sum;
+  }
+#endif
+  return sum + std::int64_t{a} * b;
+}
+
+/// The low 64 bits of a * b.
+constexpr std::int64_t mul_low(std::int64_t a, std::int32_t b) {
+#if ASTRO_ON_CORTEX_M7
+  if (!std::is_constant_evaluated()) {
+    // a = high * 2^32 + low with a signed low: two multiplies.
+    const auto low = static_cast<std::int32_t>(static_cast<std::uint32_t>(a));
+    const std::uint32_t high = static_cast<std::uint32_t>(a >> 32) + (static_cast<std::uint32_t>(a) >> 31);
+    return mul_wide(low, b) +
+           static_cast<std::int64_t>(std::uint64_t{high * static_cast<std::uint32_t>(b)} << 32);
+  }
+#endif
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) *
+                                   static_cast<std::uint64_t>(std::int64_t{b}));
+}
+
+}  // namespace astro
