@@ -43,7 +43,7 @@ void outputs_low() {
   constexpr std::uint32_t kOutputs = gpio7::kDirections | gpio7::kLeftPwm | gpio7::kRightPwm | gpio7::kLed;
   GPIO7[gpio::DR_CLEAR].write(kOutputs);
   GPIO7[gpio::GDIR].modify(gpio7::kDriverError, kOutputs);
-  apply(kMotorLogicPins);
+  apply(kLogicPins);
 }
 
 /// Edge-aligned: high from VAL2 (4) to VAL3 (5), so that VAL3 = 0 is never high, and VAL3 beyond VAL1, where
