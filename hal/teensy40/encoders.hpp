@@ -8,7 +8,7 @@ namespace astro::teensy40 {
 ///
 /// Filter  an edge counts when eight samples 0.33 us apart agree: noise shorter than 2.3 us never does, a
 /// level
-///         that lasts 2.7 us always. That is 300,000 counts a second; the motors give 8,000.
+///         that lasts 2.7 us always. That is 300,000 counts a second; the motors give 12,000.
 /// Cost    six reads of the peripheral bus.
 class Encoders {
  public:
