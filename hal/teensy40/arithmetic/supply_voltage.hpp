@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+
+namespace astro::teensy40 {
+
+/// The motor supply behind its divider, 82 kohm above 10 kohm (1 %), at a converter of 12 bits with a full
+/// scale of 3.3 V.
+///
+/// Why     25 V, a 6S pack, becomes 2.7 V; the pin bears 3.3 V, which is 30.4 V of supply. The pin sees
+///         8.9 kohm, below the 10 kohm that the converter asks for.
+inline constexpr std::uint32_t kDividerUpper_ohm = 82'000, kDividerLower_ohm = 10'000;
+inline constexpr std::uint32_t kAdcFullScale_mV = 3'300, kAdcFullScale = 4'095;
+inline constexpr std::uint32_t kSupplyFullScale_mV =
+    kAdcFullScale_mV * ((kDividerUpper_ohm + kDividerLower_ohm) / 1000) / (kDividerLower_ohm / 1000);
+static_assert(kSupplyFullScale_mV == 30'360);
+
+/// First-order low pass over samples 1 ms apart, -3 dB at 46 Hz, in sixteenths of a converter step.
+class SupplyVoltage {
+ public:
+  /// Begins at `sample`, so that the first reading is not a climb from zero.
+  constexpr void prime(std::uint32_t sample) { level_ = static_cast<std::int32_t>(sample << kFraction); }
+
+  constexpr void add(std::uint32_t sample) {
+    level_ += (static_cast<std::int32_t>(sample << kFraction) - level_) >> 2;
+  }
+
+  /// Error of the arithmetic: below 2 mV; of the resistors: 1.8 % at most.
+  constexpr std::int32_t millivolts() const {
+    constexpr std::uint32_t kFull = kAdcFullScale << kFraction;
+    return static_cast<std::int32_t>((static_cast<std::uint32_t>(level_) * kSupplyFullScale_mV + kFull / 2) /
+                                     kFull);
+  }
+
+ private:
+  static constexpr int kFraction = 4;
+  static_assert((std::uint64_t{kAdcFullScale} << kFraction) * kSupplyFullScale_mV < 1ULL << 31,
+                "fits a word");
+
+  std::int32_t level_ = 0;
+};
+
+}  // namespace astro::teensy40

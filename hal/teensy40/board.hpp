@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+
+#include "hal/interface/board.hpp"
+#include "hal/teensy40/battery.hpp"
+#include "hal/teensy40/clock.hpp"
+#include "hal/teensy40/encoders.hpp"
+#include "hal/teensy40/flash.hpp"
+#include "hal/teensy40/motors.hpp"
+#include "hal/teensy40/ports.hpp"
+#include "hal/teensy40/system.hpp"
+#include "hal/teensy40/tick.hpp"
+
+/// The Teensy 4.0 as a board. Boot has set clocks, memories, vectors and Clock::start(); the constructor
+/// starts the rest, motors first, and the watchdog last: from then on the main loop feeds it.
+///
+///   Board board;
+///   Robot<Board> robot(board);
+///   Tick::start([] { ... robot.tick(); });
+///   while (true) robot.poll();
+///
+/// One in a program.
+namespace astro::teensy40 {
+
+class Board {
+ public:
+  Board();
+  Board(const Board&) = delete;
+  Board& operator=(const Board&) = delete;
+
+  Clock& clock() { return clock_; }
+  Encoders& encoders() { return encoders_; }
+  Motors& motors() { return motors_; }
+  Battery& battery() { return battery_; }
+  Ports& ports() { return ports_; }
+  Flash& flash() { return flash_; }
+  System& system() { return system_; }
+  TickHold hold_tick() { return {}; }
+
+  /// A host has set the USB port to 134 baud, which asks a Teensy for its boot loader. Whether this is the
+  /// moment, the firmware decides.
+  bool bootloader_requested() const noexcept { return usb_.bootloader_requested(); }
+
+ private:
+  Clock clock_;
+  Motors motors_;
+  System system_;
+  Encoders encoders_;
+  Battery battery_;
+  Flash flash_;
+  Uart uart_;
+  UsbSerial usb_;
+  Ports ports_{usb_, uart_};
+  std::array<char, 32> serial_number_{};  // of USB, which reads it when a host asks
+};
+
+static_assert(hal::Board<Board>, "this port no longer satisfies hal/interface");
+
+}  // namespace astro::teensy40

@@ -1,0 +1,61 @@
+#include "hal/teensy40/system.hpp"
+
+#include "hal/teensy40/arithmetic/reset_cause.hpp"
+#include "hal/teensy40/clock.hpp"
+#include "hal/teensy40/clock_gate.hpp"
+#include "hal/teensy40/cpu.hpp"
+#include "hal/teensy40/motors.hpp"
+
+namespace astro::teensy40 {
+namespace {
+
+constexpr std::uint32_t kResetKey = 0x05FA;
+constexpr std::uint32_t kSignedOnly = 1U << 1;  // in fuse word CFG5
+constexpr std::uint64_t kGoneFromUsb_us = 5'000;
+
+/// The companion chip watches the debug port and takes any `bkpt` for a call. This one is the only one in the
+/// image.
+[[gnu::noinline]] void call_halfkay() { asm volatile("bkpt #251" ::: "memory"); }
+
+/// The host sees the robot go before the boot loader appears in its place.
+void leave_usb() {
+  USB1[usb::USBCMD].write(0);
+  const Clock clock;
+  const std::uint64_t begun_us = clock.now_us();
+  while (clock.now_us() - begun_us < kGoneFromUsb_us) {
+  }
+}
+
+}  // namespace
+
+void System::start() {
+  open_gate(CCM[ccm::CCGR2], ccm::CCGR2_CG6);
+  id_ = teensy40::unique_id({OCOTP[ocotp::CFG0].read(), OCOTP[ocotp::CFG1].read(), OCOTP[ocotp::MAC0].read(),
+                             OCOTP[ocotp::MAC1].read()});
+  const std::uint32_t causes = SRC[src::SRSR].read();
+  cause_ = teensy40::reset_cause(causes, SRC[src::GPR5].read());
+  SRC[src::SRSR].write(causes);
+  SRC[src::GPR5].write(marker::kNone);
+}
+
+void System::reboot() noexcept {
+  Motors::coast();
+  SRC[src::GPR5].write(marker::kReboot);
+  cpu::synchronize();
+  SCB[scb::AIRCR].write(scb::AIRCR_VECTKEY(kResetKey) | scb::AIRCR_SYSRESETREQ(1));
+  cpu::synchronize();
+  while (true) {
+  }
+}
+
+bool System::enter_bootloader() noexcept {
+  if ((OCOTP[ocotp::CFG5].read() & kSignedOnly) != 0) return false;
+  Motors::coast();
+  const cpu::InterruptsOff guard;
+  leave_usb();
+  watchdog::stop();
+  call_halfkay();
+  return true;
+}
+
+}  // namespace astro::teensy40

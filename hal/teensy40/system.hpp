@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "hal/interface/board.hpp"
+#include "hal/teensy40/arithmetic/identity.hpp"
+#include "hal/teensy40/watchdog.hpp"
+
+namespace astro::teensy40 {
+
+/// The processor itself.
+class System {
+ public:
+  /// Reads the fuses and why the chip started, and forgets the latter in the chip, so that the next start
+  /// tells of itself.
+  void start();
+
+  UniqueId unique_id() noexcept { return id_; }
+  std::string_view name() noexcept { return "teensy40"; }
+  hal::ResetCause reset_cause() noexcept { return cause_; }
+
+  /// Coasts and restarts. Any context.
+  [[noreturn]] void reboot() noexcept;
+
+  /// Coasts, leaves USB, and gives the processor to HalfKay, the Teensy's boot loader; does not return.
+  /// False: the Teensy is locked to signed programs, whose loader is entered in another way.
+  bool enter_bootloader() noexcept;
+
+  void feed_watchdog() noexcept { watchdog::feed(); }
+
+ private:
+  UniqueId id_{};
+  hal::ResetCause cause_ = hal::ResetCause::unknown;
+};
+
+}  // namespace astro::teensy40
