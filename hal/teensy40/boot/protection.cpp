@@ -1,0 +1,59 @@
+#include "hal/teensy40/boot/protection.hpp"
+
+#include <array>
+#include <cstdint>
+
+#include "hal/teensy40/cpu.hpp"
+#include "hal/teensy40/registers/registers.hpp"
+
+namespace astro::teensy40::protection {
+namespace {
+
+constexpr std::uint32_t kDevice = mpu::RASR_TEX(2);
+constexpr std::uint32_t kNoCache = mpu::RASR_TEX(1);
+constexpr std::uint32_t kWriteThrough = mpu::RASR_C(1);
+constexpr std::uint32_t kWriteBack = mpu::RASR_TEX(1) | mpu::RASR_C(1) | mpu::RASR_B(1);
+constexpr std::uint32_t kNoAccess = mpu::RASR_AP(0), kAll = mpu::RASR_AP(3), kReadOnly = mpu::RASR_AP(7);
+constexpr std::uint32_t kNoCode = mpu::RASR_XN(1);
+
+struct Region {
+  std::uint32_t base;
+  int size_log2;
+  std::uint32_t attributes;
+};
+
+/// A later one wins where two overlap.
+constexpr std::array<Region, 8> kRegions{{
+    {0x0000'0000, 32, kNoAccess | kNoCode},               // what is not named below, also for speculation
+    {0x0000'0000, 17, kReadOnly | kNoCache},              // ITCM: code and constants
+    {0x0000'0000, 5, kNoAccess | kNoCode},                // null
+    {0x0020'0000, 17, kReadOnly | kWriteThrough},         // boot ROM
+    {0x2000'0000, 19, kAll | kNoCache | kNoCode},         // DTCM; below it lies nothing, and the stack ends there
+    {0x2020'0000, 19, kAll | kWriteBack | kNoCode},       // OCRAM
+    {0x4000'0000, 26, kAll | kDevice | kNoCode},          // peripherals
+    {0x6000'0000, 21, kReadOnly | kWriteBack},            // flash
+}};
+
+void set(std::uint32_t number, const Region& region) {
+  MPU[mpu::RBAR].write(region.base | mpu::RBAR_REGION(number) | mpu::RBAR_VALID(1));
+  MPU[mpu::RASR].write(region.attributes |
+                       mpu::RASR_SIZE(static_cast<std::uint32_t>(region.size_log2) - 1) | mpu::RASR_ENABLE(1));
+}
+
+}  // namespace
+
+void start() {
+  for (std::uint32_t number = 0; number < kRegions.size(); ++number) set(number, kRegions[number]);
+  MPU[mpu::CTRL].write(mpu::CTRL_ENABLE(1));
+  cpu::synchronize();
+  cpu::refetch();
+  SCB[scb::ICIALLU].write(0);
+  cpu::synchronize();
+  cpu::refetch();
+  // The ROM leaves the data cache off and clean.
+  SCB[scb::CCR].modify(0, scb::CCR_IC(1) | scb::CCR_DC(1));
+  cpu::synchronize();
+  cpu::refetch();
+}
+
+}  // namespace astro::teensy40::protection

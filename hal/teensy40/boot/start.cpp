@@ -1,0 +1,96 @@
+#include "hal/teensy40/boot/start.hpp"
+
+#include "hal/teensy40/boot/core_clock.hpp"
+#include "hal/teensy40/boot/protection.hpp"
+#include "hal/teensy40/boot/vectors.hpp"
+#include "hal/teensy40/clock.hpp"
+#include "hal/teensy40/cpu.hpp"
+#include "hal/teensy40/pins.hpp"
+
+// What stays in the flash and runs there, before RAM holds the rest. No constant of it may lie elsewhere, and the
+// compiler must not turn a loop of it into a call of memcpy, which is not there yet.
+#define IN_FLASH [[gnu::section(".boot"), gnu::noinline, gnu::optimize("no-tree-loop-distribute-patterns")]]
+
+extern "C" {
+extern std::uint32_t code_load, code_start, code_end;
+extern std::uint32_t data_load, data_start, data_end;
+extern std::uint32_t bss_start, bss_end;
+extern void (*constructors_start)();
+extern void (*constructors_end)();
+}
+
+int main();
+
+namespace astro::teensy40 {
+namespace {
+
+[[noreturn, gnu::noinline]] void run() {
+  vectors::start();
+  protection::start();
+  core_clock::start();
+  Clock::start();
+  for (void (**constructor)() = &constructors_start; constructor != &constructors_end; ++constructor)
+    (*constructor)();
+  main();
+  while (true) {
+  }
+}
+
+/// The motor driver's inputs: six plain outputs, low. All pads are GPIO after a reset.
+[[gnu::always_inline]] inline void hold_outputs_low() {
+  constexpr std::uint32_t kOutputs = gpio7::kDirections | gpio7::kLeftPwm | gpio7::kRightPwm;
+  IOMUXC_GPR[iomuxc_gpr::GPR27].write(~0U);  // GPIO2's pins to its fast copy
+  GPIO7[gpio::DR_CLEAR].write(kOutputs);
+  GPIO7[gpio::GDIR].modify(0, kOutputs);
+}
+
+/// WDOG3 bites 32 ms after a reset unless the ROM has stopped it; the other two pull a pin after 16 s.
+[[gnu::always_inline]] inline void stop_watchdogs() {
+  RTWDOG[rtwdog::CNT].write(0xD928'C520);
+  RTWDOG[rtwdog::TOVAL].write(0xFFFF);
+  RTWDOG[rtwdog::CS].write(rtwdog::CS_UPDATE(1) | rtwdog::CS_CLK(1) | rtwdog::CS_CMD32EN(1));
+  WDOG1[wdog::WMCR].write(0);
+  WDOG2[wdog::WMCR].write(0);
+}
+
+[[gnu::always_inline]] inline void copy(std::uint32_t* to, const std::uint32_t* end, const std::uint32_t* from) {
+  while (to < end) *to++ = *from++;
+}
+
+}  // namespace
+
+extern "C" [[noreturn]] void start_from_flash();
+
+extern "C" IN_FLASH void start_from_flash() {
+  hold_outputs_low();
+  stop_watchdogs();
+  PMU[pmu::MISC0_SET].write(pmu::MISC0_REFTOP_SELFBIASOFF(1));  // the reference is up by now
+  copy(&code_start, &code_end, &code_load);
+  copy(&data_start, &data_end, &data_load);
+  for (std::uint32_t* word = &bss_start; word < &bss_end; ++word) *word = 0;
+  cpu::synchronize();
+  cpu::refetch();
+  run();
+}
+
+/// 4 banks of 32 KB for code, 12 for data; no stack and no data before that is done. GPR16's upper bits are where
+/// the core finds its vectors after a reset: they stay with the ROM.
+extern "C" [[gnu::naked, gnu::section(".boot")]] void reset() {
+  asm volatile(
+      "cpsid i\n"
+      "ldr r0, =0x400AC000\n"  // IOMUXC_GPR
+      "ldr r1, =0xAAAAAAFF\n"
+      "str r1, [r0, #0x44]\n"  // GPR17
+      "ldr r1, =0x00200007\n"
+      "str r1, [r0, #0x40]\n"  // GPR16
+      "ldr r1, =0x00AA0000\n"
+      "str r1, [r0, #0x38]\n"  // GPR14
+      "dsb\n"
+      "isb\n"
+      "ldr r0, =stack_top\n"
+      "mov sp, r0\n"
+      "b start_from_flash\n"
+      ".ltorg\n");
+}
+
+}  // namespace astro::teensy40
