@@ -1,12 +1,9 @@
 #include "common/control/observer.hpp"
 
+#include "common/fixed/multiply.hpp"
 #include "common/fixed/saturate.hpp"
 
 namespace astro {
-namespace {
-// Far beyond any encoder, and small enough that no product below overflows.
-constexpr std::int64_t kMostCounts = 1024;
-}  // namespace
 
 void SpeedObserver::set_bandwidth(std::int32_t bandwidth_16) {
   const std::int64_t w_20 = (std::int64_t{bandwidth_16} << 4) / 1000;  // w T
@@ -16,10 +13,11 @@ void SpeedObserver::set_bandwidth(std::int32_t bandwidth_16) {
 }
 
 void SpeedObserver::advance(std::int32_t counts) {
-  const std::int64_t seen = clamp_abs<std::int64_t>(counts, kMostCounts) << 20;
-  error_20_ = clamp_abs<std::int64_t>(error_20_ + seen - (speed_28_ >> 8), kMostCounts << 20);
-  speed_28_ += (error_20_ * integral_20_) >> 12;
-  error_20_ -= (error_20_ * proportional_20_) >> 20;
+  const std::int32_t seen = saturate_to<kCountBits>(counts) * (1 << kSpeedBits);
+  error_20_ =
+      saturate_to<kCountBits + kSpeedBits>(subtract_saturated(add_saturated(error_20_, seen), speed()));
+  speed_40_ = mul_add(speed_40_, error_20_, integral_20_);
+  error_20_ -= static_cast<std::int32_t>(mul_wide(error_20_, proportional_20_) >> 20);
 }
 
 }  // namespace astro

@@ -9,7 +9,7 @@ namespace astro {
 /// would toggle between 0 and 1, and without lag at constant speed.
 ///
 /// Units   speed in 2^-20 counts per tick.
-/// Cost    constant, two multiplies; callable from the control tick.
+/// Cost    constant, three multiplies; callable from the control tick.
 /// Source  critically damped: kp = 2 w T - (w T)^2, ki = (w T)^2 put both poles at 1 - w T, for bandwidth w
 /// and tick T.
 class SpeedObserver {
@@ -22,14 +22,19 @@ class SpeedObserver {
   /// `counts`: signed counts since the last tick, forward positive.
   void advance(std::int32_t counts);
 
-  std::int32_t speed() const { return static_cast<std::int32_t>(speed_28_ >> 8); }
-  void reset() { error_20_ = speed_28_ = 0; }
+  std::int32_t speed() const { return static_cast<std::int32_t>(speed_40_ >> 20); }
+  void reset() {
+    error_20_ = 0;
+    speed_40_ = 0;
+  }
 
  private:
+  static constexpr int kCountBits = 11;  // +-1024 counts a tick: far beyond any encoder
+
   std::int32_t proportional_20_ = 0;
   std::int32_t integral_20_ = 0;
-  std::int64_t error_20_ = 0;  // position seen minus position estimated
-  std::int64_t speed_28_ = 0;  // eight more bits than shown: ki is about 0.01 and must not lose its products
+  std::int32_t error_20_ = 0;  // position seen minus position estimated
+  std::int64_t speed_40_ = 0;  // whole products of error and ki, which is about 0.01
 };
 
 }  // namespace astro

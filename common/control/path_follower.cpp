@@ -19,14 +19,16 @@ constexpr std::int32_t to_uradps(std::int64_t turn_52) {
 }
 
 // The robot never corrects more than this much at once: far behind, it hurries, it does not leap.
-constexpr std::int64_t kMostError_30 = std::int64_t{1} << 28;  // 0.25 m
-constexpr std::int64_t kMostTurn_33 = std::int64_t{1} << 29;   // 1/16 turn
+constexpr int kErrorBits = 29;  // of 2^-30 m: 0.25 m
+constexpr int kTurnBits = 29;   // of 2^-32 turn: 1/16 turn
 
 constexpr std::int32_t kClose_um = 500;
 constexpr std::int32_t kClose_urad = 1'000;
 
-constexpr std::int32_t um_from_30(std::int64_t metres_30) {
-  return static_cast<std::int32_t>((metres_30 * 1'000'000) >> 30);
+// The high word is in 2^-28 m.
+constexpr std::int32_t um_from_60(std::int64_t metres_60) {
+  return static_cast<std::int32_t>(mul_add(1 << 27, static_cast<std::int32_t>(metres_60 >> 32), 1'000'000) >>
+                                   28);
 }
 
 }  // namespace
@@ -62,21 +64,23 @@ PathFollower::Command PathFollower::advance(const Pose& actual) {
 
 BodyTwist PathFollower::correction(const Pose& actual, std::int32_t v_ref_umps) {
   const Pose& reference = reference_.pose();
-  const std::int64_t dx_30 = clamp_abs((reference.x - actual.x) >> 10, kMostError_30);
-  const std::int64_t dy_30 = clamp_abs((reference.y - actual.y) >> 10, kMostError_30);
+  const std::int32_t dx_30 = saturate_to<kErrorBits>(saturate32((reference.x - actual.x) >> 10));
+  const std::int32_t dy_30 = saturate_to<kErrorBits>(saturate32((reference.y - actual.y) >> 10));
   const SinCos heading = sin_cos(reference.theta);
-  const std::int64_t cos_30 = heading.cos >> 13;
-  const std::int64_t sin_30 = heading.sin >> 13;
-  const std::int32_t along_um = um_from_30((dx_30 * cos_30 + dy_30 * sin_30) >> 30);
-  const std::int32_t cross_um = um_from_30((dy_30 * cos_30 - dx_30 * sin_30) >> 30);
-  const std::int64_t turn_33 = clamp_abs((reference.theta - actual.theta) >> 31, kMostTurn_33);
-  constexpr std::int64_t kTwoPi_urad = 6'283'185;
-  const auto heading_urad = static_cast<std::int32_t>((turn_33 * kTwoPi_urad) >> 33);
+  const auto cos_30 = static_cast<std::int32_t>(heading.cos >> 13);
+  const auto sin_30 = static_cast<std::int32_t>(heading.sin >> 13);
+  const std::int32_t along_um = um_from_60(mul_add(mul_wide(dx_30, cos_30), dy_30, sin_30));
+  const std::int32_t cross_um = um_from_60(mul_add(mul_wide(dy_30, cos_30), dx_30, -sin_30));
+  const std::int32_t turn_32 =
+      saturate_to<kTurnBits>(static_cast<std::int32_t>((reference.theta - actual.theta) >> 32));
+  constexpr std::int32_t kTurn_urad = 6'283'185;
+  const std::int32_t heading_urad = mul_high(turn_32, kTurn_urad);
 
-  close_ = clamp_abs(along_um, kClose_um) == along_um && clamp_abs(heading_urad, kClose_urad) == heading_urad;
+  close_ = !exceeds(along_um, kClose_um) && !exceeds(heading_urad, kClose_urad);
 
   // (um/s) * um = 1e-12, brought back to 1e-6 by 1 / 10^6 = 4295 / 2^32.
-  const auto swept = static_cast<std::int32_t>(((std::int64_t{v_ref_umps} * cross_um >> 8) * 4295) >> 24);
+  const auto swept_8 = static_cast<std::int32_t>(mul_wide(v_ref_umps, cross_um) >> 8);
+  const auto swept = static_cast<std::int32_t>(mul_wide(swept_8, 4295) >> 24);
   return {saturate32(k_along_.scale(along_um)),
           saturate32(k_heading_.scale(heading_urad) + k_cross_.scale(swept))};
 }

@@ -4,7 +4,7 @@
 
 #include "common/control/trapezoid.hpp"
 #include "common/fixed/fixed.hpp"
-#include "common/kinematics/odometry.hpp"
+#include "common/kinematics/arc.hpp"
 #include "common/kinematics/twist.hpp"
 #include "common/params/parameter_set.hpp"
 

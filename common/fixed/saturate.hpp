@@ -36,6 +36,29 @@ constexpr std::int32_t subtract_saturated(std::int32_t a, std::int32_t b) {
   return saturate32(std::int64_t{a} - b);
 }
 
+/// |value| > limit, for limit >= 0: one comparison.
+constexpr bool exceeds(std::int32_t value, std::int32_t limit) {
+  return static_cast<std::uint32_t>(value) + static_cast<std::uint32_t>(limit) >
+         2 * static_cast<std::uint32_t>(limit);
+}
+
+/// `value` * 2^Shift, which must fit, held within the range of a signed integer of so many bits: one
+/// instruction on the Cortex-M7.
+template <int Bits, int Shift = 0>
+constexpr std::int32_t saturate_to(std::int32_t value) {
+  static_assert(Bits >= 2 && Bits <= 32 && Shift >= 0 && Shift < 32);
+#if ASTRO_ON_CORTEX_M7
+  if (!std::is_constant_evaluated()) {
+    std::int32_t held = 0;
+    asm("ssat %0, %2, %1, lsl %3" : "=r"(held) : "r"(value), "I"(Bits), "I"(Shift));
+    return held;
+  }
+#endif
+  const auto shifted = static_cast<std::int32_t>(static_cast<std::uint32_t>(value) << Shift);
+  constexpr auto kMost = static_cast<std::int32_t>((std::int64_t{1} << (Bits - 1)) - 1);
+  return shifted > kMost ? kMost : shifted < -kMost - 1 ? -kMost - 1 : shifted;
+}
+
 /// `value` held within [-limit, limit]; limit >= 0.
 template <class Int>
 constexpr Int clamp_abs(Int value, Int limit) {

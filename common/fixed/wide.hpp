@@ -7,31 +7,56 @@
 /// Wide integer arithmetic without __int128, which the MCU's compiler does not have.
 namespace astro {
 
-/// floor((a * b + rest) / 2^32); what is left over becomes the new `rest`, so that a long sum of products
-/// loses nothing. |a| < 2^62; the result must fit 64 bits.
+/// round(a * b / 2^32), ties upward. |a| < 2^62.
+constexpr std::int64_t mul_high(std::int64_t a, std::int32_t b) {
+  const auto low = static_cast<std::int32_t>(static_cast<std::uint32_t>(a));
+  const auto high = static_cast<std::int32_t>((a >> 32) + (low < 0 ? 1 : 0));
+  return mul_add(mul_add(std::int64_t{1} << 31, low, b) >> 32, high, b);
+}
+
+/// (sum, rest) += a * b, in 96 bits of which `rest` holds the lowest 32: a long sum of products loses
+/// nothing. |a| < 2^62.
 ///
-/// Cost    two multiplies and three adds; callable from the control tick.
-constexpr std::int64_t mul_carry(std::int64_t a, std::int32_t b, std::uint32_t& rest) {
+/// Cost    seven instructions on the Cortex-M7; callable from the control tick.
+constexpr void accumulate(std::int64_t& sum, std::uint32_t& rest, std::int64_t a, std::int32_t b) {
   // a = high * 2^32 + low, with low taken as signed: both products are of one instruction then.
   const auto low = static_cast<std::int32_t>(static_cast<std::uint32_t>(a));
   const auto high = static_cast<std::int32_t>((a >> 32) + (low < 0 ? 1 : 0));
-  const std::int64_t sum = mul_add(rest, low, b);
-  rest = static_cast<std::uint32_t>(sum);
-  return mul_add(sum >> 32, high, b);
+#if ASTRO_ON_CORTEX_M7
+  if (!std::is_constant_evaluated()) {
+    std::int32_t p = 0, q = 0;
+    asm("smull %[p], %[q], %[low], %[b]\n\t"
+        "adds %[rest], %[rest], %[p]\n\t"
+        "asr %[p], %[q], #31\n\t"
+        "smlal %[q], %[p], %[high], %[b]\n\t"
+        "adcs %Q[sum], %Q[sum], %[q]\n\t"
+        "adc %R[sum], %R[sum], %[p]"
+        : [sum] "+&r"(sum), [rest] "+&r"(rest), [p] "=&r"(p), [q] "=&r"(q)
+        : [low] "r"(low), [high] "r"(high), [b] "r"(b)
+        : "cc");
+    return;
+  }
+#endif
+  const std::int64_t lower = mul_add(rest, low, b);
+  rest = static_cast<std::uint32_t>(lower);
+  sum += mul_add(lower >> 32, high, b);
 }
 
-/// round(a * b / 2^Shift) through 96 bits, ties upward. The result must fit 64 bits.
-///
-/// Cost    two 32x32 multiplies and a few adds; callable from the control tick.
-template <int Shift>
-constexpr std::int64_t mul_shift(std::int64_t a, std::int32_t b) {
-  static_assert(Shift >= 1 && Shift <= 32);
-  const std::int64_t low = std::int64_t{static_cast<std::uint32_t>(a)} * b + (std::int64_t{1} << (Shift - 1));
-  const std::int64_t high = (a >> 32) * b;
-  // In two's complement the shifted-out bits of `high` cannot matter once the result fits; nor can a wrap of
-  // the sum, so it is unsigned.
-  return static_cast<std::int64_t>((static_cast<std::uint64_t>(high) << (32 - Shift)) +
-                                   static_cast<std::uint64_t>(low >> Shift));
+/// (high, low) += step, in 96 bits of which `high` holds the highest 32, signed.
+constexpr void accumulate(std::int32_t& high, std::uint64_t& low, std::int64_t step) {
+#if ASTRO_ON_CORTEX_M7
+  if (!std::is_constant_evaluated()) {
+    asm("adds %Q[low], %Q[low], %Q[step]\n\t"
+        "adcs %R[low], %R[low], %R[step]\n\t"
+        "adc %[high], %[high], %R[step], asr #31"
+        : [low] "+&r"(low), [high] "+&r"(high)
+        : [step] "r"(step)
+        : "cc");
+    return;
+  }
+#endif
+  low += static_cast<std::uint64_t>(step);
+  high += (step < 0 ? -1 : 0) + (low < static_cast<std::uint64_t>(step) ? 1 : 0);
 }
 
 /// Largest r with r * r <= n.

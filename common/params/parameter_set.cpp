@@ -52,8 +52,8 @@ Result<void, Param> check_geometry(const ParameterSet& set) {
   const std::int64_t left_nm = count_travel_nm(set, Param::c_L);
   const auto [shortest_nm, longest_nm] = std::minmax(right_nm, left_nm);
   if (longest_nm >= kLongestCountNm || shortest_nm < kShortestCountNm) return Param::counts_per_motor_rev;
-  // Turn per count is travel / b radians and has to stay below 2 pi / 8.
-  if ((longest_nm + 1) * 4 * 113 >= std::int64_t{set.get(Param::b)} * 355) return Param::b;
+  // Turn per count is travel / b radians and has to stay below 2 pi / 16.
+  if ((longest_nm + 1) * 8 * 113 >= std::int64_t{set.get(Param::b)} * 355) return Param::b;
   return {};
 }
 

@@ -66,7 +66,8 @@ class ParameterSet {
 ///   counts_per_motor_rev   one count moves a wheel by 2^-3 m or more, or by less than 1 nm, so that it does
 ///   not
 ///                          fit the fixed point of the odometry
-///   b                      one count turns the robot by an eighth of a turn or more, so that heading aliases
+///   b                      one count turns the robot by a sixteenth of a turn or more, so that heading
+///   aliases
 /// The rows come first, in table order. Integers only; called when parameters change, not in the tick.
 Result<void, Param> validate(const ParameterSet& set);
 

@@ -44,17 +44,15 @@ Drive::Output Drive::advance(const TickInput& input) {
   now_us_ = input.now_us;
   const Wheels::Steps steps = wheels_.read(input);
   odometry_.advance(steps.left, steps.right);
-  supervisor_.advance(input, steps.plausible, !at_rest(), wheels_, faults_);
-  watch_over(input);
+  watch_over(input, supervisor_.advance(input, steps.plausible, !at_rest(), wheels_));
   return output(wish(), input);
 }
 
-void Drive::watch_over(const TickInput& input) {
+void Drive::watch_over(const TickInput& input, std::uint32_t found) {
+  if (found != 0) faults_.raise_all(found, input.now_us);
   if (faults_.any() && mode_ != Mode::fault && !fault_after_stop_) enter_fault();
-  const bool moving = mode_ == Mode::velocity || mode_ == Mode::segment;
-  if (!moving || command_timeout_us_ == 0) return;
-  const std::uint64_t last = mode_ == Mode::velocity ? last_velocity_us_ : last_host_us_;
-  if (input.now_us - last <= command_timeout_us_) return;
+  if (mode_ != Mode::velocity && mode_ != Mode::segment) return;
+  if (input.now_us <= (mode_ == Mode::velocity ? velocity_deadline_us_ : host_deadline_us_)) return;
   // Nobody steers any more: ramp to rest, then off.
   faults_.raise(mode_ == Mode::velocity ? Fault::command_timeout : Fault::link_lost, input.now_us);
   stop();
@@ -94,7 +92,7 @@ bool Drive::drive_velocity(const BodyTwist& twist) {
   }
   mode_ = Mode::velocity;
   target_ = within(twist, limits_);
-  last_velocity_us_ = now_us_;
+  velocity_deadline_us_ = deadline_us();
   return true;
 }
 

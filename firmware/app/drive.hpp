@@ -51,7 +51,7 @@ class Drive {
   void clear_faults();
 
   /// A good frame from a host: it is alive.
-  void host_seen() { last_host_us_ = now_us_; }
+  void host_seen() { host_deadline_us_ = deadline_us(); }
 
   bool armed() const { return mode_ != Mode::disarmed && mode_ != Mode::fault; }
   bool at_rest() const { return mode_ == Mode::disarmed || mode_ == Mode::idle || mode_ == Mode::fault; }
@@ -64,6 +64,8 @@ class Drive {
   std::uint16_t running_tag() const { return mode_ == Mode::segment ? running_.tag : std::uint16_t{0}; }
   std::size_t queued() const { return queue_.size(); }
   SegmentEvents& events() { return events_; }
+  /// True once after the supervisor has looked at a tick.
+  bool take_supervised() { return supervisor_.take_watched(); }
 
  private:
   struct Wish {
@@ -71,10 +73,13 @@ class Drive {
     BodyTwist acceleration;
   };
 
-  void watch_over(const TickInput& input);
+  void watch_over(const TickInput& input, std::uint32_t found);
   void enter_fault();
   void end_segments(protocol::SegmentOutcome running, protocol::SegmentOutcome queued);
   bool standing() const;
+  std::uint64_t deadline_us() const {
+    return command_timeout_us_ != 0 ? now_us_ + command_timeout_us_ : ~std::uint64_t{0};
+  }
   Wish wish();
   Wish slewed(const BodyTwist& target);
   Wish follow();
@@ -102,8 +107,8 @@ class Drive {
   BodyTwist target_;
   Slew v_, omega_;
   std::uint64_t now_us_ = 0;
-  std::uint64_t last_host_us_ = 0;
-  std::uint64_t last_velocity_us_ = 0;
+  std::uint64_t host_deadline_us_ = 0;  // nobody steers after it
+  std::uint64_t velocity_deadline_us_ = 0;
 };
 
 }  // namespace astro

@@ -9,6 +9,7 @@
 #include "common/protocol/codec.hpp"
 #include "common/protocol/framer.hpp"
 #include "common/protocol/messages.hpp"
+#include "firmware/app/check_in.hpp"
 #include "firmware/app/drive.hpp"
 #include "firmware/app/parameter_desk.hpp"
 #include "firmware/app/session.hpp"
@@ -44,13 +45,17 @@ class Robot {
     if (ticks_.advance(input.now_us) && !drive_.at_rest()) drive_.raise(Fault::tick_overrun);
     apply(drive_.advance(input));
     battery_mv_ = input.battery_mv;
+    if (drive_.take_supervised()) check_in_.here(CheckIn::Task::supervisor);
+    check_in_.here(CheckIn::Task::tick);
   }
 
   void poll() {
     for (int port = 0; port < kPorts; ++port) receive(port);
     report_events();
     for (int port = 0; port < kPorts; ++port) stream(port);
+    if (board_.system().host_wants_bootloader() && !drive_.armed()) reset_soon(Reset::bootloader);
     if (reset_wanted_ != Reset::none && board_.clock().now_us() >= reset_due_us_) reset();
+    feed_watchdog();
   }
 
   const Drive& drive() const { return drive_; }
@@ -82,6 +87,12 @@ class Robot {
 
   protocol::ResetCause reset_cause() {
     return static_cast<protocol::ResetCause>(board_.system().reset_cause());  // the same values in both
+  }
+
+  void feed_watchdog() {
+    auto hold = board_.hold_tick();
+    check_in_.here(CheckIn::Task::link);
+    if (check_in_.complete()) board_.system().feed_watchdog();
   }
 
   // ---- from hosts
@@ -383,6 +394,7 @@ class Robot {
   ParameterDesk<Flash> desk_;
   Drive drive_;
   TickClock ticks_;
+  CheckIn check_in_;
   std::array<Session, kPorts> sessions_{};
   std::int32_t battery_mv_ = 0;
   std::uint32_t reported_faults_ = 0;

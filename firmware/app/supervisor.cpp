@@ -1,5 +1,7 @@
 #include "firmware/app/supervisor.hpp"
 
+#include "common/fixed/saturate.hpp"
+
 namespace astro {
 namespace {
 
@@ -10,13 +12,12 @@ constexpr std::uint32_t kStall_ticks = 1000;
 constexpr std::int32_t kStallDuty = 32767 / 3;
 constexpr std::int32_t kStallSpeed_umps = 2'000;
 
-constexpr bool exceeds(std::int32_t value, std::int32_t limit) { return value > limit || value < -limit; }
-
 }  // namespace
 
 void Supervisor::configure(const ParameterSet& set) {
   battery_low_mv_ = set.get(Param::battery_low);
-  battery_high_mv_ = set.get(Param::battery_high);
+  const std::int32_t high_mv = set.get(Param::battery_high);
+  battery_high_mv_ = high_mv != 0 ? high_mv : INT32_MAX;
   over_speed_umps_ = set.get(Param::over_speed);
 }
 
@@ -25,32 +26,34 @@ void Supervisor::reset() {
     watch->reset();
 }
 
-void Supervisor::advance(const TickInput& input, bool plausible, bool powered, const Wheels& wheels,
-                         FaultLatch& faults) {
-  const auto raise_if = [&](bool condition, Fault fault) {
-    if (condition) faults.raise(fault, input.now_us);
-  };
-  const WheelSpeeds speeds = wheels.speeds();
-  const hal::Duty duty = wheels.forward_duty();
-  raise_if(!plausible, Fault::encoder);
-  raise_if(powered && input.driver_fault, Fault::driver);
-  raise_if(under_voltage_.advance(powered && input.battery_mv < battery_low_mv_, kUnderVoltage_ticks),
-           Fault::under_voltage);
-  raise_if(
-      over_voltage_.advance(battery_high_mv_ != 0 && input.battery_mv > battery_high_mv_, kOverVoltage_ticks),
-      Fault::over_voltage);
-  raise_if(over_speed_.advance(
+std::uint32_t Supervisor::advance(const TickInput& input, bool plausible, bool powered,
+                                  const Wheels& wheels) {
+  std::uint32_t found = plausible ? 0 : bit(Fault::encoder);
+  const auto found_if = [&](bool condition, Fault fault) { found |= condition ? bit(fault) : 0; };
+  const WheelSpeeds& speeds = wheels.speeds();
+  found_if(over_voltage_.advance(input.battery_mv > battery_high_mv_, kOverVoltage_ticks),
+           Fault::over_voltage);
+  found_if(over_speed_.advance(
                exceeds(speeds.left_umps, over_speed_umps_) || exceeds(speeds.right_umps, over_speed_umps_),
                kOverSpeed_ticks),
            Fault::over_speed);
-  raise_if(left_stall_.advance(
-               powered && exceeds(duty.left, kStallDuty) && !exceeds(speeds.left_umps, kStallSpeed_umps),
-               kStall_ticks),
-           Fault::stall);
-  raise_if(right_stall_.advance(
-               powered && exceeds(duty.right, kStallDuty) && !exceeds(speeds.right_umps, kStallSpeed_umps),
-               kStall_ticks),
-           Fault::stall);
+  watched_ = true;
+  if (!powered) {
+    under_voltage_.reset();
+    left_stall_.reset();
+    right_stall_.reset();
+    return found;
+  }
+  const hal::Duty& duty = wheels.forward_duty();
+  const auto stands = [](std::int16_t drive, std::int32_t speed_umps) {
+    return exceeds(drive, kStallDuty) && !exceeds(speed_umps, kStallSpeed_umps);
+  };
+  found_if(input.driver_fault, Fault::driver);
+  found_if(under_voltage_.advance(input.battery_mv < battery_low_mv_, kUnderVoltage_ticks),
+           Fault::under_voltage);
+  found_if(left_stall_.advance(stands(duty.left, speeds.left_umps), kStall_ticks), Fault::stall);
+  found_if(right_stall_.advance(stands(duty.right, speeds.right_umps), kStall_ticks), Fault::stall);
+  return found;
 }
 
 }  // namespace astro

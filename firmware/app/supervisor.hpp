@@ -1,9 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 
 #include "common/params/parameter_set.hpp"
-#include "common/safety/fault_latch.hpp"
+#include "common/safety/fault.hpp"
 #include "common/safety/watch.hpp"
 #include "firmware/app/wheels.hpp"
 
@@ -20,13 +21,16 @@ namespace astro {
 class Supervisor {
  public:
   void configure(const ParameterSet& set);
-  /// Raises what it finds; `powered`: the bridges are driving.
-  void advance(const TickInput& input, bool plausible, bool powered, const Wheels& wheels,
-               FaultLatch& faults);
+  /// The faults of this tick, as a mask of their bits. `plausible`: what the encoders showed can be;
+  /// `powered`: the bridges are driving.
+  std::uint32_t advance(const TickInput& input, bool plausible, bool powered, const Wheels& wheels);
   void reset();
+  /// True once after advance() came to its end.
+  bool take_watched() { return std::exchange(watched_, false); }
 
  private:
   std::int32_t battery_low_mv_ = 0, battery_high_mv_ = 0, over_speed_umps_ = 0;
+  bool watched_ = false;
   Watch under_voltage_, over_voltage_, over_speed_, left_stall_, right_stall_;
 };
 

@@ -1,5 +1,8 @@
 #include "firmware/app/wheels.hpp"
 
+#include <algorithm>
+
+#include "common/fixed/multiply.hpp"
 #include "common/fixed/saturate.hpp"
 #include "common/fixed/wide.hpp"
 
@@ -7,9 +10,10 @@ namespace astro {
 namespace {
 
 constexpr std::int32_t kFullDuty = 32767;
+constexpr std::int32_t kLeastSupply_mv = 1000;  // below it the reading is no supply to divide by
 
 std::int32_t speed_umps(const Geometry::Wheel& wheel, const SpeedObserver& observer) {
-  return saturate32(mul_shift<32>(wheel.speed, observer.speed()));
+  return saturate32(mul_high(wheel.speed, observer.speed()));
 }
 
 std::int32_t wrapping_difference(std::int32_t a, std::int32_t b) {
@@ -20,13 +24,13 @@ std::int32_t wrapping_sum(std::int32_t a, std::int32_t b) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
 }
 
-// One tick may not turn the robot by more than an eighth of a turn per wheel (the domain of the odometry),
+// One tick may not turn the robot by more than a sixteenth of a turn per wheel (the domain of the odometry),
 // nor be more than the speed observer takes. Both are hundreds of times what a motor does.
 std::int32_t most_counts(const Geometry& geometry) {
-  constexpr std::int64_t kEighthTurn = std::int64_t{1} << 61;
+  constexpr std::int64_t kSixteenthTurn = std::int64_t{1} << 60;
   const std::int64_t turn =
       geometry.left.turn > geometry.right.turn ? geometry.left.turn : geometry.right.turn;
-  const std::int64_t counts = kEighthTurn / turn;
+  const std::int64_t counts = kSixteenthTurn / turn;
   return counts < 1000 ? static_cast<std::int32_t>(counts) : 1000;
 }
 
@@ -35,7 +39,7 @@ std::int32_t most_counts(const Geometry& geometry) {
 void Wheels::configure(const ParameterSet& set, const Geometry& geometry) {
   geometry_ = geometry;
   most_counts_ = most_counts(geometry);
-  voltage_limit_mv_ = set.get(Param::motor_voltage_max);
+  voltage_limit_uv_ = 1000 * set.get(Param::motor_voltage_max);
   left_.motor_sign = set.get(Param::motor_polarity_left);
   right_.motor_sign = set.get(Param::motor_polarity_right);
   left_.encoder_sign = set.get(Param::encoder_polarity_left);
@@ -59,9 +63,7 @@ Wheels::Steps Wheels::read(const TickInput& input) {
     started_ = true;
   }
   Steps steps{step(left_, input.counts.left), step(right_, input.counts.right), true};
-  if (steps.left > most_counts_ || steps.left < -most_counts_ || steps.right > most_counts_ ||
-      steps.right < -most_counts_)
-    steps = {0, 0, false};
+  if (exceeds(steps.left, most_counts_) || exceeds(steps.right, most_counts_)) steps = {0, 0, false};
   left_counts_ = wrapping_sum(left_counts_, steps.left);
   right_counts_ = wrapping_sum(right_counts_, steps.right);
   left_.observer.advance(steps.left);
@@ -70,23 +72,27 @@ Wheels::Steps Wheels::read(const TickInput& input) {
   return steps;
 }
 
-std::int16_t Wheels::to_duty(std::int32_t voltage_uv, std::int32_t battery_mv) {
-  const std::int32_t duty_per_volt = (kFullDuty * 1000 + battery_mv / 2) / battery_mv;
-  // One millionth is 4295 / 2^32; the two shifts keep 64 bits from overflowing.
-  const std::int64_t duty = ((std::int64_t{voltage_uv} * duty_per_volt >> 8) * 4295 + (1 << 23)) >> 24;
-  return static_cast<std::int16_t>(clamp_abs<std::int64_t>(duty, kFullDuty));
+hal::Duty Wheels::to_duty(std::int32_t left_uv, std::int32_t right_uv, std::int32_t supply_mv) {
+  // Full duty over the supply, 2^-16 per mV; one millivolt is 1000 uV, and 2^-32 * 4294967 is one thousandth.
+  const auto per_mv_16 = static_cast<std::int32_t>((static_cast<std::uint32_t>(kFullDuty) << 16) /
+                                                   static_cast<std::uint32_t>(supply_mv));
+  const auto duty = [&](std::int32_t voltage_uv) {
+    const auto thousand_duty = static_cast<std::int32_t>(mul_wide(voltage_uv, per_mv_16) >> 16);
+    return static_cast<std::int16_t>(mul_high(thousand_duty, 4'294'967));
+  };
+  return {duty(left_uv), duty(right_uv)};
 }
 
 hal::Duty Wheels::control(const WheelSpeeds& set_points, const WheelSpeeds& accelerations,
                           std::int32_t battery_mv) {
-  const std::int32_t supply_mv = battery_mv > 1000 ? battery_mv : 1000;
-  const std::int32_t limit_uv = 1000 * (voltage_limit_mv_ < supply_mv ? voltage_limit_mv_ : supply_mv);
+  const std::int32_t supply_mv = battery_mv > kLeastSupply_mv ? battery_mv : kLeastSupply_mv;
+  const std::int32_t limit_uv = std::min(1000 * supply_mv, voltage_limit_uv_);
   set_points_ = set_points;
   const std::int32_t left_uv =
       left_.controller.advance(set_points.left_umps, accelerations.left_umps, speeds_.left_umps, limit_uv);
   const std::int32_t right_uv = right_.controller.advance(set_points.right_umps, accelerations.right_umps,
                                                           speeds_.right_umps, limit_uv);
-  forward_duty_ = {to_duty(left_uv, supply_mv), to_duty(right_uv, supply_mv)};
+  forward_duty_ = to_duty(left_uv, right_uv, supply_mv);
   return {static_cast<std::int16_t>(forward_duty_.left * left_.motor_sign),
           static_cast<std::int16_t>(forward_duty_.right * right_.motor_sign)};
 }

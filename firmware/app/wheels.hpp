@@ -27,9 +27,9 @@ class Wheels {
   /// No set point: the integrals are forgotten.
   void release();
 
-  WheelSpeeds speeds() const { return speeds_; }
-  WheelSpeeds set_points() const { return set_points_; }
-  hal::Duty forward_duty() const { return forward_duty_; }  // forward positive, whatever the wiring
+  const WheelSpeeds& speeds() const { return speeds_; }
+  const WheelSpeeds& set_points() const { return set_points_; }
+  const hal::Duty& forward_duty() const { return forward_duty_; }  // forward positive, whatever the wiring
   std::int32_t left_counts() const { return left_counts_; }
   std::int32_t right_counts() const { return right_counts_; }
 
@@ -43,11 +43,12 @@ class Wheels {
   };
 
   std::int32_t step(Side& side, std::int32_t counts) const;
-  static std::int16_t to_duty(std::int32_t voltage_uv, std::int32_t battery_mv);
+  /// The voltages are within the supply.
+  static hal::Duty to_duty(std::int32_t left_uv, std::int32_t right_uv, std::int32_t supply_mv);
 
   Side left_, right_;
   Geometry geometry_;
-  std::int32_t voltage_limit_mv_ = 0;
+  std::int32_t voltage_limit_uv_ = 0;
   std::int32_t most_counts_ = 0;
   bool started_ = false;
   std::int32_t left_counts_ = 0, right_counts_ = 0;

@@ -116,7 +116,10 @@ concept Flash = requires(T& flash, std::uint32_t at, std::span<std::uint8_t> int
 ///   reset_cause()      why this start happened
 ///   reboot()           coasts, then restarts; on hardware does not return
 ///   enter_bootloader() coasts, then waits for new firmware; on hardware does not return. False: not
-///   supported. feed_watchdog()    called by the supervisor only when every task has checked in
+///                      supported
+///   host_wants_bootloader()  true once after a host asked for new firmware past the protocol, by the means
+///                      that this kind of board has for it (a Teensy: 134 baud); granted only when disarmed
+///   feed_watchdog()    called only when every task has checked in
 template <class T>
 concept System = requires(T& system) {
   { system.unique_id() }
@@ -128,6 +131,8 @@ concept System = requires(T& system) {
   { system.reboot() }
   noexcept->std::same_as<void>;
   { system.enter_bootloader() }
+  noexcept->std::same_as<bool>;
+  { system.host_wants_bootloader() }
   noexcept->std::same_as<bool>;
   { system.feed_watchdog() }
   noexcept->std::same_as<void>;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <string_view>
+#include <utility>
 
 #include "hal/interface/board.hpp"
 #include "hal/mock/flash.hpp"
@@ -36,6 +37,7 @@ struct System {
   std::array<std::uint8_t, 16> id{0x4D, 0x4F, 0x43, 0x4B};
   hal::ResetCause cause = hal::ResetCause::power_on;
   bool has_bootloader = true;
+  bool bootloader_wanted = false;  // set to what a host asks for past the protocol
   int reboots = 0, bootloader_entries = 0, watchdog_feeds = 0;  // calls so far
 
   std::array<std::uint8_t, 16> unique_id() noexcept { return id; }
@@ -51,6 +53,7 @@ struct System {
     ++bootloader_entries;
     return true;
   }
+  bool host_wants_bootloader() noexcept { return std::exchange(bootloader_wanted, false); }
   void feed_watchdog() noexcept { ++watchdog_feeds; }
 };
 

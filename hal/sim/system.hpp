@@ -43,6 +43,7 @@ class System {
     bootloader_requested_ = true;
     return true;
   }
+  bool host_wants_bootloader() noexcept { return false; }  // there is no way but the protocol
   void feed_watchdog() noexcept { fed_us_ = clock_.now_us(); }
 
   /// True once for each request.

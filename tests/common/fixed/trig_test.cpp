@@ -17,7 +17,9 @@ constexpr long double kBound = 0x1p-35L;  // what trig.hpp promises
 
 SinCos at(std::uint64_t raw) { return sin_cos(Angle::from_raw(raw)); }
 
-long double value(std::int64_t fixed) { return std::ldexp(static_cast<long double>(fixed), -SinCos::kFractionBits); }
+long double value(std::int64_t fixed) {
+  return std::ldexp(static_cast<long double>(fixed), -SinCos::kFractionBits);
+}
 
 // x87 long double has 64 bits of mantissa: the reference is good to about 2^-63, and taking the angle as a
 // signed number keeps it small.

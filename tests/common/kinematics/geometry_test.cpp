@@ -57,13 +57,13 @@ TEST(Geometry, LeavesRoomForTheCountsOfATick) {
   tests::Seeded random(2);
   for (int i = 0; i < 20'000; ++i) {
     const Geometry got = make_geometry(tests::random_robot(random));
-    // The robot refuses counts of more than an eighth of a turn. So many of both wheels stay below 2^63,
+    // The robot refuses counts of more than a sixteenth of a turn. So many of both wheels stay below 2^63,
     // which is 4 m.
-    constexpr std::int64_t kEighthTurn = std::int64_t{1} << 61, kTwoMetres = std::int64_t{1} << 62;
+    constexpr std::int64_t kSixteenthTurn = std::int64_t{1} << 60, kTwoMetres = std::int64_t{1} << 62;
     for (const Geometry::Wheel& wheel : {got.left, got.right}) {
       ASSERT_GT(wheel.turn, 0);
       ASSERT_GT(wheel.half_travel, 0);
-      ASSERT_LT(wheel.half_travel, kTwoMetres / (kEighthTurn / wheel.turn + 1));
+      ASSERT_LT(wheel.half_travel, kTwoMetres / (kSixteenthTurn / wheel.turn + 1));
     }
   }
 }

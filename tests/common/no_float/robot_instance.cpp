@@ -38,6 +38,7 @@ struct Board {
     astro::hal::ResetCause reset_cause() noexcept { return astro::hal::ResetCause::power_on; }
     void reboot() noexcept {}
     bool enter_bootloader() noexcept { return false; }
+    bool host_wants_bootloader() noexcept { return false; }
     void feed_watchdog() noexcept {}
   };
   struct Hold {

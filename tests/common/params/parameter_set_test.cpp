@@ -154,15 +154,15 @@ TEST(Validation, RefusesTravelPerCountThatDrownsInTheResolution) {
   EXPECT_EQ(verdict(set), Param::counts_per_motor_rev);
 }
 
-TEST(Validation, RefusesAWheelbaseThatTurnsAnEighthPerCount) {
+TEST(Validation, RefusesAWheelbaseThatTurnsASixteenthPerCount) {
   ParameterSet set;
   set.set(Param::counts_per_motor_rev, 1);
   set.set(Param::gear_numerator, 1);
   set.set(Param::gear_denominator, 1);
   set.set(Param::wheel_diameter, 30'000'000);
-  set.set(Param::b, 120'001'000);  // 4 * travel = 4 pi D = pi * 0.12 m
+  set.set(Param::b, 240'001'000);  // 8 * travel = 8 pi D = pi * 0.24 m
   EXPECT_EQ(verdict(set), Param::none);
-  set.set(Param::b, 119'999'000);
+  set.set(Param::b, 239'999'000);
   EXPECT_EQ(verdict(set), Param::b);
 }
 
@@ -189,10 +189,10 @@ RC_GTEST_PROP(Validation, JudgesGeometryAsRealArithmeticDoes, ()) {
   const long double left = travel_m(set, Param::c_L);
   const long double longest = std::max(right, left);
   const long double turn = longest / (set.get(Param::b) * 1e-9L) / (2 * 3.14159265358979323846L);
-  RC_PRE(std::abs(longest / 0.125L - 1) > 1e-6L && std::abs(turn * 8 - 1) > 1e-6L &&
+  RC_PRE(std::abs(longest / 0.125L - 1) > 1e-6L && std::abs(turn * 16 - 1) > 1e-6L &&
          std::min(right, left) > 2e-9L);
   const Param expected = longest > 0.125L ? Param::counts_per_motor_rev
-                         : turn > 0.125L  ? Param::b
+                         : turn > 0.0625L ? Param::b
                                           : Param::none;
   RC_TAG(expected == Param::none ? "accepted" : "refused");
   RC_ASSERT(verdict(set) == expected);
