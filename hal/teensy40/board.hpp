@@ -38,19 +38,15 @@ class Board {
   System& system() { return system_; }
   TickHold hold_tick() { return {}; }
 
-  /// A host has set the USB port to 134 baud, which asks a Teensy for its boot loader. Whether this is the
-  /// moment, the firmware decides.
-  bool bootloader_requested() const noexcept { return usb_.bootloader_requested(); }
-
  private:
   Clock clock_;
   Motors motors_;
-  System system_;
   Encoders encoders_;
   Battery battery_;
   Flash flash_;
   Uart uart_;
   UsbSerial usb_;
+  System system_{usb_};
   Ports ports_{usb_, uart_};
   std::array<char, 32> serial_number_{};  // of USB, which reads it when a host asks
 };
