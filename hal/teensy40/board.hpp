@@ -41,12 +41,12 @@ class Board {
  private:
   Clock clock_;
   Motors motors_;
-  UsbSerial usb_;
-  System system_{usb_};
   Encoders encoders_;
   Battery battery_;
   Flash flash_;
   Uart uart_;
+  UsbSerial usb_;
+  System system_{usb_};
   Ports ports_{usb_, uart_};
   std::array<char, 32> serial_number_{};  // of USB, which reads it when a host asks
 };

@@ -46,18 +46,17 @@ void outputs_low() {
   apply(kLogicPins);
 }
 
-/// Edge-aligned: high from VAL2 (4) to VAL3 (5), so that VAL3 = 0 is never high, and VAL3 beyond VAL1, where
-/// the counter starts over, never low.
-void start_pwm() {
-  open_gate(CCM[ccm::CCGR4], ccm::CCGR4_CG9);
-  PWM2[pwm::OUTEN].write(0);
-  // No fault input may switch the outputs: after reset all four are mapped, active and tied to their level.
+/// No fault input may switch the outputs: after reset all four are mapped, active and tied to their level.
+void ignore_fault_inputs() {
   PWM2[pwm::FCTRL0].write(pwm::FCTRL0_FLVL(15));
   PWM2[pwm::FSTS0].write(pwm::FSTS0_FFLAG(15));
   PWM2[pwm::SM2_DISMAP0].write(0);
-  PWM2[pwm::MCTRL].write(pwm::MCTRL_CLDOK(kSubmodule));
-  // Without DBGEN the outputs fall when a debugger halts the core. MASK changes when a period ends.
-  constexpr std::uint32_t kForceAtReload = 2;
+}
+
+/// Two outputs of their own, no dead time, reload in every period. Without DBGEN they fall when a debugger
+/// halts the core.
+void configure_submodule() {
+  constexpr std::uint32_t kForceAtReload = 2;  // so that MASK, too, changes when a period ends
   PWM2[pwm::SM2_CTRL2].write(pwm::SM2_CTRL2_INDEP(1) | pwm::SM2_CTRL2_WAITEN(1) |
                              pwm::SM2_CTRL2_FORCE_SEL(kForceAtReload));
   PWM2[pwm::SM2_CTRL].write(pwm::SM2_CTRL_FULL(1));
@@ -65,6 +64,11 @@ void start_pwm() {
   PWM2[pwm::SM2_FRCTRL].write(0);
   PWM2[pwm::SM2_DTCNT0].write(0);
   PWM2[pwm::SM2_DTCNT1].write(0);
+}
+
+/// Edge-aligned: high from VAL2 (4) to VAL3 (5), so that VAL3 = 0 is never high, and VAL3 beyond VAL1, where
+/// the counter starts over, never low.
+void set_period() {
   PWM2[pwm::SM2_INIT].write(0);
   PWM2[pwm::SM2_VAL0].write(0);
   PWM2[pwm::SM2_VAL1].write(kPwmPeriod_counts - 1);
@@ -72,6 +76,15 @@ void start_pwm() {
   PWM2[pwm::SM2_VAL4].write(0);
   PWM2[pwm::SM2_VAL3].write(0);
   PWM2[pwm::SM2_VAL5].write(0);
+}
+
+void start_pwm() {
+  open_gate(CCM[ccm::CCGR4], ccm::CCGR4_CG9);
+  PWM2[pwm::OUTEN].write(0);
+  ignore_fault_inputs();
+  PWM2[pwm::MCTRL].write(pwm::MCTRL_CLDOK(kSubmodule));
+  configure_submodule();
+  set_period();
   PWM2[pwm::MCTRL].write(pwm::MCTRL_LDOK(kSubmodule));  // before it runs: it would run on what is there
   PWM2[pwm::MCTRL].write(pwm::MCTRL_LDOK(kSubmodule) | kRunning);
   PWM2[pwm::OUTEN].write(pwm::OUTEN_PWMA_EN(kSubmodule) | pwm::OUTEN_PWMB_EN(kSubmodule));

@@ -26,7 +26,8 @@ class Motors {
   void drive(hal::Duty duty) noexcept;
   void brake() noexcept;
 
-  /// Two stores. Any context, fault handlers too.
+  /// Two stores, the first of which opens the bridges. Any context, fault handlers too; before start()
+  /// FlexPWM may be without its clock, and a fault handler then clears the direction pins alone.
   static void coast() noexcept;
 
   /// The chip pulls its outputs LO1 and LO2 low: over-current, over-temperature, or a motor that is not

@@ -15,7 +15,7 @@ namespace astro::teensy40 {
 /// The processor itself.
 class System {
  public:
-  explicit System(const UsbSerial& usb) : usb_(usb) {}
+  explicit System(UsbSerial& usb) : usb_(usb) {}
 
   /// Reads the fuses and why the chip started, and forgets the latter in the chip, so that the next start
   /// tells of itself.
@@ -32,7 +32,7 @@ class System {
   /// False: the Teensy is locked to signed programs, whose loader is entered in another way.
   bool enter_bootloader() noexcept;
 
-  /// A host has set the USB port to 134 baud.
+  /// 134 baud on the USB port is how a Teensy is asked. Once for each time, however long the port says so.
   bool host_wants_bootloader() noexcept {
     const bool asked = usb_.bootloader_requested();
     return !std::exchange(asked_, asked) && asked;
@@ -41,7 +41,7 @@ class System {
   void feed_watchdog() noexcept { watchdog::feed(); }
 
  private:
-  const UsbSerial& usb_;
+  UsbSerial& usb_;
   bool asked_ = false;
   UniqueId id_{};
   hal::ResetCause cause_ = hal::ResetCause::unknown;
