@@ -7,7 +7,7 @@
 
 namespace astro::link {
 
-inline constexpr unsigned kDefaultBaud = 115200;
+inline constexpr unsigned kDefaultBaud = 1'000'000;
 
 /// Opens the way to a robot.
 ///

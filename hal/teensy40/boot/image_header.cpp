@@ -49,7 +49,9 @@ struct VectorTable {
 
 }  // namespace
 
-extern "C" const std::uint8_t image_start, image_length;
+extern "C" {
+
+extern const std::uint8_t image_start, image_length;
 
 [[gnu::section(".flash_configuration")]] extern const FlashConfiguration flash_configuration;
 [[gnu::used]] const FlashConfiguration flash_configuration{};
@@ -61,5 +63,7 @@ extern "C" const std::uint8_t image_start, image_length;
 /// The header word is the one that those boot loaders look for.
 [[gnu::section(".image_vector_table")]] extern const VectorTable image_vector_table;
 [[gnu::used]] const VectorTable image_vector_table{0x4320'00D1, reset, 0, 0, &boot_data, &image_vector_table, 0, 0};
+
+}  // extern "C"
 
 }  // namespace astro::teensy40
