@@ -4,8 +4,8 @@
 
 namespace astro {
 
-/// Who must show signs of life before the watchdog is fed. One that hangs keeps it hungry, whatever the others
-/// do.
+/// Who must show signs of life before the watchdog is fed. One that hangs keeps it hungry, whatever the
+/// others do.
 class CheckIn {
  public:
   enum class Task : std::uint8_t { tick = 1, supervisor = 2, link = 4 };

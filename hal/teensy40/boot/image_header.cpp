@@ -19,8 +19,8 @@ struct FlashConfiguration {
   std::array<std::uint32_t, 2> reserved_48{};
   std::uint32_t size_bytes = 0x0020'0000;
   std::array<std::uint32_t, 11> reserved_54{};
-  // Read 0xEB: address and mode 0xFF on four lines, so that the flash never stays in continuous read and a warm
-  // reset finds it listening; 4 clocks; data on four lines.
+  // Read 0xEB: address and mode 0xFF on four lines, so that the flash never stays in continuous read and a
+  // warm reset finds it listening; 4 clocks; data on four lines.
   std::array<std::uint32_t, 3> read_sequence{0x0A18'04EB, 0x3204'1EFF, 0x0000'2601};
   std::array<std::uint32_t, 77> reserved_8c{};
   std::uint32_t page_bytes = 256;
@@ -62,7 +62,8 @@ extern const std::uint8_t image_start, image_length;
 
 /// The header word is the one that those boot loaders look for.
 [[gnu::section(".image_vector_table")]] extern const VectorTable image_vector_table;
-[[gnu::used]] const VectorTable image_vector_table{0x4320'00D1, reset, 0, 0, &boot_data, &image_vector_table, 0, 0};
+[[gnu::used]] const VectorTable image_vector_table{0x4320'00D1,         reset, 0, 0, &boot_data,
+                                                   &image_vector_table, 0,     0};
 
 }  // extern "C"
 

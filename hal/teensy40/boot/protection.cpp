@@ -24,20 +24,20 @@ struct Region {
 
 /// A later one wins where two overlap.
 constexpr std::array<Region, 8> kRegions{{
-    {0x0000'0000, 32, kNoAccess | kNoCode},               // what is not named below, also for speculation
-    {0x0000'0000, 17, kReadOnly | kNoCache},              // ITCM: code and constants
-    {0x0000'0000, 5, kNoAccess | kNoCode},                // null
-    {0x0020'0000, 17, kReadOnly | kWriteThrough},         // boot ROM
-    {0x2000'0000, 19, kAll | kNoCache | kNoCode},         // DTCM; below it lies nothing, and the stack ends there
-    {0x2020'0000, 19, kAll | kWriteBack | kNoCode},       // OCRAM
-    {0x4000'0000, 26, kAll | kDevice | kNoCode},          // peripherals
-    {0x6000'0000, 21, kReadOnly | kWriteBack},            // flash
+    {0x0000'0000, 32, kNoAccess | kNoCode},          // what is not named below, also for speculation
+    {0x0000'0000, 17, kReadOnly | kNoCache},         // ITCM: code and constants
+    {0x0000'0000, 5, kNoAccess | kNoCode},           // null
+    {0x0020'0000, 17, kReadOnly | kWriteThrough},    // boot ROM
+    {0x2000'0000, 19, kAll | kNoCache | kNoCode},    // DTCM; below it lies nothing, and the stack ends there
+    {0x2020'0000, 19, kAll | kWriteBack | kNoCode},  // OCRAM
+    {0x4000'0000, 26, kAll | kDevice | kNoCode},     // peripherals
+    {0x6000'0000, 21, kReadOnly | kWriteBack},       // flash
 }};
 
 void set(std::uint32_t number, const Region& region) {
   MPU[mpu::RBAR].write(region.base | mpu::RBAR_REGION(number) | mpu::RBAR_VALID(1));
-  MPU[mpu::RASR].write(region.attributes |
-                       mpu::RASR_SIZE(static_cast<std::uint32_t>(region.size_log2) - 1) | mpu::RASR_ENABLE(1));
+  MPU[mpu::RASR].write(region.attributes | mpu::RASR_SIZE(static_cast<std::uint32_t>(region.size_log2) - 1) |
+                       mpu::RASR_ENABLE(1));
 }
 
 }  // namespace

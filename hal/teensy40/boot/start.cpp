@@ -7,8 +7,8 @@
 #include "hal/teensy40/cpu.hpp"
 #include "hal/teensy40/pins.hpp"
 
-// What stays in the flash and runs there, before RAM holds the rest. No constant of it may lie elsewhere, and the
-// compiler must not turn a loop of it into a call of memcpy, which is not there yet.
+// What stays in the flash and runs there, before RAM holds the rest. No constant of it may lie elsewhere, and
+// the compiler must not turn a loop of it into a call of memcpy, which is not there yet.
 #define IN_FLASH [[gnu::section(".boot"), gnu::noinline, gnu::optimize("no-tree-loop-distribute-patterns")]]
 
 extern "C" {
@@ -42,18 +42,21 @@ namespace {
   IOMUXC_GPR[iomuxc_gpr::GPR27].write(~0U);  // GPIO2's pins to its fast copy
   GPIO7[gpio::DR_CLEAR].write(kOutputs);
   GPIO7[gpio::GDIR].modify(0, kOutputs);
+  CCM[ccm::CCGR4].modify(0, ccm::CCGR4_CG9(3));  // so that a fault may silence FlexPWM2 at any time
 }
 
 /// WDOG3 bites 32 ms after a reset unless the ROM has stopped it; the other two pull a pin after 16 s.
 [[gnu::always_inline]] inline void stop_watchdogs() {
   RTWDOG[rtwdog::CNT].write(0xD928'C520);
+  for (int reads = 0; reads < 1000 && RTWDOG[rtwdog::CS].get(rtwdog::CS_ULK) == 0;) ++reads;
   RTWDOG[rtwdog::TOVAL].write(0xFFFF);
   RTWDOG[rtwdog::CS].write(rtwdog::CS_UPDATE(1) | rtwdog::CS_CLK(1) | rtwdog::CS_CMD32EN(1));
   WDOG1[wdog::WMCR].write(0);
   WDOG2[wdog::WMCR].write(0);
 }
 
-[[gnu::always_inline]] inline void copy(std::uint32_t* to, const std::uint32_t* end, const std::uint32_t* from) {
+[[gnu::always_inline]] inline void copy(std::uint32_t* to, const std::uint32_t* end,
+                                        const std::uint32_t* from) {
   while (to < end) *to++ = *from++;
 }
 
@@ -73,8 +76,8 @@ extern "C" IN_FLASH void start_from_flash() {
   run();
 }
 
-/// 4 banks of 32 KB for code, 12 for data; no stack and no data before that is done. GPR16's upper bits are where
-/// the core finds its vectors after a reset: they stay with the ROM.
+/// 4 banks of 32 KB for code, 12 for data; no stack and no data before that is done. GPR16's upper bits are
+/// where the core finds its vectors after a reset: they stay with the ROM.
 extern "C" [[gnu::naked, gnu::section(".boot")]] void reset() {
   asm volatile(
       "cpsid i\n"

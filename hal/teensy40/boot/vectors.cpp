@@ -58,7 +58,8 @@ void start() {
   table[0] = reinterpret_cast<std::uintptr_t>(&stack_top);
   table[1] = reinterpret_cast<std::uintptr_t>(reset);
   SCB[scb::VTOR].write(static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(table.data())));
-  SCB[scb::SHCSR].modify(0, scb::SHCSR_MEMFAULTENA(1) | scb::SHCSR_BUSFAULTENA(1) | scb::SHCSR_USGFAULTENA(1));
+  SCB[scb::SHCSR].modify(0,
+                         scb::SHCSR_MEMFAULTENA(1) | scb::SHCSR_BUSFAULTENA(1) | scb::SHCSR_USGFAULTENA(1));
   cpu::synchronize();
   asm volatile("cpsie i" ::: "memory");
 }

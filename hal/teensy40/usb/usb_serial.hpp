@@ -13,4 +13,4 @@ class UsbSerial {
   std::size_t room() const noexcept { return 0; }
   bool bootloader_requested() const noexcept { return false; }
 };
-}
+}  // namespace astro::teensy40
