@@ -1,3 +1,4 @@
+include_guard(GLOBAL)
 # The images for the Teensy, built beside this build by their own compiler: target teensy40_images.
 # astro_uses_images(target): builds them first and tells the program where they are (ASTRO_IMAGE_DIR).
 set(ASTRO_IMAGE_FOLDER ${CMAKE_SOURCE_DIR}/build/teensy40)

@@ -31,7 +31,8 @@ std::string output_of(const std::string& command) {
   if (pipe == nullptr) throw std::runtime_error("cannot run " + command);
   std::string text;
   std::array<char, 65536> block{};
-  while (const std::size_t count = fread(block.data(), 1, block.size(), pipe)) text.append(block.data(), count);
+  while (const std::size_t count = fread(block.data(), 1, block.size(), pipe))
+    text.append(block.data(), count);
   if (pclose(pipe) != 0) throw std::runtime_error("failed: " + command);
   return text;
 }
@@ -69,12 +70,12 @@ std::uint32_t Function::frame_bytes() const {
   std::uint32_t bytes = 0;
   std::smatch match;
   for (const Instruction& i : instructions) {
-    const bool pushes = i.mnemonic.starts_with("push") ||
-                        (i.mnemonic.starts_with("stmdb") && i.operands.starts_with("sp!"));
+    const bool pushes =
+        i.mnemonic.starts_with("push") || (i.mnemonic.starts_with("stmdb") && i.operands.starts_with("sp!"));
     if (pushes && std::regex_search(i.operands, match, push)) bytes += 4 * registers_in(match[1]);
     const bool subtracts = i.mnemonic.starts_with("sub") && i.operands.starts_with("sp,");
-    const bool stores_below = i.mnemonic.starts_with("str") && i.operands.find("[sp, #-") != std::string::npos &&
-                              i.operands.ends_with("]!");
+    const bool stores_below = i.mnemonic.starts_with("str") &&
+                              i.operands.find("[sp, #-") != std::string::npos && i.operands.ends_with("]!");
     if (subtracts && std::regex_search(i.operands, match, immediate))
       bytes += static_cast<std::uint32_t>(std::stoul(match[1]));
     if (stores_below) bytes += i.mnemonic.starts_with("strd") ? 8 : 4;
@@ -95,7 +96,8 @@ std::set<std::string> Function::callees(const std::string& self) const {
     names.insert(name);
   }
   // What the linker puts in where a branch does not reach; called __TARGET_veneer.
-  if (self.ends_with("_veneer")) names.insert(self.substr(2, self.size() - 2 - std::string("_veneer").size()));
+  if (self.ends_with("_veneer"))
+    names.insert(self.substr(2, self.size() - 2 - std::string("_veneer").size()));
   return names;
 }
 

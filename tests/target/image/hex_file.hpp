@@ -15,7 +15,9 @@ inline std::map<std::uint32_t, std::uint8_t> read_hex(const std::string& path) {
   std::map<std::uint32_t, std::uint8_t> bytes;
   std::uint32_t upper = 0;
   for (std::string line; std::getline(file, line);) {
-    const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(std::stoul(line.substr(1 + 2 * i, 2), nullptr, 16)); };
+    const auto byte = [&](std::size_t i) {
+      return static_cast<std::uint8_t>(std::stoul(line.substr(1 + 2 * i, 2), nullptr, 16));
+    };
     const std::uint32_t count = byte(0), address = byte(1) << 8U | byte(2), kind = byte(3);
     if (kind == 4) upper = static_cast<std::uint32_t>(byte(4) << 8U | byte(5)) << 16U;
     for (std::uint32_t i = 0; kind == 0 && i < count; ++i) bytes[upper + address + i] = byte(4 + i);

@@ -25,7 +25,8 @@ std::set<std::string> unwanted(const std::set<std::string>& names) {
   static const std::regex pattern(
       "__aeabi_(c?[fd](add|sub|rsub|mul|div|neg|cmp.*|2.*)|.*2[fdh])|__(add|sub|mul|div)[sd]f3|"
       "(sin|cos|tan|asin|acos|atan|atan2|sqrt|pow|exp|log|floor|ceil|round|fmod|fabs)f?|"
-      "_?malloc(_r)?|_?calloc(_r)?|_?realloc(_r)?|_?free(_r)?|_sbrk(_r)?|_Zn[wa].*|_Zd[la].*|__cxa_(throw|allocate).*|"
+      "_?malloc(_r)?|_?calloc(_r)?|_?realloc(_r)?|_?free(_r)?|_sbrk(_r)?|_Zn[wa].*|_Zd[la].*|__cxa_(throw|"
+      "allocate).*|"
       "printf.*|_printf.*|abort|raise|_kill|_write");
   std::set<std::string> found;
   for (const std::string& name : names)
@@ -33,7 +34,9 @@ std::set<std::string> unwanted(const std::set<std::string>& names) {
   return found;
 }
 
-TEST(Image, HasNoFloatInstruction) { EXPECT_EQ(with_fpu(disassemble(image("elf"))), std::set<std::string>{}); }
+TEST(Image, HasNoFloatInstruction) {
+  EXPECT_EQ(with_fpu(disassemble(image("elf"))), std::set<std::string>{});
+}
 
 TEST(Image, HasNoSoftFloatNoMathLibraryAndNoHeap) {
   EXPECT_EQ(unwanted(symbols(image("elf"))), std::set<std::string>{});
@@ -46,21 +49,23 @@ class Control : public testing::Test {
     const std::filesystem::path folder = testing::TempDir();
     const std::string path = folder / "control.cpp", out = folder / "control.o";
     std::ofstream(path) << source;
-    output_of("arm-none-eabi-g++ -mcpu=cortex-m7 -mthumb -O2 -c " + flags + " -o '" + out + "' '" + path + "'");
+    output_of("arm-none-eabi-g++ -mcpu=cortex-m7 -mthumb -O2 -c " + flags + " -o '" + out + "' '" + path +
+              "'");
     return out;
   }
 };
 
 TEST_F(Control, AFloatProductIsFoundAsAnInstruction) {
-  const auto found =
-      with_fpu(disassemble(object("float f(float a) { return a * 1.5f; }", "-mfloat-abi=hard -mfpu=fpv5-d16")));
+  const auto found = with_fpu(
+      disassemble(object("float f(float a) { return a * 1.5f; }", "-mfloat-abi=hard -mfpu=fpv5-d16")));
   EXPECT_FALSE(found.empty());
 }
 
 TEST_F(Control, AFloatProductAndAHeapAreFoundAsSymbols) {
-  const auto found = unwanted(symbols(object("double f(double a) { return a * 1.5; } float g(int a) { return a; }"
-                                             "int* h() { return new int; }",
-                                             "-mfloat-abi=soft")));
+  const auto found =
+      unwanted(symbols(object("double f(double a) { return a * 1.5; } float g(int a) { return a; }"
+                              "int* h() { return new int; }",
+                              "-mfloat-abi=soft")));
   EXPECT_TRUE(found.contains("__aeabi_dmul"));
   EXPECT_TRUE(found.contains("__aeabi_i2f"));
   EXPECT_TRUE(found.contains("_Znwj"));

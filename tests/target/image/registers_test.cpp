@@ -45,7 +45,9 @@ class RegisterRows : public testing::Test {
       std::vector<std::string> cells;
       std::istringstream fields(line);
       for (std::string cell; std::getline(fields, cell, ',');) cells.push_back(cell);
-      const auto number = [](const std::string& text) { return static_cast<std::uint32_t>(std::stoul(text, nullptr, 0)); };
+      const auto number = [](const std::string& text) {
+        return static_cast<std::uint32_t>(std::stoul(text, nullptr, 0));
+      };
       bases_[cells[0]] = number(cells[1]);
       if (cells[4].empty())
         registers_[{cells[0], cells[2]}] = {number(cells[3]), number(cells[6])};

@@ -11,14 +11,16 @@
 namespace astro::target {
 namespace {
 
-/// Where calls through a pointer lead, by a part of the linker's name. A new one fails the test until it is here.
+/// Where calls through a pointer lead, by a part of the linker's name. A new one fails the test until it is
+/// here.
 const std::map<std::string, std::vector<std::string>> kIndirect{
     {"pit_interrupt", {"main::{lambda", "_ZZ4mainENUlvE", "_FUN"}},  // the tick that main() installs
     {"3runEv", {"_GLOBAL__sub_I"}},                                  // constructors
 };
 
 /// Handlers by how urgent they are: each may interrupt the ones before it, and main().
-const std::vector<std::vector<std::string>> kLevels{{"usb_interrupt"}, {"4Uart9interruptEv"}, {"pit_interrupt"}};
+const std::vector<std::vector<std::string>> kLevels{
+    {"usb_interrupt"}, {"4Uart9interruptEv"}, {"pit_interrupt"}};
 
 /// The core stores eight registers, and a word more if the stack is not aligned to eight.
 constexpr std::uint32_t kExceptionFrame = 32 + 4;
@@ -38,7 +40,8 @@ class CallGraph {
     if (const auto known = depth_.find(name); known != depth_.end()) return known->second;
     if (std::find(path_.begin(), path_.end(), name) != path_.end()) {
       std::string cycle;
-      for (auto it = std::find(path_.begin(), path_.end(), name); it != path_.end(); ++it) cycle += *it + " -> ";
+      for (auto it = std::find(path_.begin(), path_.end(), name); it != path_.end(); ++it)
+        cycle += *it + " -> ";
       recursions.push_back(cycle + name);
       return 0;
     }
@@ -129,10 +132,14 @@ TEST(Stack, NoFunctionTakesAnAmountThatOnlyRunningShows) {
 TEST(Stack, TheCheckFindsARecursion) {
   const std::filesystem::path folder = testing::TempDir();
   const std::string source = folder / "recursion.cpp", object = folder / "recursion.o";
-  std::ofstream(source) << "extern \"C\" int g(int); extern \"C\" int f(int n) { return n > 0 ? g(n - 1) + 1 : 0; }"
-                           "extern \"C\" __attribute__((noinline)) int g(int n) { return n > 0 ? f(n - 1) * 3 : 1; }";
-  output_of("arm-none-eabi-g++ -mcpu=cortex-m7 -mthumb -O1 -fno-optimize-sibling-calls -fno-inline -c -o '" + object + "' '" + source + "'"
-            " && arm-none-eabi-ld -r -o '" + object + ".elf' '" + object + "'");
+  std::ofstream(source)
+      << "extern \"C\" int g(int); extern \"C\" int f(int n) { return n > 0 ? g(n - 1) + 1 : 0; }"
+         "extern \"C\" __attribute__((noinline)) int g(int n) { return n > 0 ? f(n - 1) * 3 : 1; }";
+  output_of("arm-none-eabi-g++ -mcpu=cortex-m7 -mthumb -O1 -fno-optimize-sibling-calls -fno-inline -c -o '" +
+            object + "' '" + source +
+            "'"
+            " && arm-none-eabi-ld -r -o '" +
+            object + ".elf' '" + object + "'");
   CallGraph graph(object + ".elf");
   graph.deepest("f");
   EXPECT_FALSE(graph.recursions.empty());
