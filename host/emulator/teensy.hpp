@@ -39,6 +39,8 @@ class Teensy {
 
   Cycles now() const { return chip_.now(); }
   std::uint64_t now_us() const { return chip_.now() / kCyclesPerMicrosecond; }
+  /// The firmware's own clock: time since it started the PIT.
+  std::uint64_t robot_clock_us() const { return pit_.lifetime_us(); }
   std::uint64_t instructions() { return chip_.cpu().instructions(); }
   bool in_bootloader() const { return chip_.in_bootloader(); }
 
