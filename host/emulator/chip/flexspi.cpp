@@ -21,6 +21,7 @@ void Flexspi::reset() {
   Stored::reset();
   key_ = unlocked_ = running_ = false;
   events_ = 0;
+  sent_ = 0;
   to_flash_.clear();
   from_flash_.clear();
 }
@@ -62,7 +63,10 @@ void Flexspi::trigger() {
 void Flexspi::event() {
   if (!running_) return;
   const std::uint32_t wanted = command_.writes ? flexspi::IPCR1_IDATSZ.of(value(flexspi::IPCR1.value)) : 0;
-  if (to_flash_.size() < wanted) return machine_.wake(*this, machine_.now() + kPerByte);
+  if (to_flash_.size() < wanted) {
+    sent_ = to_flash_.size();
+    return machine_.wake(*this, machine_.now() + kPerByte);
+  }
   execute();
   running_ = false;
   events_ |= flexspi::INTR_IPCMDDONE(1);
@@ -82,6 +86,7 @@ void Flexspi::execute() {
     case 0x32:
       flash_.program(address, std::span(to_flash_).first(bytes));
       to_flash_.clear();
+      sent_ = 0;
       return;
     case 0x9F:
       from_flash_.insert(from_flash_.end(), {0xEF, 0x40, 0x15});
@@ -94,7 +99,7 @@ void Flexspi::execute() {
 std::uint32_t Flexspi::read(std::uint32_t offset) {
   if (offset == flexspi::INTR.value) {
     constexpr std::size_t kQueue = 128;
-    const bool room = to_flash_.size() + 8 <= kQueue;
+    const bool room = to_flash_.size() - sent_ + 8 <= kQueue;
     return events_ | flexspi::INTR_IPTXWE(room);
   }
   if (offset == flexspi::STS0.value) return flexspi::STS0_ARBIDLE(!running_) | flexspi::STS0_SEQIDLE(!running_);
@@ -133,6 +138,7 @@ void Flexspi::write(std::uint32_t offset, std::uint32_t word) {
     write_flags(word);
   } else if (offset == flexspi::IPTXFCR.value) {
     if (flexspi::IPTXFCR_CLRIPTXF.of(word) != 0) to_flash_.clear();
+    sent_ = 0;
   } else if (offset == flexspi::IPRXFCR.value) {
     if (flexspi::IPRXFCR_CLRIPRXF.of(word) != 0) from_flash_.clear();
   } else if (offset == flexspi::TFDR0.value) {

@@ -37,7 +37,8 @@ class Flexspi : public Stored {
   bool key_ = false, unlocked_ = false, running_ = false;
   std::uint32_t events_ = 0;
   std::array<std::uint32_t, 2> pair_{};
-  std::vector<std::uint8_t> to_flash_;
+  std::vector<std::uint8_t> to_flash_;  // all that the command was given
+  std::size_t sent_ = 0;                // of it: no longer in the queue
   std::deque<std::uint8_t> from_flash_;
   Command command_;
 };
