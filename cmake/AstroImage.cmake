@@ -9,7 +9,7 @@ function(astro_image name)
   astro_program(${name} SOURCES ${arg_SOURCES} DEPENDS ${arg_DEPENDS} hal.teensy40)
   set_target_properties(${name} PROPERTIES SUFFIX .elf LINK_DEPENDS ${script})
   target_link_options(${name} PRIVATE -nostartfiles --specs=nano.specs -T ${script}
-    -Wl,--gc-sections -Wl,--fatal-warnings -Wl,-Map=${file}.map)
+    -Wl,--gc-sections -Wl,--fatal-warnings -Wl,--emit-relocs -Wl,-Map=${file}.map)
   add_custom_command(TARGET ${name} POST_BUILD BYPRODUCTS ${file}.hex ${file}.size.txt
     COMMAND arm-none-eabi-objcopy -O ihex ${file}.elf ${file}.hex
     COMMAND arm-none-eabi-size -A -x ${file}.elf > ${file}.size.txt)

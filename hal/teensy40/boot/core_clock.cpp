@@ -25,6 +25,7 @@ void detour() {
   constexpr std::uint32_t kCrystal = 1;
   CCM[ccm::CBCDR].modify(ccm::CBCDR_PERIPH_CLK2_PODF.mask(), 0);
   CCM[ccm::CBCMR].modify(ccm::CBCMR_PERIPH_CLK2_SEL.mask(), ccm::CBCMR_PERIPH_CLK2_SEL(kCrystal));
+  wait_while(ccm::CDHIPR_PERIPH_CLK_SEL_BUSY);
   CCM[ccm::CBCDR].modify(0, ccm::CBCDR_PERIPH_CLK_SEL(1));
   wait_while(ccm::CDHIPR_PERIPH_CLK_SEL_BUSY);
 }
@@ -53,9 +54,17 @@ void join() {
   wait_while(ccm::CDHIPR_PERIPH_CLK_SEL_BUSY);
 }
 
+/// A core that waits for an interrupt stops alone. As reset leaves it, the chip would go into its wait mode,
+/// in which the watchdog stands still, and the memories of a sleeping core would be closed to USB.
+void sleep_lightly() {
+  CCM[ccm::CLPCR].modify(ccm::CLPCR_LPM.mask(), 0);
+  IOMUXC_GPR[iomuxc_gpr::GPR1].modify(0, iomuxc_gpr::GPR1_CM7_FORCE_HCLK_EN(1));
+}
+
 }  // namespace
 
 void start() {
+  sleep_lightly();
   CCM[ccm::CSCMR1].modify(ccm::CSCMR1_PERCLK_PODF.mask(), ccm::CSCMR1_PERCLK_CLK_SEL(1));
   CCM[ccm::CSCDR1].modify(ccm::CSCDR1_UART_CLK_PODF.mask(), ccm::CSCDR1_UART_CLK_SEL(1));
   raise_supply();

@@ -31,13 +31,21 @@ constexpr std::array<Region, 8> kRegions{{
     {0x2000'0000, 19, kAll | kNoCache | kNoCode},    // DTCM; below it lies nothing, and the stack ends there
     {0x2020'0000, 19, kAll | kWriteBack | kNoCode},  // OCRAM
     {0x4000'0000, 26, kAll | kDevice | kNoCode},     // peripherals
-    {0x6000'0000, 21, kReadOnly | kWriteBack},       // flash
+    {0x6000'0000, 21, kReadOnly | kWriteBack | kNoCode},  // flash: nothing runs there after start-up
 }};
 
 void set(std::uint32_t number, const Region& region) {
   MPU[mpu::RBAR].write(region.base | mpu::RBAR_REGION(number) | mpu::RBAR_VALID(1));
   MPU[mpu::RASR].write(region.attributes | mpu::RASR_SIZE(static_cast<std::uint32_t>(region.size_log2) - 1) |
                        mpu::RASR_ENABLE(1));
+}
+
+/// Which lines are valid is undefined after power-on, and a restart keeps those of the program before: 4 ways
+/// of 256 lines of 32 bytes are dropped.
+void forget_data_cache() {
+  for (std::uint32_t way = 0; way < 4; ++way)
+    for (std::uint32_t line = 0; line < 256; ++line) SCB[scb::DCISW].write(way << 30 | line << 5);
+  cpu::synchronize();
 }
 
 }  // namespace
@@ -50,7 +58,7 @@ void start() {
   SCB[scb::ICIALLU].write(0);
   cpu::synchronize();
   cpu::refetch();
-  // The ROM leaves the data cache off and clean.
+  forget_data_cache();
   SCB[scb::CCR].modify(0, scb::CCR_IC(1) | scb::CCR_DC(1));
   cpu::synchronize();
   cpu::refetch();

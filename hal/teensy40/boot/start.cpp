@@ -45,8 +45,11 @@ namespace {
   CCM[ccm::CCGR4].modify(0, ccm::CCGR4_CG9(3));  // so that a fault may silence FlexPWM2 at any time
 }
 
-/// WDOG3 bites 32 ms after a reset unless the ROM has stopped it; the other two pull a pin after 16 s.
+/// WDOG3 bites 32 ms after a reset unless the ROM has stopped it; the other two pull a pin after 16 s. Their
+/// clocks run after a reset unless the ROM has stopped those.
 [[gnu::always_inline]] inline void stop_watchdogs() {
+  CCM[ccm::CCGR3].modify(0, ccm::CCGR3_CG8(3));
+  CCM[ccm::CCGR5].modify(0, ccm::CCGR5_CG2(3) | ccm::CCGR5_CG5(3));
   RTWDOG[rtwdog::CNT].write(0xD928'C520);
   for (int reads = 0; reads < 1000 && RTWDOG[rtwdog::CS].get(rtwdog::CS_ULK) == 0;) ++reads;
   RTWDOG[rtwdog::TOVAL].write(0xFFFF);

@@ -16,6 +16,16 @@ constexpr std::size_t kEntries = 16 + 160;
 
 [[gnu::section(".vectors")]] std::array<std::uintptr_t, kEntries> table;
 
+/// What the ROM may have left running would find no handler and restart the chip for ever.
+void silence_interrupts() {
+  constexpr std::uint32_t kBanks = 160 / 32;
+  SysTick[systick::CSR].write(0);
+  for (std::uint32_t bank = 0; bank < kBanks; ++bank) {
+    Register<std::uint32_t>(NVIC[nvic::ICER0].address() + 4 * bank).write(~0U);
+    Register<std::uint32_t>(NVIC[nvic::ICPR0].address() + 4 * bank).write(~0U);
+  }
+}
+
 /// The program counter that the core put on the stack, if there still is one.
 std::uint32_t where(std::uint32_t frame) {
   constexpr std::uint32_t kBytes = 32, kProgramCounter = 24;
@@ -53,6 +63,7 @@ extern "C" [[gnu::naked]] void fault_handler() {
 }
 
 void start() {
+  silence_interrupts();
   const auto handler = reinterpret_cast<std::uintptr_t>(fault_handler);
   table.fill(handler);
   table[0] = reinterpret_cast<std::uintptr_t>(&stack_top);
