@@ -7,7 +7,8 @@
 namespace astro::emulator {
 
 void Bus::map(Model& model, std::uint32_t base, std::uint32_t bytes, std::optional<Gate> gate) {
-  for (std::uint32_t at = base / kPage; at <= (base + bytes - 1) / kPage; ++at) slots_[at] = {&model, base, gate};
+  for (std::uint32_t at = base / kPage; at <= (base + bytes - 1) / kPage; ++at)
+    slots_[at] = {&model, base, gate};
 }
 
 const Bus::Slot* Bus::legal(std::uint32_t address, int bytes, const char* verb) {
@@ -18,7 +19,8 @@ const Bus::Slot* Bus::legal(std::uint32_t address, int bytes, const char* verb) 
     return nullptr;
   }
   if (known->bytes != bytes) {
-    machine_.fail(fmt::format("{}: {} of {} bytes, the register has {}", known->name, verb, bytes, known->bytes));
+    machine_.fail(
+        fmt::format("{}: {} of {} bytes, the register has {}", known->name, verb, bytes, known->bytes));
     return nullptr;
   }
   const std::optional<Gate>& gate = slot->second.gate;

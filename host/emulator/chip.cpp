@@ -14,8 +14,9 @@ namespace {
 
 constexpr std::uint32_t kPrivatePeripherals = 0xE000'0000;
 constexpr std::uint32_t kImageVectorTable = 0x6000'1000;
-constexpr std::uint32_t kAccessViolation = 1U << 1, kAddressValid = 1U << 7, kFetchViolation = 1U << 0;  // CFSR
-constexpr Cycles kEntry = 12;  // of an exception, from the core's manual
+constexpr std::uint32_t kAccessViolation = 1U << 1, kAddressValid = 1U << 7,
+                        kFetchViolation = 1U << 0;  // CFSR
+constexpr Cycles kEntry = 12;                       // of an exception, from the core's manual
 
 // What the engine calls its exceptions.
 constexpr std::uint32_t kSvcNumber = 2, kBreakpoint = 7, kReturn = 8, kBreakpointToo = 16;
@@ -74,7 +75,8 @@ void Chip::boot() {
 }
 
 void Chip::wake(Model& model, Cycles when) {
-  const auto wish = std::find_if(wishes_.begin(), wishes_.end(), [&](const Wish& w) { return w.model == &model; });
+  const auto wish =
+      std::find_if(wishes_.begin(), wishes_.end(), [&](const Wish& w) { return w.model == &model; });
   if (wish != wishes_.end())
     wish->when = when;
   else
@@ -140,7 +142,8 @@ void Chip::on_exception(std::uint32_t number) {
     exceptions_.pend(exception::kSvc);
   } else if (number == kBreakpoint || number == kBreakpointToo) {
     std::uint16_t instruction = 0;
-    if (const auto code = memory_.at(cpu_->pc() & ~1U, 2); !code.empty()) std::memcpy(&instruction, code.data(), 2);
+    if (const auto code = memory_.at(cpu_->pc() & ~1U, 2); !code.empty())
+      std::memcpy(&instruction, code.data(), 2);
     if (instruction == kCallHalfKay)
       in_bootloader_ = true;
     else
@@ -170,7 +173,8 @@ void Chip::run_cpu() {
       break;
     case Cpu::End::bad_instruction:
       if (in_bootloader_) break;
-      if (const auto number = exceptions_.fault(exception::kUsageFault); !number || !exceptions_.enter(*number))
+      if (const auto number = exceptions_.fault(exception::kUsageFault);
+          !number || !exceptions_.enter(*number))
         lock_up();
       break;
   }

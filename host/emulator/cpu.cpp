@@ -7,7 +7,8 @@ namespace astro::emulator {
 namespace {
 
 void check(uc_err error, const char* what) {
-  if (error != UC_ERR_OK) throw std::runtime_error(std::string("Unicorn: ") + what + ": " + uc_strerror(error));
+  if (error != UC_ERR_OK)
+    throw std::runtime_error(std::string("Unicorn: ") + what + ": " + uc_strerror(error));
 }
 
 constexpr std::size_t kBlocks = 65536;
@@ -25,9 +26,12 @@ Cpu::Cpu(Memory& memory, Hooks hooks) : memory_(memory), hooks_(std::move(hooks)
   map_registers<0x4200'0000>(0x10'0000);
   map_registers<0xE000'0000>(0x10'0000);
   uc_hook hook = 0;
-  check(uc_hook_add(engine_, &hook, UC_HOOK_BLOCK, reinterpret_cast<void*>(on_block), this, 1, 0), "block hook");
-  check(uc_hook_add(engine_, &hook, UC_HOOK_INTR, reinterpret_cast<void*>(on_interrupt), this, 1, 0), "interrupts");
-  check(uc_hook_add(engine_, &hook, UC_HOOK_MEM_INVALID, reinterpret_cast<void*>(on_invalid), this, 1, 0), "faults");
+  check(uc_hook_add(engine_, &hook, UC_HOOK_BLOCK, reinterpret_cast<void*>(on_block), this, 1, 0),
+        "block hook");
+  check(uc_hook_add(engine_, &hook, UC_HOOK_INTR, reinterpret_cast<void*>(on_interrupt), this, 1, 0),
+        "interrupts");
+  check(uc_hook_add(engine_, &hook, UC_HOOK_MEM_INVALID, reinterpret_cast<void*>(on_invalid), this, 1, 0),
+        "faults");
 }
 
 Cpu::~Cpu() { uc_close(engine_); }
@@ -39,7 +43,8 @@ void Cpu::map_registers(std::size_t bytes) {
 
 template <std::uint32_t Base>
 std::uint64_t Cpu::on_read(uc_engine*, std::uint64_t offset, unsigned bytes, void* self) {
-  return static_cast<Cpu*>(self)->hooks_.read(Base + static_cast<std::uint32_t>(offset), static_cast<int>(bytes));
+  return static_cast<Cpu*>(self)->hooks_.read(Base + static_cast<std::uint32_t>(offset),
+                                              static_cast<int>(bytes));
 }
 
 template <std::uint32_t Base>

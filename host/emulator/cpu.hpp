@@ -12,9 +12,11 @@
 
 namespace astro::emulator {
 
-/// The instruction engine: registers, memories, and the callbacks by which the rest of the machine takes part.
+/// The instruction engine: registers, memories, and the callbacks by which the rest of the machine takes
+/// part.
 ///
-/// Why     Unicorn, with two habits to mind: stopping it from a register access rewinds the program counter and
+/// Why     Unicorn, with two habits to mind: stopping it from a register access rewinds the program counter
+/// and
 ///         repeats what was done, so it is only stopped between blocks of instructions; and exceptions are
 ///         left to us.
 class Cpu {
@@ -55,12 +57,13 @@ class Cpu {
  private:
   static void on_block(uc_engine* engine, std::uint64_t address, std::uint32_t bytes, void* self);
   static void on_interrupt(uc_engine* engine, std::uint32_t number, void* self);
-  static bool on_invalid(uc_engine* engine, uc_mem_type type, std::uint64_t address, int bytes, std::int64_t value,
-                         void* self);
+  static bool on_invalid(uc_engine* engine, uc_mem_type type, std::uint64_t address, int bytes,
+                         std::int64_t value, void* self);
   template <std::uint32_t Base>
   static std::uint64_t on_read(uc_engine* engine, std::uint64_t offset, unsigned bytes, void* self);
   template <std::uint32_t Base>
-  static void on_write(uc_engine* engine, std::uint64_t offset, unsigned bytes, std::uint64_t value, void* self);
+  static void on_write(uc_engine* engine, std::uint64_t offset, unsigned bytes, std::uint64_t value,
+                       void* self);
   template <std::uint32_t Base>
   void map_registers(std::size_t bytes);
   std::uint32_t count(std::uint32_t address, std::uint32_t bytes);

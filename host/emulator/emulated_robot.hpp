@@ -14,7 +14,8 @@ namespace astro::emulator {
 /// An emulated Teensy on its robot, watched by the virtual cameras.
 class EmulatedRobot {
  public:
-  EmulatedRobot(const std::filesystem::path& hex, const sim::Config& config, const simulator::MocapConfig& mocap)
+  EmulatedRobot(const std::filesystem::path& hex, const sim::Config& config,
+                const simulator::MocapConfig& mocap)
       : teensy_(hex, config), mocap_(mocap) {}
 
   /// A fifth of a millisecond.

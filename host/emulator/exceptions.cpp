@@ -8,7 +8,8 @@
 namespace astro::emulator {
 namespace {
 
-constexpr std::array kFrame{UC_ARM_REG_R0, UC_ARM_REG_R1, UC_ARM_REG_R2, UC_ARM_REG_R3, UC_ARM_REG_R12, UC_ARM_REG_LR};
+constexpr std::array kFrame{UC_ARM_REG_R0, UC_ARM_REG_R1,  UC_ARM_REG_R2,
+                            UC_ARM_REG_R3, UC_ARM_REG_R12, UC_ARM_REG_LR};
 constexpr std::uint32_t kFrameBytes = 32;
 constexpr std::uint32_t kThumb = 1U << 24, kAligned = 1U << 9;
 constexpr std::uint32_t kStackingFailed = 1U << 4;  // in CFSR, of MemManage
@@ -123,7 +124,8 @@ void Exceptions::leave(std::uint32_t return_value) {
     return;
   }
   if ((return_value & 0x1C) != 0x18 && (return_value & 0x1C) != 0x10) {
-    violation = fmt::format("EXC_RETURN 0x{:08X} asks for a stack or a context that is not used here", return_value);
+    violation =
+        fmt::format("EXC_RETURN 0x{:08X} asks for a stack or a context that is not used here", return_value);
     return;
   }
   active_[index(number)] = false;

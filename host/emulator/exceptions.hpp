@@ -17,7 +17,8 @@ inline constexpr int kNmi = 2, kHardFault = 3, kMemManage = 4, kBusFault = 5, kU
 
 /// The nested vectored interrupt controller and the core's way into and out of handlers.
 ///
-/// Not modelled  the floating point context: the image uses no FPU (tests/target/image), and neither handlers nor
+/// Not modelled  the floating point context: the image uses no FPU (tests/target/image), and neither handlers
+/// nor
 ///               main() run with the process stack.
 class Exceptions {
  public:
@@ -48,8 +49,8 @@ class Exceptions {
   bool enter(int number);
   /// A handler returns with this value in the program counter.
   void leave(std::uint32_t return_value);
-  /// An instruction could not be carried out: the exception that it leads to, or nothing if the core has locked
-  /// up.
+  /// An instruction could not be carried out: the exception that it leads to, or nothing if the core has
+  /// locked up.
   std::optional<int> fault(int number);
 
   /// What is wrong with what the firmware did, if anything: no handler, a return without a call.

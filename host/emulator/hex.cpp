@@ -16,7 +16,8 @@ namespace {
 /// The bytes of a record without its colon, its sum checked.
 std::vector<std::uint8_t> record(const std::string& line, const std::string& where) {
   std::vector<std::uint8_t> bytes;
-  for (std::size_t i = 1; i + 1 < line.size() && std::isxdigit(static_cast<unsigned char>(line[i])) != 0; i += 2)
+  for (std::size_t i = 1; i + 1 < line.size() && std::isxdigit(static_cast<unsigned char>(line[i])) != 0;
+       i += 2)
     bytes.push_back(static_cast<std::uint8_t>(std::stoul(line.substr(i, 2), nullptr, 16)));
   unsigned sum = 0;
   for (const std::uint8_t byte : bytes) sum += byte;

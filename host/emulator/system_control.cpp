@@ -52,7 +52,8 @@ std::uint32_t SystemControl::read_priorities(int first) const {
 }
 
 void SystemControl::write_priorities(int first, std::uint32_t value) {
-  for (int i = 0; i < 4; ++i) exceptions_.set_priority(first + i, static_cast<std::uint8_t>(value >> (8 * i)));
+  for (int i = 0; i < 4; ++i)
+    exceptions_.set_priority(first + i, static_cast<std::uint8_t>(value >> (8 * i)));
 }
 
 std::uint32_t SystemControl::read_nvic(std::uint32_t offset) const {
@@ -67,7 +68,8 @@ std::uint32_t SystemControl::read_nvic(std::uint32_t offset) const {
 }
 
 void SystemControl::write_nvic(std::uint32_t offset, std::uint32_t value) {
-  if (offset >= 0x300) return write_priorities(static_cast<int>(exception::kFirstInterrupt + offset - 0x300), value);
+  if (offset >= 0x300)
+    return write_priorities(static_cast<int>(exception::kFirstInterrupt + offset - 0x300), value);
   const int first = static_cast<int>(exception::kFirstInterrupt + offset % 0x80 * 8);
   for (int i = 0; i < 32; ++i) {
     if ((value >> i & 1) == 0) continue;

@@ -28,7 +28,8 @@ Teensy::Teensy(const std::filesystem::path& hex, const sim::Config& robot)
 
 void Teensy::map() {
   using namespace teensy40;
-  const auto add = [this](Model& model, std::uint32_t base, std::optional<Gate> gate = {}, std::uint32_t bytes = kPage) {
+  const auto add = [this](Model& model, std::uint32_t base, std::optional<Gate> gate = {},
+                          std::uint32_t bytes = kPage) {
     chip_.bus().map(model, base, bytes, gate);
     chip_.add(model);
   };

@@ -26,8 +26,8 @@ namespace astro::emulator {
 ///   Teensy teensy("build/teensy40/bin/astrolabe-teensy40.hex");
 ///   teensy.run_for(10ms);
 ///
-/// The same image, configuration and calls give the same state. Throws Stopped when the firmware does what the
-/// chip would not forgive; what that is, each model says.
+/// The same image, configuration and calls give the same state. Throws Stopped when the firmware does what
+/// the chip would not forgive; what that is, each model says.
 class Teensy {
  public:
   explicit Teensy(const std::filesystem::path& hex, const sim::Config& robot = {});

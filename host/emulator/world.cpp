@@ -37,8 +37,8 @@ void World::set_driver_fault(bool fault) {
   wires_.gpio7.set_inputs(fault ? ~kErrorPin : ~0U);
 }
 
-/// Truth table of the TB67H420FTG: one input high drives while PWM is high and brakes while it is low; both low
-/// open the bridge; both high brake.
+/// Truth table of the TB67H420FTG: one input high drives while PWM is high and brakes while it is low; both
+/// low open the bridge; both high brake.
 World::Bridges World::bridges() const {
   Bridges bridges;
   const std::uint32_t pins = wires_.gpio7.driven();

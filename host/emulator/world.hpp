@@ -13,8 +13,8 @@
 
 namespace astro::emulator {
 
-/// The robot around the chip: the very motors, wheels and floor of hal/sim, with the driver's inputs where the
-/// pins are and the encoders' edges where the other pins are. Moves once a millisecond, as hal/sim does.
+/// The robot around the chip: the very motors, wheels and floor of hal/sim, with the driver's inputs where
+/// the pins are and the encoders' edges where the other pins are. Moves once a millisecond, as hal/sim does.
 class World : public Model {
  public:
   struct Wires {

@@ -53,8 +53,10 @@ std::uint32_t Adc::read(std::uint32_t offset) {
 void Adc::write(std::uint32_t offset, std::uint32_t word) {
   store(offset, word);
   if (offset == adc::GS.value) store(offset, 0);
-  if (offset == adc::CFG.value && adc::CFG_MODE.of(word) != 2) machine_.fail("ADC1 CFG: only 12 bits are modelled");
-  if (offset == adc::GC.value && adc::GC_CAL.of(word) != 0) machine_.wake(*this, machine_.now() + kCalibration);
+  if (offset == adc::CFG.value && adc::CFG_MODE.of(word) != 2)
+    machine_.fail("ADC1 CFG: only 12 bits are modelled");
+  if (offset == adc::GC.value && adc::GC_CAL.of(word) != 0)
+    machine_.wake(*this, machine_.now() + kCalibration);
   if (offset != adc::HC0.value) return;
   const std::uint32_t channel = adc::HC0_ADCH.of(word);
   if (channel == kNoChannel) return;
@@ -62,7 +64,8 @@ void Adc::write(std::uint32_t offset, std::uint32_t word) {
   if (!calibrated_) return machine_.fail("ADC1 HC0: a conversion before the calibration");
   if (busy_) return machine_.fail("ADC1 HC0: a conversion is begun while another one runs, which is lost");
   if ((iomuxc_.setting(iomuxc::SW_PAD_CTL_PAD_GPIO_AD_B1_02.value) & kKeeper) != 0)
-    return machine_.fail("ADC1 HC0: the keeper of the pad falsifies what it reads (IOMUXC SW_PAD_CTL_PAD_GPIO_AD_B1_02)");
+    return machine_.fail(
+        "ADC1 HC0: the keeper of the pad falsifies what it reads (IOMUXC SW_PAD_CTL_PAD_GPIO_AD_B1_02)");
   busy_ = true;
   complete_ = false;
   machine_.wake(*this, machine_.now() + conversion());

@@ -43,7 +43,9 @@ void Analog::reset() {
   arm_locked_at_ = usb_locked_at_ = 0;
 }
 
-std::uint32_t Analog::arm_pll_mhz() const { return ccm_analog::PLL_ARM_DIV_SELECT.of(value(kArm)) * kCrystal_mhz / 2; }
+std::uint32_t Analog::arm_pll_mhz() const {
+  return ccm_analog::PLL_ARM_DIV_SELECT.of(value(kArm)) * kCrystal_mhz / 2;
+}
 
 bool Analog::usb_pll_ready() const {
   const std::uint32_t pll = value(kUsb);
@@ -67,7 +69,8 @@ void Analog::write(std::uint32_t offset, std::uint32_t value_written) {
     if (core_runs_from_arm_pll()) machine_.fail("CCM_ANALOG PLL_ARM: changed while the core runs from it");
     const std::uint32_t factor = ccm_analog::PLL_ARM_DIV_SELECT.of(word);
     const bool on = ccm_analog::PLL_ARM_POWERDOWN.of(word) == 0 && ccm_analog::PLL_ARM_ENABLE.of(word) != 0;
-    if (on && (factor < 54 || factor > 108)) machine_.fail("CCM_ANALOG PLL_ARM: DIV_SELECT is not within 54..108");
+    if (on && (factor < 54 || factor > 108))
+      machine_.fail("CCM_ANALOG PLL_ARM: DIV_SELECT is not within 54..108");
     arm_locked_at_ = on ? machine_.now() + kLock : kNever;
   }
   if (base == kUsb && ccm_analog::PLL_USB1_POWER.of(word) != ccm_analog::PLL_USB1_POWER.of(old))
@@ -86,7 +89,8 @@ std::uint32_t Dcdc::read(std::uint32_t offset) {
 void Dcdc::write(std::uint32_t offset, std::uint32_t value_written) {
   if (offset == dcdc::REG3.value) {
     settled_at_ = machine_.now() + kSettle;
-    if (800 + 25 * dcdc::REG3_TRG.of(value_written) > 1300) machine_.fail("DCDC REG3: more than 1.3 V for the core");
+    if (800 + 25 * dcdc::REG3_TRG.of(value_written) > 1300)
+      machine_.fail("DCDC REG3: more than 1.3 V for the core");
   }
   store(offset, value_written);
 }
@@ -131,16 +135,20 @@ bool Ccm::open(Gate gate) const {
 }
 
 std::uint32_t Ccm::core_mhz() const {
-  const std::uint32_t source = from_pll() ? analog_.arm_pll_mhz() / (1 + ccm::CACRR_ARM_PODF.of(value(ccm::CACRR.value)))
-                                          : kCrystal_mhz;
+  const std::uint32_t source =
+      from_pll() ? analog_.arm_pll_mhz() / (1 + ccm::CACRR_ARM_PODF.of(value(ccm::CACRR.value)))
+                 : kCrystal_mhz;
   return source / (1 + ccm::CBCDR_AHB_PODF.of(value(ccm::CBCDR.value)));
 }
 
-std::uint32_t Ccm::bus_mhz() const { return core_mhz() / (1 + ccm::CBCDR_IPG_PODF.of(value(ccm::CBCDR.value))); }
+std::uint32_t Ccm::bus_mhz() const {
+  return core_mhz() / (1 + ccm::CBCDR_IPG_PODF.of(value(ccm::CBCDR.value)));
+}
 
 std::uint32_t Ccm::uart_hz() const {
   const std::uint32_t word = value(ccm::CSCDR1.value);
-  return (ccm::CSCDR1_UART_CLK_SEL.of(word) != 0 ? 24'000'000 : 80'000'000) / (1 + ccm::CSCDR1_UART_CLK_PODF.of(word));
+  return (ccm::CSCDR1_UART_CLK_SEL.of(word) != 0 ? 24'000'000 : 80'000'000) /
+         (1 + ccm::CSCDR1_UART_CLK_PODF.of(word));
 }
 
 std::uint32_t Ccm::timer_hz() const {
@@ -156,11 +164,13 @@ std::uint32_t Ccm::read(std::uint32_t offset) {
 
 void Ccm::check_supply() {
   if (!from_pll()) return;
-  if (!analog_.arm_pll_locked()) machine_.fail("CCM CBCDR: the core is to run from a PLL that has not locked");
+  if (!analog_.arm_pll_locked())
+    machine_.fail("CCM CBCDR: the core is to run from a PLL that has not locked");
   if (core_mhz() > 528 && dcdc_.millivolts() < 1250)
     machine_.fail(fmt::format("CCM CBCDR: {} MHz with less than 1.25 V (DCDC REG3)", core_mhz()));
   if (core_mhz() > 600) machine_.fail(fmt::format("CCM CBCDR: {} MHz", core_mhz()));
-  if (bus_mhz() > 150) machine_.fail(fmt::format("CCM CBCDR: {} MHz for the bus, the most is 150", bus_mhz()));
+  if (bus_mhz() > 150)
+    machine_.fail(fmt::format("CCM CBCDR: {} MHz for the bus, the most is 150", bus_mhz()));
 }
 
 void Ccm::write(std::uint32_t offset, std::uint32_t word) {

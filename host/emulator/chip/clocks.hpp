@@ -7,8 +7,8 @@
 
 namespace astro::emulator {
 
-/// PLLs, band gap and supplies of the analogue parts: CCM_ANALOG and PMU, which share a page. A PLL locks 60 us
-/// after it was switched on.
+/// PLLs, band gap and supplies of the analogue parts: CCM_ANALOG and PMU, which share a page. A PLL locks 60
+/// us after it was switched on.
 class Analog : public Stored {
  public:
   explicit Analog(Machine& machine);
@@ -41,8 +41,8 @@ class Dcdc : public Stored {
   Cycles settled_at_ = 0;
 };
 
-/// The clock controller: dividers and selectors with their handshakes, and the gates. After the ROM the gates of
-/// parts that it has no use for are closed, so that a driver which forgets to open one is found.
+/// The clock controller: dividers and selectors with their handshakes, and the gates. After the ROM the gates
+/// of parts that it has no use for are closed, so that a driver which forgets to open one is found.
 class Ccm : public Stored {
  public:
   Ccm(Machine& machine, Analog& analog, Dcdc& dcdc);

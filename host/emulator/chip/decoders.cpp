@@ -7,8 +7,8 @@ namespace {
 
 using namespace teensy40;
 
-constexpr std::uint32_t kFlags = enc::CTRL_CMPIRQ.mask() | enc::CTRL_DIRQ.mask() | enc::CTRL_XIRQ.mask() |
-                                 enc::CTRL_HIRQ.mask();
+constexpr std::uint32_t kFlags =
+    enc::CTRL_CMPIRQ.mask() | enc::CTRL_DIRQ.mask() | enc::CTRL_XIRQ.mask() | enc::CTRL_HIRQ.mask();
 
 /// How a pad gets to an input of the crossbar, and which output takes it to the decoder.
 struct Wire {
@@ -51,7 +51,8 @@ void Enc::count(std::int32_t edges) {
 void Enc::hold() { held_ = position_; }
 
 std::uint32_t Enc::read(std::uint32_t offset) {
-  if (offset == enc::UPOS.value || offset == enc::LPOS.value || offset == enc::POSD.value || offset == enc::REV.value)
+  if (offset == enc::UPOS.value || offset == enc::LPOS.value || offset == enc::POSD.value ||
+      offset == enc::REV.value)
     hold();
   if (offset == enc::UPOS.value) return position_ >> 16;
   if (offset == enc::LPOS.value) return position_ & 0xFFFF;
@@ -73,7 +74,8 @@ void Enc::write(std::uint32_t offset, std::uint32_t value) {
     control_ = static_cast<std::uint16_t>(value & ~(kFlags | enc::CTRL_SWIP.mask()));
     if (enc::CTRL_SWIP.of(value) != 0) position_ = initial_;
   } else if (offset == enc::CTRL2.value) {
-    if (enc::CTRL2_MOD.of(value) != 0) machine_.fail(fmt::format("ENC{} CTRL2: counting modulo is not modelled", number_));
+    if (enc::CTRL2_MOD.of(value) != 0)
+      machine_.fail(fmt::format("ENC{} CTRL2: counting modulo is not modelled", number_));
     control2_ = half;
   } else if (offset == enc::FILT.value) {
     const bool runs = enc::FILT_FILT_PER.of(filter_) != 0;

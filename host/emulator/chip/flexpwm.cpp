@@ -38,7 +38,9 @@ FlexPwm::Values FlexPwm::buffered() const {
           {half(pwm::SM2_VAL3.value), half(pwm::SM2_VAL5.value)}};
 }
 
-std::uint32_t FlexPwm::period_counts() const { return static_cast<std::uint16_t>(active_.val1 - active_.initial) + 1U; }
+std::uint32_t FlexPwm::period_counts() const {
+  return static_cast<std::uint16_t>(active_.val1 - active_.initial) + 1U;
+}
 
 void FlexPwm::load() {
   if (locked()) active_ = buffered();
@@ -97,8 +99,8 @@ void FlexPwm::write(std::uint32_t offset, std::uint32_t word) {
 }
 
 double FlexPwm::duty(std::size_t output) const {
-  const std::uint32_t mux = output == 0 ? iomuxc::SW_MUX_CTL_PAD_GPIO_B0_10.value
-                                        : iomuxc::SW_MUX_CTL_PAD_GPIO_B0_11.value;
+  const std::uint32_t mux =
+      output == 0 ? iomuxc::SW_MUX_CTL_PAD_GPIO_B0_10.value : iomuxc::SW_MUX_CTL_PAD_GPIO_B0_11.value;
   const Bits enable = output == 0 ? pwm::OUTEN_PWMA_EN : pwm::OUTEN_PWMB_EN;
   const Bits masked = output == 0 ? pwm::MASK_MASKA : pwm::MASK_MASKB;
   const Bits disable = output == 0 ? pwm::SM2_DISMAP0_DIS0A : pwm::SM2_DISMAP0_DIS0B;

@@ -102,10 +102,12 @@ std::uint32_t Flexspi::read(std::uint32_t offset) {
     const bool room = to_flash_.size() - sent_ + 8 <= kQueue;
     return events_ | flexspi::INTR_IPTXWE(room);
   }
-  if (offset == flexspi::STS0.value) return flexspi::STS0_ARBIDLE(!running_) | flexspi::STS0_SEQIDLE(!running_);
+  if (offset == flexspi::STS0.value)
+    return flexspi::STS0_ARBIDLE(!running_) | flexspi::STS0_SEQIDLE(!running_);
   if (offset == flexspi::RFDR0.value) {
     std::uint32_t word = 0;
-    for (std::uint32_t i = 0; i < 4 && i < from_flash_.size(); ++i) word |= std::uint32_t{from_flash_[i]} << (8 * i);
+    for (std::uint32_t i = 0; i < 4 && i < from_flash_.size(); ++i)
+      word |= std::uint32_t{from_flash_[i]} << (8 * i);
     return word;
   }
   if (offset == flexspi::MCR0.value) return value(offset) & ~flexspi::MCR0_SWRESET(1);

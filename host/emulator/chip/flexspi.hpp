@@ -10,8 +10,8 @@
 
 namespace astro::emulator {
 
-/// The controller of the program's flash: commands by sequences of its look-up table. Only the last sequence is the
-/// firmware's; the first reads the program.
+/// The controller of the program's flash: commands by sequences of its look-up table. Only the last sequence
+/// is the firmware's; the first reads the program.
 class Flexspi : public Stored {
  public:
   Flexspi(Machine& machine, NorFlash& flash) : machine_(machine), flash_(flash) {}

@@ -9,8 +9,8 @@ namespace {
 using namespace teensy40;
 
 constexpr int kIrq = 25;
-constexpr std::uint32_t kClearable = lpuart::STAT_OR.mask() | lpuart::STAT_IDLE.mask() | lpuart::STAT_NF.mask() |
-                                     lpuart::STAT_FE.mask() | lpuart::STAT_PF.mask();
+constexpr std::uint32_t kClearable = lpuart::STAT_OR.mask() | lpuart::STAT_IDLE.mask() |
+                                     lpuart::STAT_NF.mask() | lpuart::STAT_FE.mask() | lpuart::STAT_PF.mask();
 
 }  // namespace
 
@@ -51,7 +51,8 @@ void Lpuart::arrive() {
   arrives_at_ = incoming_.empty() ? kNever : arrives_at_ + byte_time();
   idle_at_ = machine_.now() + byte_time();
   if (lpuart::CTRL_RE.of(control_) == 0 || !connected()) return;
-  if (received_.size() >= kQueue) return machine_.fail("LPUART6 DATA: overrun, the receiver's queue was not emptied");
+  if (received_.size() >= kQueue)
+    return machine_.fail("LPUART6 DATA: overrun, the receiver's queue was not emptied");
   received_.push_back(byte);
 }
 
@@ -120,16 +121,20 @@ void Lpuart::write_control(std::uint32_t value) {
 }
 
 void Lpuart::write_data(std::uint32_t value) {
-  if (lpuart::CTRL_TE.of(control_) == 0) return machine_.fail("LPUART6 DATA: sent while the transmitter is off");
-  if (sending_.size() >= kQueue) return machine_.fail("LPUART6 DATA: overrun, the transmitter's queue is full");
+  if (lpuart::CTRL_TE.of(control_) == 0)
+    return machine_.fail("LPUART6 DATA: sent while the transmitter is off");
+  if (sending_.size() >= kQueue)
+    return machine_.fail("LPUART6 DATA: overrun, the transmitter's queue is full");
   if (sending_.empty()) departs_at_ = machine_.now() + byte_time();
   sending_.push_back(static_cast<std::uint8_t>(value));
 }
 
 void Lpuart::write(std::uint32_t offset, std::uint32_t value) {
   const bool running = (control_ & (lpuart::CTRL_TE.mask() | lpuart::CTRL_RE.mask())) != 0;
-  const bool setting = offset == lpuart::BAUD.value || offset == lpuart::FIFO.value || offset == lpuart::WATER.value;
-  if (running && setting) machine_.fail("LPUART6: configured while transmitter or receiver runs (CTRL.TE, RE)");
+  const bool setting =
+      offset == lpuart::BAUD.value || offset == lpuart::FIFO.value || offset == lpuart::WATER.value;
+  if (running && setting)
+    machine_.fail("LPUART6: configured while transmitter or receiver runs (CTRL.TE, RE)");
   if (offset == lpuart::BAUD.value) {
     const std::uint32_t ratio = lpuart::BAUD_OSR.of(value) + 1;
     if (ratio < 4 || (ratio < 8 && lpuart::BAUD_BOTHEDGE.of(value) == 0))
@@ -140,7 +145,8 @@ void Lpuart::write(std::uint32_t offset, std::uint32_t value) {
   if (offset == lpuart::CTRL.value) write_control(value);
   if (offset == lpuart::DATA.value) write_data(value);
   if (offset == lpuart::FIFO.value) fifo_ = value & (lpuart::FIFO_RXFE.mask() | lpuart::FIFO_TXFE.mask());
-  if (offset == lpuart::WATER.value) water_ = value & (lpuart::WATER_TXWATER.mask() | lpuart::WATER_RXWATER.mask());
+  if (offset == lpuart::WATER.value)
+    water_ = value & (lpuart::WATER_TXWATER.mask() | lpuart::WATER_RXWATER.mask());
   update();
 }
 

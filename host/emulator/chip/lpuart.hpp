@@ -11,10 +11,12 @@
 
 namespace astro::emulator {
 
-/// LPUART6, and the wire to a host on pins 0 and 1: bytes take the time that the baud rate gives them, both ways.
+/// LPUART6, and the wire to a host on pins 0 and 1: bytes take the time that the baud rate gives them, both
+/// ways.
 class Lpuart : public Model {
  public:
-  Lpuart(Machine& machine, const Ccm& ccm, const Iomuxc& iomuxc) : machine_(machine), ccm_(ccm), iomuxc_(iomuxc) {}
+  Lpuart(Machine& machine, const Ccm& ccm, const Iomuxc& iomuxc)
+      : machine_(machine), ccm_(ccm), iomuxc_(iomuxc) {}
 
   std::uint32_t read(std::uint32_t offset) override;
   void write(std::uint32_t offset, std::uint32_t value) override;

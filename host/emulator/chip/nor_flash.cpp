@@ -33,8 +33,8 @@ bool NorFlash::begin(std::uint32_t address, Cycles takes) {
   if (busy()) machine_.fail("NOR flash: a command while the last one runs is ignored");
   if (!enabled_) machine_.fail("NOR flash: programming or erasing without write enable (0x06) is ignored");
   if (address < kParameters || address >= kParametersEnd)
-    machine_.fail(fmt::format("NOR flash: 0x{:06X} is not the parameters': the program or the boot loader lies there",
-                              address));
+    machine_.fail(fmt::format(
+        "NOR flash: 0x{:06X} is not the parameters': the program or the boot loader lies there", address));
   enabled_ = false;
   busy_until_ = machine_.now() + takes;
   return powered_ && address >= kParameters && address < kParametersEnd;

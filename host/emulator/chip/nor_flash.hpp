@@ -10,8 +10,9 @@
 
 namespace astro::emulator {
 
-/// The serial NOR flash of a Teensy 4.0 (W25Q16JV): commands and their times, over the memory that the processor
-/// reads its program from. Programming clears bits, erasing sets a sector's; power fails where a test says.
+/// The serial NOR flash of a Teensy 4.0 (W25Q16JV): commands and their times, over the memory that the
+/// processor reads its program from. Programming clears bits, erasing sets a sector's; power fails where a
+/// test says.
 class NorFlash {
  public:
   struct Times {
@@ -39,9 +40,7 @@ class NorFlash {
   std::uint64_t bytes_worked() const { return worked_; }
 
   /// The parameters' sectors.
-  std::span<std::uint8_t> parameters() {
-    return content_.subspan(kParameters, kParametersEnd - kParameters);
-  }
+  std::span<std::uint8_t> parameters() { return content_.subspan(kParameters, kParametersEnd - kParameters); }
   /// Called when power fails.
   std::function<void()> on_power_cut = [] {};
 

@@ -17,9 +17,7 @@ class Iomuxc : public Stored {
     const std::uint32_t word = value(mux_offset);
     return touched(mux_offset) ? word & 0xF : kGpio;
   }
-  void write(std::uint32_t offset, std::uint32_t value) override {
-    store(offset, value | kTouched);
-  }
+  void write(std::uint32_t offset, std::uint32_t value) override { store(offset, value | kTouched); }
   std::uint32_t read(std::uint32_t offset) override { return value(offset) & ~kTouched; }
   std::uint32_t setting(std::uint32_t pad_offset) const {
     constexpr std::uint32_t kKeeper = 0x10B0;

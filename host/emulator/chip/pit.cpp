@@ -73,8 +73,10 @@ void Pit::write(std::uint32_t offset, std::uint32_t value) {
 void Pit::set_control(std::size_t n, std::uint32_t value) {
   Channel& channel = channels_[n];
   const bool starts = (channel.control & kEnabled) == 0 && (value & kEnabled) != 0;
-  if (starts && disabled_) machine_.fail(fmt::format("PIT CHANNEL{}_TCTRL: started while MCR.MDIS stops the module", n));
-  if (n == 0 && (value & kChained) != 0) machine_.fail("PIT CHANNEL0_TCTRL: there is no channel to chain it to");
+  if (starts && disabled_)
+    machine_.fail(fmt::format("PIT CHANNEL{}_TCTRL: started while MCR.MDIS stops the module", n));
+  if (n == 0 && (value & kChained) != 0)
+    machine_.fail("PIT CHANNEL0_TCTRL: there is no channel to chain it to");
   channel.control = value;
   if (starts) channel.began = machine_.now();
   const bool wanted = (value & kEnabled) != 0 && (value & kChained) == 0 && (value & kInterrupts) != 0;

@@ -16,7 +16,8 @@ class Pit : public Model {
   void write(std::uint32_t offset, std::uint32_t value) override;
   /// Time since channel 0 was started; 0 before.
   std::uint64_t lifetime_us() const {
-    return (channels_[0].control & 1) != 0 ? (machine_.now() - channels_[0].began) / kCyclesPerMicrosecond : 0;
+    return (channels_[0].control & 1) != 0 ? (machine_.now() - channels_[0].began) / kCyclesPerMicrosecond
+                                           : 0;
   }
 
   void event() override;

@@ -41,12 +41,14 @@ void Rtwdog::feed() { machine_.wake(*this, running() ? machine_.now() + timeout(
 void Rtwdog::write_key(std::uint32_t value) {
   const std::uint32_t key = rtwdog::CS_CMD32EN.of(control_) != 0 ? value : half_key_ | value << 16;
   if (key == kUnlock) {
-    if (rtwdog::CS_UPDATE.of(control_) == 0) return machine_.fail("RTWDOG CNT: unlocked, but CS.UPDATE was 0");
+    if (rtwdog::CS_UPDATE.of(control_) == 0)
+      return machine_.fail("RTWDOG CNT: unlocked, but CS.UPDATE was 0");
     unlocked_until_ = machine_.now() + kWindow;
     configured_ = false;
   } else if (key == kRefresh) {
     feed();
-  } else if (rtwdog::CS_CMD32EN.of(control_) == 0 && (value == (kUnlock & 0xFFFF) || value == (kRefresh & 0xFFFF))) {
+  } else if (rtwdog::CS_CMD32EN.of(control_) == 0 &&
+             (value == (kUnlock & 0xFFFF) || value == (kRefresh & 0xFFFF))) {
     half_key_ = value;
     return;
   } else {
@@ -57,7 +59,8 @@ void Rtwdog::write_key(std::uint32_t value) {
 
 /// Outside the window the chip ignores it without a word, which is why it ends the run here.
 void Rtwdog::configure(std::uint32_t offset, std::uint32_t value) {
-  if (!unlocked()) return machine_.fail("RTWDOG: configured without the key, or more than 128 bus clocks after it");
+  if (!unlocked())
+    return machine_.fail("RTWDOG: configured without the key, or more than 128 bus clocks after it");
   if (offset == rtwdog::TOVAL.value) timeout_counts_ = value & 0xFFFF;
   if (offset == rtwdog::WIN.value) window_ = value & 0xFFFF;
   if (offset != rtwdog::CS.value) return;

@@ -14,7 +14,8 @@ TEST(Serial, TheRobotSaysWhoItIs) {
   link::Client client(std::make_unique<SerialTransport>(robot));
   client.connect();
   const protocol::Status status = client.request(protocol::GetStatus{});
-  fmt::print("battery {} mV, ticks {}, overruns {}\n", status.battery_mv, status.tick_count, status.tick_overruns);
+  fmt::print("battery {} mV, ticks {}, overruns {}\n", status.battery_mv, status.tick_count,
+             status.tick_overruns);
   EXPECT_NEAR(status.battery_mv, 12'000, 50);
   EXPECT_EQ(status.reset_cause, protocol::ResetCause::power_on);
 }
