@@ -19,8 +19,7 @@ const std::map<std::string, std::vector<std::string>> kIndirect{
 };
 
 /// Handlers by how urgent they are: each may interrupt the ones before it, and main().
-const std::vector<std::vector<std::string>> kLevels{
-    {"usb_interrupt"}, {"4Uart9interruptEv"}, {"pit_interrupt"}};
+const std::vector<std::vector<std::string>> kLevels{{"4Uart9interruptEv"}, {"pit_interrupt"}};
 
 /// The core stores eight registers, and a word more if the stack is not aligned to eight.
 constexpr std::uint32_t kExceptionFrame = 32 + 4;

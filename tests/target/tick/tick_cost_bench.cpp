@@ -46,9 +46,11 @@ int main() {
   const auto results = run(robot, 5);
   const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   const double virtual_s = static_cast<double>(robot->teensy().now_us()) / 1e6;
-  fmt::print("whole experiment through the image, 5+5 squares twice: E_max_syst {:.1f} -> {:.1f} mm, {:.1f} times smaller\n",
-             1000 * results.before().summary.E_max_syst_m, 1000 * results.after().summary.E_max_syst_m,
-             results.improvement());
-  fmt::print("emulator: {:.0f} s of virtual time in {:.1f} s, {:.1f} x real time (bar 5)\n", virtual_s, took_s,
-             virtual_s / took_s);
+  fmt::print(
+      "whole experiment through the image, 5+5 squares twice: E_max_syst {:.1f} -> {:.1f} mm, {:.1f} times "
+      "smaller\n",
+      1000 * results.before().summary.E_max_syst_m, 1000 * results.after().summary.E_max_syst_m,
+      results.improvement());
+  fmt::print("emulator: {:.0f} s of virtual time in {:.1f} s, {:.1f} x real time (bar 5)\n", virtual_s,
+             took_s, virtual_s / took_s);
 }

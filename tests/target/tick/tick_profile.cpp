@@ -21,16 +21,26 @@ struct Rule {
 };
 // The first that matches, from the innermost function outwards.
 constexpr Rule kRules[] = {
-    {"Motors::fault", TickProfile::safety},       {"Motors::", TickProfile::pwm},
-    {"to_duty", TickProfile::pwm},                {"Encoders::read", TickProfile::encoders},
-    {"Clock::now_us", TickProfile::clock},        {"Battery::", TickProfile::battery},
-    {"SpeedObserver", TickProfile::speed},        {"Wheels::read", TickProfile::speed},
-    {"Odometry::", TickProfile::odometry},        {"PathFollower", TickProfile::motion},
-    {"Trapezoid", TickProfile::motion},           {"Drive::wish", TickProfile::motion},
-    {"Drive::follow", TickProfile::motion},       {"Drive::next_segment", TickProfile::motion},
-    {"Drive::slewed", TickProfile::motion},       {"Supervisor::", TickProfile::safety},
-    {"Drive::watch_over", TickProfile::safety},   {"WheelController", TickProfile::control},
-    {"Wheels::control", TickProfile::control},    {"Drive::output", TickProfile::control},
+    {"Motors::fault", TickProfile::safety},
+    {"Motors::", TickProfile::pwm},
+    {"to_duty", TickProfile::pwm},
+    {"Encoders::read", TickProfile::encoders},
+    {"Clock::now_us", TickProfile::clock},
+    {"Battery::", TickProfile::battery},
+    {"SpeedObserver", TickProfile::speed},
+    {"Wheels::read", TickProfile::speed},
+    {"Odometry::", TickProfile::odometry},
+    {"PathFollower", TickProfile::motion},
+    {"Trapezoid", TickProfile::motion},
+    {"Drive::wish", TickProfile::motion},
+    {"Drive::follow", TickProfile::motion},
+    {"Drive::next_segment", TickProfile::motion},
+    {"Drive::slewed", TickProfile::motion},
+    {"Supervisor::", TickProfile::safety},
+    {"Drive::watch_over", TickProfile::safety},
+    {"WheelController", TickProfile::control},
+    {"Wheels::control", TickProfile::control},
+    {"Drive::output", TickProfile::control},
 };
 
 std::string output_of(const std::string& command) {
@@ -38,7 +48,8 @@ std::string output_of(const std::string& command) {
   if (pipe == nullptr) throw std::runtime_error("cannot run " + command);
   std::string text;
   std::array<char, 65536> block{};
-  while (const std::size_t count = fread(block.data(), 1, block.size(), pipe)) text.append(block.data(), count);
+  while (const std::size_t count = fread(block.data(), 1, block.size(), pipe))
+    text.append(block.data(), count);
   if (pclose(pipe) != 0) throw std::runtime_error("failed: " + command);
   return text;
 }
@@ -126,7 +137,8 @@ void TickProfile::print() const {
   for (std::size_t i = 0; i < kParts; ++i)
     fmt::print("  {:<32} {:>6} {:>8.1f}\n", kNames[i], cost(i).worst, cost(i).mean);
   fmt::print("  {:<32} {:>6} {:>8.1f}\n", "whole tick", whole().worst, whole().mean);
-  fmt::print("  {:<32} {:>6} {:>8.1f}   of 350\n", "control + odometry + safety", budgeted().worst, budgeted().mean);
+  fmt::print("  {:<32} {:>6} {:>8.1f}   of 350\n", "control + odometry + safety", budgeted().worst,
+             budgeted().mean);
 }
 
 }  // namespace astro::target

@@ -10,13 +10,26 @@
 
 namespace astro::target {
 
-/// Instructions of the control tick by what they are for, counted on the image that is flashed. An instruction belongs
-/// to the innermost function, inlined or not, that has a part's name in the table of tick_profile.cpp.
+/// Instructions of the control tick by what they are for, counted on the image that is flashed. An
+/// instruction belongs to the innermost function, inlined or not, that has a part's name in the table of
+/// tick_profile.cpp.
 class TickProfile {
  public:
-  enum Part : std::uint8_t { encoders, speed, control, odometry, safety, pwm, motion, clock, battery, rest, kParts };
-  static constexpr std::array<const char*, kParts> kNames{"encoders", "speed", "control", "odometry", "safety",
-                                                          "PWM", "motion", "clock", "battery", "rest"};
+  enum Part : std::uint8_t {
+    encoders,
+    speed,
+    control,
+    odometry,
+    safety,
+    pwm,
+    motion,
+    clock,
+    battery,
+    rest,
+    kParts
+  };
+  static constexpr std::array<const char*, kParts> kNames{
+      "encoders", "speed", "control", "odometry", "safety", "PWM", "motion", "clock", "battery", "rest"};
 
   /// Counts every tick of `teensy` from now on.
   TickProfile(emulator::Teensy& teensy, const std::string& elf);
