@@ -55,6 +55,7 @@ void Chip::start(Reset cause) {
 
 /// The ROM enters a function as it stands, or takes stack and entry from a vector table.
 void Chip::boot() {
+  if (flash_busy_) fail("NOR flash: the boot ROM reads it while it is busy, and finds nothing");
   std::uint32_t entry = 0;
   std::memcpy(&entry, memory_.at(kImageVectorTable + 4, 4).data(), 4);
   for (const int reg : {UC_ARM_REG_PRIMASK, UC_ARM_REG_BASEPRI, UC_ARM_REG_FAULTMASK, UC_ARM_REG_IPSR})
@@ -153,8 +154,16 @@ void Chip::on_exception(std::uint32_t number) {
   }
 }
 
+void Chip::set_flash_busy(bool busy) {
+  flash_busy_ = busy;
+  cpu_->set_readable(Memory::kFlash, Memory::kFlashBytes, !busy);
+}
+
 void Chip::bad_access() {
   const Cpu::BadAccess& bad = cpu_->bad_access();
+  if (flash_busy_ && bad.address >= Memory::kFlash && !bad.write)
+    return fail(fmt::format("NOR flash: 0x{:08X} is {} while the flash is busy", bad.address,
+                            bad.fetch ? "executed" : "read"));
   exceptions_.cfsr |= bad.fetch ? kFetchViolation : kAccessViolation | kAddressValid;
   exceptions_.mmfar = bad.address;
   const std::optional<int> number = exceptions_.fault(exception::kMemManage);

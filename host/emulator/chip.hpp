@@ -28,8 +28,8 @@ class Chip : public Machine {
   /// Whose gates decide what is clocked; where the reason of a reset is written.
   std::function<bool(Gate)> gates;
   std::function<void(Reset)> remember_reset;
-  /// True while nothing may be read from the flash because it is busy.
-  std::function<bool()> flash_busy = [] { return false; };
+  /// The flash is erasing or programming, or has come to its end: meanwhile nobody may read it.
+  void set_flash_busy(bool busy);
 
   /// Power comes on, or the chip starts again: models reset, then the boot ROM.
   void start(Reset cause);
@@ -78,7 +78,7 @@ class Chip : public Machine {
   Cycles next_event_ = kNever, end_ = 0;
   std::string failure_;
   std::optional<Reset> restart_;
-  bool in_bootloader_ = false;
+  bool in_bootloader_ = false, flash_busy_ = false;
 };
 
 }  // namespace astro::emulator

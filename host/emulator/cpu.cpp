@@ -98,6 +98,13 @@ bool Cpu::on_invalid(uc_engine*, uc_mem_type type, std::uint64_t address, int, s
   return false;
 }
 
+void Cpu::set_readable(std::uint32_t base, std::uint32_t bytes, bool readable) {
+  check(uc_mem_protect(engine_, base, bytes, readable ? UC_PROT_READ | UC_PROT_EXEC : UC_PROT_NONE),
+        "protection");
+  // What has been translated would run on without looking at the memory again.
+  if (!readable) check(uc_ctl_remove_cache(engine_, base, base + bytes), "translations");
+}
+
 Cpu::End Cpu::run() {
   stopping_ = false;
   const uc_err error = uc_emu_start(engine_, pc() | 1U, 1, 0, 0);

@@ -49,6 +49,9 @@ class Cpu {
   End run();
   const BadAccess& bad_access() const { return bad_; }
 
+  /// While it is not, every read and fetch there ends in bad_access. Not from within a hook.
+  void set_readable(std::uint32_t base, std::uint32_t bytes, bool readable);
+
   std::uint64_t instructions() const { return instructions_; }
 
   /// Called with the address and number of instructions of each block that is about to run; empty: nobody.

@@ -22,7 +22,7 @@ Teensy::Teensy(const std::filesystem::path& hex, const sim::Config& robot)
   std::memcpy(parameters.data(), robot.flash.data(), std::min(parameters.size(), robot.flash.size()));
   chip_.gates = [this](Gate gate) { return ccm_.open(gate); };
   chip_.remember_reset = [this](Reset cause) { src_.remember(cause); };
-  chip_.flash_busy = [this] { return flash_.busy(); };
+  flash_.on_busy = [this](bool busy) { chip_.set_flash_busy(busy); };
   map();
   chip_.start(Reset::power_on);
 }
@@ -58,6 +58,7 @@ void Teensy::map() {
   add(pwm_, PWM2.base, Gate{4, 9});
   add(adc_, ADC1.base, Gate{1, 8});
   add(flexspi_, FLEXSPI.base, Gate{6, 5});
+  chip_.add(flash_);
   chip_.add(world_);
 }
 

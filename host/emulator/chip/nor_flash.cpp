@@ -26,6 +26,7 @@ void NorFlash::restore_power() {
   powered_ = true;
   enabled_ = false;
   busy_until_ = 0;
+  on_busy(false);
   cut_at_ = ~std::uint64_t{0};
 }
 
@@ -37,6 +38,8 @@ bool NorFlash::begin(std::uint32_t address, Cycles takes) {
         "NOR flash: 0x{:06X} is not the parameters': the program or the boot loader lies there", address));
   enabled_ = false;
   busy_until_ = machine_.now() + takes;
+  on_busy(true);
+  machine_.wake(*this, busy_until_);
   return powered_ && address >= kParameters && address < kParametersEnd;
 }
 
@@ -45,7 +48,6 @@ void NorFlash::work(std::uint32_t address, std::uint8_t target) {
   if (worked_ == cut_at_) {
     powered_ = false;
     if (tear_ == sim::Tear::torn) content_[address] = torn(content_[address], target, address);
-    on_power_cut();
     return;
   }
   content_[address] = target;

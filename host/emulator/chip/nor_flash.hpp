@@ -13,7 +13,7 @@ namespace astro::emulator {
 /// The serial NOR flash of a Teensy 4.0 (W25Q16JV): commands and their times, over the memory that the
 /// processor reads its program from. Programming clears bits, erasing sets a sector's; power fails where a
 /// test says.
-class NorFlash {
+class NorFlash : public Model {
  public:
   struct Times {
     Cycles page = 400 * kCyclesPerMicrosecond, erase = 45'000 * kCyclesPerMicrosecond;
@@ -23,6 +23,15 @@ class NorFlash {
   static constexpr std::uint32_t kParameters = 0x1F'0000, kParametersEnd = 0x1F'F000;
 
   NorFlash(Machine& machine, std::span<std::uint8_t> content) : machine_(machine), content_(content) {}
+
+  // No registers: it takes part in time.
+  std::uint32_t read(std::uint32_t) override { return 0; }
+  void write(std::uint32_t, std::uint32_t) override {}
+  void event() override { on_busy(false); }
+  /// A reset of the processor does not end what the flash is doing.
+  void reset() override {
+    if (busy()) machine_.wake(*this, busy_until_);
+  }
 
   Times times;
   bool busy() const { return machine_.now() < busy_until_; }
@@ -41,8 +50,8 @@ class NorFlash {
 
   /// The parameters' sectors.
   std::span<std::uint8_t> parameters() { return content_.subspan(kParameters, kParametersEnd - kParameters); }
-  /// Called when power fails.
-  std::function<void()> on_power_cut = [] {};
+  /// Called when work begins and when it is done.
+  std::function<void(bool)> on_busy = [](bool) {};
 
  private:
   bool begin(std::uint32_t address, Cycles takes);

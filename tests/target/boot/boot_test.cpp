@@ -2,6 +2,7 @@
 
 #include <iostream>
 
+#include "host/emulator/stopped.hpp"
 #include "host/emulator/teensy.hpp"
 
 namespace astro::emulator {
@@ -24,6 +25,41 @@ TEST(Boot, TheImageStartsAndTheLedBlinksOnceASecond) {
   }
   EXPECT_EQ(changes, 5);  // every 512 ticks
   std::cout << "  " << teensy.instructions() << " instructions in 3 s\n";
+}
+
+TEST(Boot, AFetchFromABusyFlashEndsTheRun) {
+  Teensy teensy(kImage);
+  teensy.run_for(50ms);
+  teensy.flash().write_enable();
+  teensy.flash().erase_sector(NorFlash::kParameters);
+  teensy.run_for(1ms);  // the image needs nothing from the flash
+  teensy.chip().cpu().set(UC_ARM_REG_PC, Memory::kFlash + 0x1031);
+  try {
+    teensy.run_for(1ms);
+    FAIL() << "code ran in a flash that erases";
+  } catch (const Stopped& stopped) {
+    EXPECT_NE(std::string(stopped.what()).find("0x60001030 is executed while the flash is busy"),
+              std::string::npos)
+        << stopped.what();
+  }
+}
+
+TEST(Boot, AResetWhileTheFlashErasesIsReported) {
+  Teensy teensy(kImage);
+  teensy.run_for(50ms);
+  teensy.flash().write_enable();
+  teensy.flash().erase_sector(NorFlash::kParameters);
+  teensy.press_reset();
+  EXPECT_THROW(teensy.run_for(1ms), Stopped);
+}
+
+TEST(Boot, TwoRunsAreTheSame) {
+  const auto state = [] {
+    Teensy teensy(kImage);
+    teensy.run_for(200ms);
+    return std::tuple(teensy.now(), teensy.instructions(), teensy.chip().cpu().pc());
+  };
+  EXPECT_EQ(state(), state());
 }
 
 }  // namespace
