@@ -19,7 +19,7 @@ set(ASTRO_LAYERS
   "host/report    : host/base host/calibration host/recording host/report"
   "host/experiment : common host/base host/calibration host/link host/recording host/report host/truth host/experiment"
   "host/simulator : common hal/interface hal/sim firmware/app host/base host/link host/truth host/recording host/simulator"
-  "host/emulator  : common hal/interface hal/sim hal/teensy40/registers host/base host/recording host/simulator host/emulator"
+  "host/emulator  : common hal/interface hal/sim hal/teensy40/registers host/base host/link host/recording host/simulator host/truth host/emulator"
   "host/cli       : common host/base host/calibration host/experiment host/link host/recording host/report host/simulator host/truth host/cli"
   "tests          : common hal firmware host tests"
 )

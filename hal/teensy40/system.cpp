@@ -18,8 +18,8 @@ constexpr std::uint64_t kGoneFromUsb_us = 5'000;
 [[gnu::noinline]] void call_halfkay() { asm volatile("bkpt #251" ::: "memory"); }
 
 /// The host sees the robot go before the boot loader appears in its place.
-void leave_usb() {
-  USB1[usb::USBCMD].write(0);
+void leave(UsbSerial& usb) {
+  usb.detach();
   const Clock clock;
   const std::uint64_t begun_us = clock.now_us();
   while (clock.now_us() - begun_us < kGoneFromUsb_us) {
@@ -52,7 +52,7 @@ bool System::enter_bootloader() noexcept {
   if ((OCOTP[ocotp::CFG5].read() & kSignedOnly) != 0) return false;
   Motors::coast();
   const cpu::InterruptsOff guard;
-  leave_usb();
+  leave(usb_);
   watchdog::stop();
   call_halfkay();
   return true;

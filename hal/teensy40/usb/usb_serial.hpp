@@ -8,6 +8,7 @@ class UsbSerial {
  public:
   void start(std::string_view) {}
   void interrupt() {}
+  void detach() {}
   std::size_t read(std::span<std::uint8_t>) noexcept { return 0; }
   std::size_t write(std::span<const std::uint8_t>) noexcept { return 0; }
   std::size_t room() const noexcept { return 0; }

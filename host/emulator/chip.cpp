@@ -1,0 +1,212 @@
+#include "host/emulator/chip.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "host/emulator/register_names.hpp"
+#include "host/emulator/stopped.hpp"
+
+namespace astro::emulator {
+namespace {
+
+constexpr std::uint32_t kPrivatePeripherals = 0xE000'0000;
+constexpr std::uint32_t kImageVectorTable = 0x6000'1000;
+constexpr std::uint32_t kAccessViolation = 1U << 1, kAddressValid = 1U << 7,
+                        kFetchViolation = 1U << 0;  // CFSR
+constexpr Cycles kEntry = 12;                       // of an exception, from the core's manual
+
+// What the engine calls its exceptions.
+constexpr std::uint32_t kSvcNumber = 2, kBreakpoint = 7, kReturn = 8, kBreakpointToo = 16;
+constexpr std::uint16_t kCallHalfKay = 0xBEFB;  // bkpt #251
+
+}  // namespace
+
+Chip::Chip()
+    : cpu_(std::make_unique<Cpu>(
+          memory_, Cpu::Hooks{[this] { return interrupted(); },
+                              [this](std::uint32_t address, int bytes) {
+                                if (address < kPrivatePeripherals) return bus_.read(address, bytes);
+                                if (find_register(address) == nullptr || bytes != 4)
+                                  fail(name_of(address) + ": read of a register that is not modelled");
+                                return control_.read(address);
+                              },
+                              [this](std::uint32_t address, std::uint32_t value, int bytes) {
+                                if (address < kPrivatePeripherals) return bus_.write(address, value, bytes);
+                                if (find_register(address) == nullptr || bytes != 4)
+                                  fail(name_of(address) + ": write of a register that is not modelled");
+                                control_.write(address, value);
+                              },
+                              [this](std::uint32_t number) { on_exception(number); }})),
+      exceptions_(*cpu_, memory_) {}
+
+void Chip::start(Reset cause) {
+  wishes_.clear();
+  next_event_ = kNever;
+  exceptions_.reset();
+  control_.reset();
+  for (Model* model : models_) model->reset();
+  remember_reset(cause);
+  in_bootloader_ = false;
+  boot();
+}
+
+/// The ROM enters a function as it stands, or takes stack and entry from a vector table.
+void Chip::boot() {
+  std::uint32_t entry = 0;
+  std::memcpy(&entry, memory_.at(kImageVectorTable + 4, 4).data(), 4);
+  for (const int reg : {UC_ARM_REG_PRIMASK, UC_ARM_REG_BASEPRI, UC_ARM_REG_FAULTMASK, UC_ARM_REG_IPSR})
+    cpu_->set(reg, 0);
+  cpu_->set(UC_ARM_REG_SP, 0);
+  if ((entry & 1) == 0) {
+    const auto vectors = memory_.at(entry, 8);
+    if (vectors.empty()) return fail("the image's entry lies in no memory");
+    std::uint32_t stack = 0;
+    std::memcpy(&stack, vectors.data(), 4);
+    std::memcpy(&entry, vectors.data() + 4, 4);
+    cpu_->set(UC_ARM_REG_SP, stack);
+  }
+  cpu_->set(UC_ARM_REG_LR, ~0U);
+  cpu_->set(UC_ARM_REG_EPSR, 1U << 24);
+  cpu_->set(UC_ARM_REG_PC, entry);
+  cpu_->refresh();
+}
+
+void Chip::wake(Model& model, Cycles when) {
+  const auto wish =
+      std::find_if(wishes_.begin(), wishes_.end(), [&](const Wish& w) { return w.model == &model; });
+  if (wish != wishes_.end())
+    wish->when = when;
+  else
+    wishes_.push_back({&model, when});
+  reschedule();
+}
+
+void Chip::reschedule() {
+  next_event_ = control_.next_event();
+  for (const Wish& wish : wishes_) next_event_ = std::min(next_event_, wish.when);
+}
+
+void Chip::run_events() {
+  while (next_event_ <= now()) {
+    if (control_.next_event() <= now()) control_.event();
+    for (std::size_t i = 0; i < wishes_.size(); ++i)
+      if (wishes_[i].when <= now()) {
+        wishes_[i].when = kNever;
+        wishes_[i].model->event();
+      }
+    reschedule();
+  }
+}
+
+void Chip::fail(const std::string& what) {
+  if (failure_.empty())
+    failure_ = fmt::format("{} (PC 0x{:08X}, {:.6f} s)", what, cpu_->pc() & ~1U,
+                           static_cast<double>(now()) / static_cast<double>(kCyclesPerSecond));
+}
+
+void Chip::restart(Reset cause) { restart_ = cause; }
+
+std::span<std::uint8_t> Chip::dma(std::uint32_t address, std::uint32_t bytes) {
+  const auto found = memory_.at(address, bytes);
+  if (found.empty() || address >= Memory::kFlash) {
+    fail(fmt::format("a bus master goes to 0x{:08X}, which is no RAM", address));
+    return {};
+  }
+  if (control_.cached(address) || (bytes != 0 && control_.cached(address + bytes - 1))) {
+    fail(fmt::format("a bus master goes to 0x{:08X}, which the processor caches", address));
+    return {};
+  }
+  return found;
+}
+
+/// Called before each block of instructions: something is due that the engine must be left for.
+bool Chip::interrupted() {
+  return now() >= std::min(next_event_, end_) || restart_ || !failure_.empty() || in_bootloader_ ||
+         exceptions_.due().has_value();
+}
+
+void Chip::take_exception() {
+  const std::optional<int> number = exceptions_.due();
+  if (!number) return;
+  skipped_ += kEntry;
+  if (!exceptions_.enter(*number)) lock_up();
+}
+
+void Chip::on_exception(std::uint32_t number) {
+  if (number == kReturn) {
+    exceptions_.leave(cpu_->pc() | 1U);
+  } else if (number == kSvcNumber) {
+    exceptions_.pend(exception::kSvc);
+  } else if (number == kBreakpoint || number == kBreakpointToo) {
+    std::uint16_t instruction = 0;
+    if (const auto code = memory_.at(cpu_->pc() & ~1U, 2); !code.empty())
+      std::memcpy(&instruction, code.data(), 2);
+    if (instruction == kCallHalfKay)
+      in_bootloader_ = true;
+    else
+      fail("a breakpoint, which takes a Teensy to its boot loader whatever the motors do");
+  } else {
+    fail(fmt::format("exception {} of the engine", number));
+  }
+}
+
+void Chip::bad_access() {
+  const Cpu::BadAccess& bad = cpu_->bad_access();
+  exceptions_.cfsr |= bad.fetch ? kFetchViolation : kAccessViolation | kAddressValid;
+  exceptions_.mmfar = bad.address;
+  const std::optional<int> number = exceptions_.fault(exception::kMemManage);
+  if (!number || !exceptions_.enter(*number)) lock_up();
+}
+
+void Chip::run_cpu() {
+  switch (cpu_->run()) {
+    case Cpu::End::interrupted:
+      break;
+    case Cpu::End::sleeping:
+      if (!in_bootloader_ && failure_.empty()) sleep(end_);
+      break;
+    case Cpu::End::bad_access:
+      bad_access();
+      break;
+    case Cpu::End::bad_instruction:
+      if (in_bootloader_) break;
+      if (const auto number = exceptions_.fault(exception::kUsageFault);
+          !number || !exceptions_.enter(*number))
+        lock_up();
+      break;
+  }
+}
+
+void Chip::skip_to(Cycles when) {
+  if (when > now()) skipped_ += when - now();
+}
+
+void Chip::sleep(Cycles end) {
+  while (!exceptions_.wakes() && !restart_ && failure_.empty()) {
+    if (next_event_ >= end) {
+      skip_to(end);
+      return;
+    }
+    skip_to(next_event_);
+    run_events();
+  }
+}
+
+void Chip::run_until(Cycles end) {
+  end_ = end;
+  while (now() < end && !in_bootloader_) {
+    run_events();
+    if (!exceptions_.violation.empty()) fail(exceptions_.violation);
+    if (!failure_.empty()) throw Stopped(failure_);
+    if (restart_) start(*std::exchange(restart_, std::nullopt));
+    take_exception();
+    run_cpu();
+  }
+  if (!failure_.empty()) throw Stopped(failure_);
+  if (in_bootloader_) skip_to(end);
+}
+
+}  // namespace astro::emulator

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/emulator/bus.hpp"
+#include "host/emulator/cpu.hpp"
+#include "host/emulator/exceptions.hpp"
+#include "host/emulator/memory.hpp"
+#include "host/emulator/system_control.hpp"
+
+namespace astro::emulator {
+
+/// Processor, memories, interrupt controller and virtual time: the machine that models are put into.
+class Chip : public Machine {
+ public:
+  Chip();
+
+  Memory& memory() { return memory_; }
+  Cpu& cpu() { return *cpu_; }
+  Bus& bus() { return bus_; }
+  const SystemControl& system_control() const { return control_; }
+
+  /// Models take part in resets and events once they are here.
+  void add(Model& model) { models_.push_back(&model); }
+
+  /// Whose gates decide what is clocked; where the reason of a reset is written.
+  std::function<bool(Gate)> gates;
+  std::function<void(Reset)> remember_reset;
+  /// True while nothing may be read from the flash because it is busy.
+  std::function<bool()> flash_busy = [] { return false; };
+
+  /// Power comes on, or the chip starts again: models reset, then the boot ROM.
+  void start(Reset cause);
+
+  /// Runs until `end`. Throws Stopped if the firmware broke a rule.
+  void run_until(Cycles end);
+
+  /// The firmware has called the boot loader: the processor stands still.
+  bool in_bootloader() const { return in_bootloader_; }
+
+  // Machine
+  Cycles now() const override { return skipped_ + cpu_->instructions(); }
+  void set_interrupt(int irq, bool level) override { exceptions_.set_line(irq, level); }
+  void wake(Model& model, Cycles when) override;
+  void fail(const std::string& what) override;
+  bool clocked(Gate gate) const override { return gates(gate); }
+  std::span<std::uint8_t> dma(std::uint32_t address, std::uint32_t bytes) override;
+  void restart(Reset cause) override;
+
+ private:
+  bool interrupted();
+  void run_events();
+  void reschedule();
+  void run_cpu();
+  void sleep(Cycles end);
+  void take_exception();
+  void on_exception(std::uint32_t number);
+  void skip_to(Cycles when);
+  void bad_access();
+  void lock_up() { restart(Reset::software); }
+  void boot();
+
+  struct Wish {
+    Model* model;
+    Cycles when;
+  };
+
+  Memory memory_;
+  Bus bus_{*this};
+  std::unique_ptr<Cpu> cpu_;
+  Exceptions exceptions_;
+  SystemControl control_{*this, exceptions_};
+  std::vector<Model*> models_;
+  std::vector<Wish> wishes_;
+  Cycles skipped_ = 0;  // time in which no instruction ran
+  Cycles next_event_ = kNever, end_ = 0;
+  std::string failure_;
+  std::optional<Reset> restart_;
+  bool in_bootloader_ = false;
+};
+
+}  // namespace astro::emulator

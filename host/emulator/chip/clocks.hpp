@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "host/emulator/chip/stored.hpp"
+
+namespace astro::emulator {
+
+/// PLLs, band gap and supplies of the analogue parts: CCM_ANALOG and PMU, which share a page. A PLL locks 60
+/// us after it was switched on.
+class Analog : public Stored {
+ public:
+  explicit Analog(Machine& machine);
+
+  std::uint32_t read(std::uint32_t offset) override;
+  void write(std::uint32_t offset, std::uint32_t value) override;
+  void reset() override;
+
+  bool arm_pll_locked() const { return machine_.now() >= arm_locked_at_; }
+  std::uint32_t arm_pll_mhz() const;
+  bool usb_pll_ready() const;
+  /// The core must not hang on a PLL that changes: asked before each write to it.
+  std::function<bool()> core_runs_from_arm_pll = [] { return false; };
+
+ private:
+  Machine& machine_;
+  Cycles arm_locked_at_ = 0, usb_locked_at_ = kNever;
+};
+
+/// The core's supply: a change takes effect 30 us later.
+class Dcdc : public Stored {
+ public:
+  explicit Dcdc(Machine& machine);
+  std::uint32_t read(std::uint32_t offset) override;
+  void write(std::uint32_t offset, std::uint32_t value) override;
+  std::uint32_t millivolts() const;
+
+ private:
+  Machine& machine_;
+  Cycles settled_at_ = 0;
+};
+
+/// The clock controller: dividers and selectors with their handshakes, and the gates. After the ROM the gates
+/// of parts that it has no use for are closed, so that a driver which forgets to open one is found.
+class Ccm : public Stored {
+ public:
+  Ccm(Machine& machine, Analog& analog, Dcdc& dcdc);
+
+  std::uint32_t read(std::uint32_t offset) override;
+  void write(std::uint32_t offset, std::uint32_t value) override;
+  void reset() override;
+
+  bool open(Gate gate) const;
+  std::uint32_t core_mhz() const;
+  std::uint32_t bus_mhz() const;
+  std::uint32_t uart_hz() const;
+  std::uint32_t timer_hz() const;  // PIT
+
+ private:
+  bool from_pll() const;
+  void check_supply();
+
+  Machine& machine_;
+  Analog& analog_;
+  Dcdc& dcdc_;
+  std::uint32_t busy_ = 0;  // of CDHIPR
+  Cycles busy_until_ = 0;
+};
+
+}  // namespace astro::emulator

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "host/emulator/chip/pins.hpp"
+
+namespace astro::emulator {
+
+/// FlexPWM2 with its submodule 2, whose outputs A and B are pins 6 and 9.
+class FlexPwm : public Stored {
+ public:
+  FlexPwm(Machine& machine, const Iomuxc& iomuxc);
+
+  std::uint32_t read(std::uint32_t offset) override;
+  void write(std::uint32_t offset, std::uint32_t value) override;
+  void event() override;
+  void reset() override;
+
+  /// The part of its period that a pin is high: 0 is A (left), 1 is B (right). A pad that is not FlexPWM's is
+  /// low: the driver's pull-down.
+  double duty(std::size_t output) const;
+  std::uint32_t period_counts() const;
+
+ private:
+  struct Values {
+    std::uint16_t initial = 0, val1 = 0;
+    std::array<std::uint16_t, 2> rise{}, fall{};
+  };
+  void write_mctrl(std::uint32_t value);
+  void load();
+  bool running() const;
+  bool locked() const;
+  Values buffered() const;
+
+  Machine& machine_;
+  const Iomuxc& iomuxc_;
+  Values active_;
+  std::uint32_t mask_ = 0;  // in effect
+  Cycles period_began_ = 0;
+};
+
+}  // namespace astro::emulator

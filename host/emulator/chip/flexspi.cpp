@@ -1,0 +1,155 @@
+#include "host/emulator/chip/flexspi.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+
+#include "hal/teensy40/registers/registers.hpp"
+
+namespace astro::emulator {
+namespace {
+
+using namespace teensy40;
+
+constexpr std::uint32_t kKey = 0x5AF0'5AF0, kSequence = 15;
+constexpr std::uint32_t kCommand = 1, kAddress = 2, kWrite = 8, kRead = 9;  // what a step of a sequence does
+constexpr Cycles kPerByte = 160;                                            // 30 MHz, eight bits on a line
+
+}  // namespace
+
+void Flexspi::reset() {
+  Stored::reset();
+  key_ = unlocked_ = running_ = false;
+  events_ = 0;
+  sent_ = 0;
+  to_flash_.clear();
+  from_flash_.clear();
+}
+
+Flexspi::Command Flexspi::decode() {
+  Command command;
+  for (std::uint32_t word = 0; word < 4; ++word) {
+    const std::uint32_t steps = value(flexspi::LUT60.value + 4 * word);
+    for (const std::uint32_t step : {steps & 0xFFFF, steps >> 16}) {
+      const std::uint32_t code = step >> 10, operand = step & 0xFF;
+      if (code == 0) return command;
+      if (code == kCommand)
+        command.opcode = static_cast<std::uint8_t>(operand);
+      else if (code == kAddress)
+        command.address = true;
+      else if (code == kWrite)
+        command.writes = true;
+      else if (code == kRead)
+        command.reads = true;
+      else
+        machine_.fail(fmt::format("FLEXSPI LUT60: a step with code {} is not modelled", code));
+    }
+  }
+  return command;
+}
+
+void Flexspi::trigger() {
+  const std::uint32_t setting = value(flexspi::IPCR1.value);
+  if (running_) return machine_.fail("FLEXSPI IPCMD: triggered while a command runs");
+  if (flexspi::IPCR1_ISEQID.of(setting) != kSequence || flexspi::IPCR1_ISEQNUM.of(setting) != 0)
+    return machine_.fail("FLEXSPI IPCR1: only sequence 15 is the firmware's");
+  running_ = true;
+  command_ = decode();
+  const Cycles takes = kPerByte * (8 + flexspi::IPCR1_IDATSZ.of(setting));
+  machine_.wake(*this, machine_.now() + takes);
+}
+
+/// The time of the command is over. Data that the queue has not got yet make it wait.
+void Flexspi::event() {
+  if (!running_) return;
+  const std::uint32_t wanted = command_.writes ? flexspi::IPCR1_IDATSZ.of(value(flexspi::IPCR1.value)) : 0;
+  if (to_flash_.size() < wanted) {
+    sent_ = to_flash_.size();
+    return machine_.wake(*this, machine_.now() + kPerByte);
+  }
+  execute();
+  running_ = false;
+  events_ |= flexspi::INTR_IPCMDDONE(1);
+}
+
+void Flexspi::execute() {
+  const std::uint32_t address = value(flexspi::IPCR0.value);
+  const std::uint32_t bytes = flexspi::IPCR1_IDATSZ.of(value(flexspi::IPCR1.value));
+  switch (command_.opcode) {
+    case 0x06:
+      return flash_.write_enable();
+    case 0x05:
+      return from_flash_.push_back(flash_.status());
+    case 0x20:
+      return flash_.erase_sector(address);
+    case 0x02:
+    case 0x32:
+      flash_.program(address, std::span(to_flash_).first(bytes));
+      to_flash_.clear();
+      sent_ = 0;
+      return;
+    case 0x9F:
+      from_flash_.insert(from_flash_.end(), {0xEF, 0x40, 0x15});
+      return;
+    default:
+      machine_.fail(fmt::format("FLEXSPI LUT60: the flash does not know command 0x{:02X}", command_.opcode));
+  }
+}
+
+std::uint32_t Flexspi::read(std::uint32_t offset) {
+  if (offset == flexspi::INTR.value) {
+    constexpr std::size_t kQueue = 128;
+    const bool room = to_flash_.size() - sent_ + 8 <= kQueue;
+    return events_ | flexspi::INTR_IPTXWE(room);
+  }
+  if (offset == flexspi::STS0.value)
+    return flexspi::STS0_ARBIDLE(!running_) | flexspi::STS0_SEQIDLE(!running_);
+  if (offset == flexspi::RFDR0.value) {
+    std::uint32_t word = 0;
+    for (std::uint32_t i = 0; i < 4 && i < from_flash_.size(); ++i)
+      word |= std::uint32_t{from_flash_[i]} << (8 * i);
+    return word;
+  }
+  if (offset == flexspi::MCR0.value) return value(offset) & ~flexspi::MCR0_SWRESET(1);
+  return value(offset);
+}
+
+void Flexspi::write_flags(std::uint32_t word) {
+  if (flexspi::INTR_IPTXWE.of(word) != 0) {
+    std::array<std::uint8_t, 8> bytes{};
+    std::memcpy(bytes.data(), pair_.data(), bytes.size());
+    to_flash_.insert(to_flash_.end(), bytes.begin(), bytes.end());
+  }
+  events_ &= ~word;
+}
+
+void Flexspi::write(std::uint32_t offset, std::uint32_t word) {
+  if (offset == flexspi::LUTKEY.value) {
+    key_ = word == kKey;
+    if (!key_) machine_.fail("FLEXSPI LUTKEY: not the key");
+  } else if (offset == flexspi::LUTCR.value) {
+    if (!key_) machine_.fail("FLEXSPI LUTCR: written without the key");
+    unlocked_ = flexspi::LUTCR_UNLOCK.of(word) != 0;
+    key_ = false;
+  } else if (offset >= flexspi::LUT60.value) {
+    if (!unlocked_) machine_.fail("FLEXSPI LUT60: the table is locked");
+    store(offset, word);
+  } else if (offset == flexspi::IPCMD.value) {
+    if (flexspi::IPCMD_TRG.of(word) != 0) trigger();
+  } else if (offset == flexspi::INTR.value) {
+    write_flags(word);
+  } else if (offset == flexspi::IPTXFCR.value) {
+    if (flexspi::IPTXFCR_CLRIPTXF.of(word) != 0) to_flash_.clear();
+    sent_ = 0;
+  } else if (offset == flexspi::IPRXFCR.value) {
+    if (flexspi::IPRXFCR_CLRIPRXF.of(word) != 0) from_flash_.clear();
+  } else if (offset == flexspi::TFDR0.value) {
+    pair_[0] = word;
+  } else if (offset == flexspi::TFDR1.value) {
+    pair_[1] = word;
+  } else {
+    store(offset, word);
+  }
+}
+
+}  // namespace astro::emulator

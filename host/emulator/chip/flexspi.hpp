@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "host/emulator/chip/nor_flash.hpp"
+#include "host/emulator/chip/stored.hpp"
+
+namespace astro::emulator {
+
+/// The controller of the program's flash: commands by sequences of its look-up table. Only the last sequence
+/// is the firmware's; the first reads the program.
+class Flexspi : public Stored {
+ public:
+  Flexspi(Machine& machine, NorFlash& flash) : machine_(machine), flash_(flash) {}
+
+  std::uint32_t read(std::uint32_t offset) override;
+  void write(std::uint32_t offset, std::uint32_t value) override;
+  void event() override;
+  void reset() override;
+
+ private:
+  struct Command {
+    std::uint8_t opcode = 0;
+    bool address = false, writes = false, reads = false;
+  };
+  Command decode();
+  void trigger();
+  void execute();
+  void finish();
+  void write_flags(std::uint32_t value);
+
+  Machine& machine_;
+  NorFlash& flash_;
+  bool key_ = false, unlocked_ = false, running_ = false;
+  std::uint32_t events_ = 0;
+  std::array<std::uint32_t, 2> pair_{};
+  std::vector<std::uint8_t> to_flash_;  // all that the command was given
+  std::size_t sent_ = 0;                // of it: no longer in the queue
+  std::deque<std::uint8_t> from_flash_;
+  Command command_;
+};
+
+}  // namespace astro::emulator

@@ -1,0 +1,38 @@
+#include <fmt/format.h>
+
+#include "host/emulator/chip/pins.hpp"
+
+namespace astro::emulator {
+
+using namespace teensy40;
+
+std::uint32_t Gpio::read(std::uint32_t offset) {
+  if (offset == gpio::DR.value) return data_;
+  if (offset == gpio::GDIR.value) return direction_;
+  if (offset == gpio::PSR.value) return (data_ & direction_) | (inputs_ & ~direction_);
+  if (offset == gpio::IMR.value) return mask_;
+  if (offset == gpio::ISR.value) return status_;
+  return 0;
+}
+
+/// A port cannot move a pin that belongs to the other view of the pads.
+void Gpio::set_data(std::uint32_t data, std::uint32_t touched) {
+  const bool fast = port_ >= 6;
+  const std::uint32_t fast_pins = gpr_.fast_pins(fast ? port_ - 5 : port_);
+  if ((touched & (fast ? ~fast_pins : fast_pins)) != 0)
+    machine_.fail(fmt::format("GPIO{} DR: moves pins that belong to GPIO{} (IOMUXC_GPR GPR{})", port_,
+                              fast ? port_ - 5 : port_ + 5, 25 + (fast ? port_ - 5 : port_)));
+  data_ = data;
+}
+
+void Gpio::write(std::uint32_t offset, std::uint32_t value) {
+  if (offset == gpio::DR.value) set_data(value, data_ ^ value);
+  if (offset == gpio::DR_SET.value) set_data(data_ | value, value);
+  if (offset == gpio::DR_CLEAR.value) set_data(data_ & ~value, value);
+  if (offset == gpio::DR_TOGGLE.value) set_data(data_ ^ value, value);
+  if (offset == gpio::GDIR.value) direction_ = value;
+  if (offset == gpio::IMR.value) mask_ = value;
+  if (offset == gpio::ISR.value) status_ &= ~value;
+}
+
+}  // namespace astro::emulator

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "host/emulator/chip/clocks.hpp"
+#include "host/emulator/chip/pins.hpp"
+
+namespace astro::emulator {
+
+/// LPUART6, and the wire to a host on pins 0 and 1: bytes take the time that the baud rate gives them, both
+/// ways.
+class Lpuart : public Model {
+ public:
+  Lpuart(Machine& machine, const Ccm& ccm, const Iomuxc& iomuxc)
+      : machine_(machine), ccm_(ccm), iomuxc_(iomuxc) {}
+
+  std::uint32_t read(std::uint32_t offset) override;
+  void write(std::uint32_t offset, std::uint32_t value) override;
+  void event() override;
+  void reset() override;
+
+  // The host's end.
+  void send(std::span<const std::uint8_t> bytes);
+  std::vector<std::uint8_t> receive();
+  /// Bytes of send() that have not reached the chip yet.
+  std::size_t underway() const { return incoming_.size(); }
+  std::uint32_t baud() const;
+
+ private:
+  bool connected() const;
+  Cycles byte_time() const { return kCyclesPerSecond * 10 / baud(); }
+  void arrive();
+  void depart();
+  void write_control(std::uint32_t value);
+  void write_data(std::uint32_t value);
+  std::uint32_t read_data();
+  std::uint32_t status() const;
+  void update();
+
+  static constexpr std::size_t kQueue = 4;
+
+  Machine& machine_;
+  const Ccm& ccm_;
+  const Iomuxc& iomuxc_;
+  std::uint32_t baud_ = 0x0F00'0004, control_ = 0, fifo_ = 0, water_ = 0, events_ = 0;
+  std::deque<std::uint8_t> received_, sending_;
+  std::deque<std::uint8_t> incoming_;
+  std::vector<std::uint8_t> outgoing_;
+  Cycles arrives_at_ = kNever, departs_at_ = kNever, idle_at_ = kNever;
+};
+
+}  // namespace astro::emulator

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+
+#include "hal/sim/flash.hpp"
+#include "host/emulator/machine.hpp"
+
+namespace astro::emulator {
+
+/// The serial NOR flash of a Teensy 4.0 (W25Q16JV): commands and their times, over the memory that the
+/// processor reads its program from. Programming clears bits, erasing sets a sector's; power fails where a
+/// test says.
+class NorFlash {
+ public:
+  struct Times {
+    Cycles page = 400 * kCyclesPerMicrosecond, erase = 45'000 * kCyclesPerMicrosecond;
+    /// What the data sheet allows at most.
+    static Times slowest() { return {3'000 * kCyclesPerMicrosecond, 400'000 * kCyclesPerMicrosecond}; }
+  };
+  static constexpr std::uint32_t kParameters = 0x1F'0000, kParametersEnd = 0x1F'F000;
+
+  NorFlash(Machine& machine, std::span<std::uint8_t> content) : machine_(machine), content_(content) {}
+
+  Times times;
+  bool busy() const { return machine_.now() < busy_until_; }
+
+  void write_enable() { enabled_ = true; }
+  std::uint8_t status() const { return static_cast<std::uint8_t>((busy() ? 1 : 0) | (enabled_ ? 2 : 0)); }
+  void erase_sector(std::uint32_t address);
+  /// At most a page; beyond its end the address goes on at the page's begin.
+  void program(std::uint32_t address, std::span<const std::uint8_t> bytes);
+
+  /// Power fails when so many more bytes have been programmed or erased. The chip is dead from then on.
+  void cut_power_after(std::uint64_t bytes, sim::Tear tear = sim::Tear::sharp);
+  bool powered() const { return powered_; }
+  void restore_power();
+  std::uint64_t bytes_worked() const { return worked_; }
+
+  /// The parameters' sectors.
+  std::span<std::uint8_t> parameters() { return content_.subspan(kParameters, kParametersEnd - kParameters); }
+  /// Called when power fails.
+  std::function<void()> on_power_cut = [] {};
+
+ private:
+  bool begin(std::uint32_t address, Cycles takes);
+  void work(std::uint32_t address, std::uint8_t target);
+
+  Machine& machine_;
+  std::span<std::uint8_t> content_;
+  bool enabled_ = false, powered_ = true;
+  Cycles busy_until_ = 0;
+  std::uint64_t worked_ = 0, cut_at_ = ~std::uint64_t{0};
+  sim::Tear tear_ = sim::Tear::sharp;
+};
+
+}  // namespace astro::emulator

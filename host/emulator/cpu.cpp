@@ -1,0 +1,116 @@
+#include "host/emulator/cpu.hpp"
+
+#include <stdexcept>
+#include <string>
+
+namespace astro::emulator {
+namespace {
+
+void check(uc_err error, const char* what) {
+  if (error != UC_ERR_OK)
+    throw std::runtime_error(std::string("Unicorn: ") + what + ": " + uc_strerror(error));
+}
+
+constexpr std::size_t kBlocks = 65536;
+
+}  // namespace
+
+Cpu::Cpu(Memory& memory, Hooks hooks) : memory_(memory), hooks_(std::move(hooks)), blocks_(kBlocks) {
+  check(uc_open(UC_ARCH_ARM, UC_MODE_THUMB, &engine_), "open");
+  check(uc_ctl_set_cpu_model(engine_, UC_CPU_ARM_CORTEX_M7), "processor");
+  for (const Memory::Range& range : memory_.ranges())
+    check(uc_mem_map_ptr(engine_, range.base, range.bytes.size(),
+                         range.writable ? UC_PROT_ALL : UC_PROT_READ | UC_PROT_EXEC, range.bytes.data()),
+          "memory");
+  map_registers<0x4000'0000>(0x40'0000);
+  map_registers<0x4200'0000>(0x10'0000);
+  map_registers<0xE000'0000>(0x10'0000);
+  uc_hook hook = 0;
+  check(uc_hook_add(engine_, &hook, UC_HOOK_BLOCK, reinterpret_cast<void*>(on_block), this, 1, 0),
+        "block hook");
+  check(uc_hook_add(engine_, &hook, UC_HOOK_INTR, reinterpret_cast<void*>(on_interrupt), this, 1, 0),
+        "interrupts");
+  check(uc_hook_add(engine_, &hook, UC_HOOK_MEM_INVALID, reinterpret_cast<void*>(on_invalid), this, 1, 0),
+        "faults");
+}
+
+Cpu::~Cpu() { uc_close(engine_); }
+
+template <std::uint32_t Base>
+void Cpu::map_registers(std::size_t bytes) {
+  check(uc_mmio_map(engine_, Base, bytes, on_read<Base>, this, on_write<Base>, this), "registers");
+}
+
+template <std::uint32_t Base>
+std::uint64_t Cpu::on_read(uc_engine*, std::uint64_t offset, unsigned bytes, void* self) {
+  return static_cast<Cpu*>(self)->hooks_.read(Base + static_cast<std::uint32_t>(offset),
+                                              static_cast<int>(bytes));
+}
+
+template <std::uint32_t Base>
+void Cpu::on_write(uc_engine*, std::uint64_t offset, unsigned bytes, std::uint64_t value, void* self) {
+  static_cast<Cpu*>(self)->hooks_.write(Base + static_cast<std::uint32_t>(offset),
+                                        static_cast<std::uint32_t>(value), static_cast<int>(bytes));
+}
+
+std::uint32_t Cpu::get(int reg) const {
+  std::uint32_t value = 0;
+  uc_reg_read(engine_, reg, &value);
+  return value;
+}
+
+void Cpu::set(int reg, std::uint32_t value) { uc_reg_write(engine_, reg, &value); }
+
+void Cpu::refresh() { set(UC_ARM_REG_APSR_NZCV, get(UC_ARM_REG_CPSR)); }
+
+/// A halfword from 0xE800 up begins an instruction of two.
+std::uint32_t Cpu::count(std::uint32_t address, std::uint32_t bytes) {
+  Block& known = blocks_[address / 2 % kBlocks];
+  if (known.address == address && known.bytes == bytes) return known.instructions;
+  const auto code = memory_.at(address, bytes);
+  std::uint32_t instructions = 0;
+  for (std::size_t i = 0; i + 1 < code.size(); i += code[i + 1] >= 0xE8 ? 4 : 2) ++instructions;
+  known = {address, bytes, instructions};
+  return instructions;
+}
+
+void Cpu::on_block(uc_engine* engine, std::uint64_t address, std::uint32_t bytes, void* self) {
+  auto& cpu = *static_cast<Cpu*>(self);
+  if (cpu.stopping_) return;
+  if (cpu.hooks_.interrupted()) {
+    cpu.stopping_ = true;
+    uc_emu_stop(engine);
+    return;
+  }
+  const std::uint32_t instructions = cpu.count(static_cast<std::uint32_t>(address), bytes);
+  cpu.instructions_ += instructions;
+  if (cpu.trace) cpu.trace(static_cast<std::uint32_t>(address), instructions);
+}
+
+void Cpu::on_interrupt(uc_engine*, std::uint32_t number, void* self) {
+  static_cast<Cpu*>(self)->hooks_.exception(number);
+}
+
+bool Cpu::on_invalid(uc_engine*, uc_mem_type type, std::uint64_t address, int, std::int64_t, void* self) {
+  static_cast<Cpu*>(self)->bad_ = {static_cast<std::uint32_t>(address),
+                                   type == UC_MEM_WRITE_UNMAPPED || type == UC_MEM_WRITE_PROT,
+                                   type == UC_MEM_FETCH_UNMAPPED || type == UC_MEM_FETCH_PROT};
+  return false;
+}
+
+Cpu::End Cpu::run() {
+  stopping_ = false;
+  const uc_err error = uc_emu_start(engine_, pc() | 1U, 1, 0, 0);
+  if (stopping_) return End::interrupted;
+  switch (error) {
+    case UC_ERR_OK:
+      return End::sleeping;
+    case UC_ERR_INSN_INVALID:
+    case UC_ERR_EXCEPTION:
+      return End::bad_instruction;
+    default:
+      return End::bad_access;
+  }
+}
+
+}  // namespace astro::emulator

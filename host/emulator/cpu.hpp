@@ -1,0 +1,84 @@
+#pragma once
+
+#include <unicorn/unicorn.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "host/emulator/machine.hpp"
+#include "host/emulator/memory.hpp"
+
+namespace astro::emulator {
+
+/// The instruction engine: registers, memories, and the callbacks by which the rest of the machine takes
+/// part.
+///
+/// Why     Unicorn, with two habits to mind: stopping it from a register access rewinds the program counter
+/// and
+///         repeats what was done, so it is only stopped between blocks of instructions; and exceptions are
+///         left to us.
+class Cpu {
+ public:
+  /// What the machine does when the engine asks.
+  struct Hooks {
+    std::function<bool()> interrupted;  // before each block: true ends the run there
+    std::function<std::uint32_t(std::uint32_t address, int bytes)> read;
+    std::function<void(std::uint32_t address, std::uint32_t value, int bytes)> write;
+    std::function<void(std::uint32_t number)> exception;  // EXC_RETURN, SVC, BKPT by the engine's numbers
+  };
+  enum class End : std::uint8_t { interrupted, sleeping, bad_access, bad_instruction };
+  struct BadAccess {
+    std::uint32_t address = 0;
+    bool write = false, fetch = false;
+  };
+
+  Cpu(Memory& memory, Hooks hooks);
+  ~Cpu();
+  Cpu(const Cpu&) = delete;
+  Cpu& operator=(const Cpu&) = delete;
+
+  std::uint32_t get(int reg) const;
+  void set(int reg, std::uint32_t value);
+  std::uint32_t pc() const { return get(UC_ARM_REG_PC); }
+  /// The engine keeps the state of IPSR and of the Thumb bit apart: to be called after either was written.
+  void refresh();
+
+  /// Runs until a hook or an instruction ends it.
+  End run();
+  const BadAccess& bad_access() const { return bad_; }
+
+  std::uint64_t instructions() const { return instructions_; }
+
+  /// Called with the address and number of instructions of each block that is about to run; empty: nobody.
+  std::function<void(std::uint32_t address, std::uint32_t instructions)> trace;
+
+ private:
+  static void on_block(uc_engine* engine, std::uint64_t address, std::uint32_t bytes, void* self);
+  static void on_interrupt(uc_engine* engine, std::uint32_t number, void* self);
+  static bool on_invalid(uc_engine* engine, uc_mem_type type, std::uint64_t address, int bytes,
+                         std::int64_t value, void* self);
+  template <std::uint32_t Base>
+  static std::uint64_t on_read(uc_engine* engine, std::uint64_t offset, unsigned bytes, void* self);
+  template <std::uint32_t Base>
+  static void on_write(uc_engine* engine, std::uint64_t offset, unsigned bytes, std::uint64_t value,
+                       void* self);
+  template <std::uint32_t Base>
+  void map_registers(std::size_t bytes);
+  std::uint32_t count(std::uint32_t address, std::uint32_t bytes);
+
+  struct Block {
+    std::uint32_t address = ~0U, bytes = 0, instructions = 0;
+  };
+
+  Memory& memory_;
+  Hooks hooks_;
+  uc_engine* engine_ = nullptr;
+  std::vector<Block> blocks_;
+  std::uint64_t instructions_ = 0;
+  bool stopping_ = false;
+  BadAccess bad_;
+};
+
+}  // namespace astro::emulator

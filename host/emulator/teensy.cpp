@@ -1,0 +1,86 @@
+#include "host/emulator/teensy.hpp"
+
+#include <cstring>
+
+#include "hal/teensy40/registers/registers.hpp"
+#include "host/emulator/hex.hpp"
+
+namespace astro::emulator {
+namespace {
+
+constexpr Cycles cycles(std::chrono::nanoseconds time) { return static_cast<Cycles>(time.count()) * 3 / 5; }
+constexpr std::uint32_t kPage = 0x1000;
+
+}  // namespace
+
+Teensy::Teensy(const std::filesystem::path& hex, const sim::Config& robot)
+    : ocotp_(chip_, static_cast<std::uint32_t>(robot.seed)),
+      world_(chip_, robot, {pwm_, gpio7_, encoder_wires_, adc_}) {
+  load_hex(hex, chip_.memory().flash());
+  const auto parameters = flash_.parameters();
+  std::memcpy(parameters.data(), robot.flash.data(), std::min(parameters.size(), robot.flash.size()));
+  chip_.gates = [this](Gate gate) { return ccm_.open(gate); };
+  chip_.remember_reset = [this](Reset cause) { src_.remember(cause); };
+  chip_.flash_busy = [this] { return flash_.busy(); };
+  map();
+  chip_.start(Reset::power_on);
+}
+
+void Teensy::map() {
+  using namespace teensy40;
+  const auto add = [this](Model& model, std::uint32_t base, std::optional<Gate> gate = {},
+                          std::uint32_t bytes = kPage) {
+    chip_.bus().map(model, base, bytes, gate);
+    chip_.add(model);
+  };
+  add(analog_, CCM_ANALOG.base, Gate{6, 11});
+  add(dcdc_, DCDC.base, Gate{6, 3});
+  add(ccm_, CCM.base);
+  add(iomuxc_, IOMUXC.base, Gate{4, 1});
+  add(gpr_, IOMUXC_GPR.base, Gate{4, 2});
+  add(gpio1_, GPIO1.base, Gate{1, 13});
+  add(gpio2_, GPIO2.base, Gate{0, 15});
+  add(gpio4_, GPIO4.base, Gate{3, 6});
+  add(gpio6_, GPIO6.base);
+  add(gpio7_, GPIO7.base);
+  add(gpio9_, GPIO9.base);
+  add(pit_, PIT.base, Gate{1, 6});
+  add(src_, SRC.base);
+  add(ocotp_, OCOTP.base, Gate{2, 6});
+  add(rtwdog_, RTWDOG.base, Gate{5, 2});
+  add(wdog1_, WDOG1.base, Gate{3, 8});
+  add(wdog2_, WDOG2.base, Gate{5, 5});
+  add(lpuart_, LPUART6.base, Gate{3, 3});
+  add(xbara_, XBARA1.base, Gate{2, 11});
+  add(enc1_, ENC1.base, Gate{4, 12});
+  add(enc2_, ENC2.base, Gate{4, 13});
+  add(pwm_, PWM2.base, Gate{4, 9});
+  add(adc_, ADC1.base, Gate{1, 8});
+  add(flexspi_, FLEXSPI.base, Gate{6, 5});
+  chip_.add(world_);
+}
+
+void Teensy::run_for(std::chrono::nanoseconds time) { chip_.run_until(chip_.now() + cycles(time)); }
+
+bool Teensy::run_until(const std::function<bool()>& done, std::chrono::nanoseconds limit,
+                       std::chrono::nanoseconds step) {
+  const Cycles end = chip_.now() + cycles(limit);
+  while (!done()) {
+    if (chip_.now() >= end) return false;
+    chip_.run_until(std::min(end, chip_.now() + cycles(step)));
+  }
+  return true;
+}
+
+void Teensy::power_cycle() {
+  flash_.restore_power();
+  chip_.start(Reset::power_on);
+}
+
+std::uint32_t Teensy::word_at(std::uint32_t address) {
+  std::uint32_t word = 0;
+  if (const auto bytes = chip_.memory().at(address, 4); !bytes.empty()) std::memcpy(&word, bytes.data(), 4);
+  return word;
+}
+
+}  // namespace astro::emulator

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+
+#include "hal/sim/chassis.hpp"
+#include "hal/sim/config.hpp"
+#include "hal/sim/drivetrain.hpp"
+#include "hal/sim/encoder.hpp"
+#include "hal/sim/slip.hpp"
+#include "host/emulator/chip/adc.hpp"
+#include "host/emulator/chip/decoders.hpp"
+#include "host/emulator/chip/flexpwm.hpp"
+
+namespace astro::emulator {
+
+/// The robot around the chip: the very motors, wheels and floor of hal/sim, with the driver's inputs where
+/// the pins are and the encoders' edges where the other pins are. Moves once a millisecond, as hal/sim does.
+class World : public Model {
+ public:
+  struct Wires {
+    const FlexPwm& pwm;
+    Gpio& gpio7;
+    EncoderWires& encoders;
+    Adc& adc;
+  };
+
+  World(Machine& machine, const sim::Config& config, const Wires& wires);
+
+  // No registers: it only takes part in time.
+  std::uint32_t read(std::uint32_t) override { return 0; }
+  void write(std::uint32_t, std::uint32_t) override {}
+  void event() override;
+  void reset() override;
+
+  sim::Pose truth() const { return chassis_.pose(); }
+  const sim::Drivetrain& drivetrain() const { return drivetrain_; }
+  void set_load(sim::Side side, const sim::WheelLoad& load) { drivetrain_.set_load(side, load); }
+  void set_supply_V(double volts) { supply_V_ = volts; }
+  /// The driver chip pulls its error output down and opens both bridges.
+  void set_driver_fault(bool fault);
+  /// A cable falls off; the other motor's wheel goes on.
+  void unplug(sim::Side side, bool unplugged) { unplugged_[sim::at(side)] = unplugged; }
+  /// The shafts stand still and counts come from a script instead; `edges` by side.
+  void disconnect_wheels() { scripted_ = true; }
+
+  /// What the bridges do: duty by side, signed, and whether they are open.
+  struct Bridges {
+    sim::Pair duty{};
+    std::array<bool, 2> open{};
+  };
+  Bridges bridges() const;
+
+ private:
+  std::array<std::int32_t, 2> edges(const sim::Pair& wheels_rad);
+
+  Machine& machine_;
+  sim::Config config_;
+  Wires wires_;
+  sim::Drivetrain drivetrain_;
+  std::array<sim::Slip, 2> slip_;
+  sim::Chassis chassis_;
+  sim::Encoders shafts_;
+  double supply_V_;
+  std::array<bool, 2> unplugged_{};
+  bool fault_ = false, scripted_ = false;
+};
+
+}  // namespace astro::emulator
