@@ -47,7 +47,9 @@ ByLine stated_by_compiler() {
   ByLine bytes;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(ASTRO_IMAGE_DIR "/..")) {
     const std::string name = entry.path().filename();
-    if (!name.ends_with(".su") || name.starts_with("blink")) continue;
+    const bool of_another_image =
+        entry.path().parent_path().filename() == "bin" && !name.starts_with("astrolabe");
+    if (!name.ends_with(".su") || of_another_image) continue;
     std::ifstream file(entry.path());
     for (std::string line; std::getline(file, line);) {
       const std::string place = line.substr(0, line.find(':', line.find(':') + 1));
