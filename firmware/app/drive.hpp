@@ -54,7 +54,11 @@ class Drive {
   void host_seen() { host_deadline_us_ = deadline_us(); }
 
   bool armed() const { return mode_ != Mode::disarmed && mode_ != Mode::fault; }
-  bool at_rest() const { return mode_ == Mode::disarmed || mode_ == Mode::idle || mode_ == Mode::fault; }
+  bool at_rest() const { return !driving(); }
+  /// Commands or segments move the wheels, or a ramp does.
+  bool driving() const {
+    return mode_ == Mode::velocity || mode_ == Mode::segment || mode_ == Mode::stopping;
+  }
   bool queue_full() const { return queue_.full(); }
   Mode mode() const { return mode_; }
   const Pose& pose() const { return odometry_.pose(); }

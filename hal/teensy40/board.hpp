@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-
 #include "hal/interface/board.hpp"
 #include "hal/teensy40/battery.hpp"
 #include "hal/teensy40/clock.hpp"
@@ -45,10 +43,8 @@ class Board {
   Battery battery_;
   Flash flash_;
   Uart uart_;
-  UsbSerial usb_;
-  System system_{usb_};
-  Ports ports_{usb_, uart_};
-  std::array<char, 32> serial_number_{};  // of USB, which reads it when a host asks
+  System system_;
+  Ports ports_{uart_};
 };
 
 static_assert(hal::Board<Board>, "this port no longer satisfies hal/interface");

@@ -5,13 +5,12 @@
 namespace astro::teensy40 {
 
 namespace irq {
-inline constexpr int kLpuart6 = 25, kUsb1 = 113, kPit = 122;
+inline constexpr int kLpuart6 = 25, kPit = 122;
 }
 
-/// Urgency, smaller is more; the chip knows 16 levels. Faults have 0 for themselves. The serial port comes
-/// before USB: its queue of four bytes overflows after 40 us, while a USB host just asks again.
+/// Urgency, smaller is more; the chip knows 16 levels. Faults have 0 for themselves.
 namespace urgency {
-inline constexpr std::uint8_t kTick = 2, kUart = 4, kUsb = 6;
+inline constexpr std::uint8_t kTick = 2, kUart = 4;
 }
 
 /// What a register of the NVIC or BASEPRI holds for an urgency: the upper four bits of a byte.

@@ -1,7 +1,6 @@
 #include "hal/teensy40/system.hpp"
 
 #include "hal/teensy40/arithmetic/reset_cause.hpp"
-#include "hal/teensy40/clock.hpp"
 #include "hal/teensy40/clock_gate.hpp"
 #include "hal/teensy40/cpu.hpp"
 #include "hal/teensy40/motors.hpp"
@@ -11,20 +10,10 @@ namespace {
 
 constexpr std::uint32_t kResetKey = 0x05FA;
 constexpr std::uint32_t kSignedOnly = 1U << 1;  // in fuse word CFG5
-constexpr std::uint64_t kGoneFromUsb_us = 5'000;
 
 /// The companion chip watches the debug port and takes any `bkpt` for a call. This one is the only one in the
 /// image.
 [[gnu::noinline]] void call_halfkay() { asm volatile("bkpt #251" ::: "memory"); }
-
-/// The host sees the robot go before the boot loader appears in its place.
-void leave(UsbSerial& usb) {
-  usb.detach();
-  const Clock clock;
-  const std::uint64_t begun_us = clock.now_us();
-  while (clock.now_us() - begun_us < kGoneFromUsb_us) {
-  }
-}
 
 }  // namespace
 
@@ -52,7 +41,6 @@ bool System::enter_bootloader() noexcept {
   if ((OCOTP[ocotp::CFG5].read() & kSignedOnly) != 0) return false;
   Motors::coast();
   const cpu::InterruptsOff guard;
-  leave(usb_);
   watchdog::stop();
   call_halfkay();
   return true;

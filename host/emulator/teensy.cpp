@@ -1,5 +1,6 @@
 #include "host/emulator/teensy.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include "hal/teensy40/registers/registers.hpp"
@@ -74,6 +75,9 @@ bool Teensy::run_until(const std::function<bool()>& done, std::chrono::nanosecon
 
 void Teensy::power_cycle() {
   flash_.restore_power();
+  // What RAM holds after a while without power is no longer what it held.
+  for (const Memory::Range& range : chip_.memory().ranges())
+    if (range.writable) std::fill(range.bytes.begin(), range.bytes.end(), std::uint8_t{0xA5});
   chip_.start(Reset::power_on);
 }
 

@@ -58,6 +58,11 @@ class Teensy {
   Rtwdog& watchdog() { return rtwdog_; }
   Ccm& ccm() { return ccm_; }
   Chip& chip() { return chip_; }
+  /// Both encoders' shafts turn by so many counts, as their wires see it.
+  void turn_shafts(std::int32_t left, std::int32_t right) {
+    encoder_wires_.count(0, left);
+    encoder_wires_.count(1, right);
+  }
   std::uint32_t word_at(std::uint32_t address);
 
  private:

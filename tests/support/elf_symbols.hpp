@@ -19,7 +19,8 @@ inline std::map<std::string, std::uint32_t> elf_symbols(const std::string& elf) 
   while (fgets(line.data(), line.size(), pipe) != nullptr) {
     std::istringstream words(line.data());
     std::string address, kind, name;
-    if (words >> address >> kind >> name) symbols[name] = static_cast<std::uint32_t>(std::stoul(address, nullptr, 16));
+    if (words >> address >> kind >> name)
+      symbols[name] = static_cast<std::uint32_t>(std::stoul(address, nullptr, 16));
   }
   if (pclose(pipe) != 0) throw std::runtime_error("no symbols in " + elf);
   return symbols;

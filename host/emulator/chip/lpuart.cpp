@@ -65,7 +65,7 @@ void Lpuart::depart() {
 void Lpuart::event() {
   const Cycles now = machine_.now();
   if (arrives_at_ <= now) arrive();
-  if (departs_at_ <= now) depart();
+  if (departs_at_ <= now && !held_) depart();
   if (idle_at_ <= now) {
     idle_at_ = kNever;
     if (lpuart::CTRL_RE.of(control_) != 0) events_ |= lpuart::STAT_IDLE.mask();
@@ -87,7 +87,7 @@ void Lpuart::update() {
                      (lpuart::CTRL_TIE.of(control_) != 0 && lpuart::STAT_TDRE.of(now) != 0) ||
                      (lpuart::CTRL_TCIE.of(control_) != 0 && lpuart::STAT_TC.of(now) != 0);
   machine_.set_interrupt(kIrq, level);
-  machine_.wake(*this, std::min({arrives_at_, departs_at_, idle_at_}));
+  machine_.wake(*this, std::min({arrives_at_, held_ ? kNever : departs_at_, idle_at_}));
 }
 
 std::uint32_t Lpuart::read_data() {

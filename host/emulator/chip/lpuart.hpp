@@ -29,6 +29,13 @@ class Lpuart : public Model {
   /// Bytes of send() that have not reached the chip yet.
   std::size_t underway() const { return incoming_.size(); }
   std::uint32_t baud() const;
+  /// The wire to the host stands still: a test's way to fill the robot's queue.
+  void hold_wire(bool hold) {
+    held_ = hold;
+    if (!hold && !sending_.empty() && departs_at_ <= machine_.now())
+      departs_at_ = machine_.now() + byte_time();
+    update();
+  }
 
  private:
   bool connected() const;
@@ -50,6 +57,7 @@ class Lpuart : public Model {
   std::deque<std::uint8_t> received_, sending_;
   std::deque<std::uint8_t> incoming_;
   std::vector<std::uint8_t> outgoing_;
+  bool held_ = false;
   Cycles arrives_at_ = kNever, departs_at_ = kNever, idle_at_ = kNever;
 };
 

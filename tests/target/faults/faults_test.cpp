@@ -15,8 +15,8 @@ constexpr const char* kImage = ASTRO_IMAGE_DIR "/astrolabe-teensy40.hex";
 constexpr std::uint32_t kSpare = 0x0001'F000;  // code memory behind the program
 constexpr int kTick = 16 + 122;
 
-/// The very image that is flashed, driving; then something happens to its processor that no test of the source
-/// can bring about.
+/// The very image that is flashed, driving; then something happens to its processor that no test of the
+/// source can bring about.
 class RunningRobot : public testing::Test {
  protected:
   void SetUp() override {

@@ -21,8 +21,8 @@ std::vector<std::string> with_instruction(const Program& program, const std::str
   return found;
 }
 
-/// All that is neither written here nor one of these: soft float, libm, the heap, exceptions, printing,
-/// whatever a library brings along.
+/// All that is neither written here, nor a view of the standard library, nor one of these: soft float, libm,
+/// the heap, exceptions, printing, whatever a library brings along.
 std::set<std::string> foreign(const Program& program) {
   static const std::set<std::string> known{
       "main",
@@ -44,7 +44,9 @@ std::set<std::string> foreign(const Program& program) {
   std::set<std::string> found;
   for (const auto& [name, function] : program.functions) {
     const std::string text = readable(name);
-    const bool ours = name.find("5astro") != std::string::npos || text.starts_with("main::") ||
+    const bool view = text.starts_with("std::basic_string_view<") || text.starts_with("std::span<") ||
+                      text.starts_with("std::array<");
+    const bool ours = view || name.find("5astro") != std::string::npos || text.starts_with("main::") ||
                       text.starts_with("(anonymous namespace)::") || name.ends_with("_veneer");
     if (!ours && !known.contains(text)) found.insert(text);
   }

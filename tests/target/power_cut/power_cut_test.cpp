@@ -96,7 +96,8 @@ TEST_P(PowerCut, AtAnyWordLeavesTheOldSetOrTheNewOne) {
     const bool said_done = robot.commit(kNew);
     const std::int32_t found = robot.after_power_cycle();
     ASSERT_TRUE(found == kOld || found == kNew) << "cut after " << cut << " bytes: " << found;
-    ASSERT_TRUE(!said_done || found == kNew) << "cut after " << cut << " bytes: said to be in force, and lost";
+    ASSERT_TRUE(!said_done || found == kNew)
+        << "cut after " << cut << " bytes: said to be in force, and lost";
     (found == kOld ? old_sets : new_sets) += 1;
   }
   fmt::print("{} bytes of work, cut at {} places: {} times the old set, {} times the new one\n", whole,
@@ -106,8 +107,9 @@ TEST_P(PowerCut, AtAnyWordLeavesTheOldSetOrTheNewOne) {
 
 INSTANTIATE_TEST_SUITE_P(Append, PowerCut, testing::Values(Share{false, 0, 1}));
 INSTANTIATE_TEST_SUITE_P(Erase, PowerCut,
-                         testing::Values(Share{true, 0, 8}, Share{true, 1, 8}, Share{true, 2, 8}, Share{true, 3, 8},
-                                         Share{true, 4, 8}, Share{true, 5, 8}, Share{true, 6, 8}, Share{true, 7, 8}));
+                         testing::Values(Share{true, 0, 8}, Share{true, 1, 8}, Share{true, 2, 8},
+                                         Share{true, 3, 8}, Share{true, 4, 8}, Share{true, 5, 8},
+                                         Share{true, 6, 8}, Share{true, 7, 8}));
 
 }  // namespace
 }  // namespace astro::emulator

@@ -6,8 +6,8 @@
 
 namespace astro::target {
 
-/// A minute of driving from made-up counts: the same script on every processor, and a running check sum of all that
-/// came out of it. Commands, counts and voltages are pseudo-random but such as a robot sees.
+/// A minute of driving from made-up counts: the same script on every processor, and a running check sum of
+/// all that came out of it. Commands, counts and voltages are pseudo-random but such as a robot sees.
 class Trace {
  public:
   static constexpr int kTicks = 60'000, kTicksPerSum = 1000;
@@ -75,7 +75,8 @@ class Trace {
                                    static_cast<std::uint64_t>(output.duty.left),
                                    static_cast<std::uint64_t>(output.duty.right),
                                    static_cast<std::uint64_t>(output.bridge)};
-    for (const std::uint64_t word : words) sum_ = (sum_ ^ static_cast<std::uint32_t>(word ^ word >> 32)) * 0x0100'0193;
+    for (const std::uint64_t word : words)
+      sum_ = (sum_ ^ static_cast<std::uint32_t>(word ^ word >> 32)) * 0x0100'0193;
   }
 
   Drive drive_;

@@ -1,0 +1,50 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "host/emulator/emulated_robot.hpp"
+#include "host/link/client.hpp"
+#include "host/link/drive.hpp"
+#include "host/link/paths.hpp"
+#include "tests/target/tick/tick_profile.hpp"
+
+namespace astro::target {
+namespace {
+
+using namespace std::chrono_literals;
+using emulator::EmulatedRobot;
+
+constexpr const char* kImage = ASTRO_IMAGE_DIR "/astrolabe-teensy40.hex";
+constexpr const char* kElf = ASTRO_IMAGE_DIR "/astrolabe-teensy40.elf";
+
+class TickCost : public testing::Test {
+ protected:
+  std::shared_ptr<EmulatedRobot> robot_ =
+      std::make_shared<EmulatedRobot>(kImage, sim::Config{}, simulator::MocapConfig{});
+  link::Client client_{std::make_unique<emulator::SerialTransport>(robot_)};
+};
+
+TEST_F(TickCost, OfControlOdometryAndSafetyIsWithin350InstructionsAroundASquare) {
+  client_.connect();
+  TickProfile profile(robot_->teensy(), kElf);
+  link::DriveSession session(client_);
+  for (const link::Sense sense : {link::Sense::cw, link::Sense::ccw}) session.run(link::square(0.5, sense));
+  session.hold_velocity(0.4, 1.0, 1s);
+  profile.print();
+  EXPECT_GT(profile.ticks(), 10'000U);
+  EXPECT_GT(profile.part(TickProfile::odometry).mean, 50) << "the odometry was not found in the image";
+  EXPECT_GT(profile.part(TickProfile::safety).mean, 20) << "the supervisor was not found in the image";
+  EXPECT_GT(profile.part(TickProfile::control).worst, 50U) << "the controller was not found in the image";
+  EXPECT_LE(profile.budgeted().worst, 350U);
+}
+
+TEST_F(TickCost, TheFirstTickComesWithin50Milliseconds) {
+  emulator::Teensy teensy(kImage);
+  ASSERT_TRUE(teensy.run_until([&] { return (teensy.chip().cpu().get(UC_ARM_REG_IPSR) & 0x1FF) == 16 + 122; },
+                               100ms, 400ns));
+  const double ms = static_cast<double>(teensy.now()) / 600e3;
+  fmt::print("first tick after {:.2f} ms\n", ms);
+  EXPECT_LE(ms, 50);
+}
+
+}  // namespace
+}  // namespace astro::target
