@@ -27,7 +27,8 @@ class TeensyRig {
   /// What the pins show, or what was asked for where that is the same on the PWM's coarser grid.
   hal::Duty duty() {
     const auto state = teensy().world().bridges();
-    return {on_grid(state.duty[0], board_.motors().asked.left), on_grid(state.duty[1], board_.motors().asked.right)};
+    return {on_grid(state.duty[0], board_.motors().asked.left),
+            on_grid(state.duty[1], board_.motors().asked.right)};
   }
   void set_driver_fault(bool fault) { teensy().world().set_driver_fault(fault); }
   bool host_send(int, std::span<const std::uint8_t> bytes) {

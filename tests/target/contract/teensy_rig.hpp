@@ -41,7 +41,8 @@ class Puppet {
     return box.answer[0] | std::uint64_t{box.answer[1]} << 32;
   }
   Mailbox& mailbox() {
-    return *reinterpret_cast<Mailbox*>(teensy_.chip().memory().at(at("puppet_mailbox"), sizeof(Mailbox)).data());
+    return *reinterpret_cast<Mailbox*>(
+        teensy_.chip().memory().at(at("puppet_mailbox"), sizeof(Mailbox)).data());
   }
 
  private:
@@ -94,7 +95,8 @@ class RemoteBoard {
     static constexpr int kPorts = 1;
     Puppet& puppet;
     std::size_t read(int port, std::span<std::uint8_t> into) noexcept {
-      const std::size_t count = puppet.call(Call::read_port, number(port), static_cast<std::uint32_t>(into.size()));
+      const std::size_t count =
+          puppet.call(Call::read_port, number(port), static_cast<std::uint32_t>(into.size()));
       std::memcpy(into.data(), puppet.mailbox().bytes, count);
       return count;
     }
@@ -129,7 +131,9 @@ class RemoteBoard {
       return id;
     }
     std::string_view name() noexcept { return "teensy40"; }
-    hal::ResetCause reset_cause() noexcept { return static_cast<hal::ResetCause>(puppet.call(Call::reset_cause)); }
+    hal::ResetCause reset_cause() noexcept {
+      return static_cast<hal::ResetCause>(puppet.call(Call::reset_cause));
+    }
     void reboot() noexcept { puppet.call(Call::reboot); }
     bool enter_bootloader() noexcept {
       puppet.call(Call::enter_bootloader);

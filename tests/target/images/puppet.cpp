@@ -57,11 +57,12 @@ void call_motion(Board& board, Call call) {
   if (call == Call::now_us) answer(board.clock().now_us());
   if (call == Call::encoders) {
     const auto counts = board.encoders().read();
-    answer(static_cast<std::uint32_t>(counts.left) |
-           std::uint64_t{static_cast<std::uint32_t>(counts.right)} << 32);
+    answer(static_cast<std::uint32_t>(counts.left) | std::uint64_t{static_cast<std::uint32_t>(counts.right)}
+                                                         << 32);
   }
   if (call == Call::drive)
-    board.motors().drive({static_cast<std::int16_t>(box.argument[0]), static_cast<std::int16_t>(box.argument[1])});
+    board.motors().drive(
+        {static_cast<std::int16_t>(box.argument[0]), static_cast<std::int16_t>(box.argument[1])});
   if (call == Call::brake) board.motors().brake();
   if (call == Call::coast) board.motors().coast();
   if (call == Call::fault) answer(board.motors().fault());
