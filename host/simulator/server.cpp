@@ -23,7 +23,34 @@ constexpr std::size_t kMostOutgoing = 1U
                                       << 16;  // beyond that the robot's own queue fills, and it drops frames
 constexpr int kStepsPerLook = 50;             // virtual ms between two looks at the host while running ahead
 
-std::vector<std::uint8_t> load(const fs::path& path) {
+sim::Config with_flash(sim::Config config, const fs::path& path) {
+  config.flash = load_flash(path);
+  return config;
+}
+
+fs::path beside(fs::path pty, const char* suffix) { return pty += suffix; }
+
+class ServedVirtualRobot : public Served {
+ public:
+  ServedVirtualRobot(const sim::Config& config, const MocapConfig& mocap) : robot_(config, mocap) {}
+
+  void step() override { robot_.step(); }
+  std::uint64_t now_us() override { return robot_.now_us(); }
+  std::size_t room() override { return robot_.board().ports().host_room(0); }
+  void write(std::span<const std::uint8_t> bytes) override { robot_.board().ports().host_write(0, bytes); }
+  std::size_t read(std::span<std::uint8_t> into) override {
+    return robot_.board().ports().host_read(0, into);
+  }
+  std::vector<recording::TruthSample> take_truth() override { return robot_.take_truth(); }
+  std::span<const std::uint8_t> flash() override { return robot_.board().flash().content(); }
+
+ private:
+  VirtualRobot robot_;
+};
+
+}  // namespace
+
+std::vector<std::uint8_t> load_flash(const fs::path& path) {
   if (path.empty() || !fs::exists(path)) return {};
   std::ifstream file(path, std::ios::binary);
   std::vector<std::uint8_t> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
@@ -31,22 +58,16 @@ std::vector<std::uint8_t> load(const fs::path& path) {
   return bytes;
 }
 
-sim::Config with_flash(sim::Config config, const fs::path& path) {
-  config.flash = load(path);
-  return config;
-}
-
-fs::path beside(fs::path pty, const char* suffix) { return pty += suffix; }
-
-}  // namespace
-
 Server::Server(const sim::Config& robot, const MocapConfig& mocap, const ServerConfig& config)
+    : Server(std::make_unique<ServedVirtualRobot>(with_flash(robot, config.flash), mocap), config) {}
+
+Server::Server(std::unique_ptr<Served> robot, const ServerConfig& config)
     : config_(config),
-      robot_(with_flash(robot, config.flash), mocap),
+      robot_(std::move(robot)),
       pty_(config.pty),
       truth_(beside(config.pty, ".mocap")),
       due_(Clock::now()) {
-  const auto content = robot_.board().flash().content();
+  const auto content = robot_->flash();
   saved_flash_.assign(content.begin(), content.end());
 }
 
@@ -77,11 +98,11 @@ void Server::run(const std::function<bool()>& stop) {
 void Server::receive() {
   truth_.accept_clients();
   std::array<std::uint8_t, 4096> bytes;  // NOLINT(cppcoreguidelines-pro-type-member-init)
-  const std::size_t room = std::min(bytes.size(), robot_.board().ports().host_room(0));
+  const std::size_t room = std::min(bytes.size(), robot_->room());
   const std::size_t count = pty_.read(std::span(bytes).first(room));
   if (count == 0) return;
-  robot_.board().ports().host_write(0, std::span(bytes).first(count));
-  last_heard_us_ = robot_.now_us();
+  robot_->write(std::span(bytes).first(count));
+  last_heard_us_ = robot_->now_us();
   heard_at_ = Clock::now();
   step();  // answered at once, whatever the pace
   save_flash();
@@ -90,7 +111,7 @@ void Server::receive() {
 bool Server::transmit() {
   std::array<std::uint8_t, 4096> bytes;  // NOLINT(cppcoreguidelines-pro-type-member-init)
   std::size_t count = 0;
-  while (outgoing_.size() < kMostOutgoing && (count = robot_.board().ports().host_read(0, bytes)) != 0)
+  while (outgoing_.size() < kMostOutgoing && (count = robot_->read(bytes)) != 0)
     outgoing_.insert(outgoing_.end(), bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(count));
   if (!pty_.connected()) outgoing_.clear();  // nobody listens: the bytes are lost, as on a wire
   if (!outgoing_.empty())
@@ -102,7 +123,7 @@ bool Server::transmit() {
 
 bool Server::runs_ahead(bool host_is_behind) {
   if (!config_.fast) return false;
-  if (robot_.now_us() - last_heard_us_ >= kLease_us) {
+  if (robot_->now_us() - last_heard_us_ >= kLease_us) {
     // Stand still for a host that is late, be its machine ever so busy, but not for one that hangs or has
     // gone.
     if (pty_.connected() && Clock::now() - heard_at_ < kSilence) due_ = Clock::now() + kTick;
@@ -118,9 +139,9 @@ bool Server::runs_ahead(bool host_is_behind) {
 }
 
 void Server::step() {
-  robot_.step();
-  for (const recording::TruthSample& sample : robot_.take_truth()) truth_.send(sample);
-  if (robot_.now_us() < last_heard_us_) last_heard_us_ = 0;  // the robot restarted
+  robot_->step();
+  for (const recording::TruthSample& sample : robot_->take_truth()) truth_.send(sample);
+  if (robot_->now_us() < last_heard_us_) last_heard_us_ = 0;  // the robot restarted
 }
 
 void Server::wait() {
@@ -136,7 +157,7 @@ void Server::wait() {
 }
 
 void Server::save_flash() {
-  const auto content = robot_.board().flash().content();
+  const auto content = robot_->flash();
   if (config_.flash.empty() || std::equal(content.begin(), content.end(), saved_flash_.begin())) return;
   const fs::path part = beside(config_.flash, ".part");
   std::ofstream file(part, std::ios::binary);

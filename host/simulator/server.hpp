@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "host/simulator/pty.hpp"
+#include "host/simulator/served.hpp"
 #include "host/simulator/truth_server.hpp"
 #include "host/simulator/virtual_robot.hpp"
 
@@ -18,6 +19,9 @@ struct ServerConfig {
   bool fast = false;
 };
 
+/// The content of a flash file; empty if there is none. Throws astro::Error if it cannot be read.
+std::vector<std::uint8_t> load_flash(const std::filesystem::path& path);
+
 /// A simulated robot behind a pty, for as long as the process lives.
 ///
 /// Real time: one virtual millisecond each real one. Fast: virtual time runs ahead as long as a host says
@@ -27,6 +31,8 @@ struct ServerConfig {
 class Server {
  public:
   Server(const sim::Config& robot, const MocapConfig& mocap, const ServerConfig& config);
+  /// Another robot than VirtualRobot, which has been given load_flash(config.flash).
+  Server(std::unique_ptr<Served> robot, const ServerConfig& config);
   ~Server();
 
   /// Until `stop` says so; asked at least every 20 ms.
@@ -46,7 +52,7 @@ class Server {
   void save_flash();
 
   ServerConfig config_;
-  VirtualRobot robot_;
+  std::unique_ptr<Served> robot_;
   Pty pty_;
   TruthServer truth_;
   std::vector<std::uint8_t> outgoing_;

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "host/recording/run.hpp"
+
+namespace astro::simulator {
+
+/// A robot in virtual time that Server puts behind a pty.
+class Served {
+ public:
+  virtual ~Served() = default;
+
+  /// One millisecond.
+  virtual void step() = 0;
+  /// Virtual; starts again at 0 when the robot does.
+  virtual std::uint64_t now_us() = 0;
+  /// Bytes that write() takes now.
+  virtual std::size_t room() = 0;
+  virtual void write(std::span<const std::uint8_t> bytes) = 0;
+  /// Bytes that the robot has sent; 0 if none wait.
+  virtual std::size_t read(std::span<std::uint8_t> into) = 0;
+  virtual std::vector<recording::TruthSample> take_truth() = 0;
+  /// What the robot keeps without power.
+  virtual std::span<const std::uint8_t> flash() = 0;
+};
+
+}  // namespace astro::simulator
