@@ -1,5 +1,6 @@
 # astro_image(name SOURCES ... DEPENDS ...): a program for the robot's processor, in build/<preset>/bin as
-#   name.elf, name.hex (what is flashed), name.map and name.size.txt (what it takes, by section).
+#   name.elf, name.hex (what is flashed), name.map and name.size.txt (what it takes, by section). Relocations stay in
+#   the .elf, so that tests/target/image sees whose address is taken.
 include(AstroModule)
 
 function(astro_image name)

@@ -1,25 +1,44 @@
 #!/usr/bin/env bash
-# firmware/main/report.sh IMAGE: what an image takes on the chip, and where its files are.
+# firmware/main/report.sh IMAGE: what an image takes on the chip, what takes it, and where its files are.
 set -euo pipefail
 image=$1
+flash_budget=65536 ram_budget=16384
 
-sizes() { arm-none-eabi-size -A -d "$image.elf" | awk '$1 ~ /^\./ && $1 !~ /debug|ARM/ && $2 > 0'; }
+sections() { arm-none-eabi-size -A -d "$image.elf" | awk '$1 ~ /^\./ && $1 !~ /debug|ARM/ && $2 > 0'; }
+symbols() { arm-none-eabi-nm -S "$@" "$image.elf" | awk '$2 ~ /^[0-9a-f]+$/ && length($2) == 8'; }
+decimal() { while read -r bytes name; do printf '%8d  %s\n' "0x$bytes" "$name"; done; }
 
-echo
-printf '%-24s %8s  %s\n' section bytes where
-sizes | awk '{
+# largest TITLE KINDS: the largest objects whose kind in `nm` is one of KINDS.
+largest() {
+  echo
+  echo "$1"
+  symbols -C --size-sort -r | awk -v kinds="$2" 'index(kinds, $3) && shown++ < 6 {
+    bytes = $2; $1 = $2 = $3 = ""; print bytes, $0 }' | decimal
+}
+
+flash=$((16#$(arm-none-eabi-nm "$image.elf" | awk '$3 == "image_length" { print $1 }')))
+ram=$(sections | awk '$3 >= 536870912 && $3 < 553648128 { end = $3 + $2 - 536870912; if (end > ram) ram = end }
+  END { print ram + 0 }')
+printf '\nflash %6d of %d bytes\nRAM   %6d of %d bytes, stack included\n\n' \
+  "$flash" "$flash_budget" "$ram" "$ram_budget"
+
+printf '%8s  %-22s %-10s\n' bytes section where
+sections | awk '{
   place = $3 >= 1610612736 ? "flash" : $3 >= 536870912 ? "RAM" : "code RAM, copied from flash"
-  printf "%-24s %8d  0x%08x  %s\n", $1, $2, $3, place }'
+  printf "%8d  %-22s 0x%08x  %s\n", $2, $1, $3, place }'
+
 echo
-sizes | awk '
-  $3 >= 536870912 && $3 < 553648128 { if ($3 + $2 - 536870912 > ram) ram = $3 + $2 - 536870912 }
-  END { printf "RAM   %6d of 16384 bytes, stack included\n", ram }'
-arm-none-eabi-nm "$image.elf" | awk '$3 == "image_length" { printf "%s\n", $1 }' |
-  while read -r length; do printf 'flash %6d of 65536 bytes\n' "0x$length"; done
+echo "code by module; what is inlined counts where it ends up"
+symbols -l | awk -F'\t' '
+  split($1, word, " ") == 4 && word[3] ~ /[tTwW]/ {
+    module = match($2, /(common|hal|firmware|tests)\/.*\//) ? substr($2, RSTART, RLENGTH - 1) : "libraries"
+    print module, word[2] }' |
+  while read -r module bytes; do echo "$module $((16#$bytes))"; done |
+  awk '{ sum[$1] += $2 } END { for (module in sum) printf "%8d  %s\n", sum[module], module }' | sort -rn
+largest "largest constants" rR
+largest "largest objects in RAM" bBdD
+
 echo
-echo "largest parts of RAM"
-arm-none-eabi-nm -CS --size-sort -r "$image.elf" | awk '$1 ~ /^2/ && shown++ < 6 { bytes = $2; $1 = $2 = $3 = ""; print bytes, $0 }' |
-  while read -r bytes name; do printf '%8d  %s\n' "0x$bytes" "$name"; done
+for extension in hex elf map; do echo "$image.$extension"; done
 echo
-echo "flash with   astrolabe flash $image.hex"
-echo "more in      $image.map"
+echo "to flash it: astrolabe flash $image.hex"

@@ -19,7 +19,7 @@ Teensy::Teensy(const std::filesystem::path& hex, const sim::Config& robot)
       world_(chip_, robot, {pwm_, gpio7_, encoder_wires_, adc_}) {
   load_hex(hex, chip_.memory().flash());
   const auto parameters = flash_.parameters();
-  std::memcpy(parameters.data(), robot.flash.data(), std::min(parameters.size(), robot.flash.size()));
+  std::copy_n(robot.flash.begin(), std::min(parameters.size(), robot.flash.size()), parameters.begin());
   chip_.gates = [this](Gate gate) { return ccm_.open(gate); };
   chip_.remember_reset = [this](Reset cause) { src_.remember(cause); };
   flash_.on_busy = [this](bool busy) { chip_.set_flash_busy(busy); };

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -11,27 +12,36 @@ namespace astro::target {
 struct Instruction {
   std::uint32_t address;
   std::string mnemonic, operands;
+
+  /// Bytes that it takes from the stack; nothing if only running shows how many.
+  std::optional<std::uint32_t> stack_bytes() const;
+  /// The function that it branches to, or into whose middle; empty if it does not, or does so through a
+  /// pointer.
+  std::string branch_target() const;
+  bool branches_into_the_middle() const;
+  /// It writes down where to come back to.
+  bool calls() const;
+  /// It goes where a register or a word of memory says, and that is not back to its caller.
+  bool goes_through_pointer() const;
+  /// What follows it in memory is not executed after it; or it is a call, which may be for good.
+  bool ends_a_path() const;
+  /// It does nothing but bring the next function to its alignment.
+  bool fills() const { return mnemonic.starts_with("nop"); }
 };
 
-/// A function of an image as binutils shows it.
 struct Function {
   std::vector<Instruction> instructions;
-
-  /// Bytes that its own code takes from the stack, all on one path: pushes and subtractions.
-  std::uint32_t frame_bytes() const;
-  /// Functions that it calls or goes on to.
-  std::set<std::string> callees(const std::string& self) const;
-  /// True if it calls through a register.
-  bool calls_indirectly() const;
 };
 
-/// All functions of an ELF file by their linker names. Throws if there are none.
-std::map<std::string, Function> disassemble(const std::string& elf);
+/// The code of an ELF file as binutils show it, by linker names.
+struct Program {
+  std::map<std::string, Function> functions;
+  /// Functions, and sections of code, whose address is written down somewhere: only these can be reached
+  /// through a pointer. Needs a file that was linked with --emit-relocs.
+  std::set<std::string> addresses_taken;
+};
 
-/// Names of all symbols of an ELF file.
-std::set<std::string> symbols(const std::string& elf);
-
-/// What a command prints. Throws if it fails.
-std::string output_of(const std::string& command);
+/// Throws if there is no code in it.
+Program read_program(const std::string& elf);
 
 }  // namespace astro::target
