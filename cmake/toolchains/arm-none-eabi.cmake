@@ -10,4 +10,4 @@ set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
 # it the control tick is a tenth shorter.
 set(CMAKE_CXX_FLAGS_INIT "-mcpu=cortex-m7 -mthumb -mfloat-abi=soft -ffreestanding -fno-exceptions -fno-rtti \
 -fno-threadsafe-statics -fno-use-cxa-atexit -fno-common -fno-schedule-insns -ffunction-sections -fdata-sections \
--flto -fstack-usage")
+-flto=auto -fstack-usage")

@@ -36,7 +36,10 @@ bool Control::exists(std::uint8_t endpoint) {
 
 std::uint8_t Control::bit(std::uint8_t endpoint) { return static_cast<std::uint8_t>(1U << (endpoint & 7)); }
 
-Response Control::send(std::span<const std::uint8_t> data, const Setup& setup) const {
+/// From a buffer of our own: constants lie with the code, where the controller does not reach.
+Response Control::send(std::span<const std::uint8_t> all, const Setup& setup) {
+  if (all.data() != reply_.data()) std::copy(all.begin(), all.end(), reply_.begin());
+  const auto data = std::span<const std::uint8_t>(reply_).first(all.size());
   const auto part = data.first(std::min<std::size_t>(data.size(), setup.length));
   const bool ends_full = part.size() % kControlPacket == 0 && part.size() < setup.length;
   return {.kind = Response::Kind::send, .data = part, .zero_length_packet = ends_full && !part.empty()};

@@ -65,7 +65,7 @@ class Control {
   Response of_endpoint(const Setup& setup);
   Response of_class(const Setup& setup);
   Response descriptor(const Setup& setup, Speed speed);
-  Response send(std::span<const std::uint8_t> data, const Setup& setup) const;
+  Response send(std::span<const std::uint8_t> all, const Setup& setup);
   Response send_small(const Setup& setup, std::uint16_t value, std::size_t bytes);
   static Response acknowledge() { return {.kind = Response::Kind::acknowledge}; }
   static bool exists(std::uint8_t endpoint);

@@ -44,12 +44,12 @@ void wait_us(std::uint64_t us) {
   }
 }
 
-void start_transceiver() {
+void start_transceiver(bool was_attached) {
   USBPHY1[usbphy::CTRL_SET].write(usbphy::CTRL_SFTRST(1));
   USB1[usb::USBCMD].write(usb::USBCMD_RST(1));
   static_cast<void>(poll(USB1[usb::USBCMD], usb::USBCMD_RST, 0, kReads));
   USBPHY1[usbphy::CTRL_CLR].write(usbphy::CTRL_SFTRST(1));
-  wait_us(25'000);
+  if (was_attached) wait_us(25'000);
   USBPHY1[usbphy::CTRL_CLR].write(usbphy::CTRL_CLKGATE(1));
   USBPHY1[usbphy::PWD].write(0);
 }
@@ -81,11 +81,11 @@ constexpr std::uint32_t kUnused = usb::ENDPTCTRL1_TXT(kBulk) | usb::ENDPTCTRL1_R
 
 }  // namespace
 
-void start() {
+void start(bool was_attached) {
   start_pll();
   start_supply();
   open_gate(CCM[ccm::CCGR6], ccm::CCGR6_CG0);
-  start_transceiver();
+  start_transceiver(was_attached);
   constexpr std::uint32_t kDevice_mode = 2;
   USB1[usb::USBMODE].write(usb::USBMODE_CM(kDevice_mode) | usb::USBMODE_SLOM(1));
   reset_heads();

@@ -14,9 +14,9 @@ namespace astro::teensy40::usb_device::controller {
 /// Pipes of endpoints 0 to 4.
 inline constexpr std::size_t kHeads = 10;
 
-/// Clocks, transceiver and controller; attaches to the bus. Takes 25 ms, in which a host sees a robot that
-/// has restarted go.
-void start();
+/// Clocks, transceiver and controller; attaches to the bus. `was_attached`: stays away for 25 ms first, so
+/// that a host sees the robot that has restarted go.
+void start(bool was_attached);
 /// Leaves the bus.
 void detach();
 

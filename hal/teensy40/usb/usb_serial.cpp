@@ -20,11 +20,11 @@ constexpr Pipe pipe_of(std::uint8_t endpoint) { return {endpoint & 0x0FU, (endpo
 
 }  // namespace
 
-void UsbSerial::start(std::string_view serial_number) {
+void UsbSerial::start(std::string_view serial_number, bool was_attached) {
   active = this;
   control_.start(serial_number);
   install(irq::kUsb1, urgency::kUsb, interrupt);
-  controller::start();
+  controller::start(was_attached);
 }
 
 void UsbSerial::interrupt() { active->handle(); }
@@ -45,7 +45,7 @@ void UsbSerial::reset() {
   busy_ = false;
   received_size_ = 0;
   received_taken_ = 0;
-  if (!in_time) controller::start();
+  if (!in_time) controller::start(false);
 }
 
 void UsbSerial::handle_setup(const usb_device::Setup& setup) {

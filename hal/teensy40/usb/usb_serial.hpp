@@ -20,8 +20,9 @@ namespace astro::teensy40 {
 /// Cost    an interrupt of some microseconds for each packet; 2 KB.
 class UsbSerial {
  public:
-  /// One in a program. `serial_number` outlives it.
-  void start(std::string_view serial_number);
+  /// One in a program. `serial_number` outlives it; `was_attached`: the chip restarts, and a host may know
+  /// it.
+  void start(std::string_view serial_number, bool was_attached);
 
   // Main loop only; none blocks.
   std::size_t read(std::span<std::uint8_t> into) noexcept;

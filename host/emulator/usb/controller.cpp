@@ -130,7 +130,7 @@ Packet UsbController::in(std::uint8_t address, int endpoint) {
   const auto queue_head = head(endpoint, true);
   const std::uint32_t token = word(queue_head, 3), left = token >> 16 & 0x7FFF;
   const std::uint32_t size = std::min(left, packet_size(endpoint, true));
-  const auto bytes = machine_.dma(word(queue_head, 4), size);
+  const auto bytes = size == 0 ? std::span<std::uint8_t>{} : machine_.dma(word(queue_head, 4), size);
   packet = {Handshake::ack, {bytes.begin(), bytes.end()}, pipe.data1};
   pipe.data1 = !pipe.data1;
   set_word(queue_head, 3, (token & ~(0x7FFFU << 16)) | (left - size) << 16);
@@ -162,7 +162,9 @@ Handshake UsbController::out(std::uint8_t address, int endpoint, std::span<const
     machine_.fail(fmt::format("USB1: endpoint {} receives more than its transfer takes", endpoint));
     return Handshake::stall;
   }
-  const auto into = machine_.dma(word(queue_head, 4), static_cast<std::uint32_t>(bytes.size()));
+  const auto into = bytes.empty()
+                        ? std::span<std::uint8_t>{}
+                        : machine_.dma(word(queue_head, 4), static_cast<std::uint32_t>(bytes.size()));
   std::copy(bytes.begin(), bytes.end(), into.begin());
   pipe.data1 = !pipe.data1;
   const auto rest = left - static_cast<std::uint32_t>(bytes.size());
