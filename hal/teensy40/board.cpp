@@ -8,6 +8,9 @@ Board::Board() {
   encoders_.start();
   battery_.start();
   uart_.start();
+  serial_number_ = serial_number(system_.unique_id());
+  usb_.start({serial_number_.data(), serial_number_.size()},
+             system_.reset_cause() != hal::ResetCause::power_on);
   watchdog::start();
 }
 

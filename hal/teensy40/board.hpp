@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "hal/interface/board.hpp"
 #include "hal/teensy40/battery.hpp"
 #include "hal/teensy40/clock.hpp"
@@ -43,8 +45,10 @@ class Board {
   Battery battery_;
   Flash flash_;
   Uart uart_;
-  System system_;
-  Ports ports_{uart_};
+  UsbSerial usb_;
+  System system_{usb_};
+  Ports ports_{usb_, uart_};
+  std::array<char, 32> serial_number_{};  // of USB, which reads it when a host asks
 };
 
 static_assert(hal::Board<Board>, "this port no longer satisfies hal/interface");

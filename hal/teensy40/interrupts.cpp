@@ -31,4 +31,15 @@ void install(int irq, std::uint8_t urgency, void (*handler)()) {
   bank(NVIC[nvic::ISER0], irq).write(bit);
 }
 
+InterruptOff::InterruptOff(int irq) : irq_(irq) {
+  bank(NVIC[nvic::ICER0], irq_).write(1U << (static_cast<std::uint32_t>(irq_) % 32));
+  cpu::synchronize();
+  cpu::refetch();
+}
+
+InterruptOff::~InterruptOff() {
+  cpu::synchronize();
+  bank(NVIC[nvic::ISER0], irq_).write(1U << (static_cast<std::uint32_t>(irq_) % 32));
+}
+
 }  // namespace astro::teensy40

@@ -1,6 +1,7 @@
 #include "hal/teensy40/system.hpp"
 
 #include "hal/teensy40/arithmetic/reset_cause.hpp"
+#include "hal/teensy40/clock.hpp"
 #include "hal/teensy40/clock_gate.hpp"
 #include "hal/teensy40/cpu.hpp"
 #include "hal/teensy40/motors.hpp"
@@ -16,6 +17,15 @@ constexpr std::uint32_t kSignedOnly = 1U << 1;  // in fuse word CFG5
 [[gnu::noinline]] void call_halfkay() { asm volatile("bkpt #251" ::: "memory"); }
 
 }  // namespace
+
+void System::leave_usb() {
+  constexpr std::uint64_t kGone_us = 5'000;  // the host sees the robot go before the boot loader comes
+  usb_.detach();
+  const Clock clock;
+  const std::uint64_t begun_us = clock.now_us();
+  while (clock.now_us() - begun_us < kGone_us) {
+  }
+}
 
 void System::start() {
   open_gate(CCM[ccm::CCGR2], ccm::CCGR2_CG6);
@@ -41,6 +51,7 @@ bool System::enter_bootloader() noexcept {
   if ((OCOTP[ocotp::CFG5].read() & kSignedOnly) != 0) return false;
   Motors::coast();
   const cpu::InterruptsOff guard;
+  leave_usb();
   watchdog::stop();
   call_halfkay();
   return true;

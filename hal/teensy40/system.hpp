@@ -3,9 +3,11 @@
 #include <array>
 #include <cstdint>
 #include <string_view>
+#include <utility>
 
 #include "hal/interface/board.hpp"
 #include "hal/teensy40/arithmetic/identity.hpp"
+#include "hal/teensy40/usb/usb_serial.hpp"
 #include "hal/teensy40/watchdog.hpp"
 
 namespace astro::teensy40 {
@@ -13,6 +15,8 @@ namespace astro::teensy40 {
 /// The processor itself.
 class System {
  public:
+  explicit System(UsbSerial& usb) : usb_(usb) {}
+
   /// Reads the fuses and why the chip started, and forgets the latter in the chip, so that the next start
   /// tells of itself.
   void start();
@@ -28,11 +32,19 @@ class System {
   /// False: the Teensy is locked to signed programs, whose loader is entered in another way.
   bool enter_bootloader() noexcept;
 
-  bool host_wants_bootloader() noexcept { return false; }  // the serial port has no way but the protocol
+  /// 134 baud on the USB port is how a Teensy is asked. Once for each time, however long the port says so.
+  bool host_wants_bootloader() noexcept {
+    const bool asked = usb_.bootloader_requested();
+    return !std::exchange(asked_, asked) && asked;
+  }
 
   void feed_watchdog() noexcept { watchdog::feed(); }
 
  private:
+  void leave_usb();
+
+  UsbSerial& usb_;
+  bool asked_ = false;
   UniqueId id_{};
   hal::ResetCause cause_ = hal::ResetCause::unknown;
 };

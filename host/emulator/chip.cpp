@@ -112,7 +112,7 @@ void Chip::restart(Reset cause) { restart_ = cause; }
 
 std::span<std::uint8_t> Chip::dma(std::uint32_t address, std::uint32_t bytes) {
   const auto found = memory_.at(address, bytes);
-  if (found.empty() || address >= Memory::kFlash) {
+  if (found.empty() || address >= Memory::kFlash || address < Memory::kDtcm) {
     fail(fmt::format("a bus master goes to 0x{:08X}, which is no RAM", address));
     return {};
   }

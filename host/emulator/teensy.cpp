@@ -58,6 +58,8 @@ void Teensy::map() {
   add(pwm_, PWM2.base, Gate{4, 9});
   add(adc_, ADC1.base, Gate{1, 8});
   add(flexspi_, FLEXSPI.base, Gate{6, 5});
+  add(usb_, USB1.base, Gate{6, 0});
+  add(usb_phy_, USBPHY1.base);
   chip_.add(flash_);
   chip_.add(world_);
 }

@@ -17,6 +17,7 @@
 #include "host/emulator/chip/pit.hpp"
 #include "host/emulator/chip/reset.hpp"
 #include "host/emulator/chip/rtwdog.hpp"
+#include "host/emulator/usb/controller.hpp"
 #include "host/emulator/world.hpp"
 
 namespace astro::emulator {
@@ -50,6 +51,7 @@ class Teensy {
   void press_reset() { chip_.start(Reset::pin); }
 
   Lpuart& serial() { return lpuart_; }
+  UsbController& usb() { return usb_; }
   World& world() { return world_; }
   NorFlash& flash() { return flash_; }
   FlexPwm& pwm() { return pwm_; }
@@ -89,6 +91,8 @@ class Teensy {
   Adc adc_{chip_, iomuxc_};
   NorFlash flash_{chip_, chip_.memory().flash()};
   Flexspi flexspi_{chip_, flash_};
+  UsbPhy usb_phy_;
+  UsbController usb_{chip_, [this] { return analog_.usb_pll_ready() && usb_phy_.ready(); }};
   World world_;
 };
 

@@ -37,6 +37,9 @@ class Ring {
     return count;
   }
 
+  /// From the reader's side, or while the reader waits.
+  void clear() { read_.store(load(written_), std::memory_order_release); }
+
  private:
   using Count = std::atomic<std::uint32_t>;  // running totals; kSize divides 2^32
   static_assert(Count::is_always_lock_free);

@@ -45,9 +45,8 @@ TEST(Umbmark, CalibratesASimulatedRobotOverAPty) {
 
   const nlohmann::json b =
       nlohmann::json::parse(astrolabe({"params", "get", "b", "--port", simulator.port(), "--json"}).out);
-  EXPECT_THAT(b.dump(),
-              HasSubstr(std::to_string(json["parameters"]["new"]["b_m"].get<double>()).substr(0, 7)))
-      << "the robot holds what the result says";
+  EXPECT_NEAR(b["value"].get<double>(), json["parameters"]["new"]["b_m"].get<double>(), 1e-9)
+      << "the robot holds what the result says, in whole nanometres";
 
   EXPECT_EQ(astrolabe({"compare", out}).code, 0);
   EXPECT_EQ(astrolabe({"report", out, "--out", (simulator.folder() / "again.html").string()}).code, 0);

@@ -107,7 +107,8 @@ class RemoteBoard {
     std::size_t room(int port) noexcept { return puppet.call(Call::room, number(port)); }
 
    private:
-    static std::uint32_t number(int port) { return static_cast<std::uint32_t>(port); }
+    // The serial port, the board's second; USB needs a host that enumerates it (tests/target/usb).
+    static std::uint32_t number(int port) { return static_cast<std::uint32_t>(port + 1); }
   };
   struct Flash {
     static constexpr std::uint32_t kSectors = 4, kSectorBytes = 4096, kProgramBytes = 8;

@@ -25,8 +25,10 @@ struct Instruction {
   bool goes_through_pointer() const;
   /// What follows it in memory is not executed after it; or it is a call, which may be for good.
   bool ends_a_path() const;
-  /// It does nothing but bring the next function to its alignment.
-  bool fills() const { return mnemonic.starts_with("nop"); }
+  /// It does nothing but bring the next function to its alignment. Zeros read as `movs r0, r0`.
+  bool fills() const {
+    return mnemonic.starts_with("nop") || (mnemonic == "movs" && operands.starts_with("r0, r0"));
+  }
 };
 
 struct Function {

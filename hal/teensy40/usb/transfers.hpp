@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+
+/// What the controller reads and writes in memory: a queue head for each direction of an endpoint, and
+/// descriptors of transfers. Everything of it lies in DTCM, which nobody caches.
+///
+/// Source  the EHCI-like device controller of the i.MX RT family.
+namespace astro::teensy40::usb_device {
+
+inline constexpr std::uint32_t kEnd = 1;  // in place of an address: nothing follows
+inline constexpr std::uint32_t kActive = 1U << 7, kHalted = 1U << 6, kErrors = 1U << 5 | 1U << 3;
+inline constexpr std::uint32_t kInterruptWhenDone = 1U << 15;
+
+struct alignas(32) Transfer {
+  std::uint32_t next = kEnd, token = 0;
+  std::uint32_t pages[5] = {};
+  std::uint32_t spare = 0;
+
+  /// Bytes that were not moved, once it is over.
+  std::uint32_t left() const { return token >> 16 & 0x7FFF; }
+  bool active() const { return (token & kActive) != 0; }
+};
+static_assert(sizeof(Transfer) == 32);
+
+struct alignas(64) QueueHead {
+  std::uint32_t capabilities = 0, current = 0, next = kEnd, token = 0;
+  std::uint32_t pages[5] = {};
+  std::uint32_t reserved = 0;
+  std::uint32_t setup[2] = {};
+  std::uint32_t spare[4] = {};
+};
+static_assert(sizeof(QueueHead) == 64);
+
+/// A transfer that is a whole number of packets is ended by an empty one unless this says no.
+inline constexpr std::uint32_t kNoEmptyPacket = 1U << 29, kInterruptOnSetup = 1U << 15;
+constexpr std::uint32_t head_capabilities(std::uint32_t packet, std::uint32_t flags) {
+  return packet << 16 | flags;
+}
+
+/// An endpoint in one direction: `in` is towards the host.
+struct Pipe {
+  std::uint32_t endpoint;
+  bool in;
+
+  constexpr std::uint32_t bit() const { return 1U << (endpoint + (in ? 16 : 0)); }
+  constexpr std::uint32_t index() const { return 2 * endpoint + (in ? 1 : 0); }
+};
+
+}  // namespace astro::teensy40::usb_device

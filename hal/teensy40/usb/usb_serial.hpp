@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "hal/teensy40/arithmetic/ring.hpp"
+#include "hal/teensy40/usb/control.hpp"
+#include "hal/teensy40/usb/controller.hpp"
+
+namespace astro::teensy40 {
+
+/// The robot as a serial port on USB.
+///
+/// What is written while no program has the port open is dropped: the next one must not get it, and nobody
+/// waits for it. What a host sends is taken when there is room; until then the host waits.
+///
+/// Cost    an interrupt of some microseconds for each packet; 2 KB.
+class UsbSerial {
+ public:
+  /// One in a program. `serial_number` outlives it; `was_attached`: the chip restarts, and a host may know
+  /// it.
+  void start(std::string_view serial_number, bool was_attached);
+
+  // Main loop only; none blocks.
+  std::size_t read(std::span<std::uint8_t> into) noexcept;
+  std::size_t write(std::span<const std::uint8_t> bytes) noexcept;
+  std::size_t room() const noexcept;
+
+  /// A host has set 134 baud: a Teensy is asked for its boot loader that way.
+  bool bootloader_requested() const noexcept { return control_.line_coding().baud == 134; }
+  void detach() noexcept { usb_device::controller::detach(); }
+
+ private:
+  static void interrupt();
+  void handle();
+  void reset();
+  void handle_setup(const usb_device::Setup& setup);
+  void carry_out(const usb_device::Control::Changes& changes);
+  void complete(std::uint32_t pipes);
+  void send_next();
+  void listen();
+
+  usb_device::Control control_;
+  Ring<1024> to_send_;
+  std::array<std::uint8_t, 512> sending_{}, received_{};
+  std::array<std::uint8_t, 8> control_data_{};
+  volatile bool busy_ = false;
+  volatile std::size_t received_size_ = 0;
+  std::size_t received_taken_ = 0;
+  bool status_stage_ = false;
+};
+
+}  // namespace astro::teensy40
