@@ -13,6 +13,19 @@ add_library(astro_compile INTERFACE)
 target_include_directories(astro_compile INTERFACE ${CMAKE_SOURCE_DIR})
 target_compile_options(astro_compile INTERFACE
   -Wall -Wextra -Wconversion -Wdouble-promotion -Wshadow -Wnon-virtual-dtor -Werror)
+if(ASTROLABE_TARGET STREQUAL teensy40)
+  # Not in the toolchain file, whose flags an existing build would keep when they change.
+  # Soft float on purpose: a float that slips in becomes a library call, which the image check finds by name.
+  # -fno-schedule-insns: the first scheduling pass fills the registers with early loads and then spills them; without
+  # it the control tick is a tenth shorter.
+  # -fno-jump-tables: a jump through a table of addresses looks like a call through a pointer, which the check of the
+  # stack could not follow.
+  set(cortex_m7 -mcpu=cortex-m7 -mthumb -mfloat-abi=soft -ffreestanding -fno-exceptions -fno-rtti
+    -fno-threadsafe-statics -fno-use-cxa-atexit -fno-common -fno-schedule-insns -fno-jump-tables
+    -ffunction-sections -fdata-sections -flto=auto -fstack-usage)
+  target_compile_options(astro_compile INTERFACE ${cortex_m7})
+  target_link_options(astro_compile INTERFACE ${cortex_m7})
+endif()
 if(ASTROLABE_SANITIZE)
   target_compile_options(astro_compile INTERFACE
     -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -O1 -g1)

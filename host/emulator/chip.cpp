@@ -14,13 +14,18 @@ namespace {
 
 constexpr std::uint32_t kPrivatePeripherals = 0xE000'0000;
 constexpr std::uint32_t kImageVectorTable = 0x6000'1000;
-constexpr std::uint32_t kAccessViolation = 1U << 1, kAddressValid = 1U << 7,
-                        kFetchViolation = 1U << 0;  // CFSR
-constexpr Cycles kEntry = 12;                       // of an exception, from the core's manual
+constexpr Cycles kEntry = 12;  // of an exception, from the core's manual
+
+/// Causes in CFSR.
+namespace cause {
+constexpr std::uint32_t kFetchDenied = 1U << 0, kAccessDenied = 1U << 1 | 1U << 7;
+constexpr std::uint32_t kFetchBusError = 1U << 8, kAccessBusError = 1U << 9 | 1U << 15;
+constexpr std::uint32_t kUndefined = 1U << 16, kNotThumb = 1U << 17;
+}  // namespace cause
 
 // What the engine calls its exceptions.
 constexpr std::uint32_t kSvcNumber = 2, kBreakpoint = 7, kReturn = 8, kBreakpointToo = 16;
-constexpr std::uint16_t kCallHalfKay = 0xBEFB;  // bkpt #251
+constexpr std::uint16_t kCallHalfKay = 0xBEFB, kWaitForEvent = 0xBF20;  // bkpt #251, wfe
 
 }  // namespace
 
@@ -39,8 +44,11 @@ Chip::Chip()
                                   fail(name_of(address) + ": write of a register that is not modelled");
                                 control_.write(address, value);
                               },
-                              [this](std::uint32_t number) { on_exception(number); }})),
-      exceptions_(*cpu_, memory_) {}
+                              [this](std::uint32_t number) {
+                                on_exception(number);
+                                return failure_.empty() && exceptions_.violation.empty();
+                              }})),
+      exceptions_(*cpu_, memory_, protection_) {}
 
 void Chip::start(Reset cause) {
   wishes_.clear();
@@ -103,9 +111,11 @@ void Chip::run_events() {
 }
 
 void Chip::fail(const std::string& what) {
-  if (failure_.empty())
-    failure_ = fmt::format("{} (PC 0x{:08X}, {:.6f} s)", what, cpu_->pc() & ~1U,
-                           static_cast<double>(now()) / static_cast<double>(kCyclesPerSecond));
+  if (!failure_.empty()) return;
+  const std::uint32_t pc = cpu_->pc() & ~1U;
+  const std::string name = symbols.name_at(pc);
+  failure_ = fmt::format("{} (PC 0x{:08X}{}{}, {:.6f} s)", what, pc, name.empty() ? "" : " in ", name,
+                         static_cast<double>(now()) / static_cast<double>(kCyclesPerSecond));
 }
 
 void Chip::restart(Reset cause) { restart_ = cause; }
@@ -126,7 +136,7 @@ std::span<std::uint8_t> Chip::dma(std::uint32_t address, std::uint32_t bytes) {
 /// Called before each block of instructions: something is due that the engine must be left for.
 bool Chip::interrupted() {
   return now() >= std::min(next_event_, end_) || restart_ || !failure_.empty() || in_bootloader_ ||
-         exceptions_.due().has_value();
+         !exceptions_.violation.empty() || access_changed_ || exceptions_.due().has_value();
 }
 
 void Chip::take_exception() {
@@ -140,7 +150,9 @@ void Chip::on_exception(std::uint32_t number) {
   if (number == kReturn) {
     exceptions_.leave(cpu_->pc() | 1U);
   } else if (number == kSvcNumber) {
-    exceptions_.pend(exception::kSvc);
+    const auto taken = exceptions_.fault(exception::kSvc);
+    if (!taken) return lock_up();
+    exceptions_.pend(*taken);
   } else if (number == kBreakpoint || number == kBreakpointToo) {
     std::uint16_t instruction = 0;
     if (const auto code = memory_.at(cpu_->pc() & ~1U, 2); !code.empty())
@@ -156,7 +168,41 @@ void Chip::on_exception(std::uint32_t number) {
 
 void Chip::set_flash_busy(bool busy) {
   flash_busy_ = busy;
-  cpu_->set_readable(Memory::kFlash, Memory::kFlashBytes, !busy);
+  access_changed_ = true;
+}
+
+void Chip::set_layout(const Memory::Layout& layout) {
+  memory_.set_layout(layout);
+  access_changed_ = true;
+}
+
+/// The engine learns what the MPU, the layout of FlexRAM and a busy flash leave to the processor.
+void Chip::apply_access() {
+  access_changed_ = false;
+  const auto largest = memory_.largest(), present = memory_.ranges();
+  for (std::size_t i = 0; i < largest.size(); ++i) apply_access(largest[i], present[i].bytes.size());
+  cpu_->set_traps(protection_.traps());
+}
+
+void Chip::apply_access(const Memory::Range& range, std::size_t present_bytes) {
+  const std::uint64_t end = std::uint64_t{range.base} + range.bytes.size();
+  std::vector<std::uint64_t> edges = protection_.edges();
+  edges.insert(edges.end(), {range.base, range.base + present_bytes, end});
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    if (edges[i] < range.base || edges[i] >= end || edges[i] == edges[i + 1]) continue;
+    const auto base = static_cast<std::uint32_t>(edges[i]);
+    Protection::Access access = protection_.page(base);
+    access.write = access.write && range.writable;
+    if (base - range.base >= present_bytes || (flash_busy_ && range.base == Memory::kFlash))
+      access = {false, false, false};
+    cpu_->allow(base, static_cast<std::uint32_t>(edges[i + 1] - edges[i]), access);
+  }
+}
+
+void Chip::enter_fault(int number, std::uint32_t cause) {
+  const std::optional<int> taken = exceptions_.fault(number, cause);
+  if (!taken || !exceptions_.enter(*taken)) lock_up();
 }
 
 void Chip::bad_access() {
@@ -164,29 +210,31 @@ void Chip::bad_access() {
   if (flash_busy_ && bad.address >= Memory::kFlash && !bad.write)
     return fail(fmt::format("NOR flash: 0x{:08X} is {} while the flash is busy", bad.address,
                             bad.fetch ? "executed" : "read"));
-  exceptions_.cfsr |= bad.fetch ? kFetchViolation : kAccessViolation | kAddressValid;
-  exceptions_.mmfar = bad.address;
-  const std::optional<int> number = exceptions_.fault(exception::kMemManage);
-  if (!number || !exceptions_.enter(*number)) lock_up();
+  const Protection::Access allowed = protection_.at(bad.address);
+  if (bad.fetch ? allowed.execute : bad.write ? allowed.write : allowed.read) {
+    if (!bad.fetch) exceptions_.bfar = bad.address;
+    enter_fault(exception::kBusFault, bad.fetch ? cause::kFetchBusError : cause::kAccessBusError);
+  } else {
+    if (!bad.fetch) exceptions_.mmfar = bad.address;
+    enter_fault(exception::kMemManage, bad.fetch ? cause::kFetchDenied : cause::kAccessDenied);
+  }
+}
+
+void Chip::bad_instruction(bool thumb) {
+  const auto before = memory_.at((cpu_->pc() & ~1U) - 2, 2);
+  std::uint16_t instruction = 0;
+  if (!before.empty()) std::memcpy(&instruction, before.data(), 2);
+  if (thumb && instruction == kWaitForEvent) return fail("WFE is not modelled");
+  enter_fault(exception::kUsageFault, thumb ? cause::kUndefined : cause::kNotThumb);
 }
 
 void Chip::run_cpu() {
-  switch (cpu_->run()) {
-    case Cpu::End::interrupted:
-      break;
-    case Cpu::End::sleeping:
-      if (!in_bootloader_ && failure_.empty()) sleep(end_);
-      break;
-    case Cpu::End::bad_access:
-      bad_access();
-      break;
-    case Cpu::End::bad_instruction:
-      if (in_bootloader_) break;
-      if (const auto number = exceptions_.fault(exception::kUsageFault);
-          !number || !exceptions_.enter(*number))
-        lock_up();
-      break;
-  }
+  const Cpu::End end = cpu_->run();
+  if (in_bootloader_ || !failure_.empty()) return;
+  if (end == Cpu::End::sleeping) sleep(end_);
+  if (end == Cpu::End::bad_access) bad_access();
+  if (end == Cpu::End::bad_instruction || end == Cpu::End::not_thumb)
+    bad_instruction(end == Cpu::End::bad_instruction);
 }
 
 void Chip::skip_to(Cycles when) {
@@ -211,8 +259,9 @@ void Chip::run_until(Cycles end) {
     if (!exceptions_.violation.empty()) fail(exceptions_.violation);
     if (!failure_.empty()) throw Stopped(failure_);
     if (restart_) start(*std::exchange(restart_, std::nullopt));
+    if (access_changed_) apply_access();
     take_exception();
-    run_cpu();
+    if (exceptions_.violation.empty()) run_cpu();
   }
   if (!failure_.empty()) throw Stopped(failure_);
   if (in_bootloader_) skip_to(end);

@@ -8,6 +8,8 @@
 #include "host/emulator/cpu.hpp"
 #include "host/emulator/exceptions.hpp"
 #include "host/emulator/memory.hpp"
+#include "host/emulator/protection.hpp"
+#include "host/emulator/symbols.hpp"
 #include "host/emulator/system_control.hpp"
 
 namespace astro::emulator {
@@ -20,16 +22,21 @@ class Chip : public Machine {
   Memory& memory() { return memory_; }
   Cpu& cpu() { return *cpu_; }
   Bus& bus() { return bus_; }
-  const SystemControl& system_control() const { return control_; }
+  /// The MPU.
+  const Protection& protection() const { return protection_; }
 
   /// Models take part in resets and events once they are here.
   void add(Model& model) { models_.push_back(&model); }
 
+  /// What addresses are called in messages.
+  Symbols symbols;
   /// Whose gates decide what is clocked; where the reason of a reset is written.
   std::function<bool(Gate)> gates;
   std::function<void(Reset)> remember_reset;
   /// The flash is erasing or programming, or has come to its end: meanwhile nobody may read it.
   void set_flash_busy(bool busy);
+  /// FlexRAM is shared out anew.
+  void set_layout(const Memory::Layout& layout);
 
   /// Power comes on, or the chip starts again: models reset, then the boot ROM.
   void start(Reset cause);
@@ -59,6 +66,10 @@ class Chip : public Machine {
   void on_exception(std::uint32_t number);
   void skip_to(Cycles when);
   void bad_access();
+  void bad_instruction(bool thumb);
+  void enter_fault(int number, std::uint32_t cause);
+  void apply_access();
+  void apply_access(const Memory::Range& range, std::size_t present_bytes);
   void lock_up() { restart(Reset::software); }
   void boot();
 
@@ -70,15 +81,16 @@ class Chip : public Machine {
   Memory memory_;
   Bus bus_{*this};
   std::unique_ptr<Cpu> cpu_;
+  Protection protection_{*this, [this] { access_changed_ = true; }};
   Exceptions exceptions_;
-  SystemControl control_{*this, exceptions_};
+  SystemControl control_{*this, exceptions_, protection_};
   std::vector<Model*> models_;
   std::vector<Wish> wishes_;
   Cycles skipped_ = 0;  // time in which no instruction ran
   Cycles next_event_ = kNever, end_ = 0;
   std::string failure_;
   std::optional<Reset> restart_;
-  bool in_bootloader_ = false, flash_busy_ = false;
+  bool in_bootloader_ = false, flash_busy_ = false, access_changed_ = true;
 };
 
 }  // namespace astro::emulator

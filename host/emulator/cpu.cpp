@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace astro::emulator {
 namespace {
@@ -11,16 +12,20 @@ void check(uc_err error, const char* what) {
     throw std::runtime_error(std::string("Unicorn: ") + what + ": " + uc_strerror(error));
 }
 
+/// With a hook before each instruction the engine keeps the program counter up to date; without, it knows
+/// only where the block began, and faults and messages would name that.
+void on_instruction(uc_engine*, std::uint64_t, std::uint32_t, void*) {}
+
 constexpr std::size_t kBlocks = 65536;
+constexpr std::uint32_t kThumb = 1U << 24;
 
 }  // namespace
 
 Cpu::Cpu(Memory& memory, Hooks hooks) : memory_(memory), hooks_(std::move(hooks)), blocks_(kBlocks) {
   check(uc_open(UC_ARCH_ARM, UC_MODE_THUMB, &engine_), "open");
   check(uc_ctl_set_cpu_model(engine_, UC_CPU_ARM_CORTEX_M7), "processor");
-  for (const Memory::Range& range : memory_.ranges())
-    check(uc_mem_map_ptr(engine_, range.base, range.bytes.size(),
-                         range.writable ? UC_PROT_ALL : UC_PROT_READ | UC_PROT_EXEC, range.bytes.data()),
+  for (const Memory::Range& range : memory_.largest())
+    check(uc_mem_map_ptr(engine_, range.base, range.bytes.size(), UC_PROT_NONE, range.bytes.data()),
           "memory");
   map_registers<0x4000'0000>(0x40'0000);
   map_registers<0x4200'0000>(0x10'0000);
@@ -28,6 +33,8 @@ Cpu::Cpu(Memory& memory, Hooks hooks) : memory_(memory), hooks_(std::move(hooks)
   uc_hook hook = 0;
   check(uc_hook_add(engine_, &hook, UC_HOOK_BLOCK, reinterpret_cast<void*>(on_block), this, 1, 0),
         "block hook");
+  check(uc_hook_add(engine_, &hook, UC_HOOK_CODE, reinterpret_cast<void*>(on_instruction), this, 1, 0),
+        "instruction hook");
   check(uc_hook_add(engine_, &hook, UC_HOOK_INTR, reinterpret_cast<void*>(on_interrupt), this, 1, 0),
         "interrupts");
   check(uc_hook_add(engine_, &hook, UC_HOOK_MEM_INVALID, reinterpret_cast<void*>(on_invalid), this, 1, 0),
@@ -77,7 +84,7 @@ std::uint32_t Cpu::count(std::uint32_t address, std::uint32_t bytes) {
 void Cpu::on_block(uc_engine* engine, std::uint64_t address, std::uint32_t bytes, void* self) {
   auto& cpu = *static_cast<Cpu*>(self);
   if (cpu.stopping_) return;
-  if (cpu.hooks_.interrupted()) {
+  if (cpu.trapped_ || cpu.hooks_.interrupted()) {
     cpu.stopping_ = true;
     uc_emu_stop(engine);
     return;
@@ -87,8 +94,11 @@ void Cpu::on_block(uc_engine* engine, std::uint64_t address, std::uint32_t bytes
   if (cpu.trace) cpu.trace(static_cast<std::uint32_t>(address), instructions);
 }
 
-void Cpu::on_interrupt(uc_engine*, std::uint32_t number, void* self) {
-  static_cast<Cpu*>(self)->hooks_.exception(number);
+void Cpu::on_interrupt(uc_engine* engine, std::uint32_t number, void* self) {
+  auto& cpu = *static_cast<Cpu*>(self);
+  if (cpu.hooks_.exception(number)) return;
+  cpu.stopping_ = true;
+  uc_emu_stop(engine);
 }
 
 bool Cpu::on_invalid(uc_engine*, uc_mem_type type, std::uint64_t address, int, std::int64_t, void* self) {
@@ -98,23 +108,43 @@ bool Cpu::on_invalid(uc_engine*, uc_mem_type type, std::uint64_t address, int, s
   return false;
 }
 
-void Cpu::set_readable(std::uint32_t base, std::uint32_t bytes, bool readable) {
-  check(uc_mem_protect(engine_, base, bytes, readable ? UC_PROT_READ | UC_PROT_EXEC : UC_PROT_NONE),
-        "protection");
+void Cpu::on_trap(uc_engine*, uc_mem_type type, std::uint64_t address, int, std::int64_t, void* self) {
+  auto& cpu = *static_cast<Cpu*>(self);
+  if (cpu.trapped_) return;
+  cpu.trapped_ = true;
+  cpu.bad_ = {static_cast<std::uint32_t>(address), type == UC_MEM_WRITE, false};
+}
+
+void Cpu::allow(std::uint32_t base, std::uint32_t bytes, const Protection::Access& access) {
+  std::uint32_t rights = UC_PROT_NONE;
+  if (access.read) rights |= UC_PROT_READ;
+  if (access.write) rights |= UC_PROT_WRITE;
+  if (access.execute) rights |= UC_PROT_EXEC;
+  check(uc_mem_protect(engine_, base, bytes, rights), "protection");
   // What has been translated would run on without looking at the memory again.
-  if (!readable) check(uc_ctl_remove_cache(engine_, base, base + bytes), "translations");
+  if (!access.execute) check(uc_ctl_remove_cache(engine_, base, std::uint64_t{base} + bytes), "translations");
+}
+
+void Cpu::set_traps(const std::vector<Protection::Span>& traps) {
+  for (const uc_hook hook : traps_) check(uc_hook_del(engine_, hook), "traps");
+  traps_.clear();
+  for (const Protection::Span& trap : traps)
+    check(uc_hook_add(engine_, &traps_.emplace_back(), UC_HOOK_MEM_READ | UC_HOOK_MEM_WRITE,
+                      reinterpret_cast<void*>(on_trap), this, trap.base, trap.base + trap.bytes - 1),
+          "traps");
 }
 
 Cpu::End Cpu::run() {
   stopping_ = false;
   const uc_err error = uc_emu_start(engine_, pc() | 1U, 1, 0, 0);
+  if (std::exchange(trapped_, false)) return End::bad_access;
   if (stopping_) return End::interrupted;
   switch (error) {
     case UC_ERR_OK:
       return End::sleeping;
     case UC_ERR_INSN_INVALID:
     case UC_ERR_EXCEPTION:
-      return End::bad_instruction;
+      return (get(UC_ARM_REG_XPSR) & kThumb) != 0 ? End::bad_instruction : End::not_thumb;
     default:
       return End::bad_access;
   }

@@ -2,13 +2,13 @@
 
 #include <unicorn/unicorn.h>
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
 #include "host/emulator/machine.hpp"
 #include "host/emulator/memory.hpp"
+#include "host/emulator/protection.hpp"
 
 namespace astro::emulator {
 
@@ -26,9 +26,10 @@ class Cpu {
     std::function<bool()> interrupted;  // before each block: true ends the run there
     std::function<std::uint32_t(std::uint32_t address, int bytes)> read;
     std::function<void(std::uint32_t address, std::uint32_t value, int bytes)> write;
-    std::function<void(std::uint32_t number)> exception;  // EXC_RETURN, SVC, BKPT by the engine's numbers
+    // EXC_RETURN, SVC, BKPT by the engine's numbers; false: the run cannot go on.
+    std::function<bool(std::uint32_t number)> exception;
   };
-  enum class End : std::uint8_t { interrupted, sleeping, bad_access, bad_instruction };
+  enum class End : std::uint8_t { interrupted, sleeping, bad_access, bad_instruction, not_thumb };
   struct BadAccess {
     std::uint32_t address = 0;
     bool write = false, fetch = false;
@@ -49,8 +50,12 @@ class Cpu {
   End run();
   const BadAccess& bad_access() const { return bad_; }
 
-  /// While it is not, every read and fetch there ends in bad_access. Not from within a hook.
-  void set_readable(std::uint32_t base, std::uint32_t bytes, bool readable);
+  /// What the processor may do from `base` on; all else ends in bad_access. Whole pages of Protection::kPage.
+  /// Not from within a hook.
+  void allow(std::uint32_t base, std::uint32_t bytes, const Protection::Access& access);
+  /// Ranges that lie within a page: an access there ends in bad_access, after the block of instructions that
+  /// it is in. Not from within a hook.
+  void set_traps(const std::vector<Protection::Span>& traps);
 
   std::uint64_t instructions() const { return instructions_; }
 
@@ -62,6 +67,8 @@ class Cpu {
   static void on_interrupt(uc_engine* engine, std::uint32_t number, void* self);
   static bool on_invalid(uc_engine* engine, uc_mem_type type, std::uint64_t address, int bytes,
                          std::int64_t value, void* self);
+  static void on_trap(uc_engine* engine, uc_mem_type type, std::uint64_t address, int bytes,
+                      std::int64_t value, void* self);
   template <std::uint32_t Base>
   static std::uint64_t on_read(uc_engine* engine, std::uint64_t offset, unsigned bytes, void* self);
   template <std::uint32_t Base>
@@ -80,7 +87,8 @@ class Cpu {
   uc_engine* engine_ = nullptr;
   std::vector<Block> blocks_;
   std::uint64_t instructions_ = 0;
-  bool stopping_ = false;
+  bool stopping_ = false, trapped_ = false;
+  std::vector<uc_hook> traps_;
   BadAccess bad_;
 };
 

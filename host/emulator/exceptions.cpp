@@ -12,7 +12,8 @@ constexpr std::array kFrame{UC_ARM_REG_R0, UC_ARM_REG_R1,  UC_ARM_REG_R2,
                             UC_ARM_REG_R3, UC_ARM_REG_R12, UC_ARM_REG_LR};
 constexpr std::uint32_t kFrameBytes = 32;
 constexpr std::uint32_t kThumb = 1U << 24, kAligned = 1U << 9;
-constexpr std::uint32_t kStackingFailed = 1U << 4;  // in CFSR, of MemManage
+constexpr std::uint32_t kStackingDenied = 1U << 4, kStackingBusError = 1U << 12;  // CFSR
+constexpr std::uint32_t kProcessStack = 1U << 1;                                  // of CONTROL
 constexpr int kNothing = 256;
 
 }  // namespace
@@ -41,9 +42,12 @@ void Exceptions::clear(int number) {
 
 void Exceptions::set_line(int irq, bool level) {
   const int number = exception::kFirstInterrupt + irq;
+  if (level && !line_[index(number)]) pend(number);
   line_[index(number)] = level;
-  if (level && !active_[index(number)]) pend(number);
-  if (!level) clear(number);
+}
+
+void Exceptions::unpend(int number) {
+  if (!line_[index(number)] || active_[index(number)]) clear(number);
 }
 
 int Exceptions::level(int number) const {
@@ -85,20 +89,29 @@ bool Exceptions::wakes() const {
   return number != 0 && level(number) < running_level(false);
 }
 
-bool Exceptions::enter(int number) {
-  const std::uint32_t sp = cpu_.get(UC_ARM_REG_SP), xpsr = cpu_.get(UC_ARM_REG_XPSR);
-  const bool nested = running() != 0;
-  const std::uint32_t frame = (sp - kFrameBytes) & ~7U;
+/// The exception that this leads to if there is no memory for the frame.
+std::optional<int> Exceptions::push_frame(std::uint32_t sp, std::uint32_t frame) {
+  const bool allowed = protection_.at(frame).write && protection_.at(frame + kFrameBytes - 4).write;
+  const auto stack = memory_.at(frame, kFrameBytes);
+  if (!allowed || stack.empty()) {
+    cfsr |= allowed ? kStackingBusError : kStackingDenied;
+    return allowed ? exception::kBusFault : exception::kMemManage;
+  }
   std::array<std::uint32_t, 8> words{};
   for (std::size_t i = 0; i < kFrame.size(); ++i) words[i] = cpu_.get(kFrame[i]);
   words[6] = cpu_.pc() & ~1U;
-  words[7] = (xpsr & ~kAligned) | kThumb | ((sp & 4) != 0 ? kAligned : 0);
-  if (const auto stack = memory_.at(frame, kFrameBytes); !stack.empty()) {
-    std::memcpy(stack.data(), words.data(), kFrameBytes);
-  } else {
+  words[7] = (cpu_.get(UC_ARM_REG_XPSR) & ~kAligned) | kThumb | ((sp & 4) != 0 ? kAligned : 0);
+  std::memcpy(stack.data(), words.data(), kFrameBytes);
+  return {};
+}
+
+bool Exceptions::enter(int number) {
+  const std::uint32_t sp = cpu_.get(UC_ARM_REG_SP), frame = (sp - kFrameBytes) & ~7U;
+  const bool nested = running() != 0;
+  if ((cpu_.get(UC_ARM_REG_CONTROL) & kProcessStack) != 0) violation = "the process stack is not modelled";
+  if (const std::optional<int> failed = push_frame(sp, frame)) {
     // What was to be entered waits; the handler of this runs without a frame.
-    cfsr |= kStackingFailed;
-    const std::optional<int> derived = fault(exception::kMemManage);
+    const std::optional<int> derived = level(number) < 0 ? std::nullopt : fault(*failed);
     if (!derived) return false;
     number = *derived;
   }
@@ -111,7 +124,8 @@ bool Exceptions::enter(int number) {
   std::uint32_t handler = 0;
   if (const auto entry = memory_.at(vector_table + 4 * static_cast<std::uint32_t>(number), 4); !entry.empty())
     std::memcpy(&handler, entry.data(), 4);
-  if ((handler & 1) == 0) violation = fmt::format("exception {} has no handler in the vector table", number);
+  if ((handler & 1) == 0 || memory_.at(handler & ~1U, 2).empty())
+    violation = fmt::format("exception {} has no handler in the vector table", number);
   cpu_.set(UC_ARM_REG_PC, handler);
   cpu_.refresh();
   return true;
@@ -147,11 +161,17 @@ void Exceptions::leave(std::uint32_t return_value) {
   cpu_.refresh();
 }
 
-std::optional<int> Exceptions::fault(int number) {
-  const bool enabled = number == exception::kMemManage  ? mem_manage_enabled
-                       : number == exception::kBusFault ? bus_fault_enabled
-                                                        : usage_fault_enabled;
-  if (enabled && level(number) < running_level(true)) return number;
+bool Exceptions::can_take(int number) const {
+  if ((number == exception::kMemManage && !mem_manage_enabled) ||
+      (number == exception::kBusFault && !bus_fault_enabled) ||
+      (number == exception::kUsageFault && !usage_fault_enabled))
+    return false;
+  return level(number) < running_level(true);
+}
+
+std::optional<int> Exceptions::fault(int number, std::uint32_t cause) {
+  cfsr |= cause;
+  if (can_take(number)) return number;
   constexpr std::uint32_t kForced = 1U << 30;
   hfsr |= kForced;
   if (running_level(true) <= -1) return {};  // a fault in the handler of the last resort

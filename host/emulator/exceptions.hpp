@@ -17,12 +17,12 @@ inline constexpr int kNmi = 2, kHardFault = 3, kMemManage = 4, kBusFault = 5, kU
 
 /// The nested vectored interrupt controller and the core's way into and out of handlers.
 ///
-/// Not modelled  the floating point context: the image uses no FPU (tests/target/image), and neither handlers
-/// nor
-///               main() run with the process stack.
+/// Not modelled  the floating point context and the process stack: the image uses neither
+///               (tests/target/image), and the run ends where a program does.
 class Exceptions {
  public:
-  Exceptions(Cpu& cpu, Memory& memory) : cpu_(cpu), memory_(memory) {}
+  Exceptions(Cpu& cpu, Memory& memory, const Protection& protection)
+      : cpu_(cpu), memory_(memory), protection_(protection) {}
   void reset();
 
   // What the system control space shows and changes.
@@ -35,10 +35,13 @@ class Exceptions {
   std::uint8_t priority(int number) const { return priority_[index(number)]; }
   void pend(int number);
   void clear(int number);
+  /// By software: in vain while the peripheral still asks.
+  void unpend(int number);
   bool pending(int number) const { return pending_[index(number)]; }
   int running() const { return static_cast<int>(cpu_.get(UC_ARM_REG_IPSR) & 0x1FF); }
 
-  /// A peripheral's line: while it is up, the interrupt is pending again as soon as its handler has ended.
+  /// A peripheral's line. That it rises is remembered, also when it falls before the handler runs; while it
+  /// is up, the interrupt is pending again as soon as its handler has ended.
   void set_line(int irq, bool level);
 
   /// The exception that is to be taken now.
@@ -49,21 +52,24 @@ class Exceptions {
   bool enter(int number);
   /// A handler returns with this value in the program counter.
   void leave(std::uint32_t return_value);
-  /// An instruction could not be carried out: the exception that it leads to, or nothing if the core has
-  /// locked up.
-  std::optional<int> fault(int number);
+  /// An instruction could not be carried out, or exception `number` cannot be taken where it must be: the
+  /// exception that this leads to, or nothing if the core has locked up. `cause` are its bits in CFSR.
+  std::optional<int> fault(int number, std::uint32_t cause = 0);
 
   /// What is wrong with what the firmware did, if anything: no handler, a return without a call.
   std::string violation;
 
  private:
   static std::size_t index(int number) { return static_cast<std::size_t>(number); }
+  bool can_take(int number) const;
+  std::optional<int> push_frame(std::uint32_t sp, std::uint32_t frame);
   int level(int number) const;
   int running_level(bool with_masks) const;
   int best() const;
 
   Cpu& cpu_;
   Memory& memory_;
+  const Protection& protection_;
   std::array<bool, exception::kCount> enabled_{}, pending_{}, active_{}, line_{};
   std::array<std::uint8_t, exception::kCount> priority_{};
   int pending_count_ = 0;

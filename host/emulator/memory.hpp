@@ -7,14 +7,18 @@
 
 namespace astro::emulator {
 
-/// What the chip has besides registers. The tightly coupled memories have the size that the firmware asks the
-/// FlexRAM for (chip/iomuxc_gpr.hpp holds it to that); around them lies nothing.
+/// What the chip has besides registers: 512 KB of FlexRAM in banks of 32 KB, each of them tightly coupled for
+/// code or for data, or behind the fixed OCRAM; and the flash. Around them lies nothing.
 class Memory {
  public:
-  static constexpr std::uint32_t kItcm = 0x0000'0000, kItcmBytes = 128 * 1024;
-  static constexpr std::uint32_t kDtcm = 0x2000'0000, kDtcmBytes = 384 * 1024;
-  static constexpr std::uint32_t kOcram = 0x2020'0000, kOcramBytes = 512 * 1024;
+  static constexpr std::uint32_t kItcm = 0x0000'0000, kDtcm = 0x2000'0000, kOcram = 0x2020'0000;
   static constexpr std::uint32_t kFlash = 0x6000'0000, kFlashBytes = 2 * 1024 * 1024;
+  static constexpr std::uint32_t kBank = 32 * 1024, kFlexRam = 16 * kBank, kFixedOcram = 512 * 1024;
+
+  /// How FlexRAM is shared out, in bytes. The fuses of a new chip give 128 KB, 128 KB and 256 KB.
+  struct Layout {
+    std::uint32_t itcm = 4 * kBank, dtcm = 4 * kBank, ocram = 8 * kBank;
+  };
 
   struct Range {
     std::uint32_t base;
@@ -22,11 +26,11 @@ class Memory {
     bool writable;
   };
 
-  Memory() : itcm_(kItcmBytes), dtcm_(kDtcmBytes), ocram_(kOcramBytes), flash_(kFlashBytes, 0xFF) {}
+  void set_layout(const Layout& layout) { layout_ = layout; }
 
-  std::array<Range, 4> ranges() {
-    return {{{kItcm, itcm_, true}, {kDtcm, dtcm_, true}, {kOcram, ocram_, true}, {kFlash, flash_, false}}};
-  }
+  std::array<Range, 4> ranges() { return ranges(layout_); }
+  /// All that any layout has.
+  std::array<Range, 4> largest() { return ranges({kFlexRam, kFlexRam, kFlexRam}); }
 
   /// The bytes at an address; empty if they are not all in one memory.
   std::span<std::uint8_t> at(std::uint32_t address, std::uint32_t bytes) {
@@ -40,7 +44,18 @@ class Memory {
   std::span<std::uint8_t> flash() { return flash_; }
 
  private:
-  std::vector<std::uint8_t> itcm_, dtcm_, ocram_, flash_;
+  std::array<Range, 4> ranges(const Layout& layout) {
+    return {{{kItcm, std::span(itcm_).first(layout.itcm), true},
+             {kDtcm, std::span(dtcm_).first(layout.dtcm), true},
+             {kOcram, std::span(ocram_).first(kFixedOcram + layout.ocram), true},
+             {kFlash, flash_, false}}};
+  }
+
+  std::vector<std::uint8_t> itcm_ = std::vector<std::uint8_t>(kFlexRam);
+  std::vector<std::uint8_t> dtcm_ = std::vector<std::uint8_t>(kFlexRam);
+  std::vector<std::uint8_t> ocram_ = std::vector<std::uint8_t>(kFixedOcram + kFlexRam);
+  std::vector<std::uint8_t> flash_ = std::vector<std::uint8_t>(kFlashBytes, 0xFF);
+  Layout layout_;
 };
 
 }  // namespace astro::emulator

@@ -10,14 +10,20 @@ using namespace teensy40;
 
 constexpr std::uint32_t kCacheEnabled = 0x0003'0000;
 constexpr std::uint32_t kResetKey = 0x05FA;
+constexpr std::uint32_t kPriorityGroup = 0x700;  // of AIRCR
+constexpr std::uint32_t kNvicEnd = 0xE000'E4A0;
+
+std::uint32_t pending_bits(const Exceptions& exceptions) {
+  return static_cast<std::uint32_t>(exceptions.pending(exception::kPendSv)) << 28 |
+         static_cast<std::uint32_t>(exceptions.pending(exception::kSysTick)) << 26;
+}
 
 }  // namespace
 
 void SystemControl::reset() {
-  regions_ = {};
-  region_ = 0;
-  mpu_on_ = counting_ = tick_flag_ = false;
-  ccr_ = cpacr_ = demcr_ = tick_control_ = tick_reload_ = 0;
+  protection_.reset();
+  counting_ = tick_flag_ = false;
+  ccr_ = cpacr_ = demcr_ = tick_control_ = tick_reload_ = counter_held_ = 0;
   tick_at_ = kNever;
 }
 
@@ -33,16 +39,7 @@ void SystemControl::event() {
 }
 
 bool SystemControl::cached(std::uint32_t address) const {
-  if (!mpu_on_ || (ccr_ & kCacheEnabled) == 0) return false;
-  for (std::size_t number = regions_.size(); number-- > 0;) {
-    const Region& region = regions_[number];
-    if (mpu::RASR_ENABLE.of(region.attributes) == 0) continue;
-    const std::uint64_t bytes = std::uint64_t{2} << mpu::RASR_SIZE.of(region.attributes);
-    const std::uint32_t base = region.base & ~0x1FU;
-    if (address >= base && address - base < bytes)
-      return mpu::RASR_C.of(region.attributes) != 0 || mpu::RASR_B.of(region.attributes) != 0;
-  }
-  return false;
+  return (ccr_ & kCacheEnabled) != 0 && protection_.at(address).cached;
 }
 
 std::uint32_t SystemControl::read_priorities(int first) const {
@@ -76,13 +73,14 @@ void SystemControl::write_nvic(std::uint32_t offset, std::uint32_t value) {
     if (offset < 0x80) exceptions_.enable(first + i, true);
     if (offset >= 0x80 && offset < 0x100) exceptions_.enable(first + i, false);
     if (offset >= 0x100 && offset < 0x180) exceptions_.pend(first + i);
-    if (offset >= 0x180) exceptions_.clear(first + i);
+    if (offset >= 0x180) exceptions_.unpend(first + i);
   }
 }
 
 std::uint32_t SystemControl::read_scb(std::uint32_t offset) const {
   if (offset == scb::CPUID.value) return 0x411F'C271;
-  if (offset == scb::ICSR.value) return static_cast<std::uint32_t>(exceptions_.running());
+  if (offset == scb::ICSR.value)
+    return static_cast<std::uint32_t>(exceptions_.running()) | pending_bits(exceptions_);
   if (offset == scb::VTOR.value) return exceptions_.vector_table;
   if (offset == scb::CCR.value) return ccr_;
   if (offset >= scb::SHPR1.value && offset <= scb::SHPR3.value)
@@ -106,14 +104,19 @@ void SystemControl::write_icsr(std::uint32_t value) {
   if ((value >> 25 & 1) != 0) exceptions_.clear(exception::kSysTick);
 }
 
+void SystemControl::write_aircr(std::uint32_t value) {
+  if (scb::AIRCR_VECTKEY.of(value) != kResetKey) return machine_.fail("SCB AIRCR: written without its key");
+  if ((value & kPriorityGroup) != 0) machine_.fail("SCB AIRCR: subpriorities are not modelled");
+  if (scb::AIRCR_SYSRESETREQ.of(value) != 0) machine_.restart(Reset::software);
+}
+
 void SystemControl::write_scb(std::uint32_t offset, std::uint32_t value) {
   if (offset == scb::ICSR.value) return write_icsr(value);
   if (offset == scb::VTOR.value) {
     if (value % 1024 != 0) machine_.fail("SCB VTOR: a table of 176 entries must lie at a multiple of 1024");
     exceptions_.vector_table = value;
   } else if (offset == scb::AIRCR.value) {
-    if (scb::AIRCR_VECTKEY.of(value) != kResetKey) machine_.fail("SCB AIRCR: written without its key");
-    if (scb::AIRCR_SYSRESETREQ.of(value) != 0) machine_.restart(Reset::software);
+    write_aircr(value);
   } else if (offset == scb::CCR.value) {
     ccr_ = value;
   } else if (offset >= scb::SHPR1.value && offset <= scb::SHPR3.value) {
@@ -132,66 +135,69 @@ void SystemControl::write_scb(std::uint32_t offset, std::uint32_t value) {
   // What is left is cache maintenance, and no cache is modelled.
 }
 
-std::uint32_t SystemControl::read(std::uint32_t address) {
-  if (address == SysTick[systick::CSR].address()) {
+std::uint32_t SystemControl::read_tick(std::uint32_t offset) {
+  if (offset == systick::CSR.value) {
     const std::uint32_t value = tick_control_ | (tick_flag_ ? 1U << 16 : 0);
     tick_flag_ = false;
     return value;
   }
-  if (address == SysTick[systick::RVR].address()) return tick_reload_;
-  if (address == SysTick[systick::CVR].address())
-    return tick_at_ == kNever ? 0
-                              : static_cast<std::uint32_t>((tick_at_ - machine_.now()) /
-                                                           (tick_cycles() / (tick_reload_ + 1)));
-  if (address >= NVIC.base && address < 0xE000'E4A0) return read_nvic(address - NVIC.base);
-  if (address == MPU[mpu::TYPE].address()) return 16 << 8;
-  if (address == MPU[mpu::CTRL].address()) return mpu_on_ ? 1 : 0;
-  if (address == MPU[mpu::RNR].address()) return static_cast<std::uint32_t>(region_);
-  if (address == MPU[mpu::RBAR].address()) return regions_[region_].base;
-  if (address == MPU[mpu::RASR].address()) return regions_[region_].attributes;
+  if (offset == systick::RVR.value) return tick_reload_;
+  if (tick_at_ == kNever || tick_at_ <= machine_.now()) return 0;
+  return static_cast<std::uint32_t>((tick_at_ - machine_.now() - 1) / (tick_cycles() / (tick_reload_ + 1)));
+}
+
+void SystemControl::write_tick(std::uint32_t offset, std::uint32_t value) {
+  if (offset == systick::CSR.value) {
+    const bool starts = (tick_control_ & 1) == 0 && (value & 1) != 0;
+    if (tick_at_ != kNever && ((tick_control_ ^ value) & 4) != 0)
+      machine_.fail("SysTick CSR: the clock is changed while it counts");
+    tick_control_ = value & 7;
+    if (starts) tick_at_ = machine_.now() + tick_cycles();
+    if ((value & 1) == 0) tick_at_ = kNever;
+  } else if (offset == systick::RVR.value) {
+    tick_reload_ = value & 0xFF'FFFF;
+  } else {
+    tick_flag_ = false;
+    if (tick_at_ != kNever) tick_at_ = machine_.now() + tick_cycles();
+  }
+}
+
+std::uint32_t SystemControl::counter() const {
+  return counting_ ? static_cast<std::uint32_t>(machine_.now() - counter_zero_) : counter_held_;
+}
+
+void SystemControl::write_trace(std::uint32_t address, std::uint32_t value) {
+  if (dcb::DEMCR_TRCENA.of(demcr_) == 0)
+    return machine_.fail(name_of(address) + ": tracing is not enabled in DCB DEMCR");
+  const std::uint32_t count = address == DWT[dwt::CYCCNT].address() ? value : counter();
+  if (address == DWT[dwt::CTRL].address()) counting_ = (value & 1) != 0;
+  counter_held_ = count;
+  counter_zero_ = machine_.now() - count;
+}
+
+std::uint32_t SystemControl::read(std::uint32_t address) {
+  if (address >= SysTick.base && address < NVIC.base) return read_tick(address - SysTick.base);
+  if (address >= NVIC.base && address < kNvicEnd) return read_nvic(address - NVIC.base);
+  if (address >= MPU.base && address <= MPU[mpu::RASR].address()) return protection_.read(address - MPU.base);
   if (address == DCB[dcb::DEMCR].address()) return demcr_;
   if (address == DWT[dwt::CTRL].address()) return counting_ ? 1 : 0;
-  if (address == DWT[dwt::CYCCNT].address())
-    return counting_ ? static_cast<std::uint32_t>(machine_.now() - counter_zero_) : 0;
+  if (address == DWT[dwt::CYCCNT].address()) return counter();
   return read_scb(address - SCB.base);
 }
 
 void SystemControl::write(std::uint32_t address, std::uint32_t value) {
-  if (address == SysTick[systick::CSR].address()) {
-    const bool starts = (tick_control_ & 1) == 0 && (value & 1) != 0;
-    tick_control_ = value & 7;
-    if (starts) tick_at_ = machine_.now() + tick_cycles();
-    if ((value & 1) == 0) tick_at_ = kNever;
-  } else if (address == SysTick[systick::RVR].address()) {
-    tick_reload_ = value & 0xFF'FFFF;
-  } else if (address == SysTick[systick::CVR].address()) {
-    tick_flag_ = false;
-    if (tick_at_ != kNever) tick_at_ = machine_.now() + tick_cycles();
-  } else if (address >= NVIC.base && address < 0xE000'E4A0) {
+  if (address >= SysTick.base && address < NVIC.base)
+    write_tick(address - SysTick.base, value);
+  else if (address >= NVIC.base && address < kNvicEnd)
     write_nvic(address - NVIC.base, value);
-  } else if (address == MPU[mpu::CTRL].address()) {
-    mpu_on_ = mpu::CTRL_ENABLE.of(value) != 0;
-  } else if (address == MPU[mpu::RNR].address()) {
-    region_ = value % regions_.size();
-  } else if (address == MPU[mpu::RBAR].address()) {
-    if (mpu::RBAR_VALID.of(value) != 0) region_ = mpu::RBAR_REGION.of(value);
-    regions_[region_].base = value & ~0x1FU;
-  } else if (address == MPU[mpu::RASR].address()) {
-    const std::uint64_t bytes = std::uint64_t{2} << mpu::RASR_SIZE.of(value);
-    if (mpu::RASR_ENABLE.of(value) != 0 && regions_[region_].base % bytes != 0)
-      machine_.fail("MPU RASR: the region does not begin at a multiple of its size");
-    regions_[region_].attributes = value;
-  } else if (address == DCB[dcb::DEMCR].address()) {
+  else if (address >= MPU.base && address <= MPU[mpu::RASR].address())
+    protection_.write(address - MPU.base, value);
+  else if (address == DCB[dcb::DEMCR].address())
     demcr_ = value;
-  } else if (address == DWT[dwt::CTRL].address()) {
-    if (dcb::DEMCR_TRCENA.of(demcr_) == 0) machine_.fail("DWT CTRL: tracing is not enabled in DCB DEMCR");
-    counting_ = (value & 1) != 0;
-    counter_zero_ = machine_.now();
-  } else if (address == DWT[dwt::CYCCNT].address()) {
-    counter_zero_ = machine_.now() - value;
-  } else {
+  else if (address == DWT[dwt::CTRL].address() || address == DWT[dwt::CYCCNT].address())
+    write_trace(address, value);
+  else
     write_scb(address - SCB.base, value);
-  }
 }
 
 }  // namespace astro::emulator

@@ -18,10 +18,13 @@ Teensy::Teensy(const std::filesystem::path& hex, const sim::Config& robot)
     : ocotp_(chip_, static_cast<std::uint32_t>(robot.seed)),
       world_(chip_, robot, {pwm_, gpio7_, encoder_wires_, adc_}) {
   load_hex(hex, chip_.memory().flash());
+  const auto elf = std::filesystem::path(hex).replace_extension(".elf");
+  if (std::filesystem::exists(elf)) chip_.symbols = Symbols(elf);
   const auto parameters = flash_.parameters();
   std::copy_n(robot.flash.begin(), std::min(parameters.size(), robot.flash.size()), parameters.begin());
   chip_.gates = [this](Gate gate) { return ccm_.open(gate); };
   chip_.remember_reset = [this](Reset cause) { src_.remember(cause); };
+  gpr_.on_layout = [this](const Memory::Layout& layout) { chip_.set_layout(layout); };
   flash_.on_busy = [this](bool busy) { chip_.set_flash_busy(busy); };
   map();
   chip_.start(Reset::power_on);
@@ -88,6 +91,24 @@ std::uint32_t Teensy::word_at(std::uint32_t address) {
   std::uint32_t word = 0;
   if (const auto bytes = chip_.memory().at(address, 4); !bytes.empty()) std::memcpy(&word, bytes.data(), 4);
   return word;
+}
+
+std::uint64_t Teensy::state_hash() {
+  std::uint64_t hash = 0xCBF2'9CE4'8422'2325;  // FNV-1a, by words
+  const auto add = [&hash](std::uint64_t word) { hash = (hash ^ word) * 0x0000'0100'0000'01B3; };
+  for (const Memory::Range& range : chip_.memory().ranges())
+    for (std::size_t at = 0; at < range.bytes.size(); at += sizeof(std::uint64_t)) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, range.bytes.data() + at, sizeof word);
+      add(word);
+    }
+  for (int reg = UC_ARM_REG_R0; reg <= UC_ARM_REG_R12; ++reg) add(chip_.cpu().get(reg));
+  for (const int reg :
+       {UC_ARM_REG_SP, UC_ARM_REG_LR, UC_ARM_REG_PC, UC_ARM_REG_XPSR, UC_ARM_REG_PRIMASK, UC_ARM_REG_BASEPRI})
+    add(chip_.cpu().get(reg));
+  add(now());
+  add(instructions());
+  return hash;
 }
 
 }  // namespace astro::emulator

@@ -17,6 +17,7 @@
 #include "host/emulator/chip/pit.hpp"
 #include "host/emulator/chip/reset.hpp"
 #include "host/emulator/chip/rtwdog.hpp"
+#include "host/emulator/chip/wdog.hpp"
 #include "host/emulator/usb/controller.hpp"
 #include "host/emulator/world.hpp"
 
@@ -27,8 +28,9 @@ namespace astro::emulator {
 ///   Teensy teensy("build/teensy40/bin/astrolabe-teensy40.hex");
 ///   teensy.run_for(10ms);
 ///
-/// The same image, configuration and calls give the same state. Throws Stopped when the firmware does what
-/// the chip would not forgive; what that is, each model says.
+/// If the .elf lies beside the .hex, messages name functions. The same image, configuration and calls give
+/// the same state. Throws Stopped when the firmware does what the chip would not forgive; what that is, each
+/// model says.
 class Teensy {
  public:
   explicit Teensy(const std::filesystem::path& hex, const sim::Config& robot = {});
@@ -66,6 +68,9 @@ class Teensy {
     encoder_wires_.count(1, right);
   }
   std::uint32_t word_at(std::uint32_t address);
+  const Symbols& symbols() const { return chip_.symbols; }
+  /// Of processor, memories and time: equal after two runs that went the same way.
+  std::uint64_t state_hash();
 
  private:
   void map();
@@ -82,7 +87,7 @@ class Teensy {
   Src src_;
   Ocotp ocotp_;
   Rtwdog rtwdog_{chip_};
-  Stored wdog1_, wdog2_;
+  Wdog wdog1_{chip_, 1}, wdog2_{chip_, 2};
   Lpuart lpuart_{chip_, ccm_, iomuxc_};
   Xbara xbara_;
   Enc enc1_{chip_, 1}, enc2_{chip_, 2};

@@ -11,6 +11,8 @@ using namespace teensy40;
 
 constexpr Cycles kLock = 60 * kCyclesPerMicrosecond, kSettle = 30 * kCyclesPerMicrosecond, kHandshake = 600;
 constexpr std::uint32_t kCrystal_mhz = 24;
+// The core may go above 528 MHz with 1.25 V, which the Teensy's makers use.
+constexpr std::uint32_t kSlow_mhz = 528, kFast_mV = 1250, kMost_mV = 1300;
 
 /// Registers with copies that set, clear and toggle bits 4, 8 and 12 bytes on.
 std::uint32_t combined(std::uint32_t offset, std::uint32_t old, std::uint32_t value) {
@@ -88,9 +90,11 @@ std::uint32_t Dcdc::read(std::uint32_t offset) {
 
 void Dcdc::write(std::uint32_t offset, std::uint32_t value_written) {
   if (offset == dcdc::REG3.value) {
+    const std::uint32_t target_mV = 800 + 25 * dcdc::REG3_TRG.of(value_written);
+    if (target_mV > kMost_mV) machine_.fail("DCDC REG3: more than 1.3 V for the core");
+    if (target_mV < kFast_mV && core_mhz() > kSlow_mhz)
+      machine_.fail(fmt::format("DCDC REG3: {} mV for a core that runs at {} MHz", target_mV, core_mhz()));
     settled_at_ = machine_.now() + kSettle;
-    if (800 + 25 * dcdc::REG3_TRG.of(value_written) > 1300)
-      machine_.fail("DCDC REG3: more than 1.3 V for the core");
   }
   store(offset, value_written);
 }
@@ -116,6 +120,7 @@ Ccm::Ccm(Machine& machine, Analog& analog, Dcdc& dcdc)
       analog_(analog),
       dcdc_(dcdc) {
   analog_.core_runs_from_arm_pll = [this] { return from_pll(); };
+  dcdc_.core_mhz = [this] { return core_mhz(); };
 }
 
 void Ccm::reset() {
@@ -162,11 +167,21 @@ std::uint32_t Ccm::read(std::uint32_t offset) {
   return machine_.now() < busy_until_ ? busy_ : 0;
 }
 
+void Ccm::check_source() {
+  constexpr std::uint32_t kCrystal = 1, kArmPll = 3;
+  const std::uint32_t sources = value(ccm::CBCMR.value);
+  const bool detour = ccm::CBCDR_PERIPH_CLK_SEL.of(value(ccm::CBCDR.value)) != 0;
+  if (detour && ccm::CBCMR_PERIPH_CLK2_SEL.of(sources) != kCrystal)
+    machine_.fail("CCM CBCMR: of the clocks behind PERIPH_CLK2_SEL only the crystal is modelled");
+  if (!detour && ccm::CBCMR_PRE_PERIPH_CLK_SEL.of(sources) != kArmPll)
+    machine_.fail("CCM CBCMR: of the clocks behind PRE_PERIPH_CLK_SEL only the ARM PLL is modelled");
+}
+
 void Ccm::check_supply() {
   if (!from_pll()) return;
   if (!analog_.arm_pll_locked())
     machine_.fail("CCM CBCDR: the core is to run from a PLL that has not locked");
-  if (core_mhz() > 528 && dcdc_.millivolts() < 1250)
+  if (core_mhz() > kSlow_mhz && dcdc_.millivolts() < kFast_mV)
     machine_.fail(fmt::format("CCM CBCDR: {} MHz with less than 1.25 V (DCDC REG3)", core_mhz()));
   if (core_mhz() > 600) machine_.fail(fmt::format("CCM CBCDR: {} MHz", core_mhz()));
   if (bus_mhz() > 150)
@@ -189,7 +204,12 @@ void Ccm::write(std::uint32_t offset, std::uint32_t word) {
     busy_ = busy;
     busy_until_ = machine_.now() + kHandshake;
   }
-  if (handshakes || offset == ccm::CBCMR.value) check_supply();
+  if (handshakes || offset == ccm::CBCMR.value) {
+    check_source();
+    check_supply();
+  }
+  if (offset == ccm::CSCMR1.value && kCyclesPerSecond % timer_hz() != 0)
+    machine_.fail("CCM CSCMR1: a clock of the timers that is no whole part of 600 MHz is not modelled");
 }
 
 }  // namespace astro::emulator

@@ -35,6 +35,8 @@ class Dcdc : public Stored {
   std::uint32_t read(std::uint32_t offset) override;
   void write(std::uint32_t offset, std::uint32_t value) override;
   std::uint32_t millivolts() const;
+  /// The core must not be starved: asked before each change.
+  std::function<std::uint32_t()> core_mhz = [] { return 0U; };
 
  private:
   Machine& machine_;
@@ -59,6 +61,7 @@ class Ccm : public Stored {
 
  private:
   bool from_pll() const;
+  void check_source();
   void check_supply();
 
   Machine& machine_;

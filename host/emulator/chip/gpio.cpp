@@ -10,18 +10,21 @@ std::uint32_t Gpio::read(std::uint32_t offset) {
   if (offset == gpio::DR.value) return data_;
   if (offset == gpio::GDIR.value) return direction_;
   if (offset == gpio::PSR.value) return (data_ & direction_) | (inputs_ & ~direction_);
-  if (offset == gpio::IMR.value) return mask_;
-  if (offset == gpio::ISR.value) return status_;
   return 0;
 }
 
 /// A port cannot move a pin that belongs to the other view of the pads.
-void Gpio::set_data(std::uint32_t data, std::uint32_t touched) {
+void Gpio::check_owner(std::uint32_t touched, const char* what) {
   const bool fast = port_ >= 6;
-  const std::uint32_t fast_pins = gpr_.fast_pins(fast ? port_ - 5 : port_);
+  const int slow_port = fast ? port_ - 5 : port_;
+  const std::uint32_t fast_pins = gpr_.fast_pins(slow_port);
   if ((touched & (fast ? ~fast_pins : fast_pins)) != 0)
-    machine_.fail(fmt::format("GPIO{} DR: moves pins that belong to GPIO{} (IOMUXC_GPR GPR{})", port_,
-                              fast ? port_ - 5 : port_ + 5, 25 + (fast ? port_ - 5 : port_)));
+    machine_.fail(fmt::format("GPIO{} {}: moves pins that belong to GPIO{} (IOMUXC_GPR GPR{})", port_, what,
+                              fast ? slow_port : port_ + 5, 25 + slow_port));
+}
+
+void Gpio::set_data(std::uint32_t data, std::uint32_t touched) {
+  check_owner(touched, "DR");
   data_ = data;
 }
 
@@ -30,9 +33,13 @@ void Gpio::write(std::uint32_t offset, std::uint32_t value) {
   if (offset == gpio::DR_SET.value) set_data(data_ | value, value);
   if (offset == gpio::DR_CLEAR.value) set_data(data_ & ~value, value);
   if (offset == gpio::DR_TOGGLE.value) set_data(data_ ^ value, value);
-  if (offset == gpio::GDIR.value) direction_ = value;
-  if (offset == gpio::IMR.value) mask_ = value;
-  if (offset == gpio::ISR.value) status_ &= ~value;
+  if (offset == gpio::GDIR.value) {
+    check_owner(direction_ ^ value, "GDIR");
+    direction_ = value;
+  }
+  if (offset == gpio::PSR.value) machine_.fail(fmt::format("GPIO{} PSR: cannot be written", port_));
+  if (offset == gpio::IMR.value && value != 0)
+    machine_.fail(fmt::format("GPIO{} IMR: interrupts of the pins are not modelled", port_));
 }
 
 }  // namespace astro::emulator

@@ -30,38 +30,38 @@ class Iomuxc : public Stored {
   bool touched(std::uint32_t offset) const { return (value(offset) & kTouched) != 0; }
 };
 
-/// IOMUXC_GPR. The memories are laid out once: the firmware must ask for what Memory has.
+/// IOMUXC_GPR: how FlexRAM is shared out, and which of two ports has a pin.
 class IomuxcGpr : public Stored {
  public:
   explicit IomuxcGpr(Machine& machine)
       : Stored({{teensy40::iomuxc_gpr::GPR16.value, 0x0020'0003}}), machine_(machine) {}
 
-  void write(std::uint32_t offset, std::uint32_t word) override {
-    using namespace teensy40;
-    constexpr std::uint32_t kBanks = 0xAAAA'AAAA | ((1U << (2 * (Memory::kItcmBytes / 32768))) - 1U);
-    if (offset == iomuxc_gpr::GPR17.value && word != kBanks)
-      machine_.fail("IOMUXC_GPR GPR17: the emulator has 4 banks of code and 12 of data");
-    if (offset == iomuxc_gpr::GPR16.value && word != 0x0020'0007)
-      machine_.fail("IOMUXC_GPR GPR16: the vectors of the next reset must stay with the ROM");
-    store(offset, word);
-  }
+  void write(std::uint32_t offset, std::uint32_t word) override;
+  void reset() override;
+  /// Called when the firmware, or a reset, has changed it.
+  std::function<void(const Memory::Layout&)> on_layout = [](const Memory::Layout&) {};
+
   /// Pins of GPIO1..4 that belong to the fast copy, GPIO6..9.
   std::uint32_t fast_pins(int slow_port) const {
     return value(teensy40::iomuxc_gpr::GPR26.value + 4 * static_cast<std::uint32_t>(slow_port - 1));
   }
 
  private:
+  Memory::Layout layout() const;
+
   Machine& machine_;
 };
 
 /// One GPIO port. Which pins it has is up to GPR26..29: 1..4 and 6..9 are two views of the same pads.
+///
+/// Not modelled  interrupts of the pins.
 class Gpio : public Model {
  public:
   Gpio(Machine& machine, const IomuxcGpr& gpr, int port) : machine_(machine), gpr_(gpr), port_(port) {}
 
   std::uint32_t read(std::uint32_t offset) override;
   void write(std::uint32_t offset, std::uint32_t value) override;
-  void reset() override { data_ = direction_ = mask_ = status_ = 0; }
+  void reset() override { data_ = direction_ = 0; }
 
   /// Levels of the pins that are outputs.
   std::uint32_t driven() const { return data_ & direction_; }
@@ -71,11 +71,12 @@ class Gpio : public Model {
 
  private:
   void set_data(std::uint32_t data, std::uint32_t touched);
+  void check_owner(std::uint32_t touched, const char* what);
 
   Machine& machine_;
   const IomuxcGpr& gpr_;
   int port_;
-  std::uint32_t data_ = 0, direction_ = 0, mask_ = 0, status_ = 0, inputs_ = ~0U;
+  std::uint32_t data_ = 0, direction_ = 0, inputs_ = ~0U;
 };
 
 }  // namespace astro::emulator

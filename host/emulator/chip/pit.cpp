@@ -13,84 +13,117 @@ using namespace teensy40;
 
 constexpr int kIrq = 122;
 constexpr std::uint32_t kEnabled = 1, kInterrupts = 2, kChained = 4;
+constexpr std::uint32_t kChannels = 0x100;  // where the first one's four registers are
+constexpr std::uint32_t kLoad = 0, kValue = 4, kControl = 8;
 
 }  // namespace
 
 void Pit::reset() {
   channels_ = {};
-  disabled_ = true;
+  stopped_ = true;
   held_low_ = 0;
+}
+
+std::uint64_t Pit::lifetime_us() const {
+  const Channel& first = channels_[0];
+  return (first.control & kEnabled) != 0 ? (machine_.now() - first.began) / kCyclesPerMicrosecond : 0;
 }
 
 Cycles Pit::cycles_per_count() const { return kCyclesPerSecond / ccm_.timer_hz(); }
 
-std::uint64_t Pit::counted(std::size_t n) const {
-  const Channel& channel = channels_[n];
-  if ((channel.control & kEnabled) == 0) return 0;
-  if ((channel.control & kChained) != 0) return counted(n - 1) / (std::uint64_t{channels_[n - 1].load} + 1);
-  return (machine_.now() - channel.began) / cycles_per_count();
+std::uint32_t Pit::current(const Channel& channel) const {
+  if (channel.due == kNever) return channel.count;
+  return static_cast<std::uint32_t>((channel.due - machine_.now() - 1) / cycles_per_count());
 }
 
-std::uint32_t Pit::current(std::size_t n) const {
-  const std::uint64_t period = std::uint64_t{channels_[n].load} + 1;
-  return static_cast<std::uint32_t>(channels_[n].load - counted(n) % period);
+void Pit::begin_period(Channel& channel, Cycles at) {
+  channel.count = channel.load;
+  const bool clocked = !stopped_ && (channel.control & kEnabled) != 0 && (channel.control & kChained) == 0;
+  channel.due = clocked ? at + (Cycles{channel.load} + 1) * cycles_per_count() : kNever;
+}
+
+/// Channel n has come to zero; so may those that are chained to it.
+void Pit::end_period(std::size_t n) {
+  channels_[n].flag = true;
+  begin_period(channels_[n], channels_[n].due);
+  for (++n; n < channels_.size(); ++n) {
+    Channel& next = channels_[n];
+    if ((next.control & (kEnabled | kChained)) != (kEnabled | kChained)) return;
+    if (next.count != 0) {
+      --next.count;
+      return;
+    }
+    next.flag = true;
+    next.count = next.load;
+  }
+}
+
+void Pit::catch_up() {
+  for (std::size_t n = 0; n < channels_.size(); ++n)
+    while (channels_[n].due <= machine_.now()) end_period(n);
 }
 
 std::uint32_t Pit::read(std::uint32_t offset) {
-  if (offset == pit::MCR.value) return disabled_ ? pit::MCR_MDIS(1) : 0;
+  catch_up();
+  update();
+  if (offset == pit::MCR.value) return pit::MCR_MDIS(stopped_);
   if (offset == pit::LTMR64H.value) {
-    held_low_ = current(0);
-    return current(1);
+    held_low_ = current(channels_[0]);
+    return current(channels_[1]);
   }
   if (offset == pit::LTMR64L.value) return held_low_;
-  const std::size_t n = (offset - 0x100) / 16;
-  switch (offset % 16) {
-    case 0:
-      return channels_[n].load;
-    case 4:
-      return current(n);
-    case 8:
-      return channels_[n].control;
-    default:
-      return channels_[n].flag ? 1 : 0;
-  }
+  const Channel& channel = channels_[(offset - kChannels) / 16];
+  if (offset % 16 == kLoad) return channel.load;
+  if (offset % 16 == kValue) return current(channel);
+  return offset % 16 == kControl ? channel.control : channel.flag;
 }
 
-void Pit::write(std::uint32_t offset, std::uint32_t value) {
-  if (offset == pit::MCR.value) {
-    disabled_ = pit::MCR_MDIS.of(value) != 0;
-    return;
+void Pit::set_stopped(bool stopped) {
+  for (Channel& channel : channels_) channel.count = current(channel);
+  stopped_ = stopped;
+  for (Channel& channel : channels_) {
+    const std::uint32_t count = channel.count;
+    begin_period(channel, machine_.now());
+    if (channel.due != kNever) channel.due -= (Cycles{channel.load} - count) * cycles_per_count();
+    channel.count = count;
   }
-  if (offset < 0x100) return machine_.fail("PIT LTMR64H: the lifetime timer cannot be written");
-  const std::size_t n = (offset - 0x100) / 16;
-  if (offset % 16 == 0) channels_[n].load = value;
-  if (offset % 16 == 4) machine_.fail("PIT CVAL: cannot be written");
-  if (offset % 16 == 8) set_control(n, value);
-  if (offset % 16 == 12 && (value & 1) != 0) channels_[n].flag = false;
-  update();
 }
 
 void Pit::set_control(std::size_t n, std::uint32_t value) {
   Channel& channel = channels_[n];
-  const bool starts = (channel.control & kEnabled) == 0 && (value & kEnabled) != 0;
-  if (starts && disabled_)
-    machine_.fail(fmt::format("PIT CHANNEL{}_TCTRL: started while MCR.MDIS stops the module", n));
   if (n == 0 && (value & kChained) != 0)
     machine_.fail("PIT CHANNEL0_TCTRL: there is no channel to chain it to");
+  const bool ran = (channel.control & kEnabled) != 0, runs = (value & kEnabled) != 0;
+  if (!ran && runs && stopped_)
+    machine_.fail(fmt::format("PIT CHANNEL{}_TCTRL: started while MCR.MDIS stops the module", n));
+  if (ran && runs && ((channel.control ^ value) & kChained) != 0)
+    machine_.fail(fmt::format("PIT CHANNEL{}_TCTRL: chained or unchained while it counts", n));
   channel.control = value;
-  if (starts) channel.began = machine_.now();
-  const bool wanted = (value & kEnabled) != 0 && (value & kChained) == 0 && (value & kInterrupts) != 0;
-  if (!wanted) channel.due = kNever;
-  if (wanted && (starts || channel.due == kNever))
-    channel.due = machine_.now() + (Cycles{current(n)} + 1) * cycles_per_count();
+  if (ran == runs) return;
+  channel.began = machine_.now();
+  begin_period(channel, machine_.now());
+}
+
+void Pit::write(std::uint32_t offset, std::uint32_t value) {
+  catch_up();
+  if (offset == pit::MCR.value) {
+    set_stopped(pit::MCR_MDIS.of(value) != 0);
+  } else if (offset < kChannels || offset % 16 == kValue) {
+    machine_.fail(fmt::format("PIT 0x{:03X}: a count cannot be written", offset));
+  } else {
+    const std::size_t n = (offset - kChannels) / 16;
+    if (offset % 16 == kLoad)
+      channels_[n].load = value;
+    else if (offset % 16 == kControl)
+      set_control(n, value);
+    else if ((value & 1) != 0)
+      channels_[n].flag = false;
+  }
+  update();
 }
 
 void Pit::event() {
-  for (Channel& channel : channels_)
-    if (channel.due <= machine_.now()) {
-      channel.flag = true;
-      channel.due += (Cycles{channel.load} + 1) * cycles_per_count();
-    }
+  catch_up();
   update();
 }
 

@@ -7,40 +7,42 @@
 
 namespace astro::emulator {
 
-/// Four timers that count down, and the first two as one of 64 bits.
+/// Four timers that count down to zero and begin again at LDVAL, each by the module's clock or chained to the
+/// one before it: then it counts that one's periods. The first two, read as one, are the lifetime timer.
 class Pit : public Model {
  public:
   Pit(Machine& machine, const Ccm& ccm) : machine_(machine), ccm_(ccm) {}
 
   std::uint32_t read(std::uint32_t offset) override;
   void write(std::uint32_t offset, std::uint32_t value) override;
-  /// Time since channel 0 was started; 0 before.
-  std::uint64_t lifetime_us() const {
-    return (channels_[0].control & 1) != 0 ? (machine_.now() - channels_[0].began) / kCyclesPerMicrosecond
-                                           : 0;
-  }
-
   void event() override;
   void reset() override;
+
+  /// Time since channel 0 was started; 0 before.
+  std::uint64_t lifetime_us() const;
 
  private:
   struct Channel {
     std::uint32_t load = 0, control = 0;
+    std::uint32_t count = 0;  // of a chained channel, or of one that stands still
     bool flag = false;
     Cycles began = 0;
-    Cycles due = kNever;  // when it reaches zero, if it counts by itself and somebody wants to know
+    Cycles due = kNever;  // the end of the period, if it counts by the module's clock
   };
 
   Cycles cycles_per_count() const;
-  std::uint64_t counted(std::size_t n) const;  // zero crossings of the clock of channel n
-  std::uint32_t current(std::size_t n) const;
+  std::uint32_t current(const Channel& channel) const;
+  void set_stopped(bool stopped);
   void set_control(std::size_t n, std::uint32_t value);
+  void begin_period(Channel& channel, Cycles at);
+  void end_period(std::size_t n);
+  void catch_up();
   void update();
 
   Machine& machine_;
   const Ccm& ccm_;
   std::array<Channel, 4> channels_{};
-  bool disabled_ = true;
+  bool stopped_ = true;
   std::uint32_t held_low_ = 0;
 };
 

@@ -51,9 +51,9 @@ TEST_F(Start, LeavesASleepInWhichNothingButTheCoreStops) {
 
 TEST_F(Start, LetsNothingRunButCodeMemoryAndTheRom) {
   teensy_.run_for(5ms);
-  ASSERT_TRUE(teensy_.chip().system_control().protection_on());
+  ASSERT_TRUE(teensy_.chip().protection().on());
   for (std::size_t number = 0; number < 16; ++number) {
-    const auto region = teensy_.chip().system_control().region(number);
+    const auto region = teensy_.chip().protection().region(number);
     if (mpu::RASR_ENABLE.of(region.attributes) == 0 || mpu::RASR_XN.of(region.attributes) != 0) continue;
     EXPECT_TRUE(region.base == 0 || region.base == 0x0020'0000) << std::hex << region.base;
     EXPECT_EQ(mpu::RASR_AP.of(region.attributes), 7U) << std::hex << region.base << " can be written";

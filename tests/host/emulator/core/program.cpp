@@ -1,0 +1,149 @@
+#include "tests/host/emulator/core/program.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+namespace astro::emulator {
+namespace {
+
+struct Instance {
+  std::string_view type, name;
+  std::uint32_t base;
+};
+
+struct Row {
+  std::string_view type, name;
+  std::uint32_t offset;
+};
+
+#define TYPE(type)
+#define FIELD(type, reg, name, lsb, width)
+#define REGISTER(type, name, offset, width)
+#define INSTANCE(type, name, address) Instance{#type, #name, address},
+const std::vector<Instance> kInstances{
+#include "hal/teensy40/registers/all.def"
+};
+#undef INSTANCE
+#undef REGISTER
+#define INSTANCE(type, name, address)
+#define REGISTER(type, name, offset, width) Row{#type, #name, offset},
+const std::vector<Row> kRows{
+#include "hal/teensy40/registers/all.def"
+};
+#undef TYPE
+#undef FIELD
+#undef REGISTER
+#undef INSTANCE
+
+constexpr std::string_view kMacros = R"(
+.syntax unified
+.cpu cortex-m7
+.fpu fpv5-d16
+.thumb
+.macro set register, value
+  ldr r6, =\register
+  ldr r7, =\value
+  str r7, [r6]
+.endm
+.macro set16 register, value
+  ldr r6, =\register
+  ldr r7, =\value
+  strh r7, [r6]
+.endm
+.macro get register
+  ldr r6, =\register
+  ldr r0, [r6]
+.endm
+.macro keep n
+  ldr r6, =0x20000000
+  str r0, [r6, #4*\n]
+.endm
+.macro stay
+  b .
+.endm
+.macro handler n
+  .ltorg
+  .global exception_\n
+  .thumb_func
+  exception_\n:
+.endm
+)";
+
+/// Header of the image, start-up, and a vector table whose entries a program replaces by name.
+std::string frame() {
+  std::string text(kMacros);
+  text += R"(
+  .text
+  .word 0x42464346, 0x56010000
+  .org 0x1000, 0xFF
+  .word 0x432000D1, reset, 0, 0, 0x60001020, 0x60001000, 0, 0
+  .word 0x60000000, 0x00003000, 0, 0
+  .global reset
+  .thumb_func
+reset:
+  set 0x400AC044, 0xAAAAAAFF
+  set 0x400AC040, 0x00200007
+  set 0x400AC038, 0x00AA0000
+  ldr r0, =0x20060000
+  mov sp, r0
+  set 0xE000ED08, vectors
+  movs r0, #0
+  b main
+  .thumb_func
+unexpected:
+  mrs r0, ipsr
+  keep 15
+  stay
+  .ltorg
+  .org 0x2000, 0xFF
+vectors:
+  .word 0x20060000, reset
+)";
+  for (int n = 2; n < 16 + 160; ++n)
+    text += fmt::format(
+        "  .weak exception_{0}\n  .thumb_set exception_{0}, unexpected\n  .word exception_{0}\n", n);
+  return text;
+}
+
+std::string program(const std::string& code) {
+  std::string text(kMacros);
+  for (const Instance& instance : kInstances)
+    for (const Row& row : kRows)
+      if (row.type == instance.type)
+        text += fmt::format(".equ {}_{}, 0x{:08X}\n", instance.name, row.name, instance.base + row.offset);
+  return text + "  .text\n  .global main\n  .thumb_func\nmain:\n" + code + "\n  stay\n";
+}
+
+void run(const std::string& command) {
+  if (std::system(command.c_str()) != 0) throw std::runtime_error("failed: " + command);
+}
+
+}  // namespace
+
+Program::Program(const std::string& code) {
+  const std::string at = folder_.path() / "";
+  std::ofstream(at + "frame.s") << frame();
+  std::ofstream(at + "program.s") << program(code);
+  for (const char* part : {"frame", "program"})
+    run(fmt::format("arm-none-eabi-as -o {0}{1}.o {0}{1}.s", at, part));
+  run(fmt::format("arm-none-eabi-ld -Ttext=0x60000000 -e reset -o {0}program.elf {0}frame.o {0}program.o",
+                  at));
+  run(fmt::format("arm-none-eabi-objcopy -O ihex {0}program.elf {0}program.hex", at));
+  teensy_ = std::make_unique<Teensy>(hex());
+}
+
+std::string Program::stopped_by(std::chrono::nanoseconds limit) {
+  try {
+    teensy_->run_for(limit);
+  } catch (const Stopped& stopped) {
+    return stopped.what();
+  }
+  return "";
+}
+
+}  // namespace astro::emulator

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "host/emulator/stopped.hpp"
+#include "host/emulator/teensy.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace astro::emulator {
+
+using namespace std::chrono_literals;
+
+/// A few lines of assembler as the whole image of a Teensy: they stand behind the label main, in flash, with
+/// FlexRAM, stack and vector table set up, and run when the test lets time pass.
+///
+///   register names    INSTANCE_REGISTER, as PIT_MCR
+///   set REG, value    a 32-bit write; set16 a 16-bit one
+///   get REG           a 32-bit read into r0
+///   keep n            stores r0 as result(n)
+///   handler n         begins the handler of exception n; those without one count as an unexpected exception
+///   stay              an endless loop
+class Program {
+ public:
+  explicit Program(const std::string& code);
+
+  Teensy& teensy() { return *teensy_; }
+  /// Word n of those that the program keeps.
+  std::uint32_t result(std::uint32_t n) { return teensy_->word_at(Memory::kDtcm + 4 * n); }
+  /// What ended the run, or "" if nothing did.
+  std::string stopped_by(std::chrono::nanoseconds limit = 1ms);
+  /// Where the image was built.
+  std::filesystem::path hex() const { return folder_.path() / "program.hex"; }
+
+ private:
+  test::TemporaryFolder folder_;
+  std::unique_ptr<Teensy> teensy_;
+};
+
+}  // namespace astro::emulator
