@@ -70,7 +70,8 @@ Symbols::Symbols(const std::filesystem::path& elf) {
     const Elf32_Shdr names = section(table.sh_link);
     for (std::size_t at = 0; at + sizeof(Elf32_Sym) <= table.sh_size; at += sizeof(Elf32_Sym)) {
       const auto symbol = file.at<Elf32_Sym>(table.sh_offset + at);
-      if (ELF32_ST_TYPE(symbol.st_info) > STT_FUNC || symbol.st_shndx == SHN_UNDEF || symbol.st_shndx == SHN_ABS)
+      if (ELF32_ST_TYPE(symbol.st_info) > STT_FUNC || symbol.st_shndx == SHN_UNDEF ||
+          symbol.st_shndx == SHN_ABS)
         continue;
       const bool function = ELF32_ST_TYPE(symbol.st_info) == STT_FUNC;
       add(file.text_at(names.sh_offset + symbol.st_name), symbol.st_value & ~(function ? 1U : 0U),
