@@ -84,10 +84,11 @@ void prepare(SimOptions& options, std::size_t flash_bytes) {
   if (options.server.pty.empty()) options.server.pty = make_runtime_folder() / "astro.pty";
   check_flash(options.server.flash, flash_bytes);
   remove_dead_link(options.server.pty);
+  remove_dead_link(options.server.second_pty);
 }
 
 void serve(simulator::Server& server, const std::string& what) {
-  const fs::path& pty = server.pty().link();
+  const fs::path& pty = server.config().pty;
   const auto link = make_it_found(pty);
   say(fmt::format("{} is at {}", what, pty.string()));
   say(fmt::format("next: astrolabe info --port {}   (Ctrl-C here ends it)", pty.string()));
