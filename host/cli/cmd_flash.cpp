@@ -2,8 +2,10 @@
 
 #include <filesystem>
 #include <memory>
+#include <string_view>
 
 #include "host/base/error.hpp"
+#include "host/base/firmware_image.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/connection.hpp"
 #include "host/cli/console.hpp"
@@ -18,6 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr const char* kBuilt = "build/teensy40/bin/astrolabe-teensy40.hex";
+constexpr std::string_view kBoard = "teensy40";
 
 struct FlashOptions {
   ConnectionOptions connection;
@@ -34,6 +37,12 @@ std::unique_ptr<link::Client> find_robot(ConnectionOptions& options) {
   }
 }
 
+void check_board(const protocol::HelloReply& robot, const fs::path& file) {
+  if (robot.board.view() != kBoard)
+    throw Error(fmt::format("{} is a '{}' and '{}' is for a '{}': name the port of another robot with --port",
+                            robot.robot_name.view(), robot.board.view(), file.string(), kBoard));
+}
+
 void check_at_rest(link::Client& client) {
   const protocol::Mode mode = client.request(protocol::GetStatus{}).mode;
   if (mode != protocol::Mode::disarmed && mode != protocol::Mode::fault)
@@ -46,6 +55,11 @@ void wait_for(link::Client& client) {
   } catch (const link::LinkLost&) {
     throw Error("the robot did not come back: press its button and flash again with --button");
   }
+}
+
+void check_version(const std::string& wanted, const std::string& now) {
+  if (!wanted.empty() && now != wanted)
+    throw Error(fmt::format("the robot carries firmware {} and not {}: flash again", now, wanted));
 }
 
 void check_parameters(const link::RemoteParameters& before, const link::RemoteParameters& now) {
@@ -63,7 +77,7 @@ void check_parameters(const link::RemoteParameters& before, const link::RemotePa
 }
 
 void run(FlashOptions& options) {
-  check_image(options.file);
+  const FirmwareImage image = read_firmware_image(options.file);
   const fs::path loader = find_loader();
   if (options.button) {
     say("press the button on the Teensy");
@@ -73,12 +87,14 @@ void run(FlashOptions& options) {
   const auto client = find_robot(options.connection);
   const std::string old = firmware_version(client->robot());
   say(fmt::format("{} carries firmware {}", client->robot().robot_name.view(), old));
+  check_board(client->robot(), options.file);
   check_at_rest(*client);
   const link::RemoteParameters before = link::RemoteParameters::fetch(*client);
   client->request(protocol::Disarm{});
   request_restart<protocol::EnterBootloader>(*client);
   run_loader(loader, options.file);
   wait_for(*client);
+  check_version(image.version, firmware_version(client->robot()));
   const link::RemoteParameters now = link::RemoteParameters::fetch(*client);
   check_parameters(before, now);
   say(fmt::format("flashed: firmware {} -> {}, all {} parameters kept", old,

@@ -9,12 +9,13 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <cstdlib>
-#include <fstream>
 #include <sstream>
 #include <string>
 
 #include "host/base/error.hpp"
+#include "host/cli/console.hpp"
 #include "host/cli/interrupt.hpp"
 #include "host/link/drive.hpp"
 
@@ -22,6 +23,8 @@ namespace astro::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr auto kUntilItSeemsLong = std::chrono::seconds(15);  // flashing takes about five
 
 bool runnable(const fs::path& path) { return fs::is_regular_file(path) && access(path.c_str(), X_OK) == 0; }
 
@@ -66,7 +69,13 @@ class Running {
   std::string listen() const {
     std::string said;
     std::array<char, 512> buffer{};
+    const auto begun = std::chrono::steady_clock::now();
+    bool warned = false;
     while (true) {
+      if (!warned && std::chrono::steady_clock::now() - begun > kUntilItSeemsLong) {
+        say("the loader waits for a Teensy: is its USB cable plugged in? (Ctrl-C ends it)");
+        warned = true;
+      }
       if (interrupted()) throw link::Interrupted("interrupted while the loader ran: flash again");
       pollfd state{words_, POLLIN, 0};
       if (poll(&state, 1, 50) <= 0) continue;
@@ -89,21 +98,6 @@ class Running {
 };
 
 }  // namespace
-
-void check_image(const fs::path& hex) {
-  std::ifstream file(hex);
-  if (!file || fs::is_directory(hex))
-    throw Error(fmt::format("cannot read '{}': build it with ./dev firmware", hex.string()));
-  bool in_flash = false, configured = false, bootable = false;
-  for (std::string line; std::getline(file, line);) {
-    if (line.starts_with(":02000004")) in_flash = line.compare(9, 4, "6000") == 0;
-    configured |= in_flash && line.starts_with(":10000000") && line.compare(9, 8, "46434642") == 0;
-    bootable |= in_flash && line.starts_with(":10100000") && line.compare(9, 8, "D1002043") == 0;
-  }
-  if (!configured || !bootable)
-    throw Error(
-        fmt::format("'{}' is no image for a Teensy 4.0: build one with ./dev firmware", hex.string()));
-}
 
 fs::path find_loader() {
   if (const char* named = std::getenv("ASTROLABE_LOADER"); named != nullptr) {

@@ -4,10 +4,6 @@
 
 namespace astro::cli {
 
-/// Throws astro::Error unless `hex` is an Intel HEX file with the header of a Teensy 4.0 image. Does not
-/// check the sums of its records: the loader does.
-void check_image(const std::filesystem::path& hex);
-
 /// teensy_loader_cli on the PATH, or what the environment variable ASTROLABE_LOADER names. Throws
 /// astro::Error with the remedy if there is none.
 std::filesystem::path find_loader();
