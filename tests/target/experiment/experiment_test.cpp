@@ -15,7 +15,7 @@ constexpr const char* kImage = ASTRO_IMAGE_DIR "/astrolabe-teensy40.hex";
 struct EmulatedDesk {
   explicit EmulatedDesk(const sim::Config& config)
       : robot(std::make_shared<EmulatedRobot>(kImage, config, simulator::MocapConfig{.seed = config.seed})),
-        client(std::make_unique<SerialTransport>(robot)),
+        client(std::make_unique<PortTransport>(robot, Port::serial)),
         truth(robot) {
     client.connect();
   }
