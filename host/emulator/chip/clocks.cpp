@@ -109,6 +109,7 @@ Ccm::Ccm(Machine& machine, Analog& analog, Dcdc& dcdc)
               {ccm::CBCMR.value, 0x2DAE'8324},
               {ccm::CSCMR1.value, 0x0490'0000},
               {ccm::CSCDR1.value, 0x0649'0B00},
+              {ccm::CLPCR.value, 0x79},
               {ccm::CCGR0.value, ~0U},
               {ccm::CCGR1.value, ~(ccm::CCGR1_CG6.mask() | ccm::CCGR1_CG8.mask())},
               {ccm::CCGR2.value, ~(ccm::CCGR2_CG6.mask() | ccm::CCGR2_CG11.mask())},

@@ -1,4 +1,4 @@
-#include "tests/host/emulator/core/program.hpp"
+#include "tests/host/emulator/program.hpp"
 
 #include <fmt/format.h>
 
