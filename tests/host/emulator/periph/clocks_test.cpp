@@ -11,14 +11,6 @@ using testing::HasSubstr;
 
 // The steps from what the ROM leaves, 396 MHz, to 600 MHz, each of them complete with its wait.
 constexpr const char* kSteps = R"(
-  .macro until register, mask, value
-  9: get \register
-    ldr r1, =\mask
-    ands r0, r1
-    ldr r1, =\value
-    cmp r0, r1
-    bne 9b
-  .endm
   .macro fast_supply
     set CCM_CCGR6, 0xFFFFFFFF
     set DCDC_REG3, 0x112         // 1.25 V
