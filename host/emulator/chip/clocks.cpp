@@ -53,6 +53,7 @@ bool Analog::usb_pll_ready() const {
   const std::uint32_t pll = value(kUsb);
   return ccm_analog::PLL_USB1_EN_USB_CLKS.of(pll) != 0 && ccm_analog::PLL_USB1_ENABLE.of(pll) != 0 &&
          ccm_analog::PLL_USB1_POWER.of(pll) != 0 && ccm_analog::PLL_USB1_BYPASS.of(pll) == 0 &&
+         ccm_analog::PLL_USB1_DIV_SELECT.of(pll) == 0 &&  // 480 MHz
          machine_.now() >= usb_locked_at_;
 }
 

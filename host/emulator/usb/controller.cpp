@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "hal/teensy40/registers/registers.hpp"
+#include "host/emulator/register_names.hpp"
 
 namespace astro::emulator {
 namespace {
@@ -14,6 +15,7 @@ using namespace teensy40;
 
 constexpr int kIrq = 113;
 constexpr std::uint32_t kHeadBytes = 64, kTransferBytes = 32, kActive = 1U << 7, kHalted = 1U << 6;
+constexpr std::uint32_t kInterruptWhenDone = 1U << 15, kInterruptOnSetup = 1U << 15, kPage = 4096;
 constexpr std::uint32_t kNoEmptyPacket = 1U << 29, kDevice = 2, kControlType = 0;
 
 std::uint32_t word(std::span<const std::uint8_t> bytes, std::size_t index) {
@@ -24,6 +26,14 @@ std::uint32_t word(std::span<const std::uint8_t> bytes, std::size_t index) {
 
 void set_word(std::span<std::uint8_t> bytes, std::size_t index, std::uint32_t value) {
   std::memcpy(bytes.data() + 4 * index, &value, 4);
+}
+
+/// The first page may begin anywhere, the other four follow it.
+bool names_its_pages(std::span<const std::uint8_t> transfer) {
+  const std::uint32_t first = word(transfer, 2), end = first + (word(transfer, 1) >> 16 & 0x7FFF);
+  for (std::uint32_t page = first / kPage + 1, n = 1; page * kPage < end; ++page, ++n)
+    if (n > 4 || word(transfer, 2 + n) / kPage != page) return false;
+  return true;
 }
 
 constexpr std::uint32_t bit_of(int endpoint, bool in) { return 1U << (endpoint + (in ? 16 : 0)); }
@@ -117,7 +127,7 @@ Handshake UsbController::setup(std::uint8_t address, const std::array<std::uint8
   for (const bool in : {false, true}) queue(0, in) = {.primed = queue(0, in).primed, .data1 = true};
   command_ &= ~usb::USBCMD_SUTW.mask();
   setup_waiting_ |= 1;
-  raise(usb::USBSTS_UI(1));
+  if ((word(queue_head, 0) & kInterruptOnSetup) != 0) raise(usb::USBSTS_UI(1));
   return Handshake::ack;
 }
 
@@ -201,6 +211,10 @@ void UsbController::prime(int endpoint, bool in) {
   if ((word(transfer, 1) & kActive) == 0) return machine_.fail("USB1 ENDPTPRIME: the transfer is not active");
   if ((word(transfer, 0) & 1) == 0)
     return machine_.fail("USB1 ENDPTPRIME: lists of transfers are not modelled");
+  if ((word(transfer, 1) & kInterruptWhenDone) == 0)
+    return machine_.fail("USB1 ENDPTPRIME: a transfer without IOC is not modelled");
+  if (!names_its_pages(transfer))
+    return machine_.fail("USB1 ENDPTPRIME: the transfer does not name the pages that follow its first");
   set_word(queue_head, 1, next);
   for (std::size_t i = 0; i < 7; ++i) set_word(queue_head, 2 + i, word(transfer, i));
   queue(endpoint, in).primed = true;
@@ -233,7 +247,12 @@ std::uint32_t UsbController::read(std::uint32_t offset) {
     return primed;
   }
   if (offset >= usb::ENDPTCTRL0.value) return endpoint_[(offset - usb::ENDPTCTRL0.value) / 4 % kEndpoints];
-  return 0;  // prime and flush are over at once
+  if (offset != usb::ENDPTPRIME.value && offset != usb::ENDPTFLUSH.value) refuse(offset);
+  return 0;  // both are over at once
+}
+
+void UsbController::refuse(std::uint32_t offset) {
+  machine_.fail(name_of(USB1.base + offset) + ": not modelled");
 }
 
 void UsbController::write_command(std::uint32_t value) {
@@ -265,6 +284,12 @@ void UsbController::write_endpoint(int endpoint, std::uint32_t value) {
 }
 
 void UsbController::write(std::uint32_t offset, std::uint32_t value) {
+  static constexpr std::array kWritable{
+      usb::USBCMD.value,        usb::USBSTS.value,       usb::USBINTR.value,        usb::DEVICEADDR.value,
+      usb::ENDPTLISTADDR.value, usb::USBMODE.value,      usb::ENDPTSETUPSTAT.value, usb::ENDPTPRIME.value,
+      usb::ENDPTFLUSH.value,    usb::ENDPTCOMPLETE.value};
+  if (offset < usb::ENDPTCTRL0.value && std::ranges::find(kWritable, offset) == kWritable.end())
+    return refuse(offset);
   if (offset == usb::USBCMD.value) return write_command(value);
   if (offset == usb::USBSTS.value) status_ &= ~value;
   if (offset == usb::USBINTR.value) enable_ = value;

@@ -23,7 +23,7 @@ struct Packet {
 /// The device controller USB1: its registers towards the firmware, and the bus towards a host. Walks the
 /// queue heads and transfer descriptors in memory as the chip's bus master does.
 ///
-/// Not modelled  isochronous transfers, lists of more than one descriptor.
+/// Not modelled  isochronous transfers, lists of more than one descriptor, descriptors without IOC, timers.
 class UsbController : public Model {
  public:
   UsbController(Machine& machine, std::function<bool()> clocked)
@@ -65,6 +65,7 @@ class UsbController : public Model {
   void write_endpoint(int endpoint, std::uint32_t value);
   void write_command(std::uint32_t value);
   void raise(std::uint32_t event);
+  void refuse(std::uint32_t offset);
   void update();
 
   Machine& machine_;
