@@ -29,6 +29,11 @@ Cycles Adc::conversion() const {
   return samples * kOneSample;
 }
 
+void Adc::stop() {
+  if (busy_) machine_.wake(*this, kNever);
+  busy_ = false;
+}
+
 void Adc::event() {
   if (adc::GC_CAL.of(value(adc::GC.value)) != 0) {
     store(adc::GC.value, value(adc::GC.value) & ~adc::GC_CAL.mask());
@@ -57,7 +62,7 @@ void Adc::write(std::uint32_t offset, std::uint32_t word) {
     machine_.wake(*this, machine_.now() + kCalibration);
   if (offset != adc::HC0.value) return;
   const std::uint32_t channel = adc::HC0_ADCH.of(word);
-  if (channel == kNoChannel) return;
+  if (channel == kNoChannel) return stop();
   if (channel != kBatteryChannel) return machine_.fail("ADC1 HC0: nothing is connected to this channel");
   if (adc::CFG_MODE.of(value(adc::CFG.value)) != k12Bits)
     return machine_.fail("ADC1 CFG: only 12 bits are modelled");

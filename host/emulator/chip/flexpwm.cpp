@@ -9,8 +9,9 @@ using namespace teensy40;
 
 constexpr std::uint32_t kSubmodule = 1U << 2;
 constexpr std::uint32_t kFaultInputs = 15, kForceAtReload = 2;
-constexpr std::uint32_t kAutomatic = 15U << 8;  // FAUTO of FCTRL0
-constexpr Cycles kCyclesPerCount = 4;           // of the 150 MHz bus
+constexpr std::uint32_t kAutomatic = 15U << 8;             // FAUTO of FCTRL0
+constexpr std::uint32_t kOtherClocks = 3U << 8 | 3U << 0;  // INIT_SEL and CLK_SEL of CTRL2
+constexpr Cycles kCyclesPerCount = 4;                      // of the 150 MHz bus
 
 }  // namespace
 
@@ -106,6 +107,8 @@ void FlexPwm::refuse_unmodelled() {
     machine_.fail("PWM2 SM2_CTRL: a prescaler is not modelled");
   if (pwm::SM2_CTRL_FULL.of(word(pwm::SM2_CTRL)) == 0)
     machine_.fail("PWM2 SM2_CTRL: without FULL nothing is loaded when a period ends");
+  if ((word(pwm::SM2_CTRL2) & kOtherClocks) != 0)
+    machine_.fail("PWM2 SM2_CTRL2: only the bus clock and a start of its own are modelled");
   if ((word(pwm::OUTEN) & outputs) != 0 && pwm::SM2_CTRL2_INDEP.of(word(pwm::SM2_CTRL2)) == 0)
     machine_.fail("PWM2 OUTEN: complementary outputs are not modelled (SM2_CTRL2.INDEP)");
   if ((word(pwm::FCTRL0) & kAutomatic) != 0)

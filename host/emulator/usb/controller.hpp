@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "host/emulator/chip/stored.hpp"
 #include "host/emulator/machine.hpp"
 
 namespace astro::emulator {
@@ -51,6 +50,8 @@ class UsbController : public Model {
   };
   static constexpr std::size_t kEndpoints = 8;
 
+  static constexpr std::uint32_t bit_of(int endpoint, bool in) { return 1U << (endpoint + (in ? 16 : 0)); }
+
   std::span<std::uint8_t> head(int endpoint, bool in);
   std::uint32_t& control(int endpoint) { return endpoint_[static_cast<std::size_t>(endpoint)]; }
   Queue& queue(int endpoint, bool in) {
@@ -75,15 +76,6 @@ class UsbController : public Model {
   bool address_due_ = false, resetting_ = false, high_speed_ = false, suspended_ = false;
   std::array<std::uint32_t, kEndpoints> endpoint_{};
   std::array<Queue, 2 * kEndpoints> queues_{};
-};
-
-/// The transceiver USBPHY1: registers with copies that set and clear.
-class UsbPhy : public Stored {
- public:
-  UsbPhy();
-  std::uint32_t read(std::uint32_t offset) override { return value(offset & ~0xFU); }
-  void write(std::uint32_t offset, std::uint32_t value) override;
-  bool ready() const;
 };
 
 }  // namespace astro::emulator

@@ -124,6 +124,15 @@ TEST(Adc, NothingIsConnectedToOtherChannels) {
   EXPECT_EQ(Program(kCalibrated + "  set ADC1_HC0, 31").stopped_by(kLong), "") << "off";
 }
 
+TEST(Adc, SwitchedOffItEndsTheConversionUnderWay) {
+  Program program(kCalibrated + "  set ADC1_HC0, 7\n set ADC1_HC0, 31\n pause 10\n get ADC1_HS\n keep 0\n" +
+                  kConvert);
+  program.teensy().run_for(1'005us);
+  EXPECT_EQ(program.result(0), 0U);
+  EXPECT_EQ(program.stopped_by(), "") << "and another one may begin";
+  EXPECT_GT(program.result(0), 1000U);
+}
+
 TEST(Adc, AConversionIsNotBegunWhileAnotherOneRuns) {
   EXPECT_THAT(Program(kCalibrated + "  set ADC1_HC0, 7\n set ADC1_HC0, 7").stopped_by(kLong),
               HasSubstr("ADC1 HC0: a conversion is begun while another one runs, which is lost"));

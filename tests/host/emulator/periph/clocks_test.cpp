@@ -150,6 +150,16 @@ TEST(Clocks, TheCoreDoesNotRunFromAPllThatIsOff) {
   EXPECT_THAT(program.stopped_by(), HasSubstr("a PLL that has not locked"));
 }
 
+TEST(Clocks, TheCoreDoesNotRunFromAPllThatIsBypassed) {
+  Program program = with_steps(R"(
+    detour
+    set CCM_ANALOG_PLL_ARM, 0x12042
+    until CCM_ANALOG_PLL_ARM, 0x80000000, 0x80000000
+    set CCM_CBCDR, 0x000A8200
+  )");
+  EXPECT_THAT(program.stopped_by(), HasSubstr("CCM CBCDR: the core is to run from a PLL that is bypassed"));
+}
+
 TEST(Clocks, SixHundredMegahertzNeedTheirVoltage) {
   Program program = with_steps("detour\n fast_pll\n divide 1, 0x300\n set CCM_CBCDR, 0x300");
   EXPECT_THAT(program.stopped_by(), HasSubstr("CCM CBCDR: 600 MHz with less than 1.25 V (DCDC REG3)"));
@@ -215,6 +225,11 @@ TEST(Clocks, OtherSourcesThanCrystalAndArmPllAreRefused) {
 
 TEST(Clocks, TheTimersClockIsAWholePartOfTheCores) {
   Program program("set CCM_CSCMR1, 0x04900000");
+  EXPECT_THAT(program.stopped_by(), HasSubstr("CCM CSCMR1: a clock of the timers that is no whole part"));
+}
+
+TEST(Clocks, ABusBelowAMegahertzIsNoClockForTheTimers) {
+  Program program = with_steps("detour\n set CCM_CBCDR, 0x02001F00\n set CCM_CSCMR1, 0x04900000");
   EXPECT_THAT(program.stopped_by(), HasSubstr("CCM CSCMR1: a clock of the timers that is no whole part"));
 }
 

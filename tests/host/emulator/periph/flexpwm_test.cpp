@@ -188,6 +188,8 @@ TEST(FlexPwm, WhatIsNotModelledIsRefused) {
               HasSubstr("PWM2 SM2_CTRL: a prescaler is not modelled"));
   EXPECT_THAT(Program(kClock + "  set16 PWM2_SM2_CTRL, 0").stopped_by(),
               HasSubstr("PWM2 SM2_CTRL: without FULL nothing is loaded when a period ends"));
+  EXPECT_THAT(Program(kClock + "  set16 PWM2_SM2_CTRL2, 0x6110").stopped_by(),
+              HasSubstr("PWM2 SM2_CTRL2: only the bus clock and a start of its own are modelled"));
   EXPECT_THAT(Program(kClock + "  set16 PWM2_OUTEN, 0x440").stopped_by(),
               HasSubstr("PWM2 OUTEN: complementary outputs are not modelled (SM2_CTRL2.INDEP)"));
   EXPECT_THAT(Program(kClock + "  set16 PWM2_FCTRL0, 0x0100").stopped_by(),
@@ -216,6 +218,19 @@ TEST(Bridges, DirectionPinsAndPwmDriveTheMotorsAsTheDriversTruthTableSays) {
     EXPECT_EQ(bridges.open[0], each.left_open) << each.pins;
     EXPECT_EQ(bridges.open[1], each.right_open) << each.pins;
   }
+}
+
+TEST(Bridges, APinThatIsNotThePortsIsLow) {
+  const std::string forward =
+      "  set IOMUXC_GPR_GPR27, 0xFFFFFFFF\n set GPIO7_GDIR, 0x2000F\n set GPIO7_DR, 5\n";
+  Program left(kTurning + forward + "  set IOMUXC_SW_MUX_CTL_PAD_GPIO_B0_00, 1");
+  EXPECT_EQ(left.stopped_by(), "");
+  EXPECT_TRUE(left.teensy().world().bridges().open[0]);
+  EXPECT_FALSE(left.teensy().world().bridges().open[1]);
+  Program right(kTurning + forward + "  set IOMUXC_SW_MUX_CTL_PAD_GPIO_B0_02, 1");
+  EXPECT_EQ(right.stopped_by(), "");
+  EXPECT_FALSE(right.teensy().world().bridges().open[0]);
+  EXPECT_TRUE(right.teensy().world().bridges().open[1]);
 }
 
 }  // namespace
