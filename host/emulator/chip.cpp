@@ -24,7 +24,7 @@ constexpr std::uint32_t kUndefined = 1U << 16, kNotThumb = 1U << 17;
 }  // namespace cause
 
 // What the engine calls its exceptions.
-constexpr std::uint32_t kSvcNumber = 2, kBreakpoint = 7, kReturn = 8, kBreakpointToo = 16;
+constexpr std::uint32_t kSvcNumber = 2, kNeverExecuted = 3, kBreakpoint = 7, kReturn = 8, kBreakpointToo = 16;
 constexpr std::uint16_t kCallHalfKay = 0xBEFB, kWaitForEvent = 0xBF20;  // bkpt #251, wfe
 
 }  // namespace
@@ -47,7 +47,7 @@ Chip::Chip()
                      },
                      [this](std::uint32_t number) {
                        on_exception(number);
-                       return failure_.empty() && exceptions_.violation.empty();
+                       return failure_.empty() && exceptions_.violation.empty() && number != kNeverExecuted;
                      }})),
       exceptions_(*cpu_, memory_, protection_) {}
 
@@ -147,13 +147,20 @@ void Chip::take_exception() {
   if (!exceptions_.enter(*number)) lock_up();
 }
 
+void Chip::pend_fault(int number, std::uint32_t cause) {
+  if (const std::optional<int> taken = exceptions_.fault(number, cause))
+    exceptions_.pend(*taken);
+  else
+    lock_up();
+}
+
 void Chip::on_exception(std::uint32_t number) {
   if (number == kReturn) {
     exceptions_.leave(cpu_->pc() | 1U);
   } else if (number == kSvcNumber) {
-    const auto taken = exceptions_.fault(exception::kSvc);
-    if (!taken) return lock_up();
-    exceptions_.pend(*taken);
+    pend_fault(exception::kSvc, 0);
+  } else if (number == kNeverExecuted) {  // registers, and what lies above them
+    pend_fault(exception::kMemManage, cause::kFetchDenied);
   } else if (number == kBreakpoint || number == kBreakpointToo) {
     std::uint16_t instruction = 0;
     if (const auto code = memory_.at(cpu_->pc() & ~1U, 2); !code.empty())

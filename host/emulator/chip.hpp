@@ -64,6 +64,7 @@ class Chip : public Machine {
   void sleep(Cycles end);
   void take_exception();
   void on_exception(std::uint32_t number);
+  void pend_fault(int number, std::uint32_t cause);
   void skip_to(Cycles when);
   void bad_access();
   void bad_instruction(bool thumb);

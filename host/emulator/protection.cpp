@@ -21,6 +21,11 @@ Protection::Access access(const Protection::Region& region) {
   return {read, write, read && mpu::RASR_XN.of(region.attributes) == 0, cached};
 }
 
+/// Of the default memory map, normal memory is: write-back, or write-through.
+bool cached_by_default(std::uint32_t address) {
+  return address < 0x4000'0000 || (address >= 0x6000'0000 && address < 0xA000'0000);
+}
+
 }  // namespace
 
 std::uint64_t Protection::Region::bytes() const { return std::uint64_t{2} << mpu::RASR_SIZE.of(attributes); }
@@ -33,14 +38,14 @@ void Protection::reset() {
 }
 
 Protection::Access Protection::at(std::uint32_t address, std::uint64_t smallest) const {
-  if (!on_) return {};
+  if (!on_) return {.cached = cached_by_default(address)};
   for (std::size_t number = regions_.size(); number-- > 0;) {
     const Region& region = regions_[number];
     if (enabled(region) && region.bytes() >= smallest && address >= region.base &&
         address - region.base < region.bytes())
       return access(region);
   }
-  return {background_, background_, background_, false};
+  return {background_, background_, background_, background_ && cached_by_default(address)};
 }
 
 std::vector<Protection::Span> Protection::traps() const {

@@ -38,8 +38,9 @@ void SystemControl::event() {
   if ((tick_control_ & 2) != 0) exceptions_.pend(exception::kSysTick);
 }
 
+/// The coupled memories never are, whatever their region says.
 bool SystemControl::cached(std::uint32_t address) const {
-  return (ccr_ & kCacheEnabled) != 0 && protection_.at(address).cached;
+  return (ccr_ & kCacheEnabled) != 0 && address >= Memory::kOcram && protection_.at(address).cached;
 }
 
 std::uint32_t SystemControl::read_priorities(int first) const {

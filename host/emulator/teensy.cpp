@@ -16,7 +16,7 @@ constexpr std::uint32_t kPage = 0x1000;
 
 Teensy::Teensy(const std::filesystem::path& hex, const sim::Config& robot)
     : ocotp_(chip_, static_cast<std::uint32_t>(robot.seed)),
-      world_(chip_, robot, {pwm_, gpio7_, encoder_wires_, adc_}) {
+      world_(chip_, robot, {pwm_, gpio7_, encoder_wires_, adc_, iomuxc_}) {
   const FirmwareImage image = read_firmware_image(hex);
   std::copy(image.flash.begin(), image.flash.end(), chip_.memory().flash().begin());
   const auto elf = std::filesystem::path(hex).replace_extension(".elf");

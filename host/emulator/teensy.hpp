@@ -19,6 +19,7 @@
 #include "host/emulator/chip/rtwdog.hpp"
 #include "host/emulator/chip/wdog.hpp"
 #include "host/emulator/usb/controller.hpp"
+#include "host/emulator/usb/phy.hpp"
 #include "host/emulator/world.hpp"
 
 namespace astro::emulator {

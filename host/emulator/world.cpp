@@ -9,11 +9,17 @@ constexpr Cycles kStep = 1000 * kCyclesPerMicrosecond;
 constexpr double kDivider = 10.0 / (82.0 + 10.0);  // 82 kohm over 10 kohm before pin 14
 constexpr std::uint32_t kErrorPin = 1U << 16;      // pin 8, GPIO7
 
-/// IN1 and IN2 of each channel, GPIO7.
-struct Inputs {
-  std::uint32_t forward, reverse;
+/// IN1 and IN2 of each channel: a pin of GPIO7, and where its pad gets its function.
+struct Pin {
+  std::uint32_t bit, mux;
 };
-constexpr std::array<Inputs, 2> kInputs{{{1U << 0, 1U << 1}, {1U << 2, 1U << 17}}};
+struct Inputs {
+  Pin forward, reverse;
+};
+constexpr std::array<Inputs, 2> kInputs{{{{1U << 0, teensy40::iomuxc::SW_MUX_CTL_PAD_GPIO_B0_00.value},
+                                          {1U << 1, teensy40::iomuxc::SW_MUX_CTL_PAD_GPIO_B0_01.value}},
+                                         {{1U << 2, teensy40::iomuxc::SW_MUX_CTL_PAD_GPIO_B0_02.value},
+                                          {1U << 17, teensy40::iomuxc::SW_MUX_CTL_PAD_GPIO_B1_01.value}}}};
 
 }  // namespace
 
@@ -41,9 +47,12 @@ void World::set_driver_fault(bool fault) {
 /// low open the bridge; both high brake.
 World::Bridges World::bridges() const {
   Bridges bridges;
-  const std::uint32_t pins = wires_.gpio7.driven();
+  constexpr std::uint32_t kGpio = 5;
+  const auto high = [this](const Pin& pin) {  // a pad that is not the port's is low: the driver's pull-down
+    return (wires_.gpio7.driven() & pin.bit) != 0 && wires_.pads.function(pin.mux) == kGpio;
+  };
   for (std::size_t side = 0; side < 2; ++side) {
-    const bool forward = (pins & kInputs[side].forward) != 0, reverse = (pins & kInputs[side].reverse) != 0;
+    const bool forward = high(kInputs[side].forward), reverse = high(kInputs[side].reverse);
     bridges.open[side] = fault_ || (!forward && !reverse);
     if (forward != reverse) bridges.duty[side] = forward ? wires_.pwm.duty(side) : -wires_.pwm.duty(side);
   }

@@ -22,6 +22,7 @@ class World : public Model {
     Gpio& gpio7;
     EncoderWires& encoders;
     Adc& adc;
+    const Iomuxc& pads;
   };
 
   World(Machine& machine, const sim::Config& config, const Wires& wires);

@@ -8,7 +8,7 @@ namespace {
 
 using namespace teensy40;
 
-constexpr std::uint32_t kBatteryChannel = 7, kNoChannel = 31, kKeeper = 1U << 12;
+constexpr std::uint32_t kBatteryChannel = 7, kNoChannel = 31, kKeeper = 1U << 12, k12Bits = 2;
 constexpr double kFullScale_V = 3.3;
 constexpr Cycles kOneSample = 6 * kCyclesPerMicrosecond, kCalibration = 1000 * kCyclesPerMicrosecond;
 
@@ -27,6 +27,11 @@ Cycles Adc::conversion() const {
   const std::uint32_t samples =
       adc::GC_AVGE.of(value(adc::GC.value)) != 0 ? 4U << adc::CFG_AVGS.of(value(adc::CFG.value)) : 1;
   return samples * kOneSample;
+}
+
+void Adc::stop() {
+  if (busy_) machine_.wake(*this, kNever);
+  busy_ = false;
 }
 
 void Adc::event() {
@@ -53,14 +58,14 @@ std::uint32_t Adc::read(std::uint32_t offset) {
 void Adc::write(std::uint32_t offset, std::uint32_t word) {
   store(offset, word);
   if (offset == adc::GS.value) store(offset, 0);
-  if (offset == adc::CFG.value && adc::CFG_MODE.of(word) != 2)
-    machine_.fail("ADC1 CFG: only 12 bits are modelled");
   if (offset == adc::GC.value && adc::GC_CAL.of(word) != 0)
     machine_.wake(*this, machine_.now() + kCalibration);
   if (offset != adc::HC0.value) return;
   const std::uint32_t channel = adc::HC0_ADCH.of(word);
-  if (channel == kNoChannel) return;
+  if (channel == kNoChannel) return stop();
   if (channel != kBatteryChannel) return machine_.fail("ADC1 HC0: nothing is connected to this channel");
+  if (adc::CFG_MODE.of(value(adc::CFG.value)) != k12Bits)
+    return machine_.fail("ADC1 CFG: only 12 bits are modelled");
   if (!calibrated_) return machine_.fail("ADC1 HC0: a conversion before the calibration");
   if (busy_) return machine_.fail("ADC1 HC0: a conversion is begun while another one runs, which is lost");
   if ((iomuxc_.setting(iomuxc::SW_PAD_CTL_PAD_GPIO_AD_B1_02.value) & kKeeper) != 0)

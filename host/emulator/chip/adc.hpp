@@ -22,6 +22,7 @@ class Adc : public Stored {
 
  private:
   Cycles conversion() const;
+  void stop();
 
   Machine& machine_;
   const Iomuxc& iomuxc_;

@@ -49,10 +49,13 @@ std::uint32_t Analog::arm_pll_mhz() const {
   return ccm_analog::PLL_ARM_DIV_SELECT.of(value(kArm)) * kCrystal_mhz / 2;
 }
 
+bool Analog::arm_pll_bypassed() const { return ccm_analog::PLL_ARM_BYPASS.of(value(kArm)) != 0; }
+
 bool Analog::usb_pll_ready() const {
   const std::uint32_t pll = value(kUsb);
   return ccm_analog::PLL_USB1_EN_USB_CLKS.of(pll) != 0 && ccm_analog::PLL_USB1_ENABLE.of(pll) != 0 &&
          ccm_analog::PLL_USB1_POWER.of(pll) != 0 && ccm_analog::PLL_USB1_BYPASS.of(pll) == 0 &&
+         ccm_analog::PLL_USB1_DIV_SELECT.of(pll) == 0 &&  // 480 MHz
          machine_.now() >= usb_locked_at_;
 }
 
@@ -109,6 +112,7 @@ Ccm::Ccm(Machine& machine, Analog& analog, Dcdc& dcdc)
               {ccm::CBCMR.value, 0x2DAE'8324},
               {ccm::CSCMR1.value, 0x0490'0000},
               {ccm::CSCDR1.value, 0x0649'0B00},
+              {ccm::CLPCR.value, 0x79},
               {ccm::CCGR0.value, ~0U},
               {ccm::CCGR1.value, ~(ccm::CCGR1_CG6.mask() | ccm::CCGR1_CG8.mask())},
               {ccm::CCGR2.value, ~(ccm::CCGR2_CG6.mask() | ccm::CCGR2_CG11.mask())},
@@ -181,6 +185,7 @@ void Ccm::check_supply() {
   if (!from_pll()) return;
   if (!analog_.arm_pll_locked())
     machine_.fail("CCM CBCDR: the core is to run from a PLL that has not locked");
+  if (analog_.arm_pll_bypassed()) machine_.fail("CCM CBCDR: the core is to run from a PLL that is bypassed");
   if (core_mhz() > kSlow_mhz && dcdc_.millivolts() < kFast_mV)
     machine_.fail(fmt::format("CCM CBCDR: {} MHz with less than 1.25 V (DCDC REG3)", core_mhz()));
   if (core_mhz() > 600) machine_.fail(fmt::format("CCM CBCDR: {} MHz", core_mhz()));
@@ -208,7 +213,7 @@ void Ccm::write(std::uint32_t offset, std::uint32_t word) {
     check_source();
     check_supply();
   }
-  if (offset == ccm::CSCMR1.value && kCyclesPerSecond % timer_hz() != 0)
+  if (offset == ccm::CSCMR1.value && (timer_hz() == 0 || kCyclesPerSecond % timer_hz() != 0))
     machine_.fail("CCM CSCMR1: a clock of the timers that is no whole part of 600 MHz is not modelled");
 }
 

@@ -18,6 +18,7 @@ class Analog : public Stored {
   void reset() override;
 
   bool arm_pll_locked() const { return machine_.now() >= arm_locked_at_; }
+  bool arm_pll_bypassed() const;
   std::uint32_t arm_pll_mhz() const;
   bool usb_pll_ready() const;
   /// The core must not hang on a PLL that changes: asked before each write to it.

@@ -48,12 +48,10 @@ void Enc::count(std::int32_t edges) {
   position_ += static_cast<std::uint32_t>(reversed ? -edges : edges);
 }
 
-void Enc::hold() { held_ = position_; }
-
 std::uint32_t Enc::read(std::uint32_t offset) {
-  if (offset == enc::UPOS.value || offset == enc::LPOS.value || offset == enc::POSD.value ||
-      offset == enc::REV.value)
-    hold();
+  if (offset == enc::POSD.value || offset == enc::REV.value)
+    machine_.fail(fmt::format("ENC{} {}: not modelled", number_, offset == enc::REV.value ? "REV" : "POSD"));
+  if (offset == enc::UPOS.value || offset == enc::LPOS.value) held_ = position_;
   if (offset == enc::UPOS.value) return position_ >> 16;
   if (offset == enc::LPOS.value) return position_ & 0xFFFF;
   if (offset == enc::UPOSH.value) return held_ >> 16;

@@ -16,6 +16,8 @@ class Xbara : public Stored {
 };
 
 /// One quadrature decoder. Counts all four edges of the two phases that the crossbar brings to it.
+///
+/// Not modelled  differences, revolutions, counting modulo, the input filter's effect.
 class Enc : public Model {
  public:
   Enc(Machine& machine, int number) : machine_(machine), number_(number) {}
@@ -33,8 +35,6 @@ class Enc : public Model {
   std::uint32_t filter_clocks() const;
 
  private:
-  void hold();
-
   Machine& machine_;
   int number_;
   std::uint32_t position_ = 0, held_ = 0;

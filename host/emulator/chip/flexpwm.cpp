@@ -8,7 +8,10 @@ namespace {
 using namespace teensy40;
 
 constexpr std::uint32_t kSubmodule = 1U << 2;
-constexpr Cycles kCyclesPerCount = 4;  // of the 150 MHz bus
+constexpr std::uint32_t kFaultInputs = 15, kForceAtReload = 2;
+constexpr std::uint32_t kAutomatic = 15U << 8;             // FAUTO of FCTRL0
+constexpr std::uint32_t kOtherClocks = 3U << 8 | 3U << 0;  // INIT_SEL and CLK_SEL of CTRL2
+constexpr Cycles kCyclesPerCount = 4;                      // of the 150 MHz bus
 
 }  // namespace
 
@@ -24,6 +27,7 @@ void FlexPwm::reset() {
   Stored::reset();
   active_ = {};
   mask_ = 0;
+  faults_ = kFaultInputs;
   period_began_ = 0;
 }
 
@@ -45,7 +49,18 @@ std::uint32_t FlexPwm::period_counts() const {
 void FlexPwm::load() {
   if (locked()) active_ = buffered();
   store(pwm::MCTRL.value, value(pwm::MCTRL.value) & ~pwm::MCTRL_LDOK(kSubmodule));
-  mask_ = value(pwm::MASK.value);
+  if (pwm::SM2_CTRL2_FORCE_SEL.of(value(pwm::SM2_CTRL2.value)) == kForceAtReload)
+    mask_ = value(pwm::MASK.value);
+}
+
+void FlexPwm::load_when_period_ends() {
+  const Cycles period = period_counts() * kCyclesPerCount;
+  machine_.wake(*this, machine_.now() + period - (machine_.now() - period_began_) % period);
+}
+
+/// The crossbar leaves every input low, which is a fault where FLVL does not say that high is.
+std::uint32_t FlexPwm::faults_now() const {
+  return ~pwm::FCTRL0_FLVL.of(value(pwm::FCTRL0.value)) & kFaultInputs;
 }
 
 /// A period ends.
@@ -58,6 +73,7 @@ void FlexPwm::event() {
 
 std::uint32_t FlexPwm::read(std::uint32_t offset) {
   if (offset == pwm::MCTRL.value) return value(offset) & ~pwm::MCTRL_CLDOK.mask();
+  if (offset == pwm::FSTS0.value) return faults_ | faults_now() << 8;  // FFPIN
   return value(offset);
 }
 
@@ -72,10 +88,33 @@ void FlexPwm::write_mctrl(std::uint32_t word) {
     load();
     period_began_ = machine_.now();
   }
-  if (running() && locked()) {
-    const Cycles period = period_counts() * kCyclesPerCount;
-    machine_.wake(*this, machine_.now() + period - (machine_.now() - period_began_) % period);
-  }
+  if (running() && locked()) load_when_period_ends();
+}
+
+void FlexPwm::write_mask(std::uint32_t word) {
+  store(pwm::MASK.value, word & ~pwm::MASK_UPDATE_MASK.mask());
+  const bool at_once = (pwm::MASK_UPDATE_MASK.of(word) & kSubmodule) != 0;
+  if (at_once || !running())
+    mask_ = word;
+  else
+    load_when_period_ends();
+}
+
+void FlexPwm::refuse_unmodelled() {
+  const auto word = [this](auto reg) { return value(reg.value); };
+  const std::uint32_t outputs = pwm::OUTEN_PWMA_EN(kSubmodule) | pwm::OUTEN_PWMB_EN(kSubmodule);
+  if (pwm::SM2_CTRL_PRSC.of(word(pwm::SM2_CTRL)) != 0)
+    machine_.fail("PWM2 SM2_CTRL: a prescaler is not modelled");
+  if (pwm::SM2_CTRL_FULL.of(word(pwm::SM2_CTRL)) == 0)
+    machine_.fail("PWM2 SM2_CTRL: without FULL nothing is loaded when a period ends");
+  if ((word(pwm::SM2_CTRL2) & kOtherClocks) != 0)
+    machine_.fail("PWM2 SM2_CTRL2: only the bus clock and a start of its own are modelled");
+  if ((word(pwm::OUTEN) & outputs) != 0 && pwm::SM2_CTRL2_INDEP.of(word(pwm::SM2_CTRL2)) == 0)
+    machine_.fail("PWM2 OUTEN: complementary outputs are not modelled (SM2_CTRL2.INDEP)");
+  if ((word(pwm::FCTRL0) & kAutomatic) != 0)
+    machine_.fail("PWM2 FCTRL0: only faults that the firmware clears are modelled");
+  if (word(pwm::SM2_OCTRL) != 0) machine_.fail("PWM2 SM2_OCTRL: only 0 is modelled");
+  if (word(pwm::SM2_FRCTRL) != 0) machine_.fail("PWM2 SM2_FRCTRL: only 0 is modelled");
 }
 
 void FlexPwm::write(std::uint32_t offset, std::uint32_t word) {
@@ -84,18 +123,11 @@ void FlexPwm::write(std::uint32_t offset, std::uint32_t word) {
   if (buffered_register && locked())
     return machine_.fail("PWM2 SM2: values are written while the last ones wait to be loaded (MCTRL.LDOK)");
   if (offset == pwm::MCTRL.value) return write_mctrl(word);
-  if (offset == pwm::FSTS0.value) return store(offset, value(offset) & ~(word & pwm::FSTS0_FFLAG.mask()));
-  if (offset == pwm::SM2_CTRL.value && pwm::SM2_CTRL_PRSC.of(word) != 0)
-    return machine_.fail("PWM2 SM2_CTRL: a prescaler is not modelled");
+  if (offset == pwm::MASK.value) return write_mask(word);
+  if (offset == pwm::FSTS0.value) faults_ &= ~pwm::FSTS0_FFLAG.of(word);
   store(offset, word);
-  if (offset != pwm::MASK.value) return;
-  const std::uint32_t at_once = pwm::MASK_UPDATE_MASK.of(word) & kSubmodule;
-  if (at_once != 0 || !running()) {
-    mask_ = word;
-  } else {
-    const Cycles period = period_counts() * kCyclesPerCount;
-    machine_.wake(*this, machine_.now() + period - (machine_.now() - period_began_) % period);
-  }
+  faults_ |= faults_now();
+  refuse_unmodelled();
 }
 
 double FlexPwm::duty(std::size_t output) const {
@@ -104,10 +136,8 @@ double FlexPwm::duty(std::size_t output) const {
   const Bits enable = output == 0 ? pwm::OUTEN_PWMA_EN : pwm::OUTEN_PWMB_EN;
   const Bits masked = output == 0 ? pwm::MASK_MASKA : pwm::MASK_MASKB;
   const Bits disable = output == 0 ? pwm::SM2_DISMAP0_DIS0A : pwm::SM2_DISMAP0_DIS0B;
-  // Every fault input is low: one that is active low and mapped to the output keeps it off.
-  const std::uint32_t faults = ~pwm::FCTRL0_FLVL.of(value(pwm::FCTRL0.value)) & 15;
   if (iomuxc_.function(mux) != 2 || !running() || (enable.of(value(pwm::OUTEN.value)) & kSubmodule) == 0 ||
-      (masked.of(mask_) & kSubmodule) != 0 || (disable.of(value(pwm::SM2_DISMAP0.value)) & faults) != 0)
+      (masked.of(mask_) & kSubmodule) != 0 || (disable.of(value(pwm::SM2_DISMAP0.value)) & faults_) != 0)
     return 0;
   const std::uint32_t period = period_counts();
   const std::uint32_t high = static_cast<std::uint16_t>(active_.fall[output] - active_.rise[output]);

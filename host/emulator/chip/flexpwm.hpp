@@ -7,7 +7,10 @@
 
 namespace astro::emulator {
 
-/// FlexPWM2 with its submodule 2, whose outputs A and B are pins 6 and 9.
+/// FlexPWM2 with its submodule 2, whose outputs A and B are pins 6 and 9. Its counter runs at 150 MHz,
+/// whatever the clock controller says.
+///
+/// Not modelled  prescaler, complementary outputs, polarity, fractional edges, faults that clear themselves.
 class FlexPwm : public Stored {
  public:
   FlexPwm(Machine& machine, const Iomuxc& iomuxc);
@@ -28,6 +31,10 @@ class FlexPwm : public Stored {
     std::array<std::uint16_t, 2> rise{}, fall{};
   };
   void write_mctrl(std::uint32_t value);
+  void write_mask(std::uint32_t value);
+  void refuse_unmodelled();
+  void load_when_period_ends();
+  std::uint32_t faults_now() const;
   void load();
   bool running() const;
   bool locked() const;
@@ -36,7 +43,8 @@ class FlexPwm : public Stored {
   Machine& machine_;
   const Iomuxc& iomuxc_;
   Values active_;
-  std::uint32_t mask_ = 0;  // in effect
+  std::uint32_t mask_ = 0;     // in effect
+  std::uint32_t faults_ = 15;  // flags that keep the outputs off
   Cycles period_began_ = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "hal/teensy40/registers/registers.hpp"
@@ -14,6 +15,9 @@ using namespace teensy40;
 constexpr std::uint32_t kKey = 0x5AF0'5AF0, kSequence = 15;
 constexpr std::uint32_t kCommand = 1, kAddress = 2, kWrite = 8, kRead = 9;  // what a step of a sequence does
 constexpr Cycles kPerByte = 160;                                            // 30 MHz, eight bits on a line
+constexpr std::size_t kQueue = 128, kPair = 8;                              // bytes
+constexpr std::uint8_t kWriteEnable = 0x06, kReadStatus = 0x05, kIdentify = 0x9F, kErase = 0x20;
+constexpr std::uint8_t kProgram = 0x02, kProgramByFour = 0x32;
 
 }  // namespace
 
@@ -24,6 +28,19 @@ void Flexspi::reset() {
   sent_ = 0;
   to_flash_.clear();
   from_flash_.clear();
+}
+
+/// The steps that a command of the flash has; nullptr if it has no such command.
+const Flexspi::Command* Flexspi::known(std::uint8_t opcode) {
+  static constexpr std::array<Command, 6> kCommands{
+      {{.opcode = kWriteEnable},
+       {.opcode = kReadStatus, .reads = true},
+       {.opcode = kIdentify, .reads = true},
+       {.opcode = kErase, .address = true},
+       {.opcode = kProgram, .address = true, .writes = true},
+       {.opcode = kProgramByFour, .address = true, .writes = true}}};
+  const auto* found = std::ranges::find(kCommands, opcode, &Command::opcode);
+  return found == kCommands.end() ? nullptr : found;
 }
 
 Flexspi::Command Flexspi::decode() {
@@ -72,39 +89,34 @@ void Flexspi::event() {
   events_ |= flexspi::INTR_IPCMDDONE(1);
 }
 
+void Flexspi::receive(std::span<const std::uint8_t> bytes) {
+  from_flash_.insert(from_flash_.end(), bytes.begin(), bytes.end());
+}
+
 void Flexspi::execute() {
+  if (const Command* expected = known(command_.opcode); expected == nullptr)
+    return machine_.fail(
+        fmt::format("FLEXSPI LUT60: the flash does not know command 0x{:02X}", command_.opcode));
+  else if (*expected != command_)
+    return machine_.fail(fmt::format("FLEXSPI LUT60: not the steps of command 0x{:02X}", command_.opcode));
   const std::uint32_t address = value(flexspi::IPCR0.value);
   const std::uint32_t bytes = flexspi::IPCR1_IDATSZ.of(value(flexspi::IPCR1.value));
-  switch (command_.opcode) {
-    case 0x06:
-      return flash_.write_enable();
-    case 0x05:
-      return from_flash_.push_back(flash_.status());
-    case 0x20:
-      return flash_.erase_sector(address);
-    case 0x02:
-    case 0x32:
-      flash_.program(address, std::span(to_flash_).first(bytes));
-      to_flash_.clear();
-      sent_ = 0;
-      return;
-    case 0x9F:
-      from_flash_.insert(from_flash_.end(), {0xEF, 0x40, 0x15});
-      return;
-    default:
-      machine_.fail(fmt::format("FLEXSPI LUT60: the flash does not know command 0x{:02X}", command_.opcode));
-  }
+  if (command_.opcode == kWriteEnable) flash_.write_enable();
+  if (command_.opcode == kReadStatus) receive(std::array{flash_.status()});
+  if (command_.opcode == kIdentify) receive(flash_.identity());
+  if (command_.opcode == kErase) flash_.erase_sector(address);
+  if (!command_.writes) return;
+  flash_.program(address, std::span(to_flash_).first(bytes));
+  to_flash_.clear();
+  sent_ = 0;
 }
 
 std::uint32_t Flexspi::read(std::uint32_t offset) {
-  if (offset == flexspi::INTR.value) {
-    constexpr std::size_t kQueue = 128;
-    const bool room = to_flash_.size() - sent_ + 8 <= kQueue;
-    return events_ | flexspi::INTR_IPTXWE(room);
-  }
+  if (offset == flexspi::INTR.value) return events_ | flexspi::INTR_IPTXWE(queued() + kPair <= kQueue);
   if (offset == flexspi::STS0.value)
     return flexspi::STS0_ARBIDLE(!running_) | flexspi::STS0_SEQIDLE(!running_);
   if (offset == flexspi::RFDR0.value) {
+    if (from_flash_.empty()) machine_.fail("FLEXSPI RFDR0: read while the flash has sent nothing");
     std::uint32_t word = 0;
     for (std::uint32_t i = 0; i < 4 && i < from_flash_.size(); ++i)
       word |= std::uint32_t{from_flash_[i]} << (8 * i);
@@ -116,7 +128,8 @@ std::uint32_t Flexspi::read(std::uint32_t offset) {
 
 void Flexspi::write_flags(std::uint32_t word) {
   if (flexspi::INTR_IPTXWE.of(word) != 0) {
-    std::array<std::uint8_t, 8> bytes{};
+    if (queued() + kPair > kQueue) machine_.fail("FLEXSPI TFDR0: overrun, the queue to the flash is full");
+    std::array<std::uint8_t, kPair> bytes{};
     std::memcpy(bytes.data(), pair_.data(), bytes.size());
     to_flash_.insert(to_flash_.end(), bytes.begin(), bytes.end());
   }

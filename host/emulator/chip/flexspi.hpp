@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <span>
 #include <vector>
 
 #include "host/emulator/chip/nor_flash.hpp"
@@ -25,11 +26,14 @@ class Flexspi : public Stored {
   struct Command {
     std::uint8_t opcode = 0;
     bool address = false, writes = false, reads = false;
+    friend bool operator==(const Command&, const Command&) = default;
   };
+  static const Command* known(std::uint8_t opcode);
   Command decode();
   void trigger();
   void execute();
-  void finish();
+  void receive(std::span<const std::uint8_t> bytes);
+  std::size_t queued() const { return to_flash_.size() - sent_; }
   void write_flags(std::uint32_t value);
 
   Machine& machine_;

@@ -43,6 +43,9 @@ void Lpuart::send(std::span<const std::uint8_t> bytes) {
   }
 }
 
+/// Queues that are not switched on hold one byte.
+std::size_t Lpuart::capacity(Bits enable) const { return enable.of(fifo_) != 0 ? 4 : 1; }
+
 std::vector<std::uint8_t> Lpuart::receive() { return std::exchange(outgoing_, {}); }
 
 void Lpuart::arrive() {
@@ -51,7 +54,7 @@ void Lpuart::arrive() {
   arrives_at_ = incoming_.empty() ? kNever : arrives_at_ + byte_time();
   idle_at_ = machine_.now() + byte_time();
   if (lpuart::CTRL_RE.of(control_) == 0 || !connected()) return;
-  if (received_.size() >= kQueue)
+  if (received_.size() >= capacity(lpuart::FIFO_RXFE))
     return machine_.fail("LPUART6 DATA: overrun, the receiver's queue was not emptied");
   received_.push_back(byte);
 }
@@ -114,16 +117,27 @@ std::uint32_t Lpuart::read(std::uint32_t offset) {
   return 0;
 }
 
-void Lpuart::write_control(std::uint32_t value) {
-  control_ = value;
-  if (lpuart::CTRL_TE.of(value) != 0 && lpuart::BAUD_SBR.of(baud_) == 0)
-    machine_.fail("LPUART6 CTRL: enabled without a baud rate");
+void Lpuart::write_baud(std::uint32_t value) {
+  const std::uint32_t ratio = lpuart::BAUD_OSR.of(value) + 1;
+  if (ratio < 4 || (ratio < 8 && lpuart::BAUD_BOTHEDGE.of(value) == 0))
+    return machine_.fail("LPUART6 BAUD: fewer than 8 samples a bit need BOTHEDGE, fewer than 4 do not work");
+  if (lpuart::BAUD_SBR.of(value) == 0)
+    return machine_.fail("LPUART6 BAUD: a divider SBR of 0 stops the port");
+  baud_ = value;
+}
+
+void Lpuart::write_fifo(std::uint32_t value) {
+  fifo_ = value & (lpuart::FIFO_RXFE.mask() | lpuart::FIFO_TXFE.mask());
+  if (lpuart::FIFO_RXFLUSH.of(value) != 0) received_.clear();
+  if (lpuart::FIFO_TXFLUSH.of(value) == 0) return;
+  sending_.clear();
+  departs_at_ = kNever;
 }
 
 void Lpuart::write_data(std::uint32_t value) {
   if (lpuart::CTRL_TE.of(control_) == 0)
     return machine_.fail("LPUART6 DATA: sent while the transmitter is off");
-  if (sending_.size() >= kQueue)
+  if (sending_.size() >= capacity(lpuart::FIFO_TXFE))
     return machine_.fail("LPUART6 DATA: overrun, the transmitter's queue is full");
   if (sending_.empty()) departs_at_ = machine_.now() + byte_time();
   sending_.push_back(static_cast<std::uint8_t>(value));
@@ -135,16 +149,11 @@ void Lpuart::write(std::uint32_t offset, std::uint32_t value) {
       offset == lpuart::BAUD.value || offset == lpuart::FIFO.value || offset == lpuart::WATER.value;
   if (running && setting)
     machine_.fail("LPUART6: configured while transmitter or receiver runs (CTRL.TE, RE)");
-  if (offset == lpuart::BAUD.value) {
-    const std::uint32_t ratio = lpuart::BAUD_OSR.of(value) + 1;
-    if (ratio < 4 || (ratio < 8 && lpuart::BAUD_BOTHEDGE.of(value) == 0))
-      machine_.fail("LPUART6 BAUD: fewer than 8 samples a bit need BOTHEDGE, fewer than 4 do not work");
-    baud_ = value;
-  }
+  if (offset == lpuart::BAUD.value) write_baud(value);
   if (offset == lpuart::STAT.value) events_ &= ~(value & kClearable);
-  if (offset == lpuart::CTRL.value) write_control(value);
+  if (offset == lpuart::CTRL.value) control_ = value;
   if (offset == lpuart::DATA.value) write_data(value);
-  if (offset == lpuart::FIFO.value) fifo_ = value & (lpuart::FIFO_RXFE.mask() | lpuart::FIFO_TXFE.mask());
+  if (offset == lpuart::FIFO.value) write_fifo(value);
   if (offset == lpuart::WATER.value)
     water_ = value & (lpuart::WATER_TXWATER.mask() | lpuart::WATER_RXWATER.mask());
   update();

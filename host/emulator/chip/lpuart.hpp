@@ -42,13 +42,13 @@ class Lpuart : public Model {
   Cycles byte_time() const { return kCyclesPerSecond * 10 / baud(); }
   void arrive();
   void depart();
-  void write_control(std::uint32_t value);
+  std::size_t capacity(teensy40::Bits enable) const;
+  void write_baud(std::uint32_t value);
+  void write_fifo(std::uint32_t value);
   void write_data(std::uint32_t value);
   std::uint32_t read_data();
   std::uint32_t status() const;
   void update();
-
-  static constexpr std::size_t kQueue = 4;
 
   Machine& machine_;
   const Ccm& ccm_;

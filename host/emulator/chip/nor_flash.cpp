@@ -30,8 +30,23 @@ void NorFlash::restore_power() {
   cut_at_ = ~std::uint64_t{0};
 }
 
-bool NorFlash::begin(std::uint32_t address, Cycles takes) {
+/// All commands but the one for the status.
+void NorFlash::refuse_while_busy() {
   if (busy()) machine_.fail("NOR flash: a command while the last one runs is ignored");
+}
+
+void NorFlash::write_enable() {
+  refuse_while_busy();
+  enabled_ = true;
+}
+
+std::array<std::uint8_t, 3> NorFlash::identity() {
+  refuse_while_busy();
+  return {0xEF, 0x40, 0x15};
+}
+
+bool NorFlash::begin(std::uint32_t address, Cycles takes) {
+  refuse_while_busy();
   if (!enabled_) machine_.fail("NOR flash: programming or erasing without write enable (0x06) is ignored");
   if (address < kParameters || address >= kParametersEnd)
     machine_.fail(fmt::format(

@@ -36,8 +36,10 @@ class NorFlash : public Model {
   Times times;
   bool busy() const { return machine_.now() < busy_until_; }
 
-  void write_enable() { enabled_ = true; }
-  std::uint8_t status() const { return static_cast<std::uint8_t>((busy() ? 1 : 0) | (enabled_ ? 2 : 0)); }
+  void write_enable();
+  /// What programs or erases keeps its permission until it is done.
+  std::uint8_t status() const { return busy() ? 3 : enabled_ ? 2 : 0; }
+  std::array<std::uint8_t, 3> identity();
   void erase_sector(std::uint32_t address);
   /// At most a page; beyond its end the address goes on at the page's begin.
   void program(std::uint32_t address, std::span<const std::uint8_t> bytes);
@@ -54,6 +56,7 @@ class NorFlash : public Model {
   std::function<void(bool)> on_busy = [](bool) {};
 
  private:
+  void refuse_while_busy();
   bool begin(std::uint32_t address, Cycles takes);
   void work(std::uint32_t address, std::uint8_t target);
 

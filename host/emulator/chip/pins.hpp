@@ -12,22 +12,23 @@ namespace astro::emulator {
 /// IOMUXC: what each pad is connected to. All pads are GPIO with a keeper after a reset.
 class Iomuxc : public Stored {
  public:
-  std::uint32_t function(std::uint32_t mux_offset) const {
-    constexpr std::uint32_t kGpio = 5;
-    const std::uint32_t word = value(mux_offset);
-    return touched(mux_offset) ? word & 0xF : kGpio;
+  std::uint32_t function(std::uint32_t mux_offset) const { return setting(mux_offset) & 0xF; }
+  std::uint32_t setting(std::uint32_t offset) const {
+    const std::uint32_t word = value(offset);
+    return (word & kTouched) != 0 ? word & ~kTouched : after_reset(offset);
   }
+  std::uint32_t selection(std::uint32_t select_offset) const { return setting(select_offset) & 7; }
+
   void write(std::uint32_t offset, std::uint32_t value) override { store(offset, value | kTouched); }
-  std::uint32_t read(std::uint32_t offset) override { return value(offset) & ~kTouched; }
-  std::uint32_t setting(std::uint32_t pad_offset) const {
-    constexpr std::uint32_t kKeeper = 0x10B0;
-    return touched(pad_offset) ? value(pad_offset) & ~kTouched : kKeeper;
-  }
-  std::uint32_t selection(std::uint32_t select_offset) const { return value(select_offset) & 7; }
+  std::uint32_t read(std::uint32_t offset) override { return setting(offset); }
 
  private:
   static constexpr std::uint32_t kTouched = 1U << 31;  // no register here has that bit
-  bool touched(std::uint32_t offset) const { return (value(offset) & kTouched) != 0; }
+  /// Functions come first, electrical settings next, and then the selections of inputs.
+  static std::uint32_t after_reset(std::uint32_t offset) {
+    constexpr std::uint32_t kSettings = 0x204, kSelections = 0x3EC, kGpio = 5, kKeeper = 0x10B0;
+    return offset < kSettings ? kGpio : offset < kSelections ? kKeeper : 0;
+  }
 };
 
 /// IOMUXC_GPR: how FlexRAM is shared out, and which of two ports has a pin.

@@ -8,8 +8,9 @@ namespace {
 using namespace teensy40;
 
 constexpr std::uint32_t kUnlock = 0xD928'C520, kRefresh = 0xB480'A602;
-constexpr std::uint32_t kAfterRom = 0x0000'2920;  // off, may be configured
-constexpr Cycles kWindow = 128 * 4;               // clocks of the 150 MHz bus
+constexpr std::uint32_t kAfterRom = 0x0000'2120;  // off; locked, but a key opens it
+constexpr std::uint32_t kWindowOrInterrupt = 1U << 15 | 1U << 6, kLpo = 1;
+constexpr Cycles kWindow = 128 * 4;  // clocks of the 150 MHz bus
 constexpr Cycles kCyclesPerLpo = kCyclesPerSecond / 32'000;
 
 }  // namespace
@@ -64,6 +65,10 @@ void Rtwdog::configure(std::uint32_t offset, std::uint32_t value) {
   if (offset == rtwdog::TOVAL.value) timeout_counts_ = value & 0xFFFF;
   if (offset == rtwdog::WIN.value) window_ = value & 0xFFFF;
   if (offset != rtwdog::CS.value) return;
+  if (rtwdog::CS_CLK.of(value) != kLpo)
+    return machine_.fail("RTWDOG CS: only the 32 kHz oscillator is modelled");
+  if ((value & kWindowOrInterrupt) != 0)
+    return machine_.fail("RTWDOG CS: neither its window nor its interrupt is modelled");
   control_ = value & ~(rtwdog::CS_ULK.mask() | rtwdog::CS_RCS.mask() | rtwdog::CS_FLG.mask());
   configured_ = true;
   unlocked_until_ = 0;

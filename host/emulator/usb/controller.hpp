@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "host/emulator/chip/stored.hpp"
 #include "host/emulator/machine.hpp"
 
 namespace astro::emulator {
@@ -23,7 +22,7 @@ struct Packet {
 /// The device controller USB1: its registers towards the firmware, and the bus towards a host. Walks the
 /// queue heads and transfer descriptors in memory as the chip's bus master does.
 ///
-/// Not modelled  isochronous transfers, lists of more than one descriptor.
+/// Not modelled  isochronous transfers, lists of more than one descriptor, descriptors without IOC, timers.
 class UsbController : public Model {
  public:
   UsbController(Machine& machine, std::function<bool()> clocked)
@@ -54,6 +53,8 @@ class UsbController : public Model {
   };
   static constexpr std::size_t kEndpoints = 8;
 
+  static constexpr std::uint32_t bit_of(int endpoint, bool in) { return 1U << (endpoint + (in ? 16 : 0)); }
+
   std::span<std::uint8_t> head(int endpoint, bool in);
   std::uint32_t& control(int endpoint) { return endpoint_[static_cast<std::size_t>(endpoint)]; }
   Queue& queue(int endpoint, bool in) {
@@ -68,6 +69,7 @@ class UsbController : public Model {
   void write_endpoint(int endpoint, std::uint32_t value);
   void write_command(std::uint32_t value);
   void raise(std::uint32_t event);
+  void refuse(std::uint32_t offset);
   void update();
 
   Machine& machine_;
@@ -78,15 +80,6 @@ class UsbController : public Model {
   bool plugged_ = true;
   std::array<std::uint32_t, kEndpoints> endpoint_{};
   std::array<Queue, 2 * kEndpoints> queues_{};
-};
-
-/// The transceiver USBPHY1: registers with copies that set and clear.
-class UsbPhy : public Stored {
- public:
-  UsbPhy();
-  std::uint32_t read(std::uint32_t offset) override { return value(offset & ~0xFU); }
-  void write(std::uint32_t offset, std::uint32_t value) override;
-  bool ready() const;
 };
 
 }  // namespace astro::emulator

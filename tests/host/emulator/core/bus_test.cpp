@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/host/emulator/core/program.hpp"
+#include "tests/host/emulator/program.hpp"
 
 namespace astro::emulator {
 namespace {

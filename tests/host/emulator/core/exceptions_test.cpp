@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/host/emulator/core/program.hpp"
+#include "tests/host/emulator/program.hpp"
 
 namespace astro::emulator {
 namespace {
@@ -341,6 +341,39 @@ TEST(Faults, TheProcessStackEndsTheRun) {
 
 TEST(Faults, WaitingForAnEventEndsTheRun) {
   EXPECT_THAT(Program("wfe").stopped_by(), HasSubstr("WFE is not modelled"));
+}
+
+TEST(Exceptions, AReturnToAStackOrAContextThatNobodyUsesIsRefused) {
+  for (const char* value : {"0xFFFFFFFD", "0xFFFFFFED", "0xFFFFFFE9"})
+    EXPECT_THAT(Program(std::string("svc #0\n handler 11\n ldr r0, =") + value + "\n bx r0").stopped_by(),
+                HasSubstr("asks for a stack or a context that is not used here"))
+        << value;
+}
+
+TEST(Exceptions, AReturnNeedsItsFrame) {
+  EXPECT_THAT(Program("svc #0\n handler 11\n ldr r0, =0x30000000\n mov sp, r0\n bx lr").stopped_by(),
+              HasSubstr("the stack at 0x30000000 is no memory to return from"));
+}
+
+TEST(Exceptions, WhereRegistersAreNothingIsExecuted) {
+  // An EXC_RETURN outside a handler is a branch like any other.
+  for (const char* where : {"0xFFFFFFF9", "0xE000E001", "0x40084001"}) {
+    Program program(std::string("  ldr r0, =") + where + R"(
+    bx r0
+  handler 3
+    get SCB_CFSR
+    keep 0
+    get SCB_HFSR
+    keep 1
+    ldr r0, [sp, #24]
+    keep 2
+    stay
+    )");
+    EXPECT_EQ(program.stopped_by(), "") << where;
+    EXPECT_EQ(program.result(0), 1U) << "IACCVIOL, " << where;
+    EXPECT_EQ(program.result(1), 1U << 30) << "FORCED, " << where;
+    EXPECT_EQ(program.result(2) | 1U, std::stoul(where, nullptr, 16)) << "the frame names the place";
+  }
 }
 
 }  // namespace

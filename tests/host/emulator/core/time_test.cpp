@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/host/emulator/core/program.hpp"
+#include "tests/host/emulator/program.hpp"
 
 namespace astro::emulator {
 namespace {
@@ -166,6 +166,28 @@ TEST(Pit, TheLifetimeTimerCountsMicrosecondsAndItsHalvesBelongTogether) {
 TEST(Pit, AChannelDoesNotStartWhileTheModuleIsOff) {
   Program program("set CCM_CCGR1, 0xFFFFFFFF\n set PIT_CHANNEL0_TCTRL, 1");
   EXPECT_THAT(program.stopped_by(), HasSubstr("PIT CHANNEL0_TCTRL: started while MCR.MDIS"));
+}
+
+TEST(Pit, AChannelIsNotChainedWhileItCounts) {
+  Program program(std::string(kPit) + "set PIT_CHANNEL1_TCTRL, 1\n set PIT_CHANNEL1_TCTRL, 5");
+  EXPECT_THAT(program.stopped_by(), HasSubstr("PIT CHANNEL1_TCTRL: chained or unchained while it counts"));
+}
+
+TEST(Pit, TheFirstChannelHasNoneToBeChainedTo) {
+  EXPECT_THAT(Program(std::string(kPit) + "set PIT_CHANNEL0_TCTRL, 4").stopped_by(),
+              HasSubstr("PIT CHANNEL0_TCTRL: there is no channel to chain it to"));
+}
+
+TEST(Pit, ACountIsReadOnly) {
+  EXPECT_THAT(Program(std::string(kPit) + "set PIT_CHANNEL2_CVAL, 1").stopped_by(),
+              HasSubstr("PIT 0x124: a count cannot be written"));
+  EXPECT_THAT(Program(std::string(kPit) + "set PIT_LTMR64L, 1").stopped_by(),
+              HasSubstr("a count cannot be written"));
+}
+
+TEST(Time, SysTicksClockIsNotChangedWhileItCounts) {
+  EXPECT_THAT(Program("set SysTick_RVR, 99\n set SysTick_CSR, 1\n set SysTick_CSR, 5").stopped_by(),
+              HasSubstr("SysTick CSR: the clock is changed while it counts"));
 }
 
 }  // namespace

@@ -18,7 +18,9 @@ using namespace std::chrono_literals;
 ///
 ///   register names    INSTANCE_REGISTER, as PIT_MCR
 ///   set REG, value    a 32-bit write; set16 a 16-bit one
-///   get REG           a 32-bit read into r0
+///   get REG           a 32-bit read into r0; get16 a 16-bit one
+///   until REG, mask, value   waits until the bits of the mask have the value
+///   pause n           n microseconds at 600 MHz, which is how fast time passes here whatever the clocks say
 ///   keep n            stores r0 as result(n)
 ///   handler n         begins the handler of exception n; those without one count as an unexpected exception
 ///   stay              an endless loop

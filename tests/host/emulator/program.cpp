@@ -1,4 +1,4 @@
-#include "tests/host/emulator/core/program.hpp"
+#include "tests/host/emulator/program.hpp"
 
 #include <fmt/format.h>
 
@@ -58,6 +58,23 @@ constexpr std::string_view kMacros = R"(
 .macro get register
   ldr r6, =\register
   ldr r0, [r6]
+.endm
+.macro get16 register
+  ldr r6, =\register
+  ldrh r0, [r6]
+.endm
+.macro until register, mask, value
+  1000: get \register
+    ldr r1, =\mask
+    ands r0, r1
+    ldr r1, =\value
+    cmp r0, r1
+    bne 1000b
+.endm
+.macro pause us
+  ldr r0, =\us * 300
+  1001: subs r0, #1
+    bne 1001b
 .endm
 .macro keep n
   ldr r6, =0x20000000

@@ -1,0 +1,380 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/host/emulator/program.hpp"
+
+namespace astro::emulator {
+namespace {
+
+using testing::Each;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+// Lines that run from ITCM, since the flash cannot be read while it works.
+std::string in_ram(const std::string& code) {
+  return R"(
+  .macro unlock
+    set FLEXSPI_LUTKEY, 0x5AF05AF0
+    set FLEXSPI_LUTCR, 2
+  .endm
+  .macro prepare first, second, address, bytes
+    set FLEXSPI_LUT60, \first
+    set FLEXSPI_LUT61, \second
+    set FLEXSPI_INTR, 0x0B
+    set FLEXSPI_IPCR0, \address
+    set FLEXSPI_IPCR1, 0x000F0000 + \bytes
+  .endm
+  .macro finish
+    until FLEXSPI_INTR, 1, 1
+  .endm
+  .macro command first, second=0, address=0, bytes=0
+    prepare \first, \second, \address, \bytes
+    set FLEXSPI_IPCMD, 1
+    finish
+  .endm
+  .macro enable
+    command 0x0406
+  .endm
+  .macro erase address
+    command 0x08180420, 0, \address
+  .endm
+  .macro pair low, high
+    set FLEXSPI_TFDR0, \low
+    set FLEXSPI_TFDR1, \high
+    set FLEXSPI_INTR, 0x40
+  .endm
+  .macro write address, low, high
+    set FLEXSPI_IPTXFCR, 1
+    pair \low, \high
+    command 0x08180402, 0x2001, \address, 8
+  .endm
+  .macro status
+    set FLEXSPI_IPRXFCR, 1
+    command 0x24010405, 0, 0, 1
+    get FLEXSPI_RFDR0
+  .endm
+  .macro idle
+    1002: status
+    lsls r0, #31
+    bne 1002b
+  .endm
+    ldr r0, =begin
+    ldr r1, =end
+    movs r2, #0x400 >> 8
+    lsls r2, #8
+  1: ldr r3, [r0], #4
+    str r3, [r2], #4
+    cmp r0, r1
+    blo 1b
+    ldr r3, =0x401
+    bx r3
+    .ltorg
+    .balign 4
+begin:
+)" + code +
+         R"(
+    stay
+    .ltorg
+    .balign 4
+end:
+)";
+}
+
+/// Erasing takes but 1 ms here.
+struct Worker : Program {
+  explicit Worker(const std::string& code) : Program(in_ram(code)) {
+    teensy().flash().times.erase = 1'000 * kCyclesPerMicrosecond;
+  }
+  std::string outcome() { return stopped_by(10ms); }
+  std::span<std::uint8_t> parameters() { return teensy().flash().parameters(); }
+};
+
+TEST(Flash, ErasingSetsASectorAndNoMore) {
+  Worker program("unlock\n enable\n erase 0x1F1800\n idle");
+  std::ranges::fill(program.parameters(), std::uint8_t{0x5A});
+  EXPECT_EQ(program.outcome(), "");
+  EXPECT_EQ(program.parameters()[0xFFF], 0x5A);
+  EXPECT_THAT(program.parameters().subspan(0x1000, 0x1000), Each(0xFF));
+  EXPECT_EQ(program.parameters()[0x2000], 0x5A);
+}
+
+TEST(Flash, ProgrammingClearsBitsAndSetsNone) {
+  Worker program("unlock\n enable\n write 0x1F0010, 0x0F0F0F0F, 0xFFFFFFFF\n idle");
+  std::ranges::fill(program.parameters(), std::uint8_t{0x3C});
+  EXPECT_EQ(program.outcome(), "");
+  EXPECT_THAT(program.parameters().subspan(0x10, 4), Each(0x0C));
+  EXPECT_THAT(program.parameters().subspan(0x14, 4), Each(0x3C));
+}
+
+TEST(Flash, WhatIsProgrammedReadsBackWhereTheProcessorSeesIt) {
+  Worker program("unlock\n enable\n write 0x1F0000, 0x11223344, 0x55667788\n idle\n get 0x601F0004\n keep 0");
+  EXPECT_EQ(program.outcome(), "");
+  EXPECT_EQ(program.result(0), 0x55667788U);
+}
+
+TEST(Flash, BeyondThePagesEndProgrammingGoesOnAtItsBegin) {
+  Worker program("unlock\n enable\n write 0x1F01FC, 0x04030201, 0x08070605\n idle");
+  EXPECT_EQ(program.outcome(), "");
+  EXPECT_THAT(program.parameters().subspan(0x1FC, 4), ElementsAre(1, 2, 3, 4));
+  EXPECT_THAT(program.parameters().subspan(0x100, 4), ElementsAre(5, 6, 7, 8));
+  EXPECT_THAT(program.parameters().subspan(0x200, 4), Each(0xFF));
+}
+
+TEST(Flash, APageHas256Bytes) {
+  const std::string feed = R"(
+    unlock
+    enable
+    set FLEXSPI_IPTXFCR, 1
+    prepare 0x08180402, 0x2001, 0x1F0000, BYTES
+    set FLEXSPI_IPCMD, 1
+    movs r5, #BYTES / 8
+  1: until FLEXSPI_INTR, 0x40, 0x40
+    pair 0, 0
+    subs r5, #1
+    bne 1b
+    finish
+    idle
+  )";
+  Worker page(".equ BYTES, 256\n" + feed);
+  EXPECT_EQ(page.outcome(), "");
+  EXPECT_THAT(page.parameters().first(256), Each(0));
+  Worker more(".equ BYTES, 264\n" + feed);
+  EXPECT_THAT(more.outcome(), HasSubstr("NOR flash: more than a page is programmed at once"));
+}
+
+TEST(Flash, WithoutWriteEnableNothingIsWritten) {
+  EXPECT_THAT(Worker("unlock\n write 0x1F0000, 0, 0").outcome(),
+              HasSubstr("NOR flash: programming or erasing without write enable (0x06) is ignored"));
+  EXPECT_THAT(Worker("unlock\n erase 0x1F0000").outcome(), HasSubstr("without write enable (0x06)"));
+}
+
+TEST(Flash, EachWriteNeedsItsOwnWriteEnable) {
+  Worker program("unlock\n enable\n write 0x1F0000, 0, 0\n idle\n write 0x1F0008, 0, 0");
+  EXPECT_THAT(program.outcome(), HasSubstr("without write enable (0x06)"));
+}
+
+TEST(Flash, TheStatusTellsBusyAndEnabled) {
+  Worker program(R"(
+    unlock
+    status
+    keep 0
+    enable
+    status
+    keep 1
+    write 0x1F0000, 0, 0
+    status
+    keep 2
+    idle
+    status
+    keep 3
+  )");
+  EXPECT_EQ(program.outcome(), "");
+  EXPECT_EQ(program.result(0) & 0xFF, 0U);
+  EXPECT_EQ(program.result(1) & 0xFF, 2U);
+  EXPECT_EQ(program.result(2) & 0xFF, 3U);
+  EXPECT_EQ(program.result(3) & 0xFF, 0U);
+}
+
+TEST(Flash, APageAndASectorTakeTheirTypicalTimes) {
+  Worker page("unlock\n enable\n write 0x1F0000, 0, 0");
+  page.teensy().run_for(350us);
+  EXPECT_TRUE(page.teensy().flash().busy());
+  page.teensy().run_for(100us);
+  EXPECT_FALSE(page.teensy().flash().busy());
+  Program sector(in_ram("unlock\n enable\n erase 0x1F0000"));
+  sector.teensy().run_for(44ms);
+  EXPECT_TRUE(sector.teensy().flash().busy());
+  sector.teensy().run_for(2ms);
+  EXPECT_FALSE(sector.teensy().flash().busy());
+}
+
+TEST(Flash, WhileItWorksItTakesNoCommandButTheStatus) {
+  for (const char* command :
+       {"enable", "write 0x1F0100, 0, 0", "erase 0x1F1000", "command 0x2401049F, 0, 0, 3"})
+    EXPECT_THAT(Worker(std::string("unlock\n enable\n write 0x1F0000, 0, 0\n") + command).outcome(),
+                HasSubstr("NOR flash: a command while the last one runs is ignored"))
+        << command;
+}
+
+TEST(Flash, NobodyReadsItWhileItWorks) {
+  EXPECT_THAT(Worker("unlock\n enable\n write 0x1F0000, 0, 0\n get 0x60001000").outcome(),
+              HasSubstr("NOR flash: 0x60001000 is read while the flash is busy"));
+}
+
+TEST(Flash, NobodyExecutesItWhileItWorks) {
+  Worker program("unlock\n enable\n write 0x1F0000, 0, 0\n ldr r3, =main\n bx r3");
+  EXPECT_THAT(program.outcome(), HasSubstr("is executed while the flash is busy"));
+}
+
+TEST(Flash, AnInterruptWhoseHandlerLiesInItIsNotServedWhileItWorks) {
+  Worker program("unlock\n enable\n erase 0x1F0000\n set SysTick_RVR, 5999\n set SysTick_CSR, 7");
+  EXPECT_THAT(program.outcome(), HasSubstr("while the flash is busy"));
+}
+
+TEST(Flash, OnlyTheParametersSectorsAreWritten) {
+  EXPECT_THAT(
+      Worker("unlock\n enable\n erase 0x1EF000").outcome(),
+      HasSubstr("NOR flash: 0x1EF000 is not the parameters': the program or the boot loader lies there"));
+  EXPECT_THAT(Worker("unlock\n enable\n write 0x1FF000, 0, 0").outcome(),
+              HasSubstr("NOR flash: 0x1FF000 is not the parameters'"));
+}
+
+TEST(Flash, ItsIdentityIsTheW25q16s) {
+  Worker program(
+      "unlock\n set FLEXSPI_IPRXFCR, 1\n command 0x2401049F, 0, 0, 3\n get FLEXSPI_RFDR0\n keep 0");
+  EXPECT_EQ(program.outcome(), "");
+  EXPECT_EQ(program.result(0), 0x1540EFU);
+}
+
+TEST(Flash, PowerFailsAfterSoManyBytes) {
+  Worker program("unlock\n enable\n write 0x1F0000, 0, 0\n idle");
+  program.teensy().flash().cut_power_after(5);
+  EXPECT_EQ(program.outcome(), "");
+  EXPECT_FALSE(program.teensy().flash().powered());
+  EXPECT_THAT(program.parameters().first(5), Each(0));
+  EXPECT_THAT(program.parameters().subspan(5, 3), Each(0xFF));
+  program.teensy().power_cycle();
+  EXPECT_TRUE(program.teensy().flash().powered());
+}
+
+TEST(Flash, ATornByteHasSomeOfItsBits) {
+  Worker program("unlock\n enable\n write 0x1F0000, 0, 0\n idle");
+  program.teensy().flash().cut_power_after(5, sim::Tear::torn);
+  EXPECT_EQ(program.outcome(), "");
+  EXPECT_THAT(program.parameters().first(5), Each(0));
+  EXPECT_NE(program.parameters()[5], 0xFF);
+  EXPECT_NE(program.parameters()[5], 0);
+}
+
+TEST(Flash, TheRomFindsNoImageInABusyFlash) {
+  Worker program("unlock\n enable\n erase 0x1F0000");
+  program.teensy().run_for(500us);
+  program.teensy().press_reset();
+  EXPECT_THAT(program.outcome(),
+              HasSubstr("NOR flash: the boot ROM reads it while it is busy, and finds nothing"));
+}
+
+TEST(Flexspi, TheTableIsLockedUntilItsKeyIsGiven) {
+  EXPECT_THAT(Program("set FLEXSPI_LUT60, 0x0406").stopped_by(),
+              HasSubstr("FLEXSPI LUT60: the table is locked"));
+  EXPECT_THAT(Program("set FLEXSPI_LUTKEY, 0x5AF05AF1").stopped_by(),
+              HasSubstr("FLEXSPI LUTKEY: not the key"));
+  EXPECT_THAT(Program("set FLEXSPI_LUTCR, 2").stopped_by(),
+              HasSubstr("FLEXSPI LUTCR: written without the key"));
+}
+
+TEST(Flexspi, TheKeyIsForOneWriteAndLocksAsWell) {
+  EXPECT_THAT(Worker("unlock\n set FLEXSPI_LUTCR, 1").outcome(),
+              HasSubstr("FLEXSPI LUTCR: written without the key"));
+  EXPECT_THAT(Worker("unlock\n set FLEXSPI_LUTKEY, 0x5AF05AF0\n set FLEXSPI_LUTCR, 1\n set FLEXSPI_LUT61, 0")
+                  .outcome(),
+              HasSubstr("the table is locked"));
+}
+
+TEST(Flexspi, OnlyTheLastSequenceIsTheFirmwares) {
+  EXPECT_THAT(Worker("unlock\n set FLEXSPI_IPCR1, 0x00000000\n set FLEXSPI_IPCMD, 1").outcome(),
+              HasSubstr("FLEXSPI IPCR1: only sequence 15 is the firmware's"));
+  EXPECT_THAT(Worker("unlock\n set FLEXSPI_IPCR1, 0x010F0000\n set FLEXSPI_IPCMD, 1").outcome(),
+              HasSubstr("FLEXSPI IPCR1: only sequence 15 is the firmware's"));
+}
+
+TEST(Flexspi, ACommandIsNotTriggeredWhileAnotherOneRuns) {
+  EXPECT_THAT(
+      Worker("unlock\n prepare 0x0406, 0, 0, 0\n set FLEXSPI_IPCMD, 1\n set FLEXSPI_IPCMD, 1").outcome(),
+      HasSubstr("FLEXSPI IPCMD: triggered while a command runs"));
+}
+
+TEST(Flexspi, StepsAndCommandsThatNobodyKnowsAreRefused) {
+  EXPECT_THAT(Worker("unlock\n command 0x0C010406").outcome(),
+              HasSubstr("FLEXSPI LUT60: a step with code 3 is not modelled"));
+  EXPECT_THAT(Worker("unlock\n command 0x04C7").outcome(),
+              HasSubstr("FLEXSPI LUT60: the flash does not know command 0xC7"));
+}
+
+TEST(Flexspi, ACommandNeedsTheStepsThatTheFlashExpectsOfIt) {
+  for (const char* sequence :
+       {"0x0402, 0x2001, 0x1F0000, 8", "0x08180402, 0, 0x1F0000, 0", "0x0420, 0, 0x1F0000", "0x0405, 0, 0, 1",
+        "0x049F, 0, 0, 3", "0x08180406, 0, 0x1F0000"})
+    EXPECT_THAT(Worker(std::string("unlock\n enable\n pair 0, 0\n command ") + sequence).outcome(),
+                HasSubstr("FLEXSPI LUT60: not the steps of command 0x"))
+        << sequence;
+}
+
+TEST(Flexspi, ItIsIdleWhenTheCommandIsDone) {
+  Worker program(R"(
+    unlock
+    get FLEXSPI_STS0
+    keep 0
+    prepare 0x0406, 0, 0, 0
+    set FLEXSPI_IPCMD, 1
+    get FLEXSPI_STS0
+    keep 1
+    finish
+    get FLEXSPI_STS0
+    keep 2
+    set FLEXSPI_INTR, 1
+    get FLEXSPI_INTR
+    keep 3
+  )");
+  EXPECT_EQ(program.outcome(), "");
+  EXPECT_EQ(program.result(0), 3U);
+  EXPECT_EQ(program.result(1), 0U);
+  EXPECT_EQ(program.result(2), 3U);
+  EXPECT_EQ(program.result(3) & 1, 0U) << "IPCMDDONE is cleared by a one";
+}
+
+TEST(Flexspi, ACommandWaitsForItsData) {
+  Worker program(R"(
+    unlock
+    enable
+    set FLEXSPI_IPTXFCR, 1
+    prepare 0x08180402, 0x2001, 0x1F0000, 8
+    set FLEXSPI_IPCMD, 1
+    pause 100
+    get FLEXSPI_INTR
+    keep 0
+    pair 0, 0
+    finish
+    movs r0, #1
+    keep 1
+  )");
+  EXPECT_EQ(program.outcome(), "");
+  EXPECT_EQ(program.result(0) & 1, 0U);
+  EXPECT_EQ(program.result(1), 1U);
+}
+
+TEST(Flexspi, ItsQueueTakes128Bytes) {
+  Worker full("unlock\n movs r5, #16\n1: pair 0, 0\n subs r5, #1\n bne 1b\n get FLEXSPI_INTR\n keep 0");
+  EXPECT_EQ(full.outcome(), "");
+  EXPECT_EQ(full.result(0) & 0x40, 0U) << "IPTXWE: no room";
+  Worker more("unlock\n movs r5, #17\n1: pair 0, 0\n subs r5, #1\n bne 1b");
+  EXPECT_THAT(more.outcome(), HasSubstr("FLEXSPI TFDR0: overrun, the queue to the flash is full"));
+}
+
+TEST(Flexspi, AnswersStayUntilTheQueueIsCleared) {
+  Worker program(R"(
+    unlock
+    status
+    enable
+    command 0x24010405, 0, 0, 1
+    get FLEXSPI_RFDR0
+    keep 0
+    set FLEXSPI_IPRXFCR, 1
+    command 0x24010405, 0, 0, 1
+    get FLEXSPI_RFDR0
+    keep 1
+  )");
+  EXPECT_EQ(program.outcome(), "");
+  EXPECT_EQ(program.result(0) & 0xFF, 0U) << "the first answer";
+  EXPECT_EQ(program.result(1) & 0xFF, 2U);
+}
+
+TEST(Flexspi, NothingIsReadFromAnEmptyQueue) {
+  EXPECT_THAT(Worker("get FLEXSPI_RFDR0").outcome(),
+              HasSubstr("FLEXSPI RFDR0: read while the flash has sent nothing"));
+}
+
+}  // namespace
+}  // namespace astro::emulator
