@@ -197,15 +197,14 @@ class Robot {
   }
 
   Answer<Ack> handle(int, const protocol::Arm&) {
+    if (reset_wanted_ != Reset::none) return error(ErrorCode::busy);
     auto hold = board_.hold_tick();
     if (!drive_.arm()) return not_ready();
     return Ack{};
   }
 
   Answer<Ack> handle(int, const protocol::Disarm&) {
-    auto hold = board_.hold_tick();
-    drive_.disarm();
-    board_.motors().coast();
+    disarm();
     return Ack{};
   }
 
@@ -309,9 +308,10 @@ class Robot {
     return reset_soon(Reset::bootloader);
   }
 
-  /// Not at once: the answer has to leave the robot first.
+  /// Not at once: the answer has to leave the robot first. Until then nobody arms it any more.
   Ack reset_soon(Reset wanted) {
     constexpr std::uint64_t kFlush_us = 50'000;
+    disarm();
     reset_wanted_ = wanted;
     reset_due_us_ = board_.clock().now_us() + kFlush_us;
     return {};
@@ -378,12 +378,14 @@ class Robot {
     session.telemetry_sent(board_.clock().now_us());
   }
 
+  void disarm() {
+    auto hold = board_.hold_tick();
+    drive_.disarm();
+    board_.motors().coast();
+  }
+
   void reset() {
-    {
-      auto hold = board_.hold_tick();
-      drive_.disarm();
-      board_.motors().coast();
-    }
+    disarm();
     const Reset wanted = reset_wanted_;
     reset_wanted_ = Reset::none;
     if (wanted == Reset::bootloader && board_.system().enter_bootloader()) return;

@@ -38,6 +38,7 @@ void System::start() {
 }
 
 void System::reboot() noexcept {
+  const cpu::InterruptsOff guard;  // no tick may drive again
   Motors::coast();
   SRC[src::GPR5].write(marker::kReboot);
   cpu::synchronize();
@@ -49,8 +50,8 @@ void System::reboot() noexcept {
 
 bool System::enter_bootloader() noexcept {
   if ((OCOTP[ocotp::CFG5].read() & kSignedOnly) != 0) return false;
+  const cpu::InterruptsOff guard;  // no tick may drive again
   Motors::coast();
-  const cpu::InterruptsOff guard;
   leave_usb();
   watchdog::stop();
   call_halfkay();

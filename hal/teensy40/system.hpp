@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <string_view>
-#include <utility>
 
 #include "hal/interface/board.hpp"
 #include "hal/teensy40/arithmetic/identity.hpp"
@@ -32,11 +31,8 @@ class System {
   /// False: the Teensy is locked to signed programs, whose loader is entered in another way.
   bool enter_bootloader() noexcept;
 
-  /// 134 baud on the USB port is how a Teensy is asked. Once for each time, however long the port says so.
-  bool host_wants_bootloader() noexcept {
-    const bool asked = usb_.bootloader_requested();
-    return !std::exchange(asked_, asked) && asked;
-  }
+  /// 134 baud on the USB port is how a Teensy is asked.
+  bool host_wants_bootloader() noexcept { return usb_.take_bootloader_request(); }
 
   void feed_watchdog() noexcept { watchdog::feed(); }
 
@@ -44,7 +40,6 @@ class System {
   void leave_usb();
 
   UsbSerial& usb_;
-  bool asked_ = false;
   UniqueId id_{};
   hal::ResetCause cause_ = hal::ResetCause::unknown;
 };

@@ -13,9 +13,6 @@ class Tick {
   /// Calls `handler` every millisecond from the interrupt. Needs Clock::start().
   static void start(void (*handler)());
   static void stop();
-
-  /// Ticks that were still running when the next was due.
-  static std::uint32_t overruns();
 };
 
 /// While one lives the tick does not run, nor does anything less urgent. They nest.

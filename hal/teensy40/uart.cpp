@@ -62,8 +62,7 @@ void Uart::receive(std::uint32_t status) {
   if (count > bytes.size()) count = bytes.size();
   for (std::size_t i = 0; i < count; ++i) bytes[i] = static_cast<std::uint8_t>(LPUART6[lpuart::DATA].read());
   LPUART6[lpuart::STAT].write(status & kEvents);
-  const bool lost = received_.push(std::span(bytes).first(count)) != count;
-  if (lost || lpuart::STAT_OR.of(status) != 0) overruns_ = overruns_ + 1;
+  received_.push(std::span(bytes).first(count));
 }
 
 void Uart::send() {

@@ -12,7 +12,7 @@ namespace astro::teensy40 {
 /// The serial port on pins 0 and 1: LPUART6, 8N1, no flow control, 1 Mbit/s, which 24 MHz and the usual USB
 /// adapters divide to exactly.
 ///
-/// Errors  what arrives faster than it is read is dropped and counted; the protocol's CRC finds the hole.
+/// Errors  what arrives faster than it is read is dropped; the protocol's CRC finds the hole and counts it.
 ///         Damaged characters are passed on, for the same reason.
 /// Cost    an interrupt of about a microsecond every other byte.
 class Uart {
@@ -27,9 +27,6 @@ class Uart {
   std::size_t write(std::span<const std::uint8_t> bytes) noexcept;
   std::size_t room() const noexcept { return to_send_.room(); }
 
-  /// Times that the chip's queue or ours was full while more arrived.
-  std::uint32_t overruns() const { return overruns_; }
-
  private:
   static void interrupt();
   void receive(std::uint32_t status);
@@ -37,7 +34,6 @@ class Uart {
 
   Ring<1024> received_;
   Ring<2048> to_send_;
-  volatile std::uint32_t overruns_ = 0;
 };
 
 }  // namespace astro::teensy40

@@ -19,7 +19,10 @@ constexpr std::uint32_t kConfigurationTag = 0x4246'4346, kVectorTableTag = 0x432
 constexpr std::string_view kInfoTag = "Astrolabe";
 constexpr std::size_t kInfoTagBytes = 12;
 
-enum Kind : std::uint8_t { kData = 0, kEnd = 1, kUpperHalf = 4 };
+enum Kind : std::uint8_t { kData = 0, kEnd = 1, kStartSegment = 3, kUpperHalf = 4, kStart = 5 };
+
+constexpr std::size_t kFlashBytesAt = 0x50;  // of the configuration: how large the flash is
+constexpr std::uint32_t kFlashBytes = 0x20'0000;
 
 /// The bytes of a record without its colon, its sum checked.
 std::vector<std::uint8_t> record(const std::string& line, const std::string& where) {
@@ -66,7 +69,8 @@ FirmwareImage read_firmware_image(const std::filesystem::path& hex) {
     const std::vector<std::uint8_t> bytes = record(line, where);
     ended = bytes[3] == kEnd;
     if (bytes[3] == kUpperHalf) upper = static_cast<std::uint32_t>(bytes[4] << 8U | bytes[5]) << 16U;
-    if (bytes[3] != kData) continue;
+    if (bytes[3] == kStartSegment || bytes[3] == kStart || bytes[3] == kUpperHalf || ended) continue;
+    if (bytes[3] != kData) throw Error(where + " is a record of a kind that no image for a Teensy has");
     const std::uint32_t address = upper + static_cast<std::uint32_t>(bytes[1] << 8U | bytes[2]);
     if (address < FirmwareImage::kBase || address - FirmwareImage::kBase + bytes[0] > image.flash.size())
       throw Error(fmt::format("{} lies at 0x{:08X}, where a Teensy 4.0 keeps no program", where, address));
@@ -74,7 +78,7 @@ FirmwareImage read_firmware_image(const std::filesystem::path& hex) {
   }
   if (!ended) throw Error(fmt::format("'{}' has no end: build the image again", hex.string()));
   if (word(image.flash, kConfigurationAt) != kConfigurationTag ||
-      word(image.flash, kVectorTableAt) != kVectorTableTag)
+      word(image.flash, kVectorTableAt) != kVectorTableTag || word(image.flash, kFlashBytesAt) != kFlashBytes)
     throw Error(
         fmt::format("'{}' is no image for a Teensy 4.0: build one with ./dev firmware", hex.string()));
   image.version = version_in(image.flash);

@@ -43,6 +43,12 @@ void check_board(const protocol::HelloReply& robot, const fs::path& file) {
                             robot.robot_name.view(), robot.board.view(), file.string(), kBoard));
 }
 
+void check_origin(const FirmwareImage& image, const fs::path& file) {
+  if (image.version.empty())
+    throw Error(fmt::format("'{}' is not firmware of Astrolabe: flash it with --button if you want it",
+                            file.string()));
+}
+
 void check_at_rest(link::Client& client) {
   const protocol::Mode mode = client.request(protocol::GetStatus{}).mode;
   if (mode != protocol::Mode::disarmed && mode != protocol::Mode::fault)
@@ -52,13 +58,16 @@ void check_at_rest(link::Client& client) {
 void wait_for(link::Client& client) {
   try {
     client.reconnect(std::chrono::seconds(10));
-  } catch (const link::LinkLost&) {
-    throw Error("the robot did not come back: press its button and flash again with --button");
+  } catch (const link::LinkLost& error) {
+    throw Error(
+        fmt::format("the robot did not come back: {} (if its LED does not blink, press its button and flash "
+                    "again with --button)",
+                    error.what()));
   }
 }
 
 void check_version(const std::string& wanted, const std::string& now) {
-  if (!wanted.empty() && now != wanted)
+  if (now != wanted)
     throw Error(fmt::format("the robot carries firmware {} and not {}: flash again", now, wanted));
 }
 
@@ -84,6 +93,7 @@ void run(FlashOptions& options) {
     run_loader(loader, options.file);
     return say(fmt::format("flashed {}; next: astrolabe info", options.file.string()));
   }
+  check_origin(image, options.file);
   const auto client = find_robot(options.connection);
   const std::string old = firmware_version(client->robot());
   say(fmt::format("{} carries firmware {}", client->robot().robot_name.view(), old));

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <cstdlib>
 #include <sstream>
@@ -24,9 +25,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr auto kUntilItSeemsLong = std::chrono::seconds(15);  // flashing takes about five
+constexpr auto kUntilItSeemsLong = std::chrono::seconds(15), kPatience = std::chrono::seconds(120);
 
-bool runnable(const fs::path& path) { return fs::is_regular_file(path) && access(path.c_str(), X_OK) == 0; }
+bool runnable(const fs::path& path) {
+  std::error_code unreadable;
+  return fs::is_regular_file(path, unreadable) && access(path.c_str(), X_OK) == 0;
+}
 
 std::string last_line(const std::string& text) {
   std::istringstream lines(text);
@@ -59,8 +63,8 @@ class Running {
   ~Running() {
     close(words_);
     if (pid_ <= 0) return;
-    kill(pid_, SIGTERM);
-    waitpid(pid_, nullptr, 0);
+    kill(pid_, SIGKILL);  // it has nothing to lose but a transfer that is given up
+    wait();
   }
   Running(const Running&) = delete;
   Running& operator=(const Running&) = delete;
@@ -76,6 +80,8 @@ class Running {
         say("the loader waits for a Teensy: is its USB cable plugged in? (Ctrl-C ends it)");
         warned = true;
       }
+      if (std::chrono::steady_clock::now() - begun > kPatience)
+        throw Error("the loader found no Teensy: plug in its USB cable, and flash again with --button");
       if (interrupted()) throw link::Interrupted("interrupted while the loader ran: flash again");
       pollfd state{words_, POLLIN, 0};
       if (poll(&state, 1, 50) <= 0) continue;
@@ -86,13 +92,22 @@ class Running {
   }
 
   bool succeeded() {
-    int status = 0;
-    waitpid(pid_, &status, 0);
-    pid_ = -1;
+    const int status = wait();
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;
   }
 
  private:
+  /// As waitpid says it; a failure if it cannot tell.
+  int wait() {
+    int status = 0;
+    pid_t ended = -1;
+    do ended = waitpid(pid_, &status, 0);
+    while (ended < 0 && errno == EINTR);
+    const bool told = ended == pid_;
+    pid_ = -1;
+    return told ? status : SIGKILL;
+  }
+
   pid_t pid_ = -1;
   int words_ = -1;
 };

@@ -1,5 +1,7 @@
 #include "host/simulator/channel.hpp"
 
+#include <poll.h>
+
 #include <algorithm>
 #include <array>
 
@@ -17,6 +19,11 @@ Channel::Channel(Served& robot, int port, std::filesystem::path link)
 }
 
 std::optional<int> Channel::fd() const { return pty_ ? std::optional(pty_->fd()) : std::nullopt; }
+
+short Channel::events() const {
+  const int in = robot_.room(port_) != 0 ? POLLIN : 0;  // else what waits would wake us for nothing
+  return static_cast<short>(in | (outgoing_.empty() ? 0 : POLLOUT));
+}
 
 void Channel::look() {
   if (!robot_.present(port_)) {

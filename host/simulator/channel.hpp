@@ -26,7 +26,8 @@ class Channel {
   bool connected() const { return connected_; }
   /// Nothing if the port is not there.
   std::optional<int> fd() const;
-  bool has_outgoing() const { return !outgoing_.empty(); }
+  /// What poll() is to wait for.
+  short events() const;
 
  private:
   Served& robot_;

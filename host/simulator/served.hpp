@@ -15,7 +15,7 @@ class Served {
 
   /// One millisecond.
   virtual void step() = 0;
-  /// Virtual; starts again at 0 when the robot does.
+  /// Virtual; may start again at 0 when the robot does.
   virtual std::uint64_t now_us() = 0;
 
   // The robot's ports, numbered from 0: `pty` of ServerConfig leads to port 0, `second_pty` to port 1.

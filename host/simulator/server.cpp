@@ -100,8 +100,8 @@ void Server::receive() {
   truth_.accept_clients();
   bool heard = false;
   for (Channel& channel : channels_) {
+    heard |= channel.receive();  // first, so that what was sent before the port was closed arrives
     channel.look();
-    heard |= channel.receive();
   }
   if (!heard) return;
   last_heard_us_ = robot_->now_us();
@@ -152,9 +152,7 @@ void Server::wait() {
   }
   std::vector<pollfd> hosts;
   for (const Channel& channel : channels_)
-    if (channel.connected())
-      hosts.push_back(
-          {*channel.fd(), static_cast<short>(POLLIN | (channel.has_outgoing() ? POLLOUT : 0)), 0});
+    if (channel.connected()) hosts.push_back({*channel.fd(), channel.events(), 0});
   const timespec timeout{0, static_cast<long>(std::min<std::int64_t>(until.count(), 20'000) * 1000)};
   ppoll(hosts.data(), hosts.size(), &timeout, nullptr);
 }

@@ -49,6 +49,13 @@ TEST(CheckIn, IsCompleteOnlyWithEveryTaskAndThenBeginsAgain) {
 
 class BootloaderPastTheProtocol : public Watchdog {
  protected:
+  static std::vector<std::uint8_t> frame(const auto& message) {
+    std::array<std::uint8_t, protocol::kMaxBody> body{};
+    std::array<std::uint8_t, protocol::kMaxFrame> out{};
+    const std::size_t size = protocol::encode(message, 1, body);
+    const auto framed = std::span(out).first(protocol::encode_frame(std::span(body).first(size), out));
+    return {framed.begin(), framed.end()};
+  }
   void send(const std::vector<std::uint8_t>& bytes) {
     auto& waiting = board_.ports().lanes[0].to_robot;
     waiting.insert(waiting.end(), bytes.begin(), bytes.end());
@@ -69,13 +76,6 @@ TEST_F(BootloaderPastTheProtocol, IsEnteredByADisarmedRobot) {
 }
 
 TEST_F(BootloaderPastTheProtocol, IsRefusedByAnArmedOneAndNotGrantedLater) {
-  const auto frame = [](const auto& message) {
-    std::array<std::uint8_t, protocol::kMaxBody> body{};
-    std::array<std::uint8_t, protocol::kMaxFrame> out{};
-    const std::size_t size = protocol::encode(message, 1, body);
-    const auto framed = std::span(out).first(protocol::encode_frame(std::span(body).first(size), out));
-    return std::vector<std::uint8_t>(framed.begin(), framed.end());
-  };
   send(frame(protocol::Arm{}));
   robot_.poll();
   ASSERT_TRUE(robot_.drive().armed());
@@ -84,6 +84,18 @@ TEST_F(BootloaderPastTheProtocol, IsRefusedByAnArmedOneAndNotGrantedLater) {
   send(frame(protocol::Disarm{}));
   ask_and_wait();
   EXPECT_EQ(board_.system().bootloader_entries, 1) << "asked again, disarmed";
+}
+
+TEST_F(BootloaderPastTheProtocol, ARobotThatIsAboutToEnterItIsDisarmedAndArmsNoMore) {
+  send(frame(protocol::Arm{}));
+  robot_.poll();
+  send(frame(protocol::EnterBootloader{}));
+  robot_.poll();
+  EXPECT_FALSE(robot_.drive().armed());
+  send(frame(protocol::Arm{}));
+  robot_.poll();
+  EXPECT_FALSE(robot_.drive().armed());
+  EXPECT_EQ(board_.system().bootloader_entries, 0) << "the answer has to leave first";
 }
 
 }  // namespace

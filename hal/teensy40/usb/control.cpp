@@ -92,7 +92,7 @@ Response Control::of_device(const Setup& setup, Speed speed) {
     configuration_ = static_cast<std::uint8_t>(setup.value);
     halted_ = 0;
     line_state_ = 0;
-    changes_.configuration = true;
+    changes_.endpoints = true;
     return acknowledge();
   }
   return {};
@@ -102,7 +102,11 @@ Response Control::of_interface(const Setup& setup) {
   if (!configured() || setup.index >= kInterfaces) return {};
   if (setup.request == request::kGetStatus && setup.to_host()) return send_small(setup, 0, 2);
   if (setup.request == request::kGetInterface && setup.to_host()) return send_small(setup, 0, 1);
-  if (setup.request == request::kSetInterface && !setup.to_host() && setup.value == 0) return acknowledge();
+  if (setup.request == request::kSetInterface && !setup.to_host() && setup.value == 0) {
+    halted_ = 0;
+    changes_.endpoints = true;  // toggles, too (USB 2.0, 9.1.1.5)
+    return acknowledge();
+  }
   return {};
 }
 
@@ -139,7 +143,9 @@ Response Control::of_class(const Setup& setup) {
     return send(std::span(reply_).first(kLineCodingBytes), setup);
   }
   if (setup.request == request::kSetControlLineState && !setup.to_host()) {
+    const bool listened = listening();
     line_state_ = setup.value;
+    changes_.closed = listened && !listening();
     return acknowledge();
   }
   if (setup.request == request::kSendBreak && !setup.to_host()) return acknowledge();

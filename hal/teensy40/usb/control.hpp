@@ -35,7 +35,9 @@ class Control {
  public:
   /// What a request has changed, once: the controller's to carry out.
   struct Changes {
-    bool address = false, configuration = false;
+    bool address = false;
+    bool endpoints = false;     // all but endpoint 0 begin anew, or go
+    bool closed = false;        // the last program has closed the port
     std::uint8_t unhalted = 0;  // endpoint address whose toggle begins anew; 0: none
     std::uint8_t halted = 0;    // endpoint address that stalls from now on
   };

@@ -1,6 +1,5 @@
 #include "hal/teensy40/usb/controller.hpp"
 
-#include "hal/teensy40/clock.hpp"
 #include "hal/teensy40/clock_gate.hpp"
 #include "hal/teensy40/cpu.hpp"
 #include "hal/teensy40/poll.hpp"
@@ -37,19 +36,11 @@ void start_supply() {
                           pmu::REG_3P0_OUTPUT_TRG(kTarget));
 }
 
-void wait_us(std::uint64_t us) {
-  const Clock clock;
-  const std::uint64_t begun = clock.now_us();
-  while (clock.now_us() - begun < us) {
-  }
-}
-
-void start_transceiver(bool was_attached) {
+void start_transceiver() {
   USBPHY1[usbphy::CTRL_SET].write(usbphy::CTRL_SFTRST(1));
   USB1[usb::USBCMD].write(usb::USBCMD_RST(1));
   static_cast<void>(poll(USB1[usb::USBCMD], usb::USBCMD_RST, 0, kReads));
   USBPHY1[usbphy::CTRL_CLR].write(usbphy::CTRL_SFTRST(1));
-  if (was_attached) wait_us(25'000);
   USBPHY1[usbphy::CTRL_CLR].write(usbphy::CTRL_CLKGATE(1));
   USBPHY1[usbphy::PWD].write(0);
 }
@@ -60,9 +51,19 @@ void reset_heads() {
   heads[kControlIn.index()].capabilities = head_capabilities(kControlPacket, kNoEmptyPacket);
 }
 
+/// A packet that is on its way keeps its transfer through a flush: then once more.
 void flush(std::uint32_t bits) {
-  USB1[usb::ENDPTFLUSH].write(bits);
-  for (std::uint32_t reads = kReads; reads != 0 && (USB1[usb::ENDPTFLUSH].read() & bits) != 0;) --reads;
+  constexpr int kPackets = 4;
+  for (int tries = 0; tries < kPackets; ++tries) {
+    USB1[usb::ENDPTFLUSH].write(bits);
+    for (std::uint32_t reads = kReads; reads != 0 && (USB1[usb::ENDPTFLUSH].read() & bits) != 0;) --reads;
+    if ((USB1[usb::ENDPTSTAT].read() & bits) == 0) return;
+  }
+}
+
+void drop(std::uint32_t bits) {
+  flush(bits);
+  USB1[usb::ENDPTCOMPLETE].write(bits);
 }
 
 Register<std::uint32_t> endpoint_control(std::uint32_t endpoint) {
@@ -77,15 +78,17 @@ constexpr std::uint32_t send_of(std::uint32_t type) {
   return usb::ENDPTCTRL1_TXE(1) | usb::ENDPTCTRL1_TXR(1) | usb::ENDPTCTRL1_TXT(type) |
          usb::ENDPTCTRL1_RXT(kBulk);
 }
+constexpr std::uint32_t kDataPipes =
+    Pipe{kNotifyEndpoint, true}.bit() | Pipe{kOutEndpoint, false}.bit() | Pipe{kInEndpoint, true}.bit();
 constexpr std::uint32_t kUnused = usb::ENDPTCTRL1_TXT(kBulk) | usb::ENDPTCTRL1_RXT(kBulk);
 
 }  // namespace
 
-void start(bool was_attached) {
+void start() {
   start_pll();
   start_supply();
   open_gate(CCM[ccm::CCGR6], ccm::CCGR6_CG0);
-  start_transceiver(was_attached);
+  start_transceiver();
   constexpr std::uint32_t kDeviceMode = 2;
   USB1[usb::USBMODE].write(usb::USBMODE_CM(kDeviceMode) | usb::USBMODE_SLOM(1));
   reset_heads();
@@ -105,7 +108,11 @@ void detach() {
 Events take_events() {
   const std::uint32_t status = USB1[usb::USBSTS].read();
   USB1[usb::USBSTS].write(status);
-  return {usb::USBSTS_URI.of(status) != 0, usb::USBSTS_SLI.of(status) != 0, usb::USBSTS_UI.of(status) != 0};
+  const bool suspended = USB1[usb::PORTSC1].get(usb::PORTSC1_SUSP) != 0;
+  return {.reset = usb::USBSTS_URI.of(status) != 0,
+          .suspended = usb::USBSTS_SLI.of(status) != 0 && suspended,
+          .resumed = usb::USBSTS_PCI.of(status) != 0 && !suspended,
+          .transfers = usb::USBSTS_UI.of(status) != 0};
 }
 
 bool clean_up_after_reset() {
@@ -127,6 +134,7 @@ void set_address(std::uint8_t address) {
 }
 
 void open_endpoints(Speed speed) {
+  drop(kDataPipes);
   const std::uint32_t bulk = bulk_packet(speed);
   heads[Pipe{kNotifyEndpoint, true}.index()].capabilities = head_capabilities(kNotifyPacket, kNoEmptyPacket);
   heads[Pipe{kOutEndpoint, false}.index()].capabilities = head_capabilities(bulk, kNoEmptyPacket);
@@ -137,6 +145,7 @@ void open_endpoints(Speed speed) {
 }
 
 void close_endpoints() {
+  drop(kDataPipes);
   for (const std::uint32_t endpoint : {kNotifyEndpoint, kOutEndpoint, kInEndpoint})
     endpoint_control(endpoint).write(kUnused);
 }
@@ -154,9 +163,11 @@ void unstall(Pipe pipe) {
 /// The next SETUP packet ends it by itself.
 void stall_control() { USB1[usb::ENDPTCTRL0].modify(0, usb::ENDPTCTRL0_RXS(1) | usb::ENDPTCTRL0_TXS(1)); }
 
+bool setup_waits() { return (USB1[usb::ENDPTSETUPSTAT].read() & 1U) != 0; }
+
 bool take_setup(Setup& setup) {
   constexpr std::uint32_t kEndpoint0 = 1;
-  if ((USB1[usb::ENDPTSETUPSTAT].read() & kEndpoint0) == 0) return false;
+  if (!setup_waits()) return false;
   USB1[usb::ENDPTSETUPSTAT].write(kEndpoint0);
   const volatile std::uint32_t* words = heads[kControlOut.index()].setup;
   for (std::uint32_t reads = kReads; reads != 0; --reads) {
@@ -166,7 +177,8 @@ bool take_setup(Setup& setup) {
     if (USB1[usb::USBCMD].get(usb::USBCMD_SUTW) != 0) break;
   }
   USB1[usb::USBCMD].modify(usb::USBCMD_SUTW(1), 0);
-  flush(kControlOut.bit() | kControlIn.bit());
+  // The end of an earlier request's last stage must not be taken for one of this request's.
+  drop(kControlOut.bit() | kControlIn.bit());
   return true;
 }
 
@@ -188,6 +200,8 @@ void begin(Pipe pipe, std::span<std::uint8_t> bytes) {
   USB1[usb::ENDPTPRIME].write(pipe.bit());
   for (std::uint32_t reads = kReads; reads != 0 && (USB1[usb::ENDPTPRIME].read() & pipe.bit()) != 0;) --reads;
 }
+
+void cancel(Pipe pipe) { drop(pipe.bit()); }
 
 std::uint32_t take_completed() {
   const std::uint32_t pipes = USB1[usb::ENDPTCOMPLETE].read();

@@ -93,8 +93,8 @@ constexpr std::array<std::uint8_t, kConfigurationBytes> configuration(Speed spee
       5,
       0x24,
       0x01,
-      0x01,
-      1,  // call management: over interface 1
+      0x00,
+      1,  // calls are not the device's to manage
       4,
       0x24,
       0x02,

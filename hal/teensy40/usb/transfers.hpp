@@ -9,17 +9,13 @@
 namespace astro::teensy40::usb_device {
 
 inline constexpr std::uint32_t kEnd = 1;  // in place of an address: nothing follows
-inline constexpr std::uint32_t kActive = 1U << 7, kHalted = 1U << 6, kErrors = 1U << 5 | 1U << 3;
+inline constexpr std::uint32_t kActive = 1U << 7, kHalted = 1U << 6;
 inline constexpr std::uint32_t kInterruptWhenDone = 1U << 15;
 
 struct alignas(32) Transfer {
   std::uint32_t next = kEnd, token = 0;
   std::uint32_t pages[5] = {};
   std::uint32_t spare = 0;
-
-  /// Bytes that were not moved, once it is over.
-  std::uint32_t left() const { return token >> 16 & 0x7FFF; }
-  bool active() const { return (token & kActive) != 0; }
 };
 static_assert(sizeof(Transfer) == 32);
 

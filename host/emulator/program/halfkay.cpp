@@ -16,10 +16,10 @@ namespace astro::emulator {
 
 HalfKay::HalfKay(std::filesystem::path fifo) : path_(std::move(fifo)) {
   if (std::filesystem::is_fifo(path_)) std::filesystem::remove(path_);  // of a program that was killed
-  if (mkfifo(path_.c_str(), 0600) != 0)
+  if (mkfifo(path_.c_str(), 0600) == 0) fd_ = open(path_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (fd_ < 0)
     throw Error(
         fmt::format("the boot loader's '{}' cannot be made: {}", path_.string(), std::strerror(errno)));
-  fd_ = open(path_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
 }
 
 HalfKay::~HalfKay() {

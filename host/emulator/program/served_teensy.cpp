@@ -49,7 +49,11 @@ void ServedTeensy::wait_in_bootloader() {
   }
   const auto image = halfkay_->receive();
   if (!image) return;
-  std::ofstream(flashed_, std::ios::binary) << *image;
+  std::ofstream file(flashed_, std::ios::binary);
+  file << *image;
+  file.close();
+  if (!file)
+    return cli::complain("the image cannot be kept at '" + flashed_.string() + "': is the disk full?");
   const auto kept = flash();
   config_.flash.assign(kept.begin(), kept.end());
   try {

@@ -17,13 +17,24 @@ constexpr std::uint8_t kCommunication = 2, kData = 0x0A;                   // cl
 constexpr std::uint8_t kGetDescriptor = 6, kSetConfiguration = 9, kSetLineCoding = 0x20,
                        kSetControlLineState = 0x22;
 constexpr std::uint8_t kToInterface = 0x21;
-constexpr int kPacketsPerStep = 8;
-
-void expect(bool fulfilled, const char* what) {
-  if (!fulfilled) throw Error(std::string("the USB device ") + what);
-}
+constexpr int kPacketsPerStep = 8, kMicroframesToDrain = 800;  // a tenth of a second
 
 }  // namespace
+
+void CdcHost::expect(bool fulfilled, const char* what) {
+  if (fulfilled) return;
+  if (!teensy_.usb().attached()) throw Gone{};
+  throw Error(std::string("the USB device ") + what);
+}
+
+template <class Work>
+void CdcHost::unless_it_goes(Work work) {
+  try {
+    work();
+  } catch (const Gone&) {
+    present_ = false;
+  }
+}
 
 CdcHost::Pipes CdcHost::pipes_of(std::span<const std::uint8_t> configuration) {
   Pipes pipes;
@@ -81,17 +92,23 @@ void CdcHost::open(std::uint32_t baud) {
   if (open_ && baud == baud_) return;
   open_ = true;
   baud_ = baud;
-  if (present_) set_line();
+  if (present_) unless_it_goes([this] { set_line(); });
 }
 
+/// What has been written before is sent first, as an operating system does it, but not for ever.
 void CdcHost::close() {
-  if (!std::exchange(open_, false)) return;
+  if (!open_) return;
+  for (int i = 0; i < kMicroframesToDrain && present_ && !to_device_.empty(); ++i) {
+    send_bytes();
+    teensy_.run_for(125us);
+  }
+  open_ = false;
   to_device_.clear();
   received_.clear();
-  if (present_) set_line();
+  if (present_) unless_it_goes([this] { set_line(); });
 }
 
-void CdcHost::move_bytes() {
+void CdcHost::send_bytes() {
   for (int i = 0; i < kPacketsPerStep && !to_device_.empty(); ++i) {
     const std::size_t count = std::min<std::size_t>(to_device_.size(), host_.bulk_packet());
     const std::vector<std::uint8_t> packet(to_device_.begin(),
@@ -99,6 +116,9 @@ void CdcHost::move_bytes() {
     if (!host_.send(pipes_.out, packet, 0us)) break;  // it has no room now
     to_device_.erase(to_device_.begin(), to_device_.begin() + static_cast<std::ptrdiff_t>(count));
   }
+}
+
+void CdcHost::take_bytes() {
   for (int i = 0; i < kPacketsPerStep; ++i) {
     const auto packet = host_.receive(pipes_.in, 0us);
     if (!packet || packet->handshake != Handshake::ack) break;
@@ -112,8 +132,10 @@ void CdcHost::step() {
     to_device_.clear();
     return;
   }
-  if (!present_) enumerate();
-  if (open_) move_bytes();
+  if (!present_) unless_it_goes([this] { enumerate(); });
+  if (!present_ || !open_) return;
+  send_bytes();
+  take_bytes();
 }
 
 }  // namespace astro::emulator

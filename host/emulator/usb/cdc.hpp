@@ -30,8 +30,9 @@ class CdcHost {
   void close();
   bool is_open() const { return open_; }
 
+  /// Bytes for a port that is closed are lost.
   void send(std::span<const std::uint8_t> bytes) {
-    to_device_.insert(to_device_.end(), bytes.begin(), bytes.end());
+    if (open_) to_device_.insert(to_device_.end(), bytes.begin(), bytes.end());
   }
   /// Bytes that the device has not taken yet.
   std::size_t underway() const { return to_device_.size(); }
@@ -44,10 +45,16 @@ class CdcHost {
     int in = 0, out = 0;
   };
 
+  struct Gone {};  // the device has left the bus in the middle of a request, which is its right
+
+  void expect(bool fulfilled, const char* what);
+  template <class Work>
+  void unless_it_goes(Work work);
   void enumerate();
-  static Pipes pipes_of(std::span<const std::uint8_t> configuration);
+  Pipes pipes_of(std::span<const std::uint8_t> configuration);
   void set_line();
-  void move_bytes();
+  void send_bytes();
+  void take_bytes();
 
   Teensy& teensy_;
   UsbHost host_;

@@ -20,7 +20,7 @@ constexpr std::uint32_t kDevice = 2, kControlType = 0;
 void UsbController::reset() {
   command_ = 0x0008'0000;
   status_ = enable_ = address_ = next_address_ = list_ = mode_ = setup_waiting_ = complete_ = 0;
-  address_due_ = resetting_ = suspended_ = false;
+  address_due_ = resetting_ = suspended_ = missed_reset_ = false;
   endpoint_ = {};
   endpoint_[0] = 0x0080'0080;
   queues_ = {};
@@ -48,8 +48,7 @@ void UsbController::begin_reset() {
 void UsbController::end_reset(bool high_speed) {
   resetting_ = false;
   high_speed_ = high_speed;
-  for (const Queue& queue : queues_)
-    if (queue.primed) machine_.fail("USB1 ENDPTFLUSH: a transfer is still primed after the bus reset");
+  for (const Queue& queue : queues_) missed_reset_ |= queue.primed;
   raise(usb::USBSTS_PCI(1));
 }
 
@@ -119,6 +118,9 @@ void UsbController::write_command(std::uint32_t value) {
 void UsbController::write_endpoint(int endpoint, std::uint32_t value) {
   if (endpoint != 0) {
     const bool in = usb::ENDPTCTRL1_TXE.of(value) != 0, out = usb::ENDPTCTRL1_RXE.of(value) != 0;
+    if ((!in && queue(endpoint, true).primed) || (!out && queue(endpoint, false).primed))
+      machine_.fail(
+          fmt::format("USB1 ENDPTCTRL{}: switched off with a transfer under way: flush it first", endpoint));
     if ((in && usb::ENDPTCTRL1_RXT.of(value) == kControlType) ||
         (out && usb::ENDPTCTRL1_TXT.of(value) == kControlType))
       machine_.fail(

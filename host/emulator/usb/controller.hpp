@@ -77,6 +77,7 @@ class UsbController : public Model {
   std::uint32_t command_ = 0, status_ = 0, enable_ = 0, address_ = 0, next_address_ = 0, list_ = 0, mode_ = 0;
   std::uint32_t setup_waiting_ = 0, complete_ = 0;
   bool address_due_ = false, resetting_ = false, high_speed_ = false, suspended_ = false;
+  bool missed_reset_ = false;  // a bus reset ended before the firmware had flushed what it had primed
   bool plugged_ = true;
   std::array<std::uint32_t, kEndpoints> endpoint_{};
   std::array<Queue, 2 * kEndpoints> queues_{};

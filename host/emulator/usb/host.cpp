@@ -100,8 +100,9 @@ UsbHost::Outcome UsbHost::write(const Request& request, std::span<const std::uin
 
 /// Requests after which both sides begin with DATA0 again.
 void UsbHost::follow(const Request& request) {
-  constexpr std::uint8_t kClearFeature = 1, kSetConfiguration = 9;
+  constexpr std::uint8_t kClearFeature = 1, kSetConfiguration = 9, kSetInterface = 11;
   if (request.type == 0x00 && request.request == kSetConfiguration) begin_toggles_anew();
+  if (request.type == 0x01 && request.request == kSetInterface) begin_toggles_anew();
   if (request.type != 0x02 || request.request != kClearFeature) return;
   auto& toggles = (request.index & 0x80) != 0 ? in_data1_ : out_data1_;
   toggles[request.index & 0xFU] = false;

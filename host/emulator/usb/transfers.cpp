@@ -52,11 +52,11 @@ std::uint32_t UsbController::packet_size(int endpoint, bool in) {
 }
 
 Handshake UsbController::setup(std::uint8_t address, const std::array<std::uint8_t, 8>& bytes) {
-  if (!attached() || resetting_ || address != address_) return Handshake::nothing;
+  if (!attached() || resetting_ || missed_reset_ || address != address_) return Handshake::nothing;
   const auto queue_head = head(0, false);
   if (queue_head.empty()) return Handshake::nothing;
   std::copy(bytes.begin(), bytes.end(), queue_head.begin() + 40);
-  // What was under way at endpoint 0 is cancelled, and a stall is over.
+  // A stall is over. What is primed stays so, and moves nothing, until the firmware has flushed it.
   control(0) &= ~(usb::ENDPTCTRL0_RXS.mask() | usb::ENDPTCTRL0_TXS.mask());
   for (const bool in : {false, true}) queue(0, in) = {.primed = queue(0, in).primed, .data1 = true};
   command_ &= ~usb::USBCMD_SUTW.mask();
@@ -67,7 +67,8 @@ Handshake UsbController::setup(std::uint8_t address, const std::array<std::uint8
 
 Packet UsbController::in(std::uint8_t address, int endpoint) {
   Packet packet;
-  if (!attached() || resetting_ || address != address_ || !enabled(endpoint, true)) return packet;
+  if (!attached() || resetting_ || missed_reset_ || address != address_ || !enabled(endpoint, true))
+    return packet;
   Queue& pipe = queue(endpoint, true);
   packet.handshake = stalled(endpoint, true) ? Handshake::stall : Handshake::nak;
   if (packet.handshake == Handshake::stall || !pipe.primed || setup_waiting_ != 0) return packet;
@@ -94,7 +95,7 @@ Packet UsbController::in(std::uint8_t address, int endpoint) {
 
 Handshake UsbController::out(std::uint8_t address, int endpoint, std::span<const std::uint8_t> bytes,
                              bool data1) {
-  if (!attached() || resetting_ || address != address_ || !enabled(endpoint, false))
+  if (!attached() || resetting_ || missed_reset_ || address != address_ || !enabled(endpoint, false))
     return Handshake::nothing;
   if (stalled(endpoint, false)) return Handshake::stall;
   Queue& pipe = queue(endpoint, false);
@@ -131,6 +132,13 @@ void UsbController::retire(int endpoint, bool in, std::uint32_t left) {
 }
 
 void UsbController::prime(int endpoint, bool in) {
+  if (missed_reset_)
+    return machine_.fail(
+        "USB1 ENDPTPRIME: a bus reset ended with transfers primed, and the controller was not reset");
+  if (queue(endpoint, in).primed)
+    return machine_.fail(fmt::format("USB1 ENDPTPRIME: endpoint {} has a transfer under way", endpoint));
+  if (endpoint == 0 && setup_waiting_ != 0)
+    return machine_.fail("USB1 ENDPTPRIME: endpoint 0 is primed while a SETUP packet waits");
   if (!enabled(endpoint, in))
     return machine_.fail(fmt::format("USB1 ENDPTPRIME: endpoint {} is not enabled", endpoint));
   const auto queue_head = head(endpoint, in);

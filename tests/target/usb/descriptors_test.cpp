@@ -80,7 +80,7 @@ void check_configuration(const Bytes& all, bool high_speed) {
   EXPECT_EQ(parts[2], (Bytes{9, kInterface, 0, 0, 1, 0x02, 0x02, 0x01, 0}))
       << "interface 0: communication, abstract control model, one endpoint";
   EXPECT_EQ(parts[3], (Bytes{5, kClassInterface, 0x00, 0x10, 0x01})) << "header first, class CDC 1.10";
-  EXPECT_EQ(parts[4], (Bytes{5, kClassInterface, 0x01, 0x01, 1})) << "calls are managed over interface 1";
+  EXPECT_EQ(parts[4], (Bytes{5, kClassInterface, 0x01, 0x00, 1})) << "calls are not managed by the device";
   EXPECT_EQ(parts[5], (Bytes{4, kClassInterface, 0x02, 0x06})) << "knows line coding, line state and break";
   EXPECT_EQ(parts[6], (Bytes{5, kClassInterface, 0x06, 0, 1})) << "interface 0 leads interface 1";
   EXPECT_EQ(parts[8], (Bytes{9, kInterface, 1, 0, 2, 0x0A, 0x00, 0x00, 0})) << "interface 1: data";

@@ -80,6 +80,20 @@ class Usb : public testing::TestWithParam<bool> {
     EXPECT_TRUE(host_.send(kOut, frame(message, request), 100ms));
     return answers(request);
   }
+  /// The robot's time in the first telemetry that comes now; 0 if something else comes before.
+  std::uint64_t time_of_first_telemetry_us() {
+    protocol::Framer framer;
+    for (int packets = 0; packets < 50; ++packets) {
+      const auto packet = host_.receive(kIn, 100ms);
+      if (!packet || packet->handshake != Handshake::ack) return 0;
+      for (const std::uint8_t byte : packet->bytes)
+        if (const auto body = framer.push(byte)) {
+          const auto telemetry = protocol::decode<protocol::Telemetry>(*body);
+          return telemetry && framer.counts().bad() == 0 ? telemetry->device_time_us : 0;
+        }
+    }
+    return 0;
+  }
   bool hello(std::uint16_t request) { return ask(protocol::Hello{}, request); }
 
   Teensy teensy_{ASTRO_IMAGE_DIR "/astrolabe-teensy40.hex"};

@@ -7,6 +7,7 @@ namespace {
 
 INSTANTIATE_TEST_SUITE_P(FullAndHighSpeed, Usb, testing::Bool(), name_of_speed);
 
+constexpr std::uint64_t kTick_us = 1000;  // telemetry tells of the last tick
 constexpr std::uint16_t kInAddress = 0x84, kOutAddress = 0x03, kNotifyAddress = 0x82;
 
 TEST_P(Usb, EnumeratesAsLinuxDoesIt) {
@@ -72,6 +73,25 @@ TEST_P(Usb, HasOneSettingOfEachInterface) {
   EXPECT_EQ(host_.write({0x01, 11, 1, 1, 0}), Outcome::stalled);
 }
 
+TEST_P(Usb, BeginsAnewWhenASettingIsChosen) {
+  configure();
+  open_port();
+  EXPECT_TRUE(ask(protocol::Ping{}, 15));  // a packet each way: both toggles stand at 1
+  ASSERT_EQ(host_.write({0x01, 11, 0, 1, 0}), Outcome::done);
+  EXPECT_TRUE(hello(16)) << "from DATA0 on both sides";
+}
+
+TEST_P(Usb, DropsWhatIsUnderWayWhenItIsConfiguredAgain) {
+  configure();
+  open_port();
+  ASSERT_TRUE(ask(protocol::SetTelemetry{1, protocol::Telemetry::kPose}, 17));
+  teensy_.run_for(50ms);  // nobody reads
+  ASSERT_EQ(host_.write({0x00, 9, 1, 0, 0}), Outcome::done);
+  EXPECT_EQ(host_.receive(kIn, 20ms), std::nullopt) << "no program has opened the port since";
+  open_port();
+  EXPECT_TRUE(hello(18));
+}
+
 TEST_P(Usb, AnswersTheProtocolOnceAPortIsOpen) {
   configure();
   open_port();
@@ -106,6 +126,34 @@ TEST_P(Usb, DropsARequestThatTheHostThinksBetterOf) {
   EXPECT_EQ(descriptor(1, 0, 18).size(), 18U);
 }
 
+TEST_P(Usb, TellsTheLastStageOfARequestFromTheNextRequest) {
+  configure();
+  Bytes read;
+  // GET_LINE_CODING, and SET_LINE_CODING before the firmware has heard of the former's status stage.
+  ASSERT_EQ(host_.setup_only({0xA1, 0x21, 0, 0, 7}), Handshake::ack);
+  ASSERT_EQ(teensy_.usb().in(kAddress, 0).bytes.size(), 7U);
+  teensy_.run_for(1ms);
+  ASSERT_EQ(teensy_.usb().out(kAddress, 0, {}, true), Handshake::ack);
+  const Bytes coding{0x80, 0x25, 0, 0, 0, 0, 8};
+  ASSERT_EQ(host_.write({0x21, 0x20, 0, 0, 7}, coding), Outcome::done);
+  ASSERT_EQ(host_.read({0xA1, 0x21, 0, 0, 7}, read), Outcome::done);
+  EXPECT_EQ(read, coding);
+}
+
+TEST_P(Usb, LeavesTheBusWhenItHasMissedAResetAndComesBack) {
+  configure();
+  open_port();
+  teensy_.usb().begin_reset();
+  teensy_.usb().end_reset(high_speed());  // over before the firmware has run
+  teensy_.run_for(1ms);
+  EXPECT_FALSE(teensy_.usb().attached()) << "so that the host forgets it";
+  ASSERT_TRUE(teensy_.run_until([&] { return teensy_.usb().attached(); }, 50ms));
+  host_.reset(high_speed());
+  configure();
+  open_port();
+  EXPECT_TRUE(hello(22));
+}
+
 TEST_P(Usb, ForgetsEverythingInABusResetInTheMiddleOfATransfer) {
   configure();
   open_port();
@@ -122,7 +170,7 @@ TEST_P(Usb, ForgetsEverythingInABusResetInTheMiddleOfATransfer) {
 TEST_P(Usb, HaltsAndUnhaltsEachEndpoint) {
   configure();
   open_port();
-  EXPECT_TRUE(hello(30));  // so that both toggles stand at 1
+  EXPECT_TRUE(ask(protocol::Ping{}, 30));  // a packet each way: both toggles stand at 1
   for (const std::uint16_t endpoint : {kInAddress, kOutAddress}) {
     ASSERT_EQ(host_.write({0x02, 3, 0, endpoint, 0}), Outcome::done);
     EXPECT_EQ(endpoint == kInAddress ? teensy_.usb().in(kAddress, kIn).handshake
@@ -136,12 +184,16 @@ TEST_P(Usb, HaltsAndUnhaltsEachEndpoint) {
   }
 }
 
-TEST_P(Usb, GoesOnAfterSuspendAndResume) {
+TEST_P(Usb, IsSilentWhileSuspendedAndTellsNothingOldAfterResume) {
   configure();
   open_port();
+  ASSERT_TRUE(ask(protocol::SetTelemetry{1, protocol::Telemetry::kPose}, 41));
   host_.suspend();
+  teensy_.run_for(100ms);
+  const std::uint64_t resumed_us = teensy_.robot_clock_us();
   host_.resume();
-  EXPECT_TRUE(hello(41));
+  EXPECT_GE(time_of_first_telemetry_us() + kTick_us, resumed_us);
+  EXPECT_TRUE(hello(42));
 }
 
 TEST_P(Usb, KeepsNothingForAPortThatNobodyHasOpen) {
@@ -152,20 +204,32 @@ TEST_P(Usb, KeepsNothingForAPortThatNobodyHasOpen) {
   EXPECT_TRUE(hello(52));
 }
 
+TEST_P(Usb, TellsAProgramNothingThatWasMeantForTheLastOne) {
+  configure();
+  open_port();
+  ASSERT_TRUE(ask(protocol::SetTelemetry{1, protocol::Telemetry::kPose}, 53));
+  teensy_.run_for(50ms);  // the program hangs, and is killed
+  close_port();
+  EXPECT_EQ(host_.receive(kIn, 20ms), std::nullopt);
+  const std::uint64_t opened_us = teensy_.robot_clock_us();
+  open_port();
+  EXPECT_GE(time_of_first_telemetry_us() + kTick_us, opened_us);
+}
+
 TEST_P(Usb, TakesATransferOfExactlyFullPacketsWithTheEmptyOneBehindItOrWithout) {
   configure();
   open_port();
-  for (const bool empty_packet : {true, false}) {
-    const std::uint16_t request = empty_packet ? 61 : 62;
-    Bytes bytes = frame(protocol::Hello{}, request);
-    bytes.insert(bytes.begin(), 512 - bytes.size(), 0);  // zeros are the ends of frames without content
-    ASSERT_TRUE(host_.send(kOut, bytes, 100ms));
-    if (empty_packet) {
-      ASSERT_TRUE(host_.send(kOut, {}, 100ms));
+  std::uint16_t request = 60;
+  for (const std::size_t size : {bulk_packet(), 2 * bulk_packet(), 7 * bulk_packet()})
+    for (const bool empty_packet : {true, false}) {
+      Bytes bytes = frame(protocol::Hello{}, ++request);
+      bytes.insert(bytes.begin(), size - bytes.size(), 0);  // zeros are the ends of frames without content
+      ASSERT_TRUE(host_.send(kOut, bytes, 100ms));
+      if (empty_packet) {
+        ASSERT_TRUE(host_.send(kOut, {}, 100ms));
+      }
+      EXPECT_TRUE(answers(request)) << size << (empty_packet ? " with" : " without");
     }
-    EXPECT_TRUE(answers(request)) << (empty_packet ? "with" : "without");
-    EXPECT_TRUE(hello(63)) << "and goes on";
-  }
 }
 
 TEST_P(Usb, EndsATransferOfExactlyFullPacketsByAnEmptyOne) {
@@ -237,6 +301,8 @@ TEST_P(Usb, AnArmedRobotPays134BaudNoHeed) {
   ASSERT_TRUE(ask(protocol::Disarm{}, 96));
   teensy_.run_for(500ms);
   EXPECT_FALSE(teensy_.in_bootloader()) << "nor later: it was asked when it could not";
+  ASSERT_EQ(set_baud(134), Outcome::done);
+  EXPECT_TRUE(teensy_.run_until([&] { return teensy_.in_bootloader(); }, 500ms)) << "asked again";
 }
 
 }  // namespace
