@@ -6,6 +6,7 @@
 #include "host/cli/connection.hpp"
 #include "host/cli/console.hpp"
 #include "host/cli/options.hpp"
+#include "host/cli/restart.hpp"
 
 namespace astro::cli {
 namespace {
@@ -14,19 +15,6 @@ struct RebootOptions {
   ConnectionOptions connection;
   bool bootloader = false;
 };
-
-// The restart may take its own acknowledgement with it, and the USB device; what comes after tells.
-template <protocol::Request M>
-void request_restart(link::Client& client) {
-  constexpr auto kUntilItGoes = std::chrono::milliseconds(500);
-  bool booted = false;
-  const auto subscription = client.on<protocol::Booted>([&](const protocol::Booted&) { booted = true; });
-  try {
-    client.request(M{});
-    client.pump_until([&] { return booted; }, kUntilItGoes);
-  } catch (const link::LinkLost&) {
-  }
-}
 
 void run(RebootOptions& options) {
   const auto client = connect(options.connection);

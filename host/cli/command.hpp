@@ -19,6 +19,7 @@ void add_drive(CLI::App& app);
 void add_stop(CLI::App& app);
 void add_faults(CLI::App& app);
 void add_reboot(CLI::App& app);
+void add_flash(CLI::App& app);
 void add_monitor(CLI::App& app);
 void add_record(CLI::App& app);
 void add_calibrate(CLI::App& app);

@@ -27,7 +27,7 @@ bool has_commands(const CLI::App& app) {
 }
 
 Place place_of(const CLI::App& app, int argc, char** argv) {
-  Place place{&app, "astrolabe", ""};
+  Place place{&app, app.get_name(), ""};
   for (int i = 1; i < argc && has_commands(*place.command); ++i) {
     const std::string word = argv[i];
     const CLI::App* next = find(*place.command, word);

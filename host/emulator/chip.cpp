@@ -31,24 +31,24 @@ constexpr std::uint16_t kCallHalfKay = 0xBEFB, kWaitForEvent = 0xBF20;  // bkpt 
 
 Chip::Chip()
     : cpu_(std::make_unique<Cpu>(
-          memory_, Cpu::Hooks{[this] { return interrupted(); },
-                              [this](std::uint32_t address, int bytes) {
-                                if (address < kPrivatePeripherals) return bus_.read(address, bytes);
-                                if (find_register(address) == nullptr || bytes != 4)
-                                  fail(name_of(address) + ": read of a register that is not modelled");
-                                return control_.read(address);
-                              },
-                              [this](std::uint32_t address, std::uint32_t value, int bytes) {
-                                if (address < kPrivatePeripherals) return bus_.write(address, value, bytes);
-                                if (find_register(address) == nullptr || bytes != 4)
-                                  fail(name_of(address) + ": write of a register that is not modelled");
-                                control_.write(address, value);
-                              },
-                              [this](std::uint32_t number) {
-                                on_exception(number);
-                                return failure_.empty() && exceptions_.violation.empty() &&
-                                       number != kNeverExecuted;
-                              }})),
+          memory_,
+          Cpu::Hooks{[this] { return interrupted(); }, [this] { skip_to(std::min(next_event_, end_)); },
+                     [this](std::uint32_t address, int bytes) {
+                       if (address < kPrivatePeripherals) return bus_.read(address, bytes);
+                       if (find_register(address) == nullptr || bytes != 4)
+                         fail(name_of(address) + ": read of a register that is not modelled");
+                       return control_.read(address);
+                     },
+                     [this](std::uint32_t address, std::uint32_t value, int bytes) {
+                       if (address < kPrivatePeripherals) return bus_.write(address, value, bytes);
+                       if (find_register(address) == nullptr || bytes != 4)
+                         fail(name_of(address) + ": write of a register that is not modelled");
+                       control_.write(address, value);
+                     },
+                     [this](std::uint32_t number) {
+                       on_exception(number);
+                       return failure_.empty() && exceptions_.violation.empty() && number != kNeverExecuted;
+                     }})),
       exceptions_(*cpu_, memory_, protection_) {}
 
 void Chip::start(Reset cause) {

@@ -1,5 +1,7 @@
 #include "host/emulator/cpu.hpp"
 
+#include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -81,6 +83,12 @@ std::uint32_t Cpu::count(std::uint32_t address, std::uint32_t bytes) {
   return instructions;
 }
 
+bool Cpu::branches_to_itself(std::uint32_t address) {
+  constexpr std::array<std::uint8_t, 2> kBranch{0xFE, 0xE7};
+  const auto code = memory_.at(address, kBranch.size());
+  return std::equal(code.begin(), code.end(), kBranch.begin(), kBranch.end());
+}
+
 void Cpu::on_block(uc_engine* engine, std::uint64_t address, std::uint32_t bytes, void* self) {
   auto& cpu = *static_cast<Cpu*>(self);
   if (cpu.stopping_) return;
@@ -92,6 +100,7 @@ void Cpu::on_block(uc_engine* engine, std::uint64_t address, std::uint32_t bytes
   const std::uint32_t instructions = cpu.count(static_cast<std::uint32_t>(address), bytes);
   cpu.instructions_ += instructions;
   if (cpu.trace) cpu.trace(static_cast<std::uint32_t>(address), instructions);
+  if (bytes == 2 && cpu.branches_to_itself(static_cast<std::uint32_t>(address))) cpu.hooks_.spinning();
 }
 
 void Cpu::on_interrupt(uc_engine* engine, std::uint32_t number, void* self) {

@@ -24,6 +24,7 @@ class Cpu {
   /// What the machine does when the engine asks.
   struct Hooks {
     std::function<bool()> interrupted;  // before each block: true ends the run there
+    std::function<void()> spinning;     // a branch to itself: only what happens outside gets it out
     std::function<std::uint32_t(std::uint32_t address, int bytes)> read;
     std::function<void(std::uint32_t address, std::uint32_t value, int bytes)> write;
     // EXC_RETURN, SVC, BKPT by the engine's numbers; false: the run cannot go on.
@@ -77,6 +78,7 @@ class Cpu {
   template <std::uint32_t Base>
   void map_registers(std::size_t bytes);
   std::uint32_t count(std::uint32_t address, std::uint32_t bytes);
+  bool branches_to_itself(std::uint32_t address);
 
   struct Block {
     std::uint32_t address = ~0U, bytes = 0, instructions = 0;

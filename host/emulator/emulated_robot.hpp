@@ -5,13 +5,16 @@
 #include <vector>
 
 #include "host/emulator/teensy.hpp"
+#include "host/emulator/usb/cdc.hpp"
 #include "host/link/transport.hpp"
 #include "host/simulator/virtual_mocap.hpp"
 #include "host/truth/source.hpp"
 
 namespace astro::emulator {
 
-/// An emulated Teensy on its robot, watched by the virtual cameras.
+enum class Port : std::uint8_t { serial, usb };
+
+/// An emulated Teensy on its robot, watched by the virtual cameras, with a computer at both of its ports.
 class EmulatedRobot {
  public:
   EmulatedRobot(const std::filesystem::path& hex, const sim::Config& config,
@@ -22,33 +25,48 @@ class EmulatedRobot {
   void step();
 
   Teensy& teensy() { return teensy_; }
+  /// The computer's side of the USB port. Nobody has it open at first.
+  CdcHost& usb() { return usb_; }
+
+  void send(Port port, std::span<const std::uint8_t> bytes);
+  /// Sent, and not yet arrived at the robot.
+  std::size_t underway(Port port);
   /// Bytes that the robot has sent since the last call, at most into.size().
-  std::size_t read_serial(std::span<std::uint8_t> into);
+  std::size_t receive(Port port, std::span<std::uint8_t> into);
   /// What the cameras saw since the last call, by the robot's clock.
   std::vector<recording::TruthSample> take_truth() { return std::exchange(seen_, {}); }
 
  private:
+  std::vector<std::uint8_t>& received(Port port) { return received_[static_cast<std::size_t>(port)]; }
+
   Teensy teensy_;
+  CdcHost usb_{teensy_};
   simulator::VirtualMocap mocap_;
   std::vector<recording::TruthSample> seen_;
-  std::vector<std::uint8_t> received_;
+  std::array<std::vector<std::uint8_t>, 2> received_;
   std::uint64_t clock_us_ = 0;
 };
 
-/// A link to it by the serial port, in the same process: waiting for a byte is what makes virtual time pass.
-class SerialTransport : public link::Transport {
+/// A link to it in the same process: waiting for a byte is what makes virtual time pass. Has the USB port
+/// open for as long as it lives; errors as of a device file.
+class PortTransport : public link::Transport {
  public:
-  explicit SerialTransport(std::shared_ptr<EmulatedRobot> robot) : robot_(std::move(robot)) {}
+  PortTransport(std::shared_ptr<EmulatedRobot> robot, Port port);
+  ~PortTransport() override;
 
-  void write(std::span<const std::uint8_t> bytes) override { robot_->teensy().serial().send(bytes); }
+  void write(std::span<const std::uint8_t> bytes) override;
   std::size_t read(std::span<std::uint8_t> into, link::microseconds timeout) override;
   link::microseconds now() const override;
   void reopen(link::microseconds timeout) override;
   const std::string& name() const override { return name_; }
 
  private:
+  bool present() const { return port_ == Port::serial || robot_->usb().present(); }
+  void check_present() const;
+
   std::shared_ptr<EmulatedRobot> robot_;
-  std::string name_ = "the emulated robot's serial port";
+  Port port_;
+  std::string name_;
 };
 
 class EmulatedTruth : public truth::Source {

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "hal/teensy40/registers/registers.hpp"
-#include "host/emulator/hex.hpp"
+#include "host/base/firmware_image.hpp"
 
 namespace astro::emulator {
 namespace {
@@ -17,7 +17,8 @@ constexpr std::uint32_t kPage = 0x1000;
 Teensy::Teensy(const std::filesystem::path& hex, const sim::Config& robot)
     : ocotp_(chip_, static_cast<std::uint32_t>(robot.seed)),
       world_(chip_, robot, {pwm_, gpio7_, encoder_wires_, adc_, iomuxc_}) {
-  load_hex(hex, chip_.memory().flash());
+  const FirmwareImage image = read_firmware_image(hex);
+  std::copy(image.flash.begin(), image.flash.end(), chip_.memory().flash().begin());
   const auto elf = std::filesystem::path(hex).replace_extension(".elf");
   if (std::filesystem::exists(elf)) chip_.symbols = Symbols(elf);
   const auto parameters = flash_.parameters();

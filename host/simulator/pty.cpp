@@ -110,6 +110,11 @@ bool Pty::connected() const {
   return poll(&state, 1, 0) >= 0 && (state.revents & POLLHUP) == 0;
 }
 
+std::uint32_t Pty::baud() const {
+  termios settings{};
+  return tcgetattr(fd_, &settings) == 0 && cfgetospeed(&settings) == B134 ? 134 : 115'200;
+}
+
 std::size_t Pty::read(std::span<std::uint8_t> into) {
   const ssize_t count = ::read(fd_, into.data(), into.size());
   return count > 0 ? static_cast<std::size_t>(count) : 0;  // EAGAIN, or EIO while nobody is there

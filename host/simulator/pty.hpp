@@ -27,6 +27,9 @@ class Pty {
   /// True while a host has the other end open.
   bool connected() const;
 
+  /// The speed that a host has set, as far as it means something here: 134, or 115200 for all others.
+  std::uint32_t baud() const;
+
   /// Bytes moved, 0 if none could be; never block.
   std::size_t read(std::span<std::uint8_t> into);
   std::size_t write(std::span<const std::uint8_t> bytes);

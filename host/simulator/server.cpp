@@ -19,11 +19,38 @@ constexpr std::uint64_t kLease_us = 100'000;  // virtual time that one word of t
 constexpr auto kPatience = 200ms;  // real time that a host may take nothing before it is left behind
 constexpr auto kSilence = 1s;      // real time that a host may say nothing before time goes on without it
 constexpr auto kTick = 1ms;
-constexpr std::size_t kMostOutgoing = 1U
-                                      << 16;  // beyond that the robot's own queue fills, and it drops frames
-constexpr int kStepsPerLook = 50;             // virtual ms between two looks at the host while running ahead
+constexpr int kStepsPerLook = 50;  // virtual ms between two looks at the host while running ahead
 
-std::vector<std::uint8_t> load(const fs::path& path) {
+sim::Config with_flash(sim::Config config, const fs::path& path) {
+  config.flash = load_flash(path);
+  return config;
+}
+
+fs::path beside(fs::path pty, const char* suffix) { return pty += suffix; }
+
+class ServedVirtualRobot : public Served {
+ public:
+  ServedVirtualRobot(const sim::Config& config, const MocapConfig& mocap) : robot_(config, mocap) {}
+
+  void step() override { robot_.step(); }
+  std::uint64_t now_us() override { return robot_.now_us(); }
+  std::size_t room(int port) override { return robot_.board().ports().host_room(port); }
+  void write(int port, std::span<const std::uint8_t> bytes) override {
+    robot_.board().ports().host_write(port, bytes);
+  }
+  std::size_t read(int port, std::span<std::uint8_t> into) override {
+    return robot_.board().ports().host_read(port, into);
+  }
+  std::vector<recording::TruthSample> take_truth() override { return robot_.take_truth(); }
+  std::span<const std::uint8_t> flash() override { return robot_.board().flash().content(); }
+
+ private:
+  VirtualRobot robot_;
+};
+
+}  // namespace
+
+std::vector<std::uint8_t> load_flash(const fs::path& path) {
   if (path.empty() || !fs::exists(path)) return {};
   std::ifstream file(path, std::ios::binary);
   std::vector<std::uint8_t> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
@@ -31,22 +58,17 @@ std::vector<std::uint8_t> load(const fs::path& path) {
   return bytes;
 }
 
-sim::Config with_flash(sim::Config config, const fs::path& path) {
-  config.flash = load(path);
-  return config;
-}
-
-fs::path beside(fs::path pty, const char* suffix) { return pty += suffix; }
-
-}  // namespace
-
 Server::Server(const sim::Config& robot, const MocapConfig& mocap, const ServerConfig& config)
-    : config_(config),
-      robot_(with_flash(robot, config.flash), mocap),
-      pty_(config.pty),
-      truth_(beside(config.pty, ".mocap")),
-      due_(Clock::now()) {
-  const auto content = robot_.board().flash().content();
+    : Server(std::make_unique<ServedVirtualRobot>(with_flash(robot, config.flash), mocap), config) {}
+
+Server::Server(std::unique_ptr<Served> robot, const ServerConfig& config)
+    : config_(config), robot_(std::move(robot)), truth_(beside(config.pty, ".mocap")), due_(Clock::now()) {
+  channels_.emplace_back(*robot_, 0, config.pty);
+  if (!config.second_pty.empty()) {
+    channels_.emplace_back(*robot_, 1, config.second_pty);
+    truth_.add_link(beside(config.second_pty, ".mocap"));
+  }
+  const auto content = robot_->flash();
   saved_flash_.assign(content.begin(), content.end());
 }
 
@@ -76,36 +98,34 @@ void Server::run(const std::function<bool()>& stop) {
 
 void Server::receive() {
   truth_.accept_clients();
-  std::array<std::uint8_t, 4096> bytes;  // NOLINT(cppcoreguidelines-pro-type-member-init)
-  const std::size_t room = std::min(bytes.size(), robot_.board().ports().host_room(0));
-  const std::size_t count = pty_.read(std::span(bytes).first(room));
-  if (count == 0) return;
-  robot_.board().ports().host_write(0, std::span(bytes).first(count));
-  last_heard_us_ = robot_.now_us();
+  bool heard = false;
+  for (Channel& channel : channels_) {
+    channel.look();
+    heard |= channel.receive();
+  }
+  if (!heard) return;
+  last_heard_us_ = robot_->now_us();
   heard_at_ = Clock::now();
   step();  // answered at once, whatever the pace
   save_flash();
 }
 
 bool Server::transmit() {
-  std::array<std::uint8_t, 4096> bytes;  // NOLINT(cppcoreguidelines-pro-type-member-init)
-  std::size_t count = 0;
-  while (outgoing_.size() < kMostOutgoing && (count = robot_.board().ports().host_read(0, bytes)) != 0)
-    outgoing_.insert(outgoing_.end(), bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(count));
-  if (!pty_.connected()) outgoing_.clear();  // nobody listens: the bytes are lost, as on a wire
-  if (!outgoing_.empty())
-    outgoing_.erase(outgoing_.begin(),
-                    outgoing_.begin() + static_cast<std::ptrdiff_t>(pty_.write(outgoing_)));
-  const bool truth_waits = truth_.flush();
-  return !outgoing_.empty() || truth_waits;
+  bool behind = truth_.flush();
+  for (Channel& channel : channels_) behind |= channel.transmit();
+  return behind;
+}
+
+bool Server::connected() const {
+  return std::any_of(channels_.begin(), channels_.end(), [](const Channel& c) { return c.connected(); });
 }
 
 bool Server::runs_ahead(bool host_is_behind) {
   if (!config_.fast) return false;
-  if (robot_.now_us() - last_heard_us_ >= kLease_us) {
+  if (robot_->now_us() - last_heard_us_ >= kLease_us) {
     // Stand still for a host that is late, be its machine ever so busy, but not for one that hangs or has
     // gone.
-    if (pty_.connected() && Clock::now() - heard_at_ < kSilence) due_ = Clock::now() + kTick;
+    if (connected() && Clock::now() - heard_at_ < kSilence) due_ = Clock::now() + kTick;
     return false;
   }
   if (!host_is_behind) {
@@ -118,25 +138,29 @@ bool Server::runs_ahead(bool host_is_behind) {
 }
 
 void Server::step() {
-  robot_.step();
-  for (const recording::TruthSample& sample : robot_.take_truth()) truth_.send(sample);
-  if (robot_.now_us() < last_heard_us_) last_heard_us_ = 0;  // the robot restarted
+  robot_->step();
+  for (const recording::TruthSample& sample : robot_->take_truth()) truth_.send(sample);
+  if (robot_->now_us() < last_heard_us_) last_heard_us_ = 0;  // the robot restarted
 }
 
 void Server::wait() {
   const auto until = std::chrono::duration_cast<std::chrono::microseconds>(due_ - Clock::now());
   if (until <= 0us) return;
-  if (!pty_.connected()) {
+  if (!connected()) {
     std::this_thread::sleep_for(until);
     return;
   }
-  pollfd state{pty_.fd(), static_cast<short>(POLLIN | (outgoing_.empty() ? 0 : POLLOUT)), 0};
+  std::vector<pollfd> hosts;
+  for (const Channel& channel : channels_)
+    if (channel.connected())
+      hosts.push_back(
+          {*channel.fd(), static_cast<short>(POLLIN | (channel.has_outgoing() ? POLLOUT : 0)), 0});
   const timespec timeout{0, static_cast<long>(std::min<std::int64_t>(until.count(), 20'000) * 1000)};
-  ppoll(&state, 1, &timeout, nullptr);
+  ppoll(hosts.data(), hosts.size(), &timeout, nullptr);
 }
 
 void Server::save_flash() {
-  const auto content = robot_.board().flash().content();
+  const auto content = robot_->flash();
   if (config_.flash.empty() || std::equal(content.begin(), content.end(), saved_flash_.begin())) return;
   const fs::path part = beside(config_.flash, ".part");
   std::ofstream file(part, std::ios::binary);

@@ -2,21 +2,29 @@
 
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <memory>
 
-#include "host/simulator/pty.hpp"
+#include "host/simulator/channel.hpp"
+#include "host/simulator/served.hpp"
 #include "host/simulator/truth_server.hpp"
 #include "host/simulator/virtual_robot.hpp"
 
 namespace astro::simulator {
 
 struct ServerConfig {
-  std::filesystem::path pty;    // symlink to make; the cameras' socket is beside it, with ".mocap" added
-  std::filesystem::path flash;  // file that keeps the robot's flash between starts; empty: nothing is kept
+  // Symlink to make, which leads to the robot's port 0; the cameras' socket is beside it, with ".mocap"
+  // added.
+  std::filesystem::path pty;
+  std::filesystem::path flash{};  // keeps the robot's flash between starts; empty: nothing is kept
   bool fast = false;
+  std::filesystem::path second_pty{};  // to port 1; empty: none
 };
+
+/// The content of a flash file; empty if there is none. Throws astro::Error if it cannot be read.
+std::vector<std::uint8_t> load_flash(const std::filesystem::path& path);
 
 /// A simulated robot behind a pty, for as long as the process lives.
 ///
@@ -27,12 +35,14 @@ struct ServerConfig {
 class Server {
  public:
   Server(const sim::Config& robot, const MocapConfig& mocap, const ServerConfig& config);
+  /// Another robot than VirtualRobot, which has been given load_flash(config.flash).
+  Server(std::unique_ptr<Served> robot, const ServerConfig& config);
   ~Server();
 
   /// Until `stop` says so; asked at least every 20 ms.
   void run(const std::function<bool()>& stop);
 
-  const Pty& pty() const { return pty_; }
+  const ServerConfig& config() const { return config_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -40,16 +50,16 @@ class Server {
   void receive();
   /// True if the host has not taken all bytes yet.
   bool transmit();
+  bool connected() const;
   bool runs_ahead(bool host_is_behind);
   void step();
   void wait();
   void save_flash();
 
   ServerConfig config_;
-  VirtualRobot robot_;
-  Pty pty_;
+  std::unique_ptr<Served> robot_;
+  std::deque<Channel> channels_;
   TruthServer truth_;
-  std::vector<std::uint8_t> outgoing_;
   std::uint64_t last_heard_us_ = 0;   // virtual
   Clock::time_point heard_at_{};      // the same in real time
   Clock::time_point behind_since_{};  // real time since when the host takes nothing

@@ -40,6 +40,17 @@ TruthServer::~TruthServer() {
   close(fd_);
   std::error_code ignored;
   std::filesystem::remove(path_, ignored);
+  for (const std::filesystem::path& link : links_) std::filesystem::remove(link, ignored);
+}
+
+void TruthServer::add_link(const std::filesystem::path& link) {
+  std::error_code error;
+  if (std::filesystem::is_symlink(link)) std::filesystem::remove(link, error);
+  std::filesystem::create_symlink(std::filesystem::absolute(path_), link, error);
+  if (error)
+    throw Error(
+        fmt::format("the virtual cameras' link '{}' cannot be made: {}", link.string(), error.message()));
+  links_.push_back(link);
 }
 
 void TruthServer::accept_clients() {

@@ -22,6 +22,9 @@ class TruthServer {
   TruthServer(const TruthServer&) = delete;
   TruthServer& operator=(const TruthServer&) = delete;
 
+  /// Another name for the same socket, taken away with it. Throws astro::Error if it cannot be made.
+  void add_link(const std::filesystem::path& link);
+
   void accept_clients();
   void send(const recording::TruthSample& sample);
 
@@ -36,6 +39,7 @@ class TruthServer {
   };
 
   std::filesystem::path path_;
+  std::vector<std::filesystem::path> links_;
   int fd_ = -1;
   std::vector<Client> clients_;
 };

@@ -34,7 +34,7 @@ class Program {
     redirect("/dev/null", O_RDONLY, 0);
     redirect(out_, O_WRONLY | O_CREAT | O_TRUNC, 1);
     redirect(err_, O_WRONLY | O_CREAT | O_TRUNC, 2);
-    alarm(120);  // whatever the test does, the child ends; the timer survives exec
+    alarm(240);  // whatever the test does, the child ends; the timer survives exec
     execv(arguments[0], arguments.data());
     _exit(127);
   }

@@ -1,6 +1,7 @@
 #include <array>
 #include <cstdint>
 
+#include "common/base/version.hpp"
 #include "hal/teensy40/boot/start.hpp"
 
 /// What the boot ROM reads before it runs anything: how to talk to the flash, and where the program is. The
@@ -47,6 +48,13 @@ struct VectorTable {
   std::uint32_t signature, reserved_1c;
 };
 
+struct ImageInfo {
+  std::array<char, 12> name{"Astrolabe"};
+  Version version = kFirmwareVersion;
+  std::uint8_t reserved = 0;
+};
+static_assert(sizeof(ImageInfo) == 16);
+
 }  // namespace
 
 extern "C" {
@@ -64,6 +72,10 @@ extern const std::uint8_t image_start, image_length;
 [[gnu::section(".image_vector_table")]] extern const VectorTable image_vector_table;
 [[gnu::used]] const VectorTable image_vector_table{0x4320'00D1,         reset, 0, 0, &boot_data,
                                                    &image_vector_table, 0,     0};
+
+/// Who it is, for programs that flash it (host/base/firmware_image).
+[[gnu::section(".image_info")]] extern const ImageInfo image_info;
+[[gnu::used]] const ImageInfo image_info{};
 
 }  // extern "C"
 

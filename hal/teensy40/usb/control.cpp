@@ -36,13 +36,19 @@ bool Control::exists(std::uint8_t endpoint) {
 
 std::uint8_t Control::bit(std::uint8_t endpoint) { return static_cast<std::uint8_t>(1U << (endpoint & 7)); }
 
+// A reply that is shorter than what the host asked for and ends with a full packet would need an empty one
+// behind it. None does: nothing that we send whole is a multiple of a packet.
+constexpr bool ends_by_itself(std::size_t bytes) { return bytes % kControlPacket != 0; }
+static_assert(ends_by_itself(kDevice.size()) && ends_by_itself(kQualifier.size()) &&
+              ends_by_itself(kConfigurationBytes) && ends_by_itself(kLanguages.size()) &&
+              ends_by_itself(StringDescriptor(kManufacturer).size) &&
+              ends_by_itself(StringDescriptor(kProduct).size) && ends_by_itself(kStringBytes));
+
 /// From a buffer of our own: constants lie with the code, where the controller does not reach.
 Response Control::send(std::span<const std::uint8_t> all, const Setup& setup) {
   if (all.data() != reply_.data()) std::copy(all.begin(), all.end(), reply_.begin());
-  const auto data = std::span<const std::uint8_t>(reply_).first(all.size());
-  const auto part = data.first(std::min<std::size_t>(data.size(), setup.length));
-  const bool ends_full = part.size() % kControlPacket == 0 && part.size() < setup.length;
-  return {.kind = Response::Kind::send, .data = part, .zero_length_packet = ends_full && !part.empty()};
+  const std::size_t size = std::min<std::size_t>(all.size(), setup.length);
+  return {.kind = Response::Kind::send, .data = std::span<const std::uint8_t>(reply_).first(size)};
 }
 
 Response Control::send_small(const Setup& setup, std::uint16_t value, std::size_t bytes) {

@@ -20,9 +20,6 @@ struct Response {
   };
   Kind kind = Kind::stall;
   std::span<const std::uint8_t> data{};
-  /// After `data` a zero-length packet must follow: it is shorter than the host asked for and ends with a
-  /// full packet.
-  bool zero_length_packet = false;
   std::uint16_t length = 0;
 };
 

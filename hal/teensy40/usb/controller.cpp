@@ -86,8 +86,8 @@ void start(bool was_attached) {
   start_supply();
   open_gate(CCM[ccm::CCGR6], ccm::CCGR6_CG0);
   start_transceiver(was_attached);
-  constexpr std::uint32_t kDevice_mode = 2;
-  USB1[usb::USBMODE].write(usb::USBMODE_CM(kDevice_mode) | usb::USBMODE_SLOM(1));
+  constexpr std::uint32_t kDeviceMode = 2;
+  USB1[usb::USBMODE].write(usb::USBMODE_CM(kDeviceMode) | usb::USBMODE_SLOM(1));
   reset_heads();
   USB1[usb::ENDPTLISTADDR].write(address_of(heads));
   USB1[usb::USBSTS].write(~0U);
@@ -170,7 +170,7 @@ bool take_setup(Setup& setup) {
   return true;
 }
 
-void begin(Pipe pipe, std::span<std::uint8_t> bytes, bool end_with_empty) {
+void begin(Pipe pipe, std::span<std::uint8_t> bytes) {
   const std::uint32_t index = pipe.index();
   Transfer& transfer = transfers[index];
   QueueHead& head = heads[index];
@@ -182,8 +182,6 @@ void begin(Pipe pipe, std::span<std::uint8_t> bytes, bool end_with_empty) {
     page = address;
     address = (address & ~0xFFFU) + 0x1000;
   }
-  if (pipe.endpoint == 0 && pipe.in)
-    head.capabilities = head_capabilities(kControlPacket, end_with_empty ? 0 : kNoEmptyPacket);
   head.next = address_of(&transfer);
   head.token &= ~(kActive | kHalted);
   cpu::synchronize();

@@ -42,9 +42,9 @@ void stall_control();
 /// True if a SETUP packet has come; what was under way at endpoint 0 is dropped then.
 bool take_setup(Setup& setup);
 
-/// Starts a transfer. The bytes stay where they are until it is over. `end_with_empty`: a multiple of full
-/// packets is followed by an empty one.
-void begin(Pipe pipe, std::span<std::uint8_t> bytes, bool end_with_empty = false);
+/// Starts a transfer. The bytes stay where they are until it is over. To the host, a multiple of full packets
+/// of the bulk endpoint is followed by an empty one, without which the host would wait for more.
+void begin(Pipe pipe, std::span<std::uint8_t> bytes);
 /// Pipes whose transfers have ended since the last call, a bit each.
 std::uint32_t take_completed();
 /// Bytes moved by the last transfer of a pipe.

@@ -62,7 +62,7 @@ void UsbSerial::handle_setup(const usb_device::Setup& setup) {
       return controller::begin(kControlOut, std::span(control_data_).first(response.length));
     case Response::Kind::send:
       status_stage_ = true;
-      controller::begin(kControlIn, bytes, response.zero_length_packet);
+      controller::begin(kControlIn, bytes);
       return controller::begin(kControlOut, {});
   }
 }

@@ -35,7 +35,7 @@ void UsbController::reset() {
 }
 
 bool UsbController::attached() const {
-  return usb::USBCMD_RS.of(command_) != 0 && usb::USBMODE_CM.of(mode_) == kDevice && clocked_();
+  return plugged_ && usb::USBCMD_RS.of(command_) != 0 && usb::USBMODE_CM.of(mode_) == kDevice && clocked_();
 }
 
 void UsbController::update() { machine_.set_interrupt(kIrq, (status_ & enable_) != 0); }
@@ -68,6 +68,12 @@ void UsbController::suspend() {
 void UsbController::resume() {
   suspended_ = false;
   raise(usb::USBSTS_PCI(1));
+}
+
+void UsbController::unplug() {
+  plugged_ = false;
+  suspended_ = true;
+  raise(usb::USBSTS_PCI(1) | usb::USBSTS_SLI(1));
 }
 
 void UsbController::flush(std::uint32_t bits) {

@@ -39,6 +39,9 @@ class UsbController : public Model {
   void end_reset(bool high_speed);
   void suspend();
   void resume();
+  /// The cable, which is in from the start. Without it the device sees the bus fall silent.
+  void unplug();
+  void plug_in() { plugged_ = true; }
 
   Handshake setup(std::uint8_t address, const std::array<std::uint8_t, 8>& bytes);
   Packet in(std::uint8_t address, int endpoint);
@@ -74,6 +77,7 @@ class UsbController : public Model {
   std::uint32_t command_ = 0, status_ = 0, enable_ = 0, address_ = 0, next_address_ = 0, list_ = 0, mode_ = 0;
   std::uint32_t setup_waiting_ = 0, complete_ = 0;
   bool address_due_ = false, resetting_ = false, high_speed_ = false, suspended_ = false;
+  bool plugged_ = true;
   std::array<std::uint32_t, kEndpoints> endpoint_{};
   std::array<Queue, 2 * kEndpoints> queues_{};
 };

@@ -25,7 +25,7 @@ void UsbHost::reset(bool high_speed) {
   teensy_.usb().end_reset(high_speed);
   bulk_packet_ = high_speed ? 512 : 64;
   address_ = 0;
-  forget_toggles();
+  begin_toggles_anew();
   teensy_.run_for(1ms);
 }
 
@@ -93,8 +93,21 @@ UsbHost::Outcome UsbHost::write(const Request& request, std::span<const std::uin
   const Packet status = patient_in(0);
   if (status.handshake == Handshake::stall) return Outcome::stalled;
   const bool right = status.handshake == Handshake::ack && status.bytes.empty() && status.data1;
-  return right ? Outcome::done : Outcome::no_answer;
+  if (!right) return Outcome::no_answer;
+  follow(request);
+  return Outcome::done;
 }
+
+/// Requests after which both sides begin with DATA0 again.
+void UsbHost::follow(const Request& request) {
+  constexpr std::uint8_t kClearFeature = 1, kSetConfiguration = 9;
+  if (request.type == 0x00 && request.request == kSetConfiguration) begin_toggles_anew();
+  if (request.type != 0x02 || request.request != kClearFeature) return;
+  auto& toggles = (request.index & 0x80) != 0 ? in_data1_ : out_data1_;
+  toggles[request.index & 0xFU] = false;
+}
+
+void UsbHost::begin_toggles_anew() { out_data1_ = in_data1_ = {}; }
 
 UsbHost::Outcome UsbHost::set_address(std::uint8_t address) {
   const Outcome outcome = write({0x00, 5, address, 0, 0});
@@ -124,7 +137,14 @@ std::optional<Packet> UsbHost::receive(int endpoint, std::chrono::microseconds l
   const Cycles end = teensy_.now() + static_cast<Cycles>(limit.count()) * kCyclesPerMicrosecond;
   while (true) {
     Packet packet = teensy_.usb().in(address_, endpoint);
-    if (packet.handshake != Handshake::nak) return packet;
+    if (packet.handshake == Handshake::ack) {
+      bool& data1 = in_data1_[static_cast<std::size_t>(endpoint)];
+      const bool fresh = packet.data1 == data1;
+      data1 = !packet.data1;
+      if (fresh) return packet;
+    } else if (packet.handshake != Handshake::nak) {
+      return packet;
+    }
     if (teensy_.now() >= end) return {};
     teensy_.run_for(kMicroframe);
   }

@@ -38,23 +38,24 @@ class UsbHost {
 
   /// One bulk transfer to the device; false if it did not take all within `limit`.
   bool send(int endpoint, std::span<const std::uint8_t> bytes, std::chrono::microseconds limit);
-  /// One packet from the device, if it has one within `limit`.
+  /// One packet from the device, if it has one within `limit`. One with the toggle of the last is a
+  /// repetition, and passed over.
   std::optional<Packet> receive(int endpoint, std::chrono::microseconds limit);
-  /// The device's toggles begin anew.
-  void forget_toggles() { out_data1_ = {}; }
 
   std::uint8_t address() const { return address_; }
+  std::uint16_t bulk_packet() const { return bulk_packet_; }
 
  private:
+  void follow(const Request& request);
+  void begin_toggles_anew();
   Handshake patiently(const std::function<Handshake()>& transaction);
   Packet patient_in(int endpoint);
-  Handshake status_out();
 
   Teensy& teensy_;
   std::uint8_t address_ = 0;
   std::uint16_t packet_ = 64;
   std::uint16_t bulk_packet_ = 512;
-  std::array<bool, 16> out_data1_{};
+  std::array<bool, 16> out_data1_{}, in_data1_{};  // toggles of the next packets
 };
 
 }  // namespace astro::emulator

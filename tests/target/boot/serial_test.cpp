@@ -11,7 +11,7 @@ constexpr const char* kImage = ASTRO_IMAGE_DIR "/astrolabe-teensy40.hex";
 
 TEST(Serial, TheRobotSaysWhoItIs) {
   auto robot = std::make_shared<EmulatedRobot>(kImage, sim::Config{}, simulator::MocapConfig{});
-  link::Client client(std::make_unique<SerialTransport>(robot));
+  link::Client client(std::make_unique<PortTransport>(robot, Port::serial));
   client.connect();
   const protocol::Status status = client.request(protocol::GetStatus{});
   fmt::print("battery {} mV, ticks {}, overruns {}\n", status.battery_mv, status.tick_count,

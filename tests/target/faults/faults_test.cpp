@@ -53,7 +53,7 @@ class RunningRobot : public testing::Test {
   protocol::ResetCause cause_after_restart() {
     teensy().run_for(1s);
     EXPECT_TRUE(outputs_off()) << "nothing drives again by itself";
-    link::Client again(std::make_unique<SerialTransport>(robot_));
+    link::Client again(std::make_unique<PortTransport>(robot_, Port::serial));
     again.connect();
     EXPECT_EQ(again.request(protocol::GetStatus{}).mode, protocol::Mode::disarmed);
     return again.request(protocol::GetStatus{}).reset_cause;
@@ -61,7 +61,7 @@ class RunningRobot : public testing::Test {
 
   std::shared_ptr<EmulatedRobot> robot_ =
       std::make_shared<EmulatedRobot>(kImage, sim::Config{}, simulator::MocapConfig{});
-  link::Client client_{std::make_unique<SerialTransport>(robot_)};
+  link::Client client_{std::make_unique<PortTransport>(robot_, Port::serial)};
   Cycles happened_at_ = 0;
 };
 

@@ -54,7 +54,7 @@ class CutRobot {
  private:
   std::shared_ptr<EmulatedRobot> robot_ =
       std::make_shared<EmulatedRobot>(kImage, sim::Config{}, simulator::MocapConfig{});
-  link::Client client_{std::make_unique<SerialTransport>(robot_)};
+  link::Client client_{std::make_unique<PortTransport>(robot_, Port::serial)};
 };
 
 /// A flash that holds the old set, such that the next commit begins with (or does without) erasing a sector.

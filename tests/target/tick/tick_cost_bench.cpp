@@ -16,7 +16,7 @@ constexpr const char* kImage = ASTRO_IMAGE_DIR "/astrolabe-teensy40.hex";
 
 experiment::Results run(const std::shared_ptr<emulator::EmulatedRobot>& robot, int runs) {
   const support::TemporaryFolder folder;
-  link::Client client(std::make_unique<emulator::SerialTransport>(robot));
+  link::Client client(std::make_unique<emulator::PortTransport>(robot, emulator::Port::serial));
   emulator::EmulatedTruth truth(robot);
   client.connect();
   experiment::Plan plan;

@@ -20,7 +20,7 @@ class TickCost : public testing::Test {
  protected:
   std::shared_ptr<EmulatedRobot> robot_ =
       std::make_shared<EmulatedRobot>(kImage, sim::Config{}, simulator::MocapConfig{});
-  link::Client client_{std::make_unique<emulator::SerialTransport>(robot_)};
+  link::Client client_{std::make_unique<emulator::PortTransport>(robot_, emulator::Port::serial)};
 };
 
 TEST_F(TickCost, OfControlOdometryAndSafetyIsWithin350InstructionsAroundASquare) {

@@ -1,81 +1,75 @@
-#include <gtest/gtest.h>
+#include "tests/target/usb/usb_fixture.hpp"
 
-#include "common/protocol/codec.hpp"
-#include "common/protocol/framer.hpp"
-#include "common/protocol/messages.hpp"
-#include "hal/teensy40/usb/descriptors.hpp"
-#include "host/emulator/usb/host.hpp"
-
+// The serial port on USB as a host sees it: requests of chapter 9 and of the class, and the bytes of the
+// port.
 namespace astro::emulator {
 namespace {
 
-using namespace std::chrono_literals;
-using Outcome = UsbHost::Outcome;
-using Bytes = std::vector<std::uint8_t>;
-namespace device = teensy40::usb_device;
-
-constexpr const char* kImage = ASTRO_IMAGE_DIR "/astrolabe-teensy40.hex";
-constexpr int kOut = 3, kIn = 4;
-constexpr std::uint16_t kInAddress = 0x84;
-
-class Usb : public testing::TestWithParam<bool> {
- protected:
-  void SetUp() override {
-    ASSERT_TRUE(teensy_.run_until([&] { return teensy_.usb().attached(); }, 100ms));
-    host_.reset(GetParam());
-  }
-  Bytes descriptor(std::uint8_t type, std::uint8_t number, std::uint16_t length) {
-    Bytes bytes;
-    EXPECT_EQ(host_.read({0x80, 6, static_cast<std::uint16_t>(type << 8 | number), 0, length}, bytes),
-              Outcome::done)
-        << "type " << int{type};
-    return bytes;
-  }
-  void configure() {
-    ASSERT_EQ(host_.set_address(7), Outcome::done);
-    ASSERT_EQ(host_.write({0x00, 9, 1, 0, 0}), Outcome::done);
-  }
-  void open_port() { ASSERT_EQ(host_.write({0x21, 0x22, 3, 0, 0}), Outcome::done); }
-
-  Bytes frame(std::uint16_t request) {
-    std::array<std::uint8_t, protocol::kMaxBody> body{};
-    std::array<std::uint8_t, protocol::kMaxFrame> out{};
-    const std::size_t size = protocol::encode(protocol::Hello{}, request, body);
-    const auto framed = std::span(out).first(protocol::encode_frame(std::span(body).first(size), out));
-    return {framed.begin(), framed.end()};
-  }
-  /// True if the robot answers a Hello.
-  bool hello(std::uint16_t request) {
-    EXPECT_TRUE(host_.send(kOut, frame(request), 100ms));
-    protocol::Framer framer;
-    for (int packets = 0; packets < 50; ++packets) {
-      const auto packet = host_.receive(kIn, 100ms);
-      if (!packet || packet->handshake != Handshake::ack) return false;
-      for (const std::uint8_t byte : packet->bytes)
-        if (const auto body = framer.push(byte))
-          if (const auto header = protocol::peek(*body); header && header->request_id == request) return true;
-    }
-    return false;
-  }
-
-  Teensy teensy_{kImage};
-  UsbHost host_{teensy_};
-};
-
-std::string name_of_speed(const testing::TestParamInfo<bool>& high) { return high.param ? "High" : "Full"; }
 INSTANTIATE_TEST_SUITE_P(FullAndHighSpeed, Usb, testing::Bool(), name_of_speed);
+
+constexpr std::uint16_t kInAddress = 0x84, kOutAddress = 0x03, kNotifyAddress = 0x82;
 
 TEST_P(Usb, EnumeratesAsLinuxDoesIt) {
   EXPECT_EQ(descriptor(1, 0, 64).size(), 18U);
   host_.reset(GetParam());
-  ASSERT_EQ(host_.set_address(7), Outcome::done);
-  EXPECT_EQ(descriptor(1, 0, 18), Bytes(device::kDevice.begin(), device::kDevice.end()));
+  ASSERT_EQ(host_.set_address(kAddress), Outcome::done);
+  EXPECT_EQ(descriptor(1, 0, 18).size(), 18U);
   EXPECT_EQ(descriptor(6, 0, 10).size(), 10U);
   const Bytes head = descriptor(2, 0, 9);
   ASSERT_EQ(head.size(), 9U);
-  EXPECT_EQ(descriptor(2, 0, static_cast<std::uint16_t>(head[2] | head[3] << 8)).size(), 75U);
+  const auto total = static_cast<std::uint16_t>(head[2] | head[3] << 8);
+  EXPECT_EQ(descriptor(2, 0, total).size(), total);
   for (const std::uint8_t text : Bytes{0, 2, 1, 3}) EXPECT_GE(descriptor(3, text, 255).size(), 4U);
   EXPECT_EQ(host_.write({0x00, 9, 1, 0, 0}), Outcome::done);
+}
+
+TEST_P(Usb, TakesItsAddressAfterTheStatusStageAndAnswersToNoOther) {
+  ASSERT_EQ(host_.set_address(kAddress), Outcome::done);  // whose status stage is at address 0
+  EXPECT_EQ(teensy_.usb().setup(0, {0x80, 6, 0, 1, 0, 0, 18, 0}), Handshake::nothing);
+  EXPECT_EQ(descriptor(1, 0, 18).size(), 18U);
+  EXPECT_EQ(host_.set_address(9), Outcome::done) << "a host may give another one";
+  EXPECT_EQ(descriptor(1, 0, 18).size(), 18U);
+}
+
+TEST_P(Usb, TellsItsConfigurationAndLeavesItAgain) {
+  ASSERT_EQ(host_.set_address(kAddress), Outcome::done);
+  Bytes configuration;
+  ASSERT_EQ(host_.read({0x80, 8, 0, 0, 1}, configuration), Outcome::done);
+  EXPECT_EQ(configuration, Bytes{0});
+  EXPECT_EQ(teensy_.usb().in(kAddress, kIn).handshake, Handshake::nothing) << "no endpoint but 0 yet";
+  configure();
+  ASSERT_EQ(host_.read({0x80, 8, 0, 0, 1}, configuration), Outcome::done);
+  EXPECT_EQ(configuration, Bytes{1});
+  EXPECT_EQ(host_.write({0x00, 9, 2, 0, 0}), Outcome::stalled) << "there is no second";
+  ASSERT_EQ(host_.write({0x00, 9, 0, 0, 0}), Outcome::done);
+  EXPECT_EQ(teensy_.usb().in(kAddress, kIn).handshake, Handshake::nothing);
+  configure();
+  open_port();
+  EXPECT_TRUE(hello(13));
+}
+
+TEST_P(Usb, TellsTheStatusOfDeviceInterfacesAndEndpoints) {
+  configure();
+  Bytes status;
+  ASSERT_EQ(host_.read({0x80, 0, 0, 0, 2}, status), Outcome::done);
+  EXPECT_EQ(status, (Bytes{1, 0})) << "self-powered, no remote wake-up";
+  ASSERT_EQ(host_.read({0x81, 0, 0, 1, 2}, status), Outcome::done);
+  EXPECT_EQ(status, (Bytes{0, 0}));
+  EXPECT_EQ(host_.read({0x81, 0, 0, 2, 2}, status), Outcome::stalled) << "there is no third interface";
+  for (const std::uint16_t endpoint : {std::uint16_t{0}, kInAddress, kOutAddress, kNotifyAddress}) {
+    ASSERT_EQ(host_.read({0x82, 0, 0, endpoint, 2}, status), Outcome::done) << endpoint;
+    EXPECT_EQ(status, (Bytes{0, 0}));
+  }
+  EXPECT_EQ(host_.read({0x82, 0, 0, 0x85, 2}, status), Outcome::stalled);
+}
+
+TEST_P(Usb, HasOneSettingOfEachInterface) {
+  configure();
+  Bytes setting;
+  ASSERT_EQ(host_.read({0x81, 10, 0, 1, 1}, setting), Outcome::done);
+  EXPECT_EQ(setting, Bytes{0});
+  EXPECT_EQ(host_.write({0x01, 11, 0, 1, 0}), Outcome::done);
+  EXPECT_EQ(host_.write({0x01, 11, 1, 1, 0}), Outcome::stalled);
 }
 
 TEST_P(Usb, AnswersTheProtocolOnceAPortIsOpen) {
@@ -92,6 +86,9 @@ TEST_P(Usb, KeepsLineCoding) {
   Bytes read;
   ASSERT_EQ(host_.read({0xA1, 0x21, 0, 0, 7}, read), Outcome::done);
   EXPECT_EQ(read, coding);
+  EXPECT_EQ(host_.write({0x21, 0x20, 0, 0, 6}, Bytes(6, 0)), Outcome::stalled) << "it has seven bytes";
+  EXPECT_EQ(host_.write({0x21, 0x20, 0, 1, 7}, coding), Outcome::stalled) << "the data interface has none";
+  EXPECT_EQ(host_.write({0x21, 0x23, 100, 0, 0}), Outcome::done) << "a break means nothing";
 }
 
 TEST_P(Usb, StallsWhatItDoesNotKnowAndGoesOn) {
@@ -102,11 +99,18 @@ TEST_P(Usb, StallsWhatItDoesNotKnowAndGoesOn) {
   EXPECT_EQ(descriptor(1, 0, 18).size(), 18U);
 }
 
+TEST_P(Usb, DropsARequestThatTheHostThinksBetterOf) {
+  configure();
+  ASSERT_EQ(host_.setup_only({0x80, 6, 0x0200, 0, 75}), Handshake::ack);
+  ASSERT_EQ(host_.setup_only({0x21, 0x20, 0, 0, 7}), Handshake::ack);
+  EXPECT_EQ(descriptor(1, 0, 18).size(), 18U);
+}
+
 TEST_P(Usb, ForgetsEverythingInABusResetInTheMiddleOfATransfer) {
   configure();
   open_port();
   ASSERT_EQ(host_.setup_only({0x80, 6, 0x0200, 0, 75}), Handshake::ack);
-  ASSERT_TRUE(host_.send(kOut, frame(5), 100ms));
+  ASSERT_TRUE(host_.send(kOut, frame(protocol::Hello{}, 5), 100ms));
   host_.reset(GetParam());
   EXPECT_EQ(descriptor(1, 0, 64).size(), 18U);
   EXPECT_EQ(teensy_.usb().in(0, kIn).handshake, Handshake::nothing) << "not configured any more";
@@ -115,16 +119,21 @@ TEST_P(Usb, ForgetsEverythingInABusResetInTheMiddleOfATransfer) {
   EXPECT_TRUE(hello(21));
 }
 
-TEST_P(Usb, HaltsAndUnhaltsAnEndpoint) {
+TEST_P(Usb, HaltsAndUnhaltsEachEndpoint) {
   configure();
   open_port();
-  ASSERT_EQ(host_.write({0x02, 3, 0, kInAddress, 0}), Outcome::done);
-  EXPECT_EQ(teensy_.usb().in(7, kIn).handshake, Handshake::stall);
-  Bytes status;
-  ASSERT_EQ(host_.read({0x82, 0, 0, kInAddress, 2}, status), Outcome::done);
-  EXPECT_EQ(status, (Bytes{1, 0}));
-  ASSERT_EQ(host_.write({0x02, 1, 0, kInAddress, 0}), Outcome::done);
-  EXPECT_TRUE(hello(31));
+  EXPECT_TRUE(hello(30));  // so that both toggles stand at 1
+  for (const std::uint16_t endpoint : {kInAddress, kOutAddress}) {
+    ASSERT_EQ(host_.write({0x02, 3, 0, endpoint, 0}), Outcome::done);
+    EXPECT_EQ(endpoint == kInAddress ? teensy_.usb().in(kAddress, kIn).handshake
+                                     : teensy_.usb().out(kAddress, kOut, Bytes{0}, true),
+              Handshake::stall);
+    Bytes status;
+    ASSERT_EQ(host_.read({0x82, 0, 0, endpoint, 2}, status), Outcome::done);
+    EXPECT_EQ(status, (Bytes{1, 0}));
+    ASSERT_EQ(host_.write({0x02, 1, 0, endpoint, 0}), Outcome::done);
+    EXPECT_TRUE(hello(static_cast<std::uint16_t>(100 + endpoint))) << "from DATA0 on both sides";
+  }
 }
 
 TEST_P(Usb, GoesOnAfterSuspendAndResume) {
@@ -137,10 +146,97 @@ TEST_P(Usb, GoesOnAfterSuspendAndResume) {
 
 TEST_P(Usb, KeepsNothingForAPortThatNobodyHasOpen) {
   configure();
-  ASSERT_TRUE(host_.send(kOut, frame(51), 100ms));
+  ASSERT_TRUE(host_.send(kOut, frame(protocol::Hello{}, 51), 100ms));
   EXPECT_EQ(host_.receive(kIn, 50ms), std::nullopt);
   open_port();
   EXPECT_TRUE(hello(52));
+}
+
+TEST_P(Usb, TakesATransferOfExactlyFullPacketsWithTheEmptyOneBehindItOrWithout) {
+  configure();
+  open_port();
+  for (const bool empty_packet : {true, false}) {
+    const std::uint16_t request = empty_packet ? 61 : 62;
+    Bytes bytes = frame(protocol::Hello{}, request);
+    bytes.insert(bytes.begin(), 512 - bytes.size(), 0);  // zeros are the ends of frames without content
+    ASSERT_TRUE(host_.send(kOut, bytes, 100ms));
+    if (empty_packet) {
+      ASSERT_TRUE(host_.send(kOut, {}, 100ms));
+    }
+    EXPECT_TRUE(answers(request)) << (empty_packet ? "with" : "without");
+    EXPECT_TRUE(hello(63)) << "and goes on";
+  }
+}
+
+TEST_P(Usb, EndsATransferOfExactlyFullPacketsByAnEmptyOne) {
+  configure();
+  open_port();
+  ASSERT_TRUE(ask(protocol::SetTelemetry{1, protocol::Telemetry::kPose}, 71));
+  teensy_.run_for(100ms);  // while nobody reads, more gathers than a transfer takes
+  std::size_t bytes = 0, full_transfers = 0;
+  for (int packets = 0; packets < 60; ++packets) {
+    const auto packet = host_.receive(kIn, 10ms);
+    ASSERT_TRUE(packet && packet->handshake == Handshake::ack);
+    bytes += packet->bytes.size();
+    if (packet->bytes.size() == bulk_packet()) continue;
+    if (packet->bytes.empty()) {
+      EXPECT_EQ(bytes, 512U) << "nothing but a transfer of full packets needs one";
+      ++full_transfers;
+    } else {
+      EXPECT_NE(bytes % bulk_packet(), 0U);
+    }
+    bytes = 0;
+  }
+  EXPECT_GE(full_transfers, 1U);
+}
+
+TEST_P(Usb, GoesOnWhenTheCableIsPulledAndPluggedInAgain) {
+  configure();
+  open_port();
+  ASSERT_TRUE(ask(protocol::SetTelemetry{1, protocol::Telemetry::kPose}, 81));
+  const std::uint64_t before_us = teensy_.robot_clock_us();
+  teensy_.usb().unplug();
+  teensy_.run_for(500ms);
+  EXPECT_FALSE(teensy_.usb().attached());
+  EXPECT_GE(teensy_.robot_clock_us() - before_us, 499'000U) << "the robot has not restarted";
+  teensy_.usb().plug_in();
+  ASSERT_TRUE(teensy_.usb().attached());
+  host_.reset(GetParam());
+  configure();
+  EXPECT_EQ(host_.receive(kIn, 20ms), std::nullopt) << "nothing is left of what nobody could read";
+  open_port();
+  EXPECT_TRUE(hello(82));
+}
+
+TEST_P(Usb, StopsDrivingWhenTheCableIsPulled) {
+  configure();
+  open_port();
+  ASSERT_TRUE(ask(protocol::Arm{}, 91));
+  ASSERT_TRUE(ask(protocol::Velocity{200'000, 0}, 92));
+  teensy_.run_for(200ms);
+  ASSERT_FALSE(outputs_off()) << "it drives";
+  teensy_.usb().unplug();
+  teensy_.run_for(1s);  // the command time-out of 0.3 s and the ramp
+  EXPECT_TRUE(outputs_off());
+}
+
+TEST_P(Usb, AHostThatSets134BaudGetsTheBootLoaderOfARobotAtRest) {
+  configure();
+  ASSERT_EQ(set_baud(134), Outcome::done);
+  EXPECT_TRUE(teensy_.run_until([&] { return teensy_.in_bootloader(); }, 500ms));
+  EXPECT_TRUE(outputs_off());
+}
+
+TEST_P(Usb, AnArmedRobotPays134BaudNoHeed) {
+  configure();
+  open_port();
+  ASSERT_TRUE(ask(protocol::Arm{}, 95));
+  ASSERT_EQ(set_baud(134), Outcome::done);
+  teensy_.run_for(500ms);
+  EXPECT_FALSE(teensy_.in_bootloader());
+  ASSERT_TRUE(ask(protocol::Disarm{}, 96));
+  teensy_.run_for(500ms);
+  EXPECT_FALSE(teensy_.in_bootloader()) << "nor later: it was asked when it could not";
 }
 
 }  // namespace

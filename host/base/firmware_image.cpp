@@ -1,0 +1,84 @@
+#include "host/base/firmware_image.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <fstream>
+#include <string_view>
+
+#include "host/base/error.hpp"
+
+namespace astro {
+namespace {
+
+// Where hal/teensy40/boot puts the words that make it an image, and who it is.
+constexpr std::size_t kConfigurationAt = 0, kVectorTableAt = 0x1000, kInfoAt = 0x1030;
+constexpr std::uint32_t kConfigurationTag = 0x4246'4346, kVectorTableTag = 0x4320'00D1;
+constexpr std::string_view kInfoTag = "Astrolabe";
+constexpr std::size_t kInfoTagBytes = 12;
+
+enum Kind : std::uint8_t { kData = 0, kEnd = 1, kUpperHalf = 4 };
+
+/// The bytes of a record without its colon, its sum checked.
+std::vector<std::uint8_t> record(const std::string& line, const std::string& where) {
+  std::vector<std::uint8_t> bytes;
+  const auto digit = [&](std::size_t i) {
+    return i < line.size() && std::isxdigit(static_cast<unsigned char>(line[i])) != 0;
+  };
+  for (std::size_t i = 1; digit(i) && digit(i + 1); i += 2)
+    bytes.push_back(static_cast<std::uint8_t>(std::stoul(line.substr(i, 2), nullptr, 16)));
+  unsigned sum = 0;
+  for (const std::uint8_t byte : bytes) sum += byte;
+  if (line[0] != ':' || bytes.size() < 5 || bytes.size() != bytes[0] + 5U || sum % 256 != 0 ||
+      (bytes[3] == kUpperHalf && bytes[0] != 2))
+    throw Error(where + " is no Intel HEX record: build the image again");
+  return bytes;
+}
+
+std::uint32_t word(const std::vector<std::uint8_t>& flash, std::size_t offset) {
+  std::uint32_t value = 0;
+  std::memcpy(&value, flash.data() + offset, sizeof value);
+  return value;
+}
+
+std::string version_in(const std::vector<std::uint8_t>& flash) {
+  const std::uint8_t* info = flash.data() + kInfoAt;
+  if (!std::equal(kInfoTag.begin(), kInfoTag.end(), info)) return "";
+  const std::uint8_t* version = info + kInfoTagBytes;
+  return fmt::format("{}.{}.{}", version[0], version[1], version[2]);
+}
+
+}  // namespace
+
+FirmwareImage read_firmware_image(const std::filesystem::path& hex) {
+  std::ifstream file(hex);
+  if (!file || std::filesystem::is_directory(hex))
+    throw Error(fmt::format("cannot read '{}': build it with ./dev firmware", hex.string()));
+  FirmwareImage image{std::vector<std::uint8_t>(FirmwareImage::kBytes, 0xFF), ""};
+  std::uint32_t upper = 0;
+  int number = 0;
+  bool ended = false;
+  for (std::string line; !ended && std::getline(file, line);) {
+    const std::string where = fmt::format("{}:{}", hex.string(), ++number);
+    if (line.empty()) continue;
+    const std::vector<std::uint8_t> bytes = record(line, where);
+    ended = bytes[3] == kEnd;
+    if (bytes[3] == kUpperHalf) upper = static_cast<std::uint32_t>(bytes[4] << 8U | bytes[5]) << 16U;
+    if (bytes[3] != kData) continue;
+    const std::uint32_t address = upper + static_cast<std::uint32_t>(bytes[1] << 8U | bytes[2]);
+    if (address < FirmwareImage::kBase || address - FirmwareImage::kBase + bytes[0] > image.flash.size())
+      throw Error(fmt::format("{} lies at 0x{:08X}, where a Teensy 4.0 keeps no program", where, address));
+    std::memcpy(image.flash.data() + (address - FirmwareImage::kBase), bytes.data() + 4, bytes[0]);
+  }
+  if (!ended) throw Error(fmt::format("'{}' has no end: build the image again", hex.string()));
+  if (word(image.flash, kConfigurationAt) != kConfigurationTag ||
+      word(image.flash, kVectorTableAt) != kVectorTableTag)
+    throw Error(
+        fmt::format("'{}' is no image for a Teensy 4.0: build one with ./dev firmware", hex.string()));
+  image.version = version_in(image.flash);
+  return image;
+}
+
+}  // namespace astro

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace astro {
+
+/// What a file that is flashed puts into a Teensy 4.0.
+struct FirmwareImage {
+  static constexpr std::uint32_t kBase = 0x6000'0000, kBytes = 0x1F'0000;  // the parameters begin behind it
+
+  std::vector<std::uint8_t> flash;  // from kBase on; 0xFF where the file says nothing
+  std::string version;              // "0.1.0"; empty: it is not Astrolabe's
+};
+
+/// Reads an Intel HEX file and checks its sums, its addresses and the header that the chip starts by. Throws
+/// astro::Error that says what is wrong with the file.
+FirmwareImage read_firmware_image(const std::filesystem::path& hex);
+
+}  // namespace astro

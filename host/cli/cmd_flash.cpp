@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+#include "host/base/error.hpp"
+#include "host/base/firmware_image.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/connection.hpp"
+#include "host/cli/console.hpp"
+#include "host/cli/loader.hpp"
+#include "host/cli/options.hpp"
+#include "host/cli/restart.hpp"
+#include "host/cli/robot_view.hpp"
+#include "host/link/parameters.hpp"
+
+namespace astro::cli {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr const char* kBuilt = "build/teensy40/bin/astrolabe-teensy40.hex";
+constexpr std::string_view kBoard = "teensy40";
+
+struct FlashOptions {
+  ConnectionOptions connection;
+  fs::path file = kBuilt;
+  bool button = false;
+};
+
+std::unique_ptr<link::Client> find_robot(ConnectionOptions& options) {
+  try {
+    return connect(options);
+  } catch (const Error& error) {
+    throw Error(
+        fmt::format("{} (if it runs no firmware, press its button and flash with --button)", error.what()));
+  }
+}
+
+void check_board(const protocol::HelloReply& robot, const fs::path& file) {
+  if (robot.board.view() != kBoard)
+    throw Error(fmt::format("{} is a '{}' and '{}' is for a '{}': name the port of another robot with --port",
+                            robot.robot_name.view(), robot.board.view(), file.string(), kBoard));
+}
+
+void check_at_rest(link::Client& client) {
+  const protocol::Mode mode = client.request(protocol::GetStatus{}).mode;
+  if (mode != protocol::Mode::disarmed && mode != protocol::Mode::fault)
+    throw Error(fmt::format("the robot is armed ({}): 'astrolabe stop' disarms it", protocol::name(mode)));
+}
+
+void wait_for(link::Client& client) {
+  try {
+    client.reconnect(std::chrono::seconds(10));
+  } catch (const link::LinkLost&) {
+    throw Error("the robot did not come back: press its button and flash again with --button");
+  }
+}
+
+void check_version(const std::string& wanted, const std::string& now) {
+  if (!wanted.empty() && now != wanted)
+    throw Error(fmt::format("the robot carries firmware {} and not {}: flash again", now, wanted));
+}
+
+void check_parameters(const link::RemoteParameters& before, const link::RemoteParameters& now) {
+  for (const link::ParameterRow& row : before.rows()) {
+    const link::ParameterRow* kept = now.find(row.name);
+    if (kept == nullptr)
+      throw Error(
+          fmt::format("the new firmware has no parameter {}, which was {}: look at 'astrolabe params list'",
+                      row.name, link::describe(row, before.value(row.name))));
+    if (now.value(row.name) != before.value(row.name))
+      throw Error(fmt::format(
+          "the parameters did not survive: {} was {} and is {}; set it with 'astrolabe params set'", row.name,
+          link::describe(row, before.value(row.name)), link::describe(*kept, now.value(row.name))));
+  }
+}
+
+void run(FlashOptions& options) {
+  const FirmwareImage image = read_firmware_image(options.file);
+  const fs::path loader = find_loader();
+  if (options.button) {
+    say("press the button on the Teensy");
+    run_loader(loader, options.file);
+    return say(fmt::format("flashed {}; next: astrolabe info", options.file.string()));
+  }
+  const auto client = find_robot(options.connection);
+  const std::string old = firmware_version(client->robot());
+  say(fmt::format("{} carries firmware {}", client->robot().robot_name.view(), old));
+  check_board(client->robot(), options.file);
+  check_at_rest(*client);
+  const link::RemoteParameters before = link::RemoteParameters::fetch(*client);
+  client->request(protocol::Disarm{});
+  request_restart<protocol::EnterBootloader>(*client);
+  run_loader(loader, options.file);
+  wait_for(*client);
+  check_version(image.version, firmware_version(client->robot()));
+  const link::RemoteParameters now = link::RemoteParameters::fetch(*client);
+  check_parameters(before, now);
+  say(fmt::format("flashed: firmware {} -> {}, all {} parameters kept", old,
+                  firmware_version(client->robot()), before.rows().size()));
+}
+
+}  // namespace
+
+void add_flash(CLI::App& app) {
+  const auto options = std::make_shared<FlashOptions>();
+  CLI::App& command =
+      *app.add_subcommand("flash", "load new firmware into the robot, which must be disarmed");
+  command.add_option("file", options->file, "image for the Teensy 4.0, as './dev firmware' builds it")
+      ->type_name("FILE")
+      ->capture_default_str();
+  command.add_flag("--button", options->button, "do not talk to the robot: somebody presses its button");
+  add_connection(command, options->connection);
+  examples(command, {"astrolabe flash", "astrolabe flash astrolabe-teensy40.hex --port /dev/ttyACM0",
+                     "astrolabe flash --button"});
+  command.callback([options] { run(*options); });
+}
+
+}  // namespace astro::cli

@@ -1,0 +1,107 @@
+#include "host/cli/sim_options.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "host/base/error.hpp"
+#include "host/cli/console.hpp"
+#include "host/cli/interrupt.hpp"
+#include "host/cli/options.hpp"
+#include "host/cli/runtime_link.hpp"
+#include "host/link/ports.hpp"
+
+namespace astro::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check_flash(const fs::path& path, std::size_t bytes) {
+  if (path.empty()) return;
+  const fs::path folder = fs::absolute(path).parent_path();
+  if (!fs::is_directory(folder)) throw Error("--flash: there is no folder '" + folder.string() + "'");
+  if (!fs::exists(path)) return;
+  if (!fs::is_regular_file(path)) throw Error("--flash: '" + path.string() + "' is not a file");
+  if (fs::file_size(path) != bytes)
+    throw Error(fmt::format("--flash: '{}' has {} bytes and a robot's flash {}: it is another file",
+                            path.string(), fs::file_size(path), bytes));
+}
+
+// The pty of a simulator that was killed has gone, and its number may be given to ours in a moment: then its
+// link would look alive.
+void remove_dead_link(const fs::path& link) {
+  std::error_code error;
+  if (fs::is_symlink(link, error) && !fs::exists(link, error)) fs::remove(link, error);
+}
+
+// Only what is to be put there needs the runtime folder; for a simulator elsewhere it is a courtesy.
+std::optional<RuntimeLink> make_it_found(const fs::path& pty) {
+  try {
+    return std::optional<RuntimeLink>(std::in_place, make_runtime_folder(), pty);
+  } catch (const Error& error) {
+    say(fmt::format("'astrolabe ports' will not find this robot: {}", error.what()));
+    return std::nullopt;
+  }
+}
+
+void add_robot_options(CLI::App& command, sim::Config& robot) {
+  command.add_option("--true-wheelbase", robot.true_wheelbase_m, "wheelbase that the robot really has, in m")
+      ->type_name("M")
+      ->capture_default_str()
+      ->check(between(0.05, 2, "m"));
+  command.add_option("--true-ed", robot.true_ed, "true ratio of the wheel diameters, right over left")
+      ->type_name("RATIO")
+      ->capture_default_str()
+      ->check(between(0.5, 2, ""));
+  command.add_option("--scale", robot.scale, "true mean wheel diameter over the nominal one")
+      ->type_name("RATIO")
+      ->capture_default_str()
+      ->check(between(0.5, 2, ""));
+  command.add_option("--slip", robot.slip_m, "wheel slip: variance of the travel per metre, in m; 0: none")
+      ->type_name("M")
+      ->capture_default_str()
+      ->check(between(0, 0.01, "m"));
+  command.add_option("--seed", robot.seed, "seed of all noise; also decides the robot's unique id")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(whole(0, std::numeric_limits<std::uint64_t>::max()));
+}
+
+}  // namespace
+
+// A robot that is off as the one of the reference measurements was.
+sim::Config reference_robot() {
+  sim::Config robot;
+  robot.true_ed = 1.00416;
+  robot.true_wheelbase_m = 0.99521 * robot.nominal_wheelbase_m;
+  return robot;
+}
+
+void prepare(SimOptions& options, std::size_t flash_bytes) {
+  if (options.server.pty.empty()) options.server.pty = make_runtime_folder() / "astro.pty";
+  check_flash(options.server.flash, flash_bytes);
+  remove_dead_link(options.server.pty);
+  remove_dead_link(options.server.second_pty);
+}
+
+void serve(simulator::Server& server, const std::string& what) {
+  const fs::path& pty = server.config().pty;
+  const auto link = make_it_found(pty);
+  say(fmt::format("{} is at {}", what, pty.string()));
+  say(fmt::format("next: astrolabe info --port {}   (Ctrl-C here ends it)", pty.string()));
+  server.run(interrupted);
+}
+
+void add_sim_options(CLI::App& command, SimOptions& options) {
+  command.add_option("--pty", options.server.pty, "path to put the robot at; default: where 'ports' looks")
+      ->type_name("PATH");
+  add_robot_options(command, options.robot);
+  command.add_flag("--fast", options.server.fast, "let virtual time run ahead while a host keeps up with it");
+  command.add_option("--flash", options.server.flash, "file that keeps the parameters between starts")
+      ->type_name("FILE");
+}
+
+}  // namespace astro::cli

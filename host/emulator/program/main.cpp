@@ -1,0 +1,70 @@
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "host/base/error.hpp"
+#include "host/cli/console.hpp"
+#include "host/cli/interrupt.hpp"
+#include "host/cli/options.hpp"
+#include "host/cli/sim_options.hpp"
+#include "host/cli/wrong_usage.hpp"
+#include "host/emulator/program/served_teensy.hpp"
+
+namespace {
+
+using namespace astro;  // NOLINT(google-build-using-namespace): a program's own file
+namespace fs = std::filesystem;
+
+void run(const fs::path& hex, cli::SimOptions& options) {
+  cli::prepare(options, emulator::NorFlash::kParametersEnd - emulator::NorFlash::kParameters);
+  options.robot.flash = simulator::load_flash(options.server.flash);
+  simulator::MocapConfig mocap;
+  mocap.seed = options.robot.seed;
+  simulator::Server server(
+      std::make_unique<emulator::ServedTeensy>(hex, options.robot, mocap, options.server.pty),
+      options.server);
+  if (!options.server.second_pty.empty())
+    cli::say("its USB port is at " + options.server.second_pty.string());
+  cli::serve(server, "an emulated robot");
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Runs a robot's firmware image on an emulated Teensy 4.0 behind a pseudo terminal.",
+               "astrolabe-emulator");
+  fs::path hex;
+  cli::SimOptions options;
+  app.add_option("firmware", hex, "image for the Teensy 4.0, as './dev firmware' builds it")
+      ->type_name("HEX")
+      ->required();
+  cli::add_sim_options(app, options);
+  app.add_option("--usb-pty", options.server.second_pty,
+                 "path to put the USB port at; --pty is the serial port")
+      ->type_name("PATH");
+  cli::examples(
+      app,
+      {"astrolabe-emulator build/teensy40/bin/astrolabe-teensy40.hex --pty /tmp/robot --fast",
+       "astrolabe-emulator build/teensy40/bin/astrolabe-teensy40.hex --pty /tmp/robot --usb-pty /tmp/usb"});
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& wish) {
+    return app.exit(wish);  // --help
+  } catch (const CLI::ParseError& error) {
+    cli::complain(cli::sentence_for(app, error, argc, argv));
+    return 2;
+  }
+  run(hex, options);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  cli::watch_for_interrupt();
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    cli::complain(error.what());
+    return 1;
+  }
+}

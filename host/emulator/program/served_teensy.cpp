@@ -1,0 +1,87 @@
+#include "host/emulator/program/served_teensy.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <utility>
+
+#include "host/base/error.hpp"
+#include "host/cli/console.hpp"
+
+namespace astro::emulator {
+namespace {
+
+namespace fs = std::filesystem;
+
+Port port_of(int number) { return number == 0 ? Port::serial : Port::usb; }
+
+fs::path beside(fs::path path, const char* suffix) { return path += suffix; }
+
+}  // namespace
+
+ServedTeensy::ServedTeensy(fs::path hex, sim::Config config, const simulator::MocapConfig& mocap,
+                           fs::path pty)
+    : config_(std::move(config)),
+      mocap_(mocap),
+      fifo_(beside(pty, ".halfkay")),
+      flashed_(beside(pty, ".flashed.hex")) {
+  start(hex);
+}
+
+ServedTeensy::~ServedTeensy() {
+  std::error_code ignored;
+  fs::remove(flashed_, ignored);
+}
+
+void ServedTeensy::start(const fs::path& hex) {
+  robot_ = std::make_unique<EmulatedRobot>(hex, config_, mocap_);
+}
+
+void ServedTeensy::step() {
+  constexpr int kStepsPerMillisecond = 5;
+  for (int i = 0; i < kStepsPerMillisecond; ++i) robot_->step();
+  if (robot_->teensy().in_bootloader()) wait_in_bootloader();
+}
+
+void ServedTeensy::wait_in_bootloader() {
+  if (!halfkay_) {
+    halfkay_.emplace(fifo_);
+    cli::say("the robot is in its boot loader: flash it with cat IMAGE.hex > " + fifo_.string());
+  }
+  const auto image = halfkay_->receive();
+  if (!image) return;
+  std::ofstream(flashed_, std::ios::binary) << *image;
+  const auto kept = flash();
+  config_.flash.assign(kept.begin(), kept.end());
+  try {
+    start(flashed_);
+  } catch (const Error& error) {
+    return cli::complain(error.what());
+  }
+  halfkay_.reset();
+  cli::say("flashed");
+}
+
+std::size_t ServedTeensy::room(int port) {
+  constexpr std::size_t kUnderway = 1024;  // what an adapter or an operating system holds
+  return kUnderway - std::min(kUnderway, robot_->underway(port_of(port)));
+}
+
+void ServedTeensy::write(int port, std::span<const std::uint8_t> bytes) {
+  robot_->send(port_of(port), bytes);
+}
+
+std::size_t ServedTeensy::read(int port, std::span<std::uint8_t> into) {
+  return robot_->receive(port_of(port), into);
+}
+
+bool ServedTeensy::present(int port) { return port_of(port) == Port::serial || robot_->usb().present(); }
+
+void ServedTeensy::set_open(int port, bool open, std::uint32_t baud) {
+  if (port_of(port) != Port::usb) return;
+  if (open)
+    robot_->usb().open(baud);
+  else
+    robot_->usb().close();
+}
+
+}  // namespace astro::emulator

@@ -1,0 +1,114 @@
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <termios.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/target/program/emulator.hpp"
+
+// What a person without a Teensy does with the image: the ordinary commands, at either port.
+namespace astro::target {
+namespace {
+
+using nlohmann::json;
+using support::astrolabe;
+using support::Outcome;
+using testing::HasSubstr;
+
+class EmulatedRobotAt : public testing::TestWithParam<const char*> {
+ protected:
+  std::string port() const { return GetParam() == std::string("Usb") ? emulator_.usb() : emulator_.serial(); }
+  /// Runs a command that must succeed.
+  Outcome run(std::vector<std::string> words) const {
+    words.insert(words.end(), {"--port", port()});
+    Outcome outcome = astrolabe(words);
+    EXPECT_EQ(outcome.code, 0) << words[0] << ": " << outcome.err;
+    return outcome;
+  }
+  json ask(std::vector<std::string> words) const {
+    words.emplace_back("--json");
+    return json::parse(run(words).out);
+  }
+
+  EmulatorProgram emulator_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Port, EmulatedRobotAt, testing::Values("Usb", "Serial"),
+                         [](const auto& at) { return std::string(at.param); });
+
+TEST_P(EmulatedRobotAt, TellsWhoItIs) {
+  const json info = ask({"info"});
+  EXPECT_EQ(info["board"], "teensy40");
+  EXPECT_EQ(info["mode"], "disarmed");
+  EXPECT_EQ(info["faults"], json::array());
+  EXPECT_EQ(info["tick_overruns"], 0);
+}
+
+TEST_P(EmulatedRobotAt, SetsAndKeepsAParameter) {
+  run({"params", "set", "b=0.2886"});
+  run({"params", "save"});
+  run({"reboot"});
+  EXPECT_NEAR(ask({"params", "get", "b"})["value"], 0.2886, 1e-9);  // b is kept in nanometres
+}
+
+TEST_P(EmulatedRobotAt, DrivesALine) {
+  const json moved = ask({"drive", "line", "0.5"});
+  EXPECT_NEAR(moved["moved"]["x_m"], 0.5,
+              0.003);  // the true wheels differ by 0.4 %, which odometry cannot see
+  EXPECT_EQ(ask({"info"})["mode"], "disarmed");
+}
+
+TEST_P(EmulatedRobotAt, TakesAnUploadAndReadsItBack) {
+  const std::string file = (emulator_.folder() / "calib.toml").string();
+  std::ofstream(file) << "[parameters]\nc_R = 1.002\nc_L = 0.998\nb = 0.289\n";
+  const json uploaded = ask({"upload", file, "--yes"});
+  EXPECT_EQ(uploaded["active"], "new");
+  EXPECT_NEAR(ask({"params", "get", "c_R"})["value"], 1.002, 1e-9);  // in steps of 2^-30
+}
+
+TEST(EmulatorProgram, ShowsOneRobotAtBothPorts) {
+  const EmulatorProgram emulator;
+  EXPECT_EQ(astrolabe({"params", "set", "b=0.2886", "--port", emulator.usb()}).code, 0);
+  const Outcome other = astrolabe({"params", "get", "b", "--port", emulator.serial(), "--json"});
+  EXPECT_NEAR(json::parse(other.out)["value"], 0.2886, 1e-9);
+}
+
+TEST(EmulatorProgram, EntersTheBootLoaderAt134BaudAndTheUsbPortGoes) {
+  EmulatorProgram emulator;
+  const int port = open(emulator.usb().c_str(), O_RDWR | O_NOCTTY);
+  ASSERT_GE(port, 0);
+  termios settings{};
+  tcgetattr(port, &settings);
+  cfsetspeed(&settings, B134);
+  tcsetattr(port, TCSANOW, &settings);
+  EXPECT_TRUE(support::eventually([&] { return std::filesystem::is_fifo(emulator.halfkay()); }));
+  EXPECT_TRUE(support::eventually([&] { return !std::filesystem::exists(emulator.usb()); }));
+  close(port);
+}
+
+TEST(EmulatorProgram, LeavesNothingBehind) {
+  EmulatorProgram emulator;
+  emulator.program().send(SIGINT);
+  EXPECT_EQ(emulator.program().wait(), 0);
+  EXPECT_TRUE(std::filesystem::is_empty(emulator.folder()));
+}
+
+TEST(EmulatorProgram, SaysWhatIsWrongInOneSentence) {
+  const auto complaint = [](const std::vector<std::string>& words) {
+    std::vector<std::string> command{ASTROLABE_EMULATOR_PROGRAM};
+    command.insert(command.end(), words.begin(), words.end());
+    support::Program program(command);
+    EXPECT_NE(program.wait(), 0);
+    const std::string text = program.err();
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+    return text;
+  };
+  EXPECT_THAT(complaint({}), HasSubstr("firmware"));
+  EXPECT_THAT(complaint({"/nonexistent.hex"}), HasSubstr("cannot read '/nonexistent.hex'"));
+  EXPECT_THAT(complaint({ASTROLABE_EMULATOR_PROGRAM}), HasSubstr("no Intel HEX record"));
+  EXPECT_THAT(complaint({kImage, "--usb-pyt", "x"}), HasSubstr("astrolabe-emulator"));
+}
+
+}  // namespace
+}  // namespace astro::target
