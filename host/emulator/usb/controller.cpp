@@ -15,6 +15,14 @@ using namespace teensy40;
 constexpr int kIrq = 113;
 constexpr std::uint32_t kDevice = 2, kControlType = 0;
 
+bool writable(std::uint32_t offset) {
+  static constexpr std::array kWritable{
+      usb::USBCMD.value,        usb::USBSTS.value,       usb::USBINTR.value,        usb::DEVICEADDR.value,
+      usb::ENDPTLISTADDR.value, usb::USBMODE.value,      usb::ENDPTSETUPSTAT.value, usb::ENDPTPRIME.value,
+      usb::ENDPTFLUSH.value,    usb::ENDPTCOMPLETE.value};
+  return offset >= usb::ENDPTCTRL0.value || std::ranges::find(kWritable, offset) != kWritable.end();
+}
+
 }  // namespace
 
 void UsbController::reset() {
@@ -133,12 +141,7 @@ void UsbController::write_endpoint(int endpoint, std::uint32_t value) {
 }
 
 void UsbController::write(std::uint32_t offset, std::uint32_t value) {
-  static constexpr std::array kWritable{
-      usb::USBCMD.value,        usb::USBSTS.value,       usb::USBINTR.value,        usb::DEVICEADDR.value,
-      usb::ENDPTLISTADDR.value, usb::USBMODE.value,      usb::ENDPTSETUPSTAT.value, usb::ENDPTPRIME.value,
-      usb::ENDPTFLUSH.value,    usb::ENDPTCOMPLETE.value};
-  if (offset < usb::ENDPTCTRL0.value && std::ranges::find(kWritable, offset) == kWritable.end())
-    return refuse(offset);
+  if (!writable(offset)) return refuse(offset);
   if (offset == usb::USBCMD.value) return write_command(value);
   if (offset == usb::USBSTS.value) status_ &= ~value;
   if (offset == usb::USBINTR.value) enable_ = value;
