@@ -97,6 +97,8 @@ std::string frame() {
   text += R"(
   .text
   .word 0x42464346, 0x56010000
+  .org 0x50, 0xFF
+  .word 0x00200000
   .org 0x1000, 0xFF
   .word 0x432000D1, reset, 0, 0, 0x60001020, 0x60001000, 0, 0
   .word 0x60000000, 0x00003000, 0, 0

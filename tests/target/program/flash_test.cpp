@@ -121,6 +121,18 @@ TEST_F(Flash, RefusesAnImageForAnotherBoard) {
   EXPECT_THAT(outcome.err, HasSubstr("is no image for a Teensy 4.0"));
 }
 
+TEST_F(Flash, RefusesWhatIsNoFirmwareOfAstrolabe) {
+  const Outcome outcome = flash(patched(0x1030, 'a'), emulator_.usb());
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("is not firmware of Astrolabe"));
+}
+
+TEST_F(Flash, RefusesAnImageForALargerFlash) {
+  const Outcome outcome = flash(patched(0x52, 0x80), emulator_.usb());  // 8 MB: a Teensy 4.1
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("is no image for a Teensy 4.0"));
+}
+
 TEST_F(Flash, RefusesARobotOfAnotherBoard) {
   const support::Simulator simulator;
   const Outcome outcome = flash(kImage, simulator.port());
@@ -155,7 +167,7 @@ TEST_F(Flash, SaysThatARobotDoesNotComeBack) {
   const Setting loader("ASTROLABE_LOADER", script("exit 0"));
   const Outcome outcome = flash(kImage, emulator_.usb());
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("did not come back"));
+  EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("did not come back: "), HasSubstr(emulator_.usb())));
 }
 
 TEST_F(Flash, TellsHowToInstallTheLoader) {
