@@ -46,7 +46,7 @@ class Board {
   Flash flash_;
   Uart uart_;
   UsbSerial usb_;
-  System system_{usb_};
+  System system_{usb_, uart_};
   Ports ports_{usb_, uart_};
   std::array<char, 32> serial_number_{};  // of USB, which reads it when a host asks
 };

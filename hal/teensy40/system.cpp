@@ -18,9 +18,10 @@ constexpr std::uint32_t kSignedOnly = 1U << 1;  // in fuse word CFG5
 
 }  // namespace
 
-void System::leave_usb() {
+void System::leave_ports() {
   constexpr std::uint64_t kGone_us = 5'000;  // the host sees the robot go before the boot loader comes
   usb_.detach();
+  uart_.stop();
   const Clock clock;
   const std::uint64_t begun_us = clock.now_us();
   while (clock.now_us() - begun_us < kGone_us) {
@@ -52,7 +53,7 @@ bool System::enter_bootloader() noexcept {
   if ((OCOTP[ocotp::CFG5].read() & kSignedOnly) != 0) return false;
   const cpu::InterruptsOff guard;  // no tick may drive again
   Motors::coast();
-  leave_usb();
+  leave_ports();
   watchdog::stop();
   call_halfkay();
   return true;

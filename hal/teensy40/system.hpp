@@ -6,6 +6,7 @@
 
 #include "hal/interface/board.hpp"
 #include "hal/teensy40/arithmetic/identity.hpp"
+#include "hal/teensy40/uart.hpp"
 #include "hal/teensy40/usb/usb_serial.hpp"
 #include "hal/teensy40/watchdog.hpp"
 
@@ -14,7 +15,7 @@ namespace astro::teensy40 {
 /// The processor itself.
 class System {
  public:
-  explicit System(UsbSerial& usb) : usb_(usb) {}
+  System(UsbSerial& usb, Uart& uart) : usb_(usb), uart_(uart) {}
 
   /// Reads the fuses and why the chip started, and forgets the latter in the chip, so that the next start
   /// tells of itself.
@@ -37,9 +38,10 @@ class System {
   void feed_watchdog() noexcept { watchdog::feed(); }
 
  private:
-  void leave_usb();
+  void leave_ports();
 
   UsbSerial& usb_;
+  Uart& uart_;
   UniqueId id_{};
   hal::ResetCause cause_ = hal::ResetCause::unknown;
 };

@@ -42,6 +42,8 @@ void Uart::start() {
   LPUART6[lpuart::CTRL].write(kListening);
 }
 
+void Uart::stop() noexcept { LPUART6[lpuart::CTRL].write(0); }
+
 std::size_t Uart::write(std::span<const std::uint8_t> bytes) noexcept {
   const std::size_t taken = to_send_.push(bytes);
   // The interrupt takes the request back when it finds nothing to send, never while there is something.

@@ -25,6 +25,8 @@ class Uart {
   // Main loop only; none blocks.
   std::size_t read(std::span<std::uint8_t> into) noexcept { return received_.pop(into); }
   std::size_t write(std::span<const std::uint8_t> bytes) noexcept;
+  /// Nothing is received or sent any more.
+  void stop() noexcept;
   std::size_t room() const noexcept { return to_send_.room(); }
 
  private:

@@ -137,5 +137,16 @@ TEST_F(RunningRobot, EntersTheBootloaderOnlyWhenDisarmedAndWithOutputsOff) {
   EXPECT_TRUE(outputs_off());
 }
 
+TEST_F(RunningRobot, EntersTheBootloaderWhateverIsSaidToItMeanwhile) {
+  client_.request(protocol::Disarm{});
+  client_.request(protocol::EnterBootloader{});
+  const std::vector<std::uint8_t> words(50, 0x55);  // half a millisecond of the wire
+  for (int ms = 0; ms < 200 && !teensy().in_bootloader(); ++ms) {
+    teensy().serial().send(words);
+    teensy().run_for(1ms);
+  }
+  EXPECT_TRUE(teensy().in_bootloader());
+}
+
 }  // namespace
 }  // namespace astro::emulator
