@@ -14,6 +14,7 @@
 #include "host/cli/restart.hpp"
 #include "host/cli/robot_view.hpp"
 #include "host/link/parameters.hpp"
+#include "host/link/ports.hpp"
 
 namespace astro::cli {
 namespace {
@@ -32,6 +33,9 @@ std::unique_ptr<link::Client> find_robot(ConnectionOptions& options) {
   try {
     return connect(options);
   } catch (const Error& error) {
+    const bool silent = dynamic_cast<const link::LinkLost*>(&error) != nullptr;
+    const bool absent = options.port.empty() ? link::candidate_ports().empty() : !fs::exists(options.port);
+    if (!silent && !absent) throw;
     throw Error(
         fmt::format("{} (if it runs no firmware, press its button and flash with --button)", error.what()));
   }
@@ -89,9 +93,9 @@ void run(FlashOptions& options) {
   const FirmwareImage image = read_firmware_image(options.file);
   const fs::path loader = find_loader();
   if (options.button) {
-    say("press the button on the Teensy");
+    say("press the button on the Teensy, unless it is in its boot loader already");
     run_loader(loader, options.file);
-    return say(fmt::format("flashed {}; next: astrolabe info", options.file.string()));
+    return say(fmt::format("flashed {}; next, once its LED blinks: astrolabe info", options.file.string()));
   }
   check_origin(image, options.file);
   const auto client = find_robot(options.connection);

@@ -20,7 +20,7 @@ void run(RebootOptions& options) {
   const auto client = connect(options.connection);
   if (options.bootloader) {
     request_restart<protocol::EnterBootloader>(*client);
-    return say("the robot is on its way into its bootloader, where it waits for firmware");
+    return say("the robot is on its way into its boot loader, where it waits for 'astrolabe flash --button'");
   }
   request_restart<protocol::Reboot>(*client);
   client->reconnect(std::chrono::seconds(10));

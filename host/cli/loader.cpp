@@ -82,7 +82,9 @@ class Running {
       }
       if (std::chrono::steady_clock::now() - begun > kPatience)
         throw Error("the loader found no Teensy: plug in its USB cable, and flash again with --button");
-      if (interrupted()) throw link::Interrupted("interrupted while the loader ran: flash again");
+      if (interrupted())
+        throw link::Interrupted(
+            "interrupted: the robot waits in its boot loader for 'astrolabe flash --button'");
       pollfd state{words_, POLLIN, 0};
       if (poll(&state, 1, 50) <= 0) continue;
       const ssize_t count = read(words_, buffer.data(), buffer.size());

@@ -19,10 +19,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void check_flash(const fs::path& path, std::size_t bytes) {
+void check_folder(const char* option, const fs::path& path) {
   if (path.empty()) return;
   const fs::path folder = fs::absolute(path).parent_path();
-  if (!fs::is_directory(folder)) throw Error("--flash: there is no folder '" + folder.string() + "'");
+  if (!fs::is_directory(folder))
+    throw Error(fmt::format("{}: there is no folder '{}'", option, folder.string()));
+}
+
+void check_flash(const fs::path& path, std::size_t bytes) {
+  if (path.empty()) return;
+  check_folder("--flash", path);
   if (!fs::exists(path)) return;
   if (!fs::is_regular_file(path)) throw Error("--flash: '" + path.string() + "' is not a file");
   if (fs::file_size(path) != bytes)
@@ -82,6 +88,8 @@ sim::Config reference_robot() {
 
 void prepare(SimOptions& options, std::size_t flash_bytes) {
   if (options.server.pty.empty()) options.server.pty = make_runtime_folder() / "astro.pty";
+  check_folder("--pty", options.server.pty);
+  check_folder("--usb-pty", options.server.second_pty);
   check_flash(options.server.flash, flash_bytes);
   remove_dead_link(options.server.pty);
   remove_dead_link(options.server.second_pty);

@@ -16,6 +16,7 @@ constexpr microseconds kPoll =
     milliseconds(1000);  // an event must have been lost by then, or the segment is long
 constexpr microseconds kRestPoll = milliseconds(50);
 constexpr microseconds kTimeToRest = milliseconds(5000);
+constexpr microseconds kTimeToNotice = milliseconds(2000);  // the command time-out, and the ramp after it
 constexpr microseconds kVelocityPeriod = milliseconds(50);
 constexpr std::size_t kMostSegments = 0xFFFF;
 
@@ -49,6 +50,7 @@ DriveSession::DriveSession(Client& client, DriveHooks hooks) : client_(client), 
     if (!fault_) fault_ = raised.fault;
   });
   on_boot_ = client_.on<Booted>([this](const Booted&) { booted_ = true; });
+  wait_until_free();
   arm();
 }
 
@@ -63,6 +65,19 @@ DriveSession::~DriveSession() {
   try {
     client_.request(Disarm{});
   } catch (const std::exception&) {
+  }
+}
+
+/// A program that was killed leaves an armed robot behind, which notices it within the command time-out.
+void DriveSession::wait_until_free() {
+  const microseconds deadline = client_.now() + kTimeToNotice;
+  while (true) {
+    const Mode mode = client_.request(GetStatus{}).mode;
+    if (mode == Mode::disarmed || mode == Mode::fault) return;
+    if (client_.now() >= deadline)
+      throw Error(
+          "the robot is driving for another program: end that one, or 'astrolabe stop' ends its drive");
+    client_.pump(kRestPoll);
   }
 }
 

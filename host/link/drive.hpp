@@ -42,7 +42,8 @@ struct DriveHooks {
 class DriveSession {
  public:
   /// Arms. Clears command_timeout and link_lost first, which an earlier program left behind by ending, and
-  /// says so in a notice; any other latched fault is thrown.
+  /// says so in a notice; any other latched fault is thrown. Throws Error, and leaves the robot alone, if it
+  /// stays armed for another program.
   explicit DriveSession(Client& client, DriveHooks hooks = {});
   DriveSession(const DriveSession&) = delete;
   DriveSession& operator=(const DriveSession&) = delete;
@@ -65,6 +66,7 @@ class DriveSession {
   void stop();
 
  private:
+  void wait_until_free();
   void arm();
   bool add(const protocol::AddSegment& segment);
   void wait_for_progress();

@@ -64,9 +64,10 @@ Server::Server(const sim::Config& robot, const MocapConfig& mocap, const ServerC
 Server::Server(std::unique_ptr<Served> robot, const ServerConfig& config)
     : config_(config), robot_(std::move(robot)), truth_(beside(config.pty, ".mocap")), due_(Clock::now()) {
   channels_.emplace_back(*robot_, 0, config.pty);
+  if (!config.second_pty.empty()) channels_.emplace_back(*robot_, 1, config.second_pty);
+  truth_.emplace(beside(config.pty, ".mocap"));
   if (!config.second_pty.empty()) {
-    channels_.emplace_back(*robot_, 1, config.second_pty);
-    truth_.add_link(beside(config.second_pty, ".mocap"));
+    truth_->add_link(beside(config.second_pty, ".mocap"));
   }
   const auto content = robot_->flash();
   saved_flash_.assign(content.begin(), content.end());
@@ -97,7 +98,7 @@ void Server::run(const std::function<bool()>& stop) {
 }
 
 void Server::receive() {
-  truth_.accept_clients();
+  truth_->accept_clients();
   bool heard = false;
   for (Channel& channel : channels_) {
     heard |= channel.receive();  // first, so that what was sent before the port was closed arrives
@@ -111,7 +112,7 @@ void Server::receive() {
 }
 
 bool Server::transmit() {
-  bool behind = truth_.flush();
+  bool behind = truth_->flush();
   for (Channel& channel : channels_) behind |= channel.transmit();
   return behind;
 }
@@ -139,7 +140,7 @@ bool Server::runs_ahead(bool host_is_behind) {
 
 void Server::step() {
   robot_->step();
-  for (const recording::TruthSample& sample : robot_->take_truth()) truth_.send(sample);
+  for (const recording::TruthSample& sample : robot_->take_truth()) truth_->send(sample);
   if (robot_->now_us() < last_heard_us_) last_heard_us_ = 0;  // the robot restarted
 }
 

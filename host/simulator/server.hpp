@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "host/simulator/channel.hpp"
 #include "host/simulator/served.hpp"
@@ -59,7 +60,7 @@ class Server {
   ServerConfig config_;
   std::unique_ptr<Served> robot_;
   std::deque<Channel> channels_;
-  TruthServer truth_;
+  std::optional<TruthServer> truth_;  // after the ptys, which say whether the paths are free
   std::uint64_t last_heard_us_ = 0;   // virtual
   Clock::time_point heard_at_{};      // the same in real time
   Clock::time_point behind_since_{};  // real time since when the host takes nothing

@@ -88,9 +88,10 @@ struct Outcome {
 };
 
 /// Runs `astrolabe` to its end.
-inline Outcome astrolabe(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), ASTROLABE_PROGRAM);
-  Program program(arguments);
+inline Outcome astrolabe(const std::vector<std::string>& arguments) {
+  std::vector<std::string> command{ASTROLABE_PROGRAM};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  Program program(command);
   const int code = program.wait();
   return {code, program.out(), program.err()};
 }

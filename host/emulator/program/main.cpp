@@ -18,6 +18,11 @@ namespace fs = std::filesystem;
 
 void run(const fs::path& hex, cli::SimOptions& options) {
   cli::prepare(options, emulator::NorFlash::kParametersEnd - emulator::NorFlash::kParameters);
+  if (const fs::path& usb = options.server.second_pty;
+      !usb.empty() && fs::weakly_canonical(fs::absolute(usb).parent_path()) / usb.filename() ==
+                          fs::weakly_canonical(fs::absolute(options.server.pty).parent_path()) /
+                              options.server.pty.filename())
+    throw Error("--usb-pty must be another path than --pty");
   options.robot.flash = simulator::load_flash(options.server.flash);
   simulator::MocapConfig mocap;
   mocap.seed = options.robot.seed;

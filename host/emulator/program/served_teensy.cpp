@@ -24,6 +24,9 @@ ServedTeensy::ServedTeensy(fs::path hex, sim::Config config, const simulator::Mo
       mocap_(mocap),
       fifo_(beside(pty, ".halfkay")),
       flashed_(beside(pty, ".flashed.hex")) {
+  std::error_code none;
+  if (fs::is_fifo(fifo_, none))
+    fs::remove(fifo_, none);  // of a program that was killed: a loader would wait at it
   start(hex);
 }
 

@@ -74,6 +74,31 @@ TEST(EmulatorProgram, ShowsOneRobotAtBothPorts) {
   EXPECT_NEAR(json::parse(other.out)["value"], 0.2886, 1e-9);
 }
 
+TEST(EmulatorProgram, IsLeftAloneByASecondOneThatIsRefused) {
+  const EmulatorProgram emulator;
+  for (const std::string& taken : {emulator.serial(), emulator.usb()}) {
+    support::Program second({ASTROLABE_EMULATOR_PROGRAM, kImage, "--pty", taken});
+    EXPECT_EQ(second.wait(), 1);
+    EXPECT_THAT(second.err(), HasSubstr("in use by another simulator"));
+    EXPECT_TRUE(std::filesystem::exists(taken + ".mocap")) << "its cameras, too";
+  }
+  EXPECT_EQ(astrolabe({"info", "--port", emulator.usb()}).code, 0);
+}
+
+TEST(EmulatorProgram, DrivesForOneProgramAtATime) {
+  const EmulatorProgram emulator;
+  support::Program first({ASTROLABE_PROGRAM, "drive", "line", "30", "--port", emulator.serial()});
+  const auto mode = [&] {
+    const Outcome info = astrolabe({"info", "--port", emulator.usb(), "--json"});
+    return info.code == 0 ? json::parse(info.out)["mode"].get<std::string>() : info.err;
+  };
+  ASSERT_TRUE(support::eventually([&] { return mode() == "segment"; }));
+  const Outcome second = astrolabe({"drive", "line", "0.3", "--port", emulator.usb()});
+  EXPECT_EQ(second.code, 1);
+  EXPECT_THAT(second.err, HasSubstr("is driving for another program"));
+  EXPECT_EQ(mode(), "segment") << "and goes on driving for the first";
+}
+
 TEST(EmulatorProgram, EntersTheBootLoaderAt134BaudAndTheUsbPortGoes) {
   EmulatorProgram emulator;
   const int port = open(emulator.usb().c_str(), O_RDWR | O_NOCTTY);
@@ -108,6 +133,10 @@ TEST(EmulatorProgram, SaysWhatIsWrongInOneSentence) {
   EXPECT_THAT(complaint({"/nonexistent.hex"}), HasSubstr("cannot read '/nonexistent.hex'"));
   EXPECT_THAT(complaint({ASTROLABE_EMULATOR_PROGRAM}), HasSubstr("no Intel HEX record"));
   EXPECT_THAT(complaint({kImage, "--usb-pyt", "x"}), HasSubstr("astrolabe-emulator"));
+  EXPECT_THAT(complaint({kImage, "--pty", "/nonexistent/x"}),
+              HasSubstr("--pty: there is no folder '/nonexistent'"));
+  EXPECT_THAT(complaint({kImage, "--pty", "/tmp/x", "--usb-pty", "/tmp/../tmp/x"}),
+              HasSubstr("--usb-pty must be another path than --pty"));
 }
 
 }  // namespace
