@@ -23,7 +23,7 @@ void check_folder(const char* option, const fs::path& path) {
   if (path.empty()) return;
   const fs::path folder = fs::absolute(path).parent_path();
   if (!fs::is_directory(folder))
-    throw Error(fmt::format("{}: there is no folder '{}'", option, folder.string()));
+    throw Error(fmt::format("{}: there is no folder '{}' for '{}'", option, folder.string(), path.string()));
 }
 
 void check_flash(const fs::path& path, std::size_t bytes) {

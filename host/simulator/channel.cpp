@@ -15,7 +15,10 @@ constexpr std::size_t kMostOutgoing = 1U
 
 Channel::Channel(Served& robot, int port, std::filesystem::path link)
     : robot_(robot), port_(port), link_(std::move(link)) {
-  pty_.emplace(link_);  // also if the port is not there yet: a path that cannot be had is an error now
+  if (robot_.present(port_))
+    pty_.emplace(link_);
+  else
+    const Pty probe(link_);  // a path that cannot be had is an error now, and not when the port comes
 }
 
 std::optional<int> Channel::fd() const { return pty_ ? std::optional(pty_->fd()) : std::nullopt; }

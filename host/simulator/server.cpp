@@ -62,13 +62,11 @@ Server::Server(const sim::Config& robot, const MocapConfig& mocap, const ServerC
     : Server(std::make_unique<ServedVirtualRobot>(with_flash(robot, config.flash), mocap), config) {}
 
 Server::Server(std::unique_ptr<Served> robot, const ServerConfig& config)
-    : config_(config), robot_(std::move(robot)), truth_(beside(config.pty, ".mocap")), due_(Clock::now()) {
+    : config_(config), robot_(std::move(robot)), due_(Clock::now()) {
   channels_.emplace_back(*robot_, 0, config.pty);
   if (!config.second_pty.empty()) channels_.emplace_back(*robot_, 1, config.second_pty);
   truth_.emplace(beside(config.pty, ".mocap"));
-  if (!config.second_pty.empty()) {
-    truth_->add_link(beside(config.second_pty, ".mocap"));
-  }
+  if (!config.second_pty.empty()) truth_->add_link(beside(config.second_pty, ".mocap"));
   const auto content = robot_->flash();
   saved_flash_.assign(content.begin(), content.end());
 }

@@ -14,7 +14,8 @@ inline constexpr const char* kImage = ASTRO_IMAGE_DIR "/astrolabe-teensy40.hex";
 class EmulatorProgram {
  public:
   explicit EmulatorProgram(const std::vector<std::string>& options = {}) : program_(command(options)) {
-    const bool ready = support::eventually([&] { return is_there(serial()) && is_there(usb()); });
+    // The cameras come last of what is there from the start; the USB port after them, once it is enumerated.
+    const bool ready = support::eventually([&] { return is_there(usb() + ".mocap") && is_there(usb()); });
     if (!ready) throw std::runtime_error("the emulator does not start: " + program_.err());
   }
 

@@ -134,7 +134,7 @@ TEST(EmulatorProgram, SaysWhatIsWrongInOneSentence) {
   EXPECT_THAT(complaint({ASTROLABE_EMULATOR_PROGRAM}), HasSubstr("no Intel HEX record"));
   EXPECT_THAT(complaint({kImage, "--usb-pyt", "x"}), HasSubstr("astrolabe-emulator"));
   EXPECT_THAT(complaint({kImage, "--pty", "/nonexistent/x"}),
-              HasSubstr("--pty: there is no folder '/nonexistent'"));
+              HasSubstr("--pty: there is no folder '/nonexistent' for '/nonexistent/x'"));
   EXPECT_THAT(complaint({kImage, "--pty", "/tmp/x", "--usb-pty", "/tmp/../tmp/x"}),
               HasSubstr("--usb-pty must be another path than --pty"));
 }
