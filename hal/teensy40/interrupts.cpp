@@ -8,16 +8,18 @@ namespace {
 
 using Word32 = Register<std::uint32_t>;
 
-/// Register of the bank that begins at `first` and has one bit for each interrupt.
-Word32 bank(Word32 first, int irq) { return Word32(first.address() + static_cast<unsigned>(irq) / 32 * 4); }
+/// Writes the bit of an interrupt in the bank of registers that begins at `first` and has one for each.
+void write_bit(Word32 first, int irq) {
+  const auto line = static_cast<std::uint32_t>(irq);
+  Word32(first.address() + line / 32 * 4).write(1U << line % 32);
+}
 
 }  // namespace
 
 void install(int irq, std::uint8_t urgency, void (*handler)()) {
   constexpr std::uint32_t kSystemVectors = 16;
   const auto line = static_cast<std::uint32_t>(irq);
-  const std::uint32_t bit = 1U << line % 32;
-  bank(NVIC[nvic::ICER0], irq).write(bit);
+  write_bit(NVIC[nvic::ICER0], irq);
 
   const Word32 vector(SCB[scb::VTOR].read() + 4 * (kSystemVectors + line));
   vector.write(static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(handler)));
@@ -27,19 +29,19 @@ void install(int irq, std::uint8_t urgency, void (*handler)()) {
   priorities.modify(0xFFU << shift, priority_byte(urgency) << shift);
 
   cpu::synchronize();
-  bank(NVIC[nvic::ICPR0], irq).write(bit);
-  bank(NVIC[nvic::ISER0], irq).write(bit);
+  write_bit(NVIC[nvic::ICPR0], irq);
+  write_bit(NVIC[nvic::ISER0], irq);
 }
 
 InterruptOff::InterruptOff(int irq) : irq_(irq) {
-  bank(NVIC[nvic::ICER0], irq_).write(1U << (static_cast<std::uint32_t>(irq_) % 32));
+  write_bit(NVIC[nvic::ICER0], irq_);
   cpu::synchronize();
   cpu::refetch();
 }
 
 InterruptOff::~InterruptOff() {
   cpu::synchronize();
-  bank(NVIC[nvic::ISER0], irq_).write(1U << (static_cast<std::uint32_t>(irq_) % 32));
+  write_bit(NVIC[nvic::ISER0], irq_);
 }
 
 }  // namespace astro::teensy40

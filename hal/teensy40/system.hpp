@@ -28,8 +28,8 @@ class System {
   /// Coasts and restarts. Any context.
   [[noreturn]] void reboot() noexcept;
 
-  /// Coasts and gives the processor to HalfKay, the Teensy's boot loader; does not return.
-  /// False: the Teensy is locked to signed programs, whose loader is entered in another way.
+  /// Coasts, leaves both ports, and gives the processor to HalfKay, the Teensy's boot loader; does not
+  /// return. False: the Teensy is locked to signed programs, whose loader is entered in another way.
   bool enter_bootloader() noexcept;
 
   /// 134 baud on the USB port is how a Teensy is asked.

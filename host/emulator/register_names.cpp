@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <string_view>
 #include <unordered_map>
-#include <vector>
 
 namespace astro::emulator {
 namespace {
@@ -52,15 +50,27 @@ void add_banks(Table& table) {
 
 Table make_table() {
   Table table;
-  for (const Instance& instance : kInstances)
-    for (const Row& row : kRows)
-      if (row.type == instance.type)
-        table[instance.base + row.offset] = {fmt::format("{} {}", instance.name, row.name), row.width / 8};
+  for (const RegisterRow& row : registers())
+    table[row.address] = {fmt::format("{} {}", row.instance, row.name), row.bytes};
   add_banks(table);
   return table;
 }
 
+std::vector<RegisterRow> make_rows() {
+  std::vector<RegisterRow> rows;
+  for (const Instance& instance : kInstances)
+    for (const Row& row : kRows)
+      if (row.type == instance.type)
+        rows.push_back({instance.name, row.name, instance.base + row.offset, row.width / 8});
+  return rows;
+}
+
 }  // namespace
+
+const std::vector<RegisterRow>& registers() {
+  static const std::vector<RegisterRow> rows = make_rows();
+  return rows;
+}
 
 const RegisterName* find_register(std::uint32_t address) {
   static const Table table = make_table();

@@ -2,8 +2,20 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace astro::emulator {
+
+/// A register of the chip as hal/teensy40/registers has it.
+struct RegisterRow {
+  std::string_view instance, name;  // "PIT", "MCR"
+  std::uint32_t address;
+  int bytes;  // width of an access
+};
+
+/// All of them, each instance's own.
+const std::vector<RegisterRow>& registers();
 
 struct RegisterName {
   std::string name;  // "PIT MCR"

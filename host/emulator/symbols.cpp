@@ -85,7 +85,6 @@ Symbols::Symbols(const std::filesystem::path& elf) {
 void Symbols::add(const std::string& linker_name, std::uint32_t address, std::uint32_t bytes) {
   if (linker_name.empty() || linker_name[0] == '$') return;
   const std::string name = readable(linker_name);
-  by_name_[linker_name] = by_name_[name] = address;
   const auto [entry, fresh] = by_address_.try_emplace(address, Symbol{name, bytes});
   if (!fresh && entry->second.bytes == 0) entry->second = {name, bytes};
 }
@@ -96,12 +95,6 @@ std::string Symbols::name_at(std::uint32_t address) const {
   const auto& [begin, symbol] = *--next;
   if (symbol.bytes != 0 && address - begin >= symbol.bytes) return "";
   return address == begin ? symbol.name : fmt::format("{}+0x{:X}", symbol.name, address - begin);
-}
-
-std::optional<std::uint32_t> Symbols::address_of(const std::string& name) const {
-  const auto found = by_name_.find(name);
-  if (found == by_name_.end()) return {};
-  return found->second;
 }
 
 }  // namespace astro::emulator

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
 
 namespace astro::emulator {
@@ -18,8 +17,6 @@ class Symbols {
 
   /// "Clock::now_us()+0x12", or "" if nothing with a name begins at or before the address.
   std::string name_at(std::uint32_t address) const;
-  /// Where `name` begins, readable or as the linker has it; nothing if there is no such symbol.
-  std::optional<std::uint32_t> address_of(const std::string& name) const;
 
  private:
   struct Symbol {
@@ -29,7 +26,6 @@ class Symbols {
   void add(const std::string& linker_name, std::uint32_t address, std::uint32_t bytes);
 
   std::map<std::uint32_t, Symbol> by_address_;
-  std::map<std::string, std::uint32_t> by_name_;
 };
 
 }  // namespace astro::emulator

@@ -69,7 +69,6 @@ class Teensy {
     encoder_wires_.count(1, right);
   }
   std::uint32_t word_at(std::uint32_t address);
-  const Symbols& symbols() const { return chip_.symbols; }
   /// Of processor, memories and time: equal after two runs that went the same way.
   std::uint64_t state_hash();
 

@@ -1,15 +1,13 @@
 #include "host/simulator/channel.hpp"
 
-#include <poll.h>
-
 #include <algorithm>
 #include <array>
 
 namespace astro::simulator {
 namespace {
 
-constexpr std::size_t kMostOutgoing = 1U
-                                      << 16;  // beyond that the robot's own queue fills, and it drops frames
+// Beyond that the robot's own queue fills, and it drops frames.
+constexpr std::size_t kMostOutgoing = 1U << 16;
 
 }  // namespace
 
@@ -21,11 +19,9 @@ Channel::Channel(Served& robot, int port, std::filesystem::path link)
     const Pty probe(link_);  // a path that cannot be had is an error now, and not when the port comes
 }
 
-std::optional<int> Channel::fd() const { return pty_ ? std::optional(pty_->fd()) : std::nullopt; }
-
-short Channel::events() const {
+pollfd Channel::waits_for() const {
   const int in = robot_.room(port_) != 0 ? POLLIN : 0;  // else what waits would wake us for nothing
-  return static_cast<short>(in | (outgoing_.empty() ? 0 : POLLOUT));
+  return {pty_->fd(), static_cast<short>(in | (outgoing_.empty() ? 0 : POLLOUT)), 0};
 }
 
 void Channel::look() {
@@ -41,7 +37,7 @@ void Channel::look() {
 
 bool Channel::receive() {
   if (!pty_) return false;
-  std::array<std::uint8_t, 4096> bytes;  // NOLINT(cppcoreguidelines-pro-type-member-init)
+  std::array<std::uint8_t, 4096> bytes{};
   const std::size_t room = std::min(bytes.size(), robot_.room(port_));
   const std::size_t count = pty_->read(std::span(bytes).first(room));
   if (count == 0) return false;
@@ -50,7 +46,7 @@ bool Channel::receive() {
 }
 
 bool Channel::transmit() {
-  std::array<std::uint8_t, 4096> bytes;  // NOLINT(cppcoreguidelines-pro-type-member-init)
+  std::array<std::uint8_t, 4096> bytes{};
   std::size_t count = 0;
   while (outgoing_.size() < kMostOutgoing && (count = robot_.read(port_, bytes)) != 0)
     outgoing_.insert(outgoing_.end(), bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(count));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <poll.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -24,10 +26,8 @@ class Channel {
   void look();
 
   bool connected() const { return connected_; }
-  /// Nothing if the port is not there.
-  std::optional<int> fd() const;
-  /// What poll() is to wait for.
-  short events() const;
+  /// For poll(), while connected.
+  pollfd waits_for() const;
 
  private:
   Served& robot_;

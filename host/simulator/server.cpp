@@ -151,7 +151,7 @@ void Server::wait() {
   }
   std::vector<pollfd> hosts;
   for (const Channel& channel : channels_)
-    if (channel.connected()) hosts.push_back({*channel.fd(), channel.events(), 0});
+    if (channel.connected()) hosts.push_back(channel.waits_for());
   const timespec timeout{0, static_cast<long>(std::min<std::int64_t>(until.count(), 20'000) * 1000)};
   ppoll(hosts.data(), hosts.size(), &timeout, nullptr);
 }

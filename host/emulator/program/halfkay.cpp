@@ -15,7 +15,6 @@
 namespace astro::emulator {
 
 HalfKay::HalfKay(std::filesystem::path fifo) : path_(std::move(fifo)) {
-  if (std::filesystem::is_fifo(path_)) std::filesystem::remove(path_);  // of a program that was killed
   if (mkfifo(path_.c_str(), 0600) == 0) fd_ = open(path_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (fd_ < 0)
     throw Error(
@@ -29,7 +28,7 @@ HalfKay::~HalfKay() {
 }
 
 std::optional<std::string> HalfKay::receive() {
-  std::array<char, 4096> bytes;  // NOLINT(cppcoreguidelines-pro-type-member-init)
+  std::array<char, 4096> bytes{};
   ssize_t count = 0;
   while ((count = read(fd_, bytes.data(), bytes.size())) > 0)
     received_.append(bytes.data(), static_cast<std::size_t>(count));

@@ -28,7 +28,6 @@ class CdcHost {
   /// A program opens the port, or sets another baud rate, also of a device that is not there yet.
   void open(std::uint32_t baud);
   void close();
-  bool is_open() const { return open_; }
 
   /// Bytes for a port that is closed are lost.
   void send(std::span<const std::uint8_t> bytes) {

@@ -42,7 +42,6 @@ class UsbHost {
   /// repetition, and passed over.
   std::optional<Packet> receive(int endpoint, std::chrono::microseconds limit);
 
-  std::uint8_t address() const { return address_; }
   std::uint16_t bulk_packet() const { return bulk_packet_; }
 
  private:

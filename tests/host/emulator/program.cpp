@@ -6,39 +6,11 @@
 #include <fstream>
 #include <stdexcept>
 #include <string_view>
-#include <vector>
+
+#include "host/emulator/register_names.hpp"
 
 namespace astro::emulator {
 namespace {
-
-struct Instance {
-  std::string_view type, name;
-  std::uint32_t base;
-};
-
-struct Row {
-  std::string_view type, name;
-  std::uint32_t offset;
-};
-
-#define TYPE(type)
-#define FIELD(type, reg, name, lsb, width)
-#define REGISTER(type, name, offset, width)
-#define INSTANCE(type, name, address) Instance{#type, #name, address},
-const std::vector<Instance> kInstances{
-#include "hal/teensy40/registers/all.def"
-};
-#undef INSTANCE
-#undef REGISTER
-#define INSTANCE(type, name, address)
-#define REGISTER(type, name, offset, width) Row{#type, #name, offset},
-const std::vector<Row> kRows{
-#include "hal/teensy40/registers/all.def"
-};
-#undef TYPE
-#undef FIELD
-#undef REGISTER
-#undef INSTANCE
 
 constexpr std::string_view kMacros = R"(
 .syntax unified
@@ -78,6 +50,12 @@ constexpr std::string_view kMacros = R"(
 .endm
 .macro keep n
   ldr r6, =0x20000000
+  str r0, [r6, #4*\n]
+.endm
+.macro count n
+  ldr r6, =0x20000000
+  ldr r0, [r6, #4*\n]
+  adds r0, #1
   str r0, [r6, #4*\n]
 .endm
 .macro stay
@@ -131,10 +109,8 @@ vectors:
 
 std::string program(const std::string& code) {
   std::string text(kMacros);
-  for (const Instance& instance : kInstances)
-    for (const Row& row : kRows)
-      if (row.type == instance.type)
-        text += fmt::format(".equ {}_{}, 0x{:08X}\n", instance.name, row.name, instance.base + row.offset);
+  for (const RegisterRow& row : registers())
+    text += fmt::format(".equ {}_{}, 0x{:08X}\n", row.instance, row.name, row.address);
   return text + "  .text\n  .global main\n  .thumb_func\nmain:\n" + code + "\n  stay\n";
 }
 

@@ -22,6 +22,7 @@ using namespace std::chrono_literals;
 ///   until REG, mask, value   waits until the bits of the mask have the value
 ///   pause n           n microseconds at 600 MHz, which is how fast time passes here whatever the clocks say
 ///   keep n            stores r0 as result(n)
+///   count n           adds one to result(n)
 ///   handler n         begins the handler of exception n; those without one count as an unexpected exception
 ///   stay              an endless loop
 class Program {

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "tests/support/temporary_folder.hpp"
+#include "tests/target/image/binutils.hpp"
 
 namespace astro::target {
 namespace {
@@ -42,17 +43,6 @@ constexpr Rule kRules[] = {
     {"Wheels::control", TickProfile::control},
     {"Drive::output", TickProfile::control},
 };
-
-std::string output_of(const std::string& command) {
-  FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) throw std::runtime_error("cannot run " + command);
-  std::string text;
-  std::array<char, 65536> block{};
-  while (const std::size_t count = fread(block.data(), 1, block.size(), pipe))
-    text.append(block.data(), count);
-  if (pclose(pipe) != 0) throw std::runtime_error("failed: " + command);
-  return text;
-}
 
 TickProfile::Part part_of(const std::vector<std::string>& frames) {
   for (const std::string& frame : frames)

@@ -79,6 +79,21 @@ constexpr const char* kNote = R"(
   .endm
 )";
 
+constexpr const char* kBothNote = R"(
+  handler 16
+    note 1
+    bx lr
+  handler 17
+    note 2
+    bx lr
+)";
+
+std::vector<std::uint32_t> noted(Program& program) {
+  std::vector<std::uint32_t> numbers;
+  for (std::uint32_t n = 1; n <= program.result(0); ++n) numbers.push_back(program.result(n));
+  return numbers;
+}
+
 TEST(Exceptions, AnUrgentInterruptNestsInALessUrgentOneAndNotTheOtherWayRound) {
   Program program(std::string(kNote) + R"(
     set 0xE000E400, 0x00004080   // 0: 0x80, 1: 0x40
@@ -104,9 +119,7 @@ TEST(Exceptions, AnUrgentInterruptNestsInALessUrgentOneAndNotTheOtherWayRound) {
     bx lr
   )");
   EXPECT_EQ(program.stopped_by(), "");
-  const std::uint32_t expected[] = {1, 3, 4, 2, 9};
-  ASSERT_EQ(program.result(0), 5U);
-  for (std::uint32_t n = 0; n < 5; ++n) EXPECT_EQ(program.result(1 + n), expected[n]) << n;
+  EXPECT_THAT(noted(program), testing::ElementsAre(1, 3, 4, 2, 9));
   EXPECT_EQ(program.result(15), 0xFFFF'FFF1U) << "back to a handler";
 }
 
@@ -119,17 +132,9 @@ TEST(Exceptions, EqualPrioritiesGoByNumberAndChainWithoutTheProgramInBetween) {
     cpsie i
     note 9
     stay
-  handler 16
-    note 1
-    bx lr
-  handler 17
-    note 2
-    bx lr
-  )");
+  )" + kBothNote);
   EXPECT_EQ(program.stopped_by(), "");
-  EXPECT_EQ(program.result(1), 1U);
-  EXPECT_EQ(program.result(2), 2U);
-  EXPECT_EQ(program.result(3), 9U);
+  EXPECT_THAT(noted(program), testing::ElementsAre(1, 2, 9));
 }
 
 TEST(Exceptions, OnlyTheUpperFourBitsOfAPriorityExist) {
@@ -154,16 +159,9 @@ TEST(Exceptions, BasepriHoldsBackItsOwnLevelAndBelow) {
     msr basepri, r0
     note 9
     stay
-  handler 16
-    note 1
-    bx lr
-  handler 17
-    note 2
-    bx lr
-  )");
+  )" + kBothNote);
   EXPECT_EQ(program.stopped_by(), "");
-  const std::uint32_t expected[] = {7, 2, 8, 1, 9};
-  for (std::uint32_t n = 0; n < 5; ++n) EXPECT_EQ(program.result(1 + n), expected[n]) << n;
+  EXPECT_THAT(noted(program), testing::ElementsAre(7, 2, 8, 1, 9));
 }
 
 TEST(Exceptions, PendSvRunsWhenTheInterruptsAreDone) {
@@ -184,8 +182,7 @@ TEST(Exceptions, PendSvRunsWhenTheInterruptsAreDone) {
     bx lr
   )");
   EXPECT_EQ(program.stopped_by(), "");
-  const std::uint32_t expected[] = {1, 2, 9};
-  for (std::uint32_t n = 0; n < 3; ++n) EXPECT_EQ(program.result(1 + n), expected[n]) << n;
+  EXPECT_THAT(noted(program), testing::ElementsAre(1, 2, 9));
 }
 
 TEST(Exceptions, ALineThatFallsAgainLeavesTheInterruptPending) {
@@ -211,8 +208,7 @@ TEST(Exceptions, ALineThatFallsAgainLeavesTheInterruptPending) {
     bx lr
   )");
   EXPECT_EQ(program.stopped_by(), "");
-  const std::uint32_t expected[] = {8, 1, 9};
-  for (std::uint32_t n = 0; n < 3; ++n) EXPECT_EQ(program.result(1 + n), expected[n]) << n;
+  EXPECT_THAT(noted(program), testing::ElementsAre(8, 1, 9));
 }
 
 /// Keeps which exception was entered, CFSR, HFSR, the two addresses and the stacked program counter.

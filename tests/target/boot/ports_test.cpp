@@ -1,0 +1,42 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "host/emulator/emulated_robot.hpp"
+#include "host/link/client.hpp"
+
+namespace astro::emulator {
+namespace {
+
+constexpr const char* kImage = ASTRO_IMAGE_DIR "/astrolabe-teensy40.hex";
+
+class RobotAt : public testing::TestWithParam<Port> {};
+INSTANTIATE_TEST_SUITE_P(BothPorts, RobotAt, testing::Values(Port::serial, Port::usb), [](const auto& port) {
+  return std::string(port.param == Port::usb ? "Usb" : "Serial");
+});
+
+TEST_P(RobotAt, SaysWhoItIs) {
+  auto robot = std::make_shared<EmulatedRobot>(kImage, sim::Config{}, simulator::MocapConfig{});
+  link::Client client(std::make_unique<PortTransport>(robot, GetParam()));
+  client.connect();
+  const protocol::Status status = client.request(protocol::GetStatus{});
+  fmt::print("battery {} mV, ticks {}, overruns {}\n", status.battery_mv, status.tick_count,
+             status.tick_overruns);
+  EXPECT_NEAR(status.battery_mv, 12'000, 50);
+  EXPECT_EQ(status.reset_cause, protocol::ResetCause::power_on);
+}
+
+TEST(Teensy, WithTheSameImageAndRobotGoesTheSameWayAndWithAnotherRobotItsOwn) {
+  const auto state_after_50_ms = [](std::uint64_t seed) {
+    sim::Config robot;
+    robot.seed = seed;
+    Teensy teensy(kImage, robot);
+    teensy.run_for(std::chrono::milliseconds(50));
+    return teensy.state_hash();
+  };
+  EXPECT_EQ(state_after_50_ms(1), state_after_50_ms(1));
+  EXPECT_NE(state_after_50_ms(1), state_after_50_ms(2))
+      << "another unique id, which the firmware keeps in RAM";
+}
+
+}  // namespace
+}  // namespace astro::emulator
