@@ -4,17 +4,29 @@
 
 namespace astro {
 namespace {
-constexpr std::int32_t kFadeIn_umps = 10'000;
+
+Q16 q16(const ParameterSet& set, Param id) { return Q16::from_raw(set.get(id)); }
+
+}  // namespace
+
+WheelGains left_gains(const ParameterSet& set) {
+  return {q16(set, Param::kp), q16(set, Param::ki), q16(set, Param::kS_left), q16(set, Param::kV_left),
+          q16(set, Param::kA_left)};
 }
 
-void WheelController::set_gains(const ParameterSet& set) {
-  kp_ = Q16::from_raw(set.get(Param::kp));
-  kV_ = Q16::from_raw(set.get(Param::kV));
-  kA_ = Q16::from_raw(set.get(Param::kA));
+WheelGains right_gains(const ParameterSet& set) {
+  return {q16(set, Param::kp), q16(set, Param::ki), q16(set, Param::kS_right), q16(set, Param::kV_right),
+          q16(set, Param::kA_right)};
+}
+
+void WheelController::set_gains(const WheelGains& gains) {
+  kp_ = gains.kp;
+  kV_ = gains.kV;
+  kA_ = gains.kA;
   // kS in volts becomes microvolts per step of the fade-in.
   kS_per_fade_ =
-      Q16::from_raw(saturate32(std::int64_t{set.get(Param::kS)} * 1'000'000 >> (kFadeInBits + kFineBits)));
-  ki_tick_24_ = saturate32((std::int64_t{set.get(Param::ki)} << 8) / 1000);
+      Q16::from_raw(saturate32(std::int64_t{gains.kS.raw()} * 1'000'000 >> (kFadeInBits + kFineBits)));
+  ki_tick_24_ = saturate32((std::int64_t{gains.ki.raw()} << 8) / 1000);
 }
 
 }  // namespace astro

@@ -9,6 +9,15 @@
 
 namespace astro {
 
+/// What one wheel's controller works with, in the units of the parameters.
+struct WheelGains {
+  Q16 kp, ki;      // V s/m, V/m
+  Q16 kS, kV, kA;  // V, V s/m, V s^2/m
+};
+
+WheelGains left_gains(const ParameterSet& set);
+WheelGains right_gains(const ParameterSet& set);
+
 /// Speed control of one wheel: feed-forward of the motor's own model, and PI for what the model does not
 /// know.
 ///
@@ -22,7 +31,7 @@ namespace astro {
 class WheelController {
  public:
   /// Keeps the integral, so the output does not jump because a gain changed that is multiplied by zero.
-  void set_gains(const ParameterSet& set);
+  void set_gains(const WheelGains& gains);
 
   /// Returns the motor voltage, within +-limit_uv.
   std::int32_t advance(std::int32_t set_point_umps, std::int32_t acceleration_umps2,

@@ -26,9 +26,9 @@ enum class Param : std::uint16_t {
   encoder_polarity_right,
   kp,
   ki,
-  kS,
-  kV,
-  kA,
+  kS_left,
+  kV_left,
+  kA_left,
   observer_bandwidth,
   path_k_along,
   path_k_cross,
@@ -44,6 +44,9 @@ enum class Param : std::uint16_t {
   battery_high,
   over_speed,
   robot_name,
+  kS_right,
+  kV_right,
+  kA_right,
 };
 
 /// THE parameter table: row i has id i + 1. Add a parameter by appending its id above and its row here;
@@ -75,11 +78,12 @@ inline constexpr auto kParamTable = std::to_array<ParamRow>({
                 "+1 or -1: sign of the counts while the right wheel rolls forward"),
     binary_row(Param::kp, "kp", "Vs/m", 16, {40, 0, 1000}, "Wheel speed control: proportional gain"),
     binary_row(Param::ki, "ki", "V/m", 16, {400, 0, 10'000}, "Wheel speed control: integral gain"),
-    binary_row(Param::kS, "kS", "V", 16, {0.9, 0, 50},
-               "Feed-forward: voltage that overcomes static friction"),
-    binary_row(Param::kV, "kV", "Vs/m", 16, {12.05, 0, 1000},
-               "Feed-forward: voltage per wheel speed (back-EMF)"),
-    binary_row(Param::kA, "kA", "Vs^2/m", 16, {1.0, 0, 100}, "Feed-forward: voltage per wheel acceleration"),
+    binary_row(Param::kS_left, "kS_left", "V", 16, {0.9, 0, 50},
+               "Left feed-forward: voltage that overcomes static friction"),
+    binary_row(Param::kV_left, "kV_left", "Vs/m", 16, {12.05, 0, 1000},
+               "Left feed-forward: voltage per wheel speed (back-EMF)"),
+    binary_row(Param::kA_left, "kA_left", "Vs^2/m", 16, {1.0, 0, 100},
+               "Left feed-forward: voltage per wheel acceleration"),
     binary_row(Param::observer_bandwidth, "observer_bandwidth", "rad/s", 16, {100, 1, 500},
                "Wheel speed observer: bandwidth"),
     binary_row(Param::path_k_along, "path_k_along", "1/s", 16, {8, 0, 1000},
@@ -109,6 +113,12 @@ inline constexpr auto kParamTable = std::to_array<ParamRow>({
     decimal_row(Param::over_speed, "over_speed", "m/s", 6, {1.2, 0.02, 20},
                 "The robot stops when a wheel is measured faster"),
     text_row(Param::robot_name, "robot_name", "ASTRO", 1, 24, "What people call this robot: printable ASCII"),
+    binary_row(Param::kS_right, "kS_right", "V", 16, {0.9, 0, 50},
+               "Right feed-forward: voltage that overcomes static friction"),
+    binary_row(Param::kV_right, "kV_right", "Vs/m", 16, {12.05, 0, 1000},
+               "Right feed-forward: voltage per wheel speed (back-EMF)"),
+    binary_row(Param::kA_right, "kA_right", "Vs^2/m", 16, {1.0, 0, 100},
+               "Right feed-forward: voltage per wheel acceleration"),
 });
 
 inline constexpr std::size_t kParamCount = kParamTable.size();

@@ -11,10 +11,10 @@
 /// Enumerations on the wire: one byte each, values append only.
 namespace astro::protocol {
 
-/// What the robot is doing. Only disarmed and fault leave the bridges open.
-enum class Mode : std::uint8_t { disarmed, idle, velocity, segment, stopping, fault };
-inline constexpr std::array<std::string_view, 6> kModeNames{"disarmed", "idle",     "velocity",
-                                                            "segment",  "stopping", "fault"};
+/// What the robot is doing. Disarmed, fault and boot leave the bridges open; `wheels` is open-loop voltage.
+enum class Mode : std::uint8_t { disarmed, idle, velocity, segment, stopping, fault, boot, wheels, paused };
+inline constexpr std::array<std::string_view, 9> kModeNames{
+    "disarmed", "idle", "velocity", "segment", "stopping", "fault", "boot", "wheels", "paused"};
 constexpr std::span<const std::string_view> names(Mode) { return kModeNames; }
 
 enum class SegmentKind : std::uint8_t { line, spin, arc };

@@ -32,10 +32,10 @@ struct MessageList {
   }
 };
 
-using Requests =
-    MessageList<Hello, Ping, GetStatus, Arm, Disarm, Stop, EmergencyStop, Velocity, AddSegment, SetPose,
-                GetParameterInfo, GetParameter, StageParameter, CommitParameters, RevertParameters,
-                DefaultParameters, SetTelemetry, GetFaults, ClearFaults, Reboot, EnterBootloader>;
+using Requests = MessageList<Hello, Ping, GetStatus, Arm, Disarm, Stop, EmergencyStop, Velocity, AddSegment,
+                             SetPose, GetParameterInfo, GetParameter, StageParameter, CommitParameters,
+                             RevertParameters, DefaultParameters, SetTelemetry, GetFaults, ClearFaults,
+                             Reboot, EnterBootloader, WheelVoltage>;
 using Replies =
     MessageList<Ack, ErrorReply, HelloReply, Pong, Status, ParameterInfo, ParameterValue, FaultReport>;
 using Events = MessageList<Telemetry, SegmentDone, FaultRaised, Booted>;

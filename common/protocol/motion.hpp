@@ -63,6 +63,23 @@ struct Velocity {
   bool operator==(const Velocity&) const = default;
 };
 
+struct WheelVoltage {
+  std::int32_t left_mv = 0;
+  std::int32_t right_mv = 0;
+
+  using Reply = Ack;
+  static constexpr std::uint8_t kId = 0x16;
+  static constexpr std::string_view kName = "WheelVoltage";
+  static constexpr std::string_view kDoc =
+      "Puts voltages on the motors, open loop, until the next motion request or the command timeout.";
+  static constexpr std::tuple kFields{
+      Field{&WheelVoltage::left_mv, "left_mv", "mV", "left motor, forward positive; limited by the supply"},
+      Field{&WheelVoltage::right_mv, "right_mv", "mV",
+            "right motor, forward positive; limited by the supply"},
+  };
+  bool operator==(const WheelVoltage&) const = default;
+};
+
 struct AddSegment {
   SegmentKind kind{};
   std::uint16_t tag = 0;

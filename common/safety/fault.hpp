@@ -24,12 +24,15 @@ enum class Fault : std::uint8_t {
   parameters,       // no valid parameter set
   flash,            // flash did not read back what was written
   emergency_stop,   // commanded by a host
+  runaway,          // a wheel turns against its voltage, or faster than the voltage can turn it
+  watchdog,         // the firmware hung and was restarted
 };
 
-inline constexpr std::array<std::string_view, 13> kFaultNames{
-    "none",  "command_timeout", "link_lost",    "driver",     "under_voltage", "over_voltage",  "over_speed",
-    "stall", "encoder",         "tick_overrun", "parameters", "flash",         "emergency_stop"};
-static_assert(kFaultNames.size() == static_cast<std::size_t>(Fault::emergency_stop) + 1);
+inline constexpr std::array<std::string_view, 15> kFaultNames{
+    "none",         "command_timeout", "link_lost",      "driver",  "under_voltage",
+    "over_voltage", "over_speed",      "stall",          "encoder", "tick_overrun",
+    "parameters",   "flash",           "emergency_stop", "runaway", "watchdog"};
+static_assert(kFaultNames.size() == static_cast<std::size_t>(Fault::watchdog) + 1);
 
 constexpr std::span<const std::string_view> names(Fault) { return kFaultNames; }
 

@@ -51,10 +51,11 @@ Drive::Output Drive::advance(const TickInput& input) {
 void Drive::watch_over(const TickInput& input, std::uint32_t found) {
   if (found != 0) faults_.raise_all(found, input.now_us);
   if (faults_.any() && mode_ != Mode::fault && !fault_after_stop_) enter_fault();
-  if (mode_ != Mode::velocity && mode_ != Mode::segment) return;
-  if (input.now_us <= (mode_ == Mode::velocity ? velocity_deadline_us_ : host_deadline_us_)) return;
+  if (mode_ != Mode::velocity && mode_ != Mode::segment && mode_ != Mode::wheels) return;
+  if (input.now_us <= (mode_ == Mode::segment ? host_deadline_us_ : velocity_deadline_us_)) return;
+  faults_.raise(mode_ == Mode::segment ? Fault::link_lost : Fault::command_timeout, input.now_us);
+  if (mode_ == Mode::wheels) return enter_fault();  // there is no ramp without a loop
   // Nobody steers any more: ramp to rest, then off.
-  faults_.raise(mode_ == Mode::velocity ? Fault::command_timeout : Fault::link_lost, input.now_us);
   stop();
   fault_after_stop_ = true;
 }
@@ -74,6 +75,10 @@ void Drive::disarm() {
 
 void Drive::stop() {
   if (at_rest() || mode_ == Mode::stopping) return;
+  if (mode_ == Mode::wheels) {
+    mode_ = Mode::idle;  // brakes: a loop would trust wires that are just being looked for
+    return;
+  }
   end_segments(protocol::SegmentOutcome::aborted, protocol::SegmentOutcome::aborted);
   if (mode_ == Mode::segment) {
     const BodyTwist now = to_body(geometry_, wheels_.set_points());
@@ -85,7 +90,7 @@ void Drive::stop() {
 
 bool Drive::drive_velocity(const BodyTwist& twist) {
   if (!armed() || fault_after_stop_) return false;
-  if (mode_ == Mode::segment) stop();
+  if (mode_ == Mode::segment || mode_ == Mode::wheels) stop();
   if (mode_ == Mode::idle) {
     v_.set(0);
     omega_.set(0);
@@ -96,9 +101,17 @@ bool Drive::drive_velocity(const BodyTwist& twist) {
   return true;
 }
 
+bool Drive::drive_wheels(const WheelVoltages& voltages) {
+  if (!armed() || fault_after_stop_ || (mode_ != Mode::idle && mode_ != Mode::wheels)) return false;
+  mode_ = Mode::wheels;
+  voltages_ = voltages;
+  velocity_deadline_us_ = deadline_us();
+  return true;
+}
+
 bool Drive::add_segment(const Trapezoid& profile, std::uint16_t tag) {
   if (!armed() || fault_after_stop_ || queue_.full()) return false;
-  if (mode_ == Mode::velocity) stop();
+  if (mode_ == Mode::velocity || mode_ == Mode::wheels) stop();
   queue_.push({profile, tag});
   return true;
 }
@@ -192,6 +205,7 @@ Drive::Output Drive::output(const Wish& wish, const TickInput& input) {
     wheels_.release();
     return {mode_ == Mode::idle ? Output::Bridge::brake : Output::Bridge::coast, {}};
   }
+  if (mode_ == Mode::wheels) return {Output::Bridge::drive, wheels_.open_loop(voltages_, input.battery_mv)};
   const WheelSpeeds set_points = to_wheels(geometry_, wish.twist);
   const WheelSpeeds accelerations = to_wheels(geometry_, wish.acceleration);
   return {Output::Bridge::drive, wheels_.control(set_points, accelerations, input.battery_mv)};

@@ -44,7 +44,9 @@ class Drive {
   void disarm();  // coasts at once, empties the queue
   void stop();    // ramps to rest, empties the queue, stays armed
   void emergency_stop() { raise(Fault::emergency_stop); }
-  bool drive_velocity(const BodyTwist& twist);                    // false unless armed
+  bool drive_velocity(const BodyTwist& twist);  // false unless armed
+  /// Open loop, for identification. False unless armed.
+  bool drive_wheels(const WheelVoltages& voltages);
   bool add_segment(const Trapezoid& profile, std::uint16_t tag);  // false unless armed with room
   void set_pose(const Pose& pose) { odometry_.set_pose(pose); }   // only at rest
   void raise(Fault fault);
@@ -57,7 +59,8 @@ class Drive {
   bool at_rest() const { return !driving(); }
   /// Commands or segments move the wheels, or a ramp does.
   bool driving() const {
-    return mode_ == Mode::velocity || mode_ == Mode::segment || mode_ == Mode::stopping;
+    return mode_ == Mode::velocity || mode_ == Mode::segment || mode_ == Mode::stopping ||
+           mode_ == Mode::wheels;
   }
   bool queue_full() const { return queue_.full(); }
   Mode mode() const { return mode_; }
@@ -109,6 +112,7 @@ class Drive {
   std::uint32_t settling_ticks_ = 0;
   Watch settled_;
   BodyTwist target_;
+  WheelVoltages voltages_;
   Slew v_, omega_;
   std::uint64_t now_us_ = 0;
   std::uint64_t host_deadline_us_ = 0;  // nobody steers after it

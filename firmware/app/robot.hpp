@@ -133,7 +133,8 @@ class Robot {
   /// Only the host that drives keeps a drive alive: not one that looks on at another port, and not one that
   /// says Hello where the driver was, which must have gone.
   void note_driver(int port, std::uint8_t message) {
-    constexpr std::array kDriving{protocol::Arm::kId, protocol::Velocity::kId, protocol::AddSegment::kId};
+    constexpr std::array kDriving{protocol::Arm::kId, protocol::Velocity::kId, protocol::WheelVoltage::kId,
+                                  protocol::AddSegment::kId};
     if (std::find(kDriving.begin(), kDriving.end(), message) != kDriving.end()) driver_port_ = port;
     if (port == driver_port_ && message == protocol::Hello::kId) driver_port_ = kNobody;
     if (port != driver_port_) return;
@@ -224,6 +225,15 @@ class Robot {
   Answer<Ack> handle(int, const protocol::Velocity& request) {
     auto hold = board_.hold_tick();
     if (!drive_.drive_velocity({request.v_umps, request.omega_uradps})) return not_ready();
+    return Ack{};
+  }
+
+  Answer<Ack> handle(int, const protocol::WheelVoltage& request) {
+    const auto microvolts = [](std::int32_t mv) { return 1000 * clamp_abs<std::int32_t>(mv, 50'000); };
+    auto hold = board_.hold_tick();
+    if (drive_.armed() && drive_.driving() && drive_.mode() != protocol::Mode::wheels)
+      return error(ErrorCode::moving);
+    if (!drive_.drive_wheels({microvolts(request.left_mv), microvolts(request.right_mv)})) return not_ready();
     return Ack{};
   }
 

@@ -44,10 +44,9 @@ void Wheels::configure(const ParameterSet& set, const Geometry& geometry) {
   right_.motor_sign = set.get(Param::motor_polarity_right);
   left_.encoder_sign = set.get(Param::encoder_polarity_left);
   right_.encoder_sign = set.get(Param::encoder_polarity_right);
-  for (Side* side : {&left_, &right_}) {
-    side->controller.set_gains(set);
-    side->observer.set_bandwidth(set.get(Param::observer_bandwidth));
-  }
+  left_.controller.set_gains(left_gains(set));
+  right_.controller.set_gains(right_gains(set));
+  for (Side* side : {&left_, &right_}) side->observer.set_bandwidth(set.get(Param::observer_bandwidth));
 }
 
 std::int32_t Wheels::step(Side& side, std::int32_t counts) const {
@@ -85,16 +84,32 @@ hal::Duty Wheels::to_duty(std::int32_t left_uv, std::int32_t right_uv, std::int3
 
 hal::Duty Wheels::control(const WheelSpeeds& set_points, const WheelSpeeds& accelerations,
                           std::int32_t battery_mv) {
-  const std::int32_t supply_mv = battery_mv > kLeastSupply_mv ? battery_mv : kLeastSupply_mv;
-  const std::int32_t limit_uv = std::min(1000 * supply_mv, voltage_limit_uv_);
+  const Supply supply = supply_of(battery_mv);
+  const std::int32_t limit_uv = supply.limit_uv;
   set_points_ = set_points;
   const std::int32_t left_uv =
       left_.controller.advance(set_points.left_umps, accelerations.left_umps, speeds_.left_umps, limit_uv);
   const std::int32_t right_uv = right_.controller.advance(set_points.right_umps, accelerations.right_umps,
                                                           speeds_.right_umps, limit_uv);
-  forward_duty_ = to_duty(left_uv, right_uv, supply_mv);
-  return {static_cast<std::int16_t>(forward_duty_.left * left_.motor_sign),
-          static_cast<std::int16_t>(forward_duty_.right * right_.motor_sign)};
+  return wired(to_duty(left_uv, right_uv, supply.mv));
+}
+
+hal::Duty Wheels::open_loop(const WheelVoltages& voltages, std::int32_t battery_mv) {
+  release();
+  const Supply supply = supply_of(battery_mv);
+  return wired(to_duty(clamp_abs(voltages.left_uv, supply.limit_uv),
+                       clamp_abs(voltages.right_uv, supply.limit_uv), supply.mv));
+}
+
+Wheels::Supply Wheels::supply_of(std::int32_t battery_mv) const {
+  const std::int32_t mv = battery_mv > kLeastSupply_mv ? battery_mv : kLeastSupply_mv;
+  return {mv, std::min(1000 * mv, voltage_limit_uv_)};
+}
+
+hal::Duty Wheels::wired(const hal::Duty& forward) {
+  forward_duty_ = forward;
+  return {static_cast<std::int16_t>(forward.left * left_.motor_sign),
+          static_cast<std::int16_t>(forward.right * right_.motor_sign)};
 }
 
 void Wheels::release() {

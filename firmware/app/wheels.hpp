@@ -9,6 +9,11 @@
 
 namespace astro {
 
+/// What the motors get, forward positive.
+struct WheelVoltages {
+  std::int32_t left_uv = 0, right_uv = 0;
+};
+
 /// Both wheels: polarity, counting, speed, and from voltage to duty.
 class Wheels {
  public:
@@ -24,6 +29,8 @@ class Wheels {
 
   /// The duty that brings both wheels to the set points, the bridges' own sense.
   hal::Duty control(const WheelSpeeds& set_points, const WheelSpeeds& accelerations, std::int32_t battery_mv);
+  /// The duty that puts these voltages on the motors, as far as the supply goes.
+  hal::Duty open_loop(const WheelVoltages& voltages, std::int32_t battery_mv);
   /// No set point: the integrals are forgotten.
   void release();
 
@@ -42,6 +49,13 @@ class Wheels {
     std::int32_t seen = 0;  // decoder's last reading
   };
 
+  struct Supply {
+    std::int32_t mv, limit_uv;
+  };
+
+  Supply supply_of(std::int32_t battery_mv) const;
+  /// Remembers the forward duty and turns it into the bridges' own sense.
+  hal::Duty wired(const hal::Duty& forward);
   std::int32_t step(Side& side, std::int32_t counts) const;
   /// The voltages are within the supply.
   static hal::Duty to_duty(std::int32_t left_uv, std::int32_t right_uv, std::int32_t supply_mv);

@@ -19,6 +19,8 @@ constexpr std::array<std::string_view, kFaultNames.size()> kHelp{
     "no valid parameter set was found at the start: 'astrolabe params import' or 'params defaults'",
     "the flash did not keep what was written: the last set stays in force, the part may be worn",
     "somebody pressed emergency stop",
+    "a wheel turned against its voltage: 'astrolabe check-wiring' finds a wrong motor or encoder polarity",
+    "the firmware hung and restarted itself: report it, it should never do that",
 };
 
 }  // namespace

@@ -217,5 +217,43 @@ TEST(Wiring, PolarityParametersMakeForwardForward) {
   EXPECT_NEAR(robot->board().truth().theta_rad, 0, 0.003);
 }
 
+TEST_F(Driving, WheelVoltagesReachTheMotorsWhateverTheSupplyIs) {
+  ask(protocol::Arm{});
+  for (const double supply_V : {11.0, 13.0}) {
+    board().battery().set_open_circuit_V(supply_V);
+    for (int i = 0; i < 10; ++i) {
+      ask(protocol::WheelVoltage{3'000, -4'500});
+      run_ms(50);
+    }
+    EXPECT_EQ(mode(), Mode::wheels);
+    const double bus_V = board().drivetrain().bus_V();
+    // One step of the duty is 0.4 mV; the reading of the supply is good to 1 mV of 12 V.
+    EXPECT_NEAR(board().motors().duty().left * bus_V / 32767, 3.0, 0.002);
+    EXPECT_NEAR(board().motors().duty().right * bus_V / 32767, -4.5, 0.002);
+  }
+}
+
+TEST_F(Driving, WheelVoltagesEndInABrakeOnStopAndWithAFaultWhenTheyAreNotRepeated) {
+  EXPECT_EQ(refusal(protocol::WheelVoltage{3'000, 3'000}).code(), ErrorCode::not_armed);
+  ask(protocol::Arm{});
+  ask(protocol::WheelVoltage{3'000, 3'000});
+  run_ms(100);
+  ask(protocol::Stop{});
+  run_ms(2);
+  EXPECT_EQ(mode(), Mode::idle);
+  EXPECT_EQ(board().motors().state(), Bridge::brake);
+  ask(protocol::WheelVoltage{3'000, 3'000});
+  run_ms(210);  // with pings
+  EXPECT_EQ(drive().faults().mask(), bit(Fault::command_timeout));
+  EXPECT_TRUE(open()) << "open loop there is no ramp to wait for";
+}
+
+TEST_F(Driving, WheelVoltagesAreRefusedWhileTheRobotDrives) {
+  ask(protocol::Arm{});
+  ask(protocol::Velocity{100'000, 0});
+  run_ms(100);
+  EXPECT_EQ(refusal(protocol::WheelVoltage{3'000, 3'000}).code(), ErrorCode::moving);
+}
+
 }  // namespace
 }  // namespace astro

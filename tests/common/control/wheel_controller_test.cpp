@@ -18,14 +18,22 @@ struct Gains {
   double kp = 0, ki = 0, kS = 0, kV = 0, kA = 0;
 };
 
-ParameterSet set_of(const Gains& gains) {
+WheelGains set_of(const Gains& gains) {
+  const auto raw = [](double value) { return Q16::from_raw(q16(value)); };
+  return {raw(gains.kp), raw(gains.ki), raw(gains.kS), raw(gains.kV), raw(gains.kA)};
+}
+
+TEST(WheelController, EachWheelHasAFeedForwardOfItsOwn) {
   ParameterSet set;
-  set.set(Param::kp, q16(gains.kp));
-  set.set(Param::ki, q16(gains.ki));
-  set.set(Param::kS, q16(gains.kS));
-  set.set(Param::kV, q16(gains.kV));
-  set.set(Param::kA, q16(gains.kA));
-  return set;
+  set.set(Param::kS_left, q16(1));
+  set.set(Param::kV_right, q16(2));
+  set.set(Param::kA_left, q16(3));
+  EXPECT_EQ(left_gains(set).kS.raw(), q16(1));
+  EXPECT_EQ(right_gains(set).kS.raw(), set.get(Param::kS_right));
+  EXPECT_EQ(left_gains(set).kV.raw(), set.get(Param::kV_left));
+  EXPECT_EQ(right_gains(set).kV.raw(), q16(2));
+  EXPECT_EQ(left_gains(set).kA.raw(), q16(3));
+  EXPECT_EQ(right_gains(set).kA.raw(), set.get(Param::kA_right));
 }
 
 WheelController controller(const Gains& gains) {

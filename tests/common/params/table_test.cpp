@@ -111,7 +111,7 @@ TEST(ParamTable, DescribesTheReferenceRobot) {
   // 12 V over the no-load speed of 251 rpm, less the dead zone: the feed-forward reaches full speed near 12
   // V.
   const double no_load_mps = 251.0 / 60 * M_PI * value(Param::wheel_diameter);
-  EXPECT_NEAR(value(Param::kS) + value(Param::kV) * no_load_mps, 12.0, 0.5);
+  EXPECT_NEAR(value(Param::kS_left) + value(Param::kV_left) * no_load_mps, 12.0, 0.5);
 }
 
 }  // namespace

@@ -122,20 +122,22 @@ TEST(Schema, KeepsTheFrozenMessagesByteForByte) {
 
 TEST(Schema, KeepsTheNumbersOfEnumerationValues) {
   EXPECT_EQ(static_cast<int>(Mode::fault), 5);
+  EXPECT_EQ(static_cast<int>(Mode::paused), 8);
   EXPECT_EQ(static_cast<int>(SegmentKind::arc), 2);
   EXPECT_EQ(static_cast<int>(SegmentOutcome::aborted), 1);
   EXPECT_EQ(static_cast<int>(ParameterKind::text), 4);
   EXPECT_EQ(static_cast<int>(ErrorCode::queue_full), 5);
   EXPECT_EQ(static_cast<int>(ErrorCode::busy), 12);
   EXPECT_EQ(static_cast<int>(Fault::emergency_stop), 12);
+  EXPECT_EQ(static_cast<int>(Fault::watchdog), 14);
 }
 
 TEST(Schema, NamesEveryEnumerationValueAndNoOther) {
   EXPECT_EQ(name(Mode::stopping), "stopping");
   EXPECT_EQ(name(ErrorCode::busy), "busy");
   EXPECT_EQ(name(Fault::tick_overrun), "tick_overrun");
-  EXPECT_EQ(name(Mode{6}), "?");
-  EXPECT_EQ(name(Fault{13}), "?");
+  EXPECT_EQ(name(Mode{9}), "?");
+  EXPECT_EQ(name(Fault{15}), "?");
   EXPECT_EQ(meaning(ErrorCode::moving), "the robot must be at rest for this");
   EXPECT_EQ(meaning(ErrorCode{13}), "an error of another protocol version");
   EXPECT_EQ(message_name(0x08), "Velocity");
@@ -149,7 +151,7 @@ TEST(Schema, GivesEachFaultButNoneItsOwnBit) {
     EXPECT_EQ(seen & mask, 0U);
     seen |= mask;
   }
-  EXPECT_EQ(seen, 0x1FFEU);
+  EXPECT_EQ(seen, 0x7FFEU);
 }
 
 TEST(Schema, CountsResetCausesAsTheBoardDoes) {
