@@ -12,7 +12,11 @@ void SpeedObserver::set_bandwidth(std::int32_t bandwidth_16) {
   integral_20_ = static_cast<std::int32_t>(square_20);
 }
 
-void SpeedObserver::advance(std::int32_t counts) {
+void SpeedObserver::advance(std::int32_t counts, std::int32_t expected) {
+  speed_40_ += std::int64_t{saturate_to<kExpectedBits>(expected)} << kSpeedBits;
+  // Counts alone cannot bring it there, but an expectation that never comes true could.
+  if (exceeds(static_cast<std::int32_t>(speed_40_ >> 32), kMost_8))
+    speed_40_ = std::int64_t{speed_40_ < 0 ? -kMost_8 : kMost_8} << 32;
   const std::int32_t seen = saturate_to<kCountBits>(counts) * (1 << kSpeedBits);
   error_20_ =
       saturate_to<kCountBits + kSpeedBits>(subtract_saturated(add_saturated(error_20_, seen), speed()));

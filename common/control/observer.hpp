@@ -6,7 +6,8 @@ namespace astro {
 
 /// Wheel speed from encoder counts: a tracking loop (type-2 phase-locked loop) whose state is an estimated
 /// position and speed, corrected by the count that the encoder shows. Smooth where a difference of counts
-/// would toggle between 0 and 1, and without lag at constant speed.
+/// would toggle between 0 and 1, and without lag at constant speed. Told of the acceleration that is wanted
+/// of the wheel, it does not lag behind that either: the loop has to find only what the wheel does otherwise.
 ///
 /// Units   speed in 2^-20 counts per tick.
 /// Cost    constant, three multiplies; callable from the control tick.
@@ -19,8 +20,9 @@ class SpeedObserver {
   /// bandwidth in 2^-16 rad/s; the estimate so far is kept, so the parameter may change while driving.
   void set_bandwidth(std::int32_t bandwidth_16);
 
-  /// `counts`: signed counts since the last tick, forward positive.
-  void advance(std::int32_t counts);
+  /// `counts`: signed counts since the last tick, forward positive. `expected`: by how much the speed should
+  /// have changed meanwhile, 2^-20 counts per tick; more than a quarter of a count counts as that.
+  void advance(std::int32_t counts, std::int32_t expected = 0);
 
   std::int32_t speed() const { return static_cast<std::int32_t>(speed_40_ >> 20); }
   void reset() {
@@ -30,6 +32,8 @@ class SpeedObserver {
 
  private:
   static constexpr int kCountBits = 11;  // +-1024 counts a tick: far beyond any encoder
+  static constexpr int kExpectedBits = kSpeedBits - 1;
+  static constexpr std::int32_t kMost_8 = 1 << (kCountBits - 1 + 8);
 
   std::int32_t proportional_20_ = 0;
   std::int32_t integral_20_ = 0;

@@ -15,10 +15,11 @@ struct Segment {
   std::int32_t yaw_rate_uradps = 0;  // at most this; 0: as fast as the robot's limits allow
 };
 
-/// Limits that a trapezoid obeys.
+/// Limits of what is commanded. Jerk is for velocities only: a segment has the acceleration of a trapezoid.
 struct MotionLimits {
   std::int32_t speed_umps = 0, yaw_rate_uradps = 0;
   std::int32_t acceleration_umps2 = 0, yaw_acceleration_uradps2 = 0;
+  std::int32_t jerk_mmps3 = 0, yaw_jerk_mradps3 = 0;  // 0: none
 };
 
 MotionLimits make_limits(const ParameterSet& set);

@@ -63,8 +63,9 @@ constexpr std::int64_t share(std::int64_t total, std::int64_t shares, int bits) 
 }  // namespace
 
 MotionLimits make_limits(const ParameterSet& set) {
-  return {set.get(Param::speed_limit), set.get(Param::yaw_rate_limit), set.get(Param::acceleration_limit),
-          set.get(Param::yaw_acceleration_limit)};
+  return {set.get(Param::speed_limit),        set.get(Param::yaw_rate_limit),
+          set.get(Param::acceleration_limit), set.get(Param::yaw_acceleration_limit),
+          set.get(Param::jerk_limit),         set.get(Param::yaw_jerk_limit)};
 }
 
 bool Trapezoid::plan(const Segment& segment, const MotionLimits& limits, Trapezoid& out) {

@@ -29,4 +29,12 @@ void WheelController::set_gains(const WheelGains& gains) {
   ki_tick_24_ = saturate32((std::int64_t{gains.ki.raw()} << 8) / 1000);
 }
 
+std::int32_t WheelController::limit(std::int32_t sum_uv, std::int32_t error_umps, std::int32_t limit_uv) {
+  const std::int64_t most_24 = std::int64_t{limit_uv} << 24;
+  integral_24_ = clamp_abs(integral_24_, most_24);
+  const bool leads_out = (sum_uv > 0) != (error_umps > 0);
+  if (leads_out) integral_24_ = mul_add(integral_24_, error_umps, ki_tick_24_);
+  return sum_uv > 0 ? limit_uv : -limit_uv;
+}
+
 }  // namespace astro

@@ -7,10 +7,6 @@ constexpr std::int32_t kStanding_umps = 3'000;      // slower than this is stand
 constexpr std::uint32_t kSettled_ticks = 50;        // and for so long
 constexpr std::uint32_t kSettleAtMost_ticks = 700;  // a robot held by friction is as settled as it will be
 
-std::int32_t per_tick(std::int32_t per_second2) {
-  return per_second2 / kTickHz > 0 ? per_second2 / kTickHz : 1;
-}
-
 // Scales both components, so that a command beyond the limits keeps its curvature.
 BodyTwist within(const BodyTwist& twist, const MotionLimits& limits) {
   const std::int64_t v = twist.v_umps < 0 ? -std::int64_t{twist.v_umps} : twist.v_umps;
@@ -32,7 +28,7 @@ BodyTwist within(const BodyTwist& twist, const MotionLimits& limits) {
 void Drive::configure(const ParameterSet& set) {
   geometry_ = make_geometry(set);
   limits_ = make_limits(set);
-  slew_step_ = {per_tick(limits_.acceleration_umps2), per_tick(limits_.yaw_acceleration_uradps2)};
+  ramp_.set_limits(limits_);
   command_timeout_us_ = static_cast<std::uint64_t>(set.get(Param::command_timeout)) * 1000;
   odometry_.set_geometry(geometry_);
   wheels_.configure(set, geometry_);
@@ -80,23 +76,17 @@ void Drive::stop() {
     return;
   }
   end_segments(protocol::SegmentOutcome::aborted, protocol::SegmentOutcome::aborted);
-  if (mode_ == Mode::segment) {
-    const BodyTwist now = to_body(geometry_, wheels_.set_points());
-    v_.set(now.v_umps);
-    omega_.set(now.omega_uradps);
-  }
+  if (mode_ == Mode::segment) ramp_.set(to_body(geometry_, wheels_.set_points()));
+  ramp_.set_target({});
   mode_ = Mode::stopping;
 }
 
 bool Drive::drive_velocity(const BodyTwist& twist) {
   if (!armed() || fault_after_stop_) return false;
   if (mode_ == Mode::segment || mode_ == Mode::wheels) stop();
-  if (mode_ == Mode::idle) {
-    v_.set(0);
-    omega_.set(0);
-  }
+  if (mode_ == Mode::idle) ramp_.set({});
   mode_ = Mode::velocity;
-  target_ = within(twist, limits_);
+  ramp_.set_target(within(twist, limits_));
   velocity_deadline_us_ = deadline_us();
   return true;
 }
@@ -152,11 +142,11 @@ Drive::Wish Drive::wish() {
   }
   switch (mode_) {
     case Mode::velocity:
-      return slewed(target_);
+      return ramped();
     case Mode::segment:
       return follow();
     case Mode::stopping: {
-      const Wish ramp = slewed({});
+      const Wish ramp = ramped();
       if (ramp.twist == BodyTwist{} && standing()) {
         mode_ = Mode::idle;
         if (fault_after_stop_) enter_fault();
@@ -168,12 +158,9 @@ Drive::Wish Drive::wish() {
   }
 }
 
-Drive::Wish Drive::slewed(const BodyTwist& target) {
-  v_.advance(target.v_umps, slew_step_.v_umps);
-  omega_.advance(target.omega_uradps, slew_step_.omega_uradps);
-  return {
-      {v_.value(), omega_.value()},
-      {saturate32(std::int64_t{v_.change()} * kTickHz), saturate32(std::int64_t{omega_.change()} * kTickHz)}};
+Drive::Wish Drive::ramped() {
+  ramp_.advance();
+  return {ramp_.value(), ramp_.acceleration()};
 }
 
 void Drive::next_segment() {

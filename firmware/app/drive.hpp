@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "common/control/path_follower.hpp"
-#include "common/control/slew.hpp"
+#include "common/control/twist_ramp.hpp"
 #include "common/kinematics/odometry.hpp"
 #include "common/params/parameter_set.hpp"
 #include "common/protocol/enums.hpp"
@@ -88,14 +88,13 @@ class Drive {
     return command_timeout_us_ != 0 ? now_us_ + command_timeout_us_ : ~std::uint64_t{0};
   }
   Wish wish();
-  Wish slewed(const BodyTwist& target);
+  Wish ramped();
   Wish follow();
   void next_segment();
   Output output(const Wish& wish, const TickInput& input);
 
   Geometry geometry_;
   MotionLimits limits_;
-  BodyTwist slew_step_;  // most change of a velocity set point in one tick
   std::uint64_t command_timeout_us_ = 0;
 
   Odometry odometry_{Geometry{}};
@@ -111,9 +110,8 @@ class Drive {
   QueuedSegment running_;
   std::uint32_t settling_ticks_ = 0;
   Watch settled_;
-  BodyTwist target_;
   WheelVoltages voltages_;
-  Slew v_, omega_;
+  TwistRamp ramp_;
   std::uint64_t now_us_ = 0;
   std::uint64_t host_deadline_us_ = 0;  // nobody steers after it
   std::uint64_t velocity_deadline_us_ = 0;

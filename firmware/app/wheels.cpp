@@ -34,6 +34,13 @@ std::int32_t most_counts(const Geometry& geometry) {
   return counts < 1000 ? static_cast<std::int32_t>(counts) : 1000;
 }
 
+// A speed of 2^-12 um/s is 2^20 / wheel.speed of the observer's units, and a tick is a thousandth of a
+// second.
+std::int32_t expected_scale(const Geometry::Wheel& wheel) {
+  const std::uint64_t scale = ~std::uint64_t{0} / (static_cast<std::uint64_t>(wheel.speed) * kTickHz);
+  return scale < INT32_MAX ? static_cast<std::int32_t>(scale) : INT32_MAX;
+}
+
 }  // namespace
 
 void Wheels::configure(const ParameterSet& set, const Geometry& geometry) {
@@ -44,8 +51,9 @@ void Wheels::configure(const ParameterSet& set, const Geometry& geometry) {
   right_.motor_sign = set.get(Param::motor_polarity_right);
   left_.encoder_sign = set.get(Param::encoder_polarity_left);
   right_.encoder_sign = set.get(Param::encoder_polarity_right);
-  left_.controller.set_gains(left_gains(set));
-  right_.controller.set_gains(right_gains(set));
+  left_.expected_scale = expected_scale(geometry.left);
+  right_.expected_scale = expected_scale(geometry.right);
+  pair_.set_gains(set);
   for (Side* side : {&left_, &right_}) side->observer.set_bandwidth(set.get(Param::observer_bandwidth));
 }
 
@@ -65,13 +73,13 @@ Wheels::Steps Wheels::read(const TickInput& input) {
   if (exceeds(steps.left, most_counts_) || exceeds(steps.right, most_counts_)) steps = {0, 0, false};
   left_counts_ = wrapping_sum(left_counts_, steps.left);
   right_counts_ = wrapping_sum(right_counts_, steps.right);
-  left_.observer.advance(steps.left);
-  right_.observer.advance(steps.right);
+  left_.observer.advance(steps.left, left_.expected);
+  right_.observer.advance(steps.right, right_.expected);
   speeds_ = {speed_umps(geometry_.left, left_.observer), speed_umps(geometry_.right, right_.observer)};
   return steps;
 }
 
-hal::Duty Wheels::to_duty(std::int32_t left_uv, std::int32_t right_uv, std::int32_t supply_mv) {
+hal::Duty Wheels::to_duty(const WheelVoltages& voltages, std::int32_t supply_mv) {
   // Full duty over the supply, 2^-16 per mV; one millivolt is 1000 uV, and 2^-32 * 4294967 is one thousandth.
   const auto per_mv_16 = static_cast<std::int32_t>((static_cast<std::uint32_t>(kFullDuty) << 16) /
                                                    static_cast<std::uint32_t>(supply_mv));
@@ -79,26 +87,24 @@ hal::Duty Wheels::to_duty(std::int32_t left_uv, std::int32_t right_uv, std::int3
     const auto thousand_duty = static_cast<std::int32_t>(mul_wide(voltage_uv, per_mv_16) >> 16);
     return static_cast<std::int16_t>(mul_high(thousand_duty, 4'294'967));
   };
-  return {duty(left_uv), duty(right_uv)};
+  return {duty(voltages.left_uv), duty(voltages.right_uv)};
 }
 
 hal::Duty Wheels::control(const WheelSpeeds& set_points, const WheelSpeeds& accelerations,
                           std::int32_t battery_mv) {
   const Supply supply = supply_of(battery_mv);
-  const std::int32_t limit_uv = supply.limit_uv;
   set_points_ = set_points;
-  const std::int32_t left_uv =
-      left_.controller.advance(set_points.left_umps, accelerations.left_umps, speeds_.left_umps, limit_uv);
-  const std::int32_t right_uv = right_.controller.advance(set_points.right_umps, accelerations.right_umps,
-                                                          speeds_.right_umps, limit_uv);
-  return wired(to_duty(left_uv, right_uv, supply.mv));
+  left_.expected = mul_high(accelerations.left_umps, left_.expected_scale);
+  right_.expected = mul_high(accelerations.right_umps, right_.expected_scale);
+  return wired(to_duty(pair_.advance(set_points, accelerations, speeds_, supply.limit_uv), supply.mv));
 }
 
 hal::Duty Wheels::open_loop(const WheelVoltages& voltages, std::int32_t battery_mv) {
   release();
   const Supply supply = supply_of(battery_mv);
-  return wired(to_duty(clamp_abs(voltages.left_uv, supply.limit_uv),
-                       clamp_abs(voltages.right_uv, supply.limit_uv), supply.mv));
+  return wired(
+      to_duty({clamp_abs(voltages.left_uv, supply.limit_uv), clamp_abs(voltages.right_uv, supply.limit_uv)},
+              supply.mv));
 }
 
 Wheels::Supply Wheels::supply_of(std::int32_t battery_mv) const {
@@ -113,8 +119,8 @@ hal::Duty Wheels::wired(const hal::Duty& forward) {
 }
 
 void Wheels::release() {
-  left_.controller.reset();
-  right_.controller.reset();
+  pair_.reset();
+  left_.expected = right_.expected = 0;
   set_points_ = {};
   forward_duty_ = {};
 }

@@ -3,16 +3,11 @@
 #include <cstdint>
 
 #include "common/control/observer.hpp"
-#include "common/control/wheel_controller.hpp"
+#include "common/control/wheel_pair.hpp"
 #include "common/kinematics/twist.hpp"
 #include "firmware/app/tick_input.hpp"
 
 namespace astro {
-
-/// What the motors get, forward positive.
-struct WheelVoltages {
-  std::int32_t left_uv = 0, right_uv = 0;
-};
 
 /// Both wheels: polarity, counting, speed, and from voltage to duty.
 class Wheels {
@@ -42,8 +37,9 @@ class Wheels {
 
  private:
   struct Side {
-    WheelController controller;
     SpeedObserver observer;
+    std::int32_t expected_scale = 0;  // 2^-20 counts per tick and tick, per 1e-6 m/s^2; 2^-32
+    std::int32_t expected = 0;        // change of speed in the next tick
     std::int32_t motor_sign = 1;
     std::int32_t encoder_sign = 1;
     std::int32_t seen = 0;  // decoder's last reading
@@ -58,9 +54,10 @@ class Wheels {
   hal::Duty wired(const hal::Duty& forward);
   std::int32_t step(Side& side, std::int32_t counts) const;
   /// The voltages are within the supply.
-  static hal::Duty to_duty(std::int32_t left_uv, std::int32_t right_uv, std::int32_t supply_mv);
+  static hal::Duty to_duty(const WheelVoltages& voltages, std::int32_t supply_mv);
 
   Side left_, right_;
+  WheelPair pair_;
   Geometry geometry_;
   std::int32_t voltage_limit_uv_ = 0;
   std::int32_t most_counts_ = 0;

@@ -85,6 +85,31 @@ TEST(SpeedObserver, ForwardAndBackwardAreMirrorImages) {
   }
 }
 
+TEST(SpeedObserver, DoesNotLagBehindAnAccelerationThatItWasToldOf) {
+  // 4 m/s^2 on the reference robot: 0.05 counts per tick and tick. Untold it lags by 2 a / w: one count here.
+  constexpr double kChange = 0.05;
+  SpeedObserver told = observer(), untold = observer();
+  double position = 0;
+  std::int64_t seen = 0;
+  for (int n = 1; n <= 400; ++n) {
+    position += kChange * n;
+    const auto counts = static_cast<std::int32_t>(std::floor(position) - static_cast<double>(seen));
+    seen += counts;
+    told.advance(counts, static_cast<std::int32_t>(std::lround(kChange * kCount)));
+    untold.advance(counts);
+  }
+  EXPECT_NEAR(speed(told), 400 * kChange, 0.1);  // a count of quantisation through (w T) to either side
+  EXPECT_NEAR(400 * kChange - speed(untold), 2 * kChange / 0.1, 0.15);
+}
+
+TEST(SpeedObserver, ForgetsAnAccelerationThatDidNotCome) {
+  SpeedObserver seen = observer();
+  for (int n = 0; n < 100; ++n) seen.advance(5);
+  for (int n = 0; n < 50; ++n) seen.advance(5, 1 << 16);
+  for (int n = 0; n < 200; ++n) seen.advance(5);
+  EXPECT_NEAR(speed(seen), 5, 1e-3);
+}
+
 TEST(SpeedObserver, NoCountsOverflowIt) {
   // Bounded input, bounded speed: whatever comes counts as at most 1024 a tick, and nothing overshoots.
   tests::Seeded random(2);
@@ -98,6 +123,16 @@ TEST(SpeedObserver, NoCountsOverflowIt) {
       ASSERT_LE(std::abs(seen.speed()), kMost) << bandwidth << " rad/s, tick " << i;
     }
   }
+}
+
+TEST(SpeedObserver, NoExpectationOverflowsIt) {
+  // The slowest loop believes it longest.
+  SpeedObserver seen = observer(1 << 16);
+  for (int i = 0; i < 200'000; ++i) {
+    seen.advance(INT32_MAX, INT32_MAX);
+    ASSERT_GE(seen.speed(), 0) << "wrapped in tick " << i;
+  }
+  EXPECT_NEAR(speed(seen), 1024, 1);
 }
 
 TEST(SpeedObserver, ChangingTheBandwidthKeepsTheEstimate) {

@@ -36,14 +36,28 @@ TEST(WheelController, EachWheelHasAFeedForwardOfItsOwn) {
   EXPECT_EQ(right_gains(set).kA.raw(), set.get(Param::kA_right));
 }
 
-WheelController controller(const Gains& gains) {
-  WheelController made;
-  made.set_gains(set_of(gains));
-  return made;
-}
+/// A controller that is told set point and measured speed.
+class Loop {
+ public:
+  explicit Loop(const Gains& gains) { set_gains(set_of(gains)); }
+  void set_gains(const WheelGains& gains) { wheel_.set_gains(gains); }
+  std::int32_t advance(std::int32_t set_point, std::int32_t acceleration, std::int32_t measured,
+                       std::int32_t limit) {
+    limited = false;
+    return wheel_.advance(set_point, acceleration, subtract_saturated(set_point, measured), limit, limited);
+  }
+  void reset() { wheel_.reset(); }
+
+  bool limited = false;
+
+ private:
+  WheelController wheel_;
+};
+
+Loop controller(const Gains& gains) { return Loop(gains); }
 
 TEST(WheelController, FeedForwardAloneIsTheMotorsModel) {
-  WheelController wheel = controller({.kS = 0.9, .kV = 12.05, .kA = 1.25});
+  Loop wheel = controller({.kS = 0.9, .kV = 12.05, .kA = 1.25});
   // 0.9 V + 12.05 Vs/m * 0.3 m/s + 1.25 Vs^2/m * 0.5 m/s^2. A gain is good to 2^-17: 8 uV per m/s.
   EXPECT_NEAR(wheel.advance(300'000, 500'000, 0, kNoLimit_uv), 5'140'000, 30);
   EXPECT_NEAR(wheel.advance(300'000, 500'000, 299'000, kNoLimit_uv), 5'140'000, 30)
@@ -52,7 +66,7 @@ TEST(WheelController, FeedForwardAloneIsTheMotorsModel) {
 }
 
 TEST(WheelController, StaticFrictionFadesInOverEightMillimetresASecond) {
-  WheelController wheel = controller({.kS = 0.9});
+  Loop wheel = controller({.kS = 0.9});
   EXPECT_EQ(wheel.advance(0, 0, 0, kNoLimit_uv), 0);
   EXPECT_NEAR(wheel.advance(4'096, 0, 0, kNoLimit_uv), 450'000, 10);
   EXPECT_NEAR(wheel.advance(8'192, 0, 0, kNoLimit_uv), 900'000, 10);
@@ -61,13 +75,13 @@ TEST(WheelController, StaticFrictionFadesInOverEightMillimetresASecond) {
 }
 
 TEST(WheelController, ProportionalPartAloneIsTheGainTimesTheError) {
-  WheelController wheel = controller({.kp = 20});
+  Loop wheel = controller({.kp = 20});
   EXPECT_EQ(wheel.advance(100'000, 0, 150'000, kNoLimit_uv), -1'000'000);
   EXPECT_EQ(wheel.advance(100'000, 0, 50'000, kNoLimit_uv), 1'000'000) << "no memory";
 }
 
 TEST(WheelController, IntegralPartAloneIsTheGainTimesErrorTimesTime) {
-  WheelController wheel = controller({.ki = 60});
+  Loop wheel = controller({.ki = 60});
   std::int32_t out = 0;
   for (int tick = 0; tick <= 1000; ++tick) out = wheel.advance(100'000, 0, 50'000, kNoLimit_uv);
   EXPECT_NEAR(out, 3'000'000, 30);  // 60 V/m * 0.05 m; ki per tick is good to 2^-24
@@ -75,19 +89,22 @@ TEST(WheelController, IntegralPartAloneIsTheGainTimesErrorTimesTime) {
 
 TEST(WheelController, OutputNeverExceedsTheLimit) {
   tests::Seeded random(1);
-  WheelController wheel = controller({.kp = 1000, .ki = 10'000, .kS = 50, .kV = 1000, .kA = 100});
+  Loop wheel = controller({.kp = 1000, .ki = 10'000, .kS = 50, .kV = 1000, .kA = 100});
   for (int i = 0; i < 100'000; ++i) {
     const std::int32_t limit = random.between32(0, 50'000'000);
     const std::int32_t out = wheel.advance(static_cast<std::int32_t>(random.any_size(31)),
                                            static_cast<std::int32_t>(random.any_size(31)),
                                            static_cast<std::int32_t>(random.any_size(31)), limit);
     ASSERT_LE(std::abs(out), limit);
+    if (wheel.limited) {
+      ASSERT_EQ(std::abs(out), limit);
+    }
   }
 }
 
 TEST(WheelController, LeavesTheLimitInTheTickInWhichTheErrorTurns) {
   for (const int sign : {1, -1}) {
-    WheelController wheel = controller({.kp = 20, .ki = 60});
+    Loop wheel = controller({.kp = 20, .ki = 60});
     // Slowly into the limit (the integral does it), then ten seconds there.
     for (int tick = 0; tick < 20'000; ++tick) wheel.advance(sign * 500'000, 0, sign * 450'000, kLimit_uv);
     ASSERT_EQ(wheel.advance(sign * 500'000, 0, sign * 450'000, kLimit_uv), sign * kLimit_uv);
@@ -96,7 +113,7 @@ TEST(WheelController, LeavesTheLimitInTheTickInWhichTheErrorTurns) {
 }
 
 TEST(WheelController, UnreachableSetPointDoesNotWindUp) {
-  WheelController wound = controller({.kp = 20, .ki = 60, .kV = 12}), fresh = wound;
+  Loop wound = controller({.kp = 20, .ki = 60, .kV = 12}), fresh = wound;
   for (int tick = 0; tick < 10'000; ++tick)
     ASSERT_EQ(wound.advance(2'000'000, 0, 900'000, kLimit_uv), kLimit_uv);
   // Back to what can be reached: as if the ten seconds had not been.
@@ -104,7 +121,7 @@ TEST(WheelController, UnreachableSetPointDoesNotWindUp) {
 }
 
 TEST(WheelController, AFallingSupplyShrinksTheIntegralWithIt) {
-  WheelController wheel = controller({.ki = 60});
+  Loop wheel = controller({.ki = 60});
   for (int tick = 0; tick < 20'000; ++tick) wheel.advance(500'000, 0, 0, kLimit_uv);
   wheel.advance(0, 0, 1, 6'000'000);  // a hair the other way: the integral is now held to the lower limit
   EXPECT_LE(wheel.advance(0, 0, 0, kLimit_uv), 6'000'000);
@@ -113,7 +130,7 @@ TEST(WheelController, AFallingSupplyShrinksTheIntegralWithIt) {
 TEST(WheelController, ForwardAndBackwardAreMirrorImages) {
   tests::Seeded random(2);
   const Gains gains{.kp = 20, .ki = 60, .kS = 0.9, .kV = 12.05, .kA = 1};
-  WheelController forward = controller(gains), backward = controller(gains);
+  Loop forward = controller(gains), backward = controller(gains);
   for (int i = 0; i < 10'000; ++i) {
     const std::int32_t v = random.between32(-750'000, 750'000), a = random.between32(-500'000, 500'000);
     const std::int32_t measured = v + random.between32(-50'000, 50'000);
@@ -125,7 +142,7 @@ TEST(WheelController, ForwardAndBackwardAreMirrorImages) {
 }
 
 TEST(WheelController, ChangingGainsAtZeroErrorDoesNotStep) {
-  WheelController wheel = controller({.kp = 20, .ki = 60});
+  Loop wheel = controller({.kp = 20, .ki = 60});
   for (int tick = 0; tick < 500; ++tick) wheel.advance(300'000, 0, 250'000, kLimit_uv);
   const std::int32_t before = wheel.advance(300'000, 0, 300'000, kLimit_uv);
   ASSERT_GT(before, 1'000'000);
@@ -134,7 +151,7 @@ TEST(WheelController, ChangingGainsAtZeroErrorDoesNotStep) {
 }
 
 TEST(WheelController, ResetForgetsTheIntegral) {
-  WheelController wheel = controller({.ki = 60});
+  Loop wheel = controller({.ki = 60});
   for (int tick = 0; tick < 500; ++tick) wheel.advance(300'000, 0, 0, kLimit_uv);
   wheel.reset();
   EXPECT_EQ(wheel.advance(0, 0, 0, kLimit_uv), 0);

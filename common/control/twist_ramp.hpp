@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+
+#include "common/control/segment.hpp"
+#include "common/kinematics/twist.hpp"
+
+namespace astro {
+
+/// A velocity that follows a target within limits of acceleration and jerk, and then sits on it exactly.
+/// Speed and yaw rate take the same time: from rest, and from any steady velocity, their ratio changes
+/// evenly, so a robot that starts into a curve is on that curve from the first millimetre.
+///
+/// Units   1e-6 m/s, 1e-6 rad/s; one advance() a tick (1 ms).
+/// Cost    set_target: some divisions. advance: constant, four 64-bit multiplies; callable from the tick.
+class TwistRamp {
+ public:
+  void set_limits(const MotionLimits& limits);
+
+  /// Where to go from here. The same target again changes nothing.
+  void set_target(const BodyTwist& target);
+  /// Stands at a steady velocity; the target is the same.
+  void set(const BodyTwist& value);
+
+  void advance();
+
+  BodyTwist value() const { return {v_.value(), omega_.value()}; }
+  /// By how much the value changes in a second at the present rate, 1e-6 per second squared.
+  BodyTwist acceleration() const { return {v_.acceleration(), omega_.acceleration()}; }
+  bool arrived() const { return v_.arrived() && omega_.arrived(); }
+
+ private:
+  /// One component. All in 2^-12 of its unit, rates per tick.
+  class Axis {
+   public:
+    void set_target(std::int32_t target, std::int64_t acceleration, std::int64_t jerk);
+    void set(std::int32_t value);
+    void advance();
+
+    std::int32_t value() const { return static_cast<std::int32_t>(value_ >> kBits); }
+    std::int32_t acceleration() const;
+    std::int64_t gap() const { return target_ - value_; }
+    std::int64_t gap_to(std::int32_t target) const { return (std::int64_t{target} << kBits) - value_; }
+    bool arrived() const { return value_ == target_ && rate_ == 0; }
+
+   private:
+    bool stops_within(std::int64_t rate, std::int64_t gap) const;
+    std::int64_t next(std::int64_t rate, std::int64_t gap) const;
+
+    std::int64_t value_ = 0, target_ = 0;
+    std::int64_t rate_ = 0;
+    std::int64_t most_ = 1, jerk_ = 1;
+    std::int64_t far_ = 1;  // a gap that is no reason yet to slow down
+  };
+  struct Limits {
+    std::int64_t acceleration = 1, jerk = 1;
+  };
+  static constexpr int kBits = 12;
+
+  static Limits per_tick(std::int32_t acceleration, std::int32_t jerk_milli);
+  static void follow(Limits& follower, Limits& leader, std::int64_t way, std::int64_t leaders_way);
+
+  Axis v_, omega_;
+  Limits v_limits_, omega_limits_;
+  BodyTwist target_;
+};
+
+}  // namespace astro
