@@ -76,6 +76,8 @@ BodyTwist PathFollower::correction(const Pose& actual, std::int32_t v_ref_umps) 
   constexpr std::int32_t kTurn_urad = 6'283'185;
   const std::int32_t heading_urad = mul_high(turn_32, kTurn_urad);
 
+  cross_um_ = cross_um;
+  heading_urad_ = heading_urad;
   close_ = !exceeds(along_um, kClose_um) && !exceeds(heading_urad, kClose_urad);
 
   // (um/s) * um = 1e-12, brought back to 1e-6 by 1 / 10^6 = 4295 / 2^32.

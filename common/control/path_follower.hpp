@@ -36,12 +36,20 @@ class PathFollower {
   /// The next segment of the path.
   void begin(const Trapezoid& profile) { profile_ = profile; }
 
+  /// Comes to rest on the path, on the way to pausing there.
+  void cut_short() { profile_.cut_short(); }
+  const Trapezoid& profile() const { return profile_; }
+
   Command advance(const Pose& actual);
 
   /// The reference has arrived; the robot may still be settling.
   bool arrived() const { return profile_.done(); }
   /// At the last advance the robot was within half a millimetre and a milliradian of the reference.
   bool close() const { return close_; }
+  /// At the last advance: how far the reference was to the left of the robot, 1e-6 m, and by how much its
+  /// heading was more, 1e-6 rad.
+  std::int32_t cross_track_um() const { return cross_um_; }
+  std::int32_t heading_error_urad() const { return heading_urad_; }
   const Pose& reference() const { return reference_.pose(); }
 
  private:
@@ -51,6 +59,7 @@ class PathFollower {
   Trapezoid profile_;
   ArcIntegrator reference_;
   BodyTwist last_;
+  std::int32_t cross_um_ = 0, heading_urad_ = 0;
   bool close_ = false;
 };
 

@@ -6,13 +6,15 @@
 
 namespace astro {
 
-/// One piece of a path: a constant twist. Line: angle 0. Spin: length 0. Arc: both, the sign of length says
-/// forward or backward along it, the sign of angle which way the robot turns.
+/// One piece of a path: a constant twist, from rest to rest. Line: angle 0. Spin: length 0. Arc: both, the
+/// sign of length says forward or backward along it, the sign of angle which way the robot turns. Stop:
+/// neither, and a time to stand.
 struct Segment {
   std::int64_t length_nm = 0;        // of the path of the robot's centre
   std::int64_t angle_32 = 0;         // heading change, 2^-32 turn
   std::int32_t speed_umps = 0;       // at most this; 0: as fast as the robot's limits allow
   std::int32_t yaw_rate_uradps = 0;  // at most this; 0: as fast as the robot's limits allow
+  std::int32_t dwell_ms = 0;         // only without length and angle
 };
 
 /// Limits of what is commanded. Jerk is for velocities only: a segment has the acceleration of a trapezoid.

@@ -42,8 +42,9 @@ constexpr std::int64_t angle_urad(std::int64_t angle_32) {
 
 bool acceptable(const Segment& segment) {
   const auto within = [](std::int64_t value, std::int64_t most) { return value >= -most && value <= most; };
+  const bool moves = segment.length_nm != 0 || segment.angle_32 != 0;
   return within(segment.length_nm, kMaxLength_nm) && within(segment.angle_32, kMaxAngle_32) &&
-         (segment.length_nm != 0 || segment.angle_32 != 0);
+         segment.dwell_ms >= 0 && segment.dwell_ms <= kMaxTicks && moves == (segment.dwell_ms == 0);
 }
 
 // 2^-50 m per nm is 2^50 / 10^9 = 2^41 / 5^9.
@@ -70,6 +71,11 @@ MotionLimits make_limits(const ParameterSet& set) {
 
 bool Trapezoid::plan(const Segment& segment, const MotionLimits& limits, Trapezoid& out) {
   if (!acceptable(segment)) return false;
+  if (segment.dwell_ms != 0) {
+    out = {};
+    out.level_ = segment.dwell_ms;
+    return true;
+  }
   const Motion length{length_um(segment.length_nm), tighter(segment.speed_umps, limits.speed_umps),
                       limits.acceleration_umps2};
   const Motion angle{angle_urad(segment.angle_32), tighter(segment.yaw_rate_uradps, limits.yaw_rate_uradps),
@@ -77,15 +83,17 @@ bool Trapezoid::plan(const Segment& segment, const MotionLimits& limits, Trapezo
   const std::int64_t cruise = larger(1, larger(length.cruise(), angle.cruise()));
   if (cruise > kMaxTicks) return false;
 
-  Trapezoid planned;
-  planned.ramp_ = larger(1, larger(length.ramp(cruise), angle.ramp(cruise)));
-  planned.level_ = cruise - planned.ramp_;
-  if (planned.level_ < 0) {
-    planned.ramp_ = larger(length.half(), angle.half());
-    planned.level_ = 0;
+  std::int64_t ramp = larger(1, larger(length.ramp(cruise), angle.ramp(cruise)));
+  std::int64_t level = cruise - ramp;
+  if (level < 0) {
+    ramp = larger(length.half(), angle.half());
+    level = 0;
   }
-  if (planned.ticks() > kMaxTicks) return false;
-  const std::int64_t shares = 2 * planned.ramp_ * (planned.ramp_ + planned.level_);
+  if (2 * ramp + level > kMaxTicks) return false;
+  Trapezoid planned;
+  planned.ramp_ = static_cast<std::int32_t>(ramp);
+  planned.level_ = static_cast<std::int32_t>(level);
+  const std::int64_t shares = 2 * ramp * (ramp + level);
   planned.total_ = {travel_50(segment.length_nm), segment.angle_32 * (std::int64_t{1} << 20)};
   planned.unit_ = {share(planned.total_.travel, shares, kUnitBits),
                    share(planned.total_.turn, shares, kUnitBits)};
@@ -95,8 +103,8 @@ bool Trapezoid::plan(const Segment& segment, const MotionLimits& limits, Trapezo
 
 Trapezoid::Step Trapezoid::advance() {
   // Shares of one tick: 1, 3, 5, ... 2 ramp - 1 going up, 2 ramp at the level, and down again the same way.
-  const std::int64_t from_end = ticks() - 1 - tick_;
-  const std::int64_t edge = tick_ < from_end ? tick_ : from_end;
+  const std::int32_t from_end = 2 * ramp_ + level_ - 1 - tick_;
+  const std::int32_t edge = tick_ < from_end ? tick_ : from_end;
   const std::int64_t shares = edge < ramp_ ? 2 * edge + 1 : 2 * ramp_;
   ++tick_;
   rest_.travel += unit_.travel * shares;
@@ -104,10 +112,42 @@ Trapezoid::Step Trapezoid::advance() {
   Step step{rest_.travel >> kUnitBits, rest_.turn >> kUnitBits};
   constexpr std::int64_t kBelowUnit = (std::int64_t{1} << kUnitBits) - 1;
   rest_ = {rest_.travel & kBelowUnit, rest_.turn & kBelowUnit};
-  if (done()) step = {total_.travel - given_.travel, total_.turn - given_.turn};
+  if (done() && !cut_) step = {total_.travel - given_.travel, total_.turn - given_.turn};
   given_.travel += step.travel;
   given_.turn += step.turn;
   return step;
+}
+
+void Trapezoid::cut_short() {
+  if (cut_ || tick_ >= ramp_ + level_) return;  // it comes to rest anyway
+  cut_ = true;
+  if (tick_ < ramp_) {
+    ramp_ = tick_;
+    level_ = 0;
+  } else {
+    level_ = tick_ - ramp_;
+  }
+}
+
+Segment Trapezoid::rest() const {
+  const std::int64_t travel = total_.travel - given_.travel;
+  // Whole metres and the rest of one, so that no product leaves 64 bits.
+  constexpr int kBits = 50, kFineBits = 30;
+  constexpr std::int64_t kNanometresPerMetre = 1'000'000'000;
+  const std::int64_t fine = (travel & ((std::int64_t{1} << kBits) - 1)) >> (kBits - kFineBits);
+  Segment left;
+  left.length_nm = (travel >> kBits) * kNanometresPerMetre +
+                   ((fine * kNanometresPerMetre + (std::int64_t{1} << (kFineBits - 1))) >> kFineBits);
+  left.angle_32 = (total_.turn - given_.turn) >> 20;
+  return left;
+}
+
+std::uint32_t Trapezoid::progress_16() const {
+  // The larger motion, in units that leave room for 16 more bits.
+  const bool by_travel = total_.travel != 0;
+  const std::int64_t whole = (by_travel ? total_.travel : total_.turn) >> 16;
+  if (whole == 0) return ticks() == 0 ? 0 : static_cast<std::uint32_t>(std::int64_t{tick_} * 65536 / ticks());
+  return static_cast<std::uint32_t>((by_travel ? given_.travel : given_.turn) / whole);
 }
 
 }  // namespace astro

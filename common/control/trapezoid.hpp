@@ -23,7 +23,8 @@ class Trapezoid {
 
   Trapezoid() = default;  // an empty profile: done at once
 
-  /// False if the segment is empty, beyond kMaxLength / kMaxAngle, or would take longer than kMaxTicks.
+  /// False if the segment is empty or moves and dwells, beyond kMaxLength / kMaxAngle, or would take longer
+  /// than kMaxTicks.
   static bool plan(const Segment& segment, const MotionLimits& limits, Trapezoid& out);
 
   bool done() const { return tick_ >= 2 * ramp_ + level_; }
@@ -32,9 +33,18 @@ class Trapezoid {
 
   std::int64_t ticks() const { return 2 * ramp_ + level_; }
 
+  /// Down to rest from now on, as steeply as it would have come down at the end. What is left of the segment
+  /// then is rest().
+  void cut_short();
+  /// The part of the segment that no step has given yet.
+  Segment rest() const;
+  /// The part that was given, 2^-16 of the whole.
+  std::uint32_t progress_16() const;
+
  private:
-  std::int64_t ramp_ = 0, level_ = 0;
-  std::int64_t tick_ = 0;
+  std::int32_t ramp_ = 0, level_ = 0;
+  std::int32_t tick_ = 0;
+  bool cut_ = false;
   // Fine enough that what the last step makes up is less than one share, for any segment and any valid
   // limits.
   static constexpr int kUnitBits = 17;

@@ -58,7 +58,7 @@ TwistRamp::Limits TwistRamp::per_tick(std::int32_t acceleration, std::int32_t je
 void TwistRamp::set_limits(const MotionLimits& limits) {
   v_limits_ = per_tick(limits.acceleration_umps2, limits.jerk_mmps3);
   omega_limits_ = per_tick(limits.yaw_acceleration_uradps2, limits.yaw_jerk_mradps3);
-  set({v_.value(), omega_.value()});
+  plan();
 }
 
 void TwistRamp::set(const BodyTwist& value) {
@@ -67,12 +67,16 @@ void TwistRamp::set(const BodyTwist& value) {
   target_ = value;
 }
 
-// The one that would take longer goes as fast as its limits allow, and the other in proportion.
 void TwistRamp::set_target(const BodyTwist& target) {
   if (target == target_) return;
   target_ = target;
-  const std::int64_t v_way = magnitude(v_.gap_to(target.v_umps)) >> kBits;
-  const std::int64_t omega_way = magnitude(omega_.gap_to(target.omega_uradps)) >> kBits;
+  plan();
+}
+
+// The one that would take longer goes as fast as its limits allow, and the other in proportion.
+void TwistRamp::plan() {
+  const std::int64_t v_way = magnitude(v_.gap_to(target_.v_umps)) >> kBits;
+  const std::int64_t omega_way = magnitude(omega_.gap_to(target_.omega_uradps)) >> kBits;
   Limits v = v_limits_, omega = omega_limits_;
   if (v_way != 0 && omega_way != 0) {
     const bool v_leads = v_way * omega.acceleration >= omega_way * v.acceleration;
@@ -82,8 +86,8 @@ void TwistRamp::set_target(const BodyTwist& target) {
       follow(v, omega, v_way, omega_way);
     }
   }
-  v_.set_target(target.v_umps, v.acceleration, v.jerk);
-  omega_.set_target(target.omega_uradps, omega.acceleration, omega.jerk);
+  v_.set_target(target_.v_umps, v.acceleration, v.jerk);
+  omega_.set_target(target_.omega_uradps, omega.acceleration, omega.jerk);
 }
 
 // The leader gives way where the follower's jerk would be too steep.

@@ -15,6 +15,7 @@ namespace astro {
 /// Cost    set_target: some divisions. advance: constant, four 64-bit multiplies; callable from the tick.
 class TwistRamp {
  public:
+  /// From here on; a ramp under way goes on within them.
   void set_limits(const MotionLimits& limits);
 
   /// Where to go from here. The same target again changes nothing.
@@ -57,6 +58,7 @@ class TwistRamp {
   };
   static constexpr int kBits = 12;
 
+  void plan();
   static Limits per_tick(std::int32_t acceleration, std::int32_t jerk_milli);
   static void follow(Limits& follower, Limits& leader, std::int64_t way, std::int64_t leaders_way);
 

@@ -19,7 +19,8 @@ WheelGains right_gains(const ParameterSet& set) {
           q16(set, Param::kA_right)};
 }
 
-void WheelController::set_gains(const WheelGains& gains) {
+void WheelController::set_gains(const WheelGains& gains, const WheelPoint& before, const WheelPoint& now) {
+  const std::int64_t old_16 = sum(0, before);
   kp_ = gains.kp;
   kV_ = gains.kV;
   kA_ = gains.kA;
@@ -27,6 +28,7 @@ void WheelController::set_gains(const WheelGains& gains) {
   kS_per_fade_ =
       Q16::from_raw(saturate32(std::int64_t{gains.kS.raw()} * 1'000'000 >> (kFadeInBits + kFineBits)));
   ki_tick_24_ = saturate32((std::int64_t{gains.ki.raw()} << 8) / 1000);
+  integral_24_ += (old_16 - sum(0, now)) * 256;
 }
 
 std::int32_t WheelController::limit(std::int32_t sum_uv, std::int32_t error_umps, std::int32_t limit_uv) {

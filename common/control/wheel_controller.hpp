@@ -15,6 +15,11 @@ struct WheelGains {
   Q16 kS, kV, kA;  // V, V s/m, V s^2/m
 };
 
+/// What the wheel is told and what it lacks.
+struct WheelPoint {
+  std::int32_t set_point_umps = 0, acceleration_umps2 = 0, error_umps = 0;
+};
+
 WheelGains left_gains(const ParameterSet& set);
 WheelGains right_gains(const ParameterSet& set);
 
@@ -31,9 +36,9 @@ WheelGains right_gains(const ParameterSet& set);
 /// Cost    constant, no division; callable from the control tick.
 class WheelController {
  public:
-  /// Keeps the integral (a voltage), so the output does not jump because a gain changed that is multiplied by
-  /// zero.
-  void set_gains(const WheelGains& gains);
+  /// Without a bump: at the point where the wheel now works, the integral takes up what the new gains give
+  /// more or less than the old ones.
+  void set_gains(const WheelGains& gains, const WheelPoint& before = {}, const WheelPoint& now = {});
 
   /// `error_umps`: by how much the wheel is to turn faster. Returns the motor voltage, within +-limit_uv, and
   /// sets `limited` if it would have been more; leaves it as it is otherwise.
@@ -45,6 +50,8 @@ class WheelController {
   // kS fades in over 2^13 um/s, seen in steps of 2^-6 um/s so that both ends of the fade are alike.
   static constexpr int kFadeInBits = 13, kFineBits = 6;
 
+  /// `integral_16` and all that is not integral, 2^-16 uV.
+  std::int64_t sum(std::int64_t integral_16, const WheelPoint& at) const;
   /// What is given when `sum_16` is beyond the limit.
   std::int32_t limit(std::int32_t sum_uv, std::int32_t error_umps, std::int32_t limit_uv);
 
@@ -52,6 +59,15 @@ class WheelController {
   std::int32_t ki_tick_24_ = 0;   // uV per (um/s) and tick
   std::int64_t integral_24_ = 0;  // uV
 };
+
+inline std::int64_t WheelController::sum(std::int64_t integral_16, const WheelPoint& at) const {
+  std::int64_t sum_16 = integral_16;
+  sum_16 = mul_add(sum_16, kS_per_fade_.raw(),
+                   saturate_to<1 + kFadeInBits + kFineBits, kFineBits>(at.set_point_umps));
+  sum_16 = mul_add(sum_16, kV_.raw(), at.set_point_umps);
+  sum_16 = mul_add(sum_16, kA_.raw(), at.acceleration_umps2);
+  return mul_add(sum_16, kp_.raw(), at.error_umps);
+}
 
 inline std::int32_t WheelController::advance(std::int32_t set_point_umps, std::int32_t acceleration_umps2,
                                              std::int32_t error_umps, std::int32_t limit_uv, bool& limited) {

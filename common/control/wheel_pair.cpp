@@ -2,11 +2,24 @@
 
 namespace astro {
 
-void WheelPair::set_gains(const ParameterSet& set) {
-  left_.set_gains(left_gains(set));
-  right_.set_gains(right_gains(set));
+WheelPair::Points WheelPair::points(const WheelSpeeds& wanted, const WheelSpeeds& accelerations,
+                                    const WheelSpeeds& measured) const {
+  const WheelSpeeds set_points = shrunk(wanted);
+  const std::int32_t catch_up = mul_high(behind_nm_, k_sync_);
+  const std::int32_t left = subtract_saturated(set_points.left_umps, measured.left_umps);
+  const std::int32_t right = subtract_saturated(set_points.right_umps, measured.right_umps);
+  return {{set_points.left_umps, accelerations.left_umps, add_saturated(left, catch_up)},
+          {set_points.right_umps, accelerations.right_umps, subtract_saturated(right, catch_up)}};
+}
+
+void WheelPair::set_gains(const ParameterSet& set, const WheelSpeeds& set_points,
+                          const WheelSpeeds& accelerations, const WheelSpeeds& measured) {
+  const Points before = points(set_points, accelerations, measured);
   // 1/s in 2^-16 becomes (um/s per nm) in 2^-32.
   k_sync_ = saturate32((std::int64_t{set.get(Param::k_sync)} << 16) / 1000);
+  const Points now = points(set_points, accelerations, measured);
+  left_.set_gains(left_gains(set), before.left, now.left);
+  right_.set_gains(right_gains(set), before.right, now.right);
 }
 
 void WheelPair::reset() {

@@ -30,7 +30,9 @@ struct WheelVoltages {
 /// Source  cross-coupling: Borenstein & Koren, "Motion control analysis of a mobile robot", 1987.
 class WheelPair {
  public:
-  void set_gains(const ParameterSet& set);
+  /// Without a bump, if told what the last advance() was told.
+  void set_gains(const ParameterSet& set, const WheelSpeeds& set_points = {},
+                 const WheelSpeeds& accelerations = {}, const WheelSpeeds& measured = {});
 
   /// Each voltage is within +-limit_uv.
   WheelVoltages advance(const WheelSpeeds& set_points, const WheelSpeeds& accelerations,
@@ -46,6 +48,12 @@ class WheelPair {
   static constexpr std::int32_t kShareStep = 65;
   static constexpr int kBehindBits = 28;  // of 1e-9 m: 134 mm
 
+  struct Points {
+    WheelPoint left, right;
+  };
+
+  Points points(const WheelSpeeds& wanted, const WheelSpeeds& accelerations,
+                const WheelSpeeds& measured) const;
   WheelSpeeds shrunk(const WheelSpeeds& set_points) const;
   /// A tick at the end of the supply, or one that is not.
   void note(bool limited);

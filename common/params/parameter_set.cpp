@@ -59,6 +59,14 @@ Result<void, Param> check_geometry(const ParameterSet& set) {
 
 }  // namespace
 
+bool same_robot(const ParameterSet& a, const ParameterSet& b) {
+  static_assert(param_index(Param::c_R) == 0 && param_index(Param::encoder_polarity_right) == 10,
+                "the rows of the robot's build come first");
+  for (std::size_t i = 0; i <= param_index(Param::encoder_polarity_right); ++i)
+    if (a.get(kParamTable[i].id) != b.get(kParamTable[i].id)) return false;
+  return true;
+}
+
 Result<void, Param> validate(const ParameterSet& set) {
   if (const auto rows = check_rows(set); !rows) return rows;
   const std::int32_t low = set.get(Param::battery_low);

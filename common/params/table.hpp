@@ -50,6 +50,7 @@ enum class Param : std::uint16_t {
   k_sync,
   jerk_limit,
   yaw_jerk_limit,
+  stall_time,
 };
 
 /// THE parameter table: row i has id i + 1. Add a parameter by appending its id above and its row here;
@@ -128,6 +129,8 @@ inline constexpr auto kParamTable = std::to_array<ParamRow>({
                 "Steepest change of commanded acceleration; 0: none"),
     decimal_row(Param::yaw_jerk_limit, "yaw_jerk_limit", "rad/s^3", 3, {120, 0, 10'000},
                 "Steepest change of commanded yaw acceleration; 0: none"),
+    integer_row(Param::stall_time, "stall_time", "ms", {300, 50, 5000},
+                "The robot stops when half the voltage or more does not move a wheel for this long"),
 });
 
 inline constexpr std::size_t kParamCount = kParamTable.size();

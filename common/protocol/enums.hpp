@@ -17,8 +17,13 @@ inline constexpr std::array<std::string_view, 9> kModeNames{
     "disarmed", "idle", "velocity", "segment", "stopping", "fault", "boot", "wheels", "paused"};
 constexpr std::span<const std::string_view> names(Mode) { return kModeNames; }
 
-enum class SegmentKind : std::uint8_t { line, spin, arc };
-inline constexpr std::array<std::string_view, 3> kSegmentKindNames{"line", "spin", "arc"};
+/// Nothing moves the wheels.
+constexpr bool at_rest(Mode mode) {
+  return mode != Mode::velocity && mode != Mode::segment && mode != Mode::stopping && mode != Mode::wheels;
+}
+
+enum class SegmentKind : std::uint8_t { line, spin, arc, stop };
+inline constexpr std::array<std::string_view, 4> kSegmentKindNames{"line", "spin", "arc", "stop"};
 constexpr std::span<const std::string_view> names(SegmentKind) { return kSegmentKindNames; }
 
 enum class SegmentOutcome : std::uint8_t { completed, aborted };
@@ -81,7 +86,7 @@ inline constexpr std::array<std::string_view, 13> kErrorCodeMeanings{
     "flash did not read back what was written; the last committed set stays in force",
     "a value of the request lies outside what the robot can do",
     "this board cannot do it",
-    "an earlier request of this kind is still under way",
+    "the robot is still starting, or an earlier request is still under way",
 };
 constexpr std::span<const std::string_view> names(ErrorCode) { return kErrorCodeNames; }
 

@@ -35,10 +35,10 @@ struct MessageList {
 using Requests = MessageList<Hello, Ping, GetStatus, Arm, Disarm, Stop, EmergencyStop, Velocity, AddSegment,
                              SetPose, GetParameterInfo, GetParameter, StageParameter, CommitParameters,
                              RevertParameters, DefaultParameters, SetTelemetry, GetFaults, ClearFaults,
-                             Reboot, EnterBootloader, WheelVoltage>;
+                             Reboot, EnterBootloader, WheelVoltage, Pause, Resume, ApplyParameters>;
 using Replies =
     MessageList<Ack, ErrorReply, HelloReply, Pong, Status, ParameterInfo, ParameterValue, FaultReport>;
-using Events = MessageList<Telemetry, SegmentDone, FaultRaised, Booted>;
+using Events = MessageList<Telemetry, SegmentDone, FaultRaised, Booted, SegmentStarted>;
 
 /// For people and logs; "?" for an id that this version does not know.
 constexpr std::string_view message_name(std::uint8_t id) {

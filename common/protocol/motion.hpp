@@ -87,6 +87,7 @@ struct AddSegment {
   std::int64_t angle = 0;
   std::int32_t speed_umps = 0;
   std::int32_t yaw_rate_uradps = 0;
+  std::uint32_t dwell_ms = 0;
 
   using Reply = Ack;
   static constexpr std::uint8_t kId = 0x09;
@@ -97,13 +98,33 @@ struct AddSegment {
       Field{&AddSegment::kind, "kind", "", "shape"},
       Field{&AddSegment::tag, "tag", "", "the host's own name for it"},
       Field{&AddSegment::length_nm, "length_nm", "1e-9 m",
-            "signed path length of the robot centre; 0 for a spin"},
-      Field{&AddSegment::angle, "angle", "2^-32 turn", "signed change of heading; 0 for a line"},
+            "signed path length of the robot centre; 0 for a spin or a stop"},
+      Field{&AddSegment::angle, "angle", "2^-32 turn", "signed change of heading; 0 for a line or a stop"},
       Field{&AddSegment::speed_umps, "speed_umps", "1e-6 m/s", "greatest speed; 0: the robot's limit"},
       Field{&AddSegment::yaw_rate_uradps, "yaw_rate_uradps", "1e-6 rad/s",
             "greatest yaw rate; 0: the robot's limit"},
+      Field{&AddSegment::dwell_ms, "dwell_ms", "ms", "time to stand, of a stop; 0 for all others"},
   };
   bool operator==(const AddSegment&) const = default;
+};
+
+struct Pause {
+  using Reply = Ack;
+  static constexpr std::uint8_t kId = 0x17;
+  static constexpr std::string_view kName = "Pause";
+  static constexpr std::string_view kDoc =
+      "Comes to rest on the path; the rest of the segment and the queue wait for Resume.";
+  static constexpr std::tuple<> kFields{};
+  bool operator==(const Pause&) const = default;
+};
+
+struct Resume {
+  using Reply = Ack;
+  static constexpr std::uint8_t kId = 0x18;
+  static constexpr std::string_view kName = "Resume";
+  static constexpr std::string_view kDoc = "Goes on with the path after a Pause.";
+  static constexpr std::tuple<> kFields{};
+  bool operator==(const Resume&) const = default;
 };
 
 struct SetPose {
@@ -138,6 +159,20 @@ struct SegmentDone {
       Field{&SegmentDone::device_time_us, "device_time_us", "us", "when"},
   };
   bool operator==(const SegmentDone&) const = default;
+};
+
+struct SegmentStarted {
+  std::uint16_t tag = 0;
+  std::uint64_t device_time_us = 0;
+
+  static constexpr std::uint8_t kId = 0xC4;
+  static constexpr std::string_view kName = "SegmentStarted";
+  static constexpr std::string_view kDoc = "A segment is under way; after a Pause, once more.";
+  static constexpr std::tuple kFields{
+      Field{&SegmentStarted::tag, "tag", "", "as in AddSegment"},
+      Field{&SegmentStarted::device_time_us, "device_time_us", "us", "when"},
+  };
+  bool operator==(const SegmentStarted&) const = default;
 };
 
 }  // namespace astro::protocol

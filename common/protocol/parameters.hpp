@@ -134,4 +134,15 @@ struct DefaultParameters {
   bool operator==(const DefaultParameters&) const = default;
 };
 
+struct ApplyParameters {
+  using Reply = Ack;
+  static constexpr std::uint8_t kId = 0x1A;
+  static constexpr std::string_view kName = "ApplyParameters";
+  static constexpr std::string_view kDoc =
+      "The staged set comes in force until the next restart; while driving, if gains and limits alone "
+      "differ.";
+  static constexpr std::tuple<> kFields{};
+  bool operator==(const ApplyParameters&) const = default;
+};
+
 }  // namespace astro::protocol

@@ -21,6 +21,7 @@ struct Status {
   std::int32_t battery_mv = 0;
   std::uint32_t tick_count = 0;
   std::uint32_t tick_overruns = 0;
+  std::uint32_t tick_longest_us = 0;
   std::uint32_t rx_bad_frames = 0;
   ResetCause reset_cause{};
 
@@ -35,7 +36,8 @@ struct Status {
       Field{&Status::running_tag, "running_tag", "", "tag of the running segment, 0 if none runs"},
       Field{&Status::battery_mv, "battery_mv", "mV", "motor supply, filtered"},
       Field{&Status::tick_count, "tick_count", "ticks", "control ticks since start, wraps"},
-      Field{&Status::tick_overruns, "tick_overruns", "ticks", "ticks that did not end in time"},
+      Field{&Status::tick_overruns, "tick_overruns", "ticks", "ticks that did not come in time"},
+      Field{&Status::tick_longest_us, "tick_longest_us", "us", "longest time between two ticks since start"},
       Field{&Status::rx_bad_frames, "rx_bad_frames", "frames", "received on all ports and dropped"},
       Field{&Status::reset_cause, "reset_cause", "", "why the processor last started"},
   };

@@ -84,6 +84,24 @@ struct StateGroup {
   bool operator==(const StateGroup&) const = default;
 };
 
+struct PathGroup {
+  std::uint16_t tag = 0;
+  std::uint16_t progress = 0;
+  std::uint16_t queued = 0;
+  std::int32_t cross_track_um = 0;
+  std::int32_t heading_error_urad = 0;
+  static constexpr std::tuple kFields{
+      Field{&PathGroup::tag, "tag", "", "of the running segment, 0 if none runs"},
+      Field{&PathGroup::progress, "progress", "2^-15", "how much of it has been driven"},
+      Field{&PathGroup::queued, "queued", "", "segments that wait"},
+      Field{&PathGroup::cross_track_um, "cross_track_um", "1e-6 m",
+            "how far the path is to the robot's left"},
+      Field{&PathGroup::heading_error_urad, "heading_error_urad", "1e-6 rad",
+            "the path's heading minus the robot's"},
+  };
+  bool operator==(const PathGroup&) const = default;
+};
+
 struct Telemetry {
   static constexpr std::uint32_t kPose = 1U << 0;
   static constexpr std::uint32_t kCounts = 1U << 1;
@@ -93,7 +111,8 @@ struct Telemetry {
   static constexpr std::uint32_t kDuty = 1U << 5;
   static constexpr std::uint32_t kBattery = 1U << 6;
   static constexpr std::uint32_t kState = 1U << 7;
-  static constexpr std::uint32_t kAll = 0xFF;
+  static constexpr std::uint32_t kPath = 1U << 8;
+  static constexpr std::uint32_t kAll = 0x1FF;
 
   std::uint64_t device_time_us = 0;
   std::uint32_t fields = 0;
@@ -105,6 +124,7 @@ struct Telemetry {
   DutyGroup duty{};
   BatteryGroup battery{};
   StateGroup state{};
+  PathGroup path{};
 
   static constexpr std::uint8_t kId = 0xC0;
   static constexpr std::string_view kName = "Telemetry";
@@ -121,6 +141,7 @@ struct Telemetry {
       Group{&Telemetry::duty, 5, "duty", "commanded duty"},
       Group{&Telemetry::battery, 6, "battery", "supply"},
       Group{&Telemetry::state, 7, "state", "mode, segment and faults"},
+      Group{&Telemetry::path, 8, "path", "how the path is followed"},
   };
   bool operator==(const Telemetry&) const = default;
 };

@@ -8,19 +8,22 @@ constexpr std::uint32_t kSettled_ticks = 50;        // and for so long
 constexpr std::uint32_t kSettleAtMost_ticks = 700;  // a robot held by friction is as settled as it will be
 
 // Scales both components, so that a command beyond the limits keeps its curvature.
-BodyTwist within(const BodyTwist& twist, const MotionLimits& limits) {
+BodyTwist within_limits(const BodyTwist& twist, const MotionLimits& limits) {
   const std::int64_t v = twist.v_umps < 0 ? -std::int64_t{twist.v_umps} : twist.v_umps;
   const std::int64_t omega = twist.omega_uradps < 0 ? -std::int64_t{twist.omega_uradps} : twist.omega_uradps;
-  BodyTwist scaled = twist;
-  if (v > limits.speed_umps && v * limits.yaw_rate_uradps >= omega * limits.speed_umps) {
-    scaled.v_umps = static_cast<std::int32_t>(std::int64_t{twist.v_umps} * limits.speed_umps / v);
-    scaled.omega_uradps = static_cast<std::int32_t>(std::int64_t{twist.omega_uradps} * limits.speed_umps / v);
-  } else if (omega > limits.yaw_rate_uradps) {
-    scaled.v_umps = static_cast<std::int32_t>(std::int64_t{twist.v_umps} * limits.yaw_rate_uradps / omega);
-    scaled.omega_uradps =
-        static_cast<std::int32_t>(std::int64_t{twist.omega_uradps} * limits.yaw_rate_uradps / omega);
-  }
-  return scaled;
+  const bool v_leads = v * limits.yaw_rate_uradps >= omega * limits.speed_umps;
+  const std::int64_t wanted = v_leads ? v : omega;
+  const std::int64_t most = v_leads ? limits.speed_umps : limits.yaw_rate_uradps;
+  if (wanted <= most) return twist;
+  return {static_cast<std::int32_t>(twist.v_umps * most / wanted),
+          static_cast<std::int32_t>(twist.omega_uradps * most / wanted)};
+}
+
+// Somebody has carried the robot away from where its path goes on.
+bool strayed(const Pose& reference, const Pose& actual) {
+  constexpr std::int64_t kFar = (std::int64_t{1} << Pose::kPositionBits) / 20;  // 50 mm
+  const std::int64_t x = reference.x - actual.x, y = reference.y - actual.y;
+  return x > kFar || x < -kFar || y > kFar || y < -kFar;
 }
 
 }  // namespace
@@ -29,7 +32,6 @@ void Drive::configure(const ParameterSet& set) {
   geometry_ = make_geometry(set);
   limits_ = make_limits(set);
   ramp_.set_limits(limits_);
-  command_timeout_us_ = static_cast<std::uint64_t>(set.get(Param::command_timeout)) * 1000;
   odometry_.set_geometry(geometry_);
   wheels_.configure(set, geometry_);
   follower_.set_gains(set);
@@ -40,116 +42,212 @@ Drive::Output Drive::advance(const TickInput& input) {
   now_us_ = input.now_us;
   const Wheels::Steps steps = wheels_.read(input);
   odometry_.advance(steps.left, steps.right);
-  watch_over(input, supervisor_.advance(input, steps.plausible, !at_rest(), wheels_));
+  supervisor_.advance(input, steps.plausible, steering_, wheels_);
+  if (state() != seen_) follow_state();
   return output(wish(), input);
 }
 
-void Drive::watch_over(const TickInput& input, std::uint32_t found) {
-  if (found != 0) faults_.raise_all(found, input.now_us);
-  if (faults_.any() && mode_ != Mode::fault && !fault_after_stop_) enter_fault();
-  if (mode_ != Mode::velocity && mode_ != Mode::segment && mode_ != Mode::wheels) return;
-  if (input.now_us <= (mode_ == Mode::segment ? host_deadline_us_ : velocity_deadline_us_)) return;
-  faults_.raise(mode_ == Mode::segment ? Fault::link_lost : Fault::command_timeout, input.now_us);
-  if (mode_ == Mode::wheels) return enter_fault();  // there is no ramp without a loop
-  // Nobody steers any more: ramp to rest, then off.
-  stop();
-  fault_after_stop_ = true;
+protocol::Mode Drive::mode() const {
+  switch (state()) {
+    case State::boot:
+      return Mode::boot;
+    case State::disarmed:
+      return Mode::disarmed;
+    case State::armed:
+      return paused_ ? Mode::paused : Mode::idle;
+    case State::driving:
+      return steering_ == Steering::path        ? Mode::segment
+             : steering_ == Steering::open_loop ? Mode::wheels
+                                                : Mode::velocity;
+    case State::stopping:
+      return Mode::stopping;
+    default:
+      return Mode::fault;
+  }
 }
 
-bool Drive::arm() {
-  if (faults_.any()) return false;
-  if (mode_ == Mode::disarmed) mode_ = Mode::idle;
-  return true;
+// ---- what follows from a change of state, whoever made it
+
+void Drive::follow_state() {
+  seen_ = state();
+  switch (seen_) {
+    case State::stopping:
+      return begin_ramp();
+    case State::armed:
+      steering_ = Steering::none;
+      return;
+    case State::driving:
+      return;
+    default:
+      end_segments();
+      steering_ = Steering::none;
+      paused_ = false;
+  }
 }
+
+void Drive::begin_ramp() {
+  if (steering_ == Steering::path) ramp_.set(to_body(geometry_, wheels_.set_points()));
+  ramp_.set_target({});
+  end_segments();
+  steering_ = Steering::none;
+  paused_ = false;
+}
+
+// ---- requests
 
 void Drive::disarm() {
-  end_segments(protocol::SegmentOutcome::aborted, protocol::SegmentOutcome::aborted);
-  if (mode_ != Mode::fault) mode_ = Mode::disarmed;
-  fault_after_stop_ = false;
-  if (faults_.any()) enter_fault();
+  supervisor_.request(Event::disarm);
+  follow_state();
+}
+
+void Drive::raise(Fault fault) {
+  supervisor_.raise(fault);
+  follow_state();
 }
 
 void Drive::stop() {
-  if (at_rest() || mode_ == Mode::stopping) return;
-  if (mode_ == Mode::wheels) {
-    mode_ = Mode::idle;  // brakes: a loop would trust wires that are just being looked for
+  if (state() != State::driving) {
+    end_segments();
+    paused_ = false;
     return;
   }
-  end_segments(protocol::SegmentOutcome::aborted, protocol::SegmentOutcome::aborted);
-  if (mode_ == Mode::segment) ramp_.set(to_body(geometry_, wheels_.set_points()));
-  ramp_.set_target({});
-  mode_ = Mode::stopping;
+  // Open loop there is no ramp: a loop would trust wires that are just being looked for.
+  supervisor_.request(steering_ == Steering::open_loop ? Event::rest : Event::stop);
+  follow_state();
+}
+
+bool Drive::pause() {
+  if (!armed() || (driving() && !on_path())) return false;
+  paused_ = true;
+  if (on_path()) follower_.cut_short();
+  return true;
 }
 
 bool Drive::drive_velocity(const BodyTwist& twist) {
-  if (!armed() || fault_after_stop_) return false;
-  if (mode_ == Mode::segment || mode_ == Mode::wheels) stop();
-  if (mode_ == Mode::idle) ramp_.set({});
-  mode_ = Mode::velocity;
-  ramp_.set_target(within(twist, limits_));
-  velocity_deadline_us_ = deadline_us();
+  const bool from_rest = state() == State::armed || steering_ == Steering::open_loop;
+  const bool from_path = on_path();
+  if (!supervisor_.request(Event::drive)) return false;
+  supervisor_.steered();
+  if (from_rest) ramp_.set({});
+  if (from_path) ramp_.set(to_body(geometry_, wheels_.set_points()));
+  end_segments();
+  paused_ = false;
+  steering_ = Steering::repeated;
+  seen_ = state();
+  ramp_.set_target(within_limits(twist, limits_));
   return true;
 }
 
 bool Drive::drive_wheels(const WheelVoltages& voltages) {
-  if (!armed() || fault_after_stop_ || (mode_ != Mode::idle && mode_ != Mode::wheels)) return false;
-  mode_ = Mode::wheels;
+  if (driving() && steering_ != Steering::open_loop) return false;
+  if (!supervisor_.request(Event::drive)) return false;
+  supervisor_.steered();
+  end_segments();
+  paused_ = false;
+  steering_ = Steering::open_loop;
+  seen_ = state();
   voltages_ = voltages;
-  velocity_deadline_us_ = deadline_us();
   return true;
 }
 
-bool Drive::add_segment(const Trapezoid& profile, std::uint16_t tag) {
-  if (!armed() || fault_after_stop_ || queue_.full()) return false;
-  if (mode_ == Mode::velocity || mode_ == Mode::wheels) stop();
-  queue_.push({profile, tag});
+bool Drive::add_segment(const Segment& segment, std::uint16_t tag) {
+  if (!armed() || faults().any() || queue_full()) return false;
+  if (steering_ == Steering::repeated || steering_ == Steering::open_loop) stop();
+  queue_.push({segment, tag});
   return true;
 }
 
-void Drive::raise(Fault fault) {
-  faults_.raise(fault, now_us_);
-  enter_fault();
+// ---- segments
+
+bool Drive::wants_plan(Segment& segment, std::uint8_t& ticket) const {
+  if (planned_ || queue_.empty()) return false;
+  segment = queue_.front().segment;
+  ticket = ticket_;
+  return true;
 }
 
-void Drive::clear_faults() {
-  if (!at_rest()) return;
-  faults_.clear();
-  supervisor_.reset();
-  if (mode_ == Mode::fault) mode_ = Mode::disarmed;
+void Drive::take_plan(const Trapezoid& profile, std::uint8_t ticket) {
+  if (ticket != ticket_ || queue_.empty()) return;
+  next_ = profile;
+  planned_ = true;
 }
 
-void Drive::enter_fault() {
-  end_segments(protocol::SegmentOutcome::aborted, protocol::SegmentOutcome::aborted);
-  fault_after_stop_ = false;
-  mode_ = Mode::fault;
+void Drive::plan() {
+  Segment segment;
+  std::uint8_t ticket = 0;
+  if (!wants_plan(segment, ticket)) return;
+  Trapezoid profile;  // empty, and so done at once, where limits have changed beyond what can be planned
+  Trapezoid::plan(segment, limits_, profile);
+  take_plan(profile, ticket);
 }
 
-void Drive::end_segments(protocol::SegmentOutcome running, protocol::SegmentOutcome queued) {
-  if (mode_ == Mode::segment) events_.push({running_.tag, running, now_us_});
-  while (!queue_.empty()) events_.push({queue_.pop().tag, queued, now_us_});
+void Drive::report(SegmentEvent::Kind kind, std::uint16_t tag) { events_.push({now_us_, tag, kind}); }
+
+void Drive::end_segments() {
+  if (steering_ == Steering::path) report(SegmentEvent::Kind::aborted, running_.tag);
+  if (steering_ == Steering::path) steering_ = Steering::none;
+  while (!queue_.empty()) report(SegmentEvent::Kind::aborted, queue_.pop().tag);
+  planned_ = path_open_ = false;
+  ++ticket_;
 }
 
 bool Drive::standing() const {
   const WheelSpeeds speeds = wheels_.speeds();
-  const auto slow = [](std::int32_t speed) { return speed < kStanding_umps && speed > -kStanding_umps; };
-  return slow(speeds.left_umps) && slow(speeds.right_umps);
+  return !exceeds(speeds.left_umps, kStanding_umps) && !exceeds(speeds.right_umps, kStanding_umps);
+}
+
+void Drive::start_path() {
+  if (!supervisor_.request(Event::drive)) return;
+  seen_ = state();
+  steering_ = Steering::path;
+  if (!path_open_ || strayed(follower_.reference(), odometry_.pose())) follower_.begin_path(odometry_.pose());
+  start_segment();
+}
+
+void Drive::start_segment() {
+  running_ = queue_.pop();
+  follower_.begin(next_);
+  planned_ = false;
+  ++ticket_;
+  settling_ticks_ = 0;
+  settled_.reset();
+  report(SegmentEvent::Kind::started, running_.tag);
+}
+
+// What a pause has left of the segment comes first when the robot goes on.
+void Drive::put_back() {
+  Segment left = follower_.profile().rest();
+  left.speed_umps = running_.segment.speed_umps;
+  left.yaw_rate_uradps = running_.segment.yaw_rate_uradps;
+  queue_.push_front({left, running_.tag});
+  planned_ = false;
+  ++ticket_;
+}
+
+void Drive::end_segment() {
+  const Segment left = follower_.profile().rest();
+  if (left.length_nm != 0 || left.angle_32 != 0) {
+    put_back();
+  } else {
+    report(SegmentEvent::Kind::completed, running_.tag);
+  }
+  path_open_ = !queue_.empty();
+  if (!paused_ && planned_) return start_segment();
+  steering_ = Steering::none;
+  supervisor_.request(Event::rest);
+  seen_ = state();
 }
 
 Drive::Wish Drive::wish() {
-  if (mode_ == Mode::idle && !queue_.empty()) {
-    follower_.begin_path(odometry_.pose());
-    next_segment();
-  }
-  switch (mode_) {
-    case Mode::velocity:
-      return ramped();
-    case Mode::segment:
-      return follow();
-    case Mode::stopping: {
+  if (state() == State::armed && planned_ && !paused_) start_path();
+  switch (state()) {
+    case State::driving:
+      return steering_ == Steering::path ? follow() : ramped();
+    case State::stopping: {
       const Wish ramp = ramped();
-      if (ramp.twist == BodyTwist{} && standing()) {
-        mode_ = Mode::idle;
-        if (fault_after_stop_) enter_fault();
+      if (ramp_.arrived() && standing()) {
+        supervisor_.request(Event::rest);
+        seen_ = State::stopping;  // so that the next tick follows
       }
       return ramp;
     }
@@ -163,14 +261,6 @@ Drive::Wish Drive::ramped() {
   return {ramp_.value(), ramp_.acceleration()};
 }
 
-void Drive::next_segment() {
-  running_ = queue_.pop();
-  follower_.begin(running_.profile);
-  settling_ticks_ = 0;
-  settled_.reset();
-  mode_ = Mode::segment;
-}
-
 Drive::Wish Drive::follow() {
   const PathFollower::Command command = follower_.advance(odometry_.pose());
   if (follower_.arrived()) {
@@ -178,24 +268,21 @@ Drive::Wish Drive::follow() {
     // any closer.
     ++settling_ticks_;
     const bool rests = settled_.advance(standing() && follower_.close(), kSettled_ticks);
-    if (rests || settling_ticks_ >= kSettleAtMost_ticks) {
-      events_.push({running_.tag, protocol::SegmentOutcome::completed, now_us_});
-      mode_ = Mode::idle;
-      if (!queue_.empty()) next_segment();
-    }
+    if (rests || settling_ticks_ >= kSettleAtMost_ticks) end_segment();
   }
-  return {command.twist, command.acceleration};
+  return {within_limits(command.twist, limits_), command.acceleration};
 }
 
 Drive::Output Drive::output(const Wish& wish, const TickInput& input) {
-  if (at_rest()) {
+  const Permission permission = supervisor_.permission();
+  if (permission != Permission::drive) {
     wheels_.release();
-    return {mode_ == Mode::idle ? Output::Bridge::brake : Output::Bridge::coast, {}};
+    return {permission, {}};
   }
-  if (mode_ == Mode::wheels) return {Output::Bridge::drive, wheels_.open_loop(voltages_, input.battery_mv)};
+  if (steering_ == Steering::open_loop) return {permission, wheels_.open_loop(voltages_, input.battery_mv)};
   const WheelSpeeds set_points = to_wheels(geometry_, wish.twist);
   const WheelSpeeds accelerations = to_wheels(geometry_, wish.acceleration);
-  return {Output::Bridge::drive, wheels_.control(set_points, accelerations, input.battery_mv)};
+  return {permission, wheels_.control(set_points, accelerations, input.battery_mv)};
 }
 
 }  // namespace astro

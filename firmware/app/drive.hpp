@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "common/control/path_follower.hpp"
@@ -8,7 +7,6 @@
 #include "common/kinematics/odometry.hpp"
 #include "common/params/parameter_set.hpp"
 #include "common/protocol/enums.hpp"
-#include "common/safety/fault_latch.hpp"
 #include "common/safety/watch.hpp"
 #include "firmware/app/segment_queue.hpp"
 #include "firmware/app/supervisor.hpp"
@@ -16,8 +14,8 @@
 
 namespace astro {
 
-/// The robot's behaviour, without a board: counts, voltage and time in, duty out, once a tick. The single
-/// place that decides whether the motors may run.
+/// The robot's behaviour, without a board: counts, voltage and time in, duty out, once a tick. What moves the
+/// wheels is decided here; whether they may move, by the Supervisor.
 ///
 /// Concurrency  one owner; on the MCU the main loop calls it only while it holds the tick
 /// (hal::Board::hold_tick).
@@ -26,95 +24,109 @@ class Drive {
   using Mode = protocol::Mode;
 
   struct Output {
-    enum class Bridge : std::uint8_t { coast, brake, drive };
-    Bridge bridge = Bridge::coast;
+    Permission bridge = Permission::open;
     hal::Duty duty;
   };
 
   explicit Drive(const ParameterSet& set) { configure(set); }
 
-  /// Replaces the parameters; the pose stays where it is. Only at rest.
+  /// Replaces the parameters; the pose stays where it is. While the wheels are driven only a set of the same
+  /// geometry and polarities: then without a bump.
   void configure(const ParameterSet& set);
 
   /// One tick.
   Output advance(const TickInput& input);
 
   // Requests. Each says whether it was taken; a refused one has changed nothing.
-  bool arm();     // false while a fault is latched
+  bool arm() { return supervisor_.request(Event::arm); }
   void disarm();  // coasts at once, empties the queue
   void stop();    // ramps to rest, empties the queue, stays armed
+  bool pause();   // comes to rest on the path, the queue waits; false while something else moves the wheels
+  void resume() { paused_ = false; }
   void emergency_stop() { raise(Fault::emergency_stop); }
-  bool drive_velocity(const BodyTwist& twist);  // false unless armed
-  /// Open loop, for identification. False unless armed.
-  bool drive_wheels(const WheelVoltages& voltages);
-  bool add_segment(const Trapezoid& profile, std::uint16_t tag);  // false unless armed with room
-  void set_pose(const Pose& pose) { odometry_.set_pose(pose); }   // only at rest
+  bool drive_velocity(const BodyTwist& twist);                   // false unless armed
+  bool drive_wheels(const WheelVoltages& voltages);              // open loop; false unless armed
+  bool add_segment(const Segment& segment, std::uint16_t tag);   // false unless armed with room
+  void set_pose(const Pose& pose) { odometry_.set_pose(pose); }  // only at rest
   void raise(Fault fault);
-  void clear_faults();
+  bool clear_faults() { return supervisor_.clear(); }  // false while the wheels are driven
 
-  /// A good frame from a host: it is alive.
-  void host_seen() { host_deadline_us_ = deadline_us(); }
+  /// A good frame from the host that drives.
+  void host_seen() { supervisor_.host_seen(); }
 
-  bool armed() const { return mode_ != Mode::disarmed && mode_ != Mode::fault; }
-  bool at_rest() const { return !driving(); }
+  // The profile of the next segment takes divisions and roots: it is made outside the tick.
+
+  /// The segment whose profile is wanted, and the ticket to hand it in with; false if none is.
+  bool wants_plan(Segment& segment, std::uint8_t& ticket) const;
+  /// Ignored if the queue has changed since.
+  void take_plan(const Trapezoid& profile, std::uint8_t ticket);
+  /// Both, for owners whose tick cannot interrupt them.
+  void plan();
+
+  State state() const { return supervisor_.state(); }
+  bool armed() const { return within(state(), states(State::armed, State::driving, State::stopping)); }
   /// Commands or segments move the wheels, or a ramp does.
-  bool driving() const {
-    return mode_ == Mode::velocity || mode_ == Mode::segment || mode_ == Mode::stopping ||
-           mode_ == Mode::wheels;
-  }
-  bool queue_full() const { return queue_.full(); }
-  Mode mode() const { return mode_; }
+  bool driving() const { return supervisor_.permission() == Permission::drive; }
+  bool at_rest() const { return !driving(); }
+  bool queue_full() const { return queue_.size() >= kQueueLength; }
+  Mode mode() const;
   const Pose& pose() const { return odometry_.pose(); }
   const Wheels& wheels() const { return wheels_; }
+  const PathFollower& follower() const { return follower_; }
+  const MotionLimits& limits() const { return limits_; }
   BodyTwist twist() const { return to_body(geometry_, wheels_.speeds()); }
-  const FaultLatch& faults() const { return faults_; }
-  std::uint16_t running_tag() const { return mode_ == Mode::segment ? running_.tag : std::uint16_t{0}; }
+  const FaultLatch& faults() const { return supervisor_.faults(); }
+  std::uint16_t running_tag() const { return on_path() ? running_.tag : std::uint16_t{0}; }
   std::size_t queued() const { return queue_.size(); }
   SegmentEvents& events() { return events_; }
   /// True once after the supervisor has looked at a tick.
   bool take_supervised() { return supervisor_.take_watched(); }
 
  private:
+  using Steering = Supervisor::Steering;
   struct Wish {
     BodyTwist twist;
     BodyTwist acceleration;
   };
 
-  void watch_over(const TickInput& input, std::uint32_t found);
-  void enter_fault();
-  void end_segments(protocol::SegmentOutcome running, protocol::SegmentOutcome queued);
+  bool on_path() const { return steering_ == Steering::path && state() == State::driving; }
+  void follow_state();
+  void begin_ramp();
+  void end_segments();
   bool standing() const;
-  std::uint64_t deadline_us() const {
-    return command_timeout_us_ != 0 ? now_us_ + command_timeout_us_ : ~std::uint64_t{0};
-  }
+  void start_path();
+  void start_segment();
+  void end_segment();
+  void put_back();
+  void report(SegmentEvent::Kind kind, std::uint16_t tag);
   Wish wish();
   Wish ramped();
   Wish follow();
-  void next_segment();
   Output output(const Wish& wish, const TickInput& input);
 
   Geometry geometry_;
   MotionLimits limits_;
-  std::uint64_t command_timeout_us_ = 0;
 
   Odometry odometry_{Geometry{}};
   Wheels wheels_;
   PathFollower follower_;
+  TwistRamp ramp_;
   Supervisor supervisor_;
-  FaultLatch faults_;
+  State seen_ = State::boot;  // the state that everything here follows
+  Steering steering_ = Steering::none;
+  WheelVoltages voltages_;
+
   SegmentQueue queue_;
   SegmentEvents events_;
-
-  Mode mode_ = Mode::disarmed;
-  bool fault_after_stop_ = false;
   QueuedSegment running_;
+  Trapezoid next_;  // of the front of the queue
+  bool planned_ = false;
+  bool paused_ = false;
+  bool path_open_ = false;   // the next segment belongs to the path of the last one
+  std::uint8_t ticket_ = 0;  // changes with the front of the queue
   std::uint32_t settling_ticks_ = 0;
   Watch settled_;
-  WheelVoltages voltages_;
-  TwistRamp ramp_;
   std::uint64_t now_us_ = 0;
-  std::uint64_t host_deadline_us_ = 0;  // nobody steers after it
-  std::uint64_t velocity_deadline_us_ = 0;
 };
 
 }  // namespace astro

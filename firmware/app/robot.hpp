@@ -33,6 +33,7 @@ class Robot {
     const bool readable = desk_.load();
     drive_.configure(desk_.active());
     if (!readable) drive_.raise(Fault::parameters);
+    if (board_.system().reset_cause() == hal::ResetCause::watchdog) drive_.raise(Fault::watchdog);
     announce(protocol::Booted{reset_cause()});
   }
 
@@ -42,7 +43,7 @@ class Robot {
     input.counts = board_.encoders().read();
     input.battery_mv = board_.battery().millivolts();
     input.driver_fault = board_.motors().fault();
-    if (ticks_.advance(input.now_us) && !drive_.at_rest()) drive_.raise(Fault::tick_overrun);
+    input.on_time = ticks_.advance(input.now_us);
     apply(drive_.advance(input));
     battery_mv_ = input.battery_mv;
     if (drive_.take_supervised()) check_in_.here(CheckIn::Task::supervisor);
@@ -51,6 +52,7 @@ class Robot {
 
   void poll() {
     for (int port = 0; port < kPorts; ++port) receive(port);
+    plan();
     report_events();
     for (int port = 0; port < kPorts; ++port) stream(port);
     if (board_.system().host_wants_bootloader() && !drive_.armed()) reset_soon(Reset::bootloader);
@@ -73,13 +75,13 @@ class Robot {
 
   void apply(const Drive::Output& output) {
     switch (output.bridge) {
-      case Drive::Output::Bridge::drive:
+      case Permission::drive:
         board_.motors().drive(output.duty);
         break;
-      case Drive::Output::Bridge::brake:
+      case Permission::brake:
         board_.motors().brake();
         break;
-      case Drive::Output::Bridge::coast:
+      case Permission::open:
         board_.motors().coast();
         break;
     }
@@ -87,6 +89,20 @@ class Robot {
 
   protocol::ResetCause reset_cause() {
     return static_cast<protocol::ResetCause>(board_.system().reset_cause());  // the same values in both
+  }
+
+  /// The profile of the next segment, made while the tick goes on.
+  void plan() {
+    Segment segment;
+    std::uint8_t ticket = 0;
+    {
+      auto hold = board_.hold_tick();
+      if (!drive_.wants_plan(segment, ticket)) return;
+    }
+    Trapezoid profile;
+    Trapezoid::plan(segment, drive_.limits(), profile);
+    auto hold = board_.hold_tick();
+    drive_.take_plan(profile, ticket);
   }
 
   void feed_watchdog() {
@@ -160,6 +176,7 @@ class Robot {
   protocol::ErrorReply not_ready() const {
     if (drive_.faults().any())
       return error(ErrorCode::faulted, static_cast<std::uint16_t>(drive_.faults().first()));
+    if (drive_.state() == State::boot) return error(ErrorCode::busy);
     return error(drive_.armed() ? ErrorCode::queue_full : ErrorCode::not_armed);
   }
 
@@ -193,6 +210,7 @@ class Robot {
                             .battery_mv = battery_mv_,
                             .tick_count = ticks_.count(),
                             .tick_overruns = ticks_.overruns(),
+                            .tick_longest_us = ticks_.longest_us(),
                             .rx_bad_frames = bad,
                             .reset_cause = reset_cause()};
   }
@@ -238,15 +256,32 @@ class Robot {
   }
 
   Answer<Ack> handle(int, const protocol::AddSegment& request) {
+    const bool moves = request.kind != protocol::SegmentKind::stop;
     const bool matches = (request.kind != protocol::SegmentKind::line || request.angle == 0) &&
-                         (request.kind != protocol::SegmentKind::spin || request.length_nm == 0);
-    Trapezoid profile;  // planned before the tick is held: it takes two square roots
+                         (request.kind != protocol::SegmentKind::spin || request.length_nm == 0) &&
+                         moves == (request.length_nm != 0 || request.angle != 0);
+    const Segment segment{request.length_nm, request.angle, request.speed_umps, request.yaw_rate_uradps,
+                          saturate32(request.dwell_ms)};
+    Trapezoid profile;  // only to see whether it can be done
     if (!matches || request.speed_umps < 0 || request.yaw_rate_uradps < 0 ||
-        !Trapezoid::plan({request.length_nm, request.angle, request.speed_umps, request.yaw_rate_uradps},
-                         make_limits(desk_.active()), profile))
+        !Trapezoid::plan(segment, make_limits(desk_.active()), profile))
       return error(ErrorCode::out_of_range);
     auto hold = board_.hold_tick();
-    if (!drive_.add_segment(profile, request.tag)) return not_ready();
+    if (!drive_.add_segment(segment, request.tag)) return not_ready();
+    return Ack{};
+  }
+
+  Answer<Ack> handle(int, const protocol::Pause&) {
+    auto hold = board_.hold_tick();
+    if (!drive_.armed()) return not_ready();
+    if (!drive_.pause()) return error(ErrorCode::moving);
+    return Ack{};
+  }
+
+  Answer<Ack> handle(int, const protocol::Resume&) {
+    auto hold = board_.hold_tick();
+    if (!drive_.armed()) return not_ready();
+    drive_.resume();
     return Ack{};
   }
 
@@ -270,10 +305,16 @@ class Robot {
     // moving.
     if (!drive_.at_rest() || drive_.queued() != 0) return error(ErrorCode::moving);
     const Answer<Ack> done = desk_.commit();
-    if (done) {
-      auto hold = board_.hold_tick();
-      drive_.configure(desk_.active());
-    }
+    auto hold = board_.hold_tick();
+    if (done) drive_.configure(desk_.active());
+    if (!done && done.error().code == ErrorCode::flash_failed) drive_.raise(Fault::flash);
+    return done;
+  }
+
+  Answer<Ack> handle(int, const protocol::ApplyParameters&) {
+    const Answer<Ack> done = desk_.apply(!drive_.at_rest() || drive_.queued() != 0);
+    auto hold = board_.hold_tick();
+    if (done) drive_.configure(desk_.active());
     return done;
   }
 
@@ -303,8 +344,7 @@ class Robot {
 
   Answer<Ack> handle(int, const protocol::ClearFaults&) {
     auto hold = board_.hold_tick();
-    if (!drive_.at_rest()) return error(ErrorCode::moving);
-    drive_.clear_faults();
+    if (!drive_.clear_faults()) return error(ErrorCode::moving);
     reported_faults_ = 0;
     return Ack{};
   }
@@ -350,6 +390,15 @@ class Robot {
     for (int port = 0; port < kPorts; ++port) send(port, std::span(out).first(size));
   }
 
+  void announce(const SegmentEvent& event) {
+    using protocol::SegmentOutcome;
+    if (event.kind == SegmentEvent::Kind::started)
+      return announce(protocol::SegmentStarted{event.tag, event.time_us});
+    const bool completed = event.kind == SegmentEvent::Kind::completed;
+    announce(protocol::SegmentDone{event.tag, completed ? SegmentOutcome::completed : SegmentOutcome::aborted,
+                                   event.time_us});
+  }
+
   void report_events() {
     while (true) {
       SegmentEvent event;
@@ -358,7 +407,7 @@ class Robot {
         if (drive_.events().empty()) break;
         event = drive_.events().pop();
       }
-      announce(protocol::SegmentDone{event.tag, event.outcome, event.time_us});
+      announce(event);
     }
     std::uint32_t fresh = 0;
     std::uint64_t now_us = 0;

@@ -4,8 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "common/control/trapezoid.hpp"
-#include "common/protocol/enums.hpp"
+#include "common/control/segment.hpp"
 
 namespace astro {
 
@@ -24,7 +23,15 @@ class Ring {
     slots_[(first_ + size_) % N] = value;
     ++size_;
   }
+  /// The value before all others; dropped when full.
+  void push_front(const T& value) {
+    if (full()) return;
+    first_ = (first_ + N - 1) % N;
+    slots_[first_] = value;
+    ++size_;
+  }
   /// Only when not empty.
+  const T& front() const { return slots_[first_]; }
   T pop() {
     const T value = slots_[first_];
     first_ = (first_ + 1) % N;
@@ -39,18 +46,20 @@ class Ring {
 };
 
 struct QueuedSegment {
-  Trapezoid profile;
+  Segment segment;
   std::uint16_t tag = 0;
 };
 
 struct SegmentEvent {
-  std::uint16_t tag = 0;
-  protocol::SegmentOutcome outcome = protocol::SegmentOutcome::completed;
+  enum class Kind : std::uint8_t { started, completed, aborted };
   std::uint64_t time_us = 0;
+  std::uint16_t tag = 0;
+  Kind kind = Kind::started;
 };
 
+/// As many as hosts may queue, and a place for the one that a pause puts back.
 inline constexpr std::size_t kQueueLength = 16;
-using SegmentQueue = Ring<QueuedSegment, kQueueLength>;
+using SegmentQueue = Ring<QueuedSegment, kQueueLength + 1>;
 /// Room for the ends of a whole queue and the segment that runs, so that no end is lost between two main
 /// loops.
 using SegmentEvents = Ring<SegmentEvent, 2 * kQueueLength>;

@@ -16,6 +16,10 @@ protocol::Telemetry snapshot(const Drive& drive, std::uint64_t time_us, std::int
   telemetry.duty = {wheels.forward_duty().left, wheels.forward_duty().right};
   telemetry.battery = {battery_mv};
   telemetry.state = {drive.mode(), drive.running_tag(), drive.faults().mask()};
+  const PathFollower& follower = drive.follower();
+  telemetry.path = {drive.running_tag(), static_cast<std::uint16_t>(follower.profile().progress_16() / 2),
+                    static_cast<std::uint16_t>(drive.queued()), follower.cross_track_um(),
+                    follower.heading_error_urad()};
   return telemetry;
 }
 

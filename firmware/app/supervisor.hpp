@@ -4,34 +4,90 @@
 #include <utility>
 
 #include "common/params/parameter_set.hpp"
-#include "common/safety/fault.hpp"
+#include "common/safety/fault_latch.hpp"
+#include "common/safety/fault_rule.hpp"
+#include "common/safety/state.hpp"
 #include "common/safety/watch.hpp"
 #include "firmware/app/wheels.hpp"
 
 namespace astro {
 
-/// Looks at every tick for what must stop the robot, whatever it is doing.
+/// The single place that decides whether the motors may run: it holds the state, the latch and the dead
+/// lines, and looks in every tick for what must stop the robot (the table in common/safety/fault_rule.hpp).
 ///
-///   driver           the bridge reports over-current or over-temperature: at once
-///   under_voltage    supply below battery_low for 100 ms (a start-up dip is shorter); 0 switches it off
-///   over_voltage     supply above battery_high for 20 ms; 0 switches it off
-///   over_speed       a wheel faster than over_speed for 20 ms
-///   stall            more than a third of the voltage on a wheel that has not moved for 1 s
-///   encoder          more counts in a tick than a motor can turn: at once
+///   driver           the bridge reports over-current or over-temperature
+///   under_voltage    supply below battery_low; 0 switches it off
+///   over_voltage     supply above battery_high; 0 switches it off
+///   over_speed       a wheel faster than over_speed
+///   stall            more than half of full duty on a wheel that does not move, for stall_time
+///   encoder          more counts in a tick than a motor can turn; or counts to and fro while the motor
+///   pulls,
+///                    which is what a decoder makes of a single channel
+///   runaway          a wheel turns against more than half of full duty: motor or encoder is reversed
+///   tick_overrun     a tick came too late, or a thousand of them took longer or shorter than a second
+///   command_timeout  no velocity or voltage for longer than the parameter of that name
+///   link_lost        a path under way, and nothing from its host for as long
+///
+/// Cost    constant: what must be seen at once in every tick, and one of the slower watches in turn.
 class Supervisor {
  public:
+  /// Who moves the wheels, and so what must go on for them to move.
+  enum class Steering : std::uint8_t { none, repeated, path, open_loop };
+
   void configure(const ParameterSet& set);
-  /// The faults of this tick, as a mask of their bits. `plausible`: what the encoders showed can be;
-  /// `powered`: the bridges are driving.
-  std::uint32_t advance(const TickInput& input, bool plausible, bool powered, const Wheels& wheels);
-  void reset();
+
+  State state() const { return state_; }
+  Permission permission() const { return astro::permission(state_); }
+  const FaultLatch& faults() const { return faults_; }
+
+  /// False, and no change, if the state does not allow it or a fault is latched and it would give power.
+  bool request(Event event);
+  /// Latches it, and opens the bridges.
+  void raise(Fault fault);
+  /// Releases all faults; false while the wheels are driven.
+  bool clear();
+
+  /// A command that must be repeated was; a good frame came from the host that drives.
+  void steered() { steering_deadline_us_ = deadline_us(); }
+  void host_seen() { host_deadline_us_ = deadline_us(); }
+
+  void advance(const TickInput& input, bool plausible, Steering steering, const Wheels& wheels);
+
   /// True once after advance() came to its end.
   bool take_watched() { return std::exchange(watched_, false); }
 
  private:
+  struct WheelWatch {
+    Watch stall, dither, runaway;
+    std::uint32_t edges = 0;  // when the wheel last moved as it should
+  };
+
+  bool watched_in(Fault fault) const { return within(state_, rule(fault).watched); }
+  void found(Fault fault);
+  void look_at_supply(std::int32_t battery_mv);
+  void look_at_speed(const WheelSpeeds& speeds);
+  void look_for_stall(WheelWatch& watch, const Wheels::Motion& motion);
+  void look_for_runaway(WheelWatch& watch, const Wheels::Motion& motion, Steering steering);
+  void look_at_deadlines(Steering steering);
+  void look_at_boot();
+  std::uint64_t deadline_us() const {
+    return command_timeout_us_ != 0 ? now_us_ + command_timeout_us_ : ~std::uint64_t{0};
+  }
+
   std::int32_t battery_low_mv_ = 0, battery_high_mv_ = 0, over_speed_umps_ = 0;
+  std::uint32_t stall_visits_ = 0;
+  std::uint32_t command_timeout_us_ = 0;
+
+  State state_ = State::boot;
+  FaultLatch faults_;
+  bool proven_ = false;
   bool watched_ = false;
-  Watch under_voltage_, over_voltage_, over_speed_, left_stall_, right_stall_;
+  std::uint32_t turn_ = 0;
+  std::uint8_t good_rounds_ = 0;
+  Watch under_voltage_, over_voltage_, over_speed_;
+  WheelWatch left_, right_;
+  std::uint64_t now_us_ = 0;
+  std::uint64_t steering_deadline_us_ = 0, host_deadline_us_ = 0, ramp_deadline_us_ = 0;
 };
 
 }  // namespace astro

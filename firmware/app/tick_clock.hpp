@@ -4,26 +4,44 @@
 
 namespace astro {
 
-/// Counts ticks and proves their rate: a gap of more than two periods is an overrun.
+/// Counts ticks and proves their rate by the board's clock. Late or early is a gap of more than half a period
+/// beside the mean one, and a thousand ticks that take more than a thousandth longer or shorter than a
+/// second.
 class TickClock {
  public:
-  /// At the start of a tick. True if it came too late.
+  static constexpr std::uint32_t kPeriod_us = 1000;
+  static constexpr std::uint32_t kMost_us = kPeriod_us + kPeriod_us / 2;
+  static constexpr std::uint32_t kLeast_us = kPeriod_us / 2;
+
+  /// At the start of a tick. False if it, or the thousand that it ends, did not come on time.
   bool advance(std::uint64_t now_us) {
-    const bool late = count_ != 0 && now_us - last_us_ > 2 * kPeriod_us;
+    const auto gap_us = static_cast<std::uint32_t>(now_us - last_us_);
     last_us_ = now_us;
-    ++count_;
-    overruns_ += late ? 1 : 0;
-    return late;
+    if (count_++ == 0) {
+      window_us_ = now_us;
+      return true;
+    }
+    bool on_time = gap_us >= kLeast_us && gap_us <= kMost_us;
+    if (gap_us > longest_us_) longest_us_ = gap_us;
+    if (count_ % kWindow == 1) {
+      on_time = on_time && now_us - window_us_ - kWindow * (kPeriod_us - 1) <= 2 * kWindow;
+      window_us_ = now_us;
+    }
+    overruns_ += on_time ? 0 : 1;
+    return on_time;
   }
   std::uint32_t count() const { return count_; }
   std::uint32_t overruns() const { return overruns_; }
+  std::uint32_t longest_us() const { return longest_us_; }  // between two ticks, since start
   std::uint64_t last_us() const { return last_us_; }
 
  private:
-  static constexpr std::uint64_t kPeriod_us = 1000;
-  std::uint64_t last_us_ = 0;
+  static constexpr std::uint32_t kWindow = 1000;
+
+  std::uint64_t last_us_ = 0, window_us_ = 0;
   std::uint32_t count_ = 0;
   std::uint32_t overruns_ = 0;
+  std::uint32_t longest_us_ = 0;
 };
 
 }  // namespace astro

@@ -12,6 +12,7 @@ struct TickInput {
   hal::EncoderCounts counts;
   std::int32_t battery_mv = 0;
   bool driver_fault = false;
+  bool on_time = true;  // false: this tick, or the thousand before it, did not keep the rate
 };
 
 }  // namespace astro

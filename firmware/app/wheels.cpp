@@ -34,6 +34,14 @@ std::int32_t most_counts(const Geometry& geometry) {
   return counts < 1000 ? static_cast<std::int32_t>(counts) : 1000;
 }
 
+// What the finer wheel counts in a tick at this speed, and two for the ends of the tick.
+std::int32_t counts_at(std::int64_t umps, const Geometry& geometry) {
+  const std::int64_t finer =
+      geometry.left.speed < geometry.right.speed ? geometry.left.speed : geometry.right.speed;
+  const std::int64_t counts = (umps << 12) / finer + 2;
+  return counts < INT32_MAX ? static_cast<std::int32_t>(counts) : INT32_MAX;
+}
+
 // A speed of 2^-12 um/s is 2^20 / wheel.speed of the observer's units, and a tick is a thousandth of a
 // second.
 std::int32_t expected_scale(const Geometry::Wheel& wheel) {
@@ -45,7 +53,9 @@ std::int32_t expected_scale(const Geometry::Wheel& wheel) {
 
 void Wheels::configure(const ParameterSet& set, const Geometry& geometry) {
   geometry_ = geometry;
-  most_counts_ = most_counts(geometry);
+  most_late_counts_ = most_counts(geometry);
+  most_counts_ =
+      std::min(most_late_counts_, counts_at(4 * std::int64_t{set.get(Param::over_speed)}, geometry));
   voltage_limit_uv_ = 1000 * set.get(Param::motor_voltage_max);
   left_.motor_sign = set.get(Param::motor_polarity_left);
   right_.motor_sign = set.get(Param::motor_polarity_right);
@@ -53,13 +63,14 @@ void Wheels::configure(const ParameterSet& set, const Geometry& geometry) {
   right_.encoder_sign = set.get(Param::encoder_polarity_right);
   left_.expected_scale = expected_scale(geometry.left);
   right_.expected_scale = expected_scale(geometry.right);
-  pair_.set_gains(set);
+  pair_.set_gains(set, set_points_, accelerations_, speeds_);
   for (Side* side : {&left_, &right_}) side->observer.set_bandwidth(set.get(Param::observer_bandwidth));
 }
 
 std::int32_t Wheels::step(Side& side, std::int32_t counts) const {
   const std::int32_t step = wrapping_difference(counts, side.seen) * side.encoder_sign;
   side.seen = counts;
+  side.edges += step < 0 ? 0 - static_cast<std::uint32_t>(step) : static_cast<std::uint32_t>(step);
   return step;
 }
 
@@ -70,7 +81,8 @@ Wheels::Steps Wheels::read(const TickInput& input) {
     started_ = true;
   }
   Steps steps{step(left_, input.counts.left), step(right_, input.counts.right), true};
-  if (exceeds(steps.left, most_counts_) || exceeds(steps.right, most_counts_)) steps = {0, 0, false};
+  const std::int32_t most = input.on_time ? most_counts_ : most_late_counts_;
+  if (exceeds(steps.left, most) || exceeds(steps.right, most)) steps = {0, 0, false};
   left_counts_ = wrapping_sum(left_counts_, steps.left);
   right_counts_ = wrapping_sum(right_counts_, steps.right);
   left_.observer.advance(steps.left, left_.expected);
@@ -94,6 +106,7 @@ hal::Duty Wheels::control(const WheelSpeeds& set_points, const WheelSpeeds& acce
                           std::int32_t battery_mv) {
   const Supply supply = supply_of(battery_mv);
   set_points_ = set_points;
+  accelerations_ = accelerations;
   left_.expected = mul_high(accelerations.left_umps, left_.expected_scale);
   right_.expected = mul_high(accelerations.right_umps, right_.expected_scale);
   return wired(to_duty(pair_.advance(set_points, accelerations, speeds_, supply.limit_uv), supply.mv));
@@ -121,7 +134,7 @@ hal::Duty Wheels::wired(const hal::Duty& forward) {
 void Wheels::release() {
   pair_.reset();
   left_.expected = right_.expected = 0;
-  set_points_ = {};
+  set_points_ = accelerations_ = {};
   forward_duty_ = {};
 }
 

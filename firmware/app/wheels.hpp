@@ -17,6 +17,13 @@ class Wheels {
     bool plausible = true;             // false: more than a motor can turn; nothing was counted
   };
 
+  /// What a wheel does, for who watches over it. All forward positive.
+  struct Motion {
+    std::int32_t speed_umps = 0;
+    std::int32_t duty = 0;
+    std::uint32_t edges = 0;  // counts to either side since start, wraps
+  };
+
   void configure(const ParameterSet& set, const Geometry& geometry);
 
   /// The first call after a start only learns where the decoders stand.
@@ -29,6 +36,8 @@ class Wheels {
   /// No set point: the integrals are forgotten.
   void release();
 
+  Motion left() const { return {speeds_.left_umps, forward_duty_.left, left_.edges}; }
+  Motion right() const { return {speeds_.right_umps, forward_duty_.right, right_.edges}; }
   const WheelSpeeds& speeds() const { return speeds_; }
   const WheelSpeeds& set_points() const { return set_points_; }
   const hal::Duty& forward_duty() const { return forward_duty_; }  // forward positive, whatever the wiring
@@ -42,7 +51,8 @@ class Wheels {
     std::int32_t expected = 0;        // change of speed in the next tick
     std::int32_t motor_sign = 1;
     std::int32_t encoder_sign = 1;
-    std::int32_t seen = 0;  // decoder's last reading
+    std::int32_t seen = 0;    // decoder's last reading
+    std::uint32_t edges = 0;  // counts to either side since start, wraps
   };
 
   struct Supply {
@@ -60,10 +70,11 @@ class Wheels {
   WheelPair pair_;
   Geometry geometry_;
   std::int32_t voltage_limit_uv_ = 0;
-  std::int32_t most_counts_ = 0;
+  std::int32_t most_counts_ = 0;       // in a tick on time: four times over_speed
+  std::int32_t most_late_counts_ = 0;  // in any tick: what odometry and observer take
   bool started_ = false;
   std::int32_t left_counts_ = 0, right_counts_ = 0;
-  WheelSpeeds speeds_, set_points_;
+  WheelSpeeds speeds_, set_points_, accelerations_;
   hal::Duty forward_duty_;
 };
 

@@ -28,7 +28,7 @@ struct ParamsOptions {
   ConnectionOptions connection;
   std::vector<std::string> words;
   fs::path file;
-  bool json = false, yes = false, stage_only = false;
+  bool json = false, yes = false, stage_only = false, try_out = false;
 };
 
 Json changed_json(const std::vector<Change>& changes, bool in_force) {
@@ -104,36 +104,37 @@ ParameterValues assignments(const RemoteParameters& robot, const std::vector<std
 
 void set(link::Client& client, const ParamsOptions& options, RemoteParameters& robot) {
   const ParameterValues values = assignments(robot, options.words);
-  if (!options.stage_only) return load(client, options, robot, values);
+  if (!options.stage_only && !options.try_out) return load(client, options, robot, values);
   const std::vector<Change> changes = experiment::changes(robot, values);
   for (const auto& [name, value] : values) robot.stage(name, value);
   say(table(experiment::side_by_side(changes), "llrrr"));
+  if (options.try_out) {
+    robot.apply();
+    say("in force until the robot restarts: 'astrolabe params save' keeps them");
+    return report(options, changes, true);
+  }
   say("staged, not in force: 'astrolabe params save' puts them in force, 'revert' drops them");
   report(options, changes, false);
 }
 
 void commit_staged(const ParamsOptions& options, RemoteParameters& robot, const char* if_none) {
   const std::vector<Change> changes = staged_changes(robot);
-  if (changes.empty()) {
-    say(if_none);
-    return report(options, changes, true);
-  }
-  if (!agreed(options, changes)) {
+  if (!changes.empty() && !agreed(options, changes)) {
     robot.revert();
     throw Error("nothing was changed");
   }
-  robot.commit();
-  say("in force, and in the robot's flash");
+  robot.commit();  // also without changes: what was only tried is kept now
+  say(changes.empty() ? if_none : "in force, and in the robot's flash");
   report(options, changes, true);
 }
 
 void save(const ParamsOptions& options, RemoteParameters& robot) {
-  commit_staged(options, robot, "nothing is staged: the robot keeps its values");
+  commit_staged(options, robot, "nothing is staged: the values in force are in the robot's flash");
 }
 
 void defaults(const ParamsOptions& options, RemoteParameters& robot) {
   robot.defaults();
-  commit_staged(options, robot, "the robot holds its defaults already");
+  commit_staged(options, robot, "the robot holds its defaults already, in its flash too");
 }
 
 void revert(const ParamsOptions& options, RemoteParameters& robot) {
@@ -195,9 +196,13 @@ void add_writers(CLI::App& params, const std::shared_ptr<ParamsOptions>& options
   some.add_option("assignment", options->words, "NAME=VALUE, in the unit that 'params list' shows")
       ->required()
       ->type_name("");
-  some.add_flag("--stage-only", options->stage_only, "leave them staged: 'params save' puts them in force");
+  auto* staged = some.add_flag("--stage-only", options->stage_only,
+                               "leave them staged: 'params save' puts them in force");
+  some.add_flag("--try", options->try_out,
+                "in force until the robot restarts; gains and limits even while it drives")
+      ->excludes(staged);
   examples(some, {"astrolabe params set b=0.2886", "astrolabe params set c_R=1.0021 c_L=0.9979 --yes",
-                  "astrolabe params set robot_name=Astro-2"});
+                  "astrolabe params set kp=50 --try"});
 
   CLI::App& file = add(params, "import", "load values from a TOML file, all together or not at all", options,
                        [](link::Client& client, ParamsOptions& o, RemoteParameters& robot) {

@@ -14,15 +14,11 @@ struct StopOptions {
   bool emergency = false;
 };
 
-bool at_rest(protocol::Mode mode) {
-  return mode == protocol::Mode::disarmed || mode == protocol::Mode::idle || mode == protocol::Mode::fault;
-}
-
 void ramp_to_rest(link::Client& client) {
   constexpr auto kTimeToRest = std::chrono::seconds(5);
   client.request(protocol::Stop{});
   const link::microseconds deadline = client.now() + kTimeToRest;
-  while (!at_rest(client.request(protocol::GetStatus{}).mode)) {
+  while (!protocol::at_rest(client.request(protocol::GetStatus{}).mode)) {
     if (client.now() >= deadline)
       throw Error("the robot does not come to rest: try 'astrolabe stop --emergency' or switch it off");
     client.pump(std::chrono::milliseconds(50));

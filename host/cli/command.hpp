@@ -17,6 +17,7 @@ void add_info(CLI::App& app);
 void add_params(CLI::App& app);
 void add_drive(CLI::App& app);
 void add_stop(CLI::App& app);
+void add_pause(CLI::App& app);
 void add_faults(CLI::App& app);
 void add_reboot(CLI::App& app);
 void add_flash(CLI::App& app);

@@ -63,7 +63,7 @@ class Client {
   void pump(microseconds duration);
   bool pump_until(const std::function<bool()>& done, microseconds timeout);
 
-  /// M: Telemetry, SegmentDone, FaultRaised, Booted. Ends when the Subscription goes.
+  /// M: Telemetry, SegmentStarted, SegmentDone, FaultRaised, Booted. Ends when the Subscription goes.
   template <protocol::Message M>
   [[nodiscard]] Subscription on(typename Listeners<M>::Callback callback) {
     return std::get<Listeners<M>>(listeners_).add(std::move(callback));
@@ -119,7 +119,8 @@ class Client {
   ClockMap clock_;
   LinkCounts counts_;
   std::tuple<Listeners<protocol::Telemetry>, Listeners<protocol::SegmentDone>,
-             Listeners<protocol::FaultRaised>, Listeners<protocol::Booted>>
+             Listeners<protocol::FaultRaised>, Listeners<protocol::Booted>,
+             Listeners<protocol::SegmentStarted>>
       listeners_;
 
   std::uint16_t next_id_ = 0;

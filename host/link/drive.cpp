@@ -27,10 +27,6 @@ std::int32_t micro(double value, const char* what) {
   return static_cast<std::int32_t>(steps);
 }
 
-bool at_rest(const Status& status) {
-  return status.mode == Mode::disarmed || status.mode == Mode::idle || status.mode == Mode::fault;
-}
-
 Fault first_fault(std::uint32_t mask) {
   for (unsigned i = 1; i < 32; ++i) {
     if (((mask >> i) & 1U) != 0) return static_cast<Fault>(i);
@@ -180,7 +176,7 @@ void DriveSession::stop() {
 
 void DriveSession::wait_for_rest() {
   const microseconds deadline = client_.now() + kTimeToRest;
-  while (!at_rest(client_.request(GetStatus{}))) {
+  while (!at_rest(client_.request(GetStatus{}).mode)) {
     if (client_.now() >= deadline) throw Error("the robot does not come to rest: switch it off");
     client_.pump(kRestPoll);
   }

@@ -74,9 +74,13 @@ void RemoteParameters::stage(std::string_view name, const Value& value) {
   row.staged = raw;
 }
 
-void RemoteParameters::commit() {
+void RemoteParameters::commit() { put_in_force(CommitParameters{}); }
+void RemoteParameters::apply() { put_in_force(ApplyParameters{}); }
+
+template <class Request>
+void RemoteParameters::put_in_force(const Request& request) {
   try {
-    client_->request(CommitParameters{});
+    client_->request(request);
   } catch (const RobotRefused& refused) {
     const auto bad =
         std::find_if(rows_.begin(), rows_.end(), [&](const auto& r) { return r.id == refused.detail(); });

@@ -32,6 +32,10 @@ class RemoteParameters {
   /// All staged values come in force and into flash, or none.
   void commit();
 
+  /// All staged values come in force until the robot restarts, or none: also while it drives, if only gains
+  /// and limits differ.
+  void apply();
+
   /// The staged set becomes the one in force; the factory defaults.
   void revert();
   void defaults();
@@ -42,6 +46,8 @@ class RemoteParameters {
  private:
   explicit RemoteParameters(Client& client) : client_(&client) {}
   void read_value(ParameterRow& row);
+  template <class Request>
+  void put_in_force(const Request& request);
   ParameterRow& mutable_row(std::string_view name);
 
   Client* client_;

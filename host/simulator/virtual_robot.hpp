@@ -20,6 +20,9 @@ class VirtualRobot {
   /// One millisecond: the control tick, the main loop, then the world.
   void step();
 
+  /// The processor starts again, for this reason; the robot stays where it is.
+  void restart(hal::ResetCause cause);
+
   sim::Board& board() { return board_; }
   const Robot<sim::Board>& robot() const { return *robot_; }
   std::uint64_t now_us() { return board_.clock().now_us(); }
@@ -28,8 +31,6 @@ class VirtualRobot {
   std::vector<recording::TruthSample> take_truth();
 
  private:
-  void restart(hal::ResetCause cause);
-
   sim::Board board_;
   std::optional<Robot<sim::Board>> robot_;
   VirtualMocap mocap_;

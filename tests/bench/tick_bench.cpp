@@ -26,6 +26,11 @@ class IdealWheels {
   std::uint64_t now_us_ = 0;
 };
 
+/// Armed, after the ticks that prove the rate.
+void get_ready(Drive& drive, IdealWheels& wheels) {
+  while (!drive.arm()) drive.advance(wheels.next(drive));
+}
+
 void tick_at_rest(benchmark::State& state) {
   Drive drive{ParameterSet{}};
   IdealWheels wheels;
@@ -36,7 +41,7 @@ BENCHMARK(tick_at_rest);
 void tick_of_a_velocity(benchmark::State& state) {
   Drive drive{ParameterSet{}};
   IdealWheels wheels;
-  drive.arm();
+  get_ready(drive, wheels);
   for (auto _ : state) {
     drive.drive_velocity({300'000, 200'000});
     benchmark::DoNotOptimize(drive.advance(wheels.next(drive)));
@@ -47,12 +52,11 @@ BENCHMARK(tick_of_a_velocity);
 void tick_of_a_segment(benchmark::State& state) {
   Drive drive{ParameterSet{}};
   IdealWheels wheels;
-  Trapezoid line;
-  if (!Trapezoid::plan({1'000'000'000, 0, 0, 0}, make_limits(ParameterSet{}), line)) return;
-  drive.arm();
+  get_ready(drive, wheels);
   for (auto _ : state) {
     drive.host_seen();
-    if (drive.queued() == 0) drive.add_segment(line, 1);
+    if (drive.queued() == 0) drive.add_segment({.length_nm = 1'000'000'000}, 1);
+    drive.plan();
     while (!drive.events().empty()) drive.events().pop();
     benchmark::DoNotOptimize(drive.advance(wheels.next(drive)));
   }

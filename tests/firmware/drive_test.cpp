@@ -207,6 +207,7 @@ TEST(Wiring, PolarityParametersMakeForwardForward) {
   auto robot = std::make_shared<simulator::VirtualRobot>(config, simulator::MocapConfig{});
   link::Client client(std::make_unique<simulator::InProcessTransport>(robot));
   client.connect();
+  client.pump(std::chrono::milliseconds(50));  // through boot
   client.request(protocol::StageParameter{static_cast<std::uint16_t>(Param::motor_polarity_left), -1, {}});
   client.request(protocol::StageParameter{static_cast<std::uint16_t>(Param::encoder_polarity_left), -1, {}});
   client.request(protocol::CommitParameters{});
@@ -253,6 +254,141 @@ TEST_F(Driving, WheelVoltagesAreRefusedWhileTheRobotDrives) {
   ask(protocol::Velocity{100'000, 0});
   run_ms(100);
   EXPECT_EQ(refusal(protocol::WheelVoltage{3'000, 3'000}).code(), ErrorCode::moving);
+}
+
+TEST_F(Driving, APauseStopsOnThePathAndResumeEndsItWhereItShould) {
+  arm();
+  add(link::arc(1, 0.25 / std::numbers::pi));  // half a radian
+  run_ms(1200);
+  ask(protocol::Pause{});
+  ASSERT_TRUE(client_.pump_until([&] { return mode() == Mode::paused; }, std::chrono::seconds(5)));
+  const double paused_at_m = x_m();
+  EXPECT_GT(paused_at_m, 0.1);
+  EXPECT_LT(paused_at_m, 0.7);
+  run_ms(3000);
+  EXPECT_EQ(x_m(), paused_at_m) << "it does not creep";
+  EXPECT_FALSE(powered());
+  ask(protocol::Resume{});
+  ASSERT_TRUE(until_rest());
+  // A circle of radius 2 m: as if there had been no pause.
+  EXPECT_NEAR(x_m(), 2 * std::sin(0.5), 0.001);
+  EXPECT_NEAR(y_m(), 2 * (1 - std::cos(0.5)), 0.001);
+  EXPECT_NEAR(theta_rad(), 0.5, 0.002);
+}
+
+TEST_F(Driving, APausedPathReportsItsSegmentDoneOnceAndItsStartTwice) {
+  int started = 0, done = 0;
+  const auto on_start = client_.on<protocol::SegmentStarted>([&](const auto&) { ++started; });
+  const auto on_done = client_.on<protocol::SegmentDone>([&](const auto&) { ++done; });
+  arm();
+  add(link::line(0.5));
+  run_ms(500);
+  ask(protocol::Pause{});
+  run_ms(3000);
+  ask(protocol::Resume{});
+  ASSERT_TRUE(until_rest());
+  run_ms(20);
+  EXPECT_EQ(started, 2);
+  EXPECT_EQ(done, 1);
+}
+
+TEST_F(Driving, PausedAgainAndAgainALineStillEndsToTheMillimetre) {
+  arm();
+  add(link::line(1));
+  for (int i = 0; i < 6; ++i) {
+    run_ms(400);
+    ask(protocol::Pause{});
+    run_ms(1500);
+    ask(protocol::Resume{});
+  }
+  ASSERT_TRUE(until_rest());
+  EXPECT_NEAR(x_m(), 1, 0.001);
+  EXPECT_NEAR(y_m(), 0, 0.001);
+}
+
+TEST_F(Driving, WhilePausedTheQueueFillsAndNothingMoves) {
+  arm();
+  ask(protocol::Pause{});
+  add(link::square(0.2, link::Sense::cw));
+  run_ms(2000);
+  EXPECT_EQ(mode(), Mode::paused);
+  EXPECT_EQ(drive().queued(), 8U);
+  EXPECT_EQ(x_m(), 0);
+  ask(protocol::Resume{});
+  ASSERT_TRUE(until_rest());
+  EXPECT_NEAR(x_m(), 0, 0.001);
+}
+
+TEST_F(Driving, StopEndsAPausedPath) {
+  arm();
+  add(link::line(1));
+  run_ms(500);
+  ask(protocol::Pause{});
+  run_ms(2000);
+  ask(protocol::Stop{});
+  ask(protocol::Resume{});
+  run_ms(500);
+  EXPECT_EQ(mode(), Mode::idle);
+  EXPECT_EQ(drive().queued(), 0U);
+}
+
+TEST_F(Driving, ARobotThatIsCarriedAwayWhilePausedDoesNotRaceBack) {
+  arm();
+  add(link::line(1));
+  run_ms(500);
+  ask(protocol::Pause{});
+  run_ms(2000);
+  const double here_m = x_m();
+  ask(protocol::SetPose{std::int64_t{5} << 40, 0, 0});
+  ask(protocol::Resume{});
+  ASSERT_TRUE(until_rest());
+  EXPECT_NEAR(x_m(), 5 + 1 - here_m, 0.002) << "the rest of the line, from where it stands";
+}
+
+TEST_F(Driving, PauseIsForPaths) {
+  arm();
+  ask(protocol::Velocity{100'000, 0});
+  run_ms(100);
+  EXPECT_EQ(refusal(protocol::Pause{}).code(), ErrorCode::moving);
+}
+
+TEST_F(Driving, AStopSegmentStandsForItsTime) {
+  std::vector<std::pair<int, std::uint64_t>> done;
+  const auto subscription = client_.on<protocol::SegmentDone>(
+      [&](const protocol::SegmentDone& one) { done.emplace_back(one.tag, one.device_time_us); });
+  arm();
+  protocol::AddSegment stand{.kind = protocol::SegmentKind::stop};
+  EXPECT_EQ(refusal(stand).code(), ErrorCode::out_of_range) << "for no time at all";
+  stand.dwell_ms = 700;
+  stand.tag = 2;
+  add(link::line(0.1));
+  ask(stand);
+  add(link::line(0.1), 3);
+  ASSERT_TRUE(until_rest());
+  run_ms(20);
+  ASSERT_EQ(done.size(), 3U);
+  EXPECT_NEAR(static_cast<double>(done[1].second - done[0].second), 750'000, 5'000);  // and 50 ms to settle
+  EXPECT_NEAR(x_m(), 0.2, 0.001);
+}
+
+TEST_F(Driving, TelemetryTellsHowThePathIsFollowed) {
+  protocol::Telemetry last;
+  double most = 0;
+  const auto subscription = client_.on<protocol::Telemetry>([&](const protocol::Telemetry& one) {
+    EXPECT_GE(one.path.progress / 32768.0, one.path.tag == last.path.tag ? last.path.progress / 32768.0 : 0);
+    if (one.path.tag == 1) most = one.path.progress / 32768.0;
+    last = one;
+  });
+  ask(protocol::SetTelemetry{5, protocol::Telemetry::kPath});
+  arm();
+  add(link::line(0.3));
+  add(link::line(0.1), 2);
+  run_ms(300);
+  EXPECT_EQ(last.path.queued, 1);
+  EXPECT_EQ(last.path.tag, 1);
+  ASSERT_TRUE(until_rest());
+  EXPECT_NEAR(most, 1, 0.001);
+  EXPECT_LT(std::abs(last.path.cross_track_um), 1000);
 }
 
 }  // namespace

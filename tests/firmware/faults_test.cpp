@@ -34,7 +34,7 @@ class Faults : public support::RobotOnBench {
 
 TEST_F(Faults, ASegmentStopsWhenTheHostFallsSilent) {
   drive_line();
-  silence_ms(205);  // 200 ms is the default command_timeout
+  silence_ms(210);  // 200 ms is the default command_timeout, and it is looked at every 8 ms
   EXPECT_EQ(mode(), Mode::stopping);
   silence_ms(1500);  // from 0.5 m/s at 0.5 m/s^2, and until it stands
   expect_latched(Fault::link_lost);

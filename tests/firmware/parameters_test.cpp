@@ -67,6 +67,45 @@ TEST_F(Parameters, ThePoseStaysWhereItIsAcrossACommit) {
   EXPECT_EQ(drive().pose(), before);
 }
 
+TEST_F(Parameters, AppliedValuesAreInForceAndForgottenByARestart) {
+  const std::int32_t kp = active(Param::kp);
+  stage(Param::kp, kp / 2);
+  ask(protocol::ApplyParameters{});
+  EXPECT_EQ(active(Param::kp), kp / 2);
+  ask(protocol::Reboot{});
+  silence_ms(100);
+  client_.connect();
+  EXPECT_EQ(active(Param::kp), kp);
+}
+
+TEST_F(Parameters, GainsMayBeAppliedWhileDrivingAndTheRobotDoesNotFlinch) {
+  ask(protocol::Arm{});
+  for (int i = 0; i < 20; ++i) {
+    ask(protocol::Velocity{300'000, 0});
+    run_ms(100);
+  }
+  stage(Param::kp, 30 << 16);
+  stage(Param::kS_left, 0);
+  stage(Param::kS_right, 0);
+  ask(protocol::Velocity{300'000, 0});
+  ask(protocol::ApplyParameters{});
+  double worst_mps = 0;
+  for (int ms = 0; ms < 150; ++ms) {
+    silence_ms(1);
+    worst_mps = std::max(worst_mps, std::abs(board().drivetrain().speed_radps()[0] * 0.036 - 0.3));
+  }
+  EXPECT_EQ(mode(), protocol::Mode::velocity);
+  EXPECT_LT(worst_mps, 0.003) << "half a volt less at once would be 12 mm/s";
+}
+
+TEST_F(Parameters, WhatTheOdometryLivesByIsNotAppliedWhileDriving) {
+  ask(protocol::Arm{});
+  ask(protocol::Velocity{100'000, 0});
+  stage(Param::b, 300'000'000);
+  EXPECT_EQ(refusal(protocol::ApplyParameters{}).code(), ErrorCode::moving);
+  EXPECT_EQ(active(Param::b), 290'000'000);
+}
+
 TEST_F(Parameters, UnknownIdsAndIndicesAreRefused) {
   EXPECT_EQ(refusal(protocol::GetParameter{9999}).code(), ErrorCode::unknown_parameter);
   EXPECT_EQ(refusal(protocol::StageParameter{0, 1, {}}).code(), ErrorCode::unknown_parameter);

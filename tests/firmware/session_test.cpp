@@ -51,7 +51,11 @@ TEST_F(Frames, ARepeatedRequestIsAnsweredAgainAndCarriedOutOnce) {
   send(protocol::Arm{}, 1);
   send(link::line(1).front(), 2);
   send(link::line(1).front(), 2);
-  EXPECT_EQ(received().size(), 3U);
+  const auto all = received();
+  const auto replies = std::count_if(all.begin(), all.end(), [](const Answer& one) {
+    return one.header.request_id != 0;  // events have none
+  });
+  EXPECT_EQ(replies, 3);
   EXPECT_EQ(drive().queued() + (drive().mode() == protocol::Mode::segment ? 1U : 0U), 1U);
 }
 

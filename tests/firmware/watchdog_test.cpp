@@ -60,13 +60,17 @@ class BootloaderPastTheProtocol : public Watchdog {
     auto& waiting = board_.ports().lanes[0].to_robot;
     waiting.insert(waiting.end(), bytes.begin(), bytes.end());
   }
-  void ask_and_wait() {
-    board_.system().bootloader_wanted = true;
-    for (int ms = 0; ms < 100; ++ms) {
+  BootloaderPastTheProtocol() { run_ms(50); }  // through boot
+  void run_ms(int ms) {
+    for (int i = 0; i < ms; ++i) {
       board_.clock().time_us += 1000;
       robot_.tick();
       robot_.poll();
     }
+  }
+  void ask_and_wait() {
+    board_.system().bootloader_wanted = true;
+    run_ms(100);
   }
 };
 

@@ -21,6 +21,7 @@ class RobotOnBench : public testing::Test {
       : robot_(std::make_shared<simulator::VirtualRobot>(config, simulator::MocapConfig{})),
         client_(std::make_unique<simulator::InProcessTransport>(robot_)) {
     client_.connect();
+    run_ms(50);  // through boot
   }
 
   static sim::Config quiet() {

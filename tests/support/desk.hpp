@@ -28,6 +28,7 @@ struct Desk {
         client(std::make_unique<simulator::InProcessTransport>(robot)),
         truth(robot) {
     client.connect();
+    client.pump(std::chrono::milliseconds(50));  // through boot
   }
 
   std::shared_ptr<simulator::VirtualRobot> robot;

@@ -27,30 +27,33 @@ struct OdometryPose {
 class DriveRig {
  public:
   explicit DriveRig(const sim::Config& config = mismatched_robot(), const ParameterSet& set = {})
-      : config_(config), board_(config), drive_(set) {
+      : config_(config), set_(set), board_(config), drive_(set) {
     run_ms(100);  // through boot
     drive_.arm();
   }
 
   /// One tick of a host that is alive, and of the world.
   void step() {
-    drive_.host_seen();
-    if (holds_velocity_) drive_.drive_velocity(velocity_);
+    if (!silent) drive_.host_seen();
+    if (!silent && hold_ == Hold::velocity) drive_.drive_velocity(velocity_);
+    if (!silent && hold_ == Hold::voltages) drive_.drive_wheels(voltages_);
     const Drive::Output output = drive_.advance({.now_us = board_.clock().now_us(),
-                                                 .counts = board_.encoders().read(),
+                                                 .counts = counts(),
                                                  .battery_mv = board_.battery().millivolts(),
-                                                 .driver_fault = board_.motors().fault()});
+                                                 .driver_fault = board_.motors().fault(),
+                                                 .on_time = late_ticks-- <= 0});
     switch (output.bridge) {
-      case Drive::Output::Bridge::drive:
+      case Permission::drive:
         board_.motors().drive(output.duty);
         break;
-      case Drive::Output::Bridge::brake:
+      case Permission::brake:
         board_.motors().brake();
         break;
-      case Drive::Output::Bridge::coast:
+      case Permission::open:
         board_.motors().coast();
         break;
     }
+    drive_.plan();
     board_.advance_tick();
   }
   void run_ms(int ms) {
@@ -60,15 +63,39 @@ class DriveRig {
   /// A host that repeats this velocity from now on.
   void hold_velocity(double v_mps, double omega_radps) {
     velocity_ = {micro(v_mps), micro(omega_radps)};
-    holds_velocity_ = true;
+    hold_ = Hold::velocity;
   }
-  void release() { holds_velocity_ = false; }
+  void hold_voltages(const WheelVoltages& voltages) {
+    voltages_ = voltages;
+    hold_ = Hold::voltages;
+  }
+  void release() { hold_ = Hold::nothing; }
+
+  // What goes wrong.
+  bool silent = false;  // the host says nothing more
+  int late_ticks = 0;   // so many do not keep the rate
+  void reverse_left_encoder() {
+    turned_at_ = board_.encoders().read().left;
+    reversed_ = true;
+  }
+  /// The firmware starts again on the same board.
+  void restart() {
+    drive_ = Drive(set_);
+    release();
+    step();
+  }
+  /// All that a test can have broken.
+  void repair() {
+    silent = false;
+    board_.motors().set_fault(false);
+    board_.battery().set_open_circuit_V(config_.supply_V);
+    for (const sim::Side side : {sim::Side::left, sim::Side::right}) board_.set_load(side, {});
+  }
+  bool powered() { return board_.motors().state() == sim::Bridge::drive; }
 
   /// False if it does not fit.
   bool add(const Segment& segment, int tag = 1) {
-    Trapezoid profile;
-    return Trapezoid::plan(segment, make_limits(ParameterSet{}), profile) &&
-           drive_.add_segment(profile, static_cast<std::uint16_t>(tag));
+    return drive_.add_segment(segment, static_cast<std::uint16_t>(tag));
   }
 
   Drive& drive() { return drive_; }
@@ -95,11 +122,23 @@ class DriveRig {
            sim::true_geometry(config_).diameter_m[sim::at(side)] / 2;
   }
 
+  enum class Hold { nothing, velocity, voltages };
+
+  hal::EncoderCounts counts() {
+    hal::EncoderCounts now = board_.encoders().read();
+    if (reversed_) now.left = 2 * turned_at_ - now.left;
+    return now;
+  }
+
   sim::Config config_;
+  ParameterSet set_;
   sim::Board board_;
   Drive drive_;
   BodyTwist velocity_;
-  bool holds_velocity_ = false;
+  WheelVoltages voltages_;
+  Hold hold_ = Hold::nothing;
+  std::int32_t turned_at_ = 0;
+  bool reversed_ = false;
 };
 
 }  // namespace astro::support

@@ -93,6 +93,28 @@ TEST_F(Pair, ForWantOfVoltageBothWheelsSlowDownOnTheSameCurve) {
   EXPECT_NEAR(wheels.left_mps, 0.35, 1e-4);
 }
 
+TEST_F(Pair, NewGainsUnderWayDoNotBumpTheWheels) {
+  use(without_friction());
+  wheels.left_load_V = 3;
+  for (int i = 0; i < 30; ++i)
+    wheels.advance(pair.advance({200'000, 300'000}, {400'000, 600'000}, wheels.speeds(), kLimit_uv));
+  const WheelSpeeds set_points{200'000, 300'000}, accelerations{400'000, 600'000}, measured = wheels.speeds();
+  WheelPair changed = pair;
+  ParameterSet other;
+  other.set(Param::kp, 20 << 16);
+  other.set(Param::ki, 300 << 16);
+  other.set(Param::kV_left, 10 << 16);
+  other.set(Param::kA_right, 2 << 16);
+  other.set(Param::k_sync, 1 << 16);
+  // The last advance moved both integrals; the gains change where they now are.
+  WheelPair unchanged = pair;
+  changed.set_gains(other, set_points, accelerations, measured);
+  const WheelVoltages before = unchanged.advance(set_points, accelerations, measured, kLimit_uv);
+  const WheelVoltages after = changed.advance(set_points, accelerations, measured, kLimit_uv);
+  EXPECT_NEAR(after.left_uv, before.left_uv, 2);  // one step of the sum, and one of the integral
+  EXPECT_NEAR(after.right_uv, before.right_uv, 2);
+}
+
 TEST_F(Pair, ResetForgetsWhatWasBehindAndWhatWasMissing) {
   use(without_friction());
   wheels.left_load_V = 20;

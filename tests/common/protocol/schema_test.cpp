@@ -93,7 +93,7 @@ TEST(Schema, NamesTheTelemetryGroupsByTheBitsOfTheirConstants) {
   detail::each<true, Telemetry>([&](const auto& group) { bits.push_back(1U << group.bit); });
   EXPECT_EQ(bits, (std::vector<std::uint32_t>{Telemetry::kPose, Telemetry::kCounts, Telemetry::kTwist,
                                               Telemetry::kWheelSpeed, Telemetry::kSetpoint, Telemetry::kDuty,
-                                              Telemetry::kBattery, Telemetry::kState}));
+                                              Telemetry::kBattery, Telemetry::kState, Telemetry::kPath}));
 }
 
 // Every version must read these bytes: never change them.

@@ -24,6 +24,7 @@ class Trace {
     input.counts = {left_, right_};
     input.battery_mv = 11'500 + static_cast<std::int32_t>(random() % 1000);
     drive_.host_seen();
+    drive_.plan();
     const Drive::Output output = drive_.advance(input);
     if (!drive_.armed()) {
       drive_.clear_faults();
@@ -51,9 +52,7 @@ class Trace {
     Segment segment;
     segment.length_nm = static_cast<std::int64_t>(random() % 300'000'000) - 150'000'000;
     segment.angle_32 = number % 2 == 0 ? static_cast<std::int64_t>(random() >> 2) : 0;
-    Trapezoid profile;
-    if (Trapezoid::plan(segment, make_limits(ParameterSet::defaults()), profile))
-      drive_.add_segment(profile, static_cast<std::uint16_t>(number));
+    drive_.add_segment(segment, static_cast<std::uint16_t>(number));
   }
 
   /// Wheels that do what they are told, and now and then a little more.

@@ -1,0 +1,40 @@
+#include <memory>
+
+#include "host/cli/command.hpp"
+#include "host/cli/connection.hpp"
+#include "host/cli/console.hpp"
+#include "host/cli/options.hpp"
+
+namespace astro::cli {
+namespace {
+
+void pause(ConnectionOptions& options) {
+  const auto client = connect(options);
+  client->request(protocol::Pause{});
+  while (!protocol::at_rest(client->request(protocol::GetStatus{}).mode))
+    client->pump(std::chrono::milliseconds(50));
+  say("the robot waits on its path until 'astrolabe resume'; 'astrolabe stop' ends the drive");
+}
+
+void resume(ConnectionOptions& options) {
+  connect(options)->request(protocol::Resume{});
+  say("the robot goes on");
+}
+
+CLI::App& add(CLI::App& app, const char* name, const char* what, void (*run)(ConnectionOptions&)) {
+  const auto options = std::make_shared<ConnectionOptions>();
+  CLI::App& command = *app.add_subcommand(name, what);
+  add_connection(command, *options);
+  command.callback([options, run] { run(*options); });
+  return command;
+}
+
+}  // namespace
+
+void add_pause(CLI::App& app) {
+  examples(add(app, "pause", "let a robot that drives a path come to rest on it", pause),
+           {"astrolabe pause", "astrolabe pause --port /dev/ttyS0"});
+  examples(add(app, "resume", "let a paused robot go on", resume), {"astrolabe resume"});
+}
+
+}  // namespace astro::cli
