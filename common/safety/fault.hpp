@@ -25,7 +25,7 @@ enum class Fault : std::uint8_t {
   flash,            // flash did not read back what was written
   emergency_stop,   // commanded by a host
   runaway,          // a wheel turns against its voltage, or faster than the voltage can turn it
-  watchdog,         // the firmware hung and was restarted
+  watchdog,         // the firmware hung or derailed, and was restarted
 };
 
 inline constexpr std::array<std::string_view, 15> kFaultNames{

@@ -33,7 +33,8 @@ class Robot {
     const bool readable = desk_.load();
     drive_.configure(desk_.active());
     if (!readable) drive_.raise(Fault::parameters);
-    if (board_.system().reset_cause() == hal::ResetCause::watchdog) drive_.raise(Fault::watchdog);
+    const hal::ResetCause cause = board_.system().reset_cause();
+    if (cause == hal::ResetCause::watchdog || cause == hal::ResetCause::fault) drive_.raise(Fault::watchdog);
     announce(protocol::Booted{reset_cause()});
   }
 

@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, kFaultNames.size()> kHelp{
     "the flash did not keep what was written: the last set stays in force, the part may be worn",
     "somebody pressed emergency stop",
     "a wheel turned against its voltage: 'astrolabe check-wiring' finds a wrong motor or encoder polarity",
-    "the firmware hung and restarted itself: report it, it should never do that",
+    "the firmware hung or derailed and was restarted: report it, it should never do that",
 };
 
 }  // namespace

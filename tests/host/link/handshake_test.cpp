@@ -77,20 +77,25 @@ TEST(Handshake, SaysThatARobotSendsButDoesNotHear) {
   EXPECT_THAT(why_not(deaf), HasSubstr("does not answer: is the line to the robot connected"));
 }
 
+std::string versions(int robots) {
+  return "speaks protocol " + std::to_string(robots) + ", this program speaks " +
+         std::to_string(protocol::kProtocolVersion) + ": ";
+}
+
 TEST(Handshake, NamesBothVersionsAndWhatToUpdate) {
   FakeLink newer;
   newer.robot.identity.protocol_version = protocol::kProtocolVersion + 1;
-  EXPECT_THAT(why_not(newer), HasSubstr("speaks protocol 2, this program speaks 1: update this program"));
+  EXPECT_THAT(why_not(newer), HasSubstr(versions(protocol::kProtocolVersion + 1) + "update this program"));
   FakeLink older;
   older.robot.identity.protocol_version = protocol::kProtocolVersion - 1;
   EXPECT_THAT(why_not(older),
-              HasSubstr("speaks protocol 0, this program speaks 1: update the robot's firmware"));
+              HasSubstr(versions(protocol::kProtocolVersion - 1) + "update the robot's firmware"));
 }
 
 TEST(Handshake, UnderstandsARobotThatRefusesTheVersion) {
   FakeLink link;
   link.robot.refuse_next = protocol::ErrorReply{protocol::ErrorCode::wrong_version, 9};
-  EXPECT_THAT(why_not(link), HasSubstr("speaks protocol 9, this program speaks 1: update this program"));
+  EXPECT_THAT(why_not(link), HasSubstr(versions(9) + "update this program"));
 }
 
 TEST(Handshake, SurvivesLostFramesAndARestartOfTheRobot) {

@@ -55,8 +55,13 @@ class RunningRobot : public testing::Test {
     EXPECT_TRUE(outputs_off()) << "nothing drives again by itself";
     link::Client again(std::make_unique<PortTransport>(robot_, Port::serial));
     again.connect();
-    EXPECT_EQ(again.request(protocol::GetStatus{}).mode, protocol::Mode::disarmed);
-    return again.request(protocol::GetStatus{}).reset_cause;
+    const protocol::Status status = again.request(protocol::GetStatus{});
+    using protocol::ResetCause;
+    const bool by_itself =
+        status.reset_cause == ResetCause::watchdog || status.reset_cause == ResetCause::fault;
+    EXPECT_EQ(status.mode, by_itself ? protocol::Mode::fault : protocol::Mode::disarmed);
+    EXPECT_EQ(status.latched_faults, by_itself ? bit(Fault::watchdog) : 0U);
+    return status.reset_cause;
   }
 
   std::shared_ptr<EmulatedRobot> robot_ =
