@@ -16,7 +16,6 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kPhaseMargin_rad = kPi / 3;
 constexpr double kLeastIntegral = 0.1, kMostIntegral = 1.0;  // of kp times the crossover
 constexpr double kMostNoise_V = 0.2;  // a fifth of what makes a motor of this kind turn
-constexpr double kChosen = 0.6;       // of the largest bandwidth, for who names none
 constexpr double kLeastCrossover_radps = 0.1, kMostObserver_radps = 500;  // the parameter's own limit
 
 double hertz(double radps) { return radps / (2 * kPi); }
@@ -110,6 +109,20 @@ double crossover_for(const DesignTask& task, double largest_radps) {
   return std::sqrt(low * high);
 }
 
+// The one with the largest integral gain: what a load displaces the wheel by is its force over ki.
+double stiffest_crossover(const DesignTask& task, double largest_radps) {
+  constexpr int kTrials = 60;
+  double best_radps = largest_radps, most = 0;
+  for (int i = 1; i <= kTrials; ++i) {
+    const double crossover_radps = largest_radps * i / kTrials;
+    const double ki = at_crossover(task, crossover_radps).ki;
+    if (ki <= most) continue;
+    most = ki;
+    best_radps = crossover_radps;
+  }
+  return best_radps;
+}
+
 }  // namespace
 
 Design design_gains(const DesignTask& wanted) {
@@ -121,7 +134,11 @@ Design design_gains(const DesignTask& wanted) {
     throw Error("the encoder is too coarse for any speed loop with this observer: lower observer_bandwidth");
   // Floored, so that the figure in the refusal is itself accepted.
   const double most_radps = bandwidth_at(task, largest.crossover_radps);
-  if (task.bandwidth_radps == 0) task.bandwidth_radps = kChosen * most_radps;
+  if (task.bandwidth_radps == 0) {
+    Design design = finished(task, stiffest_crossover(task, largest.crossover_radps));
+    design.largest_bandwidth_radps = most_radps;
+    return design;
+  }
   if (task.bandwidth_radps > 1.002 * most_radps)
     refuse(task, std::floor(hertz(most_radps) * 10) / 10 * 2 * kPi, largest.because);
   Design design = finished(task, crossover_for(task, largest.crossover_radps));

@@ -18,7 +18,7 @@ struct DesignTask {
   MotorModel motor;  // of both wheels: they share kp and ki
   double observer_radps = 0;
   double count_m = 0;
-  double bandwidth_radps = 0;  // 0: 0.6 of the largest
+  double bandwidth_radps = 0;  // 0: the one that gives the largest ki
   double tick_s = 1e-3;
 };
 

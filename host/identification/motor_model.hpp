@@ -20,9 +20,9 @@
 ///            so the position enters as it was counted, and a constant offset of it (the half count that a
 ///            floor loses) not at all.
 /// Unbiased   The encoder's steps are noise in the regressors, which shortens kA in least squares (with
-///            windows of 60 ms by 2 % for ASTRO, by 16 % with an eighth of its counts). The voltage is known without noise, so a wheel that
-///            obeys the model under the same voltages gives instruments: five rounds, each with the model of
-///            the round before.
+///            windows of 60 ms by 2 % for ASTRO, by 16 % with an eighth of its counts). The voltage is known
+///            without noise, so a wheel that obeys the model under the same voltages gives instruments: five
+///            rounds, each with the model of the round before.
 /// Windows    Only those in which the wheel turns one way from end to end and the motor drives: a gear loses
 ///            torque in proportion to what it passes on, so a wheel that brakes follows another law.
 /// Source     modulating functions: Shinbrot, Trans. ASME 79 (1957); instruments from a model: Young,

@@ -1,7 +1,5 @@
 #include "host/tuning/bench.hpp"
 
-#include <cmath>
-
 namespace astro::tuning {
 
 using namespace protocol;  // NOLINT(google-build-using-namespace): this file is all messages
@@ -14,8 +12,6 @@ constexpr link::microseconds kStepAtMost = milliseconds(60);
 constexpr std::uint32_t kFields = Telemetry::kCounts | Telemetry::kWheelSpeed | Telemetry::kSetpoint |
                                   Telemetry::kDuty | Telemetry::kBattery;
 constexpr double kFullDuty = 32767;
-
-std::int32_t millivolts(double volts) { return static_cast<std::int32_t>(std::lround(1000 * volts)); }
 
 std::int32_t wrapping_difference(std::int32_t a, std::int32_t b) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
@@ -81,21 +77,20 @@ const Moment& Bench::fresh() {
   return moments_.back();
 }
 
-void Bench::wait_step(link::DriveSession& session) {
+// Returns at the first sample that is late enough: what else has come is read by the next request.
+void Bench::wait_step() {
   const std::uint64_t next_us = newest_us_ + kStep_us;
   client_.pump_until([&] { return newest_us_ >= next_us; }, kStepAtMost);
-  session.pump(link::microseconds(0));  // throws what happened meanwhile
 }
 
 void Bench::apply(link::DriveSession& session, double left_V, double right_V) {
-  session.pump(link::microseconds(0));
-  client_.request(WheelVoltage{millivolts(left_V), millivolts(right_V)});
-  wait_step(session);
+  session.set_wheel_voltages(left_V, right_V);
+  wait_step();
 }
 
 void Bench::velocity(link::DriveSession& session, double v_mps) {
   session.set_velocity(v_mps, 0);
-  wait_step(session);
+  wait_step();
 }
 
 void Bench::hold(link::DriveSession& session, double left_V, double right_V, double seconds) {

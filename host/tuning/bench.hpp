@@ -47,7 +47,7 @@ class Bench {
  private:
   void choose_period();
   void note(const protocol::Telemetry& telemetry);
-  void wait_step(link::DriveSession& session);
+  void wait_step();
 
   link::Client& client_;
   RobotFacts facts_;

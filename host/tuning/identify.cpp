@@ -91,7 +91,7 @@ void Course::check_sense(double voltage_V, const Moment& from) const {
 
 // Up until the voltage or the room is used up, down again. Returns the moment at which the rise ended.
 std::size_t Course::sweep(double sense) {
-  const Moment start = bench_.fresh();
+  const Moment start = bench_.now();
   double top_V = 0;
   while (top_V < bounds_.voltage_V && furthest_m(start) < 0.8 * kTurnRound * bounds_.distance_m) {
     top_V = std::min((bench_.now().time_s - start.time_s) * kSlope_Vps, bounds_.voltage_V);
@@ -109,7 +109,7 @@ std::size_t Course::sweep(double sense) {
 }
 
 void Course::step(double voltage_V) {
-  const Moment start = bench_.fresh();
+  const Moment start = bench_.now();
   while (bench_.now().time_s - start.time_s < kStepAtMost_s &&
          furthest_m(start) < kTurnRound * bounds_.distance_m)
     apply(voltage_V);

@@ -60,12 +60,23 @@ TEST(Design, AFasterObserverCarriesMoreUntilItLetsTheEncoderThrough) {
   };
   double before = 0;
   for (const double observer_radps : {50.0, 100.0, 200.0, 400.0}) {
-    std::printf("observer %3.0f rad/s carries %.1f Hz, with a quarter of the counts %.1f Hz\n", observer_radps,
-                largest(observer_radps, 8.07e-5), largest(observer_radps, 3.2e-4));
+    std::printf("observer %3.0f rad/s carries %.1f Hz, with a quarter of the counts %.1f Hz\n",
+                observer_radps, largest(observer_radps, 8.07e-5), largest(observer_radps, 3.2e-4));
     EXPECT_GT(largest(observer_radps, 1e-6), before);
     before = largest(observer_radps, 1e-6);
   }
   EXPECT_LT(largest(400, 8.07e-5), largest(200, 8.07e-5)) << "noise is the limit there";
+}
+
+TEST(Design, WhoNamesNoBandwidthGetsTheStiffestLoop) {
+  const Design chosen = design_gains(task(0));
+  std::printf("chosen: %.1f Hz, kp %.1f, ki %.0f\n", chosen.margins.bandwidth_radps / kHz, chosen.kp,
+              chosen.ki);
+  for (const double part : {0.3, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0}) {
+    DesignTask other = task(0);
+    other.bandwidth_radps = part * chosen.largest_bandwidth_radps;
+    EXPECT_GE(chosen.ki, 0.995 * design_gains(other).ki);
+  }
 }
 
 TEST(Design, AHeavierRobotNeedsGainsInProportion) {
