@@ -67,11 +67,10 @@ std::string motor_row(const MotorFigure& motor) {
   const auto& [model, error, residual_V, r_squared, windows] = motor.fit;
   const double tau_ms = 1e3 * model.time_constant_s();
   const double tau_error = tau_ms * std::hypot(error.kA / model.kA, error.kV / model.kV);
-  return fmt::format(
-      "<tr><th scope=\"row\">{}</th>{}{}{}{}<td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-      escape(capitalised(motor.wheel)), cell(model.kS, error.kS), cell(model.kV, error.kV),
-      cell(model.kA, error.kA), cell(tau_ms, tau_error), fixed(motor.breakaway_forward_V, 2),
-      fixed(motor.breakaway_backward_V, 2), fixed(1e3 * residual_V, 0), fixed(r_squared, 5));
+  return fmt::format("<tr><th scope=\"row\">{}</th>{}{}{}{}<td>{} / {}</td><td>{}</td><td>{}</td></tr>\n",
+                     escape(capitalised(motor.wheel)), cell(model.kS, error.kS), cell(model.kV, error.kV),
+                     cell(model.kA, error.kA), cell(tau_ms, tau_error), fixed(motor.breakaway_forward_V, 2),
+                     fixed(motor.breakaway_backward_V, 2), fixed(1e3 * residual_V, 0), fixed(r_squared, 5));
 }
 
 std::string motor_figure(const MotorFigure& motor, std::size_t index) {
@@ -98,7 +97,7 @@ driven; ± is one standard error. A wheel that stands breaks away at a higher vo
 <th scope="col"><var>k</var><sub>V</sub> <span class="unit">V s/m</span></th>
 <th scope="col"><var>k</var><sub>A</sub> <span class="unit">V s²/m</span></th>
 <th scope="col">Time constant <span class="unit">ms</span></th>
-<th scope="col">Breaks away forward <span class="unit">V</span></th><th scope="col">backward <span class="unit">V</span></th>
+<th scope="col">Breaks away + / − <span class="unit">V</span></th>
 <th scope="col">Residual <span class="unit">mV rms</span></th><th scope="col"><var>R</var>²</th></tr></thead><tbody>)" +
       rows + "</tbody></table></div>\n<div class=\"panels\">" + figures + "</div>";
   return out;
@@ -127,6 +126,7 @@ Section steps(const TuningInput& input) {
   std::string rows, figures;
   for (std::size_t phase = 0; phase < input.steps.size(); ++phase) {
     const StepFigure& step = input.steps[phase];
+    figures += "<div class=\"panels\">";
     for (std::size_t wheel = 0; wheel < 2; ++wheel) {
       const StepLines& lines = step.wheels[wheel];
       const std::string what = step.title + ", " + input.motors[wheel].wheel;
@@ -137,14 +137,14 @@ Section steps(const TuningInput& input) {
 <div class="plot" role="img" aria-label="Step of speed {}"></div></figure>)",
           phase, wheel, phase % kAccents, escape(capitalised(what)), escape(what));
     }
+    figures += "</div>\n";
   }
   if (figures.empty()) return out;
   out.body =
       R"(<p>The command jumps; the set point is that command behind the robot's own limits. The prediction takes
 the measured motor model, the observer and the gains, and the set points that the robot reported.</p>
-<div class="panels">)" +
-      figures + R"(</div>
-<div class="scroll"><table><thead><tr><th scope="col">Step</th><th scope="col">Rise 10–90 % <span class="unit">ms</span></th>
+)" + figures +
+      R"(<div class="scroll"><table><thead><tr><th scope="col">Step</th><th scope="col">Rise 10–90 % <span class="unit">ms</span></th>
 <th scope="col">Overshoot <span class="unit">%</span></th><th scope="col">Largest error <span class="unit">mm/s</span></th>
 <th scope="col">RMS error <span class="unit">mm/s</span></th></tr></thead><tbody>)" +
       rows + "</tbody></table></div>";

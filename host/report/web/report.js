@@ -158,7 +158,7 @@
     step(data, figure, width) {
       const { t, goal, measured, predicted } = data.steps[figure.phase][figure.wheel];
       const shown = data.steps.flat();
-      const strip = { measured: { color: phaseColour(Number(figure.phase)), width: 2 }, predicted: { color: style('--ink'), width: 1.5, dash: '6px,3px' } };
+      const strip = { measured: { color: phaseColour(Number(figure.phase)), width: 3 }, predicted: { color: style('--ink'), width: 1.3, dash: '5px,4px' } };
       const off = (series, set) => series.map((v, i) => (v - set[i]) * 1e3);
       const courses = Object.entries({ measured, predicted }).filter(([, series]) => series.length);
       const traces = [
