@@ -65,14 +65,15 @@ void find_out_where(TuneOptions& options) {
 
 void agree(const TuneOptions& options) {
   if (options.yes) return;
+  const double seconds = 15 + 4 * options.max_voltage_V;
   const std::string question =
       options.on_stand
-          ? fmt::format("Both wheels will turn for half a minute, with up to {:g} V. Begin?",
+          ? fmt::format("Both wheels will turn for about {:.0f} s, with up to {:g} V. Begin?", seconds,
                         options.max_voltage_V)
           : fmt::format(
-                "The robot will drive to and fro by itself for half a minute, up to {:g} m from here and "
-                "with up to {:g} V. Is the floor free?",
-                options.max_distance_m, options.max_voltage_V);
+                "The robot will drive to and fro by itself for about {:.0f} s, up to {:g} m from here "
+                "and with up to {:g} V. Is the floor free?",
+                seconds, options.max_distance_m, options.max_voltage_V);
   if (!confirm(question)) throw Error("nothing was measured");
 }
 
@@ -98,10 +99,10 @@ void write_report(const TuneOptions& options, const TuneResult& result, const li
   report::write_page(options.out, report::render_tuning_html(report_input(result, client)));
 }
 
-void show(const TuneOptions& options, const TuneResult& result) {
+void conclude(const TuneOptions& options, const TuneResult& result) {
   const std::string path = std::filesystem::absolute(options.out).string();
   if (!options.json)
-    return print(fmt::format("{}\n{}\nReport: {}", in_words(result),
+    return print(fmt::format("{}{}\nReport: {}", result.uploaded ? steps_in_words(result) + "\n" : "",
                              result.uploaded ? "The new values are loaded." : "Nothing was loaded.", path));
   Json json = to_json(result);
   json["report"] = path;
@@ -115,11 +116,12 @@ void run(TuneOptions& options) {
   agree(options);
   TuneResult result = measure(*client, options);
   write_report(options, result, *client);  // what was measured is kept, whatever comes
+  if (!options.json) print(in_words(result));
   if (wants_upload(options, result)) {
     load_and_measure_again(*client, result);
     write_report(options, result, *client);
   }
-  show(options, result);
+  conclude(options, result);
 }
 
 }  // namespace

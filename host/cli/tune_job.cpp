@@ -144,6 +144,18 @@ TunedStep step(link::Client& client, const TuneResult& result, const RobotFacts&
   return step;
 }
 
+// What the designed gains do without limits and feed-forward: the ramps of a real drive hardly show it.
+TunedStep loop_alone(const TuneResult& result) {
+  constexpr double kNoLimit_mps2 = 1e9, kLength_s = 0.6;
+  const double speed_mps = result.steps[0].measured[0].set_point_mps.back();
+  const tuning::StepCourse jump = tuning::ramp(speed_mps, kNoLimit_mps2, kLength_s);
+  RobotFacts facts = result.before;
+  facts.kp = result.design.kp;
+  facts.ki = result.design.ki;
+  facts.feed_forward = {};
+  return {"a jump, new gains alone", {jump, jump}, predict(result, facts, {jump, jump}), false};
+}
+
 }  // namespace
 
 double TuneOptions::bandwidth_radps() const {
@@ -174,6 +186,7 @@ TuneResult measure(link::Client& client, const TuneOptions& options) {
   TunedStep next{"with the new values", result.steps[0].measured, {}, false};
   next.predicted = predict(result, with(result.before, result.values), next.measured);
   result.steps.push_back(next);
+  result.steps.push_back(loop_alone(result));
   return result;
 }
 

@@ -48,24 +48,6 @@ std::string margins_in_words(const Margins& margins) {
                      margins.gain_margin);
 }
 
-std::string step_table(const TuneResult& result) {
-  std::vector<std::vector<std::string>> rows{
-      {"step", "wheel", "", "rise 10-90 %", "overshoot", "largest error", "rms error"}};
-  const auto add = [&](const std::string& title, Side side, const char* what, const StepFigures& figures) {
-    rows.push_back({title, name(side), what, fmt::format("{:.0f} ms", 1e3 * figures.rise_s),
-                    fmt::format("{:.1f} %", 100 * figures.overshoot),
-                    fmt::format("{:.1f} mm/s", 1e3 * figures.worst_error_mps),
-                    fmt::format("{:.1f} mm/s", 1e3 * figures.rms_error_mps)});
-  };
-  for (const TunedStep& step : result.steps) {
-    for (const Side side : kSides) {
-      if (step.was_measured) add(step.title, side, "measured", figures(step.measured[at(side)]));
-      add(step.title, side, "predicted", figures(step.predicted[at(side)]));
-    }
-  }
-  return table(rows, "lllrrrr");
-}
-
 Json to_json(const StepFigures& figures) {
   return {{"rise_s", figures.rise_s},
           {"overshoot", figures.overshoot},
@@ -138,6 +120,24 @@ const char* stand_note() {
 
 }  // namespace
 
+std::string steps_in_words(const TuneResult& result) {
+  std::vector<std::vector<std::string>> rows{
+      {"step", "wheel", "", "rise 10-90 %", "overshoot", "largest error", "rms error"}};
+  const auto add = [&](const std::string& title, Side side, const char* what, const StepFigures& figures) {
+    rows.push_back({title, name(side), what, fmt::format("{:.0f} ms", 1e3 * figures.rise_s),
+                    fmt::format("{:.1f} %", 100 * figures.overshoot),
+                    fmt::format("{:.1f} mm/s", 1e3 * figures.worst_error_mps),
+                    fmt::format("{:.1f} mm/s", 1e3 * figures.rms_error_mps)});
+  };
+  for (const TunedStep& step : result.steps) {
+    for (const Side side : kSides) {
+      if (step.was_measured) add(step.title, side, "measured", figures(step.measured[at(side)]));
+      add(step.title, side, "predicted", figures(step.predicted[at(side)]));
+    }
+  }
+  return table(rows, "lllrrrr");
+}
+
 std::string in_words(const TuneResult& result) {
   std::string text = motor_table(result);
   text += fmt::format(
@@ -146,7 +146,7 @@ std::string in_words(const TuneResult& result) {
       result.before.kp, result.before.ki, margins_in_words(result.margins_before), result.design.kp,
       result.design.ki, margins_in_words(result.design.margins), hertz(result.design.largest_bandwidth_radps),
       1e3 * result.design.noise_V);
-  text += step_table(result);
+  text += steps_in_words(result);
   if (result.on_stand) text += fmt::format("\n{}\n", stand_note());
   return text;
 }

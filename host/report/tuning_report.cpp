@@ -67,10 +67,10 @@ std::string motor_row(const MotorFigure& motor) {
   const auto& [model, error, residual_V, r_squared, windows] = motor.fit;
   const double tau_ms = 1e3 * model.time_constant_s();
   const double tau_error = tau_ms * std::hypot(error.kA / model.kA, error.kV / model.kV);
-  return fmt::format("<tr><th scope=\"row\">{}</th>{}{}{}{}<td>{} / {}</td><td>{}</td><td>{}</td></tr>\n",
+  return fmt::format("<tr><th scope=\"row\">{}</th>{}{}{}{}<td>{} / {}</td><td>{}</td></tr>\n",
                      escape(capitalised(motor.wheel)), cell(model.kS, error.kS), cell(model.kV, error.kV),
                      cell(model.kA, error.kA), cell(tau_ms, tau_error), fixed(motor.breakaway_forward_V, 2),
-                     fixed(motor.breakaway_backward_V, 2), fixed(1e3 * residual_V, 0), fixed(r_squared, 5));
+                     fixed(motor.breakaway_backward_V, 2), fixed(1e3 * residual_V, 0));
 }
 
 std::string motor_figure(const MotorFigure& motor, std::size_t index) {
@@ -98,7 +98,7 @@ driven; ± is one standard error. A wheel that stands breaks away at a higher vo
 <th scope="col"><var>k</var><sub>A</sub> <span class="unit">V s²/m</span></th>
 <th scope="col">Time constant <span class="unit">ms</span></th>
 <th scope="col">Breaks away + / − <span class="unit">V</span></th>
-<th scope="col">Residual <span class="unit">mV rms</span></th><th scope="col"><var>R</var>²</th></tr></thead><tbody>)" +
+<th scope="col">Residual <span class="unit">mV rms</span></th></tr></thead><tbody>)" +
       rows + "</tbody></table></div>\n<div class=\"panels\">" + figures + "</div>";
   return out;
 }

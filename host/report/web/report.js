@@ -157,7 +157,9 @@
 
     step(data, figure, width) {
       const { t, goal, measured, predicted } = data.steps[figure.phase][figure.wheel];
-      const shown = data.steps.flat();
+      // Steps behind the robot's limits have one scale; a jump has errors of another size.
+      const jumps = (s) => s.goal[0] > 0.9 * s.goal.at(-1);
+      const shown = data.steps.flat().filter((s) => jumps(s) === jumps({ goal }));
       const strip = { measured: { color: phaseColour(Number(figure.phase)), width: 3 }, predicted: { color: style('--ink'), width: 1.3, dash: '5px,4px' } };
       const off = (series, set) => series.map((v, i) => (v - set[i]) * 1e3);
       const courses = Object.entries({ measured, predicted }).filter(([, series]) => series.length);

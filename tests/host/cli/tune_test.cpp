@@ -66,9 +66,10 @@ TEST(Tune, OnTheGroundFindsEachMotorLoadsItAndMeasuresAgain) {
   for (const char* name : {"kp", "ki"})
     EXPECT_NEAR(on_robot(simulator, name), result["designed"][name].get<double>(), 0.1) << name;
   EXPECT_NEAR(on_robot(simulator, "kV_right"), result["wheels"]["right"]["kV"]["value"].get<double>(), 0.01);
-  ASSERT_EQ(result["steps"].size(), 2U);
+  ASSERT_EQ(result["steps"].size(), 3U);
   EXPECT_EQ(result["steps"][1]["title"], "after");
-  for (const json& step : result["steps"]) {
+  EXPECT_LT(result["steps"][2]["left"]["predicted"]["rise_s"], 0.1) << "the loop alone, without limits";
+  for (const json& step : {result["steps"][0], result["steps"][1]}) {
     for (const char* side : {"left", "right"}) {
       const json& measured = step[side]["measured"];
       const json& predicted = step[side]["predicted"];
