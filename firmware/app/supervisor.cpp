@@ -8,7 +8,7 @@ namespace {
 constexpr std::int32_t kPulls = 32767 / 2;    // of full duty
 constexpr std::int32_t kStands_umps = 2'000;  // 25 counts a second
 constexpr std::int32_t kTurns_umps = 50'000;  // no longer noise, nor a gear's play
-constexpr std::uint32_t kDither_edges = 16;   // a wheel that is held makes one or two
+constexpr std::uint32_t kDither_edges = 4;    // in 16 ms: a wheel that is held makes one or two
 constexpr std::uint8_t kGoodRounds = 4;       // 32 ticks on time
 
 constexpr std::uint32_t visits(std::uint32_t ms) { return (ms + kWatchPeriod_ms - 1) / kWatchPeriod_ms; }
@@ -67,33 +67,35 @@ void Supervisor::advance(const TickInput& input, bool plausible, Steering steeri
     good_rounds_ = 0;
     if (watched_in(Fault::tick_overrun)) raise(Fault::tick_overrun);
   }
-  turn_ = (turn_ + 1) % kWatchPeriod_ms;
-  switch (turn_) {
-    case 0:
-      look_at_supply(input.battery_mv);
-      break;
-    case 1:
-      look_at_speed(wheels.speeds());
-      break;
-    case 2:
-      look_for_stall(left_, wheels.left());
-      break;
-    case 3:
-      look_for_stall(right_, wheels.right());
-      break;
-    case 4:
-      look_for_runaway(left_, wheels.left(), steering);
-      break;
-    case 5:
-      look_for_runaway(right_, wheels.right(), steering);
-      break;
-    case 6:
-      look_at_deadlines(steering);
-      break;
-    default:
-      look_at_boot();
-  }
+  look(input, steering, wheels);
   watched_ = true;
+}
+
+void Supervisor::look(const TickInput& input, Steering steering, const Wheels& wheels) {
+  turn_ = (turn_ + 1) % (2 * kWatchPeriod_ms);
+  switch (turn_ % kWatchPeriod_ms) {
+    case 0:
+      return look_at_supply(input.battery_mv);
+    case 1:
+      return look_at_speed(wheels.speeds());
+    case 2:
+      return look_for_stall(left_.stall, wheels.forward_duty().left, wheels.speeds().left_umps);
+    case 3:
+      return look_for_stall(right_.stall, wheels.forward_duty().right, wheels.speeds().right_umps);
+    case 4:
+      return look_for_runaway(left_.runaway, wheels.forward_duty().left, wheels.speeds().left_umps, steering);
+    case 5:
+      return look_for_runaway(right_.runaway, wheels.forward_duty().right, wheels.speeds().right_umps,
+                              steering);
+    case 6:
+      if (!proven_) look_at_boot();
+      return look_at_deadlines(steering);
+    default:
+      return turn_ < kWatchPeriod_ms ? look_for_dither(left_, wheels.forward_duty().left,
+                                                       wheels.left_counts(), wheels.left_edges())
+                                     : look_for_dither(right_, wheels.forward_duty().right,
+                                                       wheels.right_counts(), wheels.right_edges());
+  }
 }
 
 void Supervisor::look_at_supply(std::int32_t battery_mv) {
@@ -109,26 +111,28 @@ void Supervisor::look_at_speed(const WheelSpeeds& speeds) {
   if (over_speed_.advance(fast, kVisits<Fault::over_speed>)) found(Fault::over_speed);
 }
 
-void Supervisor::look_for_stall(WheelWatch& watch, const Wheels::Motion& motion) {
-  const bool stands =
-      exceeds(motion.duty, kPulls) && !exceeds(motion.speed_umps, kStands_umps) && watched_in(Fault::stall);
-  if (!stands) {
-    watch.edges = motion.edges;
-    watch.stall.reset();
-    watch.dither.reset();
-    return;
-  }
-  const bool dithers = motion.edges - watch.edges > kDither_edges;
-  if (watch.dither.advance(dithers, kVisits<Fault::encoder>)) found(Fault::encoder);
-  if (watch.stall.advance(!dithers, stall_visits_)) found(Fault::stall);
+void Supervisor::look_for_stall(Watch& watch, std::int32_t duty, std::int32_t speed_umps) {
+  const bool stands = exceeds(duty, kPulls) && !exceeds(speed_umps, kStands_umps) && watched_in(Fault::stall);
+  if (watch.advance(stands, stall_visits_)) found(Fault::stall);
 }
 
-void Supervisor::look_for_runaway(WheelWatch& watch, const Wheels::Motion& motion, Steering steering) {
+void Supervisor::look_for_runaway(Watch& watch, std::int32_t duty, std::int32_t speed_umps,
+                                  Steering steering) {
   // Without a loop a reversed wheel is just a reversed wheel.
-  const bool against = (motion.duty ^ motion.speed_umps) < 0 && exceeds(motion.duty, kPulls) &&
-                       exceeds(motion.speed_umps, kTurns_umps) && steering != Steering::open_loop &&
-                       watched_in(Fault::runaway);
-  if (watch.runaway.advance(against, kVisits<Fault::runaway>)) found(Fault::runaway);
+  const bool against = (duty ^ speed_umps) < 0 && exceeds(duty, kPulls) && exceeds(speed_umps, kTurns_umps) &&
+                       steering != Steering::open_loop && watched_in(Fault::runaway);
+  if (watch.advance(against, kVisits<Fault::runaway>)) found(Fault::runaway);
+}
+
+void Supervisor::look_for_dither(WheelWatch& watch, std::int32_t duty, std::int32_t counts,
+                                 std::uint32_t edges) {
+  // Counts, but no way: not more than the one that a single channel makes.
+  const std::uint32_t way = static_cast<std::uint32_t>(counts) - watch.counts, made = edges - watch.edges;
+  watch.counts = static_cast<std::uint32_t>(counts);
+  watch.edges = edges;
+  const bool to_and_fro =
+      way + 1 <= 2 && made >= kDither_edges && exceeds(duty, kPulls) && watched_in(Fault::stall);
+  if (watch.dither.advance(to_and_fro, kVisits<Fault::encoder> / 2)) found(Fault::encoder);
 }
 
 void Supervisor::look_at_deadlines(Steering steering) {
@@ -141,7 +145,7 @@ void Supervisor::look_at_deadlines(Steering steering) {
 }
 
 void Supervisor::look_at_boot() {
-  if (proven_ || ++good_rounds_ < kGoodRounds) return;
+  if (++good_rounds_ < kGoodRounds) return;
   proven_ = true;
   astro::advance(state_, Event::proven);
 }

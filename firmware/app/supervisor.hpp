@@ -59,15 +59,18 @@ class Supervisor {
  private:
   struct WheelWatch {
     Watch stall, dither, runaway;
-    std::uint32_t edges = 0;  // when the wheel last moved as it should
+    std::uint32_t counts = 0, edges = 0;  // at the last visit
   };
 
   bool watched_in(Fault fault) const { return within(state_, rule(fault).watched); }
   void found(Fault fault);
+  /// One of the slower watches, in turn.
+  void look(const TickInput& input, Steering steering, const Wheels& wheels);
   void look_at_supply(std::int32_t battery_mv);
   void look_at_speed(const WheelSpeeds& speeds);
-  void look_for_stall(WheelWatch& watch, const Wheels::Motion& motion);
-  void look_for_runaway(WheelWatch& watch, const Wheels::Motion& motion, Steering steering);
+  void look_for_stall(Watch& watch, std::int32_t duty, std::int32_t speed_umps);
+  void look_for_runaway(Watch& watch, std::int32_t duty, std::int32_t speed_umps, Steering steering);
+  void look_for_dither(WheelWatch& watch, std::int32_t duty, std::int32_t counts, std::uint32_t edges);
   void look_at_deadlines(Steering steering);
   void look_at_boot();
   std::uint64_t deadline_us() const {

@@ -17,13 +17,6 @@ class Wheels {
     bool plausible = true;             // false: more than a motor can turn; nothing was counted
   };
 
-  /// What a wheel does, for who watches over it. All forward positive.
-  struct Motion {
-    std::int32_t speed_umps = 0;
-    std::int32_t duty = 0;
-    std::uint32_t edges = 0;  // counts to either side since start, wraps
-  };
-
   void configure(const ParameterSet& set, const Geometry& geometry);
 
   /// The first call after a start only learns where the decoders stand.
@@ -36,13 +29,14 @@ class Wheels {
   /// No set point: the integrals are forgotten.
   void release();
 
-  Motion left() const { return {speeds_.left_umps, forward_duty_.left, left_.edges}; }
-  Motion right() const { return {speeds_.right_umps, forward_duty_.right, right_.edges}; }
   const WheelSpeeds& speeds() const { return speeds_; }
   const WheelSpeeds& set_points() const { return set_points_; }
   const hal::Duty& forward_duty() const { return forward_duty_; }  // forward positive, whatever the wiring
   std::int32_t left_counts() const { return left_counts_; }
   std::int32_t right_counts() const { return right_counts_; }
+  /// Counts to either side since start, wraps: more than the way if they go to and fro.
+  std::uint32_t left_edges() const { return left_.edges; }
+  std::uint32_t right_edges() const { return right_.edges; }
 
  private:
   struct Side {

@@ -14,10 +14,14 @@ using Pair = std::array<double, 2>;
 constexpr std::size_t at(Side side) { return static_cast<std::size_t>(side); }
 
 /// Wiring as found on a robot that somebody else built. Reversing a motor turns its leads round (its encoder
-/// stays as it is); reversing an encoder exchanges its two channels; swapped means left for right.
+/// stays as it is); reversing an encoder exchanges its two channels; swapped means left for right; dead means
+/// that the cable is off; of an encoder whose channel is lost the decoder sees one of two.
 struct Wiring {
   bool left_motor_reversed = false, right_motor_reversed = false, motors_swapped = false;
   bool left_encoder_reversed = false, right_encoder_reversed = false, encoders_swapped = false;
+  bool left_motor_dead = false, right_motor_dead = false;
+  bool left_encoder_dead = false, right_encoder_dead = false;
+  bool left_channel_lost = false, right_channel_lost = false;
 };
 
 struct Config {

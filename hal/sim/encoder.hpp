@@ -23,14 +23,28 @@ class Encoder {
   }
 
   /// Sets the register, not the shaft.
-  void preset(std::int32_t count) { count_ = static_cast<std::uint32_t>(count); }
+  void preset(std::int32_t count) {
+    count_ = static_cast<std::uint32_t>(count);
+    seen_ = count_ - channel();
+  }
+
+  /// The wire of one channel breaks: the edges of the other are a step to and fro for the decoder, whichever
+  /// way the shaft turns.
+  void lose_channel() {
+    lost_ = true;
+    seen_ = count_ - channel();
+  }
 
   /// Wraps at 2^32.
-  std::int32_t count() const { return static_cast<std::int32_t>(count_); }
+  std::int32_t count() const { return static_cast<std::int32_t>(lost_ ? seen_ + channel() : count_); }
 
  private:
+  std::uint32_t channel() const { return (count_ >> 1) & 1U; }  // high for two counts of four
+
   double fraction_ = 0.0;
   std::uint32_t count_ = 0;
+  std::uint32_t seen_ = 0;  // by a decoder with one channel, while that is low
+  bool lost_ = false;
 };
 
 /// Both decoders, as they are wired.
@@ -39,7 +53,12 @@ class Encoders {
   explicit Encoders(const Config& config)
       : swapped_(config.wiring.encoders_swapped),
         connected_per_rad_(signed_scale(config)),
-        counts_per_rad_(connected_per_rad_) {}
+        counts_per_rad_(connected_per_rad_) {
+    if (config.wiring.left_encoder_dead) unplug(Side::left);
+    if (config.wiring.right_encoder_dead) unplug(Side::right);
+    if (config.wiring.left_channel_lost) lose_channel(Side::left);
+    if (config.wiring.right_channel_lost) lose_channel(Side::right);
+  }
 
   hal::EncoderCounts read() noexcept { return {decoder_[0].count(), decoder_[1].count()}; }
 
@@ -57,6 +76,9 @@ class Encoders {
   /// The cable of one wheel's encoder falls off: its count stands still.
   void unplug(Side wheel) { counts_per_rad_[at(wheel)] = 0.0; }
   void plug_in(Side wheel) { counts_per_rad_[at(wheel)] = connected_per_rad_[at(wheel)]; }
+
+  /// One of the two channels of that wheel's encoder breaks.
+  void lose_channel(Side wheel) { decoder_of(at(wheel)).lose_channel(); }
 
  private:
   static Pair signed_scale(const Config& config) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include "hal/interface/board.hpp"
@@ -15,7 +16,8 @@ enum class Bridge : std::uint8_t { coast, brake, drive };
 /// decay gives at a PWM period far below L / R; a duty of 0 is therefore a brake.
 class Motors {
  public:
-  explicit Motors(const Wiring& wiring) : wiring_(wiring) {}
+  explicit Motors(const Wiring& wiring)
+      : wiring_(wiring), off_{wiring.left_motor_dead, wiring.right_motor_dead} {}
 
   void drive(hal::Duty duty) noexcept {
     state_ = Bridge::drive;
@@ -28,6 +30,10 @@ class Motors {
   /// The driver chip reports a fault, and keeps both bridges open for as long as it does.
   void set_fault(bool fault) { fault_ = fault; }
 
+  /// A lead of that wheel's motor comes off.
+  void disconnect(Side wheel) { off_[at(wheel)] = true; }
+  void connect(Side wheel) { off_[at(wheel)] = false; }
+
   Bridge state() const { return state_; }
   hal::Duty duty() const { return duty_; }  // of the last drive()
 
@@ -35,7 +41,7 @@ class Motors {
   Drive at_wheels(const Battery& battery) const {
     Drive drive{.supply_V = battery.open_circuit_V(), .supply_ohm = battery.resistance_ohm()};
     const bool open = fault_ || state_ == Bridge::coast;
-    drive.open = {open, open};
+    drive.open = {open || off_[0], open || off_[1]};
     if (open || state_ == Bridge::brake) return drive;
     const double left = fraction(duty_.left), right = fraction(duty_.right);
     drive.duty = wiring_.motors_swapped ? Pair{right, left} : Pair{left, right};
@@ -48,6 +54,7 @@ class Motors {
   static double fraction(std::int16_t duty) { return std::max(-1.0, duty * (1.0 / 32767.0)); }
 
   Wiring wiring_;
+  std::array<bool, 2> off_;  // by wheel
   Bridge state_ = Bridge::coast;
   hal::Duty duty_;
   bool fault_ = false;

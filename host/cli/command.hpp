@@ -28,5 +28,7 @@ void add_upload(CLI::App& app);
 void add_umbmark(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_report(CLI::App& app);
+void add_tune(CLI::App& app);
+void add_check_wiring(CLI::App& app);
 
 }  // namespace astro::cli

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "host/base/error.hpp"
 #include "host/cli/console.hpp"
@@ -51,6 +52,64 @@ std::optional<RuntimeLink> make_it_found(const fs::path& pty) {
     say(fmt::format("'astrolabe ports' will not find this robot: {}", error.what()));
     return std::nullopt;
   }
+}
+
+struct WiringFault {
+  const char* name;
+  bool sim::Wiring::*flag;
+};
+
+constexpr WiringFault kWiringFaults[] = {
+    {"left-motor-reversed", &sim::Wiring::left_motor_reversed},
+    {"right-motor-reversed", &sim::Wiring::right_motor_reversed},
+    {"motors-swapped", &sim::Wiring::motors_swapped},
+    {"left-motor-dead", &sim::Wiring::left_motor_dead},
+    {"right-motor-dead", &sim::Wiring::right_motor_dead},
+    {"left-encoder-reversed", &sim::Wiring::left_encoder_reversed},
+    {"right-encoder-reversed", &sim::Wiring::right_encoder_reversed},
+    {"encoders-swapped", &sim::Wiring::encoders_swapped},
+    {"left-encoder-dead", &sim::Wiring::left_encoder_dead},
+    {"right-encoder-dead", &sim::Wiring::right_encoder_dead},
+    {"left-channel-lost", &sim::Wiring::left_channel_lost},
+    {"right-channel-lost", &sim::Wiring::right_channel_lost},
+};
+
+std::string wiring_fault_names() {
+  std::string names;
+  for (const WiringFault& fault : kWiringFaults)
+    names += (names.empty() ? "" : ", ") + std::string(fault.name);
+  return names;
+}
+
+// Empty where it is known; CLI11 shows what is returned.
+std::string wire_wrongly(sim::Wiring& wiring, const std::string& name) {
+  for (const WiringFault& fault : kWiringFaults) {
+    if (name != fault.name) continue;
+    wiring.*fault.flag = true;
+    return {};
+  }
+  return fmt::format("'{}' is no fault of the wiring; there are {}", name, wiring_fault_names());
+}
+
+void add_build_options(CLI::App& command, sim::Config& robot) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--wiring", [](const std::vector<std::string>&) {},
+          "built with this fault: " + wiring_fault_names())
+      ->type_name("FAULT,...")
+      ->delimiter(',')
+      ->check([&robot](const std::string& name) { return wire_wrongly(robot.wiring, name); });
+  command.add_option("--counts-per-rev", robot.counts_per_motor_rev, "that the encoders really have")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(between(1, 65536, "counts"));
+  command
+      .add_option("--motor-mismatch", robot.motor_mismatch,
+                  "constant of the right motor over that of the left one, minus one")
+      ->type_name("RATIO")
+      ->capture_default_str()
+      ->check(between(-0.5, 0.5, ""));
+  command.add_flag("--on-stand", robot.on_stand, "with the wheels off the ground");
 }
 
 void add_robot_options(CLI::App& command, sim::Config& robot) {
@@ -107,6 +166,7 @@ void add_sim_options(CLI::App& command, SimOptions& options) {
   command.add_option("--pty", options.server.pty, "path to put the robot at; default: where 'ports' looks")
       ->type_name("PATH");
   add_robot_options(command, options.robot);
+  add_build_options(command, options.robot);
   command.add_flag("--fast", options.server.fast, "let virtual time run ahead while a host keeps up with it");
   command.add_option("--flash", options.server.flash, "file that keeps the parameters between starts")
       ->type_name("FILE");

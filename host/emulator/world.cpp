@@ -76,6 +76,7 @@ void World::event() {
   const auto& wiring = config_.wiring;
   drive.duty = wiring.motors_swapped ? sim::Pair{now.duty[1], now.duty[0]} : now.duty;
   drive.open = wiring.motors_swapped ? std::array{now.open[1], now.open[0]} : now.open;
+  drive.open = {drive.open[0] || wiring.left_motor_dead, drive.open[1] || wiring.right_motor_dead};
   if (wiring.left_motor_reversed) drive.duty[0] = -drive.duty[0];
   if (wiring.right_motor_reversed) drive.duty[1] = -drive.duty[1];
   const sim::Pair wheels_rad = drivetrain_.advance_tick(drive);

@@ -148,6 +148,17 @@ void DriveSession::set_velocity(double v_mps, double omega_radps) {
   client_.request(Velocity{micro(v_mps, "a speed in m/s"), micro(omega_radps, "a yaw rate in rad/s")});
 }
 
+void DriveSession::set_wheel_voltages(double left_V, double right_V) {
+  check();
+  const auto milli = [](double volts) { return static_cast<std::int32_t>(std::lround(1e3 * volts)); };
+  try {
+    client_.request(WheelVoltage{milli(left_V), milli(right_V)});
+  } catch (const RobotRefused& refused) {
+    if (refused.code() == ErrorCode::faulted) fail(static_cast<Fault>(refused.detail()));
+    throw;
+  }
+}
+
 void DriveSession::hold_velocity(double v_mps, double omega_radps, microseconds duration) {
   const std::uint64_t start = client_.request(Ping{}).device_time_us;
   while (true) {

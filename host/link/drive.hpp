@@ -56,6 +56,10 @@ class DriveSession {
   /// One velocity; holds until the robot's command time-out.
   void set_velocity(double v_mps, double omega_radps);
 
+  /// Voltages on the motors, open loop, forward positive; they hold until the robot's command time-out. Only
+  /// from rest, or after other voltages.
+  void set_wheel_voltages(double left_V, double right_V);
+
   /// Holds a velocity for this long on the robot's clock, then ramps to rest.
   void hold_velocity(double v_mps, double omega_radps, microseconds duration);
 

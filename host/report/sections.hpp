@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,10 @@ inline constexpr std::size_t kAccents = 4;
 struct Section {
   std::string id, heading, body;
 };
+
+/// The whole page; `data` is what web/report.js draws from.
+std::string render_page(const std::string& title, const std::vector<Section>& sections,
+                        const nlohmann::json& data);
 
 Section headline(const ReportInput& input);
 Section scatter(const ReportInput& input);

@@ -44,7 +44,8 @@ class Witness {
     const double x_m = std::ldexp(static_cast<double>(drive.pose().x), -40);
     const double y_m = std::ldexp(static_cast<double>(drive.pose().y), -40);
     ASSERT_TRUE(std::isfinite(x_m) && std::isfinite(y_m));
-    // More than four times over_speed at one wheel is not believed: 4.8 mm in a tick, half of it at the centre.
+    // More than four times over_speed at one wheel is not believed: 4.8 mm in a tick, half of it at the
+    // centre.
     ASSERT_TRUE(pose_may_jump || std::hypot(x_m - x_m_, y_m - y_m_) < 0.0026) << "the pose jumped";
     pose_may_jump = false;
     x_m_ = x_m;

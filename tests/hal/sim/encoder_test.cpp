@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -73,6 +74,36 @@ TEST(Encoders, UnpluggedOneStandsStill) {
   encoders.plug_in(Side::left);
   encoders.turn({1.0, 1.0});
   EXPECT_GT(encoders.read().left, 0);
+}
+
+TEST(Encoders, OneWithoutAChannelTogglesAndNeverGetsAnywhere) {
+  Config config;
+  config.wiring.left_channel_lost = true;
+  Encoders encoders(config);
+  std::int32_t least = 0, most = 0, changes = 0, last = encoders.read().left;
+  for (int step = 0; step < 4000; ++step) {  // a count at a time, forward and then backward
+    const double count = 2.0 * std::numbers::pi / 2803.2;
+    encoders.turn({step < 3000 ? count : -count, count});
+    const std::int32_t now = encoders.read().left;
+    changes += now != last ? 1 : 0;
+    last = now;
+    least = std::min(least, now);
+    most = std::max(most, now);
+  }
+  EXPECT_EQ(most - least, 1);
+  EXPECT_NEAR(changes, 2000, 2) << "an edge every other count";
+  EXPECT_NEAR(encoders.read().right, 4000, 1);
+}
+
+TEST(Encoders, AChannelThatIsLostOnTheWayLeavesTheCountWhereItWas) {
+  Encoders encoders(Config{});
+  encoders.turn({3.0, 3.0});
+  const std::int32_t before = encoders.read().left;
+  encoders.lose_channel(Side::left);
+  EXPECT_EQ(encoders.read().left, before);
+  encoders.turn({50.0, 50.0});
+  EXPECT_LE(std::abs(encoders.read().left - before), 1);
+  EXPECT_GT(encoders.read().right, before);
 }
 
 }  // namespace

@@ -145,5 +145,23 @@ TEST(Wiring, ReversalsAndSwapsDoWhatTheySay) {
   EXPECT_EQ(both.right, right_way.right);
 }
 
+TEST(Wiring, AMotorWithoutALeadNeitherDrivesNorBrakes) {
+  Config config = on_stand();
+  config.wiring.left_motor_dead = true;
+  Board board(config);
+  board.motors().drive({20000, 20000});
+  run_ms(board, 100);
+  EXPECT_EQ(board.drivetrain().speed_radps()[0], 0.0);
+  EXPECT_GT(board.drivetrain().speed_radps()[1], 0.0);
+  board.motors().connect(Side::left);
+  run_ms(board, 500);
+  EXPECT_GT(board.drivetrain().speed_radps()[0], 0.0);
+  board.motors().disconnect(Side::left);
+  board.motors().brake();
+  run_ms(board, 30);
+  EXPECT_GT(board.drivetrain().speed_radps()[0], 3.0 * board.drivetrain().speed_radps()[1])
+      << "only friction slows the one without a lead";
+}
+
 }  // namespace
 }  // namespace astro::sim

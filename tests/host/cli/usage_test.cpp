@@ -51,7 +51,7 @@ int explain(const Words& command) {
 }
 
 TEST(Help, OfEveryCommandShowsExamplesOfIt) {
-  EXPECT_GE(explain({}), 1 + 15 + 7 + 8);  // the program, its commands, those of drive and of params
+  EXPECT_GE(explain({}), 1 + 17 + 7 + 8);  // the program, its commands, those of drive and of params
 }
 
 TEST(Version, IsOneLine) {
@@ -99,6 +99,17 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{{"monitor", "--count", "0"}, {"--count", "'0' is not a whole number"}},
         Mistake{{"monitor", "--rate", "-3"}, {"--rate", "'-3' is not a number from"}},
         Mistake{{"params", "set"}, {"is required", "astrolabe params set --help"}},
+        Mistake{{"tune", "--bandwidth", "fast"}, {"--bandwidth", "'fast' is not a bandwidth"}},
+        Mistake{{"tune", "--bandwidth", "-3Hz"}, {"'-3Hz' is not a bandwidth"}},
+        Mistake{{"tune", "--on-stand", "--on-ground"}, {"excludes"}},
+        Mistake{{"tune", "--max-voltage", "0"}, {"--max-voltage", "'0' is not a number from"}},
+        Mistake{{"tune", "--max-distance", "nan"}, {"--max-distance", "'nan'"}},
+        Mistake{{"tune"}, {"--on-stand", "--on-ground"}},
+        Mistake{{"check-wiring", "--saw-left", "up"}, {"--saw-left", "'up' is none of left-forward"}},
+        Mistake{{"check-wiring", "--saw-left", "lf"}, {"--saw-right"}},
+        Mistake{{"check-wiring", "--rolled-turns", "10"}, {"--roll"}},
+        Mistake{{"check-wiring", "--roll", "--rolled-turns", "0"}, {"'0' is not a number above 0"}},
+        Mistake{{"sim", "--wiring", "left"}, {"--wiring", "'left' is no fault"}},
         Mistake{{"sim", "--slip", "-1e-6"}, {"--slip", "'-1e-6' is not a number from"}},
         Mistake{{"sim", "--true-wheelbase", "0"}, {"--true-wheelbase", "'0' is not a number from"}},
         Mistake{{"sim", "--true-wheelbase", "nan"}, {"--true-wheelbase", "'nan'"}},
