@@ -118,6 +118,21 @@ const char* stand_note() {
          "'astrolabe tune --on-ground' finds the others";
 }
 
+// What gains cannot answer for.
+std::vector<std::string> notes(const TuneResult& result) {
+  constexpr double kOther = 1.6;
+  std::vector<std::string> list;
+  if (result.on_stand) list.emplace_back(stand_note());
+  const double carried = (result.before.feed_forward[0].kV + result.before.feed_forward[1].kV) / 2;
+  const double ratio = carried > 0 ? result.mean.kV / carried : 1;
+  if (ratio > kOther || ratio < 1 / kOther)
+    list.push_back(
+        fmt::format("kV is {:.2g} times what the robot carried: other motors or wheels, or a wrong "
+                    "counts_per_motor_rev; 'astrolabe check-wiring --roll' tells",
+                    ratio));
+  return list;
+}
+
 }  // namespace
 
 std::string steps_in_words(const TuneResult& result) {
@@ -147,7 +162,7 @@ std::string in_words(const TuneResult& result) {
       result.design.ki, margins_in_words(result.design.margins), hertz(result.design.largest_bandwidth_radps),
       1e3 * result.design.noise_V);
   text += steps_in_words(result);
-  if (result.on_stand) text += fmt::format("\n{}\n", stand_note());
+  for (const std::string& note : notes(result)) text += fmt::format("\n{}\n", note);
   return text;
 }
 
@@ -171,6 +186,7 @@ Json to_json(const TuneResult& result) {
             {"largest_bandwidth_radps", result.design.largest_bandwidth_radps}}},
           {"changes", changes},
           {"steps", steps_json(result)},
+          {"notes", notes(result)},
           {"uploaded", result.uploaded}};
 }
 
@@ -201,7 +217,7 @@ report::TuningInput report_input(const TuneResult& result, const link::Client& c
                        {"Samples", fmt::format("every {:.0f} ms for {:.0f} s", 1e3 * result.period_s,
                                                result.identity.seconds)},
                        {"New values", result.uploaded ? "loaded into the robot" : "not loaded"}};
-  if (result.on_stand) input.notes.emplace_back(stand_note());
+  input.notes = notes(result);
   return input;
 }
 

@@ -23,6 +23,17 @@ struct Point {
   Complex open;
 };
 
+void note_crossings(const Point& before, const Point& now, Margins& found) {
+  const double was = std::abs(before.open), is = std::abs(now.open);
+  const double was_phase = unwound(std::arg(before.open)), phase = unwound(std::arg(now.open));
+  if ((was - 1) * (is - 1) < 0) {
+    const double part = std::log(was) / std::log(was / is);
+    found.crossover_radps = before.omega_radps * std::pow(now.omega_radps / before.omega_radps, part);
+    found.phase_margin_rad = std::min(found.phase_margin_rad, kPi + phase);
+  }
+  if (was_phase > -kPi && phase <= -kPi) found.gain_margin = std::min(found.gain_margin, 1 / is);
+}
+
 }  // namespace
 
 Complex plant_at(const SpeedLoop& loop, double omega_radps) {
@@ -42,34 +53,22 @@ Complex controller_at(const SpeedLoop& loop, double omega_radps) {
 
 Margins margins(const SpeedLoop& loop) {
   if (loop.kp == 0 && loop.ki == 0) return {};
-  Margins found;
-  found.gain_margin = std::numeric_limits<double>::infinity();
-  found.phase_margin_rad = std::numeric_limits<double>::infinity();
   constexpr int kPerDecade = 600;
+  const double infinite = std::numeric_limits<double>::infinity();
   const double last = std::log10(kPi / loop.tick_s * 0.999);
+  Margins found{0, infinite, infinite, 0, 0};
   Point before{};
   for (int i = 0;; ++i) {
     const double decade = -2 + static_cast<double>(i) / kPerDecade;
-    if (decade > last) break;
+    if (decade > last) return found;
     const double omega = std::pow(10.0, decade);
     const Point now{omega, plant_at(loop, omega) * controller_at(loop, omega)};
     found.sensitivity = std::max(found.sensitivity, std::abs(1.0 / (1.0 + now.open)));
     const double closed = std::abs(now.open / (1.0 + now.open));
     if (found.bandwidth_radps == 0 && closed < std::numbers::sqrt2 / 2) found.bandwidth_radps = omega;
-    if (i > 0) {
-      const double was = std::abs(before.open), is = std::abs(now.open);
-      if ((was - 1) * (is - 1) < 0) {
-        const double part = std::log(was) / std::log(was / is);
-        found.crossover_radps = before.omega_radps * std::pow(omega / before.omega_radps, part);
-        const double phase = unwound(std::arg(now.open));
-        found.phase_margin_rad = std::min(found.phase_margin_rad, kPi + phase);
-      }
-      if (unwound(std::arg(before.open)) > -kPi && unwound(std::arg(now.open)) <= -kPi)
-        found.gain_margin = std::min(found.gain_margin, 1 / is);
-    }
+    if (i > 0) note_crossings(before, now, found);
     before = now;
   }
-  return found;
 }
 
 double quantisation_speed_mps(double observer_radps, double count_m, double tick_s) {

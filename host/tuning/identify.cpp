@@ -17,6 +17,7 @@ using identification::Side;
 constexpr double kSlope_Vps = 1.0;       // slow against any time constant
 constexpr double kStands = 0.7;          // of the voltage: a wheel that stands there will not turn
 constexpr double kMostStanding_V = 4.5;  // the firmware calls it a stall soon after
+constexpr double kFeeble_V = 3;          // a motor in order may need that much
 constexpr double kTurnRound = 0.4;       // of the distance; what is left is for braking
 constexpr double kStepAtMost_s = 0.6, kRest_s = 0.4;
 constexpr double kBackward_m = 0.015;
@@ -82,10 +83,11 @@ void Course::check_sense(double voltage_V, const Moment& from) const {
                       "'astrolabe check-wiring' finds what is reversed",
                       name(side)));
     if (std::abs(voltage_V) >= stands_V && std::abs(forward_m) < 10 * bench_.facts().count_m[at(side)])
-      throw Error(
-          fmt::format("stopped: the {} wheel does not turn, or does not count, at {:.1f} V; "
-                      "'astrolabe check-wiring' finds out which",
-                      name(side), std::abs(voltage_V)));
+      throw Error(fmt::format(
+          "stopped: the {} wheel does not turn, or does not count, at {:.1f} V; 'astrolabe check-wiring' "
+          "finds out which{}",
+          name(side), std::abs(voltage_V),
+          stands_V < kFeeble_V ? ", or give it more with --max-voltage" : ""));
   }
 }
 

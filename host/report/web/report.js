@@ -144,13 +144,11 @@
     motor(data, figure) {
       const { kS, kV, kA, breakaway, V, a, v } = data.motors[figure.wheel];
       const steady = V.map((volts, i) => volts - kA * a[i]);
-      const most = Math.max(1, largest(steady)) * 1.06;
-      const speed = (volts) => Math.sign(volts) * Math.max(0, Math.abs(volts) - kS) / kV;
-      const marks = breakaway.filter((volts) => volts !== null);
+      const most = Math.max(1, largest(steady)) * 1.06, speed = (volts) => Math.sign(volts) * Math.max(0, Math.abs(volts) - kS) / kV;
       const traces = [
         { name: 'Measured', mode: 'markers', x: steady, y: v, customdata: a, marker: { size: 5, opacity: 0.45, color: phaseColour(1) }, hovertemplate: '%{x:.2f} V, %{y:.3f} m/s (accelerating by %{customdata:.2f} m/s²)' },
         { name: 'Fit', mode: 'lines', x: [-most, -kS, kS, most], y: [-most, -kS, kS, most].map(speed), line: { color: style('--ink'), width: 1.6 }, hovertemplate: '%{x:.2f} V, %{y:.3f} m/s' },
-        { name: 'Breaks away', mode: 'markers', x: marks, y: marks.map(() => 0), marker: { symbol: 'line-ns', size: 15, line: { width: 2.5, color: phaseColour(0) } }, hovertemplate: 'breaks away at %{x:.2f} V' },
+        { name: 'Breaks away', mode: 'markers', x: breakaway, y: breakaway.map((volts) => (volts === null ? null : 0)), marker: { symbol: 'line-ns', size: 15, line: { width: 2.5, color: phaseColour(0) } }, hovertemplate: 'breaks away at %{x:.2f} V' },
       ].map((trace) => ({ type: 'scatter', ...trace }));
       return [traces, layout({ xaxis: axis('voltage less k<sub>A</sub> dv/dt, in V', { range: [-most, most] }), yaxis: axis('speed in m/s') }), 340];
     },
@@ -158,11 +156,9 @@
     step(data, figure, width) {
       const { t, goal, measured, predicted } = data.steps[figure.phase][figure.wheel];
       // Steps behind the robot's limits have one scale; a jump has errors of another size.
-      const jumps = (s) => s.goal[0] > 0.9 * s.goal.at(-1);
-      const shown = data.steps.flat().filter((s) => jumps(s) === jumps({ goal }));
+      const jumps = (s) => s.goal[0] > 0.9 * s.goal.at(-1), shown = data.steps.flat().filter((s) => jumps(s) === jumps({ goal }));
       const strip = { measured: { color: phaseColour(Number(figure.phase)), width: 3 }, predicted: { color: style('--ink'), width: 1.3, dash: '5px,4px' } };
-      const off = (series, set) => series.map((v, i) => (v - set[i]) * 1e3);
-      const courses = Object.entries({ measured, predicted }).filter(([, series]) => series.length);
+      const off = (series, set) => series.map((v, i) => (v - set[i]) * 1e3), courses = Object.entries({ measured, predicted }).filter(([, series]) => series.length);
       const traces = [
         { name: 'Set point', x: t, y: goal, line: { color: style('--muted'), width: 1.2 }, hovertemplate: '%{y:.3f} m/s at %{x:.3f} s' },
         ...courses.map(([name, series]) => ({ name: capital(name), legendgroup: name, x: t, y: series, line: strip[name], hovertemplate: '%{y:.4f} m/s at %{x:.3f} s' })),
@@ -170,8 +166,7 @@
       ].map((trace) => ({ type: 'scatter', mode: 'lines', ...trace }));
       const most = Math.max(2, largest(shown.flatMap((s) => [...off(s.measured, s.goal), ...off(s.predicted, s.goal)]))) * 1.08;
       const top = padded([0, largest(shown.flatMap((s) => [...s.measured, ...s.predicted, ...s.goal]))], 0.01);
-      return [traces, layout({
-        xaxis: axis('time in s', { anchor: 'y2', rangemode: 'tozero' }), yaxis: axis('speed<br>in m/s', { range: top, domain: [0.42, 1] }),
+      return [traces, layout({ xaxis: axis('time in s', { anchor: 'y2', rangemode: 'tozero' }), yaxis: axis('speed<br>in m/s', { range: top, domain: [0.42, 1] }),
         yaxis2: axis('error<br>in mm/s', { range: [-most, most], domain: [0, 0.34], nticks: 5 }), margin: { l: 64, r: 12, t: 34, b: 44 },
       }), width < 400 ? 360 : 400];
     },

@@ -111,6 +111,13 @@ TEST(Tune, TextSaysModelGainsAndSteps) {
                                  HasSubstr("Nothing was loaded."), HasSubstr("tune.html")));
 }
 
+TEST(Tune, SaysWhenSpeedsCannotBeWhatTheRobotBelieves) {
+  const Simulator simulator({"--fast", "--counts-per-rev", "32"});
+  const Outcome outcome = tune(simulator, {"--on-ground", "--yes", "--max-distance", "0.8"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("kV is 2 times"), HasSubstr("check-wiring --roll")));
+}
+
 TEST(Tune, RefusesABandwidthBeforeAnythingTurns) {
   const Simulator simulator({"--fast"});
   const Outcome outcome = tune(simulator, {"--on-ground", "--yes", "--bandwidth", "50"});

@@ -110,7 +110,7 @@ TEST(Identify, AWheelThatDoesNotAnswerIsNamedAndNothingIsLatched) {
 
 TEST(Identify, TooLittleRoomOrVoltageIsSaid) {
   EXPECT_THAT(refusal(quiet_robot(false), {5, 0.02}), HasSubstr("--max-distance"));
-  EXPECT_THAT(refusal(quiet_robot(true), {1.2}), HasSubstr("wheel"));
+  EXPECT_THAT(refusal(quiet_robot(true), {1.2}), HasSubstr("--max-voltage"));
 }
 
 TEST(Identify, AnInterruptLeavesTheRobotStoppedAndDisarmed) {

@@ -40,8 +40,8 @@ void expect_alike(const Both& both, const std::string& what, double overshoot = 
   std::printf(
       "%-34s rise %6.1f ms, predicted %6.1f; overshoot %5.2f %%, predicted %5.2f; rms error %5.2f mm/s, "
       "predicted %5.2f\n",
-      what.c_str(), 1e3 * m.rise_s, 1e3 * p.rise_s, 100 * m.overshoot, 100 * p.overshoot, 1e3 * m.rms_error_mps,
-      1e3 * p.rms_error_mps);
+      what.c_str(), 1e3 * m.rise_s, 1e3 * p.rise_s, 100 * m.overshoot, 100 * p.overshoot,
+      1e3 * m.rms_error_mps, 1e3 * p.rms_error_mps);
   EXPECT_NEAR(m.rise_s, p.rise_s, 0.05 * p.rise_s + 0.003);
   EXPECT_NEAR(m.overshoot, p.overshoot, overshoot);
   EXPECT_NEAR(m.rms_error_mps, p.rms_error_mps, 0.15 * p.rms_error_mps + 0.001);
