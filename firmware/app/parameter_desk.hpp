@@ -6,7 +6,7 @@
 namespace astro {
 
 /// The parameter set in force, the one being prepared, and the flash that keeps it. Main loop only.
-template <ParameterFlash Flash>
+template <NorFlash Flash>
 class ParameterDesk {
  public:
   template <class Reply>
