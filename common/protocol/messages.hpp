@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "common/protocol/fault_log.hpp"
 #include "common/protocol/motion.hpp"
 #include "common/protocol/parameters.hpp"
 #include "common/protocol/session.hpp"
@@ -32,12 +33,12 @@ struct MessageList {
   }
 };
 
-using Requests =
-    MessageList<Hello, Ping, GetStatus, Arm, Disarm, Stop, EmergencyStop, Velocity, AddSegment, SetPose,
-                GetParameterInfo, GetParameter, StageParameter, CommitParameters, RevertParameters,
-                DefaultParameters, SetTelemetry, GetFaults, ClearFaults, Reboot, EnterBootloader>;
-using Replies =
-    MessageList<Ack, ErrorReply, HelloReply, Pong, Status, ParameterInfo, ParameterValue, FaultReport>;
+using Requests = MessageList<Hello, Ping, GetStatus, Arm, Disarm, Stop, EmergencyStop, Velocity, AddSegment,
+                             SetPose, GetParameterInfo, GetParameter, StageParameter, CommitParameters,
+                             RevertParameters, DefaultParameters, SetTelemetry, GetFaults, ClearFaults,
+                             Reboot, EnterBootloader, GetFaultLog>;
+using Replies = MessageList<Ack, ErrorReply, HelloReply, Pong, Status, ParameterInfo, ParameterValue,
+                            FaultReport, FaultLogEntry>;
 using Events = MessageList<Telemetry, SegmentDone, FaultRaised, Booted>;
 
 /// For people and logs; "?" for an id that this version does not know.

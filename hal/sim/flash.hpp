@@ -103,6 +103,6 @@ class NorFlash {
 
 /// The simulated board's. A grain of 4: serial NOR takes single bytes, but its controllers move words, and a
 /// grain above 1 catches a store that leaves padding to chance.
-using Flash = NorFlash<4, 4096, 4>;
+using Flash = NorFlash<6, 4096, 4>;
 
 }  // namespace astro::sim
