@@ -20,9 +20,10 @@ if(ASTROLABE_TARGET STREQUAL teensy40)
   # it the control tick is a tenth shorter.
   # -fno-jump-tables: a jump through a table of addresses looks like a call through a pointer, which the check of the
   # stack could not follow.
+  # -flto-partition=one: what the tick costs must not depend on where the linker cuts the program in two.
   set(cortex_m7 -mcpu=cortex-m7 -mthumb -mfloat-abi=soft -ffreestanding -fno-exceptions -fno-rtti
     -fno-threadsafe-statics -fno-use-cxa-atexit -fno-common -fno-schedule-insns -fno-jump-tables
-    -ffunction-sections -fdata-sections -flto=auto -fstack-usage)
+    -ffunction-sections -fdata-sections -flto=auto -flto-partition=one -fstack-usage)
   target_compile_options(astro_compile INTERFACE ${cortex_m7})
   target_link_options(astro_compile INTERFACE ${cortex_m7})
 endif()

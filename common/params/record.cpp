@@ -94,6 +94,8 @@ std::size_t Record::announced_bytes(Bytes header) {
   return size <= kMaxBytes ? size : 0;
 }
 
+std::uint32_t Record::announced_sequence(Bytes header) { return load_le(header.subspan(8, 4)); }
+
 std::span<std::uint8_t> Record::room(std::size_t size) {
   size_ = std::min(size, kMaxBytes);
   return std::span(bytes_).first(size_);
@@ -110,7 +112,7 @@ bool Record::intact() const {
   return rows_are_readable(payload());
 }
 
-std::uint32_t Record::sequence() const { return load_le(Bytes(bytes_).subspan(8, 4)); }
+std::uint32_t Record::sequence() const { return announced_sequence(bytes_); }
 
 ParameterSet Record::set() const {
   ParameterSet set = ParameterSet::defaults();

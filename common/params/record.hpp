@@ -33,6 +33,8 @@ class Record {
   /// Size of the record that these bytes begin, or 0 if none begins here. Needs kHeaderBytes.
   static std::size_t announced_bytes(std::span<const std::uint8_t> header);
   static bool has_magic(std::span<const std::uint8_t> bytes);
+  /// What it says of its age, if has_magic(): a damaged one may lie. Needs kHeaderBytes.
+  static std::uint32_t announced_sequence(std::span<const std::uint8_t> header);
 
   /// Forgets what it held and gives room for the `size` <= kMaxBytes bytes of a record, to be filled by the
   /// caller.

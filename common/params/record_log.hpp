@@ -2,33 +2,19 @@
 
 #include <algorithm>
 #include <array>
-#include <concepts>
 #include <cstdint>
 #include <span>
 
+#include "common/base/nor_flash.hpp"
 #include "common/params/record.hpp"
 
 namespace astro {
-
-/// NOR flash in sectors: erase makes every byte of one sector 0xFF, program clears bits in whole units of
-/// kProgramBytes within one sector, a power cut leaves any mixture of old and new bits in the bytes under
-/// way.
-template <class T>
-concept ParameterFlash = requires(T& flash, std::uint32_t at, std::span<std::uint8_t> into,
-                                  std::span<const std::uint8_t> bytes) {
-  { T::kSectors } -> std::convertible_to<std::uint32_t>;
-  { T::kSectorBytes } -> std::convertible_to<std::uint32_t>;
-  { T::kProgramBytes } -> std::convertible_to<std::uint32_t>;
-  { flash.erase(at) } -> std::same_as<bool>;
-  { flash.program(at, bytes) } -> std::same_as<bool>;
-  { flash.read(at, into) } -> std::same_as<void>;
-};
 
 /// Records in flash, found again whatever lies between them: torn writes, cut erases, rotten bits. A record
 /// starts at a multiple of kUnit, so behind any damage the search goes on at the next unit.
 ///
 /// Holds no state: what the flash says is all there is.
-template <ParameterFlash Flash>
+template <NorFlash Flash>
 class RecordLog {
  public:
   static constexpr std::uint32_t kSectors = Flash::kSectors;
@@ -41,7 +27,14 @@ class RecordLog {
     bool found = false;
     std::uint32_t at = 0;
     std::uint32_t sequence = 0;
-    std::uint32_t skipped = 0;  // damaged places met on the way
+    std::uint32_t skipped = 0;    // damaged places met on the way
+    std::uint32_t claimed = 0;    // by the damaged record that says it is the newest of them
+    bool damaged_record = false;  // there is one
+
+    /// A record that says it is newer is damaged: it rotted, or its commit was cut short.
+    bool outrun() const {
+      return damaged_record && (!found || static_cast<std::int32_t>(claimed - sequence) > 0);
+    }
 
     std::uint32_t sector() const { return at / kSectorBytes; }
   };
@@ -57,19 +50,20 @@ class RecordLog {
     return newest;
   }
 
-  /// Writes behind everything that is in the sector; false if there is no room or the read-back differs.
+  /// Writes behind everything that is in the sector. False if there is no room, or none that reads back.
   bool append(std::uint32_t sector, const Record& record) {
     const std::uint32_t start = sector * kSectorBytes;
-    const std::uint32_t end = start + kSectorBytes;
     // Behind the last byte that is not blank: a torn record has no length to trust.
-    std::uint32_t at = end;
+    std::uint32_t at = start + kSectorBytes;
     while (at > start && blank(read_unit(at - kUnit))) at -= kUnit;
-    return end - at >= padded(record.size()) && write(at, record);
+    return write_from(at, start + kSectorBytes, record);
   }
 
-  /// Erases the sector, though it may look blank after a cut erase, and writes at its start.
+  /// Erases the sector, though it may look blank after a cut erase, and writes at its start. What erase()
+  /// says does not matter: a cell that did not erase spoils the record that lies on it and no other.
   bool restart(std::uint32_t sector, const Record& record) {
-    return flash_.erase(sector) && write(sector * kSectorBytes, record);
+    static_cast<void>(flash_.erase(sector));
+    return write_from(sector * kSectorBytes, (sector + 1) * kSectorBytes, record);
   }
 
  private:
@@ -108,6 +102,7 @@ class RecordLog {
       const Unit unit = read_unit(at);
       const bool damaged = !blank(unit);
       if (damaged && (!in_damage || Record::has_magic(unit))) ++newest.skipped;
+      if (Record::has_magic(unit)) note_damaged(Record::announced_sequence(unit), newest);
       in_damage = damaged;
       at += kUnit;
     }
@@ -119,6 +114,19 @@ class RecordLog {
     newest.found = true;
     newest.at = at;
     newest.sequence = sequence;
+  }
+
+  static void note_damaged(std::uint32_t sequence, Newest& newest) {
+    if (newest.damaged_record && static_cast<std::int32_t>(sequence - newest.claimed) <= 0) return;
+    newest.damaged_record = true;
+    newest.claimed = sequence;
+  }
+
+  /// Where a cell is stuck the record does not read back, and is tried again behind it.
+  bool write_from(std::uint32_t at, std::uint32_t end, const Record& record) {
+    for (; end - at >= padded(record.size()); at += padded(record.size()))
+      if (write(at, record)) return true;
+    return false;
   }
 
   /// The record's own bytes decide, not what program() says: they alone make the next search find it or not.

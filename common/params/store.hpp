@@ -20,6 +20,7 @@ struct Load {
   Param refused = Param::none;  // what validate() named
   std::uint32_t sequence = 0;   // of the newest record; 0 without one
   std::uint32_t skipped = 0;    // damaged places: bit rot, torn writes, a sector whose erase was cut
+  bool outrun = false;  // one of them says it is newer than `set`: it rotted, or its commit was cut short
 };
 
 enum class CommitError : std::uint8_t {
@@ -37,7 +38,7 @@ enum class CommitError : std::uint8_t {
 /// Cost    load and commit read all sectors once; commit programs one record, and erases a sector each time
 /// one
 ///         is full. RAM: one Record, no heap.
-template <ParameterFlash Flash>
+template <NorFlash Flash>
 class Store {
  public:
   explicit Store(Flash& flash) : log_(flash) {}
@@ -45,7 +46,7 @@ class Store {
   /// The newest intact set, whatever lies around it.
   Load load() {
     const auto newest = log_.newest(record_);
-    Load load{.set = {}, .sequence = newest.sequence, .skipped = newest.skipped};
+    Load load{.set = {}, .sequence = newest.sequence, .skipped = newest.skipped, .outrun = newest.outrun()};
     if (!newest.found) return load;
     const ParameterSet set = record_.set();
     const auto verdict = validate(set);
@@ -63,7 +64,7 @@ class Store {
   Result<void, CommitError> commit(const ParameterSet& set) {
     if (!validate(set)) return CommitError::refused;
     const auto newest = log_.newest(record_);
-    if (!record_.rewrite(set, newest.found ? newest.sequence + 1 : 0)) return CommitError::no_room;
+    if (!record_.rewrite(set, next_sequence(newest))) return CommitError::no_room;
     const bool written = newest.found ? write_after(newest.sector()) : write_first();
     if (!written) return CommitError::flash_failed;
     return {};
@@ -72,6 +73,12 @@ class Store {
  private:
   static constexpr std::uint32_t kSectors = RecordLog<Flash>::kSectors;
   static_assert(kSectors >= 2, "one sector is erased while another holds the set");
+
+  /// Past whatever a damaged record can claim: a bit that was torn half way may read well again one day, and
+  /// must not make an older set the newest.
+  static std::uint32_t next_sequence(const typename RecordLog<Flash>::Newest& newest) {
+    return newest.found || newest.skipped != 0 ? newest.sequence + newest.skipped + 1 : 0;
+  }
 
   /// Behind the newest record or at the start of the next sector, which is the oldest; of any other if that
   /// one is worn out.

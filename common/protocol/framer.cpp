@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "common/protocol/crc32.hpp"
+#include "common/base/crc32.hpp"
 #include "common/protocol/value_codec.hpp"
 
 namespace astro::protocol {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "common/protocol/fault_log.hpp"
 #include "common/protocol/motion.hpp"
 #include "common/protocol/parameters.hpp"
 #include "common/protocol/session.hpp"
@@ -32,12 +33,13 @@ struct MessageList {
   }
 };
 
-using Requests = MessageList<Hello, Ping, GetStatus, Arm, Disarm, Stop, EmergencyStop, Velocity, AddSegment,
-                             SetPose, GetParameterInfo, GetParameter, StageParameter, CommitParameters,
-                             RevertParameters, DefaultParameters, SetTelemetry, GetFaults, ClearFaults,
-                             Reboot, EnterBootloader, WheelVoltage, Pause, Resume, ApplyParameters>;
-using Replies =
-    MessageList<Ack, ErrorReply, HelloReply, Pong, Status, ParameterInfo, ParameterValue, FaultReport>;
+using Requests =
+    MessageList<Hello, Ping, GetStatus, Arm, Disarm, Stop, EmergencyStop, Velocity, AddSegment, SetPose,
+                GetParameterInfo, GetParameter, StageParameter, CommitParameters, RevertParameters,
+                DefaultParameters, SetTelemetry, GetFaults, ClearFaults, Reboot, EnterBootloader,
+                WheelVoltage, Pause, Resume, GetFaultLog, ApplyParameters>;
+using Replies = MessageList<Ack, ErrorReply, HelloReply, Pong, Status, ParameterInfo, ParameterValue,
+                            FaultReport, FaultLogEntry>;
 using Events = MessageList<Telemetry, SegmentDone, FaultRaised, Booted, SegmentStarted>;
 
 /// For people and logs; "?" for an id that this version does not know.

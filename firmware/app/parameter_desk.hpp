@@ -6,7 +6,7 @@
 namespace astro {
 
 /// The parameter set in force, the one being prepared, and the flash that keeps it. Main loop only.
-template <ParameterFlash Flash>
+template <NorFlash Flash>
 class ParameterDesk {
  public:
   template <class Reply>
@@ -18,10 +18,13 @@ class ParameterDesk {
   bool load() {
     const Load loaded = store_.load();
     active_ = staged_ = loaded.set;
+    fell_back_ = loaded.outrun;
     return loaded.status != LoadStatus::refused;
   }
 
   const ParameterSet& active() const { return active_; }
+  /// The start found a newer set damaged: by rot, or its commit was cut short.
+  bool fell_back() const { return fell_back_; }
 
   Answer<protocol::ParameterInfo> info(std::uint16_t index) const {
     if (index >= kParamCount) return error(protocol::ErrorCode::unknown_parameter);
@@ -98,6 +101,7 @@ class ParameterDesk {
   }
 
   ParameterSet active_, staged_;
+  bool fell_back_ = false;
   Store<Flash> store_;
 };
 

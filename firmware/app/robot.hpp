@@ -11,6 +11,8 @@
 #include "common/protocol/messages.hpp"
 #include "firmware/app/check_in.hpp"
 #include "firmware/app/drive.hpp"
+#include "firmware/app/fault_journal.hpp"
+#include "firmware/app/flash_layout.hpp"
 #include "firmware/app/parameter_desk.hpp"
 #include "firmware/app/session.hpp"
 #include "firmware/app/snapshot.hpp"
@@ -28,17 +30,24 @@ template <hal::Board Board>
 class Robot {
  public:
   /// Outputs are off until a host arms the robot.
-  explicit Robot(Board& board) : board_(board), desk_(board.flash()), drive_(ParameterSet::defaults()) {
+  explicit Robot(Board& board)
+      : board_(board),
+        drive_(ParameterSet::defaults()),
+        flash_(board.flash()),
+        desk_(flash_.parameters),
+        journal_(flash_.log) {
     board_.motors().coast();
     const bool readable = desk_.load();
     drive_.configure(desk_.active());
     if (!readable) drive_.raise(Fault::parameters);
     const hal::ResetCause cause = board_.system().reset_cause();
     if (cause == hal::ResetCause::watchdog || cause == hal::ResetCause::fault) drive_.raise(Fault::watchdog);
+    if (desk_.fell_back()) journal_.parameters_fell_back();
     announce(protocol::Booted{reset_cause()});
   }
 
   void tick() {
+    journal_.watch(drive_, ticks_.last_us(), battery_mv_);
     TickInput input;
     input.now_us = board_.clock().now_us();
     input.counts = board_.encoders().read();
@@ -55,6 +64,7 @@ class Robot {
     for (int port = 0; port < kPorts; ++port) receive(port);
     plan();
     report_events();
+    journal_.write(board_, drive_);
     for (int port = 0; port < kPorts; ++port) stream(port);
     if (board_.system().host_wants_bootloader() && !drive_.armed()) reset_soon(Reset::bootloader);
     if (reset_wanted_ != Reset::none && board_.clock().now_us() >= reset_due_us_) reset();
@@ -350,6 +360,10 @@ class Robot {
     return Ack{};
   }
 
+  Answer<protocol::FaultLogEntry> handle(int, const protocol::GetFaultLog& request) {
+    return journal_.entry(request.index);
+  }
+
   Answer<Ack> handle(int, const protocol::Reboot&) {
     if (!drive_.at_rest()) return error(ErrorCode::moving);
     return reset_soon(Reset::reboot);
@@ -453,16 +467,18 @@ class Robot {
   }
 
   Board& board_;
-  ParameterDesk<Flash> desk_;
-  Drive drive_;
+  Drive drive_;  // what the tick uses comes first: instructions reach only so far from the begin of an object
   TickClock ticks_;
   CheckIn check_in_;
+  FlashLayout<Flash> flash_;
+  ParameterDesk<typename FlashLayout<Flash>::Parameters> desk_;
   std::array<Session, kPorts> sessions_{};
   std::int32_t battery_mv_ = 0;
   std::uint32_t reported_faults_ = 0;
   int driver_port_ = kNobody;
   Reset reset_wanted_ = Reset::none;
   std::uint64_t reset_due_us_ = 0;
+  FaultJournal<typename FlashLayout<Flash>::Log> journal_;
 };
 
 }  // namespace astro

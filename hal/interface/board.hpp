@@ -88,8 +88,8 @@ concept Ports = requires(T& ports, int port, std::span<std::uint8_t> into,
   noexcept->std::same_as<std::size_t>;
 };
 
-/// NOR flash set aside for parameters: `kSectors` sectors of `kSectorBytes`. Main loop only, robot at rest:
-/// the processor may stand still for a whole erase.
+/// NOR flash set aside for parameters and fault log: `kSectors` sectors of `kSectorBytes`, four at least.
+/// Main loop only, robot at rest: the processor may stand still for a whole erase.
 ///   erase(sector)            every byte of the sector becomes 0xFF
 ///   program(offset, bytes)   clears bits: the result is old AND new. offset and size are multiples of
 ///                            kProgramBytes and stay within one sector.

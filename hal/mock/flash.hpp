@@ -7,12 +7,12 @@
 
 namespace astro::mock {
 
-/// Parameter flash in RAM with NOR rules. Its grain of 8 bytes and its two sectors differ from the
+/// Flash in RAM with NOR rules. Its grain of 8 bytes and its four sectors differ from the
 /// simulator's on purpose: code that assumes either fails on one of the two boards.
 ///
 /// Misuse (outside the part, across a sector's end, unaligned) changes nothing and returns false.
 struct Flash {
-  static constexpr std::uint32_t kSectors = 2;
+  static constexpr std::uint32_t kSectors = 4;
   static constexpr std::uint32_t kSectorBytes = 4096;
   static constexpr std::uint32_t kProgramBytes = 8;
 

@@ -50,7 +50,7 @@ struct Config {
   double supply_V = 12.0;
   double supply_ohm = 0.08;
 
-  // Content of the parameter flash at power-on; empty: erased.
+  // Content of the flash at power-on; empty: erased.
   std::vector<std::uint8_t> flash;
 };
 

@@ -1,59 +1,108 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "hal/sim/flash_faults.hpp"
+
 namespace astro::sim {
 
-/// What a power cut leaves of the bytes that were not finished yet.
-///   sharp   the old content: work stopped between two bytes
-///   torn    each bit either old or new, by a fixed hash: work was going on in all of them
-enum class Tear : std::uint8_t { sharp, torn };
-
-/// NOR flash with the habits that a parameter store must survive: sectors erase as a whole, programming only
-/// clears bits, and power fails after any byte.
+/// NOR flash with the habits that a store must survive: sectors erase as a whole, programming only clears
+/// bits, power fails after any byte, bits rot, cells stick and sectors fail (flash_faults.hpp).
 ///
-/// kProgramBytes is 4: serial NOR takes single bytes, but its controllers move words, and a granularity above
-/// 1 catches a store that leaves padding to chance.
-///
-/// Misuse (outside the part, across a sector's end, unaligned) changes nothing and returns false.
-class Flash {
+/// Misuse (outside the part, across a sector's end, unaligned) changes nothing, returns false and is counted.
+template <std::uint32_t Sectors, std::uint32_t SectorBytes, std::uint32_t ProgramBytes>
+class NorFlash {
  public:
-  static constexpr std::uint32_t kSectors = 4;
-  static constexpr std::uint32_t kSectorBytes = 4096;
-  static constexpr std::uint32_t kProgramBytes = 4;
+  static constexpr std::uint32_t kSectors = Sectors;
+  static constexpr std::uint32_t kSectorBytes = SectorBytes;
+  static constexpr std::uint32_t kProgramBytes = ProgramBytes;
   static constexpr std::uint32_t kBytes = kSectors * kSectorBytes;
 
   /// `image` is a content() saved earlier; shorter ones are filled up with erased bytes, longer ones cut.
-  explicit Flash(std::span<const std::uint8_t> image = {});
+  explicit NorFlash(std::span<const std::uint8_t> image = {}) : cells_(kBytes, 0xFF) {
+    std::copy_n(image.begin(), std::min<std::size_t>(image.size(), kBytes), cells_.begin());
+  }
 
-  bool erase(std::uint32_t sector) noexcept;
-  bool program(std::uint32_t offset, std::span<const std::uint8_t> bytes) noexcept;
-  void read(std::uint32_t offset, std::span<std::uint8_t> into) noexcept;  // 0xFF beyond the end
+  // As hal::Flash promises. False if power is off, and if a read-back differs.
 
-  /// Power fails when `bytes` more bytes have been erased or programmed: the call that reaches that number
-  /// returns false, and so does every later one, changing nothing, until restore_power().
-  void cut_power_after(std::uint64_t bytes, Tear tear = Tear::sharp);
-  void restore_power();
-  bool powered() const { return powered_; }
+  bool erase(std::uint32_t sector) noexcept {
+    if (sector >= kSectors) return misuse();
+    if (!powered()) return false;
+    ++erases_[sector];
+    const auto cells = std::span(cells_).subspan(sector * kSectorBytes, kSectorBytes);
+    faults_.erase(sector * kSectorBytes, cells);
+    return powered() && std::ranges::all_of(cells, [](std::uint8_t cell) { return cell == 0xFF; });
+  }
 
-  /// Bytes erased or programmed so far; the range of interesting arguments for cut_power_after.
-  std::uint64_t bytes_worked() const { return worked_; }
+  bool program(std::uint32_t offset, std::span<const std::uint8_t> bytes) noexcept {
+    const bool inside = offset <= kBytes && bytes.size() <= kBytes - offset;
+    const bool aligned = offset % kProgramBytes == 0 && bytes.size() % kProgramBytes == 0;
+    const bool one_sector = offset % kSectorBytes + bytes.size() <= kSectorBytes;
+    if (!inside || !aligned || !one_sector) return misuse();
+    if (!powered()) return false;
+    const auto cells = std::span(cells_).subspan(offset, bytes.size());
+    faults_.program(offset, cells, bytes);
+    return powered() && std::ranges::equal(cells, bytes);
+  }
 
-  std::span<const std::uint8_t, kBytes> content() const { return content_; }
+  /// 0xFF beyond the end.
+  void read(std::uint32_t offset, std::span<std::uint8_t> into) noexcept {
+    const std::size_t begin = std::min(offset, kBytes);
+    const std::size_t inside = std::min<std::size_t>(into.size(), kBytes - begin);
+    std::copy_n(cells_.begin() + static_cast<std::ptrdiff_t>(begin), inside, into.begin());
+    std::ranges::fill(into.subspan(inside), std::uint8_t{0xFF});
+  }
+
+  // What goes wrong. See FlashFaults.
+
+  void cut_power_after(std::uint64_t bytes, Tear tear = Tear::sharp, std::uint64_t seed = 0) {
+    faults_.cut_power_after(bytes, tear, seed);
+  }
+  void restore_power() { faults_.restore_power(); }
+  bool powered() const { return faults_.powered(); }
+  std::uint64_t bytes_worked() const { return faults_.bytes_worked(); }
+
+  /// Bit rot: the bits of `mask` in one byte turn over.
+  void rot(std::uint32_t at, std::uint8_t mask) {
+    cells_[at] = faults_.held(at, static_cast<std::uint8_t>(cells_[at] ^ mask));
+  }
+  void stick(std::uint32_t at, std::uint8_t mask, bool level) {
+    faults_.stick(at, mask, level);
+    cells_[at] = faults_.held(at, cells_[at]);
+  }
+  void fail(std::uint32_t sector, FlashWork kind) { faults_.fail(sector * kSectorBytes, kSectorBytes, kind); }
+
+  // What only the owner sees.
+
+  std::span<const std::uint8_t, kBytes> content() const {
+    return std::span<const std::uint8_t, kBytes>(cells_.data(), kBytes);
+  }
+  /// These bytes as they were when they were saved; counters and faults stay.
+  void put_back(std::uint32_t at, std::span<const std::uint8_t> bytes) {
+    std::copy(bytes.begin(), bytes.end(), cells_.begin() + static_cast<std::ptrdiff_t>(at));
+  }
+  /// Erase calls so far, those that did not take included: what wears a sector.
+  std::uint32_t erases(std::uint32_t sector) const { return erases_[sector]; }
+  int misuses() const { return misuses_; }
 
  private:
-  static constexpr std::uint64_t kNever = ~std::uint64_t{0};
+  bool misuse() {
+    ++misuses_;
+    return false;
+  }
 
-  void work(std::uint32_t at, std::uint8_t target);
-
-  std::array<std::uint8_t, kBytes> content_;
-  std::uint64_t worked_ = 0;
-  std::uint64_t cut_at_ = kNever;
-  Tear tear_ = Tear::sharp;
-  bool powered_ = true;
+  std::vector<std::uint8_t> cells_;
+  std::array<std::uint32_t, kSectors> erases_{};
+  int misuses_ = 0;
+  FlashFaults faults_;
 };
+
+/// The simulated board's. A grain of 4: serial NOR takes single bytes, but its controllers move words, and a
+/// grain above 1 catches a store that leaves padding to chance.
+using Flash = NorFlash<6, 4096, 4>;
 
 }  // namespace astro::sim

@@ -5,15 +5,16 @@
 
 namespace astro::teensy40 {
 
-/// Parameter sectors of the program flash, at 0x601F'0000: above the largest program, where the boot loader
-/// does not erase, and far below 0x601F'F000, where it keeps a program of its own.
+/// The sectors of the program flash that the robot writes, parameters first, at 0x601F'0000: above the
+/// largest program, where the boot loader does not erase, and far below 0x601F'F000, where it keeps a program
+/// of its own.
 ///
 /// Misuse (outside the sectors, across a sector's end, unaligned) changes nothing and returns false.
 ///
 /// Cost    erase 45 ms, 400 ms at most; a page of 256 bytes 0.4 ms, 3 ms at most. Interrupts go on.
 class Flash {
  public:
-  static constexpr std::uint32_t kSectors = 4;
+  static constexpr std::uint32_t kSectors = 6;
   static constexpr std::uint32_t kSectorBytes = 4096;
   static constexpr std::uint32_t kProgramBytes = 8;  // what the controller's queue takes at a time
   static constexpr std::uint32_t kBytes = kSectors * kSectorBytes;

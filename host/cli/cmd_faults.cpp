@@ -6,6 +6,7 @@
 #include "host/cli/connection.hpp"
 #include "host/cli/console.hpp"
 #include "host/cli/fault_help.hpp"
+#include "host/cli/fault_log_view.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/robot_view.hpp"
 
@@ -14,7 +15,7 @@ namespace {
 
 struct FaultsOptions {
   ConnectionOptions connection;
-  bool clear = false, json = false;
+  bool clear = false, log = false, json = false;
 };
 
 void show(const protocol::FaultReport& report) {
@@ -41,8 +42,26 @@ Json as_json(const protocol::FaultReport& report, bool cleared) {
   return json;
 }
 
+std::vector<protocol::FaultLogEntry> fetch_log(link::Client& client) {
+  std::vector<protocol::FaultLogEntry> entries;
+  try {
+    while (entries.size() <= 0xFFFF)
+      entries.push_back(client.request(protocol::GetFaultLog{static_cast<std::uint16_t>(entries.size())}));
+  } catch (const link::RobotRefused& refused) {
+    if (refused.code() != protocol::ErrorCode::out_of_range) throw;
+  }
+  return entries;
+}
+
+void show_log(link::Client& client, bool json) {
+  const auto entries = fetch_log(client);
+  if (json) return print_json(fault_log_json(entries));
+  write(fault_log_table(entries));
+}
+
 void run(FaultsOptions& options) {
   const auto client = connect(options.connection);
+  if (options.log) return show_log(*client, options.json);
   const protocol::FaultReport report = client->request(protocol::GetFaults{});
   if (options.clear) client->request(protocol::ClearFaults{});
   if (options.json) return print_json(as_json(report, options.clear));
@@ -55,10 +74,17 @@ void run(FaultsOptions& options) {
 void add_faults(CLI::App& app) {
   const auto options = std::make_shared<FaultsOptions>();
   CLI::App& command = *app.add_subcommand("faults", "show what stopped the robot, and release it");
-  command.add_flag("--clear", options->clear, "release all latched faults; the robot stays disarmed");
+  CLI::Option* clear =
+      command.add_flag("--clear", options->clear, "release all latched faults; the robot stays disarmed");
+  command
+      .add_flag("--log", options->log,
+                "what stopped the robot before, restarts included: the newest first, with the start that it "
+                "came in and the time since then")
+      ->excludes(clear);
   add_connection(command, options->connection);
   add_json_flag(command, options->json);
-  examples(command, {"astrolabe faults", "astrolabe faults --clear", "astrolabe faults --json"});
+  examples(command, {"astrolabe faults", "astrolabe faults --clear", "astrolabe faults --log",
+                     "astrolabe faults --json"});
   command.callback([options] { run(*options); });
 }
 

@@ -96,8 +96,8 @@ TYPED_TEST_P(IoContract, HostThatDoesNotReadNeverBlocksTheRobot) {
   EXPECT_GT(ports.room(0), 0U) << "reading makes room";
 }
 
-TYPED_TEST_P(IoContract, FlashIsLargeEnoughForTwoGenerations) {
-  EXPECT_GE(TestFixture::Flash::kSectors, 2U);
+TYPED_TEST_P(IoContract, FlashIsLargeEnoughForTwoGenerationsOfParametersAndFaults) {
+  EXPECT_GE(TestFixture::Flash::kSectors, 4U);
   EXPECT_EQ(this->kSectorBytes % this->kGrain, 0U);
 }
 
@@ -137,8 +137,8 @@ TYPED_TEST_P(IoContract, WholeSectorCanBeProgrammedAtOnce) {
 
 REGISTER_TYPED_TEST_SUITE_P(IoContract, SilentPortReadsNothing, BytesArriveInOrderAndAtMostAsManyAsAskedFor,
                             PortsDoNotMix, HostThatDoesNotReadNeverBlocksTheRobot,
-                            FlashIsLargeEnoughForTwoGenerations, EraseFillsOneSectorAndNoOther,
-                            ProgramWritesItsBytesAndNoOthers, ProgramOnlyClearsBits,
-                            WholeSectorCanBeProgrammedAtOnce);
+                            FlashIsLargeEnoughForTwoGenerationsOfParametersAndFaults,
+                            EraseFillsOneSectorAndNoOther, ProgramWritesItsBytesAndNoOthers,
+                            ProgramOnlyClearsBits, WholeSectorCanBeProgrammedAtOnce);
 
 }  // namespace astro::contract

@@ -189,6 +189,9 @@ class FakeRobot {
   void answer(const protocol::GetFaults&, std::uint16_t id) {
     push(protocol::FaultReport{latched, latched != 0 ? first_fault_ : Fault::none, 0, 0}, id);
   }
+  void answer(const protocol::GetFaultLog&, std::uint16_t id) {
+    push(*no(protocol::ErrorCode::out_of_range), id);
+  }
   void answer(const protocol::GetParameterInfo& request, std::uint16_t id) {
     if (request.index >= parameters.size()) return push(*no(protocol::ErrorCode::unknown_parameter), id);
     push(parameters[request.index].info, id);

@@ -2,32 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace astro::emulator {
 namespace {
 
 constexpr std::uint32_t kSector = 4096, kPage = 256;
 
-// Which bits of a byte under way have changed when power fails: some, by a fixed hash.
-std::uint8_t torn(std::uint8_t old, std::uint8_t target, std::uint32_t address) {
-  std::uint32_t hash = (address + 1) * 0x9E37'79B9U;
-  hash ^= hash >> 15;
-  const auto bits = static_cast<std::uint8_t>(hash);
-  return static_cast<std::uint8_t>((old & ~bits) | (target & bits));
-}
-
 }  // namespace
 
-void NorFlash::cut_power_after(std::uint64_t bytes, sim::Tear tear) {
-  cut_at_ = worked_ + bytes;
-  tear_ = tear;
-}
-
 void NorFlash::restore_power() {
-  powered_ = true;
+  faults_.restore_power();
   enabled_ = false;
   busy_until_ = 0;
   on_busy(false);
-  cut_at_ = ~std::uint64_t{0};
 }
 
 /// All commands but the one for the status.
@@ -55,34 +43,23 @@ bool NorFlash::begin(std::uint32_t address, Cycles takes) {
   busy_until_ = machine_.now() + takes;
   on_busy(true);
   machine_.wake(*this, busy_until_);
-  return powered_ && address >= kParameters && address < kParametersEnd;
-}
-
-void NorFlash::work(std::uint32_t address, std::uint8_t target) {
-  if (!powered_) return;
-  if (worked_ == cut_at_) {
-    powered_ = false;
-    if (tear_ == sim::Tear::torn) content_[address] = torn(content_[address], target, address);
-    return;
-  }
-  content_[address] = target;
-  ++worked_;
+  return powered() && address >= kParameters && address < kParametersEnd;
 }
 
 void NorFlash::erase_sector(std::uint32_t address) {
   if (!begin(address, times.erase)) return;
   const std::uint32_t first = address / kSector * kSector;
-  for (std::uint32_t at = first; at < first + kSector; ++at) work(at, 0xFF);
+  faults_.erase(first, content_.subspan(first, kSector));
 }
 
 void NorFlash::program(std::uint32_t address, std::span<const std::uint8_t> bytes) {
   if (bytes.size() > kPage) machine_.fail("NOR flash: more than a page is programmed at once");
   if (!begin(address, times.page)) return;
   const std::uint32_t page = address / kPage * kPage;
-  for (const std::uint8_t byte : bytes) {
-    work(address, content_[address] & byte);
-    address = page + (address + 1) % kPage;
-  }
+  const std::size_t here = std::min<std::size_t>(bytes.size(), page + kPage - address);
+  faults_.program(address, content_.subspan(address, here), bytes.first(here));
+  const auto around = bytes.subspan(here);
+  faults_.program(page, content_.subspan(page, around.size()), around);
 }
 
 }  // namespace astro::emulator

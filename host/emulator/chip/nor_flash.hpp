@@ -5,14 +5,14 @@
 #include <functional>
 #include <span>
 
-#include "hal/sim/flash.hpp"
+#include "hal/sim/flash_faults.hpp"
 #include "host/emulator/machine.hpp"
 
 namespace astro::emulator {
 
 /// The serial NOR flash of a Teensy 4.0 (W25Q16JV): commands and their times, over the memory that the
-/// processor reads its program from. Programming clears bits, erasing sets a sector's; power fails where a
-/// test says.
+/// processor reads its program from. Programming clears bits, erasing sets a sector's; what goes wrong, power
+/// cuts first of all, is as in the simulated board's flash.
 class NorFlash : public Model {
  public:
   struct Times {
@@ -45,10 +45,12 @@ class NorFlash : public Model {
   void program(std::uint32_t address, std::span<const std::uint8_t> bytes);
 
   /// Power fails when so many more bytes have been programmed or erased. The chip is dead from then on.
-  void cut_power_after(std::uint64_t bytes, sim::Tear tear = sim::Tear::sharp);
-  bool powered() const { return powered_; }
+  void cut_power_after(std::uint64_t bytes, sim::Tear tear = sim::Tear::sharp) {
+    faults_.cut_power_after(bytes, tear);
+  }
+  bool powered() const { return faults_.powered(); }
   void restore_power();
-  std::uint64_t bytes_worked() const { return worked_; }
+  std::uint64_t bytes_worked() const { return faults_.bytes_worked(); }
 
   /// The parameters' sectors.
   std::span<std::uint8_t> parameters() { return content_.subspan(kParameters, kParametersEnd - kParameters); }
@@ -58,14 +60,12 @@ class NorFlash : public Model {
  private:
   void refuse_while_busy();
   bool begin(std::uint32_t address, Cycles takes);
-  void work(std::uint32_t address, std::uint8_t target);
 
   Machine& machine_;
   std::span<std::uint8_t> content_;
-  bool enabled_ = false, powered_ = true;
+  bool enabled_ = false;
   Cycles busy_until_ = 0;
-  std::uint64_t worked_ = 0, cut_at_ = ~std::uint64_t{0};
-  sim::Tear tear_ = sim::Tear::sharp;
+  sim::FlashFaults faults_;
 };
 
 }  // namespace astro::emulator

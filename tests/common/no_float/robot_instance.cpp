@@ -27,7 +27,7 @@ struct Board {
     std::size_t room(int) noexcept { return 0; }
   };
   struct Flash {
-    static constexpr std::uint32_t kSectors = 2, kSectorBytes = 4096, kProgramBytes = 4;
+    static constexpr std::uint32_t kSectors = 4, kSectorBytes = 4096, kProgramBytes = 4;
     bool erase(std::uint32_t) noexcept { return true; }
     bool program(std::uint32_t, std::span<const std::uint8_t>) noexcept { return true; }
     void read(std::uint32_t, std::span<std::uint8_t>) noexcept {}

@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-#include "common/protocol/crc32.hpp"
+#include "common/base/crc32.hpp"
 #include "common/protocol/frame.hpp"
 #include "common/protocol/messages.hpp"
 

@@ -82,6 +82,7 @@ TEST(Schema, SendsEveryMember) {
   EXPECT_EQ(kBodySize<StageParameter>, 3U + 2 + 4 + 24);
   EXPECT_EQ(kBodySize<SetTelemetry>, 3U + 2 + 4);
   EXPECT_EQ(kBodySize<FaultReport>, 3U + 4 + 1 + 8 + 4);
+  EXPECT_EQ(kBodySize<FaultLogEntry>, 3U + 4 + 4 + 8 + 1 + 1 + 4 + 4 + 4 + 2);
   EXPECT_EQ(kBodySize<SegmentDone>, 3U + 2 + 1 + 8);
   EXPECT_EQ(kBodySize<FaultRaised>, 3U + 1 + 8);
   EXPECT_EQ(kBodySize<Telemetry>, 3U + 12 + 28 + 8 + 8 + 8 + 8 + 4 + 4 + 7);

@@ -60,9 +60,9 @@ TEST(MockFlash, RefusesMisuseAndBreaksOnDemand) {
   Flash flash;
   const std::array<std::uint8_t, 8> grain{};
   EXPECT_FALSE(flash.program(4, grain)) << "unaligned";
-  EXPECT_FALSE(flash.program(2 * 4096, grain)) << "beyond the part";
+  EXPECT_FALSE(flash.program(4 * 4096, grain)) << "beyond the part";
   EXPECT_FALSE(flash.program(0, std::span(grain).first(4))) << "less than a grain";
-  EXPECT_FALSE(flash.erase(2));
+  EXPECT_FALSE(flash.erase(4));
   flash.broken = true;
   EXPECT_FALSE(flash.erase(0));
   EXPECT_FALSE(flash.program(0, grain));

@@ -35,6 +35,7 @@ TEST(Flash, MisuseIsRefusedAndChangesNothing) {
   EXPECT_FALSE(flash.program(0xFFFF'FFFC, word)) << "far beyond the part";
   EXPECT_FALSE(flash.erase(Flash::kSectors));
   EXPECT_EQ(content(flash), Bytes(Flash::kBytes, 0xFF));
+  EXPECT_EQ(flash.misuses(), 6);
   Bytes into(8, 0);
   flash.read(Flash::kBytes - 4, into);
   EXPECT_EQ(into, Bytes(8, 0xFF));
@@ -102,6 +103,65 @@ TEST(Flash, TornEraseMixesBits) {
   EXPECT_GT(std::count_if(sector.begin(), sector.end(), [](auto b) { return b != 0x00 && b != 0xFF; }), 3000);
   EXPECT_TRUE(
       std::all_of(flash.content().begin() + 4096, flash.content().end(), [](auto b) { return b == 0xFF; }));
+}
+
+TEST(Flash, ACutInAByteMixesThatByteAndNoOther) {
+  Flash flash;
+  flash.cut_power_after(1000, Tear::byte, 3);
+  EXPECT_FALSE(flash.program(0, Bytes(4096, 0x00)));
+  EXPECT_EQ(std::count(flash.content().begin(), flash.content().end(), 0x00), 1000);
+  EXPECT_EQ(std::count(flash.content().begin() + 1001, flash.content().end(), 0xFF), Flash::kBytes - 1001);
+}
+
+TEST(Flash, TornBitsAreAFunctionOfSeedPlaceAndAddressWhateverWentBefore) {
+  const auto torn = [](std::uint64_t seed, int programs_before) {
+    Flash flash;
+    for (int i = 0; i < programs_before; ++i) EXPECT_TRUE(flash.program(4096, Bytes(4, 0xFF)));
+    flash.cut_power_after(100, Tear::torn, seed);
+    EXPECT_FALSE(flash.program(0, Bytes(4096, 0x00)));
+    return content(flash);
+  };
+  EXPECT_EQ(torn(1, 0), torn(1, 5));
+  EXPECT_NE(torn(1, 0), torn(2, 0));
+}
+
+TEST(Flash, RotTurnsBitsOver) {
+  Flash flash;
+  flash.rot(7, 0x81);
+  EXPECT_EQ(flash.content()[7], 0x7E);
+  flash.rot(7, 0x01);
+  EXPECT_EQ(flash.content()[7], 0x7F);
+  EXPECT_TRUE(flash.erase(0)) << "and an erase puts it right";
+}
+
+TEST(Flash, ACellThatSticksHoldsItsLevelWhateverIsDone) {
+  Flash low, high;
+  low.stick(5, 0x10, false);
+  EXPECT_EQ(low.content()[5], 0xEF);
+  EXPECT_FALSE(low.erase(0)) << "which does not read back";
+  EXPECT_EQ(low.content()[5], 0xEF);
+  high.stick(5, 0x10, true);
+  EXPECT_FALSE(high.program(4, Bytes(4, 0x00)));
+  EXPECT_EQ(high.content()[5], 0x10);
+  EXPECT_TRUE(high.erase(0));
+  EXPECT_TRUE(high.program(4, Bytes(4, 0x10))) << "and nobody notices who wants what it has";
+  high.rot(5, 0x10);
+  EXPECT_EQ(high.content()[5], 0x10);
+}
+
+TEST(Flash, AFailingSectorStaysAsItIsAndItsNeighboursWork) {
+  for (const FlashWork kind : {FlashWork::erase, FlashWork::program}) {
+    Flash flash;
+    for (std::uint32_t at = 0; at < Flash::kBytes; at += 4096) ASSERT_TRUE(flash.program(at, Bytes(8, 0x0F)));
+    flash.fail(1, kind);
+    const bool erases = kind != FlashWork::erase;
+    EXPECT_EQ(flash.erase(1), erases);
+    EXPECT_EQ(flash.program(4096, Bytes(4, 0x00)), !erases);
+    EXPECT_EQ(flash.content()[4096 + 7], erases ? 0xFF : 0x0F);
+    EXPECT_TRUE(flash.program(8192, Bytes(4, 0x00)));
+    EXPECT_TRUE(flash.erase(0));
+    EXPECT_EQ(flash.erases(1), 1U) << "wear counts work that does not take";
+  }
 }
 
 TEST(Flash, WorkIsCountedInBytes) {

@@ -111,7 +111,7 @@ class RemoteBoard {
     static std::uint32_t number(int port) { return static_cast<std::uint32_t>(port + 1); }
   };
   struct Flash {
-    static constexpr std::uint32_t kSectors = 4, kSectorBytes = 4096, kProgramBytes = 8;
+    static constexpr std::uint32_t kSectors = 6, kSectorBytes = 4096, kProgramBytes = 8;
     Puppet& puppet;
     bool erase(std::uint32_t sector) noexcept { return puppet.call(Call::erase, sector) != 0; }
     bool program(std::uint32_t offset, std::span<const std::uint8_t> bytes) noexcept {

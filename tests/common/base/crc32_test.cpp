@@ -1,4 +1,4 @@
-#include "common/protocol/crc32.hpp"
+#include "common/base/crc32.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -28,7 +28,7 @@ TEST(Crc32, GivesThePublishedCheckValues) {
 
 TEST(Crc32, IsKnownAtCompileTime) {
   constexpr std::uint8_t kDigits[] = {'1', '2', '3', '4', '5', '6', '7', '8', '9'};
-  static_assert(crc32(kDigits) == 0xCBF43926U);
+  static_assert(crc32<1>(kDigits) == 0xCBF43926U && crc32<4>(kDigits) == 0xCBF43926U);
 }
 
 /// The definition, one bit at a time.
@@ -43,8 +43,9 @@ std::uint32_t crc_by_definition(const std::vector<std::uint8_t>& bytes) {
   return ~crc;
 }
 
-RC_GTEST_PROP(Crc32, IsTheDivisionBitByBit, (std::vector<std::uint8_t> bytes)) {
-  RC_ASSERT(crc32(bytes) == crc_by_definition(bytes));
+RC_GTEST_PROP(Crc32, IsTheDivisionBitByBitInSlicesOrNot, (std::vector<std::uint8_t> bytes)) {
+  RC_ASSERT(crc32<4>(bytes) == crc_by_definition(bytes));
+  RC_ASSERT(crc32<1>(bytes) == crc_by_definition(bytes));
 }
 
 RC_GTEST_PROP(Crc32, OfTwoPartsOneAfterTheOtherIsTheCrcOfTheWhole, (std::vector<std::uint8_t> bytes)) {
