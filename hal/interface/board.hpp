@@ -89,7 +89,7 @@ concept Ports = requires(T& ports, int port, std::span<std::uint8_t> into,
 };
 
 /// NOR flash set aside for parameters and fault log: `kSectors` sectors of `kSectorBytes`, four at least.
-/// Main loop only, robot at rest: the processor may stand still for a whole erase.
+/// Main loop only; erase and program with the robot at rest: the processor may stand still for a whole erase.
 ///   erase(sector)            every byte of the sector becomes 0xFF
 ///   program(offset, bytes)   clears bits: the result is old AND new. offset and size are multiples of
 ///                            kProgramBytes and stay within one sector.
