@@ -88,7 +88,7 @@ inline constexpr auto kParamTable = std::to_array<ParamRow>({
                "Left feed-forward: voltage per wheel speed (back-EMF)"),
     binary_row(Param::kA_left, "kA_left", "Vs^2/m", 16, {1.1, 0, 100},
                "Left feed-forward: voltage per wheel acceleration"),
-    binary_row(Param::observer_bandwidth, "observer_bandwidth", "rad/s", 16, {150, 1, 500},
+    binary_row(Param::observer_bandwidth, "observer_bandwidth", "rad/s", 16, {200, 1, 500},
                "Wheel speed observer: bandwidth"),
     binary_row(Param::path_k_along, "path_k_along", "1/s", 16, {8, 0, 1000},
                "Path following: gain on the error along the path"),

@@ -12,7 +12,7 @@
 ///   observer  v(z) / dx(z) = a^2 / (1 - (1 - a) z^-1)^2 / T,   a = w T  (common/control/observer.hpp)
 ///   PI        u(z) / e(z) = kp + ki T z^-1 / (1 - z^-1)        (integrates after it acts)
 ///
-/// At low frequency the observer is a lag of 2 / w: 20 ms at its default of 100 rad/s, far more than the
+/// At low frequency the observer is a lag of 2 / w: 10 ms at its default of 200 rad/s, far more than the
 /// tick. Friction is not in here; it is the feed-forward's, and what that misses is the integral's.
 namespace astro::identification {
 

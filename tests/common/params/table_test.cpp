@@ -83,7 +83,7 @@ TEST(ParamTable, ScalesAreExact) {
   EXPECT_EQ(param_row(Param::wheel_diameter).default_raw, 72'000'000);
   EXPECT_EQ(param_row(Param::speed_limit).default_raw, 750'000);
   EXPECT_EQ(param_row(Param::motor_voltage_max).default_raw, 12'000);
-  EXPECT_EQ(param_row(Param::observer_bandwidth).default_raw, 150 << 16);
+  EXPECT_EQ(param_row(Param::observer_bandwidth).default_raw, 200 << 16);
   EXPECT_EQ(param_row(Param::gear_numerator).default_raw, 438);
   EXPECT_EQ(param_row(Param::motor_polarity_left).minimum_raw, -1);
 }

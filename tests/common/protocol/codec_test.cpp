@@ -5,6 +5,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -96,10 +97,12 @@ TEST(Codec, WritesNumbersLittleEndianAndPacked) {
                            .length_nm = -2,
                            .angle = 0x0102030405060708,
                            .speed_umps = 750'000,
-                           .yaw_rate_uradps = std::numeric_limits<std::int32_t>::min()};
-  EXPECT_EQ(body_of(segment, 0x0304), (Bytes{0x09, 0x04, 0x03, 0x02, 0x02, 0x01, 0xFE, 0xFF, 0xFF, 0xFF,
-                                             0xFF, 0xFF, 0xFF, 0xFF, 0x08, 0x07, 0x06, 0x05, 0x04, 0x03,
-                                             0x02, 0x01, 0xB0, 0x71, 0x0B, 0x00, 0x00, 0x00, 0x00, 0x80}));
+                           .yaw_rate_uradps = std::numeric_limits<std::int32_t>::min(),
+                           .dwell_ms = 0x0A0B0C0D};
+  EXPECT_EQ(body_of(segment, 0x0304),
+            (Bytes{0x09, 0x04, 0x03, 0x02, 0x02, 0x01, 0xFE, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF,
+                   0xFF, 0xFF, 0x08, 0x07, 0x06, 0x05, 0x04, 0x03, 0x02, 0x01, 0xB0, 0x71,
+                   0x0B, 0x00, 0x00, 0x00, 0x00, 0x80, 0x0D, 0x0C, 0x0B, 0x0A}));
 }
 
 TEST(Codec, WritesOnlyTheChosenTelemetryGroupsInBitOrder) {
@@ -115,7 +118,7 @@ TEST(Codec, WritesOnlyTheChosenTelemetryGroupsInBitOrder) {
 
 TEST(Codec, RefusesATelemetryGroupThatItDoesNotKnow) {
   Bytes body = body_of(Telemetry{}, 0);
-  for (int group = 8; group < 32; ++group) {
+  for (int group = std::bit_width(Telemetry::kAll); group < 32; ++group) {
     Bytes newer = body;
     newer[static_cast<std::size_t>(11 + group / 8)] = static_cast<std::uint8_t>(1 << (group % 8));
     EXPECT_EQ(decode<Telemetry>(newer).error(), DecodeError::bad_value);

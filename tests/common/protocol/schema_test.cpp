@@ -73,9 +73,11 @@ TEST(Schema, ExplainsEveryMessageAndNamesEveryFieldOnce) {
 // byte of their members once, so a missing one shows as a size too small.
 TEST(Schema, SendsEveryMember) {
   EXPECT_EQ(kBodySize<HelloReply>, 3U + 2 + 3 + 16 + 24 + 24 + 2 + 2);
-  EXPECT_EQ(kBodySize<Status>, 3U + 8 + 1 + 4 + 2 + 2 + 4 + 4 + 4 + 4 + 1);
+  EXPECT_EQ(kBodySize<Status>, 3U + 8 + 1 + 4 + 2 + 2 + 4 + 4 + 4 + 4 + 4 + 1);
   EXPECT_EQ(kBodySize<Velocity>, 3U + 4 + 4);
-  EXPECT_EQ(kBodySize<AddSegment>, 3U + 1 + 2 + 8 + 8 + 4 + 4);
+  EXPECT_EQ(kBodySize<AddSegment>, 3U + 1 + 2 + 8 + 8 + 4 + 4 + 4);
+  EXPECT_EQ(kBodySize<WheelVoltage>, 3U + 4 + 4);
+  EXPECT_EQ(kBodySize<SegmentStarted>, 3U + 2 + 8);
   EXPECT_EQ(kBodySize<SetPose>, 3U + 8 + 8 + 8);
   EXPECT_EQ(kBodySize<ParameterInfo>, 3U + 2 + 24 + 8 + 1 + 1 + 4 + 4 + 4 + 120);
   EXPECT_EQ(kBodySize<ParameterValue>, 3U + 2 + 4 + 4 + 24 + 24);
@@ -85,7 +87,7 @@ TEST(Schema, SendsEveryMember) {
   EXPECT_EQ(kBodySize<FaultLogEntry>, 3U + 4 + 4 + 8 + 1 + 1 + 4 + 4 + 4 + 2);
   EXPECT_EQ(kBodySize<SegmentDone>, 3U + 2 + 1 + 8);
   EXPECT_EQ(kBodySize<FaultRaised>, 3U + 1 + 8);
-  EXPECT_EQ(kBodySize<Telemetry>, 3U + 12 + 28 + 8 + 8 + 8 + 8 + 4 + 4 + 7);
+  EXPECT_EQ(kBodySize<Telemetry>, 3U + 12 + 28 + 8 + 8 + 8 + 8 + 4 + 4 + 7 + 14);
 }
 
 TEST(Schema, NamesTheTelemetryGroupsByTheBitsOfTheirConstants) {

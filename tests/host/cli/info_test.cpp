@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/protocol/session.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/pty.hpp"
 
@@ -38,7 +39,7 @@ TEST_F(Info, SaysWhoTheRobotIsAndHow) {
   const json info = json::parse(outcome.out);
   EXPECT_EQ(info["name"], "ASTRO");
   EXPECT_EQ(info["board"], "sim");
-  EXPECT_EQ(info["protocol"], 1);
+  EXPECT_EQ(info["protocol"], protocol::kProtocolVersion);
   EXPECT_EQ(info["mode"], "disarmed");
   EXPECT_EQ(info["faults"], json::array());
   EXPECT_NEAR(info["battery_V"], 12.0, 0.1);  // supply_V of the simulated robot, at rest

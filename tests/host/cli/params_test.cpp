@@ -58,8 +58,8 @@ TEST_F(Params, SetComesInForceAtOnce) {
 }
 
 TEST_F(Params, GetPrintsTheFewestDigitsThatGiveTheValueAgain) {
-  EXPECT_EQ(get("kS_left"), "0.9\n");  // held as 0.899993896484375
-  EXPECT_THAT(params({"set", "kS_left=0.9"}).err, HasSubstr("already"));
+  EXPECT_EQ(get("kV_left"), "12.2\n");  // held as 12.1999969482421875
+  EXPECT_THAT(params({"set", "kV_left=12.2"}).err, HasSubstr("already"));
   EXPECT_EQ(params({"get", "b", "c_R"}).out, "b=0.29\nc_R=1\n");
 }
 

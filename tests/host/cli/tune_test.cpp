@@ -99,8 +99,8 @@ TEST(Tune, OnAStandOffersFrictionAndGainOnlyAndLoadsNothingUnasked) {
   for (const json& change : result["changes"])
     EXPECT_THAT(change["name"].get<std::string>(), testing::AnyOf(HasSubstr("kS_"), HasSubstr("kV_")));
   EXPECT_FALSE(result["uploaded"]);
-  EXPECT_EQ(on_robot(simulator, "kp"), 40);
-  EXPECT_NEAR(on_robot(simulator, "kS_left"), 0.9, 1e-4);
+  EXPECT_EQ(on_robot(simulator, "kp"), 60);
+  EXPECT_NEAR(on_robot(simulator, "kS_left"), 0.5, 1e-4);
 }
 
 TEST(Tune, TextSaysModelGainsAndSteps) {

@@ -29,8 +29,8 @@ TEST(Prediction, FrictionHoldsUntilTheVoltageBreaksItAndTheIntegralGetsThere) {
   const auto course = predict(loop, step);
   std::size_t moves = 0;
   while (moves < course.size() && course[moves].true_mps == 0) ++moves;
-  EXPECT_NEAR(static_cast<double>(moves), 1.0 / (100 * 0.05) * 1000, 5)
-      << "ki e t reaches the breakaway voltage";
+  EXPECT_NEAR(static_cast<double>(moves), 1.0 / (100 * 0.05) * 1000, 15)
+      << "ki e t reaches the breakaway voltage; for 2 / w the observer believes that the wheel jumped too";
   EXPECT_NEAR(course.back().true_mps, 0.05, 0.02);
 }
 
@@ -39,8 +39,10 @@ TEST(Prediction, TheLimitHoldsAndTheIntegralDoesNotWindUp) {
   std::vector<double> step(2000, 1.0);  // would need 12.7 V
   step.resize(3000, 0.1);
   const auto course = predict(loop, step);
-  EXPECT_DOUBLE_EQ(course[1999].voltage_V, 3);
-  EXPECT_NEAR(course[1999].true_mps, (3 - kMotor.kS) / kMotor.kV, 1e-3);
+  for (const Predicted& at : course) ASSERT_LE(std::abs(at.voltage_V), 3);
+  // The set points shrink until they can be reached, so the voltage is at the limit now and then.
+  EXPECT_NEAR(course[1999].voltage_V, 3, 0.1);
+  EXPECT_NEAR(course[1999].true_mps, (3 - kMotor.kS) / kMotor.kV, 5e-3);
   EXPECT_NEAR(course.back().true_mps, 0.1, 0.005);
   EXPECT_LT(course[2400].true_mps, 0.12) << "at once, not after the integral has run down";
 }

@@ -275,6 +275,7 @@ TEST_P(Usb, GoesOnWhenTheCableIsPulledAndPluggedInAgain) {
 TEST_P(Usb, StopsDrivingWhenTheCableIsPulled) {
   configure();
   open_port();
+  teensy_.run_for(50ms);  // through boot
   ASSERT_TRUE(ask(protocol::Arm{}, 91));
   ASSERT_TRUE(ask(protocol::Velocity{200'000, 0}, 92));
   teensy_.run_for(200ms);
@@ -294,6 +295,7 @@ TEST_P(Usb, AHostThatSets134BaudGetsTheBootLoaderOfARobotAtRest) {
 TEST_P(Usb, AnArmedRobotPays134BaudNoHeed) {
   configure();
   open_port();
+  teensy_.run_for(50ms);  // through boot
   ASSERT_TRUE(ask(protocol::Arm{}, 95));
   ASSERT_EQ(set_baud(134), Outcome::done);
   teensy_.run_for(500ms);
