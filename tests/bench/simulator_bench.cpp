@@ -31,6 +31,7 @@ double speed_against_real_time() {
   auto robot = std::make_shared<simulator::VirtualRobot>(reference_robot(), simulator::MocapConfig{});
   link::Client client(std::make_unique<simulator::InProcessTransport>(robot));
   client.connect();
+  client.pump(std::chrono::milliseconds(50));  // through boot
   client.request(protocol::Arm{});
   client.request(protocol::SetTelemetry{10, protocol::Telemetry::kPose | protocol::Telemetry::kCounts});
   for (const auto& segment : link::square(3, link::Sense::ccw, {0.3, 1.0})) client.request(segment);
