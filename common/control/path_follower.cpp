@@ -81,7 +81,7 @@ BodyTwist PathFollower::correction(const Pose& actual, std::int32_t v_ref_umps) 
   close_ = !exceeds(along_um, kClose_um) && !exceeds(heading_urad, kClose_urad);
 
   // (um/s) * um = 1e-12, brought back to 1e-6 by 1 / 10^6 = 4295 / 2^32.
-  const auto swept_8 = static_cast<std::int32_t>(mul_wide(v_ref_umps, cross_um) >> 8);
+  const auto swept_8 = saturate32(mul_wide(v_ref_umps, cross_um) >> 8);
   const auto swept = static_cast<std::int32_t>(mul_wide(swept_8, 4295) >> 24);
   return {saturate32(k_along_.scale(along_um)),
           saturate32(k_heading_.scale(heading_urad) + k_cross_.scale(swept))};

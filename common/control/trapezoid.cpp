@@ -73,7 +73,7 @@ bool Trapezoid::plan(const Segment& segment, const MotionLimits& limits, Trapezo
   if (!acceptable(segment)) return false;
   if (segment.dwell_ms != 0) {
     out = {};
-    out.level_ = segment.dwell_ms;
+    out.level_ = out.dwell_ = segment.dwell_ms;
     return true;
   }
   const Motion length{length_um(segment.length_nm), tighter(segment.speed_umps, limits.speed_umps),
@@ -134,11 +134,15 @@ Segment Trapezoid::rest() const {
   // Whole metres and the rest of one, so that no product leaves 64 bits.
   constexpr int kBits = 50, kFineBits = 30;
   constexpr std::int64_t kNanometresPerMetre = 1'000'000'000;
-  const std::int64_t fine = (travel & ((std::int64_t{1} << kBits) - 1)) >> (kBits - kFineBits);
+  const std::int64_t whole = travel >> kBits;
+  const std::int64_t fine =
+      ((travel & ((std::int64_t{1} << kBits) - 1)) + (std::int64_t{1} << (kBits - kFineBits - 1))) >>
+      (kBits - kFineBits);
   Segment left;
-  left.length_nm = (travel >> kBits) * kNanometresPerMetre +
+  left.length_nm = whole * kNanometresPerMetre +
                    ((fine * kNanometresPerMetre + (std::int64_t{1} << (kFineBits - 1))) >> kFineBits);
   left.angle_32 = (total_.turn - given_.turn) >> 20;
+  left.dwell_ms = dwell_ != 0 ? dwell_ - tick_ : 0;
   return left;
 }
 

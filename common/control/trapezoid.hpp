@@ -44,6 +44,7 @@ class Trapezoid {
  private:
   std::int32_t ramp_ = 0, level_ = 0;
   std::int32_t tick_ = 0;
+  std::int32_t dwell_ = 0;
   bool cut_ = false;
   // Fine enough that what the last step makes up is less than one share, for any segment and any valid
   // limits.

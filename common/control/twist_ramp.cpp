@@ -52,7 +52,8 @@ TwistRamp::Limits TwistRamp::per_tick(std::int32_t acceleration, std::int32_t je
   const std::int64_t change = at_least_one((std::int64_t{acceleration} << kBits) / kTickHz);
   // 1e-3 per s^3 is 1e-6 of the unit per tick^2 in thousandths.
   const std::int64_t jerk = (std::int64_t{jerk_milli} << kBits) / 1000;
-  return {change, jerk_milli != 0 ? at_least_one(jerk) : change};
+  const std::int64_t least = change / kSlowestRise_ticks + 1;
+  return {change, jerk_milli == 0 ? change : jerk > least ? jerk : least};
 }
 
 void TwistRamp::set_limits(const MotionLimits& limits) {
@@ -78,7 +79,8 @@ void TwistRamp::plan() {
   const std::int64_t v_way = magnitude(v_.gap_to(target_.v_umps)) >> kBits;
   const std::int64_t omega_way = magnitude(omega_.gap_to(target_.omega_uradps)) >> kBits;
   Limits v = v_limits_, omega = omega_limits_;
-  if (v_way != 0 && omega_way != 0) {
+  // What is already changing must be able to stop changing: a share of its jerk would not do.
+  if (v_way != 0 && omega_way != 0 && v_.steady() && omega_.steady()) {
     const bool v_leads = v_way * omega.acceleration >= omega_way * v.acceleration;
     if (v_leads) {
       follow(omega, v, omega_way, v_way);

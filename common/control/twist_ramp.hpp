@@ -9,7 +9,9 @@ namespace astro {
 
 /// A velocity that follows a target within limits of acceleration and jerk, and then sits on it exactly.
 /// Speed and yaw rate take the same time: from rest, and from any steady velocity, their ratio changes
-/// evenly, so a robot that starts into a curve is on that curve from the first millimetre.
+/// evenly, so a robot that starts into a curve is on that curve from the first millimetre. A new target in
+/// the middle of a ramp is reached by each as fast as its own limits allow. No value lies beyond all of the
+/// start and the targets so far.
 ///
 /// Units   1e-6 m/s, 1e-6 rad/s; one advance() a tick (1 ms).
 /// Cost    set_target: some divisions. advance: constant, four 64-bit multiplies; callable from the tick.
@@ -43,6 +45,7 @@ class TwistRamp {
     std::int64_t gap() const { return target_ - value_; }
     std::int64_t gap_to(std::int32_t target) const { return (std::int64_t{target} << kBits) - value_; }
     bool arrived() const { return value_ == target_ && rate_ == 0; }
+    bool steady() const { return rate_ == 0; }
 
    private:
     bool stops_within(std::int64_t rate, std::int64_t gap) const;
@@ -57,6 +60,8 @@ class TwistRamp {
     std::int64_t acceleration = 1, jerk = 1;
   };
   static constexpr int kBits = 12;
+  // However small the jerk, the acceleration is there after half a second, and gone.
+  static constexpr std::int64_t kSlowestRise_ticks = 500;
 
   void plan();
   static Limits per_tick(std::int32_t acceleration, std::int32_t jerk_milli);

@@ -18,6 +18,11 @@ void WheelPair::set_gains(const ParameterSet& set, const WheelSpeeds& set_points
   // 1/s in 2^-16 becomes (um/s per nm) in 2^-32.
   k_sync_ = saturate32((std::int64_t{set.get(Param::k_sync)} << 16) / 1000);
   const Points now = points(set_points, accelerations, measured);
+  if (limited_) {  // the output will not bump: it is at the limit, and what is beyond is not to be kept
+    left_.set_gains(left_gains(set));
+    right_.set_gains(right_gains(set));
+    return;
+  }
   left_.set_gains(left_gains(set), before.left, now.left);
   right_.set_gains(right_gains(set), before.right, now.right);
 }
@@ -27,9 +32,11 @@ void WheelPair::reset() {
   right_.reset();
   behind_nm_ = 0;
   share_16_ = kWhole;
+  limited_ = false;
 }
 
 void WheelPair::note(bool limited) {
+  limited_ = limited;
   share_16_ += limited ? -kShareStep : kShareStep;
   if (share_16_ > kWhole) share_16_ = kWhole;
   if (share_16_ < 0) share_16_ = 0;

@@ -62,6 +62,7 @@ class WheelPair {
   std::int32_t k_sync_ = 0;     // 2^-32 um/s per nm
   std::int32_t behind_nm_ = 0;  // D
   std::int32_t share_16_ = kWhole;
+  bool limited_ = false;  // in the last tick
 };
 
 inline WheelSpeeds WheelPair::shrunk(const WheelSpeeds& set_points) const {

@@ -59,12 +59,23 @@ Result<void, Param> check_geometry(const ParameterSet& set) {
 
 }  // namespace
 
-bool same_robot(const ParameterSet& a, const ParameterSet& b) {
-  static_assert(param_index(Param::c_R) == 0 && param_index(Param::encoder_polarity_right) == 10,
-                "the rows of the robot's build come first");
-  for (std::size_t i = 0; i <= param_index(Param::encoder_polarity_right); ++i)
-    if (a.get(kParamTable[i].id) != b.get(kParamTable[i].id)) return false;
-  return true;
+bool only_gains_differ(const ParameterSet& a, const ParameterSet& b) {
+  constexpr std::array kGains{Param::kp,
+                              Param::ki,
+                              Param::kS_left,
+                              Param::kV_left,
+                              Param::kA_left,
+                              Param::kS_right,
+                              Param::kV_right,
+                              Param::kA_right,
+                              Param::k_sync,
+                              Param::path_k_along,
+                              Param::path_k_cross,
+                              Param::path_k_heading,
+                              Param::observer_bandwidth};
+  ParameterSet other = b;
+  for (const Param gain : kGains) other.set(gain, a.get(gain));
+  return other == a;
 }
 
 Result<void, Param> validate(const ParameterSet& set) {

@@ -58,8 +58,8 @@ class ParameterSet {
   std::array<ParamText, set_detail::count_texts(kParamCount)> texts_{};
 };
 
-/// The two sets mean the same robot: they differ in nothing that counts, motors or odometry are read by.
-bool same_robot(const ParameterSet& a, const ParameterSet& b);
+/// The two sets differ in nothing but gains: what may change while the wheels are driven.
+bool only_gains_differ(const ParameterSet& a, const ParameterSet& b);
 
 /// Refuses a set that the robot could not run with and names the row to change:
 ///   any row                a value outside its limits; a text too short, too long or not printable ASCII

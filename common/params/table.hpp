@@ -126,9 +126,10 @@ inline constexpr auto kParamTable = std::to_array<ParamRow>({
     binary_row(Param::k_sync, "k_sync", "1/s", 16, {6, 0, 400},
                "Wheel coupling: how fast a wheel that fell behind is waited for and catches up"),
     decimal_row(Param::jerk_limit, "jerk_limit", "m/s^3", 3, {20, 0, 1000},
-                "Steepest change of commanded acceleration; 0: none"),
-    decimal_row(Param::yaw_jerk_limit, "yaw_jerk_limit", "rad/s^3", 3, {120, 0, 10'000},
-                "Steepest change of commanded yaw acceleration; 0: none"),
+                "Steepest change of commanded acceleration, at least twice the limit per second; 0: none"),
+    decimal_row(
+        Param::yaw_jerk_limit, "yaw_jerk_limit", "rad/s^3", 3, {120, 0, 10'000},
+        "Steepest change of commanded yaw acceleration, at least twice the limit per second; 0: none"),
     integer_row(Param::stall_time, "stall_time", "ms", {300, 50, 5000},
                 "The robot stops when half the voltage or more does not move a wheel for this long"),
 });

@@ -139,8 +139,7 @@ struct ApplyParameters {
   static constexpr std::uint8_t kId = 0x1A;
   static constexpr std::string_view kName = "ApplyParameters";
   static constexpr std::string_view kDoc =
-      "The staged set comes in force until the next restart; while driving, if gains and limits alone "
-      "differ.";
+      "The staged set comes in force until the next restart; while driving, if nothing but gains differs.";
   static constexpr std::tuple<> kFields{};
   bool operator==(const ApplyParameters&) const = default;
 };

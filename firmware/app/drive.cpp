@@ -19,11 +19,13 @@ BodyTwist within_limits(const BodyTwist& twist, const MotionLimits& limits) {
           static_cast<std::int32_t>(twist.omega_uradps * most / wanted)};
 }
 
-// Somebody has carried the robot away from where its path goes on.
+// Somebody has carried the robot away from where its path goes on, or turned it.
 bool strayed(const Pose& reference, const Pose& actual) {
   constexpr std::int64_t kFar = (std::int64_t{1} << Pose::kPositionBits) / 20;  // 50 mm
   const std::int64_t x = reference.x - actual.x, y = reference.y - actual.y;
-  return x > kFar || x < -kFar || y > kFar || y < -kFar;
+  constexpr std::int32_t kFar_32 = 0x0400'0000;  // 1/64 turn
+  const auto turn_32 = static_cast<std::int32_t>((reference.theta - actual.theta) >> 32);
+  return x > kFar || x < -kFar || y > kFar || y < -kFar || exceeds(turn_32, kFar_32);
 }
 
 }  // namespace
@@ -86,7 +88,8 @@ void Drive::follow_state() {
 }
 
 void Drive::begin_ramp() {
-  if (steering_ == Steering::path) ramp_.set(to_body(geometry_, wheels_.set_points()));
+  // From here at a steady velocity: a ramp that was still going up goes down at once.
+  ramp_.set(steering_ == Steering::path ? to_body(geometry_, wheels_.set_points()) : ramp_.value());
   ramp_.set_target({});
   end_segments();
   steering_ = Steering::none;
@@ -128,7 +131,7 @@ bool Drive::drive_velocity(const BodyTwist& twist) {
   const bool from_path = on_path();
   if (!supervisor_.request(Event::drive)) return false;
   supervisor_.steered();
-  if (from_rest) ramp_.set({});
+  if (from_rest) ramp_.set(standing() ? BodyTwist{} : within_limits(this->twist(), limits_));
   if (from_path) ramp_.set(to_body(geometry_, wheels_.set_points()));
   end_segments();
   paused_ = false;
@@ -226,7 +229,7 @@ void Drive::put_back() {
 
 void Drive::end_segment() {
   const Segment left = follower_.profile().rest();
-  if (left.length_nm != 0 || left.angle_32 != 0) {
+  if (left.length_nm != 0 || left.angle_32 != 0 || left.dwell_ms != 0) {
     put_back();
   } else {
     report(SegmentEvent::Kind::completed, running_.tag);

@@ -44,10 +44,13 @@ class Drive {
   bool pause();   // comes to rest on the path, the queue waits; false while something else moves the wheels
   void resume() { paused_ = false; }
   void emergency_stop() { raise(Fault::emergency_stop); }
-  bool drive_velocity(const BodyTwist& twist);                   // false unless armed
-  bool drive_wheels(const WheelVoltages& voltages);              // open loop; false unless armed
-  bool add_segment(const Segment& segment, std::uint16_t tag);   // false unless armed with room
-  void set_pose(const Pose& pose) { odometry_.set_pose(pose); }  // only at rest
+  bool drive_velocity(const BodyTwist& twist);                  // false unless armed
+  bool drive_wheels(const WheelVoltages& voltages);             // open loop; false unless armed
+  bool add_segment(const Segment& segment, std::uint16_t tag);  // false unless armed with room
+  void set_pose(const Pose& pose) {                             // only at rest
+    odometry_.set_pose(pose);
+    path_open_ = false;
+  }
   void raise(Fault fault);
   bool clear_faults() { return supervisor_.clear(); }  // false while the wheels are driven
 
@@ -68,7 +71,12 @@ class Drive {
   /// Commands or segments move the wheels, or a ramp does.
   bool driving() const { return supervisor_.permission() == Permission::drive; }
   bool at_rest() const { return !driving(); }
-  bool queue_full() const { return queue_.size() >= kQueueLength; }
+  /// At rest, and the wheels do not roll on either.
+  bool stands() const { return at_rest() && standing(); }
+  /// Also while there is no room to tell how another segment ended.
+  bool queue_full() const {
+    return queue_.size() >= kQueueLength || queue_.size() + events_.size() + 2 > kEventsLength;
+  }
   Mode mode() const;
   const Pose& pose() const { return odometry_.pose(); }
   const Wheels& wheels() const { return wheels_; }

@@ -69,17 +69,17 @@ class ParameterDesk {
   void revert() { staged_ = active_; }
   void stage_defaults() { staged_ = ParameterSet::defaults(); }
 
-  /// In force now, forgotten by a restart. While `driving`, only a set that means the same robot.
+  /// In force now, forgotten by a restart. While `driving`, only gains may change.
   Answer<protocol::Ack> apply(bool driving) {
     const auto verdict = validate(staged_);
     if (!verdict)
       return error(protocol::ErrorCode::invalid_parameter, static_cast<std::uint16_t>(verdict.error()));
-    if (driving && !same_robot(active_, staged_)) return error(protocol::ErrorCode::moving);
+    if (driving && !only_gains_differ(active_, staged_)) return error(protocol::ErrorCode::moving);
     active_ = staged_;
     return protocol::Ack{};
   }
 
-  /// Flash first, then memory: what is in force is always what a restart would find.
+  /// Flash first, then memory: what is in force then is what a restart would find.
   Answer<protocol::Ack> commit() {
     const auto verdict = validate(staged_);
     if (!verdict)

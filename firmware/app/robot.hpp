@@ -142,14 +142,16 @@ class Robot {
       send(port, session.answer());
       return;
     }
-    note_driver(port, header.message_id);
+    note_host(port, header.message_id);
     bool known = false;
     protocol::Requests::visit([&]<protocol::Message M>() {
       if (M::kId != header.message_id) return;
       known = true;
       const auto request = protocol::decode<M>(body);
       if (request) {
-        respond(port, header, handle(port, *request));
+        const auto reply = handle(port, *request);
+        if (reply) note_driver(port, header.message_id);
+        respond(port, header, reply);
       } else {
         respond(port, header, Answer<typename M::Reply>(error(ErrorCode::malformed)));
       }
@@ -159,12 +161,23 @@ class Robot {
 
   /// Only the host that drives keeps a drive alive: not one that looks on at another port, and not one that
   /// says Hello where the driver was, which must have gone.
-  void note_driver(int port, std::uint8_t message) {
-    constexpr std::array kDriving{protocol::Arm::kId, protocol::Velocity::kId, protocol::WheelVoltage::kId,
-                                  protocol::AddSegment::kId};
-    if (std::find(kDriving.begin(), kDriving.end(), message) != kDriving.end()) driver_port_ = port;
-    if (port == driver_port_ && message == protocol::Hello::kId) driver_port_ = kNobody;
+  void note_host(int port, std::uint8_t message) {
     if (port != driver_port_) return;
+    if (message == protocol::Hello::kId) {
+      driver_port_ = kNobody;
+      return;
+    }
+    auto hold = board_.hold_tick();
+    drive_.host_seen();
+  }
+
+  /// The host that drives is the last whose motion request was taken; a pause and its end are such, too.
+  void note_driver(int port, std::uint8_t message) {
+    constexpr std::array kDriving{protocol::Arm::kId,          protocol::Velocity::kId,
+                                  protocol::WheelVoltage::kId, protocol::AddSegment::kId,
+                                  protocol::Pause::kId,        protocol::Resume::kId};
+    if (std::find(kDriving.begin(), kDriving.end(), message) == kDriving.end()) return;
+    driver_port_ = port;
     auto hold = board_.hold_tick();
     drive_.host_seen();
   }
@@ -182,6 +195,15 @@ class Robot {
   }
 
   static protocol::ErrorReply error(ErrorCode code, std::uint16_t detail = 0) { return {code, detail}; }
+
+  bool stands() {
+    auto hold = board_.hold_tick();
+    return drive_.stands();
+  }
+  bool stands_idle() {
+    auto hold = board_.hold_tick();
+    return drive_.stands() && drive_.queued() == 0;
+  }
 
   /// The answer to a request that needs an armed, fault-free robot and was not taken.
   protocol::ErrorReply not_ready() const {
@@ -298,7 +320,7 @@ class Robot {
 
   Answer<Ack> handle(int, const protocol::SetPose& request) {
     auto hold = board_.hold_tick();
-    if (!drive_.at_rest()) return error(ErrorCode::moving);
+    if (!drive_.stands()) return error(ErrorCode::moving);
     drive_.set_pose({request.x, request.y, Angle::from_raw(request.theta), 0});
     return Ack{};
   }
@@ -312,9 +334,9 @@ class Robot {
   Answer<Ack> handle(int, const protocol::StageParameter& request) { return desk_.stage(request); }
 
   Answer<Ack> handle(int, const protocol::CommitParameters&) {
-    // At rest only: the processor may stand still while the flash erases. Only this loop can set the robot
-    // moving.
-    if (!drive_.at_rest() || drive_.queued() != 0) return error(ErrorCode::moving);
+    // At rest only: the processor may stand still while the flash erases. With an empty queue only this loop
+    // can set the robot moving.
+    if (!stands_idle()) return error(ErrorCode::moving);
     const Answer<Ack> done = desk_.commit();
     auto hold = board_.hold_tick();
     if (done) drive_.configure(desk_.active());
@@ -323,7 +345,7 @@ class Robot {
   }
 
   Answer<Ack> handle(int, const protocol::ApplyParameters&) {
-    const Answer<Ack> done = desk_.apply(!drive_.at_rest() || drive_.queued() != 0);
+    const Answer<Ack> done = desk_.apply(!stands_idle());
     auto hold = board_.hold_tick();
     if (done) drive_.configure(desk_.active());
     return done;
@@ -365,11 +387,11 @@ class Robot {
   }
 
   Answer<Ack> handle(int, const protocol::Reboot&) {
-    if (!drive_.at_rest()) return error(ErrorCode::moving);
+    if (!stands()) return error(ErrorCode::moving);
     return reset_soon(Reset::reboot);
   }
   Answer<Ack> handle(int, const protocol::EnterBootloader&) {
-    if (!drive_.at_rest()) return error(ErrorCode::moving);
+    if (!stands()) return error(ErrorCode::moving);
     return reset_soon(Reset::bootloader);
   }
 

@@ -62,6 +62,7 @@ inline constexpr std::size_t kQueueLength = 16;
 using SegmentQueue = Ring<QueuedSegment, kQueueLength + 1>;
 /// Room for the ends of a whole queue and the segment that runs, so that no end is lost between two main
 /// loops.
-using SegmentEvents = Ring<SegmentEvent, 2 * kQueueLength>;
+inline constexpr std::size_t kEventsLength = 2 * kQueueLength + 4;
+using SegmentEvents = Ring<SegmentEvent, kEventsLength>;
 
 }  // namespace astro

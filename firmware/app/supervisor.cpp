@@ -30,7 +30,8 @@ bool Supervisor::request(Event event) {
   const bool gives_power = event == Event::arm || event == Event::drive;
   if (gives_power && faults_.any()) return false;
   if (!astro::advance(state_, event)) return false;
-  if (state_ == State::armed && faults_.any()) state_ = State::fault;  // the ramp of a fault has ended
+  // The ramp of a fault has ended, or somebody has ended it.
+  if (faults_.any() && (state_ == State::armed || state_ == State::disarmed)) state_ = State::fault;
   return true;
 }
 
@@ -139,7 +140,8 @@ void Supervisor::look_at_deadlines(Steering steering) {
   if (state_ == State::stopping && faults_.any() && now_us_ >= ramp_deadline_us_)
     astro::advance(state_, Event::fault);
   if (state_ != State::driving) return;
-  if (now_us_ <= (steering == Steering::path ? host_deadline_us_ : steering_deadline_us_)) return;
+  const std::uint64_t silent_us = now_us_ - (steering == Steering::path ? host_seen_at_us_ : steered_at_us_);
+  if (command_timeout_us_ == 0 || silent_us <= command_timeout_us_) return;
   if (steering == Steering::open_loop) return raise(Fault::command_timeout);  // no loop, no ramp
   found(steering == Steering::path ? Fault::link_lost : Fault::command_timeout);
 }

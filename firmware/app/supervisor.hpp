@@ -48,8 +48,8 @@ class Supervisor {
   bool clear();
 
   /// A command that must be repeated was; a good frame came from the host that drives.
-  void steered() { steering_deadline_us_ = deadline_us(); }
-  void host_seen() { host_deadline_us_ = deadline_us(); }
+  void steered() { steered_at_us_ = now_us_; }
+  void host_seen() { host_seen_at_us_ = now_us_; }
 
   void advance(const TickInput& input, bool plausible, Steering steering, const Wheels& wheels);
 
@@ -73,9 +73,6 @@ class Supervisor {
   void look_for_dither(WheelWatch& watch, std::int32_t duty, std::int32_t counts, std::uint32_t edges);
   void look_at_deadlines(Steering steering);
   void look_at_boot();
-  std::uint64_t deadline_us() const {
-    return command_timeout_us_ != 0 ? now_us_ + command_timeout_us_ : ~std::uint64_t{0};
-  }
 
   std::int32_t battery_low_mv_ = 0, battery_high_mv_ = 0, over_speed_umps_ = 0;
   std::uint32_t stall_visits_ = 0;
@@ -90,7 +87,7 @@ class Supervisor {
   Watch under_voltage_, over_voltage_, over_speed_;
   WheelWatch left_, right_;
   std::uint64_t now_us_ = 0;
-  std::uint64_t steering_deadline_us_ = 0, host_deadline_us_ = 0, ramp_deadline_us_ = 0;
+  std::uint64_t steered_at_us_ = 0, host_seen_at_us_ = 0, ramp_deadline_us_ = 0;
 };
 
 }  // namespace astro

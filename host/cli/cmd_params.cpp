@@ -79,6 +79,8 @@ void load(link::Client& client, const ParamsOptions& options, const RemoteParame
           const ParameterValues& values) {
   const std::vector<Change> changes = experiment::changes(robot, values);
   if (changes.empty()) {
+    // They may have been tried only, and then are not in its flash yet.
+    if (staged_changes(robot).empty()) client.request(protocol::CommitParameters{});
     say("the robot holds these values already");
     return report(options, changes, true);
   }
@@ -198,8 +200,7 @@ void add_writers(CLI::App& params, const std::shared_ptr<ParamsOptions>& options
       ->type_name("");
   auto* staged = some.add_flag("--stage-only", options->stage_only,
                                "leave them staged: 'params save' puts them in force");
-  some.add_flag("--try", options->try_out,
-                "in force until the robot restarts; gains and limits even while it drives")
+  some.add_flag("--try", options->try_out, "in force until the robot restarts; gains even while it drives")
       ->excludes(staged);
   examples(some, {"astrolabe params set b=0.2886", "astrolabe params set c_R=1.0021 c_L=0.9979 --yes",
                   "astrolabe params set kp=50 --try"});

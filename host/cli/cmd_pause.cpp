@@ -1,9 +1,11 @@
 #include <memory>
 
+#include "host/base/error.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/connection.hpp"
 #include "host/cli/console.hpp"
 #include "host/cli/options.hpp"
+#include "host/cli/robot_view.hpp"
 
 namespace astro::cli {
 namespace {
@@ -13,6 +15,10 @@ void pause(ConnectionOptions& options) {
   client->request(protocol::Pause{});
   while (!protocol::at_rest(client->request(protocol::GetStatus{}).mode))
     client->pump(std::chrono::milliseconds(50));
+  const protocol::Status status = client->request(protocol::GetStatus{});
+  if (status.mode != protocol::Mode::paused)
+    throw Error("the robot is not paused but " + std::string(protocol::name(status.mode)) +
+                ", faults: " + faults_in_words(status.latched_faults));
   say("the robot waits on its path until 'astrolabe resume'; 'astrolabe stop' ends the drive");
 }
 

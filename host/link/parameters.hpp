@@ -33,7 +33,7 @@ class RemoteParameters {
   void commit();
 
   /// All staged values come in force until the robot restarts, or none: also while it drives, if only gains
-  /// and limits differ.
+  /// differ.
   void apply();
 
   /// The staged set becomes the one in force; the factory defaults.

@@ -391,5 +391,50 @@ TEST_F(Driving, TelemetryTellsHowThePathIsFollowed) {
   EXPECT_LT(std::abs(last.path.cross_track_um), 1000);
 }
 
+TEST_F(Driving, ARobotThatIsTurnedWhilePausedDoesNotSpinBack) {
+  arm();
+  add(link::line(1));
+  run_ms(500);
+  ask(protocol::Pause{});
+  run_ms(2000);
+  ask(protocol::SetPose{0, 0, std::uint64_t{1} << 62});  // a quarter turn
+  ask(protocol::Resume{});
+  run_ms(500);
+  EXPECT_NEAR(theta_rad(), std::numbers::pi / 2, 0.01) << "it goes on ahead";
+}
+
+TEST_F(Driving, APausedStopStandsForTheRestOfItsTime) {
+  int done = 0;
+  const auto subscription = client_.on<protocol::SegmentDone>([&](const auto&) { ++done; });
+  arm();
+  ask(protocol::AddSegment{.kind = protocol::SegmentKind::stop, .tag = 1, .dwell_ms = 2000});
+  run_ms(300);
+  ask(protocol::Pause{});
+  run_ms(3000);
+  EXPECT_EQ(done, 0);
+  ask(protocol::Resume{});
+  run_ms(1500);
+  EXPECT_EQ(done, 0);
+  run_ms(500);
+  EXPECT_EQ(done, 1);
+}
+
+TEST_F(Driving, VelocityAfterWheelVoltagesGoesOnFromTheSpeedThatIsThere) {
+  arm();
+  for (int i = 0; i < 15; ++i) {
+    ask(protocol::WheelVoltage{6'000, 6'000});
+    run_ms(100);
+  }
+  double least_mps = 1;
+  for (int i = 0; i < 5; ++i) {
+    ask(protocol::Velocity{400'000, 0});
+    for (int ms = 0; ms < 100; ++ms) {
+      silence_ms(1);
+      least_mps = std::min(least_mps, board().drivetrain().speed_radps()[0] * 0.036);
+    }
+  }
+  EXPECT_GT(least_mps, 0.35);
+}
+
 }  // namespace
 }  // namespace astro

@@ -60,6 +60,14 @@ TEST_F(Faults, ATimeoutOfZeroSwitchesTheTimeoutOff) {
   EXPECT_EQ(mode(), Mode::velocity);
 }
 
+TEST_F(Faults, DisarmingInTheRampOfAFaultIsAFaultToo) {
+  drive_line();
+  silence_ms(300);
+  ASSERT_EQ(mode(), Mode::stopping);
+  ask(protocol::Disarm{});
+  expect_latched(Fault::link_lost);
+}
+
 TEST_F(Faults, EmergencyStopIsImmediateAndLatched) {
   drive_line();
   ask(protocol::EmergencyStop{});

@@ -106,6 +106,34 @@ TEST_F(Parameters, WhatTheOdometryLivesByIsNotAppliedWhileDriving) {
   EXPECT_EQ(active(Param::b), 290'000'000);
 }
 
+TEST_F(Parameters, ATimeoutThatIsAppliedWhileDrivingIsRefusedAndOneAppliedAtRestHolds) {
+  ask(protocol::StageParameter{id(Param::command_timeout), 0, {}});
+  ask(protocol::ApplyParameters{});
+  ask(protocol::Arm{});
+  ask(protocol::Velocity{100'000, 0});
+  stage(Param::command_timeout, 200);
+  EXPECT_EQ(refusal(protocol::ApplyParameters{}).code(), ErrorCode::moving);
+  ask(protocol::Stop{});
+  run_ms(2000);
+  ask(protocol::ApplyParameters{});
+  ask(protocol::Velocity{100'000, 0});
+  silence_ms(230);
+  EXPECT_EQ(drive().faults().mask(), bit(Fault::command_timeout));
+}
+
+TEST_F(Parameters, ARobotThatRollsOnIsNotAtRest) {
+  ask(protocol::Arm{});
+  for (int i = 0; i < 15; ++i) {
+    ask(protocol::Velocity{500'000, 0});
+    run_ms(100);
+  }
+  ask(protocol::Disarm{});
+  EXPECT_EQ(refusal(protocol::CommitParameters{}).code(), ErrorCode::moving);
+  EXPECT_EQ(refusal(protocol::SetPose{}).code(), ErrorCode::moving);
+  run_ms(4000);
+  ask(protocol::CommitParameters{});
+}
+
 TEST_F(Parameters, UnknownIdsAndIndicesAreRefused) {
   EXPECT_EQ(refusal(protocol::GetParameter{9999}).code(), ErrorCode::unknown_parameter);
   EXPECT_EQ(refusal(protocol::StageParameter{0, 1, {}}).code(), ErrorCode::unknown_parameter);

@@ -97,6 +97,17 @@ TEST_F(Frames, ANewSessionDoesNotKeepTheDriveOfTheLastOneAlive) {
   EXPECT_EQ(drive().faults().first(), Fault::link_lost);
 }
 
+TEST_F(Frames, ARefusedRequestDoesNotMakeItsSenderTheDriver) {
+  send(protocol::Arm{}, 1);
+  send(link::line(5).front(), 2);
+  for (int i = 0; i < 10; ++i) {
+    send(protocol::Ping{}, static_cast<std::uint16_t>(10 + i));
+    send(protocol::AddSegment{}, static_cast<std::uint16_t>(30 + i), 0);  // empty: out of range
+    silence_ms(100);
+  }
+  EXPECT_EQ(drive().faults().mask(), 0U);
+}
+
 TEST_F(Frames, AnotherProtocolVersionIsToldOurs) {
   received();
   send(protocol::Hello{protocol::kProtocolVersion + 1}, 1);

@@ -23,6 +23,15 @@ TEST(TickClock, LateAndEarlyTicksAreFoundAtOnce) {
   }
 }
 
+TEST(TickClock, OneLongGapIsToldOnce) {
+  TickClock clock;
+  std::uint64_t now_us = 0;
+  for (int tick = 0; tick < 500; ++tick) clock.advance(now_us += 1000);
+  EXPECT_FALSE(clock.advance(now_us += 400'000));
+  for (int tick = 0; tick < 3000; ++tick) ASSERT_TRUE(clock.advance(now_us += 1000)) << tick;
+  EXPECT_EQ(clock.overruns(), 1U);
+}
+
 TEST(TickClock, JitterOfLessThanHalfAPeriodIsNone) {
   TickClock clock;
   for (std::uint64_t tick = 0; tick < 3000; ++tick)

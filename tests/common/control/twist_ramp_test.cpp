@@ -88,7 +88,12 @@ TEST(TwistRamp, NeverExceedsItsLimitsWhateverIsAskedOfIt) {
         const BodyTwist now = ramp.value();
         const BodyTwist rate{now.v_umps - last.v_umps, now.omega_uradps - last.omega_uradps};
         // One unit for the cut of each value, and one jerk for the step onto the target.
-        const double v_jerk = limits.jerk_mmps3 * 1e-3, omega_jerk = limits.yaw_jerk_mradps3 * 1e-3;
+        // However small the jerk, the acceleration builds up in half a second.
+        const double v_jerk = std::max(limits.jerk_mmps3 * 1e-3, limits.acceleration_umps2 * 1e-3 / 500 + 1);
+        const double omega_jerk =
+            std::max(limits.yaw_jerk_mradps3 * 1e-3, limits.yaw_acceleration_uradps2 * 1e-3 / 500 + 1);
+        ASSERT_LE(std::abs(now.v_umps), 750'000 + 1) << "beyond all that was asked for, trial " << trial;
+        ASSERT_LE(std::abs(now.omega_uradps), 2'000'000 + 1) << trial;
         ASSERT_LE(std::abs(rate.v_umps), limits.acceleration_umps2 * 1e-3 + 1) << trial;
         ASSERT_LE(std::abs(rate.omega_uradps), limits.yaw_acceleration_uradps2 * 1e-3 + 1) << trial;
         ASSERT_LE(std::abs(rate.v_umps - last_rate.v_umps), 2 * v_jerk + 2) << trial;
@@ -119,6 +124,35 @@ TEST(TwistRamp, ArrivesFromWhereverItIsWithoutPassingASteadyTarget) {
     ASSERT_EQ(ramp.value(), target);
     ASSERT_LT(ticks, 3100) << "1.5 m/s at 0.5 m/s^2 and the ends of the S";
   }
+}
+
+TEST(TwistRamp, ANewTargetInTheMiddleOfARampIsReachedAndNotPassedByFar) {
+  TwistRamp ramp = ramp_with(kLimits);
+  ramp.set_target({500'000, 0});
+  for (int tick = 0; tick < 640; ++tick) ramp.advance();
+  const std::int32_t v = ramp.value().v_umps + 1'000;
+  ramp.set_target({v, 2'000'000});  // hardly any way for one, much for the other
+  std::int32_t most = 0;
+  int ticks = 0;
+  for (; !ramp.arrived() && ticks < 3000; ++ticks) {
+    ramp.advance();
+    most = std::max(most, ramp.value().v_umps);
+  }
+  EXPECT_LT(ticks, 1000);
+  EXPECT_LE(most, v + 7'000);  // a^2 / 2 j is what the rate takes to come down: 6.25 mm/s
+}
+
+TEST(TwistRamp, TheLeastJerkLimitStillStopsWithinASecondMore) {
+  MotionLimits limits = kLimits;
+  limits.jerk_mmps3 = limits.yaw_jerk_mradps3 = 1;
+  TwistRamp ramp = ramp_with(limits);
+  ramp.set_target({700'000, 0});
+  for (int tick = 0; tick < 600; ++tick) ramp.advance();
+  ramp.set(ramp.value());
+  ramp.set_target({});
+  int ticks = 0;
+  for (; !ramp.arrived() && ticks < 5000; ++ticks) ramp.advance();
+  EXPECT_LT(ticks, 700 / 0.5 + 1000);
 }
 
 TEST(TwistRamp, TheSteepestLimitsDoNotOverflow) {
