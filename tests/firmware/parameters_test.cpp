@@ -134,6 +134,17 @@ TEST_F(Parameters, ARobotThatRollsOnIsNotAtRest) {
   ask(protocol::CommitParameters{});
 }
 
+TEST_F(Parameters, AFlashThatTakesNothingIsAFaultAndTheOldSetStays) {
+  for (std::uint32_t sector = 0; sector < sim::Flash::kSectors; ++sector)
+    board().flash().fail(sector, sim::FlashWork::program);
+  stage(Param::b, 300'000'000);
+  EXPECT_EQ(refusal(protocol::CommitParameters{}).code(), ErrorCode::flash_failed);
+  EXPECT_EQ(active(Param::b), 290'000'000);
+  EXPECT_EQ(drive().faults().first(), Fault::flash);
+  EXPECT_TRUE(open());
+  EXPECT_EQ(refusal(protocol::Arm{}).code(), ErrorCode::faulted);
+}
+
 TEST_F(Parameters, UnknownIdsAndIndicesAreRefused) {
   EXPECT_EQ(refusal(protocol::GetParameter{9999}).code(), ErrorCode::unknown_parameter);
   EXPECT_EQ(refusal(protocol::StageParameter{0, 1, {}}).code(), ErrorCode::unknown_parameter);
