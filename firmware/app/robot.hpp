@@ -196,10 +196,6 @@ class Robot {
 
   static protocol::ErrorReply error(ErrorCode code, std::uint16_t detail = 0) { return {code, detail}; }
 
-  bool stands() {
-    auto hold = board_.hold_tick();
-    return drive_.stands();
-  }
   bool stands_idle() {
     auto hold = board_.hold_tick();
     return drive_.stands() && drive_.queued() == 0;
@@ -387,11 +383,11 @@ class Robot {
   }
 
   Answer<Ack> handle(int, const protocol::Reboot&) {
-    if (!stands()) return error(ErrorCode::moving);
+    if (!drive_.at_rest()) return error(ErrorCode::moving);
     return reset_soon(Reset::reboot);
   }
   Answer<Ack> handle(int, const protocol::EnterBootloader&) {
-    if (!stands()) return error(ErrorCode::moving);
+    if (!drive_.at_rest()) return error(ErrorCode::moving);
     return reset_soon(Reset::bootloader);
   }
 

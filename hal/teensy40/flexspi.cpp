@@ -1,7 +1,5 @@
 #include "hal/teensy40/flexspi.hpp"
 
-#include <cstring>
-
 #include "hal/teensy40/cpu.hpp"
 #include "hal/teensy40/poll.hpp"
 #include "hal/teensy40/registers/registers.hpp"
@@ -32,10 +30,12 @@ void prepare(FlashCommand command, std::uint32_t offset, std::uint32_t data_byte
 
 /// The next 8 bytes, which the controller has said it has room for.
 void feed_pair(const std::uint8_t* bytes) {
-  std::uint32_t words[2];
-  std::memcpy(words, bytes, sizeof words);
-  FLEXSPI[flexspi::TFDR0].write(words[0]);
-  FLEXSPI[flexspi::TFDR1].write(words[1]);
+  const auto word = [bytes](int at) {
+    return bytes[at] | std::uint32_t{bytes[at + 1]} << 8 | std::uint32_t{bytes[at + 2]} << 16 |
+           std::uint32_t{bytes[at + 3]} << 24;
+  };
+  FLEXSPI[flexspi::TFDR0].write(word(0));
+  FLEXSPI[flexspi::TFDR1].write(word(4));
   FLEXSPI[flexspi::INTR].write(flexspi::INTR_IPTXWE(1));  // passes the pair on
 }
 

@@ -67,7 +67,9 @@ Flexspi::Command Flexspi::decode() {
 
 void Flexspi::trigger() {
   const std::uint32_t setting = value(flexspi::IPCR1.value);
-  if (running_) return machine_.fail("FLEXSPI IPCMD: triggered while a command runs");
+  if (running_)
+    return machine_.fail(
+        fmt::format("FLEXSPI IPCMD: triggered while command 0x{:02X} runs", command_.opcode));
   if (flexspi::IPCR1_ISEQID.of(setting) != kSequence || flexspi::IPCR1_ISEQNUM.of(setting) != 0)
     return machine_.fail("FLEXSPI IPCR1: only sequence 15 is the firmware's");
   running_ = true;
