@@ -25,7 +25,7 @@ TEST(Replay, AMinuteOfOdometryAndDutyHasTheSameBitsOnTheHostAndOnTheProcessor) {
   fmt::print("{} ticks, {} instructions each on the processor; the last sum is {:08x}\n", Trace::kTicks,
              teensy.instructions() / Trace::kTicks, trace.sum());
   EXPECT_NE(trace.pose().x, 0);
-  EXPECT_NE(trace.pose().turns, 0) << "the script should turn";
+  EXPECT_NE(trace.pose().theta.raw(), 0U) << "the script should turn";
 }
 
 }  // namespace
