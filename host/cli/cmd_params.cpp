@@ -131,7 +131,8 @@ void commit_staged(const ParamsOptions& options, RemoteParameters& robot, const 
 }
 
 void save(const ParamsOptions& options, RemoteParameters& robot) {
-  commit_staged(options, robot, "nothing is staged: the values in force are in the robot's flash");
+  commit_staged(options, robot,
+                "nothing is staged: the values in force, tried ones too, are now in the robot's flash");
 }
 
 void defaults(const ParamsOptions& options, RemoteParameters& robot) {
