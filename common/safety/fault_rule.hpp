@@ -40,8 +40,8 @@ inline constexpr auto kFaultRules = std::to_array<FaultRule>({
     {Fault::under_voltage, Reaction::off, rule_detail::kPowered, 100},
     {Fault::over_voltage, Reaction::off, rule_detail::kAlways, 24},
     {Fault::over_speed, Reaction::off, rule_detail::kAlways, 24},
-    {Fault::stall, Reaction::off, rule_detail::kPowered, 0},  // the parameter stall_time
-    {Fault::encoder, Reaction::off, rule_detail::kAlways, 48},
+    {Fault::stall, Reaction::off, rule_detail::kPowered, 0},    // the parameter stall_time
+    {Fault::encoder, Reaction::off, rule_detail::kAlways, 48},  // a jump at once; to and fro while powered
     {Fault::tick_overrun, Reaction::off, rule_detail::kPowered, 0},
     {Fault::parameters, Reaction::off, 0, 0},
     {Fault::flash, Reaction::off, 0, 0},

@@ -218,11 +218,10 @@ void Drive::start_segment() {
 }
 
 // What a pause has left of the segment comes first when the robot goes on.
-void Drive::put_back() {
-  Segment left = follower_.profile().rest();
-  left.speed_umps = running_.segment.speed_umps;
-  left.yaw_rate_uradps = running_.segment.yaw_rate_uradps;
-  queue_.push_front({left, running_.tag});
+void Drive::put_back(Segment rest) {
+  rest.speed_umps = running_.segment.speed_umps;
+  rest.yaw_rate_uradps = running_.segment.yaw_rate_uradps;
+  queue_.push_front({rest, running_.tag});
   planned_ = false;
   ++ticket_;
 }
@@ -230,7 +229,7 @@ void Drive::put_back() {
 void Drive::end_segment() {
   const Segment left = follower_.profile().rest();
   if (left.length_nm != 0 || left.angle_32 != 0 || left.dwell_ms != 0) {
-    put_back();
+    put_back(left);
   } else {
     report(SegmentEvent::Kind::completed, running_.tag);
   }

@@ -11,6 +11,7 @@
 #include "firmware/app/segment_queue.hpp"
 #include "firmware/app/supervisor.hpp"
 #include "firmware/app/wheels.hpp"
+#include "hal/interface/board.hpp"
 
 namespace astro {
 
@@ -105,7 +106,7 @@ class Drive {
   void start_path();
   void start_segment();
   void end_segment();
-  void put_back();
+  void put_back(Segment rest);
   void report(SegmentEvent::Kind kind, std::uint16_t tag);
   Wish wish();
   Wish ramped();
@@ -136,5 +137,18 @@ class Drive {
   Watch settled_;
   std::uint64_t now_us_ = 0;
 };
+
+/// What a tick has decided, to a board's bridges.
+template <hal::Motors Motors>
+void apply(const Drive::Output& output, Motors& motors) {
+  switch (output.bridge) {
+    case Permission::drive:
+      return motors.drive(output.duty);
+    case Permission::brake:
+      return motors.brake();
+    case Permission::open:
+      return motors.coast();
+  }
+}
 
 }  // namespace astro

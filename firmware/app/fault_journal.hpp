@@ -44,7 +44,7 @@ class FaultJournal {
     FaultCircumstances oldest;
     {
       auto hold = board.hold_tick();
-      if (pending_.empty() || drive.armed() || !drive.at_rest() || !stands(drive.wheels().speeds())) return;
+      if (pending_.empty() || drive.armed() || !drive.stands()) return;  // open bridges let it roll on
       oldest = pending_.pop();
     }
     // One that the flash does not take is dropped: trying again for ever would only wear it further.
@@ -79,13 +79,6 @@ class FaultJournal {
                       .fault = static_cast<Fault>(i),
                       .mode = static_cast<std::uint8_t>(mode_)});
     }
-  }
-
-  /// Open bridges let a robot roll on.
-  static bool stands(const WheelSpeeds& speeds) {
-    constexpr std::int32_t kStanding_umps = 3'000;
-    const auto slow = [](std::int32_t speed) { return speed < kStanding_umps && speed > -kStanding_umps; };
-    return slow(speeds.left_umps) && slow(speeds.right_umps);
   }
 
   FaultLog<Flash> log_;

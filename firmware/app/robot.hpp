@@ -54,7 +54,7 @@ class Robot {
     input.battery_mv = board_.battery().millivolts();
     input.driver_fault = board_.motors().fault();
     input.on_time = ticks_.advance(input.now_us);
-    apply(drive_.advance(input));
+    apply(drive_.advance(input), board_.motors());
     battery_mv_ = input.battery_mv;
     if (drive_.take_supervised()) check_in_.here(CheckIn::Task::supervisor);
     check_in_.here(CheckIn::Task::tick);
@@ -83,20 +83,6 @@ class Robot {
   enum class Reset : std::uint8_t { none, reboot, bootloader };
   static constexpr int kPorts = std::remove_reference_t<decltype(std::declval<Board&>().ports())>::kPorts;
   using Flash = std::remove_reference_t<decltype(std::declval<Board&>().flash())>;
-
-  void apply(const Drive::Output& output) {
-    switch (output.bridge) {
-      case Permission::drive:
-        board_.motors().drive(output.duty);
-        break;
-      case Permission::brake:
-        board_.motors().brake();
-        break;
-      case Permission::open:
-        board_.motors().coast();
-        break;
-    }
-  }
 
   protocol::ResetCause reset_cause() {
     return static_cast<protocol::ResetCause>(board_.system().reset_cause());  // the same values in both

@@ -42,17 +42,7 @@ class DriveRig {
                                                  .battery_mv = board_.battery().millivolts(),
                                                  .driver_fault = board_.motors().fault(),
                                                  .on_time = late_ticks-- <= 0});
-    switch (output.bridge) {
-      case Permission::drive:
-        board_.motors().drive(output.duty);
-        break;
-      case Permission::brake:
-        board_.motors().brake();
-        break;
-      case Permission::open:
-        board_.motors().coast();
-        break;
-    }
+    apply(output, board_.motors());
     drive_.plan();
     board_.advance_tick();
   }
