@@ -1,13 +1,17 @@
 #include "host/cli/console.hpp"
 
 #include <fmt/format.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <cstdio>
-#include <iostream>
+#include <utility>
 
 #include "host/base/error.hpp"
+#include "host/cli/interrupt.hpp"
 #include "host/cli/terminal.hpp"
 
 namespace astro::cli {
@@ -28,6 +32,25 @@ void to_stderr(std::string_view text) {
   std::fflush(stderr);
 }
 
+// How long a Ctrl-C can go unnoticed that comes just before a read.
+constexpr int kLookMs = 50;
+
+// Appends what has come on stdin to `bytes`; false at its end. Polls, for a signal that arrives between a
+// look at its flag and a read that blocks would wait for the next key.
+bool await_input(std::string& bytes) {
+  while (true) {
+    check_interrupt();
+    pollfd input{STDIN_FILENO, POLLIN, 0};
+    if (poll(&input, 1, kLookMs) <= 0) continue;
+    std::array<char, 256> chunk{};
+    const ssize_t count = read(STDIN_FILENO, chunk.data(), chunk.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    bytes.append(chunk.data(), static_cast<std::size_t>(count));
+    return true;
+  }
+}
+
 }  // namespace
 
 bool stdout_is_terminal() { return isatty(STDOUT_FILENO) == 1; }
@@ -41,9 +64,16 @@ void complain(std::string_view sentence) {
 }
 
 std::string ask(const std::string& prompt) {
+  static std::string read_ahead;  // answers typed, or piped in, before their question
   to_stderr(prompt);
-  std::string line;
-  if (!std::getline(std::cin, line)) throw Error("the input ended where an answer was expected: " + prompt);
+  std::size_t end = 0;
+  while ((end = read_ahead.find('\n')) == std::string::npos)
+    if (!await_input(read_ahead)) {
+      if (read_ahead.empty()) throw Error("the input ended where an answer was expected: " + prompt);
+      return std::exchange(read_ahead, {});
+    }
+  const std::string line = read_ahead.substr(0, end);
+  read_ahead.erase(0, end + 1);
   return line;
 }
 

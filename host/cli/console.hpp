@@ -21,7 +21,8 @@ void complain(std::string_view sentence);
 /// answers.
 bool confirm(const std::string& question);
 
-/// A line from stdin after a prompt on stderr; throws astro::Error at the end of input.
+/// A line from stdin after a prompt on stderr. Throws astro::Error at the end of input, link::Interrupted on
+/// Ctrl-C.
 std::string ask(const std::string& prompt);
 
 /// A bar on stderr that rewrites its line; silent unless stderr is a terminal. Shown only once a second has
