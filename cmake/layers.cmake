@@ -13,6 +13,7 @@ set(ASTRO_LAYERS
   "firmware/app   : common hal/interface firmware/app"
   "host/base      : host/base"
   "host/calibration : common host/base host/calibration"
+  "host/study     : common host/base host/calibration host/study"
   "host/recording : host/base host/recording"
   "host/link      : common host/base host/link"
   "host/truth     : host/base host/recording host/truth"

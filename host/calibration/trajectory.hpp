@@ -1,0 +1,48 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+/// A whole drive as the estimator sees it: how far the wheels believe they went and where the tracked body
+/// was.
+namespace astro::calibration {
+
+/// Travel of each wheel since any start, in metres of a nominal wheel (c_R = c_L = 1): counts times pi times
+/// the nominal diameter over the counts of a turn; forward positive. Robot's clock.
+struct WheelSample {
+  double time_s = 0;
+  double left_m = 0, right_m = 0;
+};
+
+/// Pose of the tracked body in the tracker's frame, whatever its origin and direction. theta
+/// counter-clockwise, wrapped or not; NaN where only the position was measured. The tracker's clock.
+struct BodySample {
+  double time_s = 0;
+  double x_m = 0, y_m = 0, theta_rad = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// One drive. Both streams in order of time; `truth` holds valid samples only, gaps are welcome.
+struct Trajectory {
+  std::string name;  // how messages call it: "run square cw 3 (before)"
+  std::vector<WheelSample> wheels;
+  std::vector<BodySample> truth;
+};
+
+/// Pose of the tracked body in the robot frame (x forward, y left, origin midway between the wheels).
+struct LeverArm {
+  double x_m = 0, y_m = 0, yaw_rad = 0;
+};
+
+/// What the estimator takes for noise. A wheel that travels d is off by a normal error of variance K * |d|,
+/// white along the path; the tracker's errors are white and normal per coordinate.
+struct NoiseModel {
+  double K_m = 2.645e-6;  // gives the scatter of the thesis's robot
+  double sigma_xy_m = 5e-4;
+  double sigma_theta_rad = 2.6e-3;
+};
+
+/// What a robot does at a moment, told from its wheels.
+enum class Motion { rest, line, arc, spin };
+
+}  // namespace astro::calibration
