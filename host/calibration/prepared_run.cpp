@@ -1,0 +1,236 @@
+#include "host/calibration/prepared_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "host/base/error.hpp"
+#include "host/calibration/wheel_path.hpp"
+
+namespace astro::calibration {
+namespace {
+
+constexpr int kFewestSamples = 20;
+// Less than either is a robot that was pushed, not driven.
+constexpr double kShortestDrive_m = 0.2, kSmallestTurn_rad = 0.5;
+constexpr double kLeastCorrelation = 0.5;
+// Truth beyond the wheels' ends would be taken for standing still; half a clock's error is kept away from
+// them.
+constexpr double kMargin_s = 0.02;
+constexpr double kWindow_s = 0.1;  // half of the time over which a motion is told
+constexpr double kSlowest_mps = 0.002;
+
+void require_samples(const Trajectory& run) {
+  if (run.wheels.size() < 2) throw Error(run.name + " has no odometry: record it again");
+  if (run.truth.size() < kFewestSamples)
+    throw Error(
+        fmt::format("{} has {} samples of ground truth: maximum likelihood needs the whole drive; take "
+                    "--method umbmark or "
+                    "extended for end poses alone",
+                    run.name, run.truth.size()));
+  const auto by_time = [](const auto& a, const auto& b) { return a.time_s < b.time_s; };
+  if (!std::is_sorted(run.wheels.begin(), run.wheels.end(), by_time) ||
+      !std::is_sorted(run.truth.begin(), run.truth.end(), by_time))
+    throw Error(run.name + " has times that run backwards: record it again");
+}
+
+Motion motion_between(const WheelState& a, const WheelState& b, double span_s, double wheelbase_m) {
+  const double left = b.left_m - a.left_m, right = b.right_m - a.right_m;
+  if (std::abs(left) + std::abs(right) < 2 * kSlowest_mps * span_s) return Motion::rest;
+  const double centre = std::abs(left + right) / 2, turn = std::abs(right - left) / wheelbase_m;
+  if (centre < turn * wheelbase_m / 4) return Motion::spin;
+  return centre > 10 * wheelbase_m * turn ? Motion::line : Motion::arc;
+}
+
+double robot_time(const ClockFit& clock, double middle_s, double truth_s) {
+  return truth_s + clock.offset_s + clock.skew * (truth_s - middle_s);
+}
+
+bool mostly_headings(const Trajectory& run) {
+  const auto with = std::count_if(run.truth.begin(), run.truth.end(),
+                                  [](const BodySample& sample) { return std::isfinite(sample.theta_rad); });
+  return 2 * static_cast<std::size_t>(with) > run.truth.size();
+}
+
+PreparedRun cropped(const Trajectory& run, const ClockFit& clock) {
+  PreparedRun prepared;
+  prepared.source = &run;
+  prepared.has_headings = mostly_headings(run);
+  prepared.clock_middle_s = (run.wheels.front().time_s + run.wheels.back().time_s) / 2 - clock.offset_s;
+  for (const BodySample& sample : run.truth) {
+    const double u = robot_time(clock, prepared.clock_middle_s, sample.time_s);
+    if (u < run.wheels.front().time_s + kMargin_s || u > run.wheels.back().time_s - kMargin_s) continue;
+    if (!std::isfinite(sample.x_m) || !std::isfinite(sample.y_m)) continue;
+    if (prepared.has_headings && !std::isfinite(sample.theta_rad)) continue;
+    prepared.truth.push_back(sample);
+  }
+  return prepared;
+}
+
+void tell_motion(PreparedRun& run, const ClockFit& clock, double wheelbase_m) {
+  const WheelPath path(run.source->wheels);
+  WheelState before;
+  for (std::size_t i = 0; i < run.truth.size(); ++i) {
+    const double u = robot_time(clock, run.clock_middle_s, run.truth[i].time_s);
+    run.motion.push_back(
+        motion_between(path.at(u - kWindow_s), path.at(u + kWindow_s), 2 * kWindow_s, wheelbase_m));
+    const WheelState now = path.at(u);
+    if (i > 0) {
+      const double distance_m = std::abs(now.left_m - before.left_m + now.right_m - before.right_m) / 2;
+      const double turn_rad =
+          std::abs((now.right_m - before.right_m) - (now.left_m - before.left_m)) / wheelbase_m;
+      MotionExtent& extent = run.extent[static_cast<std::size_t>(run.motion[i])];
+      extent.distance_m += distance_m;
+      extent.rotation_rad += turn_rad;
+    }
+    before = now;
+  }
+  for (const MotionExtent& extent : run.extent) run.distance_m += extent.distance_m;
+  // Counts that flicker on a line are no turning.
+  for (const Motion motion : {Motion::arc, Motion::spin})
+    run.rotation_rad += run.extent[static_cast<std::size_t>(motion)].rotation_rad;
+}
+
+void require_motion(const PreparedRun& run) {
+  if (run.truth.size() < kFewestSamples)
+    throw Error(
+        fmt::format("{}: only {} samples of ground truth fall into the time of the drive: check that both "
+                    "were recorded together",
+                    run.source->name, run.truth.size()));
+  if (run.distance_m < kShortestDrive_m && run.rotation_rad < kSmallestTurn_rad)
+    throw Error(
+        fmt::format("{} is too short: {:.2f} m and {:.0f} degrees under ground truth; drive at least a metre "
+                    "or a turn, or leave it out",
+                    run.source->name, run.distance_m, run.rotation_rad * 180 / std::numbers::pi));
+}
+
+struct HeadingChange {
+  double product = 0, truth = 0, wheels = 0;
+};
+
+HeadingChange heading_change(const PreparedRun& run, const std::vector<BodySample>& odometry) {
+  // Steps of a dozen samples or so stand out of the noise and are far below half a turn.
+  constexpr std::size_t kStride = 12;
+  HeadingChange sums;
+  for (std::size_t i = kStride; i < run.truth.size(); i += kStride) {
+    const double truth =
+        std::remainder(run.truth[i].theta_rad - run.truth[i - kStride].theta_rad, 2 * std::numbers::pi);
+    const double wheels = odometry[i].theta_rad - odometry[i - kStride].theta_rad;
+    if (std::abs(wheels) > 2.5) continue;  // a long gap
+    sums.product += truth * wheels;
+    sums.truth += std::abs(truth);
+    sums.wheels += std::abs(wheels);
+  }
+  return sums;
+}
+
+[[noreturn]] void refuse_opposite_turn(const std::string& name, bool positions_agree) {
+  if (positions_agree)
+    throw Error(name +
+                ": the headings of the ground truth turn right where its positions and the wheels turn left: "
+                "they are "
+                "clockwise; negate them");
+  throw Error(
+      name +
+      ": the ground truth turns right where the wheels say left: either its axes are mirrored (a Y-up export "
+      "has x = Z, y = X) or the left and right wheels are exchanged; 'astrolabe check-wiring' tells which");
+}
+
+void require_senses(const PreparedRun& run, const ClockFit& clock, const WheelFactors& carried) {
+  const std::vector<BodySample> odometry = dead_reckoned(run, clock, carried);
+  const double straight_m = fit_rigid(odometry, run.truth, false).rms_m;
+  const double mirrored_m = fit_rigid(odometry, run.truth, true).rms_m;
+  // A line is its own mirror image; so is nearly a spin on the spot.
+  const bool positions_oppose = run.distance_m > 1 && straight_m > 0.05 && mirrored_m < straight_m / 3;
+  if (run.has_headings && run.rotation_rad > 1) {
+    const HeadingChange change = heading_change(run, odometry);
+    if (change.truth < 0.2 * change.wheels)
+      throw Error(
+          fmt::format("{}: the wheels turned the robot by {:.0f} degrees and the heading of the ground truth "
+                      "stayed: export the orientation of the body, too, or leave the headings out",
+                      run.source->name, run.rotation_rad * 180 / std::numbers::pi));
+    if (change.product < 0) refuse_opposite_turn(run.source->name, !positions_oppose);
+  }
+  if (positions_oppose) refuse_opposite_turn(run.source->name, false);
+}
+
+}  // namespace
+
+std::vector<BodySample> dead_reckoned(const PreparedRun& run, const ClockFit& clock,
+                                      const WheelFactors& factors) {
+  const WheelPath path(run.source->wheels);
+  std::vector<BodySample> poses;
+  BodySample pose{0, 0, 0, 0};
+  WheelState before;
+  for (std::size_t i = 0; i < run.truth.size(); ++i) {
+    const WheelState now = path.at(robot_time(clock, run.clock_middle_s, run.truth[i].time_s));
+    if (i > 0) {
+      const double l = factors.c_l * (now.left_m - before.left_m),
+                   r = factors.c_r * (now.right_m - before.right_m);
+      const double turn = (r - l) / factors.b_m, middle = pose.theta_rad + turn / 2;
+      pose.x_m += (l + r) / 2 * std::cos(middle);
+      pose.y_m += (l + r) / 2 * std::sin(middle);
+      pose.theta_rad += turn;
+    }
+    pose.time_s = run.truth[i].time_s;
+    poses.push_back(pose);
+    before = now;
+  }
+  return poses;
+}
+
+RigidFit fit_rigid(std::span<const BodySample> from, std::span<const BodySample> to, bool mirrored) {
+  const double sign = mirrored ? -1 : 1, n = static_cast<double>(from.size());
+  double fx = 0, fy = 0, tx = 0, ty = 0;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    fx += from[i].x_m / n;
+    fy += sign * from[i].y_m / n;
+    tx += to[i].x_m / n;
+    ty += to[i].y_m / n;
+  }
+  double dot = 0, cross = 0, spread = 0;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const double ax = from[i].x_m - fx, ay = sign * from[i].y_m - fy, bx = to[i].x_m - tx,
+                 by = to[i].y_m - ty;
+    dot += ax * bx + ay * by;
+    cross += ax * by - ay * bx;
+    spread += ax * ax + ay * ay + bx * bx + by * by;
+  }
+  RigidFit fit;
+  fit.rotation_rad = std::atan2(cross, dot);
+  const double c = std::cos(fit.rotation_rad), s = std::sin(fit.rotation_rad);
+  fit.x_m = tx - (c * fx - s * fy);
+  fit.y_m = ty - (s * fx + c * fy);
+  fit.rms_m = std::sqrt(std::max(0.0, spread - 2 * std::hypot(dot, cross)) / n);
+  return fit;
+}
+
+PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& carried, bool clock_known) {
+  if (runs.empty()) throw Error("there are no runs to calibrate from");
+  PreparedRuns prepared;
+  std::optional<double> skew;
+  for (const Trajectory& run : runs) {
+    require_samples(run);
+    ClockFit clock;
+    if (!clock_known) {
+      clock = search_clock(run, carried.b_m, skew);
+      if (clock.correlation < kLeastCorrelation)
+        throw Error(
+            run.name +
+            ": the motions of wheels and ground truth have nothing in common at any offset of their clocks: "
+            "check that they belong to the same drive");
+      skew = clock.skew;
+    }
+    PreparedRun ready = cropped(run, clock);
+    tell_motion(ready, clock, carried.b_m);
+    require_motion(ready);
+    require_senses(ready, clock, carried);
+    prepared.runs.push_back(std::move(ready));
+    prepared.clocks.push_back(clock);
+  }
+  return prepared;
+}
+
+}  // namespace astro::calibration

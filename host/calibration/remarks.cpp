@@ -1,0 +1,36 @@
+#include <fmt/format.h>
+
+#include "host/calibration/maximum_likelihood.hpp"
+
+namespace astro::calibration {
+namespace {
+
+std::string outlier_sentence(const RunFit& run) {
+  return fmt::format(
+      "{} disagrees with the others about the factors (chi-square {:.0f} of {}): a slip, a push or a wrong "
+      "ground truth; "
+      "look at it, and leave it out with --without if so",
+      run.name, run.disagreement, run.disagreement_dof);
+}
+
+std::string wheelbase_sentence(const WheelbaseByKind& kind) {
+  return fmt::format(
+      "arcs want a wheelbase {:.2f} ± {:.2f} % {} than spins: this b lies between; calibrate with the motion "
+      "that the "
+      "robot will use most",
+      100 * std::abs(kind.arc_over_spin - 1), 100 * kind.standard_error,
+      kind.arc_over_spin > 1 ? "larger" : "smaller");
+}
+
+}  // namespace
+
+std::vector<std::string> MlEstimate::remarks() const {
+  std::vector<std::string> sentences;
+  for (const RunFit& run : runs)
+    if (run.outlier) sentences.push_back(outlier_sentence(run));
+  if (wheelbase_by_kind && wheelbase_by_kind->disagrees)
+    sentences.push_back(wheelbase_sentence(*wheelbase_by_kind));
+  return sentences;
+}
+
+}  // namespace astro::calibration

@@ -1,0 +1,149 @@
+#include "host/calibration/start_values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "host/base/error.hpp"
+#include "host/calibration/relative_pose.hpp"
+#include "host/calibration/wheel_path.hpp"
+
+namespace astro::calibration {
+namespace {
+
+// A piece is long enough to stand out of the tracker's noise, short enough to be many.
+constexpr double kPiece_m = 0.3, kPiece_rad = 0.5;
+constexpr double kLeastTurn_rad = 1;
+constexpr double kTypicalK_m = 2.6e-6;
+
+RelativePose closed_piece(const BodySample& from, const BodySample& to, std::vector<WheelStep> steps) {
+  const double dx = to.x_m - from.x_m, dy = to.y_m - from.y_m;
+  const double c = std::cos(from.theta_rad), s = std::sin(from.theta_rad);
+  return {std::move(steps), c * dx + s * dy, c * dy - s * dx,
+          std::remainder(to.theta_rad - from.theta_rad, 2 * std::numbers::pi)};
+}
+
+void add_pieces(const PreparedRun& run, const ClockFit& clock, double wheelbase_m,
+                std::vector<RelativePose>& pieces) {
+  const WheelPath path(run.source->wheels);
+  std::vector<WheelStep> steps;
+  std::size_t from = 0;
+  double travelled_m = 0, turned_rad = 0;
+  WheelState before;
+  for (std::size_t i = 0; i < run.truth.size(); ++i) {
+    const double t = run.truth[i].time_s;
+    const WheelState now = path.at(t + clock.offset_s + clock.skew * (t - run.clock_middle_s));
+    if (i > 0) {
+      const double left = now.left_m - before.left_m, right = now.right_m - before.right_m;
+      steps.push_back({left, right});
+      travelled_m += (left + right) / 2;
+      turned_rad += (right - left) / wheelbase_m;
+    }
+    before = now;
+    if (std::abs(travelled_m) < kPiece_m && std::abs(turned_rad) < kPiece_rad) continue;
+    // Over a gap of the tracker the robot may have turned further than headings can tell.
+    if (std::abs(turned_rad) < 2.5)
+      pieces.push_back(closed_piece(run.truth[from], run.truth[i], std::move(steps)));
+    steps.clear();
+    from = i;
+    travelled_m = turned_rad = 0;
+  }
+}
+
+void require_variety(const PreparedRuns& runs) {
+  double distance_m = 0, rotation_rad = 0;
+  for (const PreparedRun& run : runs.runs) {
+    distance_m += run.distance_m;
+    rotation_rad += run.rotation_rad;
+  }
+  if (rotation_rad < kLeastTurn_rad)
+    throw Error(
+        "the robot never turned, so nothing tells its wheelbase: drive squares, circles or spins as well");
+  if (distance_m < 0.02 * rotation_rad)
+    throw Error(
+        "the robot only turned on the spot, which tells the ratio of wheels and wheelbase but no size: drive "
+        "lines or "
+        "squares as well");
+}
+
+std::optional<RelativePoseFit> closed_form(const PreparedRuns& runs, const WheelFactors& carried) {
+  std::vector<RelativePose> pieces;
+  for (std::size_t i = 0; i < runs.runs.size(); ++i)
+    if (runs.runs[i].has_headings) add_pieces(runs.runs[i], runs.clocks[i], carried.b_m, pieces);
+  return fit_relative_poses_trimmed(pieces, 2, 0.02);
+}
+
+void require_forward(const RelativePoseFit& fit) {
+  for (const auto& [wheel, radius] : {std::pair{"left", fit.r_left}, std::pair{"right", fit.r_right}})
+    if (!(radius > 0))
+      throw Error(fmt::format(
+          "the {} wheel comes out turning backwards: its encoder or its motor is reversed; 'astrolabe "
+          "check-wiring' finds and mends that",
+          wheel));
+}
+
+void place_start(const PreparedRun& run, const ClockFit& clock, const WheelFactors& factors, Unknowns& u) {
+  const BodySample& first = run.truth.front();
+  if (run.has_headings) {
+    u[kStartTheta] = first.theta_rad - u[kLeverYaw];
+  } else {
+    u[kStartTheta] = fit_rigid(dead_reckoned(run, clock, factors), run.truth, false).rotation_rad;
+  }
+  const double c = std::cos(u[kStartTheta]), s = std::sin(u[kStartTheta]);
+  u[kStartX] = first.x_m - c * u[kLeverX] + s * u[kLeverY];
+  u[kStartY] = first.y_m - s * u[kLeverX] - c * u[kLeverY];
+  u[kClockOffset] = clock.offset_s;
+}
+
+// Of white noise; 0 without three neighbours.
+double sigma_of(std::vector<double> second_differences) {
+  if (second_differences.empty()) return 0;
+  for (double& value : second_differences) value = std::abs(value);
+  const auto middle = second_differences.begin() + static_cast<std::ptrdiff_t>(second_differences.size() / 2);
+  std::nth_element(second_differences.begin(), middle, second_differences.end());
+  return *middle / 0.6745 / std::sqrt(6.0);
+}
+
+}  // namespace
+
+std::vector<Unknowns> start_values(const PreparedRuns& runs, const WheelFactors& carried) {
+  require_variety(runs);
+  Unknowns shared = Unknowns::Zero();
+  shared[kCRight] = carried.c_r;
+  shared[kCLeft] = carried.c_l;
+  shared[kB] = carried.b_m;
+  for (const ClockFit& clock : runs.clocks)
+    shared[kSkew] += clock.skew / static_cast<double>(runs.clocks.size());
+  if (const auto fit = closed_form(runs, carried)) {
+    require_forward(*fit);
+    shared[kCRight] = fit->r_right;
+    shared[kCLeft] = fit->r_left;
+    shared[kB] = fit->b_m;
+    shared[kLeverX] = fit->sensor.x_m;
+    shared[kLeverY] = fit->sensor.y_m;
+    shared[kLeverYaw] = fit->sensor.yaw_rad;
+  }
+  std::vector<Unknowns> all(runs.runs.size(), shared);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    place_start(runs.runs[i], runs.clocks[i], {shared[kCRight], shared[kCLeft], shared[kB]}, all[i]);
+  return all;
+}
+
+NoiseModel start_noise(const PreparedRuns& runs) {
+  std::vector<double> position, heading;
+  for (const PreparedRun& run : runs.runs)
+    for (std::size_t i = 2; i < run.truth.size(); ++i) {
+      const BodySample &a = run.truth[i - 2], &b = run.truth[i - 1], &c = run.truth[i];
+      position.push_back(a.x_m - 2 * b.x_m + c.x_m);
+      position.push_back(a.y_m - 2 * b.y_m + c.y_m);
+      if (run.has_headings)
+        heading.push_back(std::remainder(c.theta_rad - b.theta_rad, 2 * std::numbers::pi) -
+                          std::remainder(b.theta_rad - a.theta_rad, 2 * std::numbers::pi));
+    }
+  return {kTypicalK_m, std::max(sigma_of(std::move(position)), 1e-5),
+          std::max(sigma_of(std::move(heading)), 1e-5)};
+}
+
+}  // namespace astro::calibration

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "host/calibration/end_pose.hpp"
+#include "host/calibration/prepared_run.hpp"
+
+/// Where the search for the likeliest parameters begins. Never at zero: a wrong yaw of the tracked body would
+/// lead to negative wheels.
+namespace astro::calibration {
+
+/// Factors and lever arm from relative poses (relative_pose.hpp) where truth has headings; else as carried,
+/// without lever arm. One entry per run, with its own start pose and clock.
+///
+/// Throws astro::Error when the runs never turn or never go straight, or a wheel comes out negative.
+std::vector<Unknowns> start_values(const PreparedRuns& runs, const WheelFactors& carried);
+
+/// The tracker's noise from second differences of its samples, which a motion hardly has; K as usual.
+NoiseModel start_noise(const PreparedRuns& runs);
+
+}  // namespace astro::calibration
