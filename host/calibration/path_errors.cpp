@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "host/calibration/ml_fit.hpp"
+#include "host/calibration/path_alignment.hpp"
 
 namespace astro::calibration {
 namespace {
