@@ -2,10 +2,12 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <random>
 #include <string>
 
 #include "host/base/error.hpp"
+#include "host/study/limits.hpp"
 
 namespace astro::study {
 namespace {
@@ -21,11 +23,7 @@ void require(bool holds, double value, const std::string& what, const std::strin
 }
 
 // Far more than anybody waits for; what is damaged or mistyped beyond them would exhaust the memory.
-constexpr int kMostTrials = 10'000'000, kMostRuns = 1000;
-
-void require_positive(double value, const std::string& what) {
-  require(std::isfinite(value) && value > 0, value, what, "a positive number");
-}
+constexpr int kMostTrials = 10'000'000, kMostSquares = 1000;
 
 DriveModel model_of(const TrialSetup& setup) {
   DriveModel model;
@@ -58,7 +56,7 @@ calibration::MlOptions TrialSetup::ml_options() const {
 
 void TrialSetup::check() const {
   require(trials >= 1 && trials <= kMostTrials, trials, "the number of trials", "1 to 10 million");
-  require(runs >= 1 && runs <= kMostRuns, runs, "the number of squares in each direction", "1 to 1000");
+  require(runs >= 1 && runs <= kMostSquares, runs, "the number of squares in each direction", "1 to 1000");
   require_positive(side_m, "the side of the square in metres");
   require_positive(wheelbase_m, "the wheelbase in metres");
   require_positive(E_d, "the ratio of the wheels");
@@ -71,6 +69,9 @@ void TrialSetup::check() const {
   require_positive(truth_rate_hz, "the rate of the ground truth in Hz");
   require(std::isfinite(clock_offset_sd_s) && clock_offset_sd_s >= 0, clock_offset_sd_s,
           "the scatter of the clocks in seconds", "0 or more");
+  const DriveModel usual;
+  require_fits_memory(2 * runs * (4 * side_m / usual.speed_mps + 2 * std::numbers::pi / usual.yaw_rate_radps),
+                      truth_rate_hz, count_rate_hz);
 }
 
 nlohmann::json to_json(const TrialSetup& setup) {

@@ -33,7 +33,8 @@ struct TrialSetup {
   /// What maximum likelihood is told.
   calibration::MlOptions ml_options() const;
 
-  /// Throws astro::Error naming what is not positive and finite, or fewer than one trial or run.
+  /// Throws astro::Error naming what is not positive and finite, too many or too few trials or runs, or
+  /// drives that do not fit into memory.
   void check() const;
 };
 

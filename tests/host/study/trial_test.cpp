@@ -52,6 +52,12 @@ TEST(StudySetup, RefusesWhatCannotBeDriven) {
             "the number of trials is 0.000000: give 1 to 10 million");
   EXPECT_EQ(message([](TrialSetup& s) { s.noise.K_m = std::nan(""); }),
             "the wheel slip K in metres is nan: give a positive number");
+  EXPECT_EQ(message([](TrialSetup& s) {
+              s.side_m = 1000;
+              s.runs = 1000;
+            }),
+            "some 7411 hours of driving are more than fit into memory: take fewer or shorter runs, or lower "
+            "rates");
 }
 
 TEST(StudySetup, DrivesHalfOfTheSquaresEachWayAndNoTwoAlike) {
