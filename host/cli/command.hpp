@@ -31,5 +31,6 @@ void add_report(CLI::App& app);
 void add_tune(CLI::App& app);
 void add_check_wiring(CLI::App& app);
 void add_study(CLI::App& app);
+void add_plan(CLI::App& app);
 
 }  // namespace astro::cli
