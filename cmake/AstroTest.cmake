@@ -7,7 +7,7 @@ include(GoogleTest)
 # How the tests' own code is compiled. Linked last, so that it has the last word over astro_compile: most of what a
 # test costs is compiling it, once, and what it calls is optimised as ever.
 add_library(astro_test_compile INTERFACE)
-target_compile_options(astro_test_compile INTERFACE -O0)
+target_compile_options(astro_test_compile INTERFACE -O0 -fpch-preprocess)
 if(ASTROLABE_SANITIZE)
   # What is checked is the code under test. The checks named here cost the most time to compile, and in the
   # tests' own code AddressSanitizer catches what they would.
