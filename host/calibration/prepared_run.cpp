@@ -17,7 +17,7 @@ namespace {
 constexpr int kFewestSamples = 20;
 // Less than either is a robot that was pushed, not driven.
 constexpr double kShortestDrive_m = 0.2, kSmallestTurn_rad = 0.5;
-constexpr double kLeastCorrelation = 0.5;
+constexpr double kLeastCorrelation = 0.5, kLeastLikeness = 0.9;
 // Truth beyond the wheels' ends would be taken for standing still; half a clock's error is kept away from
 // them.
 constexpr double kMargin_s = 0.02;
@@ -190,7 +190,7 @@ PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& carri
     ClockFit clock;
     if (!clock_known) {
       clock = search_clock(run, carried.b_m, skew);
-      if (clock.correlation < kLeastCorrelation)
+      if (clock.correlation < kLeastCorrelation && clock.likeness < kLeastLikeness)
         throw Error(
             run.name +
             ": the motions of wheels and ground truth have nothing in common at any offset of their clocks: "

@@ -45,6 +45,15 @@ TEST(ClockSearch, DoesNotMindAMirroredTruth) {
   EXPECT_NEAR(search_clock(run, 0.29, {}).offset_s, 3, kBin_s);
 }
 
+TEST(ClockSearch, IsAsFastForALongSteadyDriveAndKnowsItAgain) {
+  // Ten minutes of one spin: nothing varies but its ends, and the square of its samples would take seconds.
+  study::DriveModel model = astro_drive();
+  const Trajectory run = study::synthetic_drive(study::spin_course(600), model, "run", kSeed);
+  const ClockFit fit = search_clock(run, 0.29, {});
+  EXPECT_NEAR(fit.offset_s, 0, 0.1);
+  EXPECT_GT(fit.likeness, 0.95);
+}
+
 TEST(ClockSearch, FindsNothingInCommonWithAnotherDrive) {
   Trajectory run = drive(0, 0);
   run.truth = study::synthetic_drive({{study::Leg::Kind::rest, 0, 0, 11},
@@ -52,7 +61,9 @@ TEST(ClockSearch, FindsNothingInCommonWithAnotherDrive) {
                                       {study::Leg::Kind::rest, 0, 0, 16}},
                                      astro_drive(), "other", kSeed)
                   .truth;
-  EXPECT_LT(search_clock(run, 0.29, {}).correlation, 0.5);
+  const ClockFit fit = search_clock(run, 0.29, {});
+  EXPECT_LT(fit.correlation, 0.5);
+  EXPECT_LT(fit.likeness, 0.9);
 }
 
 }  // namespace
