@@ -8,9 +8,10 @@
 ///
 ///   sd(E_d) = sqrt(2 K / D),   sd(S) = sqrt(K / (2 D)),   sd(b) / b = sqrt(K / (b Theta))
 ///
-/// with D the distance driven and Theta the sum of |rotation|, spins and arcs alike. The rules keep within 4
-/// % of the Cramer-Rao bound of ten 3 m squares. End poses alone do worse: their E_d and b are tied to each
-/// other, and S is invisible to a closed path.
+/// with D the distance driven and Theta the sum of |rotation| of spins; arcs wider than b / 2 slip along
+/// their own length, too, and tell less. The b of its rule is b / S: what S is off by comes on top. The rules
+/// keep within 4 % of the Cramer-Rao bound of ten 3 m squares. End poses alone do worse: their E_d and b are
+/// tied to each other, and S is invisible to a closed path.
 ///
 /// Errors  astro::Error for a length, K, rotation, count or target that is not positive and finite.
 namespace astro::calibration {
