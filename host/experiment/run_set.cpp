@@ -18,6 +18,14 @@ std::string name_of(const fs::path& file, const fs::path& folder) {
   return file.lexically_relative(folder).replace_extension().generic_string();
 }
 
+/// The first few, and how many more there are.
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t kShown = 8;
+  const auto end = names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), kShown));
+  const std::string text = fmt::format("{}", fmt::join(names.begin(), end, ", "));
+  return names.size() <= kShown ? text : text + fmt::format(" and {} more", names.size() - kShown);
+}
+
 std::string matched(const std::string& wanted, const std::vector<std::string>& names,
                     const fs::path& folder) {
   if (std::find(names.begin(), names.end(), wanted) != names.end()) return wanted;
@@ -26,7 +34,7 @@ std::string matched(const std::string& wanted, const std::vector<std::string>& n
     if (fs::path(name).filename() == wanted) matches.push_back(name);
   if (matches.empty())
     throw Error(fmt::format("there is no recording '{}' in {} to leave out: it holds {}", wanted,
-                            folder.string(), fmt::join(names, ", ")));
+                            folder.string(), listed(names)));
   if (matches.size() > 1)
     throw Error(fmt::format("'{}' may be {}: name the one to leave out", wanted, fmt::join(matches, " or ")));
   return matches.front();

@@ -3,11 +3,10 @@
 #include <span>
 #include <vector>
 
-#include "host/calibration/umbmark.hpp"
-#include "host/experiment/plan.hpp"
+#include "host/calibration/end_pose.hpp"
 #include "host/recording/run.hpp"
 
-/// From recorded squares to wheel factors.
+/// From recordings to the end errors of squares.
 namespace astro::experiment {
 
 /// All squares that were driven with one set of parameters.
@@ -23,7 +22,5 @@ Squares squares_of(std::span<const recording::Run> runs);
 
 /// The factors that a run's robot carried; throws astro::Error where the recording does not say.
 calibration::WheelFactors carried_factors(const recording::RunInfo& info);
-
-calibration::Estimate estimate(const Squares& squares, const MethodChoice& method);
 
 }  // namespace astro::experiment
