@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -22,6 +23,11 @@ using testing::HasSubstr;
 using testing::Not;
 
 constexpr double kTrueEd = 1.00416, kTrueWheelbase_m = 0.28861;
+
+std::string read(const fs::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
 
 /// One small experiment that all tests look at: 2 + 2 squares before, 1 + 1 after.
 class Ml : public testing::Test {
@@ -151,6 +157,29 @@ TEST_F(Ml, OfEndPosesStillNeedsWhatWasCarried) {
   const Outcome refused = astrolabe({"upload", file, "--port", simulator_->port(), "--yes"});
   EXPECT_EQ(refused.code, 1);
   EXPECT_THAT(refused.err, HasSubstr("driven with")) << "the robot carries the calibration by now";
+}
+
+TEST_F(Ml, IsExportedByTheEndOfTheFile) {
+  const fs::path folder = simulator_->folder();
+  const std::string calib = out() + "/calib-before.toml";
+  const auto exported = [&](const std::string& name, std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments{"calibrate", "export", calib, "--to", (folder / name).string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return astrolabe(arguments);
+  };
+  EXPECT_EQ(exported("a.yaml", {"--node", "base_controller"}).code, 0);
+  EXPECT_THAT(read(folder / "a.yaml"),
+              AllOf(HasSubstr("base_controller:\n  ros__parameters:\n    wheel_radius: 0.036\n"),
+                    HasSubstr("wheel_separation_multiplier: 0.99")));
+  EXPECT_EQ(exported("a.json").code, 0);
+  EXPECT_EQ(nlohmann::json::parse(read(folder / "a.json"))["calibration"]["method"], "ml");
+  EXPECT_EQ(exported("a.toml").code, 0);
+  EXPECT_THAT(read(folder / "a.toml"), HasSubstr("[diff_drive_controller]"));
+  EXPECT_EQ(exported("a.txt", {"--format", "json"}).code, 0);
+  const Outcome refused = exported("b.txt");
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("b.txt"), HasSubstr("--format")));
+  EXPECT_FALSE(fs::exists(folder / "b.txt"));
 }
 
 }  // namespace
