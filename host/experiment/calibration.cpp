@@ -21,22 +21,18 @@ calibration::Options options_for(const Squares& squares, const MethodChoice& met
   return options;
 }
 
+/// Times are in whole seconds: of equal ones the later in order.
 calibration::WheelFactors last_carried(const RunSet& set) {
-  const auto last = std::max_element(set.runs.begin(), set.runs.end(), [](const auto& a, const auto& b) {
-    return a.info.started_at < b.info.started_at;
-  });
-  return carried_factors(last->info);
+  const recording::RunInfo* last = &set.runs.front().info;
+  for (const recording::Run& run : set.runs)
+    if (run.info.started_at >= last->started_at) last = &run.info;
+  return carried_factors(*last);
 }
 
-/// Squares say something for people here, and nothing that the factors depend on: runs that are no squares of
-/// one kind are no error.
-std::optional<calibration::ExperimentSummary> summary_of(const RunSet& set) {
-  try {
-    const Squares squares = squares_of(set.runs);
-    if (!squares.cw.empty() && !squares.ccw.empty()) return calibration::summarize(squares.cw, squares.ccw);
-  } catch (const Error&) {
-  }
-  return std::nullopt;
+bool uses_ml(std::span<const recording::Run> runs, const MethodChoice& method) {
+  return method.family == Family::ml ||
+         (method.family == Family::automatic &&
+          std::all_of(runs.begin(), runs.end(), [](const auto& run) { return has_moving_truth(run.info); }));
 }
 
 bool clock_known(const RunSet& set, MlChoice::Clock clock) {
@@ -59,7 +55,7 @@ Calibration by_ml(const RunSet& set, const MlChoice& choice) {
       se.c_r,  se.c_l, se.b_m, se.E_d * result.carried.c_l / result.carried.c_r, se.b_m / result.carried.b_m,
       se.scale};
   result.wheel = nominal_wheel(set.runs.front().info, set.names.front());
-  result.squares = summary_of(set);
+  result.squares = summary_of_squares(set.runs);
   result.detail = std::move(ml);
   return result;
 }
@@ -101,13 +97,23 @@ Calibration calibrate(const Squares& squares, const MethodChoice& method) {
 }
 
 Calibration calibrate(const RunSet& set, const MethodChoice& method, const MlChoice& ml) {
-  const bool followed = std::all_of(set.runs.begin(), set.runs.end(),
-                                    [](const auto& run) { return has_moving_truth(run.info); });
-  if (method.family == Family::ml || (method.family == Family::automatic && followed)) return by_ml(set, ml);
+  if (uses_ml(set.runs, method)) return by_ml(set, ml);
   Calibration result = calibrate(squares_of(set.runs), method);
   // Recordings of other origin may do without: the ratios that end poses give need no wheel.
   if (const recording::RunInfo& info = set.runs.front().info; info.parameters.contains("wheel_diameter"))
     result.wheel = nominal_wheel(info, set.names.front());
+  return result;
+}
+
+Calibration calibrate_after(std::span<const RunSet> phases, const MethodChoice& method) {
+  RunSet all;
+  for (const RunSet& phase : phases) {
+    all.names.insert(all.names.end(), phase.names.begin(), phase.names.end());
+    all.runs.insert(all.runs.end(), phase.runs.begin(), phase.runs.end());
+  }
+  if (!uses_ml(all.runs, method)) return calibrate(phases.back(), method);
+  Calibration result = by_ml(all, {});
+  result.squares = summary_of_squares(phases.back().runs);
   return result;
 }
 

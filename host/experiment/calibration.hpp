@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <variant>
 
@@ -70,6 +71,11 @@ struct MlChoice {
 /// Throws astro::Error: see trajectories_of, calibration::estimate_ml, squares_of and
 /// calibration::estimate_factors.
 Calibration calibrate(const RunSet& set, const MethodChoice& method, const MlChoice& ml = {});
+
+/// After the phases of an experiment, at least one: maximum likelihood takes all runs so far, as its factors
+/// do not depend on what the robot carried, so each round adds to the rounds before; the methods of end poses
+/// take the last phase alone. `squares` are those of the last phase. Throws as above.
+Calibration calibrate_after(std::span<const RunSet> phases, const MethodChoice& method);
 
 /// From end poses alone; automatic: extended where every run has an end heading, UMBmark where not. Throws
 /// astro::Error if the method is maximum likelihood, which needs more; and what

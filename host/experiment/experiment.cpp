@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/base/error.hpp"
+#include "host/experiment/experiment_folder.hpp"
 #include "host/experiment/until.hpp"
 #include "host/link/upload.hpp"
 #include "host/recording/run_file.hpp"
@@ -92,7 +93,7 @@ class Session {
     for (int squares = squares_in_phase(folder_, plan, phase);; ++squares) {
       const std::vector<RunSpec> specs = squares_of_phase(plan, phase, squares);
       drive_missing(specs);
-      const Calibration found = experiment::calibrate(read_specs(folder_, specs), plan.method);
+      const Calibration found = calibrate_with(read_specs(folder_, specs));
       if (found.ml() == nullptr)
         throw Error(
             "--until needs maximum likelihood, and these runs have no ground truth along the way: "
@@ -173,10 +174,18 @@ class Session {
     }
   }
 
+  Calibration calibrate_with(const RunSet& current) const {
+    std::vector<RunSet> phases = finished_;
+    phases.push_back(current);
+    return calibrate_after(phases, journal_.plan.method);
+  }
+
   void calibrate(std::size_t phase) {
     const Plan& plan = journal_.plan;
     const std::vector<RunSpec> specs = runs_of_phase(plan, phase, squares_in_phase(folder_, plan, phase));
-    const Calibration found = experiment::calibrate(read_specs(folder_, specs), plan.method);
+    RunSet set = read_specs(folder_, specs);
+    const Calibration found = calibrate_with(set);
+    finished_.push_back(std::move(set));
     const fs::path file = folder_ / fmt::format("calib-{}.toml", specs.front().phase);
     write_calibration(file, found);
     if (!journal_.carried.contains(phase_names(plan)[phase + 1])) upload(found, file);
@@ -203,7 +212,8 @@ class Session {
   fs::path folder_;
   const ExperimentHooks& hooks_;
   Journal journal_;
-  bool announced_ = false;  // what of this phase was recorded before
+  std::vector<RunSet> finished_;  // phases before the one under way
+  bool announced_ = false;        // what of this phase was recorded before
 };
 
 }  // namespace

@@ -46,10 +46,11 @@ std::vector<report::CarriedValue> carried_of(const Results& results, std::size_t
 }
 
 std::string ml_text(const MlResult& ml) {
-  std::string text = extent_sentence(ml) +
-                     " All recordings count, not only the squares. The factors are absolute: they refer to "
-                     "the nominal wheel, whatever the robot carried while it drove.\n\n" +
-                     lever_sentence(ml) + ' ' + clock_sentence(ml) + "\n\n" + noise_sentence(ml) + "\n\n";
+  std::string text =
+      extent_sentence(ml) +
+      " All recordings up to then count, not only the squares. The factors are absolute: they refer to "
+      "the nominal wheel, whatever the robot carried while it drove.\n\n" +
+      lever_sentence(ml) + ' ' + clock_sentence(ml) + "\n\n" + noise_sentence(ml) + "\n\n";
   for (const std::string& sentence : verdict_sentences(ml)) text += sentence + ' ';
   return text;
 }

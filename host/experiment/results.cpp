@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "host/base/error.hpp"
+#include "host/experiment/experiment_folder.hpp"
 #include "host/experiment/json.hpp"
-#include "host/experiment/until.hpp"
 #include "host/recording/run_folder.hpp"
 
 namespace astro::experiment {
@@ -48,15 +48,16 @@ Results read_results(const fs::path& folder) {
   results.journal = read_journal(folder);
   const Plan& plan = results.journal.plan;
   const std::vector<std::string> names = phase_names(plan);
+  std::vector<RunSet> sets;
   for (std::size_t i = 0; i < names.size(); ++i) {
     PhaseResult phase;
     phase.name = names[i];
-    RunSet set = read_phase(folder, plan, i);
-    if (set.runs.empty()) break;
-    phase.squares = squares_of(set.runs);
+    sets.push_back(read_phase(folder, plan, i));
+    if (sets.back().runs.empty()) break;
+    phase.runs = sets.back().runs;
+    phase.squares = squares_of(phase.runs);
     phase.summary = calibration::summarize(phase.squares.cw, phase.squares.ccw);
-    if (i + 1 < names.size()) phase.calibration = calibrate(set, plan.method);
-    phase.runs = std::move(set.runs);
+    if (i + 1 < names.size()) phase.calibration = calibrate_after(sets, plan.method);
     results.phases.push_back(std::move(phase));
   }
   if (results.phases.empty())

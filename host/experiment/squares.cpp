@@ -64,4 +64,13 @@ Squares squares_of(std::span<const recording::Run> runs) {
   return squares;
 }
 
+std::optional<calibration::ExperimentSummary> summary_of_squares(std::span<const recording::Run> runs) {
+  try {
+    const Squares squares = squares_of(runs);
+    if (!squares.cw.empty() && !squares.ccw.empty()) return calibration::summarize(squares.cw, squares.ccw);
+  } catch (const Error&) {
+  }
+  return std::nullopt;
+}
+
 }  // namespace astro::experiment

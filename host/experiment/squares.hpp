@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,10 @@ struct Squares {
 /// Picks the squares out of `runs`. Throws astro::Error if there are none, or if they differ in side or in
 /// the parameters that the robot carried: such runs cannot be averaged.
 Squares squares_of(std::span<const recording::Run> runs);
+
+/// Their end errors, if both directions were driven and all alike; none otherwise, which is no error: for
+/// what is found without squares and only shown with them.
+std::optional<calibration::ExperimentSummary> summary_of_squares(std::span<const recording::Run> runs);
 
 /// The factors that a run's robot carried; throws astro::Error where the recording does not say.
 calibration::WheelFactors carried_factors(const recording::RunInfo& info);
