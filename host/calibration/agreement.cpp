@@ -47,7 +47,22 @@ std::vector<Disagreement> disagreements(std::span<const Reduced> runs, const Hel
   return found;
 }
 
+double dispersion(std::span<const Disagreement> runs) {
+  constexpr double kSignificant = 0.01;
+  Disagreement all;
+  for (const Disagreement& run : runs) {
+    all.chi_square += run.chi_square;
+    all.degrees_of_freedom += run.degrees_of_freedom;
+  }
+  if (chi_square_tail(all.chi_square, all.degrees_of_freedom) > kSignificant) return 1;
+  return all.chi_square / all.degrees_of_freedom;
+}
+
 double chi_square_tail(double value, int degrees_of_freedom) {
+  if (degrees_of_freedom > 3) {
+    const double k = degrees_of_freedom, variance = 2 / (9 * k);
+    return std::erfc((std::cbrt(value / k) - (1 - variance)) / std::sqrt(2 * variance)) / 2;
+  }
   switch (degrees_of_freedom) {
     case 1:
       return std::erfc(std::sqrt(value / 2));

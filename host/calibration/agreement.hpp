@@ -16,7 +16,12 @@ struct Disagreement {
 };
 std::vector<Disagreement> disagreements(std::span<const Reduced> runs, const Held& held);
 
-/// Probability of a chi-square of `degrees_of_freedom` (0 to 3) beyond `value`.
+/// Birge's ratio of them all: how much more the runs scatter than their noise explains, as a factor on
+/// variances. 1 where they do not do so significantly (1 %). Source  Birge 1932, Phys. Rev. 40, 207.
+double dispersion(std::span<const Disagreement> runs);
+
+/// Probability of a chi-square of `degrees_of_freedom` beyond `value`; 1 for 0. Exact up to 3, Wilson and
+/// Hilferty's approximation above.
 double chi_square_tail(double value, int degrees_of_freedom);
 
 }  // namespace astro::calibration

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kBin_s = 0.05;        // of both motions
 constexpr double kHalfWindow_s = 0.1;  // over which a speed is taken
-constexpr double kLongestGap_s = 0.3;
+constexpr double kLongestGap_s = 1;
 constexpr double kNearby_s = 1;
 constexpr double kGoodEnough = 0.95;
 constexpr double kMostSkew = 0.05, kSkewStep = 0.0025, kFineSkewStep = 0.0005;

@@ -77,9 +77,10 @@ InnovationSums innovations(const PreparedRun& run, const Unknowns& unknowns, con
 /// The Fisher information of a run of exactly these unknowns: truth serves by its times alone.
 Information expected_information(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise);
 
-/// Slope and curvature of -2 log likelihood in (log K, log sigma_xy^2, log sigma_theta^2), the parameters
-/// held: expected curvature, as in Fisher's scoring.
+/// Slope and curvature of -2 log likelihood in the logarithms of K and of the squares of sigma_xy and
+/// sigma_theta, the parameters held: expected curvature, as in Fisher's scoring.
 struct NoiseSlope {
+  static constexpr int kNoises = 3;
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();
 };

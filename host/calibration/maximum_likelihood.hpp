@@ -53,7 +53,8 @@ struct RunFit {
   /// degrees of freedom (fewer than 3 where the run cannot see all three; 0 if there are no others).
   double disagreement = 0;
   int disagreement_dof = 0;
-  bool outlier = false;  // less likely than one in a thousand among as many runs
+  bool outlier =
+      false;  // less likely than one in a thousand among as many runs, the others being as they are
 };
 
 /// Innovations while the robot moved in one way.
@@ -83,6 +84,9 @@ struct MlEstimate {
   std::vector<RunFit> runs;
   std::vector<KindFit> kinds;                        // those that occur, in the order of Motion
   std::optional<WheelbaseByKind> wheelbase_by_kind;  // only with enough of both
+  /// How much more the runs scatter than their noise explains; the covariance and all standard errors of
+  /// factors are already widened by it. 1 where they do not.
+  double dispersion = 1;
   double chi_square = 0;
   int degrees_of_freedom = 0;
   int iterations = 0;

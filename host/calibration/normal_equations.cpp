@@ -34,6 +34,8 @@ Parts parts_of(const InnovationSums& sums, const Held& held, double damping) {
     a(unknown, unknown) = unknown < kShared ? 0 : 1;
     g[unknown] = 0;
   };
+  if (held.factors)
+    for (const int unknown : {kCRight, kCLeft, kB}) hold(unknown);
   if (held.clock) {
     hold(kSkew);
     hold(kClockOffset);
@@ -44,6 +46,7 @@ Parts parts_of(const InnovationSums& sums, const Held& held, double damping) {
 }
 
 SharedInformation with_priors(SharedInformation information, const Held& held) {
+  if (held.factors) information.diagonal().head<3>().setOnes();
   information(kLeverX, kLeverX) += kLeverPrior;
   information(kLeverY, kLeverY) += kLeverPrior;
   information(kLeverYaw, kLeverYaw) += held.lever_yaw ? 1 : kYawPrior;

@@ -14,6 +14,7 @@ using SharedVector = Eigen::Matrix<double, kShared, 1>;
 
 /// Which unknowns are held where they are.
 struct Held {
+  bool factors = false;    // c_R, c_L, b
   bool clock = false;      // offsets and skew
   bool lever_yaw = false;  // no headings anywhere
 };

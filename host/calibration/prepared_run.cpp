@@ -18,8 +18,11 @@ constexpr double kShortestDrive_m = 0.2, kSmallestTurn_rad = 0.5;
 constexpr double kLeastCorrelation = 0.5;
 // Truth beyond the wheels' ends would be taken for standing still; half a clock's error is kept away from
 // them.
+constexpr double kIndependent_s = 0.05;
 constexpr double kMargin_s = 0.02;
 constexpr double kWindow_s = 0.1;  // half of the time over which a motion is told
+// Likewise for lines against arcs: a robot that is held on a line sways about it.
+constexpr double kLongWindow_s = 0.5;
 constexpr double kSlowest_mps = 0.002;
 
 void require_samples(const Trajectory& run) {
@@ -36,12 +39,19 @@ void require_samples(const Trajectory& run) {
     throw Error(run.name + " has times that run backwards: record it again");
 }
 
-Motion motion_between(const WheelState& a, const WheelState& b, double span_s, double wheelbase_m) {
+/// What the centre travelled and how far the robot turned within so much of a moment.
+MotionExtent extent_around(const WheelPath& path, double time_s, double half_window_s, double wheelbase_m) {
+  const WheelState a = path.at(time_s - half_window_s), b = path.at(time_s + half_window_s);
   const double left = b.left_m - a.left_m, right = b.right_m - a.right_m;
-  if (std::abs(left) + std::abs(right) < 2 * kSlowest_mps * span_s) return Motion::rest;
-  const double centre = std::abs(left + right) / 2, turn = std::abs(right - left) / wheelbase_m;
-  if (centre < turn * wheelbase_m / 4) return Motion::spin;
-  return centre > 10 * wheelbase_m * turn ? Motion::line : Motion::arc;
+  return {std::abs(left + right) / 2, std::abs(right - left) / wheelbase_m};
+}
+
+Motion motion_at(const WheelPath& path, double time_s, double wheelbase_m) {
+  const MotionExtent now = extent_around(path, time_s, kWindow_s, wheelbase_m);
+  if (now.distance_m + now.rotation_rad * wheelbase_m / 2 < 2 * kWindow_s * kSlowest_mps) return Motion::rest;
+  if (now.distance_m < now.rotation_rad * wheelbase_m / 4) return Motion::spin;
+  const MotionExtent longer = extent_around(path, time_s, kLongWindow_s, wheelbase_m);
+  return longer.distance_m > 10 * wheelbase_m * longer.rotation_rad ? Motion::line : Motion::arc;
 }
 
 double robot_time(const ClockFit& clock, double middle_s, double truth_s) {
@@ -54,12 +64,24 @@ bool mostly_headings(const Trajectory& run) {
   return 2 * static_cast<std::size_t>(with) > run.truth.size();
 }
 
-PreparedRun cropped(const Trajectory& run, const ClockFit& clock) {
+double median_period_s(const std::vector<WheelSample>& wheels) {
+  std::vector<double> periods;
+  for (std::size_t i = 1; i < wheels.size(); ++i) periods.push_back(wheels[i].time_s - wheels[i - 1].time_s);
+  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
+  std::nth_element(periods.begin(), middle, periods.end());
+  return *middle;
+}
+
+PreparedRun cropped(const Trajectory& run, const ClockFit& clock, Density density) {
   PreparedRun prepared;
   prepared.source = &run;
   prepared.has_headings = mostly_headings(run);
   prepared.clock_middle_s = (run.wheels.front().time_s + run.wheels.back().time_s) / 2 - clock.offset_s;
+  // A hair less, so that a multiple of the tracker's period is not missed by its jitter.
+  const double spacing_s =
+      density == Density::all ? 0 : 0.9 * std::max(kIndependent_s, 2 * median_period_s(run.wheels));
   for (const BodySample& sample : run.truth) {
+    if (!prepared.truth.empty() && sample.time_s - prepared.truth.back().time_s < spacing_s) continue;
     const double u = robot_time(clock, prepared.clock_middle_s, sample.time_s);
     if (u < run.wheels.front().time_s + kMargin_s || u > run.wheels.back().time_s - kMargin_s) continue;
     if (!std::isfinite(sample.x_m) || !std::isfinite(sample.y_m)) continue;
@@ -74,8 +96,7 @@ void tell_motion(PreparedRun& run, const ClockFit& clock, double wheelbase_m) {
   WheelState before;
   for (std::size_t i = 0; i < run.truth.size(); ++i) {
     const double u = robot_time(clock, run.clock_middle_s, run.truth[i].time_s);
-    run.motion.push_back(
-        motion_between(path.at(u - kWindow_s), path.at(u + kWindow_s), 2 * kWindow_s, wheelbase_m));
+    run.motion.push_back(motion_at(path, u, wheelbase_m));
     const WheelState now = path.at(u);
     if (i > 0) {
       const double distance_m = std::abs(now.left_m - before.left_m + now.right_m - before.right_m) / 2;
@@ -111,13 +132,15 @@ struct HeadingChange {
 };
 
 HeadingChange heading_change(const PreparedRun& run, const std::vector<BodySample>& odometry) {
-  // Steps of a dozen samples or so stand out of the noise and are far below half a turn.
-  constexpr std::size_t kStride = 12;
+  // Steps that stand out of the noise and are far below half a turn.
+  constexpr double kStep_s = 0.2;
   HeadingChange sums;
-  for (std::size_t i = kStride; i < run.truth.size(); i += kStride) {
+  for (std::size_t i = 0, from = 0; i < run.truth.size(); ++i) {
+    if (run.truth[i].time_s - run.truth[from].time_s < kStep_s) continue;
     const double truth =
-        std::remainder(run.truth[i].theta_rad - run.truth[i - kStride].theta_rad, 2 * std::numbers::pi);
-    const double wheels = odometry[i].theta_rad - odometry[i - kStride].theta_rad;
+        std::remainder(run.truth[i].theta_rad - run.truth[from].theta_rad, 2 * std::numbers::pi);
+    const double wheels = odometry[i].theta_rad - odometry[from].theta_rad;
+    from = i;
     if (std::abs(wheels) > 2.5) continue;  // a long gap
     sums.product += truth * wheels;
     sums.truth += std::abs(truth);
@@ -207,7 +230,8 @@ RigidFit fit_rigid(std::span<const BodySample> from, std::span<const BodySample>
   return fit;
 }
 
-PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& carried, bool clock_known) {
+PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& carried, bool clock_known,
+                     Density density) {
   if (runs.empty()) throw Error("there are no runs to calibrate from");
   PreparedRuns prepared;
   std::optional<double> skew;
@@ -223,7 +247,7 @@ PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& carri
             "check that they belong to the same drive");
       skew = clock.skew;
     }
-    PreparedRun ready = cropped(run, clock);
+    PreparedRun ready = cropped(run, clock, density);
     tell_motion(ready, clock, carried.b_m);
     require_motion(ready);
     require_senses(ready, clock, carried);

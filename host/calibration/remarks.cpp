@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "host/calibration/maximum_likelihood.hpp"
 
 namespace astro::calibration {
@@ -28,6 +30,11 @@ std::vector<std::string> MlEstimate::remarks() const {
   std::vector<std::string> sentences;
   for (const RunFit& run : runs)
     if (run.outlier) sentences.push_back(outlier_sentence(run));
+  if (dispersion > 1)
+    sentences.push_back(
+        fmt::format("the runs differ {:.1f} times as much as the noise within them explains; the standard "
+                    "errors are widened by that",
+                    std::sqrt(dispersion)));
   if (wheelbase_by_kind && wheelbase_by_kind->disagrees)
     sentences.push_back(wheelbase_sentence(*wheelbase_by_kind));
   return sentences;

@@ -133,15 +133,18 @@ std::vector<Unknowns> start_values(const PreparedRuns& runs, const WheelFactors&
 
 NoiseModel start_noise(const PreparedRuns& runs) {
   std::vector<double> position, heading;
-  for (const PreparedRun& run : runs.runs)
-    for (std::size_t i = 2; i < run.truth.size(); ++i) {
-      const BodySample &a = run.truth[i - 2], &b = run.truth[i - 1], &c = run.truth[i];
+  for (const PreparedRun& run : runs.runs) {
+    const std::vector<BodySample>& truth = run.source->truth;
+    for (std::size_t i = 2; i < truth.size(); ++i) {
+      const BodySample &a = truth[i - 2], &b = truth[i - 1], &c = truth[i];
+      if (!std::isfinite(a.x_m + b.x_m + c.x_m)) continue;
       position.push_back(a.x_m - 2 * b.x_m + c.x_m);
       position.push_back(a.y_m - 2 * b.y_m + c.y_m);
-      if (run.has_headings)
+      if (std::isfinite(a.theta_rad + b.theta_rad + c.theta_rad))
         heading.push_back(std::remainder(c.theta_rad - b.theta_rad, 2 * std::numbers::pi) -
                           std::remainder(b.theta_rad - a.theta_rad, 2 * std::numbers::pi));
     }
+  }
   return {kTypicalK_m, std::max(sigma_of(std::move(position)), 1e-5),
           std::max(sigma_of(std::move(heading)), 1e-5)};
 }

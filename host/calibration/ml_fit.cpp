@@ -1,0 +1,132 @@
+#include "host/calibration/ml_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "host/base/error.hpp"
+#include "host/calibration/start_values.hpp"
+
+namespace astro::calibration {
+namespace {
+
+constexpr int kMostSteps = 30, kMostRounds = 6, kMostScorings = 20;
+// A cost that falls by less has parameters that move by less than a twentieth of their standard errors.
+constexpr double kSettled = 1e-3;
+constexpr double kNoiseSettled = 0.01;  // of the logarithms of the variances
+constexpr double kLargestNoiseStep = 2;
+
+double cost_of(std::span<const InnovationSums> sums) {
+  double cost = 0;
+  for (const InnovationSums& run : sums) cost += run.cost;
+  return cost;
+}
+
+/// Moves the logarithm of a variance, kept as its `power`-th root, and tells by how much it really did.
+double scale_variance(double& value, int power, double change, double least, double most) {
+  const double step = std::clamp(change, -kLargestNoiseStep, kLargestNoiseStep);
+  const double before = value;
+  value = std::clamp(before * std::exp(step / power), least, most);
+  return std::abs(power * std::log(value / before));
+}
+
+}  // namespace
+
+MlFit::MlFit(const PreparedRuns& prepared, const WheelFactors& carried, const MlOptions& options,
+             bool factors_held)
+    : runs_(prepared.runs),
+      carried_(carried),
+      unknowns_(start_values(prepared, carried)),
+      noise_(options.noise ? *options.noise : start_noise(prepared)) {
+  held_.factors = factors_held;
+  held_.clock = options.clock_known;
+  held_.lever_yaw =
+      std::none_of(runs_.begin(), runs_.end(), [](const PreparedRun& run) { return run.has_headings; });
+  for (Unknowns& u : unknowns_) {
+    if (held_.clock) u[kSkew] = u[kClockOffset] = 0;
+    if (held_.factors) u.head<3>() << carried.c_r, carried.c_l, carried.b_m;
+  }
+  // A first guess is judged by least squares: what seems an outlier to it may be the truth.
+  maximise(false);
+  require_plausible();
+  if (options.noise) {
+    if (options.robust) maximise(true);
+  } else {
+    for (int round = 0; round < kMostRounds; ++round) {
+      const bool settled = fit_noise(options.robust);
+      maximise(options.robust);
+      if (settled) break;
+    }
+  }
+  require_plausible();
+}
+
+std::vector<InnovationSums> MlFit::pass(std::span<const Unknowns> unknowns, bool huber) const {
+  std::vector<InnovationSums> sums;
+  for (std::size_t i = 0; i < runs_.size(); ++i)
+    sums.push_back(innovations(runs_[i], unknowns[i], noise_, huber));
+  return sums;
+}
+
+void MlFit::maximise(bool huber) {
+  double damping = 0;
+  sums_ = pass(unknowns_, huber);
+  for (int step = 0; step < kMostSteps; ++step) {
+    ++iterations_;
+    const std::vector<Unknowns> steps = gauss_newton_step(sums_, held_, damping);
+    double expected = 0;
+    std::vector<Unknowns> next = unknowns_;
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      next[i] += steps[i];
+      expected += steps[i].dot(sums_[i].gradient);
+    }
+    std::vector<InnovationSums> sums = pass(next, huber);
+    const double fall = cost_of(sums_) - cost_of(sums);
+    if (fall > -kSettled) {
+      unknowns_ = std::move(next);
+      sums_ = std::move(sums);
+      damping = damping < 1e-3 ? 0 : damping / 10;
+    } else {
+      damping = std::max(10 * damping, 1e-3);
+      if (damping > 1e6) return;
+    }
+    if (expected < kSettled || std::abs(fall) < kSettled) return;
+  }
+}
+
+/// Fisher's scoring in the logarithms; true if hardly anything changed.
+bool MlFit::fit_noise(bool huber) {
+  double first = 0;
+  for (int step = 0; step < kMostScorings; ++step) {
+    NoiseSlope slope;
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      const NoiseSlope run = noise_slope(runs_[i], unknowns_[i], noise_, huber);
+      slope.gradient += run.gradient;
+      slope.curvature += run.curvature;
+    }
+    // Without headings their noise is told by nothing and stays.
+    slope.curvature.diagonal().array() += 1e-9;
+    const Eigen::Vector3d change = -slope.curvature.ldlt().solve(slope.gradient);
+    const double moved = std::max({scale_variance(noise_.K_m, 1, change[0], 1e-13, 1e-2),
+                                   scale_variance(noise_.sigma_xy_m, 2, change[1], 1e-7, 1),
+                                   scale_variance(noise_.sigma_theta_rad, 2, change[2], 1e-7, 1)});
+    if (step == 0) first = moved;
+    if (moved < kNoiseSettled) break;
+  }
+  return first < kNoiseSettled;
+}
+
+void MlFit::require_plausible() const {
+  const Unknowns& u = unknowns_.front();
+  const auto outside = [](double ratio) { return !(ratio > 0.5 && ratio < 2); };
+  if (outside(u[kCRight]) || outside(u[kCLeft]) || outside(u[kB] / carried_.b_m))
+    throw Error(
+        fmt::format("c_R = {:.3g}, c_L = {:.3g} and b = {:.3g} m came out, which no robot of {:.3g} m "
+                    "wheelbase has: check the unit "
+                    "of the ground truth, the wheel diameter and the counts of a turn",
+                    u[kCRight], u[kCLeft], u[kB], carried_.b_m));
+}
+
+}  // namespace astro::calibration

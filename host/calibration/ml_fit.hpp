@@ -1,0 +1,45 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "host/calibration/maximum_likelihood.hpp"
+#include "host/calibration/normal_equations.hpp"
+#include "host/calibration/prepared_run.hpp"
+
+/// The search for the likeliest unknowns.
+namespace astro::calibration {
+
+/// Gauss-Newton, damped where it has to be, in turns with the noise where that is not given.
+///
+/// Throws astro::Error if factors come out that no robot has, and what start_values throws.
+class MlFit {
+ public:
+  /// `prepared` must outlive it. With `factors_held` c_R, c_L and b stay as `carried`, and only the nuisances
+  /// give way.
+  MlFit(const PreparedRuns& prepared, const WheelFactors& carried, const MlOptions& options,
+        bool factors_held = false);
+
+  const std::vector<PreparedRun>& runs() const { return runs_; }
+  const std::vector<Unknowns>& unknowns() const { return unknowns_; }  // of each run, their shared part equal
+  const std::vector<InnovationSums>& sums() const { return sums_; }
+  const NoiseModel& noise() const { return noise_; }
+  const Held& held() const { return held_; }
+  int iterations() const { return iterations_; }
+
+ private:
+  std::vector<InnovationSums> pass(std::span<const Unknowns> unknowns, bool huber) const;
+  void maximise(bool huber);
+  bool fit_noise(bool huber);
+  void require_plausible() const;
+
+  const std::vector<PreparedRun>& runs_;
+  WheelFactors carried_;
+  std::vector<Unknowns> unknowns_;
+  Held held_;
+  NoiseModel noise_;
+  std::vector<InnovationSums> sums_;
+  int iterations_ = 0;
+};
+
+}  // namespace astro::calibration
