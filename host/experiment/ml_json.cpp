@@ -58,6 +58,7 @@ nlohmann::json to_json(const MlResult& ml) {
                            {"sigma_theta_rad", number(estimate.noise.sigma_theta_rad)}}},
                          {"chi_square", number(estimate.chi_square)},
                          {"degrees_of_freedom", estimate.degrees_of_freedom},
+                         {"dispersion", number(estimate.dispersion)},
                          {"iterations", estimate.iterations},
                          {"wheelbase_by_motion", agreement_json(estimate.wheelbase_by_kind)},
                          {"remarks", estimate.remarks()}};

@@ -11,6 +11,15 @@ namespace {
 
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
+/// A remark with a capital and a full stop, unless it begins with the name of a run, which stays as it is.
+std::string as_sentence(std::string remark, const std::vector<calibration::RunFit>& runs) {
+  const bool named = std::any_of(runs.begin(), runs.end(),
+                                 [&](const auto& run) { return remark.starts_with(run.name + ' '); });
+  if (!named && !remark.empty() && remark[0] >= 'a' && remark[0] <= 'z')
+    remark[0] = static_cast<char>(remark[0] - 'a' + 'A');
+  return remark.ends_with('.') ? remark : remark + '.';
+}
+
 }  // namespace
 
 std::string with_error(double value, double error, int decimals) {
@@ -61,9 +70,7 @@ std::string noise_sentence(const MlResult& ml) {
 
 std::vector<std::string> verdict_sentences(const MlResult& ml) {
   std::vector<std::string> sentences = ml.estimate.remarks();
-  // The estimator's sentences begin with a run's name or go on from a colon.
-  for (std::string& sentence : sentences)
-    if (!sentence.ends_with('.')) sentence += '.';
+  for (std::string& sentence : sentences) sentence = as_sentence(std::move(sentence), ml.estimate.runs);
   if (sentences.empty())
     sentences.push_back(ml.estimate.wheelbase_by_kind
                             ? "The runs agree with each other, and so do arcs and spins about the wheelbase."
