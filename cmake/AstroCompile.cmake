@@ -32,6 +32,12 @@ if(ASTROLABE_SANITIZE)
     -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -O1 -g1)
   target_link_options(astro_compile INTERFACE -fsanitize=address,undefined)
 endif()
+# For code that takes longer to compile than it ever runs, in the build under the sanitizers: the checks are all there,
+# the optimiser (and its warnings) are left to the host build. To be linked last: it overrides astro_compile.
+add_library(astro_quick_sanitize INTERFACE)
+if(ASTROLABE_SANITIZE)
+  target_compile_options(astro_quick_sanitize INTERFACE -O0)
+endif()
 if(ASTROLABE_COVERAGE)
   target_compile_options(astro_compile INTERFACE --coverage -O0)
   target_link_options(astro_compile INTERFACE --coverage)
@@ -39,5 +45,6 @@ endif()
 
 find_program(ASTROLABE_CCACHE ccache)
 if(ASTROLABE_CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${ASTROLABE_CCACHE})
+  # The sloppiness is what ccache asks for before it keeps what includes a precompiled header (the tests).
+  set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros ${ASTROLABE_CCACHE})
 endif()

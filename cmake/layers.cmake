@@ -24,7 +24,7 @@ set(ASTRO_LAYERS
   "host/simulator : common hal/interface hal/sim firmware/app host/base host/link host/truth host/recording host/simulator"
   "host/emulator  : common hal/interface hal/sim hal/teensy40/registers host/base host/link host/recording host/simulator host/truth host/emulator"
   "host/emulator/program : common hal/sim host/base host/cli host/emulator host/link host/recording host/simulator"
-  "host/cli       : common host/base host/calibration host/experiment host/identification host/link host/recording host/report host/simulator host/truth host/tuning host/cli"
+  "host/cli       : common host/base host/calibration host/experiment host/identification host/link host/recording host/report host/simulator host/study host/truth host/tuning host/cli"
   "tests          : common hal firmware host tests"
 )
 

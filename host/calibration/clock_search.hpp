@@ -11,7 +11,13 @@ namespace astro::calibration {
 /// run).
 struct ClockFit {
   double offset_s = 0, skew = 0;
-  double correlation = 0;  // of the two motions there, at most 1
+  double correlation = 0;  // of how speeds and turn rates differ from their means, at most 1
+  double likeness = 0;     // of speeds and turn rates themselves: near 1 for a steady motion, too
+
+  /// The robot's time of a truth sample; `middle_s`: the truth's time in the middle of the run.
+  double robot_time_s(double truth_s, double middle_s) const {
+    return truth_s + offset_s + skew * (truth_s - middle_s);
+  }
 };
 
 /// Slides the one motion along the other until speeds and turn rates correlate best. Clocks that are nearly

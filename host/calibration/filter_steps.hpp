@@ -13,8 +13,10 @@ namespace astro::calibration::filter {
 inline constexpr double kLongestStep_s = 0.06;
 // Squares of Huber's thresholds: 99 % of chi-square with 2 and 3 degrees of freedom.
 inline constexpr double kHuber2 = 9.210, kHuber3 = 11.345;
-// What Huber's weights leave of a normal variance: the mean of min(d^2, limit d) over that of d^2.
-inline constexpr double kKept2 = 0.99458, kKept3 = 0.99616;
+// What is left of a normal variance when no sample counts for more than the threshold (Huber's proposal 2):
+// the mean of min(d^2, limit) over that of d^2. Bounded, for a variance, unlike a mean, would follow a few
+// samples far out.
+inline constexpr double kKept2 = 0.99, kKept3 = 0.99287;
 
 /// A moment on the robot's clock, and how it moves with the clock's unknowns.
 struct Moment {

@@ -11,6 +11,7 @@
 #include "host/base/error.hpp"
 #include "host/calibration/agreement.hpp"
 #include "host/calibration/ml_fit.hpp"
+#include "host/calibration/start_values.hpp"
 
 namespace astro::calibration {
 namespace {
@@ -152,19 +153,11 @@ MlEstimate judged(const MlFit& fit) {
   return estimate;
 }
 
-}  // namespace
-
-MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& carried,
-                       const MlOptions& options) {
-  const PreparedRuns prepared = prepare(runs, carried, options.clock_known, Density::independent);
-  return judged(MlFit(prepared, carried, options));
-}
-
-FactorCovariance cramer_rao_bound(std::span<const Trajectory> runs, const WheelFactors& factors,
-                                  const LeverArm& lever, const MlOptions& options) {
-  const PreparedRuns prepared = prepare(runs, factors, options.clock_known, Density::all);
+/// Of runs whose unknowns are known: what they could tell at best.
+FactorCovariance bound_of(const PreparedRuns& prepared, const WheelFactors& factors, const LeverArm& lever,
+                          const NoiseModel& noise, bool clock_known) {
   Held held;
-  held.clock = options.clock_known;
+  held.clock = clock_known;
   held.lever_yaw = std::none_of(prepared.runs.begin(), prepared.runs.end(),
                                 [](const PreparedRun& run) { return run.has_headings; });
   SharedInformation information = SharedInformation::Zero();
@@ -179,10 +172,28 @@ FactorCovariance cramer_rao_bound(std::span<const Trajectory> runs, const WheelF
     u[kSkew] = prepared.clocks[i].skew;
     u[kClockOffset] = prepared.clocks[i].offset_s;
     InnovationSums sums;
-    sums.information = expected_information(prepared.runs[i], u, options.noise.value());
+    sums.information = expected_information(prepared.runs[i], u, noise);
     information += reduced(sums, held, 0).information;
   }
-  const FactorCovariance covariance = factor_covariance(shared_covariance(information, held));
+  return factor_covariance(shared_covariance(information, held));
+}
+
+}  // namespace
+
+MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& carried,
+                       const MlOptions& options) {
+  const PreparedRuns prepared = prepare(runs, carried, options.clock_known, Density::independent);
+  require_variety(prepared);
+  // With usual noise and before anything is fitted: what the runs leave open runs away in a fit.
+  require_observed(errors_of(bound_of(prepared, carried, {}, {}, options.clock_known), carried), carried);
+  return judged(MlFit(prepared, carried, options));
+}
+
+FactorCovariance cramer_rao_bound(std::span<const Trajectory> runs, const WheelFactors& factors,
+                                  const LeverArm& lever, const MlOptions& options) {
+  const PreparedRuns prepared = prepare(runs, factors, options.clock_known, Density::all);
+  const FactorCovariance covariance =
+      bound_of(prepared, factors, lever, options.noise.value(), options.clock_known);
   require_observed(errors_of(covariance, factors), factors);
   return covariance;
 }

@@ -76,7 +76,7 @@ class NoiseFilter {
     constexpr double kLimit = N == 3 ? kHuber3 : kHuber2;
     const bool outside = huber_ && squared > kLimit;
     const double trust = outside ? std::sqrt(kLimit / squared) : 1;
-    add(slopes, weight, r, r_by, trust, !huber_ ? 1 : N == 3 ? kKept3 : kKept2);
+    add(slopes, weight, r, r_by, trust * trust, !huber_ ? 1 : N == 3 ? kKept3 : kKept2);
     if (outside) {
       s += (1 / trust - 1) * (by_xy + by_theta);
       by_xy /= trust;

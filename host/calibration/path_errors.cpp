@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "host/calibration/ml_fit.hpp"
+#include "host/calibration/path_alignment.hpp"
 
 namespace astro::calibration {
 namespace {
@@ -42,7 +43,7 @@ PathErrors path_errors(std::span<const Trajectory> runs, const WheelFactors& fac
     const Unknowns& u = fit.unknowns()[i];
     RunErrors of_run{run.source->name};
     SquareSum run_m;
-    const std::vector<BodySample> odometry = dead_reckoned(run, {u[kClockOffset], u[kSkew], 1}, factors);
+    const std::vector<BodySample> odometry = dead_reckoned(run, {u[kClockOffset], u[kSkew]}, factors);
     for (std::size_t k = 0; k < odometry.size(); ++k) {
       const BodySample expected = placed(odometry[k], u);
       const double miss_m = std::hypot(expected.x_m - run.truth[k].x_m, expected.y_m - run.truth[k].y_m);

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "host/base/error.hpp"
+#include "host/calibration/path_alignment.hpp"
 #include "host/calibration/wheel_path.hpp"
 
 namespace astro::calibration {
@@ -15,10 +17,9 @@ namespace {
 constexpr int kFewestSamples = 20;
 // Less than either is a robot that was pushed, not driven.
 constexpr double kShortestDrive_m = 0.2, kSmallestTurn_rad = 0.5;
-constexpr double kLeastCorrelation = 0.5;
+constexpr double kLeastCorrelation = 0.5, kLeastLikeness = 0.9;
 // Truth beyond the wheels' ends would be taken for standing still; half a clock's error is kept away from
 // them.
-constexpr double kIndependent_s = 0.05;
 constexpr double kMargin_s = 0.02;
 constexpr double kWindow_s = 0.1;  // half of the time over which a motion is told
 // Likewise for lines against arcs: a robot that is held on a line sways about it.
@@ -54,10 +55,6 @@ Motion motion_at(const WheelPath& path, double time_s, double wheelbase_m) {
   return longer.distance_m > 10 * wheelbase_m * longer.rotation_rad ? Motion::line : Motion::arc;
 }
 
-double robot_time(const ClockFit& clock, double middle_s, double truth_s) {
-  return truth_s + clock.offset_s + clock.skew * (truth_s - middle_s);
-}
-
 bool mostly_headings(const Trajectory& run) {
   const auto with = std::count_if(run.truth.begin(), run.truth.end(),
                                   [](const BodySample& sample) { return std::isfinite(sample.theta_rad); });
@@ -78,14 +75,16 @@ PreparedRun cropped(const Trajectory& run, const ClockFit& clock, Density densit
   prepared.has_headings = mostly_headings(run);
   prepared.clock_middle_s = (run.wheels.front().time_s + run.wheels.back().time_s) / 2 - clock.offset_s;
   // A hair less, so that a multiple of the tracker's period is not missed by its jitter.
-  const double spacing_s =
-      density == Density::all ? 0 : 0.9 * std::max(kIndependent_s, 2 * median_period_s(run.wheels));
+  const double spacing_s = density == Density::all ? 0 : 0.9 * median_period_s(run.wheels);
+  double last_s = -std::numeric_limits<double>::infinity();
   for (const BodySample& sample : run.truth) {
-    if (!prepared.truth.empty() && sample.time_s - prepared.truth.back().time_s < spacing_s) continue;
-    const double u = robot_time(clock, prepared.clock_middle_s, sample.time_s);
-    if (u < run.wheels.front().time_s + kMargin_s || u > run.wheels.back().time_s - kMargin_s) continue;
     if (!std::isfinite(sample.x_m) || !std::isfinite(sample.y_m)) continue;
     if (prepared.has_headings && !std::isfinite(sample.theta_rad)) continue;
+    // Before the clock has its say: which samples are taken must not hang on where a search found it.
+    if (sample.time_s - last_s < spacing_s) continue;
+    last_s = sample.time_s;
+    const double u = clock.robot_time_s(sample.time_s, prepared.clock_middle_s);
+    if (u < run.wheels.front().time_s + kMargin_s || u > run.wheels.back().time_s - kMargin_s) continue;
     prepared.truth.push_back(sample);
   }
   return prepared;
@@ -95,7 +94,7 @@ void tell_motion(PreparedRun& run, const ClockFit& clock, double wheelbase_m) {
   const WheelPath path(run.source->wheels);
   WheelState before;
   for (std::size_t i = 0; i < run.truth.size(); ++i) {
-    const double u = robot_time(clock, run.clock_middle_s, run.truth[i].time_s);
+    const double u = clock.robot_time_s(run.truth[i].time_s, run.clock_middle_s);
     run.motion.push_back(motion_at(path, u, wheelbase_m));
     const WheelState now = path.at(u);
     if (i > 0) {
@@ -181,55 +180,6 @@ void require_senses(const PreparedRun& run, const ClockFit& clock, const WheelFa
 
 }  // namespace
 
-std::vector<BodySample> dead_reckoned(const PreparedRun& run, const ClockFit& clock,
-                                      const WheelFactors& factors) {
-  const WheelPath path(run.source->wheels);
-  std::vector<BodySample> poses;
-  BodySample pose{0, 0, 0, 0};
-  WheelState before;
-  for (std::size_t i = 0; i < run.truth.size(); ++i) {
-    const WheelState now = path.at(robot_time(clock, run.clock_middle_s, run.truth[i].time_s));
-    if (i > 0) {
-      const double l = factors.c_l * (now.left_m - before.left_m),
-                   r = factors.c_r * (now.right_m - before.right_m);
-      const double turn = (r - l) / factors.b_m, middle = pose.theta_rad + turn / 2;
-      pose.x_m += (l + r) / 2 * std::cos(middle);
-      pose.y_m += (l + r) / 2 * std::sin(middle);
-      pose.theta_rad += turn;
-    }
-    pose.time_s = run.truth[i].time_s;
-    poses.push_back(pose);
-    before = now;
-  }
-  return poses;
-}
-
-RigidFit fit_rigid(std::span<const BodySample> from, std::span<const BodySample> to, bool mirrored) {
-  const double sign = mirrored ? -1 : 1, n = static_cast<double>(from.size());
-  double fx = 0, fy = 0, tx = 0, ty = 0;
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    fx += from[i].x_m / n;
-    fy += sign * from[i].y_m / n;
-    tx += to[i].x_m / n;
-    ty += to[i].y_m / n;
-  }
-  double dot = 0, cross = 0, spread = 0;
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    const double ax = from[i].x_m - fx, ay = sign * from[i].y_m - fy, bx = to[i].x_m - tx,
-                 by = to[i].y_m - ty;
-    dot += ax * bx + ay * by;
-    cross += ax * by - ay * bx;
-    spread += ax * ax + ay * ay + bx * bx + by * by;
-  }
-  RigidFit fit;
-  fit.rotation_rad = std::atan2(cross, dot);
-  const double c = std::cos(fit.rotation_rad), s = std::sin(fit.rotation_rad);
-  fit.x_m = tx - (c * fx - s * fy);
-  fit.y_m = ty - (s * fx + c * fy);
-  fit.rms_m = std::sqrt(std::max(0.0, spread - 2 * std::hypot(dot, cross)) / n);
-  return fit;
-}
-
 PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& carried, bool clock_known,
                      Density density) {
   if (runs.empty()) throw Error("there are no runs to calibrate from");
@@ -240,7 +190,7 @@ PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& carri
     ClockFit clock;
     if (!clock_known) {
       clock = search_clock(run, carried.b_m, skew);
-      if (clock.correlation < kLeastCorrelation)
+      if (clock.correlation < kLeastCorrelation && clock.likeness < kLeastLikeness)
         throw Error(
             run.name +
             ": the motions of wheels and ground truth have nothing in common at any offset of their clocks: "

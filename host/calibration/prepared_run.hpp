@@ -13,10 +13,9 @@ namespace astro::calibration {
 /// Which samples of truth are used.
 enum class Density {
   all,
-  /// No two closer than 50 ms or than two samples of the wheels. What the wheels do between their samples,
-  /// and what the tracker gets wrong for a moment, is shared by all truth in between and would count for more
-  /// than it tells. Costs 2 % of the precision where the noise is white, and saves two thirds of the time.
-  /// Rejected: means over as long, for they smooth the slip, too (K comes out 13 % too small).
+  /// No two closer than two samples of the wheels are: what the wheels did between these is a guess that all
+  /// truth in between shares, and would count for more than it tells. Rejected: means over as long, for they
+  /// smooth the slip, too (K comes out 13 % too small).
   independent
 };
 
@@ -33,17 +32,5 @@ struct PreparedRuns {
 };
 PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& carried, bool clock_known,
                      Density density);
-
-/// Dead reckoning by `factors` at the times of the prepared truth, from pose (0, 0, 0) at the first.
-std::vector<BodySample> dead_reckoned(const PreparedRun& run, const ClockFit& clock,
-                                      const WheelFactors& factors);
-
-/// The rigid motion, or its mirror image, that carries one path closest to another.
-struct RigidFit {
-  double rotation_rad = 0, x_m = 0,
-         y_m = 0;  // to = R(rotation) * from + (x, y), y of `from` negated if mirrored
-  double rms_m = 0;
-};
-RigidFit fit_rigid(std::span<const BodySample> from, std::span<const BodySample> to, bool mirrored);
 
 }  // namespace astro::calibration

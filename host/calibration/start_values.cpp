@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "host/base/error.hpp"
+#include "host/calibration/path_alignment.hpp"
 #include "host/calibration/relative_pose.hpp"
 #include "host/calibration/wheel_path.hpp"
 
@@ -33,8 +34,7 @@ void add_pieces(const PreparedRun& run, const ClockFit& clock, double wheelbase_
   double travelled_m = 0, turned_rad = 0;
   WheelState before;
   for (std::size_t i = 0; i < run.truth.size(); ++i) {
-    const double t = run.truth[i].time_s;
-    const WheelState now = path.at(t + clock.offset_s + clock.skew * (t - run.clock_middle_s));
+    const WheelState now = path.at(clock.robot_time_s(run.truth[i].time_s, run.clock_middle_s));
     if (i > 0) {
       const double left = now.left_m - before.left_m, right = now.right_m - before.right_m;
       steps.push_back({left, right});
@@ -50,22 +50,6 @@ void add_pieces(const PreparedRun& run, const ClockFit& clock, double wheelbase_
     from = i;
     travelled_m = turned_rad = 0;
   }
-}
-
-void require_variety(const PreparedRuns& runs) {
-  double distance_m = 0, rotation_rad = 0;
-  for (const PreparedRun& run : runs.runs) {
-    distance_m += run.distance_m;
-    rotation_rad += run.rotation_rad;
-  }
-  if (rotation_rad < kLeastTurn_rad)
-    throw Error(
-        "the robot never turned, so nothing tells its wheelbase: drive squares, circles or spins as well");
-  if (distance_m < 0.02 * rotation_rad)
-    throw Error(
-        "the robot only turned on the spot, which tells the ratio of wheels and wheelbase but no size: drive "
-        "lines or "
-        "squares as well");
 }
 
 std::optional<RelativePoseFit> closed_form(const PreparedRuns& runs, const WheelFactors& carried) {
@@ -108,8 +92,23 @@ double sigma_of(std::vector<double> second_differences) {
 
 }  // namespace
 
+void require_variety(const PreparedRuns& runs) {
+  double distance_m = 0, rotation_rad = 0;
+  for (const PreparedRun& run : runs.runs) {
+    distance_m += run.distance_m;
+    rotation_rad += run.rotation_rad;
+  }
+  if (rotation_rad < kLeastTurn_rad)
+    throw Error(
+        "the robot never turned, so nothing tells its wheelbase: drive squares, circles or spins as well");
+  if (distance_m < 0.02 * rotation_rad)
+    throw Error(
+        "the robot only turned on the spot, which tells the ratio of wheels and wheelbase but no size: drive "
+        "lines or "
+        "squares as well");
+}
+
 std::vector<Unknowns> start_values(const PreparedRuns& runs, const WheelFactors& carried) {
-  require_variety(runs);
   Unknowns shared = Unknowns::Zero();
   shared[kCRight] = carried.c_r;
   shared[kCLeft] = carried.c_l;

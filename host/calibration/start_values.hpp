@@ -9,10 +9,13 @@
 /// lead to negative wheels.
 namespace astro::calibration {
 
+/// Throws astro::Error when the runs never turn or never go straight.
+void require_variety(const PreparedRuns& runs);
+
 /// Factors and lever arm from relative poses (relative_pose.hpp) where truth has headings; else as carried,
 /// without lever arm. One entry per run, with its own start pose and clock.
 ///
-/// Throws astro::Error when the runs never turn or never go straight, or a wheel comes out negative.
+/// Throws astro::Error when a wheel comes out negative.
 std::vector<Unknowns> start_values(const PreparedRuns& runs, const WheelFactors& carried);
 
 /// The tracker's noise from second differences of its samples, which a motion hardly has; K as usual.

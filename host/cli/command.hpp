@@ -30,5 +30,7 @@ void add_compare(CLI::App& app);
 void add_report(CLI::App& app);
 void add_tune(CLI::App& app);
 void add_check_wiring(CLI::App& app);
+void add_study(CLI::App& app);
+void add_plan(CLI::App& app);
 
 }  // namespace astro::cli

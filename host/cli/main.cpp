@@ -18,9 +18,10 @@ using namespace astro::cli;  // NOLINT(google-build-using-namespace): this file 
 constexpr int kFailed = 1, kWrongUsage = 2, kInterrupted = 130;
 
 void add_commands(CLI::App& app) {
-  for (const auto add : {add_umbmark, add_calibrate, add_upload, add_record, add_compare, add_report, add_sim,
-                         add_ports, add_info, add_params, add_drive, add_stop, add_pause, add_faults,
-                         add_reboot, add_flash, add_monitor, add_check_wiring, add_tune})
+  for (const auto add :
+       {add_umbmark, add_calibrate, add_upload,  add_record,       add_compare, add_report, add_sim,
+        add_ports,   add_info,      add_params,  add_drive,        add_stop,    add_pause,  add_faults,
+        add_reboot,  add_flash,     add_monitor, add_check_wiring, add_tune,    add_plan,   add_study})
     add(app);
 }
 

@@ -113,7 +113,7 @@ std::string what_is_wrong(const Place& place, const CLI::ParseError& error, int 
                        suggestion(place.unknown, command_names(*place.command)));
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
     return unknown_argument(place, first_extra(error.what(), argc, argv));
-  if (has_commands(*place.command)) return fmt::format("'{}' needs a command", place.path);
+  if (place.command->get_require_subcommand_min() > 0) return fmt::format("'{}' needs a command", place.path);
   const std::string said = error.what();
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr && said.find(": ") != std::string::npos)
     return said.substr(0, said.find(": ")) + " needs a value";

@@ -24,7 +24,8 @@ std::string text_of(const fs::path& path) {
   if (file == nullptr) throw std::runtime_error("cannot read " + path.string());
   std::string text;
   char buffer[65536];
-  for (int count; (count = gzread(file, buffer, sizeof buffer)) > 0;) text.append(buffer, static_cast<std::size_t>(count));
+  for (int count; (count = gzread(file, buffer, sizeof buffer)) > 0;)
+    text.append(buffer, static_cast<std::size_t>(count));
   gzclose(file);
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   return text;

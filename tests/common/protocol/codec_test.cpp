@@ -8,6 +8,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -24,6 +25,17 @@ template <Message M>
 Bytes body_of(const M& message, std::uint16_t request_id) {
   std::array<std::uint8_t, kMaxBody> out{};
   return {out.begin(), out.begin() + static_cast<std::ptrdiff_t>(encode(message, request_id, out))};
+}
+
+// RapidCheck's templates compiled once, not once for each message.
+bool holds(const std::function<void()>& property) { return rc::check(property); }
+void require(bool held, const char* claim) {
+  if (!held) RC_FAIL(claim);
+}
+std::size_t any_below(std::size_t begin, std::size_t end) { return *rc::gen::inRange(begin, end); }
+template <class Value>
+Value any() {
+  return *rc::gen::arbitrary<Value>();
 }
 
 template <class... Lists>
@@ -46,25 +58,25 @@ using AllTypes = TypesOf<Requests, Replies, Events>::Types;
 TYPED_TEST_SUITE(EveryMessage, AllTypes, MessageName);
 
 TYPED_TEST(EveryMessage, ComesBackAsItWasSent) {
-  EXPECT_TRUE(rc::check([] {
+  EXPECT_TRUE(holds([] {
     const auto sent = arbitrary<TypeParam>();
-    const auto request_id = *rc::gen::arbitrary<std::uint16_t>();
+    const auto request_id = any<std::uint16_t>();
     const Bytes body = body_of(sent, request_id);
     const auto received = decode<TypeParam>(body);
-    RC_ASSERT(received.ok());
-    RC_ASSERT(*received == sent);
-    RC_ASSERT(*peek(body) == (Header{TypeParam::kId, request_id}));
+    require(received.ok(), "it is read");
+    require(*received == sent, "the message is the same");
+    require(*peek(body) == Header{TypeParam::kId, request_id}, "the header is the same");
   }));
 }
 
 TYPED_TEST(EveryMessage, IsRefusedAtAnyOtherLength) {
-  EXPECT_TRUE(rc::check([] {
+  EXPECT_TRUE(holds([] {
     Bytes body = body_of(arbitrary<TypeParam>(), 1);
     for (std::size_t size = 0; size < body.size(); ++size) {
-      RC_ASSERT(decode<TypeParam>(std::span(body).first(size)).error() == DecodeError::too_short);
+      require(decode<TypeParam>(std::span(body).first(size)).error() == DecodeError::too_short, "too short");
     }
     body.push_back(0);
-    RC_ASSERT(decode<TypeParam>(body).error() == DecodeError::too_long);
+    require(decode<TypeParam>(body).error() == DecodeError::too_long, "too long");
   }));
 }
 
@@ -80,14 +92,14 @@ TYPED_TEST(EveryMessage, IsNotTakenForAnother) {
 
 // Together with the round trip: bodies and values correspond one to one, so nothing on the wire is ignored.
 TYPED_TEST(EveryMessage, IsWrittenAgainAsTheBytesItWasReadFrom) {
-  EXPECT_TRUE(rc::check([] {
+  EXPECT_TRUE(holds([] {
     Bytes body = body_of(arbitrary<TypeParam>(), 1);
     if (body.size() > kHeaderSize) {
-      const auto at = *rc::gen::inRange<std::size_t>(kHeaderSize, body.size());
-      body[at] = *rc::gen::arbitrary<std::uint8_t>();
+      const auto at = any_below(kHeaderSize, body.size());
+      body[at] = any<std::uint8_t>();
     }
     const auto read = decode<TypeParam>(body);
-    if (read) RC_ASSERT(body_of(*read, 1) == body);
+    if (read) require(body_of(*read, 1) == body, "the bytes are the same");
   }));
 }
 
@@ -159,9 +171,9 @@ TEST(Codec, WorksAtCompileTime) {
 
 RC_GTEST_PROP(Codec, ReadsNoiseAsAMessageOrANamedError, (Bytes noise)) {
   const auto try_all = [&]<Message M>() {
-    if (!noise.empty() && *rc::gen::arbitrary<bool>()) noise[0] = M::kId;
+    if (!noise.empty() && any<bool>()) noise[0] = M::kId;
     const auto read = decode<M>(noise);
-    if (!read) RC_ASSERT(!name(read.error()).empty());
+    if (!read) require(!name(read.error()).empty(), "the error has a name");
   };
   Requests::visit(try_all);
   Replies::visit(try_all);

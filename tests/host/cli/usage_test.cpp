@@ -51,7 +51,7 @@ int explain(const Words& command) {
 }
 
 TEST(Help, OfEveryCommandShowsExamplesOfIt) {
-  EXPECT_GE(explain({}), 1 + 17 + 7 + 8);  // the program, its commands, those of drive and of params
+  EXPECT_GE(explain({}), 1 + 19 + 7 + 8 + 1);  // the program, its commands, those of drive, params and study
 }
 
 TEST(Version, IsOneLine) {
@@ -109,6 +109,18 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{{"check-wiring", "--saw-left", "lf"}, {"--saw-right"}},
         Mistake{{"check-wiring", "--rolled-turns", "10"}, {"--roll"}},
         Mistake{{"check-wiring", "--roll", "--rolled-turns", "0"}, {"'0' is not a number above 0"}},
+        Mistake{{"plan", "--until", "5"}, {"--until", "'5' is no precision"}},
+        Mistake{{"plan", "--until", "0.05%", "--squares", "4"}, {"--until", "--squares"}},
+        Mistake{{"plan", "--kinds", "squares"}, {"--kinds", "--until"}},
+        Mistake{{"plan", "--until", "1%", "--kinds", "rings"}, {"'rings' is none of"}},
+        Mistake{{"plan", "--squares", "1001"}, {"'1001' is not a whole number"}},
+        Mistake{{"study", "--shard", "4/3"}, {"--shard", "'4/3' is no shard"}},
+        Mistake{{"study", "--shard", "1/2"}, {"--out"}},
+        Mistake{{"study", "--shard", "1/2", "--out", "x", "--json"}, {"--json", "study merge"}},
+        Mistake{{"study", "--clock", "guessed"}, {"--clock"}},
+        Mistake{{"study", "--trials", "0"}, {"'0' is not a whole number"}},
+        Mistake{{"study", "mege"}, {"'astrolabe study mege'", "did you mean 'merge'"}},
+        Mistake{{"study", "merge"}, {"FILES is required"}},
         Mistake{{"sim", "--wiring", "left"}, {"--wiring", "'left' is no fault"}},
         Mistake{{"sim", "--slip", "-1e-6"}, {"--slip", "'-1e-6' is not a number from"}},
         Mistake{{"sim", "--true-wheelbase", "0"}, {"--true-wheelbase", "'0' is not a number from"}},

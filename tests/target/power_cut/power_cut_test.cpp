@@ -1,6 +1,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
+#include <string_view>
+
 #include "common/params/table.hpp"
 #include "host/emulator/emulated_robot.hpp"
 #include "host/link/client.hpp"
@@ -29,9 +33,13 @@ class CutRobot {
     return {bytes.begin(), bytes.end()};
   }
   void start_with(const Content& content) {
-    std::copy(content.begin(), content.end(), flash().parameters().begin());
+    put_back(content);
     robot_->teensy().power_cycle();
     client_.connect();
+  }
+  /// The commit reads the flash anew, so the robot need not start again to find what now lies there.
+  void put_back(const Content& content) {
+    std::copy(content.begin(), content.end(), flash().parameters().begin());
   }
   /// True if the robot says that the set is in force.
   bool commit(std::int32_t value) {
@@ -57,22 +65,73 @@ class CutRobot {
   link::Client client_{std::make_unique<PortTransport>(robot_, Port::serial)};
 };
 
-/// A flash that holds the old set, such that the next commit begins with (or does without) erasing a sector.
+/// Bytes that held something are blank now: a sector of old records was erased, not one that was blank
+/// before, in which each place of a cut would leave the same.
+bool wiped(const Content& before, const Content& after) {
+  for (std::size_t i = 0; i < before.size(); ++i)
+    if (before[i] != 0xFF && after[i] == 0xFF) return true;
+  return false;
+}
+
+/// A flash that holds the old set, such that the next commit begins with (or does without) erasing a sector
+/// that is full of older records.
 Content before_a_commit(CutRobot& robot, bool erases) {
   robot.start_with(Content(NorFlash::kParametersEnd - NorFlash::kParameters, 0xFF));
-  // A sector takes an even number of records: with this one the new set is the one that erases.
-  EXPECT_TRUE(!erases || robot.commit(kOne));
   EXPECT_TRUE(robot.commit(kOld));
-  for (int commits = 0; commits < 100; ++commits) {
+  for (int commits = 0; commits < 200; ++commits) {
     const Content before = robot.content();
     const std::uint64_t worked = robot.flash().bytes_worked();
     EXPECT_TRUE(robot.commit(kNew));
-    if ((robot.flash().bytes_worked() - worked >= 4096) == erases) return before;
+    const bool erased = robot.flash().bytes_worked() - worked >= 4096;
+    if (erases ? wiped(before, robot.content()) : !erased) return before;
     EXPECT_TRUE(robot.commit(kOld));
   }
   ADD_FAILURE() << "no commit of this kind";
   return {};
 }
+
+/// Where within the work the kind of damage changes: begin and end of each record in the sector that is
+/// erased and of the one that is written after it, so every word of every header and of every CRC; the ends
+/// of the sector and of the pages that are written. Elsewhere one word is like its neighbour: one in fifteen
+/// is cut.
+class Places {
+ public:
+  Places(const Content& before, const Content& after, bool erases) : erases_(erases) {
+    if (!erases) return;
+    std::size_t at = 0;
+    while (before[at] == after[at]) ++at;
+    const std::size_t sector = at / kSector * kSector;
+    for (std::size_t byte = 0; byte < kSector; byte += 4) {
+      if (begins(before, sector + byte))
+        record(byte, before[sector + byte + 6] + 256 * before[sector + byte + 7]);
+    }
+    const int written = after[sector + 6] + 256 * after[sector + 7];
+    record(kSector, written);
+    for (int page = kPage; page < written; page += kPage)
+      edges_.push_back(kSector + static_cast<std::size_t>(page));
+  }
+  bool worth_a_cut(std::uint64_t at) const {
+    const auto near = [at](std::uint64_t edge) { return at + kNear >= edge && at <= edge + kNear; };
+    // 15 words: sharp and torn cuts take turns.
+    return !erases_ || every_word() || at % 60 == 0 || std::any_of(edges_.begin(), edges_.end(), near);
+  }
+
+ private:
+  static constexpr std::size_t kSector = 4096, kNear = 16, kAroundPayload = 16;
+  static constexpr int kPage = 256;
+  static bool every_word() { return std::getenv("ASTRO_CUT_EVERY_WORD") != nullptr; }  // ./dev fuzz
+  static bool begins(const Content& content, std::size_t at) {
+    return std::equal(kMagic.begin(), kMagic.end(), content.begin() + static_cast<std::ptrdiff_t>(at));
+  }
+  void record(std::size_t begin, int payload) {
+    edges_.push_back(begin);
+    edges_.push_back(begin + kAroundPayload + static_cast<std::size_t>(payload));
+  }
+
+  static constexpr std::string_view kMagic = "ASTP";
+  bool erases_;
+  std::vector<std::uint64_t> edges_;
+};
 
 struct Share {
   bool erases;
@@ -81,19 +140,24 @@ struct Share {
 
 class PowerCut : public testing::TestWithParam<Share> {};
 
-TEST_P(PowerCut, AtAnyWordLeavesTheOldSetOrTheNewOne) {
+TEST_P(PowerCut, LeavesTheOldSetOrTheNewOne) {
   const auto [erases, part, parts] = GetParam();
   CutRobot robot;
   const Content before = before_a_commit(robot, erases);
+  ASSERT_FALSE(before.empty());
   robot.start_with(before);
   const std::uint64_t begun = robot.flash().bytes_worked();
   ASSERT_TRUE(robot.commit(kNew));
   const std::uint64_t whole = robot.flash().bytes_worked() - begun;
+  const Places places(before, robot.content(), erases);
   int old_sets = 0, new_sets = 0;
-  for (std::uint64_t cut = 4 * part; cut <= whole; cut += 4 * parts) {
-    robot.start_with(before);
+  unsigned place = 0;
+  for (std::uint64_t cut = 0; cut <= whole; cut += 4) {
+    if (!places.worth_a_cut(cut) || place++ % parts != part) continue;
+    robot.put_back(before);
     robot.flash().cut_power_after(cut, cut % 8 == 0 ? sim::Tear::sharp : sim::Tear::torn);
     const bool said_done = robot.commit(kNew);
+    ASSERT_FALSE(robot.flash().powered()) << "cut after " << cut << " bytes";
     const std::int32_t found = robot.after_power_cycle();
     ASSERT_TRUE(found == kOld || found == kNew) << "cut after " << cut << " bytes: " << found;
     ASSERT_TRUE(!said_done || found == kNew)
@@ -105,11 +169,10 @@ TEST_P(PowerCut, AtAnyWordLeavesTheOldSetOrTheNewOne) {
   EXPECT_GT(old_sets, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Append, PowerCut, testing::Values(Share{false, 0, 1}));
+// Without an erase: at every word.
+INSTANTIATE_TEST_SUITE_P(Append, PowerCut, testing::Values(Share{false, 0, 2}, Share{false, 1, 2}));
 INSTANTIATE_TEST_SUITE_P(Erase, PowerCut,
-                         testing::Values(Share{true, 0, 8}, Share{true, 1, 8}, Share{true, 2, 8},
-                                         Share{true, 3, 8}, Share{true, 4, 8}, Share{true, 5, 8},
-                                         Share{true, 6, 8}, Share{true, 7, 8}));
+                         testing::Values(Share{true, 0, 3}, Share{true, 1, 3}, Share{true, 2, 3}));
 
 }  // namespace
 }  // namespace astro::emulator

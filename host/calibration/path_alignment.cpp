@@ -1,0 +1,59 @@
+#include "host/calibration/path_alignment.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/calibration/wheel_path.hpp"
+
+namespace astro::calibration {
+
+std::vector<BodySample> dead_reckoned(const PreparedRun& run, const ClockFit& clock,
+                                      const WheelFactors& factors) {
+  const WheelPath path(run.source->wheels);
+  std::vector<BodySample> poses;
+  BodySample pose{0, 0, 0, 0};
+  WheelState before;
+  for (std::size_t i = 0; i < run.truth.size(); ++i) {
+    const WheelState now = path.at(clock.robot_time_s(run.truth[i].time_s, run.clock_middle_s));
+    if (i > 0) {
+      const double l = factors.c_l * (now.left_m - before.left_m),
+                   r = factors.c_r * (now.right_m - before.right_m);
+      const double turn = (r - l) / factors.b_m, middle = pose.theta_rad + turn / 2;
+      pose.x_m += (l + r) / 2 * std::cos(middle);
+      pose.y_m += (l + r) / 2 * std::sin(middle);
+      pose.theta_rad += turn;
+    }
+    pose.time_s = run.truth[i].time_s;
+    poses.push_back(pose);
+    before = now;
+  }
+  return poses;
+}
+
+RigidFit fit_rigid(std::span<const BodySample> from, std::span<const BodySample> to, bool mirrored) {
+  const double sign = mirrored ? -1 : 1, n = static_cast<double>(from.size());
+  double fx = 0, fy = 0, tx = 0, ty = 0;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    fx += from[i].x_m / n;
+    fy += sign * from[i].y_m / n;
+    tx += to[i].x_m / n;
+    ty += to[i].y_m / n;
+  }
+  double dot = 0, cross = 0, spread = 0;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const double ax = from[i].x_m - fx, ay = sign * from[i].y_m - fy, bx = to[i].x_m - tx,
+                 by = to[i].y_m - ty;
+    dot += ax * bx + ay * by;
+    cross += ax * by - ay * bx;
+    spread += ax * ax + ay * ay + bx * bx + by * by;
+  }
+  RigidFit fit;
+  fit.rotation_rad = std::atan2(cross, dot);
+  const double c = std::cos(fit.rotation_rad), s = std::sin(fit.rotation_rad);
+  fit.x_m = tx - (c * fx - s * fy);
+  fit.y_m = ty - (s * fx + c * fy);
+  fit.rms_m = std::sqrt(std::max(0.0, spread - 2 * std::hypot(dot, cross)) / n);
+  return fit;
+}
+
+}  // namespace astro::calibration

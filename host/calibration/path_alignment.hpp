@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "host/calibration/prepared_run.hpp"
+
+/// Paths laid over one another.
+namespace astro::calibration {
+
+/// Dead reckoning by `factors` at the times of the prepared truth, from pose (0, 0, 0) at the first.
+std::vector<BodySample> dead_reckoned(const PreparedRun& run, const ClockFit& clock,
+                                      const WheelFactors& factors);
+
+/// The rigid motion, or its mirror image, that carries one path closest to another.
+struct RigidFit {
+  double rotation_rad = 0, x_m = 0,
+         y_m = 0;  // to = R(rotation) * from + (x, y), y of `from` negated if mirrored
+  double rms_m = 0;
+};
+RigidFit fit_rigid(std::span<const BodySample> from, std::span<const BodySample> to, bool mirrored);
+
+}  // namespace astro::calibration

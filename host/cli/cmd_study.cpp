@@ -1,0 +1,181 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+#include <thread>
+
+#include "host/base/error.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/console.hpp"
+#include "host/cli/interrupt.hpp"
+#include "host/cli/options.hpp"
+#include "host/cli/study_options.hpp"
+#include "host/cli/study_view.hpp"
+#include "host/cli/wrong_usage.hpp"
+#include "host/recording/files.hpp"
+#include "host/study/shard_file.hpp"
+#include "host/study/study.hpp"
+
+namespace astro::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  study::TrialSetup setup;
+  double sigma_theta_deg = 0.15;
+  std::string clock = "known", noise = "estimated";
+  int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  study::Shard shard;
+  std::string shard_text = "1/1";
+  fs::path out;
+  bool json = false;
+};
+
+struct MergeOptions {
+  std::vector<fs::path> files;
+  bool json = false;
+};
+
+std::optional<study::Shard> shard_named(const std::string& text) {
+  study::Shard shard;
+  const char* end = text.data() + text.size();
+  const auto number = std::from_chars(text.data(), end, shard.number);
+  if (number.ec != std::errc() || number.ptr == end || *number.ptr != '/') return std::nullopt;
+  const auto of = std::from_chars(number.ptr + 1, end, shard.of);
+  if (of.ec != std::errc() || of.ptr != end || shard.number < 1 || shard.of < shard.number)
+    return std::nullopt;
+  return shard;
+}
+
+void add_setup(CLI::App& command, Options& options) {
+  study::TrialSetup& setup = options.setup;
+  add_count(command, "--trials", setup.trials, 1, 10'000'000, "how often it is all repeated");
+  command.add_option("--seed", setup.seed, "of all noise")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(whole(0, std::numeric_limits<std::uint64_t>::max()));
+  add_count(command, "--runs", setup.runs, 1, 1000, "squares in each direction");
+  add_size(command, "--side", setup.side_m, "side of the square, m");
+  add_size(command, "--wheelbase", setup.wheelbase_m, "wheelbase that the robot believes in, m");
+  add_ratio(command, "--true-ed", setup.E_d, "true ratio of the wheel diameters, right over left");
+  add_ratio(command, "--true-eb", setup.E_b, "true wheelbase over the believed one, both at equal scale");
+  add_ratio(command, "--scale", setup.scale, "common to the true wheels and wheelbase");
+  add_noise(command, setup.noise, options.sigma_theta_deg, setup.truth_rate_hz);
+  add_rate(command, "--count-rate", setup.count_rate_hz, "of the encoder counts, Hz");
+  command
+      .add_option("--clock", options.clock,
+                  "known, or estimated: then each run gets an offset, which ml has to find")
+      ->check(CLI::IsMember({"known", "estimated"}))
+      ->capture_default_str();
+  command.add_option("--clock-sd", setup.clock_offset_sd_s, "of the offsets of an estimated clock, s")
+      ->type_name("S")
+      ->check(between(0, 1, "s"))
+      ->capture_default_str();
+  command.add_option("--noise", options.noise, "whether ml is told the noise or estimates it")
+      ->check(CLI::IsMember({"known", "estimated"}))
+      ->capture_default_str();
+}
+
+void add_work(CLI::App& command, Options& options) {
+  add_count(command, "--jobs", options.jobs, 1, 4096, "threads; the result does not depend on them");
+  command.add_option("--shard", options.shard_text, "only part I of N, for 'study merge'; needs --out")
+      ->type_name("I/N")
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            return shard_named(text) ? "" : "'" + text + "' is no shard: give 1/4 for the first of four";
+          },
+          ""));
+  command.add_option("--out", options.out, "write the trials here")->type_name("FILE");
+  add_json_flag(command, options.json);
+}
+
+void print(const study::Summary& summary, bool json) {
+  std::cout << (json ? study_json(summary).dump(2) + '\n' : study_text(summary));
+}
+
+std::vector<study::Trial> drive(const Options& options) {
+  Progress progress("study");
+  return run_study(options.setup, options.shard, options.jobs, [&](int done, int total) {
+    check_interrupt();
+    progress.show(static_cast<double>(done) / total, fmt::format("trial {} of {}", done, total));
+  });
+}
+
+void run(Options& options) {
+  options.setup.noise.sigma_theta_rad = options.sigma_theta_deg * std::numbers::pi / 180;
+  options.setup.clock_known = options.clock == "known";
+  options.setup.noise_known = options.noise == "known";
+  options.shard = *shard_named(options.shard_text);
+  const bool part = options.shard.of > 1;
+  if (part && options.out.empty())
+    throw WrongUsage("--shard makes a part for 'study merge': say with --out where to put it");
+  if (part && options.json) throw WrongUsage("--shard prints no result: give --json to 'study merge'");
+  std::optional<recording::PartFile> file;
+  if (!options.out.empty()) file.emplace(options.out);  // what cannot be written is known before the work
+  const std::vector<study::Trial> trials = drive(options);
+  if (file) {
+    const std::string text = to_text(options.setup, trials);
+    file->write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    file->commit();
+    say(fmt::format("trials {} to {} of {} are in '{}'", trials.front().index, trials.back().index,
+                    options.setup.trials, options.out.string()));
+  }
+  if (!part) print(summarize(options.setup, trials), options.json);
+}
+
+study::Part load(const fs::path& path) {
+  const recording::Bytes bytes = recording::load_file(path);
+  return study::read_part({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string());
+}
+
+void add_merge(CLI::App& study) {
+  const auto options = std::make_shared<MergeOptions>();
+  CLI::App* command = study.add_subcommand("merge", "put the shards of one study together");
+  command->add_option("FILES", options->files, "what 'study --shard I/N --out FILE' wrote, all N")
+      ->required();
+  add_json_flag(*command, options->json);
+  examples(*command, {"astrolabe study merge part-*.json", "astrolabe study merge part-*.json --json"});
+  command->callback([options] {
+    std::vector<study::Part> parts;
+    for (const fs::path& path : options->files) parts.push_back(load(path));
+    const std::vector<study::Trial> trials = merge(parts);
+    print(summarize(parts.front().setup, trials), options->json);
+  });
+}
+
+}  // namespace
+
+void add_study(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "study", "Monte Carlo: how well each calibration method does, beside the Cramer-Rao bound");
+  command->require_subcommand(0, 1);
+  add_setup(*command, *options);
+  add_work(*command, *options);
+  command->footer(
+      "A trial drives squares with noise on a kinematic robot and lets every method calibrate.\n"
+      "E_max, theta and the 10 m line are what is left without noise, the result loaded.\n"
+      "Examples:\n"
+      "  astrolabe study --trials 500\n"
+      "  astrolabe study --clock estimated --side 1.5 --json\n"
+      "GNU parallel over machines, then the table:\n"
+      "  parallel -S host1,host2 --return part-{}.json astrolabe study --trials 10000 \\\n"
+      "    --shard {}/16 --jobs 1 --out part-{}.json ::: {1..16}\n"
+      "  astrolabe study merge part-*.json\n"
+      "A job array (Slurm): sbatch --array=1-100 study.sh, with study.sh saying\n"
+      "  astrolabe study --trials 100000 --shard $SLURM_ARRAY_TASK_ID/100 \\\n"
+      "    --jobs $SLURM_CPUS_PER_TASK --out part-$SLURM_ARRAY_TASK_ID.json");
+  add_merge(*command);
+  command->callback([command, options] {
+    if (command->get_subcommands().empty()) run(*options);
+  });
+}
+
+}  // namespace astro::cli

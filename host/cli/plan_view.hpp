@@ -1,0 +1,19 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "host/study/programme.hpp"
+
+/// What a programme of drives will give, as text for people and as JSON.
+namespace astro::cli {
+
+/// At most 80 columns as long as not all four kinds come in hundreds.
+std::string plan_text(const study::Forecast& forecast);
+
+nlohmann::json plan_json(const study::Forecast& forecast);
+
+/// "8 min 47 s", "2 h 03 min".
+std::string duration_text(double seconds);
+
+}  // namespace astro::cli

@@ -1,0 +1,140 @@
+#include "host/study/setup.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <random>
+#include <string>
+
+#include "host/base/error.hpp"
+#include "host/study/limits.hpp"
+
+namespace astro::study {
+namespace {
+
+using calibration::Sense;
+using calibration::Trajectory;
+
+// Apart from the seeds of the drives, which count from 0.
+constexpr std::uint64_t kClocks = 1'000'000;
+
+void require(bool holds, double value, const std::string& what, const std::string& remedy) {
+  if (!holds) throw Error(what + " is " + std::to_string(value) + ": give " + remedy);
+}
+
+// Far more than anybody waits for; what is damaged or mistyped beyond them would exhaust the memory.
+constexpr int kMostTrials = 10'000'000, kMostSquares = 1000;
+
+DriveModel model_of(const TrialSetup& setup) {
+  DriveModel model;
+  model.carried = setup.carried();
+  model.actual = setup.actual();
+  model.noise = setup.noise;
+  model.count_rate_hz = setup.count_rate_hz;
+  model.truth_rate_hz = setup.truth_rate_hz;
+  return model;
+}
+
+Sense sense_of(int run) { return run % 2 == 0 ? Sense::cw : Sense::ccw; }
+
+std::string name_of(int run) {
+  return std::string("square ") + (sense_of(run) == Sense::cw ? "cw " : "ccw ") + std::to_string(run / 2 + 1);
+}
+
+}  // namespace
+
+calibration::WheelFactors TrialSetup::actual() const {
+  return {scale * 2 * E_d / (E_d + 1), scale * 2 / (E_d + 1), scale * E_b * wheelbase_m};
+}
+
+calibration::MlOptions TrialSetup::ml_options() const {
+  calibration::MlOptions options;
+  options.clock_known = clock_known;
+  if (noise_known) options.noise = noise;
+  return options;
+}
+
+void TrialSetup::check() const {
+  require(trials >= 1 && trials <= kMostTrials, trials, "the number of trials", "1 to 10 million");
+  require(runs >= 1 && runs <= kMostSquares, runs, "the number of squares in each direction", "1 to 1000");
+  require_positive(side_m, "the side of the square in metres");
+  require_positive(wheelbase_m, "the wheelbase in metres");
+  require_positive(E_d, "the ratio of the wheels");
+  require_positive(E_b, "the ratio of the wheelbases");
+  require_positive(scale, "the common scale");
+  require_positive(noise.K_m, "the wheel slip K in metres");
+  require_positive(noise.sigma_xy_m, "the error of the ground truth's position in metres");
+  require_positive(noise.sigma_theta_rad, "the error of the ground truth's heading in radians");
+  require_positive(count_rate_hz, "the rate of the counts in Hz");
+  require_positive(truth_rate_hz, "the rate of the ground truth in Hz");
+  require(std::isfinite(clock_offset_sd_s) && clock_offset_sd_s >= 0, clock_offset_sd_s,
+          "the scatter of the clocks in seconds", "0 or more");
+  const DriveModel usual;
+  require_fits_memory(2 * runs * (4 * side_m / usual.speed_mps + 2 * std::numbers::pi / usual.yaw_rate_radps),
+                      truth_rate_hz, count_rate_hz);
+}
+
+nlohmann::json to_json(const TrialSetup& setup) {
+  return {{"trials", setup.trials},
+          {"seed", setup.seed},
+          {"runs", setup.runs},
+          {"side_m", setup.side_m},
+          {"wheelbase_m", setup.wheelbase_m},
+          {"E_d", setup.E_d},
+          {"E_b", setup.E_b},
+          {"scale", setup.scale},
+          {"K_m", setup.noise.K_m},
+          {"sigma_xy_m", setup.noise.sigma_xy_m},
+          {"sigma_theta_rad", setup.noise.sigma_theta_rad},
+          {"count_rate_hz", setup.count_rate_hz},
+          {"truth_rate_hz", setup.truth_rate_hz},
+          {"clock", setup.clock_known ? "known" : "estimated"},
+          {"clock_offset_sd_s", setup.clock_offset_sd_s},
+          {"noise", setup.noise_known ? "known" : "estimated"}};
+}
+
+TrialSetup setup_from(const nlohmann::json& json) {
+  TrialSetup setup;
+  json.at("trials").get_to(setup.trials);
+  json.at("seed").get_to(setup.seed);
+  json.at("runs").get_to(setup.runs);
+  json.at("side_m").get_to(setup.side_m);
+  json.at("wheelbase_m").get_to(setup.wheelbase_m);
+  json.at("E_d").get_to(setup.E_d);
+  json.at("E_b").get_to(setup.E_b);
+  json.at("scale").get_to(setup.scale);
+  json.at("K_m").get_to(setup.noise.K_m);
+  json.at("sigma_xy_m").get_to(setup.noise.sigma_xy_m);
+  json.at("sigma_theta_rad").get_to(setup.noise.sigma_theta_rad);
+  json.at("count_rate_hz").get_to(setup.count_rate_hz);
+  json.at("truth_rate_hz").get_to(setup.truth_rate_hz);
+  setup.clock_known = json.at("clock").get<std::string>() == "known";
+  json.at("clock_offset_sd_s").get_to(setup.clock_offset_sd_s);
+  setup.noise_known = json.at("noise").get<std::string>() == "known";
+  return setup;
+}
+
+std::vector<Trajectory> drives_of(const TrialSetup& setup, int trial) {
+  const std::uint64_t seed = derived_seed(setup.seed, static_cast<std::uint64_t>(trial));
+  std::mt19937_64 clocks(derived_seed(seed, kClocks));
+  std::normal_distribution<double> offset_s(0, setup.clock_offset_sd_s);
+  DriveModel model = model_of(setup);
+  std::vector<Trajectory> drives;
+  for (int run = 0; run < 2 * setup.runs; ++run) {
+    if (!setup.clock_known) model.clock_offset_s = offset_s(clocks);
+    drives.push_back(synthetic_drive(square_course(setup.side_m, sense_of(run)), model, name_of(run),
+                                     derived_seed(seed, static_cast<std::uint64_t>(run))));
+  }
+  return drives;
+}
+
+std::vector<Trajectory> drives_without_noise(const TrialSetup& setup) {
+  DriveModel model = model_of(setup);
+  model.noise = {0, 0, 0};
+  std::vector<Trajectory> drives;
+  for (int run = 0; run < 2 * setup.runs; ++run)
+    drives.push_back(synthetic_drive(square_course(setup.side_m, sense_of(run)), model, name_of(run), 0));
+  return drives;
+}
+
+}  // namespace astro::study

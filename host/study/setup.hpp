@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "host/calibration/maximum_likelihood.hpp"
+#include "host/calibration/trajectory.hpp"
+#include "host/study/synthetic_drive.hpp"
+
+/// What a study repeats: one robot, one programme of squares, one ground truth.
+namespace astro::study {
+
+/// The defaults are the robot of the reference measurements: its errors, and the slip that gives their
+/// scatter. Counts are of any fineness and the body has no lever arm; the estimators do not know that.
+struct TrialSetup {
+  int trials = 200;
+  std::uint64_t seed = 1;
+  int runs = 5;  // squares in each direction
+  double side_m = 3;
+  double wheelbase_m = 0.290;  // that the robot believes in, with c_R = c_L = 1
+  double E_d = 1.00416;        // D_R / D_L
+  double E_b = 0.99521;        // b / (S wheelbase_m)
+  double scale = 1.005;        // S, common to both wheels and the wheelbase
+  calibration::NoiseModel noise{2.645e-6, 5e-4, 0.0026179938779914943};  // 0.15 degrees
+  double count_rate_hz = 100, truth_rate_hz = 60;
+  bool clock_known = true;
+  double clock_offset_sd_s = 0.03;  // between runs; only if the clock is not known
+  bool noise_known = false;         // to maximum likelihood
+
+  calibration::WheelFactors carried() const { return {1, 1, wheelbase_m}; }
+  calibration::WheelFactors actual() const;
+  /// What maximum likelihood is told.
+  calibration::MlOptions ml_options() const;
+
+  /// Throws astro::Error naming what is not positive and finite, too many or too few trials or runs, or
+  /// drives that do not fit into memory.
+  void check() const;
+};
+
+/// Keys as in the shard files. `setup_from` throws nlohmann::json::exception for what is missing or no
+/// number.
+nlohmann::json to_json(const TrialSetup& setup);
+TrialSetup setup_from(const nlohmann::json& json);
+
+/// The drives of one trial, clockwise and counter-clockwise in turn. They depend on (seed, trial) alone.
+std::vector<calibration::Trajectory> drives_of(const TrialSetup& setup, int trial);
+
+/// The same drives without slip and without error of the ground truth, on equal clocks.
+std::vector<calibration::Trajectory> drives_without_noise(const TrialSetup& setup);
+
+}  // namespace astro::study

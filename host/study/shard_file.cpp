@@ -1,0 +1,102 @@
+#include "host/study/shard_file.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "host/base/error.hpp"
+
+namespace astro::study {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kFormat = "astrolabe study 1";
+
+json to_json(const Trial& trial) {
+  json errors = json::array();
+  for (const auto& answer : trial.errors) errors.push_back(answer ? json(*answer) : json());
+  return {{"trial", trial.index},
+          {"errors", errors},
+          {"ml_chi_square", trial.ml_chi_square ? json(*trial.ml_chi_square) : json()},
+          {"failure", trial.failure}};
+}
+
+Trial trial_from(const json& value) {
+  Trial trial;
+  value.at("trial").get_to(trial.index);
+  value.at("failure").get_to(trial.failure);
+  const json& errors = value.at("errors");
+  for (std::size_t i = 0; i < trial.errors.size(); ++i)
+    if (!errors.at(i).is_null()) trial.errors[i] = errors.at(i).get<Errors>();
+  if (const json& square = value.at("ml_chi_square"); !square.is_null())
+    trial.ml_chi_square = square.get<double>();
+  return trial;
+}
+
+void require_same(const Part& first, const Part& other) {
+  const json a = to_json(first.setup), b = to_json(other.setup);
+  for (const auto& [key, value] : a.items())
+    if (b.at(key) != value)
+      throw Error("'" + first.name + "' was made with " + key + " " + value.dump() + " and '" + other.name +
+                  "' with " + b.at(key).dump() + ": merge shards of one study only");
+}
+
+// "4" or "4 to 9": the stretch from `begin` on in which `missing` holds.
+template <class Missing>
+std::string stretch(int begin, int end, Missing missing) {
+  int last = begin;
+  while (last + 1 < end && missing(last + 1)) ++last;
+  return last == begin ? std::to_string(begin) : std::to_string(begin) + " to " + std::to_string(last);
+}
+
+}  // namespace
+
+std::string to_text(const TrialSetup& setup, const std::vector<Trial>& trials) {
+  json list = json::array();
+  for (const Trial& trial : trials) list.push_back(to_json(trial));
+  return json{{"format", kFormat}, {"methods", kMethods}, {"setup", to_json(setup)}, {"trials", list}}.dump(
+             1) +
+         "\n";
+}
+
+Part read_part(const std::string& text, const std::string& name) {
+  try {
+    const json file = json::parse(text);
+    if (file.at("format") != kFormat || file.at("methods") != json(kMethods))
+      throw Error("'" + name + "' was written by another version of 'astrolabe study': run its shard again");
+    Part part{name, setup_from(file.at("setup")), {}};
+    for (const json& trial : file.at("trials")) part.trials.push_back(trial_from(trial));
+    part.setup.check();
+    return part;
+  } catch (const json::exception&) {
+    throw Error("'" + name + "' is no shard of a study: give what 'astrolabe study --out' wrote");
+  }
+}
+
+std::vector<Trial> merge(const std::vector<Part>& parts) {
+  if (parts.empty()) throw Error("there is nothing to merge: name the files of all shards");
+  const int count = parts.front().setup.trials;
+  std::vector<const Part*> holder(static_cast<std::size_t>(count), nullptr);
+  std::vector<Trial> all(static_cast<std::size_t>(count));
+  for (const Part& part : parts) {
+    require_same(parts.front(), part);
+    for (const Trial& trial : part.trials) {
+      if (trial.index < 0 || trial.index >= count)
+        throw Error("'" + part.name + "' holds trial " + std::to_string(trial.index) + " of a study of " +
+                    std::to_string(count) + ": it is damaged, run its shard again");
+      const auto at = static_cast<std::size_t>(trial.index);
+      if (holder[at] != nullptr)
+        throw Error("trial " + std::to_string(trial.index) + " is in '" + holder[at]->name + "' and in '" +
+                    part.name + "': name each shard once");
+      holder[at] = &part;
+      all[at] = trial;
+    }
+  }
+  const auto missing = [&](int i) { return holder[static_cast<std::size_t>(i)] == nullptr; };
+  for (int i = 0; i < count; ++i)
+    if (missing(i))
+      throw Error("of " + std::to_string(count) + " trials " + stretch(i, count, missing) +
+                  " are missing: run their shard, or name its file, too");
+  return all;
+}
+
+}  // namespace astro::study

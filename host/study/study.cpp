@@ -1,0 +1,24 @@
+#include "host/study/study.hpp"
+
+#include <string>
+
+#include "host/base/error.hpp"
+#include "host/study/parallel.hpp"
+
+namespace astro::study {
+
+std::vector<Trial> run_study(const TrialSetup& setup, const Shard& shard, int jobs,
+                             const std::function<void(int done, int total)>& meanwhile) {
+  setup.check();
+  const int begin = shard.begin(setup.trials), count = shard.end(setup.trials) - begin;
+  if (count < 1)
+    throw Error("shard " + std::to_string(shard.number) + "/" + std::to_string(shard.of) + " of " +
+                std::to_string(setup.trials) + " trials is empty: make fewer shards or more trials");
+  std::vector<Trial> trials(static_cast<std::size_t>(count));
+  in_parallel(
+      count, jobs, [&](int i) { trials[static_cast<std::size_t>(i)] = run_trial(setup, begin + i); },
+      [&](int done) { meanwhile(done, count); });
+  return trials;
+}
+
+}  // namespace astro::study

@@ -1,0 +1,244 @@
+#include "host/calibration/maximum_likelihood.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <numbers>
+#include <random>
+
+#include "tests/host/calibration/ml_drives.hpp"
+
+namespace astro::calibration {
+namespace {
+
+using study::DriveModel;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// The parameters in standard errors from the truth.
+std::array<double, 3> misses(const MlEstimate& estimate, const WheelFactors& actual) {
+  return {(estimate.factors.c_r - actual.c_r) / estimate.se.c_r,
+          (estimate.factors.c_l - actual.c_l) / estimate.se.c_l,
+          (estimate.factors.b_m - actual.b_m) / estimate.se.b_m};
+}
+
+// Beyond this a normal error lies once in 16,000.
+constexpr double kFourSigma = 4;
+
+void expect_true(const MlEstimate& estimate, const WheelFactors& actual) {
+  for (const double miss : misses(estimate, actual)) EXPECT_LT(std::abs(miss), kFourSigma);
+}
+
+TEST(MaximumLikelihood, FindsTheTruthWhereThereIsNoNoise) {
+  const DriveModel model = quiet_drive();
+  const MlEstimate found = estimate_ml(squares(model, 2), model.carried);
+  // What is left: truth between the fine steps of the synthetic drive, and wheels between their samples.
+  EXPECT_NEAR(found.factors.c_r, model.actual.c_r, 2e-6);
+  EXPECT_NEAR(found.factors.c_l, model.actual.c_l, 2e-6);
+  EXPECT_NEAR(found.factors.b_m, model.actual.b_m, 2e-6);
+  EXPECT_NEAR(found.lever.x_m, model.lever.x_m, 1e-5);
+  EXPECT_NEAR(found.lever.y_m, model.lever.y_m, 1e-5);
+  EXPECT_NEAR(found.lever.yaw_rad, model.lever.yaw_rad, 1e-5);
+}
+
+TEST(MaximumLikelihood, ReachesTheCramerRaoBoundAndKnowsHowFarItIsOff) {
+  const DriveModel model = astro_drive();
+  constexpr int kTrials = 40;
+  MlOptions given;
+  given.noise = model.noise;
+  const MlErrors bound =
+      errors_of(cramer_rao_bound(squares(model, 4, 2), model.actual, model.lever, given), model.actual);
+  double E_d = 0, scale = 0, b_over_scale = 0, chi_square = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const MlEstimate found = estimate_ml(
+        squares(model, 4, 2, study::derived_seed(kSeed, static_cast<std::uint64_t>(trial))), model.carried);
+    const Eigen::Vector3d error(found.factors.c_r - model.actual.c_r, found.factors.c_l - model.actual.c_l,
+                                found.factors.b_m - model.actual.b_m);
+    Eigen::Matrix3d covariance;
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k)
+        covariance(i, k) = found.covariance[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)];
+    chi_square += error.dot(covariance.ldlt().solve(error)) / kTrials;
+    const double S = (model.actual.c_r + model.actual.c_l) / 2;
+    E_d += std::pow((found.E_d() - 1.00416) / bound.E_d, 2) / kTrials;
+    scale += std::pow((found.scale() - S) / bound.scale, 2) / kTrials;
+    b_over_scale +=
+        std::pow((found.factors.b_m / found.scale() - model.actual.b_m / S) / bound.b_over_scale_m, 2) /
+        kTrials;
+  }
+  std::printf("of the bound, 40 trials: E_d %.2f, S %.2f, b/S %.2f; chi-square %.2f of 3\n", std::sqrt(E_d),
+              std::sqrt(scale), std::sqrt(b_over_scale), chi_square);
+  // A ratio of 1.0 shows up as 1 +- 0.11 in 40 trials; the figures with all digits are `astrolabe study`'s.
+  for (const double ratio : {E_d, scale, b_over_scale}) EXPECT_LT(std::sqrt(ratio), 1.1 + 3 * 0.11);
+  // Chi-square of 3 has a standard deviation of 2.4, its mean over 40 of 0.39.
+  EXPECT_NEAR(chi_square, 3, 3 * 0.39);
+}
+
+TEST(MaximumLikelihood, EstimatesTheNoiseItself) {
+  const DriveModel model = astro_drive();
+  const MlEstimate found = estimate_ml(squares(model, 6), model.carried);
+  // 20,000 samples tell the tracker's noise to a percent; the slip hides below it, and K is known to about a
+  // fifth.
+  EXPECT_NEAR(found.noise.sigma_xy_m, model.noise.sigma_xy_m, 0.03 * model.noise.sigma_xy_m);
+  EXPECT_NEAR(found.noise.sigma_theta_rad, model.noise.sigma_theta_rad, 0.03 * model.noise.sigma_theta_rad);
+  EXPECT_NEAR(found.noise.K_m, model.noise.K_m, 0.6 * model.noise.K_m);
+  EXPECT_NEAR(found.chi_square / found.degrees_of_freedom, 1, 0.03);
+}
+
+class Lag : public testing::TestWithParam<double> {};
+
+TEST_P(Lag, OfTheClocksMovesNothing) {
+  DriveModel model = astro_drive();
+  model.noise.K_m /= 10;  // the sharper the data, the more a lag would hurt
+  std::vector<Trajectory> runs = squares(model, 4);
+  const MlEstimate without = estimate_ml(runs, model.carried);
+  for (Trajectory& run : runs)
+    for (BodySample& sample : run.truth) sample.time_s -= GetParam();
+  const MlEstimate with = estimate_ml(runs, model.carried);
+  const double moved[3] = {(with.factors.c_r - without.factors.c_r) / without.se.c_r,
+                           (with.factors.c_l - without.factors.c_l) / without.se.c_l,
+                           (with.factors.b_m - without.factors.b_m) / without.se.b_m};
+  for (const double part : moved) EXPECT_LT(std::abs(part), 0.5);
+  for (const RunFit& run : with.runs)
+    EXPECT_LT(std::abs(run.clock_offset_s - GetParam()), kFourSigma * run.clock_offset_se_s);
+  MlOptions known;
+  known.clock_known = true;
+  const MlEstimate blind = estimate_ml(runs, model.carried, known);
+  std::printf("%.0f ms: c_R %.3f, c_L %.3f, b %.3f of a standard error (%.1f of b if taken for no lag)\n",
+              1000 * GetParam(), moved[0], moved[1], moved[2],
+              (blind.factors.b_m - without.factors.b_m) / without.se.b_m);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of20And50And100Milliseconds, Lag, testing::Values(0.02, 0.05, 0.1));
+
+TEST(MaximumLikelihood, FindsASlowClock) {
+  DriveModel model = astro_drive();
+  model.clock_offset_s = 33;
+  model.clock_skew = -0.0235;
+  const MlEstimate found = estimate_ml(squares(model, 4), model.carried);
+  EXPECT_LT(std::abs(found.clock_skew - model.clock_skew), kFourSigma * found.clock_skew_se);
+  expect_true(found, model.actual);
+}
+
+TEST(MaximumLikelihood, WorksWithPositionsAlone) {
+  DriveModel model = astro_drive();
+  model.headings = false;
+  const MlEstimate found = estimate_ml(squares(model, 4), model.carried);
+  expect_true(found, model.actual);
+  EXPECT_TRUE(std::isnan(found.lever.yaw_rad));
+  EXPECT_LT(std::abs(found.lever.x_m - model.lever.x_m), kFourSigma * found.lever_se.x_m);
+  EXPECT_LT(std::abs(found.lever.y_m - model.lever.y_m), kFourSigma * found.lever_se.y_m);
+}
+
+TEST(MaximumLikelihood, TakesABodyMountedAnyWayRound) {
+  for (const double yaw : {-3.1, -1.957, 1.5, 3.14}) {
+    DriveModel model = astro_drive();
+    model.lever = {-0.33, 0.12, yaw};
+    expect_true(estimate_ml(squares(model, 2), model.carried), model.actual);
+  }
+}
+
+TEST(MaximumLikelihood, IsAbsoluteWhateverTheRobotCarried) {
+  // A robot that carries the right factors drives another path; what comes out is the same robot.
+  DriveModel model = quiet_drive();
+  model.carried = model.actual;
+  const MlEstimate found = estimate_ml(squares(model, 2), model.carried);
+  EXPECT_NEAR(found.factors.c_r, model.actual.c_r, 2e-6);
+  EXPECT_NEAR(found.factors.b_m, model.actual.b_m, 2e-6);
+}
+
+TEST(MaximumLikelihood, IsNotMovedByASampleInAHundredThatIsWrong) {
+  const DriveModel model = astro_drive();
+  std::vector<Trajectory> runs = squares(model, 4);
+  std::mt19937_64 random(kSeed);
+  std::uniform_real_distribution<double> off(-0.2, 0.2);
+  for (Trajectory& run : runs)
+    for (std::size_t i = 30; i < run.truth.size(); i += 100) {
+      run.truth[i].x_m += off(random);
+      run.truth[i].theta_rad += off(random);
+    }
+  const MlEstimate clean = estimate_ml(squares(model, 4), model.carried);
+  const MlEstimate found = estimate_ml(runs, model.carried);
+  EXPECT_LT(std::abs(found.factors.b_m - clean.factors.b_m), clean.se.b_m);
+  EXPECT_LT(std::abs(found.factors.c_r - clean.factors.c_r), clean.se.c_r);
+  EXPECT_NEAR(found.noise.sigma_xy_m, model.noise.sigma_xy_m, 0.2 * model.noise.sigma_xy_m);
+  MlOptions plain;
+  plain.robust = false;
+  EXPECT_GT(estimate_ml(runs, model.carried, plain).noise.sigma_xy_m, 5 * model.noise.sigma_xy_m);
+}
+
+TEST(MaximumLikelihood, GetsAlongWithGapsInTheTruth) {
+  const DriveModel model = astro_drive();
+  std::vector<Trajectory> runs = squares(model, 4);
+  for (Trajectory& run : runs)
+    std::erase_if(run.truth, [](const BodySample& s) { return std::fmod(s.time_s, 7) > 5.5; });
+  expect_true(estimate_ml(runs, model.carried), model.actual);
+}
+
+TEST(MaximumLikelihood, NamesTheRunThatSlipped) {
+  const DriveModel model = astro_drive();
+  std::vector<Trajectory> runs = squares(model, 8);
+  EXPECT_THAT(estimate_ml(runs, model.carried).remarks(), IsEmpty());
+  // A kick of 5 degrees in the third run.
+  const Trajectory kicked = runs[2];
+  for (BodySample& sample : runs[2].truth) {
+    if (sample.time_s < 20) continue;
+    constexpr double kKick_rad = 0.087;
+    const double x = sample.x_m, y = sample.y_m;
+    sample.x_m = std::cos(kKick_rad) * x - std::sin(kKick_rad) * y;
+    sample.y_m = std::sin(kKick_rad) * x + std::cos(kKick_rad) * y;
+    sample.theta_rad += kKick_rad;
+  }
+  const MlEstimate found = estimate_ml(runs, model.carried);
+  for (const RunFit& run : found.runs)
+    EXPECT_EQ(run.outlier, run.name == "run 3") << run.name << ' ' << run.disagreement;
+  EXPECT_THAT(found.remarks().front(), AllOf(HasSubstr("run 3"), HasSubstr("--without")));
+}
+
+TEST(MaximumLikelihood, SaysSoWhenArcsAndSpinsWantDifferentWheelbases) {
+  DriveModel spins = astro_drive(), arcs = astro_drive();
+  spins.noise.K_m = arcs.noise.K_m = 1e-6;
+  arcs.actual.b_m *= 1.01;
+  std::vector<Trajectory> runs = squares(spins, 4);
+  for (int i = 0; i < 4; ++i)
+    runs.push_back(study::synthetic_drive(
+        study::circle_course(0.75, (i % 2 == 0 ? 4 : -4) * std::numbers::pi), arcs,
+        "circle " + std::to_string(i), study::derived_seed(kSeed, 90 + static_cast<std::uint64_t>(i))));
+  const MlEstimate found = estimate_ml(runs, spins.carried);
+  ASSERT_TRUE(found.wheelbase_by_kind);
+  EXPECT_TRUE(found.wheelbase_by_kind->disagrees);
+  EXPECT_NEAR(found.wheelbase_by_kind->arc_over_spin, 1.01,
+              kFourSigma * found.wheelbase_by_kind->standard_error);
+  EXPECT_THAT(found.remarks(), testing::Contains(HasSubstr("than spins")));
+}
+
+TEST(MaximumLikelihood, TellsTheMotionsApart) {
+  const DriveModel model = astro_drive();
+  std::vector<Trajectory> runs = squares(model, 2);
+  runs.push_back(
+      study::synthetic_drive(study::circle_course(0.75, 2 * std::numbers::pi), model, "circle", kSeed));
+  const MlEstimate found = estimate_ml(runs, model.carried);
+  ASSERT_EQ(found.kinds.size(), 4u);
+  EXPECT_EQ(found.kinds[0].motion, Motion::rest);
+  EXPECT_NEAR(found.kinds[1].distance_m, 24, 0.5);                      // lines of two squares
+  EXPECT_NEAR(found.kinds[2].rotation_rad, 2 * std::numbers::pi, 0.4);  // the circle
+  EXPECT_NEAR(found.kinds[3].rotation_rad, 4 * std::numbers::pi, 0.5);  // their corners
+}
+
+TEST(CramerRaoBound, KeepsTheDesignRulesForTenSquares) {
+  // precision.hpp: within 4 % for a tracker that follows the whole drive.
+  const DriveModel model = astro_drive();
+  MlOptions options;
+  options.noise = model.noise;
+  const MlErrors bound =
+      errors_of(cramer_rao_bound(squares(model, 10), model.actual, model.lever, options), model.actual);
+  EXPECT_NEAR(bound.E_d, std::sqrt(2 * model.noise.K_m / 120), 0.05 * bound.E_d);
+  EXPECT_NEAR(bound.scale, std::sqrt(model.noise.K_m / 240), 0.05 * bound.scale);
+  EXPECT_NEAR(bound.b_m / 0.29, std::sqrt(model.noise.K_m / (0.29 * 20 * std::numbers::pi)),
+              0.08 * bound.b_m / 0.29);
+}
+
+}  // namespace
+}  // namespace astro::calibration

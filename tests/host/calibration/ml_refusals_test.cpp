@@ -1,0 +1,131 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "host/base/error.hpp"
+#include "host/calibration/maximum_likelihood.hpp"
+#include "tests/host/calibration/ml_drives.hpp"
+
+// What cannot be calibrated is said in one sentence that names it and the remedy.
+namespace astro::calibration {
+namespace {
+
+using study::DriveModel;
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr double kPi = std::numbers::pi;
+
+std::string refusal(const std::vector<Trajectory>& runs) {
+  try {
+    estimate_ml(runs, astro_drive().carried);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+std::vector<Trajectory> one(const study::Course& course, const DriveModel& model = astro_drive()) {
+  return {study::synthetic_drive(course, model, "run 7", kSeed)};
+}
+
+TEST(MlRefuses, NoRuns) { EXPECT_THAT(refusal({}), HasSubstr("no runs")); }
+
+TEST(MlRefuses, ARunWithoutGroundTruth) {
+  std::vector<Trajectory> runs = squares(astro_drive(), 1);
+  runs[0].truth.resize(2);
+  EXPECT_THAT(refusal(runs), AllOf(HasSubstr("run 1"), HasSubstr("2 samples"), HasSubstr("umbmark")));
+}
+
+TEST(MlRefuses, ARunWithoutOdometry) {
+  std::vector<Trajectory> runs = squares(astro_drive(), 1);
+  runs[0].wheels.clear();
+  EXPECT_THAT(refusal(runs), AllOf(HasSubstr("run 1"), HasSubstr("no odometry")));
+}
+
+TEST(MlRefuses, ARunTooShort) {
+  EXPECT_THAT(refusal(one(study::line_course(0.1))), AllOf(HasSubstr("run 7"), HasSubstr("too short")));
+}
+
+TEST(MlRefuses, TimesThatRunBackwards) {
+  std::vector<Trajectory> runs = squares(astro_drive(), 1);
+  std::swap(runs[0].truth[50].time_s, runs[0].truth[70].time_s);
+  EXPECT_THAT(refusal(runs), AllOf(HasSubstr("run 1"), HasSubstr("backwards")));
+}
+
+TEST(MlRefuses, TruthOfAnotherDrive) {
+  std::vector<Trajectory> runs = squares(astro_drive(), 1);
+  runs[0].truth = one({{study::Leg::Kind::rest, 0, 0, 11},
+                       {study::Leg::Kind::straight, 0.7, 0, 0},
+                       {study::Leg::Kind::rest, 0, 0, 40}})[0]
+                      .truth;
+  EXPECT_THAT(refusal(runs), AllOf(HasSubstr("run 1"), HasSubstr("same drive")));
+}
+
+TEST(MlRefuses, HeadingsThatNeverChange) {
+  std::vector<Trajectory> runs = squares(astro_drive(), 1);
+  for (BodySample& sample : runs[0].truth) sample.theta_rad = 0.3;
+  EXPECT_THAT(refusal(runs),
+              AllOf(HasSubstr("run 1"), HasSubstr("heading"), HasSubstr("export the orientation")));
+}
+
+TEST(MlRefuses, MirroredAxes) {
+  std::vector<Trajectory> runs = squares(astro_drive(), 2);
+  for (Trajectory& run : runs)
+    for (BodySample& sample : run.truth) {
+      sample.y_m = -sample.y_m;
+      sample.theta_rad = -sample.theta_rad;
+    }
+  EXPECT_THAT(refusal(runs), AllOf(HasSubstr("mirrored"), HasSubstr("wheels are exchanged")));
+}
+
+TEST(MlRefuses, MirroredAxesWithoutHeadings) {
+  DriveModel model = astro_drive();
+  model.headings = false;
+  std::vector<Trajectory> runs = squares(model, 2);
+  for (Trajectory& run : runs)
+    for (BodySample& sample : run.truth) sample.y_m = -sample.y_m;
+  EXPECT_THAT(refusal(runs), HasSubstr("mirrored"));
+}
+
+TEST(MlRefuses, ExchangedWheels) {
+  std::vector<Trajectory> runs = squares(astro_drive(), 2);
+  for (Trajectory& run : runs)
+    for (WheelSample& sample : run.wheels) std::swap(sample.left_m, sample.right_m);
+  EXPECT_THAT(refusal(runs), AllOf(HasSubstr("exchanged"), HasSubstr("check-wiring")));
+}
+
+TEST(MlRefuses, HeadingsCountedClockwise) {
+  std::vector<Trajectory> runs = squares(astro_drive(), 2);
+  for (Trajectory& run : runs)
+    for (BodySample& sample : run.truth) sample.theta_rad = -sample.theta_rad;
+  EXPECT_THAT(refusal(runs), AllOf(HasSubstr("clockwise"), HasSubstr("negate")));
+}
+
+TEST(MlRefuses, ARobotThatNeverTurned) {
+  EXPECT_THAT(refusal(one(study::line_course(4))), AllOf(HasSubstr("never turned"), HasSubstr("drive")));
+}
+
+TEST(MlRefuses, ARobotThatOnlySpun) {
+  EXPECT_THAT(refusal(one(study::spin_course(6 * kPi))), AllOf(HasSubstr("on the spot"), HasSubstr("lines")));
+}
+
+TEST(MlRefuses, OneCircleAlone) {
+  // Two observables, three unknowns.
+  DriveModel model = quiet_drive();
+  model.acceleration_mps2 = 100;
+  EXPECT_THAT(refusal(one(study::circle_course(1, 4 * kPi, 0.3), model)), HasSubstr("move alike"));
+}
+
+TEST(MlRefuses, TruthInMillimetres) {
+  std::vector<Trajectory> runs = squares(astro_drive(), 1);
+  for (BodySample& sample : runs[0].truth) {
+    sample.x_m *= 1000;
+    sample.y_m *= 1000;
+  }
+  EXPECT_THAT(refusal(runs), HasSubstr("unit of the ground truth"));
+}
+
+}  // namespace
+}  // namespace astro::calibration

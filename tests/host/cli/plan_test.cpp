@@ -1,0 +1,69 @@
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/support/program.hpp"
+
+// `astrolabe plan`.
+namespace astro {
+namespace {
+
+using nlohmann::json;
+using support::astrolabe;
+using support::Outcome;
+using testing::HasSubstr;
+using Words = std::vector<std::string>;
+
+json plan(Words options) {
+  options.insert(options.begin(), "plan");
+  options.push_back("--json");
+  const Outcome outcome = astrolabe(options);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  return json::parse(outcome.out);
+}
+
+TEST(PlanCommand, SaysWhatSquaresWillGive) {
+  const Outcome outcome = astrolabe({"plan", "--squares", "10", "--side", "3"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("10 squares of 3 m"));
+  EXPECT_THAT(outcome.out, HasSubstr("120 m and 10.0 turns in 8 min"));
+  EXPECT_THAT(outcome.out, HasSubstr("by the design rules"));
+  EXPECT_EQ(astrolabe({"plan"}).out, outcome.out) << "ten are what is planned for if nothing is said";
+}
+
+TEST(PlanCommand, FindsTheShortestProgrammeForAPrecision) {
+  const json found = plan({"--until", "0.05%"});
+  for (const char* factor : {"E_d", "S", "b"})
+    EXPECT_LE(found["relative_errors"][factor].get<double>(), 0.0005) << factor;
+  EXPECT_EQ(plan({"--until", "0.0005"}), found) << "percent and ratio are the same";
+  const json squares = plan({"--until", "0.05%", "--kinds", "squares"});
+  EXPECT_EQ(squares["runs"]["lines"], 0);
+  EXPECT_GT(squares["driving_time_s"], found["driving_time_s"]);
+}
+
+TEST(PlanCommand, TakesTheSizesOfRunsAndTheNoise) {
+  const json usual = plan({"--lines", "4", "--spins", "2"});
+  EXPECT_GT(usual["distance_m"], 11.9);
+  EXPECT_NEAR(plan({"--lines", "4", "--spins", "2", "--length", "6"})["distance_m"].get<double>(), 24, 1e-9);
+  EXPECT_LT(plan({"--lines", "4", "--spins", "2", "--turns", "10"})["relative_errors"]["b"],
+            usual["relative_errors"]["b"]);
+  EXPECT_GT(plan({"--lines", "4", "--spins", "2", "--K", "1e-5"})["relative_errors"]["E_d"],
+            usual["relative_errors"]["E_d"]);
+  EXPECT_GT(plan({"--lines", "4", "--spins", "2", "--sigma-theta", "5"})["relative_errors"]["b"],
+            usual["relative_errors"]["b"]);
+  EXPECT_LT(plan({"--circles", "2", "--speed", "0.6"})["driving_time_s"],
+            plan({"--circles", "2"})["driving_time_s"]);
+  EXPECT_EQ(plan({"--circles", "2"})["design_rules"], json()) << "they take arcs for spins";
+}
+
+TEST(PlanCommand, RefusesInOneSentenceWhatTellsTooLittle) {
+  const Outcome outcome = astrolabe({"plan", "--until", "0.05%", "--kinds", "lines"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(outcome.err,
+            "astrolabe: lines never turn, so nothing tells the wheelbase: add squares, spins or circles\n");
+}
+
+}  // namespace
+}  // namespace astro

@@ -1,0 +1,120 @@
+#include <gmock/gmock.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/support/program.hpp"
+
+// `astrolabe study` and `study merge`, on squares small enough for a test.
+namespace astro {
+namespace {
+
+using nlohmann::json;
+using support::astrolabe;
+using support::Outcome;
+using testing::HasSubstr;
+using Words = std::vector<std::string>;
+
+Words study(const Words& more) {
+  Words words{"study", "--runs", "1", "--side", "0.5", "--trials", "5"};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+// Columns on a terminal: bytes that do not continue a character of UTF-8.
+std::size_t widest_line(const std::string& text) {
+  std::istringstream lines(text);
+  std::string line;
+  std::size_t widest = 0;
+  while (std::getline(lines, line))
+    widest = std::max(widest, static_cast<std::size_t>(std::count_if(line.begin(), line.end(), [](char c) {
+                        return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+                      })));
+  return widest;
+}
+
+TEST(StudyCommand, PrintsEveryMethodAndTheBoundWithin80Columns) {
+  const Outcome outcome = astrolabe(study({}));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  for (const char* row : {"\nuncalibrated", "\numbmark thesis", "\numbmark average", "\nextended published",
+                          "\nextended exact", "\nml ", "\nCramer-Rao bound", "\nml over the bound"})
+    EXPECT_THAT(outcome.out, HasSubstr(row));
+  EXPECT_LE(widest_line(outcome.out), 80U);
+  EXPECT_EQ(outcome.err, "") << "progress is for terminals";
+}
+
+TEST(StudyCommand, GivesTheSameAsJson) {
+  const Outcome outcome = astrolabe(study({"--json", "--clock", "estimated"}));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const json result = json::parse(outcome.out);
+  EXPECT_EQ(result["setup"]["clock"], "estimated");
+  EXPECT_EQ(result["setup"]["side_m"], 0.5);
+  ASSERT_EQ(result["methods"].size(), 6U);
+  EXPECT_EQ(result["methods"][5]["name"], "ml");
+  EXPECT_EQ(result["methods"][5]["trials"], 5);
+  EXPECT_NEAR(result["methods"][0]["rms"]["E_d"].get<double>(), 0.00416, 1e-12) << "what was not calibrated";
+  EXPECT_GT(result["bound"]["rms"]["b_over_S"], 0);
+  EXPECT_EQ(result["ml_covariance"]["expected"], 3);
+}
+
+TEST(StudyCommand, ShardsMergedPrintWhatTheWholePrints) {
+  const test::TemporaryFolder folder;
+  Words merge{"study", "merge"};
+  for (const std::string number : {"2", "1", "3"}) {
+    const std::string file = (folder.path() / ("part-" + number + ".json")).string();
+    const Outcome part = astrolabe(study({"--shard", number + "/3", "--jobs", number, "--out", file}));
+    ASSERT_EQ(part.code, 0) << part.err;
+    EXPECT_EQ(part.out, "") << "a part is no result";
+    EXPECT_THAT(part.err, HasSubstr("of 5 are in '" + file + "'"));
+    merge.push_back(file);
+  }
+  EXPECT_EQ(astrolabe(merge).out, astrolabe(study({})).out);
+  merge.push_back("--json");
+  EXPECT_EQ(astrolabe(merge).out, astrolabe(study({"--json"})).out);
+}
+
+TEST(StudyCommand, MergeNamesWhatIsMissingMixedOrDoubled) {
+  const test::TemporaryFolder folder;
+  const std::string one = (folder.path() / "one").string(), other = (folder.path() / "other").string();
+  ASSERT_EQ(astrolabe(study({"--shard", "1/2", "--out", one})).code, 0);
+  ASSERT_EQ(astrolabe(study({"--shard", "2/2", "--out", other, "--seed", "9"})).code, 0);
+  const auto complaint = [](const Words& files) {
+    Words words{"study", "merge"};
+    words.insert(words.end(), files.begin(), files.end());
+    const Outcome outcome = astrolabe(words);
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_EQ(outcome.out, "");
+    return outcome.err;
+  };
+  EXPECT_THAT(complaint({one}), HasSubstr("of 5 trials 2 to 4 are missing"));
+  EXPECT_THAT(complaint({one, one}), HasSubstr("trial 0 is in"));
+  EXPECT_THAT(complaint({one, other}), HasSubstr("seed"));
+  EXPECT_THAT(complaint({one, folder.path() / "none"}), HasSubstr("does not exist"));
+  EXPECT_THAT(complaint({ASTROLABE_PROGRAM}), HasSubstr("is no shard of a study"));
+}
+
+TEST(StudyCommand, CtrlCEndsItWithoutAResult) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "part";
+  support::Program program(
+      {ASTROLABE_PROGRAM, "study", "--trials", "100000", "--jobs", "2", "--out", file.string()});
+  // The file is begun after signals are watched for.
+  ASSERT_TRUE(support::eventually([&] { return std::filesystem::exists(file.string() + ".part"); }));
+  program.send(SIGINT);
+  EXPECT_EQ(program.wait(), 130);
+  EXPECT_EQ(program.err(), "astrolabe: interrupted\n");
+  EXPECT_EQ(program.out(), "");
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+TEST(StudyCommand, SaysBeforeTheWorkThatItCannotWrite) {
+  const Outcome outcome = astrolabe({"study", "--trials", "100000", "--out", "/proc/none/part.json"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("/proc/none"));
+}
+
+}  // namespace
+}  // namespace astro
