@@ -5,22 +5,32 @@
 
 #include "host/base/error.hpp"
 #include "host/calibration/end_pose_csv.hpp"
+#include "host/cli/calibrate_export.hpp"
+#include "host/cli/calibration_view.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/console.hpp"
+#include "host/cli/options.hpp"
 #include "host/experiment/calibration_file.hpp"
 #include "host/experiment/json.hpp"
 #include "host/experiment/method_names.hpp"
-#include "host/experiment/squares.hpp"
 #include "host/recording/files.hpp"
-#include "host/recording/run_folder.hpp"
 
 namespace astro::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
+struct MlOptions {
+  calibration::NoiseModel noise;
+  std::string clock;
+  CLI::Option *noise_option = nullptr, *clock_option = nullptr;
+  bool given() const { return noise_option->count() + clock_option->count() > 0; }
+};
+
 struct Options {
   fs::path cw, ccw, folder, out;
+  std::vector<std::string> without;
+  MlOptions ml;
   double side_m = 0;
   double wheelbase_m = 0;
   double c_r = 1, c_l = 1;
@@ -28,13 +38,10 @@ struct Options {
   bool json = false;
 };
 
-void add_method(CLI::App& command, Options& options) {
-  command
-      .add_option("--method", options.method,
-                  "auto: extended where every run has an end heading, umbmark where not")
-      ->check(CLI::IsMember({"auto", "umbmark", "extended", "least-squares"}))
-      ->capture_default_str();
-  command.add_option("--angles", options.angles, "umbmark: which end coordinates the angles are taken from")
+void add_method(CLI::App& command, Options& options, const std::vector<std::string>& methods,
+                const std::string& what) {
+  command.add_option("--method", options.method, what)->check(CLI::IsMember(methods))->capture_default_str();
+  command.add_option("--angles", options.angles, "umbmark: which coordinates the angles come from")
       ->check(CLI::IsMember({"x", "y", "thesis", "average"}))
       ->capture_default_str();
   command.add_option("--formula", options.formula, "extended: exact, or as published by Jung and Chung")
@@ -44,53 +51,53 @@ void add_method(CLI::App& command, Options& options) {
   command.add_flag("--json", options.json, "print the result as one JSON object");
 }
 
+void add_ml(CLI::App& command, Options& options) {
+  MlOptions& ml = options.ml;
+  CLI::Option* K =
+      command.add_option("--K", ml.noise.K_m, "ml: wheel slip, variance per metre, m")->check(positive("m"));
+  CLI::Option* xy =
+      command.add_option("--sigma-xy", ml.noise.sigma_xy_m, "ml: noise of ground truth per coordinate, m")
+          ->check(positive("m"));
+  CLI::Option* theta =
+      command
+          .add_option("--sigma-theta", ml.noise.sigma_theta_rad,
+                      "ml: noise of its heading, rad; without all three\nthe noise is estimated")
+          ->check(positive("rad"));
+  K->needs(xy)->needs(theta);
+  xy->needs(K)->needs(theta);
+  theta->needs(K)->needs(xy);
+  ml.noise_option = K;
+  ml.clock_option = command
+                        .add_option("--clock", ml.clock,
+                                    "ml: known: ground truth has the robot's times;\n"
+                                    "estimated: offsets and skew are found;\n"
+                                    "default: what the recordings say")
+                        ->check(CLI::IsMember({"known", "estimated"}));
+}
+
+experiment::MlChoice ml_choice(const MlOptions& options) {
+  using Clock = experiment::MlChoice::Clock;
+  experiment::MlChoice choice;
+  if (options.noise_option->count() > 0) choice.noise = options.noise;
+  if (options.clock_option->count() > 0)
+    choice.clock = options.clock == "known" ? Clock::known : Clock::estimated;
+  return choice;
+}
+
 std::string read_text(const fs::path& path) {
   const recording::Bytes bytes = recording::load_file(path);
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-std::string with_error(double value, double error, int decimals) {
-  if (!std::isfinite(error)) return fmt::format("{:.{}f}", value, decimals);
-  return fmt::format("{:.{}f} ± {:.{}f}", value, decimals, error, decimals);
-}
-
-void print_text(const calibration::Estimate& estimate) {
-  constexpr double kDegree = 180 / 3.14159265358979323846;
-  const calibration::ExperimentSummary& summary = estimate.summary;
-  const auto cluster = [](const char* name, const calibration::ClusterSummary& c) {
-    return std::vector<std::string>{
-        name,
-        fmt::format("{}", c.runs),
-        fmt::format("{:.1f}", 1000 * c.x_cg_m),
-        fmt::format("{:.1f}", 1000 * c.y_cg_m),
-        std::isfinite(c.theta_cg_rad) ? fmt::format("{:.2f}", 1000 * c.theta_cg_rad) : "-",
-        fmt::format("{:.1f}", 1000 * c.r_cg_m)};
-  };
-  std::cout << table({{"", "runs", "x_cg mm", "y_cg mm", "theta_cg mrad", "r_cg mm"},
-                      cluster("cw", summary.cw),
-                      cluster("ccw", summary.ccw)})
-            << fmt::format("E_max_syst {} mm\n\n",
-                           with_error(1000 * summary.E_max_syst_m, 1000 * summary.se_E_max_syst_m, 1));
-  std::cout << table({{"method", std::string(calibration::name_of(estimate.options.method))},
-                      {"alpha", fmt::format("{:.5f}°", estimate.alpha_rad * kDegree)},
-                      {"beta", fmt::format("{:.5f}°", estimate.beta_rad * kDegree)},
-                      {"R", fmt::format("{:.3f} m", estimate.radius_m)},
-                      {"E_d", with_error(estimate.E_d, estimate.se.E_d, 7)},
-                      {"E_b", with_error(estimate.E_b, estimate.se.E_b, 7)},
-                      {"c_R", with_error(estimate.factors.c_r, estimate.se.c_r, 8)},
-                      {"c_L", with_error(estimate.factors.c_l, estimate.se.c_l, 8)},
-                      {"b mm", with_error(1000 * estimate.factors.b_m, 1000 * estimate.se.b_m, 4)}});
-}
-
-void finish(const calibration::Estimate& estimate, const Options& options) {
+void finish(const experiment::Calibration& found, const Options& options) {
   if (!options.out.empty()) {
-    experiment::write_calibration(options.out, estimate);
+    experiment::write_calibration(options.out, found);
     say("written to " + options.out.string() + "; load it with: astrolabe upload " + options.out.string());
   }
   if (options.json) {
-    std::cout << experiment::to_json(estimate).dump(2) << '\n';
+    std::cout << experiment::to_json(found).dump(2) << '\n';
   } else {
-    print_text(estimate);
+    std::cout << calibration_text(found);
   }
 }
 
@@ -107,7 +114,8 @@ void add_end_poses(CLI::App& calibrate) {
       ->required();
   command->add_option("--c-right", options->c_r, "c_R that the robot carried")->capture_default_str();
   command->add_option("--c-left", options->c_l, "c_L that the robot carried")->capture_default_str();
-  add_method(*command, *options);
+  add_method(*command, *options, {"auto", "umbmark", "extended", "least-squares"},
+             "auto: extended where every run has an end heading,\numbmark where not");
   command->footer(
       "An error is absolute (tape measure, mocap) minus odometry, at the end, in the run's start frame.\n"
       "Examples:\n"
@@ -120,43 +128,64 @@ void add_end_poses(CLI::App& calibrate) {
     squares.ccw = calibration::read_end_poses(read_text(options->ccw), options->ccw.string());
     squares.side_m = options->side_m;
     squares.carried = {options->c_r, options->c_l, options->wheelbase_m};
-    finish(experiment::estimate(squares,
-                                experiment::method_named(options->method, options->angles, options->formula)),
+    finish(experiment::calibrate(
+               squares, experiment::method_named(options->method, options->angles, options->formula)),
            *options);
   });
 }
 
+experiment::Calibration calibrate_runs(const Options& options) {
+  const experiment::RunSet set = experiment::read_run_set(options.folder, options.without);
+  for (const recording::Run& run : set.runs)
+    if (!run.warning.empty()) say("warning: " + run.warning);
+  const auto method = experiment::method_named(options.method, options.angles, options.formula);
+  experiment::Calibration found = experiment::calibrate(set, method, ml_choice(options.ml));
+  if (found.ml() == nullptr && options.ml.given())
+    throw Error(
+        fmt::format("--K, --sigma-xy, --sigma-theta and --clock are of maximum likelihood, and this "
+                    "is {}: leave them out",
+                    found.method()));
+  return found;
+}
+
 void add_runs(CLI::App& calibrate) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = calibrate.add_subcommand("runs", "from recorded squares with ground truth (MCAP)");
-  command->add_option("folder", options->folder, "folder with the recordings of one phase")->required();
-  add_method(*command, *options);
+  CLI::App* command = calibrate.add_subcommand("runs", "from recorded runs with ground truth (MCAP)");
+  command->add_option("folder", options->folder, "folder with the recordings")->required();
+  add_method(*command, *options, {"auto", "ml", "umbmark", "extended", "least-squares"},
+             "ml: maximum likelihood over whole drives of any\n"
+             "kind; the others: from end poses of squares; auto:\n"
+             "ml where ground truth followed every run, else\n"
+             "extended or umbmark");
+  add_ml(*command, *options);
+  command->add_option("--without", options->without, "a recording to leave out, by its name (repeatable)")
+      ->expected(1)
+      ->take_all();
   command->footer(
-      "The result composes with the c_R, c_L and b that the robot carried while it was recorded.\n"
+      "ml finds c_R, c_L and b themselves, from runs of one phase or of several. The\n"
+      "other methods find how they differ from what the robot carried, from the\n"
+      "squares of one phase.\n"
       "Examples:\n"
       "  astrolabe calibrate runs my-experiment/before --out calib.toml\n"
+      "  astrolabe calibrate runs my-experiment --without before/square-cw-3\n"
       "  astrolabe calibrate runs my-experiment/before --method umbmark --angles average --json");
-  command->callback([options] {
-    const std::vector<recording::Run> runs = recording::read_runs(options->folder);
-    for (const recording::Run& run : runs)
-      if (!run.warning.empty()) say("warning: " + run.warning);
-    finish(experiment::estimate(experiment::squares_of(runs),
-                                experiment::method_named(options->method, options->angles, options->formula)),
-           *options);
-  });
+  command->callback([options] { finish(calibrate_runs(*options), *options); });
 }
 
 }  // namespace
 
 void add_calibrate(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("calibrate", "compute c_R, c_L and b from driven squares");
+  CLI::App* command =
+      app.add_subcommand("calibrate", "compute c_R, c_L and b from recorded or measured runs");
   command->require_subcommand(1);
   command->footer(
       "Examples:\n"
+      "  astrolabe calibrate runs my-experiment/before --out calib.toml\n"
       "  astrolabe calibrate end-poses --help\n"
-      "  astrolabe calibrate runs my-experiment/before --out calib.toml");
-  add_end_poses(*command);
+      "  astrolabe calibrate export calib.toml --to calib.yaml");
   add_runs(*command);
+  add_end_poses(*command);
+  add_calibrate_export(*command);
 }
 
 }  // namespace astro::cli

@@ -4,7 +4,7 @@
 #include "host/base/error.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/console.hpp"
-#include "host/experiment/results.hpp"
+#include "host/experiment/report_input.hpp"
 #include "host/report/report.hpp"
 
 namespace astro::cli {

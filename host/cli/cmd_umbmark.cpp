@@ -5,13 +5,16 @@
 #include <nlohmann/json.hpp>
 
 #include "host/base/error.hpp"
+#include "host/cli/calibration_view.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/connection.hpp"
 #include "host/cli/console.hpp"
 #include "host/cli/interrupt.hpp"
+#include "host/cli/options.hpp"
 #include "host/cli/truth_option.hpp"
 #include "host/experiment/experiment.hpp"
 #include "host/experiment/method_names.hpp"
+#include "host/experiment/report_input.hpp"
 #include "host/report/report.hpp"
 
 namespace astro::cli {
@@ -23,6 +26,8 @@ struct Options {
   experiment::Plan plan;
   std::filesystem::path out;
   std::string order = "alternating", method = "auto", angles = "average", formula = "exact";
+  experiment::Until until;
+  CLI::Option* until_option = nullptr;
   bool yes = false, json = false, no_extras = false, pause = false;
 };
 
@@ -40,6 +45,15 @@ void add_options(CLI::App& command, Options& options) {
       ->required();
   command.add_option("--runs", plan.runs, "squares in each direction, before and after")
       ->capture_default_str();
+  options.until_option = command
+                             .add_option("--until", options.until.target,
+                                         "drive squares until E_d, the scale and b have\n"
+                                         "standard errors below this, 0.05% or 0.0005;\n"
+                                         "--runs then counts the squares after")
+                             ->transform(fraction());
+  command.add_option("--max-runs", options.until.most, "--until: the most squares in each direction")
+      ->needs(options.until_option)
+      ->capture_default_str();
   command.add_option("--side", plan.side_m, "side of the square, m")->capture_default_str();
   command.add_option("--speed", plan.speed_mps, "m/s")->capture_default_str();
   command.add_option("--yaw-rate", plan.yaw_rate_radps, "of the turns, rad/s")->capture_default_str();
@@ -53,10 +67,12 @@ void add_options(CLI::App& command, Options& options) {
   command.add_flag("--no-extras", options.no_extras, "squares only, no line and circles");
   command
       .add_option("--method", options.method,
-                  "auto: extended where every run has an end heading, umbmark where not")
-      ->check(CLI::IsMember({"auto", "umbmark", "extended", "least-squares"}))
+                  "auto: ml (maximum likelihood over whole drives)\n"
+                  "with ground truth along the way, else extended\n"
+                  "where every run has an end heading, or umbmark")
+      ->check(CLI::IsMember({"auto", "ml", "umbmark", "extended", "least-squares"}))
       ->capture_default_str();
-  command.add_option("--angles", options.angles, "umbmark: which end coordinates the angles are taken from")
+  command.add_option("--angles", options.angles, "umbmark: which coordinates the angles come from")
       ->check(CLI::IsMember({"x", "y", "thesis", "average"}))
       ->capture_default_str();
   command.add_option("--formula", options.formula, "extended: exact, or as published")
@@ -93,9 +109,9 @@ experiment::ExperimentHooks hooks_for(const Options& options, Progress& progress
     progress.clear();
     ask(fmt::format("next is {}: put the robot on its start mark and press Enter ", spec.title()));
   };
-  hooks.agree = [&options, &progress](const calibration::Estimate& estimate, const auto& changes) {
+  hooks.agree = [&options, &progress](const experiment::Calibration& found, const auto& changes) {
     progress.clear();
-    say(fmt::format("\ncalibrated by {}:", calibration::name_of(estimate.options.method)));
+    say('\n' + calibration_summary(found));
     say(table(experiment::side_by_side(changes)));
     return options.yes || confirm("Load these into the robot?");
   };
@@ -108,6 +124,7 @@ void run(Options& options) {
   options.plan.method = experiment::method_named(options.method, options.angles, options.formula);
   options.plan.extras = !options.no_extras;
   options.plan.truth = options.truth.source;
+  if (options.until_option->count() > 0) options.plan.until = options.until;
   options.plan.check();
   if (options.truth.folder.empty()) options.truth.folder = options.out / "truth";
   const auto client = connect(options.connection);
@@ -140,6 +157,7 @@ void add_umbmark(CLI::App& app) {
       "Examples:\n"
       "  astrolabe umbmark --truth sim --out my-experiment\n"
       "  astrolabe umbmark --port /dev/ttyACM0 --truth manual --runs 5 --side 3 --out my-experiment\n"
+      "  astrolabe umbmark --truth sim --until 0.05% --out my-experiment\n"
       "  astrolabe umbmark --port P --truth sim --runs 5 --side 3 --out DIR --yes --json");
   command->callback([options] { run(*options); });
 }

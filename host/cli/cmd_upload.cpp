@@ -42,20 +42,6 @@ void print(const link::UploadReport& report, bool json) {
   std::cout << object.dump(2) << '\n';
 }
 
-/// A calibration replaces what the robot carried while it was driven; on top of anything else it would be
-/// wrong.
-void check_carried(const link::RemoteParameters& robot, const experiment::ParameterFile& file, bool force) {
-  constexpr double kSame = 1e-8;
-  for (const auto& [name, carried] : file.carried) {
-    const double now = std::get<double>(robot.value(name));
-    if (std::abs(now - carried) > kSame && !force)
-      throw Error(fmt::format(
-          "the calibration was driven with {} = {:.9g}, and the robot now carries {:.9g}: load the old "
-          "value or drive again (--force uploads all the same)",
-          name, carried, now));
-  }
-}
-
 void run(Options& options) {
   const experiment::ParameterFile file = experiment::read_parameter_file(options.file);
   const auto client = connect(options.connection);
@@ -66,7 +52,8 @@ void run(Options& options) {
     if (options.json) print(link::UploadReport{link::ActiveSet::new_set, false, {}}, true);
     return;
   }
-  check_carried(robot, file, options.force);
+  if (const std::string wrong = experiment::wrong_basis(robot, file); !wrong.empty() && !options.force)
+    throw Error(wrong + " (--force uploads all the same)");
   say(table(experiment::side_by_side(changes)));
   if (const std::string doubt = experiment::suspicion(changes); !doubt.empty() && !options.force)
     throw Error(doubt);

@@ -130,4 +130,25 @@ std::string table(const std::vector<std::vector<std::string>>& rows, std::string
   return text;
 }
 
+std::string wrapped(const std::string& text) {
+  constexpr std::size_t kColumns = 80;
+  std::string out, line;
+  std::size_t width = 0;
+  const auto flush = [&] {
+    out += line + '\n';
+    line.clear();
+    width = 0;
+  };
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    const std::string word = text.substr(at, end - at);
+    if (width > 0 && width + 1 + width_of(word) > kColumns) flush();
+    line += (width > 0 ? " " : "") + word;
+    width += (width > 0 ? 1 : 0) + width_of(word);
+    at = end + 1;
+  }
+  flush();
+  return out;
+}
+
 }  // namespace astro::cli

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The main job on a desk: a simulated robot whose wheels and wheelbase are off is calibrated over a real pseudo
-# terminal, driven again and reported.      demo.sh ASTROLABE FOLDER
+# terminal by maximum likelihood over whole drives, driven again and reported.      demo.sh ASTROLABE FOLDER
 set -euo pipefail
 astrolabe=$1
 folder=$2
@@ -22,3 +22,7 @@ for _ in $(seq 100); do
 done
 
 "$astrolabe" umbmark --port "$port" --truth sim --runs 5 --side 3 --out "$folder/experiment" --yes
+
+echo
+echo "How the factors were found, from the drives before:"
+"$astrolabe" calibrate runs "$folder/experiment/before"

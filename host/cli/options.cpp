@@ -58,6 +58,17 @@ CLI::Validator finite() {
   return number([](double) { return true; }, "a number");
 }
 
+CLI::Validator fraction() {
+  return {[](std::string& text) -> std::string {
+            const bool percent = text.ends_with('%');
+            const auto value = finite_number(percent ? text.substr(0, text.size() - 1) : text);
+            if (!value || *value <= 0) return fmt::format("'{}' is not like 0.05% or 0.0005", text);
+            text = fmt::format("{}", percent ? *value / 100 : *value);
+            return {};
+          },
+          ""};
+}
+
 void examples(CLI::App& command, std::initializer_list<const char*> lines) {
   std::string footer = "\nExamples:";
   for (const char* line : lines) footer += std::string("\n  ") + line;

@@ -20,6 +20,9 @@ CLI::Validator whole(std::uint64_t least, std::uint64_t greatest);
 /// Accepts finite numbers.
 CLI::Validator finite();
 
+/// Accepts "0.05%" or "0.0005", greater than 0; as a transform it leaves the plain number.
+CLI::Validator fraction();
+
 /// "Examples:" and one line each, as the footer of a command's help.
 void examples(CLI::App& command, std::initializer_list<const char*> lines);
 

@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <toml++/toml.h>
-#include <cmath>
-#include <string_view>
+#include <sstream>
 
 #include "host/base/error.hpp"
+#include "host/experiment/toml_file.hpp"
 #include "host/recording/files.hpp"
 
 namespace astro::experiment {
@@ -14,26 +13,51 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Shortest digits that give the same double again, and always a float for TOML.
-std::string real(double value) {
-  if (!std::isfinite(value)) return "nan";
-  std::string text = fmt::format("{}", value);
-  if (text.find_first_of(".e") == std::string::npos) text += ".0";
-  return text;
-}
-
 void save(const fs::path& path, const std::string& text) {
   recording::PartFile file(path);
   file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   file.commit();
 }
 
-std::string method_lines(const calibration::Estimate& estimate) {
-  std::string text = fmt::format("method = \"{}\"\n", calibration::name_of(estimate.options.method));
+std::string factor_lines(double c_r, double c_l, double b_m) {
+  return fmt::format("c_R = {}\nc_L = {}\nb = {} # m\n\n", real_text(c_r), real_text(c_l), real_text(b_m));
+}
+
+std::string end_pose_lines(const calibration::Estimate& estimate) {
+  std::string text;
   if (estimate.options.method == calibration::Method::umbmark)
     text += fmt::format("angles = \"{}\"\n", calibration::name_of(estimate.options.angles));
   if (estimate.options.method == calibration::Method::extended)
     text += fmt::format("formula = \"{}\"\n", calibration::name_of(estimate.options.formula));
+  return text + fmt::format("side_m = {}\n", real_text(estimate.side_m));
+}
+
+std::string covariance_lines(const calibration::FactorCovariance& covariance) {
+  std::string text = "# Rows and columns c_R, c_L, b (m).\n[covariance]\nmatrix = [\n";
+  for (const auto& row : covariance)
+    text += fmt::format("  [{}, {}, {}],\n", real_text(row[0]), real_text(row[1]), real_text(row[2]));
+  return text + "]\n\n";
+}
+
+std::string nominal_lines(const NominalWheel& wheel) {
+  return fmt::format(
+      "# The wheel that c_R and c_L refer to.\n[nominal]\nwheel_diameter = {} # m\n"
+      "counts_per_wheel_turn = {}\n\n",
+      real_text(wheel.diameter_m), real_text(wheel.counts_per_turn));
+}
+
+std::string calibration_lines(const Calibration& calibration) {
+  std::string text = fmt::format("[calibration]\nmethod = \"{}\"\n", calibration.method());
+  text += fmt::format(
+      "absolute = {} # {}\n", calibration.absolute(),
+      calibration.absolute() ? "true whatever the robot carries by now" : "only on top of [carried]");
+  if (const calibration::Estimate* estimate = calibration.end_poses()) text += end_pose_lines(*estimate);
+  if (const MlResult* ml = calibration.ml()) text += fmt::format("runs = {}\n", ml->estimate.runs.size());
+  text += fmt::format("E_d = {}\nE_b = {}\nscale = {}\n", real_text(calibration.E_d()),
+                      real_text(calibration.E_b()), real_text(calibration.scale()));
+  if (calibration.squares)
+    text += fmt::format("runs_cw = {}\nruns_ccw = {}\nE_max_syst_m = {}\n", calibration.squares->cw.runs,
+                        calibration.squares->ccw.runs, real_text(calibration.squares->E_max_syst_m));
   return text;
 }
 
@@ -45,34 +69,40 @@ link::Value value_of(const toml::node& node, const std::string& where) {
   throw Error(where + " is neither a number nor a text");
 }
 
-toml::table parse(const fs::path& path) {
-  const recording::Bytes bytes = recording::load_file(path);
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  try {
-    return toml::parse(text, path.string());
-  } catch (const toml::parse_error& error) {
-    throw Error(fmt::format("'{}' line {} is not TOML: {}", path.string(), error.source().begin.line,
-                            error.description()));
-  }
+NominalWheel wheel_of(const toml::table& file, const fs::path& path) {
+  const NominalWheel wheel{file["nominal"]["wheel_diameter"].value_or(0.0),
+                           file["nominal"]["counts_per_wheel_turn"].value_or(0.0)};
+  if (!(wheel.diameter_m > 0) || !(wheel.counts_per_turn > 0))
+    throw Error("'" + path.string() +
+                "': [nominal] needs a wheel_diameter and counts_per_wheel_turn above 0");
+  return wheel;
+}
+
+calibration::FactorCovariance covariance_of(const toml::table& file, const fs::path& path) {
+  calibration::FactorCovariance covariance;
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t column = 0; column < 3; ++column) {
+      const auto entry = file["covariance"]["matrix"][row][column].value<double>();
+      if (!entry)
+        throw Error("'" + path.string() + "': [covariance] needs a matrix of three rows of three numbers");
+      covariance[row][column] = *entry;
+    }
+  return covariance;
 }
 
 }  // namespace
 
-void write_calibration(const fs::path& path, const calibration::Estimate& estimate) {
+void write_calibration(const fs::path& path, const Calibration& calibration) {
+  const calibration::WheelFactors &factors = calibration.factors, &carried = calibration.carried;
   std::string text =
       "# Found by Astrolabe; 'astrolabe upload " + path.filename().string() + "' loads it.\n\n";
-  text += fmt::format("[parameters]\nc_R = {}\nc_L = {}\nb = {} # m\n\n", real(estimate.factors.c_r),
-                      real(estimate.factors.c_l), real(estimate.factors.b_m));
-  text += fmt::format("[standard_errors]\nc_R = {}\nc_L = {}\nb = {} # m\n\n", real(estimate.se.c_r),
-                      real(estimate.se.c_l), real(estimate.se.b_m));
-  text +=
-      fmt::format("# What the robot believed while it drove.\n[carried]\nc_R = {}\nc_L = {}\nb = {} # m\n\n",
-                  real(estimate.carried.c_r), real(estimate.carried.c_l), real(estimate.carried.b_m));
-  text += "[calibration]\n" + method_lines(estimate);
-  text += fmt::format("side_m = {}\nruns_cw = {}\nruns_ccw = {}\nE_d = {}\nE_b = {}\nE_max_syst_m = {}\n",
-                      real(estimate.side_m), estimate.summary.cw.runs, estimate.summary.ccw.runs,
-                      real(estimate.E_d), real(estimate.E_b), real(estimate.summary.E_max_syst_m));
-  save(path, text);
+  text += "[parameters]\n" + factor_lines(factors.c_r, factors.c_l, factors.b_m);
+  text += "[standard_errors]\n" + factor_lines(calibration.se.c_r, calibration.se.c_l, calibration.se.b_m);
+  if (const MlResult* ml = calibration.ml()) text += covariance_lines(ml->estimate.covariance);
+  if (calibration.wheel) text += nominal_lines(*calibration.wheel);
+  text += "# What the robot believed while it drove.\n[carried]\n" +
+          factor_lines(carried.c_r, carried.c_l, carried.b_m);
+  save(path, text + calibration_lines(calibration));
 }
 
 void write_parameters(const fs::path& path, const ParameterValues& values) {
@@ -91,7 +121,7 @@ void write_parameters(const fs::path& path, const ParameterValues& values) {
 }
 
 ParameterFile read_parameter_file(const fs::path& path) {
-  const toml::table file = parse(path);
+  const toml::table file = parse_toml(path);
   const toml::table* parameters = file["parameters"].as_table();
   if (parameters == nullptr || parameters->empty())
     throw Error("'" + path.string() +
@@ -104,6 +134,10 @@ ParameterFile read_parameter_file(const fs::path& path) {
   if (const toml::table* carried = file["carried"].as_table())
     for (const auto& [key, node] : *carried)
       if (const auto number = node.value<double>()) result.carried[std::string(key.str())] = *number;
+  result.method = file["calibration"]["method"].value_or(std::string());
+  result.absolute = file["calibration"]["absolute"].value_or(false);
+  if (file.contains("nominal")) result.wheel = wheel_of(file, path);
+  if (file.contains("covariance")) result.covariance = covariance_of(file, path);
   return result;
 }
 

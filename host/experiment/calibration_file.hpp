@@ -2,9 +2,10 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
-#include "host/calibration/umbmark.hpp"
+#include "host/experiment/calibration.hpp"
 #include "host/link/parameter_row.hpp"
 
 /// calib.toml, the result of a calibration on its way to the robot; and the file of `params export`. Both
@@ -13,9 +14,9 @@ namespace astro::experiment {
 
 using ParameterValues = std::map<std::string, link::Value>;
 
-/// Writes an estimate: [parameters] c_R, c_L, b; [standard_errors]; [carried]; [calibration] with how it was
-/// found.
-void write_calibration(const std::filesystem::path& path, const calibration::Estimate& estimate);
+/// Writes [parameters] c_R, c_L, b; [standard_errors] and, from maximum likelihood, [covariance]; [nominal],
+/// the wheel that c_R and c_L refer to, where it is known; [carried]; [calibration] with how it was found.
+void write_calibration(const std::filesystem::path& path, const Calibration& calibration);
 
 /// Writes parameters alone.
 void write_parameters(const std::filesystem::path& path, const ParameterValues& values);
@@ -24,10 +25,16 @@ struct ParameterFile {
   ParameterValues parameters;
   /// What the robot carried when the calibration was driven; empty in a file without [carried].
   std::map<std::string, double> carried;
+  /// The parameters hold whatever the robot carries by now (Calibration::absolute).
+  bool absolute = false;
+  std::optional<NominalWheel> wheel;  // [nominal]
+  /// Of c_R, c_L and b; none in a file without [covariance].
+  std::optional<calibration::FactorCovariance> covariance;
+  std::string method;  // "" in a file that no calibration wrote
 };
 
 /// Throws astro::Error naming the file, and the line where TOML knows it: no such file, not TOML, no
-/// [parameters], a value that is neither number nor text.
+/// [parameters], a value that is neither number nor text, a damaged [covariance] or [nominal].
 ParameterFile read_parameter_file(const std::filesystem::path& path);
 
 }  // namespace astro::experiment

@@ -47,6 +47,28 @@ std::string suspicion(const std::vector<Change>& changes) {
   return {};
 }
 
+std::string wrong_basis(const link::RemoteParameters& robot, const ParameterFile& file) {
+  constexpr double kSame = 1e-8;  // above a step of the wire format, far below a calibration
+  const auto on_robot = [&](const char* name) { return std::get<double>(robot.value(name)); };
+  if (!file.absolute)
+    for (const auto& [name, carried] : file.carried)
+      if (const double now = on_robot(name.c_str()); std::abs(now - carried) > kSame)
+        return fmt::format(
+            "the calibration was driven with {} = {:.9g}, and the robot now carries {:.9g}: load the old "
+            "value or drive again",
+            name, carried, now);
+  if (!file.wheel) return {};
+  const NominalWheel now{
+      on_robot("wheel_diameter"),
+      on_robot("counts_per_motor_rev") * on_robot("gear_numerator") / on_robot("gear_denominator")};
+  if (std::abs(now.metres_per_count() / file.wheel->metres_per_count() - 1) < kSame) return {};
+  return fmt::format(
+      "the calibration refers to a wheel of {:.6g} m with {:.6g} counts a turn, and the robot now believes "
+      "in "
+      "{:.6g} m and {:.6g}: load the old values or drive again",
+      file.wheel->diameter_m, file.wheel->counts_per_turn, now.diameter_m, now.counts_per_turn);
+}
+
 std::vector<std::vector<std::string>> side_by_side(const std::vector<Change>& changes) {
   std::vector<std::vector<std::string>> rows{{"parameter", "unit", "on the robot", "new", "change"}};
   for (const Change& change : changes) {

@@ -22,6 +22,12 @@ std::vector<Change> changes(const link::RemoteParameters& robot, const Parameter
 /// calibration: the sentence that says so, or "" if there is none. Looks at c_R, c_L and b only.
 std::string suspicion(const std::vector<Change>& changes);
 
+/// Why factors that were found like this would be wrong on top of what the robot now carries: the sentence,
+/// or
+/// "" if they are right. Factors that are not absolute need what was carried when they were measured; all
+/// need the nominal wheel (diameter, gear, encoder) that they refer to, as far as the file tells it.
+std::string wrong_basis(const link::RemoteParameters& robot, const ParameterFile& file);
+
 /// Old and new side by side, for people.
 std::vector<std::vector<std::string>> side_by_side(const std::vector<Change>& changes);
 

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "host/base/error.hpp"
+#include "host/experiment/experiment_folder.hpp"
+#include "host/experiment/until.hpp"
 #include "host/link/upload.hpp"
 #include "host/recording/run_file.hpp"
 
@@ -78,27 +80,57 @@ class Session {
            std::abs(a.b_m - b.b_m) < kSame;
   }
 
-  fs::path file_of(const RunSpec& spec) const { return folder_ / spec.phase / spec.file_name(); }
-
   void drive_phase(std::size_t phase) {
-    const std::vector<RunSpec> specs = runs_of_phase(journal_.plan, phase);
+    const Plan& plan = journal_.plan;
+    announced_ = false;
+    if (open_ended(plan, phase)) drive_until_enough(phase, *plan.until);
+    drive_missing(runs_of_phase(plan, phase, squares_in_phase(folder_, plan, phase)));
+  }
+
+  void drive_until_enough(std::size_t phase, const Until& until) {
+    const Plan& plan = journal_.plan;
+    if (journal_.carried.contains(phase_names(plan)[phase + 1])) return;  // an earlier session had enough
+    for (int squares = squares_in_phase(folder_, plan, phase);; ++squares) {
+      const std::vector<RunSpec> specs = squares_of_phase(plan, phase, squares);
+      drive_missing(specs);
+      const Calibration found = calibrate_with(read_specs(folder_, specs));
+      if (found.ml() == nullptr)
+        throw Error(
+            "--until needs maximum likelihood, and these runs have no ground truth along the way: "
+            "give --runs");
+      const calibration::Precision reached = precision_of(found);
+      hooks_.run.notice(fmt::format("{}: {} + {} squares give {}", specs.front().phase, squares, squares,
+                                    described(reached)));
+      if (reaches(reached, until.target)) return;
+      if (squares >= until.most) {
+        hooks_.run.notice(
+            fmt::format("{}: that is not the {:.3g} % asked for, but {} squares in each "
+                        "direction are the most: going on with it",
+                        specs.front().phase, 100 * until.target, until.most));
+        return;
+      }
+    }
+  }
+
+  void drive_missing(const std::vector<RunSpec>& specs) {
     std::vector<RunSpec> missing;
     for (const RunSpec& spec : specs)
-      if (!fs::exists(file_of(spec))) missing.push_back(spec);
+      if (!fs::exists(file_of(folder_, spec))) missing.push_back(spec);
     if (missing.empty()) return;
 
     const link::RemoteParameters parameters = link::RemoteParameters::fetch(client_);
     begin_phase(specs.front().phase, factors_of(parameters));
-    if (missing.size() < specs.size())
+    if (missing.size() < specs.size() && !announced_)
       hooks_.run.notice(fmt::format("{}: {} of {} runs are recorded already", specs.front().phase,
                                     specs.size() - missing.size(), specs.size()));
+    announced_ = true;
     const auto total = static_cast<int>(specs.size());
     int number = total - static_cast<int>(missing.size());
     for (const RunSpec& spec : missing) {
       hooks_.ready(spec);
       hooks_.run_started(spec, ++number, total);
       const recording::Run run = drive(spec, parameters);
-      recording::write_run(file_of(spec), run);
+      recording::write_run(file_of(folder_, spec), run);
       hooks_.run_finished(spec, run);
     }
   }
@@ -142,31 +174,35 @@ class Session {
     }
   }
 
-  void calibrate(std::size_t phase) {
-    std::vector<recording::Run> runs;
-    const std::vector<RunSpec> specs = runs_of_phase(journal_.plan, phase);
-    for (const RunSpec& spec : specs) runs.push_back(recording::read_run(file_of(spec)));
-    const calibration::Estimate found = estimate(squares_of(runs), journal_.plan.method);
-    write_calibration(folder_ / fmt::format("calib-{}.toml", specs.front().phase), found);
-    const std::string next = phase_names(journal_.plan)[phase + 1];
-    if (!journal_.carried.contains(next)) upload(found);
+  Calibration calibrate_with(const RunSet& current) const {
+    std::vector<RunSet> phases = finished_;
+    phases.push_back(current);
+    return calibrate_after(phases, journal_.plan.method);
   }
 
-  void upload(const calibration::Estimate& found) {
-    const ParameterValues values{
-        {"c_R", found.factors.c_r}, {"c_L", found.factors.c_l}, {"b", found.factors.b_m}};
+  void calibrate(std::size_t phase) {
+    const Plan& plan = journal_.plan;
+    const std::vector<RunSpec> specs = runs_of_phase(plan, phase, squares_in_phase(folder_, plan, phase));
+    RunSet set = read_specs(folder_, specs);
+    const Calibration found = calibrate_with(set);
+    finished_.push_back(std::move(set));
+    const fs::path file = folder_ / fmt::format("calib-{}.toml", specs.front().phase);
+    write_calibration(file, found);
+    if (!journal_.carried.contains(phase_names(plan)[phase + 1])) upload(found, file);
+  }
+
+  void upload(const Calibration& found, const fs::path& file) {
+    const ParameterFile calibration = read_parameter_file(file);
     const link::RemoteParameters robot = link::RemoteParameters::fetch(client_);
-    const std::vector<Change> list = changes(robot, values);
+    const std::vector<Change> list = changes(robot, calibration.parameters);
     if (list.empty()) return;  // an earlier session got this far
-    if (!same(factors_of(robot), found.carried))
-      throw Error(
-          "the robot no longer carries the parameters that the squares were driven with: load them again, or "
-          "choose another --out");
+    if (const std::string wrong = wrong_basis(robot, calibration); !wrong.empty())
+      throw Error(wrong + ", or choose another --out");
     if (const std::string doubt = suspicion(list); !doubt.empty()) throw Error(doubt);
     if (!hooks_.agree(found, list))
       throw Error("the new parameters were not uploaded; 'astrolabe umbmark --out " + folder_.string() +
                   "' goes on from here");
-    const link::UploadReport report = link::upload(client_, values);
+    const link::UploadReport report = link::upload(client_, calibration.parameters);
     if (report.active != link::ActiveSet::new_set) throw Error(report.sentence());
     hooks_.uploaded(report.sentence());
   }
@@ -176,6 +212,8 @@ class Session {
   fs::path folder_;
   const ExperimentHooks& hooks_;
   Journal journal_;
+  std::vector<RunSet> finished_;  // phases before the one under way
+  bool announced_ = false;        // what of this phase was recorded before
 };
 
 }  // namespace

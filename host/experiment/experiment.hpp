@@ -18,8 +18,8 @@ struct ExperimentHooks {
   /// Before each drive: the moment to put the robot back on its mark.
   std::function<void(const RunSpec&)> ready = [](const RunSpec&) {};
   /// True: put these in force. Not asked about more than a tenth (change_guard.hpp): that is refused.
-  std::function<bool(const calibration::Estimate&, const std::vector<Change>&)> agree =
-      [](const calibration::Estimate&, const std::vector<Change>&) { return true; };
+  std::function<bool(const Calibration&, const std::vector<Change>&)> agree =
+      [](const Calibration&, const std::vector<Change>&) { return true; };
   std::function<void(const std::string&)> uploaded = [](const std::string&) {};
 };
 

@@ -11,7 +11,7 @@
 namespace astro::experiment {
 namespace {
 
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;  // 1 meant end poses by "auto"
 
 std::filesystem::path file_in(const std::filesystem::path& folder) { return folder / "experiment.json"; }
 

@@ -17,6 +17,27 @@ void add_cluster(nlohmann::json& json, const calibration::ClusterSummary& cluste
   json["r_cg_" + direction + "_m"] = number(cluster.r_cg_m);
 }
 
+void add_squares(nlohmann::json& json, const calibration::ExperimentSummary& squares) {
+  json["runs_cw"] = squares.cw.runs;
+  json["runs_ccw"] = squares.ccw.runs;
+  json["E_max_syst_m"] = squares.E_max_syst_m;
+  add_cluster(json, squares.cw, "cw");
+  add_cluster(json, squares.ccw, "ccw");
+}
+
+void add_end_poses(nlohmann::json& json, const calibration::Estimate& estimate) {
+  json["side_m"] = estimate.side_m;
+  json["alpha_deg"] = number(degrees(estimate.alpha_rad));
+  json["beta_deg"] = number(degrees(estimate.beta_rad));
+  json["R_m"] = number(estimate.radius_m);
+  if (estimate.options.method == calibration::Method::umbmark)
+    json["angles"] = calibration::name_of(estimate.options.angles);
+  if (estimate.options.method == calibration::Method::extended) {
+    json["formula"] = calibration::name_of(estimate.options.formula);
+    json["alpha_Ed_deg"] = number(degrees(estimate.alpha_Ed_rad));
+  }
+}
+
 }  // namespace
 
 nlohmann::json number(double value) {
@@ -46,37 +67,23 @@ nlohmann::json to_json(const calibration::ExperimentSummary& summary) {
           {"ccw", to_json(summary.ccw)}};
 }
 
-nlohmann::json to_json(const calibration::Estimate& estimate) {
-  nlohmann::json json = {
-      {"method", calibration::name_of(estimate.options.method)},
-      {"side_m", estimate.side_m},
-      {"alpha_deg", number(degrees(estimate.alpha_rad))},
-      {"beta_deg", number(degrees(estimate.beta_rad))},
-      {"R_m", number(estimate.radius_m)},
-      {"E_b", estimate.E_b},
-      {"E_d", estimate.E_d},
-      {"c_R", estimate.factors.c_r},
-      {"c_L", estimate.factors.c_l},
-      {"b_m", estimate.factors.b_m},
-      {"standard_errors",
-       {{"E_b", number(estimate.se.E_b)},
-        {"E_d", number(estimate.se.E_d)},
-        {"c_R", number(estimate.se.c_r)},
-        {"c_L", number(estimate.se.c_l)},
-        {"b_m", number(estimate.se.b_m)}}},
-      {"carried",
-       {{"c_R", estimate.carried.c_r}, {"c_L", estimate.carried.c_l}, {"b_m", estimate.carried.b_m}}},
-      {"runs_cw", estimate.summary.cw.runs},
-      {"runs_ccw", estimate.summary.ccw.runs},
-      {"E_max_syst_m", estimate.summary.E_max_syst_m}};
-  if (estimate.options.method == calibration::Method::umbmark)
-    json["angles"] = calibration::name_of(estimate.options.angles);
-  if (estimate.options.method == calibration::Method::extended) {
-    json["formula"] = calibration::name_of(estimate.options.formula);
-    json["alpha_Ed_deg"] = number(degrees(estimate.alpha_Ed_rad));
-  }
-  add_cluster(json, estimate.summary.cw, "cw");
-  add_cluster(json, estimate.summary.ccw, "ccw");
+nlohmann::json to_json(const calibration::WheelFactors& factors) {
+  return {{"c_R", factors.c_r}, {"c_L", factors.c_l}, {"b_m", factors.b_m}};
+}
+
+nlohmann::json to_json(const Calibration& calibration) {
+  nlohmann::json json = to_json(calibration.factors);
+  const FactorErrors& se = calibration.se;
+  json["method"] = calibration.method();
+  json["E_d"] = calibration.E_d();
+  json["E_b"] = calibration.E_b();
+  json["scale"] = calibration.scale();
+  json["standard_errors"] = {{"E_b", number(se.E_b)}, {"E_d", number(se.E_d)}, {"scale", number(se.scale)},
+                             {"c_R", number(se.c_r)}, {"c_L", number(se.c_l)}, {"b_m", number(se.b_m)}};
+  json["carried"] = to_json(calibration.carried);
+  if (calibration.squares) add_squares(json, *calibration.squares);
+  if (const calibration::Estimate* estimate = calibration.end_poses()) add_end_poses(json, *estimate);
+  if (const MlResult* ml = calibration.ml()) json.update(to_json(*ml));
   return json;
 }
 

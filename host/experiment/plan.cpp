@@ -20,11 +20,29 @@ void need(bool condition, const std::string& sentence) {
 
 bool within(double value, double least, double most) { return value >= least && value <= most; }
 
+void check_until(const Plan& plan) {
+  need(within(plan.until->target, 1e-6, 0.1),
+       fmt::format("a precision of {:g} % cannot be driven for: choose 0.0001 % to 10 %",
+                   100 * plan.until->target));
+  need(
+      plan.until->most >= kFewestPairs && plan.until->most <= 1000,
+      fmt::format("at most {} squares in each direction: choose {} to 1000", plan.until->most, kFewestPairs));
+  need(plan.order == Order::alternating,
+       "squares driven until a precision is reached alternate: leave out --order");
+  need(plan.method.family != MethodChoice::Family::end_poses,
+       fmt::format("only maximum likelihood knows its precision as it goes: leave out --until or --method {}",
+                   name_of(plan.method)));
+  need(plan.truth != "manual" && plan.truth != "file",
+       fmt::format("--until needs ground truth along the whole drive, which --truth {} has not: give --runs",
+                   plan.truth));
+}
+
 }  // namespace
 
 void Plan::check() const {
   need(runs >= 1 && runs <= 1000,
        fmt::format("{} runs in each direction cannot be driven: choose 1 to 1000", runs));
+  if (until) check_until(*this);
   need(rounds >= 1 && rounds <= 20, fmt::format("{} rounds cannot be driven: choose 1 to 20", rounds));
   need(within(side_m, 0.2, 100),
        fmt::format("a square of side {} m cannot be driven: choose 0.2 m to 100 m", side_m));
@@ -77,17 +95,27 @@ std::vector<std::string> phase_names(const Plan& plan) {
   return names;
 }
 
-std::vector<RunSpec> runs_of_phase(const Plan& plan, std::size_t phase) {
+bool open_ended(const Plan& plan, std::size_t phase) {
+  return plan.until.has_value() && phase + 1 < phase_names(plan).size();
+}
+
+std::vector<RunSpec> squares_of_phase(const Plan& plan, std::size_t phase, int squares) {
   const std::string name = phase_names(plan).at(phase);
   const Direction first = plan.order == Order::ccw_first ? Direction::ccw : Direction::cw;
   const Direction second = first == Direction::cw ? Direction::ccw : Direction::cw;
   std::vector<RunSpec> specs;
-  for (int i = 1; i <= plan.runs; ++i) {
+  for (int i = 1; i <= squares; ++i) {
     specs.push_back({name, "square", first, i});
     if (plan.order == Order::alternating) specs.push_back({name, "square", second, i});
   }
-  for (int i = 1; plan.order != Order::alternating && i <= plan.runs; ++i)
+  for (int i = 1; plan.order != Order::alternating && i <= squares; ++i)
     specs.push_back({name, "square", second, i});
+  return specs;
+}
+
+std::vector<RunSpec> runs_of_phase(const Plan& plan, std::size_t phase, int squares) {
+  std::vector<RunSpec> specs = squares_of_phase(plan, phase, squares);
+  const std::string name = phase_names(plan).at(phase);
   const bool last = phase + 1 == phase_names(plan).size();
   if (plan.extras && (phase == 0 || last)) {
     specs.push_back({name, "line", Direction::none, 1});
@@ -107,10 +135,12 @@ void to_json(nlohmann::json& json, const Plan& plan) {
           {"line_m", plan.line_m},
           {"circle_radius_m", plan.circle_radius_m},
           {"extras", plan.extras},
-          {"method", plan.method.automatic ? "auto" : calibration::name_of(plan.method.options.method)},
+          {"method", name_of(plan.method)},
           {"angles", calibration::name_of(plan.method.options.angles)},
           {"formula", calibration::name_of(plan.method.options.formula)},
-          {"truth", plan.truth}};
+          {"truth", plan.truth},
+          {"until", nullptr}};
+  if (plan.until) json["until"] = {{"target", plan.until->target}, {"most", plan.until->most}};
 }
 
 void from_json(const nlohmann::json& json, Plan& plan) {
@@ -126,6 +156,9 @@ void from_json(const nlohmann::json& json, Plan& plan) {
   plan.method = method_named(json.at("method").get<std::string>(), json.at("angles").get<std::string>(),
                              json.at("formula").get<std::string>());
   json.at("truth").get_to(plan.truth);
+  plan.until.reset();
+  if (const auto& until = json.at("until"); !until.is_null())
+    plan.until = Until{until.at("target").get<double>(), until.at("most").get<int>()};
 }
 
 }  // namespace astro::experiment

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "host/base/error.hpp"
+#include "host/experiment/experiment_folder.hpp"
 #include "host/experiment/json.hpp"
-#include "host/recording/run_file.hpp"
 #include "host/recording/run_folder.hpp"
 
 namespace astro::experiment {
@@ -14,18 +14,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<recording::Run> read_phase(const fs::path& folder, const Plan& plan, std::size_t phase) {
-  std::vector<recording::Run> runs;
-  for (const RunSpec& spec : runs_of_phase(plan, phase)) {
-    const fs::path path = folder / spec.phase / spec.file_name();
-    if (!fs::exists(path)) return {};
-    runs.push_back(recording::read_run(path));
-  }
-  return runs;
-}
-
-nlohmann::json factors_json(const calibration::WheelFactors& factors) {
-  return {{"c_R", factors.c_r}, {"c_L", factors.c_l}, {"b_m", factors.b_m}};
+RunSet read_phase(const fs::path& folder, const Plan& plan, std::size_t phase) {
+  const std::vector<RunSpec> specs = runs_of_phase(plan, phase, squares_in_phase(folder, plan, phase));
+  for (const RunSpec& spec : specs)
+    if (!fs::exists(file_of(folder, spec))) return {};
+  return read_specs(folder, specs);
 }
 
 std::string millimetres(double metres, double error) {
@@ -42,9 +35,10 @@ std::vector<std::string> row(const Results& results, const std::string& name, co
 
 }  // namespace
 
-const calibration::Estimate* Results::last_estimate() const {
+const Calibration* Results::last_calibration() const {
   if (phases.size() < 2) return nullptr;
-  return phases[phases.size() - 2].estimate ? &*phases[phases.size() - 2].estimate : nullptr;
+  const std::optional<Calibration>& last = phases[phases.size() - 2].calibration;
+  return last ? &*last : nullptr;
 }
 
 double Results::improvement() const { return before().summary.E_max_syst_m / after().summary.E_max_syst_m; }
@@ -54,14 +48,16 @@ Results read_results(const fs::path& folder) {
   results.journal = read_journal(folder);
   const Plan& plan = results.journal.plan;
   const std::vector<std::string> names = phase_names(plan);
+  std::vector<RunSet> sets;
   for (std::size_t i = 0; i < names.size(); ++i) {
     PhaseResult phase;
     phase.name = names[i];
-    phase.runs = read_phase(folder, plan, i);
-    if (phase.runs.empty()) break;
+    sets.push_back(read_phase(folder, plan, i));
+    if (sets.back().runs.empty()) break;
+    phase.runs = sets.back().runs;
     phase.squares = squares_of(phase.runs);
     phase.summary = calibration::summarize(phase.squares.cw, phase.squares.ccw);
-    if (i + 1 < names.size()) phase.estimate = estimate(phase.squares, plan.method);
+    if (i + 1 < names.size()) phase.calibration = calibrate_after(sets, plan.method);
     results.phases.push_back(std::move(phase));
   }
   if (results.phases.empty())
@@ -103,17 +99,16 @@ nlohmann::json to_json(const Results& results) {
   json["improvement"] = results.phases.size() > 1 ? number(results.improvement()) : nlohmann::json();
   json["phases"] = nlohmann::json::array();
   for (const PhaseResult& phase : results.phases) {
-    nlohmann::json entry = {{"name", phase.name}, {"carried", factors_json(phase.squares.carried)}};
+    nlohmann::json entry = {{"name", phase.name}, {"carried", to_json(phase.squares.carried)}};
     entry["squares"] = to_json(phase.summary);
-    entry["estimate"] = phase.estimate ? to_json(*phase.estimate) : nlohmann::json();
+    entry["estimate"] = phase.calibration ? to_json(*phase.calibration) : nlohmann::json();
     json["phases"].push_back(entry);
   }
-  json["parameters"] = {{"old", factors_json(results.before().squares.carried)}, {"new", nullptr}};
-  if (const calibration::Estimate* estimate = results.last_estimate()) {
-    json["parameters"]["new"] = factors_json(results.after().squares.carried);
-    json["parameters"]["standard_errors"] = {{"c_R", number(estimate->se.c_r)},
-                                             {"c_L", number(estimate->se.c_l)},
-                                             {"b_m", number(estimate->se.b_m)}};
+  json["parameters"] = {{"old", to_json(results.before().squares.carried)}, {"new", nullptr}};
+  if (const Calibration* last = results.last_calibration()) {
+    json["parameters"]["new"] = to_json(results.after().squares.carried);
+    json["parameters"]["standard_errors"] = {
+        {"c_R", number(last->se.c_r)}, {"c_L", number(last->se.c_l)}, {"b_m", number(last->se.b_m)}};
   }
   json["robot"] = {{"id", results.journal.robot_id}, {"name", results.journal.robot_name}};
   return json;
@@ -149,43 +144,6 @@ std::vector<std::vector<std::string>> before_after_table(const Results& results)
     return fmt::format("{:.4f}", 1000 * phase.squares.carried.b_m);
   }));
   return rows;
-}
-
-report::ReportInput report_input(const Results& results) {
-  const Journal& journal = results.journal;
-  report::ReportInput input;
-  input.title = "Odometry calibration of " + journal.robot_name;
-  input.description = {
-      {"Robot", journal.robot_name},
-      {"Unique id", journal.robot_id},
-      {"Board", journal.board},
-      {"Firmware", journal.firmware},
-      {"Started", journal.started_at},
-      {"Ground truth", journal.plan.truth},
-      {"Squares", fmt::format("{} clockwise and {} counter-clockwise, side {} m", journal.plan.runs,
-                              journal.plan.runs, journal.plan.side_m)},
-      {"Speed", fmt::format("{} m/s, {} rad/s", journal.plan.speed_mps, journal.plan.yaw_rate_radps)}};
-  for (const PhaseResult& phase : results.phases)
-    input.phases.push_back({phase.name, phase.runs, phase.summary, phase.squares.cw, phase.squares.ccw});
-  const calibration::WheelFactors& old = results.before().squares.carried;
-  const calibration::WheelFactors& now = results.after().squares.carried;
-  const calibration::Estimate* last = results.last_estimate();
-  const double unknown = std::nan("");
-  input.parameters = {{"c_R", "", old.c_r, now.c_r, last != nullptr ? last->se.c_r : unknown},
-                      {"c_L", "", old.c_l, now.c_l, last != nullptr ? last->se.c_l : unknown},
-                      {"b", "m", old.b_m, now.b_m, last != nullptr ? last->se.b_m : unknown}};
-  if (last != nullptr) {
-    input.method = fmt::format("Method: {}.", calibration::name_of(last->options.method));
-    if (last->options.method == calibration::Method::umbmark)
-      input.method += fmt::format(" Angles from: {}.", calibration::name_of(last->options.angles));
-    if (last->options.method == calibration::Method::extended)
-      input.method += fmt::format(" Formula: {}.", calibration::name_of(last->options.formula));
-    input.method +=
-        "\n\nThe estimate is composed with the factors that the robot carried while it drove. A closed "
-        "square is blind "
-        "to the common scale of both wheels, so c_R + c_L is left as it was.";
-  }
-  return input;
 }
 
 }  // namespace astro::experiment

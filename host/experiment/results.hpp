@@ -6,11 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "host/calibration/umbmark.hpp"
+#include "host/experiment/calibration.hpp"
 #include "host/experiment/journal.hpp"
 #include "host/experiment/squares.hpp"
 #include "host/recording/run.hpp"
-#include "host/report/report.hpp"
 
 /// What came out of an experiment, worked out from its folder alone.
 namespace astro::experiment {
@@ -20,7 +19,7 @@ struct PhaseResult {
   std::vector<recording::Run> runs;
   Squares squares;
   calibration::ExperimentSummary summary;
-  std::optional<calibration::Estimate> estimate;  // none after the last phase
+  std::optional<Calibration> calibration;  // none after the last phase
 };
 
 struct Results {
@@ -30,12 +29,13 @@ struct Results {
   const PhaseResult& before() const { return phases.front(); }
   const PhaseResult& after() const { return phases.back(); }
   /// The one whose factors the last phase carried; none if nothing was uploaded yet.
-  const calibration::Estimate* last_estimate() const;
+  const Calibration* last_calibration() const;
   /// E_max_syst before over after.
   double improvement() const;
 };
 
-/// Reads the phases that are complete. Throws astro::Error if the first one is not.
+/// Reads the phases that are complete; one that is driven until a precision is reached is, from its fewest
+/// squares on. Throws astro::Error if the first one is not.
 Results read_results(const std::filesystem::path& folder);
 
 /// The same from folders of recordings that no experiment made: one phase each, named after its folder. The
@@ -47,7 +47,5 @@ nlohmann::json to_json(const Results& results);
 
 /// The table that a person reads.
 std::vector<std::vector<std::string>> before_after_table(const Results& results);
-
-report::ReportInput report_input(const Results& results);
 
 }  // namespace astro::experiment

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "host/base/error.hpp"
+#include "host/experiment/plan.hpp"
 #include "host/recording/end_error.hpp"
 
 namespace astro::experiment {
@@ -64,16 +64,13 @@ Squares squares_of(std::span<const recording::Run> runs) {
   return squares;
 }
 
-calibration::Estimate estimate(const Squares& squares, const MethodChoice& method) {
-  calibration::Options options = method.options;
-  if (method.automatic) {
-    const auto has_heading = [](const calibration::EndPose& pose) { return std::isfinite(pose.theta_rad); };
-    const bool headings = std::all_of(squares.cw.begin(), squares.cw.end(), has_heading) &&
-                          std::all_of(squares.ccw.begin(), squares.ccw.end(), has_heading);
-    options = {};
-    options.method = headings ? calibration::Method::extended : calibration::Method::umbmark;
+std::optional<calibration::ExperimentSummary> summary_of_squares(std::span<const recording::Run> runs) {
+  try {
+    const Squares squares = squares_of(runs);
+    if (!squares.cw.empty() && !squares.ccw.empty()) return calibration::summarize(squares.cw, squares.ccw);
+  } catch (const Error&) {
   }
-  return calibration::estimate_factors(squares.cw, squares.ccw, squares.side_m, squares.carried, options);
+  return std::nullopt;
 }
 
 }  // namespace astro::experiment

@@ -1,13 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
-#include "host/calibration/umbmark.hpp"
-#include "host/experiment/plan.hpp"
+#include "host/calibration/end_pose.hpp"
 #include "host/recording/run.hpp"
 
-/// From recorded squares to wheel factors.
+/// From recordings to the end errors of squares.
 namespace astro::experiment {
 
 /// All squares that were driven with one set of parameters.
@@ -21,9 +21,11 @@ struct Squares {
 /// the parameters that the robot carried: such runs cannot be averaged.
 Squares squares_of(std::span<const recording::Run> runs);
 
+/// Their end errors, if both directions were driven and all alike; none otherwise, which is no error: for
+/// what is found without squares and only shown with them.
+std::optional<calibration::ExperimentSummary> summary_of_squares(std::span<const recording::Run> runs);
+
 /// The factors that a run's robot carried; throws astro::Error where the recording does not say.
 calibration::WheelFactors carried_factors(const recording::RunInfo& info);
-
-calibration::Estimate estimate(const Squares& squares, const MethodChoice& method);
 
 }  // namespace astro::experiment

@@ -47,8 +47,8 @@ std::string render_page(const std::string& title, const std::vector<Section>& se
 std::string render_html(const ReportInput& input) {
   const auto groups = group_runs(input.phases);
   return render_page(input.title,
-                     {headline(input), parameter_table(input), scatter(input), factor_table(input),
-                      rms_tables(input), run_figures(input, groups), provenance(input)},
+                     {headline(input), parameter_table(input), history(input), scatter(input),
+                      factor_table(input), rms_tables(input), run_figures(input, groups), provenance(input)},
                      figure_data(input.phases, groups));
 }
 

@@ -18,6 +18,12 @@ struct ParameterRow {
   double standard_error = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// What the robot carried in a phase. standard_error is NaN where unknown.
+struct CarriedValue {
+  double value = 0;
+  double standard_error = std::numeric_limits<double>::quiet_NaN();
+};
+
 /// A line of a two-column description: "Robot", "ASTRO".
 struct DescriptionRow {
   std::string name, value;
@@ -29,6 +35,7 @@ struct Phase {
   std::vector<recording::Run> runs;           // any kinds, any order
   calibration::ExperimentSummary squares;     // of cw and ccw; not looked at where one of them is empty
   std::vector<calibration::EndPose> cw, ccw;  // end errors of the squares in the order of the runs
+  std::vector<CarriedValue> carried{};        // in the order of ReportInput::parameters; may be empty
 };
 
 struct ReportInput {

@@ -29,6 +29,8 @@ Section scatter(const ReportInput& input);
 Section run_figures(const ReportInput& input, const std::vector<RunGroup>& groups);
 Section rms_tables(const ReportInput& input);
 Section parameter_table(const ReportInput& input);
+/// All phases in a row; only for three and more, as two are the parameter table.
+Section history(const ReportInput& input);
 Section factor_table(const ReportInput& input);
 Section provenance(const ReportInput& input);
 

@@ -95,6 +95,11 @@ TEST_F(BadInput, SettingsThatCannotBeDriven) {
   refuses({"umbmark", "--truth", "sim", "--out", out, "--side", "0"}, {"side 0 m"});
   refuses({"umbmark", "--truth", "sim", "--out", out, "--runs", "0"}, {"0 runs"});
   refuses({"umbmark", "--truth", "moon", "--out", out}, {"moon"});
+  refuses({"umbmark", "--truth", "sim", "--out", out, "--until", "soon"}, {"soon", "0.05%"});
+  refuses({"umbmark", "--truth", "sim", "--out", out, "--until", "0"}, {"'0'", "0.05%"});
+  refuses({"umbmark", "--truth", "sim", "--out", out, "--until", "50%"}, {"precision of 50 %"});
+  refuses({"umbmark", "--truth", "sim", "--out", out, "--max-runs", "3"}, {"--until"});
+  refuses({"umbmark", "--truth", "manual", "--out", out, "--until", "0.1%"}, {"--truth manual"});
 }
 
 }  // namespace

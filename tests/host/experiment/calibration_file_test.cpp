@@ -25,18 +25,50 @@ class CalibrationFile : public testing::Test {
   support::TemporaryFolder folder_;
 };
 
-TEST_F(CalibrationFile, KeepsAnEstimateToTheLastBit) {
-  calibration::Estimate estimate;
-  estimate.factors = {1.0020770312345678, 0.9979229687654322, 0.2886110512345678};
-  estimate.carried = {1, 1, 0.29};
-  estimate.se.c_r = std::nan("");
+Calibration example() {
+  Calibration found;
+  found.factors = {1.0020770312345678, 0.9979229687654322, 0.2886110512345678};
+  found.carried = {1, 1, 0.29};
+  return found;
+}
+
+TEST_F(CalibrationFile, KeepsAnEstimateFromEndPosesToTheLastBit) {
+  const Calibration found = example();  // with unknown standard errors
   const std::filesystem::path path = folder_.path() / "calib.toml";
-  write_calibration(path, estimate);
+  write_calibration(path, found);
   const ParameterFile read = read_parameter_file(path);
-  EXPECT_EQ(std::get<double>(read.parameters.at("c_R")), estimate.factors.c_r);
-  EXPECT_EQ(std::get<double>(read.parameters.at("c_L")), estimate.factors.c_l);
-  EXPECT_EQ(std::get<double>(read.parameters.at("b")), estimate.factors.b_m);
+  EXPECT_EQ(std::get<double>(read.parameters.at("c_R")), found.factors.c_r);
+  EXPECT_EQ(std::get<double>(read.parameters.at("c_L")), found.factors.c_l);
+  EXPECT_EQ(std::get<double>(read.parameters.at("b")), found.factors.b_m);
   EXPECT_EQ(read.carried.at("b"), 0.29);
+  EXPECT_FALSE(read.absolute);
+  EXPECT_FALSE(read.wheel.has_value());
+  EXPECT_FALSE(read.covariance.has_value());
+}
+
+TEST_F(CalibrationFile, KeepsCovarianceAndNominalWheelOfMaximumLikelihood) {
+  Calibration found = example();
+  MlResult ml;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) ml.estimate.covariance[i][j] = 1e-9 / static_cast<double>(1 + i + j);
+  found.detail = ml;
+  found.wheel = NominalWheel{0.072, 2803.2};
+  const std::filesystem::path path = folder_.path() / "calib.toml";
+  write_calibration(path, found);
+  const ParameterFile read = read_parameter_file(path);
+  EXPECT_EQ(read.covariance, ml.estimate.covariance);
+  EXPECT_EQ(read.wheel, found.wheel);
+  EXPECT_TRUE(read.absolute);
+  EXPECT_EQ(read.method, "ml");
+}
+
+TEST_F(CalibrationFile, SaysWhatIsDamaged) {
+  const auto refuses = [&](const std::string& more, const char* what) {
+    const auto path = file("[parameters]\nc_R = 1.0\n" + more);
+    EXPECT_THAT([&] { read_parameter_file(path); }, ThrowsMessage<Error>(HasSubstr(what)));
+  };
+  refuses("[covariance]\nmatrix = [[1.0, 2.0], [3.0, 4.0]]\n", "[covariance] needs a matrix");
+  refuses("[nominal]\nwheel_diameter = 0.0\ncounts_per_wheel_turn = 1.0\n", "[nominal] needs");
 }
 
 TEST_F(CalibrationFile, KeepsTextAndNumbersOfAnExport) {
@@ -88,6 +120,26 @@ TEST_F(ChangeGuard, DoubtsWheelFactorsThatMoveByMoreThanATenth) {
   EXPECT_THAT(suspicion(changes(robot_, {{"b", 0.32}})), HasSubstr("b would change by +10.3 %"));
   EXPECT_EQ(suspicion(changes(robot_, {{"b", 0.31}})), "");
   EXPECT_EQ(suspicion(changes(robot_, {{"kp", 80.0}})), "") << "a gain may change as it likes";
+}
+
+TEST_F(ChangeGuard, FactorsFromEndPosesNeedWhatWasCarriedAndAbsoluteOnesDoNot) {
+  ParameterFile file;
+  file.carried = {{"c_R", 1.001}};
+  EXPECT_THAT(wrong_basis(robot_, file), HasSubstr("driven with c_R = 1.001"));
+  file.carried = {{"c_R", 1.0}};
+  EXPECT_EQ(wrong_basis(robot_, file), "");
+  file.carried = {{"c_R", 1.001}};
+  file.absolute = true;
+  EXPECT_EQ(wrong_basis(robot_, file), "");
+}
+
+TEST_F(ChangeGuard, AllFactorsNeedTheWheelThatTheyReferTo) {
+  ParameterFile file;
+  file.absolute = true;
+  file.wheel = NominalWheel{0.072, 64 * 43.8};  // what the simulated robot believes in
+  EXPECT_EQ(wrong_basis(robot_, file), "");
+  file.wheel->diameter_m = 0.0721;
+  EXPECT_THAT(wrong_basis(robot_, file), AllOf(HasSubstr("0.0721 m"), HasSubstr("0.072 m")));
 }
 
 TEST_F(ChangeGuard, RefusesNamesAndValuesThatTheRobotDoesNotHave) {

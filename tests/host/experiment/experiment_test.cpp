@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "host/experiment/method_names.hpp"
 #include "host/link/upload.hpp"
 #include "tests/support/desk.hpp"
 
@@ -76,8 +77,8 @@ TEST(Experiment, WithoutSlipOneRepeatLeavesAThirtiethAtMost) {
 
 TEST(Experiment, WithoutSlipUmbmarkConvergesWithOneRepeat) {
   Plan plan = squares_only(5, 2);
-  plan.method.automatic =
-      false;  // UMBmark with averaged angles, which has a bias that a second round removes
+  // With averaged angles, which has a bias that a second round removes.
+  plan.method = method_named("umbmark", "average", "exact");
   const Results results = calibrate(thesis_robot(0, 1), plan);
   fmt::print("no slip, UMBmark, two rounds: {:.1f} mm -> {:.3f} mm, {:.0f} times smaller\n",
              1000 * results.before().summary.E_max_syst_m, 1000 * results.after().summary.E_max_syst_m,
@@ -94,11 +95,13 @@ TEST(Experiment, FindsTheTrueGeometryWithoutSlip) {
   EXPECT_NEAR(factors.b_m, config.true_wheelbase_m, 1e-4 * config.true_wheelbase_m);
 }
 
-TEST(Experiment, ComposesWithWhatTheRobotCarries) {
+TEST(Experiment, ExtendedUmbmarkComposesWithWhatTheRobotCarries) {
   const sim::Config config = thesis_robot(0, 1);
   Desk desk(config);
   link::upload(desk.client, {{"c_R", 0.998}, {"c_L", 1.002}, {"b", 0.295}});
-  const Results results = calibrate(desk, squares_only(3, 2));
+  Plan plan = squares_only(3, 2);
+  plan.method = method_named("extended", "average", "exact");
+  const Results results = calibrate(desk, plan);
   const calibration::WheelFactors& factors = results.after().squares.carried;
   EXPECT_NEAR(factors.c_r / factors.c_l, config.true_ed, 1e-4);
   EXPECT_NEAR(factors.b_m, config.true_wheelbase_m, 1e-4 * config.true_wheelbase_m);
@@ -147,7 +150,7 @@ TEST(Experiment, UploadsOnlyWhatIsAgreedTo) {
   Desk desk(thesis_robot(0, 1));
   const TemporaryFolder folder;
   ExperimentHooks hooks;
-  hooks.agree = [](const calibration::Estimate&, const std::vector<Change>&) { return false; };
+  hooks.agree = [](const Calibration&, const std::vector<Change>&) { return false; };
   EXPECT_THROW(run_experiment(desk.client, desk.truth, squares_only(1), folder.path(), hooks), Error);
   EXPECT_EQ(std::get<double>(link::RemoteParameters::fetch(desk.client).value("c_R")), 1.0);
 }

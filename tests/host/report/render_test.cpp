@@ -68,6 +68,24 @@ TEST(Report, ShowsParametersWithTheirErrorAndRelativeChange) {
                               R"(<td class="text">m</td><td>−0.48 %</td>)"));
 }
 
+TEST(Report, ShowsTheHistoryOfSeveralRounds) {
+  ReportInput input = thesis_input(1);
+  input.phases[0].carried = {{1}, {1}, {0.29}};
+  input.phases[1].carried = {{1.0020770, 0.00012}, {0.997923, 0.00012}, {0.28861, 0.0011}};
+  EXPECT_THAT(our_part(render_html(input)), Not(HasSubstr("id=\"history\"")))
+      << "two phases are the parameter table";
+  input.phases.push_back(input.phases[1]);
+  input.phases[2].title = "after-2";
+  input.phases[2].carried[0] = {1.0021, std::nan("")};
+  const std::string html = our_part(render_html(input));
+  using Row = std::vector<std::string>;
+  const std::string caption = "What the robot carried";
+  EXPECT_EQ(row_of(html, caption, "Before"), (Row{"1.00000", "1.00000", "0.290000", "405 ± 31"}));
+  EXPECT_EQ(row_of(html, caption, "After"),
+            (Row{"1.00208 ± 0.00012", "0.99792 ± 0.00012", "0.2886 ± 0.0011", "90 ± 18"}));
+  EXPECT_EQ(row_of(html, caption, "After-2")[0], "1.00210");
+}
+
 TEST(Report, LeadsWithTheImprovementAndItsSignificance) {
   const std::string html = our_part(render_html(thesis_input()));
   EXPECT_THAT(html, HasSubstr("<strong>4.5×</strong> smaller"));

@@ -1,0 +1,86 @@
+#include "host/cli/calibrate_export.hpp"
+
+#include <iostream>
+#include <memory>
+
+#include "host/base/error.hpp"
+#include "host/cli/console.hpp"
+#include "host/cli/options.hpp"
+#include "host/experiment/export.hpp"
+#include "host/recording/files.hpp"
+
+namespace astro::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  fs::path file, to;
+  std::string format, node = "diff_drive_controller";
+  experiment::NominalSizes nominal;
+};
+
+std::string format_of(const Options& options) {
+  if (!options.format.empty()) return options.format;
+  const std::string extension = options.to.extension().string();
+  if (extension == ".yaml" || extension == ".yml") return "ros2";
+  if (extension == ".json") return "json";
+  if (extension == ".toml") return "toml";
+  throw Error("'" + options.to.string() +
+              "' does not tell the format by its end (.yaml, .json, .toml): give --format");
+}
+
+/// JSON and TOML do without sizes that nobody knows; ROS cannot.
+std::optional<experiment::DiffDrive> sizes_if_known(const experiment::ParameterFile& file,
+                                                    const experiment::NominalSizes& nominal) {
+  if (!file.wheel && !nominal.wheel_radius_m) return std::nullopt;
+  if (!file.carried.contains("b") && !nominal.wheel_separation_m) return std::nullopt;
+  return experiment::diff_drive(file, nominal);
+}
+
+std::string text_of(const Options& options) {
+  const std::string format = format_of(options);
+  const experiment::ParameterFile file = experiment::read_parameter_file(options.file);
+  if (format == "ros2")
+    return experiment::ros2_yaml(file, experiment::diff_drive(file, options.nominal), options.node);
+  const auto sizes = sizes_if_known(file, options.nominal);
+  return format == "json" ? experiment::json_text(options.file, sizes)
+                          : experiment::toml_text(options.file, sizes);
+}
+
+void run(const Options& options) {
+  const std::string text = text_of(options);
+  recording::PartFile file(options.to);
+  file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  file.commit();
+  say("written to " + options.to.string());
+}
+
+}  // namespace
+
+void add_calibrate_export(CLI::App& calibrate) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = calibrate.add_subcommand("export", "write a calibration for ROS 2, or as JSON or TOML");
+  command->add_option("file", options->file, "calib.toml of 'calibrate' or 'umbmark'")->required();
+  command->add_option("--to", options->to, "the file to write")->required();
+  command
+      ->add_option("--format", options->format,
+                   "ros2 (parameters of diff_drive_controller), json\nor toml; default: by the end of --to")
+      ->check(CLI::IsMember({"ros2", "json", "toml"}));
+  command
+      ->add_option("--wheel-radius", options->nominal.wheel_radius_m,
+                   "nominal radius in the other program, m; default:\nthat of the robot that drove")
+      ->check(positive("m"));
+  command
+      ->add_option("--wheel-separation", options->nominal.wheel_separation_m,
+                   "nominal wheelbase in the other program, m;\ndefault: the b that was carried")
+      ->check(positive("m"));
+  command->add_option("--node", options->node, "ros2: name of the controller")->capture_default_str();
+  examples(*command, {"astrolabe calibrate export calib.toml --to calib.yaml",
+                      "astrolabe calibrate export calib.toml --to calib.yaml --wheel-radius 0.036 "
+                      "--wheel-separation 0.3",
+                      "astrolabe calibrate export calib.toml --to calib.json"});
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace astro::cli

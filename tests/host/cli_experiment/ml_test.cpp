@@ -1,0 +1,186 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/support/program.hpp"
+
+// Maximum likelihood from the command line: what is printed, refused, exported and uploaded.
+namespace astro {
+namespace {
+
+namespace fs = std::filesystem;
+using support::astrolabe;
+using support::Outcome;
+using support::Simulator;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr double kTrueEd = 1.00416, kTrueWheelbase_m = 0.28861;
+
+std::string read(const fs::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+/// One small experiment that all tests look at: 2 + 2 squares before, 1 + 1 after.
+class Ml : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    simulator_ = new Simulator({"--fast", "--true-ed", std::to_string(kTrueEd), "--true-wheelbase",
+                                std::to_string(kTrueWheelbase_m), "--slip", "2.645e-6", "--seed", "1"});
+    // A tenth is reached by the fewest squares, so it says how many are driven.
+    driven_ = astrolabe({"umbmark", "--port", simulator_->port(), "--truth", "sim", "--out", out(), "--side",
+                         "1", "--runs", "1", "--until", "10%", "--no-extras", "--yes", "--json"});
+  }
+  static void TearDownTestSuite() {
+    delete simulator_;
+    simulator_ = nullptr;
+  }
+  void SetUp() override { ASSERT_EQ(driven_.code, 0) << driven_.err; }
+
+  static std::string out() { return (simulator_->folder() / "x").string(); }
+  static Outcome runs(std::vector<std::string> more, const std::string& folder = "/before") {
+    std::vector<std::string> arguments{"calibrate", "runs", out() + folder};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return astrolabe(arguments);
+  }
+  static nlohmann::json json_of(std::vector<std::string> more, const std::string& folder = "/before") {
+    more.push_back("--json");
+    const Outcome outcome = runs(more, folder);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return nlohmann::json::parse(outcome.out);
+  }
+
+  inline static Simulator* simulator_ = nullptr;
+  inline static Outcome driven_;
+};
+
+TEST_F(Ml, DrivesTheFewestSquaresWhereTheyAreEnough) {
+  const nlohmann::json json = nlohmann::json::parse(driven_.out);
+  EXPECT_EQ(json["before"]["cw"]["runs"], 2);
+  EXPECT_EQ(json["after"]["cw"]["runs"], 1);
+  EXPECT_EQ(json["phases"][0]["estimate"]["method"], "ml");
+  EXPECT_THAT(driven_.err, HasSubstr("before: 2 + 2 squares give E_d ± "));
+}
+
+TEST_F(Ml, IsTheDefaultAndTellsAllThatItFound) {
+  const nlohmann::json json = json_of({});
+  EXPECT_EQ(json["method"], "ml");
+  // Four standard errors, with a fixed seed.
+  EXPECT_NEAR(json["E_d"].get<double>(), kTrueEd, 4 * json["standard_errors"]["E_d"].get<double>());
+  EXPECT_NEAR(json["b_m"].get<double>(), kTrueWheelbase_m, 4 * json["standard_errors"]["b_m"].get<double>());
+  EXPECT_NEAR(json["covariance"]["matrix"][2][2].get<double>(),
+              std::pow(json["standard_errors"]["b_m"].get<double>(), 2), 1e-15);
+  EXPECT_EQ(json["clock"]["known"], true);
+  EXPECT_EQ(json["noise"]["given"], false);
+  ASSERT_EQ(json["runs"].size(), 4U);
+  EXPECT_EQ(json["runs"][0]["name"], "square-ccw-1");
+  for (const char* key : {"distance_m", "rotation_rad", "chi_square", "degrees_of_freedom", "disagreement"})
+    EXPECT_TRUE(json["runs"][0][key].is_number()) << key;
+  EXPECT_NEAR(json["runs"][0]["distance_m"].get<double>(), 4, 0.05);
+  EXPECT_GE(json["motions"].size(), 3U);
+  EXPECT_TRUE(json["remarks"].is_array());
+  EXPECT_TRUE(json["lever_arm"]["yaw_rad"].is_number());
+}
+
+TEST_F(Ml, IsReadableOnEightyColumns) {
+  const Outcome outcome = runs({"--clock", "estimated"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  for (const char* word : {"c_R", "c_L", "b mm", "E_d", "E_b", "tracked body", "ppm", "offset ms",
+                           "square-cw-2", "disagrees", "rest", "line", "spin", "agree"})
+    EXPECT_THAT(outcome.out, HasSubstr(word));
+  std::istringstream lines(outcome.out);
+  for (std::string line; std::getline(lines, line);) {
+    const auto width = std::count_if(line.begin(), line.end(),
+                                     [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+    EXPECT_LE(width, 80) << line;
+  }
+}
+
+TEST_F(Ml, TakesRunsOfSeveralPhasesTogether) {
+  const nlohmann::json before = json_of({}), both = json_of({}, "");
+  EXPECT_EQ(both["runs"].size(), 6U);
+  EXPECT_EQ(both["runs"][0]["name"], "after/square-ccw-1");
+  EXPECT_LT(both["standard_errors"]["E_d"].get<double>(), before["standard_errors"]["E_d"].get<double>());
+  const Outcome umbmark = runs({"--method", "umbmark"}, "");
+  EXPECT_EQ(umbmark.code, 1);
+  EXPECT_THAT(umbmark.err, HasSubstr("different c_R, c_L or b"));
+}
+
+TEST_F(Ml, LeavesOutWhatIsNamed) {
+  const nlohmann::json json = json_of({"--without", "square-cw-1", "--without", "square-ccw-1"});
+  EXPECT_EQ(json["runs"].size(), 2U);
+  const Outcome outcome = runs({"--without", "square-cw-7"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("'square-cw-7'"), HasSubstr("square-cw-2")));
+}
+
+TEST_F(Ml, TakesTheNoiseThatIsGivenWholeOrNotAtAll) {
+  const nlohmann::json json =
+      json_of({"--K", "1e-6", "--sigma-xy", "0.0003", "--sigma-theta", "0.002", "--clock", "known"});
+  EXPECT_EQ(json["noise"]["given"], true);
+  EXPECT_EQ(json["noise"]["K_m"], 1e-6);
+  EXPECT_EQ(json["noise"]["sigma_xy_m"], 0.0003);
+  EXPECT_EQ(json["noise"]["sigma_theta_rad"], 0.002);
+  EXPECT_EQ(runs({"--K", "1e-6"}).code, 2);
+  EXPECT_EQ(runs({"--K", "-1", "--sigma-xy", "0.0003", "--sigma-theta", "0.002"}).code, 2);
+  const Outcome umbmark = runs({"--method", "umbmark", "--clock", "known"});
+  EXPECT_EQ(umbmark.code, 1);
+  EXPECT_THAT(umbmark.err, HasSubstr("--clock are of maximum likelihood"));
+}
+
+TEST_F(Ml, IsUploadedWhateverTheRobotCarriesButNotForAnotherWheel) {
+  const std::string file = (simulator_->folder() / "calib.toml").string();
+  ASSERT_EQ(runs({"--out", file}).code, 0);
+  const Simulator other;
+  EXPECT_EQ(astrolabe({"params", "set", "c_R=1.001", "--port", other.port()}).code, 0);
+  const Outcome outcome = astrolabe({"upload", file, "--port", other.port(), "--yes"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err << "the factors are absolute";
+
+  for (const char* assignment : {"wheel_diameter=0.08", "c_R=1"})
+    EXPECT_EQ(astrolabe({"params", "set", assignment, "--port", other.port()}).code, 0);
+  const Outcome refused = astrolabe({"upload", file, "--port", other.port(), "--yes"});
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("0.072 m"), HasSubstr("0.08 m"), HasSubstr("--force")));
+}
+
+TEST_F(Ml, OfEndPosesStillNeedsWhatWasCarried) {
+  const std::string file = (simulator_->folder() / "umbmark.toml").string();
+  ASSERT_EQ(runs({"--method", "umbmark", "--out", file}).code, 0);
+  const Outcome refused = astrolabe({"upload", file, "--port", simulator_->port(), "--yes"});
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("driven with")) << "the robot carries the calibration by now";
+}
+
+TEST_F(Ml, IsExportedByTheEndOfTheFile) {
+  const fs::path folder = simulator_->folder();
+  const std::string calib = out() + "/calib-before.toml";
+  const auto exported = [&](const std::string& name, std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments{"calibrate", "export", calib, "--to", (folder / name).string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return astrolabe(arguments);
+  };
+  EXPECT_EQ(exported("a.yaml", {"--node", "base_controller"}).code, 0);
+  EXPECT_THAT(read(folder / "a.yaml"),
+              AllOf(HasSubstr("base_controller:\n  ros__parameters:\n    wheel_radius: 0.036\n"),
+                    HasSubstr("wheel_separation_multiplier: 0.99")));
+  EXPECT_EQ(exported("a.json").code, 0);
+  EXPECT_EQ(nlohmann::json::parse(read(folder / "a.json"))["calibration"]["method"], "ml");
+  EXPECT_EQ(exported("a.toml").code, 0);
+  EXPECT_THAT(read(folder / "a.toml"), HasSubstr("[diff_drive_controller]"));
+  EXPECT_EQ(exported("a.txt", {"--format", "json"}).code, 0);
+  const Outcome refused = exported("b.txt");
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("b.txt"), HasSubstr("--format")));
+  EXPECT_FALSE(fs::exists(folder / "b.txt"));
+}
+
+}  // namespace
+}  // namespace astro
