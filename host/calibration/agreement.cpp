@@ -1,6 +1,7 @@
 #include "host/calibration/agreement.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -49,13 +50,34 @@ std::vector<Disagreement> disagreements(std::span<const Reduced> runs, const Hel
 
 double dispersion(std::span<const Disagreement> runs) {
   constexpr double kSignificant = 0.01;
-  Disagreement all;
+  double sum = 0;
+  int freedom = 0, most = 0, compared = 0;
   for (const Disagreement& run : runs) {
-    all.chi_square += run.chi_square;
-    all.degrees_of_freedom += run.degrees_of_freedom;
+    if (run.degrees_of_freedom == 0) continue;
+    sum += run.chi_square;
+    freedom += run.degrees_of_freedom;
+    most = std::max(most, run.degrees_of_freedom);
+    ++compared;
   }
-  if (chi_square_tail(all.chi_square, all.degrees_of_freedom) > kSignificant) return 1;
-  return all.chi_square / all.degrees_of_freedom;
+  if (compared < 2) return 1;
+  // Each run is compared with all others, which makes n comparisons of n - 1 independent ones.
+  const double chi_square = sum * (compared - 1) / compared;
+  const int independent = freedom - most;
+  if (chi_square_tail(chi_square, independent) > kSignificant) return 1;
+  return chi_square / independent;
+}
+
+double typical_dispersion(std::span<const Disagreement> runs) {
+  constexpr double kMedian[] = {1, 0.4549, 1.3863, 2.3660};  // of chi-square by its degrees of freedom
+  std::vector<double> ratios;
+  for (const Disagreement& run : runs)
+    if (run.degrees_of_freedom > 0)
+      ratios.push_back(run.chi_square / kMedian[static_cast<std::size_t>(run.degrees_of_freedom)]);
+  if (ratios.empty()) return 1;
+  // Of an even number the lower one: half of four runs must not make the other half look usual.
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>((ratios.size() - 1) / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  return std::max(1.0, *middle);
 }
 
 double chi_square_tail(double value, int degrees_of_freedom) {

@@ -20,6 +20,9 @@ std::vector<Disagreement> disagreements(std::span<const Reduced> runs, const Hel
 /// variances. 1 where they do not do so significantly (1 %). Source  Birge 1932, Phys. Rev. 40, 207.
 double dispersion(std::span<const Disagreement> runs);
 
+/// The same ratio of most runs, whatever a few of them did; at least 1.
+double typical_dispersion(std::span<const Disagreement> runs);
+
 /// Probability of a chi-square of `degrees_of_freedom` beyond `value`; 1 for 0. Exact up to 3, Wilson and
 /// Hilferty's approximation above.
 double chi_square_tail(double value, int degrees_of_freedom);

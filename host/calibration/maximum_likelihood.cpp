@@ -37,16 +37,9 @@ void require_observed(const MlErrors& se, const WheelFactors& factors) {
       se.c_r, se.c_l, se.b_m));
 }
 
-double root(double variance) { return std::sqrt(std::max(variance, 0.0)); }
-
-/// Scatter of most runs against what their noise explains, whatever a few of them did.
-double typical_dispersion(std::span<const Disagreement> runs) {
-  constexpr double kMedianOf3 = 2.366;  // of chi-square with 3 degrees of freedom
-  std::vector<double> values;
-  for (const Disagreement& run : runs) values.push_back(run.chi_square);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return std::max(1.0, *middle / kMedianOf3);
+// A variance that is not positive is what rounding leaves of one that is infinite.
+double root(double variance) {
+  return variance > 0 ? std::sqrt(variance) : std::numeric_limits<double>::infinity();
 }
 
 std::vector<RunFit> judged_runs(const MlFit& fit, std::span<const Disagreement> found,
@@ -100,8 +93,7 @@ std::optional<KindFit> judged_kind(const MlFit& fit, Motion motion) {
   return kind;
 }
 
-std::optional<WheelbaseByKind> judged_wheelbase(const MlFit& fit, std::span<const KindFit> kinds,
-                                                double widened) {
+std::optional<WheelbaseByKind> judged_wheelbase(const MlFit& fit, std::span<const KindFit> kinds) {
   for (const Motion motion : {Motion::arc, Motion::spin})
     if (std::none_of(kinds.begin(), kinds.end(), [&](const KindFit& kind) {
           return kind.motion == motion && kind.rotation_rad > kEnoughTurning_rad;
@@ -109,8 +101,8 @@ std::optional<WheelbaseByKind> judged_wheelbase(const MlFit& fit, std::span<cons
       return {};
   const OneUnknown arcs = arc_wheelbase(fit.sums(), fit.held());
   if (!std::isfinite(arcs.standard_error)) return {};
-  const double se = std::sqrt(widened) * arcs.standard_error;
-  return WheelbaseByKind{1 + arcs.value, se, std::abs(arcs.value) > std::max(3 * se, 1e-3)};
+  return WheelbaseByKind{1 + arcs.value, arcs.standard_error,
+                         std::abs(arcs.value) > std::max(4 * arcs.standard_error, 1e-3)};
 }
 
 MlEstimate judged(const MlFit& fit) {
@@ -149,7 +141,7 @@ MlEstimate judged(const MlFit& fit) {
   }
   for (const Motion motion : {Motion::rest, Motion::line, Motion::arc, Motion::spin})
     if (const auto kind = judged_kind(fit, motion)) estimate.kinds.push_back(*kind);
-  estimate.wheelbase_by_kind = judged_wheelbase(fit, estimate.kinds, widened);
+  estimate.wheelbase_by_kind = judged_wheelbase(fit, estimate.kinds);
   return estimate;
 }
 
@@ -185,7 +177,10 @@ MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& car
   const PreparedRuns prepared = prepare(runs, carried, options.clock_known, Density::independent);
   require_variety(prepared);
   // With usual noise and before anything is fitted: what the runs leave open runs away in a fit.
-  require_observed(errors_of(bound_of(prepared, carried, {}, {}, options.clock_known), carried), carried);
+  // (A lever arm that only positions tell of is not known yet, and without one spins look blind.)
+  if (std::any_of(prepared.runs.begin(), prepared.runs.end(),
+                  [](const PreparedRun& run) { return run.has_headings; }))
+    require_observed(errors_of(bound_of(prepared, carried, {}, {}, options.clock_known), carried), carried);
   return judged(MlFit(prepared, carried, options));
 }
 

@@ -69,7 +69,8 @@ struct KindFit {
 /// Whether arcs and spins want the same wheelbase: real tyres turn about another point when they spin.
 struct WheelbaseByKind {
   double arc_over_spin = 1, standard_error = 0;
-  /// More than three standard errors and 0.1 % apart.
+  /// More than four standard errors and 0.1 % apart. Not widened by `dispersion`: runs that differ because of
+  /// this would hide it.
   bool disagrees = false;
 };
 
@@ -80,7 +81,7 @@ struct MlEstimate {
   LeverArm lever, lever_se;  // yaw NaN where no heading was measured
   double clock_skew = 0,
          clock_skew_se = 0;  // the robot's clock runs (1 + skew) times as fast as the tracker's
-  NoiseModel noise;
+  NoiseModel noise;          // K: its upper limit of 95 % where the data do not tell it to a third
   std::vector<RunFit> runs;
   std::vector<KindFit> kinds;                        // those that occur, in the order of Motion
   std::optional<WheelbaseByKind> wheelbase_by_kind;  // only with enough of both

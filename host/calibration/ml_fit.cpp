@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "host/base/error.hpp"
 #include "host/calibration/start_values.hpp"
@@ -17,6 +18,7 @@ constexpr int kMostSteps = 30, kMostRounds = 6, kMostScorings = 20;
 constexpr double kSettled = 1e-3;
 constexpr double kNoiseSettled = 0.01;  // of the logarithms of the variances
 constexpr double kLargestNoiseStep = 2;
+constexpr double kLargestK_m = 1e-2;
 
 double cost_of(std::span<const InnovationSums> sums) {
   double cost = 0;
@@ -59,6 +61,7 @@ MlFit::MlFit(const PreparedRuns& prepared, const WheelFactors& carried, const Ml
       maximise(options.robust);
       if (settled) break;
     }
+    widen_uncertain_slip(options.robust);
   }
   require_plausible();
 }
@@ -92,7 +95,8 @@ void MlFit::maximise(bool huber) {
       damping = std::max(10 * damping, 1e-3);
       if (damping > 1e6) return;
     }
-    if (expected < kSettled || std::abs(fall) < kSettled) return;
+    // A damped step is small for being damped.
+    if (damping == 0 && (expected < kSettled || std::abs(fall) < kSettled)) return;
   }
 }
 
@@ -109,13 +113,34 @@ bool MlFit::fit_noise(bool huber) {
     // Without headings their noise is told by nothing and stays.
     slope.curvature.diagonal().array() += 1e-9;
     const Eigen::Vector3d change = -slope.curvature.ldlt().solve(slope.gradient);
-    const double moved = std::max({scale_variance(noise_.K_m, 1, change[0], 1e-13, 1e-2),
+    const double moved = std::max({scale_variance(noise_.K_m, 1, change[0], 1e-13, kLargestK_m),
                                    scale_variance(noise_.sigma_xy_m, 2, change[1], 1e-7, 1),
                                    scale_variance(noise_.sigma_theta_rad, 2, change[2], 1e-7, 1)});
     if (step == 0) first = moved;
     if (moved < kNoiseSettled) break;
   }
   return first < kNoiseSettled;
+}
+
+/// A covariance takes K for certain. Where the data hardly tell it (good tyres, a short drive: it may come
+/// out as zero) that would claim far too much, so K becomes the value at which -2 log likelihood has risen by
+/// 1: its upper limit.
+void MlFit::widen_uncertain_slip(bool huber) {
+  NoiseSlope slope;
+  for (std::size_t i = 0; i < runs_.size(); ++i)
+    slope.curvature += noise_slope(runs_[i], unknowns_[i], noise_, huber).curvature;
+  slope.curvature.diagonal().array() += 1e-9;
+  constexpr double kSurelyKnown = 0.1;  // variance of log K: within a third of itself
+  constexpr double kRise = 2.7;
+  if (2 * slope.curvature.inverse()(0, 0) < kSurelyKnown) return;
+  double least = std::numeric_limits<double>::infinity();
+  while (true) {
+    const double cost = cost_of(sums_) + log_determinant(sums_, held_);
+    least = std::min(least, cost);
+    if (cost > least + kRise || noise_.K_m >= kLargestK_m) return;
+    noise_.K_m *= 2;
+    maximise(huber);
+  }
 }
 
 void MlFit::require_plausible() const {

@@ -31,6 +31,7 @@ class MlFit {
   std::vector<InnovationSums> pass(std::span<const Unknowns> unknowns, bool huber) const;
   void maximise(bool huber);
   bool fit_noise(bool huber);
+  void widen_uncertain_slip(bool huber);
   void require_plausible() const;
 
   const std::vector<PreparedRun>& runs_;

@@ -92,6 +92,17 @@ SharedInformation shared_covariance(const SharedInformation& information, const 
   return with_priors(information, held).ldlt().solve(SharedInformation::Identity());
 }
 
+double log_determinant(std::span<const InnovationSums> sums, const Held& held) {
+  SharedInformation information = SharedInformation::Zero();
+  double sum = 0;
+  for (const InnovationSums& run : sums) {
+    const Parts parts = parts_of(run, held, 0);
+    sum += Eigen::LDLT<Own>(parts.own).vectorD().array().abs().log().sum();
+    information += reduced(parts).information;
+  }
+  return sum + with_priors(information, held).ldlt().vectorD().array().abs().log().sum();
+}
+
 OneUnknown arc_wheelbase(std::span<const InnovationSums> sums, const Held& held) {
   SharedInformation information = SharedInformation::Zero();
   SharedVector mixed = SharedVector::Zero(), gradient = SharedVector::Zero();

@@ -36,6 +36,11 @@ std::vector<Unknowns> gauss_newton_step(std::span<const InnovationSums> sums, co
 /// can be told.
 SharedInformation shared_covariance(const SharedInformation& information, const Held& held);
 
+/// Logarithm of the determinant of the information about all unknowns together. Added to -2 log likelihood it
+/// makes the restricted likelihood, which judges noise without the illusion that the fitted unknowns were
+/// known beforehand. Source  Patterson & Thompson 1971, Biometrika 58(3).
+double log_determinant(std::span<const InnovationSums> sums, const Held& held);
+
 /// What the runs say about the one unknown outside, kArcWheelbase, when all others give way to it: its value
 /// and the standard error, to first order. Infinite error where they say nothing.
 struct OneUnknown {

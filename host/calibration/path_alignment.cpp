@@ -7,25 +7,42 @@
 
 namespace astro::calibration {
 
+std::vector<WheelStep> wheel_steps(const WheelPath& path, double from_s, double to_s) {
+  // As in the filter: an arc of constant twist stands for no more than this, also where truth was lost for
+  // long.
+  constexpr double kLongestStep_s = 0.06;
+  const int count = std::max(1, static_cast<int>(std::ceil((to_s - from_s) / kLongestStep_s)));
+  std::vector<WheelStep> steps;
+  WheelState before = path.at(from_s);
+  for (int i = 1; i <= count; ++i) {
+    const WheelState now = path.at(from_s + (to_s - from_s) * i / count);
+    steps.push_back({now.left_m - before.left_m, now.right_m - before.right_m});
+    before = now;
+  }
+  return steps;
+}
+
 std::vector<BodySample> dead_reckoned(const PreparedRun& run, const ClockFit& clock,
                                       const WheelFactors& factors) {
   const WheelPath path(run.source->wheels);
   std::vector<BodySample> poses;
   BodySample pose{0, 0, 0, 0};
-  WheelState before;
-  for (std::size_t i = 0; i < run.truth.size(); ++i) {
-    const WheelState now = path.at(clock.robot_time_s(run.truth[i].time_s, run.clock_middle_s));
-    if (i > 0) {
-      const double l = factors.c_l * (now.left_m - before.left_m),
-                   r = factors.c_r * (now.right_m - before.right_m);
-      const double turn = (r - l) / factors.b_m, middle = pose.theta_rad + turn / 2;
-      pose.x_m += (l + r) / 2 * std::cos(middle);
-      pose.y_m += (l + r) / 2 * std::sin(middle);
-      pose.theta_rad += turn;
+  double before_s = 0;
+  for (const BodySample& sample : run.truth) {
+    const double now_s = clock.robot_time_s(sample.time_s, run.clock_middle_s);
+    if (!poses.empty()) {
+      for (const WheelStep& step : wheel_steps(path, before_s, now_s)) {
+        const double l = factors.c_l * step.left, r = factors.c_r * step.right;
+        const double turn = (r - l) / factors.b_m, middle = pose.theta_rad + turn / 2;
+        const double chord = (l + r) / 2 * (std::abs(turn) < 1e-9 ? 1 : std::sin(turn / 2) / (turn / 2));
+        pose.x_m += chord * std::cos(middle);
+        pose.y_m += chord * std::sin(middle);
+        pose.theta_rad += turn;
+      }
     }
-    pose.time_s = run.truth[i].time_s;
+    pose.time_s = sample.time_s;
     poses.push_back(pose);
-    before = now;
+    before_s = now_s;
   }
   return poses;
 }

@@ -4,9 +4,14 @@
 #include <vector>
 
 #include "host/calibration/prepared_run.hpp"
+#include "host/calibration/relative_pose.hpp"
+#include "host/calibration/wheel_path.hpp"
 
 /// Paths laid over one another.
 namespace astro::calibration {
+
+/// Travel of the wheels from one robot's time to another, in steps short enough to be arcs of constant twist.
+std::vector<WheelStep> wheel_steps(const WheelPath& path, double from_s, double to_s);
 
 /// Dead reckoning by `factors` at the times of the prepared truth, from pose (0, 0, 0) at the first.
 std::vector<BodySample> dead_reckoned(const PreparedRun& run, const ClockFit& clock,

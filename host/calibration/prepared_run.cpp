@@ -8,16 +8,19 @@
 #include <numbers>
 
 #include "host/base/error.hpp"
-#include "host/calibration/path_alignment.hpp"
+#include "host/calibration/senses.hpp"
 #include "host/calibration/wheel_path.hpp"
 
 namespace astro::calibration {
 namespace {
 
 constexpr int kFewestSamples = 20;
+constexpr double kLongestPause_s = 3600;
+// Over less a cubic follows what a robot can do; a robot that stands may be silent.
+constexpr double kLongestWheelGap_s = 0.3, kWheelGapMotion_m = 0.01;
 // Less than either is a robot that was pushed, not driven.
 constexpr double kShortestDrive_m = 0.2, kSmallestTurn_rad = 0.5;
-constexpr double kLeastCorrelation = 0.5, kLeastLikeness = 0.9;
+constexpr double kLeastCorrelation = 0.5, kLeastLikeness = 0.9, kSurelyRight = 0.9;
 // Truth beyond the wheels' ends would be taken for standing still; half a clock's error is kept away from
 // them.
 constexpr double kMargin_s = 0.02;
@@ -25,6 +28,41 @@ constexpr double kWindow_s = 0.1;  // half of the time over which a motion is to
 // Likewise for lines against arcs: a robot that is held on a line sways about it.
 constexpr double kLongWindow_s = 0.5;
 constexpr double kSlowest_mps = 0.002;
+
+// Of one stream, each sample of which `is_finite` tells about.
+template <class Sample>
+void require_times(const std::string& name, const char* stream, const std::vector<Sample>& samples) {
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (!std::isfinite(samples[i].time_s))
+      throw Error(fmt::format("{} has {} without a time: record it again", name, stream));
+    const double step_s = i > 0 ? samples[i].time_s - samples[i - 1].time_s : 0;
+    if (step_s < 0)
+      throw Error(fmt::format("{} has {} whose times run backwards: record it again", name, stream));
+    if (step_s > kLongestPause_s)
+      throw Error(fmt::format(
+          "{} has {} that jumps by {:.0f} s: two recordings in one, or a clock that was set; cut it there",
+          name, stream, step_s));
+  }
+}
+
+void require_wheels(const Trajectory& run) {
+  if (run.wheels.size() < kFewestSamples) throw Error(run.name + " has hardly any odometry: record it again");
+  require_times(run.name, "odometry", run.wheels);
+  for (std::size_t i = 0; i < run.wheels.size(); ++i) {
+    const WheelSample& now = run.wheels[i];
+    if (!std::isfinite(now.left_m) || !std::isfinite(now.right_m))
+      throw Error(run.name + " has odometry that is no number: record it again");
+    if (i == 0) continue;
+    const WheelSample& before = run.wheels[i - 1];
+    const double moved_m =
+        std::max(std::abs(now.left_m - before.left_m), std::abs(now.right_m - before.right_m));
+    if (now.time_s - before.time_s > kLongestWheelGap_s && moved_m > kWheelGapMotion_m)
+      throw Error(fmt::format(
+          "{} lost its odometry for {:.1f} s while the robot moved by {:.2f} m, and nobody knows how: leave "
+          "it out, or record it again",
+          run.name, now.time_s - before.time_s, moved_m));
+  }
+}
 
 void require_samples(const Trajectory& run) {
   if (run.wheels.size() < 2) throw Error(run.name + " has no odometry: record it again");
@@ -34,10 +72,8 @@ void require_samples(const Trajectory& run) {
                     "--method umbmark or "
                     "extended for end poses alone",
                     run.name, run.truth.size()));
-  const auto by_time = [](const auto& a, const auto& b) { return a.time_s < b.time_s; };
-  if (!std::is_sorted(run.wheels.begin(), run.wheels.end(), by_time) ||
-      !std::is_sorted(run.truth.begin(), run.truth.end(), by_time))
-    throw Error(run.name + " has times that run backwards: record it again");
+  require_wheels(run);
+  require_times(run.name, "ground truth", run.truth);
 }
 
 /// What the centre travelled and how far the robot turned within so much of a moment.
@@ -90,6 +126,22 @@ PreparedRun cropped(const Trajectory& run, const ClockFit& clock, Density densit
   return prepared;
 }
 
+/// Turning of whatever radius, but not counts that flicker on a line: what is left of each second.
+double net_rotation_rad(const PreparedRun& run, const WheelPath& path, const ClockFit& clock,
+                        double wheelbase_m) {
+  double sum_rad = 0;
+  WheelState before;
+  for (std::size_t i = 0, from = 0; i < run.truth.size(); ++i) {
+    const WheelState now = path.at(clock.robot_time_s(run.truth[i].time_s, run.clock_middle_s));
+    if (i == 0) before = now;
+    if (run.truth[i].time_s - run.truth[from].time_s < 1 && i + 1 < run.truth.size()) continue;
+    sum_rad += std::abs((now.right_m - before.right_m) - (now.left_m - before.left_m)) / wheelbase_m;
+    from = i;
+    before = now;
+  }
+  return sum_rad;
+}
+
 void tell_motion(PreparedRun& run, const ClockFit& clock, double wheelbase_m) {
   const WheelPath path(run.source->wheels);
   WheelState before;
@@ -108,9 +160,7 @@ void tell_motion(PreparedRun& run, const ClockFit& clock, double wheelbase_m) {
     before = now;
   }
   for (const MotionExtent& extent : run.extent) run.distance_m += extent.distance_m;
-  // Counts that flicker on a line are no turning.
-  for (const Motion motion : {Motion::arc, Motion::spin})
-    run.rotation_rad += run.extent[static_cast<std::size_t>(motion)].rotation_rad;
+  run.rotation_rad = net_rotation_rad(run, path, clock, wheelbase_m);
 }
 
 void require_motion(const PreparedRun& run) {
@@ -126,58 +176,6 @@ void require_motion(const PreparedRun& run) {
                     run.source->name, run.distance_m, run.rotation_rad * 180 / std::numbers::pi));
 }
 
-struct HeadingChange {
-  double product = 0, truth = 0, wheels = 0;
-};
-
-HeadingChange heading_change(const PreparedRun& run, const std::vector<BodySample>& odometry) {
-  // Steps that stand out of the noise and are far below half a turn.
-  constexpr double kStep_s = 0.2;
-  HeadingChange sums;
-  for (std::size_t i = 0, from = 0; i < run.truth.size(); ++i) {
-    if (run.truth[i].time_s - run.truth[from].time_s < kStep_s) continue;
-    const double truth =
-        std::remainder(run.truth[i].theta_rad - run.truth[from].theta_rad, 2 * std::numbers::pi);
-    const double wheels = odometry[i].theta_rad - odometry[from].theta_rad;
-    from = i;
-    if (std::abs(wheels) > 2.5) continue;  // a long gap
-    sums.product += truth * wheels;
-    sums.truth += std::abs(truth);
-    sums.wheels += std::abs(wheels);
-  }
-  return sums;
-}
-
-[[noreturn]] void refuse_opposite_turn(const std::string& name, bool positions_agree) {
-  if (positions_agree)
-    throw Error(name +
-                ": the headings of the ground truth turn right where its positions and the wheels turn left: "
-                "they are "
-                "clockwise; negate them");
-  throw Error(
-      name +
-      ": the ground truth turns right where the wheels say left: either its axes are mirrored (a Y-up export "
-      "has x = Z, y = X) or the left and right wheels are exchanged; 'astrolabe check-wiring' tells which");
-}
-
-void require_senses(const PreparedRun& run, const ClockFit& clock, const WheelFactors& carried) {
-  const std::vector<BodySample> odometry = dead_reckoned(run, clock, carried);
-  const double straight_m = fit_rigid(odometry, run.truth, false).rms_m;
-  const double mirrored_m = fit_rigid(odometry, run.truth, true).rms_m;
-  // A line is its own mirror image; so is nearly a spin on the spot.
-  const bool positions_oppose = run.distance_m > 1 && straight_m > 0.05 && mirrored_m < straight_m / 3;
-  if (run.has_headings && run.rotation_rad > 1) {
-    const HeadingChange change = heading_change(run, odometry);
-    if (change.truth < 0.2 * change.wheels)
-      throw Error(
-          fmt::format("{}: the wheels turned the robot by {:.0f} degrees and the heading of the ground truth "
-                      "stayed: export the orientation of the body, too, or leave the headings out",
-                      run.source->name, run.rotation_rad * 180 / std::numbers::pi));
-    if (change.product < 0) refuse_opposite_turn(run.source->name, !positions_oppose);
-  }
-  if (positions_oppose) refuse_opposite_turn(run.source->name, false);
-}
-
 }  // namespace
 
 PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& carried, bool clock_known,
@@ -190,11 +188,16 @@ PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& carri
     ClockFit clock;
     if (!clock_known) {
       clock = search_clock(run, carried.b_m, skew);
+      if (skew && clock.correlation < kSurelyRight) {
+        const ClockFit anew = search_clock(run, carried.b_m, {});
+        if (anew.correlation > clock.correlation) clock = anew;
+      }
       if (clock.correlation < kLeastCorrelation && clock.likeness < kLeastLikeness)
         throw Error(
             run.name +
             ": the motions of wheels and ground truth have nothing in common at any offset of their clocks: "
-            "check that they belong to the same drive");
+            "check that they belong to the same drive, and with 'astrolabe check-wiring' that no encoder is "
+            "reversed");
       skew = clock.skew;
     }
     PreparedRun ready = cropped(run, clock, density);

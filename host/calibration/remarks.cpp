@@ -30,6 +30,12 @@ std::vector<std::string> MlEstimate::remarks() const {
   std::vector<std::string> sentences;
   for (const RunFit& run : runs)
     if (run.outlier) sentences.push_back(outlier_sentence(run));
+  if (const double ratio = chi_square / degrees_of_freedom; ratio > 1.5)
+    sentences.push_back(
+        fmt::format("the ground truth is {:.1f} times as far from the wheels as the given noise explains, so "
+                    "the standard errors are too "
+                    "small: let the noise be estimated",
+                    std::sqrt(ratio)));
   if (dispersion > 1)
     sentences.push_back(
         fmt::format("the runs differ {:.1f} times as much as the noise within them explains; the standard "

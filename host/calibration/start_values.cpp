@@ -31,17 +31,16 @@ void add_pieces(const PreparedRun& run, const ClockFit& clock, double wheelbase_
   const WheelPath path(run.source->wheels);
   std::vector<WheelStep> steps;
   std::size_t from = 0;
-  double travelled_m = 0, turned_rad = 0;
-  WheelState before;
+  double travelled_m = 0, turned_rad = 0, before_s = 0;
   for (std::size_t i = 0; i < run.truth.size(); ++i) {
-    const WheelState now = path.at(clock.robot_time_s(run.truth[i].time_s, run.clock_middle_s));
-    if (i > 0) {
-      const double left = now.left_m - before.left_m, right = now.right_m - before.right_m;
-      steps.push_back({left, right});
-      travelled_m += (left + right) / 2;
-      turned_rad += (right - left) / wheelbase_m;
-    }
-    before = now;
+    const double now_s = clock.robot_time_s(run.truth[i].time_s, run.clock_middle_s);
+    if (i > 0)
+      for (const WheelStep& step : wheel_steps(path, before_s, now_s)) {
+        steps.push_back(step);
+        travelled_m += (step.left + step.right) / 2;
+        turned_rad += (step.right - step.left) / wheelbase_m;
+      }
+    before_s = now_s;
     if (std::abs(travelled_m) < kPiece_m && std::abs(turned_rad) < kPiece_rad) continue;
     // Over a gap of the tracker the robot may have turned further than headings can tell.
     if (std::abs(turned_rad) < 2.5)

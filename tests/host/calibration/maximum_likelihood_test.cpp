@@ -76,6 +76,20 @@ TEST(MaximumLikelihood, ReachesTheCramerRaoBoundAndKnowsHowFarItIsOff) {
   EXPECT_NEAR(chi_square, 3, 3 * 0.39);
 }
 
+TEST(MaximumLikelihood, DoesNotClaimMoreThanItKnowsOfARobotThatHardlySlips) {
+  DriveModel model = astro_drive();
+  model.noise.K_m = 1e-9;  // far below what two small squares can tell from none
+  constexpr int kTrials = 30;
+  double chi_square = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const MlEstimate found = estimate_ml(
+        squares(model, 2, 1, study::derived_seed(kSeed, static_cast<std::uint64_t>(trial))), model.carried);
+    for (const double miss : misses(found, model.actual)) chi_square += miss * miss / kTrials;
+  }
+  std::printf("squares of the errors, in standard errors: %.2f of 3\n", chi_square);
+  EXPECT_LT(chi_square, 3 + 3 * 2.45 / std::sqrt(kTrials));
+}
+
 TEST(MaximumLikelihood, EstimatesTheNoiseItself) {
   const DriveModel model = astro_drive();
   const MlEstimate found = estimate_ml(squares(model, 6), model.carried);
@@ -212,6 +226,47 @@ TEST(MaximumLikelihood, SaysSoWhenArcsAndSpinsWantDifferentWheelbases) {
   EXPECT_NEAR(found.wheelbase_by_kind->arc_over_spin, 1.01,
               kFourSigma * found.wheelbase_by_kind->standard_error);
   EXPECT_THAT(found.remarks(), testing::Contains(HasSubstr("than spins")));
+}
+
+TEST(MaximumLikelihood, TakesRunsWithAndWithoutHeadingsTogether) {
+  DriveModel model = astro_drive();
+  std::vector<Trajectory> runs = squares(model, 2);
+  model.headings = false;
+  for (Trajectory& run : squares(model, 2, 3, kSeed + 1)) runs.push_back(std::move(run));
+  expect_true(estimate_ml(runs, model.carried), model.actual);
+}
+
+TEST(MaximumLikelihood, TakesRunsWithOtherClocksEach) {
+  DriveModel model = astro_drive();
+  std::vector<Trajectory> runs;
+  // A line first: it tells an offset and next to nothing of the skew.
+  model.clock_skew = 0.01;
+  runs.push_back(study::synthetic_drive(study::line_course(1), model, "line", kSeed));
+  for (const double offset_s : {0.3, -500.0, 77.7}) {
+    model.clock_offset_s = offset_s;
+    runs.push_back(squares(model, 1, 3, kSeed + runs.size()).front());
+  }
+  const MlEstimate found = estimate_ml(runs, model.carried);
+  expect_true(found, model.actual);
+  EXPECT_LT(std::abs(found.clock_skew - 0.01), kFourSigma * found.clock_skew_se);
+}
+
+TEST(MaximumLikelihood, CallsAWideCircleATurn) {
+  DriveModel model = astro_drive();
+  std::vector<Trajectory> runs;
+  for (const double turn : {1.0, -1.0})
+    runs.push_back(
+        study::synthetic_drive(study::circle_course(4, turn * 2 * std::numbers::pi), model, "circle", kSeed));
+  runs.push_back(study::synthetic_drive(study::line_course(3), model, "line", kSeed));
+  expect_true(estimate_ml(runs, model.carried), model.actual);
+}
+
+TEST(MaximumLikelihood, SaysSoWhenTheGivenNoiseIsTooSmall) {
+  const DriveModel model = astro_drive();
+  MlOptions options;
+  options.noise = NoiseModel{model.noise.K_m, model.noise.sigma_xy_m / 5, model.noise.sigma_theta_rad / 5};
+  EXPECT_THAT(estimate_ml(squares(model, 2), model.carried, options).remarks(),
+              testing::Contains(HasSubstr("given noise")));
 }
 
 TEST(MaximumLikelihood, TellsTheMotionsApart) {

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "host/base/error.hpp"
@@ -52,6 +53,41 @@ TEST(MlRefuses, TimesThatRunBackwards) {
   std::vector<Trajectory> runs = squares(astro_drive(), 1);
   std::swap(runs[0].truth[50].time_s, runs[0].truth[70].time_s);
   EXPECT_THAT(refusal(runs), AllOf(HasSubstr("run 1"), HasSubstr("backwards")));
+}
+
+TEST(MlRefuses, AClockThatWasSet) {
+  std::vector<Trajectory> runs = squares(astro_drive(), 1);
+  for (std::size_t i = 1; i < runs[0].truth.size(); ++i) runs[0].truth[i].time_s += 1.7e9;
+  EXPECT_THAT(refusal(runs), AllOf(HasSubstr("run 1"), HasSubstr("jumps")));
+}
+
+TEST(MlRefuses, NumbersThatAreNone) {
+  std::vector<Trajectory> runs = squares(astro_drive(), 1);
+  runs[0].wheels[100].left_m = std::nan("");
+  EXPECT_THAT(refusal(runs), AllOf(HasSubstr("run 1"), HasSubstr("no number")));
+  runs = squares(astro_drive(), 1);
+  runs[0].truth[100].time_s = std::nan("");
+  EXPECT_THAT(refusal(runs), AllOf(HasSubstr("run 1"), HasSubstr("without a time")));
+}
+
+TEST(MlRefuses, OdometryThatWasLostOnTheWay) {
+  std::vector<Trajectory> runs = squares(astro_drive(), 1);
+  std::erase_if(runs[0].wheels, [](const WheelSample& s) { return s.time_s > 10 && s.time_s < 13; });
+  EXPECT_THAT(refusal(runs),
+              AllOf(HasSubstr("run 1"), HasSubstr("lost its odometry"), HasSubstr("leave it out")));
+}
+
+TEST(MlRefuses, AReversedEncoder) {
+  std::vector<Trajectory> runs = squares(astro_drive(), 2);
+  for (Trajectory& run : runs)
+    for (WheelSample& sample : run.wheels) sample.left_m = -sample.left_m;
+  EXPECT_THAT(refusal(runs), HasSubstr("check-wiring"));
+}
+
+TEST(MlRefuses, ASpinOfExchangedWheelsWithAllItsCauses) {
+  std::vector<Trajectory> runs = one(study::spin_course(4 * kPi));
+  for (WheelSample& sample : runs[0].wheels) std::swap(sample.left_m, sample.right_m);
+  EXPECT_THAT(refusal(runs), AllOf(HasSubstr("mirrored"), HasSubstr("clockwise"), HasSubstr("exchanged")));
 }
 
 TEST(MlRefuses, TruthOfAnotherDrive) {
@@ -115,7 +151,10 @@ TEST(MlRefuses, OneCircleAlone) {
   // Two observables, three unknowns.
   DriveModel model = quiet_drive();
   model.acceleration_mps2 = 100;
-  EXPECT_THAT(refusal(one(study::circle_course(1, 4 * kPi, 0.3), model)), HasSubstr("move alike"));
+  for (const double radius_m : {0.5, 1.0, 1.7})
+    for (const double turn_rad : {4 * kPi, -4 * kPi})
+      EXPECT_THAT(refusal(one(study::circle_course(radius_m, turn_rad, 0.3), model)),
+                  HasSubstr("move alike"));
 }
 
 TEST(MlRefuses, TruthInMillimetres) {

@@ -17,6 +17,14 @@ TEST(PathErrors, AreNothingForTheRightFactorsOfAQuietRobot) {
   EXPECT_LT(errors.final_heading_rms_rad, 2e-4);
 }
 
+TEST(PathErrors, DoNotBlameTheRobotForTruthThatWasLost) {
+  const DriveModel model = quiet_drive();
+  std::vector<Trajectory> runs = squares(model, 2);
+  for (Trajectory& run : runs)  // round a corner
+    std::erase_if(run.truth, [](const BodySample& s) { return s.time_s > 10 && s.time_s < 15; });
+  EXPECT_LT(path_errors(runs, model.actual).path_rms_m, 2e-4);
+}
+
 TEST(PathErrors, AreTheReplayForTheFactorsThatTheRobotDroveBy) {
   DriveModel model = quiet_drive();
   model.lever = {};
