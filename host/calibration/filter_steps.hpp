@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/calibration/arc.hpp"
 #include "host/calibration/innovation.hpp"
 
 /// What both filters along a drive do: move by an arc, expect a body, take the steps in order.
@@ -36,10 +37,9 @@ inline Arc arc_of(double theta_rad, double left_m, double right_m, double b_m) {
   Arc arc;
   arc.turn_rad = (right_m - left_m) / b_m;
   const double half = arc.turn_rad / 2, centre_m = (left_m + right_m) / 2;
-  const double sine = std::sin(half);
-  const bool small = std::abs(half) < 1e-4;
-  const double chord = small ? 1 - half * half / 6 : sine / half;
-  const double chord_slope = small ? -half / 6 : (std::cos(half) - chord) / (2 * half);  // by the turn
+  const double chord = sinc(half);
+  const double chord_slope =
+      std::abs(half) < 1e-4 ? -half / 6 : (std::cos(half) - chord) / (2 * half);  // by the turn
   const double c = std::cos(theta_rad + half), s = std::sin(theta_rad + half);
   arc.dx_m = centre_m * chord * c;
   arc.dy_m = centre_m * chord * s;

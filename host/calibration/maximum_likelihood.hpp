@@ -113,10 +113,11 @@ MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& car
 
 /// The covariance of c_R, c_L, b (b in m) that no unbiased estimator can beat: the inverse of the Fisher
 /// information of these runs for a robot of which everything is known but what `options` has estimated.
-/// `options.noise` must be given. The truth samples matter only by their times, the path comes from the
-/// wheels and `factors`.
+/// `options.noise` must be given. The path comes from the wheels and `factors`; of truth the times matter,
+/// and what the search for the clocks and the checks of usable runs need.
 ///
-/// Throws astro::Error if the runs leave one of the three open.
+/// Throws astro::Error as estimate_ml does for runs that cannot be used, and if the runs leave one of the
+/// three open.
 FactorCovariance cramer_rao_bound(std::span<const Trajectory> runs, const WheelFactors& factors,
                                   const LeverArm& lever, const MlOptions& options);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/calibration/arc.hpp"
 #include "host/calibration/wheel_path.hpp"
 
 namespace astro::calibration {
@@ -30,16 +31,9 @@ std::vector<BodySample> dead_reckoned(const PreparedRun& run, const ClockFit& cl
   double before_s = 0;
   for (const BodySample& sample : run.truth) {
     const double now_s = clock.robot_time_s(sample.time_s, run.clock_middle_s);
-    if (!poses.empty()) {
-      for (const WheelStep& step : wheel_steps(path, before_s, now_s)) {
-        const double l = factors.c_l * step.left, r = factors.c_r * step.right;
-        const double turn = (r - l) / factors.b_m, middle = pose.theta_rad + turn / 2;
-        const double chord = (l + r) / 2 * (std::abs(turn) < 1e-9 ? 1 : std::sin(turn / 2) / (turn / 2));
-        pose.x_m += chord * std::cos(middle);
-        pose.y_m += chord * std::sin(middle);
-        pose.theta_rad += turn;
-      }
-    }
+    if (!poses.empty())
+      for (const WheelStep& step : wheel_steps(path, before_s, now_s))
+        advance(pose, factors.c_r * step.right, factors.c_l * step.left, factors.b_m);
     pose.time_s = sample.time_s;
     poses.push_back(pose);
     before_s = now_s;

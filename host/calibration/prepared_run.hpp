@@ -22,7 +22,8 @@ enum class Density {
 /// What of `runs` the estimator uses, and where the clocks stand. `carried` need only be roughly right.
 ///
 /// Throws astro::Error naming the run for
-///   no odometry or hardly any truth; a robot that did not move; times that run backwards
+///   no odometry or hardly any truth; odometry lost while the robot moved; a robot that did not move
+///   times that run backwards or jump by an hour; values that are no numbers
 ///   streams that do not overlap, or whose motions have nothing in common
 ///   headings of truth that never change although the wheels turn the robot
 ///   truth that turns against the wheels: headings clockwise, axes mirrored, or wheels exchanged

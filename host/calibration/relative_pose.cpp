@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/calibration/arc.hpp"
+
 namespace astro::calibration {
 namespace {
 
@@ -15,18 +17,13 @@ struct TurnRates {
 
 // Displacement of the robot, in wheelbases, and how far it turned.
 struct Displacement {
-  double x = 0, y = 0, theta_rad = 0;
+  double x_m = 0, y_m = 0, theta_rad = 0;
 };
 
 Displacement displacement(const RelativePose& piece, const TurnRates& rates) {
   Displacement at;
   for (const WheelStep& step : piece.steps) {
-    const double turn = rates.left * step.left + rates.right * step.right;
-    const double arc = (rates.right * step.right - rates.left * step.left) / 2;
-    const double chord = arc * (std::abs(turn) < 1e-9 ? 1 : std::sin(turn / 2) / (turn / 2));
-    at.x += chord * std::cos(at.theta_rad + turn / 2);
-    at.y += chord * std::sin(at.theta_rad + turn / 2);
-    at.theta_rad += turn;
+    advance(at, rates.right * step.right, -rates.left * step.left, 1);
   }
   return at;
 }
@@ -54,8 +51,8 @@ Eigen::Matrix<double, 5, 5> displacement_normal(std::span<const RelativePose> pi
     const Displacement robot = displacement(piece, rates);
     const double c = std::cos(robot.theta_rad), s = std::sin(robot.theta_rad);
     Eigen::Matrix<double, 2, 5> rows;
-    rows << -robot.x, 1 - c, s, piece.x_m, -piece.y_m,  //
-        -robot.y, -s, 1 - c, piece.y_m, piece.x_m;
+    rows << -robot.x_m, 1 - c, s, piece.x_m, -piece.y_m,  //
+        -robot.y_m, -s, 1 - c, piece.y_m, piece.x_m;
     normal += rows.transpose() * rows;
   }
   return normal;
@@ -123,8 +120,8 @@ std::optional<RelativePoseFit> fit_relative_poses_trimmed(std::span<const Relati
 RelativePose predicted(const RelativePose& piece, const RelativePoseFit& fit) {
   const Displacement robot = displacement(piece, {-fit.r_left / fit.b_m, fit.r_right / fit.b_m});
   const double c = std::cos(robot.theta_rad), s = std::sin(robot.theta_rad);
-  const double dx = fit.b_m * robot.x + (c - 1) * fit.sensor.x_m - s * fit.sensor.y_m;
-  const double dy = fit.b_m * robot.y + s * fit.sensor.x_m + (c - 1) * fit.sensor.y_m;
+  const double dx = fit.b_m * robot.x_m + (c - 1) * fit.sensor.x_m - s * fit.sensor.y_m;
+  const double dy = fit.b_m * robot.y_m + s * fit.sensor.x_m + (c - 1) * fit.sensor.y_m;
   const double cy = std::cos(fit.sensor.yaw_rad), sy = std::sin(fit.sensor.yaw_rad);
   return {piece.steps, cy * dx + sy * dy, cy * dy - sy * dx, robot.theta_rad};
 }

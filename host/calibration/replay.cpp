@@ -4,23 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/calibration/arc.hpp"
+
 namespace astro::calibration {
-namespace {
-
-/// sin(a) / a, without the division where it would lose digits.
-double sinc(double a) { return std::abs(a) < 1e-4 ? 1 - a * a / 6 : std::sin(a) / a; }
-
-/// Moves `pose` along the arc that the two wheel travels give on wheelbase b.
-void advance(EndPose& pose, double right_m, double left_m, double b_m) {
-  const double half_turn = (right_m - left_m) / b_m / 2;
-  const double chord_m = (right_m + left_m) / 2 * sinc(half_turn);
-  pose.x_m += chord_m * std::cos(pose.theta_rad + half_turn);
-  pose.y_m += chord_m * std::sin(pose.theta_rad + half_turn);
-  pose.theta_rad += 2 * half_turn;
-}
-
-}  // namespace
-
 EndPose replay_square(double side_m, Sense sense, const WheelFactors& believed, const WheelFactors& truth) {
   const double right = truth.c_r / believed.c_r;
   const double left = truth.c_l / believed.c_l;

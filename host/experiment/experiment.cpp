@@ -74,12 +74,6 @@ class Session {
             std::get<double>(robot.value("b"))};
   }
 
-  static bool same(const calibration::WheelFactors& a, const calibration::WheelFactors& b) {
-    constexpr double kSame = 1e-8;  // above a step of the wire format, far below a calibration
-    return std::abs(a.c_r - b.c_r) < kSame && std::abs(a.c_l - b.c_l) < kSame &&
-           std::abs(a.b_m - b.b_m) < kSame;
-  }
-
   void drive_phase(std::size_t phase) {
     const Plan& plan = journal_.plan;
     announced_ = false;
@@ -139,7 +133,7 @@ class Session {
   void begin_phase(const std::string& phase, const calibration::WheelFactors& factors) {
     const auto known = journal_.carried.find(phase);
     if (known != journal_.carried.end()) {
-      if (!same(known->second, factors))
+      if (!same_factors(known->second, factors))
         throw Error(fmt::format(
             "the robot carries c_R {:.9f}, c_L {:.9f}, b {:.9f} m, but phase '{}' of this experiment "
             "began with {:.9f}, {:.9f}, {:.9f} m: load those, or choose another --out",

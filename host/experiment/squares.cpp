@@ -22,20 +22,13 @@ double parameter(const recording::RunInfo& info, const char* name) {
   return found->second;
 }
 
-bool same(const calibration::WheelFactors& a, const calibration::WheelFactors& b) {
-  // Half a step of the wire format is far below this, a calibration far above.
-  constexpr double kSame = 1e-8;
-  return std::abs(a.c_r - b.c_r) < kSame && std::abs(a.c_l - b.c_l) < kSame &&
-         std::abs(a.b_m - b.b_m) < kSame;
-}
-
 void accept(Squares& squares, const recording::Run& run, bool first) {
   const calibration::WheelFactors carried = carried_factors(run.info);
   if (first) {
     squares.carried = carried;
     squares.side_m = run.info.size_m;
   }
-  if (!same(carried, squares.carried))
+  if (!same_factors(carried, squares.carried))
     throw Error(
         "the squares were driven with different c_R, c_L or b: calibrate each phase for itself (name its "
         "folder)");
@@ -49,6 +42,13 @@ void accept(Squares& squares, const recording::Run& run, bool first) {
 }
 
 }  // namespace
+
+bool same_factors(const calibration::WheelFactors& a, const calibration::WheelFactors& b) {
+  // Half a step of the wire format is far below this, a calibration far above.
+  constexpr double kSame = 1e-8;
+  return std::abs(a.c_r - b.c_r) < kSame && std::abs(a.c_l - b.c_l) < kSame &&
+         std::abs(a.b_m - b.b_m) < kSame;
+}
 
 calibration::WheelFactors carried_factors(const recording::RunInfo& info) {
   return {parameter(info, "c_R"), parameter(info, "c_L"), parameter(info, "b")};

@@ -25,6 +25,9 @@ Squares squares_of(std::span<const recording::Run> runs);
 /// what is found without squares and only shown with them.
 std::optional<calibration::ExperimentSummary> summary_of_squares(std::span<const recording::Run> runs);
 
+/// Whether a robot that carries `a` carries `b`: within what the wire format rounds off.
+bool same_factors(const calibration::WheelFactors& a, const calibration::WheelFactors& b);
+
 /// The factors that a run's robot carried; throws astro::Error where the recording does not say.
 calibration::WheelFactors carried_factors(const recording::RunInfo& info);
 

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <random>
 
+#include "host/calibration/arc.hpp"
+
 namespace astro::study {
 namespace {
 
@@ -79,11 +81,7 @@ class Drive {
     right_m_ += right_m;
     if (left_m != 0 || right_m != 0) {
       const double l = slipped(model_.actual.c_l, left_m), r = slipped(model_.actual.c_r, right_m);
-      const double turn = (r - l) / model_.actual.b_m;
-      const double chord = (r + l) / 2 * (std::abs(turn) < 1e-9 ? 1 : std::sin(turn / 2) / (turn / 2));
-      pose_.x_m += chord * std::cos(pose_.theta_rad + turn / 2);
-      pose_.y_m += chord * std::sin(pose_.theta_rad + turn / 2);
-      pose_.theta_rad += turn;
+      calibration::advance(pose_, r, l, model_.actual.b_m);
     }
     keep();
   }
@@ -159,15 +157,9 @@ Pose mean_truth(const std::vector<BodySample>& truth, double from_s, double to_s
 
 Pose dead_reckoned(const std::vector<WheelSample>& wheels, const WheelFactors& carried) {
   Pose pose;
-  for (std::size_t i = 1; i < wheels.size(); ++i) {
-    const double l = carried.c_l * (wheels[i].left_m - wheels[i - 1].left_m);
-    const double r = carried.c_r * (wheels[i].right_m - wheels[i - 1].right_m);
-    const double turn = (r - l) / carried.b_m;
-    const double chord = (r + l) / 2 * (std::abs(turn) < 1e-9 ? 1 : std::sin(turn / 2) / (turn / 2));
-    pose.x_m += chord * std::cos(pose.theta_rad + turn / 2);
-    pose.y_m += chord * std::sin(pose.theta_rad + turn / 2);
-    pose.theta_rad += turn;
-  }
+  for (std::size_t i = 1; i < wheels.size(); ++i)
+    calibration::advance(pose, carried.c_r * (wheels[i].right_m - wheels[i - 1].right_m),
+                         carried.c_l * (wheels[i].left_m - wheels[i - 1].left_m), carried.b_m);
   return pose;
 }
 

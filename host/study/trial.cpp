@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "host/base/error.hpp"
+#include "host/calibration/arc.hpp"
 #include "host/calibration/maximum_likelihood.hpp"
 #include "host/calibration/replay.hpp"
 #include "host/calibration/umbmark.hpp"
@@ -19,14 +20,11 @@ using calibration::WheelFactors;
 
 constexpr double kLineLength_m = 10;
 
-double sinc(double a) { return std::abs(a) < 1e-4 ? 1 - a * a / 6 : std::sin(a) / a; }
-
 double line_miss_m(const WheelFactors& believed, const WheelFactors& actual) {
-  const double right_m = kLineLength_m * actual.c_r / believed.c_r;
-  const double left_m = kLineLength_m * actual.c_l / believed.c_l;
-  const double half_turn = (right_m - left_m) / actual.b_m / 2;
-  const double chord_m = (right_m + left_m) / 2 * sinc(half_turn);
-  return std::hypot(chord_m * std::cos(half_turn) - kLineLength_m, chord_m * std::sin(half_turn));
+  EndPose end;
+  advance(end, kLineLength_m * actual.c_r / believed.c_r, kLineLength_m * actual.c_l / believed.c_l,
+          actual.b_m);
+  return std::hypot(end.x_m - kLineLength_m, end.y_m);
 }
 
 double heading_rms_rad(double side_m, const WheelFactors& believed, const WheelFactors& actual) {

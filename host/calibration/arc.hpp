@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cmath>
+
+/// The arc of constant twist, by which everything here moves a robot.
+namespace astro::calibration {
+
+/// sin(a) / a, without the division where it would lose digits.
+inline double sinc(double a) { return std::abs(a) < 1e-4 ? 1 - a * a / 6 : std::sin(a) / a; }
+
+/// Moves `pose` (x_m, y_m, theta_rad; not wrapped) along the arc that the two wheel travels give on wheelbase
+/// b. Exact while the ratio of the wheels' speeds does not change. Source  Chong & Kleeman 1997.
+template <class Pose>
+void advance(Pose& pose, double right_m, double left_m, double b_m) {
+  const double half_turn = (right_m - left_m) / b_m / 2;
+  const double chord_m = (right_m + left_m) / 2 * sinc(half_turn);
+  pose.x_m += chord_m * std::cos(pose.theta_rad + half_turn);
+  pose.y_m += chord_m * std::sin(pose.theta_rad + half_turn);
+  pose.theta_rad += 2 * half_turn;
+}
+
+}  // namespace astro::calibration
