@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "host/calibration/arc.hpp"
@@ -79,9 +80,10 @@ inline Expected expected_body(const Eigen::Vector3d& state, const Unknowns& u) {
   return expected;
 }
 
-/// The moving parts of the filter, shared by its three uses. A user sees each arc, then each truth sample.
+/// The moving parts of the filter, shared by its three uses. A user sees each arc, then each truth sample
+/// that is to be looked at, with the motion that took most of the time since the one before.
 template <class Use>
-void follow(const PreparedRun& run, const Unknowns& u, Use& use) {
+void follow(const PreparedRun& run, const Unknowns& u, const Looks& looks, Use& use) {
   const WheelPath wheels(run.source->wheels);
   const auto moment = [&](double truth_time_s) {
     const double by_skew_s = truth_time_s - run.clock_middle_s;
@@ -89,6 +91,7 @@ void follow(const PreparedRun& run, const Unknowns& u, Use& use) {
   };
   Moment from = moment(run.truth.front().time_s);
   WheelState at = wheels.at(from.time_s);
+  std::array<double, 4> spent_s{};  // by Motion
   for (std::size_t i = 0; i < run.truth.size(); ++i) {
     const Moment to = moment(run.truth[i].time_s);
     const int steps =
@@ -103,7 +106,11 @@ void follow(const PreparedRun& run, const Unknowns& u, Use& use) {
       from = next;
       at = then;
     }
-    use.look(run.truth[i], run.motion[i]);
+    spent_s[static_cast<std::size_t>(run.motion[i])] += to.time_s - begin.time_s;
+    if (static_cast<int>(i) % looks.stride != looks.first) continue;
+    const auto most = std::max_element(spent_s.begin(), spent_s.end());
+    use.look(run.truth[i], i == 0 ? run.motion[i] : static_cast<Motion>(most - spent_s.begin()));
+    spent_s.fill(0);
   }
 }
 

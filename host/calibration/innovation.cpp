@@ -1,5 +1,6 @@
 #include "host/calibration/innovation.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
 #include <numbers>
@@ -61,6 +62,7 @@ class Filter {
   }
 
   InnovationSums sums;
+  std::vector<Vector3d>* standardised = nullptr;  // where each innovation is kept, if anywhere
 
  private:
   template <int N>
@@ -97,6 +99,7 @@ class Filter {
       sums.cost += squared;
     }
     count(r, squared, motion, N);
+    if (standardised != nullptr) standardise<N>(r, s);
 
     const Eigen::Matrix<double, kUnknowns, N> jw = j.transpose() * weight;
     sums.information.noalias() += jw * j;
@@ -107,6 +110,17 @@ class Filter {
     by_.noalias() -= gain * j;
     covariance_ -= gain * ph.transpose();
     covariance_ = (covariance_ + covariance_.transpose().eval()) / 2;
+  }
+
+  template <int N>
+  void standardise(const Eigen::Matrix<double, N, 1>& r, const Eigen::Matrix<double, N, N>& s) {
+    Eigen::Matrix<double, N, N> to_robot = Eigen::Matrix<double, N, N>::Identity();
+    const double cosine = std::cos(state_[2]), sine = std::sin(state_[2]);
+    to_robot.template topLeftCorner<2, 2>() << cosine, sine, -sine, cosine;
+    const Eigen::Matrix<double, N, N> turned = to_robot * s * to_robot.transpose();
+    Vector3d standard = Vector3d::Zero();
+    standard.head<N>() = turned.llt().matrixL().solve(to_robot * r);
+    standardised->push_back(standard);
   }
 
   template <class Innovation>
@@ -130,16 +144,49 @@ class Filter {
 
 }  // namespace
 
+InnovationSums mean_of(std::span<const InnovationSums> passes) {
+  InnovationSums mean;
+  const auto count = static_cast<double>(passes.size());
+  double freedom = 0;
+  std::array<double, 4> samples{};
+  for (const InnovationSums& pass : passes) {
+    mean.information += pass.information / count;
+    mean.gradient += pass.gradient / count;
+    mean.cost += pass.cost / count;
+    mean.chi_square += pass.chi_square / count;
+    freedom += pass.degrees_of_freedom / count;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      samples[i] += pass.motion[i].samples / count;
+      mean.motion[i].sum_xy_m2 += pass.motion[i].sum_xy_m2 / count;
+      mean.motion[i].sum_theta_rad2 += pass.motion[i].sum_theta_rad2 / count;
+      mean.motion[i].chi_square += pass.motion[i].chi_square / count;
+    }
+  }
+  mean.degrees_of_freedom = static_cast<int>(std::lround(freedom));
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    mean.motion[i].samples = static_cast<int>(std::lround(samples[i]));
+  return mean;
+}
+
 InnovationSums innovations(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise,
-                           bool huber) {
-  Filter filter(run, unknowns, noise, huber, true);
-  follow(run, unknowns, filter);
+                           const Looks& looks) {
+  Filter filter(run, unknowns, noise, looks.huber, true);
+  follow(run, unknowns, looks, filter);
   return filter.sums;
+}
+
+std::vector<Vector3d> standard_innovations(const PreparedRun& run, const Unknowns& unknowns,
+                                           const NoiseModel& noise, const Looks& looks) {
+  Filter filter(run, unknowns, noise, looks.huber, true);
+  std::vector<Vector3d> all;
+  filter.standardised = &all;
+  follow(run, unknowns, looks, filter);
+  return all;
 }
 
 Information expected_information(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise) {
   Filter filter(run, unknowns, noise, false, false);
-  follow(run, unknowns, filter);
+  follow(run, unknowns, {}, filter);
   return filter.sums.information;
 }
 

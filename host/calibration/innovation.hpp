@@ -56,6 +56,13 @@ struct PreparedRun {
   std::array<MotionExtent, 4> extent{};  // by Motion
 };
 
+/// How a filter looks at truth.
+struct Looks {
+  bool huber = false;  // samples beyond the 99 % quantile count less
+  int stride = 1;      // at every so many-th sample; the others only say how the robot moved in between
+  int first = 0;       // of the samples it looks at; less than stride
+};
+
 struct MotionTotals {
   int samples = 0;
   double sum_xy_m2 = 0, sum_theta_rad2 = 0, chi_square = 0;
@@ -70,9 +77,17 @@ struct InnovationSums {
   std::array<MotionTotals, 4> motion{};
 };
 
-/// One pass. `unknowns` in units of m, rad, s; `huber`: truth samples beyond the 99 % quantile count less.
+/// Of several passes along one run. Not of none.
+InnovationSums mean_of(std::span<const InnovationSums> passes);
+
+/// One pass. `unknowns` in units of m, rad, s.
 InnovationSums innovations(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise,
-                           bool huber);
+                           const Looks& looks);
+
+/// The innovations themselves, one after the other: ahead, to the left and in heading of the robot, made
+/// independent and of variance 1 by the covariance that the filter expects. Without headings the last is 0.
+std::vector<Eigen::Vector3d> standard_innovations(const PreparedRun& run, const Unknowns& unknowns,
+                                                  const NoiseModel& noise, const Looks& looks);
 
 /// The Fisher information of a run of exactly these unknowns: truth serves by its times alone.
 Information expected_information(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise);
@@ -84,6 +99,7 @@ struct NoiseSlope {
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();
 };
-NoiseSlope noise_slope(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise, bool huber);
+NoiseSlope noise_slope(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise,
+                       const Looks& looks);
 
 }  // namespace astro::calibration

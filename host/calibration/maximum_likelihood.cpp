@@ -10,6 +10,7 @@
 
 #include "host/base/error.hpp"
 #include "host/calibration/agreement.hpp"
+#include "host/calibration/median_period.hpp"
 #include "host/calibration/ml_fit.hpp"
 #include "host/calibration/start_values.hpp"
 
@@ -132,6 +133,7 @@ MlEstimate judged(const MlFit& fit) {
     estimate.clock_skew_se = se(kSkew);
   }
   estimate.noise = fit.noise();
+  if (fit.stride() > 1) estimate.thinned_to_s = fit.stride() * median_period_s(fit.runs().front().truth);
   estimate.iterations = fit.iterations();
   estimate.dispersion = widened;
   estimate.runs = judged_runs(fit, found, covariance);

@@ -82,6 +82,9 @@ struct MlEstimate {
   double clock_skew = 0,
          clock_skew_se = 0;  // the robot's clock runs (1 + skew) times as fast as the tracker's
   NoiseModel noise;          // K: its upper limit of 95 % where the data do not tell it to a third
+  /// Time between the truth samples of which the likelihood is made, where closer ones share errors that slip
+  /// and tracker do not explain (whiteness.hpp); 0 where none do and all were taken.
+  double thinned_to_s = 0;
   std::vector<RunFit> runs;
   std::vector<KindFit> kinds;                        // those that occur, in the order of Motion
   std::optional<WheelbaseByKind> wheelbase_by_kind;  // only with enough of both

@@ -9,6 +9,7 @@
 
 #include "host/base/error.hpp"
 #include "host/calibration/start_values.hpp"
+#include "host/calibration/whiteness.hpp"
 
 namespace astro::calibration {
 namespace {
@@ -19,6 +20,8 @@ constexpr double kSettled = 1e-3;
 constexpr double kNoiseSettled = 0.01;  // of the logarithms of the variances
 constexpr double kLargestNoiseStep = 2;
 constexpr double kLargestK_m = 1e-2;
+constexpr int kFewestLooks = 20;  // of a run
+constexpr int kMostPhases = 4;
 
 double cost_of(std::span<const InnovationSums> sums) {
   double cost = 0;
@@ -51,31 +54,87 @@ MlFit::MlFit(const PreparedRuns& prepared, const WheelFactors& carried, const Ml
     if (held_.factors) u.head<3>() << carried.c_r, carried.c_l, carried.b_m;
   }
   // A first guess is judged by least squares: what seems an outlier to it may be the truth.
-  maximise(false);
+  maximise();
   require_plausible();
+  looks_.huber = options.robust;
   if (options.noise) {
-    if (options.robust) maximise(true);
+    if (options.robust) maximise();
   } else {
-    for (int round = 0; round < kMostRounds; ++round) {
-      const bool settled = fit_noise(options.robust);
-      maximise(options.robust);
-      if (settled) break;
+    fit_with_noise();
+    while (may_thin() && !innovations_are_independent()) {
+      looks_.stride *= 2;
+      fit_with_noise();
     }
-    widen_uncertain_slip(options.robust);
+    if (looks_.stride > 1) {
+      phases_ = std::min(looks_.stride, kMostPhases);
+      fit_with_noise();
+    }
+    widen_uncertain_slip();
   }
   require_plausible();
 }
 
-std::vector<InnovationSums> MlFit::pass(std::span<const Unknowns> unknowns, bool huber) const {
-  std::vector<InnovationSums> sums;
+void MlFit::fit_with_noise() {
+  for (int round = 0; round < kMostRounds; ++round) {
+    const bool settled = fit_noise();
+    maximise();
+    if (settled) break;
+  }
+}
+
+bool MlFit::innovations_are_independent() const {
+  std::vector<std::vector<Eigen::Vector3d>> all;
   for (std::size_t i = 0; i < runs_.size(); ++i)
-    sums.push_back(innovations(runs_[i], unknowns[i], noise_, huber));
+    all.push_back(standard_innovations(runs_[i], unknowns_[i], noise_, looks_));
+  return are_independent(all, kShared + kOwn * static_cast<int>(runs_.size()));
+}
+
+/// Not beyond what leaves every run something to tell.
+bool MlFit::may_thin() const {
+  return std::all_of(runs_.begin(), runs_.end(), [this](const PreparedRun& run) {
+    return run.truth.size() >= static_cast<std::size_t>(2 * looks_.stride * kFewestLooks);
+  });
+}
+
+std::vector<InnovationSums> MlFit::pass(std::span<const Unknowns> unknowns) const {
+  std::vector<InnovationSums> sums;
+  for (std::size_t i = 0; i < runs_.size(); ++i) {
+    std::vector<InnovationSums> passes;
+    for (const Looks& looks : all_looks())
+      passes.push_back(innovations(runs_[i], unknowns[i], noise_, looks));
+    sums.push_back(mean_of(passes));
+  }
   return sums;
 }
 
-void MlFit::maximise(bool huber) {
+NoiseSlope MlFit::noise_slopes() const {
+  NoiseSlope sum;
+  const std::vector<Looks> looks = all_looks();
+  for (std::size_t i = 0; i < runs_.size(); ++i)
+    for (const Looks& at : looks) {
+      const NoiseSlope part = noise_slope(runs_[i], unknowns_[i], noise_, at);
+      sum.gradient += part.gradient / static_cast<double>(looks.size());
+      sum.curvature += part.curvature / static_cast<double>(looks.size());
+    }
+  // Without headings their noise is told by nothing and stays.
+  sum.curvature.diagonal().array() += 1e-9;
+  return sum;
+}
+
+/// Thinned truth begins at several samples, so that the result does not hang on one of them. Their
+/// likelihoods are averaged, not added: what they tell about slip is the same.
+std::vector<Looks> MlFit::all_looks() const {
+  std::vector<Looks> all;
+  for (int phase = 0; phase < phases_; ++phase) {
+    all.push_back(looks_);
+    all.back().first = phase * looks_.stride / phases_;
+  }
+  return all;
+}
+
+void MlFit::maximise() {
   double damping = 0;
-  sums_ = pass(unknowns_, huber);
+  sums_ = pass(unknowns_);
   for (int step = 0; step < kMostSteps; ++step) {
     ++iterations_;
     const std::vector<Unknowns> steps = gauss_newton_step(sums_, held_, damping);
@@ -85,7 +144,7 @@ void MlFit::maximise(bool huber) {
       next[i] += steps[i];
       expected += steps[i].dot(sums_[i].gradient);
     }
-    std::vector<InnovationSums> sums = pass(next, huber);
+    std::vector<InnovationSums> sums = pass(next);
     const double fall = cost_of(sums_) - cost_of(sums);
     if (fall > -kSettled) {
       unknowns_ = std::move(next);
@@ -101,17 +160,10 @@ void MlFit::maximise(bool huber) {
 }
 
 /// Fisher's scoring in the logarithms; true if hardly anything changed.
-bool MlFit::fit_noise(bool huber) {
+bool MlFit::fit_noise() {
   double first = 0;
   for (int step = 0; step < kMostScorings; ++step) {
-    NoiseSlope slope;
-    for (std::size_t i = 0; i < runs_.size(); ++i) {
-      const NoiseSlope run = noise_slope(runs_[i], unknowns_[i], noise_, huber);
-      slope.gradient += run.gradient;
-      slope.curvature += run.curvature;
-    }
-    // Without headings their noise is told by nothing and stays.
-    slope.curvature.diagonal().array() += 1e-9;
+    const NoiseSlope slope = noise_slopes();
     const Eigen::Vector3d change = -slope.curvature.ldlt().solve(slope.gradient);
     const double moved = std::max({scale_variance(noise_.K_m, 1, change[0], 1e-13, kLargestK_m),
                                    scale_variance(noise_.sigma_xy_m, 2, change[1], 1e-7, 1),
@@ -125,21 +177,17 @@ bool MlFit::fit_noise(bool huber) {
 /// A covariance takes K for certain. Where the data hardly tell it (good tyres, a short drive: it may come
 /// out as zero) that would claim far too much, so K becomes the value at which -2 log likelihood has risen by
 /// 1: its upper limit.
-void MlFit::widen_uncertain_slip(bool huber) {
-  NoiseSlope slope;
-  for (std::size_t i = 0; i < runs_.size(); ++i)
-    slope.curvature += noise_slope(runs_[i], unknowns_[i], noise_, huber).curvature;
-  slope.curvature.diagonal().array() += 1e-9;
+void MlFit::widen_uncertain_slip() {
   constexpr double kSurelyKnown = 0.1;  // variance of log K: within a third of itself
   constexpr double kRise = 2.7;
-  if (2 * slope.curvature.inverse()(0, 0) < kSurelyKnown) return;
+  if (2 * noise_slopes().curvature.inverse()(0, 0) < kSurelyKnown) return;
   double least = std::numeric_limits<double>::infinity();
   while (true) {
     const double cost = cost_of(sums_) + log_determinant(sums_, held_);
     least = std::min(least, cost);
     if (cost > least + kRise || noise_.K_m >= kLargestK_m) return;
     noise_.K_m *= 2;
-    maximise(huber);
+    maximise();
   }
 }
 

@@ -10,7 +10,8 @@
 /// The search for the likeliest unknowns.
 namespace astro::calibration {
 
-/// Gauss-Newton, damped where it has to be, in turns with the noise where that is not given.
+/// Gauss-Newton, damped where it has to be, in turns with the noise where that is not given. Then truth is
+/// also thinned until its innovations are independent (whiteness.hpp).
 ///
 /// Throws astro::Error if factors come out that no robot has, and what start_values throws.
 class MlFit {
@@ -25,13 +26,20 @@ class MlFit {
   const std::vector<InnovationSums>& sums() const { return sums_; }
   const NoiseModel& noise() const { return noise_; }
   const Held& held() const { return held_; }
+  /// Truth is looked at every so many-th prepared sample.
+  int stride() const { return looks_.stride; }
   int iterations() const { return iterations_; }
 
  private:
-  std::vector<InnovationSums> pass(std::span<const Unknowns> unknowns, bool huber) const;
-  void maximise(bool huber);
-  bool fit_noise(bool huber);
-  void widen_uncertain_slip(bool huber);
+  std::vector<Looks> all_looks() const;
+  std::vector<InnovationSums> pass(std::span<const Unknowns> unknowns) const;
+  NoiseSlope noise_slopes() const;
+  void maximise();
+  bool fit_noise();
+  void fit_with_noise();
+  bool innovations_are_independent() const;
+  bool may_thin() const;
+  void widen_uncertain_slip();
   void require_plausible() const;
 
   const std::vector<PreparedRun>& runs_;
@@ -39,6 +47,8 @@ class MlFit {
   std::vector<Unknowns> unknowns_;
   Held held_;
   NoiseModel noise_;
+  Looks looks_;
+  int phases_ = 1;  // passes along each run, beginning at different samples
   std::vector<InnovationSums> sums_;
   int iterations_ = 0;
 };

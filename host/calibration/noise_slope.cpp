@@ -123,9 +123,9 @@ class NoiseFilter {
 }  // namespace
 
 NoiseSlope noise_slope(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise,
-                       bool huber) {
-  NoiseFilter filter(run, unknowns, noise, huber);
-  follow(run, unknowns, filter);
+                       const Looks& looks) {
+  NoiseFilter filter(run, unknowns, noise, looks.huber);
+  follow(run, unknowns, looks, filter);
   return filter.slope;
 }
 

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "host/base/error.hpp"
+#include "host/calibration/median_period.hpp"
 #include "host/calibration/senses.hpp"
 #include "host/calibration/wheel_path.hpp"
 
@@ -95,14 +96,6 @@ bool mostly_headings(const Trajectory& run) {
   const auto with = std::count_if(run.truth.begin(), run.truth.end(),
                                   [](const BodySample& sample) { return std::isfinite(sample.theta_rad); });
   return 2 * static_cast<std::size_t>(with) > run.truth.size();
-}
-
-double median_period_s(const std::vector<WheelSample>& wheels) {
-  std::vector<double> periods;
-  for (std::size_t i = 1; i < wheels.size(); ++i) periods.push_back(wheels[i].time_s - wheels[i - 1].time_s);
-  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
-  std::nth_element(periods.begin(), middle, periods.end());
-  return *middle;
 }
 
 PreparedRun cropped(const Trajectory& run, const ClockFit& clock, Density density) {

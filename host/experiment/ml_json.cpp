@@ -56,6 +56,7 @@ nlohmann::json to_json(const MlResult& ml) {
                            {"K_m", estimate.noise.K_m},
                            {"sigma_xy_m", estimate.noise.sigma_xy_m},
                            {"sigma_theta_rad", number(estimate.noise.sigma_theta_rad)}}},
+                         {"thinned_to_s", estimate.thinned_to_s},
                          {"chi_square", number(estimate.chi_square)},
                          {"degrees_of_freedom", estimate.degrees_of_freedom},
                          {"dispersion", number(estimate.dispersion)},

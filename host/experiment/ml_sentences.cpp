@@ -64,8 +64,14 @@ std::string noise_sentence(const MlResult& ml) {
       fmt::format("Noise, {}: wheel slip K = {:.3g} m; ground truth {:.3g} mm",
                   ml.options.noise ? "given" : "estimated", noise.K_m, 1000 * noise.sigma_xy_m);
   if (headings) text += fmt::format(" and {:.3g} mrad", 1000 * noise.sigma_theta_rad);
-  return text + fmt::format(" a sample. Chi-square per degree of freedom: {:.2f}.",
-                            ml.estimate.chi_square / std::max(1, ml.estimate.degrees_of_freedom));
+  text += fmt::format(" a sample. Chi-square per degree of freedom: {:.2f}.",
+                      ml.estimate.chi_square / std::max(1, ml.estimate.degrees_of_freedom));
+  if (ml.estimate.thinned_to_s > 0)
+    text += fmt::format(
+        " Ground truth was taken every {:.2g} s: closer samples share errors that come and go (wheels out of "
+        "round, tyres that give, times that jitter).",
+        ml.estimate.thinned_to_s);
+  return text;
 }
 
 std::vector<std::string> verdict_sentences(const MlResult& ml) {

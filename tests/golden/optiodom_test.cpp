@@ -41,6 +41,7 @@ class Optiodom : public testing::Test {
       const PathErrors errors = path_errors(one, factors);
       final += errors.final_rms_m * errors.final_rms_m / 6;
       heading += errors.final_heading_rms_rad * errors.final_heading_rms_rad / 6;
+      all.runs.push_back(errors.runs[0]);
       const auto count = static_cast<double>(one[0].truth.size());
       path += errors.path_rms_m * errors.path_rms_m * count;
       samples += count;
@@ -51,6 +52,12 @@ class Optiodom : public testing::Test {
     return all;
   }
 };
+
+double mean_path_rms_m(const PathErrors& errors) {
+  double sum = 0;
+  for (const RunErrors& run : errors.runs) sum += run.path_rms_m;
+  return sum / static_cast<double>(errors.runs.size());
+}
 
 EndPose end_error(const Trajectory& run) {
   double x = 0, y = 0, theta = 0, left = 0, right = 0;
@@ -90,11 +97,23 @@ TEST_F(Optiodom, RawLogsGiveTheirClockAndWhereTheMarkersSat) {
   EXPECT_NEAR(found.lever.x_m, -0.033, 1e-3);
   EXPECT_NEAR(found.lever.y_m, 0, 1e-3);
   EXPECT_NEAR(found.lever.yaw_rad * 180 / std::numbers::pi, -112.1, 0.1);
-  // The slip of a robot of the same motors and weight class as the thesis's 2.6e-6 m.
-  EXPECT_GT(found.noise.K_m, 1e-6);
-  EXPECT_LT(found.noise.K_m, 1e-5);
+  // Looked at every 50 ms the wheels seem to slip ten times as much as over seconds (3.3e-6 m), and arcs to
+  // want a wheelbase 2 % larger than spins do: errors that come back.
+  EXPECT_GT(found.thinned_to_s, 0.5);
+  EXPECT_TRUE(found.remarks().empty());
   // Heavier tails than normal: a real tracker has a few bad moments that the noise is not allowed to follow.
   EXPECT_NEAR(found.chi_square / found.degrees_of_freedom, 1.1, 0.15);
+}
+
+TEST_F(Optiodom, TheSlipFoundInOneSetIsWhatAnotherShows) {
+  const MlEstimate found = estimate_ml(raw(), kNominal);
+  const PathErrors errors = on_unseen_drives(found.factors);
+  constexpr double kDriven_m = 16.3;
+  const double expected_rad = std::sqrt(2 * found.noise.K_m * kDriven_m) / kOptiodomWheelbase_m;
+  std::printf("heading at the end off by %.1f mrad, by slip alone %.1f expected\n",
+              1e3 * errors.final_heading_rms_rad, 1e3 * expected_rad);
+  // Six runs tell a standard deviation to 30 %.
+  EXPECT_NEAR(std::log(errors.final_heading_rms_rad / expected_rad), 0, 2.5 * 0.3);
 }
 
 TEST_F(Optiodom, FactorsLearnedFromOneSetHoldForAnother) {
@@ -102,14 +121,16 @@ TEST_F(Optiodom, FactorsLearnedFromOneSetHoldForAnother) {
   const PathErrors before = on_unseen_drives(kNominal), after = on_unseen_drives(found.factors);
   const PathErrors umbmark = on_unseen_drives({0.083962 / 0.084, 0.084038 / 0.084, 0.201556});
   for (const auto& [name, errors] : {std::pair{"nominal", before}, {"UMBmark", umbmark}, {"ML", after}})
-    std::printf("%-8s end %.1f mm, heading %.1f mrad, path %.1f mm\n", name, 1e3 * errors.final_rms_m,
-                1e3 * errors.final_heading_rms_rad, 1e3 * errors.path_rms_m);
+    std::printf("%-8s end %.1f mm, heading %.1f mrad, path %.1f mm (mean of the runs %.1f)\n", name,
+                1e3 * errors.final_rms_m, 1e3 * errors.final_heading_rms_rad, 1e3 * errors.path_rms_m,
+                1e3 * mean_path_rms_m(errors));
   std::printf(
       "bars     end 23.0 mm, heading 16.0 mrad, path 15.0 mm (of raw files that are not at hand for this "
       "set)\n");
   EXPECT_NEAR(before.final_rms_m, 0.0817, 0.001);  // as in the reference
-  EXPECT_LT(after.final_rms_m, before.final_rms_m / 3);
+  EXPECT_LE(after.final_rms_m, 0.023);
   EXPECT_LT(after.final_heading_rms_rad, before.final_heading_rms_rad / 4);
+  EXPECT_LE(mean_path_rms_m(after), 0.015);
   EXPECT_LT(after.path_rms_m, before.path_rms_m / 2.5);
   EXPECT_LT(after.final_rms_m, umbmark.final_rms_m);
   EXPECT_LT(after.final_heading_rms_rad, umbmark.final_heading_rms_rad);

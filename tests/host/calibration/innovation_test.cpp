@@ -145,7 +145,7 @@ TEST_P(Innovations, HaveTheLikelihoodOfTheWholeDriveAtOnce) {
   const Eigen::LDLT<Matrix> covariance(dense_covariance(at));
   const double chi_square = misses.dot(covariance.solve(misses));
   const double cost = chi_square + covariance.vectorD().array().log().sum();
-  const InnovationSums sums = innovations(scene.run, u, scene.noise, false);
+  const InnovationSums sums = innovations(scene.run, u, scene.noise, {});
   EXPECT_EQ(sums.degrees_of_freedom, n * count);
   // The filter linearises about what it has seen, the dense matrix about the prediction: a mrad of heading
   // apart.
@@ -161,12 +161,12 @@ TEST_P(Innovations, FallWithTheNoiseAsTheSlopeSays) {
                            scene.noise.sigma_theta_rad / 1.5};
     Unknowns u = scene.unknowns;
     u.segment<3>(kStartX).setZero();
-    const NoiseSlope slope = noise_slope(scene.run, u, noise, false);
+    const NoiseSlope slope = noise_slope(scene.run, u, noise, {});
     const auto cost = [&](double K, double xy, double theta) {
       return innovations(scene.run, u,
                          {noise.K_m * std::exp(K), noise.sigma_xy_m * std::exp(xy / 2),
                           noise.sigma_theta_rad * std::exp(theta / 2)},
-                         false)
+                         {})
           .cost;
     };
     constexpr double kStep = 1e-4;
