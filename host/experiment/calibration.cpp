@@ -21,24 +21,10 @@ calibration::Options options_for(const Squares& squares, const MethodChoice& met
   return options;
 }
 
-/// Times are in whole seconds: of equal ones the later in order.
-calibration::WheelFactors last_carried(const RunSet& set) {
-  const recording::RunInfo* last = &set.runs.front().info;
-  for (const recording::Run& run : set.runs)
-    if (run.info.started_at >= last->started_at) last = &run.info;
-  return carried_factors(*last);
-}
-
 bool uses_ml(std::span<const recording::Run> runs, const MethodChoice& method) {
   return method.family == Family::ml ||
          (method.family == Family::automatic &&
           std::all_of(runs.begin(), runs.end(), [](const auto& run) { return has_moving_truth(run.info); }));
-}
-
-bool clock_known(const RunSet& set, MlChoice::Clock clock) {
-  if (clock != MlChoice::Clock::automatic) return clock == MlChoice::Clock::known;
-  return std::all_of(set.runs.begin(), set.runs.end(),
-                     [](const recording::Run& run) { return run.info.truth_clock == "robot"; });
 }
 
 Calibration by_ml(const RunSet& set, const MlChoice& choice) {
@@ -61,6 +47,20 @@ Calibration by_ml(const RunSet& set, const MlChoice& choice) {
 }
 
 }  // namespace
+
+bool clock_known(const RunSet& set, MlChoice::Clock clock) {
+  if (clock != MlChoice::Clock::automatic) return clock == MlChoice::Clock::known;
+  return std::all_of(set.runs.begin(), set.runs.end(),
+                     [](const recording::Run& run) { return run.info.truth_clock == "robot"; });
+}
+
+// Times are in whole seconds: of equal ones the later in order.
+calibration::WheelFactors last_carried(const RunSet& set) {
+  const recording::RunInfo* last = &set.runs.front().info;
+  for (const recording::Run& run : set.runs)
+    if (run.info.started_at >= last->started_at) last = &run.info;
+  return carried_factors(*last);
+}
 
 std::string_view Calibration::method() const {
   const calibration::Estimate* estimate = end_poses();

@@ -65,6 +65,12 @@ struct MlChoice {
   std::optional<calibration::NoiseModel> noise;  // estimated unless given
 };
 
+/// Whether all truth is on the robot's own clock: as `clock` says or, automatic, as the recordings do.
+bool clock_known(const RunSet& set, MlChoice::Clock clock);
+
+/// What the robot carried in the run that was driven last.
+calibration::WheelFactors last_carried(const RunSet& set);
+
 /// automatic: maximum likelihood where all runs have moving truth; what calibrate(Squares) takes where not.
 /// Maximum likelihood takes runs of every kind, the methods of end poses take the squares among them.
 ///
