@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "host/study/study.hpp"
@@ -63,6 +64,24 @@ TEST(ShardFile, GivesBackEveryBit) {
   EXPECT_EQ(read.trials, some_trials(2, 6));
   EXPECT_EQ(to_text(read.setup, read.trials), to_text(of_trials(10), some_trials(2, 6)));
   EXPECT_EQ(read.setup.seed, of_trials(10).seed);
+}
+
+TEST(ShardFile, GivesBackWhatIsNoNumberAsThatAndNotAsNoAnswer) {
+  std::vector<Trial> trials = some_trials(0, 2);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  trials[1].errors[kMl] = Errors{std::nan(""), kInfinity, -kInfinity, 1, 2, 3};
+  trials[1].ml_chi_square = std::nan("");
+  const std::string text = to_text(of_trials(2), trials);
+  const std::vector<Trial> read = read_part(text, "x.json").trials;
+  const Errors errors = read[1].errors[kMl].value();
+  EXPECT_TRUE(std::isnan(errors[0]));
+  EXPECT_EQ(errors[1], kInfinity);
+  EXPECT_EQ(errors[2], -kInfinity);
+  EXPECT_EQ(errors[5], 3);
+  EXPECT_TRUE(std::isnan(read[1].ml_chi_square.value()));
+  EXPECT_FALSE(read[0].errors[kMl].has_value());
+  EXPECT_FALSE(read[0].ml_chi_square.has_value());
+  EXPECT_EQ(to_text(of_trials(2), read), text) << "and so on for ever";
 }
 
 TEST(ShardFile, ThatIsNoneIsNamed) {
