@@ -19,6 +19,7 @@
 #include "host/cli/study_view.hpp"
 #include "host/cli/wrong_usage.hpp"
 #include "host/recording/files.hpp"
+#include "host/study/kinematic_source.hpp"
 #include "host/study/shard_file.hpp"
 #include "host/study/study.hpp"
 
@@ -26,6 +27,8 @@ namespace astro::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+const study::KinematicSource kRobot;
 
 struct Options {
   study::TrialSetup setup;
@@ -102,7 +105,7 @@ void print(const study::Summary& summary, bool json) {
 
 std::vector<study::Trial> drive(const Options& options) {
   Progress progress("study");
-  return run_study(options.setup, options.shard, options.jobs, [&](int done, int total) {
+  return run_study(options.setup, kRobot, options.shard, options.jobs, [&](int done, int total) {
     check_interrupt();
     progress.show(static_cast<double>(done) / total, fmt::format("trial {} of {}", done, total));
   });
@@ -127,7 +130,7 @@ void run(Options& options) {
     say(fmt::format("trials {} to {} of {} are in '{}'", trials.front().index, trials.back().index,
                     options.setup.trials, options.out.string()));
   }
-  if (!part) print(summarize(options.setup, trials), options.json);
+  if (!part) print(summarize(options.setup, kRobot, trials), options.json);
 }
 
 study::Part load(const fs::path& path) {
@@ -146,7 +149,7 @@ void add_merge(CLI::App& study) {
     std::vector<study::Part> parts;
     for (const fs::path& path : options->files) parts.push_back(load(path));
     const std::vector<study::Trial> trials = merge(parts);
-    print(summarize(parts.front().setup, trials), options->json);
+    print(summarize(parts.front().setup, kRobot, trials), options->json);
   });
 }
 

@@ -8,12 +8,12 @@
 
 #include "host/base/error.hpp"
 #include "host/study/limits.hpp"
+#include "host/study/synthetic_drive.hpp"
 
 namespace astro::study {
 namespace {
 
 using calibration::Sense;
-using calibration::Trajectory;
 
 // Apart from the seeds of the drives, which count from 0.
 constexpr std::uint64_t kClocks = 1'000'000;
@@ -24,22 +24,6 @@ void require(bool holds, double value, const std::string& what, const std::strin
 
 // Far more than anybody waits for; what is damaged or mistyped beyond them would exhaust the memory.
 constexpr int kMostTrials = 10'000'000, kMostSquares = 1000;
-
-DriveModel model_of(const TrialSetup& setup) {
-  DriveModel model;
-  model.carried = setup.carried();
-  model.actual = setup.actual();
-  model.noise = setup.noise;
-  model.count_rate_hz = setup.count_rate_hz;
-  model.truth_rate_hz = setup.truth_rate_hz;
-  return model;
-}
-
-Sense sense_of(int run) { return run % 2 == 0 ? Sense::cw : Sense::ccw; }
-
-std::string name_of(int run) {
-  return std::string("square ") + (sense_of(run) == Sense::cw ? "cw " : "ccw ") + std::to_string(run / 2 + 1);
-}
 
 }  // namespace
 
@@ -114,27 +98,23 @@ TrialSetup setup_from(const nlohmann::json& json) {
   return setup;
 }
 
-std::vector<Trajectory> drives_of(const TrialSetup& setup, int trial) {
-  const std::uint64_t seed = derived_seed(setup.seed, static_cast<std::uint64_t>(trial));
-  std::mt19937_64 clocks(derived_seed(seed, kClocks));
-  std::normal_distribution<double> offset_s(0, setup.clock_offset_sd_s);
-  DriveModel model = model_of(setup);
-  std::vector<Trajectory> drives;
-  for (int run = 0; run < 2 * setup.runs; ++run) {
-    if (!setup.clock_known) model.clock_offset_s = offset_s(clocks);
-    drives.push_back(synthetic_drive(square_course(setup.side_m, sense_of(run)), model, name_of(run),
-                                     derived_seed(seed, static_cast<std::uint64_t>(run))));
-  }
-  return drives;
+Sense sense_of(int run) { return run % 2 == 0 ? Sense::cw : Sense::ccw; }
+
+std::string name_of(int run) {
+  return std::string("square ") + (sense_of(run) == Sense::cw ? "cw " : "ccw ") + std::to_string(run / 2 + 1);
 }
 
-std::vector<Trajectory> drives_without_noise(const TrialSetup& setup) {
-  DriveModel model = model_of(setup);
-  model.noise = {0, 0, 0};
-  std::vector<Trajectory> drives;
-  for (int run = 0; run < 2 * setup.runs; ++run)
-    drives.push_back(synthetic_drive(square_course(setup.side_m, sense_of(run)), model, name_of(run), 0));
-  return drives;
+std::uint64_t seed_of(const TrialSetup& setup, int trial) {
+  return derived_seed(setup.seed, static_cast<std::uint64_t>(trial));
+}
+
+std::vector<double> clock_offsets_s(const TrialSetup& setup, int trial) {
+  std::vector<double> offsets_s(static_cast<std::size_t>(2 * setup.runs), 0);
+  if (setup.clock_known) return offsets_s;
+  std::mt19937_64 clocks(derived_seed(seed_of(setup, trial), kClocks));
+  std::normal_distribution<double> normal(0, setup.clock_offset_sd_s);
+  for (double& offset_s : offsets_s) offset_s = normal(clocks);
+  return offsets_s;
 }
 
 }  // namespace astro::study

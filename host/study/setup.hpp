@@ -2,11 +2,12 @@
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 #include <vector>
 
 #include "host/calibration/maximum_likelihood.hpp"
+#include "host/calibration/replay.hpp"
 #include "host/calibration/trajectory.hpp"
-#include "host/study/synthetic_drive.hpp"
 
 /// What a study repeats: one robot, one programme of squares, one ground truth.
 namespace astro::study {
@@ -43,10 +44,14 @@ struct TrialSetup {
 nlohmann::json to_json(const TrialSetup& setup);
 TrialSetup setup_from(const nlohmann::json& json);
 
-/// The drives of one trial, clockwise and counter-clockwise in turn. They depend on (seed, trial) alone.
-std::vector<calibration::Trajectory> drives_of(const TrialSetup& setup, int trial);
+/// The runs of a trial count from 0, clockwise and counter-clockwise in turn. "square ccw 1" is run 1.
+calibration::Sense sense_of(int run);
+std::string name_of(int run);
 
-/// The same drives without slip and without error of the ground truth, on equal clocks.
-std::vector<calibration::Trajectory> drives_without_noise(const TrialSetup& setup);
+/// Of all noise of a trial: it depends on (seed, trial) alone.
+std::uint64_t seed_of(const TrialSetup& setup, int trial);
+
+/// Robot's clock less tracker's in each run of a trial; all 0 where the clock is known.
+std::vector<double> clock_offsets_s(const TrialSetup& setup, int trial);
 
 }  // namespace astro::study
