@@ -23,6 +23,11 @@ Trajectory square(const TrialSetup& setup, int run, const DriveModel& model, std
 
 }  // namespace
 
+void KinematicSource::check(const TrialSetup& setup) const {
+  setup.require(Model::kinematic);
+  setup.check();
+}
+
 Drives KinematicSource::of_trial(const TrialSetup& setup, int trial) const {
   const std::uint64_t seed = seed_of(setup, trial);
   const std::vector<double> offsets_s = clock_offsets_s(setup, trial);

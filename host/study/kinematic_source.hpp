@@ -9,7 +9,7 @@ namespace astro::study {
 /// Cost    about 20 ms for ten 3 m squares.
 class KinematicSource : public DriveSource {
  public:
-  void check(const TrialSetup& setup) const override { setup.check(); }
+  void check(const TrialSetup& setup) const override;
   Drives of_trial(const TrialSetup& setup, int trial) const override;
   std::vector<calibration::Trajectory> without_noise(const TrialSetup& setup) const override;
 };

@@ -1,5 +1,6 @@
 #include "host/study/setup.hpp"
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -18,14 +19,24 @@ using calibration::Sense;
 // Apart from the seeds of the drives, which count from 0.
 constexpr std::uint64_t kClocks = 1'000'000;
 
-void require(bool holds, double value, const std::string& what, const std::string& remedy) {
+void demand(bool holds, double value, const std::string& what, const std::string& remedy) {
   if (!holds) throw Error(what + " is " + std::to_string(value) + ": give " + remedy);
 }
 
 // Far more than anybody waits for; what is damaged or mistyped beyond them would exhaust the memory.
 constexpr int kMostTrials = 10'000'000, kMostSquares = 1000;
 
+constexpr std::array<std::string_view, 2> kModels = {"kinematic", "simulator"};
+
 }  // namespace
+
+std::string_view name_of(Model model) { return kModels[static_cast<std::size_t>(model)]; }
+
+std::optional<Model> model_named(std::string_view name) {
+  for (std::size_t i = 0; i < kModels.size(); ++i)
+    if (kModels[i] == name) return static_cast<Model>(i);
+  return std::nullopt;
+}
 
 calibration::WheelFactors TrialSetup::actual() const {
   return {scale * 2 * E_d / (E_d + 1), scale * 2 / (E_d + 1), scale * E_b * wheelbase_m};
@@ -38,9 +49,15 @@ calibration::MlOptions TrialSetup::ml_options() const {
   return options;
 }
 
+void TrialSetup::require(Model driven) const {
+  if (model != driven)
+    throw Error("this is a study of the " + std::string(name_of(model)) + " model, not of the " +
+                std::string(name_of(driven)) + " model: give it its own robot");
+}
+
 void TrialSetup::check() const {
-  require(trials >= 1 && trials <= kMostTrials, trials, "the number of trials", "1 to 10 million");
-  require(runs >= 1 && runs <= kMostSquares, runs, "the number of squares in each direction", "1 to 1000");
+  demand(trials >= 1 && trials <= kMostTrials, trials, "the number of trials", "1 to 10 million");
+  demand(runs >= 1 && runs <= kMostSquares, runs, "the number of squares in each direction", "1 to 1000");
   require_positive(side_m, "the side of the square in metres");
   require_positive(wheelbase_m, "the wheelbase in metres");
   require_positive(E_d, "the ratio of the wheels");
@@ -51,15 +68,16 @@ void TrialSetup::check() const {
   require_positive(noise.sigma_theta_rad, "the error of the ground truth's heading in radians");
   require_positive(count_rate_hz, "the rate of the counts in Hz");
   require_positive(truth_rate_hz, "the rate of the ground truth in Hz");
-  require(std::isfinite(clock_offset_sd_s) && clock_offset_sd_s >= 0, clock_offset_sd_s,
-          "the scatter of the clocks in seconds", "0 or more");
+  demand(std::isfinite(clock_offset_sd_s) && clock_offset_sd_s >= 0, clock_offset_sd_s,
+         "the scatter of the clocks in seconds", "0 or more");
   const DriveModel usual;
   require_fits_memory(2 * runs * (4 * side_m / usual.speed_mps + 2 * std::numbers::pi / usual.yaw_rate_radps),
                       truth_rate_hz, count_rate_hz);
 }
 
 nlohmann::json to_json(const TrialSetup& setup) {
-  return {{"trials", setup.trials},
+  return {{"model", name_of(setup.model)},
+          {"trials", setup.trials},
           {"seed", setup.seed},
           {"runs", setup.runs},
           {"side_m", setup.side_m},
@@ -79,6 +97,10 @@ nlohmann::json to_json(const TrialSetup& setup) {
 
 TrialSetup setup_from(const nlohmann::json& json) {
   TrialSetup setup;
+  const auto name = json.at("model").get<std::string>();
+  const std::optional<Model> model = model_named(name);
+  if (!model) throw Error("'" + name + "' is no model of a robot: there are kinematic and simulator");
+  setup.model = *model;
   json.at("trials").get_to(setup.trials);
   json.at("seed").get_to(setup.seed);
   json.at("runs").get_to(setup.runs);

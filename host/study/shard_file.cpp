@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kFormat = "astrolabe study 1";
+constexpr const char* kFormat = "astrolabe study 2";
 
 // JSON has no such numbers, and its writer makes null of them, which here is no answer at all.
 json to_json(double value) {

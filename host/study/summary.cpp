@@ -110,6 +110,7 @@ Row bound_of(const TrialSetup& setup, const DriveSource& source) {
 }
 
 Summary summarize(const TrialSetup& setup, const DriveSource& source, const std::vector<Trial>& trials) {
+  source.check(setup);
   Summary summary;
   summary.setup = setup;
   summary.bound = bound_of(setup, source);

@@ -66,6 +66,18 @@ TEST(ShardFile, GivesBackEveryBit) {
   EXPECT_EQ(read.setup.seed, of_trials(10).seed);
 }
 
+TEST(ShardFile, SaysWhichRobotDrove) {
+  TrialSetup setup = of_trials(10);
+  for (const Model model : {Model::kinematic, Model::simulator}) {
+    setup.model = model;
+    EXPECT_EQ(part("a.json", 2, 6, setup).setup.model, model);
+  }
+  std::string other = to_text(setup, some_trials(2, 6));
+  other.replace(other.find("simulator"), 9, "emulator?");
+  EXPECT_EQ(error_of([&] { read_part(other, "a.json"); }),
+            "'emulator?' is no model of a robot: there are kinematic and simulator");
+}
+
 TEST(ShardFile, GivesBackWhatIsNoNumberAsThatAndNotAsNoAnswer) {
   std::vector<Trial> trials = some_trials(0, 2);
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -114,6 +126,11 @@ TEST(Merge, RefusesWhatIsNotOneWholeStudy) {
   other.side_m = 2;
   EXPECT_EQ(message({part("a", 0, 4), part("b", 4, 10, other)}),
             "'a' was made with side_m 3.0 and 'b' with 2.0: merge shards of one study only");
+  other = of_trials(10);
+  other.model = Model::simulator;
+  EXPECT_EQ(
+      message({part("a", 0, 4), part("b", 4, 10, other)}),
+      "'a' was made with model \"kinematic\" and 'b' with \"simulator\": merge shards of one study only");
   EXPECT_EQ(message({part("a", 0, 12)}),
             "'a' holds trial 10 of a study of 10: it is damaged, run its shard again");
 }
