@@ -22,9 +22,10 @@ set(ASTRO_LAYERS
   "host/report    : host/base host/calibration host/identification host/recording host/report"
   "host/experiment : common host/base host/calibration host/link host/recording host/report host/truth host/experiment"
   "host/simulator : common hal/interface hal/sim firmware/app host/base host/link host/truth host/recording host/simulator"
+  "host/simulated_study : host/base host/calibration host/experiment host/link host/recording host/simulator host/study host/simulated_study"
   "host/emulator  : common hal/interface hal/sim hal/teensy40/registers host/base host/link host/recording host/simulator host/truth host/emulator"
   "host/emulator/program : common hal/sim host/base host/cli host/emulator host/link host/recording host/simulator"
-  "host/cli       : common host/base host/calibration host/experiment host/identification host/link host/recording host/report host/simulator host/study host/truth host/tuning host/cli"
+  "host/cli       : common host/base host/calibration host/experiment host/identification host/link host/recording host/report host/simulated_study host/simulator host/study host/truth host/tuning host/cli"
   "tests          : common hal firmware host tests"
 )
 

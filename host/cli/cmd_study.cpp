@@ -19,6 +19,8 @@
 #include "host/cli/study_view.hpp"
 #include "host/cli/wrong_usage.hpp"
 #include "host/recording/files.hpp"
+#include "host/simulated_study/simulated_source.hpp"
+#include "host/study/kinematic_source.hpp"
 #include "host/study/shard_file.hpp"
 #include "host/study/study.hpp"
 
@@ -27,10 +29,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+const study::DriveSource& robot_of(study::Model model) {
+  static const study::KinematicSource kinematic;
+  static const simulated_study::SimulatedSource simulated;
+  if (model == study::Model::simulator) return simulated;
+  return kinematic;
+}
+
 struct Options {
   study::TrialSetup setup;
   double sigma_theta_deg = 0.15;
-  std::string clock = "known", noise = "estimated";
+  std::string model = "kinematic", clock = "known", noise = "estimated";
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   study::Shard shard;
   std::string shard_text = "1/1";
@@ -56,6 +65,12 @@ std::optional<study::Shard> shard_named(const std::string& text) {
 
 void add_setup(CLI::App& command, Options& options) {
   study::TrialSetup& setup = options.setup;
+  command
+      .add_option("--model", options.model,
+                  "who drives. kinematic: wheels and noise alone;\n"
+                  "simulator: the firmware on the simulated robot")
+      ->check(CLI::IsMember({"kinematic", "simulator"}))
+      ->capture_default_str();
   add_count(command, "--trials", setup.trials, 1, 10'000'000, "how often it is all repeated");
   command.add_option("--seed", setup.seed, "of all noise")
       ->type_name("N")
@@ -65,13 +80,14 @@ void add_setup(CLI::App& command, Options& options) {
   add_size(command, "--side", setup.side_m, "side of the square, m");
   add_size(command, "--wheelbase", setup.wheelbase_m, "wheelbase that the robot believes in, m");
   add_ratio(command, "--true-ed", setup.E_d, "true ratio of the wheel diameters, right over left");
-  add_ratio(command, "--true-eb", setup.E_b, "true wheelbase over the believed one, both at equal scale");
+  add_ratio(command, "--true-eb", setup.E_b, "true over believed wheelbase, both at equal scale");
   add_ratio(command, "--scale", setup.scale, "common to the true wheels and wheelbase");
   add_noise(command, setup.noise, options.sigma_theta_deg, setup.truth_rate_hz);
-  add_rate(command, "--count-rate", setup.count_rate_hz, "of the encoder counts, Hz");
+  add_rate(command, "--count-rate", setup.count_rate_hz, "of the encoder counts, Hz; the simulator's is 100");
   command
       .add_option("--clock", options.clock,
-                  "known, or estimated: then each run gets an offset, which ml has to find")
+                  "known, or estimated: then each run gets an offset,\n"
+                  "which ml has to find")
       ->check(CLI::IsMember({"known", "estimated"}))
       ->capture_default_str();
   command.add_option("--clock-sd", setup.clock_offset_sd_s, "of the offsets of an estimated clock, s")
@@ -96,20 +112,23 @@ void add_work(CLI::App& command, Options& options) {
   add_json_flag(command, options.json);
 }
 
-void print(const study::Summary& summary, bool json) {
+void print(const study::TrialSetup& setup, const std::vector<study::Trial>& trials, bool json) {
+  const study::Summary summary = summarize(setup, robot_of(setup.model), trials);
   std::cout << (json ? study_json(summary).dump(2) + '\n' : study_text(summary));
 }
 
 std::vector<study::Trial> drive(const Options& options) {
   Progress progress("study");
-  return run_study(options.setup, options.shard, options.jobs, [&](int done, int total) {
-    check_interrupt();
-    progress.show(static_cast<double>(done) / total, fmt::format("trial {} of {}", done, total));
-  });
+  return run_study(
+      options.setup, robot_of(options.setup.model), options.shard, options.jobs, [&](int done, int total) {
+        check_interrupt();
+        progress.show(static_cast<double>(done) / total, fmt::format("trial {} of {}", done, total));
+      });
 }
 
 void run(Options& options) {
   options.setup.noise.sigma_theta_rad = options.sigma_theta_deg * std::numbers::pi / 180;
+  options.setup.model = *study::model_named(options.model);
   options.setup.clock_known = options.clock == "known";
   options.setup.noise_known = options.noise == "known";
   options.shard = *shard_named(options.shard_text);
@@ -127,7 +146,7 @@ void run(Options& options) {
     say(fmt::format("trials {} to {} of {} are in '{}'", trials.front().index, trials.back().index,
                     options.setup.trials, options.out.string()));
   }
-  if (!part) print(summarize(options.setup, trials), options.json);
+  if (!part) print(options.setup, trials, options.json);
 }
 
 study::Part load(const fs::path& path) {
@@ -146,7 +165,7 @@ void add_merge(CLI::App& study) {
     std::vector<study::Part> parts;
     for (const fs::path& path : options->files) parts.push_back(load(path));
     const std::vector<study::Trial> trials = merge(parts);
-    print(summarize(parts.front().setup, trials), options->json);
+    print(parts.front().setup, trials, options->json);
   });
 }
 
@@ -160,11 +179,12 @@ void add_study(CLI::App& app) {
   add_setup(*command, *options);
   add_work(*command, *options);
   command->footer(
-      "A trial drives squares with noise on a kinematic robot and lets every method calibrate.\n"
-      "E_max, theta and the 10 m line are what is left without noise, the result loaded.\n"
+      "A trial drives squares with noise and lets every method calibrate from them.\n"
+      "E_max, theta and the 10 m line are what is left, noise-free, the result loaded.\n"
       "Examples:\n"
       "  astrolabe study --trials 500\n"
       "  astrolabe study --clock estimated --side 1.5 --json\n"
+      "  astrolabe study --model simulator --trials 100\n"
       "GNU parallel over machines, then the table:\n"
       "  parallel -S host1,host2 --return part-{}.json astrolabe study --trials 10000 \\\n"
       "    --shard {}/16 --jobs 1 --out part-{}.json ::: {1..16}\n"

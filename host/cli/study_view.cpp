@@ -34,12 +34,15 @@ constexpr std::array<Column, study::kFigures> kColumns = {{{"E_d", "E_d", "x1e-4
 std::string setup_text(const TrialSetup& setup) {
   const double degrees = setup.noise.sigma_theta_rad * 180 / std::numbers::pi;
   return fmt::format(
+      "{13}\n"
       "{0} + {0} squares of {1:g} m; b {2:g} m, E_d {3:g}, E_b {4:g}, scale {5:g}\n"
       "slip {6:g} m; truth {7:g} Hz, {8:g} mm, {9:.3g} deg; counts {10:g} Hz\n"
       "clock {11}; noise {12} to ml\n",
       setup.runs, setup.side_m, setup.wheelbase_m, setup.E_d, setup.E_b, setup.scale, setup.noise.K_m,
       setup.truth_rate_hz, setup.noise.sigma_xy_m * 1000, degrees, setup.count_rate_hz,
-      setup.clock_known ? "known" : "estimated", setup.noise_known ? "known" : "estimated");
+      setup.clock_known ? "known" : "estimated", setup.noise_known ? "known" : "estimated",
+      setup.model == study::Model::simulator ? "simulated robot: firmware, motors, encoders"
+                                             : "kinematic robot: wheels and noise alone");
 }
 
 std::vector<std::string> cells(const Row& row) {

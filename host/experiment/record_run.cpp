@@ -14,7 +14,6 @@ using namespace std::chrono_literals;
 using protocol::Telemetry;
 
 constexpr auto kRest = 700ms;  // at each end; host/recording/rest.hpp wants more than 200 ms
-constexpr std::uint16_t kPeriod_ms = 10;
 constexpr std::uint32_t kFields = Telemetry::kPose | Telemetry::kCounts | Telemetry::kTwist;
 constexpr int kSamplesPerLook = 5;  // at the truth
 
@@ -34,7 +33,7 @@ class Collector {
           if (run_.odometry.size() % kSamplesPerLook == 0) look();
         })) {
     truth_.poll();  // what was seen before is not of this run
-    client_.request(protocol::SetTelemetry{kPeriod_ms, kFields});
+    client_.request(protocol::SetTelemetry{kTelemetryPeriod_ms, kFields});
   }
 
   /// Records for so long, by the robot's clock: a simulator in fast motion would stand for minutes in a

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 
 #include "host/experiment/plan.hpp"
@@ -9,6 +10,9 @@
 #include "host/truth/source.hpp"
 
 namespace astro::experiment {
+
+/// Between samples of odometry in a recording.
+inline constexpr std::uint16_t kTelemetryPeriod_ms = 10;
 
 /// What somebody in front of the program wants to know, and to say, while a robot drives.
 struct RunHooks {

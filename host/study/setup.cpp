@@ -1,5 +1,6 @@
 #include "host/study/setup.hpp"
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -8,40 +9,34 @@
 
 #include "host/base/error.hpp"
 #include "host/study/limits.hpp"
+#include "host/study/synthetic_drive.hpp"
 
 namespace astro::study {
 namespace {
 
 using calibration::Sense;
-using calibration::Trajectory;
 
 // Apart from the seeds of the drives, which count from 0.
 constexpr std::uint64_t kClocks = 1'000'000;
 
-void require(bool holds, double value, const std::string& what, const std::string& remedy) {
+void demand(bool holds, double value, const std::string& what, const std::string& remedy) {
   if (!holds) throw Error(what + " is " + std::to_string(value) + ": give " + remedy);
 }
 
 // Far more than anybody waits for; what is damaged or mistyped beyond them would exhaust the memory.
 constexpr int kMostTrials = 10'000'000, kMostSquares = 1000;
 
-DriveModel model_of(const TrialSetup& setup) {
-  DriveModel model;
-  model.carried = setup.carried();
-  model.actual = setup.actual();
-  model.noise = setup.noise;
-  model.count_rate_hz = setup.count_rate_hz;
-  model.truth_rate_hz = setup.truth_rate_hz;
-  return model;
-}
-
-Sense sense_of(int run) { return run % 2 == 0 ? Sense::cw : Sense::ccw; }
-
-std::string name_of(int run) {
-  return std::string("square ") + (sense_of(run) == Sense::cw ? "cw " : "ccw ") + std::to_string(run / 2 + 1);
-}
+constexpr std::array<std::string_view, 2> kModels = {"kinematic", "simulator"};
 
 }  // namespace
+
+std::string_view name_of(Model model) { return kModels[static_cast<std::size_t>(model)]; }
+
+std::optional<Model> model_named(std::string_view name) {
+  for (std::size_t i = 0; i < kModels.size(); ++i)
+    if (kModels[i] == name) return static_cast<Model>(i);
+  return std::nullopt;
+}
 
 calibration::WheelFactors TrialSetup::actual() const {
   return {scale * 2 * E_d / (E_d + 1), scale * 2 / (E_d + 1), scale * E_b * wheelbase_m};
@@ -54,9 +49,15 @@ calibration::MlOptions TrialSetup::ml_options() const {
   return options;
 }
 
+void TrialSetup::require(Model driven) const {
+  if (model != driven)
+    throw Error("this is a study of the " + std::string(name_of(model)) + " model, not of the " +
+                std::string(name_of(driven)) + " model: give it its own robot");
+}
+
 void TrialSetup::check() const {
-  require(trials >= 1 && trials <= kMostTrials, trials, "the number of trials", "1 to 10 million");
-  require(runs >= 1 && runs <= kMostSquares, runs, "the number of squares in each direction", "1 to 1000");
+  demand(trials >= 1 && trials <= kMostTrials, trials, "the number of trials", "1 to 10 million");
+  demand(runs >= 1 && runs <= kMostSquares, runs, "the number of squares in each direction", "1 to 1000");
   require_positive(side_m, "the side of the square in metres");
   require_positive(wheelbase_m, "the wheelbase in metres");
   require_positive(E_d, "the ratio of the wheels");
@@ -67,15 +68,16 @@ void TrialSetup::check() const {
   require_positive(noise.sigma_theta_rad, "the error of the ground truth's heading in radians");
   require_positive(count_rate_hz, "the rate of the counts in Hz");
   require_positive(truth_rate_hz, "the rate of the ground truth in Hz");
-  require(std::isfinite(clock_offset_sd_s) && clock_offset_sd_s >= 0, clock_offset_sd_s,
-          "the scatter of the clocks in seconds", "0 or more");
+  demand(std::isfinite(clock_offset_sd_s) && clock_offset_sd_s >= 0, clock_offset_sd_s,
+         "the scatter of the clocks in seconds", "0 or more");
   const DriveModel usual;
   require_fits_memory(2 * runs * (4 * side_m / usual.speed_mps + 2 * std::numbers::pi / usual.yaw_rate_radps),
                       truth_rate_hz, count_rate_hz);
 }
 
 nlohmann::json to_json(const TrialSetup& setup) {
-  return {{"trials", setup.trials},
+  return {{"model", name_of(setup.model)},
+          {"trials", setup.trials},
           {"seed", setup.seed},
           {"runs", setup.runs},
           {"side_m", setup.side_m},
@@ -95,6 +97,10 @@ nlohmann::json to_json(const TrialSetup& setup) {
 
 TrialSetup setup_from(const nlohmann::json& json) {
   TrialSetup setup;
+  const auto name = json.at("model").get<std::string>();
+  const std::optional<Model> model = model_named(name);
+  if (!model) throw Error("'" + name + "' is no model of a robot: there are kinematic and simulator");
+  setup.model = *model;
   json.at("trials").get_to(setup.trials);
   json.at("seed").get_to(setup.seed);
   json.at("runs").get_to(setup.runs);
@@ -114,27 +120,23 @@ TrialSetup setup_from(const nlohmann::json& json) {
   return setup;
 }
 
-std::vector<Trajectory> drives_of(const TrialSetup& setup, int trial) {
-  const std::uint64_t seed = derived_seed(setup.seed, static_cast<std::uint64_t>(trial));
-  std::mt19937_64 clocks(derived_seed(seed, kClocks));
-  std::normal_distribution<double> offset_s(0, setup.clock_offset_sd_s);
-  DriveModel model = model_of(setup);
-  std::vector<Trajectory> drives;
-  for (int run = 0; run < 2 * setup.runs; ++run) {
-    if (!setup.clock_known) model.clock_offset_s = offset_s(clocks);
-    drives.push_back(synthetic_drive(square_course(setup.side_m, sense_of(run)), model, name_of(run),
-                                     derived_seed(seed, static_cast<std::uint64_t>(run))));
-  }
-  return drives;
+Sense sense_of(int run) { return run % 2 == 0 ? Sense::cw : Sense::ccw; }
+
+std::string name_of(int run) {
+  return std::string("square ") + (sense_of(run) == Sense::cw ? "cw " : "ccw ") + std::to_string(run / 2 + 1);
 }
 
-std::vector<Trajectory> drives_without_noise(const TrialSetup& setup) {
-  DriveModel model = model_of(setup);
-  model.noise = {0, 0, 0};
-  std::vector<Trajectory> drives;
-  for (int run = 0; run < 2 * setup.runs; ++run)
-    drives.push_back(synthetic_drive(square_course(setup.side_m, sense_of(run)), model, name_of(run), 0));
-  return drives;
+std::uint64_t seed_of(const TrialSetup& setup, int trial) {
+  return derived_seed(setup.seed, static_cast<std::uint64_t>(trial));
+}
+
+std::vector<double> clock_offsets_s(const TrialSetup& setup, int trial) {
+  std::vector<double> offsets_s(static_cast<std::size_t>(2 * setup.runs), 0);
+  if (setup.clock_known) return offsets_s;
+  std::mt19937_64 clocks(derived_seed(seed_of(setup, trial), kClocks));
+  std::normal_distribution<double> normal(0, setup.clock_offset_sd_s);
+  for (double& offset_s : offsets_s) offset_s = normal(clocks);
+  return offsets_s;
 }
 
 }  // namespace astro::study

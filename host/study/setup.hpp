@@ -2,18 +2,28 @@
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/calibration/maximum_likelihood.hpp"
+#include "host/calibration/replay.hpp"
 #include "host/calibration/trajectory.hpp"
-#include "host/study/synthetic_drive.hpp"
 
 /// What a study repeats: one robot, one programme of squares, one ground truth.
 namespace astro::study {
 
+/// Which robot drives: kinematics and noise alone, or the firmware on the simulated board.
+enum class Model { kinematic, simulator };
+std::string_view name_of(Model model);
+std::optional<Model> model_named(std::string_view name);
+
 /// The defaults are the robot of the reference measurements: its errors, and the slip that gives their
-/// scatter. Counts are of any fineness and the body has no lever arm; the estimators do not know that.
+/// scatter. The body has no lever arm, and counts of the kinematic robot are of any fineness; the estimators
+/// do not know that.
 struct TrialSetup {
+  Model model = Model::kinematic;
   int trials = 200;
   std::uint64_t seed = 1;
   int runs = 5;  // squares in each direction
@@ -33,20 +43,27 @@ struct TrialSetup {
   /// What maximum likelihood is told.
   calibration::MlOptions ml_options() const;
 
+  /// Throws astro::Error where a set-up for one robot is given to another.
+  void require(Model driven) const;
+
   /// Throws astro::Error naming what is not positive and finite, too many or too few trials or runs, or
   /// drives that do not fit into memory.
   void check() const;
 };
 
 /// Keys as in the shard files. `setup_from` throws nlohmann::json::exception for what is missing or no
-/// number.
+/// number, and astro::Error for a model that it does not know.
 nlohmann::json to_json(const TrialSetup& setup);
 TrialSetup setup_from(const nlohmann::json& json);
 
-/// The drives of one trial, clockwise and counter-clockwise in turn. They depend on (seed, trial) alone.
-std::vector<calibration::Trajectory> drives_of(const TrialSetup& setup, int trial);
+/// The runs of a trial count from 0, clockwise and counter-clockwise in turn. "square ccw 1" is run 1.
+calibration::Sense sense_of(int run);
+std::string name_of(int run);
 
-/// The same drives without slip and without error of the ground truth, on equal clocks.
-std::vector<calibration::Trajectory> drives_without_noise(const TrialSetup& setup);
+/// Of all noise of a trial: it depends on (seed, trial) alone.
+std::uint64_t seed_of(const TrialSetup& setup, int trial);
+
+/// Robot's clock less tracker's in each run of a trial; all 0 where the clock is known.
+std::vector<double> clock_offsets_s(const TrialSetup& setup, int trial);
 
 }  // namespace astro::study

@@ -1,5 +1,7 @@
 #include "host/study/shard_file.hpp"
 
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "host/base/error.hpp"
@@ -9,14 +11,40 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kFormat = "astrolabe study 1";
+constexpr const char* kFormat = "astrolabe study 2";
+
+// JSON has no such numbers, and its writer makes null of them, which here is no answer at all.
+json to_json(double value) {
+  if (std::isfinite(value)) return value;
+  return std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
+}
+
+double number_from(const json& value) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (value == "nan") return std::numeric_limits<double>::quiet_NaN();
+  if (value == "inf") return kInfinity;
+  if (value == "-inf") return -kInfinity;
+  return value.get<double>();
+}
+
+json to_json(const Errors& errors) {
+  json list = json::array();
+  for (const double error : errors) list.push_back(to_json(error));
+  return list;
+}
+
+Errors errors_from(const json& value) {
+  Errors errors{};
+  for (std::size_t f = 0; f < kFigures; ++f) errors[f] = number_from(value.at(f));
+  return errors;
+}
 
 json to_json(const Trial& trial) {
   json errors = json::array();
-  for (const auto& answer : trial.errors) errors.push_back(answer ? json(*answer) : json());
+  for (const auto& answer : trial.errors) errors.push_back(answer ? to_json(*answer) : json());
   return {{"trial", trial.index},
           {"errors", errors},
-          {"ml_chi_square", trial.ml_chi_square ? json(*trial.ml_chi_square) : json()},
+          {"ml_chi_square", trial.ml_chi_square ? to_json(*trial.ml_chi_square) : json()},
           {"failure", trial.failure}};
 }
 
@@ -26,9 +54,9 @@ Trial trial_from(const json& value) {
   value.at("failure").get_to(trial.failure);
   const json& errors = value.at("errors");
   for (std::size_t i = 0; i < trial.errors.size(); ++i)
-    if (!errors.at(i).is_null()) trial.errors[i] = errors.at(i).get<Errors>();
+    if (!errors.at(i).is_null()) trial.errors[i] = errors_from(errors.at(i));
   if (const json& square = value.at("ml_chi_square"); !square.is_null())
-    trial.ml_chi_square = square.get<double>();
+    trial.ml_chi_square = number_from(square);
   return trial;
 }
 

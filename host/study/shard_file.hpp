@@ -15,7 +15,8 @@ struct Part {
   std::vector<Trial> trials;
 };
 
-/// JSON; every number comes back to the last bit.
+/// JSON; every number comes back to the last bit. What is no number or infinite is a word there ("nan"): null
+/// is a method without an answer.
 std::string to_text(const TrialSetup& setup, const std::vector<Trial>& trials);
 
 /// Throws astro::Error naming the file if the text is no such JSON.

@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "host/study/drive_source.hpp"
 #include "host/study/setup.hpp"
 #include "host/study/trial.hpp"
 
@@ -27,8 +28,9 @@ struct Shard {
 /// threads, nor the shards change a bit of it.
 ///
 /// `meanwhile(done, total)` is called in the caller's thread, see in_parallel; what it throws comes out.
-/// Throws astro::Error for a set-up that cannot be driven, and for a shard without a trial.
-std::vector<Trial> run_study(const TrialSetup& setup, const Shard& shard, int jobs,
+/// Throws astro::Error for a set-up that `source` cannot drive, for a shard without a trial, and what a drive
+/// throws.
+std::vector<Trial> run_study(const TrialSetup& setup, const DriveSource& source, const Shard& shard, int jobs,
                              const std::function<void(int done, int total)>& meanwhile);
 
 }  // namespace astro::study

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include "host/study/synthetic_drive.hpp"
+
 namespace astro::study {
 namespace {
 
@@ -92,12 +94,12 @@ Row row_of(const std::string& name, const std::vector<Errors>& errors) {
   return row;
 }
 
-Row bound_of(const TrialSetup& setup) {
+Row bound_of(const TrialSetup& setup, const DriveSource& source) {
   calibration::MlOptions options = setup.ml_options();
   options.noise = setup.noise;
   const WheelFactors actual = setup.actual();
   const FactorCovariance covariance =
-      cramer_rao_bound(drives_without_noise(setup), actual, calibration::LeverArm{}, options);
+      cramer_rao_bound(source.without_noise(setup), actual, calibration::LeverArm{}, options);
   Row row = row_of("Cramer-Rao bound", draws_from(covariance, setup));
   const calibration::MlErrors exact = errors_of(covariance, actual);
   row.rms[kE_d] = exact.E_d;
@@ -107,10 +109,11 @@ Row bound_of(const TrialSetup& setup) {
   return row;
 }
 
-Summary summarize(const TrialSetup& setup, const std::vector<Trial>& trials) {
+Summary summarize(const TrialSetup& setup, const DriveSource& source, const std::vector<Trial>& trials) {
+  source.check(setup);
   Summary summary;
   summary.setup = setup;
-  summary.bound = bound_of(setup);
+  summary.bound = bound_of(setup, source);
   for (std::size_t method = 0; method < kMethods.size(); ++method) {
     const std::vector<Errors> errors = answers_of(method, trials);
     if (!errors.empty()) summary.methods.push_back(row_of(std::string(kMethods[method]), errors));

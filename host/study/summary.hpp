@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/calibration/maximum_likelihood.hpp"
+#include "host/study/drive_source.hpp"
 #include "host/study/setup.hpp"
 #include "host/study/trial.hpp"
 
@@ -44,11 +45,12 @@ struct Summary {
 /// Rms and its standard error per figure. `errors` is not empty.
 Row row_of(const std::string& name, const std::vector<Errors>& errors);
 
-/// The Cramer-Rao bound of the set-up; its last three figures are those of factors drawn from it.
-Row bound_of(const TrialSetup& setup);
+/// The Cramer-Rao bound of the set-up as `source` drives it; its last three figures are those of factors
+/// drawn from it.
+Row bound_of(const TrialSetup& setup, const DriveSource& source);
 
 /// `trials` in order of their index, for results that are the same to the last bit.
-/// Throws astro::Error where cramer_rao_bound does.
-Summary summarize(const TrialSetup& setup, const std::vector<Trial>& trials);
+/// Throws astro::Error where `source` and cramer_rao_bound do.
+Summary summarize(const TrialSetup& setup, const DriveSource& source, const std::vector<Trial>& trials);
 
 }  // namespace astro::study

@@ -15,7 +15,6 @@ namespace {
 
 using calibration::EndPose;
 using calibration::Sense;
-using calibration::Trajectory;
 using calibration::WheelFactors;
 
 constexpr double kLineLength_m = 10;
@@ -37,10 +36,10 @@ struct EndErrors {
   std::vector<EndPose> cw, ccw;
 };
 
-EndErrors end_errors(const TrialSetup& setup, const std::vector<Trajectory>& drives) {
+EndErrors by_sense(const std::vector<EndPose>& errors) {
   EndErrors ends;
-  for (std::size_t i = 0; i < drives.size(); ++i)
-    (i % 2 == 0 ? ends.cw : ends.ccw).push_back(end_error(drives[i], setup.carried()));
+  for (std::size_t run = 0; run < errors.size(); ++run)
+    (sense_of(static_cast<int>(run)) == Sense::cw ? ends.cw : ends.ccw).push_back(errors[run]);
   return ends;
 }
 
@@ -72,12 +71,12 @@ Errors errors_of(const WheelFactors& found, const TrialSetup& setup) {
           line_miss_m(found, actual)};
 }
 
-Trial run_trial(const TrialSetup& setup, int index) {
+Trial run_trial(const TrialSetup& setup, const DriveSource& source, int index) {
   using calibration::AngleSource;
   using calibration::Formula;
   using calibration::Method;
-  const std::vector<Trajectory> drives = drives_of(setup, index);
-  const EndErrors ends = end_errors(setup, drives);
+  const Drives drives = source.of_trial(setup, index);
+  const EndErrors ends = by_sense(drives.end_errors);
   Trial trial;
   trial.index = index;
   std::size_t method = 0;
@@ -96,7 +95,7 @@ Trial run_trial(const TrialSetup& setup, int index) {
                                               calibration::Options{Method::extended, {}, Formula::exact}})
     attempt([&] { return by_end_poses(setup, ends, options); });
   attempt([&] {
-    const calibration::MlEstimate estimate = estimate_ml(drives, setup.carried(), setup.ml_options());
+    const calibration::MlEstimate estimate = estimate_ml(drives.runs, setup.carried(), setup.ml_options());
     trial.ml_chi_square = normalised_square(estimate, setup.actual());
     return estimate.factors;
   });

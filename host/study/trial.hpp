@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "host/calibration/end_pose.hpp"
+#include "host/study/drive_source.hpp"
 #include "host/study/setup.hpp"
 
 /// One trial: the squares are driven once, and every method calibrates from the same data.
@@ -39,8 +40,8 @@ struct Trial {
   bool operator==(const Trial&) const = default;
 };
 
-/// Errors  none: what a method throws as astro::Error is its failure.
+/// Errors  what `source` throws; what a method throws as astro::Error is its failure.
 /// Cost    that of driving and of estimate_ml: about 0.3 s for ten squares.
-Trial run_trial(const TrialSetup& setup, int index);
+Trial run_trial(const TrialSetup& setup, const DriveSource& source, int index);
 
 }  // namespace astro::study

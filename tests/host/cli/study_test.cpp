@@ -51,6 +51,7 @@ TEST(StudyCommand, GivesTheSameAsJson) {
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const json result = json::parse(outcome.out);
   EXPECT_EQ(result["setup"]["clock"], "estimated");
+  EXPECT_EQ(result["setup"]["model"], "kinematic");
   EXPECT_EQ(result["setup"]["side_m"], 0.5);
   ASSERT_EQ(result["methods"].size(), 6U);
   EXPECT_EQ(result["methods"][5]["name"], "ml");
@@ -58,6 +59,26 @@ TEST(StudyCommand, GivesTheSameAsJson) {
   EXPECT_NEAR(result["methods"][0]["rms"]["E_d"].get<double>(), 0.00416, 1e-12) << "what was not calibrated";
   EXPECT_GT(result["bound"]["rms"]["b_over_S"], 0);
   EXPECT_EQ(result["ml_covariance"]["expected"], 3);
+}
+
+TEST(StudyCommand, DrivesTheSimulatedRobotIfAsked) {
+  const Outcome text = astrolabe(study({"--model", "simulator"}));
+  ASSERT_EQ(text.code, 0) << text.err;
+  EXPECT_THAT(text.out, testing::StartsWith("simulated robot"));
+  EXPECT_LE(widest_line(text.out), 80U);
+  const Outcome outcome = astrolabe(study({"--model", "simulator", "--json", "--jobs", "2"}));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const json result = json::parse(outcome.out);
+  EXPECT_EQ(result["setup"]["model"], "simulator");
+  EXPECT_EQ(result["failures"], json::array());
+  EXPECT_NEAR(result["methods"][0]["rms"]["E_d"].get<double>(), 0.00416, 1e-12) << "what was not calibrated";
+  EXPECT_EQ(result["methods"][5]["trials"], 5);
+}
+
+TEST(StudyCommand, TheSimulatedRobotsCountsComeAtARateOfTheirOwn) {
+  const Outcome outcome = astrolabe(study({"--model", "simulator", "--count-rate", "50"}));
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("recorded at 100 Hz"));
 }
 
 TEST(StudyCommand, ShardsMergedPrintWhatTheWholePrints) {
@@ -92,6 +113,9 @@ TEST(StudyCommand, MergeNamesWhatIsMissingMixedOrDoubled) {
   EXPECT_THAT(complaint({one}), HasSubstr("of 5 trials 2 to 4 are missing"));
   EXPECT_THAT(complaint({one, one}), HasSubstr("trial 0 is in"));
   EXPECT_THAT(complaint({one, other}), HasSubstr("seed"));
+  const std::string simulated = (folder.path() / "simulated").string();
+  ASSERT_EQ(astrolabe(study({"--shard", "2/2", "--out", simulated, "--model", "simulator"})).code, 0);
+  EXPECT_THAT(complaint({one, simulated}), HasSubstr("model"));
   EXPECT_THAT(complaint({one, folder.path() / "none"}), HasSubstr("does not exist"));
   EXPECT_THAT(complaint({ASTROLABE_PROGRAM}), HasSubstr("is no shard of a study"));
 }

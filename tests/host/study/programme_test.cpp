@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "host/study/kinematic_source.hpp"
 #include "host/study/shortest_programme.hpp"
 #include "host/study/summary.hpp"
 #include "tests/host/calibration/square_runs.hpp"
@@ -25,7 +26,7 @@ TEST(Forecast, OfTenSquaresIsTheBoundThatAStudyComparesWith) {
   TrialSetup setup;
   setup.E_d = setup.E_b = setup.scale = 1;
   setup.clock_known = false;
-  const Row bound = bound_of(setup);
+  const Row bound = bound_of(setup, KinematicSource());
   const Forecast ten = of({10, 0, 0, 0});
   EXPECT_NEAR(ten.se.E_d / bound.rms[kE_d], 1, 1e-9);
   EXPECT_NEAR(ten.se.scale / bound.rms[kScale], 1, 1e-9);

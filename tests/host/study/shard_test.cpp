@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "host/study/study.hpp"
@@ -65,6 +66,36 @@ TEST(ShardFile, GivesBackEveryBit) {
   EXPECT_EQ(read.setup.seed, of_trials(10).seed);
 }
 
+TEST(ShardFile, SaysWhichRobotDrove) {
+  TrialSetup setup = of_trials(10);
+  for (const Model model : {Model::kinematic, Model::simulator}) {
+    setup.model = model;
+    EXPECT_EQ(part("a.json", 2, 6, setup).setup.model, model);
+  }
+  std::string other = to_text(setup, some_trials(2, 6));
+  other.replace(other.find("simulator"), 9, "emulator?");
+  EXPECT_EQ(error_of([&] { read_part(other, "a.json"); }),
+            "'emulator?' is no model of a robot: there are kinematic and simulator");
+}
+
+TEST(ShardFile, GivesBackWhatIsNoNumberAsThatAndNotAsNoAnswer) {
+  std::vector<Trial> trials = some_trials(0, 2);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  trials[1].errors[kMl] = Errors{std::nan(""), kInfinity, -kInfinity, 1, 2, 3};
+  trials[1].ml_chi_square = std::nan("");
+  const std::string text = to_text(of_trials(2), trials);
+  const std::vector<Trial> read = read_part(text, "x.json").trials;
+  const Errors errors = read[1].errors[kMl].value();
+  EXPECT_TRUE(std::isnan(errors[0]));
+  EXPECT_EQ(errors[1], kInfinity);
+  EXPECT_EQ(errors[2], -kInfinity);
+  EXPECT_EQ(errors[5], 3);
+  EXPECT_TRUE(std::isnan(read[1].ml_chi_square.value()));
+  EXPECT_FALSE(read[0].errors[kMl].has_value());
+  EXPECT_FALSE(read[0].ml_chi_square.has_value());
+  EXPECT_EQ(to_text(of_trials(2), read), text) << "and so on for ever";
+}
+
 TEST(ShardFile, ThatIsNoneIsNamed) {
   const std::string none = "'x.json' is no shard of a study: give what 'astrolabe study --out' wrote";
   for (const std::string text : {"", "{}", "[1, 2", "{\"format\": 3", "name,x\n1,2\n"})
@@ -95,6 +126,11 @@ TEST(Merge, RefusesWhatIsNotOneWholeStudy) {
   other.side_m = 2;
   EXPECT_EQ(message({part("a", 0, 4), part("b", 4, 10, other)}),
             "'a' was made with side_m 3.0 and 'b' with 2.0: merge shards of one study only");
+  other = of_trials(10);
+  other.model = Model::simulator;
+  EXPECT_EQ(
+      message({part("a", 0, 4), part("b", 4, 10, other)}),
+      "'a' was made with model \"kinematic\" and 'b' with \"simulator\": merge shards of one study only");
   EXPECT_EQ(message({part("a", 0, 12)}),
             "'a' holds trial 10 of a study of 10: it is damaged, run its shard again");
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "host/study/kinematic_source.hpp"
 #include "host/study/shard_file.hpp"
 #include "host/study/summary.hpp"
 #include "tests/host/calibration/square_runs.hpp"
@@ -12,6 +13,7 @@
 namespace astro::study {
 namespace {
 
+const KinematicSource kRobot;
 const auto kSilent = [](int, int) {};
 
 TrialSetup small_setup(int trials) {
@@ -25,13 +27,13 @@ TrialSetup small_setup(int trials) {
 
 TEST(Study, ShardsMergedAreTheWholeToTheLastBitWhateverTheJobs) {
   const TrialSetup setup = small_setup(7);
-  const std::vector<Trial> whole = run_study(setup, {1, 1}, 1, kSilent);
+  const std::vector<Trial> whole = run_study(setup, kRobot, {1, 1}, 1, kSilent);
   std::vector<Part> parts;
   for (const int number : {3, 1, 2})
     parts.push_back(
-        read_part(to_text(setup, run_study(setup, {number, 3}, 4, kSilent)), std::to_string(number)));
+        read_part(to_text(setup, run_study(setup, kRobot, {number, 3}, 4, kSilent)), std::to_string(number)));
   EXPECT_EQ(merge(parts), whole);
-  const Summary a = summarize(setup, whole), b = summarize(setup, merge(parts));
+  const Summary a = summarize(setup, kRobot, whole), b = summarize(setup, kRobot, merge(parts));
   ASSERT_EQ(a.methods.size(), kMethods.size());
   for (std::size_t m = 0; m < a.methods.size(); ++m) {
     EXPECT_EQ(a.methods[m].rms, b.methods[m].rms);
@@ -42,19 +44,19 @@ TEST(Study, ShardsMergedAreTheWholeToTheLastBitWhateverTheJobs) {
 
 TEST(Study, AnotherSeedIsAnotherStudy) {
   TrialSetup setup = small_setup(1);
-  const std::vector<Trial> first = run_study(setup, {1, 1}, 1, kSilent);
+  const std::vector<Trial> first = run_study(setup, kRobot, {1, 1}, 1, kSilent);
   setup.seed = 2;
-  EXPECT_NE(run_study(setup, {1, 1}, 1, kSilent), first);
+  EXPECT_NE(run_study(setup, kRobot, {1, 1}, 1, kSilent), first);
 }
 
 TEST(Study, WhoeverWatchesCanEndIt) {
   const auto enough = [](int, int) { throw std::runtime_error("enough"); };
-  EXPECT_THROW(run_study(small_setup(100000), {1, 1}, 1, enough), std::runtime_error);
+  EXPECT_THROW(run_study(small_setup(100000), kRobot, {1, 1}, 1, enough), std::runtime_error);
 }
 
 TEST(Study, AnEmptyShardIsRefused) {
   EXPECT_EQ(calibration::test::error_of([] {
-              run_study(small_setup(3), {1, 4}, 1, kSilent);
+              run_study(small_setup(3), kRobot, {1, 4}, 1, kSilent);
             }),
             "shard 1/4 of 3 trials is empty: make fewer shards or more trials");
 }
@@ -69,7 +71,7 @@ TEST_P(MaximumLikelihoodStudy, ReachesTheBoundWithAnHonestCovariance) {
   setup.runs = 1;
   setup.side_m = 1;
   setup.clock_known = GetParam();
-  const Summary summary = summarize(setup, run_study(setup, {1, 1}, 2, kSilent));
+  const Summary summary = summarize(setup, kRobot, run_study(setup, kRobot, {1, 1}, 2, kSilent));
   EXPECT_TRUE(summary.failures.empty());
   for (const Ratio& ratio : summary.ml_over_bound) {
     EXPECT_LT(ratio.value, 1 + 3 * ratio.se);

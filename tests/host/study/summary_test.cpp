@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host/calibration/precision.hpp"
+#include "host/study/kinematic_source.hpp"
 
 namespace astro::study {
 namespace {
@@ -33,7 +34,7 @@ TEST(StudyRow, OfEqualErrorsHasNoScatter) {
 
 TEST(StudyBound, OfTenSquaresIsThatOfTheDesignRules) {
   const TrialSetup setup;
-  const Row bound = bound_of(setup);
+  const Row bound = bound_of(setup, KinematicSource());
   const calibration::Precision rule =
       reachable_precision(calibration::squares_extent(10, setup.side_m), setup.noise.K_m, setup.wheelbase_m);
   EXPECT_NEAR(bound.rms[kE_d] / rule.E_d, 1, 0.04);  // what precision.hpp promises
@@ -61,7 +62,7 @@ TEST(StudySummary, CountsFailuresInsteadOfHidingThem) {
   bad.errors[kMl].reset();
   bad.ml_chi_square.reset();
   bad.failure = "ml: run 1 is too short";
-  const Summary summary = summarize(small_setup(), {good, bad});
+  const Summary summary = summarize(small_setup(), KinematicSource(), {good, bad});
   EXPECT_EQ(summary.methods.front().trials, 2);
   EXPECT_EQ(summary.methods.back().name, "ml");
   EXPECT_EQ(summary.methods.back().trials, 1);
@@ -75,7 +76,7 @@ TEST(StudySummary, CountsFailuresInsteadOfHidingThem) {
 TEST(StudySummary, SetsMaximumLikelihoodBesideTheBound) {
   Trial one;
   one.errors.fill(all(1e-3));
-  const Summary summary = summarize(small_setup(), {one});
+  const Summary summary = summarize(small_setup(), KinematicSource(), {one});
   ASSERT_EQ(summary.ml_over_bound.size(), 3U);
   for (const Figure f : {kE_d, kB_over_S, kScale})
     EXPECT_DOUBLE_EQ(summary.ml_over_bound[f].value, 1e-3 / summary.bound.rms[f]);
@@ -84,7 +85,7 @@ TEST(StudySummary, SetsMaximumLikelihoodBesideTheBound) {
 TEST(StudySummary, WithoutAnAnswerOfMaximumLikelihoodHasNoRatio) {
   Trial one;
   one.errors[0] = all(1e-3);
-  const Summary summary = summarize(small_setup(), {one});
+  const Summary summary = summarize(small_setup(), KinematicSource(), {one});
   EXPECT_TRUE(summary.ml_over_bound.empty());
   EXPECT_FALSE(summary.ml_covariance.has_value());
 }

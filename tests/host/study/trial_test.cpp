@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "host/study/kinematic_source.hpp"
 #include "tests/host/calibration/square_runs.hpp"
 
 namespace astro::study {
@@ -64,21 +65,21 @@ TEST(StudySetup, DrivesHalfOfTheSquaresEachWayAndNoTwoAlike) {
   TrialSetup setup;
   setup.runs = 2;
   setup.side_m = 1;
-  const auto drives = drives_of(setup, 0);
+  const auto drives = KinematicSource().of_trial(setup, 0).runs;
   ASSERT_EQ(drives.size(), 4U);
   EXPECT_EQ(drives[0].name, "square cw 1");
   EXPECT_EQ(drives[3].name, "square ccw 2");
   EXPECT_NE(drives[0].truth.back().x_m, drives[2].truth.back().x_m);
-  EXPECT_NE(drives[0].truth.back().x_m, drives_of(setup, 1)[0].truth.back().x_m);
+  EXPECT_NE(drives[0].truth.back().x_m, KinematicSource().of_trial(setup, 1).runs[0].truth.back().x_m);
 }
 
 TEST(StudySetup, GivesEachRunAClockOfItsOwnOnlyIfItIsToBeEstimated) {
   TrialSetup setup;
   setup.runs = 1;
   setup.side_m = 1;
-  EXPECT_EQ(drives_of(setup, 0)[0].truth.front().time_s, 0);
+  EXPECT_EQ(KinematicSource().of_trial(setup, 0).runs[0].truth.front().time_s, 0);
   setup.clock_known = false;
-  const auto drives = drives_of(setup, 0);
+  const auto drives = KinematicSource().of_trial(setup, 0).runs;
   EXPECT_NE(drives[0].truth.front().time_s, 0);
   EXPECT_NE(drives[0].truth.front().time_s, drives[1].truth.front().time_s);
 }
