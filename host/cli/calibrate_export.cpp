@@ -58,29 +58,30 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_calibrate_export(CLI::App& calibrate) {
+void add_calibrate_export(Command calibrate) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = calibrate.add_subcommand("export", "write a calibration for ROS 2, or as JSON or TOML");
-  command->add_option("file", options->file, "calib.toml of 'calibrate' or 'umbmark'")->required();
-  command->add_option("--to", options->to, "the file to write")->required();
+  const Command command =
+      calibrate.add_subcommand("export", "write a calibration for ROS 2, or as JSON or TOML");
+  command.add_option("file", options->file, "calib.toml of 'calibrate' or 'umbmark'").required();
+  command.add_option("--to", options->to, "the file to write").required();
   command
-      ->add_option("--format", options->format,
-                   "ros2 (parameters of diff_drive_controller), json\nor toml; default: by the end of --to")
-      ->check(CLI::IsMember({"ros2", "json", "toml"}));
+      .add_option("--format", options->format,
+                  "ros2 (parameters of diff_drive_controller), json\nor toml; default: by the end of --to")
+      .one_of({"ros2", "json", "toml"});
   command
-      ->add_option("--wheel-radius", options->nominal.wheel_radius_m,
-                   "nominal radius in the other program, m; default:\nthat of the robot that drove")
-      ->check(positive("m"));
+      .add_option("--wheel-radius", options->nominal.wheel_radius_m,
+                  "nominal radius in the other program, m; default:\nthat of the robot that drove")
+      .check(positive("m"));
   command
-      ->add_option("--wheel-separation", options->nominal.wheel_separation_m,
-                   "nominal wheelbase in the other program, m;\ndefault: the b that was carried")
-      ->check(positive("m"));
-  command->add_option("--node", options->node, "ros2: name of the controller")->capture_default_str();
-  examples(*command, {"astrolabe calibrate export calib.toml --to calib.yaml",
-                      "astrolabe calibrate export calib.toml --to calib.yaml --wheel-radius 0.036 "
-                      "--wheel-separation 0.3",
-                      "astrolabe calibrate export calib.toml --to calib.json"});
-  command->callback([options] { run(*options); });
+      .add_option("--wheel-separation", options->nominal.wheel_separation_m,
+                  "nominal wheelbase in the other program, m;\ndefault: the b that was carried")
+      .check(positive("m"));
+  command.add_option("--node", options->node, "ros2: name of the controller").capture_default_str();
+  examples(command, {"astrolabe calibrate export calib.toml --to calib.yaml",
+                     "astrolabe calibrate export calib.toml --to calib.yaml --wheel-radius 0.036 "
+                     "--wheel-separation 0.3",
+                     "astrolabe calibrate export calib.toml --to calib.json"});
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace astro::cli

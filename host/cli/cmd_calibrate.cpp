@@ -23,8 +23,8 @@ namespace fs = std::filesystem;
 struct MlOptions {
   calibration::NoiseModel noise;
   std::string clock;
-  CLI::Option *noise_option = nullptr, *clock_option = nullptr;
-  bool given() const { return noise_option->count() + clock_option->count() > 0; }
+  Option noise_option, clock_option;
+  bool given() const { return noise_option.count() + clock_option.count() > 0; }
 };
 
 struct Options {
@@ -38,48 +38,48 @@ struct Options {
   bool json = false;
 };
 
-void add_method(CLI::App& command, Options& options, const std::vector<std::string>& methods,
+void add_method(Command command, Options& options, const std::vector<std::string>& methods,
                 const std::string& what) {
-  command.add_option("--method", options.method, what)->check(CLI::IsMember(methods))->capture_default_str();
+  command.add_option("--method", options.method, what).one_of(methods).capture_default_str();
   command.add_option("--angles", options.angles, "umbmark: which coordinates the angles come from")
-      ->check(CLI::IsMember({"x", "y", "thesis", "average"}))
-      ->capture_default_str();
+      .one_of({"x", "y", "thesis", "average"})
+      .capture_default_str();
   command.add_option("--formula", options.formula, "extended: exact, or as published by Jung and Chung")
-      ->check(CLI::IsMember({"exact", "published"}))
-      ->capture_default_str();
+      .one_of({"exact", "published"})
+      .capture_default_str();
   command.add_option("--out", options.out, "write the result here, for 'astrolabe upload'");
   command.add_flag("--json", options.json, "print the result as one JSON object");
 }
 
-void add_ml(CLI::App& command, Options& options) {
+void add_ml(Command command, Options& options) {
   MlOptions& ml = options.ml;
-  CLI::Option* K =
-      command.add_option("--K", ml.noise.K_m, "ml: wheel slip, variance per metre, m")->check(positive("m"));
-  CLI::Option* xy =
+  const Option K =
+      command.add_option("--K", ml.noise.K_m, "ml: wheel slip, variance per metre, m").check(positive("m"));
+  const Option xy =
       command.add_option("--sigma-xy", ml.noise.sigma_xy_m, "ml: noise of ground truth per coordinate, m")
-          ->check(positive("m"));
-  CLI::Option* theta =
+          .check(positive("m"));
+  const Option theta =
       command
           .add_option("--sigma-theta", ml.noise.sigma_theta_rad,
                       "ml: noise of its heading, rad; without all three\nthe noise is estimated")
-          ->check(positive("rad"));
-  K->needs(xy)->needs(theta);
-  xy->needs(K)->needs(theta);
-  theta->needs(K)->needs(xy);
+          .check(positive("rad"));
+  K.needs(xy).needs(theta);
+  xy.needs(K).needs(theta);
+  theta.needs(K).needs(xy);
   ml.noise_option = K;
   ml.clock_option = command
                         .add_option("--clock", ml.clock,
                                     "ml: known: ground truth has the robot's times;\n"
                                     "estimated: offsets and skew are found;\n"
                                     "default: what the recordings say")
-                        ->check(CLI::IsMember({"known", "estimated"}));
+                        .one_of({"known", "estimated"});
 }
 
 experiment::MlChoice ml_choice(const MlOptions& options) {
   using Clock = experiment::MlChoice::Clock;
   experiment::MlChoice choice;
-  if (options.noise_option->count() > 0) choice.noise = options.noise;
-  if (options.clock_option->count() > 0)
+  if (options.noise_option.count() > 0) choice.noise = options.noise;
+  if (options.clock_option.count() > 0)
     choice.clock = options.clock == "known" ? Clock::known : Clock::estimated;
   return choice;
 }
@@ -101,28 +101,29 @@ void finish(const experiment::Calibration& found, const Options& options) {
   }
 }
 
-void add_end_poses(CLI::App& calibrate) {
+void add_end_poses(Command calibrate) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = calibrate.add_subcommand("end-poses", "from measured end-pose errors of squares (CSV)");
+  const Command command =
+      calibrate.add_subcommand("end-poses", "from measured end-pose errors of squares (CSV)");
   command
-      ->add_option("--cw", options->cw,
-                   "clockwise runs: columns ex_mm|ex_m, ey_mm|ey_m, etheta_rad|etheta_deg")
-      ->required();
-  command->add_option("--ccw", options->ccw, "counter-clockwise runs, the same columns")->required();
-  command->add_option("--side", options->side_m, "side of the square, m")->required();
-  command->add_option("--wheelbase", options->wheelbase_m, "wheelbase that the robot believed in, m")
-      ->required();
-  command->add_option("--c-right", options->c_r, "c_R that the robot carried")->capture_default_str();
-  command->add_option("--c-left", options->c_l, "c_L that the robot carried")->capture_default_str();
-  add_method(*command, *options, {"auto", "umbmark", "extended", "least-squares"},
+      .add_option("--cw", options->cw,
+                  "clockwise runs: columns ex_mm|ex_m, ey_mm|ey_m, etheta_rad|etheta_deg")
+      .required();
+  command.add_option("--ccw", options->ccw, "counter-clockwise runs, the same columns").required();
+  command.add_option("--side", options->side_m, "side of the square, m").required();
+  command.add_option("--wheelbase", options->wheelbase_m, "wheelbase that the robot believed in, m")
+      .required();
+  command.add_option("--c-right", options->c_r, "c_R that the robot carried").capture_default_str();
+  command.add_option("--c-left", options->c_l, "c_L that the robot carried").capture_default_str();
+  add_method(command, *options, {"auto", "umbmark", "extended", "least-squares"},
              "auto: extended where every run has an end heading,\numbmark where not");
-  command->footer(
+  command.footer(
       "An error is absolute (tape measure, mocap) minus odometry, at the end, in the run's start frame.\n"
       "Examples:\n"
       "  astrolabe calibrate end-poses --cw cw.csv --ccw ccw.csv --side 3 --wheelbase 0.29\n"
       "  astrolabe calibrate end-poses --cw cw.csv --ccw ccw.csv --side 3 --wheelbase 0.29 --method umbmark "
       "--angles x --out calib.toml");
-  command->callback([options] {
+  command.callback([options] {
     experiment::Squares squares;
     squares.cw = calibration::read_end_poses(read_text(options->cw), options->cw.string());
     squares.ccw = calibration::read_end_poses(read_text(options->ccw), options->ccw.string());
@@ -148,20 +149,19 @@ experiment::Calibration calibrate_runs(const Options& options) {
   return found;
 }
 
-void add_runs(CLI::App& calibrate) {
+void add_runs(Command calibrate) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = calibrate.add_subcommand("runs", "from recorded runs with ground truth (MCAP)");
-  command->add_option("folder", options->folder, "folder with the recordings")->required();
-  add_method(*command, *options, {"auto", "ml", "umbmark", "extended", "least-squares"},
+  const Command command = calibrate.add_subcommand("runs", "from recorded runs with ground truth (MCAP)");
+  command.add_option("folder", options->folder, "folder with the recordings").required();
+  add_method(command, *options, {"auto", "ml", "umbmark", "extended", "least-squares"},
              "ml: maximum likelihood over whole drives of any\n"
              "kind; the others: from end poses of squares; auto:\n"
              "ml where ground truth followed every run, else\n"
              "extended or umbmark");
-  add_ml(*command, *options);
-  command->add_option("--without", options->without, "a recording to leave out, by its name (repeatable)")
-      ->expected(1)
-      ->take_all();
-  command->footer(
+  add_ml(command, *options);
+  command.add_option("--without", options->without, "a recording to leave out, by its name (repeatable)")
+      .one_each_time();
+  command.footer(
       "ml finds c_R, c_L and b themselves, from runs of one phase or of several. The\n"
       "other methods find how they differ from what the robot carried, from the\n"
       "squares of one phase.\n"
@@ -169,23 +169,23 @@ void add_runs(CLI::App& calibrate) {
       "  astrolabe calibrate runs my-experiment/before --out calib.toml\n"
       "  astrolabe calibrate runs my-experiment --without before/square-cw-3\n"
       "  astrolabe calibrate runs my-experiment/before --method umbmark --angles average --json");
-  command->callback([options] { finish(calibrate_runs(*options), *options); });
+  command.callback([options] { finish(calibrate_runs(*options), *options); });
 }
 
 }  // namespace
 
-void add_calibrate(CLI::App& app) {
-  CLI::App* command =
+void add_calibrate(Command app) {
+  const Command command =
       app.add_subcommand("calibrate", "compute c_R, c_L and b from recorded or measured runs");
-  command->require_subcommand(1);
-  command->footer(
+  command.require_subcommand(1, 1);
+  command.footer(
       "Examples:\n"
       "  astrolabe calibrate runs my-experiment/before --out calib.toml\n"
       "  astrolabe calibrate end-poses --help\n"
       "  astrolabe calibrate export calib.toml --to calib.yaml");
-  add_runs(*command);
-  add_end_poses(*command);
-  add_calibrate_export(*command);
+  add_runs(command);
+  add_end_poses(command);
+  add_calibrate_export(command);
 }
 
 }  // namespace astro::cli

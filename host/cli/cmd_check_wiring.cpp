@@ -7,37 +7,37 @@
 namespace astro::cli {
 namespace {
 
-void add_answers(CLI::App& command, WiringOptions& options) {
+void add_answers(Command command, WiringOptions& options) {
   for (const auto& [option, into, motor] : {std::tuple{"--saw-left", &options.saw[0], "left"},
                                             std::tuple{"--saw-right", &options.saw[1], "right"}})
     command
         .add_option(option, *into,
                     std::string("what turned when the ") + motor + " motor was driven: " + sighting_words())
-        ->type_name("WORD")
-        ->check(a_sighting());
+        .type_name("WORD")
+        .check(a_sighting());
   command.add_flag("--no-look", options.no_look, "nobody looks: judge by the counts alone");
-  CLI::Option* metres = command
+  const Option metres = command
                             .add_option("--rolled-distance", options.rolled_distance_m,
                                         "answer to --roll, in m; waits for the robot to be rolled")
-                            ->type_name("M")
-                            ->check(positive("m"));
+                            .type_name("M")
+                            .check(positive("m"));
   command.add_option("--rolled-turns", options.rolled_turns, "the same in wheel turns")
-      ->type_name("N")
-      ->check(positive(""))
-      ->excludes(metres);
+      .type_name("N")
+      .check(positive(""))
+      .excludes(metres);
 }
 
 }  // namespace
 
-void add_check_wiring(CLI::App& app) {
+void add_check_wiring(Command app) {
   const auto options = std::make_shared<WiringOptions>();
-  CLI::App& command = *app.add_subcommand(
+  const Command command = app.add_subcommand(
       "check-wiring", "turn each wheel a little and find wrong wires, polarities and encoder counts");
   add_connection(command, options->connection);
   command.add_option("--max-voltage", options->max_voltage_V, "most that is put on a motor, in V")
-      ->type_name("V")
-      ->capture_default_str()
-      ->check(between(0.5, 24, "V"));
+      .type_name("V")
+      .capture_default_str()
+      .check(between(0.5, 24, "V"));
   command.add_flag(
       "--roll", options->roll,
       "afterwards: roll the robot ten wheel turns along a tape measure, for counts per revolution");

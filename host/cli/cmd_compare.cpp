@@ -12,23 +12,23 @@
 
 namespace astro::cli {
 
-void add_compare(CLI::App& app) {
+void add_compare(Command app) {
   struct Options {
     std::vector<std::filesystem::path> folders;
     bool json = false;
   };
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("compare", "put recorded squares side by side: before, after, ...");
+  const Command command =
+      app.add_subcommand("compare", "put recorded squares side by side: before, after, ...");
   command
-      ->add_option("folders", options->folders,
-                   "an experiment's folder, or two or more folders of recordings")
-      ->required();
-  command->add_flag("--json", options->json, "print one JSON object");
-  command->footer(
+      .add_option("folders", options->folders, "an experiment's folder, or two or more folders of recordings")
+      .required();
+  command.add_flag("--json", options->json, "print one JSON object");
+  command.footer(
       "Examples:\n"
       "  astrolabe compare my-experiment\n"
       "  astrolabe compare monday/before friday/after --json");
-  command->callback([options] {
+  command.callback([options] {
     const experiment::Results results = options->folders.size() == 1
                                             ? experiment::read_results(options->folders.front())
                                             : experiment::read_folders(options->folders);

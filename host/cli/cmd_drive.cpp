@@ -22,111 +22,112 @@ struct VelocityOptions {
   double v_mps = 0, omega_radps = 0, seconds = 0;
 };
 
-void add_common_options(CLI::App& command, DriveOptions& options) {
+void add_common_options(Command command, DriveOptions& options) {
   add_connection(command, options.connection);
   add_json_flag(command, options.json);
 }
 
-CLI::Option* add_number(CLI::App& command, const std::string& name, double& value, const std::string& what) {
-  return command.add_option(name, value, what)->type_name("");
+Option add_number(Command command, const std::string& name, double& value, const std::string& what) {
+  return command.add_option(name, value, what).type_name("");
 }
 
-void add_limits(CLI::App& command, link::PathLimits& limits) {
+void add_limits(Command command, link::PathLimits& limits) {
   add_number(command, "--speed", limits.speed_mps, "greatest speed in m/s; default: the robot's own limit")
-      ->type_name("M/S")
-      ->check(between(0.001, 100, "m/s"));
+      .type_name("M/S")
+      .check(between(0.001, 100, "m/s"));
   add_number(command, "--yaw-rate", limits.yaw_rate_radps,
              "greatest yaw rate in rad/s; default: the robot's own limit")
-      ->type_name("RAD/S")
-      ->check(between(0.001, 100, "rad/s"));
+      .type_name("RAD/S")
+      .check(between(0.001, 100, "rad/s"));
 }
 
-void add_sense(CLI::App& command, PathOptions& options) {
-  CLI::Option* ccw = command.add_flag("--ccw", options.ccw, "counter-clockwise, turning left (default)");
-  command.add_flag("--cw", options.cw, "clockwise, turning right")->excludes(ccw);
+void add_sense(Command command, PathOptions& options) {
+  const Option ccw = command.add_flag("--ccw", options.ccw, "counter-clockwise, turning left (default)");
+  command.add_flag("--cw", options.cw, "clockwise, turning right").excludes(ccw);
 }
 
 /// A leaf of `drive` that follows a path.
-CLI::App& add_path(CLI::App& drive, const std::string& name, const std::string& what,
-                   const std::shared_ptr<PathOptions>& options, link::Path (*path)(const PathOptions&)) {
-  CLI::App& command = *drive.add_subcommand(name, what);
+Command add_path(Command drive, const std::string& name, const std::string& what,
+                 const std::shared_ptr<PathOptions>& options, link::Path (*path)(const PathOptions&)) {
+  const Command command = drive.add_subcommand(name, what);
   add_limits(command, options->limits);
   add_common_options(command, options->drive);
   command.callback([options, path] { drive_path(options->drive, path(*options)); });
   return command;
 }
 
-void add_line(CLI::App& drive) {
+void add_line(Command drive) {
   const auto options = std::make_shared<PathOptions>();
-  CLI::App& command = add_path(drive, "line", "drive straight on", options,
-                               [](const PathOptions& o) { return link::line(o.length_m, o.limits); });
+  const Command command = add_path(drive, "line", "drive straight on", options,
+                                   [](const PathOptions& o) { return link::line(o.length_m, o.limits); });
   add_number(command, "LENGTH", options->length_m, "metres; backwards if negative")
-      ->required()
-      ->check(finite());
+      .required()
+      .check(finite());
   examples(command, {"astrolabe drive line 1", "astrolabe drive line -0.5 --speed 0.2"});
 }
 
-void add_spin(CLI::App& drive) {
+void add_spin(Command drive) {
   const auto options = std::make_shared<PathOptions>();
-  CLI::App& command = add_path(drive, "spin", "turn on the spot", options, [](const PathOptions& o) {
+  const Command command = add_path(drive, "spin", "turn on the spot", options, [](const PathOptions& o) {
     return link::spin(link::turns_from_degrees(o.angle_deg), o.limits);
   });
   add_number(command, "ANGLE", options->angle_deg, "degrees; to the left if positive")
-      ->required()
-      ->check(finite());
+      .required()
+      .check(finite());
   examples(command, {"astrolabe drive spin 90", "astrolabe drive spin -3600 --yaw-rate 1"});
 }
 
-void add_arc(CLI::App& drive) {
+void add_arc(Command drive) {
   const auto options = std::make_shared<PathOptions>();
-  CLI::App& command = add_path(drive, "arc", "drive a part of a circle", options, [](const PathOptions& o) {
-    return link::arc(o.length_m, link::turns_from_degrees(o.angle_deg), o.limits);
-  });
+  const Command command =
+      add_path(drive, "arc", "drive a part of a circle", options, [](const PathOptions& o) {
+        return link::arc(o.length_m, link::turns_from_degrees(o.angle_deg), o.limits);
+      });
   add_number(command, "LENGTH", options->length_m, "metres along the arc; backwards if negative")
-      ->required()
-      ->check(finite());
+      .required()
+      .check(finite());
   add_number(command, "ANGLE", options->angle_deg,
              "degrees that the heading changes; to the left if positive")
-      ->required()
-      ->check(finite());
+      .required()
+      .check(finite());
   examples(command, {"astrolabe drive arc 1.5708 90", "astrolabe drive arc 2 -45 --speed 0.3"});
 }
 
-void add_square(CLI::App& drive) {
+void add_square(Command drive) {
   const auto options = std::make_shared<PathOptions>();
-  CLI::App& command =
+  const Command command =
       add_path(drive, "square", "drive a square with turns on the spot", options,
                [](const PathOptions& o) { return link::square(o.length_m, o.sense(), o.limits); });
-  add_number(command, "SIDE", options->length_m, "metres")->required()->check(positive("m"));
+  add_number(command, "SIDE", options->length_m, "metres").required().check(positive("m"));
   add_sense(command, *options);
   examples(command, {"astrolabe drive square 3 --cw", "astrolabe drive square 1 --ccw --speed 0.3 --json"});
 }
 
-void add_circle(CLI::App& drive) {
+void add_circle(Command drive) {
   const auto options = std::make_shared<PathOptions>();
-  CLI::App& command =
+  const Command command =
       add_path(drive, "circle", "drive circles beside the start", options,
                [](const PathOptions& o) { return link::circle(o.radius_m, o.turns, o.sense(), o.limits); });
-  add_number(command, "RADIUS", options->radius_m, "metres")->required()->check(positive("m"));
+  add_number(command, "RADIUS", options->radius_m, "metres").required().check(positive("m"));
   add_sense(command, *options);
   add_number(command, "--turns", options->turns, "how many times round")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(positive(""));
+      .type_name("N")
+      .capture_default_str()
+      .check(positive(""));
   examples(command, {"astrolabe drive circle 1", "astrolabe drive circle 0.5 --cw --turns 3"});
 }
 
-void add_velocity(CLI::App& drive) {
+void add_velocity(Command drive) {
   const auto options = std::make_shared<VelocityOptions>();
-  CLI::App& command = *drive.add_subcommand("velocity", "hold a velocity for a while");
-  add_number(command, "V", options->v_mps, "speed in m/s, forward positive")->required()->check(finite());
+  const Command command = drive.add_subcommand("velocity", "hold a velocity for a while");
+  add_number(command, "V", options->v_mps, "speed in m/s, forward positive").required().check(finite());
   add_number(command, "OMEGA", options->omega_radps, "yaw rate in rad/s, to the left positive")
-      ->required()
-      ->check(finite());
+      .required()
+      .check(finite());
   add_number(command, "--for", options->seconds, "how long, in seconds on the robot's clock")
-      ->type_name("SECONDS")
-      ->required()
-      ->check(between(0.001, 86'400, "s"));
+      .type_name("SECONDS")
+      .required()
+      .check(between(0.001, 86'400, "s"));
   add_common_options(command, options->drive);
   examples(command, {"astrolabe drive velocity 0.3 0 --for 2", "astrolabe drive velocity 0 -0.5 --for 10"});
   command.callback(
@@ -135,9 +136,9 @@ void add_velocity(CLI::App& drive) {
 
 }  // namespace
 
-void add_drive(CLI::App& app) {
-  CLI::App& command = *app.add_subcommand("drive", "drive a path, hold a velocity or steer by keyboard");
-  command.require_subcommand(1);
+void add_drive(Command app) {
+  const Command command = app.add_subcommand("drive", "drive a path, hold a velocity or steer by keyboard");
+  command.require_subcommand(1, 1);
   for (const auto add : {add_line, add_spin, add_arc, add_square, add_circle, add_velocity, add_teleop})
     add(command);
   examples(command,

@@ -71,16 +71,16 @@ void run(FaultsOptions& options) {
 
 }  // namespace
 
-void add_faults(CLI::App& app) {
+void add_faults(Command app) {
   const auto options = std::make_shared<FaultsOptions>();
-  CLI::App& command = *app.add_subcommand("faults", "show what stopped the robot, and release it");
-  CLI::Option* clear =
+  const Command command = app.add_subcommand("faults", "show what stopped the robot, and release it");
+  const Option clear =
       command.add_flag("--clear", options->clear, "release all latched faults; the robot stays disarmed");
   command
       .add_flag("--log", options->log,
                 "what stopped the robot before, restarts included: the newest first, with the start that it "
                 "came in and the time since then")
-      ->excludes(clear);
+      .excludes(clear);
   add_connection(command, options->connection);
   add_json_flag(command, options->json);
   examples(command, {"astrolabe faults", "astrolabe faults --clear", "astrolabe faults --log",

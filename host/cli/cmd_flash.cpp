@@ -117,13 +117,13 @@ void run(FlashOptions& options) {
 
 }  // namespace
 
-void add_flash(CLI::App& app) {
+void add_flash(Command app) {
   const auto options = std::make_shared<FlashOptions>();
-  CLI::App& command =
-      *app.add_subcommand("flash", "load new firmware into the robot, which must be disarmed");
+  const Command command =
+      app.add_subcommand("flash", "load new firmware into the robot, which must be disarmed");
   command.add_option("file", options->file, "image for the Teensy 4.0, as './dev firmware' builds it")
-      ->type_name("FILE")
-      ->capture_default_str();
+      .type_name("FILE")
+      .capture_default_str();
   command.add_flag("--button", options->button, "do not talk to the robot: somebody presses its button");
   add_connection(command, options->connection);
   examples(command, {"astrolabe flash", "astrolabe flash astrolabe-teensy40.hex --port /dev/ttyACM0",

@@ -84,9 +84,9 @@ void run(InfoOptions& options) {
 
 }  // namespace
 
-void add_info(CLI::App& app) {
+void add_info(Command app) {
   const auto options = std::make_shared<InfoOptions>();
-  CLI::App& command = *app.add_subcommand("info", "say which robot answers and how it is");
+  const Command command = app.add_subcommand("info", "say which robot answers and how it is");
   add_connection(command, options->connection);
   add_json_flag(command, options->json);
   examples(command,

@@ -153,17 +153,17 @@ void run(MonitorOptions& options) {
 
 }  // namespace
 
-void add_monitor(CLI::App& app) {
+void add_monitor(Command app) {
   const auto options = std::make_shared<MonitorOptions>();
-  CLI::App& command =
-      *app.add_subcommand("monitor", "watch the robot live; piped: one line of JSON per sample");
+  const Command command =
+      app.add_subcommand("monitor", "watch the robot live; piped: one line of JSON per sample");
   command.add_option("--rate", options->rate_hz, "samples per second of the robot's clock")
-      ->type_name("HZ")
-      ->capture_default_str()
-      ->check(between(1, 200, "Hz"));
+      .type_name("HZ")
+      .capture_default_str()
+      .check(between(1, 200, "Hz"));
   command.add_option("--count", options->count, "end after this many samples")
-      ->type_name("N")
-      ->check(whole(1, std::uint64_t{1} << 53));
+      .type_name("N")
+      .check(whole(1, std::uint64_t{1} << 53));
   add_connection(command, options->connection);
   add_json_flag(command, options->json);
   examples(command, {"astrolabe monitor", "astrolabe monitor --json --rate 100 --count 1000 > samples.jsonl",

@@ -156,9 +156,9 @@ void export_to_file(const ParamsOptions& options, RemoteParameters& robot) {
 
 using Work = std::function<void(link::Client&, ParamsOptions&, RemoteParameters&)>;
 
-CLI::App& add(CLI::App& params, const std::string& name, const std::string& what,
-              const std::shared_ptr<ParamsOptions>& options, Work work) {
-  CLI::App& command = *params.add_subcommand(name, what);
+Command add(Command params, const std::string& name, const std::string& what,
+            const std::shared_ptr<ParamsOptions>& options, Work work) {
+  const Command command = params.add_subcommand(name, what);
   add_connection(command, options->connection);
   command.callback([options, work = std::move(work)] {
     const auto client = connect(options->connection);
@@ -172,71 +172,71 @@ Work without_client(void (*work)(const ParamsOptions&, RemoteParameters&)) {
   return [work](link::Client&, ParamsOptions& options, RemoteParameters& robot) { work(options, robot); };
 }
 
-void add_yes_flag(CLI::App& command, const std::shared_ptr<ParamsOptions>& options) {
+void add_yes_flag(Command command, const std::shared_ptr<ParamsOptions>& options) {
   command.add_flag("--yes,-y", options->yes, "do not ask");
 }
 
-void add_readers(CLI::App& params, const std::shared_ptr<ParamsOptions>& options) {
-  CLI::App& all = add(params, "list", "show all parameters; * marks those that are not at their default",
-                      options, without_client(list));
+void add_readers(Command params, const std::shared_ptr<ParamsOptions>& options) {
+  const Command all = add(params, "list", "show all parameters; * marks those that are not at their default",
+                          options, without_client(list));
   add_json_flag(all, options->json);
   examples(all, {"astrolabe params list", "astrolabe params list --json | jq -r '.[].name'"});
 
-  CLI::App& one = add(params, "get", "print values", options, without_client(get));
-  one.add_option("name", options->words, "what 'params list' calls it")->required()->type_name("");
+  const Command one = add(params, "get", "print values", options, without_client(get));
+  one.add_option("name", options->words, "what 'params list' calls it").required().type_name("");
   add_json_flag(one, options->json);
   examples(one,
            {"astrolabe params get b", "astrolabe params get c_R c_L b", "astrolabe params get b --json"});
 
-  CLI::App& file =
+  const Command file =
       add(params, "export", "write all values into a TOML file", options, without_client(export_to_file));
-  file.add_option("file", options->file, "to be written")->required()->type_name("");
+  file.add_option("file", options->file, "to be written").required().type_name("");
   examples(file, {"astrolabe params export astro.toml"});
 }
 
-void add_writers(CLI::App& params, const std::shared_ptr<ParamsOptions>& options) {
-  CLI::App& some = add(params, "set", "change values, all together or not at all", options, set);
+void add_writers(Command params, const std::shared_ptr<ParamsOptions>& options) {
+  const Command some = add(params, "set", "change values, all together or not at all", options, set);
   some.add_option("assignment", options->words, "NAME=VALUE, in the unit that 'params list' shows")
-      ->required()
-      ->type_name("");
-  auto* staged = some.add_flag("--stage-only", options->stage_only,
-                               "leave them staged: 'params save' puts them in force");
+      .required()
+      .type_name("");
+  const Option staged = some.add_flag("--stage-only", options->stage_only,
+                                      "leave them staged: 'params save' puts them in force");
   some.add_flag("--try", options->try_out, "in force until the robot restarts; gains even while it drives")
-      ->excludes(staged);
+      .excludes(staged);
   examples(some, {"astrolabe params set b=0.2886", "astrolabe params set c_R=1.0021 c_L=0.9979 --yes",
                   "astrolabe params set kp=50 --try"});
 
-  CLI::App& file = add(params, "import", "load values from a TOML file, all together or not at all", options,
-                       [](link::Client& client, ParamsOptions& o, RemoteParameters& robot) {
-                         load(client, o, robot, experiment::read_parameter_file(o.file).parameters);
-                       });
-  file.add_option("file", options->file, "of 'params export', or a calibration")->required()->type_name("");
+  const Command file = add(params, "import", "load values from a TOML file, all together or not at all",
+                           options, [](link::Client& client, ParamsOptions& o, RemoteParameters& robot) {
+                             load(client, o, robot, experiment::read_parameter_file(o.file).parameters);
+                           });
+  file.add_option("file", options->file, "of 'params export', or a calibration").required().type_name("");
   examples(file, {"astrolabe params import astro.toml", "astrolabe params import astro.toml --yes --json"});
-  for (CLI::App* command : {&some, &file}) {
-    add_yes_flag(*command, options);
-    add_json_flag(*command, options->json);
+  for (const Command command : {some, file}) {
+    add_yes_flag(command, options);
+    add_json_flag(command, options->json);
   }
 }
 
-void add_stage_commands(CLI::App& params, const std::shared_ptr<ParamsOptions>& options) {
-  CLI::App& keep =
+void add_stage_commands(Command params, const std::shared_ptr<ParamsOptions>& options) {
+  const Command keep =
       add(params, "save", "put staged values in force and into flash", options, without_client(save));
   examples(keep, {"astrolabe params save", "astrolabe params save --yes"});
-  CLI::App& drop = add(params, "revert", "drop staged values", options, without_client(revert));
+  const Command drop = add(params, "revert", "drop staged values", options, without_client(revert));
   examples(drop, {"astrolabe params revert"});
-  CLI::App& factory =
+  const Command factory =
       add(params, "defaults", "put all parameters back to their defaults", options, without_client(defaults));
   examples(factory, {"astrolabe params defaults", "astrolabe params defaults --yes"});
-  for (CLI::App* command : {&keep, &factory}) add_yes_flag(*command, options);
-  for (CLI::App* command : {&keep, &drop, &factory}) add_json_flag(*command, options->json);
+  for (const Command command : {keep, factory}) add_yes_flag(command, options);
+  for (const Command command : {keep, drop, factory}) add_json_flag(command, options->json);
 }
 
 }  // namespace
 
-void add_params(CLI::App& app) {
+void add_params(Command app) {
   const auto options = std::make_shared<ParamsOptions>();
-  CLI::App& command = *app.add_subcommand("params", "show, change, save and load the robot's parameters");
-  command.require_subcommand(1);
+  const Command command = app.add_subcommand("params", "show, change, save and load the robot's parameters");
+  command.require_subcommand(1, 1);
   add_readers(command, options);
   add_writers(command, options);
   add_stage_commands(command, options);

@@ -27,9 +27,9 @@ void resume(ConnectionOptions& options) {
   say("the robot goes on");
 }
 
-CLI::App& add(CLI::App& app, const char* name, const char* what, void (*run)(ConnectionOptions&)) {
+Command add(Command app, const char* name, const char* what, void (*run)(ConnectionOptions&)) {
   const auto options = std::make_shared<ConnectionOptions>();
-  CLI::App& command = *app.add_subcommand(name, what);
+  const Command command = app.add_subcommand(name, what);
   add_connection(command, *options);
   command.callback([options, run] { run(*options); });
   return command;
@@ -37,7 +37,7 @@ CLI::App& add(CLI::App& app, const char* name, const char* what, void (*run)(Con
 
 }  // namespace
 
-void add_pause(CLI::App& app) {
+void add_pause(Command app) {
   examples(add(app, "pause", "let a robot that drives a path come to rest on it", pause),
            {"astrolabe pause", "astrolabe pause --port /dev/ttyS0"});
   examples(add(app, "resume", "let a paused robot go on", resume), {"astrolabe resume"});

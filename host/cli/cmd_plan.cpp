@@ -44,57 +44,52 @@ std::vector<study::Kind> kinds_named(const std::vector<std::string>& names) {
   return kinds;
 }
 
-void add_runs(CLI::App& command, study::Programme& programme) {
+void add_runs(Command command, study::Programme& programme) {
   const std::array<const char*, study::kKinds> what = {
       "squares, half of them each way; 10 if no runs are named", "straight lines",
       "spins on the spot, half each way", "circles of one turn, half each way"};
   for (std::size_t kind = 0; kind < study::kKinds; ++kind)
     command.add_option("--" + std::string(study::kKindNames[kind]), programme.counts[kind], what[kind])
-        ->type_name("N")
-        ->check(whole(0, study::kMostRuns));
+        .type_name("N")
+        .check(whole(0, study::kMostRuns));
   add_size(command, "--side", programme.side_m, "side of a square, m");
   add_size(command, "--length", programme.line_m, "of a line, m");
   command.add_option("--turns", programme.turns, "of a spin")
-      ->type_name("N")
-      ->check(between(0.25, 50, ""))
-      ->capture_default_str();
+      .type_name("N")
+      .check(between(0.25, 50, ""))
+      .capture_default_str();
   add_size(command, "--radius", programme.radius_m, "of a circle, m");
 }
 
-void add_target(CLI::App& command, Options& options) {
+void add_target(Command command, Options& options) {
   command
       .add_option("--until", options.until,
                   "find the shortest programme whose standard errors of E_d, S and b\n"
                   "are all at most this: 0.05% or 0.0005")
-      ->type_name("PRECISION")
-      ->check(CLI::Validator(
-          [](const std::string& text) {
-            return precision_named(text)
-                       ? ""
-                       : "'" + text + "' is no precision: give 0.05% or 0.0005, at most 10%";
-          },
-          ""));
+      .type_name("PRECISION")
+      .check([](const std::string& text) {
+        return precision_named(text) ? ""
+                                     : "'" + text + "' is no precision: give 0.05% or 0.0005, at most 10%";
+      });
   command.add_option("--kinds", options.kinds, "with --until: use only these of squares,lines,spins,circles")
-      ->type_name("KIND,...")
-      ->delimiter(',')
-      ->check(CLI::Validator(
-          [](const std::string& name) {
-            return kinds_named({name}).empty() ? "'" + name + "' is none of squares,lines,spins,circles" : "";
-          },
-          ""));
+      .type_name("KIND,...")
+      .delimiter(',')
+      .check([](const std::string& name) {
+        return kinds_named({name}).empty() ? "'" + name + "' is none of squares,lines,spins,circles" : "";
+      });
 }
 
-void add_robot(CLI::App& command, Options& options) {
+void add_robot(Command command, Options& options) {
   study::Programme& programme = options.programme;
   add_size(command, "--wheelbase", programme.wheelbase_m, "of the robot, m");
   command.add_option("--speed", programme.speed_mps, "m/s")
-      ->type_name("V")
-      ->check(between(0.01, 10, "m/s"))
-      ->capture_default_str();
+      .type_name("V")
+      .check(between(0.01, 10, "m/s"))
+      .capture_default_str();
   command.add_option("--yaw-rate", programme.yaw_rate_radps, "of turns, rad/s")
-      ->type_name("W")
-      ->check(between(0.01, 100, "rad/s"))
-      ->capture_default_str();
+      .type_name("W")
+      .check(between(0.01, 100, "rad/s"))
+      .capture_default_str();
   add_noise(command, programme.noise, options.sigma_theta_deg, programme.truth_rate_hz);
   add_json_flag(command, options.json);
 }
@@ -121,14 +116,14 @@ void run(Options& options) {
 
 }  // namespace
 
-void add_plan(CLI::App& app) {
+void add_plan(Command app) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
+  const Command command = app.add_subcommand(
       "plan", "before driving: the precision of a programme, or the programme for a precision");
-  add_runs(*command, options->programme);
-  add_target(*command, *options);
-  add_robot(*command, *options);
-  command->footer(
+  add_runs(command, options->programme);
+  add_target(command, *options);
+  add_robot(command, *options);
+  command.footer(
       "Standard errors are the Cramer-Rao bound of 'calibrate runs --method ml' with the given slip and\n"
       "ground truth; the time is that of driving alone. Tyres may turn about another point in spins\n"
       "than in arcs: a wheelbase for both wants runs of both.\n"
@@ -137,7 +132,7 @@ void add_plan(CLI::App& app) {
       "  astrolabe plan --lines 8 --length 5 --spins 2 --turns 5 --wheelbase 0.2\n"
       "  astrolabe plan --until 0.05%\n"
       "  astrolabe plan --until 0.05% --kinds squares,lines --side 2");
-  command->callback([options] { run(*options); });
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace astro::cli

@@ -54,13 +54,13 @@ void run(const PortsOptions& options) {
 
 }  // namespace
 
-void add_ports(CLI::App& app) {
+void add_ports(Command app) {
   const auto options = std::make_shared<PortsOptions>();
-  CLI::App& command = *app.add_subcommand("ports", "find robots at serial ports and simulators of yours");
+  const Command command = app.add_subcommand("ports", "find robots at serial ports and simulators of yours");
   command.add_option("--baud", options->baud, "speed of serial ports; USB and ptys do not care")
-      ->type_name("BAUD")
-      ->capture_default_str()
-      ->check(whole(1, 20'000'000));
+      .type_name("BAUD")
+      .capture_default_str()
+      .check(whole(1, 20'000'000));
   add_json_flag(command, options->json);
   examples(command, {"astrolabe ports", "astrolabe ports --json | jq -r '.[].port'"});
   command.callback([options] { run(*options); });

@@ -31,9 +31,9 @@ void run(RebootOptions& options) {
 
 }  // namespace
 
-void add_reboot(CLI::App& app) {
+void add_reboot(Command app) {
   const auto options = std::make_shared<RebootOptions>();
-  CLI::App& command = *app.add_subcommand("reboot", "restart the robot, which must be at rest");
+  const Command command = app.add_subcommand("reboot", "restart the robot, which must be at rest");
   command.add_flag("--bootloader", options->bootloader, "stay in the bootloader and wait for new firmware");
   add_connection(command, options->connection);
   examples(command, {"astrolabe reboot", "astrolabe reboot --bootloader --port /dev/ttyACM0"});

@@ -65,23 +65,23 @@ void run(Options& options) {
 
 }  // namespace
 
-void add_record(CLI::App& app) {
+void add_record(Command app) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command =
+  const Command command =
       app.add_subcommand("record", "record odometry and ground truth while somebody else drives");
-  command->add_option("--out", options->out, "the MCAP file to write")->required();
-  add_connection(*command, options->connection);
-  command->add_option("--truth", options->truth.source, "sim or none")
-      ->check(CLI::IsMember({"sim", "none"}))
-      ->capture_default_str();
-  command->add_option("--seconds", options->seconds, "end after this time (default: at Ctrl-C)");
-  command->add_option("--csv", options->csv, "also write odometry.csv and truth.csv into this folder");
-  command->footer(
+  command.add_option("--out", options->out, "the MCAP file to write").required();
+  add_connection(command, options->connection);
+  command.add_option("--truth", options->truth.source, "sim or none")
+      .one_of({"sim", "none"})
+      .capture_default_str();
+  command.add_option("--seconds", options->seconds, "end after this time (default: at Ctrl-C)");
+  command.add_option("--csv", options->csv, "also write odometry.csv and truth.csv into this folder");
+  command.footer(
       "The file opens in Foxglove, PlotJuggler and 'ros2 bag'.\n"
       "Examples:\n"
       "  astrolabe record --out drive.mcap\n"
       "  astrolabe record --port /dev/ttyACM0 --seconds 30 --out drive.mcap --csv drive");
-  command->callback([options] { run(*options); });
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace astro::cli

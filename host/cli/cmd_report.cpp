@@ -9,23 +9,22 @@
 
 namespace astro::cli {
 
-void add_report(CLI::App& app) {
+void add_report(Command app) {
   struct Options {
     std::vector<std::filesystem::path> folders;
     std::filesystem::path out;
   };
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("report", "write the before/after report as one HTML file");
+  const Command command = app.add_subcommand("report", "write the before/after report as one HTML file");
   command
-      ->add_option("folders", options->folders,
-                   "an experiment's folder, or two or more folders of recordings")
-      ->required();
-  command->add_option("--out", options->out, "the file to write (default: report.html in the first folder)");
-  command->footer(
+      .add_option("folders", options->folders, "an experiment's folder, or two or more folders of recordings")
+      .required();
+  command.add_option("--out", options->out, "the file to write (default: report.html in the first folder)");
+  command.footer(
       "Examples:\n"
       "  astrolabe report my-experiment\n"
       "  astrolabe report monday/before friday/after --out report.html");
-  command->callback([options] {
+  command.callback([options] {
     const bool is_experiment = options->folders.size() == 1;
     const experiment::Results results = is_experiment ? experiment::read_results(options->folders.front())
                                                       : experiment::read_folders(options->folders);

@@ -18,9 +18,9 @@ void run(const SimOptions& wanted) {
 
 }  // namespace
 
-void add_sim(CLI::App& app) {
+void add_sim(Command app) {
   const auto options = std::make_shared<SimOptions>();
-  CLI::App& command = *app.add_subcommand(
+  const Command command = app.add_subcommand(
       "sim", "run a simulated robot behind a pseudo terminal, with virtual cameras beside it");
   add_sim_options(command, *options);
   examples(command, {"astrolabe sim", "astrolabe sim --pty /tmp/astro --fast",

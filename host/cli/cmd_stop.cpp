@@ -36,9 +36,9 @@ void run(StopOptions& options) {
 
 }  // namespace
 
-void add_stop(CLI::App& app) {
+void add_stop(Command app) {
   const auto options = std::make_shared<StopOptions>();
-  CLI::App& command = *app.add_subcommand("stop", "let the robot ramp to rest and disarm it");
+  const Command command = app.add_subcommand("stop", "let the robot ramp to rest and disarm it");
   command.add_flag("--emergency", options->emergency,
                    "motors off at once; they stay off until the fault is cleared");
   add_connection(command, options->connection);

@@ -63,19 +63,19 @@ std::optional<study::Shard> shard_named(const std::string& text) {
   return shard;
 }
 
-void add_setup(CLI::App& command, Options& options) {
+void add_setup(Command command, Options& options) {
   study::TrialSetup& setup = options.setup;
   command
       .add_option("--model", options.model,
                   "who drives. kinematic: wheels and noise alone;\n"
                   "simulator: the firmware on the simulated robot")
-      ->check(CLI::IsMember({"kinematic", "simulator"}))
-      ->capture_default_str();
+      .one_of({"kinematic", "simulator"})
+      .capture_default_str();
   add_count(command, "--trials", setup.trials, 1, 10'000'000, "how often it is all repeated");
   command.add_option("--seed", setup.seed, "of all noise")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(whole(0, std::numeric_limits<std::uint64_t>::max()));
+      .type_name("N")
+      .capture_default_str()
+      .check(whole(0, std::numeric_limits<std::uint64_t>::max()));
   add_count(command, "--runs", setup.runs, 1, 1000, "squares in each direction");
   add_size(command, "--side", setup.side_m, "side of the square, m");
   add_size(command, "--wheelbase", setup.wheelbase_m, "wheelbase that the robot believes in, m");
@@ -88,27 +88,25 @@ void add_setup(CLI::App& command, Options& options) {
       .add_option("--clock", options.clock,
                   "known, or estimated: then each run gets an offset,\n"
                   "which ml has to find")
-      ->check(CLI::IsMember({"known", "estimated"}))
-      ->capture_default_str();
+      .one_of({"known", "estimated"})
+      .capture_default_str();
   command.add_option("--clock-sd", setup.clock_offset_sd_s, "of the offsets of an estimated clock, s")
-      ->type_name("S")
-      ->check(between(0, 1, "s"))
-      ->capture_default_str();
+      .type_name("S")
+      .check(between(0, 1, "s"))
+      .capture_default_str();
   command.add_option("--noise", options.noise, "whether ml is told the noise or estimates it")
-      ->check(CLI::IsMember({"known", "estimated"}))
-      ->capture_default_str();
+      .one_of({"known", "estimated"})
+      .capture_default_str();
 }
 
-void add_work(CLI::App& command, Options& options) {
+void add_work(Command command, Options& options) {
   add_count(command, "--jobs", options.jobs, 1, 4096, "threads; the result does not depend on them");
   command.add_option("--shard", options.shard_text, "only part I of N, for 'study merge'; needs --out")
-      ->type_name("I/N")
-      ->check(CLI::Validator(
-          [](const std::string& text) {
-            return shard_named(text) ? "" : "'" + text + "' is no shard: give 1/4 for the first of four";
-          },
-          ""));
-  command.add_option("--out", options.out, "write the trials here")->type_name("FILE");
+      .type_name("I/N")
+      .check([](const std::string& text) {
+        return shard_named(text) ? "" : "'" + text + "' is no shard: give 1/4 for the first of four";
+      });
+  command.add_option("--out", options.out, "write the trials here").type_name("FILE");
   add_json_flag(command, options.json);
 }
 
@@ -154,14 +152,13 @@ study::Part load(const fs::path& path) {
   return study::read_part({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string());
 }
 
-void add_merge(CLI::App& study) {
+void add_merge(Command study) {
   const auto options = std::make_shared<MergeOptions>();
-  CLI::App* command = study.add_subcommand("merge", "put the shards of one study together");
-  command->add_option("FILES", options->files, "what 'study --shard I/N --out FILE' wrote, all N")
-      ->required();
-  add_json_flag(*command, options->json);
-  examples(*command, {"astrolabe study merge part-*.json", "astrolabe study merge part-*.json --json"});
-  command->callback([options] {
+  const Command command = study.add_subcommand("merge", "put the shards of one study together");
+  command.add_option("FILES", options->files, "what 'study --shard I/N --out FILE' wrote, all N").required();
+  add_json_flag(command, options->json);
+  examples(command, {"astrolabe study merge part-*.json", "astrolabe study merge part-*.json --json"});
+  command.callback([options] {
     std::vector<study::Part> parts;
     for (const fs::path& path : options->files) parts.push_back(load(path));
     const std::vector<study::Trial> trials = merge(parts);
@@ -171,14 +168,14 @@ void add_merge(CLI::App& study) {
 
 }  // namespace
 
-void add_study(CLI::App& app) {
+void add_study(Command app) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
+  const Command command = app.add_subcommand(
       "study", "Monte Carlo: how well each calibration method does, beside the Cramer-Rao bound");
-  command->require_subcommand(0, 1);
-  add_setup(*command, *options);
-  add_work(*command, *options);
-  command->footer(
+  command.require_subcommand(0, 1);
+  add_setup(command, *options);
+  add_work(command, *options);
+  command.footer(
       "A trial drives squares with noise and lets every method calibrate from them.\n"
       "E_max, theta and the 10 m line are what is left, noise-free, the result loaded.\n"
       "Examples:\n"
@@ -192,9 +189,9 @@ void add_study(CLI::App& app) {
       "A job array (Slurm): sbatch --array=1-100 study.sh, with study.sh saying\n"
       "  astrolabe study --trials 100000 --shard $SLURM_ARRAY_TASK_ID/100 \\\n"
       "    --jobs $SLURM_CPUS_PER_TASK --out part-$SLURM_ARRAY_TASK_ID.json");
-  add_merge(*command);
-  command->callback([command, options] {
-    if (command->get_subcommands().empty()) run(*options);
+  add_merge(command);
+  command.callback([command, options] {
+    if (!command.has_subcommand()) run(*options);
   });
 }
 

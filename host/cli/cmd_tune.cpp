@@ -14,42 +14,41 @@
 namespace astro::cli {
 namespace {
 
-CLI::Validator a_bandwidth() {
-  return {[](std::string& text) -> std::string {
-            double value = 0;
-            const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-            const std::string unit(end, static_cast<const char*>(text.data() + text.size()));
-            const bool known = unit.empty() || unit == "Hz" || unit == "rad/s";
-            if (problem == std::errc() && known && value > 0 && value <= 10'000) return {};
-            return fmt::format("'{}' is not a bandwidth: write 6, 6Hz or 40rad/s", text);
-          },
-          ""};
+Check a_bandwidth() {
+  return [](std::string& text) -> std::string {
+    double value = 0;
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const std::string unit(end, static_cast<const char*>(text.data() + text.size()));
+    const bool known = unit.empty() || unit == "Hz" || unit == "rad/s";
+    if (problem == std::errc() && known && value > 0 && value <= 10'000) return {};
+    return fmt::format("'{}' is not a bandwidth: write 6, 6Hz or 40rad/s", text);
+  };
 }
 
-void add_options(CLI::App& command, TuneOptions& options) {
+void add_options(Command command, TuneOptions& options) {
   add_connection(command, options.connection);
-  CLI::Option* stand = command.add_flag("--on-stand", options.on_stand, "the wheels hang free");
-  CLI::Option* ground = command.add_flag("--on-ground", options.on_ground, "the robot drives to and fro");
-  stand->excludes(ground);
+  const Option stand = command.add_flag("--on-stand", options.on_stand, "the wheels hang free");
+  const Option ground = command.add_flag("--on-ground", options.on_ground, "the robot drives to and fro");
+  stand.excludes(ground);
   command
       .add_option("--bandwidth", options.bandwidth,
                   "of the speed loop, as 6, 6Hz or 40rad/s; default: the stiffest against loads")
-      ->type_name("HZ")
-      ->check(a_bandwidth());
+      .type_name("HZ")
+      .check(a_bandwidth());
   command.add_option("--max-voltage", options.max_voltage_V, "most that is put on a motor, in V")
-      ->type_name("V")
-      ->capture_default_str()
-      ->check(between(1, 50, "V"));
+      .type_name("V")
+      .capture_default_str()
+      .check(between(1, 50, "V"));
   command.add_option("--max-distance", options.max_distance_m, "on the ground: how far from its start, in m")
-      ->type_name("M")
-      ->capture_default_str()
-      ->check(between(0.2, 50, "m"))
-      ->excludes(stand);
+      .type_name("M")
+      .capture_default_str()
+      .check(between(0.2, 50, "m"))
+      .excludes(stand);
   command.add_flag("--upload", options.upload, "load the new values without asking, and measure again");
   command.add_flag("--yes,-y", options.yes,
                    "do not ask before the wheels turn; loads nothing without --upload");
   add_json_flag(command, options.json);
-  command.add_option("--out", options.out, "the report to write")->type_name("FILE")->capture_default_str();
+  command.add_option("--out", options.out, "the report to write").type_name("FILE").capture_default_str();
 }
 
 void find_out_where(TuneOptions& options) {
@@ -126,10 +125,10 @@ void run(TuneOptions& options) {
 
 }  // namespace
 
-void add_tune(CLI::App& app) {
+void add_tune(Command app) {
   const auto options = std::make_shared<TuneOptions>();
-  CLI::App& command =
-      *app.add_subcommand("tune", "measure the motors, compute feed-forward and gains, show and load them");
+  const Command command =
+      app.add_subcommand("tune", "measure the motors, compute feed-forward and gains, show and load them");
   add_options(command, *options);
   examples(command,
            {"astrolabe tune --on-ground --max-distance 1.5", "astrolabe tune --on-stand --bandwidth 6",

@@ -27,57 +27,57 @@ struct Options {
   std::filesystem::path out;
   std::string order = "alternating", method = "auto", angles = "average", formula = "exact";
   experiment::Until until;
-  CLI::Option* until_option = nullptr;
+  Option until_option;
   bool yes = false, json = false, no_extras = false, pause = false;
 };
 
-void add_options(CLI::App& command, Options& options) {
+void add_options(Command command, Options& options) {
   experiment::Plan& plan = options.plan;
   add_connection(command, options.connection);
   command.add_option("--truth", options.truth.source, "sim, manual (tape measure) or file")
-      ->check(CLI::IsMember({"sim", "manual", "file"}))
-      ->required();
+      .one_of({"sim", "manual", "file"})
+      .required();
   command.add_option("--truth-folder", options.truth.folder,
                      "--truth file: where the CSV of each run appears");
   command
       .add_option("--out", options.out,
                   "folder of the experiment; the same folder again goes on where it was")
-      ->required();
+      .required();
   command.add_option("--runs", plan.runs, "squares in each direction, before and after")
-      ->capture_default_str();
+      .capture_default_str();
   options.until_option = command
                              .add_option("--until", options.until.target,
                                          "drive squares until E_d, the scale and b have\n"
                                          "standard errors below this, 0.05% or 0.0005;\n"
                                          "--runs then counts the squares after")
-                             ->transform(fraction());
+                             .transform(fraction());
   command.add_option("--max-runs", options.until.most, "--until: the most squares in each direction")
-      ->needs(options.until_option)
-      ->capture_default_str();
-  command.add_option("--side", plan.side_m, "side of the square, m")->capture_default_str();
-  command.add_option("--speed", plan.speed_mps, "m/s")->capture_default_str();
-  command.add_option("--yaw-rate", plan.yaw_rate_radps, "of the turns, rad/s")->capture_default_str();
+      .needs(options.until_option)
+      .capture_default_str();
+  command.add_option("--side", plan.side_m, "side of the square, m").capture_default_str();
+  command.add_option("--speed", plan.speed_mps, "m/s").capture_default_str();
+  command.add_option("--yaw-rate", plan.yaw_rate_radps, "of the turns, rad/s").capture_default_str();
   command.add_option("--order", options.order, "of the directions")
-      ->check(CLI::IsMember({"alternating", "cw-first", "ccw-first"}))
-      ->capture_default_str();
+      .one_of({"alternating", "cw-first", "ccw-first"})
+      .capture_default_str();
   command.add_option("--rounds", plan.rounds, "calibrate, upload and drive again so often")
-      ->capture_default_str();
-  command.add_option("--line", plan.line_m, "length of the straight line, m")->capture_default_str();
-  command.add_option("--circle", plan.circle_radius_m, "radius of the circles, m")->capture_default_str();
+      .capture_default_str();
+  command.add_option("--line", plan.line_m, "length of the straight line, m").capture_default_str();
+  command.add_option("--circle", plan.circle_radius_m, "radius of the circles, m").capture_default_str();
   command.add_flag("--no-extras", options.no_extras, "squares only, no line and circles");
   command
       .add_option("--method", options.method,
                   "auto: ml (maximum likelihood over whole drives)\n"
                   "with ground truth along the way, else extended\n"
                   "where every run has an end heading, or umbmark")
-      ->check(CLI::IsMember({"auto", "ml", "umbmark", "extended", "least-squares"}))
-      ->capture_default_str();
+      .one_of({"auto", "ml", "umbmark", "extended", "least-squares"})
+      .capture_default_str();
   command.add_option("--angles", options.angles, "umbmark: which coordinates the angles come from")
-      ->check(CLI::IsMember({"x", "y", "thesis", "average"}))
-      ->capture_default_str();
+      .one_of({"x", "y", "thesis", "average"})
+      .capture_default_str();
   command.add_option("--formula", options.formula, "extended: exact, or as published")
-      ->check(CLI::IsMember({"exact", "published"}))
-      ->capture_default_str();
+      .one_of({"exact", "published"})
+      .capture_default_str();
   command.add_flag("--pause", options.pause, "wait for Enter before each run (always with --truth manual)");
   command.add_flag("--yes,-y", options.yes, "upload without asking");
   command.add_flag("--json", options.json, "print the result as one JSON object");
@@ -124,7 +124,7 @@ void run(Options& options) {
   options.plan.method = experiment::method_named(options.method, options.angles, options.formula);
   options.plan.extras = !options.no_extras;
   options.plan.truth = options.truth.source;
-  if (options.until_option->count() > 0) options.plan.until = options.until;
+  if (options.until_option.count() > 0) options.plan.until = options.until;
   options.plan.check();
   if (options.truth.folder.empty()) options.truth.folder = options.out / "truth";
   const auto client = connect(options.connection);
@@ -147,19 +147,19 @@ void run(Options& options) {
 
 }  // namespace
 
-void add_umbmark(CLI::App& app) {
+void add_umbmark(Command app) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
+  const Command command = app.add_subcommand(
       "umbmark", "the whole experiment: squares, calibration, upload, squares again, report");
-  add_options(*command, *options);
-  command->footer(
+  add_options(command, *options);
+  command.footer(
       "Ctrl-C stops the robot; the same command goes on from the last recorded run.\n"
       "Examples:\n"
       "  astrolabe umbmark --truth sim --out my-experiment\n"
       "  astrolabe umbmark --port /dev/ttyACM0 --truth manual --runs 5 --side 3 --out my-experiment\n"
       "  astrolabe umbmark --truth sim --until 0.05% --out my-experiment\n"
       "  astrolabe umbmark --port P --truth sim --runs 5 --side 3 --out DIR --yes --json");
-  command->callback([options] { run(*options); });
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace astro::cli

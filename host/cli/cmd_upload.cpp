@@ -66,23 +66,23 @@ void run(Options& options) {
 
 }  // namespace
 
-void add_upload(CLI::App& app) {
+void add_upload(Command app) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command =
+  const Command command =
       app.add_subcommand("upload", "load a calibration into the robot, checked and read back");
-  command->add_option("file", options->file, "calib.toml of 'calibrate', or a file of 'params export'")
-      ->required();
-  add_connection(*command, options->connection);
-  command->add_flag("--yes,-y", options->yes, "do not ask");
-  command->add_flag("--force", options->force,
-                    "also a change of more than 10 %, or on top of other parameters");
-  command->add_flag("--json", options->json, "print what the robot now holds as one JSON object");
-  command->footer(
+  command.add_option("file", options->file, "calib.toml of 'calibrate', or a file of 'params export'")
+      .required();
+  add_connection(command, options->connection);
+  command.add_flag("--yes,-y", options->yes, "do not ask");
+  command.add_flag("--force", options->force,
+                   "also a change of more than 10 %, or on top of other parameters");
+  command.add_flag("--json", options->json, "print what the robot now holds as one JSON object");
+  command.footer(
       "All values come in force together or not at all, also when the link drops in the middle.\n"
       "Examples:\n"
       "  astrolabe upload calib.toml\n"
       "  astrolabe upload calib.toml --port /dev/ttyACM0 --yes --json");
-  command->callback([options] { run(*options); });
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace astro::cli

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "host/cli/command_line.hpp"
 
 /// The subcommands of `astrolabe`. Each lives in a file of its own and adds itself to the app: options,
 /// examples in its footer, and a callback that does the work.
@@ -11,26 +11,26 @@
 ///         with 2, Ctrl-C with 130.
 namespace astro::cli {
 
-void add_sim(CLI::App& app);
-void add_ports(CLI::App& app);
-void add_info(CLI::App& app);
-void add_params(CLI::App& app);
-void add_drive(CLI::App& app);
-void add_stop(CLI::App& app);
-void add_pause(CLI::App& app);
-void add_faults(CLI::App& app);
-void add_reboot(CLI::App& app);
-void add_flash(CLI::App& app);
-void add_monitor(CLI::App& app);
-void add_record(CLI::App& app);
-void add_calibrate(CLI::App& app);
-void add_upload(CLI::App& app);
-void add_umbmark(CLI::App& app);
-void add_compare(CLI::App& app);
-void add_report(CLI::App& app);
-void add_tune(CLI::App& app);
-void add_check_wiring(CLI::App& app);
-void add_study(CLI::App& app);
-void add_plan(CLI::App& app);
+void add_sim(Command app);
+void add_ports(Command app);
+void add_info(Command app);
+void add_params(Command app);
+void add_drive(Command app);
+void add_stop(Command app);
+void add_pause(Command app);
+void add_faults(Command app);
+void add_reboot(Command app);
+void add_flash(Command app);
+void add_monitor(Command app);
+void add_record(Command app);
+void add_calibrate(Command app);
+void add_upload(Command app);
+void add_umbmark(Command app);
+void add_compare(Command app);
+void add_report(Command app);
+void add_tune(Command app);
+void add_check_wiring(Command app);
+void add_study(Command app);
+void add_plan(Command app);
 
 }  // namespace astro::cli

@@ -33,15 +33,15 @@ std::string only_robot(unsigned baud) {
 
 }  // namespace
 
-void add_connection(CLI::App& command, ConnectionOptions& options) {
+void add_connection(Command command, ConnectionOptions& options) {
   command
       .add_option("--port,-p", options.port,
                   "serial port or pty of the robot (default: the only robot found)")
-      ->type_name("PORT");
+      .type_name("PORT");
   command.add_option("--baud", options.baud, "speed of a serial port; USB and ptys do not care")
-      ->type_name("BAUD")
-      ->capture_default_str()
-      ->check(whole(1, 20'000'000));
+      .type_name("BAUD")
+      .capture_default_str()
+      .check(whole(1, 20'000'000));
 }
 
 std::unique_ptr<link::Client> connect(ConnectionOptions& options) {

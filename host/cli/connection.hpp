@@ -1,9 +1,9 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 
+#include "host/cli/command_line.hpp"
 #include "host/link/client.hpp"
 #include "host/link/drive.hpp"
 #include "host/link/open_transport.hpp"
@@ -16,7 +16,7 @@ struct ConnectionOptions {
   unsigned baud = link::kDefaultBaud;
 };
 
-void add_connection(CLI::App& command, ConnectionOptions& options);
+void add_connection(Command command, ConnectionOptions& options);
 
 /// A robot that has answered. Without --port: the only one found; throws astro::Error with one sentence that
 /// lists what is here if there are none or several. `options.port` then says which it was.

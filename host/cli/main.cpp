@@ -8,6 +8,7 @@
 #include "host/cli/command.hpp"
 #include "host/cli/console.hpp"
 #include "host/cli/interrupt.hpp"
+#include "host/cli/program.hpp"
 #include "host/cli/wrong_usage.hpp"
 #include "host/link/drive.hpp"
 
@@ -17,7 +18,7 @@ using namespace astro::cli;  // NOLINT(google-build-using-namespace): this file 
 
 constexpr int kFailed = 1, kWrongUsage = 2, kInterrupted = 130;
 
-void add_commands(CLI::App& app) {
+void add_commands(Command app) {
   for (const auto add :
        {add_umbmark, add_calibrate, add_upload,  add_record,       add_compare, add_report, add_sim,
         add_ports,   add_info,      add_params,  add_drive,        add_stop,    add_pause,  add_faults,
@@ -26,22 +27,14 @@ void add_commands(CLI::App& app) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("Calibrates the odometry of differential-drive robots.", "astrolabe");
-  app.require_subcommand(1);
-  app.set_version_flag("--version",
-                       fmt::format("astrolabe {}.{}.{}", astro::kFirmwareVersion.major,
-                                   astro::kFirmwareVersion.minor, astro::kFirmwareVersion.patch));
+  Program program("astrolabe", "Calibrates the odometry of differential-drive robots.");
+  program.version(fmt::format("astrolabe {}.{}.{}", astro::kFirmwareVersion.major,
+                              astro::kFirmwareVersion.minor, astro::kFirmwareVersion.patch));
+  const Command app = program.command();
+  app.require_subcommand(1, 1);
   app.footer("'astrolabe COMMAND --help' shows options and examples.");
   add_commands(app);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& wish) {
-    return app.exit(wish);  // --help, --version
-  } catch (const CLI::ParseError& error) {
-    complain(sentence_for(app, error, argc, argv));
-    return kWrongUsage;
-  }
-  return 0;
+  return program.run(argc, argv);
 }
 
 }  // namespace

@@ -20,62 +20,58 @@ std::optional<double> finite_number(const std::string& text) {
 }
 
 template <class Accept>
-CLI::Validator number(Accept accept, const std::string& allowed) {
-  return {[=](std::string& text) -> std::string {
-            const auto value = finite_number(text);
-            if (value && accept(*value)) return {};
-            return fmt::format("'{}' is not {}", text, allowed);
-          },
-          ""};
+Check number(Accept accept, const std::string& allowed) {
+  return [=](std::string& text) -> std::string {
+    const auto value = finite_number(text);
+    if (value && accept(*value)) return {};
+    return fmt::format("'{}' is not {}", text, allowed);
+  };
 }
 
 }  // namespace
 
-CLI::Validator between(double least, double greatest, const std::string& unit) {
+Check between(double least, double greatest, const std::string& unit) {
   const std::string limits =
       fmt::format("a number from {:g} to {:g}{}{}", least, greatest, unit.empty() ? "" : " ", unit);
   return number([=](double value) { return value >= least && value <= greatest; }, limits);
 }
 
-CLI::Validator positive(const std::string& unit) {
+Check positive(const std::string& unit) {
   const std::string allowed = unit.empty() ? "a number above 0" : "a number above 0 (in " + unit + ")";
   return number([](double value) { return value > 0; }, allowed);
 }
 
-CLI::Validator whole(std::uint64_t least, std::uint64_t greatest) {
-  return {[=](std::string& text) -> std::string {
-            std::uint64_t value = 0;
-            const char* end = text.data() + text.size();
-            const auto parsed = std::from_chars(text.data(), end, value);
-            if (parsed.ec == std::errc() && parsed.ptr == end && value >= least && value <= greatest)
-              return {};
-            return fmt::format("'{}' is not a whole number from {} to {}", text, least, greatest);
-          },
-          ""};
+Check whole(std::uint64_t least, std::uint64_t greatest) {
+  return [=](std::string& text) -> std::string {
+    std::uint64_t value = 0;
+    const char* end = text.data() + text.size();
+    const auto parsed = std::from_chars(text.data(), end, value);
+    if (parsed.ec == std::errc() && parsed.ptr == end && value >= least && value <= greatest) return {};
+    return fmt::format("'{}' is not a whole number from {} to {}", text, least, greatest);
+  };
 }
 
-CLI::Validator finite() {
+Check finite() {
   return number([](double) { return true; }, "a number");
 }
 
-CLI::Validator fraction() {
-  return {[](std::string& text) -> std::string {
-            const bool percent = text.ends_with('%');
-            const auto value = finite_number(percent ? text.substr(0, text.size() - 1) : text);
-            if (!value || *value <= 0) return fmt::format("'{}' is not like 0.05% or 0.0005", text);
-            text = fmt::format("{}", percent ? *value / 100 : *value);
-            return {};
-          },
-          ""};
+Check fraction() {
+  return [](std::string& text) -> std::string {
+    const bool percent = text.ends_with('%');
+    const auto value = finite_number(percent ? text.substr(0, text.size() - 1) : text);
+    if (!value || *value <= 0) return fmt::format("'{}' is not like 0.05% or 0.0005", text);
+    text = fmt::format("{}", percent ? *value / 100 : *value);
+    return {};
+  };
 }
 
-void examples(CLI::App& command, std::initializer_list<const char*> lines) {
+void examples(Command command, std::initializer_list<const char*> lines) {
   std::string footer = "\nExamples:";
   for (const char* line : lines) footer += std::string("\n  ") + line;
   command.footer(footer);
 }
 
-void add_json_flag(CLI::App& command, bool& json) {
+void add_json_flag(Command command, bool& json) {
   command.add_flag("--json", json, "print JSON instead of text for people");
 }
 

@@ -94,48 +94,48 @@ std::string wire_wrongly(sim::Wiring& wiring, const std::string& name) {
   return fmt::format("'{}' is no fault of the wiring; there are {}", name, wiring_fault_names());
 }
 
-void add_build_options(CLI::App& command, sim::Config& robot) {
+void add_build_options(Command command, sim::Config& robot) {
   command
-      .add_option_function<std::vector<std::string>>(
+      .add_option_function(
           "--wiring", [](const std::vector<std::string>&) {},
           "built with this fault: " + wiring_fault_names())
-      ->type_name("FAULT,...")
-      ->delimiter(',')
-      ->check([&robot](const std::string& name) { return wire_wrongly(robot.wiring, name); });
+      .type_name("FAULT,...")
+      .delimiter(',')
+      .check([&robot](const std::string& name) { return wire_wrongly(robot.wiring, name); });
   command.add_option("--counts-per-rev", robot.counts_per_motor_rev, "that the encoders really have")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(between(1, 65536, "counts"));
+      .type_name("N")
+      .capture_default_str()
+      .check(between(1, 65536, "counts"));
   command
       .add_option("--motor-mismatch", robot.motor_mismatch,
                   "constant of the right motor over that of the left one, minus one")
-      ->type_name("RATIO")
-      ->capture_default_str()
-      ->check(between(-0.5, 0.5, ""));
+      .type_name("RATIO")
+      .capture_default_str()
+      .check(between(-0.5, 0.5, ""));
   command.add_flag("--on-stand", robot.on_stand, "with the wheels off the ground");
 }
 
-void add_robot_options(CLI::App& command, sim::Config& robot) {
+void add_robot_options(Command command, sim::Config& robot) {
   command.add_option("--true-wheelbase", robot.true_wheelbase_m, "wheelbase that the robot really has, in m")
-      ->type_name("M")
-      ->capture_default_str()
-      ->check(between(0.05, 2, "m"));
+      .type_name("M")
+      .capture_default_str()
+      .check(between(0.05, 2, "m"));
   command.add_option("--true-ed", robot.true_ed, "true ratio of the wheel diameters, right over left")
-      ->type_name("RATIO")
-      ->capture_default_str()
-      ->check(between(0.5, 2, ""));
+      .type_name("RATIO")
+      .capture_default_str()
+      .check(between(0.5, 2, ""));
   command.add_option("--scale", robot.scale, "true mean wheel diameter over the nominal one")
-      ->type_name("RATIO")
-      ->capture_default_str()
-      ->check(between(0.5, 2, ""));
+      .type_name("RATIO")
+      .capture_default_str()
+      .check(between(0.5, 2, ""));
   command.add_option("--slip", robot.slip_m, "wheel slip: variance of the travel per metre, in m; 0: none")
-      ->type_name("M")
-      ->capture_default_str()
-      ->check(between(0, 0.01, "m"));
+      .type_name("M")
+      .capture_default_str()
+      .check(between(0, 0.01, "m"));
   command.add_option("--seed", robot.seed, "seed of all noise; also decides the robot's unique id")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(whole(0, std::numeric_limits<std::uint64_t>::max()));
+      .type_name("N")
+      .capture_default_str()
+      .check(whole(0, std::numeric_limits<std::uint64_t>::max()));
 }
 
 }  // namespace
@@ -165,14 +165,14 @@ void serve(simulator::Server& server, const std::string& what) {
   server.run(interrupted);
 }
 
-void add_sim_options(CLI::App& command, SimOptions& options) {
+void add_sim_options(Command command, SimOptions& options) {
   command.add_option("--pty", options.server.pty, "path to put the robot at; default: where 'ports' looks")
-      ->type_name("PATH");
+      .type_name("PATH");
   add_robot_options(command, options.robot);
   add_build_options(command, options.robot);
   command.add_flag("--fast", options.server.fast, "let virtual time run ahead while a host keeps up with it");
   command.add_option("--flash", options.server.flash, "file that keeps the parameters between starts")
-      ->type_name("FILE");
+      .type_name("FILE");
 }
 
 }  // namespace astro::cli

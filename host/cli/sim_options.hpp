@@ -1,9 +1,9 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <string>
 
+#include "host/cli/command_line.hpp"
 #include "host/simulator/server.hpp"
 
 /// What `astrolabe sim` and `astrolabe-emulator` have in common.
@@ -17,7 +17,7 @@ struct SimOptions {
   sim::Config robot = reference_robot();
 };
 
-void add_sim_options(CLI::App& command, SimOptions& options);
+void add_sim_options(Command command, SimOptions& options);
 
 /// Chooses the pty if none is named; throws astro::Error if the flash file cannot be a robot's.
 void prepare(SimOptions& options, std::size_t flash_bytes);

@@ -1,38 +1,40 @@
 #include "host/cli/study_options.hpp"
 
+#include <utility>
+
 #include "host/cli/options.hpp"
 
 namespace astro::cli {
 namespace {
 
-void add_number(CLI::App& command, const std::string& name, double& value, const std::string& type,
-                const CLI::Validator& accepted, const std::string& what) {
-  command.add_option(name, value, what)->type_name(type)->check(accepted)->capture_default_str();
+void add_number(Command command, const std::string& name, double& value, const std::string& type,
+                Check accepted, const std::string& what) {
+  command.add_option(name, value, what).type_name(type).check(std::move(accepted)).capture_default_str();
 }
 
 }  // namespace
 
-void add_count(CLI::App& command, const std::string& name, int& value, int least, int greatest,
+void add_count(Command command, const std::string& name, int& value, int least, int greatest,
                const std::string& what) {
   command.add_option(name, value, what)
-      ->type_name("N")
-      ->check(whole(static_cast<std::uint64_t>(least), static_cast<std::uint64_t>(greatest)))
-      ->capture_default_str();
+      .type_name("N")
+      .check(whole(static_cast<std::uint64_t>(least), static_cast<std::uint64_t>(greatest)))
+      .capture_default_str();
 }
 
-void add_size(CLI::App& command, const std::string& name, double& metres, const std::string& what) {
+void add_size(Command command, const std::string& name, double& metres, const std::string& what) {
   add_number(command, name, metres, "M", between(0.001, 1000, "m"), what);
 }
 
-void add_ratio(CLI::App& command, const std::string& name, double& ratio, const std::string& what) {
+void add_ratio(Command command, const std::string& name, double& ratio, const std::string& what) {
   add_number(command, name, ratio, "RATIO", between(0.5, 2, ""), what);
 }
 
-void add_rate(CLI::App& command, const std::string& name, double& hz, const std::string& what) {
+void add_rate(Command command, const std::string& name, double& hz, const std::string& what) {
   add_number(command, name, hz, "HZ", between(1, 1000, "Hz"), what);
 }
 
-void add_noise(CLI::App& command, calibration::NoiseModel& noise, double& sigma_theta_deg,
+void add_noise(Command command, calibration::NoiseModel& noise, double& sigma_theta_deg,
                double& truth_rate_hz) {
   add_number(command, "--slip,--K", noise.K_m, "M", between(1e-12, 0.01, "m"),
              "wheel slip: variance of the travel per metre, m");

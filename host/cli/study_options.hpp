@@ -1,22 +1,22 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "host/calibration/trajectory.hpp"
+#include "host/cli/command_line.hpp"
 
 /// Options that 'study' and 'plan' share; each shows the default it finds.
 namespace astro::cli {
 
-void add_count(CLI::App& command, const std::string& name, int& value, int least, int greatest,
+void add_count(Command command, const std::string& name, int& value, int least, int greatest,
                const std::string& what);
 /// Metres, above 0 and below a kilometre.
-void add_size(CLI::App& command, const std::string& name, double& metres, const std::string& what);
-void add_ratio(CLI::App& command, const std::string& name, double& ratio, const std::string& what);
-void add_rate(CLI::App& command, const std::string& name, double& hz, const std::string& what);
+void add_size(Command command, const std::string& name, double& metres, const std::string& what);
+void add_ratio(Command command, const std::string& name, double& ratio, const std::string& what);
+void add_rate(Command command, const std::string& name, double& hz, const std::string& what);
 
 /// --slip (also --K), --sigma-xy, --sigma-theta in degrees, --truth-rate.
-void add_noise(CLI::App& command, calibration::NoiseModel& noise, double& sigma_theta_deg,
+void add_noise(Command command, calibration::NoiseModel& noise, double& sigma_theta_deg,
                double& truth_rate_hz);
 
 }  // namespace astro::cli

@@ -66,17 +66,17 @@ void run(TeleopOptions& options) {
 
 }  // namespace
 
-void add_teleop(CLI::App& drive) {
+void add_teleop(Command drive) {
   const auto options = std::make_shared<TeleopOptions>();
-  CLI::App& command = *drive.add_subcommand("teleop", "steer by keyboard: arrow keys or W A S D");
+  const Command command = drive.add_subcommand("teleop", "steer by keyboard: arrow keys or W A S D");
   command.add_option("--speed", options->speed_mps, "greatest speed in m/s; each key is a fifth of it")
-      ->type_name("M/S")
-      ->capture_default_str()
-      ->check(between(0.001, 100, "m/s"));
+      .type_name("M/S")
+      .capture_default_str()
+      .check(between(0.001, 100, "m/s"));
   command.add_option("--yaw-rate", options->yaw_rate_radps, "greatest yaw rate in rad/s")
-      ->type_name("RAD/S")
-      ->capture_default_str()
-      ->check(between(0.001, 100, "rad/s"));
+      .type_name("RAD/S")
+      .capture_default_str()
+      .check(between(0.001, 100, "rad/s"));
   add_connection(command, options->drive.connection);
   add_json_flag(command, options->drive.json);
   examples(command, {"astrolabe drive teleop", "astrolabe drive teleop --speed 0.2 --yaw-rate 0.5"});

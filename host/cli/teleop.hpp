@@ -1,10 +1,10 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "host/cli/command_line.hpp"
 
 namespace astro::cli {
 
 /// Adds `teleop` to `drive`: steering by keyboard.
-void add_teleop(CLI::App& drive);
+void add_teleop(Command drive);
 
 }  // namespace astro::cli

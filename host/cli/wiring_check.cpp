@@ -139,12 +139,11 @@ std::optional<Sighting> sighting_from(const std::string& word) {
 
 std::string sighting_words() { return "left-forward, left-backward, right-forward, right-backward or none"; }
 
-CLI::Validator a_sighting() {
-  return {[](std::string& word) -> std::string {
-            if (sighting_from(word)) return {};
-            return fmt::format("'{}' is none of {}", word, sighting_words());
-          },
-          ""};
+Check a_sighting() {
+  return [](std::string& word) -> std::string {
+    if (sighting_from(word)) return {};
+    return fmt::format("'{}' is none of {}", word, sighting_words());
+  };
 }
 
 void check_wiring(WiringOptions& options) {

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <optional>
 #include <string>
 
+#include "host/cli/command_line.hpp"
 #include "host/cli/connection.hpp"
 #include "host/identification/wiring.hpp"
 
@@ -22,7 +22,7 @@ struct WiringOptions {
 /// "left-forward", "lf", ..., "none"; nullopt for what is no answer.
 std::optional<identification::Sighting> sighting_from(const std::string& word);
 std::string sighting_words();
-CLI::Validator a_sighting();
+Check a_sighting();
 
 /// Throws astro::Error if the robot is not in order when it returns: wires to be changed, or parameters that
 /// were not loaded.

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <string>
-
 #include "host/base/error.hpp"
 
 /// What was typed cannot be meant: one line, exit code 2.
@@ -13,8 +10,5 @@ class WrongUsage : public Error {
  public:
   using Error::Error;
 };
-
-/// The sentence for what CLI11 found wrong, naming the word in question and the help that explains it.
-std::string sentence_for(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv);
 
 }  // namespace astro::cli

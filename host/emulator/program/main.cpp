@@ -7,8 +7,8 @@
 #include "host/cli/console.hpp"
 #include "host/cli/interrupt.hpp"
 #include "host/cli/options.hpp"
+#include "host/cli/program.hpp"
 #include "host/cli/sim_options.hpp"
-#include "host/cli/wrong_usage.hpp"
 #include "host/emulator/program/served_teensy.hpp"
 
 namespace {
@@ -35,31 +35,24 @@ void run(const fs::path& hex, cli::SimOptions& options) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("Runs a robot's firmware image on an emulated Teensy 4.0 behind a pseudo terminal.",
-               "astrolabe-emulator");
+  cli::Program program("astrolabe-emulator",
+                       "Runs a robot's firmware image on an emulated Teensy 4.0 behind a pseudo terminal.");
+  const cli::Command app = program.command();
   fs::path hex;
   cli::SimOptions options;
   app.add_option("firmware", hex, "image for the Teensy 4.0, as './dev firmware' builds it")
-      ->type_name("HEX")
-      ->required();
+      .type_name("HEX")
+      .required();
   cli::add_sim_options(app, options);
   app.add_option("--usb-pty", options.server.second_pty,
                  "path to put the USB port at; --pty is the serial port")
-      ->type_name("PATH");
+      .type_name("PATH");
   cli::examples(
       app,
       {"astrolabe-emulator build/teensy40/bin/astrolabe-teensy40.hex --pty /tmp/robot --fast",
        "astrolabe-emulator build/teensy40/bin/astrolabe-teensy40.hex --pty /tmp/robot --usb-pty /tmp/usb"});
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& wish) {
-    return app.exit(wish);  // --help
-  } catch (const CLI::ParseError& error) {
-    cli::complain(cli::sentence_for(app, error, argc, argv));
-    return 2;
-  }
-  run(hex, options);
-  return 0;
+  app.callback([&] { run(hex, options); });
+  return program.run(argc, argv);
 }
 
 }  // namespace

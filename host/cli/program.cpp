@@ -1,11 +1,15 @@
-#include "host/cli/wrong_usage.hpp"
+#include "host/cli/program.hpp"
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <numeric>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include "host/cli/console.hpp"
 
 namespace astro::cli {
 namespace {
@@ -120,11 +124,32 @@ std::string what_is_wrong(const Place& place, const CLI::ParseError& error, int 
   return said;
 }
 
-}  // namespace
-
 std::string sentence_for(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   const Place place = place_of(app, argc, argv);
   return fmt::format("{} ('{} --help' explains)", what_is_wrong(place, error, argc, argv), place.path);
+}
+
+constexpr int kWrongUsage = 2;
+
+}  // namespace
+
+Program::Program(const std::string& name, const std::string& what)
+    : app_(std::make_unique<CLI::App>(what, name)) {}
+
+Program::~Program() = default;
+
+void Program::version(const std::string& text) { app_->set_version_flag("--version", text); }
+
+int Program::run(int argc, char** argv) {
+  try {
+    app_->parse(argc, argv);
+  } catch (const CLI::Success& wish) {
+    return app_->exit(wish);  // --help, --version
+  } catch (const CLI::ParseError& error) {
+    complain(sentence_for(*app_, error, argc, argv));
+    return kWrongUsage;
+  }
+  return 0;
 }
 
 }  // namespace astro::cli
