@@ -5,6 +5,7 @@
 
 #include "host/base/error.hpp"
 #include "host/calibration/end_pose_csv.hpp"
+#include "host/cli/calibrate_check.hpp"
 #include "host/cli/calibrate_export.hpp"
 #include "host/cli/calibration_view.hpp"
 #include "host/cli/command.hpp"
@@ -182,9 +183,11 @@ void add_calibrate(Command app) {
       "Examples:\n"
       "  astrolabe calibrate runs my-experiment/before --out calib.toml\n"
       "  astrolabe calibrate end-poses --help\n"
+      "  astrolabe calibrate check other-drives --with calib.toml\n"
       "  astrolabe calibrate export calib.toml --to calib.yaml");
   add_runs(command);
   add_end_poses(command);
+  add_calibrate_check(command);
   add_calibrate_export(command);
 }
 

@@ -61,7 +61,7 @@ std::string wrong_basis(const link::RemoteParameters& robot, const ParameterFile
   const NominalWheel now{
       on_robot("wheel_diameter"),
       on_robot("counts_per_motor_rev") * on_robot("gear_numerator") / on_robot("gear_denominator")};
-  if (std::abs(now.metres_per_count() / file.wheel->metres_per_count() - 1) < kSame) return {};
+  if (now.measures_like(*file.wheel)) return {};
   return fmt::format(
       "the calibration refers to a wheel of {:.6g} m with {:.6g} counts a turn, and the robot now believes "
       "in "

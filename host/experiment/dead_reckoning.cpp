@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "host/base/error.hpp"
 #include "host/experiment/calibration_file.hpp"
 
@@ -19,15 +17,11 @@ double factor(const ParameterFile& file, const std::filesystem::path& path, cons
   return *value;
 }
 
-bool is_same(const NominalWheel& a, const NominalWheel& b) {
-  return std::abs(a.metres_per_count() / b.metres_per_count() - 1) < 1e-6;
-}
-
 }  // namespace
 
 NamedFactors factors_of_file(const std::filesystem::path& path, const NominalWheel& wheel) {
   const ParameterFile file = read_parameter_file(path);
-  if (file.wheel && !is_same(*file.wheel, wheel))
+  if (file.wheel && !wheel.measures_like(*file.wheel))
     throw Error(fmt::format(
         "{} is for wheels of {:.6g} m and {:.6g} counts a turn, the drives were recorded with {:.6g} m and "
         "{:.6g}: its c_R and c_L mean another thing there",

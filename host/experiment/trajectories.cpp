@@ -69,6 +69,11 @@ class Clock {
 
 double NominalWheel::metres_per_count() const { return std::numbers::pi * diameter_m / counts_per_turn; }
 
+bool NominalWheel::measures_like(const NominalWheel& other) const {
+  constexpr double kSame = 1e-8;  // above a step of the wire format, far below a calibration
+  return std::abs(metres_per_count() / other.metres_per_count() - 1) < kSame;
+}
+
 NominalWheel nominal_wheel(const recording::RunInfo& info, const std::string& name) {
   return {parameter(info, "wheel_diameter", name), parameter(info, "counts_per_motor_rev", name) *
                                                        parameter(info, "gear_numerator", name) /

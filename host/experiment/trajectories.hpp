@@ -18,6 +18,8 @@ struct NominalWheel {
 
   /// Travel of a wheel with c = 1.
   double metres_per_count() const;
+  /// A count means the same: c_R and c_L of one are those of the other.
+  bool measures_like(const NominalWheel& other) const;
 };
 
 /// Throws astro::Error, calling the run `name`, where the recording does not say.

@@ -122,6 +122,28 @@ TEST_F(Ml, LeavesOutWhatIsNamed) {
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("'square-cw-7'"), HasSubstr("square-cw-2")));
 }
 
+TEST_F(Ml, IsCheckedOnDrivesThatItHasNotSeen) {
+  const std::string file = (simulator_->folder() / "checked.toml").string();
+  ASSERT_EQ(runs({"--out", file}).code, 0);
+  const Outcome json = astrolabe({"calibrate", "check", out() + "/before", "--with", file, "--json"});
+  ASSERT_EQ(json.code, 0) << json.err;
+  const nlohmann::json judged = nlohmann::json::parse(json.out);
+  ASSERT_EQ(judged.size(), 2U);
+  EXPECT_EQ(judged[0]["by"], "carried");
+  EXPECT_EQ(judged[1]["by"], file);
+  // 1 m squares end a seventh of what 3 m squares do beside, slip leaves a third of that.
+  EXPECT_LT(judged[1]["end_m"].get<double>(), judged[0]["end_m"].get<double>() / 2);
+  EXPECT_EQ(judged[1]["runs"][0]["name"], "square-ccw-1");
+
+  const Outcome text = astrolabe({"calibrate", "check", out() + "/after", "--with", file, "--runs"});
+  EXPECT_EQ(text.code, 0) << text.err;
+  EXPECT_THAT(text.out,
+              AllOf(HasSubstr("over 2 drives"), HasSubstr("heading mrad"), HasSubstr("square-cw-1")));
+  const Outcome missing = astrolabe({"calibrate", "check", out() + "/after", "--with", file + "x"});
+  EXPECT_EQ(missing.code, 1);
+  EXPECT_THAT(missing.err, HasSubstr("checked.tomlx does not exist"));
+}
+
 TEST_F(Ml, TakesTheNoiseThatIsGivenWholeOrNotAtAll) {
   const nlohmann::json json =
       json_of({"--K", "1e-6", "--sigma-xy", "0.0003", "--sigma-theta", "0.002", "--clock", "known"});

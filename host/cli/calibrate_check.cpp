@@ -1,0 +1,122 @@
+#include "host/cli/calibrate_check.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "host/cli/console.hpp"
+#include "host/experiment/dead_reckoning.hpp"
+#include "host/experiment/json.hpp"
+
+namespace astro::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using experiment::DeadReckoning;
+using experiment::MlChoice;
+
+struct Options {
+  fs::path folder;
+  std::vector<fs::path> with;
+  std::vector<std::string> without;
+  std::string clock = "auto";
+  bool runs = false, json = false;
+};
+
+MlChoice::Clock clock_of(const Options& options) {
+  if (options.clock == "auto") return MlChoice::Clock::automatic;
+  return options.clock == "known" ? MlChoice::Clock::known : MlChoice::Clock::estimated;
+}
+
+std::vector<DeadReckoning> judged(const Options& options) {
+  const experiment::RunSet set = experiment::read_run_set(options.folder, options.without);
+  for (const recording::Run& run : set.runs)
+    if (!run.warning.empty()) say("warning: " + run.warning);
+  const auto wheel = experiment::nominal_wheel(set.runs.front().info, set.names.front());
+  std::vector<experiment::NamedFactors> factors{{"carried", experiment::last_carried(set)}};
+  for (const fs::path& file : options.with) factors.push_back(experiment::factors_of_file(file, wheel));
+  return experiment::dead_reckon(set, factors, clock_of(options));
+}
+
+std::vector<std::string> row(const std::string& name, double final_m, double heading_rad, double path_m) {
+  const auto milli = [](double value) {
+    return std::isfinite(value) ? fmt::format("{:.1f}", 1000 * value) : std::string("-");
+  };
+  return {name, milli(final_m), milli(std::abs(heading_rad)), milli(path_m)};
+}
+
+std::string text_of(const std::vector<DeadReckoning>& all, bool runs) {
+  std::vector<std::vector<std::string>> rows{{"", "end mm", "heading mrad", "path mm"}};
+  for (const DeadReckoning& one : all) {
+    const calibration::PathErrors& errors = one.errors;
+    rows.push_back(row(one.by.name, errors.final_rms_m, errors.final_heading_rms_rad, errors.path_rms_m));
+    if (!runs) continue;
+    for (const calibration::RunErrors& run : errors.runs)
+      rows.push_back(row("  " + run.name, run.final_m, run.final_heading_rad, run.path_rms_m));
+  }
+  const std::size_t count = all.front().errors.runs.size();
+  return wrapped(fmt::format("Odometry less ground truth over {} drive{}, root mean squares: at the end, and "
+                             "all along the path.",
+                             count, count == 1 ? "" : "s")) +
+         table(rows);
+}
+
+nlohmann::json json_of(const std::vector<DeadReckoning>& all) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const DeadReckoning& one : all) {
+    nlohmann::json runs = nlohmann::json::array();
+    for (const calibration::RunErrors& run : one.errors.runs)
+      runs.push_back({{"name", run.name},
+                      {"end_m", run.final_m},
+                      {"heading_rad", experiment::number(run.final_heading_rad)},
+                      {"path_m", run.path_rms_m}});
+    json.push_back({{"by", one.by.name},
+                    {"c_R", one.by.factors.c_r},
+                    {"c_L", one.by.factors.c_l},
+                    {"b_m", one.by.factors.b_m},
+                    {"end_m", one.errors.final_rms_m},
+                    {"heading_rad", experiment::number(one.errors.final_heading_rms_rad)},
+                    {"path_m", one.errors.path_rms_m},
+                    {"runs", runs}});
+  }
+  return json;
+}
+
+}  // namespace
+
+void add_calibrate_check(Command calibrate) {
+  const auto options = std::make_shared<Options>();
+  const Command command = calibrate.add_subcommand("check", "what calibrations are worth on recorded drives");
+  command.add_option("folder", options->folder, "folder with recordings that have ground truth").required();
+  command.add_option("--with", options->with, "calib.toml to judge (repeatable)").required().one_each_time();
+  command.add_option("--without", options->without, "a recording to leave out, by its name (repeatable)")
+      .one_each_time();
+  command
+      .add_option("--clock", options->clock,
+                  "known: ground truth has the robot's times;\n"
+                  "estimated: offsets and skew are found;\n"
+                  "auto: what the recordings say")
+      .one_of({"auto", "known", "estimated"})
+      .capture_default_str();
+  command.add_flag("--runs", options->runs, "each drive for itself, too");
+  command.add_flag("--json", options->json, "print one JSON array");
+  command.footer(
+      "The recorded wheels are followed with the factors that the robot carried and with\n"
+      "those of each file. Fair are drives that the calibration has not seen.\n"
+      "Examples:\n"
+      "  astrolabe calibrate check friday --with monday.toml\n"
+      "  astrolabe calibrate check friday --with ml.toml --with umbmark.toml --runs");
+  command.callback([options] {
+    const std::vector<DeadReckoning> all = judged(*options);
+    if (options->json) {
+      std::cout << json_of(all).dump(2) << '\n';
+    } else {
+      std::cout << text_of(all, options->runs);
+    }
+  });
+}
+
+}  // namespace astro::cli
