@@ -181,7 +181,9 @@ MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& car
   if (std::any_of(prepared.runs.begin(), prepared.runs.end(),
                   [](const PreparedRun& run) { return run.has_headings; }))
     require_observed(errors_of(bound_of(prepared, carried, {}, {}, options.clock_known), carried), carried);
-  return judged(MlFit(prepared, carried, options));
+  MlEstimate estimate = judged(MlFit(prepared, carried, options));
+  estimate.left_out = prepared.left_out;
+  return estimate;
 }
 
 FactorCovariance cramer_rao_bound(std::span<const Trajectory> runs, const WheelFactors& factors,

@@ -83,6 +83,7 @@ struct MlEstimate {
          clock_skew_se = 0;  // the robot's clock runs (1 + skew) times as fast as the tracker's
   NoiseModel noise;          // K: its upper limit of 95 % where the data do not tell it to a third
   std::vector<RunFit> runs;
+  std::vector<std::string> left_out;                 // runs that cannot be used and harm nobody: why, each
   std::vector<KindFit> kinds;                        // those that occur, in the order of Motion
   std::optional<WheelbaseByKind> wheelbase_by_kind;  // only with enough of both
   /// How much more the runs scatter than their noise explains; the covariance and all standard errors of

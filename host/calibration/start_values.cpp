@@ -9,6 +9,7 @@
 #include "host/base/error.hpp"
 #include "host/calibration/path_alignment.hpp"
 #include "host/calibration/relative_pose.hpp"
+#include "host/calibration/tracker_noise.hpp"
 #include "host/calibration/wheel_path.hpp"
 
 namespace astro::calibration {
@@ -80,15 +81,6 @@ void place_start(const PreparedRun& run, const ClockFit& clock, const WheelFacto
   u[kClockOffset] = clock.offset_s;
 }
 
-// Of white noise; 0 without three neighbours.
-double sigma_of(std::vector<double> second_differences) {
-  if (second_differences.empty()) return 0;
-  for (double& value : second_differences) value = std::abs(value);
-  const auto middle = second_differences.begin() + static_cast<std::ptrdiff_t>(second_differences.size() / 2);
-  std::nth_element(second_differences.begin(), middle, second_differences.end());
-  return *middle / 0.6745 / std::sqrt(6.0);
-}
-
 }  // namespace
 
 void require_variety(const PreparedRuns& runs) {
@@ -130,21 +122,10 @@ std::vector<Unknowns> start_values(const PreparedRuns& runs, const WheelFactors&
 }
 
 NoiseModel start_noise(const PreparedRuns& runs) {
-  std::vector<double> position, heading;
-  for (const PreparedRun& run : runs.runs) {
-    const std::vector<BodySample>& truth = run.source->truth;
-    for (std::size_t i = 2; i < truth.size(); ++i) {
-      const BodySample &a = truth[i - 2], &b = truth[i - 1], &c = truth[i];
-      if (!std::isfinite(a.x_m + b.x_m + c.x_m)) continue;
-      position.push_back(a.x_m - 2 * b.x_m + c.x_m);
-      position.push_back(a.y_m - 2 * b.y_m + c.y_m);
-      if (std::isfinite(a.theta_rad + b.theta_rad + c.theta_rad))
-        heading.push_back(std::remainder(c.theta_rad - b.theta_rad, 2 * std::numbers::pi) -
-                          std::remainder(b.theta_rad - a.theta_rad, 2 * std::numbers::pi));
-    }
-  }
-  return {kTypicalK_m, std::max(sigma_of(std::move(position)), 1e-5),
-          std::max(sigma_of(std::move(heading)), 1e-5)};
+  SecondDifferences differences;
+  for (const PreparedRun& run : runs.runs) differences.add(run.source->truth);
+  return {kTypicalK_m, std::max(differences.sigma_xy_m(), 1e-5),
+          std::max(differences.sigma_theta_rad(), 1e-5)};
 }
 
 }  // namespace astro::calibration

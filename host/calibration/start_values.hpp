@@ -18,7 +18,7 @@ void require_variety(const PreparedRuns& runs);
 /// Throws astro::Error when a wheel comes out negative.
 std::vector<Unknowns> start_values(const PreparedRuns& runs, const WheelFactors& carried);
 
-/// The tracker's noise from second differences of its samples, which a motion hardly has; K as usual.
+/// The tracker's noise from its samples alone (tracker_noise.hpp); K as usual.
 NoiseModel start_noise(const PreparedRuns& runs);
 
 }  // namespace astro::calibration

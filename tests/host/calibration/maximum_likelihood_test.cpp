@@ -258,6 +258,35 @@ TEST(MaximumLikelihood, TakesRunsWithOtherClocksEach) {
   EXPECT_LT(std::abs(found.clock_skew - 0.01), kFourSigma * found.clock_skew_se);
 }
 
+TEST(MaximumLikelihood, FindsTheClockOfATrackerThatIsOffByCentimetres) {
+  DriveModel model = astro_drive();
+  model.noise.sigma_xy_m = 0.05;
+  model.noise.sigma_theta_rad = 3 * std::numbers::pi / 180;
+  for (const auto& [offset_s, skew] : {std::pair{0.5, 0.0}, {482.3, -0.0235}}) {
+    model.clock_offset_s = offset_s;
+    model.clock_skew = skew;
+    const MlEstimate found = estimate_ml(squares(model, 4), model.carried);
+    expect_true(found, model.actual);
+    EXPECT_LT(std::abs(found.clock_skew - skew), kFourSigma * found.clock_skew_se);
+    for (const RunFit& run : found.runs)
+      EXPECT_LT(std::abs(run.clock_offset_s - offset_s), kFourSigma * run.clock_offset_se_s);
+  }
+}
+
+TEST(MaximumLikelihood, DoesWithoutASpinThatPositionsCannotSee) {
+  DriveModel model = astro_drive();
+  model.headings = false;
+  model.lever = {};
+  model.clock_offset_s = 7;
+  std::vector<Trajectory> runs = squares(model, 4);
+  runs.insert(runs.begin() + 1, study::synthetic_drive(study::spin_course(19), model, "spin", kSeed));
+  const MlEstimate found = estimate_ml(runs, model.carried);
+  expect_true(found, model.actual);
+  EXPECT_EQ(found.runs.size(), 4u);
+  EXPECT_THAT(found.remarks(),
+              testing::Contains(AllOf(HasSubstr("spin"), HasSubstr("stand still"), HasSubstr("left out"))));
+}
+
 TEST(MaximumLikelihood, CallsAWideCircleATurn) {
   DriveModel model = astro_drive();
   std::vector<Trajectory> runs;
