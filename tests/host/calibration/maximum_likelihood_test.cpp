@@ -273,6 +273,22 @@ TEST(MaximumLikelihood, FindsTheClockOfATrackerThatIsOffByCentimetres) {
   }
 }
 
+TEST(MaximumLikelihood, UsesSpinsOfPositionsAloneWithABodyOffTheAxis) {
+  DriveModel model = astro_drive();
+  model.headings = false;
+  model.clock_offset_s = 482.3;
+  // Ahead, behind, and beside: a body that trails lets a search from no lever at all go astray.
+  for (const LeverArm& lever : {LeverArm{0.3, 0, 0}, {-0.3, 0, 0}, {-0.2, -0.2, 0}}) {
+    model.lever = lever;
+    std::vector<Trajectory> runs = squares(model, 2, 1.7);
+    runs.push_back(study::synthetic_drive(study::spin_course(19), model, "spin", kSeed));
+    const MlEstimate found = estimate_ml(runs, model.carried);
+    expect_true(found, model.actual);
+    EXPECT_EQ(found.runs.size(), 3u);
+    EXPECT_LT(std::abs(found.lever.x_m - lever.x_m), kFourSigma * found.lever_se.x_m);
+  }
+}
+
 TEST(MaximumLikelihood, DoesWithoutASpinThatPositionsCannotSee) {
   DriveModel model = astro_drive();
   model.headings = false;
