@@ -70,7 +70,8 @@ struct InnovationSums {
   std::array<MotionTotals, 4> motion{};
 };
 
-/// One pass. `unknowns` in units of m, rad, s; `huber`: truth samples beyond the 99 % quantile count less.
+/// One pass. `unknowns` in units of m, rad, s; `huber`: truth samples beyond the 99 % quantile count less,
+/// unless slip explains them (huber.hpp).
 InnovationSums innovations(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise,
                            bool huber);
 
