@@ -334,6 +334,25 @@ TEST(MaximumLikelihood, TellsTheMotionsApart) {
   EXPECT_NEAR(found.kinds[3].rotation_rad, 4 * std::numbers::pi, 0.5);  // their corners
 }
 
+TEST(CramerRaoBound, CountsNoTruthThatTheEstimateLeavesUnused) {
+  DriveModel model = astro_drive();
+  model.count_rate_hz = 20;
+  model.noise.sigma_xy_m = 0.03;
+  model.noise.sigma_theta_rad = 0.05;
+  MlOptions options;
+  options.noise = model.noise;
+  const auto bound = [&](double truth_rate_hz) {
+    model.truth_rate_hz = truth_rate_hz;
+    return errors_of(cramer_rao_bound(squares(model, 2), model.actual, model.lever, options), model.actual);
+  };
+  // 60 and 100 Hz leave one sample for each of the wheels, as 20 Hz do; 1 % for which of them that is.
+  const MlErrors one = bound(20);
+  for (const double rate_hz : {60.0, 100.0}) {
+    EXPECT_NEAR(bound(rate_hz).scale, one.scale, 0.01 * one.scale) << rate_hz;
+    EXPECT_NEAR(bound(rate_hz).b_over_scale_m, one.b_over_scale_m, 0.01 * one.b_over_scale_m) << rate_hz;
+  }
+}
+
 TEST(CramerRaoBound, KeepsTheDesignRulesForTenSquares) {
   // precision.hpp: within 4 % for a tracker that follows the whole drive.
   const DriveModel model = astro_drive();
