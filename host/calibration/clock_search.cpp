@@ -2,206 +2,230 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
-#include "host/calibration/wheel_path.hpp"
+#include "host/calibration/recorded_motion.hpp"
+#include "host/calibration/tracker_noise.hpp"
 
 namespace astro::calibration {
 namespace {
 
-constexpr double kFinestBin_s = 0.05;  // of both motions
-constexpr double kMostBins = 2000;     // else the bins grow: trying every offset takes their square
-constexpr double kLongestGap_s = 1;
+constexpr double kFinestBin_s = 0.05;
 constexpr double kNearby_s = 1;
 constexpr double kGoodEnough = 0.95;
-constexpr double kMostSkew = 0.05, kSkewStep = 0.0025, kFineSkewStep = 0.0005;
+constexpr double kMostSkew = 0.05;
+// Pairs of bins looked at where every offset has to be tried: a third of a second.
+constexpr double kMostWork = 4e7;
+// Laps of a drive are longer than this: fine enough to see that it repeats itself.
+constexpr double kLapBin_s = 0.2;
+// Twice a difference of log likelihoods: e^10 to one.
+constexpr double kSurely = 20;
+constexpr std::size_t kMostPeaks = 4;
 
-/// Speed and turn rate at equal steps of time, both in m/s; the turn rate is that of a wheel.
-struct Rate {
-  double speed_mps = 0, turn_mps = 0;
-  bool known = true;
-
-  Rate operator+(const Rate& other) const {
-    return {speed_mps + other.speed_mps, turn_mps + other.turn_mps, known};
-  }
+struct Candidate {
+  ClockGuess guess;
+  Agreement agreement;
 };
 
-struct Profile {
-  double first_s = 0;
-  std::vector<Rate> bins;
-};
-
-// Half of the time over which a speed is taken.
-double half_window_s(double bin_s) { return std::max(0.1, bin_s); }
-
-bool has_headings(const Trajectory& run) {
-  return std::any_of(run.truth.begin(), run.truth.end(),
-                     [](const BodySample& sample) { return std::isfinite(sample.theta_rad); });
+bool better(const Candidate& a, const Candidate& b) {
+  return a.agreement.correlation > b.agreement.correlation;
 }
 
-Profile wheel_profile(const Trajectory& run, bool headings, double bin_s) {
-  const double half_s = half_window_s(bin_s);
-  const WheelPath path(run.wheels);
-  Profile profile{run.wheels.front().time_s, {}};
-  for (double t = profile.first_s; t <= run.wheels.back().time_s; t += bin_s) {
-    const WheelState a = path.at(t - half_s), b = path.at(t + half_s);
-    const double left = b.left_m - a.left_m, right = b.right_m - a.right_m;
-    profile.bins.push_back({std::abs(left + right) / 2 / (2 * half_s),
-                            headings ? std::abs(right - left) / 2 / (2 * half_s) : 0, true});
-  }
-  return profile;
-}
-
-// The pose of the body at a time between two samples that are near enough.
-std::optional<BodySample> body_at(const std::vector<BodySample>& truth, double time_s, std::size_t& hint) {
-  while (hint + 2 < truth.size() && truth[hint + 1].time_s < time_s) ++hint;
-  while (hint > 0 && truth[hint].time_s > time_s) --hint;
-  const BodySample &a = truth[hint], &b = truth[hint + 1];
-  const double span_s = b.time_s - a.time_s;
-  if (time_s < a.time_s || time_s > b.time_s || span_s > kLongestGap_s || span_s <= 0) return {};
-  const double s = (time_s - a.time_s) / span_s;
-  return BodySample{time_s, a.x_m + s * (b.x_m - a.x_m), a.y_m + s * (b.y_m - a.y_m),
-                    a.theta_rad + s * std::remainder(b.theta_rad - a.theta_rad, 2 * std::numbers::pi)};
-}
-
-Profile truth_profile(const Trajectory& run, double wheelbase_m, double bin_s) {
-  const double half_s = half_window_s(bin_s);
-  Profile profile{run.truth.front().time_s, {}};
-  std::size_t from = 0, to = 0;
-  for (double t = profile.first_s; t <= run.truth.back().time_s; t += bin_s) {
-    const auto a = body_at(run.truth, t - half_s, from), b = body_at(run.truth, t + half_s, to);
-    Rate motion{0, 0, a && b};
-    if (motion.known) {
-      motion.speed_mps = std::hypot(b->x_m - a->x_m, b->y_m - a->y_m) / (2 * half_s);
-      const double turn_rad = std::remainder(b->theta_rad - a->theta_rad, 2 * std::numbers::pi);
-      motion.turn_mps = std::isfinite(turn_rad) ? std::abs(turn_rad) * wheelbase_m / 2 / (2 * half_s) : 0;
-    }
-    profile.bins.push_back(motion);
-  }
-  return profile;
-}
-
-Rate mean_taken_off(Profile& profile) {
-  Rate mean{0, 0, true};
-  double count = 0;
-  for (const Rate& bin : profile.bins) {
-    if (!bin.known) continue;
-    mean.speed_mps += bin.speed_mps;
-    mean.turn_mps += bin.turn_mps;
-    ++count;
-  }
-  for (Rate& bin : profile.bins) {
-    bin.speed_mps -= mean.speed_mps / count;
-    bin.turn_mps -= mean.turn_mps / count;
-  }
-  return {mean.speed_mps / count, mean.turn_mps / count, true};
-}
-
+/// The search in one run, its body at one place.
 class Search {
  public:
-  Search(const Trajectory& run, double wheelbase_m, double bin_s)
-      : bin_s_(bin_s),
-        wheels_(wheel_profile(run, has_headings(run), bin_s)),
-        truth_(truth_profile(run, wheelbase_m, bin_s)) {
-    wheel_mean_ = mean_taken_off(wheels_);
-    truth_mean_ = mean_taken_off(truth_);
-    middle_s_ = wheels_.first_s + bin_s_ * static_cast<double>(wheels_.bins.size() - 1) / 2;
+  explicit Search(const RecordedMotion& motion)
+      : motion_(motion),
+        truth_is_longer_(motion.truth_span_s() > motion.wheel_span_s()),
+        shorter_s_(std::min(motion.truth_span_s(), motion.wheel_span_s())) {}
+
+  Candidate nearby(double skew) const {
+    const MotionMatch match = motion_.match(kFinestBin_s);
+    Candidate best;
+    for (double offset_s = -kNearby_s; offset_s <= kNearby_s; offset_s += kFinestBin_s)
+      best = std::min(best, tried(match, {middle_s(), middle_s() - offset_s, skew}), better);
+    return polished(match, best, false);
   }
 
-  double bin_s() const { return bin_s_; }
-  double truth_duration_s() const { return bin_s_ * static_cast<double>(truth_.bins.size()); }
-  double wheel_duration_s() const { return bin_s_ * static_cast<double>(wheels_.bins.size()); }
-  /// The offset at which the middles of both meet.
-  double middle_offset_s() const { return middle_s_ - truth_.first_s - truth_duration_s() / 2; }
-
-  double correlation(double offset_s, double skew) const { return product(offset_s, skew, {}, {}); }
-  double likeness(double offset_s, double skew) const {
-    return product(offset_s, skew, wheel_mean_, truth_mean_);
+  /// Offsets at which the correlation peaks, with valleys in between, best first.
+  std::vector<Candidate> everywhere(std::optional<double> skew) const {
+    const double bin_s = affordable_bin_s(skew.has_value());
+    return refined(peaks(scan(bin_s, skew)), bin_s, !skew);
   }
 
-  ClockFit best(double from_s, double to_s, double step_s, double skew) const {
-    ClockFit best{0, skew, -1};
-    for (double offset_s = from_s; offset_s <= to_s; offset_s += step_s) {
-      const double found = correlation(offset_s, skew);
-      if (found > best.correlation) best = {offset_s, skew, found};
-    }
-    return best;
+  /// The same for a drive whose laps could be mistaken: coarse, and at one skew.
+  std::vector<Candidate> laps(double skew) const {
+    const double bin_s = std::max(kLapBin_s, affordable_bin_s(true));
+    return refined(peaks(scan(bin_s, skew)), bin_s, false);
   }
 
-  /// The top of the parabola through the neighbours.
-  ClockFit refined(ClockFit fit, double step_s) const {
-    const double a = correlation(fit.offset_s - step_s, fit.skew), b = fit.correlation;
-    const double c = correlation(fit.offset_s + step_s, fit.skew);
-    const double bend = a - 2 * b + c;
-    if (bend < 0) fit.offset_s += std::clamp(step_s / 2 * (a - c) / bend, -step_s, step_s);
-    return fit;
+  /// By how much the one explains the motion better, as twice a difference of log likelihoods.
+  double advantage(const Candidate& one, const Candidate& other) const {
+    const double samples = one.agreement.overlap_s / motion_.window().support_s();
+    return samples * std::log(other.agreement.unexplained / one.agreement.unexplained);
+  }
+
+  double offset_s(const ClockGuess& guess) const {
+    return middle_s() - guess.truth_s - (middle_s() - guess.robot_s) / (1 + guess.skew);
   }
 
  private:
-  /// Cosine between the two motions, each with this much added.
-  double product(double offset_s, double skew, const Rate& wheel_mean, const Rate& truth_mean) const {
-    const double truth_middle_s = middle_s_ - offset_s;
-    double both = 0, wheels = 0, truth = 0;
-    for (std::size_t i = 0; i < wheels_.bins.size(); ++i) {
-      const Rate a = wheels_.bins[i] + wheel_mean;
-      wheels += a.speed_mps * a.speed_mps + a.turn_mps * a.turn_mps;
-      const double u = wheels_.first_s + bin_s_ * static_cast<double>(i) - middle_s_;
-      const double bin = (truth_middle_s + u / (1 + skew) - truth_.first_s) / bin_s_;
-      if (!(bin >= 0 && bin < static_cast<double>(truth_.bins.size() - 1))) continue;
-      const auto k = static_cast<std::size_t>(bin);
-      const Rate &from = truth_.bins[k], &to = truth_.bins[k + 1];
-      if (!from.known || !to.known) continue;
-      const double s = bin - static_cast<double>(k);
-      const double speed = truth_mean.speed_mps + from.speed_mps + s * (to.speed_mps - from.speed_mps);
-      const double turn = truth_mean.turn_mps + from.turn_mps + s * (to.turn_mps - from.turn_mps);
-      both += a.speed_mps * speed + a.turn_mps * turn;
-      truth += speed * speed + turn * turn;
-    }
-    return wheels > 0 && truth > 0 ? both / std::sqrt(wheels * truth) : -1;
+  double middle_s() const { return motion_.wheel_middle_s(); }
+
+  static Candidate tried(const MotionMatch& match, const ClockGuess& guess) {
+    return {guess, match.at(guess)};
   }
 
-  double bin_s_;
-  Profile wheels_, truth_;
-  Rate wheel_mean_, truth_mean_;
-  double middle_s_ = 0;
+  /// Moved by `offset_s`; a skew turns about the middle of the shorter recording.
+  static Candidate moved(const MotionMatch& match, ClockGuess guess, double offset_s, double skew) {
+    guess.robot_s += offset_s;
+    guess.skew += skew;
+    return tried(match, guess);
+  }
+
+  // By how much a skew moves the ends of the shorter recording by two bins.
+  double skew_step(double bin_s) const { return 4 * bin_s / std::max(shorter_s_, 1.0); }
+
+  double affordable_bin_s(bool skew_known) const {
+    const double pairs = shorter_s_ * (motion_.truth_span_s() + motion_.wheel_span_s()) / 2;  // times bin^2
+    const double skews = 2 * kMostSkew / skew_step(1);                                        // times bin
+    return std::max(
+        {kFinestBin_s, std::sqrt(pairs / kMostWork), skew_known ? 0 : std::cbrt(pairs * skews / kMostWork)});
+  }
+
+  std::vector<Candidate> scan(double bin_s, std::optional<double> skew) const {
+    const MotionMatch match = motion_.match(bin_s);
+    const double from = skew.value_or(-kMostSkew), to = skew.value_or(kMostSkew), step = skew_step(bin_s);
+    const double reach_s = (1 + kMostSkew) * (motion_.truth_span_s() + motion_.wheel_span_s()) / 2;
+    std::vector<Candidate> scanned;
+    for (double shift_s = -reach_s; shift_s <= reach_s; shift_s += 2 * bin_s) {
+      const double truth_s = motion_.truth_middle_s();
+      const ClockGuess middles = truth_is_longer_ ? ClockGuess{middle_s(), truth_s + shift_s, 0}
+                                                  : ClockGuess{middle_s() + shift_s, truth_s, 0};
+      Candidate best{middles, {}};
+      for (double s = from; s <= to; s += step) best = std::min(best, moved(match, middles, 0, s), better);
+      scanned.push_back(best);
+    }
+    return scanned;
+  }
+
+  static std::vector<Candidate> peaks(const std::vector<Candidate>& scanned) {
+    const auto height = [&](std::size_t i) { return scanned[i].agreement.correlation; };
+    std::vector<std::size_t> order;
+    for (std::size_t i = 1; i + 1 < scanned.size(); ++i)
+      if (height(i) > 0 && height(i) >= height(i - 1) && height(i) >= height(i + 1)) order.push_back(i);
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return height(a) > height(b); });
+    std::vector<std::size_t> kept;
+    for (const std::size_t i : order) {
+      const bool apart = std::all_of(kept.begin(), kept.end(), [&](std::size_t other) {
+        for (std::size_t k = std::min(i, other); k < std::max(i, other); ++k)
+          if (height(k) < height(i) / 2) return true;
+        return false;
+      });
+      if (apart) kept.push_back(i);
+      if (kept.size() == kMostPeaks) break;
+    }
+    std::vector<Candidate> found;
+    for (const std::size_t i : kept) found.push_back(scanned[i]);
+    return found;
+  }
+
+  /// Halves the bins until they are the finest.
+  std::vector<Candidate> refined(std::vector<Candidate> found, double bin_s, bool free_skew) const {
+    while (true) {
+      bin_s = std::max(kFinestBin_s, bin_s / 2);
+      const MotionMatch match = motion_.match(bin_s);
+      for (Candidate& candidate : found) {
+        const ClockGuess around = candidate.guess;
+        candidate = tried(match, around);
+        const double step = skew_step(bin_s) / 2;
+        for (int i = -4; i <= 4; ++i)
+          for (int k = free_skew ? -4 : 0; k <= (free_skew ? 4 : 0); ++k)
+            candidate = std::min(candidate, moved(match, around, i * bin_s, k * step), better);
+        if (bin_s == kFinestBin_s) candidate = polished(match, candidate, free_skew);
+      }
+      if (bin_s == kFinestBin_s) break;
+    }
+    std::sort(found.begin(), found.end(), better);
+    return found;
+  }
+
+  /// The tops of parabolas through the neighbours.
+  Candidate polished(const MotionMatch& match, const Candidate& found, bool free_skew) const {
+    const auto top = [](double a, double b, double c) {
+      const double bend = a - 2 * b + c;
+      return bend < 0 ? std::clamp((a - c) / bend / 2, -1.0, 1.0) : 0;
+    };
+    const auto height = [&](double offset_s, double skew) {
+      return moved(match, found.guess, offset_s, skew).agreement.correlation;
+    };
+    const double step_s = kFinestBin_s, step = free_skew ? skew_step(kFinestBin_s) / 2 : 0;
+    const double b = found.agreement.correlation;
+    const double by_s = step_s * top(height(-step_s, 0), b, height(step_s, 0));
+    return std::min(found, moved(match, found.guess, by_s, step * top(height(0, -step), b, height(0, step))),
+                    better);
+  }
+
+  const RecordedMotion& motion_;
+  bool truth_is_longer_;
+  double shorter_s_;
 };
 
-ClockFit search_everywhere(const Search& search, std::optional<double> skew) {
-  const double reach_s = (search.truth_duration_s() + search.wheel_duration_s()) / 2;
-  const double middle_s = search.middle_offset_s(), step_s = 2 * search.bin_s();
-  ClockFit best{0, 0, -1};
-  const auto try_skew = [&](double candidate, double around_s, double within_s) {
-    const ClockFit found = search.best(around_s - within_s, around_s + within_s, step_s, candidate);
-    if (found.correlation > best.correlation) best = found;
-  };
-  if (skew) {
-    try_skew(*skew, middle_s, reach_s);
-    return best;
-  }
-  for (double s = -kMostSkew; s <= kMostSkew; s += kSkewStep) try_skew(s, middle_s, reach_s);
-  const ClockFit coarse = best;
-  for (double s = coarse.skew - kSkewStep; s <= coarse.skew + kSkewStep; s += kFineSkewStep)
-    try_skew(s, coarse.offset_s, 5 * step_s);
-  return best;
+ClockFit fit_of(const Search& search, const Candidate& found) {
+  return {search.offset_s(found.guess),
+          found.guess.skew,
+          std::min(found.agreement.correlation, 1.0),
+          found.agreement.likeness,
+          {}};
+}
+
+bool apart(const Search& search, const Candidate& a, const Candidate& b) {
+  return std::abs(search.offset_s(a.guess) - search.offset_s(b.guess)) > kNearby_s;
+}
+
+bool is_beaten(const Search& search, const Candidate& nearby) {
+  const std::vector<Candidate> laps = search.laps(nearby.guess.skew);
+  return std::any_of(laps.begin(), laps.end(), [&](const Candidate& lap) {
+    return apart(search, lap, nearby) && search.advantage(lap, nearby) > kSurely;
+  });
+}
+
+ClockFit search_everywhere(const Search& search, const Candidate& nearby, std::optional<double> skew) {
+  std::vector<Candidate> found = search.everywhere(skew);
+  found.push_back(nearby);
+  const Candidate best = *std::min_element(found.begin(), found.end(), better);
+  std::vector<Candidate> rivals;
+  for (const Candidate& other : found)
+    if (apart(search, other, best) && search.advantage(best, other) < kSurely) rivals.push_back(other);
+  ClockFit fit = fit_of(search, best);
+  if (rivals.empty() || std::abs(fit.offset_s) <= kNearby_s) return fit;
+  for (const Candidate& rival : rivals)
+    if (std::abs(search.offset_s(rival.guess)) <= kNearby_s) return fit_of(search, rival);
+  fit.rival_offset_s = search.offset_s(rivals.front().guess);
+  return fit;
 }
 
 }  // namespace
 
 ClockFit search_clock(const Trajectory& run, double wheelbase_m, std::optional<double> skew) {
-  const Search fine(run, wheelbase_m, kFinestBin_s);
-  ClockFit best = fine.best(-kNearby_s, kNearby_s, kFinestBin_s, skew.value_or(0));
-  if (best.correlation < kGoodEnough) {
-    const double longer_s = std::max(fine.wheel_duration_s(), fine.truth_duration_s());
-    const Search coarse(run, wheelbase_m, std::max(kFinestBin_s, longer_s / kMostBins));
-    const ClockFit anywhere = search_everywhere(coarse, skew);
-    const double around_s = 2 * coarse.bin_s();
-    const ClockFit there =
-        fine.best(anywhere.offset_s - around_s, anywhere.offset_s + around_s, kFinestBin_s, anywhere.skew);
-    if (there.correlation > best.correlation) best = there;
+  // Where the body is does not matter much to one whose turning is seen.
+  std::vector<double> levers_m{0};
+  if (!mostly_headings(run.truth)) levers_m.insert(levers_m.end(), {wheelbase_m / 2, 2 * wheelbase_m});
+  std::vector<RecordedMotion> motions;
+  for (const double lever_m : levers_m) motions.emplace_back(run, wheelbase_m, lever_m);
+  std::vector<Candidate> nearby;
+  for (const RecordedMotion& motion : motions) {
+    const Search search(motion);
+    nearby.push_back(search.nearby(skew.value_or(0)));
+    if (nearby.back().agreement.correlation >= kGoodEnough && !is_beaten(search, nearby.back()))
+      return fit_of(search, nearby.back());
   }
-  best = fine.refined(best, kFinestBin_s);
-  best.likeness = fine.likeness(best.offset_s, best.skew);
+  ClockFit best;
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const ClockFit fit = search_everywhere(Search(motions[i]), nearby[i], skew);
+    if (i == 0 || fit.correlation > best.correlation) best = fit;
+  }
   return best;
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "host/calibration/filter_steps.hpp"
+#include "host/calibration/huber.hpp"
 
 namespace astro::calibration {
 namespace {
@@ -89,10 +90,10 @@ class Filter {
     sums.cost += std::log(s.determinant());
     constexpr double kLimit = N == 3 ? kHuber3 : kHuber2;
     if (huber_ && squared > kLimit) {
-      // A sample this far out is a bad one: trusted as little as brings it to the threshold.
-      const double trust = std::sqrt(kLimit / squared);
-      sums.cost += 2 * std::sqrt(kLimit * squared) - kLimit;
-      s += tracker * (1 / trust - 1);
+      const Eigen::Matrix<double, N, N> slip = s - tracker;
+      const HuberLoss loss = huber_loss<N>(r, slip, tracker.diagonal(), kLimit);
+      sums.cost += loss.cost;
+      s = slip + loss.inflation * tracker;
       weight = s.inverse();
       squared = r.dot(weight * r);
     } else {

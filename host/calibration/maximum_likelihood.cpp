@@ -183,12 +183,15 @@ MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& car
   if (std::any_of(prepared.runs.begin(), prepared.runs.end(),
                   [](const PreparedRun& run) { return run.has_headings; }))
     require_observed(errors_of(bound_of(prepared, carried, {}, {}, options.clock_known), carried), carried);
-  return judged(MlFit(prepared, carried, options));
+  MlEstimate estimate = judged(MlFit(prepared, carried, options));
+  estimate.left_out = prepared.left_out;
+  return estimate;
 }
 
 FactorCovariance cramer_rao_bound(std::span<const Trajectory> runs, const WheelFactors& factors,
                                   const LeverArm& lever, const MlOptions& options) {
-  const PreparedRuns prepared = prepare(runs, factors, options.clock_known, Density::all);
+  // What the estimator leaves unused must not make the bound look better than anything that is calibrated.
+  const PreparedRuns prepared = prepare(runs, factors, options.clock_known, Density::independent);
   const FactorCovariance covariance =
       bound_of(prepared, factors, lever, options.noise.value(), options.clock_known);
   require_observed(errors_of(covariance, factors), factors);

@@ -86,6 +86,7 @@ struct MlEstimate {
   /// and tracker do not explain (whiteness.hpp); 0 where none do and all were taken.
   double thinned_to_s = 0;
   std::vector<RunFit> runs;
+  std::vector<std::string> left_out;                 // runs that cannot be used and harm nobody: why, each
   std::vector<KindFit> kinds;                        // those that occur, in the order of Motion
   std::optional<WheelbaseByKind> wheelbase_by_kind;  // only with enough of both
   /// How much more the runs scatter than their noise explains; the covariance and all standard errors of
@@ -117,7 +118,9 @@ MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& car
 /// The covariance of c_R, c_L, b (b in m) that no unbiased estimator can beat: the inverse of the Fisher
 /// information of these runs for a robot of which everything is known but what `options` has estimated.
 /// `options.noise` must be given. The path comes from the wheels and `factors`; of truth the times matter,
-/// and what the search for the clocks and the checks of usable runs need.
+/// and what the search for the clocks and the checks of usable runs need. As for the estimate, no two samples
+/// of truth closer than two of the wheels count (prepared_run.hpp): with all of them, trackers of centimetres
+/// over counts at 20 Hz would seem up to 1.6 times as good as they are; at 100 Hz over 60 Hz nothing changes.
 ///
 /// Throws astro::Error as estimate_ml does for runs that cannot be used, and if the runs leave one of the
 /// three open.

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "host/calibration/filter_steps.hpp"
+#include "host/calibration/huber.hpp"
 #include "host/calibration/innovation.hpp"
 
 namespace astro::calibration {
@@ -78,9 +79,11 @@ class NoiseFilter {
     const double trust = outside ? std::sqrt(kLimit / squared) : 1;
     add(slopes, weight, r, r_by, trust * trust, !huber_ ? 1 : N == 3 ? kKept3 : kKept2);
     if (outside) {
-      s += (1 / trust - 1) * (by_xy + by_theta);
-      by_xy /= trust;
-      by_theta /= trust;
+      const Square tracker = by_xy + by_theta;
+      const double inflation = huber_loss<N>(r, s - tracker, tracker.diagonal(), kLimit).inflation;
+      s += (inflation - 1) * tracker;
+      by_xy *= inflation;
+      by_theta *= inflation;
       weight = s.inverse();
     }
 

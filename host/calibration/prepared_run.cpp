@@ -10,6 +10,7 @@
 #include "host/base/error.hpp"
 #include "host/calibration/median_period.hpp"
 #include "host/calibration/senses.hpp"
+#include "host/calibration/tracker_noise.hpp"
 #include "host/calibration/wheel_path.hpp"
 
 namespace astro::calibration {
@@ -92,16 +93,10 @@ Motion motion_at(const WheelPath& path, double time_s, double wheelbase_m) {
   return longer.distance_m > 10 * wheelbase_m * longer.rotation_rad ? Motion::line : Motion::arc;
 }
 
-bool mostly_headings(const Trajectory& run) {
-  const auto with = std::count_if(run.truth.begin(), run.truth.end(),
-                                  [](const BodySample& sample) { return std::isfinite(sample.theta_rad); });
-  return 2 * static_cast<std::size_t>(with) > run.truth.size();
-}
-
 PreparedRun cropped(const Trajectory& run, const ClockFit& clock, Density density) {
   PreparedRun prepared;
   prepared.source = &run;
-  prepared.has_headings = mostly_headings(run);
+  prepared.has_headings = mostly_headings(run.truth);
   prepared.clock_middle_s = (run.wheels.front().time_s + run.wheels.back().time_s) / 2 - clock.offset_s;
   // A hair less, so that a multiple of the tracker's period is not missed by its jitter.
   const double spacing_s = density == Density::all ? 0 : 0.9 * median_period_s(run.wheels);
@@ -169,6 +164,52 @@ void require_motion(const PreparedRun& run) {
                     run.source->name, run.distance_m, run.rotation_rad * 180 / std::numbers::pi));
 }
 
+ClockFit clock_of(const Trajectory& run, const WheelFactors& carried, std::optional<double> skew) {
+  const ClockFit clock = search_clock(run, carried.b_m, skew);
+  if (!skew || clock.correlation >= kSurelyRight) return clock;
+  const ClockFit anew = search_clock(run, carried.b_m, {});
+  return anew.correlation > clock.correlation ? anew : clock;
+}
+
+bool in_common(const ClockFit& clock) {
+  return clock.correlation >= kLeastCorrelation || clock.likeness >= kLeastLikeness;
+}
+
+/// Positions of a body on the axis of a spin stand still.
+bool is_blind_spin(const Trajectory& run, const ClockFit& clock, double wheelbase_m) {
+  if (mostly_headings(run.truth) || in_common(clock)) return false;
+  double distance_m = 0, turned_m = 0;
+  for (std::size_t i = 1; i < run.wheels.size(); ++i) {
+    const double left = run.wheels[i].left_m - run.wheels[i - 1].left_m;
+    const double right = run.wheels[i].right_m - run.wheels[i - 1].right_m;
+    distance_m += std::abs(left + right) / 2;
+    turned_m += std::abs(right - left) / 2;
+  }
+  return turned_m > kSmallestTurn_rad * wheelbase_m / 2 && distance_m < turned_m / 4;
+}
+
+std::string blind_sentence(const Trajectory& run) {
+  return run.name +
+         " turned on the spot under positions that stand still, which tell neither its clock nor how far it "
+         "turned: export the orientation of the body, too, or mount it away from the axis";
+}
+
+void require_clock(const Trajectory& run, const ClockFit& clock) {
+  if (!in_common(clock))
+    throw Error(
+        run.name +
+        ": the motions of wheels and ground truth have nothing in common at any offset of their clocks: "
+        "check that they belong to the same drive, and with 'astrolabe check-wiring' that no encoder is "
+        "reversed");
+  if (clock.rival_offset_s && clock.correlation >= kLeastCorrelation)
+    throw Error(fmt::format(
+        "{} repeats itself, so that its clocks may be {:.1f} s apart as well as {:.1f} s: record wheels and "
+        "ground truth from the rest before the drive to the rest after it, or give the truth the robot's "
+        "times "
+        "and --clock known",
+        run.name, clock.offset_s, *clock.rival_offset_s));
+}
+
 }  // namespace
 
 PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& carried, bool clock_known,
@@ -180,17 +221,12 @@ PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& carri
     require_samples(run);
     ClockFit clock;
     if (!clock_known) {
-      clock = search_clock(run, carried.b_m, skew);
-      if (skew && clock.correlation < kSurelyRight) {
-        const ClockFit anew = search_clock(run, carried.b_m, {});
-        if (anew.correlation > clock.correlation) clock = anew;
+      clock = clock_of(run, carried, skew);
+      if (is_blind_spin(run, clock, carried.b_m)) {
+        prepared.left_out.push_back(blind_sentence(run));
+        continue;
       }
-      if (clock.correlation < kLeastCorrelation && clock.likeness < kLeastLikeness)
-        throw Error(
-            run.name +
-            ": the motions of wheels and ground truth have nothing in common at any offset of their clocks: "
-            "check that they belong to the same drive, and with 'astrolabe check-wiring' that no encoder is "
-            "reversed");
+      require_clock(run, clock);
       skew = clock.skew;
     }
     PreparedRun ready = cropped(run, clock, density);
@@ -200,6 +236,7 @@ PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& carri
     prepared.runs.push_back(std::move(ready));
     prepared.clocks.push_back(clock);
   }
+  if (prepared.runs.empty()) throw Error(prepared.left_out.front());
   return prepared;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "host/calibration/clock_search.hpp"
@@ -25,11 +26,16 @@ enum class Density {
 ///   no odometry or hardly any truth; odometry lost while the robot moved; a robot that did not move
 ///   times that run backwards or jump by an hour; values that are no numbers
 ///   streams that do not overlap, or whose motions have nothing in common
+///   a drive that repeats itself, recorded so that nothing tells which lap is which
+///   no run but such as are left out
 ///   headings of truth that never change although the wheels turn the robot
 ///   truth that turns against the wheels: headings clockwise, axes mirrored, or wheels exchanged
 struct PreparedRuns {
   std::vector<PreparedRun> runs;
   std::vector<ClockFit> clocks;  // of each run; zero if the clocks are known
+  /// Why a run that spoils nothing is not among them, with the remedy: a spin of unknown clock under
+  /// positions that stand still.
+  std::vector<std::string> left_out;
 };
 PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& carried, bool clock_known,
                      Density density);

@@ -28,6 +28,7 @@ std::string wheelbase_sentence(const WheelbaseByKind& kind) {
 
 std::vector<std::string> MlEstimate::remarks() const {
   std::vector<std::string> sentences;
+  for (const std::string& why : left_out) sentences.push_back(why + "; it was left out");
   for (const RunFit& run : runs)
     if (run.outlier) sentences.push_back(outlier_sentence(run));
   if (const double ratio = chi_square / degrees_of_freedom; ratio > 1.5)

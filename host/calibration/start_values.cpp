@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "host/base/error.hpp"
 #include "host/calibration/path_alignment.hpp"
+#include "host/calibration/position_lever.hpp"
 #include "host/calibration/relative_pose.hpp"
+#include "host/calibration/tracker_noise.hpp"
 #include "host/calibration/wheel_path.hpp"
 
 namespace astro::calibration {
@@ -16,6 +19,7 @@ namespace {
 
 // A piece is long enough to stand out of the tracker's noise, short enough to be many.
 constexpr double kPiece_m = 0.3, kPiece_rad = 0.5;
+constexpr double kStretch_m = 1;
 constexpr double kLeastTurn_rad = 1;
 constexpr double kTypicalK_m = 2.6e-6;
 
@@ -67,26 +71,34 @@ void require_forward(const RelativePoseFit& fit) {
           wheel));
 }
 
-void place_start(const PreparedRun& run, const ClockFit& clock, const WheelFactors& factors, Unknowns& u) {
-  const BodySample& first = run.truth.front();
-  if (run.has_headings) {
-    u[kStartTheta] = first.theta_rad - u[kLeverYaw];
-  } else {
-    u[kStartTheta] = fit_rigid(dead_reckoned(run, clock, factors), run.truth, false).rotation_rad;
+/// Where the tracked body of a dead-reckoned robot goes, as far as wrong factors do not bend its way much.
+std::vector<BodySample> first_stretch(std::vector<BodySample> robot, const Unknowns& u) {
+  double travelled_m = 0;
+  for (std::size_t i = 0; i < robot.size(); ++i) {
+    const double c = std::cos(robot[i].theta_rad), s = std::sin(robot[i].theta_rad);
+    robot[i].x_m += c * u[kLeverX] - s * u[kLeverY];
+    robot[i].y_m += s * u[kLeverX] + c * u[kLeverY];
+    if (i > 0) travelled_m += std::hypot(robot[i].x_m - robot[i - 1].x_m, robot[i].y_m - robot[i - 1].y_m);
+    if (travelled_m > kStretch_m) robot.resize(i + 1);
   }
-  const double c = std::cos(u[kStartTheta]), s = std::sin(u[kStartTheta]);
-  u[kStartX] = first.x_m - c * u[kLeverX] + s * u[kLeverY];
-  u[kStartY] = first.y_m - s * u[kLeverX] - c * u[kLeverY];
-  u[kClockOffset] = clock.offset_s;
+  return robot;
 }
 
-// Of white noise; 0 without three neighbours.
-double sigma_of(std::vector<double> second_differences) {
-  if (second_differences.empty()) return 0;
-  for (double& value : second_differences) value = std::abs(value);
-  const auto middle = second_differences.begin() + static_cast<std::ptrdiff_t>(second_differences.size() / 2);
-  std::nth_element(second_differences.begin(), middle, second_differences.end());
-  return *middle / 0.6745 / std::sqrt(6.0);
+void place_start(const PreparedRun& run, const ClockFit& clock, const WheelFactors& factors, Unknowns& u) {
+  u[kClockOffset] = clock.offset_s;
+  if (run.has_headings) {
+    const BodySample& first = run.truth.front();
+    u[kStartTheta] = first.theta_rad - u[kLeverYaw];
+    const double c = std::cos(u[kStartTheta]), s = std::sin(u[kStartTheta]);
+    u[kStartX] = first.x_m - c * u[kLeverX] + s * u[kLeverY];
+    u[kStartY] = first.y_m - s * u[kLeverX] - c * u[kLeverY];
+    return;
+  }
+  const std::vector<BodySample> body = first_stretch(dead_reckoned(run, clock, factors), u);
+  const RigidFit fit = fit_rigid(body, std::span(run.truth).first(body.size()), false);
+  u[kStartTheta] = fit.rotation_rad;
+  u[kStartX] = fit.x_m;
+  u[kStartY] = fit.y_m;
 }
 
 }  // namespace
@@ -122,6 +134,9 @@ std::vector<Unknowns> start_values(const PreparedRuns& runs, const WheelFactors&
     shared[kLeverX] = fit->sensor.x_m;
     shared[kLeverY] = fit->sensor.y_m;
     shared[kLeverYaw] = fit->sensor.yaw_rad;
+  } else if (const auto lever = lever_of_positions(runs, carried)) {
+    shared[kLeverX] = lever->x_m;
+    shared[kLeverY] = lever->y_m;
   }
   std::vector<Unknowns> all(runs.runs.size(), shared);
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -130,21 +145,10 @@ std::vector<Unknowns> start_values(const PreparedRuns& runs, const WheelFactors&
 }
 
 NoiseModel start_noise(const PreparedRuns& runs) {
-  std::vector<double> position, heading;
-  for (const PreparedRun& run : runs.runs) {
-    const std::vector<BodySample>& truth = run.source->truth;
-    for (std::size_t i = 2; i < truth.size(); ++i) {
-      const BodySample &a = truth[i - 2], &b = truth[i - 1], &c = truth[i];
-      if (!std::isfinite(a.x_m + b.x_m + c.x_m)) continue;
-      position.push_back(a.x_m - 2 * b.x_m + c.x_m);
-      position.push_back(a.y_m - 2 * b.y_m + c.y_m);
-      if (std::isfinite(a.theta_rad + b.theta_rad + c.theta_rad))
-        heading.push_back(std::remainder(c.theta_rad - b.theta_rad, 2 * std::numbers::pi) -
-                          std::remainder(b.theta_rad - a.theta_rad, 2 * std::numbers::pi));
-    }
-  }
-  return {kTypicalK_m, std::max(sigma_of(std::move(position)), 1e-5),
-          std::max(sigma_of(std::move(heading)), 1e-5)};
+  SecondDifferences differences;
+  for (const PreparedRun& run : runs.runs) differences.add(run.source->truth);
+  return {kTypicalK_m, std::max(differences.sigma_xy_m(), 1e-5),
+          std::max(differences.sigma_theta_rad(), 1e-5)};
 }
 
 }  // namespace astro::calibration

@@ -12,13 +12,14 @@ namespace astro::calibration {
 /// Throws astro::Error when the runs never turn or never go straight.
 void require_variety(const PreparedRuns& runs);
 
-/// Factors and lever arm from relative poses (relative_pose.hpp) where truth has headings; else as carried,
-/// without lever arm. One entry per run, with its own start pose and clock.
+/// Factors and lever arm from relative poses (relative_pose.hpp) where truth has headings; else factors as
+/// carried and the lever arm from positions (position_lever.hpp). One entry per run, with its own start pose
+/// and clock. All but the clocks are what the search would find if there were no noise.
 ///
 /// Throws astro::Error when a wheel comes out negative.
 std::vector<Unknowns> start_values(const PreparedRuns& runs, const WheelFactors& carried);
 
-/// The tracker's noise from second differences of its samples, which a motion hardly has; K as usual.
+/// The tracker's noise from its samples alone (tracker_noise.hpp); K as usual.
 NoiseModel start_noise(const PreparedRuns& runs);
 
 }  // namespace astro::calibration

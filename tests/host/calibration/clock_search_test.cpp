@@ -2,6 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <numbers>
+#include <random>
+
 #include "tests/host/calibration/ml_drives.hpp"
 
 namespace astro::calibration {
@@ -64,6 +70,133 @@ TEST(ClockSearch, FindsNothingInCommonWithAnotherDrive) {
   const ClockFit fit = search_clock(run, 0.29, {});
   EXPECT_LT(fit.correlation, 0.5);
   EXPECT_LT(fit.likeness, 0.9);
+}
+
+/// As a webcam, tags or UWB see it.
+Trajectory noisy_drive(double offset_s, double skew, double truth_rate_hz, std::uint64_t seed) {
+  study::DriveModel model = astro_drive();
+  model.noise.sigma_xy_m = 0.05;
+  model.noise.sigma_theta_rad = 3 * std::numbers::pi / 180;
+  model.truth_rate_hz = truth_rate_hz;
+  model.clock_offset_s = offset_s;
+  model.clock_skew = skew;
+  return study::synthetic_drive(study::square_course(1.7, Sense::cw), model, "run", seed);
+}
+
+// Speeds told over a second have a peak as wide; the likelihood pulls in from there.
+constexpr double kNoisy_s = 0.15;
+
+TEST(ClockSearch, FindsASmallOffsetUnderFiveCentimetresOfNoise) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const ClockFit fit = search_clock(noisy_drive(0.5, 0, 60, seed), 0.29, {});
+    EXPECT_NEAR(fit.offset_s, 0.5, kNoisy_s) << seed;
+    EXPECT_GT(fit.correlation, 0.9) << seed;
+  }
+}
+
+TEST(ClockSearch, FindsAnyOffsetAndASlowClockUnderFiveCentimetresOfNoise) {
+  for (const double rate_hz : {60.0, 10.0})
+    for (std::uint64_t seed = 0; seed < 3; ++seed) {
+      const ClockFit fit = search_clock(noisy_drive(482.3, -0.0235, rate_hz, seed), 0.29, {});
+      EXPECT_NEAR(fit.offset_s, 482.3, kNoisy_s) << rate_hz << ' ' << seed;
+      EXPECT_NEAR(fit.skew, -0.0235, 0.01) << rate_hz << ' ' << seed;  // kNoisy_s over half of 28 s
+      EXPECT_GT(fit.correlation, 0.9) << rate_hz << ' ' << seed;
+    }
+}
+
+TEST(ClockSearch, SeesASpinByWhereTheBodyGoesRound) {
+  study::DriveModel model = astro_drive();
+  model.headings = false;
+  model.clock_offset_s = 482.3;
+  const Trajectory run = study::synthetic_drive(study::spin_course(19), model, "spin", kSeed);
+  EXPECT_NEAR(search_clock(run, 0.29, {}).offset_s, 482.3, kBin_s);
+}
+
+Trajectory between(Trajectory run, double from_s, double to_s) {
+  std::erase_if(run.wheels, [&](const WheelSample& s) { return s.time_s < from_s || s.time_s > to_s; });
+  return run;
+}
+
+/// Lines, turns and rests of a robot that somebody plays with.
+study::Course wandering(double duration_s) {
+  std::mt19937_64 random(kSeed);
+  std::uniform_real_distribution<double> part(0, 1);
+  study::Course course;
+  for (double time_s = 0; time_s < duration_s;) {
+    const double rest_s = 1 + 9 * part(random), length_m = 0.3 + 2 * part(random),
+                 angle_rad = 6 * part(random) - 3;
+    course.push_back({study::Leg::Kind::rest, 0, 0, rest_s});
+    course.push_back({study::Leg::Kind::straight, length_m, 0, 0});
+    course.push_back({study::Leg::Kind::turn, 0, angle_rad, 0});
+    time_s += rest_s + length_m / 0.3 + std::abs(angle_rad) + 1;
+  }
+  return course;
+}
+
+TEST(ClockSearch, FindsAMinuteInATakeOfAnHour) {
+  study::DriveModel model = astro_drive();
+  const Trajectory hour = study::synthetic_drive(wandering(3600), model, "hour", kSeed);
+  std::printf("seed %llu\n", static_cast<unsigned long long>(kSeed));
+  for (const double from_s : {300.0, 1700.0, 3300.0}) {
+    Trajectory run = between(hour, from_s, from_s + 60);
+    for (BodySample& sample : run.truth) sample.time_s -= 5000;
+    const std::clock_t start = std::clock();
+    const ClockFit fit = search_clock(run, 0.29, {});
+    std::printf("%.2f s\n", static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+    EXPECT_NEAR(fit.offset_s, 5000, kBin_s) << from_s;
+    EXPECT_FALSE(fit.rival_offset_s) << from_s;
+  }
+}
+
+TEST(ClockSearch, FindsAMinuteOfTruthInADriveOfAnHour) {
+  Trajectory run = study::synthetic_drive(wandering(3600), astro_drive(), "hour", kSeed);
+  std::erase_if(run.truth, [](const BodySample& s) { return s.time_s < 1700 || s.time_s > 1760; });
+  for (BodySample& sample : run.truth) sample.time_s -= 5000;
+  const ClockFit fit = search_clock(run, 0.29, {});
+  // Where the truth is: what a minute leaves open of the skew grows towards the middle of the drive.
+  const double middle_s = (run.wheels.front().time_s + run.wheels.back().time_s) / 2 - fit.offset_s;
+  EXPECT_NEAR(fit.robot_time_s(1730 - 5000, middle_s), 1730, kBin_s);
+}
+
+study::Course laps(int count) {
+  study::Course course{{study::Leg::Kind::rest, 0, 0, 2}};
+  for (int side = 0; side < 4 * count; ++side) {
+    course.push_back({study::Leg::Kind::straight, 0.5, 0, 0});
+    course.push_back({study::Leg::Kind::turn, 0, std::numbers::pi / 2, 0});
+  }
+  course.push_back({study::Leg::Kind::rest, 0, 0, 2});
+  return course;
+}
+
+/// Ten laps of 17.3 s.
+Trajectory ten_laps(double offset_s, double sigma_m = 5e-4) {
+  study::DriveModel model = astro_drive();
+  model.noise.sigma_xy_m = sigma_m;
+  Trajectory run = study::synthetic_drive(laps(10), model, "laps", kSeed);
+  for (BodySample& sample : run.truth) sample.time_s -= offset_s;
+  return run;
+}
+
+TEST(ClockSearch, KnowsTheLapByTheRestsAroundAllOfThem) {
+  // 52 s are three laps: within a second of a wrong offset of none.
+  for (const double offset_s : {0.0, 52.0, 300.0})
+    for (const double sigma_m : {5e-4, 0.05}) {
+      const ClockFit fit = search_clock(ten_laps(offset_s, sigma_m), 0.29, {});
+      EXPECT_NEAR(fit.offset_s, offset_s, kNoisy_s) << sigma_m;
+      EXPECT_FALSE(fit.rival_offset_s) << offset_s << ' ' << sigma_m;
+    }
+}
+
+TEST(ClockSearch, SaysWhenAnyLapWouldDo) {
+  const ClockFit fit = search_clock(between(ten_laps(300), 60, 110), 0.29, {});
+  ASSERT_TRUE(fit.rival_offset_s);
+  EXPECT_GT(std::abs(*fit.rival_offset_s - fit.offset_s), 4);  // a side of the square
+}
+
+TEST(ClockSearch, TakesTheLapThatClocksSideBySideSpeakFor) {
+  const ClockFit fit = search_clock(between(ten_laps(0.3), 60, 110), 0.29, {});
+  EXPECT_NEAR(fit.offset_s, 0.3, kBin_s);
+  EXPECT_FALSE(fit.rival_offset_s);
 }
 
 }  // namespace

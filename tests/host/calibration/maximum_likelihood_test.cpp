@@ -301,6 +301,51 @@ TEST(MaximumLikelihood, TakesRunsWithOtherClocksEach) {
   EXPECT_LT(std::abs(found.clock_skew - 0.01), kFourSigma * found.clock_skew_se);
 }
 
+TEST(MaximumLikelihood, FindsTheClockOfATrackerThatIsOffByCentimetres) {
+  DriveModel model = astro_drive();
+  model.noise.sigma_xy_m = 0.05;
+  model.noise.sigma_theta_rad = 3 * std::numbers::pi / 180;
+  for (const auto& [offset_s, skew] : {std::pair{0.5, 0.0}, {482.3, -0.0235}}) {
+    model.clock_offset_s = offset_s;
+    model.clock_skew = skew;
+    const MlEstimate found = estimate_ml(squares(model, 4), model.carried);
+    expect_true(found, model.actual);
+    EXPECT_LT(std::abs(found.clock_skew - skew), kFourSigma * found.clock_skew_se);
+    for (const RunFit& run : found.runs)
+      EXPECT_LT(std::abs(run.clock_offset_s - offset_s), kFourSigma * run.clock_offset_se_s);
+  }
+}
+
+TEST(MaximumLikelihood, UsesSpinsOfPositionsAloneWithABodyOffTheAxis) {
+  DriveModel model = astro_drive();
+  model.headings = false;
+  model.clock_offset_s = 482.3;
+  // Ahead, behind, and beside: a body that trails lets a search from no lever at all go astray.
+  for (const LeverArm& lever : {LeverArm{0.3, 0, 0}, {-0.3, 0, 0}, {-0.2, -0.2, 0}}) {
+    model.lever = lever;
+    std::vector<Trajectory> runs = squares(model, 2, 1.7);
+    runs.push_back(study::synthetic_drive(study::spin_course(19), model, "spin", kSeed));
+    const MlEstimate found = estimate_ml(runs, model.carried);
+    expect_true(found, model.actual);
+    EXPECT_EQ(found.runs.size(), 3u);
+    EXPECT_LT(std::abs(found.lever.x_m - lever.x_m), kFourSigma * found.lever_se.x_m);
+  }
+}
+
+TEST(MaximumLikelihood, DoesWithoutASpinThatPositionsCannotSee) {
+  DriveModel model = astro_drive();
+  model.headings = false;
+  model.lever = {};
+  model.clock_offset_s = 7;
+  std::vector<Trajectory> runs = squares(model, 4);
+  runs.insert(runs.begin() + 1, study::synthetic_drive(study::spin_course(19), model, "spin", kSeed));
+  const MlEstimate found = estimate_ml(runs, model.carried);
+  expect_true(found, model.actual);
+  EXPECT_EQ(found.runs.size(), 4u);
+  EXPECT_THAT(found.remarks(),
+              testing::Contains(AllOf(HasSubstr("spin"), HasSubstr("stand still"), HasSubstr("left out"))));
+}
+
 TEST(MaximumLikelihood, CallsAWideCircleATurn) {
   DriveModel model = astro_drive();
   std::vector<Trajectory> runs;
@@ -330,6 +375,25 @@ TEST(MaximumLikelihood, TellsTheMotionsApart) {
   EXPECT_NEAR(found.kinds[1].distance_m, 24, 0.5);                      // lines of two squares
   EXPECT_NEAR(found.kinds[2].rotation_rad, 2 * std::numbers::pi, 0.4);  // the circle
   EXPECT_NEAR(found.kinds[3].rotation_rad, 4 * std::numbers::pi, 0.5);  // their corners
+}
+
+TEST(CramerRaoBound, CountsNoTruthThatTheEstimateLeavesUnused) {
+  DriveModel model = astro_drive();
+  model.count_rate_hz = 20;
+  model.noise.sigma_xy_m = 0.03;
+  model.noise.sigma_theta_rad = 0.05;
+  MlOptions options;
+  options.noise = model.noise;
+  const auto bound = [&](double truth_rate_hz) {
+    model.truth_rate_hz = truth_rate_hz;
+    return errors_of(cramer_rao_bound(squares(model, 2), model.actual, model.lever, options), model.actual);
+  };
+  // 60 and 100 Hz leave one sample for each of the wheels, as 20 Hz do; 1 % for which of them that is.
+  const MlErrors one = bound(20);
+  for (const double rate_hz : {60.0, 100.0}) {
+    EXPECT_NEAR(bound(rate_hz).scale, one.scale, 0.01 * one.scale) << rate_hz;
+    EXPECT_NEAR(bound(rate_hz).b_over_scale_m, one.b_over_scale_m, 0.01 * one.b_over_scale_m) << rate_hz;
+  }
 }
 
 TEST(CramerRaoBound, KeepsTheDesignRulesForTenSquares) {

@@ -99,6 +99,29 @@ TEST(MlRefuses, TruthOfAnotherDrive) {
   EXPECT_THAT(refusal(runs), AllOf(HasSubstr("run 1"), HasSubstr("same drive")));
 }
 
+TEST(MlRefuses, ADriveWhoseLapsCannotBeTold) {
+  study::Course course{{study::Leg::Kind::rest, 0, 0, 1}};
+  for (int side = 0; side < 32; ++side) {
+    course.push_back({study::Leg::Kind::straight, 0.5, 0, 0});
+    course.push_back({study::Leg::Kind::turn, 0, kPi / 2, 0});
+  }
+  DriveModel model = astro_drive();
+  model.clock_offset_s = 300;
+  std::vector<Trajectory> runs = one(course, model);
+  std::erase_if(runs[0].wheels, [](const WheelSample& s) { return s.time_s < 40 || s.time_s > 80; });
+  EXPECT_THAT(refusal(runs),
+              AllOf(HasSubstr("run 7"), HasSubstr("repeats itself"), HasSubstr("--clock known")));
+}
+
+TEST(MlRefuses, SpinsUnderPositionsThatStandStill) {
+  DriveModel model = astro_drive();
+  model.headings = false;
+  model.lever = {};
+  model.clock_offset_s = 7;
+  EXPECT_THAT(refusal(one(study::spin_course(6 * kPi), model)),
+              AllOf(HasSubstr("run 7"), HasSubstr("stand still"), HasSubstr("export the orientation")));
+}
+
 TEST(MlRefuses, HeadingsThatNeverChange) {
   std::vector<Trajectory> runs = squares(astro_drive(), 1);
   for (BodySample& sample : runs[0].truth) sample.theta_rad = 0.3;

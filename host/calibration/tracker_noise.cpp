@@ -1,0 +1,41 @@
+#include "host/calibration/tracker_noise.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace astro::calibration {
+namespace {
+
+double sigma_of(std::vector<double> second_differences) {
+  if (second_differences.empty()) return 0;
+  for (double& value : second_differences) value = std::abs(value);
+  const auto middle = second_differences.begin() + static_cast<std::ptrdiff_t>(second_differences.size() / 2);
+  std::nth_element(second_differences.begin(), middle, second_differences.end());
+  return *middle / 0.6745 / std::sqrt(6.0);
+}
+
+}  // namespace
+
+void SecondDifferences::add(std::span<const BodySample> truth) {
+  for (std::size_t i = 2; i < truth.size(); ++i) {
+    const BodySample &a = truth[i - 2], &b = truth[i - 1], &c = truth[i];
+    if (!std::isfinite(a.x_m + b.x_m + c.x_m)) continue;
+    position_m_.push_back(a.x_m - 2 * b.x_m + c.x_m);
+    position_m_.push_back(a.y_m - 2 * b.y_m + c.y_m);
+    if (std::isfinite(a.theta_rad + b.theta_rad + c.theta_rad))
+      heading_rad_.push_back(std::remainder(c.theta_rad - b.theta_rad, 2 * std::numbers::pi) -
+                             std::remainder(b.theta_rad - a.theta_rad, 2 * std::numbers::pi));
+  }
+}
+
+double SecondDifferences::sigma_xy_m() const { return sigma_of(position_m_); }
+double SecondDifferences::sigma_theta_rad() const { return sigma_of(heading_rad_); }
+
+bool mostly_headings(std::span<const BodySample> truth) {
+  const auto with = std::count_if(truth.begin(), truth.end(),
+                                  [](const BodySample& sample) { return std::isfinite(sample.theta_rad); });
+  return 2 * static_cast<std::size_t>(with) > truth.size();
+}
+
+}  // namespace astro::calibration
