@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 
-#include <nlohmann/json.hpp>
-
+#include "tests/support/json.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/terminal_program.hpp"
 
@@ -37,15 +36,15 @@ TEST_P(Wired, WronglyIsNamedAndTheRobotDrivesAfterTheUpload) {
   const Outcome outcome =
       check(simulator, {"--saw-left", wrong.saw_left, "--saw-right", wrong.saw_right, "--upload", "--json"});
   EXPECT_EQ(outcome.code, wrong.by_parameters ? 0 : 1) << outcome.err;
-  const json result = json::parse(outcome.out);
+  const json result = support::parse_json(outcome.out);
   ASSERT_EQ(result["findings"].size(), 1U) << outcome.out;
   EXPECT_EQ(result["findings"][0]["fault"], wrong.fault);
   EXPECT_EQ(result["needs_hands"], !wrong.by_parameters);
   if (!wrong.by_parameters) return;
   const Outcome drive = astrolabe({"drive", "line", "0.5", "--json", "--port", simulator.port()});
   ASSERT_EQ(drive.code, 0) << drive.err;
-  EXPECT_NEAR(json::parse(drive.out)["moved"]["x_m"], 0.5, 0.003);
-  EXPECT_NEAR(json::parse(drive.out)["moved"]["y_m"], 0, 0.003);
+  EXPECT_NEAR(support::parse_json(drive.out)["moved"]["x_m"], 0.5, 0.003);
+  EXPECT_NEAR(support::parse_json(drive.out)["moved"]["y_m"], 0, 0.003);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -72,8 +71,8 @@ TEST(CheckWiring, WithoutEyesItLoadsNothingThatItWouldHaveToGuess) {
   const Outcome outcome = check(simulator, {"--no-look", "--upload", "--json"});
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(outcome.err, HasSubstr("--saw-left"));
-  EXPECT_EQ(json::parse(outcome.out)["findings"][0]["fault"], "left_motor_or_encoder_reversed");
-  EXPECT_EQ(json::parse(outcome.out)["parameters"], json::object());
+  EXPECT_EQ(support::parse_json(outcome.out)["findings"][0]["fault"], "left_motor_or_encoder_reversed");
+  EXPECT_EQ(support::parse_json(outcome.out)["parameters"], json::object());
 }
 
 TEST(CheckWiring, OffersAndLeavesAloneWithoutUpload) {
@@ -110,7 +109,7 @@ TEST(CheckWiring, CtrlCAtAQuestionLeavesTheRobotDisarmed) {
   ASSERT_TRUE(program.shows("Which wheel turned"));
   program.send(SIGINT);
   EXPECT_EQ(program.wait(), 130) << program.seen();
-  const json info = json::parse(astrolabe({"info", "--json", "--port", simulator.port()}).out);
+  const json info = support::parse_json(astrolabe({"info", "--json", "--port", simulator.port()}).out);
   EXPECT_EQ(info["mode"], "disarmed");
   EXPECT_EQ(info["faults"], json::array());
 }

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 
-#include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "tests/support/json.hpp"
 #include "tests/support/program.hpp"
 
 // Drives that end by themselves, against a simulator in fast motion.
@@ -26,7 +26,7 @@ class Drive : public testing::Test {
     words.insert(words.end(), {"--json", "--port", simulator_.port()});
     const Outcome outcome = support::astrolabe(words);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
-    return json::parse(outcome.out);
+    return support::parse_json(outcome.out);
   }
   static void moved(const json& report, double x_m, double y_m, double theta_rad) {
     EXPECT_EQ(report["outcome"], "completed");
@@ -97,7 +97,8 @@ TEST_F(Drive, WhatTheRobotCannotDoIsRefused) {
 
 TEST_F(Drive, LeavesTheRobotDisarmed) {
   drive({"line", "0.1"});
-  const json info = json::parse(support::astrolabe({"info", "--json", "--port", simulator_.port()}).out);
+  const json info =
+      support::parse_json(support::astrolabe({"info", "--json", "--port", simulator_.port()}).out);
   EXPECT_EQ(info["mode"], "disarmed");
   EXPECT_EQ(info["faults"], json::array());
 }

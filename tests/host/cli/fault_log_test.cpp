@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 
-#include <nlohmann/json.hpp>
-
+#include "tests/support/json.hpp"
 #include "tests/support/program.hpp"
 
 // astrolabe faults --log: what stopped the robot, through restarts.
@@ -17,7 +16,7 @@ using testing::HasSubstr;
 json log_of(const Simulator& simulator) {
   const Outcome outcome = astrolabe({"faults", "--log", "--json", "--port", simulator.port()});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  return json::parse(outcome.out);
+  return support::parse_json(outcome.out);
 }
 
 void stop(const Simulator& simulator) {

@@ -1,9 +1,8 @@
 #include <gmock/gmock.h>
 #include <stdlib.h>
 
-#include <nlohmann/json.hpp>
-
 #include "common/protocol/session.hpp"
+#include "tests/support/json.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/pty.hpp"
 
@@ -36,7 +35,7 @@ TEST_F(Info, SaysWhoTheRobotIsAndHow) {
   const Simulator simulator;
   const Outcome outcome = astrolabe({"info", "--port", simulator.port(), "--json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const json info = json::parse(outcome.out);
+  const json info = support::parse_json(outcome.out);
   EXPECT_EQ(info["name"], "ASTRO");
   EXPECT_EQ(info["board"], "sim");
   EXPECT_EQ(info["protocol"], protocol::kProtocolVersion);
@@ -73,7 +72,7 @@ TEST_F(Info, OfSeveralRobotsListsThem) {
 TEST_F(Info, TellsRobotsOfDifferentSeedsApart) {
   const Simulator one({"--seed", "1"}), other({"--seed", "2"});
   const auto id = [](const Simulator& robot) {
-    return json::parse(astrolabe({"info", "--json", "--port", robot.port()}).out)["id"];
+    return support::parse_json(astrolabe({"info", "--json", "--port", robot.port()}).out)["id"];
   };
   EXPECT_NE(id(one), id(other));
   EXPECT_EQ(id(one), id(one));
@@ -81,7 +80,7 @@ TEST_F(Info, TellsRobotsOfDifferentSeedsApart) {
 
 TEST_F(Ports, ListsSimulatorsWhereverTheyAre) {
   const Simulator simulator;
-  const json found = json::parse(astrolabe({"ports", "--json"}).out);
+  const json found = support::parse_json(astrolabe({"ports", "--json"}).out);
   ASSERT_EQ(found.size(), 1U);  // this machine has no serial port, or the test would name it
   EXPECT_TRUE(found[0]["simulator"]);
   EXPECT_EQ(found[0]["robot"]["name"], "ASTRO");
@@ -91,7 +90,7 @@ TEST_F(Ports, ListsSimulatorsWhereverTheyAre) {
 TEST_F(Ports, OfAnEmptyDeskAreNone) {
   const Outcome outcome = astrolabe({"ports", "--json"});
   EXPECT_EQ(outcome.code, 0);
-  EXPECT_EQ(json::parse(outcome.out), json::array());
+  EXPECT_EQ(support::parse_json(outcome.out), json::array());
   EXPECT_EQ(astrolabe({"ports"}).out, "");
 }
 
@@ -101,7 +100,7 @@ TEST_F(Sim, TakesItsLinksAwayWhenItEnds) {
     simulator.program().send(signal);
     EXPECT_EQ(simulator.program().wait(), 0);
     EXPECT_FALSE(std::filesystem::exists(std::filesystem::symlink_status(simulator.port())));
-    EXPECT_EQ(json::parse(astrolabe({"ports", "--json"}).out), json::array());
+    EXPECT_EQ(support::parse_json(astrolabe({"ports", "--json"}).out), json::array());
     EXPECT_TRUE(std::filesystem::is_empty(*std::filesystem::directory_iterator(folder_.path())));
   }
 }
@@ -154,7 +153,7 @@ TEST_F(Monitor, PrintsOneLineOfJsonPerSample) {
   double last_s = 0;
   int count = 0;
   while (std::getline(lines, line)) {
-    const json sample = json::parse(line);
+    const json sample = support::parse_json(line);
     if (count++ > 0) {
       EXPECT_NEAR(sample["time_s"].get<double>() - last_s, 0.02, 1e-9);  // on the robot's clock, exact
     }
@@ -178,7 +177,7 @@ TEST_F(Faults, OfAnEmergencyStopHoldUntilTheyAreCleared) {
   EXPECT_EQ(refused.code, 1);
   EXPECT_THAT(refused.err, HasSubstr("emergency_stop"));
   EXPECT_EQ(refused.out, "");
-  const json report = json::parse(astrolabe({"faults", "--clear", "--json", "--port", port}).out);
+  const json report = support::parse_json(astrolabe({"faults", "--clear", "--json", "--port", port}).out);
   EXPECT_EQ(report["latched"], json::array({"emergency_stop"}));
   EXPECT_EQ(report["first"], "emergency_stop");
   EXPECT_EQ(astrolabe({"drive", "line", "0.1", "--port", port}).code, 0);

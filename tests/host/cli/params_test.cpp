@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 
+#include "tests/support/json.hpp"
 #include "tests/support/program.hpp"
 
 namespace astro {
@@ -36,7 +36,7 @@ TEST_F(Params, ListShowsEveryRowWithUnitLimitsAndMeaning) {
   ASSERT_EQ(outcome.code, 0);
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("Wheelbase: distance between the contact points"),
                                  HasSubstr("0.05 to 2"), HasSubstr("robot_name")));
-  const json rows = json::parse(params({"list", "--json"}).out);
+  const json rows = support::parse_json(params({"list", "--json"}).out);
   EXPECT_EQ(rows.size(),
             static_cast<std::size_t>(std::count(outcome.out.begin(), outcome.out.end(), '\n')) - 1);
 }
@@ -96,7 +96,7 @@ TEST_F(Params, WordsThatAssignNothingAreWrongUsage) {
 TEST_F(Params, StagedValuesWaitForSaveOrRevert) {
   ASSERT_EQ(params({"set", "b=0.28", "--stage-only"}).code, 0);
   EXPECT_EQ(get("b"), "0.29\n");
-  EXPECT_EQ(json::parse(params({"get", "b", "--json"}).out)["staged"], 0.28);
+  EXPECT_EQ(support::parse_json(params({"get", "b", "--json"}).out)["staged"], 0.28);
   ASSERT_EQ(params({"save"}).code, 0);
   EXPECT_EQ(get("b"), "0.28\n");
 
@@ -108,15 +108,15 @@ TEST_F(Params, StagedValuesWaitForSaveOrRevert) {
 
 TEST_F(Params, ExportAndImportBringEveryValueBack) {
   ASSERT_EQ(params({"set", "c_R=1.00208", "b=0.288611", "kp=37.5", "robot_name=A \"B\"", "--yes"}).code, 0);
-  const json before = json::parse(params({"list", "--json"}).out);
+  const json before = support::parse_json(params({"list", "--json"}).out);
   ASSERT_EQ(params({"export", file()}).code, 0);
   ASSERT_EQ(params({"defaults", "--yes"}).code, 0);
   EXPECT_EQ(get("b"), "0.29\n");
   EXPECT_EQ(get("robot_name"), "ASTRO\n");
   const Outcome loaded = params({"import", file(), "--yes", "--json"});
   ASSERT_EQ(loaded.code, 0) << loaded.err;
-  EXPECT_EQ(json::parse(loaded.out)["changed"].size(), 4U);
-  EXPECT_EQ(json::parse(params({"list", "--json"}).out), before);
+  EXPECT_EQ(support::parse_json(loaded.out)["changed"].size(), 4U);
+  EXPECT_EQ(support::parse_json(params({"list", "--json"}).out), before);
 }
 
 TEST_F(Params, ImportOfWhatIsNoParameterFileNamesTheFile) {
@@ -129,7 +129,7 @@ TEST_F(Params, ImportOfWhatIsNoParameterFileNamesTheFile) {
 
 TEST_F(Params, JsonAnswersAreTheOnlyThingOnStdout) {
   const Outcome outcome = params({"set", "b=0.2886", "--json"});
-  const json answer = json::parse(outcome.out);
+  const json answer = support::parse_json(outcome.out);
   EXPECT_TRUE(answer["in_force"]);
   EXPECT_EQ(answer["changed"][0]["name"], "b");
   EXPECT_EQ(answer["changed"][0]["before"], 0.29);
@@ -152,9 +152,9 @@ TEST(Flash, KeepsParametersThroughAReboot) {
   ASSERT_EQ(support::astrolabe({"params", "set", "b=0.2886", "--port", simulator.port()}).code, 0);
   const Outcome reboot = support::astrolabe({"reboot", "--port", simulator.port()});
   EXPECT_EQ(reboot.code, 0) << reboot.err;
-  EXPECT_EQ(
-      json::parse(support::astrolabe({"info", "--json", "--port", simulator.port()}).out)["reset_cause"],
-      "software");
+  EXPECT_EQ(support::parse_json(
+                support::astrolabe({"info", "--json", "--port", simulator.port()}).out)["reset_cause"],
+            "software");
   EXPECT_EQ(support::astrolabe({"params", "get", "b", "--port", simulator.port()}).out, "0.2886\n");
 }
 

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 
-#include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tests/support/json.hpp"
 #include "tests/support/program.hpp"
 
 // `astrolabe plan`.
@@ -20,7 +20,7 @@ json plan(Words options) {
   options.push_back("--json");
   const Outcome outcome = astrolabe(options);
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  return json::parse(outcome.out);
+  return support::parse_json(outcome.out);
 }
 
 TEST(PlanCommand, SaysWhatSquaresWillGive) {

@@ -1,11 +1,11 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "host/truth/socket_source.hpp"
+#include "tests/support/json.hpp"
 #include "tests/support/program.hpp"
 
 // Drives that are cut short, against a simulator in real time; the virtual cameras say what the robot really
@@ -52,7 +52,9 @@ class CutShort : public testing::Test {
     return track_.back().time_us;
   }
 
-  json info() const { return json::parse(astrolabe({"info", "--json", "--port", simulator_.port()}).out); }
+  json info() const {
+    return support::parse_json(astrolabe({"info", "--json", "--port", simulator_.port()}).out);
+  }
 
   support::Simulator simulator_{{}};
 
@@ -95,7 +97,7 @@ TEST_F(CutShort, KilledDuringAPathTheRobotStopsByItselfAndDrivesAgain) {
   const Outcome again = astrolabe({"drive", "line", "0.2", "--json", "--port", simulator_.port()});
   ASSERT_EQ(again.code, 0) << again.err;
   EXPECT_THAT(again.err, HasSubstr("link_lost")) << "says that it cleared it";
-  EXPECT_NEAR(json::parse(again.out)["moved"]["x_m"], 0.2, 0.002);
+  EXPECT_NEAR(support::parse_json(again.out)["moved"]["x_m"], 0.2, 0.002);
 }
 
 TEST_F(CutShort, KilledWhileHoldingAVelocityTheRobotStopsByItsCommandTimeOut) {
@@ -113,7 +115,7 @@ TEST_F(CutShort, InterruptedTheRobotRampsToRestAndIsDisarmed) {
     program.send(signal);
     EXPECT_EQ(program.wait(), 130);
     EXPECT_EQ(program.err(), "astrolabe: stopped: the robot is at rest and disarmed\n");
-    const json report = json::parse(program.out());
+    const json report = support::parse_json(program.out());
     EXPECT_EQ(report["outcome"], "interrupted");
     EXPECT_GT(report["moved"]["x_m"], 0.2);
     EXPECT_LT(seconds_to_rest(now_us()), 0.1);  // it stood when the program ended

@@ -3,9 +3,9 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tests/support/json.hpp"
 #include "tests/support/program.hpp"
 
 // `astrolabe study` and `study merge`, on squares small enough for a test.
@@ -49,7 +49,7 @@ TEST(StudyCommand, PrintsEveryMethodAndTheBoundWithin80Columns) {
 TEST(StudyCommand, GivesTheSameAsJson) {
   const Outcome outcome = astrolabe(study({"--json", "--clock", "estimated"}));
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const json result = json::parse(outcome.out);
+  const json result = support::parse_json(outcome.out);
   EXPECT_EQ(result["setup"]["clock"], "estimated");
   EXPECT_EQ(result["setup"]["model"], "kinematic");
   EXPECT_EQ(result["setup"]["side_m"], 0.5);

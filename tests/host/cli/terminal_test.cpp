@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 
-#include <nlohmann/json.hpp>
-
+#include "tests/support/json.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/terminal_program.hpp"
 
@@ -27,7 +26,9 @@ class Terminal : public testing::Test {
     words.insert(words.end(), {"--port", simulator_.port()});
     return words;
   }
-  json info() const { return json::parse(astrolabe({"info", "--json", "--port", simulator_.port()}).out); }
+  json info() const {
+    return support::parse_json(astrolabe({"info", "--json", "--port", simulator_.port()}).out);
+  }
 
   support::Simulator simulator_{{}};  // in real time, as people do
 };

@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
+#include "tests/support/json.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/terminal_program.hpp"
 
@@ -35,11 +35,12 @@ Outcome tune(const Simulator& simulator, const Words& more) {
 }
 
 json info(const Simulator& simulator) {
-  return json::parse(astrolabe({"info", "--json", "--port", simulator.port()}).out);
+  return support::parse_json(astrolabe({"info", "--json", "--port", simulator.port()}).out);
 }
 
 double on_robot(const Simulator& simulator, const std::string& name) {
-  return json::parse(astrolabe({"params", "get", name, "--json", "--port", simulator.port()}).out)["value"];
+  return support::parse_json(
+      astrolabe({"params", "get", name, "--json", "--port", simulator.port()}).out)["value"];
 }
 
 std::string content(const std::string& path) {
@@ -58,7 +59,7 @@ TEST(Tune, OnTheGroundFindsEachMotorLoadsItAndMeasuresAgain) {
   const Simulator simulator({"--fast", "--motor-mismatch", "0.1"});
   const Outcome outcome = tune(simulator, {"--on-ground", "--yes", "--upload", "--json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const json result = json::parse(outcome.out);
+  const json result = support::parse_json(outcome.out);
   expect_model(result["wheels"]["left"], 0.95, kA_ground);
   expect_model(result["wheels"]["right"], 1.05, kA_ground);
   EXPECT_TRUE(result["uploaded"]);
@@ -93,7 +94,7 @@ TEST(Tune, OnAStandOffersFrictionAndGainOnlyAndLoadsNothingUnasked) {
   const Simulator simulator({"--fast", "--on-stand"});
   const Outcome outcome = tune(simulator, {"--on-stand", "--yes", "--json", "--bandwidth", "40rad/s"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const json result = json::parse(outcome.out);
+  const json result = support::parse_json(outcome.out);
   expect_model(result["wheels"]["left"], 1, kA_stand);
   EXPECT_NEAR(result["designed"]["margins"]["bandwidth_radps"], 40, 0.5);
   for (const json& change : result["changes"])

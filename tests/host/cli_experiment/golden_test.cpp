@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "tests/golden/printed.hpp"
 #include "tests/golden/thesis_tables.hpp"
+#include "tests/support/json.hpp"
 #include "tests/support/program.hpp"
 
 // Tables 11 and 12 of the thesis through the command line: every variant to the digits of the recomputation.
@@ -33,7 +33,7 @@ nlohmann::json calibrate(const std::vector<std::string>& options) {
   arguments.insert(arguments.end(), options.begin(), options.end());
   const support::Outcome outcome = support::astrolabe(arguments);
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  return nlohmann::json::parse(outcome.out);
+  return support::parse_json(outcome.out);
 }
 
 struct Variant {

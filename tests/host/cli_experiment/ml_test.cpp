@@ -5,9 +5,9 @@
 #include <cmath>
 #include <fstream>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tests/support/json.hpp"
 #include "tests/support/program.hpp"
 
 // Maximum likelihood from the command line: what is printed, refused, exported and uploaded.
@@ -55,7 +55,7 @@ class Ml : public testing::Test {
     more.push_back("--json");
     const Outcome outcome = runs(more, folder);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
-    return nlohmann::json::parse(outcome.out);
+    return support::parse_json(outcome.out);
   }
 
   inline static Simulator* simulator_ = nullptr;
@@ -63,7 +63,7 @@ class Ml : public testing::Test {
 };
 
 TEST_F(Ml, DrivesTheFewestSquaresWhereTheyAreEnough) {
-  const nlohmann::json json = nlohmann::json::parse(driven_.out);
+  const nlohmann::json json = support::parse_json(driven_.out);
   EXPECT_EQ(json["before"]["cw"]["runs"], 2);
   EXPECT_EQ(json["after"]["cw"]["runs"], 1);
   EXPECT_EQ(json["phases"][0]["estimate"]["method"], "ml");
@@ -194,7 +194,7 @@ TEST_F(Ml, IsExportedByTheEndOfTheFile) {
               AllOf(HasSubstr("base_controller:\n  ros__parameters:\n    wheel_radius: 0.036\n"),
                     HasSubstr("wheel_separation_multiplier: 0.99")));
   EXPECT_EQ(exported("a.json").code, 0);
-  EXPECT_EQ(nlohmann::json::parse(read(folder / "a.json"))["calibration"]["method"], "ml");
+  EXPECT_EQ(support::parse_json(read(folder / "a.json"))["calibration"]["method"], "ml");
   EXPECT_EQ(exported("a.toml").code, 0);
   EXPECT_THAT(read(folder / "a.toml"), HasSubstr("[diff_drive_controller]"));
   EXPECT_EQ(exported("a.txt", {"--format", "json"}).code, 0);

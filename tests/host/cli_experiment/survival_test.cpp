@@ -1,8 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
+#include "tests/support/json.hpp"
 #include "tests/support/program.hpp"
 
 // A host program that dies must not leave a robot driving, and the next one must find the robot as it is.
@@ -12,7 +11,7 @@ namespace {
 using support::astrolabe;
 
 nlohmann::json info(const support::Simulator& simulator) {
-  return nlohmann::json::parse(astrolabe({"info", "--port", simulator.port(), "--json"}).out);
+  return support::parse_json(astrolabe({"info", "--port", simulator.port(), "--json"}).out);
 }
 
 TEST(Survival, ARobotWhoseHostIsKilledStopsByItselfAndServesTheNextHost) {

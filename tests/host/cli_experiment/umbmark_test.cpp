@@ -1,8 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
+#include "tests/support/json.hpp"
 #include "tests/support/program.hpp"
 
 // The whole experiment with the real program over a real pty.
@@ -28,7 +27,7 @@ TEST(Umbmark, CalibratesASimulatedRobotOverAPty) {
   const support::Outcome outcome =
       astrolabe(umbmark(simulator, out, {"--runs", "5", "--side", "3", "--json"}));
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const nlohmann::json json = nlohmann::json::parse(outcome.out);
+  const nlohmann::json json = support::parse_json(outcome.out);
   const double before_m = json["before"]["E_max_syst_m"], after_m = json["after"]["E_max_syst_m"];
   std::printf("over a pty: E_max_syst %.1f mm -> %.1f mm, %.1f times smaller\n", 1000 * before_m,
               1000 * after_m, before_m / after_m);
@@ -44,7 +43,7 @@ TEST(Umbmark, CalibratesASimulatedRobotOverAPty) {
   EXPECT_TRUE(fs::exists(json["report"].get<std::string>()));
 
   const nlohmann::json b =
-      nlohmann::json::parse(astrolabe({"params", "get", "b", "--port", simulator.port(), "--json"}).out);
+      support::parse_json(astrolabe({"params", "get", "b", "--port", simulator.port(), "--json"}).out);
   EXPECT_NEAR(b["value"].get<double>(), json["parameters"]["new"]["b_m"].get<double>(), 1e-9)
       << "the robot holds what the result says, in whole nanometres";
 
@@ -53,10 +52,10 @@ TEST(Umbmark, CalibratesASimulatedRobotOverAPty) {
   EXPECT_GT(fs::file_size(simulator.folder() / "again.html"), 1'000'000U);
   const support::Outcome runs = astrolabe({"calibrate", "runs", out + "/before", "--json"});
   // The same runs in another order: rounding apart.
-  EXPECT_NEAR(nlohmann::json::parse(runs.out)["c_R"].get<double>(),
+  EXPECT_NEAR(support::parse_json(runs.out)["c_R"].get<double>(),
               json["phases"][0]["estimate"]["c_R"].get<double>(), 1e-9);
   const support::Outcome two = astrolabe({"compare", out + "/before", out + "/after", "--json"});
-  EXPECT_EQ(nlohmann::json::parse(two.out)["improvement"], json["improvement"]);
+  EXPECT_EQ(support::parse_json(two.out)["improvement"], json["improvement"]);
 }
 
 TEST(Umbmark, WithoutSlipOneRepeatLeavesAThirtiethAtMost) {
@@ -68,7 +67,7 @@ TEST(Umbmark, WithoutSlipOneRepeatLeavesAThirtiethAtMost) {
   const support::Outcome outcome =
       astrolabe(umbmark(simulator, out, {"--runs", "2", "--rounds", "2", "--no-extras", "--json"}));
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const double improvement = nlohmann::json::parse(outcome.out)["improvement"];
+  const double improvement = support::parse_json(outcome.out)["improvement"];
   std::printf("over a pty without slip, two rounds: %.0f times smaller\n", improvement);
   EXPECT_GE(improvement, 30);
 }
@@ -87,7 +86,7 @@ TEST(Umbmark, CtrlCStopsTheRobotAndTheSameCommandGoesOn) {
   if (code == 0) GTEST_SKIP() << "the experiment was over before it could be interrupted";
   EXPECT_EQ(code, 130);
   const nlohmann::json info =
-      nlohmann::json::parse(astrolabe({"info", "--port", simulator.port(), "--json"}).out);
+      support::parse_json(astrolabe({"info", "--port", simulator.port(), "--json"}).out);
   EXPECT_EQ(info["mode"], "disarmed");
   const support::Outcome second = astrolabe(arguments);
   EXPECT_EQ(second.code, 0) << second.err;

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 
+#include "tests/support/json.hpp"
 #include "tests/support/program.hpp"
 
 namespace astro {
@@ -28,7 +28,7 @@ class Upload : public testing::Test {
   }
   double on_robot(const std::string& name) const {
     const Outcome outcome = astrolabe({"params", "get", name, "--port", simulator_.port(), "--json"});
-    return nlohmann::json::parse(outcome.out).at("value");
+    return support::parse_json(outcome.out).at("value");
   }
 
   support::Simulator simulator_;
@@ -37,7 +37,7 @@ class Upload : public testing::Test {
 TEST_F(Upload, LoadsChecksAndReadsBack) {
   const Outcome outcome = upload("c_R = 1.002\nc_L = 0.998\nb = 0.289\n", {"--yes", "--json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const nlohmann::json json = nlohmann::json::parse(outcome.out);
+  const nlohmann::json json = support::parse_json(outcome.out);
   EXPECT_EQ(json["active"], "new");
   EXPECT_NEAR(json["parameters"]["b"]["now"], 0.289, 1e-9);  // b is kept in nanometres
   EXPECT_NEAR(on_robot("c_R"), 1.002, 1e-9);                 // c_R in steps of 2^-30

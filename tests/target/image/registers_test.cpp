@@ -4,8 +4,10 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <span>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace astro::target {
@@ -15,18 +17,19 @@ namespace {
 /// width.
 using Rows = std::map<std::string, std::pair<std::uint32_t, std::uint32_t>>;
 
+// Plain constants: a thousand strings made one by one take half a minute to compile.
 struct Row {
-  std::string kind, type, name;  // a register's name; a register's and its field's
+  std::string_view kind, type, name;  // a register's name; a register's and its field's
   std::uint32_t place, width;
 };
 
 /// As the drivers have them, by type of peripheral.
-const std::vector<Row>& written_rows() {
+std::span<const Row> written_rows() {
 #define TYPE(type)
 #define INSTANCE(type, name, address) {"instance", #type, #name, address, 0},
 #define REGISTER(type, name, offset, width) {"register", #type, #name, offset, width},
 #define FIELD(type, reg, name, lsb, width) {"field", #type, #reg " " #name, lsb, width},
-  static const std::vector<Row> all{
+  static constexpr Row all[] = {
 #include "hal/teensy40/registers/all.def"
   };
 #undef TYPE
@@ -37,14 +40,15 @@ const std::vector<Row>& written_rows() {
 }
 
 /// The same for every instance of the type.
-Rows spread_over_instances(const std::vector<Row>& rows) {
+Rows spread_over_instances(std::span<const Row> rows) {
   Rows spread;
   for (const Row& instance : rows) {
     if (instance.kind != "instance") continue;
-    spread[instance.name] = {instance.place, 0};
+    const std::string name(instance.name);
+    spread[name] = {instance.place, 0};
     for (const Row& row : rows)
       if (row.kind != "instance" && row.type == instance.type)
-        spread[instance.name + " " + row.name] = {row.place, row.width};
+        spread[name + " " + std::string(row.name)] = {row.place, row.width};
   }
   return spread;
 }

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
+#include "tests/support/json.hpp"
 #include "tests/target/program/emulator.hpp"
 
 namespace astro::target {
@@ -14,7 +13,7 @@ json umbmark(const std::string& port, const std::filesystem::path& out) {
       support::astrolabe({"umbmark", "--port", port, "--truth", "sim", "--runs", "1", "--side", "3",
                           "--rounds", "1", "--no-extras", "--out", out.string(), "--yes", "--json"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  return outcome.code == 0 ? json::parse(outcome.out) : json();
+  return outcome.code == 0 ? support::parse_json(outcome.out) : json();
 }
 
 // No slip: then one run each way round says what twenty would, and the improvement is the method's.

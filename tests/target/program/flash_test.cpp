@@ -2,9 +2,9 @@
 #include <stdlib.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "common/base/version.hpp"
+#include "tests/support/json.hpp"
 #include "tests/target/program/emulator.hpp"
 
 // `astrolabe flash` against an emulated robot; a script stands for teensy_loader_cli.
@@ -53,7 +53,7 @@ class Flash : public testing::Test {
   std::string patched(std::uint32_t address, std::uint8_t byte) const;
   nlohmann::json ask(std::vector<std::string> words) const {
     words.insert(words.end(), {"--port", emulator_.usb(), "--json"});
-    return nlohmann::json::parse(astrolabe(words).out);
+    return support::parse_json(astrolabe(words).out);
   }
 
   EmulatorProgram emulator_;

@@ -3,8 +3,8 @@
 #include <termios.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 
+#include "tests/support/json.hpp"
 #include "tests/target/program/emulator.hpp"
 
 // What a person without a Teensy does with the image: the ordinary commands, at either port.
@@ -28,7 +28,7 @@ class EmulatedRobotAt : public testing::TestWithParam<const char*> {
   }
   json ask(std::vector<std::string> words) const {
     words.emplace_back("--json");
-    return json::parse(run(words).out);
+    return support::parse_json(run(words).out);
   }
 
   EmulatorProgram emulator_;
@@ -71,7 +71,7 @@ TEST(EmulatorProgram, ShowsOneRobotAtBothPorts) {
   const EmulatorProgram emulator;
   EXPECT_EQ(astrolabe({"params", "set", "b=0.2886", "--port", emulator.usb()}).code, 0);
   const Outcome other = astrolabe({"params", "get", "b", "--port", emulator.serial(), "--json"});
-  EXPECT_NEAR(json::parse(other.out)["value"], 0.2886, 1e-9);
+  EXPECT_NEAR(support::parse_json(other.out)["value"], 0.2886, 1e-9);
 }
 
 TEST(EmulatorProgram, IsLeftAloneByASecondOneThatIsRefused) {
@@ -92,7 +92,7 @@ TEST(EmulatorProgram, DrivesForOneProgramAtATime) {
   support::Program first({ASTROLABE_PROGRAM, "drive", "line", "30", "--port", emulator.serial()});
   const auto mode = [&] {
     const Outcome info = astrolabe({"info", "--port", emulator.usb(), "--json"});
-    return info.code == 0 ? json::parse(info.out)["mode"].get<std::string>() : info.err;
+    return info.code == 0 ? support::parse_json(info.out)["mode"].get<std::string>() : info.err;
   };
   ASSERT_TRUE(support::eventually([&] { return mode() == "segment"; }));
   const Outcome second = astrolabe({"drive", "line", "0.3", "--port", emulator.usb()});
