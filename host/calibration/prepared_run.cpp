@@ -78,18 +78,24 @@ void require_samples(const Trajectory& run) {
   require_times(run.name, "ground truth", run.truth);
 }
 
-/// What the centre travelled and how far the robot turned within so much of a moment.
-MotionExtent extent_around(const WheelPath& path, double time_s, double half_window_s, double wheelbase_m) {
-  const WheelState a = path.at(time_s - half_window_s), b = path.at(time_s + half_window_s);
-  const double left = b.left_m - a.left_m, right = b.right_m - a.right_m;
-  return {std::abs(left + right) / 2, std::abs(right - left) / wheelbase_m};
+/// What the centre travelled and how far the robot turned, by roughly right factors.
+MotionExtent extent_between(const WheelState& a, const WheelState& b, const WheelFactors& factors) {
+  const double left = factors.c_l * (b.left_m - a.left_m), right = factors.c_r * (b.right_m - a.right_m);
+  return {std::abs(left + right) / 2, std::abs(right - left) / factors.b_m};
 }
 
-Motion motion_at(const WheelPath& path, double time_s, double wheelbase_m) {
-  const MotionExtent now = extent_around(path, time_s, kWindow_s, wheelbase_m);
+/// Within so much of a moment.
+MotionExtent extent_around(const WheelPath& path, double time_s, double half_window_s,
+                           const WheelFactors& factors) {
+  return extent_between(path.at(time_s - half_window_s), path.at(time_s + half_window_s), factors);
+}
+
+Motion motion_at(const WheelPath& path, double time_s, const WheelFactors& factors) {
+  const double wheelbase_m = factors.b_m;
+  const MotionExtent now = extent_around(path, time_s, kWindow_s, factors);
   if (now.distance_m + now.rotation_rad * wheelbase_m / 2 < 2 * kWindow_s * kSlowest_mps) return Motion::rest;
   if (now.distance_m < now.rotation_rad * wheelbase_m / 4) return Motion::spin;
-  const MotionExtent longer = extent_around(path, time_s, kLongWindow_s, wheelbase_m);
+  const MotionExtent longer = extent_around(path, time_s, kLongWindow_s, factors);
   return longer.distance_m > 10 * wheelbase_m * longer.rotation_rad ? Motion::line : Motion::arc;
 }
 
@@ -116,39 +122,37 @@ PreparedRun cropped(const Trajectory& run, const ClockFit& clock, Density densit
 
 /// Turning of whatever radius, but not counts that flicker on a line: what is left of each second.
 double net_rotation_rad(const PreparedRun& run, const WheelPath& path, const ClockFit& clock,
-                        double wheelbase_m) {
+                        const WheelFactors& factors) {
   double sum_rad = 0;
   WheelState before;
   for (std::size_t i = 0, from = 0; i < run.truth.size(); ++i) {
     const WheelState now = path.at(clock.robot_time_s(run.truth[i].time_s, run.clock_middle_s));
     if (i == 0) before = now;
     if (run.truth[i].time_s - run.truth[from].time_s < 1 && i + 1 < run.truth.size()) continue;
-    sum_rad += std::abs((now.right_m - before.right_m) - (now.left_m - before.left_m)) / wheelbase_m;
+    sum_rad += extent_between(before, now, factors).rotation_rad;
     from = i;
     before = now;
   }
   return sum_rad;
 }
 
-void tell_motion(PreparedRun& run, const ClockFit& clock, double wheelbase_m) {
+void tell_motion(PreparedRun& run, const ClockFit& clock, const WheelFactors& factors) {
   const WheelPath path(run.source->wheels);
   WheelState before;
   for (std::size_t i = 0; i < run.truth.size(); ++i) {
     const double u = clock.robot_time_s(run.truth[i].time_s, run.clock_middle_s);
-    run.motion.push_back(motion_at(path, u, wheelbase_m));
+    run.motion.push_back(motion_at(path, u, factors));
     const WheelState now = path.at(u);
     if (i > 0) {
-      const double distance_m = std::abs(now.left_m - before.left_m + now.right_m - before.right_m) / 2;
-      const double turn_rad =
-          std::abs((now.right_m - before.right_m) - (now.left_m - before.left_m)) / wheelbase_m;
+      const MotionExtent moved = extent_between(before, now, factors);
       MotionExtent& extent = run.extent[static_cast<std::size_t>(run.motion[i])];
-      extent.distance_m += distance_m;
-      extent.rotation_rad += turn_rad;
+      extent.distance_m += moved.distance_m;
+      extent.rotation_rad += moved.rotation_rad;
     }
     before = now;
   }
   for (const MotionExtent& extent : run.extent) run.distance_m += extent.distance_m;
-  run.rotation_rad = net_rotation_rad(run, path, clock, wheelbase_m);
+  run.rotation_rad = net_rotation_rad(run, path, clock, factors);
 }
 
 void require_motion(const PreparedRun& run) {
@@ -230,7 +234,7 @@ PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& carri
       skew = clock.skew;
     }
     PreparedRun ready = cropped(run, clock, density);
-    tell_motion(ready, clock, carried.b_m);
+    tell_motion(ready, clock, carried);
     require_motion(ready);
     require_senses(ready, clock, carried);
     prepared.runs.push_back(std::move(ready));

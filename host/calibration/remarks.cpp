@@ -31,7 +31,13 @@ std::vector<std::string> MlEstimate::remarks() const {
   for (const std::string& why : left_out) sentences.push_back(why + "; it was left out");
   for (const RunFit& run : runs)
     if (run.outlier) sentences.push_back(outlier_sentence(run));
-  if (const double ratio = chi_square / degrees_of_freedom; ratio > 1.5)
+  const double ratio = chi_square / degrees_of_freedom;
+  if (ratio < 0.5)
+    sentences.push_back(fmt::format(
+        "the ground truth is only {:.2g} times as far from the wheels as the given noise explains, "
+        "so the standard errors are too large: let the noise be estimated",
+        std::sqrt(ratio)));
+  if (ratio > 1.5)
     sentences.push_back(
         fmt::format("the ground truth is {:.1f} times as far from the wheels as the given noise explains, so "
                     "the standard errors are too "

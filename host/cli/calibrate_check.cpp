@@ -41,9 +41,14 @@ std::vector<DeadReckoning> judged(const Options& options) {
   return experiment::dead_reckon(set, factors, clock_of(options));
 }
 
-std::vector<std::string> row(const std::string& name, double final_m, double heading_rad, double path_m) {
-  const auto milli = [](double value) {
-    return std::isfinite(value) ? fmt::format("{:.1f}", 1000 * value) : std::string("-");
+/// Of `runs` runs; a root mean square of n scatters by 1 / sqrt(2 n) of itself.
+std::vector<std::string> row(const std::string& name, std::size_t runs, double final_m, double heading_rad,
+                             double path_m) {
+  const auto milli = [&](double value) {
+    if (!std::isfinite(value)) return std::string("-");
+    if (runs < 2) return fmt::format("{:.1f}", 1000 * value);
+    return fmt::format("{:.1f} ± {:.1f}", 1000 * value,
+                       1000 * value / std::sqrt(2 * static_cast<double>(runs)));
   };
   return {name, milli(final_m), milli(std::abs(heading_rad)), milli(path_m)};
 }
@@ -52,10 +57,11 @@ std::string text_of(const std::vector<DeadReckoning>& all, bool runs) {
   std::vector<std::vector<std::string>> rows{{"", "end mm", "heading mrad", "path mm"}};
   for (const DeadReckoning& one : all) {
     const calibration::PathErrors& errors = one.errors;
-    rows.push_back(row(one.by.name, errors.final_rms_m, errors.final_heading_rms_rad, errors.path_rms_m));
+    rows.push_back(row(one.by.name, errors.runs.size(), errors.final_rms_m, errors.final_heading_rms_rad,
+                       errors.path_rms_m));
     if (!runs) continue;
     for (const calibration::RunErrors& run : errors.runs)
-      rows.push_back(row("  " + run.name, run.final_m, run.final_heading_rad, run.path_rms_m));
+      rows.push_back(row("  " + run.name, 1, run.final_m, run.final_heading_rad, run.path_rms_m));
   }
   const std::size_t count = all.front().errors.runs.size();
   return wrapped(fmt::format("Odometry less ground truth over {} drive{}, root mean squares: at the end, and "

@@ -2,6 +2,7 @@
 
 #include <iostream>
 #include <memory>
+#include <numbers>
 
 #include "host/base/error.hpp"
 #include "host/calibration/end_pose_csv.hpp"
@@ -23,6 +24,7 @@ namespace fs = std::filesystem;
 
 struct MlOptions {
   calibration::NoiseModel noise;
+  double sigma_theta_deg = 0;
   std::string clock;
   Option noise_option, clock_option;
   bool given() const { return noise_option.count() + clock_option.count() > 0; }
@@ -61,9 +63,9 @@ void add_ml(Command command, Options& options) {
           .check(positive("m"));
   const Option theta =
       command
-          .add_option("--sigma-theta", ml.noise.sigma_theta_rad,
-                      "ml: noise of its heading, rad; without all three\nthe noise is estimated")
-          .check(positive("rad"));
+          .add_option("--sigma-theta", ml.sigma_theta_deg,
+                      "ml: noise of its heading, degrees; without all\nthree the noise is estimated")
+          .check(positive("degrees"));
   K.needs(xy).needs(theta);
   xy.needs(K).needs(theta);
   theta.needs(K).needs(xy);
@@ -79,7 +81,10 @@ void add_ml(Command command, Options& options) {
 experiment::MlChoice ml_choice(const MlOptions& options) {
   using Clock = experiment::MlChoice::Clock;
   experiment::MlChoice choice;
-  if (options.noise_option.count() > 0) choice.noise = options.noise;
+  if (options.noise_option.count() > 0) {
+    choice.noise = options.noise;
+    choice.noise->sigma_theta_rad = options.sigma_theta_deg * std::numbers::pi / 180;
+  }
   if (options.clock_option.count() > 0)
     choice.clock = options.clock == "known" ? Clock::known : Clock::estimated;
   return choice;

@@ -42,7 +42,7 @@ std::string suspicion(const std::vector<Change>& changes) {
     if (is_factor(change.name) && std::abs(relative(change)) > kMostChange)
       return fmt::format(
           "{} would change by {:+.1f} %, and a calibration moves it by a few at most: check units, side "
-          "and robot, or give --force",
+          "and robot ('astrolabe upload FILE --force' loads it all the same)",
           change.name, 100 * relative(change));
   return {};
 }

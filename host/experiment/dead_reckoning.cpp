@@ -27,7 +27,14 @@ NamedFactors factors_of_file(const std::filesystem::path& path, const NominalWhe
         "{:.6g}: its c_R and c_L mean another thing there",
         path.string(), file.wheel->diameter_m, file.wheel->counts_per_turn, wheel.diameter_m,
         wheel.counts_per_turn));
-  return {path.string(), {factor(file, path, "c_R"), factor(file, path, "c_L"), factor(file, path, "b")}};
+  const NamedFactors found{path.string(),
+                           {factor(file, path, "c_R"), factor(file, path, "c_L"), factor(file, path, "b")}};
+  for (const double ratio : {found.factors.c_r, found.factors.c_l})
+    if (!(ratio > 0.5 && ratio < 2))
+      throw Error(
+          fmt::format("{} has c_R = {:.4g} and c_L = {:.4g}, which no wheel has: correct or replace it",
+                      path.string(), found.factors.c_r, found.factors.c_l));
+  return found;
 }
 
 std::vector<DeadReckoning> dead_reckon(const RunSet& set, std::span<const NamedFactors> factors,

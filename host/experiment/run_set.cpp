@@ -40,6 +40,22 @@ std::string matched(const std::string& wanted, const std::vector<std::string>& n
   return matches.front();
 }
 
+/// Copies would count as more evidence than there is.
+void require_no_copies(const RunSet& set) {
+  const auto is_copy = [](const recording::Run& a, const recording::Run& b) {
+    return a.info.started_at == b.info.started_at && a.odometry.size() == b.odometry.size() &&
+           !a.odometry.empty() && a.odometry.front().time_us == b.odometry.front().time_us &&
+           a.odometry.back().time_us == b.odometry.back().time_us &&
+           a.odometry.back().left_counts == b.odometry.back().left_counts &&
+           a.odometry.back().right_counts == b.odometry.back().right_counts;
+  };
+  for (std::size_t i = 0; i < set.runs.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (is_copy(set.runs[i], set.runs[k]))
+        throw Error(fmt::format("{} and {} are the same recording: leave one out with --without {}",
+                                set.names[k], set.names[i], set.names[i]));
+}
+
 }  // namespace
 
 RunSet read_run_set(const fs::path& folder, std::span<const std::string> without) {
@@ -55,6 +71,7 @@ RunSet read_run_set(const fs::path& folder, std::span<const std::string> without
   }
   if (set.runs.empty())
     throw Error("every recording in " + folder.string() + " is left out: keep some to calibrate from");
+  require_no_copies(set);
   return set;
 }
 

@@ -19,8 +19,8 @@ struct RunSet {
 /// ("square-cw-3", "before/square-cw-3"), but for those in `without`: a name, or its last part where only one
 /// recording has it.
 ///
-/// Throws astro::Error if nothing is left, for a name that no recording or more than one has, and what
-/// recording::list_runs and recording::read_run throw.
+/// Throws astro::Error if nothing is left, if two are copies of one recording, for a name that no recording
+/// or more than one has, and what recording::list_runs and recording::read_run throw.
 RunSet read_run_set(const std::filesystem::path& folder, std::span<const std::string> without = {});
 
 }  // namespace astro::experiment

@@ -77,7 +77,9 @@ std::optional<Honesty> honesty_of(const std::vector<Trial>& trials) {
     if (trial.ml_chi_square) values.push_back(*trial.ml_chi_square);
   if (values.empty()) return std::nullopt;
   const Mean mean = mean_of(values.size(), [&](std::size_t i) { return values[i]; });
-  return Honesty{static_cast<int>(values.size()), mean.value, mean.se};
+  // As chi-squares of 3 scatter: what few trials show of that is too little as often as not.
+  return Honesty{static_cast<int>(values.size()), mean.value,
+                 std::sqrt(6 / static_cast<double>(values.size()))};
 }
 
 }  // namespace
@@ -123,7 +125,8 @@ Summary summarize(const TrialSetup& setup, const DriveSource& source, const std:
   if (const Row& last = summary.methods.back(); last.name == kMethods[kMl])
     for (const Figure figure : {kE_d, kB_over_S, kScale})
       summary.ml_over_bound.push_back(
-          {last.rms[figure] / summary.bound.rms[figure], last.se[figure] / summary.bound.rms[figure]});
+          {last.rms[figure] / summary.bound.rms[figure],
+           last.rms[figure] / summary.bound.rms[figure] / std::sqrt(2.0 * last.trials)});
   summary.ml_covariance = honesty_of(trials);
   return summary;
 }

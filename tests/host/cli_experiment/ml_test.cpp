@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <memory>
+#include <numbers>
 #include <sstream>
 
 #include "tests/support/json.hpp"
@@ -146,11 +147,11 @@ TEST_F(Ml, IsCheckedOnDrivesThatItHasNotSeen) {
 
 TEST_F(Ml, TakesTheNoiseThatIsGivenWholeOrNotAtAll) {
   const nlohmann::json json =
-      json_of({"--K", "1e-6", "--sigma-xy", "0.0003", "--sigma-theta", "0.002", "--clock", "known"});
+      json_of({"--K", "1e-6", "--sigma-xy", "0.0003", "--sigma-theta", "0.1", "--clock", "known"});
   EXPECT_EQ(json["noise"]["given"], true);
   EXPECT_EQ(json["noise"]["K_m"], 1e-6);
   EXPECT_EQ(json["noise"]["sigma_xy_m"], 0.0003);
-  EXPECT_EQ(json["noise"]["sigma_theta_rad"], 0.002);
+  EXPECT_NEAR(json["noise"]["sigma_theta_rad"].get<double>(), 0.1 * std::numbers::pi / 180, 1e-12);
   EXPECT_EQ(runs({"--K", "1e-6"}).code, 2);
   EXPECT_EQ(runs({"--K", "-1", "--sigma-xy", "0.0003", "--sigma-theta", "0.002"}).code, 2);
   const Outcome umbmark = runs({"--method", "umbmark", "--clock", "known"});
