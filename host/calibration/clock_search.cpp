@@ -62,7 +62,9 @@ class Search {
   /// By how much the one explains the motion better, as twice a difference of log likelihoods.
   double advantage(const Candidate& one, const Candidate& other) const {
     const double samples = one.agreement.overlap_s / motion_.window().support_s();
-    return samples * std::log(other.agreement.unexplained / one.agreement.unexplained);
+    constexpr double kLeast = 1e-12;  // of a perfect match rounding leaves less, or nothing
+    return samples * std::log(std::max(kLeast, other.agreement.unexplained) /
+                              std::max(kLeast, one.agreement.unexplained));
   }
 
   double offset_s(const ClockGuess& guess) const {

@@ -109,7 +109,7 @@ void follow(const PreparedRun& run, const Unknowns& u, const Looks& looks, Use& 
     spent_s[static_cast<std::size_t>(run.motion[i])] += to.time_s - begin.time_s;
     if (static_cast<int>(i) % looks.stride != looks.first) continue;
     const auto most = std::max_element(spent_s.begin(), spent_s.end());
-    use.look(run.truth[i], i == 0 ? run.motion[i] : static_cast<Motion>(most - spent_s.begin()));
+    use.look(run.truth[i], *most > 0 ? static_cast<Motion>(most - spent_s.begin()) : run.motion[i]);
     spent_s.fill(0);
   }
 }

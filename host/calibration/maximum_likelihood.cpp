@@ -106,6 +106,12 @@ std::optional<WheelbaseByKind> judged_wheelbase(const MlFit& fit, std::span<cons
                          std::abs(arcs.value) > std::max(4 * arcs.standard_error, 1e-3)};
 }
 
+const PreparedRun& longest(const MlFit& fit) {
+  return *std::max_element(
+      fit.runs().begin(), fit.runs().end(),
+      [](const PreparedRun& a, const PreparedRun& b) { return a.truth.size() < b.truth.size(); });
+}
+
 MlEstimate judged(const MlFit& fit) {
   std::vector<Reduced> runs;
   SharedInformation information = SharedInformation::Zero();
@@ -133,7 +139,7 @@ MlEstimate judged(const MlFit& fit) {
     estimate.clock_skew_se = se(kSkew);
   }
   estimate.noise = fit.noise();
-  if (fit.stride() > 1) estimate.thinned_to_s = fit.stride() * median_period_s(fit.runs().front().truth);
+  if (fit.stride() > 1) estimate.thinned_to_s = fit.stride() * median_period_s(longest(fit).truth);
   estimate.iterations = fit.iterations();
   estimate.dispersion = widened;
   estimate.runs = judged_runs(fit, found, covariance);

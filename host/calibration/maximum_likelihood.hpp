@@ -82,8 +82,8 @@ struct MlEstimate {
   double clock_skew = 0,
          clock_skew_se = 0;  // the robot's clock runs (1 + skew) times as fast as the tracker's
   NoiseModel noise;          // K: its upper limit of 95 % where the data do not tell it to a third
-  /// Time between the truth samples of which the likelihood is made, where closer ones share errors that slip
-  /// and tracker do not explain (whiteness.hpp); 0 where none do and all were taken.
+  /// Time between the truth samples of the longest run of which the likelihood is made, where closer ones
+  /// share errors that slip and tracker do not explain (whiteness.hpp); 0 where none do and all were taken.
   double thinned_to_s = 0;
   std::vector<RunFit> runs;
   std::vector<std::string> left_out;                 // runs that cannot be used and harm nobody: why, each

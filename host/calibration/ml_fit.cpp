@@ -61,7 +61,7 @@ MlFit::MlFit(const PreparedRuns& prepared, const WheelFactors& carried, const Ml
     if (options.robust) maximise();
   } else {
     fit_with_noise();
-    while (may_thin() && !innovations_are_independent()) {
+    while (!innovations_are_independent()) {
       looks_.stride *= 2;
       fit_with_noise();
     }
@@ -85,23 +85,16 @@ void MlFit::fit_with_noise() {
 bool MlFit::innovations_are_independent() const {
   std::vector<std::vector<Eigen::Vector3d>> all;
   for (std::size_t i = 0; i < runs_.size(); ++i)
-    all.push_back(standard_innovations(runs_[i], unknowns_[i], noise_, looks_));
+    all.push_back(standard_innovations(runs_[i], unknowns_[i], noise_, looks_at(runs_[i], 0)));
   return are_independent(all, kShared + kOwn * static_cast<int>(runs_.size()));
-}
-
-/// Not beyond what leaves every run something to tell.
-bool MlFit::may_thin() const {
-  return std::all_of(runs_.begin(), runs_.end(), [this](const PreparedRun& run) {
-    return run.truth.size() >= static_cast<std::size_t>(2 * looks_.stride * kFewestLooks);
-  });
 }
 
 std::vector<InnovationSums> MlFit::pass(std::span<const Unknowns> unknowns) const {
   std::vector<InnovationSums> sums;
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     std::vector<InnovationSums> passes;
-    for (const Looks& looks : all_looks())
-      passes.push_back(innovations(runs_[i], unknowns[i], noise_, looks));
+    for (int phase = 0; phase < phases_; ++phase)
+      passes.push_back(innovations(runs_[i], unknowns[i], noise_, looks_at(runs_[i], phase)));
     sums.push_back(mean_of(passes));
   }
   return sums;
@@ -109,12 +102,11 @@ std::vector<InnovationSums> MlFit::pass(std::span<const Unknowns> unknowns) cons
 
 NoiseSlope MlFit::noise_slopes() const {
   NoiseSlope sum;
-  const std::vector<Looks> looks = all_looks();
   for (std::size_t i = 0; i < runs_.size(); ++i)
-    for (const Looks& at : looks) {
-      const NoiseSlope part = noise_slope(runs_[i], unknowns_[i], noise_, at);
-      sum.gradient += part.gradient / static_cast<double>(looks.size());
-      sum.curvature += part.curvature / static_cast<double>(looks.size());
+    for (int phase = 0; phase < phases_; ++phase) {
+      const NoiseSlope part = noise_slope(runs_[i], unknowns_[i], noise_, looks_at(runs_[i], phase));
+      sum.gradient += part.gradient / phases_;
+      sum.curvature += part.curvature / phases_;
     }
   // Without headings their noise is told by nothing and stays.
   sum.curvature.diagonal().array() += 1e-9;
@@ -122,14 +114,13 @@ NoiseSlope MlFit::noise_slopes() const {
 }
 
 /// Thinned truth begins at several samples, so that the result does not hang on one of them. Their
-/// likelihoods are averaged, not added: what they tell about slip is the same.
-std::vector<Looks> MlFit::all_looks() const {
-  std::vector<Looks> all;
-  for (int phase = 0; phase < phases_; ++phase) {
-    all.push_back(looks_);
-    all.back().first = phase * looks_.stride / phases_;
-  }
-  return all;
+/// likelihoods are averaged, not added: what they tell about slip is the same. A short run keeps enough to
+/// tell something.
+Looks MlFit::looks_at(const PreparedRun& run, int phase) const {
+  Looks looks = looks_;
+  looks.stride = std::clamp(static_cast<int>(run.truth.size()) / kFewestLooks, 1, looks_.stride);
+  looks.first = phase * looks.stride / phases_;
+  return looks;
 }
 
 void MlFit::maximise() {
@@ -175,8 +166,8 @@ bool MlFit::fit_noise() {
 }
 
 /// A covariance takes K for certain. Where the data hardly tell it (good tyres, a short drive: it may come
-/// out as zero) that would claim far too much, so K becomes the value at which -2 log likelihood has risen by
-/// 1: its upper limit.
+/// out as zero) that would claim far too much, so K is doubled until -2 log likelihood has risen by 2.7: its
+/// upper limit of 95 %.
 void MlFit::widen_uncertain_slip() {
   constexpr double kSurelyKnown = 0.1;  // variance of log K: within a third of itself
   constexpr double kRise = 2.7;
@@ -185,7 +176,8 @@ void MlFit::widen_uncertain_slip() {
   while (true) {
     const double cost = cost_of(sums_) + log_determinant(sums_, held_);
     least = std::min(least, cost);
-    if (cost > least + kRise || noise_.K_m >= kLargestK_m) return;
+    // Put so that what is no number ends it, too.
+    if (!(cost <= least + kRise && noise_.K_m < kLargestK_m)) return;
     noise_.K_m *= 2;
     maximise();
   }

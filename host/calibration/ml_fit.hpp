@@ -26,19 +26,18 @@ class MlFit {
   const std::vector<InnovationSums>& sums() const { return sums_; }
   const NoiseModel& noise() const { return noise_; }
   const Held& held() const { return held_; }
-  /// Truth is looked at every so many-th prepared sample.
+  /// Truth is looked at every so many-th prepared sample; of short runs more often.
   int stride() const { return looks_.stride; }
   int iterations() const { return iterations_; }
 
  private:
-  std::vector<Looks> all_looks() const;
+  Looks looks_at(const PreparedRun& run, int phase) const;
   std::vector<InnovationSums> pass(std::span<const Unknowns> unknowns) const;
   NoiseSlope noise_slopes() const;
   void maximise();
   bool fit_noise();
   void fit_with_noise();
   bool innovations_are_independent() const;
-  bool may_thin() const;
   void widen_uncertain_slip();
   void require_plausible() const;
 

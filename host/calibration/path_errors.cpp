@@ -37,6 +37,7 @@ PathErrors path_errors(std::span<const Trajectory> runs, const WheelFactors& fac
   const PreparedRuns prepared = prepare(runs, factors, options.clock_known, Density::all);
   const MlFit fit(prepared, factors, options, true);
   PathErrors errors;
+  errors.left_out = prepared.left_out;
   SquareSum final_m, heading_rad, path_m;
   for (std::size_t i = 0; i < fit.runs().size(); ++i) {
     const PreparedRun& run = fit.runs()[i];

@@ -20,6 +20,7 @@ struct RunErrors {
 
 struct PathErrors {
   std::vector<RunErrors> runs;
+  std::vector<std::string> left_out;                  // runs that cannot be used: why, each
   double final_rms_m = 0, final_heading_rms_rad = 0;  // over the runs
   double path_rms_m = 0;                              // over all samples of all runs
 };

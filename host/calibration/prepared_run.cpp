@@ -31,7 +31,7 @@ constexpr double kWindow_s = 0.1;  // half of the time over which a motion is to
 constexpr double kLongWindow_s = 0.5;
 constexpr double kSlowest_mps = 0.002;
 
-// Of one stream, each sample of which `is_finite` tells about.
+// Of one stream.
 template <class Sample>
 void require_times(const std::string& name, const char* stream, const std::vector<Sample>& samples) {
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -68,12 +68,15 @@ void require_wheels(const Trajectory& run) {
 
 void require_samples(const Trajectory& run) {
   if (run.wheels.size() < 2) throw Error(run.name + " has no odometry: record it again");
-  if (run.truth.size() < kFewestSamples)
+  const auto finite = std::count_if(run.truth.begin(), run.truth.end(), [](const BodySample& sample) {
+    return std::isfinite(sample.x_m) && std::isfinite(sample.y_m);
+  });
+  if (finite < kFewestSamples)
     throw Error(
         fmt::format("{} has {} samples of ground truth: maximum likelihood needs the whole drive; take "
                     "--method umbmark or "
                     "extended for end poses alone",
-                    run.name, run.truth.size()));
+                    run.name, finite));
   require_wheels(run);
   require_times(run.name, "ground truth", run.truth);
 }

@@ -20,9 +20,10 @@ double sigma_of(std::vector<double> second_differences) {
 void SecondDifferences::add(std::span<const BodySample> truth) {
   for (std::size_t i = 2; i < truth.size(); ++i) {
     const BodySample &a = truth[i - 2], &b = truth[i - 1], &c = truth[i];
-    if (!std::isfinite(a.x_m + b.x_m + c.x_m)) continue;
-    position_m_.push_back(a.x_m - 2 * b.x_m + c.x_m);
-    position_m_.push_back(a.y_m - 2 * b.y_m + c.y_m);
+    const double dx_m = a.x_m - 2 * b.x_m + c.x_m, dy_m = a.y_m - 2 * b.y_m + c.y_m;
+    if (!std::isfinite(dx_m) || !std::isfinite(dy_m)) continue;
+    position_m_.push_back(dx_m);
+    position_m_.push_back(dy_m);
     if (std::isfinite(a.theta_rad + b.theta_rad + c.theta_rad))
       heading_rad_.push_back(std::remainder(c.theta_rad - b.theta_rad, 2 * std::numbers::pi) -
                              std::remainder(b.theta_rad - a.theta_rad, 2 * std::numbers::pi));

@@ -1,5 +1,7 @@
 #include "host/calibration/whiteness.hpp"
 
+#include <algorithm>
+
 #include "host/calibration/agreement.hpp"
 
 namespace astro::calibration {
@@ -40,17 +42,17 @@ bool is_far(double mean_square, double left, int count) {
 
 bool are_independent(std::span<const std::vector<Eigen::Vector3d>> runs, int fitted) {
   const Eigen::Vector3d single = sums_over(runs, 1).mean_square;
-  const int components = static_cast<int>((single.array() > 0).count());
+  const auto components = static_cast<int>((single.array() > 0).count());
   for (std::size_t length = 2;; length *= 2) {
     const BlockSums sums = sums_over(runs, length);
-    if (components == 0 || sums.blocks < kBlocksPerUnknown * fitted) return true;
+    if (components == 0 || sums.blocks < kBlocksPerUnknown * std::max(1, fitted)) return true;
     const int count = components * sums.blocks;
     const double left = 1 - static_cast<double>(fitted) / count;
     if (is_far(sums.mean_square.sum() / single.sum(), left, count)) return false;
     // What was fitted may all have been told by one of them.
     if (sums.blocks < 2 * kBlocksPerUnknown * fitted) continue;
-    for (int i = 0; i < components; ++i)
-      if (is_far(sums.mean_square[i] / single[i], left, sums.blocks)) return false;
+    for (int i = 0; i < 3; ++i)
+      if (single[i] > 0 && is_far(sums.mean_square[i] / single[i], left, sums.blocks)) return false;
   }
 }
 

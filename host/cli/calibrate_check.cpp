@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "host/cli/console.hpp"
 #include "host/experiment/dead_reckoning.hpp"
@@ -117,6 +119,7 @@ void add_calibrate_check(Command calibrate) {
       "  astrolabe calibrate check friday --with ml.toml --with umbmark.toml --runs");
   command.callback([options] {
     const std::vector<DeadReckoning> all = judged(*options);
+    for (const std::string& why : all.front().errors.left_out) say(why + "; it was left out");
     if (options->json) {
       std::cout << json_of(all).dump(2) << '\n';
     } else {

@@ -29,6 +29,9 @@ NamedFactors factors_of_file(const std::filesystem::path& path, const NominalWhe
         wheel.counts_per_turn));
   const NamedFactors found{path.string(),
                            {factor(file, path, "c_R"), factor(file, path, "c_L"), factor(file, path, "b")}};
+  if (!(found.factors.b_m > 0.01 && found.factors.b_m < 10))
+    throw Error(fmt::format("{} has b = {:.4g} m, which no robot has: correct or replace it", path.string(),
+                            found.factors.b_m));
   for (const double ratio : {found.factors.c_r, found.factors.c_l})
     if (!(ratio > 0.5 && ratio < 2))
       throw Error(

@@ -25,7 +25,7 @@ NamedFactors factors_of_file(const std::filesystem::path& file, const NominalWhe
 
 struct DeadReckoning {
   NamedFactors by;
-  calibration::PathErrors errors;  // runs in the order and by the names of the set
+  calibration::PathErrors errors;  // runs in the order and by the names of the set, but for those left out
 };
 
 /// Throws astro::Error: see trajectories_of and calibration::path_errors.

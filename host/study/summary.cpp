@@ -122,11 +122,13 @@ Summary summarize(const TrialSetup& setup, const DriveSource& source, const std:
     if (const std::string failure = failure_of(method, trials); !failure.empty())
       summary.failures.push_back(failure);
   }
-  if (const Row& last = summary.methods.back(); last.name == kMethods[kMl])
+  if (!summary.methods.empty() && summary.methods.back().name == kMethods[kMl]) {
+    const Row& last = summary.methods.back();
     for (const Figure figure : {kE_d, kB_over_S, kScale})
       summary.ml_over_bound.push_back(
           {last.rms[figure] / summary.bound.rms[figure],
            last.rms[figure] / summary.bound.rms[figure] / std::sqrt(2.0 * last.trials)});
+  }
   summary.ml_covariance = honesty_of(trials);
   return summary;
 }

@@ -75,10 +75,16 @@ Trial run_trial(const TrialSetup& setup, const DriveSource& source, int index) {
   using calibration::AngleSource;
   using calibration::Formula;
   using calibration::Method;
-  const Drives drives = source.of_trial(setup, index);
-  const EndErrors ends = by_sense(drives.end_errors);
   Trial trial;
   trial.index = index;
+  Drives drives;
+  try {
+    drives = source.of_trial(setup, index);
+  } catch (const Error& error) {
+    trial.failure = std::string(kMethods[0]) + ": " + error.what();
+    return trial;
+  }
+  const EndErrors ends = by_sense(drives.end_errors);
   std::size_t method = 0;
   const auto attempt = [&](auto estimate) {
     try {

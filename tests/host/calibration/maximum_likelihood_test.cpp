@@ -135,6 +135,16 @@ TEST(MaximumLikelihood, TakesWheelsOutOfRoundNeitherForSlipNorForAnotherWheelbas
   EXPECT_GT(chi_square, 3 - 3 * std::sqrt(6.0 / kTrials));
 }
 
+TEST(MaximumLikelihood, AShortRunAmongThemKeepsNobodyFromSeeingThat) {
+  DriveModel model = astro_drive();
+  model.noise.K_m = 5e-7;
+  std::vector<Trajectory> runs = squares(model, 4, 2);
+  runs.push_back(study::synthetic_drive(study::line_course(0.25, 0.2), model, "short", kSeed));
+  const MlEstimate found = estimate_ml(out_of_round(std::move(runs), 1e-3), model.carried);
+  EXPECT_GT(found.thinned_to_s, 0.1);
+  EXPECT_LT(found.noise.K_m, 3 * model.noise.K_m);
+}
+
 TEST(MaximumLikelihood, TakesAllTruthOfARobotThatOnlySlips) {
   const DriveModel model = astro_drive();
   EXPECT_EQ(estimate_ml(squares(model, 4, 2), model.carried).thinned_to_s, 0);
@@ -262,8 +272,8 @@ TEST(MaximumLikelihood, IsMovedLessByAKickOfTheCastor) {
     return std::abs(found.E_d() - reference.E_d()) / reference.se.E_d;
   };
   std::printf("E_d moves by %.2f standard errors, by least squares %.2f\n", shift(robust), shift(moved));
-  // At 60 Hz a kick is first taken for a bad sample, for as long as it outweighs the tracker's noise: that much
-  // of it stays.
+  // At 60 Hz a kick is first taken for a bad sample, for as long as it outweighs the tracker's noise: that
+  // much of it stays.
   EXPECT_LT(shift(robust), shift(moved) / 2);
   expect_true(robust, model.actual);
 }
