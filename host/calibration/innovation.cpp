@@ -83,7 +83,7 @@ class Filter {
     tracker.diagonal().template head<2>().array() += noise_.sigma_xy_m * noise_.sigma_xy_m;
     if constexpr (N == 3) tracker(2, 2) += noise_.sigma_theta_rad * noise_.sigma_theta_rad;
 
-    Eigen::Matrix<double, 3, N> ph = covariance_ * h.transpose();
+    const Eigen::Matrix<double, 3, N> ph = covariance_ * h.transpose();
     Eigen::Matrix<double, N, N> s = h * ph + tracker;
     Eigen::Matrix<double, N, N> weight = s.inverse();
     double squared = r.dot(weight * r);
@@ -93,9 +93,7 @@ class Filter {
       const Eigen::Matrix<double, N, N> slip = s - tracker;
       const HuberLoss loss = huber_loss<N>(r, slip, tracker.diagonal(), kLimit);
       sums.cost += loss.cost;
-      covariance_ *= loss.slip;
-      ph *= loss.slip;
-      s = loss.slip * slip + loss.tracker * tracker;
+      s = slip + loss.inflation * tracker;
       weight = s.inverse();
       squared = r.dot(weight * r);
     } else {

@@ -58,7 +58,7 @@ struct PreparedRun {
 
 /// How a filter looks at truth.
 struct Looks {
-  bool huber = false;  // slips and samples beyond the 99 % quantile count less (huber.hpp)
+  bool huber = false;  // samples beyond the 99 % quantile count less, unless slip explains them (huber.hpp)
   int stride = 1;      // at every so many-th sample; the others only say how the robot moved in between
   int first = 0;       // of the samples it looks at; less than stride
 };

@@ -67,7 +67,7 @@ class NoiseFilter {
     by_xy(0, 0) = by_xy(1, 1) = noise_.sigma_xy_m * noise_.sigma_xy_m;
     if constexpr (N == 3) by_theta(2, 2) = noise_.sigma_theta_rad * noise_.sigma_theta_rad;
 
-    Eigen::Matrix<double, 3, N> ph = covariance_ * h.transpose();
+    const Eigen::Matrix<double, 3, N> ph = covariance_ * h.transpose();
     Square s = h * ph + by_xy + by_theta;
     Square weight = s.inverse();
     const Square slopes[kNoises] = {h * by_[0] * h.transpose(), h * by_[1] * h.transpose() + by_xy,
@@ -80,14 +80,10 @@ class NoiseFilter {
     add(slopes, weight, r, r_by, trust * trust, !huber_ ? 1 : N == 3 ? kKept3 : kKept2);
     if (outside) {
       const Square tracker = by_xy + by_theta;
-      const Square slip = s - tracker;
-      const HuberLoss loss = huber_loss<N>(r, slip, tracker.diagonal(), kLimit);
-      s = loss.slip * slip + loss.tracker * tracker;
-      by_xy *= loss.tracker;
-      by_theta *= loss.tracker;
-      covariance_ *= loss.slip;
-      ph *= loss.slip;
-      for (Matrix3d& d : by_) d *= loss.slip;
+      const double inflation = huber_loss<N>(r, s - tracker, tracker.diagonal(), kLimit).inflation;
+      s += (inflation - 1) * tracker;
+      by_xy *= inflation;
+      by_theta *= inflation;
       weight = s.inverse();
     }
 
