@@ -1,49 +1,85 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
+
+#include "host/calibration/doubt.hpp"
 
 /// Huber's loss for a truth sample after wheels that slip.
 ///
-/// An innovation r = slip + tracker's error has two causes, of covariances P and R, and only the tracker is
-/// suspected of bad moments. So the loss is that of the likelier division of r,
+/// An innovation r = slip + tracker's error has two causes, of covariances P and R, and either has bad
+/// moments: a marker taken for another, a castor that kicks, a cable on the floor. So the loss is that of the
+/// likeliest division of r,
 ///
-///   min over e of  rho(e' R^-1 e) + (r - e)' P^-1 (r - e),   rho(q) = q up to limit, then
-///                                                            2 sqrt(limit q) - limit.
+///   min over e of  rho(e' R^-1 e) + rho((r - e)' P^-1 (r - e)),   rho(q) = q up to limit, then
+///                                                                 2 sqrt(limit q) - limit
+///   = min over s, t >= 1 of  r' (s P + t R)^-1 r + limit (s - 1) + limit (t - 1).
 ///
-/// Its slope is 2 (P + t R)^-1 r: exactly what a filter gives a sample whose R it takes t times as large.
-/// Where the tracker's error outweighs slip t is Huber's sqrt(q / limit); where slip outweighs it, after a
-/// gap, t is 1, and the cost is as honest about that as the weight.
+/// Its slope is 2 (s P + t R)^-1 r: exactly what a filter gives a sample for which the wheels slipped s times
+/// and the tracker erred t times as much (in variance) as usual. What outweighs the other is doubted: without
+/// slip t is Huber's sqrt(q / limit) and s is 1; after a stretch without truth it is the other way round.
+/// Where the wheels are believed s stays 1.
 /// Source  Huber 1964, Ann. Math. Stat. 35(1), for the loss; Masreliez & Martin 1977 for such a filter.
 namespace astro::calibration {
 
 struct HuberLoss {
   double cost = 0;
-  double inflation = 1;  // t, of the tracker's covariance
+  double slip = 1, tracker = 1;  // s and t
 };
 
+namespace huber_detail {
+
+/// The least x >= 1 for which sum of a y^2 / (x a + b)^2 is within `limit`; all a and b are at least 0.
+template <class Array>
+double inflation(const Array& y, const Array& a, const Array& b, double limit) {
+  double x = 1;
+  // Convex and falling, so Newton from the left.
+  for (int i = 0; i < 100; ++i) {
+    const Array total = x * a + b;
+    const double excess = (a * (y / total).square()).sum() - limit;
+    if (excess <= 1e-12 * limit) break;
+    x += excess / (2 * ((a * y).square() / total.cube()).sum());
+  }
+  return x;
+}
+
+}  // namespace huber_detail
+
 /// `slip` is P, which may be singular; `tracker` the diagonal of R. `limit` is a square, in standard
-/// deviations of the tracker. Cost  that of the inverse; for bad samples an eigendecomposition more.
+/// deviations. `doubt` says who is doubted, at least the tracker.
+/// Cost  that of the inverse; for bad samples an eigendecomposition more.
 template <int N>
 HuberLoss huber_loss(const Eigen::Matrix<double, N, 1>& r, const Eigen::Matrix<double, N, N>& slip,
-                     const Eigen::Matrix<double, N, 1>& tracker, double limit) {
+                     const Eigen::Matrix<double, N, 1>& tracker, double limit, Doubt doubt) {
   using Square = Eigen::Matrix<double, N, N>;
+  using Array = Eigen::Array<double, N, 1>;
   const Square total = slip + Square(tracker.asDiagonal());
   const Eigen::Matrix<double, N, 1> plain = total.inverse() * r;
-  if (plain.dot(tracker.cwiseProduct(plain)) <= limit) return {r.dot(plain), 1};
+  const bool slips = doubt == Doubt::tracker_and_wheels;
+  if (plain.dot(tracker.cwiseProduct(plain)) <= limit && (!slips || plain.dot(slip * plain) <= limit))
+    return {r.dot(plain), 1, 1};
 
-  // In units of the tracker, where t solves sum of (y / (l + t))^2 = limit: convex, so Newton from the left.
+  // Where both covariances are diagonal, in units of the tracker.
   const Eigen::Matrix<double, N, 1> unit = tracker.cwiseSqrt().cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<Square> eigen(Square(unit.asDiagonal() * slip * unit.asDiagonal()));
-  const auto l = eigen.eigenvalues().cwiseMax(0).array().eval();
-  const auto y = (eigen.eigenvectors().transpose() * unit.cwiseProduct(r)).array().eval();
-  double t = 1;
-  for (int i = 0; i < 100; ++i) {
-    const double excess = (y / (l + t)).square().sum() - limit;
-    if (excess <= 1e-12 * limit) break;
-    t += excess / (2 * (y.square() / (l + t).cube()).sum());
+  const Array l = eigen.eigenvalues().cwiseMax(0).array(), one = Array::Ones();
+  const Array y = (eigen.eigenvectors().transpose() * unit.cwiseProduct(r)).array();
+  HuberLoss loss;
+  // In turns: the sum is convex in both. Where they hardly differ it does not matter which of them is
+  // doubted.
+  for (int i = 0; i < 50; ++i) {
+    const HuberLoss before = loss;
+    loss.tracker = huber_detail::inflation<Array>(y, one, loss.slip * l, limit);
+    if (!slips) break;
+    loss.slip = huber_detail::inflation<Array>(y, l, loss.tracker * one, limit);
+    if (std::abs(loss.slip - before.slip) + std::abs(loss.tracker - before.tracker) <
+        1e-9 * (loss.slip + loss.tracker))
+      break;
   }
-  return {limit * (2 * t - 1) + (l * (y / (l + t)).square()).sum(), t};
+  loss.cost = (y.square() / (loss.slip * l + loss.tracker)).sum() + limit * (loss.slip - 1) +
+              limit * (loss.tracker - 1);
+  return loss;
 }
 
 }  // namespace astro::calibration

@@ -18,11 +18,11 @@ using Sensitivity = Eigen::Matrix<double, 3, kUnknowns>;
 
 class Filter {
  public:
-  Filter(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise, bool huber,
+  Filter(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise, Doubt doubt,
          bool look_at_truth)
       : u_(unknowns),
         noise_(noise),
-        huber_(huber),
+        doubt_(doubt),
         headings_(run.has_headings),
         looks_(look_at_truth),
         state_(unknowns.segment<3>(kStartX)) {
@@ -83,17 +83,19 @@ class Filter {
     tracker.diagonal().template head<2>().array() += noise_.sigma_xy_m * noise_.sigma_xy_m;
     if constexpr (N == 3) tracker(2, 2) += noise_.sigma_theta_rad * noise_.sigma_theta_rad;
 
-    const Eigen::Matrix<double, 3, N> ph = covariance_ * h.transpose();
+    Eigen::Matrix<double, 3, N> ph = covariance_ * h.transpose();
     Eigen::Matrix<double, N, N> s = h * ph + tracker;
     Eigen::Matrix<double, N, N> weight = s.inverse();
     double squared = r.dot(weight * r);
     sums.cost += std::log(s.determinant());
     constexpr double kLimit = N == 3 ? kHuber3 : kHuber2;
-    if (huber_ && squared > kLimit) {
+    if (doubt_ != Doubt::nobody && squared > kLimit) {
       const Eigen::Matrix<double, N, N> slip = s - tracker;
-      const HuberLoss loss = huber_loss<N>(r, slip, tracker.diagonal(), kLimit);
+      const HuberLoss loss = huber_loss<N>(r, slip, tracker.diagonal(), kLimit, doubt_);
       sums.cost += loss.cost;
-      s = slip + loss.inflation * tracker;
+      covariance_ *= loss.slip;
+      ph *= loss.slip;
+      s = loss.slip * slip + loss.tracker * tracker;
       weight = s.inverse();
       squared = r.dot(weight * r);
     } else {
@@ -137,7 +139,8 @@ class Filter {
 
   const Unknowns& u_;
   const NoiseModel& noise_;
-  const bool huber_, headings_, looks_;
+  const Doubt doubt_;
+  const bool headings_, looks_;
   Vector3d state_;
   Matrix3d covariance_ = Matrix3d::Zero();
   Sensitivity by_;
@@ -171,14 +174,14 @@ InnovationSums mean_of(std::span<const InnovationSums> passes) {
 
 InnovationSums innovations(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise,
                            const Looks& looks) {
-  Filter filter(run, unknowns, noise, looks.huber, true);
+  Filter filter(run, unknowns, noise, looks.doubt, true);
   follow(run, unknowns, looks, filter);
   return filter.sums;
 }
 
 std::vector<Vector3d> standard_innovations(const PreparedRun& run, const Unknowns& unknowns,
                                            const NoiseModel& noise, const Looks& looks) {
-  Filter filter(run, unknowns, noise, looks.huber, true);
+  Filter filter(run, unknowns, noise, looks.doubt, true);
   std::vector<Vector3d> all;
   filter.standardised = &all;
   follow(run, unknowns, looks, filter);
@@ -186,7 +189,7 @@ std::vector<Vector3d> standard_innovations(const PreparedRun& run, const Unknown
 }
 
 Information expected_information(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise) {
-  Filter filter(run, unknowns, noise, false, false);
+  Filter filter(run, unknowns, noise, Doubt::nobody, false);
   follow(run, unknowns, {}, filter);
   return filter.sums.information;
 }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "host/calibration/doubt.hpp"
 #include "host/calibration/trajectory.hpp"
 #include "host/calibration/wheel_path.hpp"
 
@@ -58,9 +59,9 @@ struct PreparedRun {
 
 /// How a filter looks at truth.
 struct Looks {
-  bool huber = false;  // samples beyond the 99 % quantile count less, unless slip explains them (huber.hpp)
-  int stride = 1;      // at every so many-th sample; the others only say how the robot moved in between
-  int first = 0;       // of the samples it looks at; less than stride
+  Doubt doubt = Doubt::nobody;
+  int stride = 1;  // at every so many-th sample; the others only say how the robot moved in between
+  int first = 0;   // of the samples it looks at; less than stride
 };
 
 struct MotionTotals {

@@ -112,15 +112,20 @@ const PreparedRun& longest(const MlFit& fit) {
       [](const PreparedRun& a, const PreparedRun& b) { return a.truth.size() < b.truth.size(); });
 }
 
-MlEstimate judged(const MlFit& fit) {
+std::vector<Reduced> all_reduced(std::span<const InnovationSums> sums, const Held& held) {
   std::vector<Reduced> runs;
+  for (const InnovationSums& run : sums) runs.push_back(reduced(run, held, 0));
+  return runs;
+}
+
+MlEstimate judged(const MlFit& fit) {
+  const std::vector<Reduced> runs = all_reduced(fit.sums(), fit.held());
   SharedInformation information = SharedInformation::Zero();
-  for (const InnovationSums& run : fit.sums()) {
-    runs.push_back(reduced(run, fit.held(), 0));
-    information += runs.back().information;
-  }
-  const std::vector<Disagreement> found = disagreements(runs, fit.held());
-  const double widened = dispersion(found);
+  for (const Reduced& run : runs) information += run.information;
+  // What a slip was not allowed to do to the result widens no errors, but its run is named.
+  const double widened = dispersion(disagreements(runs, fit.held()));
+  const std::vector<Disagreement> found =
+      disagreements(all_reduced(fit.sums_with_wheels_believed(), fit.held()), fit.held());
   const SharedInformation covariance = widened * shared_covariance(information, fit.held());
   const auto se = [&](int unknown) { return root(covariance(unknown, unknown)); };
   const double none = std::numeric_limits<double>::quiet_NaN();

@@ -28,7 +28,7 @@ struct MlOptions {
   bool clock_known = false;
   /// A given noise model is used as it stands; without one it is estimated.
   std::optional<NoiseModel> noise;
-  /// Huber's weights for truth samples. Off: least squares, for comparison.
+  /// Huber's weights for slips and for truth samples. Off: least squares, for comparison.
   bool robust = true;
 };
 
@@ -49,8 +49,9 @@ struct RunFit {
   double clock_offset_se_s = 0;
   double chi_square = 0;  // of the innovations
   int degrees_of_freedom = 0;
-  /// How far this run and all others disagree about c_R, c_L and b, as chi-square with `disagreement_dof`
-  /// degrees of freedom (fewer than 3 where the run cannot see all three; 0 if there are no others).
+  /// How far this run and all others disagree about c_R, c_L and b, its slips counted in full, as chi-square
+  /// with `disagreement_dof` degrees of freedom (fewer than 3 where the run cannot see all three; 0 if there
+  /// are no others).
   double disagreement = 0;
   int disagreement_dof = 0;
   bool outlier =

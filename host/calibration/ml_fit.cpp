@@ -56,7 +56,7 @@ MlFit::MlFit(const PreparedRuns& prepared, const WheelFactors& carried, const Ml
   // A first guess is judged by least squares: what seems an outlier to it may be the truth.
   maximise();
   require_plausible();
-  looks_.huber = options.robust;
+  if (options.robust) looks_.doubt = Doubt::tracker_and_wheels;
   if (options.noise) {
     if (options.robust) maximise();
   } else {
@@ -89,15 +89,22 @@ bool MlFit::innovations_are_independent() const {
   return are_independent(all, kShared + kOwn * static_cast<int>(runs_.size()));
 }
 
-std::vector<InnovationSums> MlFit::pass(std::span<const Unknowns> unknowns) const {
+std::vector<InnovationSums> MlFit::pass(std::span<const Unknowns> unknowns, Doubt doubt) const {
   std::vector<InnovationSums> sums;
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     std::vector<InnovationSums> passes;
-    for (int phase = 0; phase < phases_; ++phase)
-      passes.push_back(innovations(runs_[i], unknowns[i], noise_, looks_at(runs_[i], phase)));
+    for (int phase = 0; phase < phases_; ++phase) {
+      Looks looks = looks_at(runs_[i], phase);
+      looks.doubt = doubt;
+      passes.push_back(innovations(runs_[i], unknowns[i], noise_, looks));
+    }
     sums.push_back(mean_of(passes));
   }
   return sums;
+}
+
+std::vector<InnovationSums> MlFit::sums_with_wheels_believed() const {
+  return pass(unknowns_, std::min(looks_.doubt, Doubt::tracker));
 }
 
 NoiseSlope MlFit::noise_slopes() const {
@@ -125,7 +132,7 @@ Looks MlFit::looks_at(const PreparedRun& run, int phase) const {
 
 void MlFit::maximise() {
   double damping = 0;
-  sums_ = pass(unknowns_);
+  sums_ = pass(unknowns_, looks_.doubt);
   for (int step = 0; step < kMostSteps; ++step) {
     ++iterations_;
     const std::vector<Unknowns> steps = gauss_newton_step(sums_, held_, damping);
@@ -135,7 +142,7 @@ void MlFit::maximise() {
       next[i] += steps[i];
       expected += steps[i].dot(sums_[i].gradient);
     }
-    std::vector<InnovationSums> sums = pass(next);
+    std::vector<InnovationSums> sums = pass(next, looks_.doubt);
     const double fall = cost_of(sums_) - cost_of(sums);
     if (fall > -kSettled) {
       unknowns_ = std::move(next);

@@ -24,6 +24,8 @@ class MlFit {
   const std::vector<PreparedRun>& runs() const { return runs_; }
   const std::vector<Unknowns>& unknowns() const { return unknowns_; }  // of each run, their shared part equal
   const std::vector<InnovationSums>& sums() const { return sums_; }
+  /// At the same unknowns, with slips counted in full, however unlikely they are: what each run has to say.
+  std::vector<InnovationSums> sums_with_wheels_believed() const;
   const NoiseModel& noise() const { return noise_; }
   const Held& held() const { return held_; }
   /// Truth is looked at every so many-th prepared sample; of short runs more often.
@@ -32,7 +34,7 @@ class MlFit {
 
  private:
   Looks looks_at(const PreparedRun& run, int phase) const;
-  std::vector<InnovationSums> pass(std::span<const Unknowns> unknowns) const;
+  std::vector<InnovationSums> pass(std::span<const Unknowns> unknowns, Doubt doubt) const;
   NoiseSlope noise_slopes() const;
   void maximise();
   bool fit_noise();

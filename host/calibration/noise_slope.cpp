@@ -20,10 +20,10 @@ constexpr int kNoises = NoiseSlope::kNoises;
 /// find the wrong noise for every other one.
 class NoiseFilter {
  public:
-  NoiseFilter(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise, bool huber)
+  NoiseFilter(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise, Doubt doubt)
       : u_(unknowns),
         noise_(noise),
-        huber_(huber),
+        doubt_(doubt),
         headings_(run.has_headings),
         state_(unknowns.segment<3>(kStartX)) {
     for (Matrix3d& d : by_) d.setZero();
@@ -67,7 +67,7 @@ class NoiseFilter {
     by_xy(0, 0) = by_xy(1, 1) = noise_.sigma_xy_m * noise_.sigma_xy_m;
     if constexpr (N == 3) by_theta(2, 2) = noise_.sigma_theta_rad * noise_.sigma_theta_rad;
 
-    const Eigen::Matrix<double, 3, N> ph = covariance_ * h.transpose();
+    Eigen::Matrix<double, 3, N> ph = covariance_ * h.transpose();
     Square s = h * ph + by_xy + by_theta;
     Square weight = s.inverse();
     const Square slopes[kNoises] = {h * by_[0] * h.transpose(), h * by_[1] * h.transpose() + by_xy,
@@ -75,15 +75,19 @@ class NoiseFilter {
     const Eigen::Matrix<double, N, kNoises> r_by = -h * state_by_;
     const double squared = r.dot(weight * r);
     constexpr double kLimit = N == 3 ? kHuber3 : kHuber2;
-    const bool outside = huber_ && squared > kLimit;
+    const bool bounded = doubt_ != Doubt::nobody, outside = bounded && squared > kLimit;
     const double trust = outside ? std::sqrt(kLimit / squared) : 1;
-    add(slopes, weight, r, r_by, trust * trust, !huber_ ? 1 : N == 3 ? kKept3 : kKept2);
+    add(slopes, weight, r, r_by, trust * trust, !bounded ? 1 : N == 3 ? kKept3 : kKept2);
     if (outside) {
       const Square tracker = by_xy + by_theta;
-      const double inflation = huber_loss<N>(r, s - tracker, tracker.diagonal(), kLimit).inflation;
-      s += (inflation - 1) * tracker;
-      by_xy *= inflation;
-      by_theta *= inflation;
+      const Square slip = s - tracker;
+      const HuberLoss loss = huber_loss<N>(r, slip, tracker.diagonal(), kLimit, doubt_);
+      s = loss.slip * slip + loss.tracker * tracker;
+      by_xy *= loss.tracker;
+      by_theta *= loss.tracker;
+      covariance_ *= loss.slip;
+      ph *= loss.slip;
+      for (Matrix3d& d : by_) d *= loss.slip;
       weight = s.inverse();
     }
 
@@ -116,7 +120,8 @@ class NoiseFilter {
 
   const Unknowns& u_;
   const NoiseModel& noise_;
-  const bool huber_, headings_;
+  const Doubt doubt_;
+  const bool headings_;
   Vector3d state_;
   Matrix3d covariance_ = Matrix3d::Zero();
   Eigen::Matrix<double, 3, kNoises> state_by_ = Eigen::Matrix<double, 3, kNoises>::Zero();
@@ -127,7 +132,7 @@ class NoiseFilter {
 
 NoiseSlope noise_slope(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise,
                        const Looks& looks) {
-  NoiseFilter filter(run, unknowns, noise, looks.huber);
+  NoiseFilter filter(run, unknowns, noise, looks.doubt);
   follow(run, unknowns, looks, filter);
   return filter.slope;
 }

@@ -108,10 +108,18 @@ TEST_F(Optiodom, RawLogsGiveTheirClockAndWhereTheMarkersSat) {
 TEST_F(Optiodom, TheSlipFoundInOneSetIsWhatAnotherShows) {
   const MlEstimate found = estimate_ml(raw(), kNominal);
   const PathErrors errors = on_unseen_drives(found.factors);
-  constexpr double kDriven_m = 16.3;
-  const double expected_rad = std::sqrt(2 * found.noise.K_m * kDriven_m) / kOptiodomWheelbase_m;
-  std::printf("heading at the end off by %.1f mrad, by slip alone %.1f expected\n",
-              1e3 * errors.final_heading_rms_rad, 1e3 * expected_rad);
+  // Of each drive: how far its wheels went and it turned, forth and back; and what the factors themselves may
+  // be off by, their own data having been as few.
+  const RunFit& drive = found.runs.front();
+  const double travel_m = 2 * drive.distance_m + kOptiodomWheelbase_m * drive.rotation_rad;
+  const double slip_rad = std::sqrt(found.noise.K_m * travel_m) / kOptiodomWheelbase_m;
+  const double by_E_d_rad = found.se.E_d * drive.distance_m / kOptiodomWheelbase_m;
+  const double by_b_rad = found.se.b_over_scale_m / kOptiodomWheelbase_m * 2 * std::numbers::pi;
+  const double expected_rad = std::hypot(slip_rad, by_E_d_rad, by_b_rad);
+  std::printf(
+      "heading at the end off by %.1f mrad; expected: slip %.1f, E_d %.1f, b %.1f, all of them %.1f\n",
+      1e3 * errors.final_heading_rms_rad, 1e3 * slip_rad, 1e3 * by_E_d_rad, 1e3 * by_b_rad,
+      1e3 * expected_rad);
   // Six runs tell a standard deviation to 30 %.
   EXPECT_NEAR(std::log(errors.final_heading_rms_rad / expected_rad), 0, 2.5 * 0.3);
 }
