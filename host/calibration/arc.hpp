@@ -5,6 +5,9 @@
 /// The arc of constant twist, by which everything here moves a robot.
 namespace astro::calibration {
 
+/// An arc stands for no more than this of a drive, also where truth was lost for long.
+inline constexpr double kLongestStep_s = 0.06;
+
 /// sin(a) / a, without the division where it would lose digits.
 inline double sinc(double a) { return std::abs(a) < 1e-4 ? 1 - a * a / 6 : std::sin(a) / a; }
 

@@ -11,8 +11,6 @@
 /// What both filters along a drive do: move by an arc, expect a body, take the steps in order.
 namespace astro::calibration::filter {
 
-// An arc of constant twist stands for no more than this.
-inline constexpr double kLongestStep_s = 0.06;
 // Squares of Huber's thresholds: 99 % of chi-square with 2 and 3 degrees of freedom.
 inline constexpr double kHuber2 = 9.210, kHuber3 = 11.345;
 // What is left of a normal variance when no sample counts for more than the threshold (Huber's proposal 2):

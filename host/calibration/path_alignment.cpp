@@ -9,9 +9,6 @@
 namespace astro::calibration {
 
 std::vector<WheelStep> wheel_steps(const WheelPath& path, double from_s, double to_s) {
-  // As in the filter: an arc of constant twist stands for no more than this, also where truth was lost for
-  // long.
-  constexpr double kLongestStep_s = 0.06;
   const int count = std::max(1, static_cast<int>(std::ceil((to_s - from_s) / kLongestStep_s)));
   std::vector<WheelStep> steps;
   WheelState before = path.at(from_s);

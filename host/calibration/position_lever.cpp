@@ -13,8 +13,11 @@ using Complex = std::complex<double>;
 
 // Enough of a turn to part the lever from the way, too little for wrong factors to bend it.
 constexpr double kPiece_rad = 4;
-// A lever that is told this much worse than the piece's own size is not told: its lines or turns are missing.
+// Square of the part, of a wheelbase and of the lever, that must be left of a piece once the other is
+// eliminated. Less, and its lines or turns are missing.
 constexpr double kLeastTold = 1e-3;
+// As an estimate of 1: how many times as long the truth of a piece is as its way.
+constexpr double kLeastScale = 0.5, kMostScale = 2;
 
 /// Least squares of one piece.
 class Piece {
@@ -33,14 +36,15 @@ class Piece {
   double turned_rad() const { return turned_rad_; }
 
   /// Adds what this piece tells, and how much.
-  void finish(Complex& lever_m, double& weight) const {
+  void finish(double wheelbase_m, Complex& lever_m, double& weight) const {
     const Eigen::FullPivLU<Eigen::Matrix3cd> lu(normal_);
     if (!lu.isInvertible()) return;
     const Eigen::Matrix3cd inverse = lu.inverse();
     // What way and lever tell once the others are eliminated, of what they would tell alone.
     const double way = 1 / inverse(1, 1).real(), lever = 1 / inverse(2, 2).real();
-    if (!(way > kLeastTold * count_) || !(lever > kLeastTold * count_)) return;
+    if (!(way > kLeastTold * wheelbase_m * wheelbase_m * count_) || !(lever > kLeastTold * count_)) return;
     const Eigen::Vector3cd found = inverse * right_side_;
+    if (!(std::abs(found[1]) > kLeastScale && std::abs(found[1]) < kMostScale)) return;
     lever_m += lever * found[2] * std::conj(found[1]) / std::norm(found[1]);
     weight += lever;
   }
@@ -65,7 +69,7 @@ std::optional<LeverArm> lever_of_positions(const PreparedRuns& runs, const Wheel
     for (std::size_t k = 0; k < robot.size(); ++k) {
       piece.add(robot[k], run.truth[k]);
       if (piece.turned_rad() < kPiece_rad && k + 1 < robot.size()) continue;
-      piece.finish(lever_m, weight);
+      piece.finish(factors.b_m, lever_m, weight);
       piece = {};
     }
   }

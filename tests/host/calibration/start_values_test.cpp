@@ -58,6 +58,24 @@ TEST(StartValues, FindTheLeverFromPositionsAloneOnAnySideOfTheRobot) {
     }
 }
 
+TEST(StartValues, FindTheLeverOfASmallRobotAsThatOfALargeOne) {
+  for (const double size : {0.05, 1.0, 20.0}) {
+    DriveModel model = quiet_drive();
+    model.carried.b_m *= size;
+    model.actual = model.carried;
+    model.headings = false;
+    model.lever = {-0.2 * size, -0.1 * size, 0};
+    model.speed_mps *= size;
+    model.acceleration_mps2 *= size;
+    model.noise.K_m *= size;
+    model.noise.sigma_xy_m *= size;
+    for (const Unknowns& u : starts(squares(model, 2, 0.5 * size), model)) {
+      EXPECT_NEAR(u[kLeverX] / size, -0.2, 1e-4);
+      EXPECT_NEAR(u[kLeverY] / size, -0.1, 1e-4);
+    }
+  }
+}
+
 TEST(StartValues, KnowTheHeadingOfASpinByTheLeverThatOtherRunsTell) {
   DriveModel model = quiet_drive();
   model.actual = model.carried;
