@@ -46,6 +46,7 @@ double root(double variance) {
 std::vector<RunFit> judged_runs(const MlFit& fit, std::span<const Disagreement> found,
                                 const SharedInformation& covariance) {
   const double typical = typical_dispersion(found);
+  const std::vector<std::vector<Jolt>> jolted = jolts(fit.runs(), fit.unknowns());
   std::vector<RunFit> judged;
   for (std::size_t i = 0; i < fit.runs().size(); ++i) {
     const PreparedRun& prepared = fit.runs()[i];
@@ -63,6 +64,7 @@ std::vector<RunFit> judged_runs(const MlFit& fit, std::span<const Disagreement> 
     run.disagreement_dof = found[i].degrees_of_freedom;
     const double chance = chi_square_tail(run.disagreement / typical, run.disagreement_dof);
     run.outlier = chance * static_cast<double>(fit.runs().size()) < kUnlikely;
+    run.jolts = jolted[i];
     judged.push_back(run);
   }
   return judged;

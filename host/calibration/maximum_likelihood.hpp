@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/calibration/end_pose.hpp"
+#include "host/calibration/jolts.hpp"
 #include "host/calibration/trajectory.hpp"
 
 /// Wheel factors by maximum likelihood from whole trajectories.
@@ -56,6 +57,7 @@ struct RunFit {
   int disagreement_dof = 0;
   bool outlier =
       false;  // less likely than one in a thousand among as many runs, the others being as they are
+  std::vector<Jolt> jolts;
 };
 
 /// Innovations while the robot moved in one way.

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "host/calibration/maximum_likelihood.hpp"
 
@@ -13,6 +14,18 @@ std::string outlier_sentence(const RunFit& run) {
       "ground truth; "
       "look at it, and leave it out with --without if so",
       run.name, run.disagreement, run.disagreement_dof);
+}
+
+std::string jolt_sentence(const RunFit& run) {
+  std::vector<std::string> moments;
+  for (const Jolt& jolt : run.jolts)
+    moments.push_back(fmt::format("after {:.1f} s by {:.1f}° and {:.0f} mm", jolt.since_start_s,
+                                  jolt.turned_rad * 180 / std::numbers::pi, 1000 * jolt.moved_m));
+  return fmt::format(
+      "{}: the robot turned or moved and its wheels did not, {}: a castor, a cable, a hand, or markers taken "
+      "for "
+      "others; it counts less, and --without leaves the run out",
+      run.name, fmt::join(moments, ", "));
 }
 
 std::string wheelbase_sentence(const WheelbaseByKind& kind) {
@@ -31,6 +44,8 @@ std::vector<std::string> MlEstimate::remarks() const {
   for (const std::string& why : left_out) sentences.push_back(why + "; it was left out");
   for (const RunFit& run : runs)
     if (run.outlier) sentences.push_back(outlier_sentence(run));
+  for (const RunFit& run : runs)
+    if (!run.jolts.empty()) sentences.push_back(jolt_sentence(run));
   const double ratio = chi_square / degrees_of_freedom;
   if (ratio < 0.5)
     sentences.push_back(fmt::format(

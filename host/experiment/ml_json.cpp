@@ -4,6 +4,16 @@
 namespace astro::experiment {
 namespace {
 
+nlohmann::json jolts_json(const std::vector<calibration::Jolt>& jolts) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const calibration::Jolt& jolt : jolts)
+    json.push_back({{"time_s", jolt.time_s},
+                    {"since_start_s", jolt.since_start_s},
+                    {"turned_rad", jolt.turned_rad},
+                    {"moved_m", jolt.moved_m}});
+  return json;
+}
+
 nlohmann::json run_json(const calibration::RunFit& run) {
   return {{"name", run.name},
           {"distance_m", run.distance_m},
@@ -14,7 +24,8 @@ nlohmann::json run_json(const calibration::RunFit& run) {
           {"degrees_of_freedom", run.degrees_of_freedom},
           {"disagreement", number(run.disagreement)},
           {"disagreement_dof", run.disagreement_dof},
-          {"outlier", run.outlier}};
+          {"outlier", run.outlier},
+          {"jolts", jolts_json(run.jolts)}};
 }
 
 nlohmann::json kind_json(const calibration::KindFit& kind) {

@@ -105,6 +105,18 @@ TEST_F(Optiodom, RawLogsGiveTheirClockAndWhereTheMarkersSat) {
   EXPECT_NEAR(found.chi_square / found.degrees_of_freedom, 1.1, 0.15);
 }
 
+TEST_F(Optiodom, CastorsKickAtTheEndOfSpins) {
+  std::vector<Trajectory> runs;
+  for (int run = 1; run <= 6; ++run) runs.push_back(synchronised_optiodom_run(kTest, run));
+  const MlEstimate found = estimate_ml(runs, kNominal);
+  // Within a second the heading is 25 mrad further than the wheels say, and stays there: seen in a plot of
+  // the differences, at the end of the first spin.
+  ASSERT_EQ(found.runs[5].jolts.size(), 1U);
+  EXPECT_NEAR(found.runs[5].jolts[0].since_start_s, 17.5, 0.2);
+  EXPECT_NEAR(found.runs[5].jolts[0].turned_rad, -0.025, 0.005);
+  for (const RunFit& run : estimate_ml(raw(), kNominal).runs) EXPECT_TRUE(run.jolts.empty()) << run.name;
+}
+
 TEST_F(Optiodom, TheSlipFoundInOneSetIsWhatAnotherShows) {
   const MlEstimate found = estimate_ml(raw(), kNominal);
   const PathErrors errors = on_unseen_drives(found.factors);

@@ -258,6 +258,26 @@ void kick(Trajectory& run, double time_s, double angle_rad) {
   }
 }
 
+TEST(MaximumLikelihood, SaysWhenWhichRunWasKicked) {
+  DriveModel model = astro_drive();
+  std::vector<Trajectory> runs = squares(model, 4);
+  const double start_s = runs[2].truth.front().time_s;
+  kick(runs[2], start_s + 20, 0.06);
+  kick(runs[2], start_s + 31, -0.04);
+  runs[1].truth[1000].theta_rad += 1;  // one sample that is wrong is no kick
+  const MlEstimate found = estimate_ml(runs, model.carried);
+  for (const RunFit& run : found.runs)
+    EXPECT_THAT(run.jolts, testing::SizeIs(run.name == "run 3" ? 2 : 0)) << run.name;
+  const std::vector<Jolt>& jolts = found.runs[2].jolts;
+  // Half a second of truth tells a heading to 0.6 mrad, and slip adds as much; moments are a tenth of it
+  // apart.
+  EXPECT_NEAR(jolts[0].since_start_s, 20, 0.1);
+  EXPECT_NEAR(jolts[0].turned_rad, 0.06, 5e-3);
+  EXPECT_NEAR(jolts[1].since_start_s, 31, 0.1);
+  EXPECT_NEAR(jolts[1].turned_rad, -0.04, 5e-3);
+  EXPECT_THAT(found.remarks(), testing::Contains(AllOf(HasSubstr("run 3"), HasSubstr("after 20."))));
+}
+
 TEST(MaximumLikelihood, IsMovedLessByAKickOfTheCastor) {
   DriveModel model = astro_drive();
   model.lever = {};
