@@ -44,6 +44,46 @@ double inflation(const Array& y, const Array& a, const Array& b, double limit) {
   return x;
 }
 
+/// The least sum of y^2 / (s l + t) + limit (s + t) over s, t >= 1; `t` comes as the best one for s = 1.
+template <class Array>
+void inflate_both(const Array& y, const Array& l, double limit, double& s, double& t) {
+  const Array one = Array::Ones();
+  // Of each: what more of it would change.
+  const auto slope = [&](const Array& by, double slip, double tracker) {
+    return limit - (by * (y / (slip * l + tracker)).square()).sum();
+  };
+  constexpr double kFlat = 1e-9;
+  if (slope(l, s, t) >= -kFlat * limit) return;
+  s = inflation<Array>(y, l, one, limit);
+  t = 1;
+  if (slope(one, s, t) >= -kFlat * limit) return;
+  // Neither alone, so both: convex and smooth, Newton with steps that are halved until they lead down.
+  const auto cost = [&](double slip, double tracker) {
+    return (y.square() / (slip * l + tracker)).sum() + limit * (slip + tracker);
+  };
+  for (int i = 0; i < 100; ++i) {
+    const Array total = s * l + t, curve = 2 * y.square() / total.cube();
+    const double by_s = slope(l, s, t), by_t = slope(one, s, t);
+    const double ss = (l.square() * curve).sum(), st = (l * curve).sum(), tt = curve.sum();
+    const double determinant = ss * tt - st * st;
+    if (!(determinant > 1e-14 * ss * tt)) return;
+    const double step_s = (st * by_t - tt * by_s) / determinant,
+                 step_t = (st * by_s - ss * by_t) / determinant;
+    const double before = cost(s, t);
+    double part = 1, next_s = s, next_t = t;
+    for (int halving = 0; halving < 60; ++halving, part /= 2) {
+      next_s = std::max(1.0, s + part * step_s);
+      next_t = std::max(1.0, t + part * step_t);
+      if (cost(next_s, next_t) <= before) break;
+    }
+    const double moved = std::abs(next_s - s) + std::abs(next_t - t);
+    if (!(cost(next_s, next_t) <= before)) return;
+    s = next_s;
+    t = next_t;
+    if (moved < 1e-9 * (s + t)) return;
+  }
+}
+
 }  // namespace huber_detail
 
 /// `slip` is P, which may be singular; `tracker` the diagonal of R. `limit` is a square, in standard
@@ -66,17 +106,8 @@ HuberLoss huber_loss(const Eigen::Matrix<double, N, 1>& r, const Eigen::Matrix<d
   const Array l = eigen.eigenvalues().cwiseMax(0).array(), one = Array::Ones();
   const Array y = (eigen.eigenvectors().transpose() * unit.cwiseProduct(r)).array();
   HuberLoss loss;
-  // In turns: the sum is convex in both. Where they hardly differ it does not matter which of them is
-  // doubted.
-  for (int i = 0; i < 50; ++i) {
-    const HuberLoss before = loss;
-    loss.tracker = huber_detail::inflation<Array>(y, one, loss.slip * l, limit);
-    if (!slips) break;
-    loss.slip = huber_detail::inflation<Array>(y, l, loss.tracker * one, limit);
-    if (std::abs(loss.slip - before.slip) + std::abs(loss.tracker - before.tracker) <
-        1e-9 * (loss.slip + loss.tracker))
-      break;
-  }
+  loss.tracker = huber_detail::inflation<Array>(y, one, l, limit);
+  if (slips) huber_detail::inflate_both<Array>(y, l, limit, loss.slip, loss.tracker);
   loss.cost = (y.square() / (loss.slip * l + loss.tracker)).sum() + limit * (loss.slip - 1) +
               limit * (loss.tracker - 1);
   return loss;

@@ -43,10 +43,20 @@ double root(double variance) {
   return variance > 0 ? std::sqrt(variance) : std::numeric_limits<double>::infinity();
 }
 
-std::vector<RunFit> judged_runs(const MlFit& fit, std::span<const Disagreement> found,
-                                const SharedInformation& covariance) {
+/// Less likely than one in a thousand among as many runs, the others being as they are.
+std::vector<bool> outliers(std::span<const Disagreement> found) {
   const double typical = typical_dispersion(found);
-  const std::vector<std::vector<Jolt>> jolted = jolts(fit.runs(), fit.unknowns());
+  std::vector<bool> outlier;
+  for (const Disagreement& run : found)
+    outlier.push_back(chi_square_tail(run.chi_square / typical, run.degrees_of_freedom) *
+                          static_cast<double>(found.size()) <
+                      kUnlikely);
+  return outlier;
+}
+
+std::vector<RunFit> judged_runs(const MlFit& fit, std::span<const Disagreement> found,
+                                const std::vector<bool>& outlier, const SharedInformation& covariance) {
+  const std::vector<std::vector<Jolt>> jolted = find_jolts(fit.runs(), fit.unknowns());
   std::vector<RunFit> judged;
   for (std::size_t i = 0; i < fit.runs().size(); ++i) {
     const PreparedRun& prepared = fit.runs()[i];
@@ -62,8 +72,7 @@ std::vector<RunFit> judged_runs(const MlFit& fit, std::span<const Disagreement> 
     run.degrees_of_freedom = fit.sums()[i].degrees_of_freedom;
     run.disagreement = found[i].chi_square;
     run.disagreement_dof = found[i].degrees_of_freedom;
-    const double chance = chi_square_tail(run.disagreement / typical, run.disagreement_dof);
-    run.outlier = chance * static_cast<double>(fit.runs().size()) < kUnlikely;
+    run.outlier = outlier[i];
     run.jolts = jolted[i];
     judged.push_back(run);
   }
@@ -124,10 +133,14 @@ MlEstimate judged(const MlFit& fit) {
   const std::vector<Reduced> runs = all_reduced(fit.sums(), fit.held());
   SharedInformation information = SharedInformation::Zero();
   for (const Reduced& run : runs) information += run.information;
-  // What a slip was not allowed to do to the result widens no errors, but its run is named.
-  const double widened = dispersion(disagreements(runs, fit.held()));
   const std::vector<Disagreement> found =
       disagreements(all_reduced(fit.sums_with_wheels_believed(), fit.held()), fit.held());
+  const std::vector<bool> outlier = outliers(found);
+  // A run that is named was not allowed to do much to the result; slips that all runs have make it uncertain.
+  std::vector<Disagreement> usual;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (!outlier[i]) usual.push_back(found[i]);
+  const double widened = dispersion(usual);
   const SharedInformation covariance = widened * shared_covariance(information, fit.held());
   const auto se = [&](int unknown) { return root(covariance(unknown, unknown)); };
   const double none = std::numeric_limits<double>::quiet_NaN();
@@ -149,7 +162,7 @@ MlEstimate judged(const MlFit& fit) {
   if (fit.stride() > 1) estimate.thinned_to_s = fit.stride() * median_period_s(longest(fit).truth);
   estimate.iterations = fit.iterations();
   estimate.dispersion = widened;
-  estimate.runs = judged_runs(fit, found, covariance);
+  estimate.runs = judged_runs(fit, found, outlier, covariance);
   for (const RunFit& run : estimate.runs) {
     estimate.chi_square += run.chi_square;
     estimate.degrees_of_freedom += run.degrees_of_freedom;

@@ -50,9 +50,9 @@ struct RunFit {
   double clock_offset_se_s = 0;
   double chi_square = 0;  // of the innovations
   int degrees_of_freedom = 0;
-  /// How far this run and all others disagree about c_R, c_L and b, its slips counted in full, as chi-square
-  /// with `disagreement_dof` degrees of freedom (fewer than 3 where the run cannot see all three; 0 if there
-  /// are no others).
+  /// How far this run, its slips counted in full, is from what all others say about c_R, c_L and b:
+  /// chi-square with `disagreement_dof` degrees of freedom for a run like the others (fewer than 3 where the
+  /// run cannot see all three; 0 if there are no others).
   double disagreement = 0;
   int disagreement_dof = 0;
   bool outlier =
@@ -92,8 +92,8 @@ struct MlEstimate {
   std::vector<std::string> left_out;                 // runs that cannot be used and harm nobody: why, each
   std::vector<KindFit> kinds;                        // those that occur, in the order of Motion
   std::optional<WheelbaseByKind> wheelbase_by_kind;  // only with enough of both
-  /// How much more the runs scatter than their noise explains; the covariance and all standard errors of
-  /// factors are already widened by it. 1 where they do not.
+  /// How much more the runs that are no outliers scatter than their noise explains; the covariance and all
+  /// standard errors of factors are already widened by it. 1 where they do not.
   double dispersion = 1;
   double chi_square = 0;
   int degrees_of_freedom = 0;

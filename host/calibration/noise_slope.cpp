@@ -79,6 +79,7 @@ class NoiseFilter {
     const double trust = outside ? std::sqrt(kLimit / squared) : 1;
     add(slopes, weight, r, r_by, trust * trust, !bounded ? 1 : N == 3 ? kKept3 : kKept2);
     if (outside) {
+      // As the other filter does it, s and t held.
       const Square tracker = by_xy + by_theta;
       const Square slip = s - tracker;
       const HuberLoss loss = huber_loss<N>(r, slip, tracker.diagonal(), kLimit, doubt_);

@@ -19,13 +19,13 @@ std::string outlier_sentence(const RunFit& run) {
 std::string jolt_sentence(const RunFit& run) {
   std::vector<std::string> moments;
   for (const Jolt& jolt : run.jolts)
-    moments.push_back(fmt::format("after {:.1f} s by {:.1f}° and {:.0f} mm", jolt.since_start_s,
-                                  jolt.turned_rad * 180 / std::numbers::pi, 1000 * jolt.moved_m));
+    moments.push_back(fmt::format("{:.1f} s after its start by {:.1f}°", jolt.since_start_s,
+                                  jolt.turned_rad * 180 / std::numbers::pi));
   return fmt::format(
-      "{}: the robot turned or moved and its wheels did not, {}: a castor, a cable, a hand, or markers taken "
+      "{}: the ground truth turned and the wheels did not, {}: a castor, a cable, a hand, or markers taken "
       "for "
-      "others; it counts less, and --without leaves the run out",
-      run.name, fmt::join(moments, ", "));
+      "others; look there, and leave the run out with --without if it was an accident",
+      run.name, fmt::join(moments, " and "));
 }
 
 std::string wheelbase_sentence(const WheelbaseByKind& kind) {

@@ -53,6 +53,40 @@ TEST(Huber, CostFallsAsTheWeightSaysWhateverOutweighsWhat) {
       }
 }
 
+/// Along s and then t by golden sections, from outside: slow, and knows nothing of slopes.
+double least_cost(const Matrix& slip, const Vector& tracker, const Vector& r) {
+  const auto cost = [&](double s, double t) {
+    const Matrix total = s * slip + t * Matrix(tracker.asDiagonal());
+    return r.dot(total.inverse() * r) + kLimit * (s - 1) + kLimit * (t - 1);
+  };
+  const auto least = [](double most, const auto& of) {
+    double from = 0, to = std::log(most);
+    constexpr double kGolden = 0.6180339887;
+    for (int i = 0; i < 80; ++i) {
+      const double a = to - kGolden * (to - from), b = from + kGolden * (to - from);
+      (of(std::exp(a)) < of(std::exp(b)) ? to : from) = of(std::exp(a)) < of(std::exp(b)) ? b : a;
+    }
+    return of(std::exp((from + to) / 2));
+  };
+  return least(1e6, [&](double s) { return least(1e6, [&](double t) { return cost(s, t); }); });
+}
+
+TEST(Huber, FindsTheLeastCostAlsoWhereSlipAndTrackerAreMuchAlike) {
+  std::printf("seed %u\n", kSeed);
+  std::mt19937_64 random(kSeed);
+  std::normal_distribution<double> normal;
+  const Vector tracker(1, 1, 4);
+  for (const double alike : {0.97, 0.99, 1.0, 1.01, 1.03})
+    for (const double mixed : {0.0, 0.1})
+      for (const double far : {5.0, 30.0, 1000.0}) {
+        const Matrix slip = alike * Matrix(tracker.asDiagonal()) + random_covariance(random, mixed);
+        const Vector r = far * Vector(normal(random), normal(random), normal(random));
+        const double expected = least_cost(slip, tracker, r);
+        const double found = huber_loss<3>(r, slip, tracker, kLimit, Doubt::tracker_and_wheels).cost;
+        EXPECT_NEAR(found, expected, 1e-6 * (1 + expected)) << alike << ' ' << mixed << ' ' << far;
+      }
+}
+
 TEST(Huber, IsTheUsualOneWithoutSlip) {
   const Vector r(30, 0, 0), tracker(1, 1, 1);
   for (const Doubt doubt : kBoth) {

@@ -275,7 +275,8 @@ TEST(MaximumLikelihood, SaysWhenWhichRunWasKicked) {
   EXPECT_NEAR(jolts[0].turned_rad, 0.06, 5e-3);
   EXPECT_NEAR(jolts[1].since_start_s, 31, 0.1);
   EXPECT_NEAR(jolts[1].turned_rad, -0.04, 5e-3);
-  EXPECT_THAT(found.remarks(), testing::Contains(AllOf(HasSubstr("run 3"), HasSubstr("after 20."))));
+  EXPECT_THAT(found.remarks(),
+              testing::Contains(AllOf(HasSubstr("run 3"), HasSubstr("s after its start by 3."))));
 }
 
 TEST(MaximumLikelihood, IsMovedLessByAKickOfTheCastor) {
