@@ -8,21 +8,25 @@
 #include "host/cli/connection.hpp"
 #include "host/cli/console.hpp"
 #include "host/cli/interrupt.hpp"
+#include "host/cli/options.hpp"
 #include "host/cli/truth_option.hpp"
 #include "host/experiment/journal.hpp"
 #include "host/experiment/record_run.hpp"
 #include "host/link/parameters.hpp"
 #include "host/recording/csv_export.hpp"
+#include "host/recording/files.hpp"
 #include "host/recording/run_file.hpp"
 
 namespace astro::cli {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct Options {
   ConnectionOptions connection;
   TruthOption truth{"none", {}};
-  std::filesystem::path out;
-  std::filesystem::path csv;
+  fs::path out;
+  fs::path csv;
   double seconds = 0;
 };
 
@@ -42,8 +46,18 @@ recording::RunInfo describe(link::Client& client) {
   return info;
 }
 
+/// What cannot be written is known before the drive, which nobody can repeat.
+void require_new(const fs::path& file) {
+  if (fs::exists(file) && !fs::is_directory(file))
+    throw Error(
+        fmt::format("'{}' exists, and a recording replaces nothing: name another file", file.string()));
+  const recording::PartFile can_be_written(file);
+}
+
 void run(Options& options) {
-  if (options.seconds < 0) throw Error("--seconds must not be negative");
+  require_new(options.out);
+  if (!options.csv.empty())
+    for (const char* name : {"odometry.csv", "truth.csv"}) require_new(options.csv / name);
   const auto client = connect(options.connection);
   const auto truth = open_truth(options.truth, options.connection.port);
   const recording::RunInfo info = describe(*client);
@@ -60,7 +74,7 @@ void run(Options& options) {
   recording::write_run(options.out, run);
   if (!options.csv.empty()) recording::export_csv(run, options.csv);
   say(fmt::format("{} odometry and {} truth samples", run.odometry.size(), run.truth.size()));
-  std::cout << std::filesystem::absolute(options.out).string() << '\n';
+  std::cout << fs::absolute(options.out).string() << '\n';
 }
 
 }  // namespace
@@ -74,7 +88,9 @@ void add_record(Command app) {
   command.add_option("--truth", options->truth.source, "sim or none")
       .one_of({"sim", "none"})
       .capture_default_str();
-  command.add_option("--seconds", options->seconds, "end after this time (default: at Ctrl-C)");
+  command.add_option("--seconds", options->seconds, "end after this time (default: at Ctrl-C)")
+      .type_name("S")
+      .check(positive("s"));
   command.add_option("--csv", options->csv, "also write odometry.csv and truth.csv into this folder");
   command.footer(
       "The file opens in Foxglove, PlotJuggler and 'ros2 bag'.\n"

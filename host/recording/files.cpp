@@ -58,6 +58,7 @@ Bytes load_file(const fs::path& path) {
 
 PartFile::PartFile(fs::path path) : path_(std::move(path)), part_(part_of(path_)) {
   std::error_code error;
+  if (fs::is_directory(path_, error)) throw Error("'" + path_.string() + "' is a folder: name a file in it");
   if (path_.has_parent_path()) fs::create_directories(path_.parent_path(), error);
   if (error) {
     throw Error("cannot make the folder " + path_.parent_path().string() + ": " + error.message());
@@ -67,7 +68,9 @@ PartFile::PartFile(fs::path path) : path_(std::move(path)), part_(part_of(path_)
 }
 
 PartFile::~PartFile() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  if (descriptor_ < 0) return;
+  ::close(descriptor_);
+  if (empty_) ::unlink(part_.c_str());
 }
 
 void PartFile::fail(const std::string& what) const {
@@ -77,6 +80,7 @@ void PartFile::fail(const std::string& what) const {
 
 void PartFile::write(ByteView bytes) {
   while (!bytes.empty()) {
+    empty_ = false;
     const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) fail("write");

@@ -134,6 +134,15 @@ TEST(StudyCommand, CtrlCEndsItWithoutAResult) {
   EXPECT_FALSE(std::filesystem::exists(file));
 }
 
+TEST(StudyCommand, AnEmptyShardLeavesNothingBehind) {
+  const test::TemporaryFolder folder;
+  const Outcome outcome = astrolabe(
+      {"study", "--trials", "2", "--shard", "3/4", "--out", (folder.path() / "part.json").string()});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("shard 3/4 of 2 trials is empty"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
 TEST(StudyCommand, SaysBeforeTheWorkThatItCannotWrite) {
   const Outcome outcome = astrolabe({"study", "--trials", "100000", "--out", "/proc/none/part.json"});
   EXPECT_EQ(outcome.code, 1);

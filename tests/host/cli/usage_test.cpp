@@ -114,6 +114,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{{"plan", "--kinds", "squares"}, {"--kinds", "--until"}},
         Mistake{{"plan", "--until", "1%", "--kinds", "rings"}, {"'rings' is none of"}},
         Mistake{{"plan", "--squares", "1001"}, {"'1001' is not a whole number"}},
+        Mistake{{"record", "--out", "x", "--seconds", "0"}, {"--seconds", "'0' is not a number above 0"}},
         Mistake{{"study", "--shard", "4/3"}, {"--shard", "'4/3' is no shard"}},
         Mistake{{"study", "--shard", "1/2"}, {"--out"}},
         Mistake{{"study", "--shard", "1/2", "--out", "x", "--json"}, {"--json", "study merge"}},

@@ -106,5 +106,28 @@ TEST(Record, WritesWhatTheRobotDid) {
   EXPECT_TRUE(fs::exists(simulator.folder() / "csv" / "odometry.csv"));
 }
 
+TEST(Record, ReplacesNothing) {
+  const Simulator simulator;
+  const auto record = [&](const std::string& name, const std::string& csv) {
+    return astrolabe({"record", "--port", simulator.port(), "--seconds", "0.2", "--out",
+                      (simulator.folder() / name).string(), "--csv", (simulator.folder() / csv).string()});
+  };
+  ASSERT_EQ(record("a.mcap", "a").code, 0);
+  const auto written = fs::last_write_time(simulator.folder() / "a.mcap");
+  const support::Outcome again = record("a.mcap", "b");
+  EXPECT_EQ(again.code, 1);
+  EXPECT_THAT(again.err, testing::AllOf(HasSubstr("a.mcap' exists"), HasSubstr("another")));
+  EXPECT_EQ(fs::last_write_time(simulator.folder() / "a.mcap"), written);
+  EXPECT_THAT(record("b.mcap", "a").err, HasSubstr("a/odometry.csv' exists"));
+}
+
+TEST(Record, KnowsBeforeTheDriveWhatCannotBeWritten) {
+  const support::Outcome folder = astrolabe({"record", "--port", "/nowhere", "--out", "/tmp"});
+  EXPECT_EQ(folder.code, 1);
+  EXPECT_THAT(folder.err, HasSubstr("'/tmp' is a folder"));
+  EXPECT_THAT(astrolabe({"record", "--port", "/nowhere", "--out", "/proc/none/x.mcap"}).err,
+              HasSubstr("/proc/none"));
+}
+
 }  // namespace
 }  // namespace astro
