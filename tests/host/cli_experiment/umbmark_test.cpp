@@ -129,5 +129,18 @@ TEST(Record, KnowsBeforeTheDriveWhatCannotBeWritten) {
               HasSubstr("/proc/none"));
 }
 
+TEST(Umbmark, AsksEachQuestionOnceWhenTheInputHasEnded) {
+  const Simulator simulator;
+  const support::Outcome outcome =
+      astrolabe({"umbmark", "--port", simulator.port(), "--truth", "manual", "--out",
+                 (simulator.folder() / "x").string(), "--runs", "1", "--no-extras"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(
+      outcome.err,
+      testing::EndsWith("put the robot on its start mark and press Enter \nastrolabe: the input ended "
+                        "where an answer was expected: answer at a terminal, or pipe all answers in\n"));
+  EXPECT_EQ(outcome.err.find("next is"), outcome.err.rfind("next is"));
+}
+
 }  // namespace
 }  // namespace astro
