@@ -10,6 +10,7 @@
 #include "host/cli/connection.hpp"
 #include "host/cli/console.hpp"
 #include "host/cli/interrupt.hpp"
+#include "host/cli/method_option.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/truth_option.hpp"
 #include "host/experiment/experiment.hpp"
@@ -25,7 +26,8 @@ struct Options {
   TruthOption truth;
   experiment::Plan plan;
   std::filesystem::path out;
-  std::string order = "alternating", method = "auto", angles = "average", formula = "exact";
+  std::string order = "alternating";
+  MethodOption method;
   experiment::Until until;
   Option until_option;
   bool yes = false, json = false, no_extras = false, pause = false;
@@ -65,19 +67,10 @@ void add_options(Command command, Options& options) {
   command.add_option("--line", plan.line_m, "length of the straight line, m").capture_default_str();
   command.add_option("--circle", plan.circle_radius_m, "radius of the circles, m").capture_default_str();
   command.add_flag("--no-extras", options.no_extras, "squares only, no line and circles");
-  command
-      .add_option("--method", options.method,
-                  "auto: ml (maximum likelihood over whole drives)\n"
-                  "with ground truth along the way, else extended\n"
-                  "where every run has an end heading, or umbmark")
-      .one_of({"auto", "ml", "umbmark", "extended", "least-squares"})
-      .capture_default_str();
-  command.add_option("--angles", options.angles, "umbmark: which coordinates the angles come from")
-      .one_of({"x", "y", "thesis", "average"})
-      .capture_default_str();
-  command.add_option("--formula", options.formula, "extended: exact, or as published")
-      .one_of({"exact", "published"})
-      .capture_default_str();
+  add_method(command, options.method, {"auto", "ml", "umbmark", "extended", "least-squares"},
+             "auto: ml (maximum likelihood over whole drives)\n"
+             "with ground truth along the way, else extended\n"
+             "where every run has an end heading, or umbmark");
   command.add_flag("--pause", options.pause, "wait for Enter before each run (always with --truth manual)");
   command.add_flag("--yes,-y", options.yes, "upload without asking");
   command.add_flag("--json", options.json, "print the result as one JSON object");
@@ -121,7 +114,7 @@ experiment::ExperimentHooks hooks_for(const Options& options, Progress& progress
 
 void run(Options& options) {
   options.plan.order = experiment::order_named(options.order);
-  options.plan.method = experiment::method_named(options.method, options.angles, options.formula);
+  options.plan.method = options.method.choice();
   options.plan.extras = !options.no_extras;
   options.plan.truth = options.truth.source;
   if (options.until_option.count() > 0) options.plan.until = options.until;
