@@ -13,6 +13,7 @@
 #include "host/cli/method_option.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/truth_option.hpp"
+#include "host/cli/wrong_usage.hpp"
 #include "host/experiment/experiment.hpp"
 #include "host/experiment/method_names.hpp"
 #include "host/experiment/report_input.hpp"
@@ -29,7 +30,7 @@ struct Options {
   std::string order = "alternating";
   MethodOption method;
   experiment::Until until;
-  Option until_option;
+  Option until_option, truth_folder;
   bool yes = false, json = false, no_extras = false, pause = false;
 };
 
@@ -39,8 +40,9 @@ void add_options(Command command, Options& options) {
   command.add_option("--truth", options.truth.source, "sim, manual (tape measure) or file")
       .one_of({"sim", "manual", "file"})
       .required();
-  command.add_option("--truth-folder", options.truth.folder,
-                     "--truth file: where the CSV of each run appears");
+  options.truth_folder = command.add_option("--truth-folder", options.truth.folder,
+                                            "--truth file: where the CSV of each run appears;\n"
+                                            "default: OUT/truth");
   command
       .add_option("--out", options.out,
                   "folder of the experiment; the same folder again goes on where it was")
@@ -119,6 +121,8 @@ void run(Options& options) {
   options.plan.truth = options.truth.source;
   if (options.until_option.count() > 0) options.plan.until = options.until;
   options.plan.check();
+  if (options.truth_folder.count() > 0 && options.truth.source != "file")
+    throw WrongUsage("--truth-folder is of --truth file, and this is --truth " + options.truth.source);
   if (options.truth.folder.empty()) options.truth.folder = options.out / "truth";
   const auto client = connect(options.connection);
   const auto truth = open_truth(options.truth, options.connection.port);
@@ -147,6 +151,13 @@ void add_umbmark(Command app) {
   add_options(command, *options);
   command.footer(
       "Ctrl-C stops the robot; the same command goes on from the last recorded run.\n"
+      "--truth file reads a CSV per run: before-square-cw-1.csv, before-line-1.csv, ...\n"
+      "Its header names the columns: x_m or x_mm, y_m or y_mm, theta_rad or theta_deg\n"
+      "(counter-clockwise). Its first row is the pose at the start, its last row that at\n"
+      "the end, in any frame; without theta in the robot's own at the start, x forward:\n"
+      "  x_m,y_m,theta_deg\n"
+      "  1.000,2.000,90.0\n"
+      "  1.012,1.987,91.5\n"
       "Examples:\n"
       "  astrolabe umbmark --truth sim --out my-experiment\n"
       "  astrolabe umbmark --port /dev/ttyACM0 --truth manual --runs 5 --side 3 --out my-experiment\n"

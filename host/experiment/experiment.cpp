@@ -121,12 +121,39 @@ class Session {
     const auto total = static_cast<int>(specs.size());
     int number = total - static_cast<int>(missing.size());
     for (const RunSpec& spec : missing) {
-      hooks_.ready(spec);
-      hooks_.run_started(spec, ++number, total);
-      const recording::Run run = drive(spec, parameters);
-      recording::write_run(file_of(folder_, spec), run);
+      ++number;
+      recording::Run run;
+      if (const fs::path driven = file_without_truth(folder_, spec); fs::exists(driven)) {
+        hooks_.run.notice(
+            fmt::format("{} is driven, but its ground truth is missing (remove '{}' to drive again)",
+                        spec.title(), driven.string()));
+        run = recording::read_run(driven);
+      } else {
+        hooks_.ready(spec);
+        hooks_.run_started(spec, number, total);
+        run = drive(spec, parameters);
+      }
+      keep(spec, run);
       hooks_.run_finished(spec, run);
     }
+  }
+
+  /// On the disk before somebody is asked for its truth, who may err, walk away or press Ctrl-C.
+  void keep(const RunSpec& spec, recording::Run& run) {
+    const fs::path driven = file_without_truth(folder_, spec);
+    if (truth_.comes_afterwards()) {
+      recording::write_run(driven, run);
+      try {
+        complete(run, truth_);
+      } catch (const link::Interrupted&) {
+        throw;
+      } catch (const Error& error) {
+        throw Error(std::string(error.what()) +
+                    "; the drive is kept, and the same command goes on with its ground truth");
+      }
+    }
+    recording::write_run(file_of(folder_, spec), run);
+    fs::remove(driven);
   }
 
   /// A phase is driven with one set of parameters, also when it is resumed.

@@ -58,7 +58,6 @@ class Collector {
       client_.pump(20ms);
       look();
     }
-    for (const recording::TruthSample& sample : truth_.complete(run_)) run_.truth.push_back(sample);
     std::erase_if(run_.truth, [&](const auto& sample) {
       return run_.odometry.empty() || sample.time_us < run_.odometry.front().time_us ||
              sample.time_us > end_us();
@@ -135,6 +134,11 @@ recording::Run record_run(link::Client& client, truth::Source& truth, const link
   collector.stand(kRest, hooks.interrupted);
   collector.finish();
   return run;
+}
+
+void complete(recording::Run& run, truth::Source& truth) {
+  const std::vector<recording::TruthSample> samples = truth.complete(run);
+  run.truth.insert(run.truth.end(), samples.begin(), samples.end());
 }
 
 recording::Run record_until(link::Client& client, truth::Source& truth, const recording::RunInfo& info,

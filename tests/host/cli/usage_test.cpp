@@ -119,6 +119,8 @@ INSTANTIATE_TEST_SUITE_P(
                 {"--angles is of --method umbmark", "--method ml"}},
         Mistake{{"calibrate", "runs", "x", "--formula", "exact"}, {"--formula", "--method extended"}},
         Mistake{{"umbmark", "--truth", "sim", "--out", "x", "--method", "ml", "--angles", "x"}, {"--angles"}},
+        Mistake{{"umbmark", "--truth", "sim", "--out", "x", "--truth-folder", "y"},
+                {"--truth-folder", "sim"}},
         Mistake{{"study", "--shard", "4/3"}, {"--shard", "'4/3' is no shard"}},
         Mistake{{"study", "--shard", "1/2"}, {"--out"}},
         Mistake{{"study", "--shard", "1/2", "--out", "x", "--json"}, {"--json", "study merge"}},

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "tests/support/json.hpp"
 #include "tests/support/program.hpp"
 
@@ -140,6 +142,35 @@ TEST(Umbmark, AsksEachQuestionOnceWhenTheInputHasEnded) {
       testing::EndsWith("put the robot on its start mark and press Enter \nastrolabe: the input ended "
                         "where an answer was expected: answer at a terminal, or pipe all answers in\n"));
   EXPECT_EQ(outcome.err.find("next is"), outcome.err.rfind("next is"));
+}
+
+TEST(Umbmark, KeepsADriveWhoseTruthCannotBeReadAndGoesOnWithItOnceItCan) {
+  const Simulator simulator;
+  const fs::path out = simulator.folder() / "x", csv = out / "truth" / "before-square-cw-1.csv";
+  const fs::path driven = out / "before" / "square-cw-1.mcap.no-truth";
+  fs::create_directories(csv.parent_path());
+  const auto umbmark_with = [&](const std::string& truth) {
+    std::ofstream(csv) << truth;
+    return astrolabe({"umbmark", "--port", simulator.port(), "--truth", "file", "--out", out.string(),
+                      "--side", "0.5", "--runs", "1", "--no-extras"});
+  };
+  const support::Outcome bad = umbmark_with("x_m,y_m\n0,0\n0.0l,0\n");
+  EXPECT_EQ(bad.code, 1);
+  EXPECT_THAT(bad.err, testing::AllOf(HasSubstr(csv.string()), HasSubstr("line 3"), HasSubstr("'0.0l'"),
+                                      HasSubstr("the drive is kept")));
+  EXPECT_TRUE(fs::exists(driven));
+
+  const support::Outcome good = umbmark_with("x_m,y_m\n0,0\n0.01,0\n");
+  EXPECT_THAT(good.err,
+              testing::AllOf(HasSubstr("square cw 1 is driven"), HasSubstr("recorded before: square cw 1"),
+                             HasSubstr("before-square-ccw-1.csv")));
+  EXPECT_TRUE(fs::exists(out / "before" / "square-cw-1.mcap"));
+  EXPECT_FALSE(fs::exists(driven));
+}
+
+TEST(Umbmark, HelpShowsTheFormatOfTruthFiles) {
+  EXPECT_THAT(astrolabe({"umbmark", "--help"}).out,
+              testing::AllOf(HasSubstr("before-square-cw-1.csv"), HasSubstr("x_m,y_m,theta_deg")));
 }
 
 }  // namespace
