@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <iostream>
 #include <memory>
 
@@ -37,8 +35,7 @@ void add_compare(Command app) {
       return;
     }
     std::cout << table(experiment::before_after_table(results));
-    if (results.phases.size() > 1)
-      std::cout << fmt::format("E_max_syst is {:.1f} times smaller\n", results.improvement());
+    if (results.phases.size() > 1) std::cout << '\n' << wrapped(results.verdict());
   });
 }
 

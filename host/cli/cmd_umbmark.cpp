@@ -137,9 +137,8 @@ void run(Options& options) {
     std::cout << json.dump(2) << '\n';
     return;
   }
-  std::cout << table(experiment::before_after_table(results))
-            << fmt::format("\nE_max_syst is {:.1f} times smaller.\nReport: {}\n", results.improvement(),
-                           report.string());
+  std::cout << table(experiment::before_after_table(results)) << '\n'
+            << wrapped(results.verdict()) << "Report: " << report.string() << '\n';
 }
 
 }  // namespace

@@ -23,6 +23,16 @@ std::vector<std::string> umbmark(const Simulator& simulator, const std::string& 
   return arguments;
 }
 
+void expect_same_claim(const std::string& terminal, const fs::path& report) {
+  std::ifstream file(report);
+  const std::string html{std::istreambuf_iterator<char>(file), {}};
+  const std::string start = "E_max_syst is ";
+  const std::size_t from = terminal.find(start) + start.size();
+  const std::string claim = terminal.substr(from, terminal.find(':', from) - from);
+  EXPECT_THAT(claim, HasSubstr("times smaller"));
+  EXPECT_THAT(html, HasSubstr("<strong>" + claim + "</strong>"));
+}
+
 TEST(Umbmark, CalibratesASimulatedRobotOverAPty) {
   const Simulator simulator({"--fast", "--true-ed", "1.00416", "--true-wheelbase", "0.28861", "--seed", "1"});
   const std::string out = (simulator.folder() / "x").string();
@@ -49,9 +59,11 @@ TEST(Umbmark, CalibratesASimulatedRobotOverAPty) {
   EXPECT_NEAR(b["value"].get<double>(), json["parameters"]["new"]["b_m"].get<double>(), 1e-9)
       << "the robot holds what the result says, in whole nanometres";
 
-  EXPECT_EQ(astrolabe({"compare", out}).code, 0);
+  const support::Outcome compared = astrolabe({"compare", out});
+  EXPECT_EQ(compared.code, 0);
   EXPECT_EQ(astrolabe({"report", out, "--out", (simulator.folder() / "again.html").string()}).code, 0);
   EXPECT_GT(fs::file_size(simulator.folder() / "again.html"), 1'000'000U);
+  expect_same_claim(compared.out, simulator.folder() / "again.html");
   const support::Outcome runs = astrolabe({"calibrate", "runs", out + "/before", "--json"});
   // The same runs in another order: rounding apart.
   EXPECT_NEAR(support::parse_json(runs.out)["c_R"].get<double>(),
