@@ -31,7 +31,7 @@ struct Options {
   MethodOption method;
   experiment::Until until;
   Option until_option, truth_folder;
-  bool yes = false, json = false, no_extras = false, pause = false;
+  bool yes = false, force = false, json = false, no_extras = false, pause = false;
 };
 
 void add_options(Command command, Options& options) {
@@ -75,6 +75,7 @@ void add_options(Command command, Options& options) {
              "where every run has an end heading, or umbmark");
   command.add_flag("--pause", options.pause, "wait for Enter before each run (always with --truth manual)");
   command.add_flag("--yes,-y", options.yes, "upload without asking");
+  add_force(command, options.force);
   command.add_flag("--json", options.json, "print the result as one JSON object");
 }
 
@@ -108,8 +109,13 @@ experiment::ExperimentHooks hooks_for(const Options& options, Progress& progress
     progress.clear();
     say('\n' + calibration_summary(found));
     say(table(experiment::side_by_side(changes)));
+    const experiment::FactorErrors& se = found.se;
+    const std::string note =
+        experiment::insignificance(changes, {{"c_R", se.c_r}, {"c_L", se.c_l}, {"b", se.b_m}});
+    if (!note.empty()) say(note);
     return options.yes || confirm("Load these into the robot?");
   };
+  hooks.force = options.force;
   hooks.uploaded = [](const std::string& sentence) { say(sentence + "\n"); };
   return hooks;
 }

@@ -69,6 +69,14 @@ link::Value value_of(const toml::node& node, const std::string& where) {
   throw Error(where + " is neither a number nor a text");
 }
 
+std::map<std::string, double> numbers_in(toml::node_view<const toml::node> section) {
+  std::map<std::string, double> numbers;
+  if (const toml::table* table = section.as_table())
+    for (const auto& [key, node] : *table)
+      if (const auto number = node.value<double>()) numbers[std::string(key.str())] = *number;
+  return numbers;
+}
+
 NominalWheel wheel_of(const toml::table& file, const fs::path& path) {
   const NominalWheel wheel{file["nominal"]["wheel_diameter"].value_or(0.0),
                            file["nominal"]["counts_per_wheel_turn"].value_or(0.0)};
@@ -131,9 +139,8 @@ ParameterFile read_parameter_file(const fs::path& path) {
     const std::string name(key.str());
     result.parameters[name] = value_of(node, "'" + path.string() + "': [parameters] " + name);
   }
-  if (const toml::table* carried = file["carried"].as_table())
-    for (const auto& [key, node] : *carried)
-      if (const auto number = node.value<double>()) result.carried[std::string(key.str())] = *number;
+  result.carried = numbers_in(file["carried"]);
+  result.standard_errors = numbers_in(file["standard_errors"]);
   result.method = file["calibration"]["method"].value_or(std::string());
   result.absolute = file["calibration"]["absolute"].value_or(false);
   if (file.contains("nominal")) result.wheel = wheel_of(file, path);

@@ -25,6 +25,9 @@ struct ParameterFile {
   ParameterValues parameters;
   /// What the robot carried when the calibration was driven; empty in a file without [carried].
   std::map<std::string, double> carried;
+  /// Of c_R, c_L and b ; NaN where the method or the data could not tell, empty in a file that no calibration
+  /// wrote.
+  std::map<std::string, double> standard_errors;
   /// The parameters hold whatever the robot carries by now (Calibration::absolute).
   bool absolute = false;
   std::optional<NominalWheel> wheel;  // [nominal]

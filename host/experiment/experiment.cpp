@@ -217,9 +217,8 @@ class Session {
     const link::RemoteParameters robot = link::RemoteParameters::fetch(client_);
     const std::vector<Change> list = changes(robot, calibration.parameters);
     if (list.empty()) return;  // an earlier session got this far
-    if (const std::string wrong = wrong_basis(robot, calibration); !wrong.empty())
-      throw Error(wrong + ", or choose another --out");
-    if (const std::string doubt = suspicion(list); !doubt.empty()) throw Error(doubt);
+    if (const std::string why = objection(robot, calibration, list); !why.empty() && !hooks_.force)
+      throw Error(why);
     if (!hooks_.agree(found, list))
       throw Error("the new parameters were not uploaded; 'astrolabe umbmark --out " + folder_.string() +
                   "' goes on from here");

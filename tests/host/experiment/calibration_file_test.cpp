@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "host/experiment/change_guard.hpp"
@@ -140,6 +141,26 @@ TEST_F(ChangeGuard, AllFactorsNeedTheWheelThatTheyReferTo) {
   EXPECT_EQ(wrong_basis(robot_, file), "");
   file.wheel->diameter_m = 0.0721;
   EXPECT_THAT(wrong_basis(robot_, file), AllOf(HasSubstr("0.0721 m"), HasSubstr("0.072 m")));
+}
+
+TEST_F(ChangeGuard, SaysThatAChangeWithinItsErrorMayBeForNothing) {
+  const auto note = [&](const ParameterValues& values) {
+    return insignificance(changes(robot_, values), {{"c_R", 1e-4}, {"c_L", 1e-4}, {"b", std::nan("")}});
+  };
+  EXPECT_THAT(note({{"c_R", 1.00019}, {"c_L", 0.99981}}), HasSubstr("twice its standard error"));
+  EXPECT_EQ(note({{"c_R", 1.00019}, {"c_L", 0.9997}}), "");
+  EXPECT_EQ(note({{"c_R", 1.00019}, {"b", 0.2901}}), "") << "nobody knows about b";
+  EXPECT_EQ(note({{"kp", 80.0}}), "") << "a gain has no error";
+}
+
+TEST_F(ChangeGuard, ObjectsInOneSentenceThatNamesTheOption) {
+  ParameterFile file;
+  EXPECT_EQ(objection(robot_, file, changes(robot_, {{"b", 0.31}})), "");
+  EXPECT_THAT(objection(robot_, file, changes(robot_, {{"b", 0.32}})),
+              AllOf(HasSubstr("+10.3 %"), HasSubstr("--force")));
+  file.carried = {{"c_R", 1.001}};
+  EXPECT_THAT(objection(robot_, file, changes(robot_, {{"b", 0.31}})),
+              AllOf(HasSubstr("driven with"), HasSubstr("--force")));
 }
 
 TEST_F(ChangeGuard, RefusesNamesAndValuesThatTheRobotDoesNotHave) {
