@@ -57,8 +57,9 @@ Bytes load_file(const fs::path& path) {
 }
 
 PartFile::PartFile(fs::path path) : path_(std::move(path)), part_(part_of(path_)) {
-  std::error_code error;
-  if (fs::is_directory(path_, error)) throw Error("'" + path_.string() + "' is a folder: name a file in it");
+  std::error_code ignored, error;
+  if (fs::is_directory(path_, ignored))
+    throw Error("'" + path_.string() + "' is a folder: name a file in it");
   if (path_.has_parent_path()) fs::create_directories(path_.parent_path(), error);
   if (error) {
     throw Error("cannot make the folder " + path_.parent_path().string() + ": " + error.message());

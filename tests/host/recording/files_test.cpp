@@ -28,6 +28,15 @@ TEST(PartFile, RefusesTheNameOfAFolderBeforeAnythingIsWritten) {
   EXPECT_FALSE(std::filesystem::exists(folder.path().string() + ".part"));
 }
 
+TEST(PartFile, NeedsNoFolderInItsName) {
+  const TempFolder folder;
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  EXPECT_EQ(complaint([&] { PartFile("alone").commit(); }), "");
+  std::filesystem::current_path(before);
+  EXPECT_TRUE(std::filesystem::exists(folder / "alone"));
+}
+
 TEST(PartFile, AnEmptyFileIsAFileOnceItIsCommitted) {
   const TempFolder folder;
   PartFile(folder / "empty").commit();
