@@ -129,6 +129,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{{"study", "--shard", "1/2", "--out", "x", "--json"}, {"--json", "study merge"}},
         Mistake{{"study", "--clock", "guessed"}, {"--clock"}},
         Mistake{{"study", "--trials", "0"}, {"'0' is not a whole number"}},
+        Mistake{{"study", "--trials", "1"}, {"'1' is not a whole number from 2"}},
         Mistake{{"study", "mege"}, {"'astrolabe study mege'", "did you mean 'merge'"}},
         Mistake{{"study", "merge"}, {"FILES is required"}},
         Mistake{{"sim", "--wiring", "left"}, {"--wiring", "'left' is no fault"}},
