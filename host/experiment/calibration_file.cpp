@@ -77,6 +77,17 @@ std::map<std::string, double> numbers_in(toml::node_view<const toml::node> secti
   return numbers;
 }
 
+/// An experiment's folder has its calibrations beside the recordings.
+std::string in_place_of_a_calibration(const fs::path& folder) {
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (const fs::path& file = entry.path(); file.extension() == ".toml")
+      return fmt::format("'{}' is a folder: name a calibration in it, such as '{}'", folder.string(),
+                         file.string());
+  return fmt::format(
+      "'{}' is a folder, and none of a calibration: name a file that 'astrolabe calibrate' wrote",
+      folder.string());
+}
+
 NominalWheel wheel_of(const toml::table& file, const fs::path& path) {
   const NominalWheel wheel{file["nominal"]["wheel_diameter"].value_or(0.0),
                            file["nominal"]["counts_per_wheel_turn"].value_or(0.0)};
@@ -129,6 +140,7 @@ void write_parameters(const fs::path& path, const ParameterValues& values) {
 }
 
 ParameterFile read_parameter_file(const fs::path& path) {
+  if (fs::is_directory(path)) throw Error(in_place_of_a_calibration(path));
   const toml::table file = parse_toml(path);
   const toml::table* parameters = file["parameters"].as_table();
   if (parameters == nullptr || parameters->empty())

@@ -41,7 +41,8 @@ Bytes load_file(const fs::path& path) {
     }
     throw Error(path.string() + " does not exist: check the path");
   }
-  if (!fs::is_regular_file(status)) throw Error(path.string() + " is not a file: name a single recording");
+  if (fs::is_directory(status)) throw Error(path.string() + " is a folder: name a file in it");
+  if (!fs::is_regular_file(status)) throw Error(path.string() + " is a device or a pipe: name a file");
   const std::uintmax_t size = fs::file_size(path, error);
   if (error) throw Error("cannot read " + path.string() + ": " + error.message());
   if (size > kMaxFileBytes) throw Error(path.string() + " is larger than 4 GiB: split it into shorter runs");
