@@ -30,6 +30,7 @@ void add_compare(Command app) {
     const experiment::Results results = options->folders.size() == 1
                                             ? experiment::read_results(options->folders.front())
                                             : experiment::read_folders(options->folders);
+    if (const std::string other = results.other_robot(); !other.empty()) say("warning: " + other);
     if (options->json) {
       std::cout << experiment::to_json(results).dump(2) << '\n';
       return;

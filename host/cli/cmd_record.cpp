@@ -15,6 +15,7 @@
 #include "host/cli/wrong_usage.hpp"
 #include "host/experiment/journal.hpp"
 #include "host/experiment/record_run.hpp"
+#include "host/experiment/robot_identity.hpp"
 #include "host/link/parameters.hpp"
 #include "host/recording/csv_export.hpp"
 #include "host/recording/files.hpp"
@@ -40,8 +41,9 @@ struct Options {
 recording::RunInfo describe(link::Client& client) {
   const protocol::HelloReply& robot = client.robot();
   recording::RunInfo info;
-  info.robot_name = robot.robot_name.view();
-  for (const std::uint8_t byte : robot.unique_id) info.robot_id += fmt::format("{:02x}", byte);
+  const experiment::RobotIdentity identity = experiment::identity_of(robot);
+  info.robot_name = identity.name;
+  info.robot_id = identity.id;
   info.board = robot.board.view();
   info.firmware = fmt::format("{}.{}.{}", robot.fw_major, robot.fw_minor, robot.fw_patch);
   info.started_at = experiment::utc_now();

@@ -47,6 +47,10 @@ void run(Options& options) {
   const experiment::ParameterFile file = experiment::read_parameter_file(options.file);
   const auto client = connect(options.connection);
   const link::RemoteParameters robot = link::RemoteParameters::fetch(*client);
+  const experiment::RobotIdentity here = experiment::identity_of(client->robot());
+  if (const std::string other = experiment::different_robots("the calibration", file.robot, "this", here);
+      !other.empty())
+    say("warning: " + other);
   const std::vector<experiment::Change> changes = experiment::changes(robot, file.parameters);
   if (changes.empty()) {
     say("the robot holds these values already");

@@ -46,6 +46,12 @@ std::string nominal_lines(const NominalWheel& wheel) {
       real_text(wheel.diameter_m), real_text(wheel.counts_per_turn));
 }
 
+std::string robot_lines(const RobotIdentity& robot) {
+  std::ostringstream text;
+  text << "[robot]\nname = " << toml::value(robot.name) << "\nid = " << toml::value(robot.id) << "\n\n";
+  return text.str();
+}
+
 std::string calibration_lines(const Calibration& calibration) {
   std::string text = fmt::format("[calibration]\nmethod = \"{}\"\n", calibration.method());
   text += fmt::format(
@@ -119,6 +125,7 @@ void write_calibration(const fs::path& path, const Calibration& calibration) {
   text += "[standard_errors]\n" + factor_lines(calibration.se.c_r, calibration.se.c_l, calibration.se.b_m);
   if (const MlResult* ml = calibration.ml()) text += covariance_lines(ml->estimate.covariance);
   if (calibration.wheel) text += nominal_lines(*calibration.wheel);
+  if (!calibration.robot.id.empty()) text += robot_lines(calibration.robot);
   text += "# What the robot believed while it drove.\n[carried]\n" +
           factor_lines(carried.c_r, carried.c_l, carried.b_m);
   save(path, text + calibration_lines(calibration));
@@ -153,6 +160,7 @@ ParameterFile read_parameter_file(const fs::path& path) {
   }
   result.carried = numbers_in(file["carried"]);
   result.standard_errors = numbers_in(file["standard_errors"]);
+  result.robot = {file["robot"]["name"].value_or(std::string()), file["robot"]["id"].value_or(std::string())};
   result.method = file["calibration"]["method"].value_or(std::string());
   result.absolute = file["calibration"]["absolute"].value_or(false);
   if (file.contains("nominal")) result.wheel = wheel_of(file, path);

@@ -8,6 +8,7 @@
 
 #include "host/base/error.hpp"
 #include "host/experiment/experiment_folder.hpp"
+#include "host/experiment/robot_identity.hpp"
 #include "host/experiment/until.hpp"
 #include "host/link/upload.hpp"
 #include "host/recording/run_file.hpp"
@@ -41,32 +42,27 @@ class Session {
  private:
   void open_journal(const Plan& plan) {
     const protocol::HelloReply& robot = client_.robot();
-    const std::string id = hex(robot.unique_id);
+    const RobotIdentity identity = identity_of(robot);
     if (has_journal(folder_)) {
       journal_ = read_journal(folder_);
       if (nlohmann::json(journal_.plan) != nlohmann::json(plan))
         throw Error("'" + folder_.string() +
                     "' holds an experiment with other settings: give the same ones to go on with it, or "
                     "another --out");
-      if (journal_.robot_id != id)
-        throw Error(fmt::format(
-            "'{}' holds the experiment of robot {} ({}), and this is {} ({}): choose another --out",
-            folder_.string(), journal_.robot_name, journal_.robot_id, robot.robot_name.view(), id));
+      if (const std::string other =
+              different_robots("the experiment in '" + folder_.string() + "'",
+                               {journal_.robot_name, journal_.robot_id}, "this", identity);
+          !other.empty())
+        throw Error(other + ": choose another --out");
       return;
     }
     journal_.plan = plan;
-    journal_.robot_id = id;
-    journal_.robot_name = robot.robot_name.view();
+    journal_.robot_id = identity.id;
+    journal_.robot_name = identity.name;
     journal_.board = robot.board.view();
     journal_.firmware = fmt::format("{}.{}.{}", robot.fw_major, robot.fw_minor, robot.fw_patch);
     journal_.started_at = utc_now();
     write_journal(folder_, journal_);
-  }
-
-  static std::string hex(const std::array<std::uint8_t, 16>& bytes) {
-    std::string text;
-    for (const std::uint8_t byte : bytes) text += fmt::format("{:02x}", byte);
-    return text;
   }
 
   static calibration::WheelFactors factors_of(const link::RemoteParameters& robot) {

@@ -7,6 +7,7 @@
 #include "host/base/error.hpp"
 #include "host/experiment/experiment_folder.hpp"
 #include "host/experiment/json.hpp"
+#include "host/experiment/robot_identity.hpp"
 #include "host/recording/run_folder.hpp"
 
 namespace astro::experiment {
@@ -43,6 +44,17 @@ const Calibration* Results::last_calibration() const {
 
 report::Improvement Results::gain() const {
   return report::improvement(report::E_max_syst_mm(before().summary), report::E_max_syst_mm(after().summary));
+}
+
+std::string Results::other_robot() const {
+  for (const PhaseResult& phase : phases)
+    for (const recording::Run& run : phase.runs)
+      if (const std::string sentence =
+              different_robots("'" + before().name + "'", identity_of(before().runs.front().info),
+                               "'" + phase.name + "'", identity_of(run.info));
+          !sentence.empty())
+        return sentence + ": what is compared may be the robots";
+  return {};
 }
 
 std::string Results::verdict() const {

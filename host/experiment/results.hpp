@@ -35,6 +35,8 @@ struct Results {
   double improvement() const { return gain().factor; }
   /// The same with its 95 % interval.
   report::Improvement gain() const;
+  /// The sentence that a phase was driven with another robot than the first one, or "".
+  std::string other_robot() const;
   /// What the report says of it, for people: one paragraph.
   std::string verdict() const;
 };

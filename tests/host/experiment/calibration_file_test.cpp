@@ -103,6 +103,24 @@ TEST_F(CalibrationFile, NamesTheValueThatIsNeitherNumberNorText) {
   EXPECT_THAT([&] { read_parameter_file(path); }, ThrowsMessage<Error>(HasSubstr("c_R is neither")));
 }
 
+TEST_F(CalibrationFile, KeepsTheRobotWhateverItsName) {
+  Calibration found = example();
+  const std::filesystem::path path = folder_.path() / "calib.toml";
+  write_calibration(path, found);
+  EXPECT_EQ(read_parameter_file(path).robot, RobotIdentity{});
+  found.robot = {"\"Räder\" \\ 2", "00ff"};
+  write_calibration(path, found);
+  EXPECT_EQ(read_parameter_file(path).robot, found.robot);
+}
+
+TEST(RobotIdentity, IsToldApartByTheIdAlone) {
+  const RobotIdentity one{"ASTRO", "01"}, other{"ASTRO", "02"}, renamed{"ARES", "01"};
+  EXPECT_EQ(different_robots("the file", one, "this", other),
+            "the file is of robot ASTRO (01), and this is ASTRO (02)");
+  EXPECT_EQ(different_robots("the file", one, "this", renamed), "");
+  EXPECT_EQ(different_robots("the file", {}, "this", one), "") << "nobody knows";
+}
+
 class ChangeGuard : public testing::Test {
  protected:
   ChangeGuard() : desk_(sim::Config{}), robot_(link::RemoteParameters::fetch(desk_.client)) {}
