@@ -75,6 +75,7 @@ void drive(Options& options) {
         fmt::format("'{}' is a file, and each run gets one of its own: name a folder", options.out.string()));
   const auto client = connect(options.connection);
   const auto truth = open_truth(options.truth, options.connection.port);
+  if (options.truth.source == "none") say("without --truth nothing can be calibrated from these runs");
   recording::RunInfo info = describe(*client);
   info.speed_mps = options.programme.speed_mps;
   record_programme(*client, *truth, runs, info, options.out, options.pause);
@@ -103,6 +104,8 @@ void listen(Options& options) {
   recording::write_run(options.out, run);
   if (!options.csv.empty()) recording::export_csv(run, options.csv);
   say(fmt::format("{} odometry and {} truth samples", run.odometry.size(), run.truth.size()));
+  if (!run.warning.empty())
+    throw Error(fmt::format("{}; what came before is in '{}'", run.warning, options.out.string()));
   std::cout << fs::absolute(options.out).string() << '\n';
 }
 

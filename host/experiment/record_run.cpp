@@ -148,8 +148,13 @@ recording::Run record_until(link::Client& client, truth::Source& truth, const re
   run.info.truth_source = truth.name();
   run.info.truth_clock = truth.clock();
   Collector collector(client, truth, run);
-  while (!done()) client.pump(50ms);
-  collector.finish();
+  try {
+    while (!done()) client.pump(50ms);
+    collector.finish();
+  } catch (const Error& error) {
+    if (run.odometry.empty()) throw;
+    run.warning = error.what();
+  }
   return run;
 }
 

@@ -40,6 +40,7 @@ recording::Run record_run(link::Client& client, truth::Source& truth, const link
 void complete(recording::Run& run, truth::Source& truth);
 
 /// As above without driving: records whatever the robot does until `done` says so; asked about every 50 ms.
+/// A link or a truth that is lost on the way ends it, and `warning` says so: nobody can drive the same again.
 recording::Run record_until(link::Client& client, truth::Source& truth, const recording::RunInfo& info,
                             const std::function<bool()>& done);
 

@@ -70,5 +70,12 @@ TEST_F(RecordProgramme, EachRunHasAFileOfItsOwnAndIsNotDrivenAgain) {
   EXPECT_THAT(again.err, testing::AllOf(HasSubstr("all 2 runs already"), HasSubstr("another folder")));
 }
 
+TEST_F(RecordProgramme, SaysBeforehandThatRunsWithoutTruthCannotBeCalibratedFrom) {
+  const Outcome outcome = astrolabe(
+      {"record", "--lines", "1", "--length", "0.3", "--port", simulator_.port(), "--out", folder()});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.err, testing::StartsWith("without --truth nothing can be calibrated"));
+}
+
 }  // namespace
 }  // namespace astro

@@ -143,6 +143,18 @@ TEST(Record, KnowsBeforeTheDriveWhatCannotBeWritten) {
               HasSubstr("/proc/none"));
 }
 
+TEST(Record, KeepsWhatCameBeforeTheLinkWasLost) {
+  Simulator simulator;
+  const std::string out = (simulator.folder() / "drive.mcap").string();
+  support::Program record({ASTROLABE_PROGRAM, "record", "--port", simulator.port(), "--out", out});
+  ASSERT_TRUE(support::eventually([&] { return record.err().find("Ctrl-C ends it") != std::string::npos; }));
+  poll(nullptr, 0, 300);  // thousands of samples, in fast motion
+  simulator.program().send(SIGKILL);
+  EXPECT_EQ(record.wait(), 1);
+  EXPECT_THAT(record.err(), HasSubstr("what came before is in '" + out + "'"));
+  EXPECT_TRUE(fs::exists(out));
+}
+
 TEST(Umbmark, AsksEachQuestionOnceWhenTheInputHasEnded) {
   const Simulator simulator;
   const support::Outcome outcome =
