@@ -131,8 +131,11 @@ void run(Options& options) {
     throw WrongUsage("--truth-folder is of --truth file, and this is --truth " + options.truth.source);
   if (options.truth.folder.empty()) options.truth.folder = options.out / "truth";
   const auto client = connect(options.connection);
-  const auto truth = open_truth(options.truth, options.connection.port);
   Progress progress("driving");
+  const auto truth = open_truth(options.truth, options.connection.port, [&](const std::string& prompt) {
+    progress.clear();
+    return ask(prompt);
+  });
   const experiment::Results results =
       run_experiment(*client, *truth, options.plan, options.out, hooks_for(options, progress));
   const std::filesystem::path report = std::filesystem::absolute(options.out / "report.html");

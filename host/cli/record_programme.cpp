@@ -57,9 +57,9 @@ std::vector<ProgrammeRun> missing_of(const std::vector<ProgrammeRun>& runs, cons
   for (const ProgrammeRun& run : runs)
     if (!fs::exists(folder / run.spec.file_name())) missing.push_back(run);
   if (missing.empty())
-    throw Error(
-        fmt::format("'{}' holds all {} runs already, and a recording replaces nothing: name another folder",
-                    folder.string(), runs.size()));
+    throw Error(fmt::format(
+        "'{}' holds all of these runs already, and a recording replaces nothing: name another folder",
+        folder.string()));
   if (missing.size() < runs.size())
     say(fmt::format("{} of {} runs are recorded already", runs.size() - missing.size(), runs.size()));
   return missing;

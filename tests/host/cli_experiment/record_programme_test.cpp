@@ -67,7 +67,7 @@ TEST_F(RecordProgramme, EachRunHasAFileOfItsOwnAndIsNotDrivenAgain) {
   EXPECT_EQ(more.err, "1 of 2 runs are recorded already\nrecorded line 2\n");
   const Outcome again = record({"--lines", "2", "--length", "0.3"});
   EXPECT_EQ(again.code, 1);
-  EXPECT_THAT(again.err, testing::AllOf(HasSubstr("all 2 runs already"), HasSubstr("another folder")));
+  EXPECT_THAT(again.err, testing::AllOf(HasSubstr("all of these runs already"), HasSubstr("another folder")));
 }
 
 TEST_F(RecordProgramme, SaysBeforehandThatRunsWithoutTruthCannotBeCalibratedFrom) {
