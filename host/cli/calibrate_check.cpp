@@ -33,6 +33,16 @@ MlChoice::Clock clock_of(const Options& options) {
   return options.clock == "known" ? MlChoice::Clock::known : MlChoice::Clock::estimated;
 }
 
+void warn_of_other_robots(const std::vector<experiment::NamedFactors>& factors,
+                          const experiment::RunSet& set) {
+  const experiment::RobotIdentity driven = experiment::identity_of(set.runs.front().info);
+  for (const experiment::NamedFactors& one : factors)
+    if (const std::string other =
+            experiment::different_robots("'" + one.name + "'", one.robot, "the drives' robot", driven);
+        !other.empty())
+      say("warning: " + other);
+}
+
 std::vector<DeadReckoning> judged(const Options& options) {
   const experiment::RunSet set = experiment::read_run_set(options.folder, options.without);
   for (const recording::Run& run : set.runs)
@@ -40,6 +50,7 @@ std::vector<DeadReckoning> judged(const Options& options) {
   const auto wheel = experiment::nominal_wheel(set.runs.front().info, set.names.front());
   std::vector<experiment::NamedFactors> factors{{"carried", experiment::last_carried(set)}};
   for (const fs::path& file : options.with) factors.push_back(experiment::factors_of_file(file, wheel));
+  warn_of_other_robots(factors, set);
   return experiment::dead_reckon(set, factors, clock_of(options));
 }
 

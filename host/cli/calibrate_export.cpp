@@ -71,12 +71,20 @@ void add_calibrate_export(Command calibrate) {
   command
       .add_option("--wheel-radius", options->nominal.wheel_radius_m,
                   "nominal radius in the other program, m; default:\nthat of the robot that drove")
-      .check(positive("m"));
+      .check(between(0.002, 2, "m"));
   command
       .add_option("--wheel-separation", options->nominal.wheel_separation_m,
                   "nominal wheelbase in the other program, m;\ndefault: the b that was carried")
-      .check(positive("m"));
-  command.add_option("--node", options->node, "ros2: name of the controller").capture_default_str();
+      .check(between(0.01, 10, "m"));
+  command.add_option("--node", options->node, "ros2: name of the controller")
+      .check([](const std::string& name) {
+        return experiment::is_ros2_node(name)
+                   ? ""
+                   : "'" + name +
+                         "' is no name of a node in ROS 2: use letters, digits and _, not a digit first, "
+                         "and / before it or a namespace";
+      })
+      .capture_default_str();
   examples(command, {"astrolabe calibrate export calib.toml --to calib.yaml",
                      "astrolabe calibrate export calib.toml --to calib.yaml --wheel-radius 0.036 "
                      "--wheel-separation 0.3",

@@ -11,10 +11,10 @@
 #include "host/cli/calibration_view.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/console.hpp"
+#include "host/cli/method_option.hpp"
 #include "host/cli/options.hpp"
 #include "host/experiment/calibration_file.hpp"
 #include "host/experiment/json.hpp"
-#include "host/experiment/method_names.hpp"
 #include "host/recording/files.hpp"
 
 namespace astro::cli {
@@ -37,19 +37,11 @@ struct Options {
   double side_m = 0;
   double wheelbase_m = 0;
   double c_r = 1, c_l = 1;
-  std::string method = "auto", angles = "average", formula = "exact";
+  MethodOption method;
   bool json = false;
 };
 
-void add_method(Command command, Options& options, const std::vector<std::string>& methods,
-                const std::string& what) {
-  command.add_option("--method", options.method, what).one_of(methods).capture_default_str();
-  command.add_option("--angles", options.angles, "umbmark: which coordinates the angles come from")
-      .one_of({"x", "y", "thesis", "average"})
-      .capture_default_str();
-  command.add_option("--formula", options.formula, "extended: exact, or as published by Jung and Chung")
-      .one_of({"exact", "published"})
-      .capture_default_str();
+void add_result(Command command, Options& options) {
   command.add_option("--out", options.out, "write the result here, for 'astrolabe upload'");
   command.add_flag("--json", options.json, "print the result as one JSON object");
 }
@@ -121,8 +113,9 @@ void add_end_poses(Command calibrate) {
       .required();
   command.add_option("--c-right", options->c_r, "c_R that the robot carried").capture_default_str();
   command.add_option("--c-left", options->c_l, "c_L that the robot carried").capture_default_str();
-  add_method(command, *options, {"auto", "umbmark", "extended", "least-squares"},
+  add_method(command, options->method, {"auto", "umbmark", "extended", "least-squares"},
              "auto: extended where every run has an end heading,\numbmark where not");
+  add_result(command, *options);
   command.footer(
       "An error is absolute (tape measure, mocap) minus odometry, at the end, in the run's start frame.\n"
       "Examples:\n"
@@ -130,22 +123,21 @@ void add_end_poses(Command calibrate) {
       "  astrolabe calibrate end-poses --cw cw.csv --ccw ccw.csv --side 3 --wheelbase 0.29 --method umbmark "
       "--angles x --out calib.toml");
   command.callback([options] {
+    const experiment::MethodChoice method = options->method.choice();
     experiment::Squares squares;
     squares.cw = calibration::read_end_poses(read_text(options->cw), options->cw.string());
     squares.ccw = calibration::read_end_poses(read_text(options->ccw), options->ccw.string());
     squares.side_m = options->side_m;
     squares.carried = {options->c_r, options->c_l, options->wheelbase_m};
-    finish(experiment::calibrate(
-               squares, experiment::method_named(options->method, options->angles, options->formula)),
-           *options);
+    finish(experiment::calibrate(squares, method), *options);
   });
 }
 
 experiment::Calibration calibrate_runs(const Options& options) {
+  const experiment::MethodChoice method = options.method.choice();
   const experiment::RunSet set = experiment::read_run_set(options.folder, options.without);
   for (const recording::Run& run : set.runs)
     if (!run.warning.empty()) say("warning: " + run.warning);
-  const auto method = experiment::method_named(options.method, options.angles, options.formula);
   experiment::Calibration found = experiment::calibrate(set, method, ml_choice(options.ml));
   if (found.ml() == nullptr && options.ml.given())
     throw Error(
@@ -159,11 +151,12 @@ void add_runs(Command calibrate) {
   const auto options = std::make_shared<Options>();
   const Command command = calibrate.add_subcommand("runs", "from recorded runs with ground truth (MCAP)");
   command.add_option("folder", options->folder, "folder with the recordings").required();
-  add_method(command, *options, {"auto", "ml", "umbmark", "extended", "least-squares"},
+  add_method(command, options->method, {"auto", "ml", "umbmark", "extended", "least-squares"},
              "ml: maximum likelihood over whole drives of any\n"
              "kind; the others: from end poses of squares; auto:\n"
              "ml where ground truth followed every run, else\n"
              "extended or umbmark");
+  add_result(command, *options);
   add_ml(command, *options);
   command.add_option("--without", options->without, "a recording to leave out, by its name (repeatable)")
       .one_each_time();

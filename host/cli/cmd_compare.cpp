@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <iostream>
 #include <memory>
 
@@ -32,13 +30,13 @@ void add_compare(Command app) {
     const experiment::Results results = options->folders.size() == 1
                                             ? experiment::read_results(options->folders.front())
                                             : experiment::read_folders(options->folders);
+    if (const std::string other = results.other_robot(); !other.empty()) say("warning: " + other);
     if (options->json) {
       std::cout << experiment::to_json(results).dump(2) << '\n';
       return;
     }
     std::cout << table(experiment::before_after_table(results));
-    if (results.phases.size() > 1)
-      std::cout << fmt::format("E_max_syst is {:.1f} times smaller\n", results.improvement());
+    if (results.phases.size() > 1) std::cout << '\n' << wrapped(results.verdict());
   });
 }
 

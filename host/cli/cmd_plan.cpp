@@ -10,6 +10,7 @@
 #include "host/cli/command.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/plan_view.hpp"
+#include "host/cli/programme_options.hpp"
 #include "host/cli/study_options.hpp"
 #include "host/cli/wrong_usage.hpp"
 #include "host/study/shortest_programme.hpp"
@@ -19,6 +20,7 @@ namespace {
 
 struct Options {
   study::Programme programme;
+  ProgrammeOptions runs;
   double sigma_theta_deg = 0.15;
   std::string until;
   std::vector<std::string> kinds;
@@ -44,23 +46,6 @@ std::vector<study::Kind> kinds_named(const std::vector<std::string>& names) {
   return kinds;
 }
 
-void add_runs(Command command, study::Programme& programme) {
-  const std::array<const char*, study::kKinds> what = {
-      "squares, half of them each way; 10 if no runs are named", "straight lines",
-      "spins on the spot, half each way", "circles of one turn, half each way"};
-  for (std::size_t kind = 0; kind < study::kKinds; ++kind)
-    command.add_option("--" + std::string(study::kKindNames[kind]), programme.counts[kind], what[kind])
-        .type_name("N")
-        .check(whole(0, study::kMostRuns));
-  add_size(command, "--side", programme.side_m, "side of a square, m");
-  add_size(command, "--length", programme.line_m, "of a line, m");
-  command.add_option("--turns", programme.turns, "of a spin")
-      .type_name("N")
-      .check(between(0.25, 50, ""))
-      .capture_default_str();
-  add_size(command, "--radius", programme.radius_m, "of a circle, m");
-}
-
 void add_target(Command command, Options& options) {
   command
       .add_option("--until", options.until,
@@ -82,21 +67,13 @@ void add_target(Command command, Options& options) {
 void add_robot(Command command, Options& options) {
   study::Programme& programme = options.programme;
   add_size(command, "--wheelbase", programme.wheelbase_m, "of the robot, m");
-  command.add_option("--speed", programme.speed_mps, "m/s")
-      .type_name("V")
-      .check(between(0.01, 10, "m/s"))
-      .capture_default_str();
-  command.add_option("--yaw-rate", programme.yaw_rate_radps, "of turns, rad/s")
-      .type_name("W")
-      .check(between(0.01, 100, "rad/s"))
-      .capture_default_str();
   add_noise(command, programme.noise, options.sigma_theta_deg, programme.truth_rate_hz);
   add_json_flag(command, options.json);
 }
 
 void run(Options& options) {
   study::Programme& programme = options.programme;
-  const bool named = programme.counts != study::Counts{};
+  const bool named = options.runs.named();
   if (!options.until.empty() && named)
     throw WrongUsage(
         "--until finds the numbers of runs: give either it or --squares, --lines, --spins, --circles");
@@ -120,11 +97,12 @@ void add_plan(Command app) {
   const auto options = std::make_shared<Options>();
   const Command command = app.add_subcommand(
       "plan", "before driving: the precision of a programme, or the programme for a precision");
-  add_runs(command, options->programme);
+  options->runs = add_programme(command, options->programme);
   add_target(command, *options);
   add_robot(command, *options);
   command.footer(
-      "Standard errors are the Cramer-Rao bound of 'calibrate runs --method ml' with the given slip and\n"
+      "Without runs it is about 10 squares. Standard errors are the Cramer-Rao bound of 'calibrate runs "
+      "--method ml' with the given slip and\n"
       "ground truth; the time is that of driving alone. Tyres may turn about another point in spins\n"
       "than in arcs: a wheelbase for both wants runs of both.\n"
       "Examples:\n"

@@ -8,30 +8,42 @@
 #include "host/cli/connection.hpp"
 #include "host/cli/console.hpp"
 #include "host/cli/interrupt.hpp"
+#include "host/cli/options.hpp"
+#include "host/cli/programme_options.hpp"
+#include "host/cli/record_programme.hpp"
 #include "host/cli/truth_option.hpp"
+#include "host/cli/wrong_usage.hpp"
 #include "host/experiment/journal.hpp"
 #include "host/experiment/record_run.hpp"
+#include "host/experiment/robot_identity.hpp"
 #include "host/link/parameters.hpp"
 #include "host/recording/csv_export.hpp"
+#include "host/recording/files.hpp"
 #include "host/recording/run_file.hpp"
 
 namespace astro::cli {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct Options {
   ConnectionOptions connection;
   TruthOption truth{"none", {}};
-  std::filesystem::path out;
-  std::filesystem::path csv;
+  fs::path out;
+  fs::path csv;
   double seconds = 0;
+  study::Programme programme;
+  ProgrammeOptions runs;
+  Option seconds_option, csv_option, pause_option;
+  bool pause = false;
 };
 
 recording::RunInfo describe(link::Client& client) {
   const protocol::HelloReply& robot = client.robot();
   recording::RunInfo info;
-  info.kind = "free";
-  info.robot_name = robot.robot_name.view();
-  for (const std::uint8_t byte : robot.unique_id) info.robot_id += fmt::format("{:02x}", byte);
+  const experiment::RobotIdentity identity = experiment::identity_of(robot);
+  info.robot_name = identity.name;
+  info.robot_id = identity.id;
   info.board = robot.board.view();
   info.firmware = fmt::format("{}.{}.{}", robot.fw_major, robot.fw_minor, robot.fw_patch);
   info.started_at = experiment::utc_now();
@@ -42,11 +54,43 @@ recording::RunInfo describe(link::Client& client) {
   return info;
 }
 
-void run(Options& options) {
-  if (options.seconds < 0) throw Error("--seconds must not be negative");
+/// What cannot be written is known before the drive, which nobody can repeat.
+void require_new(const fs::path& file) {
+  if (fs::exists(file) && !fs::is_directory(file))
+    throw Error(
+        fmt::format("'{}' exists, and a recording replaces nothing: name another file", file.string()));
+  const recording::PartFile can_be_written(file);
+}
+
+void drive(Options& options) {
+  const std::vector<ProgrammeRun> runs = runs_of(options.programme);
+  if (runs.empty())
+    throw WrongUsage(
+        "no runs to drive: say how many squares, lines, spins or circles, or leave them all out");
+  if (options.seconds_option.count() + options.csv_option.count() > 0)
+    throw WrongUsage(
+        "--seconds and --csv are for recording what somebody else drives: leave them out, or the runs");
+  if (fs::exists(options.out) && !fs::is_directory(options.out))
+    throw Error(
+        fmt::format("'{}' is a file, and each run gets one of its own: name a folder", options.out.string()));
   const auto client = connect(options.connection);
   const auto truth = open_truth(options.truth, options.connection.port);
-  const recording::RunInfo info = describe(*client);
+  if (options.truth.source == "none") say("without --truth nothing can be calibrated from these runs");
+  recording::RunInfo info = describe(*client);
+  info.speed_mps = options.programme.speed_mps;
+  record_programme(*client, *truth, runs, info, options.out, options.pause);
+  std::cout << fs::absolute(options.out).string() << '\n';
+}
+
+void listen(Options& options) {
+  if (options.pause_option.count() > 0) throw WrongUsage("--pause waits before runs: say how many to drive");
+  require_new(options.out);
+  if (!options.csv.empty())
+    for (const char* name : {"odometry.csv", "truth.csv"}) require_new(options.csv / name);
+  const auto client = connect(options.connection);
+  const auto truth = open_truth(options.truth, options.connection.port);
+  recording::RunInfo info = describe(*client);
+  info.kind = "free";
   Progress progress("recording");
   const link::microseconds start = client->now();
   const auto done = [&] {
@@ -60,7 +104,9 @@ void run(Options& options) {
   recording::write_run(options.out, run);
   if (!options.csv.empty()) recording::export_csv(run, options.csv);
   say(fmt::format("{} odometry and {} truth samples", run.odometry.size(), run.truth.size()));
-  std::cout << std::filesystem::absolute(options.out).string() << '\n';
+  if (!run.warning.empty())
+    throw Error(fmt::format("{}; what came before is in '{}'", run.warning, options.out.string()));
+  std::cout << fs::absolute(options.out).string() << '\n';
 }
 
 }  // namespace
@@ -68,20 +114,29 @@ void run(Options& options) {
 void add_record(Command app) {
   const auto options = std::make_shared<Options>();
   const Command command =
-      app.add_subcommand("record", "record odometry and ground truth while somebody else drives");
-  command.add_option("--out", options->out, "the MCAP file to write").required();
+      app.add_subcommand("record", "drive runs and record them, or record while somebody else drives");
+  command.add_option("--out", options->out, "the MCAP file to write, or the folder for the runs").required();
   add_connection(command, options->connection);
   command.add_option("--truth", options->truth.source, "sim or none")
       .one_of({"sim", "none"})
       .capture_default_str();
-  command.add_option("--seconds", options->seconds, "end after this time (default: at Ctrl-C)");
-  command.add_option("--csv", options->csv, "also write odometry.csv and truth.csv into this folder");
+  options->seconds_option =
+      command.add_option("--seconds", options->seconds, "end after this time (default: at Ctrl-C)")
+          .type_name("S")
+          .check(positive("s"));
+  options->csv_option =
+      command.add_option("--csv", options->csv, "also write odometry.csv and truth.csv into this folder");
+  options->runs = add_programme(command, options->programme);
+  options->pause_option = command.add_flag("--pause", options->pause, "wait for Enter before each run");
   command.footer(
-      "The file opens in Foxglove, PlotJuggler and 'ros2 bag'.\n"
+      "With numbers of runs it drives them, each from rest to rest and into a file of its own;\n"
+      "those that the folder holds already are not driven again. Without, it drives nothing.\n"
+      "The files open in Foxglove, PlotJuggler and 'ros2 bag'.\n"
       "Examples:\n"
       "  astrolabe record --out drive.mcap\n"
+      "  astrolabe record --lines 3 --spins 2 --circles 2 --truth sim --out programme\n"
       "  astrolabe record --port /dev/ttyACM0 --seconds 30 --out drive.mcap --csv drive");
-  command.callback([options] { run(*options); });
+  command.callback([options] { options->runs.named() ? drive(*options) : listen(*options); });
 }
 
 }  // namespace astro::cli

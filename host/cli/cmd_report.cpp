@@ -28,6 +28,7 @@ void add_report(Command app) {
     const bool is_experiment = options->folders.size() == 1;
     const experiment::Results results = is_experiment ? experiment::read_results(options->folders.front())
                                                       : experiment::read_folders(options->folders);
+    if (const std::string other = results.other_robot(); !other.empty()) say("warning: " + other);
     const std::filesystem::path out =
         options->out.empty() ? options->folders.front() / "report.html" : options->out;
     report::write_report(out, experiment::report_input(results));

@@ -71,7 +71,8 @@ void add_setup(Command command, Options& options) {
                   "simulator: the firmware on the simulated robot")
       .one_of({"kinematic", "simulator"})
       .capture_default_str();
-  add_count(command, "--trials", setup.trials, 1, 10'000'000, "how often it is all repeated");
+  add_count(command, "--trials", setup.trials, 2, 10'000'000,
+            "how often it is all repeated; one alone says nothing about chance");
   command.add_option("--seed", setup.seed, "of all noise")
       .type_name("N")
       .capture_default_str()

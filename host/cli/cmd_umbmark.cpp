@@ -10,8 +10,10 @@
 #include "host/cli/connection.hpp"
 #include "host/cli/console.hpp"
 #include "host/cli/interrupt.hpp"
+#include "host/cli/method_option.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/truth_option.hpp"
+#include "host/cli/wrong_usage.hpp"
 #include "host/experiment/experiment.hpp"
 #include "host/experiment/method_names.hpp"
 #include "host/experiment/report_input.hpp"
@@ -25,10 +27,11 @@ struct Options {
   TruthOption truth;
   experiment::Plan plan;
   std::filesystem::path out;
-  std::string order = "alternating", method = "auto", angles = "average", formula = "exact";
+  std::string order = "alternating";
+  MethodOption method;
   experiment::Until until;
-  Option until_option;
-  bool yes = false, json = false, no_extras = false, pause = false;
+  Option until_option, truth_folder;
+  bool yes = false, force = false, json = false, no_extras = false, pause = false;
 };
 
 void add_options(Command command, Options& options) {
@@ -37,8 +40,9 @@ void add_options(Command command, Options& options) {
   command.add_option("--truth", options.truth.source, "sim, manual (tape measure) or file")
       .one_of({"sim", "manual", "file"})
       .required();
-  command.add_option("--truth-folder", options.truth.folder,
-                     "--truth file: where the CSV of each run appears");
+  options.truth_folder = command.add_option("--truth-folder", options.truth.folder,
+                                            "--truth file: where the CSV of each run appears;\n"
+                                            "default: OUT/truth");
   command
       .add_option("--out", options.out,
                   "folder of the experiment; the same folder again goes on where it was")
@@ -65,21 +69,13 @@ void add_options(Command command, Options& options) {
   command.add_option("--line", plan.line_m, "length of the straight line, m").capture_default_str();
   command.add_option("--circle", plan.circle_radius_m, "radius of the circles, m").capture_default_str();
   command.add_flag("--no-extras", options.no_extras, "squares only, no line and circles");
-  command
-      .add_option("--method", options.method,
-                  "auto: ml (maximum likelihood over whole drives)\n"
-                  "with ground truth along the way, else extended\n"
-                  "where every run has an end heading, or umbmark")
-      .one_of({"auto", "ml", "umbmark", "extended", "least-squares"})
-      .capture_default_str();
-  command.add_option("--angles", options.angles, "umbmark: which coordinates the angles come from")
-      .one_of({"x", "y", "thesis", "average"})
-      .capture_default_str();
-  command.add_option("--formula", options.formula, "extended: exact, or as published")
-      .one_of({"exact", "published"})
-      .capture_default_str();
+  add_method(command, options.method, {"auto", "ml", "umbmark", "extended", "least-squares"},
+             "auto: ml (maximum likelihood over whole drives)\n"
+             "with ground truth along the way, else extended\n"
+             "where every run has an end heading, or umbmark");
   command.add_flag("--pause", options.pause, "wait for Enter before each run (always with --truth manual)");
   command.add_flag("--yes,-y", options.yes, "upload without asking");
+  add_force(command, options.force);
   command.add_flag("--json", options.json, "print the result as one JSON object");
 }
 
@@ -113,23 +109,33 @@ experiment::ExperimentHooks hooks_for(const Options& options, Progress& progress
     progress.clear();
     say('\n' + calibration_summary(found));
     say(table(experiment::side_by_side(changes)));
+    const experiment::FactorErrors& se = found.se;
+    const std::string note =
+        experiment::insignificance(changes, {{"c_R", se.c_r}, {"c_L", se.c_l}, {"b", se.b_m}});
+    if (!note.empty()) say(note);
     return options.yes || confirm("Load these into the robot?");
   };
+  hooks.force = options.force;
   hooks.uploaded = [](const std::string& sentence) { say(sentence + "\n"); };
   return hooks;
 }
 
 void run(Options& options) {
   options.plan.order = experiment::order_named(options.order);
-  options.plan.method = experiment::method_named(options.method, options.angles, options.formula);
+  options.plan.method = options.method.choice();
   options.plan.extras = !options.no_extras;
   options.plan.truth = options.truth.source;
   if (options.until_option.count() > 0) options.plan.until = options.until;
   options.plan.check();
+  if (options.truth_folder.count() > 0 && options.truth.source != "file")
+    throw WrongUsage("--truth-folder is of --truth file, and this is --truth " + options.truth.source);
   if (options.truth.folder.empty()) options.truth.folder = options.out / "truth";
   const auto client = connect(options.connection);
-  const auto truth = open_truth(options.truth, options.connection.port);
   Progress progress("driving");
+  const auto truth = open_truth(options.truth, options.connection.port, [&](const std::string& prompt) {
+    progress.clear();
+    return ask(prompt);
+  });
   const experiment::Results results =
       run_experiment(*client, *truth, options.plan, options.out, hooks_for(options, progress));
   const std::filesystem::path report = std::filesystem::absolute(options.out / "report.html");
@@ -140,9 +146,8 @@ void run(Options& options) {
     std::cout << json.dump(2) << '\n';
     return;
   }
-  std::cout << table(experiment::before_after_table(results))
-            << fmt::format("\nE_max_syst is {:.1f} times smaller.\nReport: {}\n", results.improvement(),
-                           report.string());
+  std::cout << table(experiment::before_after_table(results)) << '\n'
+            << wrapped(results.verdict()) << "Report: " << report.string() << '\n';
 }
 
 }  // namespace
@@ -154,6 +159,13 @@ void add_umbmark(Command app) {
   add_options(command, *options);
   command.footer(
       "Ctrl-C stops the robot; the same command goes on from the last recorded run.\n"
+      "--truth file reads a CSV per run: before-square-cw-1.csv, before-line-1.csv, ...\n"
+      "Its header names the columns: x_m or x_mm, y_m or y_mm, theta_rad or theta_deg\n"
+      "(counter-clockwise). Its first row is the pose at the start, its last row that at\n"
+      "the end, in any frame; without theta in the robot's own at the start, x forward:\n"
+      "  x_m,y_m,theta_deg\n"
+      "  1.000,2.000,90.0\n"
+      "  1.012,1.987,91.5\n"
       "Examples:\n"
       "  astrolabe umbmark --truth sim --out my-experiment\n"
       "  astrolabe umbmark --port /dev/ttyACM0 --truth manual --runs 5 --side 3 --out my-experiment\n"

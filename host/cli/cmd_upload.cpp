@@ -8,6 +8,7 @@
 #include "host/cli/command.hpp"
 #include "host/cli/connection.hpp"
 #include "host/cli/console.hpp"
+#include "host/cli/options.hpp"
 #include "host/experiment/calibration_file.hpp"
 #include "host/experiment/change_guard.hpp"
 #include "host/link/upload.hpp"
@@ -46,17 +47,21 @@ void run(Options& options) {
   const experiment::ParameterFile file = experiment::read_parameter_file(options.file);
   const auto client = connect(options.connection);
   const link::RemoteParameters robot = link::RemoteParameters::fetch(*client);
+  const experiment::RobotIdentity here = experiment::identity_of(client->robot());
+  if (const std::string other = experiment::different_robots("the calibration", file.robot, "this", here);
+      !other.empty())
+    say("warning: " + other);
   const std::vector<experiment::Change> changes = experiment::changes(robot, file.parameters);
   if (changes.empty()) {
     say("the robot holds these values already");
     if (options.json) print(link::UploadReport{link::ActiveSet::new_set, false, {}}, true);
     return;
   }
-  if (const std::string wrong = experiment::wrong_basis(robot, file); !wrong.empty() && !options.force)
-    throw Error(wrong + " (--force uploads all the same)");
   say(table(experiment::side_by_side(changes)));
-  if (const std::string doubt = experiment::suspicion(changes); !doubt.empty() && !options.force)
-    throw Error(doubt);
+  if (const std::string why = experiment::objection(robot, file, changes); !why.empty() && !options.force)
+    throw Error(why);
+  if (const std::string note = experiment::insignificance(changes, file.standard_errors); !note.empty())
+    say(note);
   if (!options.yes && !confirm("Load these into the robot?")) throw Error("nothing was uploaded");
   const link::UploadReport report = link::upload(*client, file.parameters);
   print(report, options.json);
@@ -74,8 +79,7 @@ void add_upload(Command app) {
       .required();
   add_connection(command, options->connection);
   command.add_flag("--yes,-y", options->yes, "do not ask");
-  command.add_flag("--force", options->force,
-                   "also a change of more than 10 %, or on top of other parameters");
+  add_force(command, options->force);
   command.add_flag("--json", options->json, "print what the robot now holds as one JSON object");
   command.footer(
       "All values come in force together or not at all, also when the link drops in the middle.\n"

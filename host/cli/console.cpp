@@ -69,7 +69,11 @@ std::string ask(const std::string& prompt) {
   std::size_t end = 0;
   while ((end = read_ahead.find('\n')) == std::string::npos)
     if (!await_input(read_ahead)) {
-      if (read_ahead.empty()) throw Error("the input ended where an answer was expected: " + prompt);
+      if (read_ahead.empty()) {
+        to_stderr("\n");  // the question stands there already, and nothing has ended its line
+        throw Error(
+            "the input ended where an answer was expected: answer at a terminal, or pipe all answers in");
+      }
       return std::exchange(read_ahead, {});
     }
   const std::string line = read_ahead.substr(0, end);

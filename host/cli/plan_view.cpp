@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "host/cli/console.hpp"
+#include "host/cli/programme_options.hpp"
 
 namespace astro::cli {
 namespace {
@@ -33,6 +34,11 @@ json precision_json(const Precision& relative) {
 
 }  // namespace
 
+std::vector<std::string> commands_for(const study::Programme& programme) {
+  return {"astrolabe record " + options_for(programme) + " --truth sim --out programme",
+          "astrolabe calibrate runs programme --out calib.toml"};
+}
+
 std::string duration_text(double seconds) {
   const auto whole = static_cast<long long>(std::llround(seconds));
   if (whole < 60) return fmt::format("{} s", whole);
@@ -47,9 +53,13 @@ std::string plan_text(const Forecast& forecast) {
        fmt::format("{:.4f} mm", 1000 * forecast.se.b_m)},
       percent_row("relative", forecast.relative())};
   if (const auto rules = design_rules(forecast)) rows.push_back(percent_row("by the design rules", *rules));
-  return fmt::format("{}\n{:.0f} m and {:.1f} turns in {} of driving\n\n{}", forecast.programme.text(),
-                     forecast.extent.distance_m, forecast.extent.rotation_rad / (2 * std::numbers::pi),
-                     duration_text(forecast.driving_time_s), table(rows));
+  std::string text =
+      fmt::format("{}\n{:.0f} m and {:.1f} turns in {} of driving\n\n{}\nTo drive it and calibrate:\n",
+                  forecast.programme.text(), forecast.extent.distance_m,
+                  forecast.extent.rotation_rad / (2 * std::numbers::pi),
+                  duration_text(forecast.driving_time_s), table(rows));
+  for (const std::string& command : commands_for(forecast.programme)) text += "  " + command + '\n';
+  return text;
 }
 
 json plan_json(const Forecast& forecast) {
@@ -69,6 +79,7 @@ json plan_json(const Forecast& forecast) {
           {"relative_errors", precision_json(forecast.relative())},
           {"design_rules", rules ? precision_json(*rules) : json()},
           {"driving_time_s", forecast.driving_time_s},
+          {"commands", commands_for(programme)},
           {"distance_m", forecast.extent.distance_m},
           {"rotation_rad", forecast.extent.rotation_rad}};
 }

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "host/study/programme.hpp"
 
@@ -12,6 +13,9 @@ namespace astro::cli {
 std::string plan_text(const study::Forecast& forecast);
 
 nlohmann::json plan_json(const study::Forecast& forecast);
+
+/// What drives it and calibrates from it, to be typed as it stands.
+std::vector<std::string> commands_for(const study::Programme& programme);
 
 /// "8 min 47 s", "2 h 03 min".
 std::string duration_text(double seconds);

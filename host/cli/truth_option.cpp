@@ -1,18 +1,17 @@
 #include "host/cli/truth_option.hpp"
 
 #include "host/base/error.hpp"
-#include "host/cli/console.hpp"
 #include "host/truth/file_source.hpp"
-#include "host/truth/manual_source.hpp"
 #include "host/truth/no_source.hpp"
 #include "host/truth/socket_source.hpp"
 
 namespace astro::cli {
 
-std::unique_ptr<truth::Source> open_truth(const TruthOption& option, const std::string& port) {
+std::unique_ptr<truth::Source> open_truth(const TruthOption& option, const std::string& port,
+                                          const truth::Ask& asking) {
   if (option.source == "sim") return std::make_unique<truth::SocketSource>(truth::mocap_socket_of(port));
-  if (option.source == "manual") return std::make_unique<truth::ManualSource>(ask);
-  if (option.source == "file") return std::make_unique<truth::FileSource>(option.folder, ask);
+  if (option.source == "manual") return std::make_unique<truth::ManualSource>(asking);
+  if (option.source == "file") return std::make_unique<truth::FileSource>(option.folder, asking);
   if (option.source == "none") return std::make_unique<truth::NoSource>();
   throw Error("'" + option.source + "' is no source of ground truth: choose sim, manual, file or none");
 }

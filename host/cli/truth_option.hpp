@@ -4,6 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "host/cli/console.hpp"
+#include "host/truth/manual_source.hpp"
 #include "host/truth/source.hpp"
 
 namespace astro::cli {
@@ -18,7 +20,8 @@ struct TruthOption {
   std::filesystem::path folder;  // file: where the CSV files appear
 };
 
-/// Throws astro::Error if it cannot be had.
-std::unique_ptr<truth::Source> open_truth(const TruthOption& option, const std::string& port);
+/// `asking`: how a person is asked, where one is. Throws astro::Error if it cannot be had.
+std::unique_ptr<truth::Source> open_truth(const TruthOption& option, const std::string& port,
+                                          const truth::Ask& asking = ask);
 
 }  // namespace astro::cli

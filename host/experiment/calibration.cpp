@@ -40,6 +40,7 @@ Calibration by_ml(const RunSet& set, const MlChoice& choice) {
   result.se = {
       se.c_r,  se.c_l, se.b_m, se.E_d * result.carried.c_l / result.carried.c_r, se.b_m / result.carried.b_m,
       se.scale};
+  result.robot = identity_of(set.runs.front().info);
   result.wheel = nominal_wheel(set.runs.front().info, set.names.front());
   result.squares = summary_of_squares(set.runs);
   result.detail = std::move(ml);
@@ -99,6 +100,7 @@ Calibration calibrate(const Squares& squares, const MethodChoice& method) {
 Calibration calibrate(const RunSet& set, const MethodChoice& method, const MlChoice& ml) {
   if (uses_ml(set.runs, method)) return by_ml(set, ml);
   Calibration result = calibrate(squares_of(set.runs), method);
+  result.robot = identity_of(set.runs.front().info);
   // Recordings of other origin may do without: the ratios that end poses give need no wheel.
   if (const recording::RunInfo& info = set.runs.front().info; info.parameters.contains("wheel_diameter"))
     result.wheel = nominal_wheel(info, set.names.front());

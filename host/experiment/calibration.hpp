@@ -9,6 +9,7 @@
 #include "host/calibration/maximum_likelihood.hpp"
 #include "host/calibration/umbmark.hpp"
 #include "host/experiment/plan.hpp"
+#include "host/experiment/robot_identity.hpp"
 #include "host/experiment/run_set.hpp"
 #include "host/experiment/squares.hpp"
 #include "host/experiment/trajectories.hpp"
@@ -35,6 +36,7 @@ struct Calibration {
   calibration::WheelFactors carried;
   calibration::WheelFactors factors;  // what to load
   FactorErrors se;
+  RobotIdentity robot;                // empty where no recording told it
   std::optional<NominalWheel> wheel;  // to which c_R and c_L refer, where a recording told it
   /// End errors of the squares among the runs; none unless both directions were driven, alike.
   std::optional<calibration::ExperimentSummary> squares;

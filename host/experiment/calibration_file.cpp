@@ -46,6 +46,12 @@ std::string nominal_lines(const NominalWheel& wheel) {
       real_text(wheel.diameter_m), real_text(wheel.counts_per_turn));
 }
 
+std::string robot_lines(const RobotIdentity& robot) {
+  std::ostringstream text;
+  text << "[robot]\nname = " << toml::value(robot.name) << "\nid = " << toml::value(robot.id) << "\n\n";
+  return text.str();
+}
+
 std::string calibration_lines(const Calibration& calibration) {
   std::string text = fmt::format("[calibration]\nmethod = \"{}\"\n", calibration.method());
   text += fmt::format(
@@ -67,6 +73,25 @@ link::Value value_of(const toml::node& node, const std::string& where) {
   if (const auto flag = node.value_exact<bool>()) return *flag ? 1.0 : 0.0;
   if (const auto text = node.value_exact<std::string>()) return *text;
   throw Error(where + " is neither a number nor a text");
+}
+
+std::map<std::string, double> numbers_in(toml::node_view<const toml::node> section) {
+  std::map<std::string, double> numbers;
+  if (const toml::table* table = section.as_table())
+    for (const auto& [key, node] : *table)
+      if (const auto number = node.value<double>()) numbers[std::string(key.str())] = *number;
+  return numbers;
+}
+
+/// An experiment's folder has its calibrations beside the recordings.
+std::string in_place_of_a_calibration(const fs::path& folder) {
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (const fs::path& file = entry.path(); file.extension() == ".toml")
+      return fmt::format("'{}' is a folder: name a calibration in it, such as '{}'", folder.string(),
+                         file.string());
+  return fmt::format(
+      "'{}' is a folder, and none of a calibration: name a file that 'astrolabe calibrate' wrote",
+      folder.string());
 }
 
 NominalWheel wheel_of(const toml::table& file, const fs::path& path) {
@@ -100,6 +125,7 @@ void write_calibration(const fs::path& path, const Calibration& calibration) {
   text += "[standard_errors]\n" + factor_lines(calibration.se.c_r, calibration.se.c_l, calibration.se.b_m);
   if (const MlResult* ml = calibration.ml()) text += covariance_lines(ml->estimate.covariance);
   if (calibration.wheel) text += nominal_lines(*calibration.wheel);
+  if (!calibration.robot.id.empty()) text += robot_lines(calibration.robot);
   text += "# What the robot believed while it drove.\n[carried]\n" +
           factor_lines(carried.c_r, carried.c_l, carried.b_m);
   save(path, text + calibration_lines(calibration));
@@ -121,6 +147,7 @@ void write_parameters(const fs::path& path, const ParameterValues& values) {
 }
 
 ParameterFile read_parameter_file(const fs::path& path) {
+  if (fs::is_directory(path)) throw Error(in_place_of_a_calibration(path));
   const toml::table file = parse_toml(path);
   const toml::table* parameters = file["parameters"].as_table();
   if (parameters == nullptr || parameters->empty())
@@ -131,9 +158,9 @@ ParameterFile read_parameter_file(const fs::path& path) {
     const std::string name(key.str());
     result.parameters[name] = value_of(node, "'" + path.string() + "': [parameters] " + name);
   }
-  if (const toml::table* carried = file["carried"].as_table())
-    for (const auto& [key, node] : *carried)
-      if (const auto number = node.value<double>()) result.carried[std::string(key.str())] = *number;
+  result.carried = numbers_in(file["carried"]);
+  result.standard_errors = numbers_in(file["standard_errors"]);
+  result.robot = {file["robot"]["name"].value_or(std::string()), file["robot"]["id"].value_or(std::string())};
   result.method = file["calibration"]["method"].value_or(std::string());
   result.absolute = file["calibration"]["absolute"].value_or(false);
   if (file.contains("nominal")) result.wheel = wheel_of(file, path);

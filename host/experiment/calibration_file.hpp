@@ -15,7 +15,8 @@ namespace astro::experiment {
 using ParameterValues = std::map<std::string, link::Value>;
 
 /// Writes [parameters] c_R, c_L, b; [standard_errors] and, from maximum likelihood, [covariance]; [nominal],
-/// the wheel that c_R and c_L refer to, where it is known; [carried]; [calibration] with how it was found.
+/// the wheel that c_R and c_L refer to, and [robot], where they are known; [carried]; [calibration] with how
+/// it was found.
 void write_calibration(const std::filesystem::path& path, const Calibration& calibration);
 
 /// Writes parameters alone.
@@ -25,12 +26,16 @@ struct ParameterFile {
   ParameterValues parameters;
   /// What the robot carried when the calibration was driven; empty in a file without [carried].
   std::map<std::string, double> carried;
+  /// Of c_R, c_L and b ; NaN where the method or the data could not tell, empty in a file that no calibration
+  /// wrote.
+  std::map<std::string, double> standard_errors;
   /// The parameters hold whatever the robot carries by now (Calibration::absolute).
   bool absolute = false;
   std::optional<NominalWheel> wheel;  // [nominal]
   /// Of c_R, c_L and b; none in a file without [covariance].
   std::optional<calibration::FactorCovariance> covariance;
-  std::string method;  // "" in a file that no calibration wrote
+  RobotIdentity robot;  // [robot]
+  std::string method;   // "" in a file that no calibration wrote
 };
 
 /// Throws astro::Error naming the file, and the line where TOML knows it: no such file, not TOML, no

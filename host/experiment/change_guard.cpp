@@ -42,7 +42,7 @@ std::string suspicion(const std::vector<Change>& changes) {
     if (is_factor(change.name) && std::abs(relative(change)) > kMostChange)
       return fmt::format(
           "{} would change by {:+.1f} %, and a calibration moves it by a few at most: check units, side "
-          "and robot ('astrolabe upload FILE --force' loads it all the same)",
+          "and robot",
           change.name, 100 * relative(change));
   return {};
 }
@@ -67,6 +67,29 @@ std::string wrong_basis(const link::RemoteParameters& robot, const ParameterFile
       "in "
       "{:.6g} m and {:.6g}: load the old values or drive again",
       file.wheel->diameter_m, file.wheel->counts_per_turn, now.diameter_m, now.counts_per_turn);
+}
+
+std::string objection(const link::RemoteParameters& robot, const ParameterFile& file,
+                      const std::vector<Change>& changes) {
+  std::string why = wrong_basis(robot, file);
+  if (why.empty()) why = suspicion(changes);
+  return why.empty() ? why : why + " (--force uploads all the same)";
+}
+
+std::string insignificance(const std::vector<Change>& changes,
+                           const std::map<std::string, double>& standard_errors) {
+  bool any = false;
+  for (const Change& change : changes) {
+    if (!is_factor(change.name)) return {};
+    const auto error = standard_errors.find(change.name);
+    if (error == standard_errors.end() || !(error->second > 0)) return {};
+    if (std::abs(std::get<double>(change.after) - std::get<double>(change.before)) > 2 * error->second)
+      return {};
+    any = true;
+  }
+  return any ? "no factor changes by more than twice its standard error: what the robot carries may be as "
+               "good"
+             : "";
 }
 
 std::vector<std::vector<std::string>> side_by_side(const std::vector<Change>& changes) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,16 @@ std::string suspicion(const std::vector<Change>& changes);
 /// "" if they are right. Factors that are not absolute need what was carried when they were measured; all
 /// need the nominal wheel (diameter, gear, encoder) that they refer to, as far as the file tells it.
 std::string wrong_basis(const link::RemoteParameters& robot, const ParameterFile& file);
+
+/// Why these changes are not uploaded unless somebody insists, from the two above; "" if nothing is against
+/// it. The sentence names the option --force that both 'upload' and 'umbmark' have.
+std::string objection(const link::RemoteParameters& robot, const ParameterFile& file,
+                      const std::vector<Change>& changes);
+
+/// The sentence that no factor changes by more than twice its standard error, or "": nothing speaks against
+/// such an upload, and little for it. `standard_errors` by name; NaN and those that are missing are unknown.
+std::string insignificance(const std::vector<Change>& changes,
+                           const std::map<std::string, double>& standard_errors);
 
 /// Old and new side by side, for people.
 std::vector<std::vector<std::string>> side_by_side(const std::vector<Change>& changes);

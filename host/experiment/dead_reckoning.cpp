@@ -28,7 +28,8 @@ NamedFactors factors_of_file(const std::filesystem::path& path, const NominalWhe
         path.string(), file.wheel->diameter_m, file.wheel->counts_per_turn, wheel.diameter_m,
         wheel.counts_per_turn));
   const NamedFactors found{path.string(),
-                           {factor(file, path, "c_R"), factor(file, path, "c_L"), factor(file, path, "b")}};
+                           {factor(file, path, "c_R"), factor(file, path, "c_L"), factor(file, path, "b")},
+                           file.robot};
   if (!(found.factors.b_m > 0.01 && found.factors.b_m < 10))
     throw Error(fmt::format("{} has b = {:.4g} m, which no robot has: correct or replace it", path.string(),
                             found.factors.b_m));

@@ -16,6 +16,7 @@ namespace astro::experiment {
 struct NamedFactors {
   std::string name;  // "carried", or the file's path
   calibration::WheelFactors factors;
+  RobotIdentity robot{};  // that they were found for; empty where the file does not tell
 };
 
 /// Those of calib.toml. `wheel`: the nominal wheel of the drives, to which c_R and c_L refer.

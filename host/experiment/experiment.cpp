@@ -8,6 +8,7 @@
 
 #include "host/base/error.hpp"
 #include "host/experiment/experiment_folder.hpp"
+#include "host/experiment/robot_identity.hpp"
 #include "host/experiment/until.hpp"
 #include "host/link/upload.hpp"
 #include "host/recording/run_file.hpp"
@@ -41,32 +42,27 @@ class Session {
  private:
   void open_journal(const Plan& plan) {
     const protocol::HelloReply& robot = client_.robot();
-    const std::string id = hex(robot.unique_id);
+    const RobotIdentity identity = identity_of(robot);
     if (has_journal(folder_)) {
       journal_ = read_journal(folder_);
       if (nlohmann::json(journal_.plan) != nlohmann::json(plan))
         throw Error("'" + folder_.string() +
                     "' holds an experiment with other settings: give the same ones to go on with it, or "
                     "another --out");
-      if (journal_.robot_id != id)
-        throw Error(fmt::format(
-            "'{}' holds the experiment of robot {} ({}), and this is {} ({}): choose another --out",
-            folder_.string(), journal_.robot_name, journal_.robot_id, robot.robot_name.view(), id));
+      if (const std::string other =
+              different_robots("the experiment in '" + folder_.string() + "'",
+                               {journal_.robot_name, journal_.robot_id}, "this", identity);
+          !other.empty())
+        throw Error(other + ": choose another --out");
       return;
     }
     journal_.plan = plan;
-    journal_.robot_id = id;
-    journal_.robot_name = robot.robot_name.view();
+    journal_.robot_id = identity.id;
+    journal_.robot_name = identity.name;
     journal_.board = robot.board.view();
     journal_.firmware = fmt::format("{}.{}.{}", robot.fw_major, robot.fw_minor, robot.fw_patch);
     journal_.started_at = utc_now();
     write_journal(folder_, journal_);
-  }
-
-  static std::string hex(const std::array<std::uint8_t, 16>& bytes) {
-    std::string text;
-    for (const std::uint8_t byte : bytes) text += fmt::format("{:02x}", byte);
-    return text;
   }
 
   static calibration::WheelFactors factors_of(const link::RemoteParameters& robot) {
@@ -121,12 +117,39 @@ class Session {
     const auto total = static_cast<int>(specs.size());
     int number = total - static_cast<int>(missing.size());
     for (const RunSpec& spec : missing) {
-      hooks_.ready(spec);
-      hooks_.run_started(spec, ++number, total);
-      const recording::Run run = drive(spec, parameters);
-      recording::write_run(file_of(folder_, spec), run);
+      ++number;
+      recording::Run run;
+      if (const fs::path driven = file_without_truth(folder_, spec); fs::exists(driven)) {
+        hooks_.run.notice(
+            fmt::format("{} is driven, but its ground truth is missing (remove '{}' to drive again)",
+                        spec.title(), driven.string()));
+        run = recording::read_run(driven);
+      } else {
+        hooks_.ready(spec);
+        hooks_.run_started(spec, number, total);
+        run = drive(spec, parameters);
+      }
+      keep(spec, run);
       hooks_.run_finished(spec, run);
     }
+  }
+
+  /// On the disk before somebody is asked for its truth, who may err, walk away or press Ctrl-C.
+  void keep(const RunSpec& spec, recording::Run& run) {
+    const fs::path driven = file_without_truth(folder_, spec);
+    if (truth_.comes_afterwards()) {
+      recording::write_run(driven, run);
+      try {
+        complete(run, truth_);
+      } catch (const link::Interrupted&) {
+        throw;
+      } catch (const Error& error) {
+        throw Error(std::string(error.what()) +
+                    "; the drive is kept, and the same command goes on with its ground truth");
+      }
+    }
+    recording::write_run(file_of(folder_, spec), run);
+    fs::remove(driven);
   }
 
   /// A phase is driven with one set of parameters, also when it is resumed.
@@ -190,9 +213,8 @@ class Session {
     const link::RemoteParameters robot = link::RemoteParameters::fetch(client_);
     const std::vector<Change> list = changes(robot, calibration.parameters);
     if (list.empty()) return;  // an earlier session got this far
-    if (const std::string wrong = wrong_basis(robot, calibration); !wrong.empty())
-      throw Error(wrong + ", or choose another --out");
-    if (const std::string doubt = suspicion(list); !doubt.empty()) throw Error(doubt);
+    if (const std::string why = objection(robot, calibration, list); !why.empty() && !hooks_.force)
+      throw Error(why);
     if (!hooks_.agree(found, list))
       throw Error("the new parameters were not uploaded; 'astrolabe umbmark --out " + folder_.string() +
                   "' goes on from here");

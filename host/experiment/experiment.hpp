@@ -17,9 +17,10 @@ struct ExperimentHooks {
                                                                                const recording::Run&) {};
   /// Before each drive: the moment to put the robot back on its mark.
   std::function<void(const RunSpec&)> ready = [](const RunSpec&) {};
-  /// True: put these in force. Not asked about more than a tenth (change_guard.hpp): that is refused.
+  /// True: put these in force. Not asked where there is an objection (change_guard.hpp): that is refused.
   std::function<bool(const Calibration&, const std::vector<Change>&)> agree =
       [](const Calibration&, const std::vector<Change>&) { return true; };
+  bool force = false;  // objections are not heard
   std::function<void(const std::string&)> uploaded = [](const std::string&) {};
 };
 

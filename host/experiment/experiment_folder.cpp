@@ -25,6 +25,10 @@ fs::path file_of(const fs::path& folder, const RunSpec& spec) {
   return folder / spec.phase / spec.file_name();
 }
 
+fs::path file_without_truth(const fs::path& folder, const RunSpec& spec) {
+  return file_of(folder, spec) += ".no-truth";
+}
+
 RunSet read_specs(const fs::path& folder, const std::vector<RunSpec>& specs) {
   RunSet set;
   for (const RunSpec& spec : specs) {

@@ -18,6 +18,9 @@ int squares_in_phase(const std::filesystem::path& folder, const Plan& plan, std:
 /// Where a run of an experiment is kept.
 std::filesystem::path file_of(const std::filesystem::path& folder, const RunSpec& spec);
 
+/// Where its drive is kept as long as the truth is missing that comes afterwards; not listed as a recording.
+std::filesystem::path file_without_truth(const std::filesystem::path& folder, const RunSpec& spec);
+
 /// The recordings of these runs, named as in the folder ("before/square-cw-3"). Throws what
 /// recording::read_run throws.
 RunSet read_specs(const std::filesystem::path& folder, const std::vector<RunSpec>& specs);

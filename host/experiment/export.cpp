@@ -93,11 +93,27 @@ DiffDrive diff_drive(const ParameterFile& file, const NominalSizes& nominal) {
   return result;
 }
 
+bool is_ros2_node(std::string_view name) {
+  constexpr std::size_t kLongest = 255;
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  if (name.size() > kLongest) return false;
+  if (name.starts_with('/')) name.remove_prefix(1);
+  bool at_start = true;  // of the name or of a part of it
+  for (const char c : name) {
+    const bool is_digit = c >= '0' && c <= '9';
+    if (c == '/' ? at_start : !is_letter(c) && (!is_digit || at_start)) return false;
+    at_start = c == '/';
+  }
+  return !at_start;
+}
+
 std::string ros2_yaml(const ParameterFile& file, const DiffDrive& parameters, const std::string& node) {
   std::string text = "# Found by Astrolabe";
-  if (!file.method.empty()) text += ", method " + file.method;
+  const bool is_word = file.method.find_first_not_of("abcdefghijklmnopqrstuvwxyz-") == std::string::npos;
+  if (!file.method.empty() && is_word)
+    text += ", method " + file.method;  // in a comment anything else may end it
   text +=
-      ". wheel_radius and wheel_separation are nominal: the multipliers belong to\n# these very values.\n";
+      ".\n# wheel_radius and wheel_separation are nominal: the multipliers\n# belong to these very values.\n";
   text += node + ":\n  ros__parameters:\n";
   text += fmt::format("    wheel_radius: {}\n", real_text(parameters.wheel_radius_m));
   text += fmt::format("    wheel_separation: {}\n", real_text(parameters.wheel_separation_m));

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "host/experiment/calibration_file.hpp"
 
@@ -29,6 +30,11 @@ struct NominalSizes {
 /// Throws astro::Error if the file has no c_R, c_L or b, or if neither it nor `nominal` tells a size, naming
 /// the option that does.
 DiffDrive diff_drive(const ParameterFile& file, const NominalSizes& nominal);
+
+/// Whether ROS 2 takes it for a node in a file of parameters: "controller", "/left_robot/controller".
+///
+/// Source  rmw, rmw/validate_node_name.h and validate_namespace.h.
+bool is_ros2_node(std::string_view name);
 
 /// A file for `--params-file` of a controller node called `node`.
 std::string ros2_yaml(const ParameterFile& file, const DiffDrive& parameters, const std::string& node);

@@ -15,6 +15,15 @@ constexpr int kFormat = 2;  // 1 meant end poses by "auto"
 
 std::filesystem::path file_in(const std::filesystem::path& folder) { return folder / "experiment.json"; }
 
+std::string why_no_experiment(const std::filesystem::path& folder) {
+  const std::string why = !std::filesystem::exists(folder) ? "does not exist"
+                          : !std::filesystem::is_directory(folder)
+                              ? "is a file"
+                              : "holds no experiment (no experiment.json)";
+  return fmt::format("'{}' {}: name the --out of 'astrolabe umbmark', or two or more folders of recordings",
+                     folder.string(), why);
+}
+
 }  // namespace
 
 std::string utc_now() {
@@ -25,6 +34,7 @@ bool has_journal(const std::filesystem::path& folder) { return std::filesystem::
 
 Journal read_journal(const std::filesystem::path& folder) {
   const std::filesystem::path path = file_in(folder);
+  if (!std::filesystem::exists(path)) throw Error(why_no_experiment(folder));
   const recording::Bytes bytes = recording::load_file(path);
   try {
     const auto json = nlohmann::json::parse(bytes.begin(), bytes.end());

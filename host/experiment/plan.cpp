@@ -84,8 +84,9 @@ std::string RunSpec::file_name() const {
 }
 
 std::string RunSpec::title() const {
-  if (direction == Direction::none) return fmt::format("{}: {} {}", phase, kind, index);
-  return fmt::format("{}: {} {} {}", phase, kind, name_of(direction), index);
+  const std::string start = phase.empty() ? kind : phase + ": " + kind;
+  if (direction == Direction::none) return fmt::format("{} {}", start, index);
+  return fmt::format("{} {} {}", start, name_of(direction), index);
 }
 
 std::vector<std::string> phase_names(const Plan& plan) {

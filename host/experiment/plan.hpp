@@ -57,7 +57,7 @@ struct RunSpec {
 
   /// "square-cw-3.mcap"
   std::string file_name() const;
-  /// "before: square cw 3"
+  /// "before: square cw 3", without a phase "square cw 3"
   std::string title() const;
 };
 

@@ -58,7 +58,6 @@ class Collector {
       client_.pump(20ms);
       look();
     }
-    for (const recording::TruthSample& sample : truth_.complete(run_)) run_.truth.push_back(sample);
     std::erase_if(run_.truth, [&](const auto& sample) {
       return run_.odometry.empty() || sample.time_us < run_.odometry.front().time_us ||
              sample.time_us > end_us();
@@ -137,6 +136,11 @@ recording::Run record_run(link::Client& client, truth::Source& truth, const link
   return run;
 }
 
+void complete(recording::Run& run, truth::Source& truth) {
+  const std::vector<recording::TruthSample> samples = truth.complete(run);
+  run.truth.insert(run.truth.end(), samples.begin(), samples.end());
+}
+
 recording::Run record_until(link::Client& client, truth::Source& truth, const recording::RunInfo& info,
                             const std::function<bool()>& done) {
   recording::Run run;
@@ -144,8 +148,13 @@ recording::Run record_until(link::Client& client, truth::Source& truth, const re
   run.info.truth_source = truth.name();
   run.info.truth_clock = truth.clock();
   Collector collector(client, truth, run);
-  while (!done()) client.pump(50ms);
-  collector.finish();
+  try {
+    while (!done()) client.pump(50ms);
+    collector.finish();
+  } catch (const Error& error) {
+    if (run.odometry.empty()) throw;
+    run.warning = error.what();
+  }
   return run;
 }
 

@@ -29,13 +29,18 @@ recording::RunInfo info_of(const Plan& plan, const RunSpec& spec);
 
 /// Drives one run from rest to rest, starting at odometry pose 0, and records what the robot believed and
 /// what the truth saw. The robot stands still for more than half a second at both ends, so that the poses
-/// there can be averaged.
+/// there can be averaged. Truth that comes afterwards is left to complete().
 ///
 /// Throws what link::DriveSession throws (the robot stands then), and astro::Error if the truth ends.
 recording::Run record_run(link::Client& client, truth::Source& truth, const link::Path& path,
                           const recording::RunInfo& info, const RunHooks& hooks);
 
+/// Adds the truth that comes only after a run: people and files are asked for it. Throws what they do; `run`
+/// is as it was then.
+void complete(recording::Run& run, truth::Source& truth);
+
 /// As above without driving: records whatever the robot does until `done` says so; asked about every 50 ms.
+/// A link or a truth that is lost on the way ends it, and `warning` says so: nobody can drive the same again.
 recording::Run record_until(link::Client& client, truth::Source& truth, const recording::RunInfo& info,
                             const std::function<bool()>& done);
 

@@ -90,6 +90,7 @@ report::ReportInput report_input(const Results& results) {
   input.parameters = {{"c_R", "", old.c_r, now.c_r, se.c_r},
                       {"c_L", "", old.c_l, now.c_l, se.c_l},
                       {"b", "m", old.b_m, now.b_m, se.b_m}};
+  if (const std::string other = results.other_robot(); !other.empty()) input.notes.push_back(other + '.');
   if (last != nullptr) input.method = method_text(*last);
   return input;
 }

@@ -7,6 +7,7 @@
 #include "host/base/error.hpp"
 #include "host/experiment/experiment_folder.hpp"
 #include "host/experiment/json.hpp"
+#include "host/experiment/robot_identity.hpp"
 #include "host/recording/run_folder.hpp"
 
 namespace astro::experiment {
@@ -41,7 +42,27 @@ const Calibration* Results::last_calibration() const {
   return last ? &*last : nullptr;
 }
 
-double Results::improvement() const { return before().summary.E_max_syst_m / after().summary.E_max_syst_m; }
+report::Improvement Results::gain() const {
+  return report::improvement(report::E_max_syst_mm(before().summary), report::E_max_syst_mm(after().summary));
+}
+
+std::string Results::other_robot() const {
+  for (const PhaseResult& phase : phases)
+    for (const recording::Run& run : phase.runs)
+      if (const std::string sentence =
+              different_robots("'" + before().name + "'", identity_of(before().runs.front().info),
+                               "'" + phase.name + "'", identity_of(run.info));
+          !sentence.empty())
+        return sentence + ": what is compared may be the robots";
+  return {};
+}
+
+std::string Results::verdict() const {
+  return fmt::format("E_max_syst is {}: improvement factor {}. {}", report::claim(gain()),
+                     report::describe(gain()),
+                     report::verdict_sentence(report::E_max_syst_mm(before().summary),
+                                              report::E_max_syst_mm(after().summary)));
+}
 
 Results read_results(const fs::path& folder) {
   Results results;
@@ -97,6 +118,9 @@ nlohmann::json to_json(const Results& results) {
   json["before"] = to_json(results.before().summary);
   json["after"] = results.phases.size() > 1 ? to_json(results.after().summary) : nlohmann::json();
   json["improvement"] = results.phases.size() > 1 ? number(results.improvement()) : nlohmann::json();
+  json["improvement_95"] = nullptr;
+  if (results.phases.size() > 1)
+    json["improvement_95"] = {number(results.gain().low), number(results.gain().high)};
   json["phases"] = nlohmann::json::array();
   for (const PhaseResult& phase : results.phases) {
     nlohmann::json entry = {{"name", phase.name}, {"carried", to_json(phase.squares.carried)}};

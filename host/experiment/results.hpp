@@ -10,6 +10,7 @@
 #include "host/experiment/journal.hpp"
 #include "host/experiment/squares.hpp"
 #include "host/recording/run.hpp"
+#include "host/report/comparison.hpp"
 
 /// What came out of an experiment, worked out from its folder alone.
 namespace astro::experiment {
@@ -31,7 +32,13 @@ struct Results {
   /// The one whose factors the last phase carried; none if nothing was uploaded yet.
   const Calibration* last_calibration() const;
   /// E_max_syst before over after.
-  double improvement() const;
+  double improvement() const { return gain().factor; }
+  /// The same with its 95 % interval.
+  report::Improvement gain() const;
+  /// The sentence that a phase was driven with another robot than the first one, or "".
+  std::string other_robot() const;
+  /// What the report says of it, for people: one paragraph.
+  std::string verdict() const;
 };
 
 /// Reads the phases that are complete; one that is driven until a precision is reached is, from its fewest

@@ -41,7 +41,8 @@ Bytes load_file(const fs::path& path) {
     }
     throw Error(path.string() + " does not exist: check the path");
   }
-  if (!fs::is_regular_file(status)) throw Error(path.string() + " is not a file: name a single recording");
+  if (fs::is_directory(status)) throw Error(path.string() + " is a folder: name a file in it");
+  if (!fs::is_regular_file(status)) throw Error(path.string() + " is a device or a pipe: name a file");
   const std::uintmax_t size = fs::file_size(path, error);
   if (error) throw Error("cannot read " + path.string() + ": " + error.message());
   if (size > kMaxFileBytes) throw Error(path.string() + " is larger than 4 GiB: split it into shorter runs");
@@ -57,7 +58,9 @@ Bytes load_file(const fs::path& path) {
 }
 
 PartFile::PartFile(fs::path path) : path_(std::move(path)), part_(part_of(path_)) {
-  std::error_code error;
+  std::error_code ignored, error;
+  if (fs::is_directory(path_, ignored))
+    throw Error("'" + path_.string() + "' is a folder: name a file in it");
   if (path_.has_parent_path()) fs::create_directories(path_.parent_path(), error);
   if (error) {
     throw Error("cannot make the folder " + path_.parent_path().string() + ": " + error.message());
@@ -67,7 +70,9 @@ PartFile::PartFile(fs::path path) : path_(std::move(path)), part_(part_of(path_)
 }
 
 PartFile::~PartFile() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  if (descriptor_ < 0) return;
+  ::close(descriptor_);
+  if (empty_) ::unlink(part_.c_str());
 }
 
 void PartFile::fail(const std::string& what) const {
@@ -77,6 +82,7 @@ void PartFile::fail(const std::string& what) const {
 
 void PartFile::write(ByteView bytes) {
   while (!bytes.empty()) {
+    empty_ = false;
     const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) fail("write");

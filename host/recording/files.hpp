@@ -11,10 +11,11 @@ namespace astro::recording {
 Bytes load_file(const std::filesystem::path& path);
 
 /// A file that carries its name only once it is whole. Bytes go to `<path>.part`; commit() brings them to the
-/// disk and gives them the name, replacing what had it. Without commit the `.part` stays, for whoever wants
-/// to rescue what was recorded, until the same path is written again. Folders on the way are made.
+/// disk and gives them the name, replacing what had it. Without commit a `.part` that holds anything stays,
+/// for whoever wants to rescue what was recorded, until the same path is written again. Folders on the way
+/// are made.
 ///
-/// Errors  astro::Error naming the file and what the system said.
+/// Errors  astro::Error naming the file and what the system said, or that there is a folder of that name.
 class PartFile {
  public:
   explicit PartFile(std::filesystem::path path);
@@ -32,6 +33,7 @@ class PartFile {
 
   std::filesystem::path path_, part_;
   int descriptor_ = -1;
+  bool empty_ = true;
 };
 
 }  // namespace astro::recording

@@ -29,11 +29,11 @@ struct TruthSample {
 enum class Direction { none, cw, ccw };
 
 struct RunInfo {
-  std::string kind;  // "square", "line", "circle", "free"
+  std::string kind;  // "square", "line", "spin", "circle", "free"
   Direction direction = Direction::none;
   std::string phase;  // "before", "after", "repeat-1", ... or "" for a free recording
   int index = 0;      // 1, 2, ... within its kind, direction and phase
-  double size_m = 0;  // square: side; circle: radius; line: length
+  double size_m = 0;  // square: side; circle: radius; line: length; spin: 0
   double speed_mps = 0;
   std::string robot_name, robot_id, board, firmware;
   std::string started_at;    // ISO 8601, UTC

@@ -44,9 +44,10 @@ bool natural_less(std::string_view a, std::string_view b) {
 
 std::vector<fs::path> list_runs(const fs::path& folder) {
   std::error_code error;
-  if (!fs::is_directory(folder, error)) {
-    throw Error(folder.string() + " is not a folder: name one that holds recorded runs");
-  }
+  if (!fs::exists(folder, error))
+    throw Error(folder.string() + " does not exist: name a folder that holds recorded runs");
+  if (!fs::is_directory(folder, error))
+    throw Error(folder.string() + " is a file: name a folder that holds recorded runs");
   std::vector<fs::path> paths;
   for (auto it = fs::recursive_directory_iterator(folder, error);
        !error && it != fs::recursive_directory_iterator(); it.increment(error)) {

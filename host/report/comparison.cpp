@@ -38,6 +38,11 @@ double student_t_975(int degrees_of_freedom) {
   return z + (z * z * z + z) / (4 * n) + (5 * std::pow(z, 5) + 16 * z * z * z + 3 * z) / (96 * n * n);
 }
 
+Estimate E_max_syst_mm(const calibration::ExperimentSummary& squares) {
+  const int runs = squares.cw.r_cg_m > squares.ccw.r_cg_m ? squares.cw.runs : squares.ccw.runs;
+  return {squares.E_max_syst_m * 1e3, squares.se_E_max_syst_m * 1e3, runs};
+}
+
 Improvement improvement(const Estimate& before, const Estimate& after) {
   const double a = before.value, b = after.value;
   Improvement out{a / b, kUnknown, kUnknown, kUnknown};
@@ -87,6 +92,15 @@ std::string verdict_sentence(const Estimate& before, const Estimate& after) {
   }
   return change +
          "; one run per direction says nothing about the scatter, so whether that is chance stays open.";
+}
+
+std::string claim(const Improvement& improvement) {
+  const bool bounded = !std::isinf(improvement.high);
+  if (improvement.low <= 1 && !(improvement.high < 1)) return "not certainly changed";
+  const double factor = bounded ? improvement.factor : improvement.low;
+  const double size = factor >= 1 ? factor : 1 / factor;
+  return fmt::format("{}{} times {}", bounded ? "" : "at least ", fixed(size, factor_decimals(size)),
+                     factor >= 1 ? "smaller" : "larger");
 }
 
 std::string describe(const Improvement& improvement) {

@@ -3,6 +3,8 @@
 #include <span>
 #include <string>
 
+#include "host/calibration/umbmark.hpp"
+
 /// Did the calibration help, by how much, and how sure is that?
 namespace astro::report {
 
@@ -12,6 +14,9 @@ struct Estimate {
   double standard_error = 0;
   int runs = 0;
 };
+
+/// E_max_syst of an experiment in millimetres, from the runs of the direction that it is of.
+Estimate E_max_syst_mm(const calibration::ExperimentSummary& squares);
 
 /// How many times smaller `after` is than `before`.
 struct Improvement {
@@ -31,6 +36,10 @@ Verdict judge(const Estimate& before, const Estimate& after);
 
 /// One plain sentence about the two estimates, values in millimetres.
 std::string verdict_sentence(const Estimate& before, const Estimate& after);
+
+/// What may be said without the figures beside it: "4.5 times smaller"; "at least 2.8 times smaller" where
+/// there is no upper bound; "not certainly changed" where the interval holds 1.
+std::string claim(const Improvement& improvement);
 
 /// "4.5 ± 0.7 (95 %: 3.2 to 6.9)"; "82 (95 %: at least 10)" where there is no upper bound, for then the
 /// first-order error means nothing; "4.5" where nothing is known.

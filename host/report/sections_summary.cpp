@@ -22,22 +22,13 @@ std::string phase_value(const SquarePhase& square) {
           : " mm");
 }
 
-/// What may be claimed in large letters: the factor, or its lower bound where there is no upper one.
-std::string gain_text(const Improvement& gain) {
-  const bool bounded = !std::isinf(gain.high);
-  const double claim = bounded ? gain.factor : gain.low;
-  const double size = claim >= 1 ? claim : 1 / claim;
-  if (!bounded && claim < 1) return "<strong>no certain change</strong>";
-  return fmt::format("{}<strong>{}×</strong> {}", bounded ? "" : "at least ",
-                     fixed(size, factor_decimals(size)), claim >= 1 ? "smaller" : "larger");
-}
-
 std::string comparison(const Phase& first, const Phase& last) {
   const Estimate before = largest_error_mm(first), after = largest_error_mm(last);
   const Improvement gain = improvement(before, after);
-  return fmt::format(R"(<p class="gain">{} <span class="detail">improvement factor {}</span></p>
+  return fmt::format(
+      R"(<p class="gain"><strong>{}</strong> <span class="detail">improvement factor {}</span></p>
 <p class="sentence">{}</p>)",
-                     gain_text(gain), describe(gain), verdict_sentence(before, after));
+      claim(gain), describe(gain), verdict_sentence(before, after));
 }
 
 std::string direction_text(const char* name, const calibration::ClusterSummary& c) {
@@ -60,11 +51,7 @@ std::vector<SquarePhase> square_phases(const ReportInput& input) {
   return out;
 }
 
-Estimate largest_error_mm(const Phase& phase) {
-  const auto& s = phase.squares;
-  const int runs = s.cw.r_cg_m > s.ccw.r_cg_m ? s.cw.runs : s.ccw.runs;
-  return {s.E_max_syst_m * 1e3, s.se_E_max_syst_m * 1e3, runs};
-}
+Estimate largest_error_mm(const Phase& phase) { return E_max_syst_mm(phase.squares); }
 
 Section headline(const ReportInput& input) {
   Section out{"result", "Result", ""};

@@ -1,5 +1,8 @@
 #include "host/study/setup.hpp"
 
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -25,6 +28,21 @@ void demand(bool holds, double value, const std::string& what, const std::string
 
 // Far more than anybody waits for; what is damaged or mistyped beyond them would exhaust the memory.
 constexpr int kMostTrials = 10'000'000, kMostSquares = 1000;
+
+/// An end heading tells less than half a turn: beyond that what was driven is no square for any method.
+void require_square(const TrialSetup& setup) {
+  double error_rad = 0;
+  for (const Sense sense : {Sense::cw, Sense::ccw})
+    error_rad = std::max(
+        error_rad,
+        std::abs(calibration::replay_square(setup.side_m, sense, setup.carried(), setup.actual()).theta_rad));
+  if (error_rad < std::numbers::pi) return;
+  throw Error(fmt::format(
+      "a square of {:g} m leaves a robot with these errors {:.0f} degrees off its heading, and an end pose "
+      "tells no "
+      "more than 180: give a side of at most some {:.2g} m, or smaller errors",
+      setup.side_m, error_rad * 180 / std::numbers::pi, setup.side_m * std::numbers::pi / error_rad));
+}
 
 constexpr std::array<std::string_view, 2> kModels = {"kinematic", "simulator"};
 
@@ -73,6 +91,7 @@ void TrialSetup::check() const {
   const DriveModel usual;
   require_fits_memory(2 * runs * (4 * side_m / usual.speed_mps + 2 * std::numbers::pi / usual.yaw_rate_radps),
                       truth_rate_hz, count_rate_hz);
+  require_square(*this);
 }
 
 nlohmann::json to_json(const TrialSetup& setup) {

@@ -46,8 +46,8 @@ struct TrialSetup {
   /// Throws astro::Error where a set-up for one robot is given to another.
   void require(Model driven) const;
 
-  /// Throws astro::Error naming what is not positive and finite, too many or too few trials or runs, or
-  /// drives that do not fit into memory.
+  /// Throws astro::Error naming what is not positive and finite, too many or too few trials or runs,
+  /// drives that do not fit into memory, or squares on which the errors turn the robot by half a turn.
   void check() const;
 };
 

@@ -15,7 +15,7 @@ using calibration::WheelFactors;
 constexpr int kDraws = 20000;                           // leaves a Monte Carlo error of 1 %; some 50 ms
 constexpr std::uint64_t kDrawSeed = 2'000'000'000'000;  // apart from the trials
 
-/// Mean of some numbers and its standard error (0 for one number).
+/// Mean of some numbers and its standard error (NaN for one number).
 struct Mean {
   double value = 0, se = 0;
 };
@@ -27,7 +27,7 @@ Mean mean_of(std::size_t count, Read read) {
   for (std::size_t i = 0; i < count; ++i) sum += read(i);
   const double mean = sum / n;
   for (std::size_t i = 0; i < count; ++i) squares += (read(i) - mean) * (read(i) - mean);
-  return {mean, count > 1 ? std::sqrt(squares / (n - 1) / n) : 0};
+  return {mean, count > 1 ? std::sqrt(squares / (n - 1) / n) : std::nan("")};
 }
 
 std::vector<Errors> draws_from(const FactorCovariance& covariance, const TrialSetup& setup) {

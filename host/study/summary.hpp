@@ -13,7 +13,7 @@
 namespace astro::study {
 
 /// Root mean squares over trials with their Monte Carlo standard errors (delta method:
-/// sd(e^2) / (2 rms sqrt(n))). Those of the first three of the bound are exact: 0.
+/// sd(e^2) / (2 rms sqrt(n))); NaN for a single answer. Those of the first three of the bound are exact: 0.
 struct Row {
   std::string name;
   int trials = 0;

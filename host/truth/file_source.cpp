@@ -42,7 +42,7 @@ double value(const CsvRow& row, const Column& column, const std::string& name) {
 
 std::vector<recording::TruthSample> read_poses(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error("the ground truth '" + path.string() + "' cannot be read: is it there?");
+  if (!file) throw Error("the ground truth '" + path.string() + "' cannot be read");
   const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   const std::string name = path.string();
   const CsvTable table = split_csv(text, name);
@@ -60,6 +60,7 @@ std::vector<recording::TruthSample> read_poses(const fs::path& path) {
   }
   if (poses.size() < 2)
     throw Error("'" + name + "' holds fewer than two poses: the start and the end are needed");
+  if (!theta) poses.front().theta_rad = 0;  // the frame is that of the start
   return poses;
 }
 
@@ -72,11 +73,22 @@ std::string truth_file_name(const recording::RunInfo& info) {
   return name + "-" + std::to_string(info.index) + ".csv";
 }
 
+std::vector<recording::TruthSample> FileSource::poses_in(const fs::path& file) const {
+  if (!fs::exists(file))
+    ask_("save the ground truth of this run as '" + file.string() + "', then press Enter: ");
+  while (true) {
+    std::string why;
+    try {
+      return read_poses(file);
+    } catch (const Error& error) {
+      why = error.what();
+    }
+    ask_(why + "; correct the file, then press Enter: ");
+  }
+}
+
 std::vector<recording::TruthSample> FileSource::complete(const recording::Run& run) {
-  const fs::path path = folder_ / truth_file_name(run.info);
-  if (!fs::exists(path))
-    ask_("save the ground truth of this run as '" + path.string() + "', then press Enter: ");
-  std::vector<recording::TruthSample> poses = read_poses(path);
+  std::vector<recording::TruthSample> poses = poses_in(folder_ / truth_file_name(run.info));
   if (run.odometry.empty()) return {};
   constexpr std::int64_t kStretch_us = 500'000;
   std::vector<recording::TruthSample> samples = at_both_ends(run, poses.front(), poses.back(), kStretch_us);

@@ -12,19 +12,25 @@ namespace astro::truth {
 ///
 ///   x_m | x_mm, y_m | y_mm, theta_rad | theta_deg (optional)
 ///
+/// Without a heading the axes are those of the robot at its start: x forward, y left.
 /// The first row is the pose at the start and the last row the pose at the end, the robot standing at both;
 /// rows between are kept evenly spread over the run, which is good for plots and not for more.
+///
+/// Errors  a file that cannot be read as that is asked for again, naming file, line and column, until it can
+///         or `ask` throws.
 class FileSource : public Source {
  public:
   FileSource(std::filesystem::path folder, Ask ask) : folder_(std::move(folder)), ask_(std::move(ask)) {}
 
   std::vector<recording::TruthSample> poll() override { return {}; }
-  /// Throws astro::Error naming file, line and column for a file that cannot be read.
+  bool comes_afterwards() const override { return true; }
   std::vector<recording::TruthSample> complete(const recording::Run& run) override;
   std::string name() const override { return "file"; }
   std::string clock() const override { return "start and end of the run"; }
 
  private:
+  std::vector<recording::TruthSample> poses_in(const std::filesystem::path& file) const;
+
   std::filesystem::path folder_;
   Ask ask_;
 };

@@ -17,6 +17,7 @@ class ManualSource : public Source {
   explicit ManualSource(Ask ask) : ask_(std::move(ask)) {}
 
   std::vector<recording::TruthSample> poll() override { return {}; }
+  bool comes_afterwards() const override { return true; }
   /// The start mark while the robot stood there, and the measured pose while it stood at the end.
   std::vector<recording::TruthSample> complete(const recording::Run& run) override;
   std::string name() const override { return "manual"; }

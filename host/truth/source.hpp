@@ -22,6 +22,9 @@ class Source {
   /// if clock() is "robot". Throws astro::Error once the tracker is gone.
   virtual std::vector<recording::TruthSample> poll() = 0;
 
+  /// Whether truth comes from complete(): from people and files, whom a drive must not be lost to.
+  virtual bool comes_afterwards() const { return false; }
+
   /// After a run: what can only be had once the robot stands at its end (a tape measure, a file). `run` holds
   /// the odometry of the whole run, standing still at both ends. None for sources that stream.
   virtual std::vector<recording::TruthSample> complete(const recording::Run& run) {

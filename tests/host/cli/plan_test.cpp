@@ -57,6 +57,18 @@ TEST(PlanCommand, TakesTheSizesOfRunsAndTheNoise) {
   EXPECT_EQ(plan({"--circles", "2"})["design_rules"], json()) << "they take arcs for spins";
 }
 
+TEST(PlanCommand, SaysWhichCommandsDriveIt) {
+  EXPECT_THAT(astrolabe({"plan", "--lines", "3", "--spins", "2", "--turns", "4"}).out,
+              HasSubstr("\n  astrolabe record --lines 3 --spins 2 --turns 4 --truth sim --out programme\n"
+                        "  astrolabe calibrate runs programme "));
+}
+
+TEST(PlanCommand, OfNoRunsIsRefused) {
+  const Outcome outcome = astrolabe({"plan", "--lines", "0"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("the programme is empty: say how many"));
+}
+
 TEST(PlanCommand, RefusesInOneSentenceWhatTellsTooLittle) {
   const Outcome outcome = astrolabe({"plan", "--until", "0.05%", "--kinds", "lines"});
   EXPECT_EQ(outcome.code, 1);

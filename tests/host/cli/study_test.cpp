@@ -134,6 +134,23 @@ TEST(StudyCommand, CtrlCEndsItWithoutAResult) {
   EXPECT_FALSE(std::filesystem::exists(file));
 }
 
+TEST(StudyCommand, SaysThatASquareIsTooLargeForTheErrorsOfTheRobot) {
+  const Outcome outcome = astrolabe({"study", "--side", "200", "--trials", "2"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("square of 200 m"), HasSubstr("at most some 54 m")));
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
+}
+
+TEST(StudyCommand, AnEmptyShardLeavesNothingBehind) {
+  const test::TemporaryFolder folder;
+  const Outcome outcome = astrolabe(
+      {"study", "--trials", "2", "--shard", "3/4", "--out", (folder.path() / "part.json").string()});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("shard 3/4 of 2 trials is empty"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
 TEST(StudyCommand, SaysBeforeTheWorkThatItCannotWrite) {
   const Outcome outcome = astrolabe({"study", "--trials", "100000", "--out", "/proc/none/part.json"});
   EXPECT_EQ(outcome.code, 1);

@@ -111,6 +111,19 @@ TEST_F(Terminal, DriveShowsABarOnceASecondHasPassed) {
   EXPECT_THAT(drive.seen(), HasSubstr("\r\033[Kmoved     x")) << "the bar makes room for what is said";
 }
 
+TEST_F(Terminal, ABarMakesRoomForAQuestion) {
+  const support::Simulator fast;
+  TerminalProgram umbmark({ASTROLABE_PROGRAM, "umbmark", "--truth", "manual", "--side", "0.5", "--runs", "1",
+                           "--no-extras", "--port", fast.port(), "--out", (fast.folder() / "x").string()});
+  ASSERT_TRUE(umbmark.shows("press Enter")) << umbmark.seen();
+  poll(nullptr, 0, 1200);  // a bar is for whoever waits longer than a second
+  umbmark.type("\n");
+  ASSERT_TRUE(umbmark.shows("measured end x")) << umbmark.seen();
+  EXPECT_THAT(umbmark.seen(), HasSubstr("\r\033[Kmeasured end x"));
+  umbmark.type(kCtrlC);
+  EXPECT_EQ(umbmark.wait(), 130);
+}
+
 TEST_F(Terminal, OfAPipeSeesNoEscapeCodesAndNoBar) {
   for (const Words& words : {Words{"info"}, Words{"ports"}, Words{"params", "list"},
                              Words{"params", "get", "b"}, Words{"faults"}, Words{"monitor", "--count", "3"},

@@ -78,6 +78,25 @@ TEST_F(BadInput, FolderWithoutRecordings) {
   refuses({"compare", folder_.path().string()}, {folder_.path().string()});
   refuses({"report", "/nowhere"}, {"/nowhere"});
 }
+TEST_F(BadInput, WhatIsNoExperimentIsToldFromWhatIsNotThere) {
+  const std::string folder = folder_.path().string(), some = file("some.toml", "");
+  for (const char* command : {"compare", "report"}) {
+    refuses({command, folder}, {"'" + folder + "' holds no experiment", "umbmark"});
+    refuses({command, folder + "/none"}, {"none' does not exist: name the --out of"});
+    refuses({command, some}, {"some.toml' is a file: name"});
+    refuses({command, folder, folder}, {"no recordings"});
+    refuses({command, folder + "/none", folder},
+            {"none does not exist: name a folder that holds recorded runs"});
+  }
+  refuses({"calibrate", "runs", some}, {"some.toml is a file: name a folder"});
+}
+TEST_F(BadInput, FolderInPlaceOfACalibration) {
+  const std::string folder = folder_.path().string();
+  refuses({"upload", folder, "--port", "/nowhere"}, {"is a folder", "'astrolabe calibrate'"});
+  const std::string some = file("some.toml", "");
+  refuses({"upload", folder, "--port", "/nowhere"}, {"is a folder", "such as '" + some + "'"});
+  refuses({"calibrate", "export", folder, "--to", "x.json"}, {"such as '" + some + "'"});
+}
 TEST_F(BadInput, RecordingThatIsNone) {
   file("run.mcap", "this is no recording");
   refuses({"calibrate", "runs", folder_.path().string()}, {"run.mcap"});

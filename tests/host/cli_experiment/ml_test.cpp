@@ -174,6 +174,26 @@ TEST_F(Ml, IsUploadedWhateverTheRobotCarriesButNotForAnotherWheel) {
   EXPECT_THAT(refused.err, AllOf(HasSubstr("0.072 m"), HasSubstr("0.08 m"), HasSubstr("--force")));
 }
 
+TEST_F(Ml, WarnsOfAnotherRobotWhereverItIsUsed) {
+  const Simulator other({"--fast", "--seed", "2"});
+  const std::string file = out() + "/calib-before.toml", drives = (other.folder() / "drives").string();
+  const Outcome uploaded = astrolabe({"upload", file, "--port", other.port(), "--yes"});
+  EXPECT_EQ(uploaded.code, 0);
+  EXPECT_THAT(uploaded.err, HasSubstr("warning: the calibration is of robot "));
+  ASSERT_EQ(astrolabe({"record", "--squares", "2", "--side", "1", "--truth", "sim", "--port", other.port(),
+                       "--out", drives})
+                .code,
+            0);
+  EXPECT_THAT(astrolabe({"calibrate", "check", drives, "--with", file}).err,
+              HasSubstr("warning: '" + file + "' is of robot "));
+  EXPECT_THAT(astrolabe({"compare", out() + "/before", drives}).err,
+              HasSubstr("warning: 'before' is of robot "));
+
+  const Outcome same = astrolabe({"compare", out() + "/before", out() + "/after"});
+  EXPECT_EQ(same.err, "");
+  EXPECT_EQ(astrolabe({"calibrate", "check", out() + "/after", "--with", file}).err, "");
+}
+
 TEST_F(Ml, OfEndPosesStillNeedsWhatWasCarried) {
   const std::string file = (simulator_->folder() / "umbmark.toml").string();
   ASSERT_EQ(runs({"--method", "umbmark", "--out", file}).code, 0);

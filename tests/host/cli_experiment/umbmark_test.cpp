@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "tests/support/json.hpp"
 #include "tests/support/program.hpp"
 
@@ -19,6 +21,16 @@ std::vector<std::string> umbmark(const Simulator& simulator, const std::string& 
                                      "--out",   out,      "--yes"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
+}
+
+void expect_same_claim(const std::string& terminal, const fs::path& report) {
+  std::ifstream file(report);
+  const std::string html{std::istreambuf_iterator<char>(file), {}};
+  const std::string start = "E_max_syst is ";
+  const std::size_t from = terminal.find(start) + start.size();
+  const std::string claim = terminal.substr(from, terminal.find(':', from) - from);
+  EXPECT_THAT(claim, HasSubstr("times smaller"));
+  EXPECT_THAT(html, HasSubstr("<strong>" + claim + "</strong>"));
 }
 
 TEST(Umbmark, CalibratesASimulatedRobotOverAPty) {
@@ -47,9 +59,11 @@ TEST(Umbmark, CalibratesASimulatedRobotOverAPty) {
   EXPECT_NEAR(b["value"].get<double>(), json["parameters"]["new"]["b_m"].get<double>(), 1e-9)
       << "the robot holds what the result says, in whole nanometres";
 
-  EXPECT_EQ(astrolabe({"compare", out}).code, 0);
+  const support::Outcome compared = astrolabe({"compare", out});
+  EXPECT_EQ(compared.code, 0);
   EXPECT_EQ(astrolabe({"report", out, "--out", (simulator.folder() / "again.html").string()}).code, 0);
   EXPECT_GT(fs::file_size(simulator.folder() / "again.html"), 1'000'000U);
+  expect_same_claim(compared.out, simulator.folder() / "again.html");
   const support::Outcome runs = astrolabe({"calibrate", "runs", out + "/before", "--json"});
   // The same runs in another order: rounding apart.
   EXPECT_NEAR(support::parse_json(runs.out)["c_R"].get<double>(),
@@ -104,6 +118,83 @@ TEST(Record, WritesWhatTheRobotDid) {
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("drive.mcap"));
   EXPECT_TRUE(fs::exists(simulator.folder() / "csv" / "odometry.csv"));
+}
+
+TEST(Record, ReplacesNothing) {
+  const Simulator simulator;
+  const auto record = [&](const std::string& name, const std::string& csv) {
+    return astrolabe({"record", "--port", simulator.port(), "--seconds", "0.2", "--out",
+                      (simulator.folder() / name).string(), "--csv", (simulator.folder() / csv).string()});
+  };
+  ASSERT_EQ(record("a.mcap", "a").code, 0);
+  const auto written = fs::last_write_time(simulator.folder() / "a.mcap");
+  const support::Outcome again = record("a.mcap", "b");
+  EXPECT_EQ(again.code, 1);
+  EXPECT_THAT(again.err, testing::AllOf(HasSubstr("a.mcap' exists"), HasSubstr("another")));
+  EXPECT_EQ(fs::last_write_time(simulator.folder() / "a.mcap"), written);
+  EXPECT_THAT(record("b.mcap", "a").err, HasSubstr("a/odometry.csv' exists"));
+}
+
+TEST(Record, KnowsBeforeTheDriveWhatCannotBeWritten) {
+  const support::Outcome folder = astrolabe({"record", "--port", "/nowhere", "--out", "/tmp"});
+  EXPECT_EQ(folder.code, 1);
+  EXPECT_THAT(folder.err, HasSubstr("'/tmp' is a folder"));
+  EXPECT_THAT(astrolabe({"record", "--port", "/nowhere", "--out", "/proc/none/x.mcap"}).err,
+              HasSubstr("/proc/none"));
+}
+
+TEST(Record, KeepsWhatCameBeforeTheLinkWasLost) {
+  Simulator simulator;
+  const std::string out = (simulator.folder() / "drive.mcap").string();
+  support::Program record({ASTROLABE_PROGRAM, "record", "--port", simulator.port(), "--out", out});
+  ASSERT_TRUE(support::eventually([&] { return record.err().find("Ctrl-C ends it") != std::string::npos; }));
+  poll(nullptr, 0, 300);  // thousands of samples, in fast motion
+  simulator.program().send(SIGKILL);
+  EXPECT_EQ(record.wait(), 1);
+  EXPECT_THAT(record.err(), HasSubstr("what came before is in '" + out + "'"));
+  EXPECT_TRUE(fs::exists(out));
+}
+
+TEST(Umbmark, AsksEachQuestionOnceWhenTheInputHasEnded) {
+  const Simulator simulator;
+  const support::Outcome outcome =
+      astrolabe({"umbmark", "--port", simulator.port(), "--truth", "manual", "--out",
+                 (simulator.folder() / "x").string(), "--runs", "1", "--no-extras"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(
+      outcome.err,
+      testing::EndsWith("put the robot on its start mark and press Enter \nastrolabe: the input ended "
+                        "where an answer was expected: answer at a terminal, or pipe all answers in\n"));
+  EXPECT_EQ(outcome.err.find("next is"), outcome.err.rfind("next is"));
+}
+
+TEST(Umbmark, KeepsADriveWhoseTruthCannotBeReadAndGoesOnWithItOnceItCan) {
+  const Simulator simulator;
+  const fs::path out = simulator.folder() / "x", csv = out / "truth" / "before-square-cw-1.csv";
+  const fs::path driven = out / "before" / "square-cw-1.mcap.no-truth";
+  fs::create_directories(csv.parent_path());
+  const auto umbmark_with = [&](const std::string& truth) {
+    std::ofstream(csv) << truth;
+    return astrolabe({"umbmark", "--port", simulator.port(), "--truth", "file", "--out", out.string(),
+                      "--side", "0.5", "--runs", "1", "--no-extras"});
+  };
+  const support::Outcome bad = umbmark_with("x_m,y_m\n0,0\n0.0l,0\n");
+  EXPECT_EQ(bad.code, 1);
+  EXPECT_THAT(bad.err, testing::AllOf(HasSubstr(csv.string()), HasSubstr("line 3"), HasSubstr("'0.0l'"),
+                                      HasSubstr("the drive is kept")));
+  EXPECT_TRUE(fs::exists(driven));
+
+  const support::Outcome good = umbmark_with("x_m,y_m\n0,0\n0.01,0\n");
+  EXPECT_THAT(good.err,
+              testing::AllOf(HasSubstr("square cw 1 is driven"), HasSubstr("recorded before: square cw 1"),
+                             HasSubstr("before-square-ccw-1.csv")));
+  EXPECT_TRUE(fs::exists(out / "before" / "square-cw-1.mcap"));
+  EXPECT_FALSE(fs::exists(driven));
+}
+
+TEST(Umbmark, HelpShowsTheFormatOfTruthFiles) {
+  EXPECT_THAT(astrolabe({"umbmark", "--help"}).out,
+              testing::AllOf(HasSubstr("before-square-cw-1.csv"), HasSubstr("x_m,y_m,theta_deg")));
 }
 
 }  // namespace

@@ -84,6 +84,13 @@ TEST_F(Upload, RefusesACalibrationOfOtherParametersThanTheRobotCarries) {
   EXPECT_THAT(outcome.err, HasSubstr("driven with c_R = 1.001"));
 }
 
+TEST_F(Upload, SaysThatAChangeWithinItsErrorMayBeForNothingAndLoadsIt) {
+  const Outcome outcome = upload("c_R = 1.0001\n[standard_errors]\nc_R = 0.0001\n", {"--yes"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.err, HasSubstr("no factor changes by more than twice its standard error"));
+  EXPECT_NEAR(on_robot("c_R"), 1.0001, 1e-9);
+}
+
 TEST_F(Upload, ALinkThatDropsLeavesTheOldSetOrTheNewOne) {
   std::vector<std::string> command{
       ASTROLABE_PROGRAM, "upload",          calibration("c_R = 1.002\nc_L = 0.998\n"),

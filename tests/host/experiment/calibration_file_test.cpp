@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "host/experiment/change_guard.hpp"
@@ -102,6 +103,24 @@ TEST_F(CalibrationFile, NamesTheValueThatIsNeitherNumberNorText) {
   EXPECT_THAT([&] { read_parameter_file(path); }, ThrowsMessage<Error>(HasSubstr("c_R is neither")));
 }
 
+TEST_F(CalibrationFile, KeepsTheRobotWhateverItsName) {
+  Calibration found = example();
+  const std::filesystem::path path = folder_.path() / "calib.toml";
+  write_calibration(path, found);
+  EXPECT_EQ(read_parameter_file(path).robot, RobotIdentity{});
+  found.robot = {"\"Räder\" \\ 2", "00ff"};
+  write_calibration(path, found);
+  EXPECT_EQ(read_parameter_file(path).robot, found.robot);
+}
+
+TEST(RobotIdentity, IsToldApartByTheIdAlone) {
+  const RobotIdentity one{"ASTRO", "01"}, other{"ASTRO", "02"}, renamed{"ARES", "01"};
+  EXPECT_EQ(different_robots("the file", one, "this", other),
+            "the file is of robot ASTRO (01), and this is ASTRO (02)");
+  EXPECT_EQ(different_robots("the file", one, "this", renamed), "");
+  EXPECT_EQ(different_robots("the file", {}, "this", one), "") << "nobody knows";
+}
+
 class ChangeGuard : public testing::Test {
  protected:
   ChangeGuard() : desk_(sim::Config{}), robot_(link::RemoteParameters::fetch(desk_.client)) {}
@@ -140,6 +159,26 @@ TEST_F(ChangeGuard, AllFactorsNeedTheWheelThatTheyReferTo) {
   EXPECT_EQ(wrong_basis(robot_, file), "");
   file.wheel->diameter_m = 0.0721;
   EXPECT_THAT(wrong_basis(robot_, file), AllOf(HasSubstr("0.0721 m"), HasSubstr("0.072 m")));
+}
+
+TEST_F(ChangeGuard, SaysThatAChangeWithinItsErrorMayBeForNothing) {
+  const auto note = [&](const ParameterValues& values) {
+    return insignificance(changes(robot_, values), {{"c_R", 1e-4}, {"c_L", 1e-4}, {"b", std::nan("")}});
+  };
+  EXPECT_THAT(note({{"c_R", 1.00019}, {"c_L", 0.99981}}), HasSubstr("twice its standard error"));
+  EXPECT_EQ(note({{"c_R", 1.00019}, {"c_L", 0.9997}}), "");
+  EXPECT_EQ(note({{"c_R", 1.00019}, {"b", 0.2901}}), "") << "nobody knows about b";
+  EXPECT_EQ(note({{"kp", 80.0}}), "") << "a gain has no error";
+}
+
+TEST_F(ChangeGuard, ObjectsInOneSentenceThatNamesTheOption) {
+  ParameterFile file;
+  EXPECT_EQ(objection(robot_, file, changes(robot_, {{"b", 0.31}})), "");
+  EXPECT_THAT(objection(robot_, file, changes(robot_, {{"b", 0.32}})),
+              AllOf(HasSubstr("+10.3 %"), HasSubstr("--force")));
+  file.carried = {{"c_R", 1.001}};
+  EXPECT_THAT(objection(robot_, file, changes(robot_, {{"b", 0.31}})),
+              AllOf(HasSubstr("driven with"), HasSubstr("--force")));
 }
 
 TEST_F(ChangeGuard, RefusesNamesAndValuesThatTheRobotDoesNotHave) {

@@ -1,7 +1,7 @@
 #include "host/experiment/experiment.hpp"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -17,6 +17,9 @@ using support::Desk;
 using support::kThesisSlip_m;
 using support::TemporaryFolder;
 using support::thesis_robot;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
 
 Plan squares_only(int runs, int rounds = 1) {
   Plan plan;
@@ -156,6 +159,21 @@ TEST(Experiment, UploadsOnlyWhatIsAgreedTo) {
   hooks.agree = [](const Calibration&, const std::vector<Change>&) { return false; };
   EXPECT_THROW(run_experiment(desk.client, desk.truth, squares_only(1), folder.path(), hooks), Error);
   EXPECT_EQ(std::get<double>(link::RemoteParameters::fetch(desk.client).value("c_R")), 1.0);
+}
+
+TEST(Experiment, UploadsWhatIsObjectedToOnlyIfToldTo) {
+  sim::Config config = thesis_robot(0, 1);
+  config.true_wheelbase_m = 0.33;
+  Desk desk(config);
+  const TemporaryFolder folder;
+  const auto experiment = [&](const ExperimentHooks& hooks) {
+    return run_experiment(desk.client, desk.truth, squares_only(1), folder.path(), hooks);
+  };
+  EXPECT_THAT([&] { experiment({}); },
+              ThrowsMessage<Error>(AllOf(HasSubstr("b would change by"), HasSubstr("--force"))));
+  ExperimentHooks hooks;
+  hooks.force = true;
+  EXPECT_NEAR(experiment(hooks).after().squares.carried.b_m, 0.33, 0.001);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <random>
+#include <sstream>
 
 #include "host/base/error.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -103,6 +104,27 @@ TEST(Export, NamesWhatTheFileDoesNotTell) {
   EXPECT_THAT([&] { diff_drive(file, {}); }, ThrowsMessage<Error>(HasSubstr("--wheel-separation")));
   file.parameters.erase("c_L");
   EXPECT_THAT([&] { diff_drive(file, {}); }, ThrowsMessage<Error>(HasSubstr("no c_L")));
+}
+
+TEST(Export, TakesTheNamesOfNodesThatRos2Takes) {
+  for (const char* name : {"controller", "_c2", "/left_robot/controller", "a/b/c"})
+    EXPECT_TRUE(is_ros2_node(name)) << name;
+  for (const char* name :
+       {"", "/", "my node", "2wheels", "a//b", "a/", "a/2b", "diff-drive", "a:\n  b", "räder"})
+    EXPECT_FALSE(is_ros2_node(name)) << name;
+  EXPECT_FALSE(is_ros2_node(std::string(256, 'a')));
+}
+
+TEST(Export, WritesNoCommentThatIsLongOrEndsEarly) {
+  ParameterFile file;
+  file.method = "ml\nwheels: {}";
+  std::istringstream lines(ros2_yaml(file, {}, "base"));
+  for (std::string line; std::getline(lines, line) && line != "base:";) {
+    EXPECT_TRUE(line.starts_with("# ")) << line;
+    EXPECT_LE(line.size(), 80U) << line;
+  }
+  file.method = "least-squares";
+  EXPECT_THAT(ros2_yaml(file, {}, "base"), HasSubstr("method least-squares"));
 }
 
 TEST(Export, WritesRosNumbersAsFloatsToTheLastBit) {

@@ -4,6 +4,8 @@
 #include <fstream>
 
 #include "host/link/upload.hpp"
+#include "host/recording/run_file.hpp"
+#include "host/truth/manual_source.hpp"
 #include "tests/support/desk.hpp"
 
 namespace astro::experiment {
@@ -79,6 +81,26 @@ TEST_F(Resume, GoesOnAfterTheUpload) {
   hooks.uploaded = [](const std::string&) { FAIL() << "the robot holds the calibration already"; };
   run(small_plan(), hooks);
   EXPECT_EQ(started, 2);
+}
+
+TEST_F(Resume, ADriveOutlivesAPersonWhoWalksAwayFromTheTapeMeasure) {
+  Plan plan = small_plan();
+  plan.truth = "manual";
+  int driven = 0;
+  ExperimentHooks hooks;
+  hooks.run_started = [&](const RunSpec&, int, int) { ++driven; };
+  truth::ManualSource nobody([](const std::string&) -> std::string { throw Error("nobody is there"); });
+  for (int session = 0; session < 2; ++session)
+    EXPECT_THAT([&] { run_experiment(desk_.client, nobody, plan, folder_.path(), hooks); },
+                ThrowsMessage<Error>(HasSubstr("nobody is there; the drive is kept")));
+  EXPECT_EQ(driven, 1);
+
+  truth::ManualSource person([](const std::string&) { return "0.01"; });
+  EXPECT_EQ(run_experiment(desk_.client, person, plan, folder_.path(), hooks).phases.size(), 2U);
+  EXPECT_EQ(driven, 4);
+  const recording::Run run = recording::read_run(folder_.path() / "before" / "square-cw-1.mcap");
+  EXPECT_EQ(run.truth.back().x_m, 0.01);
+  EXPECT_EQ(run.info.truth_source, "manual");
 }
 
 TEST_F(Resume, AFinishedExperimentDrivesNothing) {

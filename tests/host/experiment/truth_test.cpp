@@ -17,14 +17,15 @@ namespace {
 
 using support::Desk;
 using testing::HasSubstr;
-using testing::ThrowsMessage;
 
 recording::Run drive_line(Desk& desk, truth::Source& source) {
   recording::RunInfo info;
   info.kind = "line";
   info.phase = "before";
   info.index = 1;
-  return record_run(desk.client, source, link::line(0.5), info, {});
+  recording::Run run = record_run(desk.client, source, link::line(0.5), info, {});
+  complete(run, source);
+  return run;
 }
 
 /// Answers in order, keeps what was asked.
@@ -90,11 +91,25 @@ TEST_F(FileTruth, TakesFirstAndLastRowAsStartAndEndInAnyFrameAndUnit) {
   EXPECT_NEAR(error.y_m, 0 - run_.odometry.back().y_m, 1e-6);
 }
 
-TEST_F(FileTruth, NamesTheFileAndWhatIsWrongWithIt) {
-  EXPECT_THAT([&] { error_with("x,y\n0,0\n1,1\n"); },
-              ThrowsMessage<Error>(testing::AllOf(HasSubstr("before-line-1.csv"), HasSubstr("x_m or x_mm"))));
-  EXPECT_THAT([&] { error_with("x_m,y_m\n0,0\n"); }, ThrowsMessage<Error>(HasSubstr("fewer than two poses")));
-  EXPECT_THAT([&] { error_with("x_m,y_m\n0,0\nnan,0\n"); }, ThrowsMessage<Error>(HasSubstr("line 3")));
+TEST_F(FileTruth, AsksAgainForAFileThatCannotBeReadNamingWhatIsWrongWithIt) {
+  const std::filesystem::path file = folder_.path() / "before-line-1.csv";
+  const std::vector<std::string> texts{"", "x,y\n0,0\n1,1\n", "x_m,y_m\n0,0\n", "x_m,y_m\n0,0\nnan,0\n",
+                                       "x_m,y_m\n0,0\n0.5,0\n"};
+  std::vector<std::string> asked;
+  truth::FileSource source(folder_.path(), [&](const std::string& prompt) -> std::string {
+    asked.push_back(prompt);
+    std::ofstream(file) << texts.at(asked.size());
+    return "";
+  });
+  run_ = drive_line(desk_, source);
+  EXPECT_NEAR(recording::end_error(run_).x_m, 0.5 - run_.odometry.back().x_m, 1e-6)
+      << "without headings the frame is that of the start";
+  ASSERT_EQ(asked.size(), 4U);
+  EXPECT_THAT(asked[0], testing::StartsWith("save the ground truth of this run as '" + file.string()));
+  EXPECT_THAT(asked[1], testing::AllOf(HasSubstr("before-line-1.csv"), HasSubstr("x_m or x_mm"),
+                                       HasSubstr("correct the file")));
+  EXPECT_THAT(asked[2], HasSubstr("fewer than two poses"));
+  EXPECT_THAT(asked[3], HasSubstr("line 3"));
 }
 
 }  // namespace

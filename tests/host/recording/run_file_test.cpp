@@ -191,7 +191,7 @@ TEST(RunFile, ComplaintsNameTheFile) {
   support::spill(folder / "text.mcap", as_bytes("__time,x_m\n0,1\n"));
   EXPECT_THAT(says("text.mcap"), HasSubstr("not an MCAP file"));
   std::filesystem::create_directory(folder / "folder.mcap");
-  EXPECT_THAT(says("folder.mcap"), HasSubstr("not a file"));
+  EXPECT_THAT(says("folder.mcap"), HasSubstr("is a folder: name a file in it"));
   support::spill(folder / "blocker", as_bytes("x"));
   EXPECT_THAT(complaint([&] { write_run(folder / "blocker/run.mcap", {}); }), HasSubstr("blocker"));
 }

@@ -65,7 +65,7 @@ TEST(RunFolder, NaturalOrderIsAStrictOrder) {
 TEST(RunFolder, ComplaintsNameTheFolderAndTheRemedy) {
   const TempFolder folder;
   EXPECT_THAT(complaint([&] { list_runs(folder / "none"); }),
-              AllOf(HasSubstr("none"), HasSubstr("not a folder")));
+              AllOf(HasSubstr("none does not exist"), HasSubstr("name a folder")));
   EXPECT_THAT(complaint([&] { read_runs(folder.path()); }),
               AllOf(HasSubstr(folder.path().string()), HasSubstr("record some")));
   support::spill(folder / "x/bad.mcap", as_bytes("nonsense"));

@@ -6,6 +6,8 @@
 #include <random>
 #include <vector>
 
+#include "host/report/numbers.hpp"
+
 namespace astro::report {
 
 using testing::HasSubstr;
@@ -32,6 +34,17 @@ TEST(Comparison, FactorHasNoUpperBoundWhereTheRestCannotBeToldFromZero) {
   EXPECT_TRUE(std::isinf(gain.high));
   EXPECT_GT(gain.low, 1);
   EXPECT_THAT(describe(gain), HasSubstr("at least"));
+}
+
+TEST(Comparison, ClaimsNoMoreThanTheIntervalBears) {
+  EXPECT_EQ(claim(improvement({405, 26, 5}, {90, 12, 5})), "4.5 times smaller");
+  const Improvement unbounded = improvement({405, 40, 5}, {37, 40, 5});
+  EXPECT_EQ(claim(unbounded),
+            "at least " + fixed(unbounded.low, factor_decimals(unbounded.low)) + " times smaller");
+  EXPECT_EQ(claim(improvement({90, 12, 5}, {405, 26, 5})), "4.5 times larger");
+  for (const Estimate after : {Estimate{380, 30, 5}, Estimate{10, 300, 5}})
+    EXPECT_EQ(claim(improvement({405, 40, 5}, after)), "not certainly changed");
+  EXPECT_EQ(claim(improvement({400, kNaN, 1}, {100, kNaN, 1})), "4.0 times smaller") << "nothing is known";
 }
 
 TEST(Comparison, IntervalCoversTheTrueFactorInNineteenOfTwentyExperiments) {

@@ -88,7 +88,7 @@ TEST(Report, ShowsTheHistoryOfSeveralRounds) {
 
 TEST(Report, LeadsWithTheImprovementAndItsSignificance) {
   const std::string html = our_part(render_html(thesis_input()));
-  EXPECT_THAT(html, HasSubstr("<strong>4.5×</strong> smaller"));
+  EXPECT_THAT(html, HasSubstr("<strong>4.5 times smaller</strong>"));
   EXPECT_THAT(html, HasSubstr("is significant at the 5 % level"));
 }
 

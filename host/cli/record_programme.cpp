@@ -1,0 +1,108 @@
+#include "host/cli/record_programme.hpp"
+
+#include <fmt/format.h>
+
+#include "host/base/error.hpp"
+#include "host/cli/console.hpp"
+#include "host/cli/interrupt.hpp"
+#include "host/experiment/journal.hpp"
+#include "host/recording/run_file.hpp"
+
+namespace astro::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using recording::Direction;
+using study::Programme;
+
+link::Path path_of(const Programme& programme, std::size_t kind, link::Sense sense) {
+  const link::PathLimits limits{programme.speed_mps, programme.yaw_rate_radps};
+  switch (kind) {
+    case study::kSquares:
+      return link::square(programme.side_m, sense, limits);
+    case study::kLines:
+      return link::line(programme.line_m, limits);
+    case study::kSpins:
+      return link::spin(sense == link::Sense::cw ? -programme.turns : programme.turns, limits);
+    default:
+      return link::circle(programme.radius_m, 1, sense, limits);
+  }
+}
+
+double size_of(const Programme& programme, std::size_t kind) {
+  switch (kind) {
+    case study::kSquares:
+      return programme.side_m;
+    case study::kLines:
+      return programme.line_m;
+    case study::kCircles:
+      return programme.radius_m;
+    default:
+      return 0;
+  }
+}
+
+ProgrammeRun run_of(const Programme& programme, std::size_t kind, int number) {
+  std::string name(study::kKindNames[kind]);
+  name.pop_back();
+  const bool turns = kind != study::kLines, cw = number % 2 == 0;
+  const Direction direction = !turns ? Direction::none : cw ? Direction::cw : Direction::ccw;
+  return {{"", name, direction, turns ? number / 2 + 1 : number + 1},
+          size_of(programme, kind),
+          path_of(programme, kind, cw ? link::Sense::cw : link::Sense::ccw)};
+}
+
+std::vector<ProgrammeRun> missing_of(const std::vector<ProgrammeRun>& runs, const fs::path& folder) {
+  std::vector<ProgrammeRun> missing;
+  for (const ProgrammeRun& run : runs)
+    if (!fs::exists(folder / run.spec.file_name())) missing.push_back(run);
+  if (missing.empty())
+    throw Error(fmt::format(
+        "'{}' holds all of these runs already, and a recording replaces nothing: name another folder",
+        folder.string()));
+  if (missing.size() < runs.size())
+    say(fmt::format("{} of {} runs are recorded already", runs.size() - missing.size(), runs.size()));
+  return missing;
+}
+
+}  // namespace
+
+std::vector<ProgrammeRun> runs_of(const Programme& programme) {
+  std::vector<ProgrammeRun> runs;
+  for (std::size_t kind = 0; kind < study::kKinds; ++kind)
+    for (int number = 0; number < programme.counts[kind]; ++number)
+      runs.push_back(run_of(programme, kind, number));
+  return runs;
+}
+
+void record_programme(link::Client& client, truth::Source& truth, const std::vector<ProgrammeRun>& runs,
+                      const recording::RunInfo& info, const fs::path& folder, bool pause) {
+  Progress progress("driving");
+  experiment::RunHooks hooks;
+  hooks.interrupted = interrupted;
+  hooks.notice = [&](const std::string& text) {
+    progress.clear();
+    say(text);
+  };
+  double before = 0;
+  const std::vector<ProgrammeRun> missing = missing_of(runs, folder);
+  hooks.progress = [&](double fraction) {
+    progress.show((before + fraction) / static_cast<double>(missing.size()), "");
+  };
+  for (const ProgrammeRun& run : missing) {
+    if (pause)
+      ask(fmt::format("next is {}: put the robot on its start mark and press Enter ", run.spec.title()));
+    recording::RunInfo about = info;
+    about.kind = run.spec.kind;
+    about.direction = run.spec.direction;
+    about.index = run.spec.index;
+    about.size_m = run.size_m;
+    about.started_at = experiment::utc_now();
+    recording::write_run(folder / run.spec.file_name(), record_run(client, truth, run.path, about, hooks));
+    progress.clear();
+    say("recorded " + run.spec.title());
+    ++before;
+  }
+}
+
+}  // namespace astro::cli
