@@ -30,7 +30,7 @@ struct MlOptions {
   bool given() const { return noise_option.count() + clock_option.count() > 0; }
 };
 
-struct Options {
+struct CalibrateOptions {
   fs::path cw, ccw, folder, out;
   std::vector<std::string> without;
   MlOptions ml;
@@ -41,7 +41,7 @@ struct Options {
   bool json = false;
 };
 
-void add_method(Command command, Options& options, const std::vector<std::string>& methods,
+void add_method(Command command, CalibrateOptions& options, const std::vector<std::string>& methods,
                 const std::string& what) {
   command.add_option("--method", options.method, what).one_of(methods).capture_default_str();
   command.add_option("--angles", options.angles, "umbmark: which coordinates the angles come from")
@@ -54,7 +54,7 @@ void add_method(Command command, Options& options, const std::vector<std::string
   command.add_flag("--json", options.json, "print the result as one JSON object");
 }
 
-void add_ml(Command command, Options& options) {
+void add_ml(Command command, CalibrateOptions& options) {
   MlOptions& ml = options.ml;
   const Option K =
       command.add_option("--K", ml.noise.K_m, "ml: wheel slip, variance per metre, m").check(positive("m"));
@@ -95,7 +95,7 @@ std::string read_text(const fs::path& path) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-void finish(const experiment::Calibration& found, const Options& options) {
+void finish(const experiment::Calibration& found, const CalibrateOptions& options) {
   if (!options.out.empty()) {
     experiment::write_calibration(options.out, found);
     say("written to " + options.out.string() + "; load it with: astrolabe upload " + options.out.string());
@@ -108,7 +108,7 @@ void finish(const experiment::Calibration& found, const Options& options) {
 }
 
 void add_end_poses(Command calibrate) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CalibrateOptions>();
   const Command command =
       calibrate.add_subcommand("end-poses", "from measured end-pose errors of squares (CSV)");
   command
@@ -141,7 +141,7 @@ void add_end_poses(Command calibrate) {
   });
 }
 
-experiment::Calibration calibrate_runs(const Options& options) {
+experiment::Calibration calibrate_runs(const CalibrateOptions& options) {
   const experiment::RunSet set = experiment::read_run_set(options.folder, options.without);
   for (const recording::Run& run : set.runs)
     if (!run.warning.empty()) say("warning: " + run.warning);
@@ -156,7 +156,7 @@ experiment::Calibration calibrate_runs(const Options& options) {
 }
 
 void add_runs(Command calibrate) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CalibrateOptions>();
   const Command command = calibrate.add_subcommand("runs", "from recorded runs with ground truth (MCAP)");
   command.add_option("folder", options->folder, "folder with the recordings").required();
   add_method(command, *options, {"auto", "ml", "umbmark", "extended", "least-squares"},

@@ -17,7 +17,7 @@
 namespace astro::cli {
 namespace {
 
-struct Options {
+struct PlanOptions {
   study::Programme programme;
   double sigma_theta_deg = 0.15;
   std::string until;
@@ -61,7 +61,7 @@ void add_runs(Command command, study::Programme& programme) {
   add_size(command, "--radius", programme.radius_m, "of a circle, m");
 }
 
-void add_target(Command command, Options& options) {
+void add_target(Command command, PlanOptions& options) {
   command
       .add_option("--until", options.until,
                   "find the shortest programme whose standard errors of E_d, S and b\n"
@@ -79,7 +79,7 @@ void add_target(Command command, Options& options) {
       });
 }
 
-void add_robot(Command command, Options& options) {
+void add_robot(Command command, PlanOptions& options) {
   study::Programme& programme = options.programme;
   add_size(command, "--wheelbase", programme.wheelbase_m, "of the robot, m");
   command.add_option("--speed", programme.speed_mps, "m/s")
@@ -94,7 +94,7 @@ void add_robot(Command command, Options& options) {
   add_json_flag(command, options.json);
 }
 
-void run(Options& options) {
+void run(PlanOptions& options) {
   study::Programme& programme = options.programme;
   const bool named = programme.counts != study::Counts{};
   if (!options.until.empty() && named)
@@ -117,7 +117,7 @@ void run(Options& options) {
 }  // namespace
 
 void add_plan(Command app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PlanOptions>();
   const Command command = app.add_subcommand(
       "plan", "before driving: the precision of a programme, or the programme for a precision");
   add_runs(command, options->programme);

@@ -18,7 +18,7 @@
 namespace astro::cli {
 namespace {
 
-struct Options {
+struct RecordOptions {
   ConnectionOptions connection;
   TruthOption truth{"none", {}};
   std::filesystem::path out;
@@ -42,7 +42,7 @@ recording::RunInfo describe(link::Client& client) {
   return info;
 }
 
-void run(Options& options) {
+void run(RecordOptions& options) {
   if (options.seconds < 0) throw Error("--seconds must not be negative");
   const auto client = connect(options.connection);
   const auto truth = open_truth(options.truth, options.connection.port);
@@ -66,7 +66,7 @@ void run(Options& options) {
 }  // namespace
 
 void add_record(Command app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RecordOptions>();
   const Command command =
       app.add_subcommand("record", "record odometry and ground truth while somebody else drives");
   command.add_option("--out", options->out, "the MCAP file to write").required();
