@@ -31,10 +31,15 @@ function(astro_test name)
   add_executable(${name}.test ${arg_SOURCES})
   target_link_libraries(${name}.test PRIVATE astro_compile ${arg_DEPENDS} ${arg_LIBRARIES}
     GTest::gmock GTest::gtest_main Threads::Threads astro_test_compile)
+  # Most of what compiling a test costs is what its neighbours include and instantiate, too. By four where somebody may
+  # be waiting for one of them.
+  if(NOT ASTROLABE_SANITIZE)
+    set_target_properties(${name}.test PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 4)
+  endif()
   target_precompile_headers(${name}.test REUSE_FROM astro_test_headers)
   set_target_properties(${name}.test PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   # The precompiled headers are not optimised, and GCC refuses to mix. -O1: more finds warnings that are none in checks.
-  set_source_files_properties(${arg_OPTIMISED} PROPERTIES SKIP_PRECOMPILE_HEADERS ON
+  set_source_files_properties(${arg_OPTIMISED} PROPERTIES SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON
     COMPILE_OPTIONS $<IF:$<BOOL:${ASTROLABE_SANITIZE}>,-O1,-O2>)
   # Real data lives beside a developer's checkout only; tests that use it skip where it is absent.
   target_compile_definitions(${name}.test PRIVATE

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "host/base/degrees.hpp"
 #include "host/calibration/maximum_likelihood.hpp"
 
 namespace astro::calibration {
@@ -19,8 +19,8 @@ std::string outlier_sentence(const RunFit& run) {
 std::string jolt_sentence(const RunFit& run) {
   std::vector<std::string> moments;
   for (const Jolt& jolt : run.jolts)
-    moments.push_back(fmt::format("{:.1f} s after its start by {:.1f}°", jolt.since_start_s,
-                                  jolt.turned_rad * 180 / std::numbers::pi));
+    moments.push_back(
+        fmt::format("{:.1f} s after its start by {:.1f}°", jolt.since_start_s, degrees(jolt.turned_rad)));
   return fmt::format(
       "{}: the ground truth turned and the wheels did not, {}: a castor, a cable, a hand, or markers taken "
       "for "

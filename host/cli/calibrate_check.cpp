@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using experiment::DeadReckoning;
 using experiment::MlChoice;
 
-struct Options {
+struct CheckOptions {
   fs::path folder;
   std::vector<fs::path> with;
   std::vector<std::string> without;
@@ -28,7 +28,7 @@ struct Options {
   bool runs = false, json = false;
 };
 
-MlChoice::Clock clock_of(const Options& options) {
+MlChoice::Clock clock_of(const CheckOptions& options) {
   if (options.clock == "auto") return MlChoice::Clock::automatic;
   return options.clock == "known" ? MlChoice::Clock::known : MlChoice::Clock::estimated;
 }
@@ -43,7 +43,7 @@ void warn_of_other_robots(const std::vector<experiment::NamedFactors>& factors,
       say("warning: " + other);
 }
 
-std::vector<DeadReckoning> judged(const Options& options) {
+std::vector<DeadReckoning> judged(const CheckOptions& options) {
   const experiment::RunSet set = experiment::read_run_set(options.folder, options.without);
   for (const recording::Run& run : set.runs)
     if (!run.warning.empty()) say("warning: " + run.warning);
@@ -107,7 +107,7 @@ nlohmann::json json_of(const std::vector<DeadReckoning>& all) {
 }  // namespace
 
 void add_calibrate_check(Command calibrate) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CheckOptions>();
   const Command command = calibrate.add_subcommand("check", "what calibrations are worth on recorded drives");
   command.add_option("folder", options->folder, "folder with recordings that have ground truth").required();
   command.add_option("--with", options->with, "calib.toml to judge (repeatable)").required().one_each_time();

@@ -14,13 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ExportOptions {
   fs::path file, to;
   std::string format, node = "diff_drive_controller";
   experiment::NominalSizes nominal;
 };
 
-std::string format_of(const Options& options) {
+std::string format_of(const ExportOptions& options) {
   if (!options.format.empty()) return options.format;
   const std::string extension = options.to.extension().string();
   if (extension == ".yaml" || extension == ".yml") return "ros2";
@@ -38,7 +38,7 @@ std::optional<experiment::DiffDrive> sizes_if_known(const experiment::ParameterF
   return experiment::diff_drive(file, nominal);
 }
 
-std::string text_of(const Options& options) {
+std::string text_of(const ExportOptions& options) {
   const std::string format = format_of(options);
   const experiment::ParameterFile file = experiment::read_parameter_file(options.file);
   if (format == "ros2")
@@ -48,7 +48,7 @@ std::string text_of(const Options& options) {
                           : experiment::toml_text(options.file, sizes);
 }
 
-void run(const Options& options) {
+void run(const ExportOptions& options) {
   const std::string text = text_of(options);
   recording::PartFile file(options.to);
   file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
@@ -59,7 +59,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_calibrate_export(Command calibrate) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ExportOptions>();
   const Command command =
       calibrate.add_subcommand("export", "write a calibration for ROS 2, or as JSON or TOML");
   command.add_option("file", options->file, "calib.toml of 'calibrate' or 'umbmark'").required();

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "host/base/degrees.hpp"
 #include "host/cli/console.hpp"
 #include "host/experiment/method_names.hpp"
 #include "host/experiment/ml_sentences.hpp"
@@ -18,8 +18,6 @@ using experiment::Calibration;
 using experiment::MlResult;
 using experiment::with_error;
 using Rows = std::vector<std::vector<std::string>>;
-
-double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 std::string known(double value, int decimals) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "-";

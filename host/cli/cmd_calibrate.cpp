@@ -30,7 +30,7 @@ struct MlOptions {
   bool given() const { return noise_option.count() + clock_option.count() > 0; }
 };
 
-struct Options {
+struct CalibrateOptions {
   fs::path cw, ccw, folder, out;
   std::vector<std::string> without;
   MlOptions ml;
@@ -41,12 +41,12 @@ struct Options {
   bool json = false;
 };
 
-void add_result(Command command, Options& options) {
+void add_result(Command command, CalibrateOptions& options) {
   command.add_option("--out", options.out, "write the result here, for 'astrolabe upload'");
   command.add_flag("--json", options.json, "print the result as one JSON object");
 }
 
-void add_ml(Command command, Options& options) {
+void add_ml(Command command, CalibrateOptions& options) {
   MlOptions& ml = options.ml;
   const Option K =
       command.add_option("--K", ml.noise.K_m, "ml: wheel slip, variance per metre, m").check(positive("m"));
@@ -87,7 +87,7 @@ std::string read_text(const fs::path& path) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-void finish(const experiment::Calibration& found, const Options& options) {
+void finish(const experiment::Calibration& found, const CalibrateOptions& options) {
   if (!options.out.empty()) {
     experiment::write_calibration(options.out, found);
     say("written to " + options.out.string() + "; load it with: astrolabe upload " + options.out.string());
@@ -100,7 +100,7 @@ void finish(const experiment::Calibration& found, const Options& options) {
 }
 
 void add_end_poses(Command calibrate) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CalibrateOptions>();
   const Command command =
       calibrate.add_subcommand("end-poses", "from measured end-pose errors of squares (CSV)");
   command
@@ -133,7 +133,7 @@ void add_end_poses(Command calibrate) {
   });
 }
 
-experiment::Calibration calibrate_runs(const Options& options) {
+experiment::Calibration calibrate_runs(const CalibrateOptions& options) {
   const experiment::MethodChoice method = options.method.choice();
   const experiment::RunSet set = experiment::read_run_set(options.folder, options.without);
   for (const recording::Run& run : set.runs)
@@ -148,7 +148,7 @@ experiment::Calibration calibrate_runs(const Options& options) {
 }
 
 void add_runs(Command calibrate) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CalibrateOptions>();
   const Command command = calibrate.add_subcommand("runs", "from recorded runs with ground truth (MCAP)");
   command.add_option("folder", options->folder, "folder with the recordings").required();
   add_method(command, options->method, {"auto", "ml", "umbmark", "extended", "least-squares"},

@@ -18,7 +18,7 @@
 namespace astro::cli {
 namespace {
 
-struct Options {
+struct PlanOptions {
   study::Programme programme;
   ProgrammeOptions runs;
   double sigma_theta_deg = 0.15;
@@ -46,7 +46,7 @@ std::vector<study::Kind> kinds_named(const std::vector<std::string>& names) {
   return kinds;
 }
 
-void add_target(Command command, Options& options) {
+void add_target(Command command, PlanOptions& options) {
   command
       .add_option("--until", options.until,
                   "find the shortest programme whose standard errors of E_d, S and b\n"
@@ -64,14 +64,14 @@ void add_target(Command command, Options& options) {
       });
 }
 
-void add_robot(Command command, Options& options) {
+void add_robot(Command command, PlanOptions& options) {
   study::Programme& programme = options.programme;
   add_size(command, "--wheelbase", programme.wheelbase_m, "of the robot, m");
   add_noise(command, programme.noise, options.sigma_theta_deg, programme.truth_rate_hz);
   add_json_flag(command, options.json);
 }
 
-void run(Options& options) {
+void run(PlanOptions& options) {
   study::Programme& programme = options.programme;
   const bool named = options.runs.named();
   if (!options.until.empty() && named)
@@ -94,7 +94,7 @@ void run(Options& options) {
 }  // namespace
 
 void add_plan(Command app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PlanOptions>();
   const Command command = app.add_subcommand(
       "plan", "before driving: the precision of a programme, or the programme for a precision");
   options->runs = add_programme(command, options->programme);

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct RecordOptions {
   ConnectionOptions connection;
   TruthOption truth{"none", {}};
   fs::path out;
@@ -62,7 +62,7 @@ void require_new(const fs::path& file) {
   const recording::PartFile can_be_written(file);
 }
 
-void drive(Options& options) {
+void drive(RecordOptions& options) {
   const std::vector<ProgrammeRun> runs = runs_of(options.programme);
   if (runs.empty())
     throw WrongUsage(
@@ -82,7 +82,7 @@ void drive(Options& options) {
   std::cout << fs::absolute(options.out).string() << '\n';
 }
 
-void listen(Options& options) {
+void listen(RecordOptions& options) {
   if (options.pause_option.count() > 0) throw WrongUsage("--pause waits before runs: say how many to drive");
   require_new(options.out);
   if (!options.csv.empty())
@@ -112,7 +112,7 @@ void listen(Options& options) {
 }  // namespace
 
 void add_record(Command app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RecordOptions>();
   const Command command =
       app.add_subcommand("record", "drive runs and record them, or record while somebody else drives");
   command.add_option("--out", options->out, "the MCAP file to write, or the folder for the runs").required();

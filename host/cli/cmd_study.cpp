@@ -36,7 +36,7 @@ const study::DriveSource& robot_of(study::Model model) {
   return kinematic;
 }
 
-struct Options {
+struct StudyOptions {
   study::TrialSetup setup;
   double sigma_theta_deg = 0.15;
   std::string model = "kinematic", clock = "known", noise = "estimated";
@@ -63,7 +63,7 @@ std::optional<study::Shard> shard_named(const std::string& text) {
   return shard;
 }
 
-void add_setup(Command command, Options& options) {
+void add_setup(Command command, StudyOptions& options) {
   study::TrialSetup& setup = options.setup;
   command
       .add_option("--model", options.model,
@@ -100,7 +100,7 @@ void add_setup(Command command, Options& options) {
       .capture_default_str();
 }
 
-void add_work(Command command, Options& options) {
+void add_work(Command command, StudyOptions& options) {
   add_count(command, "--jobs", options.jobs, 1, 4096, "threads; the result does not depend on them");
   command.add_option("--shard", options.shard_text, "only part I of N, for 'study merge'; needs --out")
       .type_name("I/N")
@@ -111,12 +111,12 @@ void add_work(Command command, Options& options) {
   add_json_flag(command, options.json);
 }
 
-void print(const study::TrialSetup& setup, const std::vector<study::Trial>& trials, bool json) {
+void print_summary(const study::TrialSetup& setup, const std::vector<study::Trial>& trials, bool json) {
   const study::Summary summary = summarize(setup, robot_of(setup.model), trials);
   std::cout << (json ? study_json(summary).dump(2) + '\n' : study_text(summary));
 }
 
-std::vector<study::Trial> drive(const Options& options) {
+std::vector<study::Trial> drive(const StudyOptions& options) {
   Progress progress("study");
   return run_study(
       options.setup, robot_of(options.setup.model), options.shard, options.jobs, [&](int done, int total) {
@@ -125,7 +125,7 @@ std::vector<study::Trial> drive(const Options& options) {
       });
 }
 
-void run(Options& options) {
+void run(StudyOptions& options) {
   options.setup.noise.sigma_theta_rad = options.sigma_theta_deg * std::numbers::pi / 180;
   options.setup.model = *study::model_named(options.model);
   options.setup.clock_known = options.clock == "known";
@@ -145,7 +145,7 @@ void run(Options& options) {
     say(fmt::format("trials {} to {} of {} are in '{}'", trials.front().index, trials.back().index,
                     options.setup.trials, options.out.string()));
   }
-  if (!part) print(options.setup, trials, options.json);
+  if (!part) print_summary(options.setup, trials, options.json);
 }
 
 study::Part load(const fs::path& path) {
@@ -163,14 +163,14 @@ void add_merge(Command study) {
     std::vector<study::Part> parts;
     for (const fs::path& path : options->files) parts.push_back(load(path));
     const std::vector<study::Trial> trials = merge(parts);
-    print(parts.front().setup, trials, options->json);
+    print_summary(parts.front().setup, trials, options->json);
   });
 }
 
 }  // namespace
 
 void add_study(Command app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<StudyOptions>();
   const Command command = app.add_subcommand(
       "study", "Monte Carlo: how well each calibration method does, beside the Cramer-Rao bound");
   command.require_subcommand(0, 1);

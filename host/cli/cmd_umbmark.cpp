@@ -22,7 +22,7 @@
 namespace astro::cli {
 namespace {
 
-struct Options {
+struct UmbmarkOptions {
   ConnectionOptions connection;
   TruthOption truth;
   experiment::Plan plan;
@@ -34,7 +34,7 @@ struct Options {
   bool yes = false, force = false, json = false, no_extras = false, pause = false;
 };
 
-void add_options(Command command, Options& options) {
+void add_options(Command command, UmbmarkOptions& options) {
   experiment::Plan& plan = options.plan;
   add_connection(command, options.connection);
   command.add_option("--truth", options.truth.source, "sim, manual (tape measure) or file")
@@ -79,7 +79,7 @@ void add_options(Command command, Options& options) {
   command.add_flag("--json", options.json, "print the result as one JSON object");
 }
 
-experiment::ExperimentHooks hooks_for(const Options& options, Progress& progress) {
+experiment::ExperimentHooks hooks_for(const UmbmarkOptions& options, Progress& progress) {
   experiment::ExperimentHooks hooks;
   const auto done = std::make_shared<std::pair<int, int>>(0, 1);  // of the runs of the phase
   hooks.run.interrupted = interrupted;
@@ -120,7 +120,7 @@ experiment::ExperimentHooks hooks_for(const Options& options, Progress& progress
   return hooks;
 }
 
-void run(Options& options) {
+void run(UmbmarkOptions& options) {
   options.plan.order = experiment::order_named(options.order);
   options.plan.method = options.method.choice();
   options.plan.extras = !options.no_extras;
@@ -153,7 +153,7 @@ void run(Options& options) {
 }  // namespace
 
 void add_umbmark(Command app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<UmbmarkOptions>();
   const Command command = app.add_subcommand(
       "umbmark", "the whole experiment: squares, calibration, upload, squares again, report");
   add_options(command, *options);

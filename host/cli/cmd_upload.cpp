@@ -9,6 +9,7 @@
 #include "host/cli/connection.hpp"
 #include "host/cli/console.hpp"
 #include "host/cli/options.hpp"
+#include "host/cli/params_view.hpp"
 #include "host/experiment/calibration_file.hpp"
 #include "host/experiment/change_guard.hpp"
 #include "host/link/upload.hpp"
@@ -16,18 +17,13 @@
 namespace astro::cli {
 namespace {
 
-struct Options {
+struct UploadOptions {
   ConnectionOptions connection;
   std::filesystem::path file;
   bool yes = false, force = false, json = false;
 };
 
-nlohmann::json to_json(const link::Value& value) {
-  if (const double* number = std::get_if<double>(&value)) return *number;
-  return std::get<std::string>(value);
-}
-
-void print(const link::UploadReport& report, bool json) {
+void print_report(const link::UploadReport& report, bool json) {
   if (!json) {
     std::cout << report.sentence() << '\n';
     return;
@@ -43,7 +39,7 @@ void print(const link::UploadReport& report, bool json) {
   std::cout << object.dump(2) << '\n';
 }
 
-void run(Options& options) {
+void run(UploadOptions& options) {
   const experiment::ParameterFile file = experiment::read_parameter_file(options.file);
   const auto client = connect(options.connection);
   const link::RemoteParameters robot = link::RemoteParameters::fetch(*client);
@@ -54,7 +50,7 @@ void run(Options& options) {
   const std::vector<experiment::Change> changes = experiment::changes(robot, file.parameters);
   if (changes.empty()) {
     say("the robot holds these values already");
-    if (options.json) print(link::UploadReport{link::ActiveSet::new_set, false, {}}, true);
+    if (options.json) print_report(link::UploadReport{link::ActiveSet::new_set, false, {}}, true);
     return;
   }
   say(table(experiment::side_by_side(changes)));
@@ -64,7 +60,7 @@ void run(Options& options) {
     say(note);
   if (!options.yes && !confirm("Load these into the robot?")) throw Error("nothing was uploaded");
   const link::UploadReport report = link::upload(*client, file.parameters);
-  print(report, options.json);
+  print_report(report, options.json);
   if (report.active != link::ActiveSet::new_set)
     throw Error("the robot still holds the old parameters: upload again");
 }
@@ -72,7 +68,7 @@ void run(Options& options) {
 }  // namespace
 
 void add_upload(Command app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<UploadOptions>();
   const Command command =
       app.add_subcommand("upload", "load a calibration into the robot, checked and read back");
   command.add_option("file", options->file, "calib.toml of 'calibrate', or a file of 'params export'")

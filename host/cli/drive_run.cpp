@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "host/base/degrees.hpp"
 #include "host/cli/console.hpp"
 #include "host/cli/path_progress.hpp"
 #include "host/cli/robot_view.hpp"

@@ -5,7 +5,7 @@
 namespace astro::cli {
 namespace {
 
-constexpr std::array<std::string_view, kFaultNames.size()> kHelp{
+constexpr std::array<std::string_view, kFaultNames.size()> kAdvice{
     "",
     "no velocity came for longer than the parameter command_timeout: its sender ended or hung",
     "the host fell silent during a drive: its program ended or the cable came off",
@@ -27,7 +27,7 @@ constexpr std::array<std::string_view, kFaultNames.size()> kHelp{
 
 std::string_view fault_help(Fault fault) {
   const auto index = static_cast<std::size_t>(fault);
-  return index < kHelp.size() ? kHelp[index] : "";
+  return index < kAdvice.size() ? kAdvice[index] : "";
 }
 
 }  // namespace astro::cli

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr auto kUntilItSeemsLong = std::chrono::seconds(15), kPatience = std::chrono::seconds(120);
+constexpr auto kUntilItSeemsLong = std::chrono::seconds(15), kUntilItIsTooLong = std::chrono::seconds(120);
 
 bool runnable(const fs::path& path) {
   std::error_code unreadable;
@@ -80,7 +80,7 @@ class Running {
         say("the loader waits for a Teensy: is its USB cable plugged in? (Ctrl-C ends it)");
         warned = true;
       }
-      if (std::chrono::steady_clock::now() - begun > kPatience)
+      if (std::chrono::steady_clock::now() - begun > kUntilItIsTooLong)
         throw Error("the loader found no Teensy: plug in its USB cable, and flash again with --button");
       if (interrupted())
         throw link::Interrupted(

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "host/base/degrees.hpp"
 #include "host/cli/console.hpp"
 #include "host/cli/terminal.hpp"
 #include "host/experiment/record_run.hpp"

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "host/base/degrees.hpp"
 #include "host/base/error.hpp"
 #include "host/link/refusal.hpp"
 

@@ -31,8 +31,6 @@ std::string faults_in_words(std::uint32_t mask);
 /// "2 h 03 min 10 s", "12.3 s".
 std::string duration_in_words(std::uint64_t us);
 
-constexpr double degrees(double radians) { return radians * (180 / std::numbers::pi); }
-
 Json to_json(const recording::PlanarPose& pose);
 
 /// "x 1.0000 m   y -0.0003 m   heading 0.02 deg".

@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "host/base/degrees.hpp"
 #include "host/base/error.hpp"
 #include "host/cli/drive_run.hpp"
 #include "host/cli/keys.hpp"

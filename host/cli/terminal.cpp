@@ -19,7 +19,7 @@ void put_back() { tcsetattr(STDIN_FILENO, TCSANOW, &before); }
 
 void write_all(int fd, std::string_view text) {
   while (!text.empty()) {
-    const ssize_t count = write(fd, text.data(), text.size());
+    const ssize_t count = ::write(fd, text.data(), text.size());
     if (count <= 0) return;  // a terminal that is gone shows nothing
     text.remove_prefix(static_cast<std::size_t>(count));
   }

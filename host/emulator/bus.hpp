@@ -12,6 +12,8 @@ namespace astro::emulator {
 /// register there, the wrong width, a clock that is switched off.
 class Bus {
  public:
+  static constexpr std::uint32_t kPage = 0x1000;
+
   explicit Bus(Machine& machine) : machine_(machine) {}
 
   /// `model` answers for `bytes` from `base`. No gate: its clock cannot be switched off.
@@ -21,7 +23,6 @@ class Bus {
   void write(std::uint32_t address, std::uint32_t value, int bytes);
 
  private:
-  static constexpr std::uint32_t kPage = 0x1000;
   struct Slot {
     Model* model;
     std::uint32_t base;

@@ -19,7 +19,6 @@ void check(uc_err error, const char* what) {
 void on_instruction(uc_engine*, std::uint64_t, std::uint32_t, void*) {}
 
 constexpr std::size_t kBlocks = 65536;
-constexpr std::uint32_t kThumb = 1U << 24;
 
 }  // namespace
 

@@ -30,6 +30,7 @@ class Cpu {
     // EXC_RETURN, SVC, BKPT by the engine's numbers; false: the run cannot go on.
     std::function<bool(std::uint32_t number)> exception;
   };
+  static constexpr std::uint32_t kThumb = 1U << 24;  // of the program status
   enum class End : std::uint8_t { interrupted, sleeping, bad_access, bad_instruction, not_thumb };
   struct BadAccess {
     std::uint32_t address = 0;

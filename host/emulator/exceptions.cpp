@@ -11,7 +11,7 @@ namespace {
 constexpr std::array kFrame{UC_ARM_REG_R0, UC_ARM_REG_R1,  UC_ARM_REG_R2,
                             UC_ARM_REG_R3, UC_ARM_REG_R12, UC_ARM_REG_LR};
 constexpr std::uint32_t kFrameBytes = 32;
-constexpr std::uint32_t kThumb = 1U << 24, kAligned = 1U << 9;
+constexpr std::uint32_t kAligned = 1U << 9;
 constexpr std::uint32_t kStackingDenied = 1U << 4, kStackingBusError = 1U << 12;  // CFSR
 constexpr std::uint32_t kProcessStack = 1U << 1;                                  // of CONTROL
 constexpr int kNothing = 256;
@@ -100,7 +100,7 @@ std::optional<int> Exceptions::push_frame(std::uint32_t sp, std::uint32_t frame)
   std::array<std::uint32_t, 8> words{};
   for (std::size_t i = 0; i < kFrame.size(); ++i) words[i] = cpu_.get(kFrame[i]);
   words[6] = cpu_.pc() & ~1U;
-  words[7] = (cpu_.get(UC_ARM_REG_XPSR) & ~kAligned) | kThumb | ((sp & 4) != 0 ? kAligned : 0);
+  words[7] = (cpu_.get(UC_ARM_REG_XPSR) & ~kAligned) | Cpu::kThumb | ((sp & 4) != 0 ? kAligned : 0);
   std::memcpy(stack.data(), words.data(), kFrameBytes);
   return {};
 }
@@ -118,7 +118,7 @@ bool Exceptions::enter(int number) {
   cpu_.set(UC_ARM_REG_SP, frame);
   cpu_.set(UC_ARM_REG_IPSR, static_cast<std::uint32_t>(number));
   cpu_.set(UC_ARM_REG_LR, nested ? 0xFFFF'FFF1 : 0xFFFF'FFF9);
-  cpu_.set(UC_ARM_REG_EPSR, kThumb);
+  cpu_.set(UC_ARM_REG_EPSR, Cpu::kThumb);
   active_[index(number)] = true;
   clear(number);
   std::uint32_t handler = 0;

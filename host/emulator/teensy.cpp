@@ -10,7 +10,6 @@ namespace astro::emulator {
 namespace {
 
 constexpr Cycles cycles(std::chrono::nanoseconds time) { return static_cast<Cycles>(time.count()) * 3 / 5; }
-constexpr std::uint32_t kPage = 0x1000;
 
 }  // namespace
 
@@ -34,7 +33,7 @@ Teensy::Teensy(const std::filesystem::path& hex, const sim::Config& robot)
 void Teensy::map() {
   using namespace teensy40;
   const auto add = [this](Model& model, std::uint32_t base, std::optional<Gate> gate = {},
-                          std::uint32_t bytes = kPage) {
+                          std::uint32_t bytes = Bus::kPage) {
     chip_.bus().map(model, base, bytes, gate);
     chip_.add(model);
   };

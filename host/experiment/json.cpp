@@ -1,12 +1,11 @@
 #include "host/experiment/json.hpp"
 
 #include <cmath>
-#include <numbers>
+
+#include "host/base/degrees.hpp"
 
 namespace astro::experiment {
 namespace {
-
-double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 // "x_cg_cw_m": the flat keys of one direction.
 void add_cluster(nlohmann::json& json, const calibration::ClusterSummary& cluster,

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/base/degrees.hpp"
+
 namespace astro::experiment {
 namespace {
-
-double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 /// A remark with a capital and a full stop, unless it begins with the name of a run, which stays as it is.
 std::string as_sentence(std::string remark, const std::vector<calibration::RunFit>& runs) {

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string name_of(const fs::path& file, const fs::path& folder) {
+std::string run_name(const fs::path& file, const fs::path& folder) {
   return file.lexically_relative(folder).replace_extension().generic_string();
 }
 
@@ -61,7 +61,7 @@ void require_no_copies(const RunSet& set) {
 RunSet read_run_set(const fs::path& folder, std::span<const std::string> without) {
   const std::vector<fs::path> files = recording::list_runs(folder);
   std::vector<std::string> names, left_out;
-  for (const fs::path& file : files) names.push_back(name_of(file, folder));
+  for (const fs::path& file : files) names.push_back(run_name(file, folder));
   for (const std::string& wanted : without) left_out.push_back(matched(wanted, names, folder));
   RunSet set;
   for (std::size_t i = 0; i < files.size(); ++i) {

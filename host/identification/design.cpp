@@ -12,13 +12,13 @@
 namespace astro::identification {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kPhaseMargin_rad = kPi / 3;
+using std::numbers::pi;
+constexpr double kPhaseMargin_rad = pi / 3;
 constexpr double kLeastIntegral = 0.1, kMostIntegral = 1.0;  // of kp times the crossover
 constexpr double kMostNoise_V = 0.2;  // a fifth of what makes a motor of this kind turn
 constexpr double kLeastCrossover_radps = 0.1, kMostObserver_radps = 500;  // the parameter's own limit
 
-double hertz(double radps) { return radps / (2 * kPi); }
+double hertz(double radps) { return radps / (2 * pi); }
 
 enum class Limit { none, phase, noise };
 
@@ -31,9 +31,9 @@ Attempt at_crossover(const DesignTask& task, double crossover_radps) {
   const SpeedLoop loop{task.motor, 0, 0, task.observer_radps, task.tick_s};
   const std::complex<double> plant = plant_at(loop, crossover_radps);
   double phase = std::arg(plant);
-  if (phase > 0) phase -= 2 * kPi;
+  if (phase > 0) phase -= 2 * pi;
   // What the PI may lag behind by, and the least it has to.
-  const double room = kPi + phase - kPhaseMargin_rad;
+  const double room = pi + phase - kPhaseMargin_rad;
   const double lag = std::clamp(room, std::atan(kLeastIntegral), std::atan(kMostIntegral));
   // kp + ki T / (z - 1) with 1 / (z - 1) = -1/2 - j / (2 tan(w T / 2))
   const double gain = 1 / std::abs(plant), half = crossover_radps * task.tick_s / 2;
@@ -65,7 +65,7 @@ struct Largest {
 
 // Up to it phase and noise allow every crossover: both only get worse.
 Largest largest_crossover(const DesignTask& task) {
-  double low = kLeastCrossover_radps, high = 0.5 * kPi / task.tick_s;
+  double low = kLeastCrossover_radps, high = 0.5 * pi / task.tick_s;
   Limit because = at_crossover(task, low).limit;
   if (because != Limit::none) return {0, because};
   for (int i = 0; i < 50; ++i) {
@@ -140,7 +140,7 @@ Design design_gains(const DesignTask& wanted) {
     return design;
   }
   if (task.bandwidth_radps > 1.002 * most_radps)
-    refuse(task, std::floor(hertz(most_radps) * 10) / 10 * 2 * kPi, largest.because);
+    refuse(task, std::floor(hertz(most_radps) * 10) / 10 * 2 * pi, largest.because);
   Design design = finished(task, crossover_for(task, largest.crossover_radps));
   design.largest_bandwidth_radps = most_radps;
   return design;

@@ -9,14 +9,14 @@ namespace astro::identification {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 Complex delay_at(const SpeedLoop& loop, double omega_radps) {
   return std::polar(1.0, -omega_radps * loop.tick_s);
 }
 
 // The phase of the open loop, unwound from the -90 or -180 degrees of an integrator: it only falls.
-double unwound(double phase) { return phase > kPi / 4 ? phase - 2 * kPi : phase; }
+double unwound(double phase) { return phase > pi / 4 ? phase - 2 * pi : phase; }
 
 struct Point {
   double omega_radps;
@@ -29,9 +29,9 @@ void note_crossings(const Point& before, const Point& now, Margins& found) {
   if ((was - 1) * (is - 1) < 0) {
     const double part = std::log(was) / std::log(was / is);
     found.crossover_radps = before.omega_radps * std::pow(now.omega_radps / before.omega_radps, part);
-    found.phase_margin_rad = std::min(found.phase_margin_rad, kPi + phase);
+    found.phase_margin_rad = std::min(found.phase_margin_rad, pi + phase);
   }
-  if (was_phase > -kPi && phase <= -kPi) found.gain_margin = std::min(found.gain_margin, 1 / is);
+  if (was_phase > -pi && phase <= -pi) found.gain_margin = std::min(found.gain_margin, 1 / is);
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ Margins margins(const SpeedLoop& loop) {
   if (loop.kp == 0 && loop.ki == 0) return {};
   constexpr int kPerDecade = 600;
   const double infinite = std::numeric_limits<double>::infinity();
-  const double last = std::log10(kPi / loop.tick_s * 0.999);
+  const double last = std::log10(pi / loop.tick_s * 0.999);
   Margins found{0, infinite, infinite, 0, 0};
   Point before{};
   for (int i = 0;; ++i) {

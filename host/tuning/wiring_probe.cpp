@@ -10,10 +10,10 @@ namespace {
 using identification::EncoderTrace;
 using identification::Side;
 
-constexpr double kSlope_Vps = 2.0, kBeyond_V = 0.5;
+constexpr double kRise_Vps = 2.0, kBeyond_V = 0.5;
 constexpr double kAtMost_s = 4.0;    // for a turn that is slow to come
 constexpr double kAtTheTop_s = 0.5;  // without counts; a stall fault takes longer
-constexpr double kRest_s = 0.4;
+constexpr double kAfterwards_s = 0.4;
 constexpr long kMoves_counts = 24;
 
 EncoderTrace trace(const std::vector<Moment>& moments, std::size_t begin, std::size_t side) {
@@ -51,10 +51,10 @@ identification::Probe probe_motor(Bench& bench, link::DriveSession& session, Sid
     if (moved(bench, start) >= kMoves_counts) top_V = std::min(top_V, volts + kBeyond_V);
     if (volts < top_V) top_since_s = bench.now().time_s;
     if (top_V == most_V && bench.now().time_s - top_since_s > kAtTheTop_s) break;
-    volts = std::min(top_V, (bench.now().time_s - start.time_s) * kSlope_Vps);
+    volts = std::min(top_V, (bench.now().time_s - start.time_s) * kRise_Vps);
     apply(volts);
   }
-  for (const double end_s = bench.now().time_s + kRest_s; bench.now().time_s < end_s;) apply(0);
+  for (const double end_s = bench.now().time_s + kAfterwards_s; bench.now().time_s < end_s;) apply(0);
   session.stop();
   return {{trace(bench.moments(), begin, 0), trace(bench.moments(), begin, 1)}, volts, {}};
 }

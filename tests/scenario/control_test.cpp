@@ -12,9 +12,8 @@
 namespace astro {
 namespace {
 
+using std::numbers::pi;
 using support::DriveRig;
-
-constexpr double kPi = std::numbers::pi;
 
 void set(ParameterSet& parameters, Param id, double value) {
   const ParamRow& row = param_row(id);
@@ -145,13 +144,13 @@ TEST_P(ThreeMetreSquare, ClosesInItsOwnOdometry) {
     const int tag = rig.drive().running_tag();
     if (tag % 2 == 0) continue;
     const int side = tag / 2;
-    const double along_rad = sense * side * kPi / 2;
+    const double along_rad = sense * side * pi / 2;
     const support::OdometryPose at = rig.odometry();
     cross_m = std::max(cross_m, std::abs(-std::sin(along_rad) * (at.x_m - corners[side][0]) +
                                          std::cos(along_rad) * (at.y_m - corners[side][1])));
   }
   const support::OdometryPose end = rig.odometry();
-  const double closure_m = std::hypot(end.x_m, end.y_m), turn_rad = end.theta_rad - sense * 2 * kPi;
+  const double closure_m = std::hypot(end.x_m, end.y_m), turn_rad = end.theta_rad - sense * 2 * pi;
   fmt::print("3 m square: closure {:.3f} mm and {:.3f} mrad, cross-track at most {:.3f} mm\n",
              1e3 * closure_m, 1e3 * turn_rad, 1e3 * cross_m);
   EXPECT_EQ(rig.drive().faults().mask(), 0U);
@@ -189,9 +188,9 @@ void load_left_wheel(DriveRig& rig, const char* what) {
     }
     const double left = std::abs(heading() - before);
     fmt::print("{}, load {} N m: heading disturbed by {:.2f} degrees, {:.3f} left after 3 s\n", what,
-               torque_Nm, worst * 180 / kPi, left * 180 / kPi);
-    EXPECT_LE(worst, kPi / 180);
-    EXPECT_LE(left, 0.1 * kPi / 180);
+               torque_Nm, worst * 180 / pi, left * 180 / pi);
+    EXPECT_LE(worst, pi / 180);
+    EXPECT_LE(left, 0.1 * pi / 180);
   }
   EXPECT_EQ(rig.drive().faults().mask(), 0U);
 }

@@ -15,10 +15,10 @@ namespace astro {
 namespace {
 
 using recording::PlanarPose;
+using std::numbers::pi;
 using support::Desk;
 
-constexpr double kSide_m = 3;
-constexpr double kPi = std::numbers::pi;
+constexpr double kSquare_m = 3;
 
 PlanarPose true_pose(Desk& desk) {
   const sim::Pose pose = desk.robot->board().truth();
@@ -44,7 +44,7 @@ Ends drive_square(const sim::Config& config, link::Sense sense) {
   const PlanarPose start = true_pose(desk);
   {
     link::DriveSession drive(desk.client);
-    drive.run(link::square(kSide_m, sense, {0.3, 1.0}));
+    drive.run(link::square(kSquare_m, sense, {0.3, 1.0}));
   }
   return {odometry(desk), recording::in_frame_of(start, true_pose(desk))};
 }
@@ -66,16 +66,16 @@ PlanarPose replay(const sim::Config& config, link::Sense sense) {
     return after_arc(from, (right * right_m + left * left_m) / 2,
                      (right * right_m - left * left_m) / built.wheelbase_m);
   };
-  const double quarter_m = (sense == link::Sense::ccw ? 1 : -1) * kPi / 4 * config.nominal_wheelbase_m;
+  const double quarter_m = (sense == link::Sense::ccw ? 1 : -1) * pi / 4 * config.nominal_wheelbase_m;
   PlanarPose pose;
   for (int corner = 0; corner < 4; ++corner) {
-    pose = move(pose, kSide_m, kSide_m);
+    pose = move(pose, kSquare_m, kSquare_m);
     pose = move(pose, -quarter_m, quarter_m);
   }
   return pose;
 }
 
-constexpr double whole_turn(link::Sense sense) { return sense == link::Sense::ccw ? 2 * kPi : -2 * kPi; }
+constexpr double whole_turn(link::Sense sense) { return sense == link::Sense::ccw ? 2 * pi : -2 * pi; }
 
 class Square : public testing::TestWithParam<link::Sense> {};
 INSTANTIATE_TEST_SUITE_P(BothWays, Square, testing::Values(link::Sense::cw, link::Sense::ccw),

@@ -8,7 +8,7 @@ namespace {
 
 using namespace teensy40;
 
-constexpr int kIrq = 25;
+constexpr int kUartIrq = 25;
 constexpr std::uint32_t kClearable = lpuart::STAT_OR.mask() | lpuart::STAT_IDLE.mask() |
                                      lpuart::STAT_NF.mask() | lpuart::STAT_FE.mask() | lpuart::STAT_PF.mask();
 
@@ -89,7 +89,7 @@ void Lpuart::update() {
                      (lpuart::CTRL_ORIE.of(control_) != 0 && lpuart::STAT_OR.of(now) != 0) ||
                      (lpuart::CTRL_TIE.of(control_) != 0 && lpuart::STAT_TDRE.of(now) != 0) ||
                      (lpuart::CTRL_TCIE.of(control_) != 0 && lpuart::STAT_TC.of(now) != 0);
-  machine_.set_interrupt(kIrq, level);
+  machine_.set_interrupt(kUartIrq, level);
   machine_.wake(*this, std::min({arrives_at_, held_ ? kNever : departs_at_, idle_at_}));
 }
 

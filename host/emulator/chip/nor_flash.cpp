@@ -7,7 +7,7 @@
 namespace astro::emulator {
 namespace {
 
-constexpr std::uint32_t kSector = 4096, kPage = 256;
+constexpr std::uint32_t kSectorBytes = 4096, kPageBytes = 256;
 
 }  // namespace
 
@@ -48,15 +48,15 @@ bool NorFlash::begin(std::uint32_t address, Cycles takes) {
 
 void NorFlash::erase_sector(std::uint32_t address) {
   if (!begin(address, times.erase)) return;
-  const std::uint32_t first = address / kSector * kSector;
-  faults_.erase(first, content_.subspan(first, kSector));
+  const std::uint32_t first = address / kSectorBytes * kSectorBytes;
+  faults_.erase(first, content_.subspan(first, kSectorBytes));
 }
 
 void NorFlash::program(std::uint32_t address, std::span<const std::uint8_t> bytes) {
-  if (bytes.size() > kPage) machine_.fail("NOR flash: more than a page is programmed at once");
+  if (bytes.size() > kPageBytes) machine_.fail("NOR flash: more than a page is programmed at once");
   if (!begin(address, times.page)) return;
-  const std::uint32_t page = address / kPage * kPage;
-  const std::size_t here = std::min<std::size_t>(bytes.size(), page + kPage - address);
+  const std::uint32_t page = address / kPageBytes * kPageBytes;
+  const std::size_t here = std::min<std::size_t>(bytes.size(), page + kPageBytes - address);
   faults_.program(address, content_.subspan(address, here), bytes.first(here));
   const auto around = bytes.subspan(here);
   faults_.program(page, content_.subspan(page, around.size()), around);

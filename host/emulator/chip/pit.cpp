@@ -11,7 +11,7 @@ namespace {
 
 using namespace teensy40;
 
-constexpr int kIrq = 122;
+constexpr int kPitIrq = 122;
 constexpr std::uint32_t kEnabled = 1, kInterrupts = 2, kChained = 4;
 constexpr std::uint32_t kChannels = 0x100;  // where the first one's four registers are
 constexpr std::uint32_t kLoad = 0, kValue = 4, kControl = 8;
@@ -134,7 +134,7 @@ void Pit::update() {
     next = std::min(next, channel.due);
     level = level || (channel.flag && (channel.control & kInterrupts) != 0);
   }
-  machine_.set_interrupt(kIrq, level);
+  machine_.set_interrupt(kPitIrq, level);
   machine_.wake(*this, next);
 }
 

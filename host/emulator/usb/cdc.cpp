@@ -11,7 +11,7 @@ namespace {
 using namespace std::chrono_literals;
 using Outcome = UsbHost::Outcome;
 
-constexpr std::uint8_t kAddress = 1;
+constexpr std::uint8_t kRobotAddress = 1;
 constexpr std::uint8_t kInterface = 4, kEndpoint = 5, kConfiguration = 2;  // kinds of descriptors
 constexpr std::uint8_t kCommunication = 2, kData = 0x0A;                   // classes of interfaces
 constexpr std::uint8_t kGetDescriptor = 6, kSetConfiguration = 9, kSetLineCoding = 0x20,
@@ -55,7 +55,7 @@ CdcHost::Pipes CdcHost::pipes_of(std::span<const std::uint8_t> configuration) {
 
 void CdcHost::enumerate() {
   host_.reset();
-  expect(host_.set_address(kAddress) == Outcome::done, "takes no address");
+  expect(host_.set_address(kRobotAddress) == Outcome::done, "takes no address");
   teensy_.run_for(2ms);  // what a device may take for it
   std::vector<std::uint8_t> configuration;
   const auto read = [&](std::uint16_t bytes) {

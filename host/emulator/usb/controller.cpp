@@ -12,7 +12,7 @@ namespace {
 
 using namespace teensy40;
 
-constexpr int kIrq = 113;
+constexpr int kUsbIrq = 113;
 constexpr std::uint32_t kDevice = 2, kControlType = 0;
 
 bool writable(std::uint32_t offset) {
@@ -38,7 +38,7 @@ bool UsbController::attached() const {
   return plugged_ && usb::USBCMD_RS.of(command_) != 0 && usb::USBMODE_CM.of(mode_) == kDevice && clocked_();
 }
 
-void UsbController::update() { machine_.set_interrupt(kIrq, (status_ & enable_) != 0); }
+void UsbController::update() { machine_.set_interrupt(kUsbIrq, (status_ & enable_) != 0); }
 
 void UsbController::raise(std::uint32_t event) {
   status_ |= event;

@@ -5,15 +5,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/common/control/astro_motion.hpp"
 #include "tests/common/kinematics/near.hpp"
 
 namespace astro {
 namespace {
 
+using tests::kAstro;
+using tests::kMetre_nm;
+using tests::kTurn_32;
 using tests::Real;
-
-constexpr MotionLimits kAstro{750'000, 2'000'000, 500'000, 3'000'000};
-constexpr std::int64_t kMetre_nm = 1'000'000'000, kTurn_32 = std::int64_t{1} << 32;
 
 Trapezoid planned(const Segment& segment) {
   Trapezoid profile;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "tests/common/control/astro_motion.hpp"
 #include "tests/common/fixed/seeded.hpp"
 
 namespace astro {
@@ -14,10 +15,11 @@ namespace {
 
 using Int128 = __int128;
 using Step = Trapezoid::Step;
+using tests::kAstro;
+using tests::kMetre_nm;
+using tests::kTurn_32;
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
-constexpr MotionLimits kAstro{750'000, 2'000'000, 500'000, 3'000'000};
-constexpr std::int64_t kMetre_nm = 1'000'000'000, kTurn_32 = std::int64_t{1} << 32;
 
 std::vector<Step> steps_of(const Segment& segment, const MotionLimits& limits) {
   Trapezoid profile;

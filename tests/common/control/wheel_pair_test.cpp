@@ -7,7 +7,7 @@
 namespace astro {
 namespace {
 
-constexpr std::int32_t kLimit_uv = 12'000'000;
+constexpr std::int32_t kSupply_uv = 12'000'000;
 
 /// Both wheels as the feed-forward believes them to be: V = kV v + kA dv/dt + load, in 1 ms steps.
 class Wheels {
@@ -40,7 +40,7 @@ ParameterSet without_friction() {
 class Pair : public testing::Test {
  protected:
   void run(const WheelSpeeds& wish, int ticks) {
-    for (int i = 0; i < ticks; ++i) wheels.advance(pair.advance(wish, {}, wheels.speeds(), kLimit_uv));
+    for (int i = 0; i < ticks; ++i) wheels.advance(pair.advance(wish, {}, wheels.speeds(), kSupply_uv));
   }
   void use(const ParameterSet& set) { pair.set_gains(set); }
 
@@ -97,7 +97,7 @@ TEST_F(Pair, NewGainsUnderWayDoNotBumpTheWheels) {
   use(without_friction());
   wheels.left_load_V = 3;
   for (int i = 0; i < 30; ++i)
-    wheels.advance(pair.advance({200'000, 300'000}, {400'000, 600'000}, wheels.speeds(), kLimit_uv));
+    wheels.advance(pair.advance({200'000, 300'000}, {400'000, 600'000}, wheels.speeds(), kSupply_uv));
   const WheelSpeeds set_points{200'000, 300'000}, accelerations{400'000, 600'000}, measured = wheels.speeds();
   WheelPair changed = pair;
   ParameterSet other;
@@ -109,8 +109,8 @@ TEST_F(Pair, NewGainsUnderWayDoNotBumpTheWheels) {
   // The last advance moved both integrals; the gains change where they now are.
   WheelPair unchanged = pair;
   changed.set_gains(other, set_points, accelerations, measured);
-  const WheelVoltages before = unchanged.advance(set_points, accelerations, measured, kLimit_uv);
-  const WheelVoltages after = changed.advance(set_points, accelerations, measured, kLimit_uv);
+  const WheelVoltages before = unchanged.advance(set_points, accelerations, measured, kSupply_uv);
+  const WheelVoltages after = changed.advance(set_points, accelerations, measured, kSupply_uv);
   EXPECT_NEAR(after.left_uv, before.left_uv, 2);  // one step of the sum, and one of the integral
   EXPECT_NEAR(after.right_uv, before.right_uv, 2);
 }
@@ -122,8 +122,8 @@ TEST_F(Pair, ResetForgetsWhatWasBehindAndWhatWasMissing) {
   pair.reset();
   WheelPair fresh;
   fresh.set_gains(without_friction());
-  const WheelVoltages a = pair.advance({100'000, 100'000}, {}, {}, kLimit_uv);
-  const WheelVoltages b = fresh.advance({100'000, 100'000}, {}, {}, kLimit_uv);
+  const WheelVoltages a = pair.advance({100'000, 100'000}, {}, {}, kSupply_uv);
+  const WheelVoltages b = fresh.advance({100'000, 100'000}, {}, {}, kSupply_uv);
   EXPECT_EQ(a.left_uv, b.left_uv);
   EXPECT_EQ(a.right_uv, b.right_uv);
 }

@@ -11,7 +11,7 @@
 namespace astro {
 namespace {
 
-constexpr std::uint64_t kQuarter = std::uint64_t{1} << 62;
+constexpr std::uint64_t kQuarterTurn = std::uint64_t{1} << 62;
 constexpr std::int64_t kOne = std::int64_t{1} << SinCos::kFractionBits;
 constexpr long double kBound = 0x1p-35L;  // what trig.hpp promises
 
@@ -60,7 +60,7 @@ TEST(SinCos, IsWithinItsBoundOnBothSidesOfEveryTableStepAndHalfStep) {
 TEST(SinCos, IsExactAtQuarterTurns) {
   const std::int64_t expected[4][2] = {{0, kOne}, {kOne, 0}, {0, -kOne}, {-kOne, 0}};
   for (std::uint64_t quarter = 0; quarter < 4; ++quarter) {
-    const SinCos got = at(quarter * kQuarter);
+    const SinCos got = at(quarter * kQuarterTurn);
     EXPECT_EQ(got.sin, expected[quarter][0]) << quarter;
     EXPECT_EQ(got.cos, expected[quarter][1]) << quarter;
   }
@@ -72,7 +72,7 @@ TEST(SinCos, QuarterTurnRotatesByExactlyAQuarter) {
   for (int i = 0; i < 100'000; ++i) {
     const std::uint64_t raw = random.bits();
     const SinCos here = at(raw);
-    const SinCos there = at(raw + kQuarter);
+    const SinCos there = at(raw + kQuarterTurn);
     ASSERT_LE(std::abs(there.sin - here.cos), 2) << raw;
     ASSERT_LE(std::abs(there.cos + here.sin), 2) << raw;
   }

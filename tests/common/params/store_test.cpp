@@ -14,7 +14,7 @@ using support::load;
 using support::random_valid_set;
 
 template <class Flash>
-void commit(Flash& flash, const ParameterSet& set) {
+void must_commit(Flash& flash, const ParameterSet& set) {
   ASSERT_TRUE(support::commit(flash, set));
 }
 
@@ -33,7 +33,7 @@ TYPED_TEST(StoreOn, FreshFlashGivesFactoryDefaults) {
 TYPED_TEST(StoreOn, ThousandCommitsEachSurviveAReboot) {
   for (std::uint32_t i = 0; i < 1000; ++i) {
     const ParameterSet set = random_valid_set(this->random);
-    commit(this->flash, set);
+    must_commit(this->flash, set);
     const Load loaded = load(this->flash);
     ASSERT_EQ(loaded.status, LoadStatus::loaded);
     ASSERT_EQ(loaded.set, set) << "commit " << i;
@@ -57,7 +57,7 @@ TYPED_TEST(StoreOn, NewestStaysNewestWhileTheSequenceWraps) {
   plant(this->flash, record);
   for (std::uint32_t i = 1; i <= 100; ++i) {
     const ParameterSet set = random_valid_set(this->random);
-    commit(this->flash, set);
+    must_commit(this->flash, set);
     const Load loaded = load(this->flash);
     ASSERT_EQ(loaded.sequence, 0xFFFFFFF0U + i);
     ASSERT_EQ(loaded.set, set);
@@ -93,7 +93,7 @@ TYPED_TEST(StoreOn, RowsOfNewerFirmwareOutliveManyCommits) {
   const Record newer = with_row(record, 5000, value);
   ASSERT_TRUE(newer.intact());
   plant(this->flash, newer);
-  for (int i = 0; i < 50; ++i) commit(this->flash, random_valid_set(this->random));
+  for (int i = 0; i < 50; ++i) must_commit(this->flash, random_valid_set(this->random));
   Record found;
   RecordLog<TypeParam>(this->flash).newest(found);
   const auto bytes = found.bytes(found.size());
@@ -140,7 +140,7 @@ TYPED_TEST(StoreOn, RollingBackToOldFirmwareAndForwardAgainKeepsWhatTheNewOneSet
   const std::vector<std::uint8_t> value{1, 2, 3, 4};
   plant(this->flash, with_row(record, 900, value));  // new firmware
   const ParameterSet set = random_valid_set(this->random);
-  commit(this->flash, set);  // old firmware, which does not know row 900
+  must_commit(this->flash, set);  // old firmware, which does not know row 900
   EXPECT_EQ(load(this->flash).set, set);
   Record found;
   RecordLog<TypeParam>(this->flash).newest(found);
@@ -150,8 +150,8 @@ TYPED_TEST(StoreOn, RollingBackToOldFirmwareAndForwardAgainKeepsWhatTheNewOneSet
 }
 
 TYPED_TEST(StoreOn, FactoryDefaultsAreASetLikeAnyOther) {
-  commit(this->flash, random_valid_set(this->random));
-  commit(this->flash, ParameterSet::defaults());
+  must_commit(this->flash, random_valid_set(this->random));
+  must_commit(this->flash, ParameterSet::defaults());
   const Load loaded = load(this->flash);
   EXPECT_EQ(loaded.status, LoadStatus::loaded);
   EXPECT_EQ(loaded.set, ParameterSet::defaults());
@@ -170,7 +170,7 @@ TYPED_TEST(StoreOn, SetThatThisFirmwareRefusesGivesDefaultsAndNamesTheRow) {
 }
 
 TYPED_TEST(StoreOn, RefusesToCommitAnInvalidSetAndLeavesTheFlashAlone) {
-  commit(this->flash, ParameterSet());
+  must_commit(this->flash, ParameterSet());
   const auto steps = this->flash.bytes_worked();
   ParameterSet bad;
   bad.set(Param::motor_polarity_left, 0);

@@ -15,17 +15,13 @@
 
 #include "common/protocol/messages.hpp"
 #include "tests/common/protocol/arbitrary_message.hpp"
+#include "tests/common/protocol/body_of.hpp"
 
 namespace astro::protocol {
 namespace {
 
+using tests::body_of;
 using Bytes = std::vector<std::uint8_t>;
-
-template <Message M>
-Bytes body_of(const M& message, std::uint16_t request_id) {
-  std::array<std::uint8_t, kMaxBody> out{};
-  return {out.begin(), out.begin() + static_cast<std::ptrdiff_t>(encode(message, request_id, out))};
-}
 
 // RapidCheck's templates compiled once, not once for each message.
 bool holds(const std::function<void()>& property) { return rc::check(property); }

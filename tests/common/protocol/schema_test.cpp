@@ -11,9 +11,12 @@
 #include "common/protocol/codec.hpp"
 #include "common/protocol/messages.hpp"
 #include "hal/interface/board.hpp"
+#include "tests/common/protocol/body_of.hpp"
 
 namespace astro::protocol {
 namespace {
+
+using tests::body_of;
 
 template <class F>
 void visit_all(F&& f) {
@@ -23,12 +26,6 @@ void visit_all(F&& f) {
 }
 
 constexpr std::size_t kMessages = Requests::kSize + Replies::kSize + Events::kSize;
-
-template <Message M>
-std::vector<std::uint8_t> body_of(const M& message, std::uint16_t request_id) {
-  std::array<std::uint8_t, kMaxBody> out{};
-  return {out.begin(), out.begin() + static_cast<std::ptrdiff_t>(encode(message, request_id, out))};
-}
 
 TEST(Schema, HasNoIdAndNoNameTwice) {
   std::set<int> ids;

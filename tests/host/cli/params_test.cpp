@@ -74,12 +74,13 @@ TEST_F(Params, SeveralValuesNeedAnAnswer) {
 }
 
 TEST_F(Params, ABadOneOfSeveralChangesNothing) {
-  struct Case {
+  struct Assignment {
     std::string bad, named;
   };
-  for (const Case& c : {Case{"c_L=1.7", "c_L = 1.7 is out of range: 0.5 to 1.5"}, Case{"c_L=much", "'much'"},
-                        Case{"c_L=nan", "c_L"}, Case{"c_X=1", "c_X"}, Case{"c_L=", "c_L"},
-                        Case{"robot_name=", "robot_name"}, Case{"gear_numerator=1.5", "gear_numerator"}}) {
+  for (const Assignment& c :
+       {Assignment{"c_L=1.7", "c_L = 1.7 is out of range: 0.5 to 1.5"}, Assignment{"c_L=much", "'much'"},
+        Assignment{"c_L=nan", "c_L"}, Assignment{"c_X=1", "c_X"}, Assignment{"c_L=", "c_L"},
+        Assignment{"robot_name=", "robot_name"}, Assignment{"gear_numerator=1.5", "gear_numerator"}}) {
     const Outcome outcome = params({"set", "c_R=1.001", c.bad, "--yes"});
     EXPECT_EQ(outcome.code, 1) << c.bad;
     EXPECT_THAT(outcome.err, HasSubstr(c.named));

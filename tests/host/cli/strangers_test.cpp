@@ -1,4 +1,6 @@
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -90,8 +92,11 @@ TEST(Stranger, ThatIsAnAddressOnAnotherMachine) { refuses("tcp:192.0.2.1:5555", 
 TEST(Stranger, ThatHasLeftItsPtyBehind) {
   test::Pty pty;
   const std::string path = pty.path();
+  // Held open, so that its number is given to no simulator of a test beside this one.
+  const int other_side = open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
   pty.hang_up();
   refuses(path, "");
+  close(other_side);
 }
 
 }  // namespace

@@ -14,10 +14,10 @@ std::string text_of(const std::filesystem::path& path) { return std::string(as_t
 
 TEST(CsvExport, TablesHaveTheirUnitsInTheHeaderAndEmptyCellsWhereTruthIsLost) {
   const support::TempFolder folder;
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kNotSeen = std::numeric_limits<double>::quiet_NaN();
   recording::Run run;
   run.odometry = {{1'500'000, 0.1, -2, 1e-20, 0.5, 0, -7, 8}};
-  run.truth = {{1, 1, 2, 3, true}, {2'000'002, 9, 9, 9, false}, {3'000'000, 1, 2, kNan, true}};
+  run.truth = {{1, 1, 2, 3, true}, {2'000'002, 9, 9, 9, false}, {3'000'000, 1, 2, kNotSeen, true}};
   export_csv(run, folder / "csv");
   EXPECT_EQ(text_of(folder / "csv/odometry.csv"),
             "__time,/odom/x_m,/odom/y_m,/odom/theta_rad,/odom/v_mps,/odom/omega_radps,/odom/left_counts,"

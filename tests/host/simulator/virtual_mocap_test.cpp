@@ -14,9 +14,9 @@ MocapConfig without_noise() {
   return config;
 }
 
-std::vector<recording::TruthSample> watch(VirtualMocap& mocap, const sim::Pose& pose, int milliseconds) {
+std::vector<recording::TruthSample> watch(VirtualMocap& mocap, const sim::Pose& pose, int for_ms) {
   std::vector<recording::TruthSample> samples;
-  for (int ms = 0; ms < milliseconds; ++ms)
+  for (int ms = 0; ms < for_ms; ++ms)
     if (const auto sample = mocap.advance(1000ULL * static_cast<unsigned>(ms), pose))
       samples.push_back(*sample);
   return samples;

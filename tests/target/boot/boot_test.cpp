@@ -4,13 +4,14 @@
 
 #include "host/emulator/stopped.hpp"
 #include "host/emulator/teensy.hpp"
+#include "tests/target/firmware_file.hpp"
 
 namespace astro::emulator {
 namespace {
 
 using namespace std::chrono_literals;
+using target::kImage;
 
-constexpr const char* kImage = ASTRO_IMAGE_DIR "/astrolabe-teensy40.hex";
 constexpr std::uint32_t kLed = 1U << 3;
 
 TEST(Boot, TheImageStartsAndTheLedBlinksOnceASecond) {

@@ -3,11 +3,12 @@
 
 #include "host/emulator/emulated_robot.hpp"
 #include "host/link/client.hpp"
+#include "tests/target/firmware_file.hpp"
 
 namespace astro::emulator {
 namespace {
 
-constexpr const char* kImage = ASTRO_IMAGE_DIR "/astrolabe-teensy40.hex";
+using target::kImage;
 
 class RobotAt : public testing::TestWithParam<Port> {};
 INSTANTIATE_TEST_SUITE_P(BothPorts, RobotAt, testing::Values(Port::serial, Port::usb), [](const auto& port) {

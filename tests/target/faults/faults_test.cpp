@@ -5,13 +5,14 @@
 
 #include "host/emulator/emulated_robot.hpp"
 #include "host/link/client.hpp"
+#include "tests/target/firmware_file.hpp"
 
 namespace astro::emulator {
 namespace {
 
 using namespace std::chrono_literals;
+using target::kImage;
 
-constexpr const char* kImage = ASTRO_IMAGE_DIR "/astrolabe-teensy40.hex";
 constexpr std::uint32_t kSpare = 0x0001'F000;  // code memory behind the program
 constexpr int kTick = 16 + 122;
 

@@ -13,7 +13,7 @@ namespace {
 
 using Words = std::map<std::uint32_t, std::uint32_t>;
 
-constexpr std::uint32_t kFlash = 0x6000'0000, kEntry = 0x6000'1004, kLength = 0x6000'1024;
+constexpr std::uint32_t kFlashStart = 0x6000'0000, kEntry = 0x6000'1004, kLength = 0x6000'1024;
 constexpr std::uint32_t kConfigurationBytes = 512;
 
 /// What the boot ROM and the Teensy's boot loaders must find, as on every Teensy 4.0.
@@ -31,13 +31,13 @@ std::vector<std::uint32_t> differences(const Bytes& bytes, const Words& golden) 
   std::vector<std::uint32_t> found;
   for (const auto& [address, value] : golden)
     if (word(bytes, address) != value) found.push_back(address);
-  for (std::uint32_t address = kFlash; address < kFlash + kConfigurationBytes; address += 4)
+  for (std::uint32_t address = kFlashStart; address < kFlashStart + kConfigurationBytes; address += 4)
     if (!golden.contains(address) && word(bytes, address) != 0) found.push_back(address);
   return found;
 }
 
 bool states_its_length(const Bytes& bytes) {
-  return word(bytes, kLength) == bytes.rbegin()->first + 1 - kFlash;
+  return word(bytes, kLength) == bytes.rbegin()->first + 1 - kFlashStart;
 }
 
 bool enters_a_thumb_function_in_the_flash(const Bytes& bytes) {
@@ -57,7 +57,7 @@ TEST_P(ImageHeader, IsTheOneOfATeensy40) {
 }
 
 TEST_P(ImageHeader, LeavesTheParametersAndTheRestoreProgramAlone) {
-  EXPECT_EQ(bytes_.begin()->first, kFlash);
+  EXPECT_EQ(bytes_.begin()->first, kFlashStart);
   EXPECT_LT(bytes_.rbegin()->first, 0x601F'0000U);
 }
 

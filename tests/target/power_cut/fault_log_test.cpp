@@ -4,6 +4,7 @@
 #include "common/safety/fault.hpp"
 #include "host/emulator/emulated_robot.hpp"
 #include "host/link/client.hpp"
+#include "tests/target/firmware_file.hpp"
 
 // The very image that is flashed: its fault log outlives resets and power cuts.
 namespace astro::emulator {
@@ -11,8 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using protocol::FaultLogEntry;
-
-constexpr const char* kImage = ASTRO_IMAGE_DIR "/astrolabe-teensy40.hex";
+using target::kImage;
 
 class FaultLog : public testing::Test {
  protected:

@@ -8,13 +8,14 @@
 #include "common/params/table.hpp"
 #include "host/emulator/emulated_robot.hpp"
 #include "host/link/client.hpp"
+#include "tests/target/firmware_file.hpp"
 
 namespace astro::emulator {
 namespace {
 
 using namespace std::chrono_literals;
+using target::kImage;
 
-constexpr const char* kImage = ASTRO_IMAGE_DIR "/astrolabe-teensy40.hex";
 constexpr std::uint16_t kParameter = static_cast<std::uint16_t>(Param::c_R);
 constexpr std::int32_t kOne = 1 << 30, kOld = kOne + 1111, kNew = kOne + 2222;
 

@@ -5,10 +5,9 @@
 #include <vector>
 
 #include "tests/support/program.hpp"
+#include "tests/target/firmware_file.hpp"
 
 namespace astro::target {
-
-inline constexpr const char* kImage = ASTRO_IMAGE_DIR "/astrolabe-teensy40.hex";
 
 /// `astrolabe-emulator` in a folder of its own, with both ports there when constructed.
 class EmulatorProgram {

@@ -5,6 +5,7 @@
 #include "host/emulator/emulated_robot.hpp"
 #include "host/experiment/experiment.hpp"
 #include "tests/support/desk.hpp"
+#include "tests/target/firmware_file.hpp"
 #include "tests/target/tick/tick_profile.hpp"
 
 /// The UMBmark experiment through the image: what a tick costs by part, and how fast the emulator is.
@@ -12,7 +13,7 @@ namespace {
 
 using namespace astro;
 
-constexpr const char* kImage = ASTRO_IMAGE_DIR "/astrolabe-teensy40.hex";
+using target::kImage;
 
 experiment::Results run(const std::shared_ptr<emulator::EmulatedRobot>& robot, int runs) {
   const support::TemporaryFolder folder;

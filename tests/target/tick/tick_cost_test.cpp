@@ -5,6 +5,7 @@
 #include "host/link/client.hpp"
 #include "host/link/drive.hpp"
 #include "host/link/paths.hpp"
+#include "tests/target/firmware_file.hpp"
 #include "tests/target/tick/tick_profile.hpp"
 
 namespace astro::target {
@@ -13,7 +14,6 @@ namespace {
 using namespace std::chrono_literals;
 using emulator::EmulatedRobot;
 
-constexpr const char* kImage = ASTRO_IMAGE_DIR "/astrolabe-teensy40.hex";
 constexpr const char* kElf = ASTRO_IMAGE_DIR "/astrolabe-teensy40.elf";
 
 class TickCost : public testing::Test {

@@ -23,7 +23,7 @@ constexpr std::uint32_t kHeads = 0x2000'1000, kTransfer = 0x2000'2000, kBuffer =
 
 // Endpoint 0, and bulk endpoints: 2 from the host, 3 to the host and with an empty packet at the end. Packets
 // of 64 bytes.
-const std::string kClocks = R"(
+const std::string kMacrosAndClocks = R"(
   .macro transfer bytes, flags=0x8080
     set 0x20002000, 1
     set 0x20002004, (\bytes<<16)+\flags
@@ -57,7 +57,7 @@ const std::string kList = R"(
 )";
 const std::string kAttach = "  set USB1_USBCMD, 1\n";
 const std::string kEndpoints = "  set USB1_ENDPTCTRL2, 0x000800C8\n  set USB1_ENDPTCTRL3, 0x00C80008\n";
-const std::string kReady = kClocks + kMode + kList + kAttach + kEndpoints;
+const std::string kReady = kMacrosAndClocks + kMode + kList + kAttach + kEndpoints;
 
 /// Attached and with its endpoints open, it has run `code` and stays there.
 struct Device : Program {
@@ -83,7 +83,7 @@ TEST(UsbController, TheStepsOfTheManualAttachIt) {
 }
 
 TEST(UsbController, ItIsADeviceBeforeItIsAttached) {
-  EXPECT_THAT(Program(kClocks + kList + kAttach).stopped_by(),
+  EXPECT_THAT(Program(kMacrosAndClocks + kList + kAttach).stopped_by(),
               HasSubstr("USB1 USBCMD: attached before USBMODE makes it a device"));
 }
 
@@ -92,18 +92,18 @@ TEST(UsbController, ItIsNotAttachedWithoutItsClocks) {
                               "set CCM_ANALOG_PLL_USB1_CLR, 0x2000", "set CCM_ANALOG_PLL_USB1_SET, 0x10000",
                               "set CCM_ANALOG_PLL_USB1_SET, 2", "set USBPHY1_CTRL_SET, 0x40000000",
                               "set USBPHY1_CTRL_SET, 0x80000000", "set USBPHY1_PWD_SET, 0x400"})
-    EXPECT_THAT(Program(kClocks + kMode + kList + missing + "\n" + kAttach).stopped_by(),
+    EXPECT_THAT(Program(kMacrosAndClocks + kMode + kList + missing + "\n" + kAttach).stopped_by(),
                 HasSubstr("USB1 USBCMD: attached without its PLL or with the transceiver off"))
         << missing;
 }
 
 TEST(UsbController, ItIsNotAttachedWithoutQueueHeads) {
-  EXPECT_THAT(Program(kClocks + kMode + kAttach).stopped_by(),
+  EXPECT_THAT(Program(kMacrosAndClocks + kMode + kAttach).stopped_by(),
               HasSubstr("USB1 USBCMD: attached without queue heads (ENDPTLISTADDR)"));
 }
 
 TEST(UsbController, TheQueueHeadsAreAlignedTo2Kilobytes) {
-  EXPECT_THAT(Program(kClocks + kMode + "  set USB1_ENDPTLISTADDR, 0x20001400").stopped_by(),
+  EXPECT_THAT(Program(kMacrosAndClocks + kMode + "  set USB1_ENDPTLISTADDR, 0x20001400").stopped_by(),
               HasSubstr("USB1 ENDPTLISTADDR: the queue heads are not aligned to 2 KB"));
 }
 
@@ -118,17 +118,17 @@ TEST(UsbController, ACommandOfItsOwnResetsIt) {
 
 TEST(UsbController, RegistersWithoutAModelAreRefused) {
   for (const char* name : {"GPTIMER0CTRL", "FRINDEX", "ENDPTNAKEN", "OTGSC"}) {
-    EXPECT_THAT(Program(kClocks + "  get USB1_" + name).stopped_by(),
+    EXPECT_THAT(Program(kMacrosAndClocks + "  get USB1_" + name).stopped_by(),
                 AllOf(HasSubstr(name), HasSubstr("not modelled")));
-    EXPECT_THAT(Program(kClocks + "  set USB1_" + name + ", 1").stopped_by(),
+    EXPECT_THAT(Program(kMacrosAndClocks + "  set USB1_" + name + ", 1").stopped_by(),
                 AllOf(HasSubstr(name), HasSubstr("not modelled")));
   }
-  EXPECT_THAT(Program(kClocks + "  set USB1_PORTSC1, 0x01000000").stopped_by(),
+  EXPECT_THAT(Program(kMacrosAndClocks + "  set USB1_PORTSC1, 0x01000000").stopped_by(),
               HasSubstr("USB1 PORTSC1: not modelled"));
 }
 
 TEST(UsbPriming, NeedsTheDeviceMode) {
-  EXPECT_THAT(Program(kClocks + kList + "  transfer 0\n prime 0, 1").stopped_by(),
+  EXPECT_THAT(Program(kMacrosAndClocks + kList + "  transfer 0\n prime 0, 1").stopped_by(),
               HasSubstr("USB1 ENDPTPRIME: primed before USBMODE makes it a device"));
 }
 
