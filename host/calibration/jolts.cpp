@@ -39,10 +39,17 @@ class Moments {
  public:
   Moments(const PreparedRun& run, const Unknowns& u)
       : run_(run),
-        u_(u),
         odometry_(dead_reckoned(run, {u[kClockOffset], u[kSkew]}, {u[kCRight], u[kCLeft], u[kB]})),
         period_s_(median_period_s(run.truth)),
-        window_s_(std::max(kWindow_s, static_cast<double>(kFewestSamples) * period_s_)) {}
+        window_s_(std::max(kWindow_s, static_cast<double>(kFewestSamples) * period_s_)) {
+    for (std::size_t k = 0; k < run.truth.size(); ++k) {
+      const BodySample& truth = run.truth[k];
+      const double theta = truth.theta_rad - u[kLeverYaw], c = std::cos(theta), s = std::sin(theta);
+      const double turn = theta - odometry_[k].theta_rad;
+      robot_.push_back({truth.x_m - c * u[kLeverX] + s * u[kLeverY],
+                        truth.y_m - s * u[kLeverX] - c * u[kLeverY], turn, std::cos(turn), std::sin(turn)});
+    }
+  }
 
   double window_s() const { return window_s_; }
 
@@ -82,12 +89,11 @@ class Moments {
 
   /// Where the robot is at sample `to` if it was where truth had it at sample `from`.
   Eigen::Vector3d told(std::size_t from, std::size_t to) const {
-    const BodySample &truth = run_.truth[from], &was = odometry_[from], &is = odometry_[to];
-    const double theta = truth.theta_rad - u_[kLeverYaw], c = std::cos(theta), s = std::sin(theta);
-    const double turn = theta - was.theta_rad, ct = std::cos(turn), st = std::sin(turn);
+    const BodySample &was = odometry_[from], &is = odometry_[to];
+    const Placed& robot = robot_[from];
     const double dx = is.x_m - was.x_m, dy = is.y_m - was.y_m;
-    return {truth.x_m - c * u_[kLeverX] + s * u_[kLeverY] + ct * dx - st * dy,
-            truth.y_m - s * u_[kLeverX] - c * u_[kLeverY] + st * dx + ct * dy, turn + is.theta_rad};
+    return {robot.x_m + robot.cosine * dx - robot.sine * dy, robot.y_m + robot.sine * dx + robot.cosine * dy,
+            robot.turn_rad + is.theta_rad};
   }
 
   static Eigen::Vector3d middle(const std::vector<Eigen::Vector3d>& poses) {
@@ -102,9 +108,14 @@ class Moments {
     return pose;
   }
 
+  /// The robot where truth has it, and how the plane of odometry lies there.
+  struct Placed {
+    double x_m, y_m, turn_rad, cosine, sine;
+  };
+
   const PreparedRun& run_;
-  const Unknowns& u_;
   std::vector<BodySample> odometry_;
+  std::vector<Placed> robot_;
   double period_s_, window_s_;
 };
 
