@@ -1,7 +1,8 @@
 # astro_test(common.kinematics SOURCES odometry_test.cpp DEPENDS common.kinematics)
 #   one GoogleTest program named <name>.test; each TEST becomes a ctest of its own name. OPTIMISED names those of its
 #   SOURCES that run longer than they compile; LONG says that some of its tests take many seconds: they are started
-#   first, so that no processor waits for the last one.
+#   first, so that no processor waits for the last one. STATISTICAL names tests, by GoogleTest's patterns, that repeat
+#   until chance has spoken what others do once: the sanitizers would see nothing new in them for minutes.
 find_package(GTest REQUIRED)
 find_package(Threads REQUIRED)
 include(GoogleTest)
@@ -27,7 +28,7 @@ target_precompile_headers(astro_test_headers PRIVATE
   <functional> <map> <memory> <numbers> <optional> <random> <span> <sstream> <string> <string_view> <vector>)
 
 function(astro_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "LONG" "" "SOURCES;OPTIMISED;DEPENDS;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "LONG" "" "SOURCES;OPTIMISED;STATISTICAL;DEPENDS;LIBRARIES")
   add_executable(${name}.test ${arg_SOURCES})
   target_link_libraries(${name}.test PRIVATE astro_compile ${arg_DEPENDS} ${arg_LIBRARIES}
     GTest::gmock GTest::gtest_main Threads::Threads astro_test_compile)
@@ -48,7 +49,12 @@ function(astro_test name)
   if(arg_LONG)
     set(cost 1)
   endif()
-  gtest_discover_tests(${name}.test TEST_PREFIX "${name}: " DISCOVERY_TIMEOUT 60
+  set(filter "*")
+  if(ASTROLABE_SANITIZE AND arg_STATISTICAL)
+    list(JOIN arg_STATISTICAL ":" statistical)
+    set(filter "-${statistical}")
+  endif()
+  gtest_discover_tests(${name}.test TEST_PREFIX "${name}: " TEST_FILTER "${filter}" DISCOVERY_TIMEOUT 60
     PROPERTIES TIMEOUT 300 COST ${cost}
       ENVIRONMENT "RC_PARAMS=seed=20240711")  # RapidCheck: the same cases each time
 endfunction()
