@@ -9,9 +9,11 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "host/base/error.hpp"
 #include "host/cli/console.hpp"
 #include "host/experiment/dead_reckoning.hpp"
 #include "host/experiment/json.hpp"
+#include "host/experiment/squares.hpp"
 
 namespace astro::cli {
 namespace {
@@ -43,12 +45,26 @@ void warn_of_other_robots(const std::vector<experiment::NamedFactors>& factors,
       say("warning: " + other);
 }
 
+/// What one robot carried when it drove them all.
+calibration::WheelFactors carried_by_all(const CheckOptions& options, const experiment::RunSet& set) {
+  const calibration::WheelFactors first = experiment::carried_factors(set.runs.front().info);
+  for (std::size_t i = 1; i < set.runs.size(); ++i) {
+    const calibration::WheelFactors one = experiment::carried_factors(set.runs[i].info);
+    if (one.c_r != first.c_r || one.c_l != first.c_l || one.b_m != first.b_m)
+      throw Error(
+          fmt::format("the robot carried other factors in {} than in {}: check the folders in '{}' "
+                      "each for itself",
+                      set.names[i], set.names.front(), options.folder.string()));
+  }
+  return first;
+}
+
 std::vector<DeadReckoning> judged(const CheckOptions& options) {
   const experiment::RunSet set = experiment::read_run_set(options.folder, options.without);
   for (const recording::Run& run : set.runs)
     if (!run.warning.empty()) say("warning: " + run.warning);
   const auto wheel = experiment::nominal_wheel(set.runs.front().info, set.names.front());
-  std::vector<experiment::NamedFactors> factors{{"carried", experiment::last_carried(set)}};
+  std::vector<experiment::NamedFactors> factors{{"carried", carried_by_all(options, set)}};
   for (const fs::path& file : options.with) factors.push_back(experiment::factors_of_file(file, wheel));
   warn_of_other_robots(factors, set);
   return experiment::dead_reckon(set, factors, clock_of(options));

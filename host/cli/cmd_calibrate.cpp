@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <numbers>
+#include <vector>
 
 #include "host/base/error.hpp"
 #include "host/calibration/end_pose_csv.hpp"
@@ -99,6 +101,17 @@ void finish(const experiment::Calibration& found, const CalibrateOptions& option
   }
 }
 
+std::vector<calibration::EndPose> end_poses(const fs::path& file, double side_m) {
+  const std::vector<calibration::EndPose> poses = calibration::read_end_poses(read_text(file), file.string());
+  for (const calibration::EndPose& pose : poses)
+    if (const double off_m = std::hypot(pose.x_m, pose.y_m); side_m > 0 && off_m > side_m)
+      throw Error(
+          fmt::format("{}: a run of a square of {} m is off by {:.3g} m, which no robot is: name the "
+                      "columns by their unit, ex_mm or ex_m",
+                      file.string(), side_m, off_m));
+  return poses;
+}
+
 void add_end_poses(Command calibrate) {
   const auto options = std::make_shared<CalibrateOptions>();
   const Command command =
@@ -125,8 +138,8 @@ void add_end_poses(Command calibrate) {
   command.callback([options] {
     const experiment::MethodChoice method = options->method.choice();
     experiment::Squares squares;
-    squares.cw = calibration::read_end_poses(read_text(options->cw), options->cw.string());
-    squares.ccw = calibration::read_end_poses(read_text(options->ccw), options->ccw.string());
+    squares.cw = end_poses(options->cw, options->side_m);
+    squares.ccw = end_poses(options->ccw, options->side_m);
     squares.side_m = options->side_m;
     squares.carried = {options->c_r, options->c_l, options->wheelbase_m};
     finish(experiment::calibrate(squares, method), *options);

@@ -13,7 +13,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// What somebody measured, or an experiment's journal, is no calibration to be replaced by a newer one.
+void require_own_kind(const fs::path& path) {
+  if (fs::exists(path) && !fs::is_directory(path) && path.extension() != ".toml")
+    throw Error(
+        fmt::format("'{}' exists and is no .toml, and a calibration replaces only such: name another file",
+                    path.string()));
+}
+
 void save(const fs::path& path, const std::string& text) {
+  require_own_kind(path);
   recording::PartFile file(path);
   file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   file.commit();

@@ -69,9 +69,18 @@ std::string wrong_basis(const link::RemoteParameters& robot, const ParameterFile
       file.wheel->diameter_m, file.wheel->counts_per_turn, now.diameter_m, now.counts_per_turn);
 }
 
+std::string incomplete(const ParameterFile& file) {
+  const auto has = [&](const char* name) { return file.parameters.contains(name); };
+  if (file.method.empty() || (has("c_R") && has("c_L") && has("b"))) return {};
+  const char* missing = !has("c_R") ? "c_R" : !has("c_L") ? "c_L" : "b";
+  return fmt::format("the calibration has no {}, and c_R, c_L and b were found together: calibrate again",
+                     missing);
+}
+
 std::string objection(const link::RemoteParameters& robot, const ParameterFile& file,
                       const std::vector<Change>& changes) {
-  std::string why = wrong_basis(robot, file);
+  std::string why = incomplete(file);
+  if (why.empty()) why = wrong_basis(robot, file);
   if (why.empty()) why = suspicion(changes);
   return why.empty() ? why : why + " (--force uploads all the same)";
 }

@@ -3,8 +3,10 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -19,6 +21,13 @@ constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{4} << 30;
 std::string reason(int code) { return std::generic_category().message(code); }
 
 fs::path part_of(fs::path path) { return path += ".part"; }
+
+bool is_recording(const fs::path& path) {
+  constexpr char kMagic[] = {'\x89', 'M', 'C', 'A', 'P'};
+  char start[sizeof kMagic] = {};
+  std::ifstream file(path, std::ios::binary);
+  return file.read(start, sizeof start) && std::equal(std::begin(start), std::end(start), kMagic);
+}
 
 /// So that the new name, too, survives a power cut. Some file systems cannot; then there is nothing to be
 /// done.
@@ -57,10 +66,12 @@ Bytes load_file(const fs::path& path) {
   return bytes;
 }
 
-PartFile::PartFile(fs::path path) : path_(std::move(path)), part_(part_of(path_)) {
+PartFile::PartFile(fs::path path, Replaces replaces) : path_(std::move(path)), part_(part_of(path_)) {
   std::error_code ignored, error;
   if (fs::is_directory(path_, ignored))
     throw Error("'" + path_.string() + "' is a folder: name a file in it");
+  if (replaces != Replaces::recordings_too && is_recording(path_))
+    throw Error("'" + path_.string() + "' is a recording, and nothing replaces one: name another file");
   if (path_.has_parent_path()) fs::create_directories(path_.parent_path(), error);
   if (error) {
     throw Error("cannot make the folder " + path_.parent_path().string() + ": " + error.message());

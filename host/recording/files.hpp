@@ -11,14 +11,16 @@ namespace astro::recording {
 Bytes load_file(const std::filesystem::path& path);
 
 /// A file that carries its name only once it is whole. Bytes go to `<path>.part`; commit() brings them to the
-/// disk and gives them the name, replacing what had it. Without commit a `.part` that holds anything stays,
-/// for whoever wants to rescue what was recorded, until the same path is written again. Folders on the way
-/// are made.
+/// disk and gives them the name, replacing what had it, but for a recording: nobody can repeat a drive.
+/// Without commit a `.part` that holds anything stays, for whoever wants to rescue what was recorded, until
+/// the same path is written again. Folders on the way are made.
 ///
-/// Errors  astro::Error naming the file and what the system said, or that there is a folder of that name.
+/// Errors  astro::Error naming the file and what the system said, or that there is a folder or a recording of
+///         that name.
 class PartFile {
  public:
-  explicit PartFile(std::filesystem::path path);
+  enum class Replaces { all_but_recordings, recordings_too };
+  explicit PartFile(std::filesystem::path path, Replaces replaces = Replaces::all_but_recordings);
   ~PartFile();
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;

@@ -24,7 +24,7 @@ void keep_first(std::optional<double>& first, double heading_rad) {
 
 RunWriter::RunWriter(const std::filesystem::path& path, const RunInfo& info, McapWriterOptions options)
     : path_(path),
-      file_(path),
+      file_(path, PartFile::Replaces::recordings_too),
       mcap_([this](ByteView bytes) { file_.write(bytes); }, {"ros2", "astrolabe"}, options) {
   record_.info = info;
   mcap_.write_metadata({std::string(kRunRecordName), to_map(record_)});

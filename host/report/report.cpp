@@ -1,31 +1,14 @@
 #include "host/report/report.hpp"
 
-#include <unistd.h>
-
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <system_error>
 
-#include "host/base/error.hpp"
+#include "host/recording/files.hpp"
 #include "host/report/assets.hpp"
 #include "host/report/figures.hpp"
 #include "host/report/html.hpp"
 #include "host/report/sections.hpp"
 
 namespace astro::report {
-
-namespace {
-
-/// Removes the temporary file unless the rename has taken it away.
-struct Cleanup {
-  const std::filesystem::path& path;
-  ~Cleanup() {
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);
-  }
-};
-
-}  // namespace
 
 std::string render_page(const std::string& title, const std::vector<Section>& sections,
                         const nlohmann::json& data) {
@@ -57,18 +40,9 @@ void write_report(const std::filesystem::path& path, const ReportInput& input) {
 }
 
 void write_page(const std::filesystem::path& path, const std::string& html) {
-  std::filesystem::path temporary = path;
-  temporary += ".part-" + std::to_string(getpid());
-  const Cleanup cleanup{temporary};
-  std::ofstream file(temporary, std::ios::binary);
-  file << html;
-  file.close();
-  std::error_code failure;
-  if (file) std::filesystem::rename(temporary, path, failure);
-  if (!file || failure) {
-    throw Error("cannot write the report " + path.string() +
-                ": name a file in a folder that exists, takes new files and has space");
-  }
+  recording::PartFile file(path);
+  file.write({reinterpret_cast<const std::uint8_t*>(html.data()), html.size()});
+  file.commit();
 }
 
 }  // namespace astro::report

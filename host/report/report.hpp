@@ -54,8 +54,7 @@ std::string render_html(const ReportInput& input);
 /// render_html to a file.
 void write_report(const std::filesystem::path& path, const ReportInput& input);
 
-/// Writes the page to a neighbouring temporary file first and renames it, so `path` never holds half a
-/// report. Throws astro::Error if the folder does not take it.
+/// `path` never holds half a report. Throws what recording::PartFile throws.
 void write_page(const std::filesystem::path& path, const std::string& html);
 
 }  // namespace astro::report

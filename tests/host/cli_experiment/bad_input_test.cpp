@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 
 #include "tests/support/program.hpp"
 
@@ -54,6 +55,20 @@ TEST_F(BadInput, FolderInPlaceOfAFile) {
   refuses({"calibrate", "end-poses", "--cw", folder_.path().string(), "--ccw", file("ccw.csv", kGood),
            "--side", "3", "--wheelbase", "0.29"},
           {folder_.path().string()});
+}
+TEST_F(BadInput, CalibrationOverWhatWasMeasured) {
+  const std::string cw = file("cw.csv", kGood);
+  refuses({"calibrate", "end-poses", "--cw", cw, "--ccw", file("ccw.csv", kGood), "--side", "3",
+           "--wheelbase", "0.29", "--out", cw},
+          {"cw.csv", "no .toml"});
+  std::ifstream kept(cw);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(kept), {}), kGood);
+}
+TEST_F(BadInput, MillimetresCalledMetres) {
+  refuses_end_poses("ex_m,ey_m\n300,-250\n310,-260\n", {"cw.csv", "391 m", "ex_mm or ex_m"});
+}
+TEST_F(BadInput, EmptyNameOfAFile) {
+  refuses({"record", "--lines", "1", "--out", ""}, {"--out", "needs the name"});
 }
 TEST_F(BadInput, EmptyFile) { refuses_end_poses("", {"cw.csv"}); }
 TEST_F(BadInput, HeaderAlone) { refuses_end_poses("ex_mm,ey_mm\n", {"cw.csv"}); }

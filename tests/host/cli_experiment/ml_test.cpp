@@ -140,6 +140,10 @@ TEST_F(Ml, IsCheckedOnDrivesThatItHasNotSeen) {
   EXPECT_EQ(text.code, 0) << text.err;
   EXPECT_THAT(text.out,
               AllOf(HasSubstr("over 2 drives"), HasSubstr("heading mrad"), HasSubstr("square-cw-1")));
+  // Carried was one thing before and another after.
+  const Outcome both = astrolabe({"calibrate", "check", out(), "--with", file});
+  EXPECT_EQ(both.code, 1);
+  EXPECT_THAT(both.err, AllOf(HasSubstr("carried other factors"), HasSubstr("each for itself")));
   const Outcome missing = astrolabe({"calibrate", "check", out() + "/after", "--with", file + "x"});
   EXPECT_EQ(missing.code, 1);
   EXPECT_THAT(missing.err, HasSubstr("checked.tomlx does not exist"));

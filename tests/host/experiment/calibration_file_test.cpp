@@ -181,6 +181,18 @@ TEST_F(ChangeGuard, ObjectsInOneSentenceThatNamesTheOption) {
               AllOf(HasSubstr("driven with"), HasSubstr("--force")));
 }
 
+TEST_F(ChangeGuard, ObjectsToFactorsThatAreNotAllThere) {
+  ParameterFile file;
+  file.method = "ml";
+  file.parameters = {{"c_R", 1.001}, {"c_L", 0.999}};
+  EXPECT_THAT(objection(robot_, file, {}), AllOf(HasSubstr("has no b"), HasSubstr("--force")));
+  file.parameters["b"] = 0.29;
+  EXPECT_EQ(objection(robot_, file, {}), "");
+  file = {};
+  file.parameters = {{"c_R", 1.001}};
+  EXPECT_EQ(objection(robot_, file, {}), "") << "no calibration, but somebody's own choice";
+}
+
 TEST_F(ChangeGuard, RefusesNamesAndValuesThatTheRobotDoesNotHave) {
   EXPECT_THAT([&] { changes(robot_, {{"c_X", 1.0}}); }, ThrowsMessage<Error>(HasSubstr("c_X")));
   EXPECT_THAT([&] { changes(robot_, {{"c_R", 2.5}}); }, ThrowsMessage<Error>(HasSubstr("c_R")));

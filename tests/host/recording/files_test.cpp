@@ -28,6 +28,19 @@ TEST(PartFile, RefusesTheNameOfAFolderBeforeAnythingIsWritten) {
   EXPECT_FALSE(std::filesystem::exists(folder.path().string() + ".part"));
 }
 
+TEST(PartFile, ReplacesNoRecording) {
+  const TempFolder folder;
+  constexpr std::uint8_t kRecording[] = {0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
+  for (const char* name : {"run.mcap", "run.html"}) {
+    PartFile first(folder / name);
+    first.write(kRecording);
+    first.commit();
+    EXPECT_THAT(complaint([&] { PartFile(folder / name).commit(); }),
+                HasSubstr("is a recording, and nothing replaces one"));
+    EXPECT_EQ(std::filesystem::file_size(folder / name), sizeof kRecording);
+  }
+}
+
 TEST(PartFile, NeedsNoFolderInItsName) {
   const TempFolder folder;
   const std::filesystem::path before = std::filesystem::current_path();
