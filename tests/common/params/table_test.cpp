@@ -3,13 +3,63 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "common/params/parameter_set.hpp"
 
 namespace astro {
 namespace {
+
+// Robots carry their calibration under these numbers through every update of the firmware: a number that
+// moved would load a battery limit as a motor voltage. Append; a row that is not wanted any more stays.
+TEST(ParamTable, IdsAreForEver) {
+  constexpr std::string_view kNames[] = {"c_R",
+                                         "c_L",
+                                         "b",
+                                         "wheel_diameter",
+                                         "counts_per_motor_rev",
+                                         "gear_numerator",
+                                         "gear_denominator",
+                                         "motor_polarity_left",
+                                         "motor_polarity_right",
+                                         "encoder_polarity_left",
+                                         "encoder_polarity_right",
+                                         "kp",
+                                         "ki",
+                                         "kS_left",
+                                         "kV_left",
+                                         "kA_left",
+                                         "observer_bandwidth",
+                                         "path_k_along",
+                                         "path_k_cross",
+                                         "path_k_heading",
+                                         "speed_limit",
+                                         "yaw_rate_limit",
+                                         "acceleration_limit",
+                                         "yaw_acceleration_limit",
+                                         "command_timeout",
+                                         "telemetry_period",
+                                         "motor_voltage_max",
+                                         "battery_low",
+                                         "battery_high",
+                                         "over_speed",
+                                         "robot_name",
+                                         "kS_right",
+                                         "kV_right",
+                                         "kA_right",
+                                         "k_sync",
+                                         "jerk_limit",
+                                         "yaw_jerk_limit",
+                                         "stall_time"};
+  for (std::size_t i = 0; i < std::size(kNames); ++i) {
+    const ParamRow* row = find_param(static_cast<std::uint16_t>(i + 1));
+    ASSERT_NE(row, nullptr) << kNames[i];
+    EXPECT_EQ(row->name, kNames[i]);
+  }
+}
 
 TEST(ParamTable, IdsAreTheRowNumbersAndNamesAreUnique) {
   std::set<std::string_view> names;
