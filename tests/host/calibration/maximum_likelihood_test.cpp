@@ -44,9 +44,6 @@ TEST(MaximumLikelihood, FindsTheTruthWhereThereIsNoNoise) {
 }
 
 TEST(MaximumLikelihood, ReachesTheCramerRaoBoundAndKnowsHowFarItIsOff) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "statistics of what the other tests walk through already";
-#endif
   const DriveModel model = astro_drive();
   constexpr int kTrials = 24;
   MlOptions given;
@@ -81,9 +78,6 @@ TEST(MaximumLikelihood, ReachesTheCramerRaoBoundAndKnowsHowFarItIsOff) {
 }
 
 TEST(MaximumLikelihood, DoesNotClaimMoreThanItKnowsOfARobotThatHardlySlips) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "statistics of what the other tests walk through already";
-#endif
   DriveModel model = astro_drive();
   model.noise.K_m = 1e-9;  // far below what two small squares can tell from none
   constexpr int kTrials = 12;
@@ -111,9 +105,6 @@ std::vector<Trajectory> out_of_round(std::vector<Trajectory> runs, double amplit
 }
 
 TEST(MaximumLikelihood, TakesWheelsOutOfRoundNeitherForSlipNorForAnotherWheelbase) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "statistics of what the other tests walk through already";
-#endif
   DriveModel model = astro_drive();
   model.noise.K_m = 5e-7;  // as of a real robot on a clean floor
   constexpr int kTrials = 12;

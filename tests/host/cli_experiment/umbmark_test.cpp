@@ -73,9 +73,6 @@ TEST(Umbmark, CalibratesASimulatedRobotOverAPty) {
 }
 
 TEST(Umbmark, WithoutSlipOneRepeatLeavesAThirtiethAtMost) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "a minute of what CalibratesASimulatedRobotOverAPty has walked through already";
-#endif
   const Simulator simulator({"--fast", "--slip", "0"});
   const std::string out = (simulator.folder() / "x").string();
   const support::Outcome outcome =

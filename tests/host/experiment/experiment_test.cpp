@@ -58,9 +58,6 @@ TEST(Experiment, MakesTheThesisRobotAtLeastFiveTimesBetter) {
 // A single experiment of five noisy runs may be unlucky: what is left is mostly the standard error of a mean
 // of five.
 TEST(Experiment, MakesTheThesisRobotFiveTimesBetterInTheMedianOverSeeds) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "statistics of what the test above has walked through already";
-#endif
   std::vector<double> factors;
   for (std::uint64_t seed = 1; seed <= 9; ++seed)
     factors.push_back(calibrate(thesis_robot(kThesisSlip_m, seed), squares_only(5)).improvement());
@@ -71,9 +68,6 @@ TEST(Experiment, MakesTheThesisRobotFiveTimesBetterInTheMedianOverSeeds) {
 }
 
 TEST(Experiment, WithoutSlipOneRepeatLeavesAThirtiethAtMost) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "a minute of what FindsTheTrueGeometryWithoutSlip has walked through already";
-#endif
   const Results results = calibrate(thesis_robot(0, 1), squares_only(5, 2));
   fmt::print("no slip, two rounds: {:.1f} mm -> {:.3f} mm, {:.0f} times smaller\n",
              1000 * results.before().summary.E_max_syst_m, 1000 * results.after().summary.E_max_syst_m,

@@ -52,9 +52,6 @@ double apart(const Row& a, const Row& b, std::size_t figure) {
 // The full table, over hundreds of trials of ten squares, is for `astrolabe study`; here enough of it to
 // notice another slip, another noise, or factors that are off by half of their error.
 TEST(SimulatedStudy, AgreesWithTheKinematicOneWithinTheScatterOfBoth) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "statistics of what the other tests walk through already";
-#endif
   constexpr int kTrials = 40;
   const TrialSetup setup = small_setup(kTrials, Model::simulator);
   const Summary simulated = summarize(setup, kRobot, run_study(setup, kRobot, {1, 1}, 2, kSilent));
