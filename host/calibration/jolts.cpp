@@ -2,11 +2,12 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
+#include "host/calibration/median.hpp"
 #include "host/calibration/median_period.hpp"
 #include "host/calibration/path_alignment.hpp"
 
@@ -27,12 +28,6 @@ struct Parting {
   std::size_t at = 0;  // sample of truth
   double turned_rad = 0, moved_m = 0;
 };
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Compares what truth says before and after the moments of a run.
 class Moments {
@@ -102,7 +97,7 @@ class Moments {
       std::vector<double> values;
       for (const Eigen::Vector3d& each : poses)
         values.push_back(i < 2 ? each[i] : std::remainder(each[2] - poses[0][2], 2 * std::numbers::pi));
-      pose[i] = median(values);
+      pose[i] = median_of(std::move(values));
     }
     pose[2] += poses[0][2];
     return pose;
@@ -141,18 +136,17 @@ std::vector<Jolt> lasting(const Moments& moments, double start_s, std::vector<Pa
 
 std::vector<std::vector<Jolt>> find_jolts(std::span<const PreparedRun> runs,
                                           std::span<const Unknowns> unknowns) {
-  constexpr double kMedianOfNormal = 0.6745;
   std::vector<std::optional<Moments>> moments(runs.size());
   std::vector<std::vector<Parting>> partings(runs.size());
   std::vector<double> turned_rad;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (!runs[i].has_headings || runs[i].truth.size() < 2 * kFewestSamples) continue;
     partings[i] = moments[i].emplace(runs[i], unknowns[i]).all();
-    for (const Parting& parting : partings[i]) turned_rad.push_back(std::abs(parting.turned_rad));
+    for (const Parting& parting : partings[i]) turned_rad.push_back(parting.turned_rad);
   }
   std::vector<std::vector<Jolt>> found(runs.size());
   if (turned_rad.empty()) return found;
-  const double far_rad = std::max(kLeast_rad, kFar * median(turned_rad) / kMedianOfNormal);
+  const double far_rad = std::max(kLeast_rad, kFar * deviation_of(turned_rad));
   for (std::size_t i = 0; i < runs.size(); ++i) {
     std::erase_if(partings[i], [&](const Parting& each) { return std::abs(each.turned_rad) < far_rad; });
     if (!partings[i].empty())

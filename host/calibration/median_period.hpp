@@ -1,7 +1,9 @@
 #pragma once
 
-#include <algorithm>
+#include <utility>
 #include <vector>
+
+#include "host/calibration/median.hpp"
 
 namespace astro::calibration {
 
@@ -11,9 +13,7 @@ double median_period_s(const std::vector<Sample>& samples) {
   std::vector<double> periods;
   for (std::size_t i = 1; i < samples.size(); ++i)
     periods.push_back(samples[i].time_s - samples[i - 1].time_s);
-  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
-  std::nth_element(periods.begin(), middle, periods.end());
-  return *middle;
+  return median_of(std::move(periods));
 }
 
 }  // namespace astro::calibration

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "host/base/degrees.hpp"
 #include "host/base/error.hpp"
 #include "host/calibration/median_period.hpp"
 #include "host/calibration/senses.hpp"
@@ -168,7 +168,7 @@ void require_motion(const PreparedRun& run) {
     throw Error(
         fmt::format("{} is too short: {:.2f} m and {:.0f} degrees under ground truth; drive at least a metre "
                     "or a turn, or leave it out",
-                    run.source->name, run.distance_m, run.rotation_rad * 180 / std::numbers::pi));
+                    run.source->name, run.distance_m, degrees(run.rotation_rad)));
 }
 
 ClockFit clock_of(const Trajectory& run, const WheelFactors& carried, std::optional<double> skew) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/base/degrees.hpp"
 #include "host/base/error.hpp"
 #include "host/calibration/path_alignment.hpp"
 
@@ -74,7 +75,7 @@ void require_senses(const PreparedRun& run, const ClockFit& clock, const WheelFa
                       "orientation of the body, too; and if it did not turn, an encoder or a motor is "
                       "reversed ('astrolabe "
                       "check-wiring' tells)",
-                      run.source->name, run.rotation_rad * 180 / std::numbers::pi));
+                      run.source->name, degrees(run.rotation_rad)));
   }
   if (positions == Positions::oppose) refuse_opposite_turn(run.source->name, positions);
 }

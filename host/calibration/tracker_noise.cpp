@@ -4,15 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/calibration/median.hpp"
+
 namespace astro::calibration {
 namespace {
 
-double sigma_of(std::vector<double> second_differences) {
-  if (second_differences.empty()) return 0;
-  for (double& value : second_differences) value = std::abs(value);
-  const auto middle = second_differences.begin() + static_cast<std::ptrdiff_t>(second_differences.size() / 2);
-  std::nth_element(second_differences.begin(), middle, second_differences.end());
-  return *middle / 0.6745 / std::sqrt(6.0);
+double sigma_of(const std::vector<double>& second_differences) {
+  return second_differences.empty() ? 0 : deviation_of(second_differences) / std::sqrt(6.0);
 }
 
 }  // namespace
