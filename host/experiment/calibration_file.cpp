@@ -13,12 +13,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What somebody measured, or an experiment's journal, is no calibration to be replaced by a newer one.
+/// Calibrations and parameters take the place of their like, not of what somebody measured or of a journal.
 void require_own_kind(const fs::path& path) {
   if (fs::exists(path) && !fs::is_directory(path) && path.extension() != ".toml")
-    throw Error(
-        fmt::format("'{}' exists and is no .toml, and a calibration replaces only such: name another file",
-                    path.string()));
+    throw Error(fmt::format("'{}' exists and is no .toml, as what would replace it is: name another file",
+                            path.string()));
 }
 
 void save(const fs::path& path, const std::string& text) {
