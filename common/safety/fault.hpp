@@ -26,13 +26,14 @@ enum class Fault : std::uint8_t {
   emergency_stop,   // commanded by a host
   runaway,          // a wheel turns against its voltage, or faster than the voltage can turn it
   watchdog,         // the firmware hung or derailed, and was restarted
+  stop_timeout,     // the wheels did not come to rest although they were told to
 };
 
-inline constexpr std::array<std::string_view, 15> kFaultNames{
-    "none",         "command_timeout", "link_lost",      "driver",  "under_voltage",
-    "over_voltage", "over_speed",      "stall",          "encoder", "tick_overrun",
-    "parameters",   "flash",           "emergency_stop", "runaway", "watchdog"};
-static_assert(kFaultNames.size() == static_cast<std::size_t>(Fault::watchdog) + 1);
+inline constexpr std::array<std::string_view, 16> kFaultNames{
+    "none",           "command_timeout", "link_lost", "driver",       "under_voltage", "over_voltage",
+    "over_speed",     "stall",           "encoder",   "tick_overrun", "parameters",    "flash",
+    "emergency_stop", "runaway",         "watchdog",  "stop_timeout"};
+static_assert(kFaultNames.size() == static_cast<std::size_t>(Fault::stop_timeout) + 1);
 
 constexpr std::span<const std::string_view> names(Fault) { return kFaultNames; }
 

@@ -247,6 +247,7 @@ Drive::Wish Drive::wish() {
       return steering_ == Steering::path ? follow() : ramped();
     case State::stopping: {
       const Wish ramp = ramped();
+      if (ramp_.arrived()) supervisor_.set_point_at_rest();
       if (ramp_.arrived() && standing()) {
         supervisor_.request(Event::rest);
         seen_ = State::stopping;  // so that the next tick follows

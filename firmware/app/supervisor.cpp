@@ -1,19 +1,32 @@
 #include "firmware/app/supervisor.hpp"
 
+#include <algorithm>
+
 #include "common/fixed/saturate.hpp"
 
 namespace astro {
 namespace {
 
-constexpr std::int32_t kPulls = 32767 / 2;    // of full duty
 constexpr std::int32_t kStands_umps = 2'000;  // 25 counts a second
 constexpr std::int32_t kTurns_umps = 50'000;  // no longer noise, nor a gear's play
 constexpr std::uint32_t kDither_edges = 4;    // in 16 ms: a wheel that is held makes one or two
 constexpr std::uint8_t kGoodRounds = 4;       // 32 ticks on time
 
 constexpr std::uint32_t visits(std::uint32_t ms) { return (ms + kWatchPeriod_ms - 1) / kWatchPeriod_ms; }
-template <Fault F>
-constexpr std::uint32_t kVisits = visits(rule(F).hold_ms);
+template <Check C>
+constexpr std::uint32_t kVisits = visits(rule(C).hold_ms);
+
+// How long the set point takes from the fastest speed to zero: at the steepest acceleration, which the jerk
+// limit reaches and leaves within half a second each (TwistRamp).
+std::uint64_t longest_ramp_us(const ParameterSet& set) {
+  constexpr std::uint64_t kJerk_us = 1'000'000;
+  const auto time_us = [&](Param speed, Param acceleration) {
+    return std::int64_t{set.get(speed)} * 1'000'000 / std::max<std::int32_t>(set.get(acceleration), 1);
+  };
+  return kJerk_us +
+         static_cast<std::uint64_t>(std::max(time_us(Param::speed_limit, Param::acceleration_limit),
+                                             time_us(Param::yaw_rate_limit, Param::yaw_acceleration_limit)));
+}
 
 }  // namespace
 
@@ -24,12 +37,16 @@ void Supervisor::configure(const ParameterSet& set) {
   over_speed_umps_ = set.get(Param::over_speed);
   stall_visits_ = visits(static_cast<std::uint32_t>(set.get(Param::stall_time)));
   command_timeout_us_ = static_cast<std::uint32_t>(set.get(Param::command_timeout)) * 1000;
+  longest_ramp_us_ = longest_ramp_us(set) + rule(Check::stop_timeout).hold_ms * 1000U;
 }
 
 bool Supervisor::request(Event event) {
   const bool gives_power = event == Event::arm || event == Event::drive;
   if (gives_power && faults_.any()) return false;
+  const State before = state_;
   if (!astro::advance(state_, event)) return false;
+  if (state_ == State::stopping && before != State::stopping) begin_ramp();
+  if (event == Event::arm) host_seen();
   // The ramp of a fault has ended, or somebody has ended it.
   if (faults_.any() && (state_ == State::armed || state_ == State::disarmed)) state_ = State::fault;
   return true;
@@ -51,22 +68,33 @@ bool Supervisor::clear() {
   return true;
 }
 
-void Supervisor::found(Fault fault) {
-  if (rule(fault).reaction == Reaction::off || state_ != State::driving) return raise(fault);
-  faults_.raise(fault, now_us_);
+void Supervisor::begin_ramp() {
+  ramp_deadline_us_ = kNever_us;
+  rest_deadline_us_ = now_us_ + longest_ramp_us_;
+}
+
+void Supervisor::set_point_at_rest() {
+  rest_deadline_us_ = std::min(rest_deadline_us_, now_us_ + rule(Check::stop_timeout).hold_ms * 1000U);
+}
+
+void Supervisor::found(Check check) {
+  const FaultRule& found = rule(check);
+  if (found.reaction == Reaction::off || state_ != State::driving) return raise(found.fault);
+  faults_.raise(found.fault, now_us_);
   astro::advance(state_, Event::stop);
-  ramp_deadline_us_ = now_us_ + kRampAtMost_ms * 1000;
+  begin_ramp();
+  ramp_deadline_us_ = now_us_ + kRampAtMost_ms * 1000U;
 }
 
 void Supervisor::advance(const TickInput& input, bool plausible, Steering steering, const Wheels& wheels) {
   now_us_ = input.now_us;
-  if (!plausible) [[unlikely]]
-    raise(Fault::encoder);
-  if (input.driver_fault && watched_in(Fault::driver)) [[unlikely]]
-    raise(Fault::driver);
+  if (!plausible && watched_in(Check::encoder_jump)) [[unlikely]]
+    found(Check::encoder_jump);
+  if (input.driver_fault && watched_in(Check::driver)) [[unlikely]]
+    found(Check::driver);
   if (!input.on_time) [[unlikely]] {
     good_rounds_ = 0;
-    if (watched_in(Fault::tick_overrun)) raise(Fault::tick_overrun);
+    if (watched_in(Check::tick_overrun)) found(Check::tick_overrun);
   }
   look(input, steering, wheels);
   watched_ = true;
@@ -74,76 +102,94 @@ void Supervisor::advance(const TickInput& input, bool plausible, Steering steeri
 
 void Supervisor::look(const TickInput& input, Steering steering, const Wheels& wheels) {
   turn_ = (turn_ + 1) % (2 * kWatchPeriod_ms);
+  const hal::Duty& duty = wheels.forward_duty();
+  const WheelSpeeds& speeds = wheels.speeds();
+  const auto pulls = [&](std::int32_t one) { return exceeds(one, pulling_duty_); };
   switch (turn_ % kWatchPeriod_ms) {
     case 0:
+      pulling_duty_ = wheels.half_duty(input.battery_mv);
       return look_at_supply(input.battery_mv);
     case 1:
-      return look_at_speed(wheels.speeds());
+      return look_at_speed(speeds);
     case 2:
-      return look_for_stall(left_.stall, wheels.forward_duty().left, wheels.speeds().left_umps);
+      return look_for_stall(left_.stall, pulls(duty.left), speeds.left_umps);
     case 3:
-      return look_for_stall(right_.stall, wheels.forward_duty().right, wheels.speeds().right_umps);
+      return look_for_stall(right_.stall, pulls(duty.right), speeds.right_umps);
     case 4:
-      return look_for_runaway(left_.runaway, wheels.forward_duty().left, wheels.speeds().left_umps, steering);
+      return look_for_runaway(left_.runaway, pulls(duty.left), duty.left, speeds.left_umps, steering);
     case 5:
-      return look_for_runaway(right_.runaway, wheels.forward_duty().right, wheels.speeds().right_umps,
-                              steering);
+      return look_for_runaway(right_.runaway, pulls(duty.right), duty.right, speeds.right_umps, steering);
     case 6:
       if (!proven_) look_at_boot();
       return look_at_deadlines(steering);
     default:
-      return turn_ < kWatchPeriod_ms ? look_for_dither(left_, wheels.forward_duty().left,
-                                                       wheels.left_counts(), wheels.left_edges())
-                                     : look_for_dither(right_, wheels.forward_duty().right,
-                                                       wheels.right_counts(), wheels.right_edges());
+      return turn_ < kWatchPeriod_ms
+                 ? look_for_lost_channel(left_, pulls(duty.left), wheels.left_counts(), wheels.left_edges())
+                 : look_for_lost_channel(right_, pulls(duty.right), wheels.right_counts(),
+                                         wheels.right_edges());
   }
 }
 
 void Supervisor::look_at_supply(std::int32_t battery_mv) {
-  if (over_voltage_.advance(battery_mv > battery_high_mv_, kVisits<Fault::over_voltage>))
-    found(Fault::over_voltage);
-  const bool low = battery_mv < battery_low_mv_ && watched_in(Fault::under_voltage);
-  if (under_voltage_.advance(low, kVisits<Fault::under_voltage>)) found(Fault::under_voltage);
+  const bool high = battery_mv > battery_high_mv_ && watched_in(Check::over_voltage);
+  if (over_voltage_.advance(high, kVisits<Check::over_voltage>)) found(Check::over_voltage);
+  const bool low = battery_mv < battery_low_mv_ && watched_in(Check::under_voltage);
+  if (under_voltage_.advance(low, kVisits<Check::under_voltage>)) found(Check::under_voltage);
 }
 
 void Supervisor::look_at_speed(const WheelSpeeds& speeds) {
   const bool fast =
       exceeds(speeds.left_umps, over_speed_umps_) || exceeds(speeds.right_umps, over_speed_umps_);
-  if (over_speed_.advance(fast, kVisits<Fault::over_speed>)) found(Fault::over_speed);
+  if (over_speed_.advance(fast && watched_in(Check::over_speed), kVisits<Check::over_speed>))
+    found(Check::over_speed);
 }
 
-void Supervisor::look_for_stall(Watch& watch, std::int32_t duty, std::int32_t speed_umps) {
-  const bool stands = exceeds(duty, kPulls) && !exceeds(speed_umps, kStands_umps) && watched_in(Fault::stall);
-  if (watch.advance(stands, stall_visits_)) found(Fault::stall);
+void Supervisor::look_for_stall(Watch& watch, bool pulls, std::int32_t speed_umps) {
+  const bool stands = pulls && !exceeds(speed_umps, kStands_umps) && watched_in(Check::stall);
+  if (watch.advance(stands, stall_visits_)) found(Check::stall);
 }
 
-void Supervisor::look_for_runaway(Watch& watch, std::int32_t duty, std::int32_t speed_umps,
+void Supervisor::look_for_runaway(Watch& watch, bool pulls, std::int32_t duty, std::int32_t speed_umps,
                                   Steering steering) {
   // Without a loop a reversed wheel is just a reversed wheel.
-  const bool against = (duty ^ speed_umps) < 0 && exceeds(duty, kPulls) && exceeds(speed_umps, kTurns_umps) &&
-                       steering != Steering::open_loop && watched_in(Fault::runaway);
-  if (watch.advance(against, kVisits<Fault::runaway>)) found(Fault::runaway);
+  const bool against = (duty ^ speed_umps) < 0 && pulls && exceeds(speed_umps, kTurns_umps) &&
+                       steering != Steering::open_loop && watched_in(Check::runaway);
+  if (watch.advance(against, kVisits<Check::runaway>)) found(Check::runaway);
 }
 
-void Supervisor::look_for_dither(WheelWatch& watch, std::int32_t duty, std::int32_t counts,
-                                 std::uint32_t edges) {
-  // Counts, but no way: not more than the one that a single channel makes.
-  const std::uint32_t way = static_cast<std::uint32_t>(counts) - watch.counts, made = edges - watch.edges;
+void Supervisor::look_for_lost_channel(WheelWatch& watch, bool pulls, std::int32_t counts,
+                                       std::uint32_t edges) {
+  // Counts, but no travel: not more than the one count that a single channel makes.
+  const std::uint32_t travel = static_cast<std::uint32_t>(counts) - watch.counts, made = edges - watch.edges;
   watch.counts = static_cast<std::uint32_t>(counts);
   watch.edges = edges;
   const bool to_and_fro =
-      way + 1 <= 2 && made >= kDither_edges && exceeds(duty, kPulls) && watched_in(Fault::stall);
-  if (watch.dither.advance(to_and_fro, kVisits<Fault::encoder> / 2)) found(Fault::encoder);
+      travel + 1 <= 2 && made >= kDither_edges && pulls && watched_in(Check::encoder_channel);
+  if (watch.lost_channel.advance(to_and_fro, kVisits<Check::encoder_channel> / 2))
+    found(Check::encoder_channel);
+}
+
+// While the robot stops or stands its host has nothing to repeat, and may wait a little longer.
+std::uint32_t Supervisor::silence_allowed_us() const {
+  constexpr std::uint32_t kSilence_us = kSilence_ms * 1000;
+  if (state_ == State::stopping) return kSilence_us;
+  const std::uint32_t parameter_us = command_timeout_us_ != 0 ? command_timeout_us_ : kForEver_us;
+  return state_ == State::armed ? std::max(parameter_us, kSilence_us) : parameter_us;
 }
 
 void Supervisor::look_at_deadlines(Steering steering) {
-  if (state_ == State::stopping && faults_.any() && now_us_ >= ramp_deadline_us_)
-    astro::advance(state_, Event::fault);
-  if (state_ != State::driving) return;
-  const std::uint64_t silent_us = now_us_ - (steering == Steering::path ? host_seen_at_us_ : steered_at_us_);
-  if (command_timeout_us_ == 0 || silent_us <= command_timeout_us_) return;
-  if (steering == Steering::open_loop) return raise(Fault::command_timeout);  // no loop, no ramp
-  found(steering == Steering::path ? Fault::link_lost : Fault::command_timeout);
+  if (watched_in(Check::stop_timeout) && now_us_ >= rest_deadline_us_) return found(Check::stop_timeout);
+  if (state_ == State::stopping && faults_.any()) {
+    if (now_us_ >= ramp_deadline_us_) astro::advance(state_, Event::fault);
+    return;  // a silent host is no further fault
+  }
+  const bool repeats = state_ == State::driving && steering != Steering::path;
+  const Check check = repeats ? Check::command_timeout : Check::link_lost;
+  const std::uint32_t allowed_us = silence_allowed_us();
+  if (!watched_in(check) || allowed_us == kForEver_us) return;
+  if (now_us_ - (repeats ? steered_at_us_ : host_seen_at_us_) <= allowed_us) return;
+  if (steering == Steering::open_loop) return raise(rule(check).fault);  // no loop, no ramp
+  found(check);
 }
 
 void Supervisor::look_at_boot() {

@@ -12,23 +12,27 @@
 
 namespace astro {
 
-/// The single place that decides whether the motors may run: it holds the state, the latch and the dead
-/// lines, and looks in every tick for what must stop the robot (the table in common/safety/fault_rule.hpp).
+/// The single place that decides whether the motors may run: it holds the state, the latch and the deadlines,
+/// and looks in every tick for what must stop the robot (the table in common/safety/fault_rule.hpp).
 ///
 ///   driver           the bridge reports over-current or over-temperature
 ///   under_voltage    supply below battery_low; 0 switches it off
 ///   over_voltage     supply above battery_high; 0 switches it off
 ///   over_speed       a wheel faster than over_speed
-///   stall            more than half of full duty on a wheel that does not move, for stall_time
+///   stall            more than half of the usable voltage on a wheel that does not move, for stall_time
 ///   encoder          more counts in a tick than a motor can turn; or counts to and fro while the motor
-///   pulls,
-///                    which is what a decoder makes of a single channel
-///   runaway          a wheel turns against more than half of full duty: motor or encoder is reversed
-///   tick_overrun     a tick came too late, or a thousand of them took longer or shorter than a second
-///   command_timeout  no velocity or voltage for longer than the parameter of that name
-///   link_lost        a path under way, and nothing from its host for as long
+///                    pulls, which is what a decoder makes of a single channel
+///   runaway          a wheel turns against more than half of the usable voltage: motor or encoder is
+///   reversed tick_overrun     a tick came too late, or a thousand of them took longer or shorter than a
+///   second command_timeout  no velocity or voltage for longer than the parameter of that name link_lost
+///   nothing from the host that drives: on a path and in a ramp for as long, at rest for
+///                    kArmedSilence_ms
+///   stop_timeout     the wheels still turn although their set point has been zero for a second
 ///
-/// Cost    constant: what must be seen at once in every tick, and one of the slower watches in turn.
+/// Every ramp to rest ends: its set point reaches zero within the time that the motion limits give, and the
+/// bridges open at the latest a second after that. After a fault they open within kRampAtMost_ms.
+///
+/// Cost    constant: what must be seen at once in every tick, and one of the slower checks in turn.
 class Supervisor {
  public:
   /// Who moves the wheels, and so what must go on for them to move.
@@ -51,6 +55,9 @@ class Supervisor {
   void steered() { steered_at_us_ = now_us_; }
   void host_seen() { host_seen_at_us_ = now_us_; }
 
+  /// In every tick of a ramp to rest whose set point has reached zero.
+  void set_point_at_rest();
+
   void advance(const TickInput& input, bool plausible, Steering steering, const Wheels& wheels);
 
   /// True once after advance() came to its end.
@@ -58,26 +65,34 @@ class Supervisor {
 
  private:
   struct WheelWatch {
-    Watch stall, dither, runaway;
+    Watch stall, lost_channel, runaway;
     std::uint32_t counts = 0, edges = 0;  // at the last visit
   };
 
-  bool watched_in(Fault fault) const { return within(state_, rule(fault).watched); }
-  void found(Fault fault);
+  static constexpr std::uint64_t kNever_us = UINT64_MAX;
+  static constexpr std::uint32_t kForEver_us = UINT32_MAX;
+
+  bool watched_in(Check check) const { return within(state_, rule(check).watched); }
+  void found(Check check);
+  void begin_ramp();
   /// One of the slower watches, in turn.
   void look(const TickInput& input, Steering steering, const Wheels& wheels);
   void look_at_supply(std::int32_t battery_mv);
   void look_at_speed(const WheelSpeeds& speeds);
-  void look_for_stall(Watch& watch, std::int32_t duty, std::int32_t speed_umps);
-  void look_for_runaway(Watch& watch, std::int32_t duty, std::int32_t speed_umps, Steering steering);
-  void look_for_dither(WheelWatch& watch, std::int32_t duty, std::int32_t counts, std::uint32_t edges);
+  void look_for_stall(Watch& watch, bool pulls, std::int32_t speed_umps);
+  void look_for_runaway(Watch& watch, bool pulls, std::int32_t duty, std::int32_t speed_umps,
+                        Steering steering);
+  void look_for_lost_channel(WheelWatch& watch, bool pulls, std::int32_t counts, std::uint32_t edges);
   void look_at_deadlines(Steering steering);
+  std::uint32_t silence_allowed_us() const;
   void look_at_boot();
 
   std::int32_t battery_low_mv_ = 0, battery_high_mv_ = 0, over_speed_umps_ = 0;
   std::uint32_t stall_visits_ = 0;
   std::uint32_t command_timeout_us_ = 0;
+  std::uint64_t longest_ramp_us_ = 0;  // of the set point, from the fastest legal speed, and what follows
 
+  std::int32_t pulling_duty_ = 0;  // a motor that gets more of it pulls
   State state_ = State::boot;
   FaultLatch faults_;
   bool proven_ = false;
@@ -87,7 +102,9 @@ class Supervisor {
   Watch under_voltage_, over_voltage_, over_speed_;
   WheelWatch left_, right_;
   std::uint64_t now_us_ = 0;
-  std::uint64_t steered_at_us_ = 0, host_seen_at_us_ = 0, ramp_deadline_us_ = 0;
+  std::uint64_t steered_at_us_ = 0, host_seen_at_us_ = 0;
+  std::uint64_t ramp_deadline_us_ = kNever_us;  // of a ramp after a fault
+  std::uint64_t rest_deadline_us_ = kNever_us;  // of any ramp
 };
 
 }  // namespace astro

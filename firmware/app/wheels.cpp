@@ -125,6 +125,12 @@ Wheels::Supply Wheels::supply_of(std::int32_t battery_mv) const {
   return {mv, std::min(1000 * mv, voltage_limit_uv_)};
 }
 
+std::int32_t Wheels::half_duty(std::int32_t battery_mv) const {
+  const Supply supply = supply_of(battery_mv);
+  const std::uint32_t limit_mv = static_cast<std::uint32_t>(supply.limit_uv) / 1000;
+  return static_cast<std::int32_t>(kFullDuty / 2 * limit_mv / static_cast<std::uint32_t>(supply.mv));
+}
+
 hal::Duty Wheels::wired(const hal::Duty& forward) {
   forward_duty_ = forward;
   return {static_cast<std::int16_t>(forward.left * left_.motor_sign),

@@ -32,6 +32,8 @@ class Wheels {
   const WheelSpeeds& speeds() const { return speeds_; }
   const WheelSpeeds& set_points() const { return set_points_; }
   const hal::Duty& forward_duty() const { return forward_duty_; }  // forward positive, whatever the wiring
+  /// The duty that is half of the voltage that this supply and motor_voltage_max allow.
+  std::int32_t half_duty(std::int32_t battery_mv) const;
   std::int32_t left_counts() const { return left_counts_; }
   std::int32_t right_counts() const { return right_counts_; }
   /// Counts to either side since start, wraps: more than the way if they go to and fro.

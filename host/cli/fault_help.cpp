@@ -21,6 +21,9 @@ constexpr std::array<std::string_view, kFaultNames.size()> kAdvice{
     "somebody pressed emergency stop",
     "a wheel turned against its voltage: 'astrolabe check-wiring' finds a wrong motor or encoder polarity",
     "the firmware hung or derailed and was restarted: report it, it should never do that",
+    "the wheels still turned a second after they were told to stand: look for a slope or a load that the "
+    "motors do "
+    "not hold; 'astrolabe check-wiring' finds a wrong polarity or gear ratio, 'astrolabe tune' weak gains",
 };
 
 }  // namespace

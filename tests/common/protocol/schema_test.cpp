@@ -130,6 +130,7 @@ TEST(Schema, KeepsTheNumbersOfEnumerationValues) {
   EXPECT_EQ(static_cast<int>(ErrorCode::busy), 12);
   EXPECT_EQ(static_cast<int>(Fault::emergency_stop), 12);
   EXPECT_EQ(static_cast<int>(Fault::watchdog), 14);
+  EXPECT_EQ(static_cast<int>(Fault::stop_timeout), 15);
 }
 
 TEST(Schema, NamesEveryEnumerationValueAndNoOther) {
@@ -137,7 +138,7 @@ TEST(Schema, NamesEveryEnumerationValueAndNoOther) {
   EXPECT_EQ(name(ErrorCode::busy), "busy");
   EXPECT_EQ(name(Fault::tick_overrun), "tick_overrun");
   EXPECT_EQ(name(Mode{9}), "?");
-  EXPECT_EQ(name(Fault{15}), "?");
+  EXPECT_EQ(name(Fault{16}), "?");
   EXPECT_EQ(meaning(ErrorCode::moving), "the robot must be at rest for this");
   EXPECT_EQ(meaning(ErrorCode{13}), "an error of another protocol version");
   EXPECT_EQ(message_name(0x08), "Velocity");

@@ -4,8 +4,6 @@
 
 #include <vector>
 
-#include "common/safety/fault_rule.hpp"
-
 namespace astro {
 namespace {
 
@@ -67,13 +65,6 @@ TEST(State, ARefusedEventChangesNothing) {
       const bool taken = advance(then, event);
       EXPECT_TRUE(taken || then == state);
     }
-}
-
-TEST(FaultRule, OnlyAHostThatIsGoneIsRampedDownFor) {
-  for (const FaultRule& one : kFaultRules)
-    EXPECT_EQ(one.reaction == Reaction::ramp,
-              one.fault == Fault::command_timeout || one.fault == Fault::link_lost)
-        << name(one.fault);
 }
 
 }  // namespace

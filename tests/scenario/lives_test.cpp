@@ -1,0 +1,48 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "common/safety/fault.hpp"
+#include "tests/support/robot_life.hpp"
+
+// Random lives of random robots; `./dev fuzz` runs ten thousand.
+namespace astro {
+namespace {
+
+/// ASTROLABE_LIVES=COUNT and ASTROLABE_LIVES_SEED=FIRST ask for others than those of every test run.
+std::uint64_t number(const char* variable, std::uint64_t otherwise) {
+  const char* text = std::getenv(variable);
+  return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
+TEST(Lives, AfterThreeSecondsOfSilenceTheBridgesAreOpenWhateverTheRobotIs) {
+  const std::uint64_t count = number("ASTROLABE_LIVES", 150);
+  const std::uint64_t first = number("ASTROLABE_LIVES_SEED", 20'261'122);
+  std::uint64_t ticks = 0, powered = 0;
+  int silences = 0, with_power = 0;
+  std::uint32_t faults = 0;
+  for (std::uint64_t seed = first; seed < first + count; ++seed) {
+    const support::LifeReport life = support::live(seed);
+    ASSERT_EQ(life.violation, "") << "ASTROLABE_LIVES=1 ASTROLABE_LIVES_SEED=" << seed << " repeats it";
+    ticks += life.ticks;
+    powered += life.powered_ticks;
+    silences += life.silences;
+    with_power += life.silences_that_began_with_power;
+    faults |= life.faults_seen;
+  }
+  fmt::print(
+      "{} lives from seed {}: {:.1f} hours, {:.1f} with power, {} silences, {} of them begun with power\n",
+      count, first, static_cast<double>(ticks) / 3.6e6, static_cast<double>(powered) / 3.6e6, silences,
+      with_power);
+  if (count < 150) return;
+  // A campaign in which nothing happens would prove nothing.
+  EXPECT_GT(with_power, static_cast<int>(count) / 10);
+  for (const Fault fault : {Fault::command_timeout, Fault::link_lost, Fault::under_voltage,
+                            Fault::over_voltage, Fault::over_speed, Fault::stall, Fault::encoder,
+                            Fault::runaway, Fault::emergency_stop, Fault::stop_timeout})
+    EXPECT_NE(faults & bit(fault), 0U) << name(fault) << " never came up";
+}
+
+}  // namespace
+}  // namespace astro
