@@ -4,7 +4,9 @@
 #include "host/cli/command.hpp"
 #include "host/cli/connection.hpp"
 #include "host/cli/console.hpp"
+#include "host/cli/fault_help.hpp"
 #include "host/cli/options.hpp"
+#include "host/link/rest.hpp"
 
 namespace astro::cli {
 namespace {
@@ -15,15 +17,15 @@ struct StopOptions {
 };
 
 void ramp_to_rest(link::Client& client) {
-  constexpr auto kTimeToRest = std::chrono::seconds(5);
   client.request(protocol::Stop{});
-  const link::microseconds deadline = client.now() + kTimeToRest;
-  while (!protocol::at_rest(client.request(protocol::GetStatus{}).mode)) {
-    if (client.now() >= deadline)
-      throw Error("the robot does not come to rest: try 'astrolabe stop --emergency' or switch it off");
-    client.pump(std::chrono::milliseconds(50));
-  }
+  const bool rests = link::wait_for_rest(client);
+  const protocol::Status status = client.request(protocol::GetStatus{});
   client.request(protocol::Disarm{});
+  if (!rests)
+    throw Error("the robot did not come to rest, so it was disarmed: its motors are off, but it may roll on");
+  if ((status.latched_faults & bit(Fault::stop_timeout)) != 0)
+    throw Error("the robot has switched its motors off and may roll on: " +
+                std::string(fault_help(Fault::stop_timeout)));
   say("the robot is at rest and disarmed");
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/link/rest.hpp"
 #include "host/link/restore.hpp"
 
 namespace astro::link {
@@ -15,7 +16,6 @@ namespace {
 constexpr microseconds kPoll =
     milliseconds(1000);  // an event must have been lost by then, or the segment is long
 constexpr microseconds kRestPoll = milliseconds(50);
-constexpr microseconds kTimeToRest = milliseconds(5000);
 constexpr microseconds kTimeToNotice = milliseconds(2000);  // the command time-out, and the ramp after it
 constexpr microseconds kVelocityPeriod = milliseconds(50);
 constexpr std::size_t kMostSegments = 0xFFFF;
@@ -186,11 +186,8 @@ void DriveSession::stop() {
 }
 
 void DriveSession::wait_for_rest() {
-  const microseconds deadline = client_.now() + kTimeToRest;
-  while (!at_rest(client_.request(GetStatus{}).mode)) {
-    if (client_.now() >= deadline) throw Error("the robot does not come to rest: switch it off");
-    client_.pump(kRestPoll);
-  }
+  if (link::wait_for_rest(client_)) return;
+  throw Error("the robot did not come to rest and was disarmed: its motors are off, but it may roll on");
 }
 
 void DriveSession::fail(Fault fault) const {

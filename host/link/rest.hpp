@@ -1,0 +1,14 @@
+#pragma once
+
+#include "host/link/client.hpp"
+
+namespace astro::link {
+
+/// Waits for a robot that was told to stop, for as long as its own motion limits let a ramp take and at least
+/// five seconds. A robot that still drives then is disarmed, which opens its bridges at once: it may roll on.
+///
+/// Returns false if it had to be disarmed.
+/// Errors  all that Client::request throws.
+[[nodiscard]] bool wait_for_rest(Client& client);
+
+}  // namespace astro::link
