@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "common/params/table.hpp"
+#include "host/link/parameters.hpp"
 
 namespace astro::link {
 namespace {
@@ -12,19 +12,19 @@ using std::chrono::milliseconds;
 constexpr microseconds kPoll = milliseconds(50);
 constexpr microseconds kUsually = milliseconds(5000);
 
-std::int64_t active(Client& client, Param param) {
-  return client.request(protocol::GetParameter{static_cast<std::uint16_t>(param)}).active;
-}
-
 /// From the fastest legal speed to rest, with a second each for the jerk limit and for the wheels to settle
-/// (the robot's own deadline), and one for the link.
+/// (the robot's own deadline), and one for the link. The robot describes its table itself; a limit that it
+/// does not have counts for nothing.
 microseconds longest_ramp(Client& client) {
-  const auto seconds = [&](Param speed, Param acceleration) {
-    return static_cast<double>(active(client, speed)) /
-           static_cast<double>(std::max<std::int64_t>(active(client, acceleration), 1));
+  const RemoteParameters parameters = RemoteParameters::fetch(client);
+  const auto value = [&](std::string_view name) {
+    return parameters.find(name) != nullptr ? std::get<double>(parameters.value(name)) : 0;
   };
-  const double ramp_s = std::max(seconds(Param::speed_limit, Param::acceleration_limit),
-                                 seconds(Param::yaw_rate_limit, Param::yaw_acceleration_limit));
+  const auto seconds = [&](std::string_view speed, std::string_view acceleration) {
+    return value(acceleration) > 0 ? value(speed) / value(acceleration) : 0;
+  };
+  const double ramp_s = std::max(seconds("speed_limit", "acceleration_limit"),
+                                 seconds("yaw_rate_limit", "yaw_acceleration_limit"));
   return microseconds(static_cast<std::int64_t>(1e6 * (ramp_s + 3)));
 }
 

@@ -43,6 +43,7 @@ class FakeRobot {
   std::vector<protocol::AddSegment> segments;       // accepted, ever
   std::optional<protocol::ErrorReply> refuse_next;  // whatever the next new request is
   bool mute_events = false;
+  bool never_rests = false;  // Stop leaves it in the ramp
 
   FakeRobot() {
     identity.board = "fake";
@@ -222,7 +223,7 @@ class FakeRobot {
       event(protocol::SegmentDone{queue_.front().tag, protocol::SegmentOutcome::aborted, device_us});
     }
     queue_.clear();
-    if (moving()) mode = protocol::Mode::idle;
+    if (moving()) mode = never_rests ? protocol::Mode::stopping : protocol::Mode::idle;
     return {};
   }
   Refusal carry_out(const protocol::Velocity&) {
