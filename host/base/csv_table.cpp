@@ -46,7 +46,7 @@ constexpr std::size_t kMostColumns = 1000;
 
 /// What a table may take in memory: so much, and beyond that twice the size of its text. Short cells take
 /// many times their text, so a file of nothing but commas must not be held as a whole.
-constexpr std::size_t kFreeBytes = std::size_t{48} << 20;
+constexpr std::size_t kFreeTableBytes = std::size_t{48} << 20;
 
 std::size_t memory_of(const CsvRow& row) {
   return 2 * sizeof(CsvRow) + row.cells.capacity() * sizeof(std::string);
@@ -103,7 +103,7 @@ CsvTable split_csv(std::string_view text, std::string_view name) {
   }
   CsvTable out;
   std::size_t memory = 0;
-  const std::size_t most = kFreeBytes + 2 * text.size();
+  const std::size_t most = kFreeTableBytes + 2 * text.size();
   for (int line = 1; !text.empty(); ++line) {
     CsvRow row = split_line(take_line(text), line, name);
     if (is_blank(row)) continue;

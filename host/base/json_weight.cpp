@@ -8,8 +8,8 @@ namespace {
 // What nlohmann-json and the heap take: a value in an array that grows by doubling, an array or object with
 // its block of memory, a node of an object with its key.
 constexpr std::size_t kValueBytes = 32, kContainerBytes = 64, kMemberBytes = 96;
-constexpr int kMostLevels = 100;
-constexpr std::size_t kFreeBytes = std::size_t{40} << 20;
+constexpr int kMostJsonLevels = 100;
+constexpr std::size_t kFreeJsonBytes = std::size_t{40} << 20;
 
 std::size_t bytes_behind(char c) {
   switch (c) {
@@ -37,9 +37,9 @@ bool json_fits_memory(std::string_view text) {
     if (in_string) continue;
     bytes += bytes_behind(text[i]);
     depth += text[i] == '[' || text[i] == '{' ? 1 : text[i] == ']' || text[i] == '}' ? -1 : 0;
-    if (depth > kMostLevels) return false;
+    if (depth > kMostJsonLevels) return false;
   }
-  return bytes <= kFreeBytes + 2 * text.size();
+  return bytes <= kFreeJsonBytes + 2 * text.size();
 }
 
 }  // namespace astro
