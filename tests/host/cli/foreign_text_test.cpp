@@ -47,7 +47,7 @@ TEST_F(ForeignText, OfARobotsNameIsShownWithoutWhatATerminalObeys) {
   protocol::HelloReply hello;
   hello.protocol_version = protocol::kProtocolVersion;
   hello.robot_name = Text<24>(kEvil);
-  hello.board = Text<16>(kEvil);
+  hello.board = Text<24>(kEvil);
   const PtyPeer robot(
       [hello, framer = std::make_shared<protocol::Framer>()](std::span<const std::uint8_t> bytes) {
         PtyPeer::Bytes out;
@@ -107,7 +107,7 @@ TEST_F(ForeignText, APathThatTheSystemRefusesIsToldInItsWords) {
           {"report", path},
           {"upload", path, "--port", nobody},
           {"study", "merge", path},
-          {"study", "--trials", "1", "--out", path},
+          {"study", "--trials", "2", "--out", path == loop ? file : path},
           {"flash", path, "--port", nobody},
           {"sim", "--flash", path},
           {"calibrate", "end-poses", "--cw", path, "--ccw", path, "--side", "3", "--wheelbase", "0.29"}}) {
