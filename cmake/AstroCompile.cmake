@@ -7,6 +7,7 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O2 -g1")
 
 option(ASTROLABE_SANITIZE "AddressSanitizer and UBSan, any finding ends the program" OFF)
+option(ASTROLABE_FUZZ "libFuzzer targets instead of tests; needs clang" OFF)
 option(ASTROLABE_COVERAGE "gcov instrumentation" OFF)
 
 add_library(astro_compile INTERFACE)
@@ -35,6 +36,12 @@ if(ASTROLABE_SANITIZE)
   # and what they all include once. That each file can be compiled alone is what the host build shows.
   set(CMAKE_UNITY_BUILD ON)
   set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+endif()
+if(ASTROLABE_FUZZ)
+  # GCC's warnings are the ones that count; clang has others. Coverage counters in everything, libFuzzer's main in the targets only.
+  target_compile_options(astro_compile INTERFACE -w
+    -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -O1 -g1)
+  target_link_options(astro_compile INTERFACE -fsanitize=address,undefined)
 endif()
 # astro_alone(files...): they give a name of their own to something else than a neighbour does.
 function(astro_alone)

@@ -41,6 +41,17 @@ std::string unquoted(std::string_view cell) {
   return std::string(trimmed(out));
 }
 
+/// More columns than any tracker writes.
+constexpr std::size_t kMostColumns = 1000;
+
+/// What a table may take in memory: so much, and beyond that twice the size of its text. Short cells take
+/// many times their text, so a file of nothing but commas must not be held as a whole.
+constexpr std::size_t kFreeTableBytes = std::size_t{48} << 20;
+
+std::size_t memory_of(const CsvRow& row) {
+  return 2 * sizeof(CsvRow) + row.cells.capacity() * sizeof(std::string);
+}
+
 CsvRow split_line(std::string_view text, int line, std::string_view name) {
   CsvRow out{line, {}};
   bool inside = false;
@@ -49,6 +60,8 @@ CsvRow split_line(std::string_view text, int line, std::string_view name) {
     if (text[i] == '"') inside = !inside;
     if (text[i] != ',' || inside) continue;
     out.cells.push_back(unquoted(trimmed(text.substr(begin, i - begin))));
+    if (out.cells.size() >= kMostColumns)
+      refuse(name, line, "the line has more than 1000 cells: this is no table of runs or poses");
     begin = i + 1;
   }
   if (inside) refuse(name, line, "a quote is opened and not closed on its line");
@@ -89,6 +102,8 @@ CsvTable split_csv(std::string_view text, std::string_view name) {
     throw Error(std::string(name) + " is not plain text: save the table as comma separated UTF-8");
   }
   CsvTable out;
+  std::size_t memory = 0;
+  const std::size_t most = kFreeTableBytes + 2 * text.size();
   for (int line = 1; !text.empty(); ++line) {
     CsvRow row = split_line(take_line(text), line, name);
     if (is_blank(row)) continue;
@@ -97,6 +112,8 @@ CsvTable split_csv(std::string_view text, std::string_view name) {
       require_commas(out.header, name);
     } else {
       require_width(out, row, name);
+      if ((memory += memory_of(row)) > most)
+        refuse(name, line, "the table has more cells than can be held: split it into one file for each run");
       out.rows.push_back(std::move(row));
     }
   }

@@ -18,8 +18,9 @@ struct CsvTable {
 };
 
 /// Splits comma separated text. What is accepted and refused: a byte order mark, CRLF or CR line ends, blank
-/// lines, spaces round a cell and quoted cells are accepted; an open quote, rows of other lengths, semicolons
-/// and text that is not UTF-8 are refused.
+/// lines, spaces round a cell and quoted cells are accepted; an open quote, rows of other lengths,
+/// semicolons, text with a NUL byte in it, more than 1000 columns, and a table that would take more memory
+/// than twice its text and 48 MiB are refused.
 CsvTable split_csv(std::string_view text, std::string_view name);
 
 /// Throws astro::Error("NAME, line N: WHAT").

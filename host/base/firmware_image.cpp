@@ -24,13 +24,17 @@ enum Kind : std::uint8_t { kData = 0, kEnd = 1, kStartSegment = 3, kUpperHalf = 
 constexpr std::size_t kFlashBytesAt = 0x50;  // of the configuration: how large the flash is
 constexpr std::uint32_t kFlashBytes = 0x20'0000;
 
+// The whole flash takes 5.6 MB of Intel HEX.
+constexpr std::uintmax_t kMostHexBytes = std::uintmax_t{16} << 20;
+constexpr std::size_t kLongestRecord = 1 + 2 * (5 + 255);
+
 /// The bytes of a record without its colon, its sum checked.
 std::vector<std::uint8_t> record(const std::string& line, const std::string& where) {
   std::vector<std::uint8_t> bytes;
   const auto digit = [&](std::size_t i) {
     return i < line.size() && std::isxdigit(static_cast<unsigned char>(line[i])) != 0;
   };
-  for (std::size_t i = 1; digit(i) && digit(i + 1); i += 2)
+  for (std::size_t i = 1; i < kLongestRecord && digit(i) && digit(i + 1); i += 2)
     bytes.push_back(static_cast<std::uint8_t>(std::stoul(line.substr(i, 2), nullptr, 16)));
   unsigned sum = 0;
   for (const std::uint8_t byte : bytes) sum += byte;
@@ -56,9 +60,16 @@ std::string version_in(const std::vector<std::uint8_t>& flash) {
 }  // namespace
 
 FirmwareImage read_firmware_image(const std::filesystem::path& hex) {
-  std::ifstream file(hex);
-  if (!file || std::filesystem::is_directory(hex))
+  std::error_code missing;
+  const bool regular =
+      std::filesystem::is_regular_file(hex, missing);  // to open a pipe would wait for its writer
+  std::ifstream file;
+  if (regular) file.open(hex);
+  if (!regular || !file)
     throw Error(fmt::format("cannot read '{}': build it with ./dev firmware", hex.string()));
+  if (std::filesystem::file_size(hex, missing) > kMostHexBytes)
+    throw Error(fmt::format("'{}' is larger than any image for a Teensy 4.0: build it with ./dev firmware",
+                            hex.string()));
   FirmwareImage image{std::vector<std::uint8_t>(FirmwareImage::kBytes, 0xFF), ""};
   std::uint32_t upper = 0;
   int number = 0;

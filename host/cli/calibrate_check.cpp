@@ -4,13 +4,13 @@
 
 #include <cmath>
 #include <filesystem>
-#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "host/base/error.hpp"
 #include "host/cli/console.hpp"
+#include "host/cli/robot_view.hpp"
 #include "host/experiment/dead_reckoning.hpp"
 #include "host/experiment/json.hpp"
 #include "host/experiment/squares.hpp"
@@ -148,9 +148,9 @@ void add_calibrate_check(Command calibrate) {
     const std::vector<DeadReckoning> all = judged(*options);
     for (const std::string& why : all.front().errors.left_out) say(why + "; it was left out");
     if (options->json) {
-      std::cout << json_of(all).dump(2) << '\n';
+      print_json(json_of(all));
     } else {
-      std::cout << text_of(all, options->runs);
+      write(text_of(all, options->runs));
     }
   });
 }

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iostream>
 #include <memory>
 #include <numbers>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "host/cli/console.hpp"
 #include "host/cli/method_option.hpp"
 #include "host/cli/options.hpp"
+#include "host/cli/robot_view.hpp"
 #include "host/experiment/calibration_file.hpp"
 #include "host/experiment/json.hpp"
 #include "host/recording/files.hpp"
@@ -95,9 +95,9 @@ void finish(const experiment::Calibration& found, const CalibrateOptions& option
     say("written to " + options.out.string() + "; load it with: astrolabe upload " + options.out.string());
   }
   if (options.json) {
-    std::cout << experiment::to_json(found).dump(2) << '\n';
+    print_json(experiment::to_json(found));
   } else {
-    std::cout << calibration_text(found);
+    write(calibration_text(found));
   }
 }
 

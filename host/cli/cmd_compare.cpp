@@ -1,9 +1,9 @@
-#include <iostream>
 #include <memory>
 
 #include "host/base/error.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/console.hpp"
+#include "host/cli/robot_view.hpp"
 #include "host/experiment/results.hpp"
 
 #include <nlohmann/json.hpp>
@@ -32,11 +32,11 @@ void add_compare(Command app) {
                                             : experiment::read_folders(options->folders);
     if (const std::string other = results.other_robot(); !other.empty()) say("warning: " + other);
     if (options->json) {
-      std::cout << experiment::to_json(results).dump(2) << '\n';
+      print_json(experiment::to_json(results));
       return;
     }
-    std::cout << table(experiment::before_after_table(results));
-    if (results.phases.size() > 1) std::cout << '\n' << wrapped(results.verdict());
+    write(table(experiment::before_after_table(results)));
+    if (results.phases.size() > 1) write('\n' + wrapped(results.verdict()));
   });
 }
 

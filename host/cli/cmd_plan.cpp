@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -11,6 +10,7 @@
 #include "host/cli/options.hpp"
 #include "host/cli/plan_view.hpp"
 #include "host/cli/programme_options.hpp"
+#include "host/cli/robot_view.hpp"
 #include "host/cli/study_options.hpp"
 #include "host/cli/wrong_usage.hpp"
 #include "host/study/shortest_programme.hpp"
@@ -88,7 +88,7 @@ void run(PlanOptions& options) {
     const double target = *precision_named(options.until);
     forecast = shortest_programme({target, target, target}, kinds_named(options.kinds), programme);
   }
-  std::cout << (options.json ? plan_json(forecast).dump(2) + '\n' : plan_text(forecast));
+  options.json ? print_json(plan_json(forecast)) : write(plan_text(forecast));
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include <iostream>
 #include <memory>
+#include <optional>
 
 #include "host/base/error.hpp"
 #include "host/cli/command.hpp"
@@ -11,6 +11,7 @@
 #include "host/cli/options.hpp"
 #include "host/cli/programme_options.hpp"
 #include "host/cli/record_programme.hpp"
+#include "host/cli/robot_view.hpp"
 #include "host/cli/truth_option.hpp"
 #include "host/cli/wrong_usage.hpp"
 #include "host/experiment/journal.hpp"
@@ -19,7 +20,7 @@
 #include "host/link/parameters.hpp"
 #include "host/recording/csv_export.hpp"
 #include "host/recording/files.hpp"
-#include "host/recording/run_file.hpp"
+#include "host/recording/run_writer.hpp"
 
 namespace astro::cli {
 namespace {
@@ -79,8 +80,39 @@ void drive(RecordOptions& options) {
   recording::RunInfo info = describe(*client);
   info.speed_mps = options.programme.speed_mps;
   record_programme(*client, *truth, runs, info, options.out, options.pause);
-  std::cout << fs::absolute(options.out).string() << '\n';
+  print_path(fs::absolute(options.out));
 }
+
+/// A recording that goes to the disk as it comes, so that a day of it takes no more memory than a minute. A
+/// robot that sends nothing leaves no file behind.
+class Streamed {
+ public:
+  Streamed(const RecordOptions& options, const recording::RunInfo& info) : options_(options), info_(info) {}
+
+  template <class Sample>
+  void add(const Sample& sample) {
+    open();
+    run_->add(sample);
+    if (csv_) csv_->add(sample);
+  }
+  void close() {
+    open();
+    run_->close(info_);
+    if (csv_) csv_->close();
+  }
+
+ private:
+  void open() {
+    if (run_) return;
+    run_.emplace(options_.out, info_);
+    if (!options_.csv.empty()) csv_.emplace(options_.csv);
+  }
+
+  const RecordOptions& options_;
+  const recording::RunInfo& info_;
+  std::optional<recording::RunWriter> run_;
+  std::optional<recording::CsvWriter> csv_;
+};
 
 void listen(RecordOptions& options) {
   if (options.pause_option.count() > 0) throw WrongUsage("--pause waits before runs: say how many to drive");
@@ -99,14 +131,19 @@ void listen(RecordOptions& options) {
     return interrupted() || (options.seconds > 0 && elapsed_s >= options.seconds);
   };
   if (options.seconds == 0) say("recording; Ctrl-C ends it");
-  const recording::Run run = experiment::record_until(*client, *truth, info, done);
+  info.truth_source = truth->name();
+  info.truth_clock = truth->clock();
+  Streamed streamed(options, info);
+  const experiment::Recorded recorded = experiment::record_until(
+      *client, *truth,
+      {[&](const auto& sample) { streamed.add(sample); }, [&](const auto& sample) { streamed.add(sample); }},
+      done);
   progress.clear();
-  recording::write_run(options.out, run);
-  if (!options.csv.empty()) recording::export_csv(run, options.csv);
-  say(fmt::format("{} odometry and {} truth samples", run.odometry.size(), run.truth.size()));
-  if (!run.warning.empty())
-    throw Error(fmt::format("{}; what came before is in '{}'", run.warning, options.out.string()));
-  std::cout << fs::absolute(options.out).string() << '\n';
+  streamed.close();
+  say(fmt::format("{} odometry and {} truth samples", recorded.odometry, recorded.truth));
+  if (!recorded.warning.empty())
+    throw Error(fmt::format("{}; what came before is in '{}'", recorded.warning, options.out.string()));
+  print_path(fs::absolute(options.out));
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
-#include <iostream>
 #include <memory>
 
 #include "host/base/error.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/console.hpp"
+#include "host/cli/robot_view.hpp"
 #include "host/experiment/report_input.hpp"
 #include "host/report/report.hpp"
 
@@ -32,7 +32,7 @@ void add_report(Command app) {
     const std::filesystem::path out =
         options->out.empty() ? options->folders.front() / "report.html" : options->out;
     report::write_report(out, experiment::report_input(results));
-    std::cout << std::filesystem::absolute(out).string() << '\n';
+    print_path(std::filesystem::absolute(out));
   });
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <iostream>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -15,6 +14,7 @@
 #include "host/cli/console.hpp"
 #include "host/cli/interrupt.hpp"
 #include "host/cli/options.hpp"
+#include "host/cli/robot_view.hpp"
 #include "host/cli/study_options.hpp"
 #include "host/cli/study_view.hpp"
 #include "host/cli/wrong_usage.hpp"
@@ -113,7 +113,7 @@ void add_work(Command command, StudyOptions& options) {
 
 void print_summary(const study::TrialSetup& setup, const std::vector<study::Trial>& trials, bool json) {
   const study::Summary summary = summarize(setup, robot_of(setup.model), trials);
-  std::cout << (json ? study_json(summary).dump(2) + '\n' : study_text(summary));
+  json ? print_json(study_json(summary)) : write(study_text(summary));
 }
 
 std::vector<study::Trial> drive(const StudyOptions& options) {

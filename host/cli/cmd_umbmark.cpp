@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -12,6 +11,7 @@
 #include "host/cli/interrupt.hpp"
 #include "host/cli/method_option.hpp"
 #include "host/cli/options.hpp"
+#include "host/cli/robot_view.hpp"
 #include "host/cli/truth_option.hpp"
 #include "host/cli/wrong_usage.hpp"
 #include "host/experiment/experiment.hpp"
@@ -143,11 +143,11 @@ void run(UmbmarkOptions& options) {
   if (options.json) {
     nlohmann::json json = to_json(results);
     json["report"] = report.string();
-    std::cout << json.dump(2) << '\n';
+    print_json(json);
     return;
   }
-  std::cout << table(experiment::before_after_table(results)) << '\n'
-            << wrapped(results.verdict()) << "Report: " << report.string() << '\n';
+  write(table(experiment::before_after_table(results)) + '\n' + wrapped(results.verdict()));
+  print("Report: " + report.string());
 }
 
 }  // namespace

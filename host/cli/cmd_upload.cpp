@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +9,7 @@
 #include "host/cli/console.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/params_view.hpp"
+#include "host/cli/robot_view.hpp"
 #include "host/experiment/calibration_file.hpp"
 #include "host/experiment/change_guard.hpp"
 #include "host/link/upload.hpp"
@@ -25,7 +25,7 @@ struct UploadOptions {
 
 void print_report(const link::UploadReport& report, bool json) {
   if (!json) {
-    std::cout << report.sentence() << '\n';
+    print(report.sentence());
     return;
   }
   nlohmann::json object = {{"active", report.active == link::ActiveSet::new_set ? "new" : "old"},
@@ -36,7 +36,7 @@ void print_report(const link::UploadReport& report, bool json) {
                                         {"before", to_json(value.before)},
                                         {"wanted", to_json(value.wanted)},
                                         {"now", to_json(value.now)}};
-  std::cout << object.dump(2) << '\n';
+  print_json(object);
 }
 
 void run(UploadOptions& options) {

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "host/base/error.hpp"
+#include "host/base/plain_text.hpp"
 #include "host/cli/interrupt.hpp"
 #include "host/cli/terminal.hpp"
 
@@ -19,6 +20,7 @@ namespace {
 
 constexpr auto kPatience = std::chrono::seconds(1);
 constexpr auto kBetweenRedraws = std::chrono::milliseconds(80);
+constexpr std::size_t kLongestSentence = 4000;  // bytes
 constexpr std::string_view kClearLine = "\r\033[K";
 
 // Columns a terminal uses for UTF-8 text: every byte that does not continue a character.
@@ -27,10 +29,20 @@ std::size_t width_of(std::string_view text) {
       text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
+/// A file can put anything into a complaint about it: a name with line feeds, a cell of megabytes.
+std::string one_line(std::string_view sentence) {
+  const bool too_long = sentence.size() > kLongestSentence;
+  std::string line = plain_text(sentence.substr(0, kLongestSentence)) + (too_long ? " ..." : "");
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  return line;
+}
+
 void to_stderr(std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);
 }
+
+constexpr std::size_t kLongestAnswer = 65536;
 
 // How long a Ctrl-C can go unnoticed that comes just before a read.
 constexpr int kLookMs = 50;
@@ -56,16 +68,21 @@ bool await_input(std::string& bytes) {
 bool stdout_is_terminal() { return isatty(STDOUT_FILENO) == 1; }
 bool stderr_is_terminal() { return isatty(STDERR_FILENO) == 1; }
 
-void say(std::string_view line) { to_stderr(fmt::format("{}\n", line)); }
+void say(std::string_view line) { to_stderr(plain_text(line) + '\n'); }
 
 void complain(std::string_view sentence) {
   const bool colour = stderr_is_terminal();
-  to_stderr(fmt::format("{}astrolabe:{} {}\n", colour ? "\033[31m" : "", colour ? "\033[0m" : "", sentence));
+  to_stderr(fmt::format("{}astrolabe:{} {}\n", colour ? "\033[31m" : "", colour ? "\033[0m" : "",
+                        one_line(sentence)));
+}
+
+std::string in_words(const std::filesystem::filesystem_error& error) {
+  return fmt::format("cannot use '{}': {}", error.path1().string(), error.code().message());
 }
 
 std::string ask(const std::string& prompt) {
   static std::string read_ahead;  // answers typed, or piped in, before their question
-  to_stderr(prompt);
+  to_stderr(plain_text(prompt));
   std::size_t end = 0;
   while ((end = read_ahead.find('\n')) == std::string::npos)
     if (!await_input(read_ahead)) {
@@ -75,6 +92,9 @@ std::string ask(const std::string& prompt) {
             "the input ended where an answer was expected: answer at a terminal, or pipe all answers in");
       }
       return std::exchange(read_ahead, {});
+    } else if (read_ahead.size() > kLongestAnswer) {
+      throw Error(
+          "the input has no end of a line where an answer was expected: give one answer in each line");
     }
   const std::string line = read_ahead.substr(0, end);
   read_ahead.erase(0, end + 1);
@@ -103,7 +123,7 @@ void Progress::show(double fraction, std::string_view note) {
   std::string bar;
   for (int i = 0; i < kCells; ++i) bar += i < full ? "█" : "░";
   const std::string line =
-      fmt::format("{} {} {:3.0f} %  {}", what_, bar, 100 * std::clamp(fraction, 0.0, 1.0), note);
+      plain_text(fmt::format("{} {} {:3.0f} %  {}", what_, bar, 100 * std::clamp(fraction, 0.0, 1.0), note));
   // A line that wraps could not be rewritten.
   to_stderr(fmt::format("{}{}", kClearLine, clipped(line, terminal_size(STDERR_FILENO).columns - 1)));
 }

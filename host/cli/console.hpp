@@ -1,11 +1,13 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
-/// The terminal: what a person sees on stderr, and what they answer.
+/// The terminal: what a person sees on stderr, and what they answer. All that is printed goes through
+/// plain_text, because names and messages hold text of robots and files.
 namespace astro::cli {
 
 bool stdout_is_terminal();
@@ -16,6 +18,9 @@ void say(std::string_view line);
 
 /// "astrolabe: sentence" to stderr, the first word in red on a terminal.
 void complain(std::string_view sentence);
+
+/// "cannot use 'PATH': what the system said", for whatever no other sentence fits.
+std::string in_words(const std::filesystem::filesystem_error& error);
 
 /// Asks on stderr, reads a line from stdin. Throws astro::Error if stdin is no terminal: says that --yes
 /// answers.

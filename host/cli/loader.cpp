@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "host/base/error.hpp"
 #include "host/cli/console.hpp"
@@ -26,6 +27,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr auto kUntilItSeemsLong = std::chrono::seconds(15), kUntilItIsTooLong = std::chrono::seconds(120);
+
+constexpr std::size_t kMostWords = std::size_t{16} << 10;  // of the loader, in bytes
 
 bool runnable(const fs::path& path) {
   std::error_code unreadable;
@@ -69,10 +72,10 @@ class Running {
   Running(const Running&) = delete;
   Running& operator=(const Running&) = delete;
 
-  /// All it says, until it closes its outputs.
+  /// The end of what it says, until it closes its outputs.
   std::string listen() const {
     std::string said;
-    std::array<char, 512> buffer{};
+    std::vector<char> buffer(65536);  // what a pipe holds
     const auto begun = std::chrono::steady_clock::now();
     bool warned = false;
     while (true) {
@@ -90,6 +93,7 @@ class Running {
       const ssize_t count = read(words_, buffer.data(), buffer.size());
       if (count <= 0) return said;
       said.append(buffer.data(), static_cast<std::size_t>(count));
+      if (said.size() > 2 * kMostWords) said.erase(0, said.size() - kMostWords);  // only its end is told
     }
   }
 

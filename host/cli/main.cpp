@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <exception>
+#include <filesystem>
+#include <new>
 #include <string>
 
 #include "common/base/version.hpp"
@@ -52,6 +54,12 @@ int main(int argc, char** argv) {
   } catch (const astro::Error& error) {
     if (interrupted()) return kInterrupted;
     complain(error.what());
+    return kFailed;
+  } catch (const std::filesystem::filesystem_error& error) {
+    complain(in_words(error));
+    return kFailed;
+  } catch (const std::bad_alloc&) {
+    complain("there is not enough memory for this: end other programs, or give it less at once");
     return kFailed;
   } catch (const std::exception& error) {
     complain(std::string("this should not have happened, please report it: ") + error.what());

@@ -6,6 +6,7 @@
 #include "host/cli/console.hpp"
 #include "host/cli/interrupt.hpp"
 #include "host/experiment/journal.hpp"
+#include "host/recording/folder_lock.hpp"
 #include "host/recording/run_file.hpp"
 
 namespace astro::cli {
@@ -77,6 +78,7 @@ std::vector<ProgrammeRun> runs_of(const Programme& programme) {
 
 void record_programme(link::Client& client, truth::Source& truth, const std::vector<ProgrammeRun>& runs,
                       const recording::RunInfo& info, const fs::path& folder, bool pause) {
+  const recording::FolderLock lock(folder);
   Progress progress("driving");
   experiment::RunHooks hooks;
   hooks.interrupted = interrupted;

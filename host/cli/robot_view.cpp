@@ -6,18 +6,28 @@
 
 #include "host/base/degrees.hpp"
 #include "host/base/error.hpp"
+#include "host/base/plain_text.hpp"
+#include "host/cli/console.hpp"
 #include "host/link/refusal.hpp"
 
 namespace astro::cli {
 
-void write(const std::string& text) {
+namespace {
+
+void to_stdout(const std::string& text) {
   const bool taken = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (!taken || std::fflush(stdout) != 0) throw Error("the output cannot be written: is the disk full?");
 }
 
+}  // namespace
+
+void write(const std::string& text) { to_stdout(plain_text(text)); }
+
 void print(const std::string& text) { write(text + '\n'); }
 
-void print_json(const Json& json) { print(json.dump(2)); }
+void print_path(const std::filesystem::path& path) {
+  stdout_is_terminal() ? print(path.string()) : to_stdout(path.string() + '\n');
+}
 
 std::string firmware_version(const protocol::HelloReply& robot) {
   return fmt::format("{}.{}.{}", robot.fw_major, robot.fw_minor, robot.fw_patch);

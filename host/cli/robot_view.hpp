@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -15,10 +16,18 @@ namespace astro::cli {
 /// Keys keep the order in which a person would ask.
 using Json = nlohmann::ordered_json;
 
-/// To stdout as it stands; print adds a newline. Throws astro::Error if stdout takes no more.
+/// To stdout, through plain_text; print adds a newline. Throws astro::Error if stdout takes no more.
 void write(const std::string& text);
 void print(const std::string& text);
-void print_json(const Json& json);
+
+/// As it stands where a program reads stdout, which opens what it is given; through plain_text on a terminal.
+void print_path(const std::filesystem::path& path);
+
+/// Valid JSON whatever its texts hold: a robot's or a file's may be no UTF-8.
+template <class AnyJson>
+void print_json(const AnyJson& json) {
+  print(json.dump(2, ' ', false, AnyJson::error_handler_t::replace));
+}
 
 std::string firmware_version(const protocol::HelloReply& robot);
 std::string hex_id(const protocol::HelloReply& robot);

@@ -14,6 +14,7 @@
 #include "host/cli/options.hpp"
 #include "host/cli/runtime_link.hpp"
 #include "host/link/ports.hpp"
+#include "host/simulator/pty.hpp"
 
 namespace astro::cli {
 namespace {
@@ -150,6 +151,7 @@ sim::Config reference_robot() {
 
 void prepare(SimOptions& options, std::size_t flash_bytes) {
   if (options.server.pty.empty()) options.server.pty = make_runtime_folder() / "astro.pty";
+  simulator::sweep_dead_links(link::runtime_folder());
   check_folder("--pty", options.server.pty);
   check_folder("--usb-pty", options.server.second_pty);
   check_flash(options.server.flash, flash_bytes);

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "host/base/error.hpp"
+#include "host/base/plain_text.hpp"
 #include "host/cli/interrupt.hpp"
 
 namespace astro::cli {
@@ -62,7 +63,8 @@ Picture::~Picture() {
   if (drawn_) write_all(fd_, "\033[?25h");
 }
 
-void Picture::draw(const std::string& text) {
+void Picture::draw(const std::string& picture) {
+  const std::string text = plain_text(picture);
   const TerminalSize size = terminal_size(fd_);
   std::string frame = drawn_ ? "" : "\033[?25l";
   if (lines_ > 0) frame += "\033[" + std::to_string(lines_) + "F";

@@ -38,8 +38,8 @@ class Picture {
   Picture(const Picture&) = delete;
   Picture& operator=(const Picture&) = delete;
 
-  /// `text`: lines, each ended by a newline, without control characters.
-  void draw(const std::string& text);
+  /// Lines, each ended by a newline.
+  void draw(const std::string& picture);
 
  private:
   int fd_;

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "host/base/error.hpp"
+#include "host/base/plain_text.hpp"
 #include "host/experiment/toml_file.hpp"
 #include "host/recording/files.hpp"
 
@@ -145,7 +146,7 @@ void write_parameters(const fs::path& path, const ParameterValues& values) {
     if (const double* number = std::get_if<double>(&value)) {
       parameters.insert(name, *number);
     } else {
-      parameters.insert(name, std::get<std::string>(value));
+      parameters.insert(name, plain_text(std::get<std::string>(value)));
     }
   }
   std::ostringstream text;

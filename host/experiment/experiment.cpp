@@ -11,6 +11,7 @@
 #include "host/experiment/robot_identity.hpp"
 #include "host/experiment/until.hpp"
 #include "host/link/upload.hpp"
+#include "host/recording/folder_lock.hpp"
 #include "host/recording/run_file.hpp"
 
 namespace astro::experiment {
@@ -26,7 +27,7 @@ class Session {
  public:
   Session(link::Client& client, truth::Source& truth, const Plan& plan, fs::path folder,
           const ExperimentHooks& hooks)
-      : client_(client), truth_(truth), folder_(std::move(folder)), hooks_(hooks) {
+      : client_(client), truth_(truth), folder_(std::move(folder)), lock_(folder_), hooks_(hooks) {
     open_journal(plan);
   }
 
@@ -226,6 +227,7 @@ class Session {
   link::Client& client_;
   truth::Source& truth_;
   fs::path folder_;
+  recording::FolderLock lock_;  // two sessions would record and calibrate each other's runs
   const ExperimentHooks& hooks_;
   Journal journal_;
   std::vector<RunSet> finished_;  // phases before the one under way

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/base/error.hpp"
+#include "host/base/json_weight.hpp"
 #include "host/recording/files.hpp"
 
 namespace astro::experiment {
@@ -24,6 +25,16 @@ std::string why_no_experiment(const std::filesystem::path& folder) {
                      folder.string(), why);
 }
 
+/// A plan that nobody could have given was not written by this program; its counts say how much memory is
+/// taken.
+void require_drivable(const Plan& plan, const std::string& damaged, const std::string& remedy) {
+  try {
+    plan.check();
+  } catch (const Error& error) {
+    throw Error(damaged + " (" + error.what() + ")" + remedy);
+  }
+}
+
 }  // namespace
 
 std::string utc_now() {
@@ -35,7 +46,11 @@ bool has_journal(const std::filesystem::path& folder) { return std::filesystem::
 Journal read_journal(const std::filesystem::path& folder) {
   const std::filesystem::path path = file_in(folder);
   if (!std::filesystem::exists(path)) throw Error(why_no_experiment(folder));
-  const recording::Bytes bytes = recording::load_file(path);
+  const recording::Bytes bytes = recording::load_file(path, recording::kMaxSettingsBytes);
+  const std::string damaged = "'" + path.string() + "' is damaged";
+  const std::string remedy =
+      ": the recordings beside it can still be calibrated with 'astrolabe calibrate runs'";
+  if (!json_fits_memory(recording::as_text(bytes))) throw Error(damaged + remedy);
   try {
     const auto json = nlohmann::json::parse(bytes.begin(), bytes.end());
     if (json.at("format") != kFormat)
@@ -43,6 +58,7 @@ Journal read_journal(const std::filesystem::path& folder) {
                   "' was written by another version of Astrolabe: use that one to go on with it");
     Journal journal;
     json.at("plan").get_to(journal.plan);
+    require_drivable(journal.plan, damaged, remedy);
     const auto& robot = json.at("robot");
     robot.at("id").get_to(journal.robot_id);
     robot.at("name").get_to(journal.robot_name);
@@ -53,9 +69,7 @@ Journal read_journal(const std::filesystem::path& folder) {
       journal.carried[phase] = {carried.at("c_R"), carried.at("c_L"), carried.at("b_m")};
     return journal;
   } catch (const nlohmann::json::exception&) {
-    throw Error("'" + path.string() +
-                "' is damaged: the recordings beside it can still be calibrated with "
-                "'astrolabe calibrate runs'");
+    throw Error(damaged + remedy);
   }
 }
 
@@ -72,7 +86,8 @@ void write_journal(const std::filesystem::path& folder, const Journal& journal) 
                                  {"board", journal.board},
                                  {"firmware", journal.firmware}}},
                                {"carried", carried}};
-  const std::string text = json.dump(2) + "\n";
+  // A robot's texts may be no UTF-8.
+  const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   recording::PartFile file(file_in(folder));
   file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   file.commit();

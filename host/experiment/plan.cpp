@@ -14,11 +14,21 @@ namespace {
 
 using recording::Direction;
 
+constexpr int kMostCounted = 1'000'000;  // of runs and rounds, in a file
+
+bool within(double value, double least, double most) { return value >= least && value <= most; }
+
 void need(bool condition, const std::string& sentence) {
   if (!condition) throw Error(sentence);
 }
 
-bool within(double value, double least, double most) { return value >= least && value <= most; }
+/// The library makes some number of anything: 1e300, true and 2^32 + 5. What is no count is none here.
+int count_in(const nlohmann::json& json) {
+  const auto number = json.get<double>();
+  return json.is_number() && number == std::trunc(number) && within(number, 0, kMostCounted)
+             ? static_cast<int>(number)
+             : -1;
+}
 
 void check_until(const Plan& plan) {
   need(within(plan.until->target, 1e-6, 0.1),
@@ -145,12 +155,12 @@ void to_json(nlohmann::json& json, const Plan& plan) {
 }
 
 void from_json(const nlohmann::json& json, Plan& plan) {
-  json.at("runs").get_to(plan.runs);
+  plan.runs = count_in(json.at("runs"));
   json.at("side_m").get_to(plan.side_m);
   json.at("speed_mps").get_to(plan.speed_mps);
   json.at("yaw_rate_radps").get_to(plan.yaw_rate_radps);
   plan.order = order_named(json.at("order").get<std::string>());
-  json.at("rounds").get_to(plan.rounds);
+  plan.rounds = count_in(json.at("rounds"));
   json.at("line_m").get_to(plan.line_m);
   json.at("circle_radius_m").get_to(plan.circle_radius_m);
   json.at("extras").get_to(plan.extras);
@@ -159,7 +169,7 @@ void from_json(const nlohmann::json& json, Plan& plan) {
   json.at("truth").get_to(plan.truth);
   plan.until.reset();
   if (const auto& until = json.at("until"); !until.is_null())
-    plan.until = Until{until.at("target").get<double>(), until.at("most").get<int>()};
+    plan.until = Until{until.at("target").get<double>(), count_in(until.at("most"))};
 }
 
 }  // namespace astro::experiment

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
+#include <exception>
 #include <numbers>
+#include <optional>
 
 #include "host/base/error.hpp"
 
@@ -21,16 +24,17 @@ constexpr link::Sense sense_of(recording::Direction direction) {
   return direction == recording::Direction::cw ? link::Sense::cw : link::Sense::ccw;
 }
 
-/// Collects both streams for as long as it lives.
+/// Hands both streams on for as long as it lives: truth between the first and the newest odometry, as it
+/// comes.
 class Collector {
  public:
-  Collector(link::Client& client, truth::Source& truth, recording::Run& run)
+  Collector(link::Client& client, truth::Source& truth, const SampleSink& sink)
       : client_(client),
         truth_(truth),
-        run_(run),
+        sink_(sink),
         subscription_(client.on<Telemetry>([this](const Telemetry& telemetry) {
-          run_.odometry.push_back(to_sample(telemetry));
-          if (run_.odometry.size() % kSamplesPerLook == 0) look();
+          take(to_sample(telemetry));
+          if (++count_.odometry % kSamplesPerLook == 0) look();
         })) {
     truth_.poll();  // what was seen before is not of this run
     client_.request(protocol::SetTelemetry{kTelemetryPeriod_ms, kFields});
@@ -39,11 +43,11 @@ class Collector {
   /// Records for so long, by the robot's clock: a simulator in fast motion would stand for minutes in a
   /// second of ours.
   void stand(std::chrono::microseconds duration, const std::function<bool()>& interrupted) {
-    const std::size_t first = run_.odometry.size();
+    const std::size_t before = count_.odometry;
+    stand_from_us_.reset();
     const auto done = [&] {
-      return interrupted() ||
-             (run_.odometry.size() > first &&
-              run_.odometry.back().time_us - run_.odometry[first].time_us >= duration.count());
+      if (count_.odometry > before && !stand_from_us_) stand_from_us_ = newest_us_;
+      return interrupted() || (stand_from_us_ && newest_us_ - *stand_from_us_ >= duration.count());
     };
     if (!client_.pump_until(done, 10 * duration))
       throw Error("the robot's telemetry has dried up while it stood: is the link good?");
@@ -54,25 +58,39 @@ class Collector {
   void finish() {
     client_.request(protocol::SetTelemetry{0, 0});
     look();
-    for (int i = 0; i < 20 && !run_.truth.empty() && run_.truth.back().time_us + 100'000 < end_us(); ++i) {
+    for (int i = 0; i < 20 && newest_truth_us_ && *newest_truth_us_ + 100'000 < newest_us_; ++i) {
       client_.pump(20ms);
       look();
     }
-    std::erase_if(run_.truth, [&](const auto& sample) {
-      return run_.odometry.empty() || sample.time_us < run_.odometry.front().time_us ||
-             sample.time_us > end_us();
-    });
   }
 
+  const Recorded& count() const { return count_; }
+
  private:
-  void look() {
-    for (const recording::TruthSample& sample : truth_.poll()) run_.truth.push_back(sample);
+  void take(const recording::OdometrySample& sample) {
+    if (!first_us_) first_us_ = sample.time_us;
+    newest_us_ = sample.time_us;
+    sink_.odometry(sample);
   }
-  std::int64_t end_us() const { return run_.odometry.empty() ? 0 : run_.odometry.back().time_us; }
+  void look() {
+    for (const recording::TruthSample& sample : truth_.poll()) {
+      newest_truth_us_ = sample.time_us;
+      early_.push_back(sample);
+    }
+    for (; first_us_ && !early_.empty() && early_.front().time_us <= newest_us_; early_.pop_front()) {
+      if (early_.front().time_us < *first_us_) continue;
+      sink_.truth(early_.front());
+      ++count_.truth;
+    }
+  }
 
   link::Client& client_;
   truth::Source& truth_;
-  recording::Run& run_;
+  const SampleSink& sink_;
+  Recorded count_;
+  std::deque<recording::TruthSample> early_;  // truth later than the newest odometry
+  std::optional<std::int64_t> first_us_, newest_truth_us_, stand_from_us_;
+  std::int64_t newest_us_ = 0;
   link::Subscription subscription_;
 };
 
@@ -128,7 +146,9 @@ recording::Run record_run(link::Client& client, truth::Source& truth, const link
 
   link::DriveSession drive(client, drive_hooks);
   client.request(protocol::SetPose{});
-  Collector collector(client, truth, run);
+  const SampleSink sink{[&](const auto& sample) { run.odometry.push_back(sample); },
+                        [&](const auto& sample) { run.truth.push_back(sample); }};
+  Collector collector(client, truth, sink);
   collector.stand(kRest, hooks.interrupted);
   drive.run(path);
   collector.stand(kRest, hooks.interrupted);
@@ -141,21 +161,33 @@ void complete(recording::Run& run, truth::Source& truth) {
   run.truth.insert(run.truth.end(), samples.begin(), samples.end());
 }
 
-recording::Run record_until(link::Client& client, truth::Source& truth, const recording::RunInfo& info,
-                            const std::function<bool()>& done) {
-  recording::Run run;
-  run.info = info;
-  run.info.truth_source = truth.name();
-  run.info.truth_clock = truth.clock();
-  Collector collector(client, truth, run);
+Recorded record_until(link::Client& client, truth::Source& truth, const SampleSink& sink,
+                      const std::function<bool()>& done) {
+  // What the sink throws is about the recording, and must not be taken for a link that is lost.
+  std::exception_ptr failure;
+  const auto guarded = [&](const auto& take) {
+    return [&failure, take](const auto& sample) {
+      try {
+        if (!failure) take(sample);
+      } catch (...) {
+        failure = std::current_exception();
+      }
+    };
+  };
+  const SampleSink guard{guarded(sink.odometry), guarded(sink.truth)};
+  Collector collector(client, truth, guard);
+  std::string warning;
   try {
-    while (!done()) client.pump(50ms);
+    while (!failure && !done()) client.pump(50ms);
     collector.finish();
   } catch (const Error& error) {
-    if (run.odometry.empty()) throw;
-    run.warning = error.what();
+    if (!failure && collector.count().odometry == 0) throw;
+    warning = error.what();
   }
-  return run;
+  if (failure) std::rethrow_exception(failure);
+  Recorded recorded = collector.count();
+  recorded.warning = warning;
+  return recorded;
 }
 
 }  // namespace astro::experiment

@@ -39,10 +39,23 @@ recording::Run record_run(link::Client& client, truth::Source& truth, const link
 /// is as it was then.
 void complete(recording::Run& run, truth::Source& truth);
 
-/// As above without driving: records whatever the robot does until `done` says so; asked about every 50 ms.
-/// A link or a truth that is lost on the way ends it, and `warning` says so: nobody can drive the same again.
-recording::Run record_until(link::Client& client, truth::Source& truth, const recording::RunInfo& info,
-                            const std::function<bool()>& done);
+/// Where samples go as they come, each stream in the order of its times.
+struct SampleSink {
+  std::function<void(const recording::OdometrySample&)> odometry;
+  std::function<void(const recording::TruthSample&)> truth;
+};
+
+struct Recorded {
+  std::uint64_t odometry = 0, truth = 0;  // samples
+  std::string warning;                    // "" or why it ended before it was to
+};
+
+/// As above without driving: hands on whatever the robot does until `done` says so; asked about every 50 ms.
+/// Holds no more than the last moments, however long it takes. A link or a truth that is lost on the way ends
+/// it, and `warning` says so: nobody can drive the same again. What the sink throws ends it, too, and is
+/// thrown.
+Recorded record_until(link::Client& client, truth::Source& truth, const SampleSink& sink,
+                      const std::function<bool()>& done);
 
 /// From the robot's fixed point to metres and radians.
 recording::OdometrySample to_sample(const protocol::Telemetry& telemetry);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "host/base/plain_text.hpp"
+
 namespace astro::experiment {
 namespace {
 
@@ -13,7 +15,7 @@ std::string text_of(const RobotIdentity& robot) {
 
 RobotIdentity identity_of(const protocol::HelloReply& robot) {
   RobotIdentity identity;
-  identity.name = robot.robot_name.view();
+  identity.name = plain_text(robot.robot_name.view());
   for (const std::uint8_t byte : robot.unique_id) identity.id += fmt::format("{:02x}", byte);
   return identity;
 }

@@ -1,22 +1,33 @@
 #include "host/link/discovery.hpp"
 
+#include <future>
+
 #include "host/link/client.hpp"
 
 namespace astro::link {
 
-std::vector<FoundPort> find_robots(const std::vector<Port>& ports, microseconds timeout, unsigned baud) {
+namespace {
+
+FoundPort ask(const Port& port, microseconds timeout, unsigned baud) {
   constexpr int kTries = 2;  // the first may end in what the robot received before
-  std::vector<FoundPort> found;
-  for (const Port& port : ports) {
-    FoundPort result{port, std::nullopt, {}};
-    try {
-      Client client(open_transport(port.address, baud));
-      result.robot = client.connect({timeout / kTries, kTries});
-    } catch (const Error& error) {
-      result.reason = error.what();
-    }
-    found.push_back(std::move(result));
+  FoundPort result{port, std::nullopt, {}};
+  try {
+    Client client(open_transport(port.address, baud));
+    result.robot = client.connect({timeout / kTries, kTries});
+  } catch (const Error& error) {
+    result.reason = error.what();
   }
+  return result;
+}
+
+}  // namespace
+
+std::vector<FoundPort> find_robots(const std::vector<Port>& ports, microseconds timeout, unsigned baud) {
+  std::vector<std::future<FoundPort>> answers;
+  for (const Port& port : ports)
+    answers.push_back(std::async(std::launch::async, [&] { return ask(port, timeout, baud); }));
+  std::vector<FoundPort> found;
+  for (std::future<FoundPort>& answer : answers) found.push_back(answer.get());
   return found;
 }
 

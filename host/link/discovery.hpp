@@ -16,8 +16,8 @@ struct FoundPort {
   std::string reason;  // one sentence, where there is no robot
 };
 
-/// Says Hello at each port, one after the other, at most about `timeout` per port. A port that another
-/// program uses is left alone: its reason says so.
+/// Says Hello at all ports at once, at most about `timeout` altogether; the answers are in the order of the
+/// ports. A port that another program uses is left alone: its reason says so.
 std::vector<FoundPort> find_robots(const std::vector<Port>& ports, microseconds timeout,
                                    unsigned baud = kDefaultBaud);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/base/error.hpp"
+#include "host/base/plain_text.hpp"
 
 namespace astro::link {
 
@@ -49,7 +50,8 @@ RawValue raw_text(const ParameterRow& row, const std::string& text) {
     throw Error(row.name + " = '" + text + "' has " + std::to_string(size) + " bytes; possible are " +
                 std::to_string(row.minimum) + " to " + std::to_string(row.maximum));
   }
-  if (text.find('\0') != std::string::npos) throw Error(row.name + " cannot hold a text with a NUL in it");
+  if (plain_text(text) != text || text.find_first_of("\n\t") != std::string::npos)
+    throw Error(row.name + " takes plain text: UTF-8 without control characters");
   return {0, text};
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "host/base/plain_text.hpp"
+
 namespace astro::link {
 
 using namespace protocol;  // NOLINT(google-build-using-namespace): this file is all messages
@@ -12,9 +14,9 @@ namespace {
 ParameterRow describe_row(const ParameterInfo& info) {
   ParameterRow row;
   row.id = info.id;
-  row.name = info.name.view();
-  row.unit = info.unit.view();
-  row.doc = info.doc.view();
+  row.name = plain_text(info.name.view());
+  row.unit = plain_text(info.unit.view());
+  row.doc = plain_text(info.doc.view());
   row.kind = info.kind;
   row.exponent = info.scale_exponent;
   row.minimum = info.minimum;
@@ -27,6 +29,10 @@ ParameterRow describe_row(const ParameterInfo& info) {
 
 RemoteParameters RemoteParameters::fetch(Client& client) {
   RemoteParameters parameters(client);
+  if (client.robot().parameter_count > kMostParameters)
+    throw Error("the robot at " + client.name() + " says that it has " +
+                std::to_string(client.robot().parameter_count) + " parameters, more than " +
+                std::to_string(kMostParameters) + ": its firmware is damaged or not Astrolabe's");
   for (std::uint16_t index = 0; index < client.robot().parameter_count; ++index) {
     parameters.rows_.push_back(describe_row(client.request(GetParameterInfo{index})));
     parameters.read_value(parameters.rows_.back());

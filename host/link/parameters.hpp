@@ -14,7 +14,11 @@ namespace astro::link {
 /// Errors  what Client::request throws; a refused value or set is named by its parameter.
 class RemoteParameters {
  public:
-  /// Two requests per parameter. The Client must outlive the result.
+  /// Many times those of today. Two requests for each take a second and a half on a slow link.
+  static constexpr std::uint16_t kMostParameters = 512;
+
+  /// Two requests per parameter. The Client must outlive the result. Throws Error if the robot claims more
+  /// than kMostParameters.
   static RemoteParameters fetch(Client& client);
 
   const std::vector<ParameterRow>& rows() const { return rows_; }

@@ -52,6 +52,8 @@ std::string why_not_open(const std::string& path, int error) {
              ": add yourself to its group (sudo usermod -aG dialout $USER), then log in again";
     case EBUSY:
       return path + " is in use by another program: end that one first";
+    case ELOOP:
+      return path + " is a link that leads back to itself: name the port, " + ports_here();
     case EISDIR:
       return path + " is a folder, not a serial port";
     case EIO:

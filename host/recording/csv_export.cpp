@@ -2,8 +2,8 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
-#include "host/recording/files.hpp"
 #include "host/recording/numbers.hpp"
 
 namespace astro::recording {
@@ -24,23 +24,44 @@ std::string row(const TruthSample& sample) {
   return time + ',' + cell(sample.x_m) + ',' + cell(sample.y_m) + ',' + cell(sample.theta_rad) + ",1\n";
 }
 
-template <class Sample>
-void write_table(const std::filesystem::path& path, std::string text, const std::vector<Sample>& samples) {
-  for (const Sample& sample : samples) text += row(sample);
-  PartFile file(path);
-  file.write(as_bytes(text));
-  file.commit();
-}
+constexpr std::size_t kWriteBytes = 65536;  // at once
 
 }  // namespace
 
+CsvWriter::Table::Table(const std::filesystem::path& path, std::string heading)
+    : file_(path), waiting_(std::move(heading)) {}
+
+void CsvWriter::Table::add(const std::string& row) {
+  waiting_ += row;
+  if (waiting_.size() < kWriteBytes) return;
+  file_.write(as_bytes(waiting_));
+  waiting_.clear();
+}
+
+void CsvWriter::Table::close() {
+  file_.write(as_bytes(waiting_));
+  file_.commit();
+}
+
+CsvWriter::CsvWriter(const std::filesystem::path& folder)
+    : odometry_(folder / "odometry.csv",
+                "__time,/odom/x_m,/odom/y_m,/odom/theta_rad,/odom/v_mps,/odom/omega_radps,"
+                "/odom/left_counts,/odom/right_counts\n"),
+      truth_(folder / "truth.csv", "__time,/truth/x_m,/truth/y_m,/truth/theta_rad,/truth/valid\n") {}
+
+void CsvWriter::add(const OdometrySample& sample) { odometry_.add(row(sample)); }
+void CsvWriter::add(const TruthSample& sample) { truth_.add(row(sample)); }
+
+void CsvWriter::close() {
+  odometry_.close();
+  truth_.close();
+}
+
 void export_csv(const Run& run, const std::filesystem::path& folder) {
-  write_table(folder / "odometry.csv",
-              "__time,/odom/x_m,/odom/y_m,/odom/theta_rad,/odom/v_mps,/odom/omega_radps,"
-              "/odom/left_counts,/odom/right_counts\n",
-              run.odometry);
-  write_table(folder / "truth.csv", "__time,/truth/x_m,/truth/y_m,/truth/theta_rad,/truth/valid\n",
-              run.truth);
+  CsvWriter writer(folder);
+  for (const OdometrySample& sample : run.odometry) writer.add(sample);
+  for (const TruthSample& sample : run.truth) writer.add(sample);
+  writer.close();
 }
 
 }  // namespace astro::recording

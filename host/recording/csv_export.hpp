@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
+#include "host/recording/files.hpp"
 #include "host/recording/run.hpp"
 
 namespace astro::recording {
@@ -12,5 +14,29 @@ namespace astro::recording {
 /// the pose of an invalid truth sample is left empty. Each file appears whole. Throws astro::Error naming the
 /// file.
 void export_csv(const Run& run, const std::filesystem::path& folder);
+
+/// The same two files, written while samples come. They carry their names once they are closed.
+class CsvWriter {
+ public:
+  explicit CsvWriter(const std::filesystem::path& folder);
+
+  void add(const OdometrySample& sample);
+  void add(const TruthSample& sample);
+  void close();
+
+ private:
+  class Table {
+   public:
+    Table(const std::filesystem::path& path, std::string heading);
+    void add(const std::string& row);
+    void close();
+
+   private:
+    PartFile file_;
+    std::string waiting_;
+  };
+
+  Table odometry_, truth_;
+};
 
 }  // namespace astro::recording

@@ -1,6 +1,8 @@
 #include "host/recording/files.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,8 +18,6 @@ namespace astro::recording {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{4} << 30;
-
 std::string reason(int code) { return std::generic_category().message(code); }
 
 fs::path part_of(fs::path path) { return path += ".part"; }
@@ -27,6 +27,13 @@ bool is_recording(const fs::path& path) {
   char start[sizeof kMagic] = {};
   std::ifstream file(path, std::ios::binary);
   return file.read(start, sizeof start) && std::equal(std::begin(start), std::end(start), kMagic);
+}
+
+std::string too_large(const fs::path& path, std::uintmax_t size, std::uintmax_t most_bytes) {
+  if (most_bytes == kMaxFileBytes) return path.string() + " is larger than 4 GiB: split it into shorter runs";
+  return path.string() + " has " + std::to_string(size >> 20U) +
+         " MiB, and no file of its kind has more than " + std::to_string(most_bytes >> 20U) +
+         ": name the right file";
 }
 
 /// So that the new name, too, survives a power cut. Some file systems cannot; then there is nothing to be
@@ -40,9 +47,10 @@ void sync_folder(const fs::path& folder) {
 
 }  // namespace
 
-Bytes load_file(const fs::path& path) {
+Bytes load_file(const fs::path& path, std::uintmax_t most_bytes) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
+  if (!fs::status_known(status)) throw Error("cannot read " + path.string() + ": " + error.message());
   if (!fs::exists(status)) {
     if (fs::exists(part_of(path), error)) {
       throw Error(path.string() + " was never finished: what was recorded of it is in " +
@@ -54,7 +62,7 @@ Bytes load_file(const fs::path& path) {
   if (!fs::is_regular_file(status)) throw Error(path.string() + " is a device or a pipe: name a file");
   const std::uintmax_t size = fs::file_size(path, error);
   if (error) throw Error("cannot read " + path.string() + ": " + error.message());
-  if (size > kMaxFileBytes) throw Error(path.string() + " is larger than 4 GiB: split it into shorter runs");
+  if (size > most_bytes) throw Error(too_large(path, size, most_bytes));
 
   Bytes bytes(static_cast<std::size_t>(size));
   std::ifstream file(path, std::ios::binary);
@@ -76,17 +84,45 @@ PartFile::PartFile(fs::path path, Replaces replaces) : path_(std::move(path)), p
   if (error) {
     throw Error("cannot make the folder " + path_.parent_path().string() + ": " + error.message());
   }
-  descriptor_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) fail("create");
+  open_part();
+}
+
+/// Without following a link: who may write into the folder must not choose which file is emptied. The lock is
+/// held until the file has its name, so that two programs never write one file.
+void PartFile::open_part() {
+  while (true) {
+    descriptor_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) fail("create");
+    struct stat opened {
+    }, named{};
+    if (::fstat(descriptor_, &opened) == 0 && !S_ISREG(opened.st_mode))
+      give_up(part_.string() +
+              " is no file, so nothing can be recorded there: remove it or name another file");
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+      give_up(part_.string() + " is being written by another program: wait for it or name another file");
+    // Another program may have given the file its name between open and flock: it is no longer ours to empty.
+    if (::lstat(part_.c_str(), &named) == 0 && named.st_ino == opened.st_ino && named.st_dev == opened.st_dev)
+      break;
+    ::close(descriptor_);
+  }
+  if (::ftruncate(descriptor_, 0) != 0) fail("empty");
+}
+
+void PartFile::give_up(const std::string& sentence) {
+  ::close(std::exchange(descriptor_, -1));
+  throw Error(sentence);
 }
 
 PartFile::~PartFile() {
   if (descriptor_ < 0) return;
+  if (empty_) ::unlink(part_.c_str());  // while it is locked: afterwards the name may be another program's
   ::close(descriptor_);
-  if (empty_) ::unlink(part_.c_str());
 }
 
 void PartFile::fail(const std::string& what) const {
+  if (errno == ELOOP)
+    throw Error(part_.string() +
+                " is a link, and nothing is written through one: remove it or name another file");
   throw Error("cannot " + what + " " + part_.string() + ": " + reason(errno) +
               "; check the disk or choose another folder");
 }
@@ -103,11 +139,11 @@ void PartFile::write(ByteView bytes) {
 
 void PartFile::commit() {
   if (::fsync(descriptor_) != 0) fail("bring to the disk");
-  if (::close(std::exchange(descriptor_, -1)) != 0) fail("close");
   std::error_code error;
   fs::rename(part_, path_, error);
   if (error)
     throw Error("cannot rename " + part_.string() + " to " + path_.string() + ": " + error.message());
+  if (::close(std::exchange(descriptor_, -1)) != 0) fail("close");
   sync_folder(path_.parent_path());
 }
 

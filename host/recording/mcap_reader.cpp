@@ -102,13 +102,35 @@ class Walker {
   void schema(const Record& record, std::size_t at) {
     auto schema = mcap::decode_schema(record.content);
     if (!schema) return damage("bad schema", at);
-    schemas_[schema->id] = std::move(*schema);
+    keep(schemas_, std::move(*schema), at);
   }
 
   void channel(const Record& record, std::size_t at) {
     auto channel = mcap::decode_channel(record.content);
     if (!channel) return damage("bad channel", at);
-    channels_[channel->id] = std::move(*channel);
+    keep(channels_, std::move(*channel), at);
+  }
+
+  static std::uint64_t memory_of(const mcap::Schema& schema) {
+    return sizeof schema + schema.name.size() + schema.encoding.size() + schema.text.size();
+  }
+  static std::uint64_t memory_of(const mcap::Channel& channel) {
+    std::uint64_t bytes = sizeof channel + channel.topic.size() + channel.message_encoding.size();
+    for (const auto& [key, value] : channel.metadata)
+      bytes += sizeof(mcap::Map::value_type) + key.size() + value.size();
+    return bytes;
+  }
+
+  /// A definition may come again, in each chunk even, and takes the place of the one before.
+  template <class Definition>
+  void keep(std::map<std::uint16_t, Definition>& all, Definition&& definition, std::size_t at) {
+    const auto before = all.find(definition.id);
+    const std::uint64_t freed = before == all.end() ? 0 : memory_of(before->second);
+    const std::uint64_t bytes = definition_bytes_ - freed + memory_of(definition);
+    if (bytes > limits_.definition_bytes + file_.size())
+      return damage("more schemas and channels than this reader takes,", at);
+    definition_bytes_ = bytes;
+    all.insert_or_assign(definition.id, std::move(definition));
   }
 
   void message(const Record& record, std::size_t at) {
@@ -131,10 +153,15 @@ class Walker {
     const auto chunk = mcap::decode_chunk(record.content);
     if (!chunk) return damage("bad chunk", record.start);
     if (!handlers_.message) return;
-    if (chunk->size > limits_.chunk_bytes) {
+    if (chunk->size > std::max<std::uint64_t>(limits_.chunk_bytes, file_.size())) {
       return damage("chunk of " + std::to_string(chunk->size) + " bytes, more than this reader takes,",
                     record.start);
     }
+    expanded_bytes_ += chunk->size;
+    if (expanded_bytes_ > limits_.all_chunks_bytes + limits_.most_gain * file_.size())
+      return damage(
+          "chunks that expand to more than " + std::to_string(limits_.most_gain) + " times the file,",
+          record.start);
     const auto bytes = expand(chunk->compression, chunk->records, chunk->size);
     if (!bytes) return damage("chunk that does not expand", record.start);
     if (chunk->crc != 0 && chunk->crc != crc32_ieee(*bytes)) {
@@ -185,6 +212,7 @@ class Walker {
   McapReport report_;
   std::map<std::uint16_t, mcap::Schema> schemas_;
   std::map<std::uint16_t, mcap::Channel> channels_;
+  std::uint64_t definition_bytes_ = 0, expanded_bytes_ = 0;
   bool data_end_seen_ = false, footer_seen_ = false;
 };
 

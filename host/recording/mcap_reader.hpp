@@ -16,8 +16,17 @@ struct McapHandlers {
   std::function<void(const mcap::Metadata& metadata)> metadata;
 };
 
+/// Each in bytes. What a file may take grows with its own size, so that a small one cannot exhaust the memory
+/// or the reader's patience by claims.
 struct McapLimits {
-  std::uint64_t chunk_bytes = std::uint64_t{256} << 20;  // of an expanded chunk; usual are 1 to 4 MiB
+  /// Of one expanded chunk, or the size of the file if that is more. Usual are 1 to 4 MiB.
+  std::uint64_t chunk_bytes = std::uint64_t{32} << 20;
+  /// Of all expanded chunks: so much, and beyond that `most_gain` times the file. Drives are packed 5 to 50
+  /// times.
+  std::uint64_t all_chunks_bytes = std::uint64_t{64} << 20;
+  std::uint64_t most_gain = 256;
+  /// Of all schemas and channels: so much, and beyond that the size of the file.
+  std::uint64_t definition_bytes = std::uint64_t{16} << 20;
 };
 
 /// What became of the walk.
@@ -32,7 +41,7 @@ struct McapReport {
 /// Walks an MCAP file from front to back. Needs no index, so that a file of a recorder that was killed reads
 /// up to its last whole chunk; checks the checksum of every chunk, of the data section and of the summary;
 /// skips records and trailing fields that it does not know. Whatever the bytes are, it ends, and allocates no
-/// more than the limits and the file's own size allow. Throws only what a handler throws.
+/// more than the limits allow. Throws only what a handler throws.
 McapReport read_mcap(ByteView file, const McapHandlers& handlers, const McapLimits& limits = {});
 
 }  // namespace astro::recording

@@ -17,15 +17,19 @@ std::string take_string(ByteCursor& cursor) {
   return std::string(as_text(cursor.take(cursor.number<std::uint32_t>())));
 }
 
-/// A pair that breaks off inside the map fails the whole record: `cursor` is drained past its end.
+/// A pair of a map takes ten times the bytes that it has in a file; a run record has some hundred pairs.
+constexpr std::size_t kMostPairs = 4096;
+
+/// A pair that breaks off inside the map, and more pairs than anybody writes, fail the whole record: `cursor`
+/// is drained past its end.
 Map take_map(ByteCursor& cursor) {
   ByteCursor pairs(cursor.take(cursor.number<std::uint32_t>()));
   Map map;
-  while (pairs.ok() && pairs.left() > 0) {
+  while (pairs.ok() && pairs.left() > 0 && map.size() <= kMostPairs) {
     std::string key = take_string(pairs);
     map[std::move(key)] = take_string(pairs);
   }
-  if (!pairs.ok()) cursor.take(std::uint64_t{cursor.left()} + 1);
+  if (!pairs.ok() || map.size() > kMostPairs) cursor.take(std::uint64_t{cursor.left()} + 1);
   return map;
 }
 

@@ -1,6 +1,7 @@
 #include "host/recording/run_file.hpp"
 
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <numbers>
 
@@ -15,15 +16,24 @@
 namespace astro::recording {
 namespace {
 
+/// So many samples are taken from a file of any size, and one more for each so many bytes of it. A robot that
+/// stands still packs best: its messages differ by their times alone, and take 26 bytes each.
+constexpr std::size_t kFreeSamples = 300'000, kLeastBytesPerSample = 20;
+
 /// What the messages of a file hold, before the streams are put together.
 struct Streams {
-  std::vector<OdometrySample> odometry;
-  std::vector<WheelCounts> counts;
-  std::vector<TruthSample> truth;
+  std::string file;
+  std::size_t most = 0;  // samples
+  // A vector that grows by doubling would take three times the memory of its samples for a moment.
+  std::deque<OdometrySample> odometry;
+  std::deque<WheelCounts> counts;
+  std::deque<TruthSample> truth;
   bool unreadable = false;
 
   template <class T>
-  void keep(std::vector<T>& stream, const std::optional<T>& sample) {
+  void keep(std::deque<T>& stream, const std::optional<T>& sample) {
+    if (odometry.size() + counts.size() + truth.size() >= most)
+      throw Error(file + " holds more samples than any drive whose recording has its size: it is damaged");
     if (sample) stream.push_back(*sample);
     unreadable = unreadable || !sample;
   }
@@ -54,6 +64,8 @@ void refuse_damage(const std::string& file, const McapReport& report) {
 
 RunFile parse(ByteView bytes, const std::string& file, bool with_data) {
   RunFile out;
+  out.streams.file = file;
+  out.streams.most = kFreeSamples + bytes.size() / kLeastBytesPerSample;
   std::optional<mcap::Map> entries;
   McapHandlers handlers;
   // The last record counts: the first is written before the run, the last after it.
@@ -93,10 +105,19 @@ void pair_counts(const std::string& file, bool cut_off, Streams& streams) {
   streams.odometry.resize(pairs);
 }
 
+/// As a vector; the memory of the deque goes as that of the vector is filled.
+template <class Sample>
+std::vector<Sample> drained(std::deque<Sample>& samples) {
+  std::vector<Sample> all;
+  all.reserve(samples.size());
+  for (; !samples.empty(); samples.pop_front()) all.push_back(samples.front());
+  return all;
+}
+
 /// Makes headings continuous: each within half a turn of the last finite one, the first at `first_rad` but
 /// for rounding.
 template <class Sample>
-void unwrap(std::vector<Sample>& samples, const std::optional<double>& first_rad) {
+void unwrap(std::deque<Sample>& samples, const std::optional<double>& first_rad) {
   double last_rad = first_rad.value_or(std::numeric_limits<double>::quiet_NaN());
   for (Sample& sample : samples) {
     if (!std::isfinite(sample.theta_rad)) continue;
@@ -126,7 +147,8 @@ Run run_from_bytes(ByteView bytes, const std::string& name) {
   pair_counts(name, !file.warning.empty(), file.streams);
   unwrap(file.streams.odometry, file.record.first_odometry_heading_rad);
   unwrap(file.streams.truth, file.record.first_truth_heading_rad);
-  return {std::move(file.record.info), std::move(file.streams.odometry), std::move(file.streams.truth),
+  file.streams.counts = {};
+  return {std::move(file.record.info), drained(file.streams.odometry), drained(file.streams.truth),
           std::move(file.warning)};
 }
 

@@ -44,7 +44,10 @@ bool natural_less(std::string_view a, std::string_view b) {
 
 std::vector<fs::path> list_runs(const fs::path& folder) {
   std::error_code error;
-  if (!fs::exists(folder, error))
+  const fs::file_status status = fs::status(folder, error);
+  if (!fs::status_known(status))
+    throw Error("cannot list the folder " + folder.string() + ": " + error.message());
+  if (!fs::exists(status))
     throw Error(folder.string() + " does not exist: name a folder that holds recorded runs");
   if (!fs::is_directory(folder, error))
     throw Error(folder.string() + " is a file: name a folder that holds recorded runs");

@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <functional>
+#include <vector>
 
 #include "host/base/error.hpp"
 
@@ -51,8 +52,9 @@ void make_raw(const std::string& device) {
 }
 
 // An abstract socket's name belongs to one process and goes with it, however it ends; that the link's target
-// exists says nothing, because the number of a dead simulator's terminal is soon another program's.
-int claim(const fs::path& link) {
+// exists says nothing, because the number of a dead simulator's terminal is soon another program's. -1:
+// somebody else has the name.
+int try_claim(const fs::path& link) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   const std::string path = fs::absolute(link).lexically_normal();
@@ -64,11 +66,31 @@ int claim(const fs::path& link) {
   if (bind(fd, reinterpret_cast<const sockaddr*>(&address), size) == 0) return fd;
   if (errno != EADDRINUSE) fail("bind");
   close(fd);
+  return -1;
+}
+
+int claim(const fs::path& link) {
+  if (const int fd = try_claim(link); fd >= 0) return fd;
   throw Error("'" + link.string() + "' is in use by another simulator: stop it or choose another --pty");
 }
 
 bool left_behind(const fs::path& link) {
   return fs::is_symlink(link) && fs::read_symlink(link).parent_path() == "/dev/pts";
+}
+
+/// A link in the runtime folder leads to a terminal, or to the link of a simulator that lies elsewhere. Looks
+/// at the claim for a moment: a simulator that starts just then is told that its name is taken, and its link
+/// stays.
+bool is_dead(const fs::path& link) {
+  std::error_code error;
+  const fs::path target = fs::read_symlink(link, error);
+  if (error) return false;
+  const fs::path claimed = left_behind(link) ? link : target;
+  if (!fs::exists(fs::symlink_status(claimed, error))) return true;
+  if (!left_behind(claimed)) return false;  // nothing of a simulator's
+  const int claim = try_claim(claimed);
+  if (claim >= 0) close(claim);
+  return claim >= 0;
 }
 
 void make_link(const fs::path& device, const fs::path& link) {
@@ -123,6 +145,21 @@ std::size_t Pty::read(std::span<std::uint8_t> into) {
 std::size_t Pty::write(std::span<const std::uint8_t> bytes) {
   const ssize_t count = ::write(fd_, bytes.data(), bytes.size());
   return count > 0 ? static_cast<std::size_t>(count) : 0;
+}
+
+void sweep_dead_links(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_directory(fs::symlink_status(folder, error))) return;  // a link could lead to anybody's folder
+  std::vector<fs::path> dead;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == ".pty" && entry.is_symlink(error) && is_dead(entry.path()))
+      dead.push_back(entry.path());
+  for (fs::path link : dead) {
+    fs::remove(link, error);
+    link += ".mocap";
+    if (fs::is_socket(fs::symlink_status(link, error)) || fs::is_symlink(link, error))
+      fs::remove(link, error);
+  }
 }
 
 }  // namespace astro::simulator

@@ -41,4 +41,8 @@ class Pty {
   std::vector<int> claims_;  // sockets whose names say that the links are taken
 };
 
+/// Removes what simulators that were killed have left in `folder`: links NAME.pty that no living simulator
+/// has claimed and the sockets NAME.pty.mocap beside them. Touches nothing else.
+void sweep_dead_links(const std::filesystem::path& folder);
+
 }  // namespace astro::simulator

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <thread>
 
 #include "host/base/error.hpp"
+#include "host/recording/files.hpp"
 
 namespace astro::simulator {
 namespace {
@@ -15,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
+constexpr std::uintmax_t kMostFlashBytes = std::uintmax_t{8} << 20;  // the largest of a Teensy's family
 constexpr std::uint64_t kLease_us = 100'000;  // virtual time that one word of the host is good for
 constexpr auto kPatience = 200ms;  // real time that a host may take nothing before it is left behind
 constexpr auto kSilence = 1s;      // real time that a host may say nothing before time goes on without it
@@ -51,11 +52,12 @@ class ServedVirtualRobot : public Served {
 }  // namespace
 
 std::vector<std::uint8_t> load_flash(const fs::path& path) {
-  if (path.empty() || !fs::exists(path)) return {};
-  std::ifstream file(path, std::ios::binary);
-  std::vector<std::uint8_t> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (!file) throw Error("the robot's flash cannot be read from '" + path.string() + "'");
-  return bytes;
+  if (path.empty()) return {};
+  const fs::file_status status = fs::symlink_status(path);
+  if (fs::is_symlink(status))
+    throw Error("'" + path.string() +
+                "' is a link, and a robot's flash replaces what has its name: name the file");
+  return fs::exists(status) ? recording::load_file(path, kMostFlashBytes) : std::vector<std::uint8_t>{};
 }
 
 Server::Server(const sim::Config& robot, const MocapConfig& mocap, const ServerConfig& config)
@@ -159,12 +161,9 @@ void Server::wait() {
 void Server::save_flash() {
   const auto content = robot_->flash();
   if (config_.flash.empty() || std::equal(content.begin(), content.end(), saved_flash_.begin())) return;
-  const fs::path part = beside(config_.flash, ".part");
-  std::ofstream file(part, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(content.data()), static_cast<std::streamsize>(content.size()));
-  file.close();
-  if (!file) throw Error("the robot's flash cannot be written to '" + config_.flash.string() + "'");
-  fs::rename(part, config_.flash);
+  recording::PartFile file(config_.flash);
+  file.write(content);
+  file.commit();
   saved_flash_.assign(content.begin(), content.end());
 }
 

@@ -44,6 +44,13 @@ void require_square(const TrialSetup& setup) {
       setup.side_m, error_rad * 180 / std::numbers::pi, setup.side_m * std::numbers::pi / error_rad));
 }
 
+/// A seed is whole: the library would make one of 1e300, too, and a different one on each machine.
+std::uint64_t seed_from(const nlohmann::json& json) {
+  if (!json.is_number_integer())
+    throw Error("the seed of a study is a whole number, not " + json.dump().substr(0, 40));
+  return json.get<std::uint64_t>();
+}
+
 constexpr std::array<std::string_view, 2> kModels = {"kinematic", "simulator"};
 
 }  // namespace
@@ -114,15 +121,22 @@ nlohmann::json to_json(const TrialSetup& setup) {
           {"noise", setup.noise_known ? "known" : "estimated"}};
 }
 
+int count_from(const nlohmann::json& json) {
+  const auto number = json.get<double>();
+  const bool counts =
+      json.is_number() && number == std::trunc(number) && number >= 0 && number <= 2 * kMostTrials;
+  return counts ? static_cast<int>(number) : -1;
+}
+
 TrialSetup setup_from(const nlohmann::json& json) {
   TrialSetup setup;
   const auto name = json.at("model").get<std::string>();
   const std::optional<Model> model = model_named(name);
   if (!model) throw Error("'" + name + "' is no model of a robot: there are kinematic and simulator");
   setup.model = *model;
-  json.at("trials").get_to(setup.trials);
-  json.at("seed").get_to(setup.seed);
-  json.at("runs").get_to(setup.runs);
+  setup.trials = count_from(json.at("trials"));
+  setup.seed = seed_from(json.at("seed"));
+  setup.runs = count_from(json.at("runs"));
   json.at("side_m").get_to(setup.side_m);
   json.at("wheelbase_m").get_to(setup.wheelbase_m);
   json.at("E_d").get_to(setup.E_d);

@@ -56,6 +56,9 @@ struct TrialSetup {
 nlohmann::json to_json(const TrialSetup& setup);
 TrialSetup setup_from(const nlohmann::json& json);
 
+/// A count of trials or runs; -1 for a number that counts nothing, such as 1e300 or -2.
+int count_from(const nlohmann::json& json);
+
 /// The runs of a trial count from 0, clockwise and counter-clockwise in turn. "square ccw 1" is run 1.
 calibration::Sense sense_of(int run);
 std::string name_of(int run);

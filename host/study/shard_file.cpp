@@ -1,10 +1,12 @@
 #include "host/study/shard_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "host/base/error.hpp"
+#include "host/base/json_weight.hpp"
 
 namespace astro::study {
 namespace {
@@ -50,7 +52,7 @@ json to_json(const Trial& trial) {
 
 Trial trial_from(const json& value) {
   Trial trial;
-  value.at("trial").get_to(trial.index);
+  trial.index = count_from(value.at("trial"));
   value.at("failure").get_to(trial.failure);
   const json& errors = value.at("errors");
   for (std::size_t i = 0; i < trial.errors.size(); ++i)
@@ -68,12 +70,30 @@ void require_same(const Part& first, const Part& other) {
                   "' with " + b.at(key).dump() + ": merge shards of one study only");
 }
 
-// "4" or "4 to 9": the stretch from `begin` on in which `missing` holds.
-template <class Missing>
-std::string stretch(int begin, int end, Missing missing) {
-  int last = begin;
-  while (last + 1 < end && missing(last + 1)) ++last;
-  return last == begin ? std::to_string(begin) : std::to_string(begin) + " to " + std::to_string(last);
+struct Held {
+  const Part* part;
+  const Trial* trial;
+  int index() const { return trial->index; }
+};
+
+/// Stable, so that of a trial in two files the one named first comes first. Takes memory for the trials that
+/// are there, not for as many as a file claims.
+std::vector<Held> sorted_by_index(const std::vector<Part>& parts) {
+  std::vector<Held> held;
+  for (const Part& part : parts) {
+    require_same(parts.front(), part);
+    for (const Trial& trial : part.trials) held.push_back({&part, &trial});
+  }
+  std::stable_sort(held.begin(), held.end(),
+                   [](const Held& a, const Held& b) { return a.index() < b.index(); });
+  return held;
+}
+
+[[noreturn]] void refuse_gap(int count, int begin, int end) {
+  const std::string which =
+      end - begin == 1 ? std::to_string(begin) : std::to_string(begin) + " to " + std::to_string(end - 1);
+  throw Error("of " + std::to_string(count) + " trials " + which +
+              " are missing: run their shard, or name its file, too");
 }
 
 }  // namespace
@@ -87,6 +107,8 @@ std::string to_text(const TrialSetup& setup, const std::vector<Trial>& trials) {
 }
 
 Part read_part(const std::string& text, const std::string& name) {
+  if (!json_fits_memory(text))
+    throw Error("'" + name + "' is no shard of a study: give what 'astrolabe study --out' wrote");
   try {
     const json file = json::parse(text);
     if (file.at("format") != kFormat || file.at("methods") != json(kMethods))
@@ -103,27 +125,23 @@ Part read_part(const std::string& text, const std::string& name) {
 std::vector<Trial> merge(const std::vector<Part>& parts) {
   if (parts.empty()) throw Error("there is nothing to merge: name the files of all shards");
   const int count = parts.front().setup.trials;
-  std::vector<const Part*> holder(static_cast<std::size_t>(count), nullptr);
-  std::vector<Trial> all(static_cast<std::size_t>(count));
-  for (const Part& part : parts) {
-    require_same(parts.front(), part);
-    for (const Trial& trial : part.trials) {
-      if (trial.index < 0 || trial.index >= count)
-        throw Error("'" + part.name + "' holds trial " + std::to_string(trial.index) + " of a study of " +
-                    std::to_string(count) + ": it is damaged, run its shard again");
-      const auto at = static_cast<std::size_t>(trial.index);
-      if (holder[at] != nullptr)
-        throw Error("trial " + std::to_string(trial.index) + " is in '" + holder[at]->name + "' and in '" +
-                    part.name + "': name each shard once");
-      holder[at] = &part;
-      all[at] = trial;
-    }
+  const std::vector<Held> held = sorted_by_index(parts);
+  int next = 0;
+  for (const Held& trial : held) {
+    if (trial.index() < 0 || trial.index() >= count)
+      throw Error("'" + trial.part->name + "' holds trial " + std::to_string(trial.index()) +
+                  " of a study of " + std::to_string(count) + ": it is damaged, run its shard again");
+    if (trial.index() < next)
+      throw Error("trial " + std::to_string(trial.index()) + " is in '" +
+                  held[static_cast<std::size_t>(next) - 1].part->name + "' and in '" + trial.part->name +
+                  "': name each shard once");
+    if (trial.index() > next) refuse_gap(count, next, trial.index());
+    ++next;
   }
-  const auto missing = [&](int i) { return holder[static_cast<std::size_t>(i)] == nullptr; };
-  for (int i = 0; i < count; ++i)
-    if (missing(i))
-      throw Error("of " + std::to_string(count) + " trials " + stretch(i, count, missing) +
-                  " are missing: run their shard, or name its file, too");
+  if (next < count) refuse_gap(count, next, count);
+  std::vector<Trial> all;
+  all.reserve(held.size());
+  for (const Held& trial : held) all.push_back(*trial.trial);
   return all;
 }
 

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <numbers>
 #include <optional>
 
 #include "host/base/csv_table.hpp"
 #include "host/base/error.hpp"
+#include "host/recording/files.hpp"
 
 namespace astro::truth {
 namespace {
@@ -41,11 +40,9 @@ double value(const CsvRow& row, const Column& column, const std::string& name) {
 }
 
 std::vector<recording::TruthSample> read_poses(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error("the ground truth '" + path.string() + "' cannot be read");
-  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  const recording::Bytes bytes = recording::load_file(path);
   const std::string name = path.string();
-  const CsvTable table = split_csv(text, name);
+  const CsvTable table = split_csv(recording::as_text(bytes), name);
   const auto x = find(table.header, "x_m", "x_mm", 1e-3);
   const auto y = find(table.header, "y_m", "y_mm", 1e-3);
   const auto theta = find(table.header, "theta_rad", "theta_deg", std::numbers::pi / 180);

@@ -17,6 +17,11 @@ namespace {
 
 constexpr std::string_view kGreeting = "astrolabe-mocap 1";
 
+// What is read at once, so that who sends faster than we read cannot hold us; the rest is there the next
+// time.
+constexpr std::size_t kMostPending = std::size_t{1} << 20;
+constexpr std::size_t kLongestLine = 1024;
+
 int connect_to(const std::filesystem::path& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
@@ -51,8 +56,8 @@ SocketSource::~SocketSource() { close(fd_); }
 
 std::vector<recording::TruthSample> SocketSource::poll() {
   std::array<char, 16384> bytes;  // NOLINT(cppcoreguidelines-pro-type-member-init)
-  ssize_t count;
-  while ((count = recv(fd_, bytes.data(), bytes.size(), MSG_DONTWAIT)) > 0)
+  ssize_t count = -1;
+  while (pending_.size() < kMostPending && (count = recv(fd_, bytes.data(), bytes.size(), MSG_DONTWAIT)) > 0)
     pending_.append(bytes.data(), static_cast<std::size_t>(count));
   if (count == 0)
     throw Error("the simulator's cameras at '" + path_.string() + "' have gone: is it still running?");
@@ -70,7 +75,12 @@ std::vector<recording::TruthSample> SocketSource::poll() {
     }
   }
   pending_.erase(0, start);
+  if (pending_.size() > kLongestLine) fail_line();
   return samples;
+}
+
+void SocketSource::fail_line() const {
+  throw Error("the simulator's cameras at '" + path_.string() + "' sent a line that is no pose");
 }
 
 recording::TruthSample SocketSource::parse(std::string_view line) const {
@@ -78,7 +88,7 @@ recording::TruthSample SocketSource::parse(std::string_view line) const {
   int valid = 0;
   if (!take(line, sample.time_us) || !take(line, sample.x_m) || !take(line, sample.y_m) ||
       !take(line, sample.theta_rad) || !take(line, valid))
-    throw Error("the simulator's cameras at '" + path_.string() + "' sent a line that is no pose");
+    fail_line();
   sample.valid = valid != 0;
   return sample;
 }

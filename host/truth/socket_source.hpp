@@ -20,6 +20,7 @@ class SocketSource : public Source {
 
  private:
   recording::TruthSample parse(std::string_view line) const;
+  [[noreturn]] void fail_line() const;
 
   std::filesystem::path path_;
   int fd_ = -1;

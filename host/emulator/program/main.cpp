@@ -61,6 +61,9 @@ int main(int argc, char** argv) {
   cli::watch_for_interrupt();
   try {
     return run(argc, argv);
+  } catch (const std::filesystem::filesystem_error& error) {
+    cli::complain(cli::in_words(error));
+    return 1;
   } catch (const std::exception& error) {
     cli::complain(error.what());
     return 1;

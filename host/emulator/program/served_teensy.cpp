@@ -1,11 +1,11 @@
 #include "host/emulator/program/served_teensy.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <utility>
 
 #include "host/base/error.hpp"
 #include "host/cli/console.hpp"
+#include "host/recording/files.hpp"
 
 namespace astro::emulator {
 namespace {
@@ -52,14 +52,12 @@ void ServedTeensy::wait_in_bootloader() {
   }
   const auto image = halfkay_->receive();
   if (!image) return;
-  std::ofstream file(flashed_, std::ios::binary);
-  file << *image;
-  file.close();
-  if (!file)
-    return cli::complain("the image cannot be kept at '" + flashed_.string() + "': is the disk full?");
   const auto kept = flash();
   config_.flash.assign(kept.begin(), kept.end());
   try {
+    recording::PartFile file(flashed_);
+    file.write(recording::as_bytes(*image));
+    file.commit();
     start(flashed_);
   } catch (const Error& error) {
     return cli::complain(error.what());

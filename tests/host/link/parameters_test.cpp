@@ -141,5 +141,37 @@ TEST_F(Parameters, ARefusedCommitNamesTheParameterAndItsValue) {
   }
 }
 
+TEST_F(Parameters, OfMoreParametersThanAnyRobotHasIsNotAskedFor) {
+  link.robot.identity.parameter_count = 65'535;
+  client.connect();
+  const std::size_t before = link.robot.seen.size();
+  try {
+    RemoteParameters::fetch(client);
+    FAIL() << "65535 parameters were taken";
+  } catch (const Error& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "the robot at fake0 says that it has 65535 parameters, more than 512: its firmware is damaged "
+        "or not Astrolabe's");
+  }
+  EXPECT_EQ(link.robot.seen.size(), before);
+}
+
+TEST_F(Parameters, HasNoNamesThatATerminalWouldObey) {
+  link.robot.parameters.front().info.name = Text<24>("c\033[2J");
+  link.robot.parameters.front().info.unit = Text<8>("\xFF");
+  const auto parameters = RemoteParameters::fetch(client);
+  EXPECT_EQ(parameters.rows().front().name, "c\uFFFD[2J");
+  EXPECT_EQ(parameters.rows().front().unit, "\uFFFD");
+}
+
+TEST_F(Parameters, TakesNoTextWithControlCharacters) {
+  auto parameters = RemoteParameters::fetch(client);
+  const std::string nul("a\0b", 3);
+  for (const std::string& text : {std::string("a\033[2J"), std::string("a\nb"), std::string("\xFF"), nul})
+    EXPECT_THROW(parameters.stage("robot_name", text), Error);
+  EXPECT_NO_THROW(parameters.stage("robot_name", std::string("Größe")));
+}
+
 }  // namespace
 }  // namespace astro::link

@@ -1,7 +1,10 @@
 #include "host/recording/files.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
+#include "host/recording/folder_lock.hpp"
+#include "host/recording/run_folder.hpp"
 #include "tests/host/recording/support.hpp"
 
 namespace astro::recording {
@@ -54,6 +57,64 @@ TEST(PartFile, AnEmptyFileIsAFileOnceItIsCommitted) {
   const TempFolder folder;
   PartFile(folder / "empty").commit();
   EXPECT_TRUE(std::filesystem::is_empty(folder / "empty"));
+}
+
+TEST(PartFile, IsNeverOpenedThroughALink) {
+  const TempFolder folder;
+  support::spill(folder / "precious", kBytes);
+  std::filesystem::create_symlink(folder / "precious", folder / "run.part");
+  EXPECT_THAT(complaint([&] { PartFile(folder / "run").commit(); }), HasSubstr("run.part is a link"));
+  EXPECT_EQ(load_file(folder / "precious").size(), sizeof kBytes);
+}
+
+TEST(PartFile, MayLieInAFolderThatIsALink) {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder / "real");
+  std::filesystem::create_directory_symlink(folder / "real", folder / "linked");
+  PartFile(folder / "linked/run").commit();
+  EXPECT_TRUE(std::filesystem::exists(folder / "real/run"));
+}
+
+TEST(PartFile, IsNoPipe) {
+  const TempFolder folder;
+  ASSERT_EQ(mkfifo((folder / "run.part").c_str(), 0600), 0);
+  EXPECT_NE(complaint([&] { PartFile(folder / "run").commit(); }), "");
+}
+
+TEST(PartFile, IsWrittenByOneProgramAtATime) {
+  const TempFolder folder;
+  PartFile first(folder / "run");
+  first.write(kBytes);
+  EXPECT_THAT(complaint([&] { PartFile(folder / "run").commit(); }),
+              HasSubstr("run.part is being written by another program"));
+  first.commit();
+  EXPECT_EQ(load_file(folder / "run").size(), sizeof kBytes);
+  EXPECT_EQ(complaint([&] { PartFile(folder / "run").commit(); }), "") << "and the next one may";
+}
+
+TEST(FolderLock, HoldsAFolderForOneProgramAndMakesIt) {
+  const TempFolder folder;
+  {
+    const FolderLock lock(folder / "a/b");
+    EXPECT_THAT(complaint([&] { FolderLock(folder / "a/b"); }), HasSubstr("another program records into"));
+    EXPECT_EQ(complaint([&] { FolderLock(folder / "a"); }), "");
+  }
+  EXPECT_EQ(complaint([&] { FolderLock(folder / "a/b"); }), "");
+}
+
+TEST(LoadFile, SaysWhatTheSystemSaysOfALinkThatLeadsToItself) {
+  const TempFolder folder;
+  std::filesystem::create_symlink("loop", folder / "loop");
+  EXPECT_THAT(complaint([&] { load_file(folder / "loop"); }), HasSubstr("Too many levels of symbolic links"));
+  EXPECT_THAT(complaint([&] { list_runs(folder / "loop"); }), HasSubstr("Too many levels of symbolic links"));
+}
+
+TEST(LoadFile, RefusesWhatIsFarTooLargeForItsKindUnread) {
+  const TempFolder folder;
+  support::spill(folder / "x.toml", {});
+  std::filesystem::resize_file(folder / "x.toml", std::uintmax_t{300} << 20);  // without taking the disk
+  EXPECT_THAT(complaint([&] { load_file(folder / "x.toml", kMaxSettingsBytes); }),
+              HasSubstr("x.toml has 300 MiB, and no file of its kind has more than 1"));
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "host/link/open_transport.hpp"
 #include "host/link/parameters.hpp"
 #include "host/link/paths.hpp"
+#include "host/simulator/pty.hpp"
 #include "host/truth/socket_source.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -162,6 +163,38 @@ TEST(Pty, KnowsWhetherAHostIsThere) {
   EXPECT_TRUE(pty.connected());
   host.reset();
   EXPECT_FALSE(pty.connected());
+}
+
+TEST(RuntimeFolder, IsSweptOfWhatDeadSimulatorsLeft) {
+  namespace fs = std::filesystem;
+  const test::TemporaryFolder runtime, elsewhere;
+  const auto in = [&](const char* name) { return runtime.path() / name; };
+  const Pty here(in("here.pty"));
+  const Pty there(elsewhere.path() / "robot");
+  fs::create_symlink(there.link(), in("there.pty"));
+  fs::create_symlink("/dev/pts/nobody", in("dead.pty"));
+  fs::create_symlink(fs::read_symlink(here.link()), in("reused.pty"));  // its number is another one's by now
+  fs::create_symlink(elsewhere.path() / "gone", in("gone.pty"));
+  fs::create_symlink("/dev/pts/nobody", in("dead.txt"));
+  for (const char* name : {"file.pty", "dead.pty.mocap.txt"}) std::ofstream(in(name)) << "kept";
+  fs::create_symlink(elsewhere.path() / "gone.mocap", in("gone.pty.mocap"));
+  sweep_dead_links(runtime.path());
+  std::vector<std::string> left;
+  for (const auto& entry : fs::directory_iterator(runtime.path())) left.push_back(entry.path().filename());
+  EXPECT_THAT(left, testing::UnorderedElementsAre("here.pty", "there.pty", "dead.txt", "file.pty",
+                                                  "dead.pty.mocap.txt"));
+  sweep_dead_links(elsewhere.path() / "no such folder");
+}
+
+TEST(Flash, ThatIsALinkIsRefusedAndNothingIsWrittenThroughOne) {
+  namespace fs = std::filesystem;
+  const test::TemporaryFolder folder;
+  std::ofstream(folder.path() / "precious") << "kept";
+  fs::create_symlink(folder.path() / "precious", folder.path() / "flash");
+  fs::create_symlink(folder.path() / "nothing", folder.path() / "dangling");
+  for (const char* name : {"flash", "dangling"})
+    EXPECT_THAT([&] { load_flash(folder.path() / name); },
+                testing::ThrowsMessage<Error>(testing::HasSubstr("is a link")));
 }
 
 }  // namespace

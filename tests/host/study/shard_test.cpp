@@ -7,6 +7,7 @@
 
 #include "host/study/study.hpp"
 #include "tests/host/calibration/square_runs.hpp"
+#include "tests/support/bounded.hpp"
 
 namespace astro::study {
 namespace {
@@ -105,6 +106,38 @@ TEST(ShardFile, ThatIsNoneIsNamed) {
   EXPECT_EQ(error_of([&] { read_part(cut, "x.json"); }), none);
   EXPECT_EQ(error_of([&] { read_part(R"({"format": "astrolabe study 0", "methods": []})", "x.json"); }),
             "'x.json' was written by another version of 'astrolabe study': run its shard again");
+}
+
+TEST(ShardFile, OfShortValuesThatWouldTakeManyTimesItsSizeIsRefusedUnread) {
+  std::string text = "[";
+  while (text.size() < 20'000'000) text += "[],";
+  const support::Taken taken = support::measured([&] { read_part(text, "x.json"); });
+  EXPECT_BOUNDED(taken, text.size());
+  EXPECT_EQ(taken.complaint, "'x.json' is no shard of a study: give what 'astrolabe study --out' wrote");
+}
+
+TEST(ShardFile, WithACountThatIsNoneIsRefused) {
+  const std::string text = to_text(of_trials(10), some_trials(0, 1));
+  const auto with = [&](const std::string& key, const std::string& value) {
+    std::string changed = text;
+    const std::size_t at = changed.find("\"" + key + "\": ") + key.size() + 4;
+    changed.replace(at, changed.find_first_of(",\n", at) - at, value);
+    return error_of([&] { merge({read_part(changed, "x.json")}); });
+  };
+  for (const std::string count : {"1e300", "-1", "4294967306", "2.5", "1e999"}) {
+    EXPECT_NE(with("trials", count), "") << count;
+    EXPECT_NE(with("runs", count), "") << count;
+    EXPECT_NE(with("trial", count), "") << count;
+  }
+  EXPECT_EQ(with("seed", "1e300"), "the seed of a study is a whole number, not 1e+300");
+}
+
+TEST(Merge, OfFewTrialsTakesMemoryForThoseAloneWhateverCountIsClaimed) {
+  const std::vector<Part> parts{part("a", 0, 4, of_trials(10'000'000))};
+  const support::Taken taken = support::measured([&] { merge(parts); });
+  EXPECT_BOUNDED(taken, 0);
+  EXPECT_EQ(taken.complaint,
+            "of 10000000 trials 4 to 9999999 are missing: run their shard, or name its file, too");
 }
 
 TEST(Merge, PutsTheTrialsInOrderWhateverTheOrderOfTheFiles) {

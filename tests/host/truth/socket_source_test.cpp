@@ -152,5 +152,17 @@ TEST(MocapSocket, EndsWithLinksInACircle) {
   EXPECT_EQ(mocap_socket_of(folder.path() / "a"), (folder.path() / "a").string() + ".mocap");
 }
 
+TEST(SocketSource, ALineWithoutAnEndIsNotWaitedFor) {
+  Cameras cameras;
+  SocketSource source(cameras.path());
+  cameras.send("astrolabe-mocap 1\n" + std::string(2000, '1'));
+  try {
+    source.poll();
+    FAIL() << "a line of 2000 bytes without an end was kept";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("sent a line that is no pose"));
+  }
+}
+
 }  // namespace
 }  // namespace astro::truth

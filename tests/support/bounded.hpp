@@ -1,0 +1,100 @@
+#pragma once
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstddef>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <string>
+
+/// What a piece of work takes at most, measured in a child process of its own.
+namespace astro::support {
+
+#if defined(__SANITIZE_ADDRESS__)
+inline constexpr bool kMeasuresMemory =
+    false;  // the sanitizer's own memory would count, and it reserves terabytes
+#else
+inline constexpr bool kMeasuresMemory = true;
+#endif
+
+struct Taken {
+  std::string complaint;       // what the work threw; "" if nothing
+  bool ended = false;          // by itself, not by a signal
+  std::size_t peak_bytes = 0;  // of memory, beyond what the process had at the start
+  double cpu_s = 0;
+};
+
+/// Runs `work` in a copy of this process whose address space may grow by 1 GiB, so that work without a bound
+/// ends in std::bad_alloc and not in the machine's swap; ends it after 60 s. Prints the figures.
+template <class Work>
+Taken measured(Work work) {
+  int ends[2];
+  if (pipe(ends) != 0) throw std::runtime_error("no pipe");
+  const pid_t child = fork();
+  if (child == 0) {
+    close(ends[0]);
+    alarm(60);
+    std::size_t pages = 0, resident = 0;
+    std::ifstream("/proc/self/statm") >> pages >> resident;
+    const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    const rlimit limit{pages * page + (std::size_t{1} << 30), RLIM_INFINITY};
+    if (kMeasuresMemory) setrlimit(RLIMIT_AS, &limit);
+    std::string complaint;
+    try {
+      work();
+    } catch (const std::exception& error) {
+      complaint = error.what();
+    }
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const std::string text =
+        std::to_string(static_cast<std::size_t>(usage.ru_maxrss) * 1024 - resident * page) + " " +
+        complaint.substr(0, 4000);
+    const ssize_t written = write(ends[1], text.data(), text.size());
+    _exit(written == static_cast<ssize_t>(text.size()) ? 0 : 1);
+  }
+  close(ends[1]);
+  std::string text;
+  char buffer[4096];
+  for (ssize_t count = 0; (count = read(ends[0], buffer, sizeof buffer)) > 0;)
+    text.append(buffer, static_cast<std::size_t>(count));
+  close(ends[0]);
+  int status = 0;
+  rusage usage{};
+  wait4(child, &status, 0, &usage);
+  Taken taken;
+  taken.ended = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  if (const std::size_t blank = text.find(' '); taken.ended && blank != std::string::npos) {
+    taken.peak_bytes = std::stoull(text);
+    taken.complaint = text.substr(blank + 1);
+  }
+  taken.cpu_s = static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+                1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+  std::cout << "  " << taken.peak_bytes / 1048576 << " MiB, " << taken.cpu_s
+            << " s: " << taken.complaint.substr(0, 300) << '\n';
+  return taken;
+}
+
+/// `text` again and again until it has at least so many bytes.
+inline std::string filled(const std::string& text, std::size_t size) {
+  std::string all = text;
+  all.reserve(size + text.size());
+  while (all.size() < size)
+    all.append(all, 0, (size - all.size() + text.size() - 1) / text.size() * text.size());
+  return all;
+}
+
+/// The bar for whatever comes from outside: four times its size and 64 MiB of memory, a second of work.
+#define EXPECT_BOUNDED(taken, size)                                      \
+  EXPECT_TRUE((taken).ended);                                            \
+  if (astro::support::kMeasuresMemory) {                                 \
+    EXPECT_LE((taken).peak_bytes, 4 * (size) + (std::size_t{64} << 20)); \
+    EXPECT_LE((taken).cpu_s, 1.0);                                       \
+  }                                                                      \
+  static_assert(true)
+
+}  // namespace astro::support
