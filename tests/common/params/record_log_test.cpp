@@ -100,5 +100,16 @@ TEST(RecordLog, IsAppendedToBehindEverythingThatIsNotBlank) {
   EXPECT_EQ(newest.skipped, 1U);
 }
 
+TEST(RecordLog, IsAppendedToAtTheStartOfABlankSectorAndNotBeforeIt) {
+  for (std::uint32_t sector = 0; sector < Log::kSectors; ++sector) {
+    StrictFlash flash;
+    Record record;
+    ASSERT_TRUE(record.rewrite(ParameterSet{}, 1));
+    ASSERT_TRUE(Log(flash).append(sector, record));
+    EXPECT_EQ(found_in(flash).at, sector * kSector);
+    EXPECT_EQ(flash.outside, 0);
+  }
+}
+
 }  // namespace
 }  // namespace astro
