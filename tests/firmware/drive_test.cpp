@@ -345,6 +345,20 @@ TEST_F(Driving, ARobotThatIsCarriedAwayWhilePausedDoesNotRaceBack) {
   EXPECT_NEAR(x_m(), 5 + 1 - here_m, 0.002) << "the rest of the line, from where it stands";
 }
 
+TEST_F(Driving, APoseThatIsSetWhilePausedIsWhereThePathGoesOnHoweverNearItIs) {
+  // 30 mm are within what the robot would otherwise take for its own error, and correct.
+  arm();
+  add(link::line(1));
+  run_ms(500);
+  ask(protocol::Pause{});
+  run_ms(2000);
+  ask(protocol::SetPose{drive().pose().x, (std::int64_t{3} << 40) / 100, 0});
+  ask(protocol::Resume{});
+  ASSERT_TRUE(until_rest());
+  EXPECT_NEAR(x_m(), 1, 0.002);
+  EXPECT_NEAR(y_m(), 0.03, 0.002) << "it goes straight on";
+}
+
 TEST_F(Driving, PauseIsForPaths) {
   arm();
   ask(protocol::Velocity{100'000, 0});

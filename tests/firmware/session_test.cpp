@@ -97,6 +97,26 @@ TEST_F(Frames, ANewSessionDoesNotKeepTheDriveOfTheLastOneAlive) {
   EXPECT_EQ(drive().faults().first(), Fault::link_lost);
 }
 
+TEST_F(Frames, AfterTheDriverSaidHelloTrafficAtNoPortKeepsItsDriveAlive) {
+  for (const int driver : {0, 1}) {
+    const int other = 1 - driver;
+    send(protocol::Hello{}, 100, driver);
+    send(protocol::Arm{}, 101, driver);
+    send(link::line(5).front(), 102, driver);
+    silence_ms(150);
+    send(protocol::Hello{}, 103, driver);
+    for (std::uint16_t i = 0; i < 30; ++i) {
+      send(protocol::Ping{}, static_cast<std::uint16_t>(110 + i), other);
+      silence_ms(100);
+      received(0);
+      received(1);
+    }
+    EXPECT_EQ(drive().faults().first(), Fault::link_lost) << "driver at port " << driver;
+    send(protocol::ClearFaults{}, 104, driver);
+    silence_ms(2);
+  }
+}
+
 TEST_F(Frames, ARefusedRequestDoesNotMakeItsSenderTheDriver) {
   send(protocol::Arm{}, 1);
   send(link::line(5).front(), 2);

@@ -161,6 +161,21 @@ TEST(PathFollower, DrivesEveryErrorToZeroForwardAndBackward) {
   }
 }
 
+TEST(PathFollower, IsCloseWithinHalfAMillimetreAlongAndAMilliradianWhateverTheOffsetAcross) {
+  struct Case {
+    Real along_m, cross_m, heading_rad;
+    bool close;
+  };
+  for (const Case& one : {Case{0, 0, 0, true}, Case{0.00049, 0, 0, true}, Case{0.00051, 0, 0, false},
+                          Case{-0.00049, 0, 0, true}, Case{-0.00051, 0, 0, false}, Case{0, 0, 0.00099, true},
+                          Case{0, 0, 0.00101, false}, Case{0, 0, -0.00099, true}, Case{0, 0, -0.00101, false},
+                          Case{0, 0.2, 0, true}}) {
+    PathFollower follower = follower_at(pose_at(1, 2, 0));
+    follower.advance(pose_at(1 - one.along_m, 2 - one.cross_m, -one.heading_rad));
+    EXPECT_EQ(follower.close(), one.close) << one.along_m << ' ' << one.cross_m << ' ' << one.heading_rad;
+  }
+}
+
 TEST(PathFollower, AtRestAfterArrivalItStillClosesTheGap) {
   PathFollower follower = follower_at({});
   Unicycle robot(pose_at(-0.01L, 0, -0.02L));

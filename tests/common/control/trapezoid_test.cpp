@@ -243,6 +243,98 @@ TEST(Trapezoid, TakesTheLongestTheFarthestAndTheSmallest) {
   }
 }
 
+TEST(Trapezoid, StandsForAsLongAsTheLongestSegmentAndNoLonger) {
+  Trapezoid profile;
+  EXPECT_TRUE(Trapezoid::plan({.dwell_ms = 1}, kAstro, profile));
+  EXPECT_EQ(profile.ticks(), 1);
+  EXPECT_TRUE(Trapezoid::plan({.dwell_ms = kMaxTicks}, kAstro, profile));
+  EXPECT_EQ(profile.ticks(), 14'400'000) << "four hours";
+  EXPECT_FALSE(Trapezoid::plan({.dwell_ms = kMaxTicks + 1}, kAstro, profile));
+  EXPECT_FALSE(Trapezoid::plan({.dwell_ms = -1}, kAstro, profile));
+  EXPECT_FALSE(Trapezoid::plan({.length_nm = 1, .dwell_ms = 1}, kAstro, profile)) << "moves and stands";
+  EXPECT_FALSE(Trapezoid::plan({.angle_32 = 1, .dwell_ms = 1}, kAstro, profile)) << "turns and stands";
+  EXPECT_EQ(kMaxLength_nm, 1'000'000'000'000) << "a kilometre";
+  EXPECT_EQ(kMaxAngle_32, 500 * kTurn_32) << "500 turns";
+}
+
+TEST(Trapezoid, TakesItsOwnSpeedJustBelowTheLimitAndTheLimitJustAboveIt) {
+  // 3 m in one go: cruise ticks are length over speed, and the ramps 1.5 s at 0.5 m/s^2.
+  const auto ticks = [](std::int32_t speed_umps) {
+    return steps_of({3 * kMetre_nm, 0, speed_umps, 0}, kAstro).size();
+  };
+  EXPECT_EQ(ticks(750'001), ticks(0));
+  EXPECT_EQ(ticks(750'000), ticks(0));
+  EXPECT_GT(ticks(740'000), ticks(0));
+}
+
+TEST(Trapezoid, IsOneTickOfRampLongerThanATriangleOnlyWhereItHasALevelPart) {
+  // v^2 / a = 1.125 m is the longest line without a level part at 0.75 m/s and 0.5 m/s^2.
+  const Peaks below = peaks_of(steps_of({1'100'000'000, 0, 0, 0}, kAstro));
+  EXPECT_NEAR(below.speed_mps, std::sqrt(1.1 * 0.5), 0.001);
+  const Peaks above = peaks_of(steps_of({1'150'000'000, 0, 0, 0}, kAstro));
+  EXPECT_NEAR(above.speed_mps, 0.75, 0.001);
+}
+
+/// What a profile that is cut short after so many ticks still drives, and what is left then, in nanometres.
+struct Cut {
+  std::int64_t ticks_more = 0, driven_nm = 0, rest_nm = 0;
+};
+Cut cut_after(const Segment& segment, std::int64_t ticks) {
+  Trapezoid profile;
+  EXPECT_TRUE(Trapezoid::plan(segment, kAstro, profile));
+  Int128 travel = 0;
+  for (std::int64_t i = 0; i < ticks; ++i) travel += profile.advance().travel;
+  profile.cut_short();
+  Cut cut;
+  for (; !profile.done(); ++cut.ticks_more) travel += profile.advance().travel;
+  cut.driven_nm = static_cast<std::int64_t>((travel * kMetre_nm) >> 50);
+  cut.rest_nm = profile.rest().length_nm;
+  return cut;
+}
+
+TEST(Trapezoid, CutShortComesToRestAsSteeplyAsItWouldAndTheRestIsWhatIsLeft) {
+  const Segment line{3 * kMetre_nm, 0, 0, 0};  // 1500 ticks up, 2500 level, 1500 down
+  EXPECT_EQ(cut_after(line, 0).ticks_more, 0);
+  EXPECT_EQ(cut_after(line, 1).ticks_more, 1);
+  EXPECT_EQ(cut_after(line, 700).ticks_more, 700);
+  EXPECT_EQ(cut_after(line, 1499).ticks_more, 1499);
+  for (const std::int64_t ticks : {1500, 1501, 3000, 3999, 4000})
+    EXPECT_EQ(cut_after(line, ticks).ticks_more, 1500);
+  for (const std::int64_t ticks : {4001, 5000, 5499, 5500})
+    EXPECT_EQ(cut_after(line, ticks).ticks_more, 5500 - ticks);
+  for (const std::int64_t ticks : {0, 1, 700, 1500, 3000, 3999}) {
+    const Cut cut = cut_after(line, ticks);
+    EXPECT_NEAR(static_cast<double>(cut.driven_nm + cut.rest_nm), 3e9, 2) << ticks;
+    EXPECT_GT(cut.rest_nm, 0);
+  }
+  for (const std::int64_t ticks : {4000, 5000, 5500}) EXPECT_EQ(cut_after(line, ticks).rest_nm, 0) << ticks;
+}
+
+TEST(Trapezoid, OfAStandThatIsCutShortTheRestOfItsTimeIsLeft) {
+  Trapezoid profile;
+  ASSERT_TRUE(Trapezoid::plan({.dwell_ms = 100}, kAstro, profile));
+  for (int i = 0; i < 30; ++i) profile.advance();
+  EXPECT_EQ(profile.rest().dwell_ms, 70);
+  profile.cut_short();
+  EXPECT_TRUE(profile.done());
+  EXPECT_EQ(profile.rest().dwell_ms, 70);
+}
+
+TEST(Trapezoid, ProgressGoesFromNothingToTheWholeByTheWayGivenOrByTheTime) {
+  for (const Segment& segment : {Segment{-kMetre_nm, 0, 0, 0}, Segment{0, kTurn_32, 0, 0},
+                                 Segment{2 * kMetre_nm, -kTurn_32, 0, 0}, Segment{.dwell_ms = 1000}}) {
+    Trapezoid profile;
+    ASSERT_TRUE(Trapezoid::plan(segment, kAstro, profile));
+    EXPECT_EQ(profile.progress_16(), 0U);
+    const std::int64_t half = profile.ticks() / 2;
+    for (std::int64_t i = 0; i < half; ++i) profile.advance();
+    EXPECT_NEAR(profile.progress_16(), 32'768, 70);  // profiles are symmetric; one tick in 1000 more or less
+    while (!profile.done()) profile.advance();
+    EXPECT_NEAR(profile.progress_16(), 65'536, 1);
+  }
+  EXPECT_EQ(Trapezoid{}.progress_16(), 0U);
+}
+
 TEST(Trapezoid, NothingTakesLongerThanFourHours) {
   tests::Seeded random(7);
   int taken = 0;

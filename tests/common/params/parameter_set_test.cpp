@@ -154,6 +154,30 @@ TEST(Validation, RefusesTravelPerCountThatDrownsInTheResolution) {
   EXPECT_EQ(verdict(set), Param::counts_per_motor_rev);
 }
 
+TEST(Validation, RoundsAWheelToTheNearestNanometre) {
+  ParameterSet set;
+  // Half of 11,299,999 nm is 113 * 50,000 nm less half a nanometre: 355 / 113 of that is 355 * 50,000 nm, and
+  // so one nanometre a count, the least that is accepted.
+  set.set(Param::c_L, 1 << 29);
+  set.set(Param::c_R, 1 << 29);
+  set.set(Param::wheel_diameter, 11'299'999);
+  set.set(Param::counts_per_motor_rev, 50);
+  set.set(Param::gear_numerator, 355'000);
+  set.set(Param::gear_denominator, 1);
+  EXPECT_EQ(verdict(set), Param::none);
+  set.set(Param::wheel_diameter, 11'299'998);
+  EXPECT_EQ(verdict(set), Param::counts_per_motor_rev);
+  // Three quarters of 15,066,967 nm are 113 * 100,002 nm less three quarters: a nanometre short.
+  set.set(Param::c_L, 3 << 28);
+  set.set(Param::c_R, 3 << 28);
+  set.set(Param::wheel_diameter, 15'066'967);
+  set.set(Param::counts_per_motor_rev, 71);
+  set.set(Param::gear_numerator, 500'010);
+  EXPECT_EQ(verdict(set), Param::counts_per_motor_rev);
+  set.set(Param::wheel_diameter, 15'066'968);
+  EXPECT_EQ(verdict(set), Param::none);
+}
+
 TEST(Validation, RefusesAWheelbaseThatTurnsASixteenthPerCount) {
   ParameterSet set;
   set.set(Param::counts_per_motor_rev, 1);

@@ -148,6 +148,74 @@ TEST(ParamTable, MakersRoundToTheNearestStepOnBothSidesOfZero) {
   EXPECT_EQ(ends.maximum_raw, INT32_MAX);
 }
 
+// What people's scripts, older hosts and stored calibrations rely on, once more and literally: a changed
+// default, limit, unit or scale is a decision and not a slip of the pen. Numbers in the row's unit.
+TEST(ParamTable, StandsAsItWasPublished) {
+  struct Published {
+    std::string_view name, unit;
+    ParamKind kind;
+    int exponent;
+    double standard, minimum, maximum;
+  };
+  // clang-format off
+  constexpr Published kPublished[] = {
+    {"c_R", "1", ParamKind::binary_scaled, -30, 1, 0.5, 1.5},
+    {"c_L", "1", ParamKind::binary_scaled, -30, 1, 0.5, 1.5},
+    {"b", "m", ParamKind::decimal_scaled, -9, 0.29, 0.05, 2},
+    {"wheel_diameter", "m", ParamKind::decimal_scaled, -9, 0.072, 0.01, 1},
+    {"counts_per_motor_rev", "count", ParamKind::integer, 0, 64, 1, 65536},
+    {"gear_numerator", "1", ParamKind::integer, 0, 438, 1, 1000000},
+    {"gear_denominator", "1", ParamKind::integer, 0, 10, 1, 1000000},
+    {"motor_polarity_left", "1", ParamKind::integer, 0, 1, -1, 1},
+    {"motor_polarity_right", "1", ParamKind::integer, 0, 1, -1, 1},
+    {"encoder_polarity_left", "1", ParamKind::integer, 0, 1, -1, 1},
+    {"encoder_polarity_right", "1", ParamKind::integer, 0, 1, -1, 1},
+    {"kp", "Vs/m", ParamKind::binary_scaled, -16, 60, 0, 1000},
+    {"ki", "V/m", ParamKind::binary_scaled, -16, 1200, 0, 30000},
+    {"kS_left", "V", ParamKind::binary_scaled, -16, 0.5, 0, 50},
+    {"kV_left", "Vs/m", ParamKind::binary_scaled, -16, 12.2, 0, 1000},
+    {"kA_left", "Vs^2/m", ParamKind::binary_scaled, -16, 1.1, 0, 100},
+    {"observer_bandwidth", "rad/s", ParamKind::binary_scaled, -16, 200, 1, 500},
+    {"path_k_along", "1/s", ParamKind::binary_scaled, -16, 8, 0, 1000},
+    {"path_k_cross", "1/m^2", ParamKind::binary_scaled, -16, 60, 0, 10000},
+    {"path_k_heading", "1/s", ParamKind::binary_scaled, -16, 10, 0, 10000},
+    {"speed_limit", "m/s", ParamKind::decimal_scaled, -6, 0.75, 0.01, 10},
+    {"yaw_rate_limit", "rad/s", ParamKind::decimal_scaled, -6, 2, 0.01, 50},
+    {"acceleration_limit", "m/s^2", ParamKind::decimal_scaled, -6, 0.5, 0.01, 50},
+    {"yaw_acceleration_limit", "rad/s^2", ParamKind::decimal_scaled, -6, 3, 0.01, 500},
+    {"command_timeout", "ms", ParamKind::integer, 0, 200, 0, 60000},
+    {"telemetry_period", "ms", ParamKind::integer, 0, 10, 0, 60000},
+    {"motor_voltage_max", "V", ParamKind::decimal_scaled, -3, 12, 1, 50},
+    {"battery_low", "mV", ParamKind::integer, 0, 10500, 0, 60000},
+    {"battery_high", "mV", ParamKind::integer, 0, 14000, 0, 60000},
+    {"over_speed", "m/s", ParamKind::decimal_scaled, -6, 1.2, 0.02, 20},
+    {"robot_name", "", ParamKind::text, 0, 0, 1, 24},
+    {"kS_right", "V", ParamKind::binary_scaled, -16, 0.5, 0, 50},
+    {"kV_right", "Vs/m", ParamKind::binary_scaled, -16, 12.2, 0, 1000},
+    {"kA_right", "Vs^2/m", ParamKind::binary_scaled, -16, 1.1, 0, 100},
+    {"k_sync", "1/s", ParamKind::binary_scaled, -16, 6, 0, 400},
+    {"jerk_limit", "m/s^3", ParamKind::decimal_scaled, -3, 20, 0, 1000},
+    {"yaw_jerk_limit", "rad/s^3", ParamKind::decimal_scaled, -3, 120, 0, 10000},
+    {"stall_time", "ms", ParamKind::integer, 0, 300, 50, 5000},
+  };
+  // clang-format on
+  ASSERT_EQ(kParamTable.size(), std::size(kPublished));
+  for (std::size_t i = 0; i < kParamTable.size(); ++i) {
+    const ParamRow& row = kParamTable[i];
+    const Published& published = kPublished[i];
+    SCOPED_TRACE(published.name);
+    EXPECT_EQ(row.name, published.name);
+    EXPECT_EQ(row.unit, published.unit);
+    EXPECT_EQ(row.kind, published.kind);
+    EXPECT_EQ(row.exponent, published.exponent);
+    const double scale = std::pow(row.kind == ParamKind::binary_scaled ? 2.0 : 10.0, published.exponent);
+    EXPECT_EQ(row.default_raw, std::llround(published.standard / scale));
+    EXPECT_EQ(row.minimum_raw, std::llround(published.minimum / scale));
+    EXPECT_EQ(row.maximum_raw, std::llround(published.maximum / scale));
+  }
+  EXPECT_EQ(param_row(Param::robot_name).default_text, "ASTRO");
+}
+
 TEST(ParamTable, DescribesTheReferenceRobot) {
   const auto value = [](Param id) {
     const ParamRow& row = param_row(id);

@@ -112,6 +112,27 @@ TEST(ClockSearch, SeesASpinByWhereTheBodyGoesRound) {
   EXPECT_NEAR(search_clock(run, 0.29, {}).offset_s, 482.3, kBin_s);
 }
 
+TEST(ClockSearch, ExplainsAllMotionOfABodyHalfAWheelbaseOrTwoAheadWithoutHeadings) {
+  // Lines, spins and rests in turn: a body thought to be anywhere else moves wrongly in every other one.
+  study::Course course{{study::Leg::Kind::rest, 0, 0, 2}};
+  for (int i = 0; i < 8; ++i) {
+    course.push_back({study::Leg::Kind::straight, 0.2 + 0.02 * i, 0, 0});
+    course.push_back({study::Leg::Kind::turn, 0, i % 2 == 0 ? 1.5 - 0.4 * i : 1.5 + 0.4 * i, 0});
+    course.push_back({study::Leg::Kind::rest, 0, 0, 0.5 + 0.1 * (i % 3)});
+  }
+  course.push_back({study::Leg::Kind::rest, 0, 0, 2});
+  for (const double lever_m : {0.145, 0.58}) {
+    study::DriveModel model = quiet_drive();
+    model.headings = false;
+    model.lever = {lever_m, 0, 0};
+    Trajectory run = study::synthetic_drive(course, model, "run", kSeed);
+    for (BodySample& sample : run.truth) sample.time_s -= 40;
+    const ClockFit fit = search_clock(run, 0.29, {});
+    EXPECT_GT(fit.correlation, 0.99) << lever_m << ": a lever of twice that explains less than 0.92";
+    EXPECT_NEAR(fit.offset_s, 40, kBin_s) << lever_m;
+  }
+}
+
 Trajectory between(Trajectory run, double from_s, double to_s) {
   std::erase_if(run.wheels, [&](const WheelSample& s) { return s.time_s < from_s || s.time_s > to_s; });
   return run;

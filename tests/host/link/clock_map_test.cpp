@@ -44,6 +44,29 @@ TEST(ClockMap, OneRoundTripGivesTheMiddleAndHalfOfItAsTheBound) {
   EXPECT_FALSE(map.drift());
 }
 
+/// One that is kept: the fastest of a group of equals.
+void add_group(ClockMap& map, std::int64_t sent_us, std::int64_t rtt_us) {
+  const std::int64_t device_us = 7'000'000 + sent_us + rtt_us / 2;
+  for (std::size_t i = 0; i < ClockMap::kGroup; ++i)
+    map.add({sent_us, static_cast<std::uint64_t>(device_us), sent_us + rtt_us});
+}
+
+TEST(ClockMap, MeasuresADriftOverMoreThanTenTimesTheFastestRoundTripWhicheverThatIs) {
+  struct Case {
+    std::int64_t first_rtt_us, second_sent_us, second_rtt_us;
+    bool measured;
+  };
+  for (const Case& one : {Case{100, 900, 100, false}, Case{100, 901, 100, true},     // 1000 and 1001 us
+                          Case{100, 600, 400, false}, Case{100, 601, 400, true},     // the first is fastest
+                          Case{400, 900, 100, false}, Case{400, 901, 100, true}}) {  // the last is
+    ClockMap map;
+    add_group(map, 0, one.first_rtt_us);
+    add_group(map, one.second_sent_us, one.second_rtt_us);
+    EXPECT_EQ(map.drift().has_value(), one.measured)
+        << one.first_rtt_us << ' ' << one.second_sent_us << ' ' << one.second_rtt_us;
+  }
+}
+
 TEST(ClockMap, NeverErrsMoreThanItsBoundWhateverTheDriftAndTheDelays) {
   for (const double drift : {-0.024, 0.0, 0.024}) {
     for (const double asymmetry_us : {0.0, 3000.0}) {

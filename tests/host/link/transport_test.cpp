@@ -81,6 +81,28 @@ TEST(SerialTransport, WaitsAsLongAsItIsTold) {
   EXPECT_GE(transport->now() - start, milliseconds(30));
 }
 
+/// Times out at a depth of the stack where `below` bytes lie over what the last time-out left there. Returns
+/// whether they are as they were.
+[[gnu::noinline]] bool time_out_above_a_pattern(Transport& transport) {
+  std::array<volatile std::uint8_t, 4096> below;
+  for (volatile std::uint8_t& byte : below) byte = 0xA5;
+  std::array<std::uint8_t, 8> into;
+  EXPECT_EQ(transport.read(into, milliseconds(5)), 0U);
+  return std::all_of(below.begin(), below.end(), [](std::uint8_t byte) { return byte == 0xA5; });
+}
+
+TEST(SerialTransport, ATimeOutLeavesNothingBehindThatALaterOneWouldRun) {
+  const Pty pty;
+  const auto transport = open_transport(pty.path());
+  std::array<std::uint8_t, 8> into;
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(transport->read(into, milliseconds(5)), 0U);
+    EXPECT_TRUE(time_out_above_a_pattern(*transport)) << "the last wait wrote where it had ended";
+  }
+  ASSERT_EQ(::write(pty.master(), "x", 1), 1);
+  EXPECT_EQ(transport->read(into, seconds(2)), 1U);
+}
+
 TEST(SerialTransport, TakesAnyBaudRateAndAnyLinkToAPort) {
   const TemporaryFolder folder;
   const Pty pty;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "host/recording/end_error.hpp"
@@ -62,6 +64,21 @@ TEST(AlignedPaths, WhereTruthIsLostForLongThereIsNoError) {
   EXPECT_EQ(inside, 0);
   EXPECT_EQ(paths.error.size(), 300U - 101U)
       << "odometry from 1.00 s to 2.00 s lies between the two valid ends";
+}
+
+TEST(AlignedPaths, ATruthSampleOfWhichOneCoordinateIsNoNumberIsNone) {
+  const std::size_t all = align_paths(far_drive().run()).truth.size();
+  for (double TruthSample::*coordinate : {&TruthSample::x_m, &TruthSample::y_m}) {
+    recording::Run run = far_drive().run();
+    run.truth[100].*coordinate = std::numeric_limits<double>::quiet_NaN();
+    run.truth[101].*coordinate = std::numeric_limits<double>::infinity();
+    const AlignedPaths paths = align_paths(run);
+    EXPECT_EQ(paths.truth.size(), all - 2);
+    for (const PathPoint& point : paths.truth)
+      EXPECT_TRUE(std::isfinite(point.pose.x_m) && std::isfinite(point.pose.y_m));
+    for (const PathPoint& point : paths.error)
+      EXPECT_TRUE(std::isfinite(point.pose.x_m) && std::isfinite(point.pose.y_m));
+  }
 }
 
 TEST(AlignedPaths, ErrorsOfHeadingStayWithinHalfATurn) {

@@ -1,0 +1,115 @@
+#include "common/params/record_log.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "common/base/crc32.hpp"
+#include "hal/sim/flash.hpp"
+
+// Where a log of records looks for them, at the ends of sectors and of the part.
+namespace astro {
+namespace {
+
+/// Counts reads that leave the part.
+struct StrictFlash : sim::NorFlash<3, 1024, 4> {
+  void read(std::uint32_t offset, std::span<std::uint8_t> into) noexcept {
+    if (offset > kBytes || into.size() > kBytes - offset) ++outside;
+    NorFlash::read(offset, into);
+  }
+  int outside = 0;
+};
+using Log = RecordLog<StrictFlash>;
+
+constexpr std::uint32_t kUnit = Log::kUnit, kSector = Log::kSectorBytes;
+
+void put_le(std::vector<std::uint8_t>& bytes, std::uint32_t value, int count) {
+  for (int i = 0; i < count; ++i) bytes.push_back(static_cast<std::uint8_t>(value >> 8 * i));
+}
+
+std::vector<std::uint8_t> header(std::uint32_t payload_bytes, std::uint32_t sequence) {
+  std::vector<std::uint8_t> bytes{'A', 'S', 'T', 'P', 1, 0};
+  put_le(bytes, payload_bytes, 2);
+  put_le(bytes, sequence, 4);
+  return bytes;
+}
+
+/// An intact record of `units` units, whose one row no firmware knows.
+std::vector<std::uint8_t> record_of(std::uint32_t units, std::uint32_t sequence) {
+  const std::uint32_t payload = units * kUnit - 16;
+  std::vector<std::uint8_t> bytes = header(payload, sequence);
+  put_le(bytes, 0x7001, 2);
+  bytes.push_back(static_cast<std::uint8_t>(payload - 3));
+  bytes.resize(12 + payload, 0x55);
+  put_le(bytes, crc32(bytes), 4);
+  return bytes;
+}
+
+Log::Newest found_in(StrictFlash& flash) {
+  Record record;
+  return Log(flash).newest(record);
+}
+
+TEST(RecordLog, ARottenLengthInTheLastUnitIsNotFollowedOutOfThePart) {
+  for (std::uint32_t sector = 0; sector < Log::kSectors; ++sector) {
+    StrictFlash flash;
+    flash.put_back(0, record_of(4, 7));
+    flash.put_back((sector + 1) * kSector - kUnit, header(500, 8));
+    const Log::Newest newest = found_in(flash);
+    EXPECT_TRUE(newest.found);
+    EXPECT_EQ(newest.sequence, 7U);
+    EXPECT_EQ(newest.skipped, 1U);
+    EXPECT_TRUE(newest.outrun()) << "the damaged one says it is newer";
+    EXPECT_EQ(flash.outside, 0) << "sector " << sector;
+  }
+}
+
+TEST(RecordLog, ARecordMayFillItsSectorToTheLastByte) {
+  for (std::uint32_t sector = 0; sector < Log::kSectors; ++sector) {
+    StrictFlash flash;
+    const auto record = record_of(4, 7);
+    const auto at = static_cast<std::uint32_t>((sector + 1) * kSector - record.size());
+    flash.put_back(at, record);
+    const Log::Newest newest = found_in(flash);
+    EXPECT_TRUE(newest.found);
+    EXPECT_EQ(newest.at, at);
+    EXPECT_EQ(newest.sector(), sector);
+    EXPECT_EQ(newest.skipped, 0U);
+    EXPECT_EQ(flash.outside, 0);
+  }
+}
+
+TEST(RecordLog, ARecordThatReachesIntoTheNextSectorIsNone) {
+  // Half of it would go with the next erase.
+  for (std::uint32_t sector = 0; sector + 1 < Log::kSectors; ++sector) {
+    StrictFlash flash;
+    const auto record = record_of(4, 7);
+    flash.put_back(static_cast<std::uint32_t>((sector + 1) * kSector - record.size() + kUnit), record);
+    EXPECT_FALSE(found_in(flash).found) << sector;
+  }
+}
+
+TEST(RecordLog, IsAppendedToBehindEverythingThatIsNotBlank) {
+  StrictFlash flash;
+  flash.rot(5 * kUnit + 3, 0x01);  // one bit in the sixth unit
+  Record record;
+  ASSERT_TRUE(record.rewrite(ParameterSet{}, 1));
+  ASSERT_TRUE(Log(flash).append(0, record));
+  const Log::Newest newest = found_in(flash);
+  EXPECT_EQ(newest.at, 6 * kUnit);
+  EXPECT_EQ(newest.skipped, 1U);
+}
+
+TEST(RecordLog, IsAppendedToAtTheStartOfABlankSectorAndNotBeforeIt) {
+  for (std::uint32_t sector = 0; sector < Log::kSectors; ++sector) {
+    StrictFlash flash;
+    Record record;
+    ASSERT_TRUE(record.rewrite(ParameterSet{}, 1));
+    ASSERT_TRUE(Log(flash).append(sector, record));
+    EXPECT_EQ(found_in(flash).at, sector * kSector);
+    EXPECT_EQ(flash.outside, 0);
+  }
+}
+
+}  // namespace
+}  // namespace astro
