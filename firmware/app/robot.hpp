@@ -157,11 +157,12 @@ class Robot {
     drive_.host_seen();
   }
 
-  /// The host that drives is the last whose motion request was taken; a pause and its end are such, too.
+  /// The host that drives is the last whose Arm or motion request was taken. Pause and Resume come from
+  /// anybody and leave the driver as it is: who resumes a path does not mean to keep it alive. If the driver
+  /// is gone by then, the path ends by the command time-out.
   void note_driver(int port, std::uint8_t message) {
-    constexpr std::array kDriving{protocol::Arm::kId,          protocol::Velocity::kId,
-                                  protocol::WheelVoltage::kId, protocol::AddSegment::kId,
-                                  protocol::Pause::kId,        protocol::Resume::kId};
+    constexpr std::array kDriving{protocol::Arm::kId, protocol::Velocity::kId, protocol::WheelVoltage::kId,
+                                  protocol::AddSegment::kId};
     if (std::find(kDriving.begin(), kDriving.end(), message) == kDriving.end()) return;
     driver_port_ = port;
     auto hold = board_.hold_tick();
@@ -230,9 +231,12 @@ class Robot {
                             .reset_cause = reset_cause()};
   }
 
-  Answer<Ack> handle(int, const protocol::Arm&) {
+  Answer<Ack> handle(int port, const protocol::Arm&) {
     if (reset_wanted_ != Reset::none) return error(ErrorCode::busy);
     auto hold = board_.hold_tick();
+    // Whoever arms becomes the driver, so nobody arms while another host's drive is under way or waits.
+    if (port != driver_port_ && (drive_.state() == State::driving || drive_.queued() != 0))
+      return error(ErrorCode::moving);
     if (!drive_.arm()) return not_ready();
     return Ack{};
   }

@@ -97,6 +97,57 @@ TEST_F(Frames, ANewSessionDoesNotKeepTheDriveOfTheLastOneAlive) {
   EXPECT_EQ(drive().faults().first(), Fault::link_lost);
 }
 
+TEST_F(Frames, WhoPausesAndResumesAtAnotherPortLeavesTheDriveToItsDriver) {
+  ask(protocol::Arm{});
+  ask(link::line(0.5).front());
+  run_ms(500);
+  send(protocol::Pause{}, 1);
+  run_ms(1000);
+  ASSERT_EQ(mode(), protocol::Mode::paused);
+  send(protocol::Resume{}, 2);  // and then port 1 says nothing more
+  run_ms(3000);
+  EXPECT_EQ(drive().faults().mask(), 0U);
+  EXPECT_NEAR(board().truth().x_m, 0.5, 0.005);
+}
+
+TEST_F(Frames, APathThatIsResumedAfterItsDriverHasGoneEndsByTheTimeout) {
+  ask(protocol::Arm{});
+  ask(link::line(0.5).front());
+  run_ms(500);
+  ask(protocol::Pause{});
+  run_ms(1000);
+  silence_ms(1000);  // the driver has gone
+  const double paused_at_m = board().truth().x_m;
+  for (int i = 0; i < 30; ++i) {
+    send(protocol::Resume{}, static_cast<std::uint16_t>(1 + i));  // however often somebody says so
+    silence_ms(100);
+  }
+  EXPECT_EQ(drive().faults().first(), Fault::link_lost);
+  EXPECT_TRUE(open());
+  EXPECT_NEAR(board().truth().x_m, paused_at_m, 0.01);
+}
+
+TEST_F(Frames, NobodyElseArmsDuringADriveNorWhileItIsPaused) {
+  received();
+  ask(protocol::Arm{});
+  ask(link::line(0.5).front());
+  run_ms(500);
+  send(protocol::Arm{}, 1);
+  EXPECT_EQ(error(received().back()), ErrorCode::moving);
+  ask(protocol::Pause{});
+  run_ms(1000);
+  received();
+  send(protocol::Arm{}, 2);
+  EXPECT_EQ(error(received().back()), ErrorCode::moving);
+  ask(protocol::Resume{});
+  run_ms(3000);
+  EXPECT_EQ(drive().faults().mask(), 0U);
+  EXPECT_NEAR(board().truth().x_m, 0.5, 0.005);
+  received();
+  send(protocol::Arm{}, 3);
+  EXPECT_EQ(received().back().header.message_id, protocol::Ack::kId) << "the drive has ended";
+}
+
 TEST_F(Frames, ARefusedRequestDoesNotMakeItsSenderTheDriver) {
   send(protocol::Arm{}, 1);
   send(link::line(5).front(), 2);
