@@ -200,6 +200,7 @@ class Robot {
     if (request.protocol_version != protocol::kProtocolVersion)
       return error(ErrorCode::wrong_version, protocol::kProtocolVersion);
     sessions_[port].telemetry_period_us = 0;
+    desk_.close(port);
     return protocol::HelloReply{.fw_major = kFirmwareVersion.major,
                                 .fw_minor = kFirmwareVersion.minor,
                                 .fw_patch = kFirmwareVersion.patch,
@@ -314,35 +315,35 @@ class Robot {
   Answer<protocol::ParameterInfo> handle(int, const protocol::GetParameterInfo& request) {
     return desk_.info(request.index);
   }
-  Answer<protocol::ParameterValue> handle(int, const protocol::GetParameter& request) {
-    return desk_.value(request.id);
+  Answer<protocol::ParameterValue> handle(int port, const protocol::GetParameter& request) {
+    return desk_.value(port, request.id);
   }
-  Answer<Ack> handle(int, const protocol::StageParameter& request) { return desk_.stage(request); }
+  Answer<Ack> handle(int port, const protocol::StageParameter& request) { return desk_.stage(port, request); }
 
-  Answer<Ack> handle(int, const protocol::CommitParameters&) {
+  Answer<Ack> handle(int port, const protocol::CommitParameters&) {
     // At rest only: the processor may stand still while the flash erases. With an empty queue only this loop
     // can set the robot moving.
     if (!stands_idle()) return error(ErrorCode::moving);
-    const Answer<Ack> done = desk_.commit();
+    const Answer<Ack> done = desk_.commit(port);
     auto hold = board_.hold_tick();
     if (done) drive_.configure(desk_.active());
     if (!done && done.error().code == ErrorCode::flash_failed) drive_.raise(Fault::flash);
     return done;
   }
 
-  Answer<Ack> handle(int, const protocol::ApplyParameters&) {
-    const Answer<Ack> done = desk_.apply(!stands_idle());
+  Answer<Ack> handle(int port, const protocol::ApplyParameters&) {
+    const Answer<Ack> done = desk_.apply(port, !stands_idle());
     auto hold = board_.hold_tick();
     if (done) drive_.configure(desk_.active());
     return done;
   }
 
-  Answer<Ack> handle(int, const protocol::RevertParameters&) {
-    desk_.revert();
+  Answer<Ack> handle(int port, const protocol::RevertParameters&) {
+    desk_.open(port, desk_.active());
     return Ack{};
   }
-  Answer<Ack> handle(int, const protocol::DefaultParameters&) {
-    desk_.stage_defaults();
+  Answer<Ack> handle(int port, const protocol::DefaultParameters&) {
+    desk_.open(port, ParameterSet::defaults());
     return Ack{};
   }
 

@@ -43,6 +43,7 @@ class FakeRobot {
   std::vector<protocol::AddSegment> segments;       // accepted, ever
   std::optional<protocol::ErrorReply> refuse_next;  // whatever the next new request is
   bool mute_events = false;
+  bool staging_is_ours = false;  // false again once another session has opened the staging area
 
   FakeRobot() {
     identity.board = "fake";
@@ -93,6 +94,7 @@ class FakeRobot {
     telemetry_ = {};
     last_reply_.clear();
     framer_ = {};
+    staging_is_ours = false;
     revert();
     event(protocol::Booted{protocol::ResetCause::watchdog});
   }
@@ -175,7 +177,11 @@ class FakeRobot {
     return protocol::ErrorReply{code, detail};
   }
 
-  void answer(const protocol::Hello&, std::uint16_t id) { push(identity, id); }
+  void answer(const protocol::Hello&, std::uint16_t id) {
+    revert();
+    staging_is_ours = false;
+    push(identity, id);
+  }
   void answer(const protocol::Ping&, std::uint16_t id) { push(protocol::Pong{device_us}, id); }
   void answer(const protocol::GetStatus&, std::uint16_t id) {
     protocol::Status status;
@@ -198,7 +204,13 @@ class FakeRobot {
   }
   void answer(const protocol::GetParameter& request, std::uint16_t id) {
     for (const auto& p : parameters) {
-      if (p.info.id == request.id) return push(p.value, id);
+      if (p.info.id != request.id) continue;
+      protocol::ParameterValue value = p.value;
+      if (!staging_is_ours) {
+        value.staged = value.active;
+        value.staged_text = value.active_text;
+      }
+      return push(value, id);
     }
     push(*no(protocol::ErrorCode::unknown_parameter), id);
   }
@@ -241,6 +253,7 @@ class FakeRobot {
     return {};
   }
   Refusal carry_out(const protocol::StageParameter& request) {
+    if (!staging_is_ours) return no(protocol::ErrorCode::staging_lost);
     for (auto& p : parameters) {
       if (p.info.id != request.id) continue;
       p.value.staged = request.value;
@@ -250,6 +263,7 @@ class FakeRobot {
     return no(protocol::ErrorCode::unknown_parameter, request.id);
   }
   Refusal carry_out(const protocol::CommitParameters&) {
+    if (!staging_is_ours) return no(protocol::ErrorCode::staging_lost);
     const auto& sign = parameter("polarity");
     if (sign.value.staged == 0) return no(protocol::ErrorCode::invalid_parameter, sign.info.id);
     for (auto& p : parameters) {
@@ -259,10 +273,12 @@ class FakeRobot {
     return {};
   }
   Refusal carry_out(const protocol::RevertParameters&) {
+    staging_is_ours = true;
     revert();
     return {};
   }
   Refusal carry_out(const protocol::DefaultParameters&) {
+    staging_is_ours = true;
     for (auto& p : parameters) p.value.staged = p.info.default_value;
     return {};
   }

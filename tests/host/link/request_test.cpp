@@ -53,6 +53,7 @@ TEST_F(Request, IsCarriedOutOnceWhateverHappensToOneFrame) {
 }
 
 TEST_F(Request, RepeatsACommitWithoutCommittingTwice) {
+  client.request(RevertParameters{});
   once(false, Ack::kId, Fate::lost);
   client.request(CommitParameters{});
   EXPECT_EQ(link.robot.executed[CommitParameters::kId], 1);
