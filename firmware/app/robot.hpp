@@ -79,6 +79,12 @@ class Robot {
   using Answer = Result<Reply, protocol::ErrorReply>;
   using Ack = protocol::Ack;
   using ErrorCode = protocol::ErrorCode;
+  /// Who a request comes from: the owner of a port, or an onlooker that shares it.
+  struct Host {
+    int port = kNobody;
+    bool onlooker = false;
+    bool operator==(const Host&) const = default;
+  };
   static constexpr int kNobody = -1;
   enum class Reset : std::uint8_t { none, reboot, bootloader };
   static constexpr int kPorts = std::remove_reference_t<decltype(std::declval<Board&>().ports())>::kPorts;
@@ -124,11 +130,13 @@ class Robot {
   void answer(int port, std::span<const std::uint8_t> body) {
     Session& session = sessions_[port];
     const protocol::Header header = *protocol::peek(body);  // the framer drops what has no header
-    if (session.answered(header)) {
-      send(port, session.answer());
+    if (header.request_id == 0) return;                     // that marks an event, and asks for nothing
+    if (const auto again = session.answer(header); !again.empty()) {
+      send(port, again);
       return;
     }
-    note_host(port, header.message_id);
+    asking_ = {port, protocol::from_onlooker(header)};
+    note_host(header.message_id);
     bool known = false;
     protocol::Requests::visit([&]<protocol::Message M>() {
       if (M::kId != header.message_id) return;
@@ -136,7 +144,7 @@ class Robot {
       const auto request = protocol::decode<M>(body);
       if (request) {
         const auto reply = handle(port, *request);
-        if (reply) note_driver(port, header.message_id);
+        if (reply) note_driver(header.message_id);
         respond(port, header, reply);
       } else {
         respond(port, header, Answer<typename M::Reply>(error(ErrorCode::malformed)));
@@ -145,14 +153,14 @@ class Robot {
     if (!known) respond(port, header, Answer<Ack>(error(ErrorCode::unknown_message)));
   }
 
-  /// Only the host that drives keeps a drive alive: not one that looks on at another port, and not one that
-  /// says Hello where the driver was, which must have gone.
-  void note_host(int port, std::uint8_t message) {
-    if (port != driver_port_) return;
+  /// Only the host that drives keeps a drive alive: not one that looks on, at another port or at the same
+  /// one, and not one that says Hello where the driver was, which must have gone.
+  void note_host(std::uint8_t message) {
     if (message == protocol::Hello::kId) {
-      driver_port_ = kNobody;
+      if (!asking_.onlooker && asking_.port == driver_.port) driver_ = {};
       return;
     }
+    if (asking_ != driver_) return;
     auto hold = board_.hold_tick();
     drive_.host_seen();
   }
@@ -160,11 +168,11 @@ class Robot {
   /// The host that drives is the last whose Arm or motion request was taken. Pause and Resume come from
   /// anybody and leave the driver as it is: who resumes a path does not mean to keep it alive. If the driver
   /// is gone by then, the path ends by the command time-out.
-  void note_driver(int port, std::uint8_t message) {
+  void note_driver(std::uint8_t message) {
     constexpr std::array kDriving{protocol::Arm::kId, protocol::Velocity::kId, protocol::WheelVoltage::kId,
                                   protocol::AddSegment::kId};
     if (std::find(kDriving.begin(), kDriving.end(), message) == kDriving.end()) return;
-    driver_port_ = port;
+    driver_ = asking_;
     auto hold = board_.hold_tick();
     drive_.host_seen();
   }
@@ -175,10 +183,9 @@ class Robot {
     const std::size_t size =
         reply ? frame(*reply, header.request_id, out) : frame(reply.error(), header.request_id, out);
     send(port, std::span(out).first(size));
-    // A Pong is about now and never repeated; a Hello begins a new session, which remembers nothing.
-    if (header.message_id == protocol::Ping::kId) return;
-    sessions_[port].remember(header,
-                             std::span(out).first(header.message_id == protocol::Hello::kId ? 0 : size));
+    // A Pong is about now and never repeated; a Hello may be carried out again.
+    if (header.message_id == protocol::Ping::kId || header.message_id == protocol::Hello::kId) return;
+    sessions_[port].remember(header, std::span(out).first(size));
   }
 
   static protocol::ErrorReply error(ErrorCode code, std::uint16_t detail = 0) { return {code, detail}; }
@@ -199,8 +206,7 @@ class Robot {
   Answer<protocol::HelloReply> handle(int port, const protocol::Hello& request) {
     if (request.protocol_version != protocol::kProtocolVersion)
       return error(ErrorCode::wrong_version, protocol::kProtocolVersion);
-    sessions_[port].telemetry_period_us = 0;
-    desk_.close(port);
+    if (!asking_.onlooker) begin_session(port);
     return protocol::HelloReply{.fw_major = kFirmwareVersion.major,
                                 .fw_minor = kFirmwareVersion.minor,
                                 .fw_patch = kFirmwareVersion.patch,
@@ -209,6 +215,13 @@ class Robot {
                                 .robot_name = desk_.active().text(Param::robot_name),
                                 .parameter_count = static_cast<std::uint16_t>(kParamCount),
                                 .tick_hz = static_cast<std::uint16_t>(kTickHz)};
+  }
+
+  /// A new owner of the port: nothing of the one before it is left.
+  void begin_session(int port) {
+    sessions_[port].telemetry_period_us = 0;
+    sessions_[port].forget();
+    desk_.close(port);
   }
 
   Answer<protocol::Pong> handle(int, const protocol::Ping&) {
@@ -232,11 +245,11 @@ class Robot {
                             .reset_cause = reset_cause()};
   }
 
-  Answer<Ack> handle(int port, const protocol::Arm&) {
+  Answer<Ack> handle(int, const protocol::Arm&) {
     if (reset_wanted_ != Reset::none) return error(ErrorCode::busy);
     auto hold = board_.hold_tick();
     // Whoever arms becomes the driver, so nobody arms while another host's drive is under way or waits.
-    if (port != driver_port_ && (drive_.state() == State::driving || drive_.queued() != 0))
+    if (asking_ != driver_ && (drive_.state() == State::driving || drive_.queued() != 0))
       return error(ErrorCode::moving);
     if (!drive_.arm()) return not_ready();
     return Ack{};
@@ -484,7 +497,7 @@ class Robot {
   std::array<Session, kPorts> sessions_{};
   std::int32_t battery_mv_ = 0;
   std::uint32_t reported_faults_ = 0;
-  int driver_port_ = kNobody;
+  Host asking_, driver_;
   Reset reset_wanted_ = Reset::none;
   std::uint64_t reset_due_us_ = 0;
   FaultJournal<typename FlashLayout<Flash>::Log> journal_;

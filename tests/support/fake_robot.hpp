@@ -42,6 +42,7 @@ class FakeRobot {
   std::vector<std::uint8_t> seen;                   // message ids of all good frames, repeats included
   std::vector<protocol::AddSegment> segments;       // accepted, ever
   std::optional<protocol::ErrorReply> refuse_next;  // whatever the next new request is
+  std::uint16_t greatest_request_id = 0;
   bool mute_events = false;
   bool staging_is_ours = false;  // false again once another session has opened the staging area
 
@@ -151,6 +152,7 @@ class FakeRobot {
   void take(std::span<const std::uint8_t> body) {
     const protocol::Header header = *protocol::peek(body);
     seen.push_back(header.message_id);
+    greatest_request_id = std::max(greatest_request_id, header.request_id);
     last_request_us = device_us;
     if (header == last_request_ && !last_reply_.empty()) return out_.push_back(last_reply_);
     ++executed[header.message_id];

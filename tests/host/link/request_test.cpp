@@ -60,6 +60,12 @@ TEST_F(Request, RepeatsACommitWithoutCommittingTwice) {
   EXPECT_EQ(std::count(link.robot.seen.begin(), link.robot.seen.end(), CommitParameters::kId), 2);
 }
 
+TEST_F(Request, IdsNeverLookLikeAnOnlookers) {
+  for (int i = 0; i < 0x8010; ++i) client.request(Ping{});
+  EXPECT_EQ(link.robot.greatest_request_id, 0x7FFF);
+  EXPECT_EQ(client.counts().repeats, 0U);
+}
+
 TEST_F(Request, WorksOverALineThatSpoilsEveryThirdFrame) {
   int frame = 0;
   link.fate = [&](bool, std::uint8_t) { return ++frame % 3 == 0 ? Fate::corrupted : Fate::arrives; };
