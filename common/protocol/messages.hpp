@@ -43,7 +43,7 @@ using Requests =
                 WheelVoltage, Pause, Resume, GetFaultLog, ApplyParameters>;
 using Replies = MessageList<Ack, ErrorReply, HelloReply, Pong, Status, ParameterInfo, ParameterValue,
                             FaultReport, FaultLogEntry>;
-using Events = MessageList<Telemetry, SegmentDone, FaultRaised, Booted, SegmentStarted>;
+using Events = MessageList<Telemetry, SegmentDone, FaultRaised, Booted, SegmentStarted, EventsMissed>;
 
 /// Bytes of the largest frame that carries one of these messages, its 0x00 included.
 template <Message... M>
@@ -51,6 +51,9 @@ consteval std::size_t largest_frame(MessageList<M...>) {
   return largest_frame_of(std::max({kBodySize<M>...}));
 }
 inline constexpr std::size_t kMaxReplyFrame = largest_frame(Replies{});
+/// The same of the events that are not Telemetry.
+inline constexpr std::size_t kMaxEventFrame =
+    largest_frame(MessageList<SegmentDone, FaultRaised, Booted, SegmentStarted, EventsMissed>{});
 
 /// For people and logs; "?" for an id that this version does not know.
 constexpr std::string_view message_name(std::uint8_t id) {

@@ -11,6 +11,7 @@
 #include "common/protocol/messages.hpp"
 #include "firmware/app/check_in.hpp"
 #include "firmware/app/drive.hpp"
+#include "firmware/app/event_log.hpp"
 #include "firmware/app/fault_journal.hpp"
 #include "firmware/app/flash_layout.hpp"
 #include "firmware/app/parameter_desk.hpp"
@@ -43,7 +44,7 @@ class Robot {
     const hal::ResetCause cause = board_.system().reset_cause();
     if (cause == hal::ResetCause::watchdog || cause == hal::ResetCause::fault) drive_.raise(Fault::watchdog);
     if (desk_.fell_back()) journal_.parameters_fell_back();
-    announce(protocol::Booted{reset_cause()});
+    events_.note({0, static_cast<std::uint16_t>(reset_cause()), HostEvent::Kind::booted});
   }
 
   void tick() {
@@ -63,9 +64,10 @@ class Robot {
   void poll() {
     for (int port = 0; port < kPorts; ++port) receive(port);
     plan();
-    report_events();
+    collect_events();
     journal_.write(board_, drive_);
-    for (int port = 0; port < kPorts; ++port) stream(port);
+    for (int port = 0; port < kPorts; ++port)
+      if (tell(port)) stream(port);
     if (board_.system().host_wants_bootloader() && !drive_.armed()) reset_soon(Reset::bootloader);
     if (reset_wanted_ != Reset::none && board_.clock().now_us() >= reset_due_us_) reset();
     feed_watchdog();
@@ -221,6 +223,7 @@ class Robot {
   void begin_session(int port) {
     sessions_[port].telemetry_period_us = 0;
     sessions_[port].forget();
+    events_.skip(port);
     desk_.close(port);
   }
 
@@ -376,6 +379,7 @@ class Robot {
   }
 
   Answer<Ack> handle(int, const protocol::ClearFaults&) {
+    collect_events();  // what is cleared in the turn in which it came is told all the same
     auto hold = board_.hold_tick();
     if (!drive_.clear_faults()) return error(ErrorCode::moving);
     reported_faults_ = 0;
@@ -414,52 +418,90 @@ class Robot {
     return protocol::encode_frame(std::span(body).first(size), out);
   }
 
+  // What a line takes is shared out by rank: an answer takes whatever room there is; an event leaves room for
+  // the largest answer; telemetry leaves room for two of those and some events.
+  static constexpr std::size_t kAnswerRoom = protocol::kMaxReplyFrame;
+  static constexpr std::size_t kTelemetryLeaves = 2 * kAnswerRoom + 8 * protocol::kMaxEventFrame;
+
   /// Whole frames or nothing: a host that does not read loses frames, never halves of them.
-  bool send(int port, std::span<const std::uint8_t> bytes) {
-    if (board_.ports().room(port) < bytes.size()) return false;
+  bool send(int port, std::span<const std::uint8_t> bytes, std::size_t leaves = 0) {
+    if (board_.ports().room(port) < bytes.size() + leaves) return false;
     return board_.ports().write(port, bytes) == bytes.size();
   }
 
   template <protocol::Message M>
-  void announce(const M& event) {
+  bool send_unasked(int port, const M& event, std::size_t leaves) {
     std::array<std::uint8_t, protocol::kMaxFrame> out;  // NOLINT(cppcoreguidelines-pro-type-member-init)
-    const std::size_t size = frame(event, 0, out);
-    for (int port = 0; port < kPorts; ++port) send(port, std::span(out).first(size));
+    return send(port, std::span(out).first(frame(event, 0, out)), leaves);
   }
 
-  void announce(const SegmentEvent& event) {
+  bool send_event(int port, const HostEvent& event) {
     using protocol::SegmentOutcome;
-    if (event.kind == SegmentEvent::Kind::started)
-      return announce(protocol::SegmentStarted{event.tag, event.time_us});
-    const bool completed = event.kind == SegmentEvent::Kind::completed;
-    announce(protocol::SegmentDone{event.tag, completed ? SegmentOutcome::completed : SegmentOutcome::aborted,
-                                   event.time_us});
+    switch (event.kind) {
+      case HostEvent::Kind::segment_started:
+        return send_unasked(port, protocol::SegmentStarted{event.number, event.time_us}, kAnswerRoom);
+      case HostEvent::Kind::segment_completed:
+        return send_done(port, event, SegmentOutcome::completed);
+      case HostEvent::Kind::segment_aborted:
+        return send_done(port, event, SegmentOutcome::aborted);
+      case HostEvent::Kind::fault_raised:
+        return send_unasked(port, protocol::FaultRaised{static_cast<Fault>(event.number), event.time_us},
+                            kAnswerRoom);
+      case HostEvent::Kind::booted:
+        return send_unasked(port, protocol::Booted{static_cast<protocol::ResetCause>(event.number)},
+                            kAnswerRoom);
+    }
+    return true;
+  }
+  bool send_done(int port, const HostEvent& event, protocol::SegmentOutcome outcome) {
+    return send_unasked(port, protocol::SegmentDone{event.number, outcome, event.time_us}, kAnswerRoom);
   }
 
-  void report_events() {
+  /// What the tick and the main loop have to tell. Faults come before the segments that they ended, so that a
+  /// host knows why.
+  void collect_events() {
+    static_assert(
+        static_cast<int>(HostEvent::Kind::segment_started) == static_cast<int>(SegmentEvent::Kind::started) &&
+        static_cast<int>(HostEvent::Kind::segment_completed) ==
+            static_cast<int>(SegmentEvent::Kind::completed) &&
+        static_cast<int>(HostEvent::Kind::segment_aborted) == static_cast<int>(SegmentEvent::Kind::aborted));
     while (true) {
       SegmentEvent event;
+      std::uint32_t fresh = 0;
+      bool none = false;
       {
         auto hold = board_.hold_tick();
-        if (drive_.events().empty()) break;
-        event = drive_.events().pop();
+        fresh = drive_.faults().mask() & ~reported_faults_;
+        reported_faults_ = drive_.faults().mask();
+        none = drive_.events().empty();
+        if (!none) event = drive_.events().pop();
       }
-      announce(event);
-    }
-    std::uint32_t fresh = 0;
-    std::uint64_t now_us = 0;
-    {
-      auto hold = board_.hold_tick();
-      fresh = drive_.faults().mask() & ~reported_faults_;
-      reported_faults_ = drive_.faults().mask();
-      now_us = board_.clock().now_us();
-    }
-    for (std::size_t i = 1; fresh != 0 && i < kFaultNames.size(); ++i) {
-      const auto fault = static_cast<Fault>(i);
-      if ((fresh & bit(fault)) != 0) announce(protocol::FaultRaised{fault, now_us});
+      note_faults(fresh);
+      if (none) return;
+      events_.note({event.time_us, event.tag, static_cast<HostEvent::Kind>(event.kind)});
     }
   }
 
+  void note_faults(std::uint32_t fresh) {
+    const std::uint64_t now_us = board_.clock().now_us();
+    for (std::uint16_t i = 1; fresh != 0 && i < kFaultNames.size(); ++i)
+      if ((fresh & bit(static_cast<Fault>(i))) != 0) events_.note({now_us, i, HostEvent::Kind::fault_raised});
+  }
+
+  /// The events that this port has not been told yet. False if some still wait for room.
+  bool tell(int port) {
+    if (const std::uint16_t missed = events_.missed(port); missed != 0) {
+      if (!send_unasked(port, protocol::EventsMissed{missed}, kAnswerRoom)) return false;
+      events_.forget_missed(port);
+    }
+    while (!events_.empty(port)) {
+      if (!send_event(port, events_.front(port))) return false;
+      events_.pop(port);
+    }
+    return true;
+  }
+
+  /// Telemetry, if it is due. What the line has no room to spare for is not sent later either.
   void stream(int port) {
     Session& session = sessions_[port];
     if (!session.telemetry_due(board_.clock().now_us())) return;
@@ -469,8 +511,7 @@ class Robot {
       telemetry = snapshot(drive_, ticks_.last_us(), battery_mv_);
     }
     telemetry.fields = session.telemetry_fields;
-    std::array<std::uint8_t, protocol::kMaxFrame> out;  // NOLINT(cppcoreguidelines-pro-type-member-init)
-    send(port, std::span(out).first(frame(telemetry, 0, out)));
+    send_unasked(port, telemetry, kTelemetryLeaves);
     session.telemetry_sent(board_.clock().now_us());
   }
 
@@ -495,6 +536,7 @@ class Robot {
   FlashLayout<Flash> flash_;
   ParameterDesk<typename FlashLayout<Flash>::Parameters> desk_;
   std::array<Session, kPorts> sessions_{};
+  EventLog<kPorts> events_;
   std::int32_t battery_mv_ = 0;
   std::uint32_t reported_faults_ = 0;
   Host asking_, driver_;
