@@ -277,9 +277,16 @@ class Robot {
   }
 
   Answer<Ack> handle(int, const protocol::Velocity& request) {
+    TwistRamp ramp = ramp_from_here();
+    drive_.aim(ramp, {request.v_umps, request.omega_uradps});
     auto hold = board_.hold_tick();
-    if (!drive_.drive_velocity({request.v_umps, request.omega_uradps})) return not_ready();
+    if (!drive_.drive_velocity(ramp)) return not_ready();
     return Ack{};
+  }
+
+  TwistRamp ramp_from_here() {
+    auto hold = board_.hold_tick();
+    return drive_.ramp_from_here();
   }
 
   Answer<Ack> handle(int, const protocol::WheelVoltage& request) {
@@ -341,17 +348,22 @@ class Robot {
     // can set the robot moving.
     if (!stands_idle()) return error(ErrorCode::moving);
     const Answer<Ack> done = desk_.commit(port);
+    if (done) put_in_force();
     auto hold = board_.hold_tick();
-    if (done) drive_.configure(desk_.active());
     if (!done && done.error().code == ErrorCode::flash_failed) drive_.raise(Fault::flash);
     return done;
   }
 
   Answer<Ack> handle(int port, const protocol::ApplyParameters&) {
     const Answer<Ack> done = desk_.apply(port, !stands_idle());
-    auto hold = board_.hold_tick();
-    if (done) drive_.configure(desk_.active());
+    if (done) put_in_force();
     return done;
+  }
+  /// Computed while the tick goes on, swapped in while it is held.
+  void put_in_force() {
+    const Drive::Configuration configuration(desk_.active());
+    auto hold = board_.hold_tick();
+    drive_.configure(configuration);
   }
 
   Answer<Ack> handle(int port, const protocol::RevertParameters&) {
