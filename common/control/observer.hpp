@@ -17,8 +17,16 @@ class SpeedObserver {
  public:
   static constexpr int kSpeedBits = 20;
 
-  /// bandwidth in 2^-16 rad/s; the estimate so far is kept, so the parameter may change while driving.
-  void set_bandwidth(std::int32_t bandwidth_16);
+  /// Of a bandwidth in 2^-16 rad/s. Takes a division: made outside the tick.
+  struct Gains {
+    Gains() = default;
+    explicit Gains(std::int32_t bandwidth_16);
+    std::int32_t proportional_20 = 0, integral_20 = 0;
+  };
+
+  /// The estimate so far is kept, so the parameter may change while driving.
+  void set_gains(const Gains& gains) { gains_ = gains; }
+  void set_bandwidth(std::int32_t bandwidth_16) { gains_ = Gains(bandwidth_16); }
 
   /// `counts`: signed counts since the last tick, forward positive. `expected`: by how much the speed should
   /// have changed meanwhile, 2^-20 counts per tick; more than a quarter of a count counts as that.
@@ -35,8 +43,7 @@ class SpeedObserver {
   static constexpr int kExpectedBits = kSpeedBits - 1;
   static constexpr std::int32_t kMost_8 = 1 << (kCountBits - 1 + 8);
 
-  std::int32_t proportional_20_ = 0;
-  std::int32_t integral_20_ = 0;
+  Gains gains_;
   std::int32_t error_20_ = 0;  // position seen minus position estimated
   std::int64_t speed_40_ = 0;  // whole products of error and ki, which is about 0.01
 };

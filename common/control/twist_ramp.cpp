@@ -17,6 +17,13 @@ void TwistRamp::Axis::set_target(std::int32_t target, std::int64_t acceleration,
   far_ = most_ * (most_ + jerk_) / (2 * jerk_) + 1;
 }
 
+void TwistRamp::Axis::take_target(const Axis& planned) {
+  target_ = planned.target_;
+  most_ = planned.most_;
+  jerk_ = planned.jerk_;
+  far_ = planned.far_;
+}
+
 void TwistRamp::Axis::set(std::int32_t value) {
   value_ = target_ = std::int64_t{value} << kBits;
   rate_ = 0;
@@ -56,9 +63,12 @@ TwistRamp::Limits TwistRamp::per_tick(std::int32_t acceleration, std::int32_t je
   return {change, jerk_milli == 0 ? change : jerk > least ? jerk : least};
 }
 
+TwistRamp::Rates::Rates(const MotionLimits& limits)
+    : v(per_tick(limits.acceleration_umps2, limits.jerk_mmps3)),
+      omega(per_tick(limits.yaw_acceleration_uradps2, limits.yaw_jerk_mradps3)) {}
+
 void TwistRamp::set_limits(const MotionLimits& limits) {
-  v_limits_ = per_tick(limits.acceleration_umps2, limits.jerk_mmps3);
-  omega_limits_ = per_tick(limits.yaw_acceleration_uradps2, limits.yaw_jerk_mradps3);
+  rates_ = Rates(limits);
   plan();
 }
 
@@ -74,11 +84,17 @@ void TwistRamp::set_target(const BodyTwist& target) {
   plan();
 }
 
+void TwistRamp::take_target(const TwistRamp& planned) {
+  target_ = planned.target_;
+  v_.take_target(planned.v_);
+  omega_.take_target(planned.omega_);
+}
+
 // The one that would take longer goes as fast as its limits allow, and the other in proportion.
 void TwistRamp::plan() {
   const std::int64_t v_way = magnitude(v_.gap_to(target_.v_umps)) >> kBits;
   const std::int64_t omega_way = magnitude(omega_.gap_to(target_.omega_uradps)) >> kBits;
-  Limits v = v_limits_, omega = omega_limits_;
+  Limits v = rates_.v, omega = rates_.omega;
   // What is already changing must be able to stop changing: a share of its jerk would not do.
   if (v_way != 0 && omega_way != 0 && v_.steady() && omega_.steady()) {
     const bool v_leads = v_way * omega.acceleration >= omega_way * v.acceleration;

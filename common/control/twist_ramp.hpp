@@ -17,11 +17,26 @@ namespace astro {
 /// Cost    set_target: some divisions. advance: constant, four 64-bit multiplies; callable from the tick.
 class TwistRamp {
  public:
+  /// One component's, per tick.
+  struct Limits {
+    std::int64_t acceleration = 1, jerk = 1;
+  };
+  /// What the limits are in a tick. Takes divisions: made outside the tick.
+  struct Rates {
+    Rates() = default;
+    explicit Rates(const MotionLimits& limits);
+    Limits v, omega;
+  };
+
   /// From here on; a ramp under way goes on within them.
   void set_limits(const MotionLimits& limits);
+  /// The same without a division: from the next target on.
+  void set_rates(const Rates& rates) { rates_ = rates; }
 
   /// Where to go from here. The same target again changes nothing.
   void set_target(const BodyTwist& target);
+  /// Goes from where it is to the target of `planned`, a copy that was given its target outside the tick.
+  void take_target(const TwistRamp& planned);
   /// Stands at a steady velocity; the target is the same.
   void set(const BodyTwist& value);
 
@@ -37,6 +52,7 @@ class TwistRamp {
   class Axis {
    public:
     void set_target(std::int32_t target, std::int64_t acceleration, std::int64_t jerk);
+    void take_target(const Axis& planned);
     void set(std::int32_t value);
     void advance();
 
@@ -56,9 +72,6 @@ class TwistRamp {
     std::int64_t most_ = 1, jerk_ = 1;
     std::int64_t far_ = 1;  // a gap that is no reason yet to slow down
   };
-  struct Limits {
-    std::int64_t acceleration = 1, jerk = 1;
-  };
   static constexpr int kBits = 12;
   // However small the jerk, the acceleration is there after half a second, and gone.
   static constexpr std::int64_t kSlowestRise_ticks = 500;
@@ -68,7 +81,7 @@ class TwistRamp {
   static void follow(Limits& follower, Limits& leader, std::int64_t way, std::int64_t leaders_way);
 
   Axis v_, omega_;
-  Limits v_limits_, omega_limits_;
+  Rates rates_;
   BodyTwist target_;
 };
 

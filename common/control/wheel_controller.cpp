@@ -19,15 +19,18 @@ WheelGains right_gains(const ParameterSet& set) {
           q16(set, Param::kA_right)};
 }
 
-void WheelController::set_gains(const WheelGains& gains, const WheelPoint& before, const WheelPoint& now) {
+// kS in volts becomes microvolts per step of the fade-in.
+WheelTerms::WheelTerms(const WheelGains& gains)
+    : kp(gains.kp),
+      kS_per_fade(Q16::from_raw(saturate32(std::int64_t{gains.kS.raw()} * 1'000'000 >>
+                                           (WheelController::kFadeInBits + WheelController::kFineBits)))),
+      kV(gains.kV),
+      kA(gains.kA),
+      ki_tick_24(saturate32((std::int64_t{gains.ki.raw()} << 8) / 1000)) {}
+
+void WheelController::set_gains(const WheelTerms& terms, const WheelPoint& before, const WheelPoint& now) {
   const std::int64_t old_16 = sum(0, before);
-  kp_ = gains.kp;
-  kV_ = gains.kV;
-  kA_ = gains.kA;
-  // kS in volts becomes microvolts per step of the fade-in.
-  kS_per_fade_ =
-      Q16::from_raw(saturate32(std::int64_t{gains.kS.raw()} * 1'000'000 >> (kFadeInBits + kFineBits)));
-  ki_tick_24_ = saturate32((std::int64_t{gains.ki.raw()} << 8) / 1000);
+  terms_ = terms;
   integral_24_ += (old_16 - sum(0, now)) * 256;
 }
 
@@ -35,7 +38,7 @@ std::int32_t WheelController::limit(std::int32_t sum_uv, std::int32_t error_umps
   const std::int64_t most_24 = std::int64_t{limit_uv} << 24;
   integral_24_ = clamp_abs(integral_24_, most_24);
   const bool leads_out = (sum_uv > 0) != (error_umps > 0);
-  if (leads_out) integral_24_ = mul_add(integral_24_, error_umps, ki_tick_24_);
+  if (leads_out) integral_24_ = mul_add(integral_24_, error_umps, terms_.ki_tick_24);
   return sum_uv > 0 ? limit_uv : -limit_uv;
 }
 

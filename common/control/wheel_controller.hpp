@@ -15,6 +15,15 @@ struct WheelGains {
   Q16 kS, kV, kA;  // V, V s/m, V s^2/m
 };
 
+/// The same as a tick works with it. Takes divisions: made outside the tick.
+struct WheelTerms {
+  WheelTerms() = default;
+  WheelTerms(const WheelGains& gains);  // NOLINT(google-explicit-constructor): the same gains in other units
+
+  Q16 kp, kS_per_fade, kV, kA;
+  std::int32_t ki_tick_24 = 0;  // uV per (um/s) and tick
+};
+
 /// What the wheel is told and what it lacks.
 struct WheelPoint {
   std::int32_t set_point_umps = 0, acceleration_umps2 = 0, error_umps = 0;
@@ -38,7 +47,7 @@ class WheelController {
  public:
   /// Without a bump: at the point where the wheel now works, the integral takes up what the new gains give
   /// more or less than the old ones.
-  void set_gains(const WheelGains& gains, const WheelPoint& before = {}, const WheelPoint& now = {});
+  void set_gains(const WheelTerms& terms, const WheelPoint& before = {}, const WheelPoint& now = {});
 
   /// `error_umps`: by how much the wheel is to turn faster. Returns the motor voltage, within +-limit_uv, and
   /// sets `limited` if it would have been more; leaves it as it is otherwise.
@@ -47,6 +56,7 @@ class WheelController {
   void reset() { integral_24_ = 0; }
 
  private:
+  friend struct WheelTerms;
   // kS fades in over 2^13 um/s, seen in steps of 2^-6 um/s so that both ends of the fade are alike.
   static constexpr int kFadeInBits = 13, kFineBits = 6;
 
@@ -55,28 +65,27 @@ class WheelController {
   /// What is given when `sum_16` is beyond the limit.
   std::int32_t limit(std::int32_t sum_uv, std::int32_t error_umps, std::int32_t limit_uv);
 
-  Q16 kp_, kS_per_fade_, kV_, kA_;
-  std::int32_t ki_tick_24_ = 0;   // uV per (um/s) and tick
+  WheelTerms terms_;
   std::int64_t integral_24_ = 0;  // uV
 };
 
 inline std::int64_t WheelController::sum(std::int64_t integral_16, const WheelPoint& at) const {
   std::int64_t sum_16 = integral_16;
-  sum_16 = mul_add(sum_16, kS_per_fade_.raw(),
+  sum_16 = mul_add(sum_16, terms_.kS_per_fade.raw(),
                    saturate_to<1 + kFadeInBits + kFineBits, kFineBits>(at.set_point_umps));
-  sum_16 = mul_add(sum_16, kV_.raw(), at.set_point_umps);
-  sum_16 = mul_add(sum_16, kA_.raw(), at.acceleration_umps2);
-  return mul_add(sum_16, kp_.raw(), at.error_umps);
+  sum_16 = mul_add(sum_16, terms_.kV.raw(), at.set_point_umps);
+  sum_16 = mul_add(sum_16, terms_.kA.raw(), at.acceleration_umps2);
+  return mul_add(sum_16, terms_.kp.raw(), at.error_umps);
 }
 
 inline std::int32_t WheelController::advance(std::int32_t set_point_umps, std::int32_t acceleration_umps2,
                                              std::int32_t error_umps, std::int32_t limit_uv, bool& limited) {
   std::int64_t sum_16 = integral_24_ >> 8;
-  sum_16 = mul_add(sum_16, kS_per_fade_.raw(),
+  sum_16 = mul_add(sum_16, terms_.kS_per_fade.raw(),
                    saturate_to<1 + kFadeInBits + kFineBits, kFineBits>(set_point_umps));
-  sum_16 = mul_add(sum_16, kV_.raw(), set_point_umps);
-  sum_16 = mul_add(sum_16, kA_.raw(), acceleration_umps2);
-  sum_16 = mul_add(sum_16, kp_.raw(), error_umps);
+  sum_16 = mul_add(sum_16, terms_.kV.raw(), set_point_umps);
+  sum_16 = mul_add(sum_16, terms_.kA.raw(), acceleration_umps2);
+  sum_16 = mul_add(sum_16, terms_.kp.raw(), error_umps);
 
   // Beyond 2^30 uV a sum is only known to be far beyond any limit.
   const std::int32_t high = saturate_to<15>(static_cast<std::int32_t>(sum_16 >> 32));
@@ -86,7 +95,7 @@ inline std::int32_t WheelController::advance(std::int32_t set_point_umps, std::i
     limited = true;
     return limit(sum_uv, error_umps, limit_uv);
   }
-  integral_24_ = mul_add(integral_24_, error_umps, ki_tick_24_);
+  integral_24_ = mul_add(integral_24_, error_umps, terms_.ki_tick_24);
   return sum_uv;
 }
 

@@ -12,19 +12,24 @@ WheelPair::Points WheelPair::points(const WheelSpeeds& wanted, const WheelSpeeds
           {set_points.right_umps, accelerations.right_umps, subtract_saturated(right, catch_up)}};
 }
 
-void WheelPair::set_gains(const ParameterSet& set, const WheelSpeeds& set_points,
+// 1/s in 2^-16 becomes (um/s per nm) in 2^-32.
+PairGains::PairGains(const ParameterSet& set)
+    : left(left_gains(set)),
+      right(right_gains(set)),
+      k_sync(saturate32((std::int64_t{set.get(Param::k_sync)} << 16) / 1000)) {}
+
+void WheelPair::set_gains(const PairGains& gains, const WheelSpeeds& set_points,
                           const WheelSpeeds& accelerations, const WheelSpeeds& measured) {
   const Points before = points(set_points, accelerations, measured);
-  // 1/s in 2^-16 becomes (um/s per nm) in 2^-32.
-  k_sync_ = saturate32((std::int64_t{set.get(Param::k_sync)} << 16) / 1000);
+  k_sync_ = gains.k_sync;
   const Points now = points(set_points, accelerations, measured);
   if (limited_) {  // the output will not bump: it is at the limit, and what is beyond is not to be kept
-    left_.set_gains(left_gains(set));
-    right_.set_gains(right_gains(set));
+    left_.set_gains(gains.left);
+    right_.set_gains(gains.right);
     return;
   }
-  left_.set_gains(left_gains(set), before.left, now.left);
-  right_.set_gains(right_gains(set), before.right, now.right);
+  left_.set_gains(gains.left, before.left, now.left);
+  right_.set_gains(gains.right, before.right, now.right);
 }
 
 void WheelPair::reset() {

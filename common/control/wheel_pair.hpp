@@ -14,6 +14,14 @@ struct WheelVoltages {
   std::int32_t left_uv = 0, right_uv = 0;
 };
 
+/// The gains of both wheels and of their coupling. Takes divisions: made outside the tick.
+struct PairGains {
+  PairGains(const ParameterSet& set);  // NOLINT(google-explicit-constructor): a set's gains
+
+  WheelTerms left, right;
+  std::int32_t k_sync = 0;  // 2^-32 um/s per nm
+};
+
 /// Speed control of both wheels as one machine, so that what happens to one wheel does not turn the robot.
 ///
 /// Coupling    how far the left wheel has fallen behind the right one, against what was wanted of both,
@@ -31,7 +39,7 @@ struct WheelVoltages {
 class WheelPair {
  public:
   /// Without a bump, if told what the last advance() was told.
-  void set_gains(const ParameterSet& set, const WheelSpeeds& set_points = {},
+  void set_gains(const PairGains& gains, const WheelSpeeds& set_points = {},
                  const WheelSpeeds& accelerations = {}, const WheelSpeeds& measured = {});
 
   /// Each voltage is within +-limit_uv.

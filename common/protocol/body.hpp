@@ -20,6 +20,11 @@ struct Header {
   constexpr bool operator==(const Header&) const = default;
 };
 
+/// Request ids with this bit come from an onlooker: a program that shares the port with the driver, behind
+/// the program that has it open. They are no sign of life of the driver.
+inline constexpr std::uint16_t kOnlookerBit = 0x8000;
+constexpr bool from_onlooker(const Header& header) { return (header.request_id & kOnlookerBit) != 0; }
+
 enum class DecodeError : std::uint8_t {
   too_short,  // the body ends before the message does
   too_long,   // bytes are left over: a peer of another version

@@ -59,8 +59,9 @@ enum class ErrorCode : std::uint8_t {
   out_of_range,
   unsupported,
   busy,
+  staging_lost,
 };
-inline constexpr std::array<std::string_view, 13> kErrorCodeNames{"unknown_message",
+inline constexpr std::array<std::string_view, 14> kErrorCodeNames{"unknown_message",
                                                                   "malformed",
                                                                   "wrong_version",
                                                                   "not_armed",
@@ -72,8 +73,9 @@ inline constexpr std::array<std::string_view, 13> kErrorCodeNames{"unknown_messa
                                                                   "flash_failed",
                                                                   "out_of_range",
                                                                   "unsupported",
-                                                                  "busy"};
-inline constexpr std::array<std::string_view, 13> kErrorCodeMeanings{
+                                                                  "busy",
+                                                                  "staging_lost"};
+inline constexpr std::array<std::string_view, 14> kErrorCodeMeanings{
     "no request of this protocol version has this id",
     "the fields do not decode: wrong length, or a value outside its enumeration",
     "the host's Hello named another protocol version; detail: the robot's version",
@@ -87,6 +89,7 @@ inline constexpr std::array<std::string_view, 13> kErrorCodeMeanings{
     "a value of the request lies outside what the robot can do",
     "this board cannot do it",
     "the robot is still starting, or an earlier request is still under way",
+    "another program has begun to change parameters meanwhile; nothing was changed",
 };
 constexpr std::span<const std::string_view> names(ErrorCode) { return kErrorCodeNames; }
 
@@ -95,6 +98,6 @@ constexpr std::string_view meaning(ErrorCode code) {
   return known(code) ? kErrorCodeMeanings[static_cast<std::size_t>(code)]
                      : "an error of another protocol version";
 }
-static_assert(known(ErrorCode::busy) && !known(ErrorCode{kErrorCodeNames.size()}));
+static_assert(known(ErrorCode::staging_lost) && !known(ErrorCode{kErrorCodeNames.size()}));
 
 }  // namespace astro::protocol

@@ -13,7 +13,11 @@
 namespace astro::protocol {
 
 inline constexpr std::size_t kCrcSize = 4;
-inline constexpr std::size_t kMaxFrame = cobs::max_encoded_size(kMaxBody + kCrcSize) + 1;
+/// Bytes that the frame of a body of this size has at most, its 0x00 included.
+constexpr std::size_t largest_frame_of(std::size_t body) {
+  return cobs::max_encoded_size(body + kCrcSize) + 1;
+}
+inline constexpr std::size_t kMaxFrame = largest_frame_of(kMaxBody);
 
 /// Writes the frame that carries `body`, its 0x00 included, and returns its size; 0 if the body has more than
 /// kMaxBody or fewer than kHeaderSize bytes.

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
 
+#include "common/protocol/codec.hpp"
 #include "common/protocol/fault_log.hpp"
+#include "common/protocol/framer.hpp"
 #include "common/protocol/motion.hpp"
 #include "common/protocol/parameters.hpp"
 #include "common/protocol/session.hpp"
@@ -40,7 +43,17 @@ using Requests =
                 WheelVoltage, Pause, Resume, GetFaultLog, ApplyParameters>;
 using Replies = MessageList<Ack, ErrorReply, HelloReply, Pong, Status, ParameterInfo, ParameterValue,
                             FaultReport, FaultLogEntry>;
-using Events = MessageList<Telemetry, SegmentDone, FaultRaised, Booted, SegmentStarted>;
+using Events = MessageList<Telemetry, SegmentDone, FaultRaised, Booted, SegmentStarted, EventsMissed>;
+
+/// Bytes of the largest frame that carries one of these messages, its 0x00 included.
+template <Message... M>
+consteval std::size_t largest_frame(MessageList<M...>) {
+  return largest_frame_of(std::max({kBodySize<M>...}));
+}
+inline constexpr std::size_t kMaxReplyFrame = largest_frame(Replies{});
+/// The same of the events that are not Telemetry.
+inline constexpr std::size_t kMaxEventFrame =
+    largest_frame(MessageList<SegmentDone, FaultRaised, Booted, SegmentStarted, EventsMissed>{});
 
 /// For people and logs; "?" for an id that this version does not know.
 constexpr std::string_view message_name(std::uint8_t id) {

@@ -9,7 +9,13 @@
 #include "common/protocol/field.hpp"
 #include "common/protocol/session.hpp"
 
-/// Reading and changing parameters: stage any number of values, then commit them as one set.
+/// Reading and changing parameters: open the staging area, stage any number of values, then commit them as
+/// one set.
+///
+/// The staging area belongs to one session. RevertParameters and DefaultParameters open it for the port that
+/// asks and take it from any other; a Hello at its owner's port closes it. StageParameter, CommitParameters
+/// and ApplyParameters of anybody else are refused (staging_lost), so a set is never a mixture of two
+/// programs' values.
 namespace astro::protocol {
 
 struct ParameterInfo {
@@ -65,13 +71,15 @@ struct ParameterValue {
 
   static constexpr std::uint8_t kId = 0x8C;
   static constexpr std::string_view kName = "ParameterValue";
-  static constexpr std::string_view kDoc = "A parameter's value: in force, and staged for the next commit.";
+  static constexpr std::string_view kDoc =
+      "A parameter's value: in force, and as this session has staged it.";
   static constexpr std::tuple kFields{
       Field{&ParameterValue::id, "id", "", "as in ParameterInfo"},
       Field{&ParameterValue::active, "active", "raw", "in force; 0 for a text"},
-      Field{&ParameterValue::staged, "staged", "raw", "staged; 0 for a text"},
+      Field{&ParameterValue::staged, "staged", "raw", "staged by this session, else as active; 0 for a text"},
       Field{&ParameterValue::active_text, "active_text", "", "in force; empty unless kind is text"},
-      Field{&ParameterValue::staged_text, "staged_text", "", "staged; empty unless kind is text"},
+      Field{&ParameterValue::staged_text, "staged_text", "",
+            "staged by this session, else as active; empty unless kind is text"},
   };
   bool operator==(const ParameterValue&) const = default;
 };
@@ -97,7 +105,8 @@ struct StageParameter {
   using Reply = Ack;
   static constexpr std::uint8_t kId = 0x0D;
   static constexpr std::string_view kName = "StageParameter";
-  static constexpr std::string_view kDoc = "Stages a value; nothing changes before CommitParameters.";
+  static constexpr std::string_view kDoc =
+      "Stages a value in the area that this session has opened; nothing changes before CommitParameters.";
   static constexpr std::tuple kFields{
       Field{&StageParameter::id, "id", "", "as in ParameterInfo"},
       Field{&StageParameter::value, "value", "raw", "0 for a text"},
@@ -120,7 +129,8 @@ struct RevertParameters {
   using Reply = Ack;
   static constexpr std::uint8_t kId = 0x0F;
   static constexpr std::string_view kName = "RevertParameters";
-  static constexpr std::string_view kDoc = "The staged set becomes the one in force.";
+  static constexpr std::string_view kDoc =
+      "Opens the staging area for this session: the staged set is the one in force.";
   static constexpr std::tuple<> kFields{};
   bool operator==(const RevertParameters&) const = default;
 };
@@ -129,7 +139,8 @@ struct DefaultParameters {
   using Reply = Ack;
   static constexpr std::uint8_t kId = 0x10;
   static constexpr std::string_view kName = "DefaultParameters";
-  static constexpr std::string_view kDoc = "The staged set becomes the factory defaults.";
+  static constexpr std::string_view kDoc =
+      "Opens the staging area for this session: the staged set is the factory defaults.";
   static constexpr std::tuple<> kFields{};
   bool operator==(const DefaultParameters&) const = default;
 };

@@ -14,7 +14,7 @@ namespace astro::protocol {
 
 /// Counts every change of the schema, new enumeration values included. Hello, HelloReply and ErrorReply keep
 /// their layout in all versions, so that peers that differ can say so.
-inline constexpr std::uint16_t kProtocolVersion = 2;
+inline constexpr std::uint16_t kProtocolVersion = 3;
 
 struct Ack {
   static constexpr std::uint8_t kId = 0x7E;

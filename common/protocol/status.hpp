@@ -115,4 +115,17 @@ struct Booted {
   bool operator==(const Booted&) const = default;
 };
 
+struct EventsMissed {
+  std::uint16_t count = 0;
+
+  static constexpr std::uint8_t kId = 0xC5;
+  static constexpr std::string_view kName = "EventsMissed";
+  static constexpr std::string_view kDoc =
+      "Events before the next one were dropped, because this port did not take them in time.";
+  static constexpr std::tuple kFields{
+      Field{&EventsMissed::count, "count", "", "how many since the last time; 65535: that many or more"},
+  };
+  bool operator==(const EventsMissed&) const = default;
+};
+
 }  // namespace astro::protocol

@@ -30,14 +30,20 @@ bool strayed(const Pose& reference, const Pose& actual) {
 
 }  // namespace
 
-void Drive::configure(const ParameterSet& set) {
-  geometry_ = make_geometry(set);
-  limits_ = make_limits(set);
-  ramp_.set_limits(limits_);
+Drive::Configuration::Configuration(const ParameterSet& parameters)
+    : wheels(parameters, make_geometry(parameters)),
+      limits(make_limits(parameters)),
+      rates(limits),
+      set(parameters) {}
+
+void Drive::configure(const Configuration& configuration) {
+  geometry_ = configuration.wheels.geometry;
+  limits_ = configuration.limits;
+  ramp_.set_rates(configuration.rates);
   odometry_.set_geometry(geometry_);
-  wheels_.configure(set, geometry_);
-  follower_.set_gains(set);
-  supervisor_.configure(set);
+  wheels_.configure(configuration.wheels);
+  follower_.set_gains(configuration.set);
+  supervisor_.configure(configuration.set);
 }
 
 Drive::Output Drive::advance(const TickInput& input) {
@@ -126,18 +132,44 @@ bool Drive::pause() {
   return true;
 }
 
+// Otherwise a ramp is under way and goes on from where it is.
+bool Drive::begins_ramp() const {
+  return state() == State::armed || steering_ == Steering::open_loop || on_path();
+}
+
+TwistRamp Drive::ramp_from_here() const {
+  TwistRamp ramp = ramp_;
+  if (on_path()) {
+    ramp.set(to_body(geometry_, wheels_.set_points()));
+  } else if (begins_ramp()) {
+    ramp.set(standing() ? BodyTwist{} : within_limits(twist(), limits_));
+  }
+  return ramp;
+}
+
+void Drive::aim(TwistRamp& ramp, const BodyTwist& twist) const {
+  ramp.set_target(within_limits(twist, limits_));
+}
+
 bool Drive::drive_velocity(const BodyTwist& twist) {
-  const bool from_rest = state() == State::armed || steering_ == Steering::open_loop;
-  const bool from_path = on_path();
+  TwistRamp ramp = ramp_from_here();
+  aim(ramp, twist);
+  return drive_velocity(ramp);
+}
+
+bool Drive::drive_velocity(const TwistRamp& planned) {
+  const bool begins = begins_ramp();
   if (!supervisor_.request(Event::drive)) return false;
   supervisor_.steered();
-  if (from_rest) ramp_.set(standing() ? BodyTwist{} : within_limits(this->twist(), limits_));
-  if (from_path) ramp_.set(to_body(geometry_, wheels_.set_points()));
+  if (begins) {
+    ramp_ = planned;
+  } else {
+    ramp_.take_target(planned);
+  }
   end_segments();
   paused_ = false;
   steering_ = Steering::repeated;
   seen_ = state();
-  ramp_.set_target(within_limits(twist, limits_));
   return true;
 }
 
@@ -189,7 +221,7 @@ void Drive::report(SegmentEvent::Kind kind, std::uint16_t tag) { events_.push({n
 void Drive::end_segments() {
   if (steering_ == Steering::path) report(SegmentEvent::Kind::aborted, running_.tag);
   if (steering_ == Steering::path) steering_ = Steering::none;
-  while (!queue_.empty()) report(SegmentEvent::Kind::aborted, queue_.pop().tag);
+  for (; !queue_.empty(); queue_.drop()) report(SegmentEvent::Kind::aborted, queue_.front().tag);
   planned_ = path_open_ = false;
   ++ticket_;
 }

@@ -29,11 +29,22 @@ class Drive {
     hal::Duty duty;
   };
 
+  /// What a parameter set means for the tick. Takes long divisions: made outside the tick, taken in inside.
+  struct Configuration {
+    explicit Configuration(const ParameterSet& set);
+
+    Wheels::Configuration wheels;
+    MotionLimits limits;
+    TwistRamp::Rates rates;
+    ParameterSet set;  // what needs no computing
+  };
+
   explicit Drive(const ParameterSet& set) { configure(set); }
 
   /// Replaces the parameters; the pose stays where it is. While the wheels are driven only a set of the same
-  /// geometry and polarities: then without a bump.
-  void configure(const ParameterSet& set);
+  /// geometry, polarities and limits: then without a bump.
+  void configure(const Configuration& configuration);
+  void configure(const ParameterSet& set) { configure(Configuration(set)); }
 
   /// One tick.
   Output advance(const TickInput& input);
@@ -57,6 +68,15 @@ class Drive {
 
   /// A good frame from the host that drives.
   void host_seen() { supervisor_.host_seen(); }
+
+  // The ramp to a new velocity takes divisions, too: three steps instead of drive_velocity(), of which the
+  // second needs no hold of the tick.
+
+  /// As the ramp would begin now.
+  TwistRamp ramp_from_here() const;
+  /// Gives it its target, within the limits.
+  void aim(TwistRamp& ramp, const BodyTwist& twist) const;
+  bool drive_velocity(const TwistRamp& planned);
 
   // The profile of the next segment takes divisions and roots: it is made outside the tick.
 
@@ -110,6 +130,7 @@ class Drive {
   void report(SegmentEvent::Kind kind, std::uint16_t tag);
   Wish wish();
   Wish ramped();
+  bool begins_ramp() const;
   Wish follow();
   Output output(const Wish& wish, const TickInput& input);
 

@@ -6,6 +6,9 @@
 namespace astro {
 
 /// The parameter set in force, the one being prepared, and the flash that keeps it. Main loop only.
+///
+/// The set being prepared belongs to the port that opened it. Nobody else stages into it, commits or applies
+/// it, so two hosts never mix their values.
 template <NorFlash Flash>
 class ParameterDesk {
  public:
@@ -40,24 +43,27 @@ class ParameterDesk {
                                    .doc = Text<120>(row.doc)};
   }
 
-  Answer<protocol::ParameterValue> value(std::uint16_t id) const {
+  /// `port` sees its own staged value, or the one in force.
+  Answer<protocol::ParameterValue> value(int port, std::uint16_t id) const {
+    const ParameterSet& staged = port == owner_ ? staged_ : active_;
     const ParamRow* row = find(id);
     if (row == nullptr) return error(protocol::ErrorCode::unknown_parameter);
     protocol::ParameterValue value{.id = id};
     if (row->kind == ParamKind::text) {
       value.active_text = active_.text(row->id);
-      value.staged_text = staged_.text(row->id);
+      value.staged_text = staged.text(row->id);
     } else {
       value.active = active_.get(row->id);
-      value.staged = staged_.get(row->id);
+      value.staged = staged.get(row->id);
     }
     return value;
   }
 
   /// Staging judges nothing: the set is judged as a whole when it is committed.
-  Answer<protocol::Ack> stage(const protocol::StageParameter& request) {
+  Answer<protocol::Ack> stage(int port, const protocol::StageParameter& request) {
     const ParamRow* row = find(request.id);
     if (row == nullptr) return error(protocol::ErrorCode::unknown_parameter);
+    if (port != owner_) return error(protocol::ErrorCode::staging_lost);
     if (row->kind == ParamKind::text) {
       staged_.set_text(row->id, request.text);
     } else {
@@ -66,24 +72,27 @@ class ParameterDesk {
     return protocol::Ack{};
   }
 
-  void revert() { staged_ = active_; }
-  void stage_defaults() { staged_ = ParameterSet::defaults(); }
+  /// The staged set is `from` and belongs to this port, whoever had one before.
+  void open(int port, const ParameterSet& from) {
+    staged_ = from;
+    owner_ = port;
+  }
+  /// A new session at this port has staged nothing.
+  void close(int port) {
+    if (port == owner_) owner_ = kNobody;
+  }
 
   /// In force now, forgotten by a restart. While `driving`, only gains may change.
-  Answer<protocol::Ack> apply(bool driving) {
-    const auto verdict = validate(staged_);
-    if (!verdict)
-      return error(protocol::ErrorCode::invalid_parameter, static_cast<std::uint16_t>(verdict.error()));
+  Answer<protocol::Ack> apply(int port, bool driving) {
+    if (const Answer<protocol::Ack> refused = judge(port); !refused) return refused;
     if (driving && !only_gains_differ(active_, staged_)) return error(protocol::ErrorCode::moving);
     active_ = staged_;
     return protocol::Ack{};
   }
 
   /// Flash first, then memory: what is in force then is what a restart would find.
-  Answer<protocol::Ack> commit() {
-    const auto verdict = validate(staged_);
-    if (!verdict)
-      return error(protocol::ErrorCode::invalid_parameter, static_cast<std::uint16_t>(verdict.error()));
+  Answer<protocol::Ack> commit(int port) {
+    if (const Answer<protocol::Ack> refused = judge(port); !refused) return refused;
     if (!store_.commit(staged_)) return error(protocol::ErrorCode::flash_failed);
     active_ = staged_;
     return protocol::Ack{};
@@ -94,6 +103,17 @@ class ParameterDesk {
     return {code, detail};
   }
 
+  static constexpr int kNobody = -1;
+
+  /// Whether this port may put the staged set in force.
+  Answer<protocol::Ack> judge(int port) const {
+    if (port != owner_) return error(protocol::ErrorCode::staging_lost);
+    const auto verdict = validate(staged_);
+    if (!verdict)
+      return error(protocol::ErrorCode::invalid_parameter, static_cast<std::uint16_t>(verdict.error()));
+    return protocol::Ack{};
+  }
+
   static const ParamRow* find(std::uint16_t id) {
     for (const ParamRow& row : kParamTable)
       if (static_cast<std::uint16_t>(row.id) == id) return &row;
@@ -101,6 +121,7 @@ class ParameterDesk {
   }
 
   ParameterSet active_, staged_;
+  int owner_ = kNobody;  // the port whose session has opened staged_
   bool fell_back_ = false;
   Store<Flash> store_;
 };

@@ -11,6 +11,7 @@
 #include "common/protocol/messages.hpp"
 #include "firmware/app/check_in.hpp"
 #include "firmware/app/drive.hpp"
+#include "firmware/app/event_log.hpp"
 #include "firmware/app/fault_journal.hpp"
 #include "firmware/app/flash_layout.hpp"
 #include "firmware/app/parameter_desk.hpp"
@@ -43,7 +44,7 @@ class Robot {
     const hal::ResetCause cause = board_.system().reset_cause();
     if (cause == hal::ResetCause::watchdog || cause == hal::ResetCause::fault) drive_.raise(Fault::watchdog);
     if (desk_.fell_back()) journal_.parameters_fell_back();
-    announce(protocol::Booted{reset_cause()});
+    events_.note({0, static_cast<std::uint16_t>(reset_cause()), HostEvent::Kind::booted});
   }
 
   void tick() {
@@ -63,9 +64,10 @@ class Robot {
   void poll() {
     for (int port = 0; port < kPorts; ++port) receive(port);
     plan();
-    report_events();
+    collect_events();
     journal_.write(board_, drive_);
-    for (int port = 0; port < kPorts; ++port) stream(port);
+    for (int port = 0; port < kPorts; ++port)
+      if (tell(port)) stream(port);
     if (board_.system().host_wants_bootloader() && !drive_.armed()) reset_soon(Reset::bootloader);
     if (reset_wanted_ != Reset::none && board_.clock().now_us() >= reset_due_us_) reset();
     feed_watchdog();
@@ -79,6 +81,12 @@ class Robot {
   using Answer = Result<Reply, protocol::ErrorReply>;
   using Ack = protocol::Ack;
   using ErrorCode = protocol::ErrorCode;
+  /// Who a request comes from: the owner of a port, or an onlooker that shares it.
+  struct Host {
+    int port = kNobody;
+    bool onlooker = false;
+    bool operator==(const Host&) const = default;
+  };
   static constexpr int kNobody = -1;
   enum class Reset : std::uint8_t { none, reboot, bootloader };
   static constexpr int kPorts = std::remove_reference_t<decltype(std::declval<Board&>().ports())>::kPorts;
@@ -124,11 +132,13 @@ class Robot {
   void answer(int port, std::span<const std::uint8_t> body) {
     Session& session = sessions_[port];
     const protocol::Header header = *protocol::peek(body);  // the framer drops what has no header
-    if (session.answered(header)) {
-      send(port, session.answer());
+    if (header.request_id == 0) return;                     // that marks an event, and asks for nothing
+    if (const auto again = session.answer(header); !again.empty()) {
+      send(port, again);
       return;
     }
-    note_host(port, header.message_id);
+    asking_ = {port, protocol::from_onlooker(header)};
+    note_host(header.message_id);
     bool known = false;
     protocol::Requests::visit([&]<protocol::Message M>() {
       if (M::kId != header.message_id) return;
@@ -136,7 +146,7 @@ class Robot {
       const auto request = protocol::decode<M>(body);
       if (request) {
         const auto reply = handle(port, *request);
-        if (reply) note_driver(port, header.message_id);
+        if (reply) note_driver(header.message_id);
         respond(port, header, reply);
       } else {
         respond(port, header, Answer<typename M::Reply>(error(ErrorCode::malformed)));
@@ -145,25 +155,26 @@ class Robot {
     if (!known) respond(port, header, Answer<Ack>(error(ErrorCode::unknown_message)));
   }
 
-  /// Only the host that drives keeps a drive alive: not one that looks on at another port, and not one that
-  /// says Hello where the driver was, which must have gone.
-  void note_host(int port, std::uint8_t message) {
-    if (port != driver_port_) return;
+  /// Only the host that drives keeps a drive alive: not one that looks on, at another port or at the same
+  /// one, and not one that says Hello where the driver was, which must have gone.
+  void note_host(std::uint8_t message) {
     if (message == protocol::Hello::kId) {
-      driver_port_ = kNobody;
+      if (!asking_.onlooker && asking_.port == driver_.port) driver_ = {};
       return;
     }
+    if (asking_ != driver_) return;
     auto hold = board_.hold_tick();
     drive_.host_seen();
   }
 
-  /// The host that drives is the last whose motion request was taken; a pause and its end are such, too.
-  void note_driver(int port, std::uint8_t message) {
-    constexpr std::array kDriving{protocol::Arm::kId,          protocol::Velocity::kId,
-                                  protocol::WheelVoltage::kId, protocol::AddSegment::kId,
-                                  protocol::Pause::kId,        protocol::Resume::kId};
+  /// The host that drives is the last whose Arm or motion request was taken. Pause and Resume come from
+  /// anybody and leave the driver as it is: who resumes a path does not mean to keep it alive. If the driver
+  /// is gone by then, the path ends by the command time-out.
+  void note_driver(std::uint8_t message) {
+    constexpr std::array kDriving{protocol::Arm::kId, protocol::Velocity::kId, protocol::WheelVoltage::kId,
+                                  protocol::AddSegment::kId};
     if (std::find(kDriving.begin(), kDriving.end(), message) == kDriving.end()) return;
-    driver_port_ = port;
+    driver_ = asking_;
     auto hold = board_.hold_tick();
     drive_.host_seen();
   }
@@ -174,10 +185,9 @@ class Robot {
     const std::size_t size =
         reply ? frame(*reply, header.request_id, out) : frame(reply.error(), header.request_id, out);
     send(port, std::span(out).first(size));
-    // A Pong is about now and never repeated; a Hello begins a new session, which remembers nothing.
-    if (header.message_id == protocol::Ping::kId) return;
-    sessions_[port].remember(header,
-                             std::span(out).first(header.message_id == protocol::Hello::kId ? 0 : size));
+    // A Pong is about now and never repeated; a Hello may be carried out again.
+    if (header.message_id == protocol::Ping::kId || header.message_id == protocol::Hello::kId) return;
+    sessions_[port].remember(header, std::span(out).first(size));
   }
 
   static protocol::ErrorReply error(ErrorCode code, std::uint16_t detail = 0) { return {code, detail}; }
@@ -198,7 +208,7 @@ class Robot {
   Answer<protocol::HelloReply> handle(int port, const protocol::Hello& request) {
     if (request.protocol_version != protocol::kProtocolVersion)
       return error(ErrorCode::wrong_version, protocol::kProtocolVersion);
-    sessions_[port].telemetry_period_us = 0;
+    if (!asking_.onlooker) begin_session(port);
     return protocol::HelloReply{.fw_major = kFirmwareVersion.major,
                                 .fw_minor = kFirmwareVersion.minor,
                                 .fw_patch = kFirmwareVersion.patch,
@@ -207,6 +217,14 @@ class Robot {
                                 .robot_name = desk_.active().text(Param::robot_name),
                                 .parameter_count = static_cast<std::uint16_t>(kParamCount),
                                 .tick_hz = static_cast<std::uint16_t>(kTickHz)};
+  }
+
+  /// A new owner of the port: nothing of the one before it is left.
+  void begin_session(int port) {
+    sessions_[port].telemetry_period_us = 0;
+    sessions_[port].forget();
+    events_.skip(port);
+    desk_.close(port);
   }
 
   Answer<protocol::Pong> handle(int, const protocol::Ping&) {
@@ -233,6 +251,9 @@ class Robot {
   Answer<Ack> handle(int, const protocol::Arm&) {
     if (reset_wanted_ != Reset::none) return error(ErrorCode::busy);
     auto hold = board_.hold_tick();
+    // Whoever arms becomes the driver, so nobody arms while another host's drive is under way or waits.
+    if (asking_ != driver_ && (drive_.state() == State::driving || drive_.queued() != 0))
+      return error(ErrorCode::moving);
     if (!drive_.arm()) return not_ready();
     return Ack{};
   }
@@ -256,9 +277,16 @@ class Robot {
   }
 
   Answer<Ack> handle(int, const protocol::Velocity& request) {
+    TwistRamp ramp = ramp_from_here();
+    drive_.aim(ramp, {request.v_umps, request.omega_uradps});
     auto hold = board_.hold_tick();
-    if (!drive_.drive_velocity({request.v_umps, request.omega_uradps})) return not_ready();
+    if (!drive_.drive_velocity(ramp)) return not_ready();
     return Ack{};
+  }
+
+  TwistRamp ramp_from_here() {
+    auto hold = board_.hold_tick();
+    return drive_.ramp_from_here();
   }
 
   Answer<Ack> handle(int, const protocol::WheelVoltage& request) {
@@ -310,35 +338,40 @@ class Robot {
   Answer<protocol::ParameterInfo> handle(int, const protocol::GetParameterInfo& request) {
     return desk_.info(request.index);
   }
-  Answer<protocol::ParameterValue> handle(int, const protocol::GetParameter& request) {
-    return desk_.value(request.id);
+  Answer<protocol::ParameterValue> handle(int port, const protocol::GetParameter& request) {
+    return desk_.value(port, request.id);
   }
-  Answer<Ack> handle(int, const protocol::StageParameter& request) { return desk_.stage(request); }
+  Answer<Ack> handle(int port, const protocol::StageParameter& request) { return desk_.stage(port, request); }
 
-  Answer<Ack> handle(int, const protocol::CommitParameters&) {
+  Answer<Ack> handle(int port, const protocol::CommitParameters&) {
     // At rest only: the processor may stand still while the flash erases. With an empty queue only this loop
     // can set the robot moving.
     if (!stands_idle()) return error(ErrorCode::moving);
-    const Answer<Ack> done = desk_.commit();
+    const Answer<Ack> done = desk_.commit(port);
+    if (done) put_in_force();
     auto hold = board_.hold_tick();
-    if (done) drive_.configure(desk_.active());
     if (!done && done.error().code == ErrorCode::flash_failed) drive_.raise(Fault::flash);
     return done;
   }
 
-  Answer<Ack> handle(int, const protocol::ApplyParameters&) {
-    const Answer<Ack> done = desk_.apply(!stands_idle());
-    auto hold = board_.hold_tick();
-    if (done) drive_.configure(desk_.active());
+  Answer<Ack> handle(int port, const protocol::ApplyParameters&) {
+    const Answer<Ack> done = desk_.apply(port, !stands_idle());
+    if (done) put_in_force();
     return done;
   }
+  /// Computed while the tick goes on, swapped in while it is held.
+  void put_in_force() {
+    const Drive::Configuration configuration(desk_.active());
+    auto hold = board_.hold_tick();
+    drive_.configure(configuration);
+  }
 
-  Answer<Ack> handle(int, const protocol::RevertParameters&) {
-    desk_.revert();
+  Answer<Ack> handle(int port, const protocol::RevertParameters&) {
+    desk_.open(port, desk_.active());
     return Ack{};
   }
-  Answer<Ack> handle(int, const protocol::DefaultParameters&) {
-    desk_.stage_defaults();
+  Answer<Ack> handle(int port, const protocol::DefaultParameters&) {
+    desk_.open(port, ParameterSet::defaults());
     return Ack{};
   }
 
@@ -358,6 +391,7 @@ class Robot {
   }
 
   Answer<Ack> handle(int, const protocol::ClearFaults&) {
+    collect_events();  // what is cleared in the turn in which it came is told all the same
     auto hold = board_.hold_tick();
     if (!drive_.clear_faults()) return error(ErrorCode::moving);
     reported_faults_ = 0;
@@ -396,52 +430,90 @@ class Robot {
     return protocol::encode_frame(std::span(body).first(size), out);
   }
 
+  // What a line takes is shared out by rank: an answer takes whatever room there is; an event leaves room for
+  // the largest answer; telemetry leaves room for two of those and some events.
+  static constexpr std::size_t kAnswerRoom = protocol::kMaxReplyFrame;
+  static constexpr std::size_t kTelemetryLeaves = 2 * kAnswerRoom + 8 * protocol::kMaxEventFrame;
+
   /// Whole frames or nothing: a host that does not read loses frames, never halves of them.
-  bool send(int port, std::span<const std::uint8_t> bytes) {
-    if (board_.ports().room(port) < bytes.size()) return false;
+  bool send(int port, std::span<const std::uint8_t> bytes, std::size_t leaves = 0) {
+    if (board_.ports().room(port) < bytes.size() + leaves) return false;
     return board_.ports().write(port, bytes) == bytes.size();
   }
 
   template <protocol::Message M>
-  void announce(const M& event) {
+  bool send_unasked(int port, const M& event, std::size_t leaves) {
     std::array<std::uint8_t, protocol::kMaxFrame> out;  // NOLINT(cppcoreguidelines-pro-type-member-init)
-    const std::size_t size = frame(event, 0, out);
-    for (int port = 0; port < kPorts; ++port) send(port, std::span(out).first(size));
+    return send(port, std::span(out).first(frame(event, 0, out)), leaves);
   }
 
-  void announce(const SegmentEvent& event) {
+  bool send_event(int port, const HostEvent& event) {
     using protocol::SegmentOutcome;
-    if (event.kind == SegmentEvent::Kind::started)
-      return announce(protocol::SegmentStarted{event.tag, event.time_us});
-    const bool completed = event.kind == SegmentEvent::Kind::completed;
-    announce(protocol::SegmentDone{event.tag, completed ? SegmentOutcome::completed : SegmentOutcome::aborted,
-                                   event.time_us});
+    switch (event.kind) {
+      case HostEvent::Kind::segment_started:
+        return send_unasked(port, protocol::SegmentStarted{event.number, event.time_us}, kAnswerRoom);
+      case HostEvent::Kind::segment_completed:
+        return send_done(port, event, SegmentOutcome::completed);
+      case HostEvent::Kind::segment_aborted:
+        return send_done(port, event, SegmentOutcome::aborted);
+      case HostEvent::Kind::fault_raised:
+        return send_unasked(port, protocol::FaultRaised{static_cast<Fault>(event.number), event.time_us},
+                            kAnswerRoom);
+      case HostEvent::Kind::booted:
+        return send_unasked(port, protocol::Booted{static_cast<protocol::ResetCause>(event.number)},
+                            kAnswerRoom);
+    }
+    return true;
+  }
+  bool send_done(int port, const HostEvent& event, protocol::SegmentOutcome outcome) {
+    return send_unasked(port, protocol::SegmentDone{event.number, outcome, event.time_us}, kAnswerRoom);
   }
 
-  void report_events() {
+  /// What the tick and the main loop have to tell. Faults come before the segments that they ended, so that a
+  /// host knows why.
+  void collect_events() {
+    static_assert(
+        static_cast<int>(HostEvent::Kind::segment_started) == static_cast<int>(SegmentEvent::Kind::started) &&
+        static_cast<int>(HostEvent::Kind::segment_completed) ==
+            static_cast<int>(SegmentEvent::Kind::completed) &&
+        static_cast<int>(HostEvent::Kind::segment_aborted) == static_cast<int>(SegmentEvent::Kind::aborted));
     while (true) {
       SegmentEvent event;
+      std::uint32_t fresh = 0;
+      bool none = false;
       {
         auto hold = board_.hold_tick();
-        if (drive_.events().empty()) break;
-        event = drive_.events().pop();
+        fresh = drive_.faults().mask() & ~reported_faults_;
+        reported_faults_ = drive_.faults().mask();
+        none = drive_.events().empty();
+        if (!none) event = drive_.events().pop();
       }
-      announce(event);
-    }
-    std::uint32_t fresh = 0;
-    std::uint64_t now_us = 0;
-    {
-      auto hold = board_.hold_tick();
-      fresh = drive_.faults().mask() & ~reported_faults_;
-      reported_faults_ = drive_.faults().mask();
-      now_us = board_.clock().now_us();
-    }
-    for (std::size_t i = 1; fresh != 0 && i < kFaultNames.size(); ++i) {
-      const auto fault = static_cast<Fault>(i);
-      if ((fresh & bit(fault)) != 0) announce(protocol::FaultRaised{fault, now_us});
+      note_faults(fresh);
+      if (none) return;
+      events_.note({event.time_us, event.tag, static_cast<HostEvent::Kind>(event.kind)});
     }
   }
 
+  void note_faults(std::uint32_t fresh) {
+    const std::uint64_t now_us = board_.clock().now_us();
+    for (std::uint16_t i = 1; fresh != 0 && i < kFaultNames.size(); ++i)
+      if ((fresh & bit(static_cast<Fault>(i))) != 0) events_.note({now_us, i, HostEvent::Kind::fault_raised});
+  }
+
+  /// The events that this port has not been told yet. False if some still wait for room.
+  bool tell(int port) {
+    if (const std::uint16_t missed = events_.missed(port); missed != 0) {
+      if (!send_unasked(port, protocol::EventsMissed{missed}, kAnswerRoom)) return false;
+      events_.forget_missed(port);
+    }
+    while (!events_.empty(port)) {
+      if (!send_event(port, events_.front(port))) return false;
+      events_.pop(port);
+    }
+    return true;
+  }
+
+  /// Telemetry, if it is due. What the line has no room to spare for is not sent later either.
   void stream(int port) {
     Session& session = sessions_[port];
     if (!session.telemetry_due(board_.clock().now_us())) return;
@@ -451,8 +523,7 @@ class Robot {
       telemetry = snapshot(drive_, ticks_.last_us(), battery_mv_);
     }
     telemetry.fields = session.telemetry_fields;
-    std::array<std::uint8_t, protocol::kMaxFrame> out;  // NOLINT(cppcoreguidelines-pro-type-member-init)
-    send(port, std::span(out).first(frame(telemetry, 0, out)));
+    send_unasked(port, telemetry, kTelemetryLeaves);
     session.telemetry_sent(board_.clock().now_us());
   }
 
@@ -477,9 +548,10 @@ class Robot {
   FlashLayout<Flash> flash_;
   ParameterDesk<typename FlashLayout<Flash>::Parameters> desk_;
   std::array<Session, kPorts> sessions_{};
+  EventLog<kPorts> events_;
   std::int32_t battery_mv_ = 0;
   std::uint32_t reported_faults_ = 0;
-  int driver_port_ = kNobody;
+  Host asking_, driver_;
   Reset reset_wanted_ = Reset::none;
   std::uint64_t reset_due_us_ = 0;
   FaultJournal<typename FlashLayout<Flash>::Log> journal_;

@@ -20,13 +20,13 @@ class Ring {
   /// Drops the value when full: look at full() first where that matters.
   void push(const T& value) {
     if (full()) return;
-    slots_[(first_ + size_) % N] = value;
+    slots_[wrapped(first_ + size_)] = value;
     ++size_;
   }
   /// The value before all others; dropped when full.
   void push_front(const T& value) {
     if (full()) return;
-    first_ = (first_ + N - 1) % N;
+    first_ = wrapped(first_ + N - 1);
     slots_[first_] = value;
     ++size_;
   }
@@ -34,12 +34,18 @@ class Ring {
   const T& front() const { return slots_[first_]; }
   T pop() {
     const T value = slots_[first_];
-    first_ = (first_ + 1) % N;
-    --size_;
+    drop();
     return value;
+  }
+  void drop() {
+    first_ = wrapped(first_ + 1);
+    --size_;
   }
 
  private:
+  // Cheaper than a remainder: a full queue is emptied while the tick is held.
+  static std::size_t wrapped(std::size_t place) { return place < N ? place : place - N; }
+
   std::array<T, N> slots_{};
   std::size_t first_ = 0;
   std::size_t size_ = 0;

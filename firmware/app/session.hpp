@@ -6,12 +6,12 @@
 #include <cstdint>
 #include <span>
 
-#include "common/protocol/body.hpp"
-#include "common/protocol/framer.hpp"
+#include "common/protocol/frame.hpp"
+#include "common/protocol/messages.hpp"
 
 namespace astro {
 
-/// What the robot remembers of the host on one port.
+/// What the robot remembers of the hosts on one port: its owner, and onlookers that share it.
 struct Session {
   protocol::Framer framer;
 
@@ -28,21 +28,30 @@ struct Session {
   }
 
   /// The last request and its answer: a host that missed the answer asks again with the same id, and a
-  /// segment must not be driven twice for that. An empty frame: forget.
+  /// segment must not be driven twice for that. Onlookers' requests do not push out the owner's.
   void remember(const protocol::Header& header, std::span<const std::uint8_t> frame) {
-    answered_ = header;
-    answer_size_ = frame.size();
-    std::copy(frame.begin(), frame.end(), answer_.begin());
+    Answered& last = last_[protocol::from_onlooker(header)];
+    last.header = header;
+    last.size = static_cast<std::uint16_t>(frame.size());
+    std::copy(frame.begin(), frame.end(), last.frame.begin());
   }
-  bool answered(const protocol::Header& header) const {
-    return answer_size_ != 0 && header.request_id != 0 && answered_ == header;
+  void forget() {
+    for (Answered& last : last_) last.size = 0;
   }
-  std::span<const std::uint8_t> answer() const { return std::span(answer_).first(answer_size_); }
+  /// The answer that this very request got; empty if it is a new one.
+  std::span<const std::uint8_t> answer(const protocol::Header& header) const {
+    const Answered& last = last_[protocol::from_onlooker(header)];
+    return std::span(last.frame).first(last.header == header ? last.size : 0U);
+  }
 
  private:
-  protocol::Header answered_;
-  std::array<std::uint8_t, protocol::kMaxFrame> answer_{};
-  std::size_t answer_size_ = 0;
+  struct Answered {
+    protocol::Header header;
+    std::uint16_t size = 0;
+    std::array<std::uint8_t, protocol::kMaxReplyFrame> frame{};
+  };
+
+  std::array<Answered, 2> last_;  // of the owner; of onlookers
 };
 
 }  // namespace astro

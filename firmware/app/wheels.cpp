@@ -51,20 +51,33 @@ std::int32_t expected_scale(const Geometry::Wheel& wheel) {
 
 }  // namespace
 
-void Wheels::configure(const ParameterSet& set, const Geometry& geometry) {
-  geometry_ = geometry;
-  most_late_counts_ = most_counts(geometry);
-  most_counts_ =
-      std::min(most_late_counts_, counts_at(4 * std::int64_t{set.get(Param::over_speed)}, geometry));
-  voltage_limit_uv_ = 1000 * set.get(Param::motor_voltage_max);
-  left_.motor_sign = set.get(Param::motor_polarity_left);
-  right_.motor_sign = set.get(Param::motor_polarity_right);
-  left_.encoder_sign = set.get(Param::encoder_polarity_left);
-  right_.encoder_sign = set.get(Param::encoder_polarity_right);
-  left_.expected_scale = expected_scale(geometry.left);
-  right_.expected_scale = expected_scale(geometry.right);
-  pair_.set_gains(set, set_points_, accelerations_, speeds_);
-  for (Side* side : {&left_, &right_}) side->observer.set_bandwidth(set.get(Param::observer_bandwidth));
+Wheels::Configuration::Configuration(const ParameterSet& set, const Geometry& wheels)
+    : geometry(wheels),
+      gains(set),
+      observer(set.get(Param::observer_bandwidth)),
+      most_counts(std::min(astro::most_counts(wheels),
+                           counts_at(4 * std::int64_t{set.get(Param::over_speed)}, wheels))),
+      most_late_counts(astro::most_counts(wheels)),
+      voltage_limit_uv(1000 * set.get(Param::motor_voltage_max)),
+      left{set.get(Param::motor_polarity_left), set.get(Param::encoder_polarity_left),
+           expected_scale(wheels.left)},
+      right{set.get(Param::motor_polarity_right), set.get(Param::encoder_polarity_right),
+            expected_scale(wheels.right)} {}
+
+void Wheels::configure(const Configuration& configuration) {
+  geometry_ = configuration.geometry;
+  most_counts_ = configuration.most_counts;
+  most_late_counts_ = configuration.most_late_counts;
+  voltage_limit_uv_ = configuration.voltage_limit_uv;
+  pair_.set_gains(configuration.gains, set_points_, accelerations_, speeds_);
+  const auto set_side = [&](Side& side, const Configuration::Side& to) {
+    side.motor_sign = to.motor_sign;
+    side.encoder_sign = to.encoder_sign;
+    side.expected_scale = to.expected_scale;
+    side.observer.set_gains(configuration.observer);
+  };
+  set_side(left_, configuration.left);
+  set_side(right_, configuration.right);
 }
 
 std::int32_t Wheels::step(Side& side, std::int32_t counts) const {

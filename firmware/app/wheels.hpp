@@ -17,7 +17,21 @@ class Wheels {
     bool plausible = true;             // false: more than a motor can turn; nothing was counted
   };
 
-  void configure(const ParameterSet& set, const Geometry& geometry);
+  /// What the parameters mean for the tick. Takes divisions: made outside the tick.
+  struct Configuration {
+    Configuration(const ParameterSet& set, const Geometry& wheels);
+
+    Geometry geometry;
+    PairGains gains;
+    SpeedObserver::Gains observer;
+    std::int32_t most_counts, most_late_counts;
+    std::int32_t voltage_limit_uv;
+    struct Side {
+      std::int32_t motor_sign, encoder_sign, expected_scale;
+    };
+    Side left, right;
+  };
+  void configure(const Configuration& configuration);
 
   /// The first call after a start only learns where the decoders stand.
   Steps read(const TickInput& input);

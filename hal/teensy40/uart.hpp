@@ -35,7 +35,7 @@ class Uart {
   void send();
 
   Ring<1024> received_;
-  Ring<2048> to_send_;
+  Ring<1024> to_send_;  // 10 ms of the line: what waits in it delays an answer
 };
 
 }  // namespace astro::teensy40

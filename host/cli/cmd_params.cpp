@@ -28,7 +28,7 @@ struct ParamsOptions {
   ConnectionOptions connection;
   std::vector<std::string> words;
   fs::path file;
-  bool json = false, yes = false, stage_only = false, try_out = false;
+  bool json = false, yes = false, try_out = false;
 };
 
 Json changed_json(const std::vector<Change>& changes, bool in_force) {
@@ -75,12 +75,12 @@ void get(const ParamsOptions& options, RemoteParameters& robot) {
 }
 
 /// All of them or none: checked, staged, committed and read back.
-void load(link::Client& client, const ParamsOptions& options, const RemoteParameters& robot,
+void load(link::Client& client, const ParamsOptions& options, RemoteParameters& robot,
           const ParameterValues& values) {
   const std::vector<Change> changes = experiment::changes(robot, values);
   if (changes.empty()) {
     // They may have been tried only, and then are not in its flash yet.
-    if (staged_changes(robot).empty()) client.request(protocol::CommitParameters{});
+    robot.commit();
     say("the robot holds these values already");
     return report(options, changes, true);
   }
@@ -106,45 +106,32 @@ ParameterValues assignments(const RemoteParameters& robot, const std::vector<std
 
 void set(link::Client& client, const ParamsOptions& options, RemoteParameters& robot) {
   const ParameterValues values = assignments(robot, options.words);
-  if (!options.stage_only && !options.try_out) return load(client, options, robot, values);
+  if (!options.try_out) return load(client, options, robot, values);
   const std::vector<Change> changes = experiment::changes(robot, values);
   for (const auto& [name, value] : values) robot.stage(name, value);
   say(table(experiment::side_by_side(changes), "llrrr"));
-  if (options.try_out) {
-    robot.apply();
-    say("in force until the robot restarts: 'astrolabe params save' keeps them");
-    return report(options, changes, true);
-  }
-  say("staged, not in force: 'astrolabe params save' puts them in force, 'revert' drops them");
-  report(options, changes, false);
+  robot.apply();
+  say("in force until the robot restarts: 'astrolabe params save' keeps them");
+  report(options, changes, true);
 }
 
-void commit_staged(const ParamsOptions& options, RemoteParameters& robot, const char* if_none) {
+void save(const ParamsOptions& options, RemoteParameters& robot) {
+  robot.commit();
+  say("the values in force, tried ones too, are now in the robot's flash");
+  report(options, {}, true);
+}
+
+void defaults(const ParamsOptions& options, RemoteParameters& robot) {
+  robot.defaults();
   const std::vector<Change> changes = staged_changes(robot);
   if (!changes.empty() && !agreed(options, changes)) {
     robot.revert();
     throw Error("nothing was changed");
   }
   robot.commit();  // also without changes: what was only tried is kept now
-  say(changes.empty() ? if_none : "in force, and in the robot's flash");
+  say(changes.empty() ? "the robot holds its defaults already, in its flash too"
+                      : "in force, and in the robot's flash");
   report(options, changes, true);
-}
-
-void save(const ParamsOptions& options, RemoteParameters& robot) {
-  commit_staged(options, robot,
-                "nothing is staged: the values in force, tried ones too, are now in the robot's flash");
-}
-
-void defaults(const ParamsOptions& options, RemoteParameters& robot) {
-  robot.defaults();
-  commit_staged(options, robot, "the robot holds its defaults already, in its flash too");
-}
-
-void revert(const ParamsOptions& options, RemoteParameters& robot) {
-  const std::vector<Change> changes = staged_changes(robot);
-  robot.revert();
-  say(changes.empty() ? "nothing was staged" : fmt::format("{} staged values dropped", changes.size()));
-  report(options, {}, true);
 }
 
 void export_to_file(const ParamsOptions& options, RemoteParameters& robot) {
@@ -199,10 +186,7 @@ void add_writers(Command params, const std::shared_ptr<ParamsOptions>& options) 
   some.add_option("assignment", options->words, "NAME=VALUE, in the unit that 'params list' shows")
       .required()
       .type_name("");
-  const Option staged = some.add_flag("--stage-only", options->stage_only,
-                                      "leave them staged: 'params save' puts them in force");
-  some.add_flag("--try", options->try_out, "in force until the robot restarts; gains even while it drives")
-      .excludes(staged);
+  some.add_flag("--try", options->try_out, "in force until the robot restarts; gains even while it drives");
   examples(some, {"astrolabe params set b=0.2886", "astrolabe params set c_R=1.0021 c_L=0.9979 --yes",
                   "astrolabe params set kp=50 --try"});
 
@@ -218,17 +202,15 @@ void add_writers(Command params, const std::shared_ptr<ParamsOptions>& options) 
   }
 }
 
-void add_stage_commands(Command params, const std::shared_ptr<ParamsOptions>& options) {
-  const Command keep =
-      add(params, "save", "put staged values in force and into flash", options, without_client(save));
-  examples(keep, {"astrolabe params save", "astrolabe params save --yes"});
-  const Command drop = add(params, "revert", "drop staged values", options, without_client(revert));
-  examples(drop, {"astrolabe params revert"});
+void add_keepers(Command params, const std::shared_ptr<ParamsOptions>& options) {
+  const Command keep = add(params, "save", "write the values in force, tried ones too, into flash", options,
+                           without_client(save));
+  examples(keep, {"astrolabe params save"});
   const Command factory =
       add(params, "defaults", "put all parameters back to their defaults", options, without_client(defaults));
   examples(factory, {"astrolabe params defaults", "astrolabe params defaults --yes"});
-  for (const Command command : {keep, factory}) add_yes_flag(command, options);
-  for (const Command command : {keep, drop, factory}) add_json_flag(command, options->json);
+  add_yes_flag(factory, options);
+  for (const Command command : {keep, factory}) add_json_flag(command, options->json);
 }
 
 }  // namespace
@@ -239,7 +221,7 @@ void add_params(Command app) {
   command.require_subcommand(1, 1);
   add_readers(command, options);
   add_writers(command, options);
-  add_stage_commands(command, options);
+  add_keepers(command, options);
   examples(command,
            {"astrolabe params list", "astrolabe params set b=0.2886", "astrolabe params export before.toml"});
 }

@@ -64,7 +64,6 @@ Json to_json(const link::ParameterRow& row) {
     json["maximum"] = link::to_real(row, row.maximum);
     json["changed"] = is_changed(row);
   }
-  if (row.staged != row.active) json["staged"] = to_json(link::to_value(row, row.staged));
   json["doc"] = row.doc;
   return json;
 }

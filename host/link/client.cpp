@@ -81,6 +81,8 @@ void Client::dispatch_event(Body body) {
     if constexpr (M::kId == protocol::Booted::kId) forget();
     listeners.call(*event);
   };
+  if (const auto missed = protocol::decode<protocol::EventsMissed>(body); missed.ok())
+    counts_.missed_events += missed->count;
   std::apply([&](auto&... listeners) { (deliver(listeners), ...); }, listeners_);
   const bool booted = body.front() == protocol::Booted::kId;
   if (booted && waiting_for_ != 0 && !connecting_) {

@@ -94,7 +94,8 @@ class Client {
   }
 
   std::uint16_t next_id() {
-    return next_id_ = static_cast<std::uint16_t>(next_id_ == 0xFFFF ? 1 : next_id_ + 1);
+    // Without the bit of onlookers, whose requests are no sign of life.
+    return next_id_ = static_cast<std::uint16_t>(next_id_ + 1 == protocol::kOnlookerBit ? 1 : next_id_ + 1);
   }
   void send(Body frame);
   Body exchange(Body frame, std::uint16_t id, std::string_view request, Patience patience);

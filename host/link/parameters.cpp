@@ -71,9 +71,11 @@ Value RemoteParameters::value(std::string_view name) const { return to_value(row
 void RemoteParameters::stage(std::string_view name, const Value& value) {
   ParameterRow& row = mutable_row(name);
   const RawValue raw = to_raw(row, value);
+  if (!opened_) revert();
   try {
     client_->request(StageParameter{row.id, raw.raw, Text<24>(raw.text)});
   } catch (const RobotRefused& refused) {
+    if (refused.code() == ErrorCode::staging_lost) throw;
     throw RobotRefused(row.name + " = " + describe(row, to_value(row, raw)), refused.code(),
                        refused.detail());
   }
@@ -85,6 +87,7 @@ void RemoteParameters::apply() { put_in_force(ApplyParameters{}); }
 
 template <class Request>
 void RemoteParameters::put_in_force(const Request& request) {
+  if (!opened_) revert();
   try {
     client_->request(request);
   } catch (const RobotRefused& refused) {
@@ -100,11 +103,13 @@ void RemoteParameters::put_in_force(const Request& request) {
 
 void RemoteParameters::revert() {
   client_->request(RevertParameters{});
+  opened_ = true;
   for (ParameterRow& row : rows_) row.staged = row.active;
 }
 
 void RemoteParameters::defaults() {
   client_->request(DefaultParameters{});
+  opened_ = true;
   refresh();
 }
 

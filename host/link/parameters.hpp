@@ -30,17 +30,20 @@ class RemoteParameters {
   /// In force, in the row's unit or as text.
   Value value(std::string_view name) const;
 
-  /// Nothing changes on the robot before commit(). Throws as to_raw does, without asking the robot.
+  /// Nothing changes on the robot before commit(). Throws as to_raw does, without asking the robot. The first
+  /// call of stage(), commit() or apply() opens the robot's staging area for this session, with the set in
+  /// force. Another session that opens it afterwards takes it away: RobotRefused, staging_lost.
   void stage(std::string_view name, const Value& value);
 
-  /// All staged values come in force and into flash, or none.
+  /// All staged values come in force and into flash, or none. Without any, what was only applied comes into
+  /// flash.
   void commit();
 
   /// All staged values come in force until the robot restarts, or none: also while it drives, if only gains
   /// differ.
   void apply();
 
-  /// The staged set becomes the one in force; the factory defaults.
+  /// Open the staging area anew: with the set in force; with the factory defaults.
   void revert();
   void defaults();
 
@@ -56,6 +59,7 @@ class RemoteParameters {
 
   Client* client_;
   std::vector<ParameterRow> rows_;
+  bool opened_ = false;
 };
 
 }  // namespace astro::link

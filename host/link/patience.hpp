@@ -25,6 +25,7 @@ constexpr Patience patience_for() {
 /// What a link went through since connect(). Frames that were not good are counted by the receiver.
 struct LinkCounts {
   std::uint64_t requests = 0, repeats = 0, pings = 0, lost_pings = 0;
+  std::uint64_t missed_events = 0;  // the robot says that it dropped them: nobody read its port in time
   std::uint64_t stale_replies = 0;  // to a request that was answered already, or not ours
 };
 

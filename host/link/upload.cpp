@@ -18,9 +18,7 @@ class Upload {
     for (const auto& [name, value] : values_) to_raw(parameters.row(name), value);
     change(parameters);
     through_drops([&] { parameters.refresh(); });
-    const UploadReport report = compare(before, parameters.rows());
-    if (report.active == ActiveSet::old_set) through_drops([&] { parameters.revert(); });
-    return report;
+    return compare(before, parameters.rows());
   }
 
  private:
@@ -63,8 +61,9 @@ class Upload {
       parameters.commit();
     } catch (const LinkLost&) {
       find_again();
-    } catch (const RobotRefused&) {
-      through_drops([&] { parameters.revert(); });
+    } catch (const RobotRefused& refused) {
+      // Opening the staging area anew would take it from the session that has it now.
+      if (refused.code() != protocol::ErrorCode::staging_lost) through_drops([&] { parameters.revert(); });
       throw;
     }
   }

@@ -25,13 +25,14 @@ struct UploadReport {
   std::string sentence() const;
 };
 
-/// Puts new values in force as one set: checks all of them, drops what somebody else staged, stages, commits,
+/// Puts new values in force as one set: checks all of them, opens the robot's staging area, stages, commits,
 /// reads the whole table back and compares. If the link drops, the robot is looked for again for `patience`
 /// each time and asked which set it holds; a set that was not in force by then is dropped, not sent again.
 ///
 /// Throws Error for a value that the table does not allow or a name it does not have, before anything is
-/// changed; RobotRefused if the robot does not take the set, which then stays as it was; LinkLost if the
-/// robot does not come back (it holds the old set or the new one, whole); Error if it holds neither.
+/// changed; RobotRefused if the robot does not take the set, which then stays as it was (staging_lost:
+/// another session has begun to change parameters meanwhile, and is left to go on); LinkLost if the robot
+/// does not come back (it holds the old set or the new one, whole); Error if it holds neither.
 UploadReport upload(Client& client, const std::map<std::string, Value>& values,
                     microseconds patience = std::chrono::seconds(10));
 

@@ -208,6 +208,7 @@ TEST(Wiring, PolarityParametersMakeForwardForward) {
   link::Client client(std::make_unique<simulator::InProcessTransport>(robot));
   client.connect();
   client.pump(std::chrono::milliseconds(50));  // through boot
+  client.request(protocol::RevertParameters{});
   client.request(protocol::StageParameter{static_cast<std::uint16_t>(Param::motor_polarity_left), -1, {}});
   client.request(protocol::StageParameter{static_cast<std::uint16_t>(Param::encoder_polarity_left), -1, {}});
   client.request(protocol::CommitParameters{});

@@ -146,6 +146,7 @@ TEST_F(FaultLogOfARobot, AFlashThatTakesNothingStopsNobody) {
 }
 
 TEST_F(FaultLogOfARobot, ParametersAndFaultsLeaveEachOthersSectorsAlone) {
+  ask(protocol::RevertParameters{});
   ask(protocol::StageParameter{static_cast<std::uint16_t>(Param::b), 300'000'000, {}});
   ask(protocol::EmergencyStop{});
   run_ms(50);

@@ -52,6 +52,7 @@ TEST_F(Faults, AVelocityStopsWhenItIsNotRepeated) {
 }
 
 TEST_F(Faults, ATimeoutOfZeroSwitchesTheTimeoutOff) {
+  ask(protocol::RevertParameters{});
   ask(protocol::StageParameter{static_cast<std::uint16_t>(Param::command_timeout), 0, {}});
   ask(protocol::CommitParameters{});
   ask(protocol::Arm{});

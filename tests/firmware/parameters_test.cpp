@@ -10,12 +10,15 @@ using protocol::ErrorCode;
 class Parameters : public support::RobotOnBench {
  protected:
   static std::uint16_t id(Param param) { return static_cast<std::uint16_t>(param); }
+  /// Opens the staging area for the client, at port 0.
+  void open_staging() { ask(protocol::RevertParameters{}); }
   void stage(Param param, std::int32_t raw) { ask(protocol::StageParameter{id(param), raw, {}}); }
   std::int32_t active(Param param) { return ask(protocol::GetParameter{id(param)}).active; }
   static constexpr std::int32_t kOne_30 = 1 << 30;
 };
 
 TEST_F(Parameters, StagedValuesAreNotInForceUntilCommitted) {
+  open_staging();
   stage(Param::b, 300'000'000);
   EXPECT_EQ(active(Param::b), 290'000'000);
   EXPECT_EQ(ask(protocol::GetParameter{id(Param::b)}).staged, 300'000'000);
@@ -24,6 +27,7 @@ TEST_F(Parameters, StagedValuesAreNotInForceUntilCommitted) {
 }
 
 TEST_F(Parameters, CommittedValuesSurviveARestart) {
+  open_staging();
   stage(Param::c_R, kOne_30 + 1000);
   ask(protocol::StageParameter{id(Param::robot_name), 0, Text<24>("Rosie")});
   ask(protocol::CommitParameters{});
@@ -34,6 +38,7 @@ TEST_F(Parameters, CommittedValuesSurviveARestart) {
 }
 
 TEST_F(Parameters, AnInvalidSetNamesTheParameterAndChangesNothing) {
+  open_staging();
   stage(Param::c_R, kOne_30 + 1000);
   stage(Param::b, 1);  // a nanometre
   const link::RobotRefused refused = refusal(protocol::CommitParameters{});
@@ -43,6 +48,7 @@ TEST_F(Parameters, AnInvalidSetNamesTheParameterAndChangesNothing) {
 }
 
 TEST_F(Parameters, RevertDropsAndDefaultsStage) {
+  open_staging();
   stage(Param::b, 300'000'000);
   ask(protocol::RevertParameters{});
   ask(protocol::CommitParameters{});
@@ -61,6 +67,7 @@ TEST_F(Parameters, ThePoseStaysWhereItIsAcrossACommit) {
   run_ms(3000);
   const Pose before = drive().pose();
   ask(protocol::Disarm{});
+  open_staging();
   stage(Param::c_R, kOne_30 + 5'000'000);
   ask(protocol::CommitParameters{});
   silence_ms(10);
@@ -69,6 +76,7 @@ TEST_F(Parameters, ThePoseStaysWhereItIsAcrossACommit) {
 
 TEST_F(Parameters, AppliedValuesAreInForceAndForgottenByARestart) {
   const std::int32_t kp = active(Param::kp);
+  open_staging();
   stage(Param::kp, kp / 2);
   ask(protocol::ApplyParameters{});
   EXPECT_EQ(active(Param::kp), kp / 2);
@@ -84,6 +92,7 @@ TEST_F(Parameters, GainsMayBeAppliedWhileDrivingAndTheRobotDoesNotFlinch) {
     ask(protocol::Velocity{300'000, 0});
     run_ms(100);
   }
+  open_staging();
   stage(Param::kp, 30 << 16);
   stage(Param::kS_left, 0);
   stage(Param::kS_right, 0);
@@ -101,13 +110,15 @@ TEST_F(Parameters, GainsMayBeAppliedWhileDrivingAndTheRobotDoesNotFlinch) {
 TEST_F(Parameters, WhatTheOdometryLivesByIsNotAppliedWhileDriving) {
   ask(protocol::Arm{});
   ask(protocol::Velocity{100'000, 0});
+  open_staging();
   stage(Param::b, 300'000'000);
   EXPECT_EQ(refusal(protocol::ApplyParameters{}).code(), ErrorCode::moving);
   EXPECT_EQ(active(Param::b), 290'000'000);
 }
 
 TEST_F(Parameters, ATimeoutThatIsAppliedWhileDrivingIsRefusedAndOneAppliedAtRestHolds) {
-  ask(protocol::StageParameter{id(Param::command_timeout), 0, {}});
+  open_staging();
+  stage(Param::command_timeout, 0);
   ask(protocol::ApplyParameters{});
   ask(protocol::Arm{});
   ask(protocol::Velocity{100'000, 0});
@@ -131,18 +142,66 @@ TEST_F(Parameters, ARobotThatRollsOnIsNotAtRest) {
   EXPECT_EQ(refusal(protocol::CommitParameters{}).code(), ErrorCode::moving);
   EXPECT_EQ(refusal(protocol::SetPose{}).code(), ErrorCode::moving);
   run_ms(4000);
+  open_staging();
   ask(protocol::CommitParameters{});
 }
 
 TEST_F(Parameters, AFlashThatTakesNothingIsAFaultAndTheOldSetStays) {
   for (std::uint32_t sector = 0; sector < sim::Flash::kSectors; ++sector)
     board().flash().fail(sector, sim::FlashWork::program);
+  open_staging();
   stage(Param::b, 300'000'000);
   EXPECT_EQ(refusal(protocol::CommitParameters{}).code(), ErrorCode::flash_failed);
   EXPECT_EQ(active(Param::b), 290'000'000);
   EXPECT_EQ(drive().faults().first(), Fault::flash);
   EXPECT_TRUE(open());
   EXPECT_EQ(refusal(protocol::Arm{}).code(), ErrorCode::faulted);
+}
+
+TEST_F(Parameters, OnlyWhoOpensTheStagingAreaChangesParameters) {
+  EXPECT_EQ(refusal(protocol::StageParameter{id(Param::b), 300'000'000, {}}).code(), ErrorCode::staging_lost);
+  EXPECT_EQ(refusal(protocol::CommitParameters{}).code(), ErrorCode::staging_lost);
+  EXPECT_EQ(refusal(protocol::ApplyParameters{}).code(), ErrorCode::staging_lost);
+  EXPECT_EQ(active(Param::b), 290'000'000);
+}
+
+TEST_F(Parameters, ASecondHostTakesTheStagingAreaAndTheFirstIsToldNothingIsMixed) {
+  link::Client other(std::make_unique<simulator::InProcessTransport>(robot_, 1));
+  other.connect();
+  open_staging();
+  stage(Param::c_R, kOne_30 + 1000);
+  stage(Param::b, 300'000'000);
+  other.request(protocol::RevertParameters{});
+  other.request(protocol::StageParameter{id(Param::c_L), kOne_30 - 1000, {}});
+  EXPECT_EQ(refusal(protocol::StageParameter{id(Param::b), 310'000'000, {}}).code(), ErrorCode::staging_lost);
+  EXPECT_EQ(refusal(protocol::CommitParameters{}).code(), ErrorCode::staging_lost);
+  EXPECT_EQ(ask(protocol::GetParameter{id(Param::c_L)}).staged, kOne_30)
+      << "what the other one stages is its own";
+  EXPECT_EQ(other.request(protocol::GetParameter{id(Param::c_L)}).staged, kOne_30 - 1000);
+  other.request(protocol::CommitParameters{});
+  EXPECT_EQ(active(Param::c_L), kOne_30 - 1000);
+  EXPECT_EQ(active(Param::c_R), kOne_30);
+  EXPECT_EQ(active(Param::b), 290'000'000);
+}
+
+TEST_F(Parameters, ANewSessionCommitsNothingThatTheOneBeforeItStaged) {
+  open_staging();
+  stage(Param::b, 300'000'000);
+  client_.connect();
+  EXPECT_EQ(refusal(protocol::CommitParameters{}).code(), ErrorCode::staging_lost);
+  EXPECT_EQ(ask(protocol::GetParameter{id(Param::b)}).staged, 290'000'000);
+  open_staging();
+  ask(protocol::CommitParameters{});
+  EXPECT_EQ(active(Param::b), 290'000'000);
+}
+
+TEST_F(Parameters, AHelloAtTheOtherPortLeavesTheStagingAreaAlone) {
+  open_staging();
+  stage(Param::b, 300'000'000);
+  link::Client other(std::make_unique<simulator::InProcessTransport>(robot_, 1));
+  other.connect();
+  ask(protocol::CommitParameters{});
+  EXPECT_EQ(active(Param::b), 300'000'000);
 }
 
 TEST_F(Parameters, UnknownIdsAndIndicesAreRefused) {

@@ -68,6 +68,97 @@ TEST_F(Frames, APingInBetweenDoesNotMakeTheRobotForget) {
   EXPECT_EQ(drive().queued() + (drive().mode() == protocol::Mode::segment ? 1U : 0U), 1U);
 }
 
+constexpr std::uint16_t kOnlooker = protocol::kOnlookerBit;
+
+TEST_F(Frames, AnOnlookersRequestDoesNotMakeTheRobotForgetTheDriversNorTheOtherWayRound) {
+  received();
+  send(protocol::Arm{}, 1);
+  send(link::line(1).front(), 2);
+  send(protocol::GetStatus{}, kOnlooker + 2);
+  send(link::line(1).front(), 2);
+  received();
+  EXPECT_EQ(drive().queued() + (drive().mode() == protocol::Mode::segment ? 1U : 0U), 1U);
+  send(protocol::Stop{}, kOnlooker + 3);
+  send(protocol::Ping{}, 3);
+  send(protocol::Stop{}, kOnlooker + 3);
+  const auto answers = received();
+  const auto acks = std::count_if(answers.begin(), answers.end(),
+                                  [](const Answer& one) { return one.header.request_id == kOnlooker + 3; });
+  EXPECT_EQ(acks, 2) << "each is answered under its own id";
+}
+
+TEST_F(Frames, AnOnlookerAtTheDriversPortDoesNotKeepADriveAlive) {
+  ask(protocol::Arm{});
+  ask(link::line(5).front());  // from port 0, whose owner then falls silent
+  for (std::uint16_t i = 0; i < 30; ++i) {
+    send(protocol::GetStatus{}, kOnlooker + 1 + i, 0);
+    send(protocol::Hello{}, kOnlooker + 100 + i, 0);
+    silence_ms(100);
+  }
+  EXPECT_EQ(drive().faults().first(), Fault::link_lost);
+}
+
+TEST_F(Frames, AnOnlookerWhoseMotionIsTakenIsTheDriverAndItsFramesAreTheSignsOfLife) {
+  send(protocol::Arm{}, kOnlooker + 1);
+  send(link::line(0.5).front(), kOnlooker + 2);
+  for (std::uint16_t i = 0; i < 30; ++i) {
+    send(protocol::Ping{}, kOnlooker + 10 + i);
+    silence_ms(100);
+  }
+  EXPECT_EQ(drive().faults().mask(), 0U);
+  EXPECT_NEAR(board().truth().x_m, 0.5, 0.005);
+  send(link::line(5).front(), kOnlooker + 50);
+  for (std::uint16_t i = 0; i < 30; ++i) {
+    send(protocol::Ping{}, 10 + i);  // of the port's owner, who does not drive
+    silence_ms(100);
+  }
+  EXPECT_EQ(drive().faults().first(), Fault::link_lost);
+}
+
+TEST_F(Frames, AHelloOfAnOnlookerIsAnsweredAndBeginsNoSession) {
+  ask(protocol::Arm{});
+  ask(protocol::SetTelemetry{100, protocol::Telemetry::kBattery});
+  ask(protocol::RevertParameters{});
+  ask(link::line(0.5).front());
+  int samples = 0;
+  const auto telemetry = client_.on<protocol::Telemetry>([&](const auto&) { ++samples; });
+  for (std::uint16_t i = 0; i < 6; ++i) {
+    send(protocol::Hello{}, kOnlooker + 1 + i, 0);
+    run_ms(500);  // the driver goes on
+  }
+  EXPECT_EQ(drive().faults().mask(), 0U);
+  EXPECT_NEAR(board().truth().x_m, 0.5, 0.005);
+  EXPECT_NEAR(samples, 30, 1) << "its telemetry goes on";
+  EXPECT_EQ(client_.counts().stale_replies, 6U) << "each Hello was answered";
+  ask(protocol::CommitParameters{});  // the staging area is still the owner's
+}
+
+TEST_F(Frames, AnOnlookerStopsWhatTheDriverDrives) {
+  for (int i = 0; i < 3; ++i) {
+    ask(protocol::ClearFaults{});
+    ask(protocol::Arm{});
+    ask(link::line(5).front());
+    run_ms(300);
+    if (i == 0) send(protocol::Stop{}, kOnlooker + 1, 0);
+    if (i == 1) send(protocol::Disarm{}, kOnlooker + 2, 0);
+    if (i == 2) send(protocol::EmergencyStop{}, kOnlooker + 3, 0);
+    run_ms(2500);
+    EXPECT_EQ(drive().running_tag(), 0) << i;
+    EXPECT_EQ(mode(), i == 0   ? protocol::Mode::idle
+                      : i == 1 ? protocol::Mode::disarmed
+                               : protocol::Mode::fault);
+  }
+}
+
+TEST_F(Frames, ARequestWithId0IsNeitherCarriedOutNorAnswered) {
+  received();
+  send(protocol::Arm{}, 0);
+  send(protocol::Ping{}, 0);
+  send(protocol::Hello{}, 0);
+  EXPECT_TRUE(received().empty());
+  EXPECT_EQ(mode(), protocol::Mode::disarmed);
+}
+
 TEST_F(Frames, ANewSessionMayReuseIds) {
   send(protocol::Arm{}, 1);
   send(link::line(1).front(), 2);
@@ -115,6 +206,56 @@ TEST_F(Frames, AfterTheDriverSaidHelloTrafficAtNoPortKeepsItsDriveAlive) {
     send(protocol::ClearFaults{}, 104, driver);
     silence_ms(2);
   }
+
+TEST_F(Frames, WhoPausesAndResumesAtAnotherPortLeavesTheDriveToItsDriver) {
+  ask(protocol::Arm{});
+  ask(link::line(0.5).front());
+  run_ms(500);
+  send(protocol::Pause{}, 1);
+  run_ms(1000);
+  ASSERT_EQ(mode(), protocol::Mode::paused);
+  send(protocol::Resume{}, 2);  // and then port 1 says nothing more
+  run_ms(3000);
+  EXPECT_EQ(drive().faults().mask(), 0U);
+  EXPECT_NEAR(board().truth().x_m, 0.5, 0.005);
+}
+
+TEST_F(Frames, APathThatIsResumedAfterItsDriverHasGoneEndsByTheTimeout) {
+  ask(protocol::Arm{});
+  ask(link::line(0.5).front());
+  run_ms(500);
+  ask(protocol::Pause{});
+  run_ms(1000);
+  silence_ms(1000);  // the driver has gone
+  const double paused_at_m = board().truth().x_m;
+  for (int i = 0; i < 30; ++i) {
+    send(protocol::Resume{}, static_cast<std::uint16_t>(1 + i));  // however often somebody says so
+    silence_ms(100);
+  }
+  EXPECT_EQ(drive().faults().first(), Fault::link_lost);
+  EXPECT_TRUE(open());
+  EXPECT_NEAR(board().truth().x_m, paused_at_m, 0.01);
+}
+
+TEST_F(Frames, NobodyElseArmsDuringADriveNorWhileItIsPaused) {
+  received();
+  ask(protocol::Arm{});
+  ask(link::line(0.5).front());
+  run_ms(500);
+  send(protocol::Arm{}, 1);
+  EXPECT_EQ(error(received().back()), ErrorCode::moving);
+  ask(protocol::Pause{});
+  run_ms(1000);
+  received();
+  send(protocol::Arm{}, 2);
+  EXPECT_EQ(error(received().back()), ErrorCode::moving);
+  ask(protocol::Resume{});
+  run_ms(3000);
+  EXPECT_EQ(drive().faults().mask(), 0U);
+  EXPECT_NEAR(board().truth().x_m, 0.5, 0.005);
+  received();
+  send(protocol::Arm{}, 3);
+  EXPECT_EQ(received().back().header.message_id, protocol::Ack::kId) << "the drive has ended";
 }
 
 TEST_F(Frames, ARefusedRequestDoesNotMakeItsSenderTheDriver) {

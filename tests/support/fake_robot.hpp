@@ -42,8 +42,10 @@ class FakeRobot {
   std::vector<std::uint8_t> seen;                   // message ids of all good frames, repeats included
   std::vector<protocol::AddSegment> segments;       // accepted, ever
   std::optional<protocol::ErrorReply> refuse_next;  // whatever the next new request is
+  std::uint16_t greatest_request_id = 0;
   bool mute_events = false;
   bool never_rests = false;  // Stop leaves it in the ramp
+  bool staging_is_ours = false;  // false again once another session has opened the staging area
 
   FakeRobot() {
     identity.board = "fake";
@@ -94,6 +96,7 @@ class FakeRobot {
     telemetry_ = {};
     last_reply_.clear();
     framer_ = {};
+    staging_is_ours = false;
     revert();
     event(protocol::Booted{protocol::ResetCause::watchdog});
   }
@@ -150,6 +153,7 @@ class FakeRobot {
   void take(std::span<const std::uint8_t> body) {
     const protocol::Header header = *protocol::peek(body);
     seen.push_back(header.message_id);
+    greatest_request_id = std::max(greatest_request_id, header.request_id);
     last_request_us = device_us;
     if (header == last_request_ && !last_reply_.empty()) return out_.push_back(last_reply_);
     ++executed[header.message_id];
@@ -176,7 +180,11 @@ class FakeRobot {
     return protocol::ErrorReply{code, detail};
   }
 
-  void answer(const protocol::Hello&, std::uint16_t id) { push(identity, id); }
+  void answer(const protocol::Hello&, std::uint16_t id) {
+    revert();
+    staging_is_ours = false;
+    push(identity, id);
+  }
   void answer(const protocol::Ping&, std::uint16_t id) { push(protocol::Pong{device_us}, id); }
   void answer(const protocol::GetStatus&, std::uint16_t id) {
     protocol::Status status;
@@ -199,7 +207,13 @@ class FakeRobot {
   }
   void answer(const protocol::GetParameter& request, std::uint16_t id) {
     for (const auto& p : parameters) {
-      if (p.info.id == request.id) return push(p.value, id);
+      if (p.info.id != request.id) continue;
+      protocol::ParameterValue value = p.value;
+      if (!staging_is_ours) {
+        value.staged = value.active;
+        value.staged_text = value.active_text;
+      }
+      return push(value, id);
     }
     push(*no(protocol::ErrorCode::unknown_parameter), id);
   }
@@ -242,6 +256,7 @@ class FakeRobot {
     return {};
   }
   Refusal carry_out(const protocol::StageParameter& request) {
+    if (!staging_is_ours) return no(protocol::ErrorCode::staging_lost);
     for (auto& p : parameters) {
       if (p.info.id != request.id) continue;
       p.value.staged = request.value;
@@ -251,6 +266,7 @@ class FakeRobot {
     return no(protocol::ErrorCode::unknown_parameter, request.id);
   }
   Refusal carry_out(const protocol::CommitParameters&) {
+    if (!staging_is_ours) return no(protocol::ErrorCode::staging_lost);
     const auto& sign = parameter("polarity");
     if (sign.value.staged == 0) return no(protocol::ErrorCode::invalid_parameter, sign.info.id);
     for (auto& p : parameters) {
@@ -260,10 +276,12 @@ class FakeRobot {
     return {};
   }
   Refusal carry_out(const protocol::RevertParameters&) {
+    staging_is_ours = true;
     revert();
     return {};
   }
   Refusal carry_out(const protocol::DefaultParameters&) {
+    staging_is_ours = true;
     for (auto& p : parameters) p.value.staged = p.info.default_value;
     return {};
   }

@@ -94,16 +94,10 @@ TEST_F(Params, WordsThatAssignNothingAreWrongUsage) {
   EXPECT_EQ(params({"set", "b=0.28", "b=0.29"}).code, 2);
 }
 
-TEST_F(Params, StagedValuesWaitForSaveOrRevert) {
-  ASSERT_EQ(params({"set", "b=0.28", "--stage-only"}).code, 0);
-  EXPECT_EQ(get("b"), "0.29\n");
-  EXPECT_EQ(support::parse_json(params({"get", "b", "--json"}).out)["staged"], 0.28);
-  ASSERT_EQ(params({"save"}).code, 0);
+TEST_F(Params, TriedValuesAreKeptBySave) {
+  ASSERT_EQ(params({"set", "b=0.28", "--try"}).code, 0);
   EXPECT_EQ(get("b"), "0.28\n");
-
-  ASSERT_EQ(params({"set", "b=0.27", "--stage-only"}).code, 0);
-  ASSERT_EQ(params({"revert"}).code, 0);
-  EXPECT_THAT(params({"save"}).err, HasSubstr("nothing is staged"));
+  EXPECT_THAT(params({"save"}).err, HasSubstr("tried ones too"));
   EXPECT_EQ(get("b"), "0.28\n");
 }
 

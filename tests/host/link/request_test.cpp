@@ -53,10 +53,17 @@ TEST_F(Request, IsCarriedOutOnceWhateverHappensToOneFrame) {
 }
 
 TEST_F(Request, RepeatsACommitWithoutCommittingTwice) {
+  client.request(RevertParameters{});
   once(false, Ack::kId, Fate::lost);
   client.request(CommitParameters{});
   EXPECT_EQ(link.robot.executed[CommitParameters::kId], 1);
   EXPECT_EQ(std::count(link.robot.seen.begin(), link.robot.seen.end(), CommitParameters::kId), 2);
+}
+
+TEST_F(Request, IdsNeverLookLikeAnOnlookers) {
+  for (int i = 0; i < 0x8010; ++i) client.request(Ping{});
+  EXPECT_EQ(link.robot.greatest_request_id, 0x7FFF);
+  EXPECT_EQ(client.counts().repeats, 0U);
 }
 
 TEST_F(Request, WorksOverALineThatSpoilsEveryThirdFrame) {

@@ -14,16 +14,16 @@ using testing::HasSubstr;
 const std::map<std::string, Value> kCalibration{
     {"c_R", 1.002}, {"c_L", 0.998}, {"b", 0.2886}, {"robot_name", std::string("calibrated")}};
 
-/// A robot with values of its own in force, and something staged by a program that has gone.
+/// Something is staged by another session.
 void prepare(FakeLink& link) {
   link.robot.parameter("c_R").value = {link.robot.parameter("c_R").info.id, 1 << 30, (1 << 30) + 5, {}, {}};
 }
 
 TEST(Upload, PutsTheNewSetInForceAndSaysSo) {
   FakeLink link;
-  prepare(link);
   Client client(link);
   client.connect();
+  prepare(link);
   const auto report = upload(client, kCalibration);
   EXPECT_EQ(report.active, ActiveSet::new_set);
   EXPECT_FALSE(report.link_dropped);
@@ -35,9 +35,9 @@ TEST(Upload, PutsTheNewSetInForceAndSaysSo) {
 
 TEST(Upload, LeavesValuesAloneThatSomebodyElseStaged) {
   FakeLink link;
-  prepare(link);
   Client client(link);
   client.connect();
+  prepare(link);
   upload(client, {{"b", 0.3}});
   EXPECT_EQ(link.robot.parameter("c_R").value.active, 1 << 30);
 }
@@ -60,6 +60,30 @@ TEST(Upload, ARefusedSetLeavesTheOldOneAndNothingStaged) {
   EXPECT_EQ(link.robot.parameter("b").value.staged, 290'000'000);
 }
 
+TEST(Upload, ThatLosesTheStagingAreaSaysSoAndLeavesTheOtherSessionAlone) {
+  for (const std::uint8_t lost_at : {protocol::StageParameter::kId, protocol::CommitParameters::kId}) {
+    FakeLink link;
+    Client client(link);
+    client.connect();
+    int reverts = 0;
+    link.fate = [&](bool to_robot, std::uint8_t id) {
+      if (to_robot && id == lost_at) link.robot.staging_is_ours = false;
+      reverts += to_robot && id == protocol::RevertParameters::kId ? 1 : 0;
+      return test::Fate::arrives;
+    };
+    try {
+      upload(client, kCalibration);
+      FAIL();
+    } catch (const RobotRefused& refused) {
+      EXPECT_EQ(refused.code(), protocol::ErrorCode::staging_lost);
+      EXPECT_THAT(refused.what(),
+                  HasSubstr("another program has begun to change parameters meanwhile; nothing"));
+    }
+    EXPECT_EQ(reverts, 1) << "the area is not taken back from the other session";
+    EXPECT_EQ(link.robot.parameter("b").value.active, 290'000'000);
+  }
+}
+
 struct Outcomes {
   int old_set = 0, new_set = 0;
 };
@@ -69,9 +93,9 @@ Outcomes drop_at_every_frame(bool restarts) {
   Outcomes outcomes;
   for (int n = 0;; ++n) {
     FakeLink link;
-    prepare(link);
     Client client(link);
     client.connect();
+    prepare(link);
     link.drop_at_frame = link.frames + n;
     link.restarts_on_drop = restarts;
     link.stays_away = seconds(1);

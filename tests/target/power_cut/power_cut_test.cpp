@@ -45,6 +45,7 @@ class CutRobot {
   /// True if the robot says that the set is in force.
   bool commit(std::int32_t value) {
     try {
+      client_.request(protocol::RevertParameters{});
       client_.request(protocol::StageParameter{kParameter, value, {}});
       client_.request(protocol::CommitParameters{});
       return true;

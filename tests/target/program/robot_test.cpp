@@ -101,6 +101,26 @@ TEST(EmulatorProgram, DrivesForOneProgramAtATime) {
   EXPECT_EQ(mode(), "segment") << "and goes on driving for the first";
 }
 
+TEST(EmulatorProgram, PausedAndResumedFromTheOtherPortADriveEndsWhereItShould) {
+  const EmulatorProgram emulator;
+  // Longer than a busy machine lets the driver wait, shorter than what is left of the drive after the pause.
+  ASSERT_EQ(astrolabe({"params", "set", "command_timeout=3000", "--port", emulator.usb()}).code, 0);
+  support::Program drive({ASTROLABE_PROGRAM, "drive", "line", "8", "--port", emulator.serial(), "--json"});
+  const auto mode = [&] {
+    const Outcome info = astrolabe({"info", "--port", emulator.usb(), "--json"});
+    return info.code == 0 ? support::parse_json(info.out)["mode"].get<std::string>() : info.err;
+  };
+  ASSERT_TRUE(support::eventually([&] { return mode() == "segment"; }));
+  const Outcome pause = astrolabe({"pause", "--port", emulator.usb()});
+  EXPECT_EQ(pause.code, 0) << pause.err;
+  EXPECT_EQ(mode(), "paused");
+  const Outcome resume = astrolabe({"resume", "--port", emulator.usb()});
+  EXPECT_EQ(resume.code, 0) << resume.err;
+  EXPECT_EQ(drive.wait(), 0) << drive.err();
+  const json moved = support::parse_json(drive.out());
+  EXPECT_NEAR(moved["moved"]["x_m"], 8, 0.05);  // the true wheels differ by 0.4 %
+}
+
 TEST(EmulatorProgram, EntersTheBootLoaderAt134BaudAndTheUsbPortGoes) {
   EmulatorProgram emulator;
   const int port = open(emulator.usb().c_str(), O_RDWR | O_NOCTTY);
