@@ -12,7 +12,8 @@ namespace astro::cli {
 
 void write(const std::string& text) {
   const bool taken = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
-  if (!taken || std::fflush(stdout) != 0) throw Error("the output cannot be written: is the disk full?");
+  if (!taken || std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    throw Error("the output cannot be written: is the disk full?");
 }
 
 void print(const std::string& text) { write(text + '\n'); }

@@ -16,6 +16,7 @@ namespace astro::cli {
 using Json = nlohmann::ordered_json;
 
 /// To stdout as it stands; print adds a newline. Throws astro::Error if stdout takes no more.
+/// To stdout. Throws astro::Error if this, or anything before it, could not be written.
 void write(const std::string& text);
 void print(const std::string& text);
 void print_json(const Json& json);

@@ -93,6 +93,7 @@ void Server::run(const std::function<bool()>& stop) {
       wait();
     }
   }
+  save_flash();  // said here if it fails; the destructor cannot
 }
 
 void Server::receive() {
