@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "host/link/parameter_rules.hpp"
+
 namespace astro::link {
 
 using namespace protocol;  // NOLINT(google-build-using-namespace): this file is all messages
@@ -87,7 +89,7 @@ void RemoteParameters::put_in_force(const Request& request) {
     if (refused.code() != ErrorCode::invalid_parameter || bad == rows_.end()) throw;
     throw RobotRefused(
         "the new set because of " + bad->name + " = " + describe(*bad, to_value(*bad, bad->staged)),
-        refused.code(), refused.detail());
+        refused.code(), refused.detail(), broken_rule(rows_, *bad));
   }
   for (ParameterRow& row : rows_) row.active = row.staged;
 }
