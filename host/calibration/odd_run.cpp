@@ -51,7 +51,12 @@ std::optional<OddRun> mistyped_run(std::span<const EndPose> runs, double side_m)
       const double value = runs[i].*coordinate.value;
       const auto others = others_than(runs, i, coordinate.value);
       if (!std::isfinite(value) || !others || !is_shifted(value, *others)) continue;
-      const double least = coordinate.value == &EndPose::theta_rad ? kLeastFar_rad : kLeastFarOfSide * side_m;
+      // Anything is nearer to 0 with its decimal point moved, which says little if the others scatter about
+      // 0.
+      const bool scatter = std::abs(others->median) <= 2 * others->reach;
+      const double least =
+          (scatter ? 2 : 1) *
+          (coordinate.value == &EndPose::theta_rad ? kLeastFar_rad : kLeastFarOfSide * side_m);
       const double far = std::abs(value - others->median) / std::max(kFar * others->reach, least);
       if (far <= most) continue;
       most = far;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "host/base/error.hpp"
 
@@ -24,20 +25,25 @@ constexpr link::Sense sense_of(recording::Direction direction) {
 /// Collects both streams for as long as it lives.
 class Collector {
  public:
-  Collector(link::Client& client, truth::Source& truth, recording::Run& run)
+  using Moved = std::function<void(const recording::OdometrySample&)>;
+
+  Collector(
+      link::Client& client, truth::Source& truth, recording::Run& run, Moved moved = [](const auto&) {})
       : client_(client),
         truth_(truth),
         run_(run),
+        moved_(std::move(moved)),
         subscription_(client.on<Telemetry>([this](const Telemetry& telemetry) {
           run_.odometry.push_back(to_sample(telemetry));
+          moved_(run_.odometry.back());
           if (run_.odometry.size() % kSamplesPerLook == 0) look();
         })) {
     truth_.poll();  // what was seen before is not of this run
     client_.request(protocol::SetTelemetry{kTelemetryPeriod_ms, kFields});
   }
 
-  /// Records for so long, by the robot's clock: a simulator in fast motion would stand for minutes in a
-  /// second of ours.
+  /// Records for so long, or until `interrupted`, by the robot's clock: a simulator in fast motion would
+  /// stand for minutes in a second of ours.
   void stand(std::chrono::microseconds duration, const std::function<bool()>& interrupted) {
     const std::size_t first = run_.odometry.size();
     const auto done = [&] {
@@ -47,7 +53,6 @@ class Collector {
     };
     if (!client_.pump_until(done, 10 * duration))
       throw Error("the robot's telemetry has dried up while it stood: is the link good?");
-    if (interrupted()) throw link::Interrupted("interrupted");
   }
 
   /// Stops the stream. The truth may arrive a little later than the robot's word: waits until it is there.
@@ -73,6 +78,7 @@ class Collector {
   link::Client& client_;
   truth::Source& truth_;
   recording::Run& run_;
+  Moved moved_;
   link::Subscription subscription_;
 };
 
@@ -120,18 +126,21 @@ recording::Run record_run(link::Client& client, truth::Source& truth, const link
   run.info = info;
   run.info.truth_source = truth.name();
   run.info.truth_clock = truth.clock();
-  const auto segments = static_cast<double>(path.size());
   link::DriveHooks drive_hooks;
   drive_hooks.interrupted = hooks.interrupted;
   drive_hooks.notice = hooks.notice;
-  drive_hooks.segment_done = [&](const protocol::SegmentDone& done) { hooks.progress(done.tag / segments); };
+  drive_hooks.segment_done = [&](const protocol::SegmentDone& done) { hooks.segment_done(done.tag); };
 
   link::DriveSession drive(client, drive_hooks);
   client.request(protocol::SetPose{});
-  Collector collector(client, truth, run);
-  collector.stand(kRest, hooks.interrupted);
+  Collector collector(client, truth, run, hooks.moved);
+  const auto stand = [&] {
+    collector.stand(kRest, hooks.interrupted);
+    drive.pump(0us);  // throws if it was interrupted, or if the robot found a fault
+  };
+  stand();
   drive.run(path);
-  collector.stand(kRest, hooks.interrupted);
+  stand();
   collector.finish();
   return run;
 }
@@ -149,7 +158,8 @@ recording::Run record_until(link::Client& client, truth::Source& truth, const re
   run.info.truth_clock = truth.clock();
   Collector collector(client, truth, run);
   try {
-    while (!done()) client.pump(50ms);
+    while (!client.pump_until(done, 50ms)) {
+    }
     collector.finish();
   } catch (const Error& error) {
     if (run.odometry.empty()) throw;
