@@ -105,15 +105,15 @@ void finish(const experiment::Calibration& found, const CalibrateOptions& option
 
 std::vector<calibration::EndPose> end_poses(const fs::path& file, double side_m) {
   const std::vector<calibration::EndPose> poses = calibration::read_end_poses(read_text(file), file.string());
+  if (const auto odd = calibration::mistyped_run(poses, side_m))
+    throw Error(fmt::format("{}: run {} has {} Correct it, or leave the run out", file.string(),
+                            odd->index + 1, described(*odd)));
   for (const calibration::EndPose& pose : poses)
     if (const double off_m = std::hypot(pose.x_m, pose.y_m); side_m > 0 && off_m > side_m)
       throw Error(
           fmt::format("{}: a run of a square of {} m is off by {:.3g} m, which no robot is: name the "
                       "columns by their unit, ex_mm or ex_m",
                       file.string(), side_m, off_m));
-  if (const auto odd = calibration::mistyped_run(poses, side_m))
-    throw Error(fmt::format("{}: run {} has {} Correct it, or leave the run out", file.string(),
-                            odd->index + 1, described(*odd)));
   return poses;
 }
 

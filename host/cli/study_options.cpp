@@ -23,7 +23,7 @@ void add_count(Command command, const std::string& name, int& value, int least, 
 }
 
 void add_size(Command command, const std::string& name, double& metres, const std::string& what) {
-  add_number(command, name, metres, "M", between(0.01, 100, "m"), what);
+  add_number(command, name, metres, "M", between(0.001, 1000, "m"), what);
 }
 
 void add_ratio(Command command, const std::string& name, double& ratio, const std::string& what) {

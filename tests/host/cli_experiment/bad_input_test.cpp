@@ -80,7 +80,7 @@ TEST_F(BadInput, SizesInMillimetres) {
   refuses({"study", "--trials", "2", "--wheelbase", "290"}, {"--wheelbase", "'290'"});
   refuses({"plan", "--squares", "5", "--side", "3000"}, {"--side", "'3000'"});
   refuses({"umbmark", "--truth", "sim", "--out", "x", "--side", "3000"}, {"side 3000 m"});
-  refuses({"drive", "square", "3000"}, {"SIDE", "'3000'", "100 m"});
+  refuses({"drive", "square", "3000"}, {"a side of 3000 m", "100 m", "in metres"});
   refuses({"drive", "line", "1200"}, {"1200 m", "1000 m", "in metres"});
 }
 TEST_F(BadInput, TenfoldTypoInOneOfFiveRuns) {

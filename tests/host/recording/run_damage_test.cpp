@@ -75,7 +75,7 @@ TEST(DamagedRun, WhoseEndIsThereIsCalledDamagedAndNeverCutOff) {
   const Bytes file = small_file(folder);
   // Lengths of records and all else; the last 8 bytes are the end itself.
   for (std::size_t at = 8; at < file.size() - 8; ++at)
-    for (const std::uint8_t flip : {0x01, 0x80}) {
+    for (const std::uint8_t flip : {std::uint8_t{0x01}, std::uint8_t{0x80}}) {
       Bytes bad = file;
       bad[at] ^= flip;
       const std::string error = complaint([&] { run_from_bytes(bad, "flipped.mcap"); });
