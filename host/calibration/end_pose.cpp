@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <ranges>
 #include <string>
 
 #include "host/base/error.hpp"
@@ -20,56 +21,52 @@ void require_values(std::span<const EndPose> runs, const std::string& set) {
     if (!std::isfinite(runs[i].x_m) || !std::isfinite(runs[i].y_m) || std::isinf(runs[i].theta_rad)) {
       throw Error(run + " has an end pose that is not finite: measure it again or leave the run out");
     }
-    if (std::isnan(runs[i].theta_rad) != std::isnan(runs[0].theta_rad)) {
-      throw Error(run + (std::isnan(runs[i].theta_rad) ? " has no" : " has a") +
-                  " heading error, unlike run 1: give the heading of every run or of none");
-    }
   }
 }
 
-void set_standard_errors(ClusterSummary& out, std::span<const EndPose> runs) {
-  EndPose squares;
-  for (const EndPose& run : runs) {
-    squares.x_m += std::pow(run.x_m - out.x_cg_m, 2);
-    squares.y_m += std::pow(run.y_m - out.y_cg_m, 2);
-    squares.theta_rad += std::pow(run.theta_rad - out.theta_cg_rad, 2);
-  }
-  const double n = static_cast<double>(runs.size());
-  const double scale = n < 2 ? kNaN : 1 / (n * (n - 1));
-  out.se_x_m = std::sqrt(squares.x_m * scale);
-  out.se_y_m = std::sqrt(squares.y_m * scale);
-  out.se_theta_rad = std::sqrt(squares.theta_rad * scale);
-  out.se_r_m = std::hypot(out.se_x_m, out.se_y_m);
-}
+struct Moments {
+  double mean = 0, rms = 0, se = 0;
+  int count = 0;
+};
 
-void set_means(ClusterSummary& out, std::span<const EndPose> runs) {
-  EndPose sum, squares;
-  for (const EndPose& run : runs) {
-    sum.x_m += run.x_m;
-    sum.y_m += run.y_m;
-    sum.theta_rad += run.theta_rad;
-    squares.x_m += run.x_m * run.x_m;
-    squares.y_m += run.y_m * run.y_m;
-    squares.theta_rad += run.theta_rad * run.theta_rad;
+/// Of one coordinate over the runs in which it was measured; NaN where there is none.
+Moments moments_of(std::span<const EndPose> runs, double EndPose::*value) {
+  double sum = 0, squares = 0, deviations = 0;
+  Moments out;
+  const auto measured = [value](const EndPose& run) { return !std::isnan(run.*value); };
+  for (const EndPose& run : runs | std::views::filter(measured)) {
+    ++out.count;
+    sum += run.*value;
+    squares += run.*value * run.*value;
   }
-  const double n = static_cast<double>(runs.size());
-  out.x_cg_m = sum.x_m / n;
-  out.y_cg_m = sum.y_m / n;
-  out.theta_cg_rad = sum.theta_rad / n;
-  out.r_cg_m = std::hypot(out.x_cg_m, out.y_cg_m);
-  out.rms_x_m = std::sqrt(squares.x_m / n);
-  out.rms_y_m = std::sqrt(squares.y_m / n);
-  out.rms_r_m = std::hypot(out.rms_x_m, out.rms_y_m);
-  out.rms_theta_rad = std::sqrt(squares.theta_rad / n);
+  const double n = out.count;
+  out.mean = n > 0 ? sum / n : kNaN;
+  out.rms = n > 0 ? std::sqrt(squares / n) : kNaN;
+  for (const EndPose& run : runs | std::views::filter(measured))
+    deviations += std::pow(run.*value - out.mean, 2);
+  out.se = n < 2 ? kNaN : std::sqrt(deviations / (n * (n - 1)));
+  return out;
 }
 
 ClusterSummary summarize_set(std::span<const EndPose> runs, const std::string& set) {
   require_values(runs, set);
   ClusterSummary out;
   out.runs = static_cast<int>(runs.size());
-  out.has_theta = !std::isnan(runs[0].theta_rad);
-  set_means(out, runs);
-  set_standard_errors(out, runs);
+  const Moments x = moments_of(runs, &EndPose::x_m), y = moments_of(runs, &EndPose::y_m),
+                theta = moments_of(runs, &EndPose::theta_rad);
+  out.has_theta = theta.count > 0;
+  out.x_cg_m = x.mean;
+  out.y_cg_m = y.mean;
+  out.theta_cg_rad = theta.mean;
+  out.r_cg_m = std::hypot(out.x_cg_m, out.y_cg_m);
+  out.rms_x_m = x.rms;
+  out.rms_y_m = y.rms;
+  out.rms_r_m = std::hypot(out.rms_x_m, out.rms_y_m);
+  out.rms_theta_rad = theta.rms;
+  out.se_x_m = x.se;
+  out.se_y_m = y.se;
+  out.se_theta_rad = theta.se;
+  out.se_r_m = std::hypot(out.se_x_m, out.se_y_m);
   return out;
 }
 

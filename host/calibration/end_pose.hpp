@@ -28,7 +28,7 @@ struct ClusterSummary {
   double r_cg_m = 0;                                // hypot(x_cg, y_cg)
   double rms_x_m = 0, rms_y_m = 0, rms_r_m = 0, rms_theta_rad = 0;
   double se_x_m = 0, se_y_m = 0, se_theta_rad = 0, se_r_m = 0;
-  bool has_theta = true;
+  bool has_theta = true;  // of at least one run
 };
 
 struct ExperimentSummary {
@@ -38,7 +38,7 @@ struct ExperimentSummary {
 };
 
 /// Throws astro::Error if a set is empty or holds a value that is not finite.
-/// A missing heading (NaN) is no error if it is missing in the whole set.
+/// A missing heading (NaN) is no error: the figures of theta are those of the runs that have one.
 ClusterSummary summarize(std::span<const EndPose> runs);
 ExperimentSummary summarize(std::span<const EndPose> cw, std::span<const EndPose> ccw);
 

@@ -1,6 +1,7 @@
 #include "host/calibration/umbmark.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -62,11 +63,13 @@ void require_inputs(std::span<const EndPose> cw, std::span<const EndPose> ccw, d
 }
 
 void require_headings(std::span<const EndPose> runs, const std::string& direction) {
+  const auto lacks = [](const EndPose& run) { return std::isnan(run.theta_rad); };
+  const bool none = std::all_of(runs.begin(), runs.end(), lacks);
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (std::isnan(runs[i].theta_rad)) {
+    if (lacks(runs[i])) {
       throw Error(
-          "the " + direction +
-          " runs have no heading error, which the extended method calibrates from: measure the end headings "
+          (none ? "the " + direction + " runs have" : direction + " run " + std::to_string(i + 1) + " has") +
+          " no heading error, which the extended method calibrates from: measure the end headings "
           "(etheta_rad or etheta_deg), or use the method umbmark");
     }
     if (std::abs(runs[i].theta_rad) > std::numbers::pi) {

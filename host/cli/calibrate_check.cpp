@@ -10,6 +10,7 @@
 
 #include "host/base/error.hpp"
 #include "host/cli/console.hpp"
+#include "host/cli/damaged_option.hpp"
 #include "host/cli/robot_view.hpp"
 #include "host/experiment/dead_reckoning.hpp"
 #include "host/experiment/json.hpp"
@@ -27,7 +28,7 @@ struct CheckOptions {
   std::vector<fs::path> with;
   std::vector<std::string> without;
   std::string clock = "auto";
-  bool runs = false, json = false;
+  bool runs = false, json = false, damaged = false;
 };
 
 MlChoice::Clock clock_of(const CheckOptions& options) {
@@ -60,9 +61,10 @@ calibration::WheelFactors carried_by_all(const CheckOptions& options, const expe
 }
 
 std::vector<DeadReckoning> judged(const CheckOptions& options) {
-  const experiment::RunSet set = experiment::read_run_set(options.folder, options.without);
-  for (const recording::Run& run : set.runs)
-    if (!run.warning.empty()) say("warning: " + run.warning);
+  const experiment::RunSet set = read_recordings(options.damaged, [&](recording::Damage damage) {
+    return experiment::read_run_set(options.folder, options.without, damage);
+  });
+  warn_of_recordings(set.runs);
   const auto wheel = experiment::nominal_wheel(set.runs.front().info, set.names.front());
   std::vector<experiment::NamedFactors> factors{{"carried", carried_by_all(options, set)}};
   for (const fs::path& file : options.with) factors.push_back(experiment::factors_of_file(file, wheel));
@@ -136,6 +138,7 @@ void add_calibrate_check(Command calibrate) {
                   "auto: what the recordings say")
       .one_of({"auto", "known", "estimated"})
       .capture_default_str();
+  add_damaged_flag(command, options->damaged);
   command.add_flag("--runs", options->runs, "each drive for itself, too");
   command.add_flag("--json", options->json, "print one JSON array");
   command.footer(

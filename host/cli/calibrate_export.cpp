@@ -41,6 +41,11 @@ std::optional<experiment::DiffDrive> sizes_if_known(const experiment::ParameterF
 std::string text_of(const ExportOptions& options) {
   const std::string format = format_of(options);
   const experiment::ParameterFile file = experiment::read_parameter_file(options.file);
+  try {
+    experiment::require_loadable(file);
+  } catch (const Error& error) {
+    throw Error("'" + options.file.string() + "': " + error.what());
+  }
   if (format == "ros2")
     return experiment::ros2_yaml(file, experiment::diff_drive(file, options.nominal), options.node);
   const auto sizes = sizes_if_known(file, options.nominal);

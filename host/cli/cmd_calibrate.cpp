@@ -7,11 +7,13 @@
 
 #include "host/base/error.hpp"
 #include "host/calibration/end_pose_csv.hpp"
+#include "host/calibration/odd_run.hpp"
 #include "host/cli/calibrate_check.hpp"
 #include "host/cli/calibrate_export.hpp"
 #include "host/cli/calibration_view.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/console.hpp"
+#include "host/cli/damaged_option.hpp"
 #include "host/cli/method_option.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/robot_view.hpp"
@@ -40,7 +42,7 @@ struct CalibrateOptions {
   double wheelbase_m = 0;
   double c_r = 1, c_l = 1;
   MethodOption method;
-  bool json = false;
+  bool json = false, damaged = false;
 };
 
 void add_result(Command command, CalibrateOptions& options) {
@@ -103,6 +105,9 @@ void finish(const experiment::Calibration& found, const CalibrateOptions& option
 
 std::vector<calibration::EndPose> end_poses(const fs::path& file, double side_m) {
   const std::vector<calibration::EndPose> poses = calibration::read_end_poses(read_text(file), file.string());
+  if (const auto odd = calibration::mistyped_run(poses, side_m))
+    throw Error(fmt::format("{}: run {} has {} Correct it, or leave the run out", file.string(),
+                            odd->index + 1, described(*odd)));
   for (const calibration::EndPose& pose : poses)
     if (const double off_m = std::hypot(pose.x_m, pose.y_m); side_m > 0 && off_m > side_m)
       throw Error(
@@ -121,11 +126,19 @@ void add_end_poses(Command calibrate) {
                   "clockwise runs: columns ex_mm|ex_m, ey_mm|ey_m, etheta_rad|etheta_deg")
       .required();
   command.add_option("--ccw", options->ccw, "counter-clockwise runs, the same columns").required();
-  command.add_option("--side", options->side_m, "side of the square, m").required();
-  command.add_option("--wheelbase", options->wheelbase_m, "wheelbase that the robot believed in, m")
+  // As a robot can drive and carry it: 3000 and 290 are millimetres.
+  command.add_option("--side", options->side_m, "side of the square, m")
+      .check(between(0.1, 100, "m"))
       .required();
-  command.add_option("--c-right", options->c_r, "c_R that the robot carried").capture_default_str();
-  command.add_option("--c-left", options->c_l, "c_L that the robot carried").capture_default_str();
+  command.add_option("--wheelbase", options->wheelbase_m, "wheelbase that the robot believed in, m")
+      .check(between(0.05, 2, "m"))
+      .required();
+  command.add_option("--c-right", options->c_r, "c_R that the robot carried")
+      .check(between(0.5, 1.5, ""))
+      .capture_default_str();
+  command.add_option("--c-left", options->c_l, "c_L that the robot carried")
+      .check(between(0.5, 1.5, ""))
+      .capture_default_str();
   add_method(command, options->method, {"auto", "umbmark", "extended", "least-squares"},
              "auto: extended where every run has an end heading,\numbmark where not");
   add_result(command, *options);
@@ -148,9 +161,10 @@ void add_end_poses(Command calibrate) {
 
 experiment::Calibration calibrate_runs(const CalibrateOptions& options) {
   const experiment::MethodChoice method = options.method.choice();
-  const experiment::RunSet set = experiment::read_run_set(options.folder, options.without);
-  for (const recording::Run& run : set.runs)
-    if (!run.warning.empty()) say("warning: " + run.warning);
+  const experiment::RunSet set = read_recordings(options.damaged, [&](recording::Damage damage) {
+    return experiment::read_run_set(options.folder, options.without, damage);
+  });
+  warn_of_recordings(set.runs);
   experiment::Calibration found = experiment::calibrate(set, method, ml_choice(options.ml));
   if (found.ml() == nullptr && options.ml.given())
     throw Error(
@@ -173,6 +187,7 @@ void add_runs(Command calibrate) {
   add_ml(command, *options);
   command.add_option("--without", options->without, "a recording to leave out, by its name (repeatable)")
       .one_each_time();
+  add_damaged_flag(command, options->damaged);
   command.footer(
       "ml finds c_R, c_L and b themselves, from runs of one phase or of several. The\n"
       "other methods find how they differ from what the robot carried, from the\n"

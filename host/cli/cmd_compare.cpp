@@ -3,6 +3,7 @@
 #include "host/base/error.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/console.hpp"
+#include "host/cli/damaged_option.hpp"
 #include "host/cli/robot_view.hpp"
 #include "host/experiment/results.hpp"
 
@@ -13,7 +14,7 @@ namespace astro::cli {
 void add_compare(Command app) {
   struct Options {
     std::vector<std::filesystem::path> folders;
-    bool json = false;
+    bool json = false, damaged = false;
   };
   const auto options = std::make_shared<Options>();
   const Command command =
@@ -22,15 +23,13 @@ void add_compare(Command app) {
       .add_option("folders", options->folders, "an experiment's folder, or two or more folders of recordings")
       .required();
   command.add_flag("--json", options->json, "print one JSON object");
+  add_damaged_flag(command, options->damaged);
   command.footer(
       "Examples:\n"
       "  astrolabe compare my-experiment\n"
       "  astrolabe compare monday/before friday/after --json");
   command.callback([options] {
-    const experiment::Results results = options->folders.size() == 1
-                                            ? experiment::read_results(options->folders.front())
-                                            : experiment::read_folders(options->folders);
-    if (const std::string other = results.other_robot(); !other.empty()) say("warning: " + other);
+    const experiment::Results results = read_results_of(options->folders, options->damaged);
     if (options->json) {
       print_json(experiment::to_json(results));
       return;

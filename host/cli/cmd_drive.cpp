@@ -1,5 +1,9 @@
+#include <fmt/format.h>
+
+#include <cmath>
 #include <memory>
 
+#include "host/base/error.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/drive_run.hpp"
 #include "host/cli/options.hpp"
@@ -7,6 +11,16 @@
 
 namespace astro::cli {
 namespace {
+
+// What nobody drives at once; a number above is in millimetres.
+constexpr double kLongestSide_m = 100, kLongestLine_m = 1000;
+
+void require_plausible(const char* what, double metres, double most_m) {
+  if (std::abs(metres) > most_m)
+    throw Error(
+        fmt::format("a {} of {:g} m is more than the {:g} m that one drive may have: is it in metres?", what,
+                    metres, most_m));
+}
 
 struct PathOptions {
   DriveOptions drive;
@@ -58,8 +72,10 @@ Command add_path(Command drive, const std::string& name, const std::string& what
 
 void add_line(Command drive) {
   const auto options = std::make_shared<PathOptions>();
-  const Command command = add_path(drive, "line", "drive straight on", options,
-                                   [](const PathOptions& o) { return link::line(o.length_m, o.limits); });
+  const Command command = add_path(drive, "line", "drive straight on", options, [](const PathOptions& o) {
+    require_plausible("length", o.length_m, kLongestLine_m);
+    return link::line(o.length_m, o.limits);
+  });
   add_number(command, "LENGTH", options->length_m, "metres; backwards if negative")
       .required()
       .check(finite());
@@ -81,6 +97,7 @@ void add_arc(Command drive) {
   const auto options = std::make_shared<PathOptions>();
   const Command command =
       add_path(drive, "arc", "drive a part of a circle", options, [](const PathOptions& o) {
+        require_plausible("length", o.length_m, kLongestLine_m);
         return link::arc(o.length_m, link::turns_from_degrees(o.angle_deg), o.limits);
       });
   add_number(command, "LENGTH", options->length_m, "metres along the arc; backwards if negative")
@@ -96,8 +113,10 @@ void add_arc(Command drive) {
 void add_square(Command drive) {
   const auto options = std::make_shared<PathOptions>();
   const Command command =
-      add_path(drive, "square", "drive a square with turns on the spot", options,
-               [](const PathOptions& o) { return link::square(o.length_m, o.sense(), o.limits); });
+      add_path(drive, "square", "drive a square with turns on the spot", options, [](const PathOptions& o) {
+        require_plausible("side", o.length_m, kLongestSide_m);
+        return link::square(o.length_m, o.sense(), o.limits);
+      });
   add_number(command, "SIDE", options->length_m, "metres").required().check(positive("m"));
   add_sense(command, *options);
   examples(command, {"astrolabe drive square 3 --cw", "astrolabe drive square 1 --ccw --speed 0.3 --json"});
@@ -106,8 +125,10 @@ void add_square(Command drive) {
 void add_circle(Command drive) {
   const auto options = std::make_shared<PathOptions>();
   const Command command =
-      add_path(drive, "circle", "drive circles beside the start", options,
-               [](const PathOptions& o) { return link::circle(o.radius_m, o.turns, o.sense(), o.limits); });
+      add_path(drive, "circle", "drive circles beside the start", options, [](const PathOptions& o) {
+        require_plausible("radius", o.radius_m, kLongestSide_m / 2);
+        return link::circle(o.radius_m, o.turns, o.sense(), o.limits);
+      });
   add_number(command, "RADIUS", options->radius_m, "metres").required().check(positive("m"));
   add_sense(command, *options);
   add_number(command, "--turns", options->turns, "how many times round")

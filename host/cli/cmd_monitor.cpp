@@ -77,6 +77,7 @@ class Monitor {
 
   void run() {
     while (!quit_wanted()) {
+      if (interrupted() && !figures_.lost.empty()) throw Error(figures_.lost);
       check_interrupt();
       try {
         if (look()) return;

@@ -10,6 +10,7 @@
 #include "host/cli/connection.hpp"
 #include "host/cli/console.hpp"
 #include "host/cli/options.hpp"
+#include "host/cli/parameter_load.hpp"
 #include "host/cli/params_view.hpp"
 #include "host/cli/terminal.hpp"
 #include "host/cli/wrong_usage.hpp"
@@ -19,7 +20,6 @@
 namespace astro::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using experiment::Change;
 using experiment::ParameterValues;
 using link::RemoteParameters;
@@ -28,7 +28,7 @@ struct ParamsOptions {
   ConnectionOptions connection;
   std::vector<std::string> words;
   fs::path file;
-  bool json = false, yes = false, try_out = false;
+  bool json = false, yes = false, force = false, try_out = false;
 };
 
 Json changed_json(const std::vector<Change>& changes, bool in_force) {
@@ -43,14 +43,6 @@ Json changed_json(const std::vector<Change>& changes, bool in_force) {
 
 void report(const ParamsOptions& options, const std::vector<Change>& changes, bool in_force) {
   if (options.json) print_json(changed_json(changes, in_force));
-}
-
-/// Before and after; then asks if there is more than one change and nobody agreed beforehand. False: the
-/// person does not want them.
-bool agreed(const ParamsOptions& options, const std::vector<Change>& changes) {
-  say(table(experiment::side_by_side(changes), "llrrr"));
-  return changes.size() <= 1 || options.yes ||
-         confirm(fmt::format("Put these {} values in force?", changes.size()));
 }
 
 void list(const ParamsOptions& options, RemoteParameters& robot) {
@@ -84,7 +76,7 @@ void load(link::Client& client, const ParamsOptions& options, RemoteParameters& 
     say("the robot holds these values already");
     return report(options, changes, true);
   }
-  if (!agreed(options, changes)) throw Error("nothing was changed");
+  if (!agreed(robot, changes, options.yes)) throw Error("nothing was changed");
   const link::UploadReport done = link::upload(client, values);
   if (done.active != link::ActiveSet::new_set) throw Error(done.sentence());
   say(done.sentence());
@@ -108,6 +100,8 @@ void set(link::Client& client, const ParamsOptions& options, RemoteParameters& r
   const ParameterValues values = assignments(robot, options.words);
   if (!options.try_out) return load(client, options, robot, values);
   const std::vector<Change> changes = experiment::changes(robot, values);
+  if (options.try_out && !agreed(robot, changes, options.yes, changes.size()))
+    throw Error("nothing was changed");
   for (const auto& [name, value] : values) robot.stage(name, value);
   say(table(experiment::side_by_side(changes), "llrrr"));
   robot.apply();
@@ -124,7 +118,7 @@ void save(const ParamsOptions& options, RemoteParameters& robot) {
 void defaults(const ParamsOptions& options, RemoteParameters& robot) {
   robot.defaults();
   const std::vector<Change> changes = staged_changes(robot);
-  if (!changes.empty() && !agreed(options, changes)) {
+  if (!changes.empty() && !agreed(robot, changes, options.yes)) {
     robot.revert();
     throw Error("nothing was changed");
   }
@@ -139,6 +133,15 @@ void export_to_file(const ParamsOptions& options, RemoteParameters& robot) {
   for (const link::ParameterRow& row : robot.rows()) values[row.name] = link::to_value(row, row.active);
   experiment::write_parameters(options.file, values);
   say(fmt::format("{} parameters are in {}", values.size(), options.file.string()));
+}
+
+void import_from_file(link::Client& client, const ParamsOptions& options, const RemoteParameters& robot) {
+  const Loaded loaded = load_parameters(client, robot, experiment::read_parameter_file(options.file),
+                                        {options.yes, options.force});
+  if (loaded.report && loaded.report->active != link::ActiveSet::new_set)
+    throw Error(loaded.report->sentence());
+  if (loaded.report) say(loaded.report->sentence());
+  report(options, loaded.changes, true);
 }
 
 using Work = std::function<void(link::Client&, ParamsOptions&, RemoteParameters&)>;
@@ -191,11 +194,10 @@ void add_writers(Command params, const std::shared_ptr<ParamsOptions>& options) 
                   "astrolabe params set kp=50 --try"});
 
   const Command file = add(params, "import", "load values from a TOML file, all together or not at all",
-                           options, [](link::Client& client, ParamsOptions& o, RemoteParameters& robot) {
-                             load(client, o, robot, experiment::read_parameter_file(o.file).parameters);
-                           });
+                           options, import_from_file);
   file.add_option("file", options->file, "of 'params export', or a calibration").required().type_name("");
   examples(file, {"astrolabe params import astro.toml", "astrolabe params import astro.toml --yes --json"});
+  add_force(file, options->force);
   for (const Command command : {some, file}) {
     add_yes_flag(command, options);
     add_json_flag(command, options->json);

@@ -4,6 +4,7 @@
 #include "host/cli/command.hpp"
 #include "host/cli/connection.hpp"
 #include "host/cli/console.hpp"
+#include "host/cli/interrupt.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/robot_view.hpp"
 
@@ -12,9 +13,14 @@ namespace {
 
 void pause(ConnectionOptions& options) {
   const auto client = connect(options);
+  constexpr auto kTimeToRest = std::chrono::seconds(5);
   client->request(protocol::Pause{});
-  while (!protocol::at_rest(client->request(protocol::GetStatus{}).mode))
+  const link::microseconds deadline = client->now() + kTimeToRest;
+  while (!protocol::at_rest(client->request(protocol::GetStatus{}).mode)) {
+    if (interrupted() || client->now() >= deadline)
+      throw Error("the robot has not come to rest: 'astrolabe stop' stops it");
     client->pump(std::chrono::milliseconds(50));
+  }
   const protocol::Status status = client->request(protocol::GetStatus{});
   if (status.mode != protocol::Mode::paused)
     throw Error("the robot is not paused but " + std::string(protocol::name(status.mode)) +

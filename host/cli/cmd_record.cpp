@@ -114,6 +114,25 @@ class Streamed {
   std::optional<recording::CsvWriter> csv_;
 };
 
+/// Time on the robot's clock: that of a simulator in fast motion, or of an emulator on a busy machine, is not
+/// ours. A robot that restarts counts from 0 again.
+class RobotStopwatch {
+ public:
+  explicit RobotStopwatch(link::Client& client)
+      : client_(client), last_us_(client.request(protocol::Ping{}).device_time_us) {}
+
+  double seconds() {
+    const std::uint64_t now_us = client_.device_time_us();
+    elapsed_us_ += now_us < last_us_ ? now_us : now_us - last_us_;
+    last_us_ = now_us;
+    return static_cast<double>(elapsed_us_) * 1e-6;
+  }
+
+ private:
+  link::Client& client_;
+  std::uint64_t last_us_, elapsed_us_ = 0;
+};
+
 void listen(RecordOptions& options) {
   if (options.pause_option.count() > 0) throw WrongUsage("--pause waits before runs: say how many to drive");
   require_new(options.out);
@@ -124,10 +143,12 @@ void listen(RecordOptions& options) {
   recording::RunInfo info = describe(*client);
   info.kind = "free";
   Progress progress("recording");
-  const link::microseconds start = client->now();
+  RobotStopwatch stopwatch(*client);
   const auto done = [&] {
-    const double elapsed_s = static_cast<double>((client->now() - start).count()) * 1e-6;
-    progress.show(options.seconds > 0 ? elapsed_s / options.seconds : 0, fmt::format("{:.0f} s", elapsed_s));
+    const double elapsed_s = stopwatch.seconds();
+    const std::string shown = fmt::format("{:.0f} s", elapsed_s);
+    if (options.seconds > 0) progress.show(elapsed_s / options.seconds, shown);
+    if (options.seconds == 0) progress.show(shown);
     return interrupted() || (options.seconds > 0 && elapsed_s >= options.seconds);
   };
   if (options.seconds == 0) say("recording; Ctrl-C ends it");
@@ -157,10 +178,11 @@ void add_record(Command app) {
   command.add_option("--truth", options->truth.source, "sim or none")
       .one_of({"sim", "none"})
       .capture_default_str();
-  options->seconds_option =
-      command.add_option("--seconds", options->seconds, "end after this time (default: at Ctrl-C)")
-          .type_name("S")
-          .check(positive("s"));
+  options->seconds_option = command
+                                .add_option("--seconds", options->seconds,
+                                            "end after this time on the robot's clock (default: at Ctrl-C)")
+                                .type_name("S")
+                                .check(positive("s"));
   options->csv_option =
       command.add_option("--csv", options->csv, "also write odometry.csv and truth.csv into this folder");
   options->runs = add_programme(command, options->programme);

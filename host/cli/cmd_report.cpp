@@ -3,6 +3,7 @@
 #include "host/base/error.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/console.hpp"
+#include "host/cli/damaged_option.hpp"
 #include "host/cli/robot_view.hpp"
 #include "host/experiment/report_input.hpp"
 #include "host/report/report.hpp"
@@ -13,6 +14,7 @@ void add_report(Command app) {
   struct Options {
     std::vector<std::filesystem::path> folders;
     std::filesystem::path out;
+    bool damaged = false;
   };
   const auto options = std::make_shared<Options>();
   const Command command = app.add_subcommand("report", "write the before/after report as one HTML file");
@@ -20,15 +22,13 @@ void add_report(Command app) {
       .add_option("folders", options->folders, "an experiment's folder, or two or more folders of recordings")
       .required();
   command.add_option("--out", options->out, "the file to write (default: report.html in the first folder)");
+  add_damaged_flag(command, options->damaged);
   command.footer(
       "Examples:\n"
       "  astrolabe report my-experiment\n"
       "  astrolabe report monday/before friday/after --out report.html");
   command.callback([options] {
-    const bool is_experiment = options->folders.size() == 1;
-    const experiment::Results results = is_experiment ? experiment::read_results(options->folders.front())
-                                                      : experiment::read_folders(options->folders);
-    if (const std::string other = results.other_robot(); !other.empty()) say("warning: " + other);
+    const experiment::Results results = read_results_of(options->folders, options->damaged);
     const std::filesystem::path out =
         options->out.empty() ? options->folders.front() / "report.html" : options->out;
     report::write_report(out, experiment::report_input(results));

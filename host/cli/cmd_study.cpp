@@ -79,7 +79,10 @@ void add_setup(Command command, StudyOptions& options) {
       .check(whole(0, std::numeric_limits<std::uint64_t>::max()));
   add_count(command, "--runs", setup.runs, 1, 1000, "squares in each direction");
   add_size(command, "--side", setup.side_m, "side of the square, m");
-  add_size(command, "--wheelbase", setup.wheelbase_m, "wheelbase that the robot believes in, m");
+  command.add_option("--wheelbase", setup.wheelbase_m, "wheelbase that the robot believes in, m")
+      .type_name("M")
+      .check(between(0.05, 2, "m"))
+      .capture_default_str();
   add_ratio(command, "--true-ed", setup.E_d, "true ratio of the wheel diameters, right over left");
   add_ratio(command, "--true-eb", setup.E_b, "true over believed wheelbase, both at equal scale");
   add_ratio(command, "--scale", setup.scale, "common to the true wheels and wheelbase");

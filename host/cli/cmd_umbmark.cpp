@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "host/base/error.hpp"
 #include "host/cli/calibration_view.hpp"
@@ -9,8 +10,10 @@
 #include "host/cli/connection.hpp"
 #include "host/cli/console.hpp"
 #include "host/cli/interrupt.hpp"
+#include "host/cli/limit_notes.hpp"
 #include "host/cli/method_option.hpp"
 #include "host/cli/options.hpp"
+#include "host/cli/path_progress.hpp"
 #include "host/cli/robot_view.hpp"
 #include "host/cli/truth_option.hpp"
 #include "host/cli/wrong_usage.hpp"
@@ -79,21 +82,31 @@ void add_options(Command command, UmbmarkOptions& options) {
   command.add_flag("--json", options.json, "print the result as one JSON object");
 }
 
+/// How much of the phase under way is driven.
+struct Way {
+  int before = 0, total = 1;  // runs
+  std::optional<PathProgress> run;
+
+  double fraction() const { return (before + (run ? run->fraction() : 0)) / total; }
+};
+
 experiment::ExperimentHooks hooks_for(const UmbmarkOptions& options, Progress& progress) {
   experiment::ExperimentHooks hooks;
-  const auto done = std::make_shared<std::pair<int, int>>(0, 1);  // of the runs of the phase
+  const auto way = std::make_shared<Way>();
   hooks.run.interrupted = interrupted;
   hooks.run.notice = [&progress](const std::string& text) {
     progress.clear();
     say(text);
   };
-  hooks.run_started = [done, &progress](const experiment::RunSpec& spec, int number, int total) {
-    *done = {number - 1, total};
-    progress.show(1.0 * done->first / total, spec.title());
+  hooks.run_started = [way, &plan = options.plan, &progress](const experiment::RunSpec& spec, int number,
+                                                             int total) {
+    *way = {number - 1, total, PathProgress(experiment::path_of(plan, spec))};
+    progress.show(way->fraction(), spec.title());
   };
-  hooks.run.progress = [done, &progress](double fraction) {
-    progress.show((done->first + fraction) / done->second,
-                  fmt::format("run {} of {}", done->first + 1, done->second));
+  hooks.run.segment_done = [way](std::uint16_t tag) { way->run->segment_done(tag); };
+  hooks.run.moved = [way, &progress](const recording::OdometrySample& sample) {
+    way->run->moved_to(sample);
+    progress.show(way->fraction(), fmt::format("run {} of {}", way->before + 1, way->total));
   };
   hooks.run_finished = [&progress](const experiment::RunSpec& spec, const recording::Run&) {
     progress.clear();
@@ -104,6 +117,11 @@ experiment::ExperimentHooks hooks_for(const UmbmarkOptions& options, Progress& p
     if (!pauses) return;
     progress.clear();
     ask(fmt::format("next is {}: put the robot on its start mark and press Enter ", spec.title()));
+  };
+  hooks.keep = [&progress](const std::string& why) {
+    progress.clear();
+    const std::string answer = ask(why + " [y: keep it, n: it is corrected or entered again] ");
+    return answer == "y" || answer == "yes";
   };
   hooks.agree = [&options, &progress](const experiment::Calibration& found, const auto& changes) {
     progress.clear();
@@ -129,8 +147,17 @@ void run(UmbmarkOptions& options) {
   options.plan.check();
   if (options.truth_folder.count() > 0 && options.truth.source != "file")
     throw WrongUsage("--truth-folder is of --truth file, and this is --truth " + options.truth.source);
+  if (options.truth_folder.count() > 0 && !std::filesystem::is_directory(options.truth.folder))
+    throw Error(fmt::format("--truth-folder: there is no folder '{}': make it, or name another",
+                            options.truth.folder.string()));
   if (options.truth.folder.empty()) options.truth.folder = options.out / "truth";
   const auto client = connect(options.connection);
+  link::Path all;
+  for (const experiment::RunSpec& spec : experiment::runs_of_phase(options.plan, 0, 1)) {
+    const link::Path path = experiment::path_of(options.plan, spec);
+    all.insert(all.end(), path.begin(), path.end());
+  }
+  say_what_is_clamped(*client, all);
   Progress progress("driving");
   const auto truth = open_truth(options.truth, options.connection.port, [&](const std::string& prompt) {
     progress.clear();

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -8,11 +6,10 @@
 #include "host/cli/connection.hpp"
 #include "host/cli/console.hpp"
 #include "host/cli/options.hpp"
+#include "host/cli/parameter_load.hpp"
 #include "host/cli/params_view.hpp"
 #include "host/cli/robot_view.hpp"
 #include "host/experiment/calibration_file.hpp"
-#include "host/experiment/change_guard.hpp"
-#include "host/link/upload.hpp"
 
 namespace astro::cli {
 namespace {
@@ -43,24 +40,10 @@ void run(UploadOptions& options) {
   const experiment::ParameterFile file = experiment::read_parameter_file(options.file);
   const auto client = connect(options.connection);
   const link::RemoteParameters robot = link::RemoteParameters::fetch(*client);
-  const experiment::RobotIdentity here = experiment::identity_of(client->robot());
-  if (const std::string other = experiment::different_robots("the calibration", file.robot, "this", here);
-      !other.empty())
-    say("warning: " + other);
-  const std::vector<experiment::Change> changes = experiment::changes(robot, file.parameters);
-  if (changes.empty()) {
-    say("the robot holds these values already");
-    if (options.json) print_report(link::UploadReport{link::ActiveSet::new_set, false, {}}, true);
-    return;
-  }
-  say(table(experiment::side_by_side(changes)));
-  if (const std::string why = experiment::objection(robot, file, changes); !why.empty() && !options.force)
-    throw Error(why);
-  if (const std::string note = experiment::insignificance(changes, file.standard_errors); !note.empty())
-    say(note);
-  if (!options.yes && !confirm("Load these into the robot?")) throw Error("nothing was uploaded");
-  const link::UploadReport report = link::upload(*client, file.parameters);
-  print_report(report, options.json);
+  const Loaded loaded = load_parameters(*client, robot, file, {options.yes, options.force});
+  const link::UploadReport report =
+      loaded.report.value_or(link::UploadReport{link::ActiveSet::new_set, false, {}});
+  if (loaded.report || options.json) print_report(report, options.json);
   if (report.active != link::ActiveSet::new_set)
     throw Error("the robot still holds the old parameters: upload again");
 }

@@ -113,19 +113,31 @@ Progress::Progress(std::string what) : what_(std::move(what)), started_(std::chr
 
 Progress::~Progress() { clear(); }
 
-void Progress::show(double fraction, std::string_view note) {
+bool Progress::due() {
   const auto now = std::chrono::steady_clock::now();
-  if (!stderr_is_terminal() || now - started_ < kPatience || now - shown_ < kBetweenRedraws) return;
+  if (!stderr_is_terminal() || now - started_ < kPatience || now - shown_ < kBetweenRedraws) return false;
   shown_ = now;
+  return true;
+}
+
+void Progress::rewrite(const std::string& line) {
   visible_ = true;
+  // A line that wraps could not be rewritten.
+  to_stderr(
+      fmt::format("{}{}", kClearLine, clipped(plain_text(line), terminal_size(STDERR_FILENO).columns - 1)));
+}
+
+void Progress::show(double fraction, std::string_view note) {
+  if (!due()) return;
   constexpr int kCells = 20;
   const int full = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * kCells + 0.5);
   std::string bar;
   for (int i = 0; i < kCells; ++i) bar += i < full ? "█" : "░";
-  const std::string line =
-      plain_text(fmt::format("{} {} {:3.0f} %  {}", what_, bar, 100 * std::clamp(fraction, 0.0, 1.0), note));
-  // A line that wraps could not be rewritten.
-  to_stderr(fmt::format("{}{}", kClearLine, clipped(line, terminal_size(STDERR_FILENO).columns - 1)));
+  rewrite(fmt::format("{} {} {:3.0f} %  {}", what_, bar, 100 * std::clamp(fraction, 0.0, 1.0), note));
+}
+
+void Progress::show(std::string_view note) {
+  if (due()) rewrite(fmt::format("{}  {}", what_, note));
 }
 
 void Progress::clear() {

@@ -41,10 +41,15 @@ class Progress {
 
   /// `fraction` in [0, 1]; `note` stands behind the bar.
   void show(double fraction, std::string_view note = {});
+  /// Without a bar, for work of which nobody knows the end.
+  void show(std::string_view note);
   /// Takes the bar away, so that a line can be printed.
   void clear();
 
  private:
+  bool due();
+  void rewrite(const std::string& line);
+
   std::string what_;
   std::chrono::steady_clock::time_point started_;
   std::chrono::steady_clock::time_point shown_;

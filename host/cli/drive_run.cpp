@@ -8,6 +8,7 @@
 
 #include "host/base/degrees.hpp"
 #include "host/cli/console.hpp"
+#include "host/cli/limit_notes.hpp"
 #include "host/cli/path_progress.hpp"
 #include "host/cli/robot_view.hpp"
 #include "host/cli/steering.hpp"
@@ -44,14 +45,6 @@ void report(const DriveOptions& options, const char* outcome, const recording::O
   print(fmt::format("odometry  {}", in_words(pose_of(end))));
 }
 
-// The robot has been told to stop when this is called; how it is now is worth a look, not a guess.
-std::string how_it_stands(link::Client& client) {
-  const protocol::Status status = client.request(protocol::GetStatus{});
-  const bool stands = status.mode == protocol::Mode::disarmed || status.mode == protocol::Mode::fault;
-  return stands ? "stopped: the robot is at rest and disarmed"
-                : fmt::format("stopped: the robot's mode is {}", protocol::name(status.mode));
-}
-
 /// A bar that exists only while the work goes on: what comes after it begins on a clean line.
 class BarDuring {
  public:
@@ -72,6 +65,7 @@ std::string short_words(const recording::OdometrySample& at) {
 
 void drive(DriveOptions& options, const DriveJob& job) {
   const auto client = connect(options.connection);
+  job.connected(*client);
   Stopwatch stopwatch;
   OdometryWatch odometry(*client, kPeriod_ms, [&](const recording::OdometrySample& sample) {
     stopwatch.moved_to(sample);
@@ -83,9 +77,10 @@ void drive(DriveOptions& options, const DriveJob& job) {
     hooks.segment_done = job.segment_done;
     link::DriveSession session(*client, hooks);
     job.work(*client, session);
+    session.end();
   } catch (const link::Interrupted&) {
     report(options, "interrupted", start, odometry.fresh(), stopwatch.seconds());
-    throw link::Interrupted(how_it_stands(*client));
+    throw;
   }
   report(options, "completed", start, odometry.fresh(), stopwatch.seconds());
 }
@@ -94,6 +89,7 @@ void drive_path(DriveOptions& options, const link::Path& path) {
   PathProgress way(path);
   std::optional<Progress> bar;
   DriveJob job;
+  job.connected = [&](link::Client& client) { say_what_is_clamped(client, path); };
   job.work = [&](link::Client&, link::DriveSession& session) {
     const BarDuring showing(bar);
     session.run(path);
@@ -114,6 +110,7 @@ void drive_velocity(DriveOptions& options, double v_mps, double omega_radps, dou
   std::optional<Progress> bar;
   std::int64_t begun_us = 0;
   DriveJob job;
+  job.connected = [&](link::Client& client) { say_what_is_clamped(client, v_mps, omega_radps); };
   job.work = [&](link::Client& client, link::DriveSession& session) {
     const BarDuring showing(bar);
     Steering(client, session).hold(v_mps, omega_radps, link::microseconds(std::llround(seconds * 1e6)));

@@ -19,6 +19,7 @@ struct DriveOptions {
 /// What a drive does while the robot is armed, and what it is told meanwhile.
 struct DriveJob {
   std::function<void(link::Client&, link::DriveSession&)> work;
+  std::function<void(link::Client&)> connected = [](const auto&) {};  // before the robot is armed
   std::function<void(const recording::OdometrySample&)> moved = [](const auto&) {};
   std::function<void(const protocol::SegmentDone&)> segment_done = [](const auto&) {};
 };

@@ -24,6 +24,7 @@ void on_signal(int) {
 }  // namespace
 
 void watch_for_interrupt() {
+  signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of the write, and is told as one
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction action = {};
     action.sa_handler = on_signal;  // without SA_RESTART: a blocked read returns

@@ -43,6 +43,9 @@ std::string last_line(const std::string& text) {
   return last;
 }
 
+constexpr const char* kInterrupted =
+    "interrupted: the robot waits in its boot loader for 'astrolabe flash --button'";
+
 /// A loader that is running, its words on a pipe; ended with the object.
 class Running {
  public:
@@ -85,9 +88,7 @@ class Running {
       }
       if (std::chrono::steady_clock::now() - begun > kUntilItIsTooLong)
         throw Error("the loader found no Teensy: plug in its USB cable, and flash again with --button");
-      if (interrupted())
-        throw link::Interrupted(
-            "interrupted: the robot waits in its boot loader for 'astrolabe flash --button'");
+      if (interrupted()) throw link::Interrupted(kInterrupted);
       pollfd state{words_, POLLIN, 0};
       if (poll(&state, 1, 50) <= 0) continue;
       const ssize_t count = read(words_, buffer.data(), buffer.size());
@@ -97,8 +98,10 @@ class Running {
     }
   }
 
+  /// Throws link::Interrupted if Ctrl-C at the terminal, which reaches the loader too, has ended it.
   bool succeeded() {
     const int status = wait();
+    if (WIFSIGNALED(status) && interrupted()) throw link::Interrupted(kInterrupted);
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;
   }
 

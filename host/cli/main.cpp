@@ -11,6 +11,7 @@
 #include "host/cli/console.hpp"
 #include "host/cli/interrupt.hpp"
 #include "host/cli/program.hpp"
+#include "host/cli/robot_view.hpp"
 #include "host/cli/wrong_usage.hpp"
 #include "host/link/drive.hpp"
 
@@ -36,7 +37,9 @@ int run(int argc, char** argv) {
   app.require_subcommand(1, 1);
   app.footer("'astrolabe COMMAND --help' shows options and examples.");
   add_commands(app);
-  return program.run(argc, argv);
+  const int code = program.run(argc, argv);
+  write("");
+  return code;
 }
 
 }  // namespace
@@ -52,8 +55,7 @@ int main(int argc, char** argv) {
     complain(error.what());
     return kWrongUsage;
   } catch (const astro::Error& error) {
-    if (interrupted()) return kInterrupted;
-    complain(error.what());
+    complain(error.what());  // also after Ctrl-C: the disk may be full, or the robot not have stopped
     return kFailed;
   } catch (const std::filesystem::filesystem_error& error) {
     complain(in_words(error));

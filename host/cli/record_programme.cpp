@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "host/base/error.hpp"
 #include "host/cli/console.hpp"
 #include "host/cli/interrupt.hpp"
+#include "host/cli/limit_notes.hpp"
+#include "host/cli/path_progress.hpp"
 #include "host/experiment/journal.hpp"
 #include "host/recording/folder_lock.hpp"
 #include "host/recording/run_file.hpp"
@@ -88,12 +92,20 @@ void record_programme(link::Client& client, truth::Source& truth, const std::vec
   };
   double before = 0;
   const std::vector<ProgrammeRun> missing = missing_of(runs, folder);
-  hooks.progress = [&](double fraction) {
-    progress.show((before + fraction) / static_cast<double>(missing.size()), "");
+  std::optional<PathProgress> way;  // of the run under way
+  hooks.segment_done = [&](std::uint16_t tag) { way->segment_done(tag); };
+  hooks.moved = [&](const recording::OdometrySample& sample) {
+    way->moved_to(sample);
+    progress.show((before + way->fraction()) / static_cast<double>(missing.size()),
+                  fmt::format("run {:.0f} of {}", before + 1, missing.size()));
   };
+  link::Path all;
+  for (const ProgrammeRun& run : missing) all.insert(all.end(), run.path.begin(), run.path.end());
+  say_what_is_clamped(client, all);
   for (const ProgrammeRun& run : missing) {
     if (pause)
       ask(fmt::format("next is {}: put the robot on its start mark and press Enter ", run.spec.title()));
+    way.emplace(run.path);
     recording::RunInfo about = info;
     about.kind = run.spec.kind;
     about.direction = run.spec.direction;

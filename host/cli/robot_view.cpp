@@ -16,7 +16,8 @@ namespace {
 
 void to_stdout(const std::string& text) {
   const bool taken = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
-  if (!taken || std::fflush(stdout) != 0) throw Error("the output cannot be written: is the disk full?");
+  if (!taken || std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    throw Error("the output cannot be written: is the disk full?");
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ namespace astro::cli {
 /// Keys keep the order in which a person would ask.
 using Json = nlohmann::ordered_json;
 
-/// To stdout, through plain_text; print adds a newline. Throws astro::Error if stdout takes no more.
+/// To stdout, through plain_text; print adds a newline. Throws astro::Error if this, or anything before it, could
+/// not be written.
 void write(const std::string& text);
 void print(const std::string& text);
 

@@ -9,6 +9,7 @@
 #include "host/base/error.hpp"
 #include "host/cli/drive_run.hpp"
 #include "host/cli/keys.hpp"
+#include "host/cli/limit_notes.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/robot_view.hpp"
 #include "host/cli/steering.hpp"
@@ -46,6 +47,9 @@ void run(TeleopOptions& options) {
         "teleop needs a terminal for keys and picture: run it in one, or use 'astrolabe drive velocity'");
   recording::OdometrySample at;
   DriveJob job;
+  job.connected = [&](link::Client& client) {
+    say_what_is_clamped(client, options.speed_mps, options.yaw_rate_radps);
+  };
   job.moved = [&](const recording::OdometrySample& sample) { at = sample; };
   job.work = [&](link::Client& client, link::DriveSession& session) {
     RawTerminal terminal;

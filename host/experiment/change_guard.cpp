@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 namespace astro::experiment {
 namespace {
@@ -15,6 +18,41 @@ double relative(const Change& change) {
   const double* before = std::get_if<double>(&change.before);
   const double* after = std::get_if<double>(&change.after);
   return before != nullptr && after != nullptr && *before != 0 ? *after / *before - 1 : 0;
+}
+
+/// A change by this factor or more, up or down, is far.
+double far_factor(std::string_view name) {
+  constexpr std::array kNominalSizes{"wheel_diameter", "counts_per_motor_rev", "gear_numerator",
+                                     "gear_denominator"};
+  constexpr std::array kLimits{
+      "speed_limit",    "yaw_rate_limit",    "acceleration_limit", "yaw_acceleration_limit", "jerk_limit",
+      "yaw_jerk_limit", "motor_voltage_max", "battery_low",        "battery_high",           "over_speed"};
+  const auto among = [name](const auto& names) { return std::ranges::find(names, name) != names.end(); };
+  if (is_factor(std::string(name))) return 1 + kMostChange;
+  if (among(kNominalSizes)) return 1.25;
+  return among(kLimits) ? 2 : 3;
+}
+
+std::string times(double ratio) {
+  if (ratio > 1 / 1.5 && ratio < 1.5) return fmt::format("{:+.1f} %", 100 * (ratio - 1));
+  return ratio > 1 ? fmt::format("{:.3g} times as much", ratio) : fmt::format("1/{:.3g} of it", 1 / ratio);
+}
+
+/// Empty if it is not far.
+std::string far_change(const link::ParameterRow& row, const Change& change) {
+  const double *before = std::get_if<double>(&change.before), *after = std::get_if<double>(&change.after);
+  if (before == nullptr || after == nullptr || row.name == "telemetry_period")
+    return {};  // not read any more
+  const std::string step =
+      fmt::format("{} would go from {} to {}", row.name, describe(row, *before), describe(row, *after));
+  if (*after == 0) return step;
+  const double usual = *before != 0 ? *before : link::to_real(row, row.default_value);
+  if (usual == 0) return {};
+  const double ratio = *after / usual, most = far_factor(row.name);
+  if (ratio < 0) return step + ", another sign";
+  constexpr double kRounding = 1e-6;  // a tenth more is held as slightly more than a tenth
+  if (ratio < most * (1 + kRounding) && ratio > 1 / most * (1 - kRounding)) return {};
+  return fmt::format("{}, {}{}", step, times(ratio), *before != 0 ? "" : " (compared with the default)");
 }
 
 std::string shown(const link::Value& value) {
@@ -99,6 +137,15 @@ std::string insignificance(const std::vector<Change>& changes,
   return any ? "no factor changes by more than twice its standard error: what the robot carries may be as "
                "good"
              : "";
+}
+
+std::vector<std::string> far_changes(const link::RemoteParameters& robot,
+                                     const std::vector<Change>& changes) {
+  std::vector<std::string> clauses;
+  for (const Change& change : changes)
+    if (std::string clause = far_change(robot.row(change.name), change); !clause.empty())
+      clauses.push_back(std::move(clause));
+  return clauses;
 }
 
 std::vector<std::vector<std::string>> side_by_side(const std::vector<Change>& changes) {

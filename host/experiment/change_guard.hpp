@@ -39,6 +39,14 @@ std::string objection(const link::RemoteParameters& robot, const ParameterFile& 
 std::string insignificance(const std::vector<Change>& changes,
                            const std::map<std::string, double>& standard_errors);
 
+/// Values so far from those on the robot that they are a slip of the finger or a wrong unit before they are
+/// meant: a clause for each, with both values and the unit. A wheel factor is far if it moves by more than a
+/// tenth, a nominal size by more than a quarter, a limit or a supply voltage if it is halved or doubled, and
+/// any other number if it is three times as much or as little; a changed sign always is, and so is 0 where
+/// there was none, which switches some of them off. A value that comes in place of 0 is compared with the
+/// default.
+std::vector<std::string> far_changes(const link::RemoteParameters& robot, const std::vector<Change>& changes);
+
 /// Old and new side by side, for people.
 std::vector<std::vector<std::string>> side_by_side(const std::vector<Change>& changes);
 

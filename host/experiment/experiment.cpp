@@ -5,9 +5,11 @@
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "host/base/error.hpp"
 #include "host/experiment/experiment_folder.hpp"
+#include "host/experiment/mistyped_square.hpp"
 #include "host/experiment/robot_identity.hpp"
 #include "host/experiment/until.hpp"
 #include "host/link/upload.hpp"
@@ -141,7 +143,7 @@ class Session {
     if (truth_.comes_afterwards()) {
       recording::write_run(driven, run);
       try {
-        complete(run, truth_);
+        complete_plausibly(spec, run);
       } catch (const link::Interrupted&) {
         throw;
       } catch (const Error& error) {
@@ -151,6 +153,21 @@ class Session {
     }
     recording::write_run(file_of(folder_, spec), run);
     fs::remove(driven);
+  }
+
+  /// Its ground truth, asked for again as long as it looks mistyped and nobody says that it is right.
+  void complete_plausibly(const RunSpec& spec, recording::Run& run) {
+    while (true) {
+      recording::Run whole = run;
+      complete(whole, truth_);
+      const auto odd = mistyped_square(folder_, journal_.plan, spec, whole);
+      if (odd && odd->file.empty() && !hooks_.keep(odd->why)) continue;
+      run = std::move(whole);
+      if (odd && !odd->file.empty() && warned_of_.insert(odd->file).second)
+        hooks_.run.notice(
+            fmt::format("warning: {} To drive it again, remove '{}'", odd->why, odd->file.string()));
+      return;
+    }
   }
 
   /// A phase is driven with one set of parameters, also when it is resumed.
@@ -184,7 +201,7 @@ class Session {
       try {
         return record_run(client_, truth_, path, info, hooks_.run);
       } catch (const link::LinkLost& lost) {
-        if (attempt == kTriesPerRun) throw;
+        if (attempt == kTriesPerRun || hooks_.run.interrupted()) throw;
         hooks_.run.notice(fmt::format("{}; this run starts again", lost.what()));
         client_.reconnect(kReconnectPatience);
         hooks_.ready(spec);
@@ -231,6 +248,7 @@ class Session {
   const ExperimentHooks& hooks_;
   Journal journal_;
   std::vector<RunSet> finished_;  // phases before the one under way
+  std::set<fs::path> warned_of_;  // recordings that look mistyped
   bool announced_ = false;        // what of this phase was recorded before
 };
 

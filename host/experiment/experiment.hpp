@@ -17,6 +17,9 @@ struct ExperimentHooks {
                                                                                const recording::Run&) {};
   /// Before each drive: the moment to put the robot back on its mark.
   std::function<void(const RunSpec&)> ready = [](const RunSpec&) {};
+  /// True: keep the ground truth that was entered for a run although it looks mistyped, for the reason given;
+  /// false: it is asked for again.
+  std::function<bool(const std::string& why)> keep = [](const std::string&) { return true; };
   /// True: put these in force. Not asked where there is an objection (change_guard.hpp): that is refused.
   std::function<bool(const Calibration&, const std::vector<Change>&)> agree =
       [](const Calibration&, const std::vector<Change>&) { return true; };

@@ -29,12 +29,12 @@ fs::path file_without_truth(const fs::path& folder, const RunSpec& spec) {
   return file_of(folder, spec) += ".no-truth";
 }
 
-RunSet read_specs(const fs::path& folder, const std::vector<RunSpec>& specs) {
+RunSet read_specs(const fs::path& folder, const std::vector<RunSpec>& specs, recording::Damage damage) {
   RunSet set;
   for (const RunSpec& spec : specs) {
     const fs::path file = file_of(folder, spec);
     set.names.push_back(spec.phase + "/" + file.stem().string());
-    set.runs.push_back(recording::read_run(file));
+    set.runs.push_back(recording::read_run(file, damage));
   }
   return set;
 }

@@ -23,6 +23,7 @@ std::filesystem::path file_without_truth(const std::filesystem::path& folder, co
 
 /// The recordings of these runs, named as in the folder ("before/square-cw-3"). Throws what
 /// recording::read_run throws.
-RunSet read_specs(const std::filesystem::path& folder, const std::vector<RunSpec>& specs);
+RunSet read_specs(const std::filesystem::path& folder, const std::vector<RunSpec>& specs,
+                  recording::Damage damage = recording::Damage::refused);
 
 }  // namespace astro::experiment

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "common/params/table.hpp"
 #include "host/base/error.hpp"
 #include "host/experiment/toml_file.hpp"
 
@@ -15,11 +16,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
+double in_unit(const ParamRow& row, std::int32_t raw) {
+  return row.kind == ParamKind::decimal_scaled ? raw / std::pow(10.0, -row.exponent)
+                                               : std::ldexp(raw, row.exponent);
+}
+
+/// What no robot of ours would take is no calibration of any robot. Names that this table does not have
+/// belong to another firmware, which will judge them.
+void require_possible(const std::string& name, double value) {
+  const ParamRow* row = find_param(name);
+  if (row == nullptr || row->kind == ParamKind::text) return;
+  const double least = in_unit(*row, row->minimum_raw), most = in_unit(*row, row->maximum_raw);
+  if (value >= least && value <= most) return;
+  const std::string unit = row->unit == "1" ? "" : " " + std::string(row->unit);
+  throw Error(fmt::format(
+      "{} = {:.9g}{} is out of range: {:g}{} to {:g}{}, so that a robot would refuse it; calibrate again",
+      name, value, unit, least, unit, most, unit));
+}
+
 double factor(const ParameterFile& file, const std::string& name) {
   const auto found = file.parameters.find(name);
   const double* value = found == file.parameters.end() ? nullptr : std::get_if<double>(&found->second);
   if (value == nullptr || !std::isfinite(*value) || *value <= 0)
     throw Error("the file has no " + name + " under [parameters]: export what 'astrolabe calibrate' wrote");
+  require_possible(name, *value);
   return *value;
 }
 
@@ -73,6 +93,11 @@ nlohmann::json to_json(const toml::node& node) {
 }
 
 }  // namespace
+
+void require_loadable(const ParameterFile& file) {
+  for (const auto& [name, value] : file.parameters)
+    if (const double* number = std::get_if<double>(&value)) require_possible(name, *number);
+}
 
 DiffDrive diff_drive(const ParameterFile& file, const NominalSizes& nominal) {
   const double c_r = factor(file, "c_R"), c_l = factor(file, "c_L"), b_m = factor(file, "b");

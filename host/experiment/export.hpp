@@ -27,8 +27,12 @@ struct NominalSizes {
   std::optional<double> wheel_separation_m;  // otherwise the b that the robot carried
 };
 
-/// Throws astro::Error if the file has no c_R, c_L or b, or if neither it nor `nominal` tells a size, naming
-/// the option that does.
+/// Throws astro::Error for a parameter that a robot would refuse because of its limits, naming value, unit
+/// and limits. Those that this version's table does not have are left to the robot.
+void require_loadable(const ParameterFile& file);
+
+/// Throws astro::Error if the file has no c_R, c_L or b or one that a robot would refuse, or if neither it
+/// nor `nominal` tells a size, naming the option that does.
 DiffDrive diff_drive(const ParameterFile& file, const NominalSizes& nominal);
 
 /// Whether ROS 2 takes it for a node in a file of parameters: "controller", "/left_robot/controller".

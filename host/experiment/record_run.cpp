@@ -7,6 +7,7 @@
 #include <exception>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "host/base/error.hpp"
 
@@ -28,10 +29,14 @@ constexpr link::Sense sense_of(recording::Direction direction) {
 /// comes.
 class Collector {
  public:
-  Collector(link::Client& client, truth::Source& truth, const SampleSink& sink)
+  using Moved = std::function<void(const recording::OdometrySample&)>;
+
+  Collector(
+      link::Client& client, truth::Source& truth, const SampleSink& sink, Moved moved = [](const auto&) {})
       : client_(client),
         truth_(truth),
         sink_(sink),
+        moved_(std::move(moved)),
         subscription_(client.on<Telemetry>([this](const Telemetry& telemetry) {
           take(to_sample(telemetry));
           if (++count_.odometry % kSamplesPerLook == 0) look();
@@ -40,8 +45,8 @@ class Collector {
     client_.request(protocol::SetTelemetry{kTelemetryPeriod_ms, kFields});
   }
 
-  /// Records for so long, by the robot's clock: a simulator in fast motion would stand for minutes in a
-  /// second of ours.
+  /// Records for so long, or until `interrupted`, by the robot's clock: a simulator in fast motion would
+  /// stand for minutes in a second of ours.
   void stand(std::chrono::microseconds duration, const std::function<bool()>& interrupted) {
     const std::size_t before = count_.odometry;
     stand_from_us_.reset();
@@ -51,7 +56,6 @@ class Collector {
     };
     if (!client_.pump_until(done, 10 * duration))
       throw Error("the robot's telemetry has dried up while it stood: is the link good?");
-    if (interrupted()) throw link::Interrupted("interrupted");
   }
 
   /// Stops the stream. The truth may arrive a little later than the robot's word: waits until it is there.
@@ -71,6 +75,7 @@ class Collector {
     if (!first_us_) first_us_ = sample.time_us;
     newest_us_ = sample.time_us;
     sink_.odometry(sample);
+    moved_(sample);
   }
   void look() {
     for (const recording::TruthSample& sample : truth_.poll()) {
@@ -87,6 +92,7 @@ class Collector {
   link::Client& client_;
   truth::Source& truth_;
   const SampleSink& sink_;
+  Moved moved_;
   Recorded count_;
   std::deque<recording::TruthSample> early_;  // truth later than the newest odometry
   std::optional<std::int64_t> first_us_, newest_truth_us_, stand_from_us_;
@@ -138,20 +144,23 @@ recording::Run record_run(link::Client& client, truth::Source& truth, const link
   run.info = info;
   run.info.truth_source = truth.name();
   run.info.truth_clock = truth.clock();
-  const auto segments = static_cast<double>(path.size());
   link::DriveHooks drive_hooks;
   drive_hooks.interrupted = hooks.interrupted;
   drive_hooks.notice = hooks.notice;
-  drive_hooks.segment_done = [&](const protocol::SegmentDone& done) { hooks.progress(done.tag / segments); };
+  drive_hooks.segment_done = [&](const protocol::SegmentDone& done) { hooks.segment_done(done.tag); };
 
   link::DriveSession drive(client, drive_hooks);
   client.request(protocol::SetPose{});
   const SampleSink sink{[&](const auto& sample) { run.odometry.push_back(sample); },
                         [&](const auto& sample) { run.truth.push_back(sample); }};
-  Collector collector(client, truth, sink);
-  collector.stand(kRest, hooks.interrupted);
+  Collector collector(client, truth, sink, hooks.moved);
+  const auto stand = [&] {
+    collector.stand(kRest, hooks.interrupted);
+    drive.pump(0us);  // throws if it was interrupted, or if the robot found a fault
+  };
+  stand();
   drive.run(path);
-  collector.stand(kRest, hooks.interrupted);
+  stand();
   collector.finish();
   return run;
 }
@@ -178,7 +187,8 @@ Recorded record_until(link::Client& client, truth::Source& truth, const SampleSi
   Collector collector(client, truth, guard);
   std::string warning;
   try {
-    while (!failure && !done()) client.pump(50ms);
+    while (!client.pump_until([&] { return failure || done(); }, 50ms)) {
+    }
     collector.finish();
   } catch (const Error& error) {
     if (!failure && collector.count().odometry == 0) throw;

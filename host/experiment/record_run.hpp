@@ -16,7 +16,9 @@ inline constexpr std::uint16_t kTelemetryPeriod_ms = 10;
 
 /// What somebody in front of the program wants to know, and to say, while a robot drives.
 struct RunHooks {
-  std::function<void(double fraction)> progress = [](double) {};
+  /// The samples as they are recorded, and each segment as it ends: what a progress bar is made from.
+  std::function<void(const recording::OdometrySample&)> moved = [](const auto&) {};
+  std::function<void(std::uint16_t tag)> segment_done = [](std::uint16_t) {};
   std::function<void(const std::string&)> notice = [](const std::string&) {};
   std::function<bool()> interrupted = [] { return false; };
 };
@@ -50,7 +52,8 @@ struct Recorded {
   std::string warning;                    // "" or why it ended before it was to
 };
 
-/// As above without driving: hands on whatever the robot does until `done` says so; asked about every 50 ms.
+/// As above without driving: hands on whatever the robot does until `done` says so; asked after each message,
+/// at least every 50 ms.
 /// Holds no more than the last moments, however long it takes. A link or a truth that is lost on the way ends
 /// it, and `warning` says so: nobody can drive the same again. What the sink throws ends it, too, and is
 /// thrown.

@@ -15,11 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-RunSet read_phase(const fs::path& folder, const Plan& plan, std::size_t phase) {
+RunSet read_phase(const fs::path& folder, const Plan& plan, std::size_t phase, recording::Damage damage) {
   const std::vector<RunSpec> specs = runs_of_phase(plan, phase, squares_in_phase(folder, plan, phase));
   for (const RunSpec& spec : specs)
     if (!fs::exists(file_of(folder, spec))) return {};
-  return read_specs(folder, specs);
+  return read_specs(folder, specs, damage);
 }
 
 std::string millimetres(double metres, double error) {
@@ -64,7 +64,7 @@ std::string Results::verdict() const {
                                               report::E_max_syst_mm(after().summary)));
 }
 
-Results read_results(const fs::path& folder) {
+Results read_results(const fs::path& folder, recording::Damage damage) {
   Results results;
   results.journal = read_journal(folder);
   const Plan& plan = results.journal.plan;
@@ -73,7 +73,7 @@ Results read_results(const fs::path& folder) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     PhaseResult phase;
     phase.name = names[i];
-    sets.push_back(read_phase(folder, plan, i));
+    sets.push_back(read_phase(folder, plan, i, damage));
     if (sets.back().runs.empty()) break;
     phase.runs = sets.back().runs;
     phase.squares = squares_of(phase.runs);
@@ -89,12 +89,12 @@ Results read_results(const fs::path& folder) {
   return results;
 }
 
-Results read_folders(const std::vector<fs::path>& folders) {
+Results read_folders(const std::vector<fs::path>& folders, recording::Damage damage) {
   Results results;
   for (const fs::path& folder : folders) {
     PhaseResult phase;
     phase.name = fs::absolute(folder).lexically_normal().filename().string();
-    phase.runs = recording::read_runs(folder);
+    phase.runs = recording::read_runs(folder, damage);
     phase.squares = squares_of(phase.runs);
     phase.summary = calibration::summarize(phase.squares.cw, phase.squares.ccw);
     results.phases.push_back(std::move(phase));

@@ -10,6 +10,7 @@
 #include "host/experiment/journal.hpp"
 #include "host/experiment/squares.hpp"
 #include "host/recording/run.hpp"
+#include "host/recording/run_file.hpp"
 #include "host/report/comparison.hpp"
 
 /// What came out of an experiment, worked out from its folder alone.
@@ -43,11 +44,13 @@ struct Results {
 
 /// Reads the phases that are complete; one that is driven until a precision is reached is, from its fewest
 /// squares on. Throws astro::Error if the first one is not.
-Results read_results(const std::filesystem::path& folder);
+Results read_results(const std::filesystem::path& folder,
+                     recording::Damage damage = recording::Damage::refused);
 
 /// The same from folders of recordings that no experiment made: one phase each, named after its folder. The
 /// first is the reference.
-Results read_folders(const std::vector<std::filesystem::path>& folders);
+Results read_folders(const std::vector<std::filesystem::path>& folders,
+                     recording::Damage damage = recording::Damage::refused);
 
 /// The one object that `umbmark --json` prints.
 nlohmann::json to_json(const Results& results);

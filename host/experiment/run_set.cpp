@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "host/base/error.hpp"
-#include "host/recording/run_file.hpp"
 #include "host/recording/run_folder.hpp"
 
 namespace astro::experiment {
@@ -58,7 +57,7 @@ void require_no_copies(const RunSet& set) {
 
 }  // namespace
 
-RunSet read_run_set(const fs::path& folder, std::span<const std::string> without) {
+RunSet read_run_set(const fs::path& folder, std::span<const std::string> without, recording::Damage damage) {
   const std::vector<fs::path> files = recording::list_runs(folder);
   std::vector<std::string> names, left_out;
   for (const fs::path& file : files) names.push_back(run_name(file, folder));
@@ -67,7 +66,7 @@ RunSet read_run_set(const fs::path& folder, std::span<const std::string> without
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (std::find(left_out.begin(), left_out.end(), names[i]) != left_out.end()) continue;
     set.names.push_back(names[i]);
-    set.runs.push_back(recording::read_run(files[i]));
+    set.runs.push_back(recording::read_run(files[i], damage));
   }
   if (set.runs.empty())
     throw Error("every recording in " + folder.string() + " is left out: keep some to calibrate from");

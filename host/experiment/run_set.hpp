@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/recording/run.hpp"
+#include "host/recording/run_file.hpp"
 
 namespace astro::experiment {
 
@@ -21,6 +22,7 @@ struct RunSet {
 ///
 /// Throws astro::Error if nothing is left, if two are copies of one recording, for a name that no recording
 /// or more than one has, and what recording::list_runs and recording::read_run throw.
-RunSet read_run_set(const std::filesystem::path& folder, std::span<const std::string> without = {});
+RunSet read_run_set(const std::filesystem::path& folder, std::span<const std::string> without = {},
+                    recording::Damage damage = recording::Damage::refused);
 
 }  // namespace astro::experiment

@@ -11,6 +11,7 @@ namespace astro::identification {
 namespace {
 
 constexpr double kSame = 0.03, kAlike = 0.05;
+constexpr double kMostOff = 5;  // of a gear or a wheel that was entered wrongly; beyond, the length was
 
 double turns_of(const Roll& roll) {
   return roll.turns ? *roll.turns : *roll.distance_m / (std::numbers::pi * roll.wheel_diameter_m);
@@ -28,6 +29,12 @@ std::string in_percent(double ratio) { return fmt::format("{:+.1f} %", 100 * (ra
 
 void propose(const Roll& roll, double ratio, RollVerdict& verdict) {
   const double factor = decoding_factor(ratio), counts = roll.counts_per_motor_rev * factor;
+  if (factor == 1 && (ratio > kMostOff || ratio < 1 / kMostOff))
+    throw Error(fmt::format(
+        "the wheels counted {:.3g} times what the parameters say for {}, which neither a gear nor a "
+        "wheel explains: roll again, and check the length",
+        ratio,
+        roll.turns ? fmt::format("{:g} wheel turns", *roll.turns) : fmt::format("{:g} m", *roll.distance_m)));
   if (factor != 1 && counts == std::round(counts)) {
     verdict.parameters["counts_per_motor_rev"] = counts;
     verdict.sentence = fmt::format(

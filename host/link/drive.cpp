@@ -51,17 +51,40 @@ DriveSession::DriveSession(Client& client, DriveHooks hooks) : client_(client), 
 }
 
 DriveSession::~DriveSession() {
-  // Nothing here may throw, and a robot that cannot be told stops by its own time-out.
+  if (ended_) return;
+  try {
+    end();
+  } catch (const NotStopped& error) {
+    try {
+      hooks_.notice(error.what());
+    } catch (const std::exception&) {  // nobody can be told
+    }
+  } catch (const std::exception&) {  // the robot has confirmed that it stands
+  }
+}
+
+void DriveSession::end() {
+  ended_ = true;
+  try {
+    rest_and_disarm();
+  } catch (const Error& error) {
+    throw NotStopped("the robot did not confirm that it stopped, and may still be moving: " +
+                     std::string(error.what()));
+  }
+  if (fault_) fail(*fault_);
+}
+
+/// A robot that does not come to rest by its ramp is disarmed all the same, which opens its bridges.
+void DriveSession::rest_and_disarm() {
   try {
     stop();
   } catch (const LinkLost&) {
-    return;
-  } catch (const std::exception&) {
-  }
-  try {
+    throw;  // it cannot be told to disarm either
+  } catch (const Error&) {
     client_.request(Disarm{});
-  } catch (const std::exception&) {
+    throw;
   }
+  client_.request(Disarm{});
 }
 
 /// A program that was killed leaves an armed robot behind, which notices it within the command time-out.
@@ -140,7 +163,10 @@ void DriveSession::check() {
   if (aborted_ != 0 && !stopping_) {
     throw Error("segment " + std::to_string(aborted_) + " was aborted: another program stopped the robot");
   }
-  if (!stopping_ && hooks_.interrupted()) throw Interrupted("stopped at your wish");
+  if (!stopping_ && hooks_.interrupted()) {
+    end();
+    throw Interrupted("stopped: the robot is at rest and disarmed");
+  }
 }
 
 void DriveSession::set_velocity(double v_mps, double omega_radps) {

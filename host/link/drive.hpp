@@ -20,14 +20,22 @@ class DriveFault : public Error {
   Fault fault_;
 };
 
-/// The person in front of the program wants the robot to stop.
+/// The robot was told to stop and did not confirm that it is at rest and disarmed: it may still move.
+class NotStopped : public Error {
+ public:
+  using Error::Error;
+};
+
+/// The person in front of the program wanted the robot to stop, and the robot has confirmed that it is at
+/// rest and disarmed; or no robot was driving.
 class Interrupted : public Error {
  public:
   using Error::Error;
 };
 
 struct DriveHooks {
-  /// Asked at least every 50 ms; true ends the drive with Interrupted. For the flag that Ctrl-C sets.
+  /// Asked at least every 50 ms; true stops and disarms the robot and ends the drive with Interrupted. For
+  /// the flag that Ctrl-C sets.
   std::function<bool()> interrupted = [] { return false; };
   /// Sentences worth showing that are not errors.
   std::function<void(const std::string&)> notice = [](const std::string&) {};
@@ -35,10 +43,13 @@ struct DriveHooks {
   std::function<void(const protocol::SegmentDone&)> segment_done = [](const protocol::SegmentDone&) {};
 };
 
-/// An armed robot. It is disarmed at the end, however that comes: at rest, unless the link is gone.
+/// An armed robot. It is disarmed at the end, however that comes: at rest, unless the link is gone. Whoever
+/// is done with it calls end(), which tells if the robot did not confirm it; the destructor, on the way out
+/// with another error, can tell it in a notice only.
 ///
-/// Errors  DriveFault: a fault was latched; Interrupted; LinkLost, also for a robot that restarted; Error if
-///         another program stopped or disarmed the robot; all that Client::request throws.
+/// Errors  DriveFault: a fault was latched; Interrupted; NotStopped: as Interrupted, but the robot did not
+///         confirm that it stopped; LinkLost, also for a robot that restarted; Error if another program
+///         stopped or disarmed the robot; all that Client::request throws.
 class DriveSession {
  public:
   /// Arms. Clears command_timeout and link_lost first, which an earlier program left behind by ending, and
@@ -69,6 +80,10 @@ class DriveSession {
   /// Ramps to rest, empties the queue and returns once the robot stands.
   void stop();
 
+  /// Ramps to rest and disarms; the drive is over, and nothing else may be called. Throws NotStopped if the
+  /// robot does not confirm both, DriveFault if a fault was latched on the way.
+  void end();
+
  private:
   void wait_until_free();
   void arm();
@@ -77,6 +92,7 @@ class DriveSession {
   void ask_for_progress();
   void check();
   void wait_for_rest();
+  void rest_and_disarm();
   [[noreturn]] void fail(Fault fault) const;
 
   Client& client_;
@@ -84,6 +100,7 @@ class DriveSession {
   std::optional<Fault> fault_;
   bool booted_ = false;
   bool stopping_ = false;
+  bool ended_ = false;                                   // end() has tried, whatever came of it
   std::uint16_t accepted_ = 0, done_ = 0, aborted_ = 0;  // tags; of the run under way
   Subscription on_done_, on_fault_, on_boot_;
 };

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "host/base/plain_text.hpp"
+#include "host/link/parameter_rules.hpp"
 
 namespace astro::link {
 
@@ -96,7 +97,7 @@ void RemoteParameters::put_in_force(const Request& request) {
     if (refused.code() != ErrorCode::invalid_parameter || bad == rows_.end()) throw;
     throw RobotRefused(
         "the new set because of " + bad->name + " = " + describe(*bad, to_value(*bad, bad->staged)),
-        refused.code(), refused.detail());
+        refused.code(), refused.detail(), broken_rule(rows_, *bad));
   }
   for (ParameterRow& row : rows_) row.active = row.staged;
 }

@@ -27,15 +27,17 @@ std::string clause(protocol::ErrorCode code) {
   return std::string(all.substr(0, all.find("; detail")));
 }
 
-std::string sentence(std::string_view what, protocol::ErrorCode code, std::uint16_t detail) {
+std::string sentence(std::string_view what, protocol::ErrorCode code, std::uint16_t detail,
+                     std::string_view why) {
   return "the robot refused " + std::string(what) + " (" + std::string(protocol::name(code)) +
-         "): " + clause(code) + addition(code, detail);
+         "): " + (why.empty() ? clause(code) + addition(code, detail) : std::string(why));
 }
 
 }  // namespace
 
-RobotRefused::RobotRefused(std::string_view what, protocol::ErrorCode code, std::uint16_t detail)
-    : Error(sentence(what, code, detail)), code_(code), detail_(detail) {}
+RobotRefused::RobotRefused(std::string_view what, protocol::ErrorCode code, std::uint16_t detail,
+                           std::string_view why)
+    : Error(sentence(what, code, detail, why)), code_(code), detail_(detail) {}
 
 std::string fault_names(std::uint32_t mask) {
   std::string names;

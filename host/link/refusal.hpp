@@ -13,7 +13,9 @@ namespace astro::link {
 class RobotRefused : public Error {
  public:
   /// `what` is the request's name, or "c_R = 1.7 (AddSegment)": what stands behind "the robot refused".
-  RobotRefused(std::string_view what, protocol::ErrorCode code, std::uint16_t detail);
+  /// `why` is a clause for what this very request made the robot refuse; "": what the code says for all.
+  RobotRefused(std::string_view what, protocol::ErrorCode code, std::uint16_t detail,
+               std::string_view why = {});
 
   protocol::ErrorCode code() const { return code_; }
 

@@ -29,7 +29,7 @@ class Walker {
     while (!footer_seen_) {
       Record record;
       if (!next(cursor, record)) {
-        cut_off("the file ends at byte " + std::to_string(file_.size()) + " without a footer");
+        no_footer(record.start);
         return report_;
       }
       take(record);
@@ -51,6 +51,13 @@ class Walker {
   void damage(const std::string& what, std::size_t at) {
     report_.damaged = true;
     warn(what + " at byte " + std::to_string(at));
+  }
+
+  /// A file whose end is there was not cut off: something before it is wrong, such as a length.
+  void no_footer(std::size_t at) {
+    if (file_.size() >= 2 * sizeof mcap::kMagic && is_magic(file_.last(sizeof mcap::kMagic)))
+      return damage("a record that does not fit into the file", at);
+    cut_off("the file ends at byte " + std::to_string(file_.size()) + " without a footer");
   }
 
   /// Opcode 0 does not exist; it is what a file system leaves where a power cut came before the bytes.

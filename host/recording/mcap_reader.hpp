@@ -33,7 +33,9 @@ struct McapLimits {
 struct McapReport {
   bool is_mcap = false;    // false: the file does not begin like one; nothing else was looked at
   bool truncated = false;  // the end is missing; everything handed out before it is good
-  bool damaged = false;    // a checksum or a length inside the file is wrong; that part was left out
+  // A checksum or a length inside the file is wrong; that part was left out, or, if the length of a record is
+  // wrong, all that follows it. A file that ends as a whole one does is damaged, never truncated.
+  bool damaged = false;
   std::string profile, library;
   std::vector<std::string> warnings;  // the first few reasons for the two, with places in the file
 };

@@ -4,6 +4,7 @@
 #include <deque>
 #include <limits>
 #include <numbers>
+#include <set>
 
 #include "host/base/error.hpp"
 #include "host/recording/files.hpp"
@@ -55,14 +56,19 @@ struct RunFile {
   std::string warning;
 };
 
-void refuse_damage(const std::string& file, const McapReport& report) {
+/// What is to be said of a file that is not whole; "" if it is.
+std::string warning_of(const std::string& file, const McapReport& report, Damage damage) {
   if (!report.is_mcap) throw Error(file + " is not an MCAP file: name a recording made by astrolabe");
-  if (!report.damaged) return;
-  throw Error(file + " is damaged (" + report.warnings.front() +
-              "): copy it again from where it was recorded, or record the run again");
+  const std::string damaged =
+      file + " is damaged (" + (report.warnings.empty() ? std::string() : report.warnings.front()) + ")";
+  if (report.damaged && damage == Damage::refused)
+    throw DamagedRecording(damaged + ": copy it again from where it was recorded, or record the run again");
+  if (report.damaged) return damaged + ": some of the run is missing, and results from it may be wrong";
+  if (report.truncated) return file + " was cut off while it was recorded: what was driven last is missing";
+  return "";
 }
 
-RunFile parse(ByteView bytes, const std::string& file, bool with_data) {
+RunFile parse(ByteView bytes, const std::string& file, bool with_data, Damage damage) {
   RunFile out;
   out.streams.file = file;
   out.streams.most = kFreeSamples + bytes.size() / kLeastBytesPerSample;
@@ -76,17 +82,22 @@ RunFile parse(ByteView bytes, const std::string& file, bool with_data) {
     handlers.message = [&](const mcap::Channel& channel, const mcap::Schema* schema,
                            const mcap::Message& message) { out.streams.take(channel, schema, message); };
   }
-  const McapReport report = read_mcap(bytes, handlers);
-  refuse_damage(file, report);
-  if (report.truncated) {
-    out.warning = file + " was cut off while it was recorded: what was driven last is missing";
-  }
+  out.warning = warning_of(file, read_mcap(bytes, handlers), damage);
   if (!entries) {
     throw Error(file + " is not a recording of a run (it has no record " + std::string(kRunRecordName) +
                 "): name one made by astrolabe");
   }
   out.record = run_record(*entries, file);
   return out;
+}
+
+/// Of a damaged file: leaves out poses and counts whose other half is missing.
+void drop_singles(Streams& streams) {
+  std::set<std::int64_t> poses, counts;
+  for (const OdometrySample& sample : streams.odometry) poses.insert(sample.time_us);
+  for (const WheelCounts& sample : streams.counts) counts.insert(sample.time_us);
+  std::erase_if(streams.odometry, [&](const auto& sample) { return !counts.contains(sample.time_us); });
+  std::erase_if(streams.counts, [&](const auto& sample) { return !poses.contains(sample.time_us); });
 }
 
 /// Gives every pose the counts of its instant; the writer puts them into the file in pairs.
@@ -142,8 +153,9 @@ void write_run(const std::filesystem::path& path, const Run& run) {
   writer.close(run.info);
 }
 
-Run run_from_bytes(ByteView bytes, const std::string& name) {
-  RunFile file = parse(bytes, name, true);
+Run run_from_bytes(ByteView bytes, const std::string& name, Damage damage) {
+  RunFile file = parse(bytes, name, true, damage);
+  if (damage == Damage::accepted && !file.warning.empty()) drop_singles(file.streams);
   pair_counts(name, !file.warning.empty(), file.streams);
   unwrap(file.streams.odometry, file.record.first_odometry_heading_rad);
   unwrap(file.streams.truth, file.record.first_truth_heading_rad);
@@ -152,10 +164,12 @@ Run run_from_bytes(ByteView bytes, const std::string& name) {
           std::move(file.warning)};
 }
 
-Run read_run(const std::filesystem::path& path) { return run_from_bytes(load_file(path), path.string()); }
+Run read_run(const std::filesystem::path& path, Damage damage) {
+  return run_from_bytes(load_file(path), path.string(), damage);
+}
 
 RunInfo read_run_info(const std::filesystem::path& path) {
-  return parse(load_file(path), path.string(), false).record.info;
+  return parse(load_file(path), path.string(), false, Damage::refused).record.info;
 }
 
 }  // namespace astro::recording

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "host/base/error.hpp"
-#include "host/recording/run_file.hpp"
 
 namespace astro::recording {
 namespace fs = std::filesystem;
@@ -73,9 +72,9 @@ std::vector<RunEntry> read_run_infos(const fs::path& folder) {
   return entries;
 }
 
-std::vector<Run> read_runs(const fs::path& folder) {
+std::vector<Run> read_runs(const fs::path& folder, Damage damage) {
   std::vector<Run> runs;
-  for (const fs::path& path : list_runs(folder)) runs.push_back(read_run(path));
+  for (const fs::path& path : list_runs(folder)) runs.push_back(read_run(path, damage));
   return runs;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "host/recording/run.hpp"
+#include "host/recording/run_file.hpp"
 
 /// The runs of an experiment: all *.mcap below one folder.
 namespace astro::recording {
@@ -20,7 +21,7 @@ std::vector<std::filesystem::path> list_runs(const std::filesystem::path& folder
 
 /// Their infos or the runs themselves, in that order. Throw astro::Error naming the file that is no run.
 std::vector<RunEntry> read_run_infos(const std::filesystem::path& folder);
-std::vector<Run> read_runs(const std::filesystem::path& folder);
+std::vector<Run> read_runs(const std::filesystem::path& folder, Damage damage = Damage::refused);
 
 /// Whether `a` comes before `b` when the digits in them are read as numbers.
 bool natural_less(std::string_view a, std::string_view b);

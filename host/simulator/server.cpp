@@ -95,6 +95,7 @@ void Server::run(const std::function<bool()>& stop) {
       wait();
     }
   }
+  save_flash();  // said here if it fails; the destructor cannot
 }
 
 void Server::receive() {

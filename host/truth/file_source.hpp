@@ -14,10 +14,12 @@ namespace astro::truth {
 ///
 /// Without a heading the axes are those of the robot at its start: x forward, y left.
 /// The first row is the pose at the start and the last row the pose at the end, the robot standing at both;
-/// rows between are kept evenly spread over the run, which is good for plots and not for more.
+/// rows between are spread over the run, which is good for plots and not for more: by a column t or time if
+/// there is one (any unit, as t_s or time_ms; it must increase), evenly otherwise.
 ///
-/// Errors  a file that cannot be read as that is asked for again, naming file, line and column, until it can
-///         or `ask` throws.
+/// Errors  a file that is not there or cannot be read as that is asked for again, naming folder or file, line
+///         and column, until it can or `ask` throws. An end that is hardly that of the run (plausibility.hpp)
+///         is asked about, and kept if the file is the same afterwards.
 class FileSource : public Source {
  public:
   FileSource(std::filesystem::path folder, Ask ask) : folder_(std::move(folder)), ask_(std::move(ask)) {}
@@ -29,8 +31,6 @@ class FileSource : public Source {
   std::string clock() const override { return "start and end of the run"; }
 
  private:
-  std::vector<recording::TruthSample> poses_in(const std::filesystem::path& file) const;
-
   std::filesystem::path folder_;
   Ask ask_;
 };

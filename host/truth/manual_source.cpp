@@ -4,6 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
+
+#include "host/recording/run_metadata.hpp"
+#include "host/truth/plausibility.hpp"
 
 namespace astro::truth {
 namespace {
@@ -14,10 +18,12 @@ std::string trimmed(const std::string& text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
+/// No number is the same as no number.
+bool same_number(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
 }  // namespace
 
-double ManualSource::number(const std::string& prompt, bool may_be_empty) {
-  std::string hint;
+double ManualSource::number(const std::string& prompt, bool may_be_empty, std::string hint) {
   while (true) {
     const std::string answer = trimmed(ask_(hint + prompt));
     if (answer.empty() && may_be_empty) return std::numeric_limits<double>::quiet_NaN();
@@ -30,12 +36,27 @@ double ManualSource::number(const std::string& prompt, bool may_be_empty) {
   }
 }
 
-std::vector<recording::TruthSample> ManualSource::complete(const recording::Run& run) {
+recording::TruthSample ManualSource::measured(const std::string& hint) {
   recording::TruthSample end;
-  end.x_m = number("measured end x (m, forward of the start): ", false);
+  end.x_m = number("measured end x (m, forward of the start): ", false, hint);
   end.y_m = number("measured end y (m, left of the start): ", false);
   end.theta_rad = number("measured end heading (degrees, counter-clockwise; empty: not measured): ", true) *
                   std::numbers::pi / 180;
+  return end;
+}
+
+std::vector<recording::TruthSample> ManualSource::complete(const recording::Run& run) {
+  recording::TruthSample end = measured("");
+  while (true) {
+    const std::string why = implausible_end(run, {}, end);
+    if (why.empty()) break;
+    const recording::TruthSample again = measured(recording::run_name(run.info) + ": " + why +
+                                                  " Enter it again, the same values to keep them.\n");
+    const bool same = same_number(again.x_m, end.x_m) && same_number(again.y_m, end.y_m) &&
+                      same_number(again.theta_rad, end.theta_rad);
+    end = again;
+    if (same) break;
+  }
   return at_both_ends(run, {}, end);
 }
 

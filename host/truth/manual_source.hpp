@@ -11,7 +11,8 @@ using Ask = std::function<std::string(const std::string& prompt)>;
 
 /// A person with a tape measure, asked after each run for the end pose in the run's start frame: x forward
 /// and y left of the start mark in metres, heading counter-clockwise in degrees, empty if it was not
-/// measured.
+/// measured. An end that is hardly that of the run (plausibility.hpp) is asked for again, and kept if the
+/// answers are the same.
 class ManualSource : public Source {
  public:
   explicit ManualSource(Ask ask) : ask_(std::move(ask)) {}
@@ -24,7 +25,8 @@ class ManualSource : public Source {
   std::string clock() const override { return "robot"; }
 
  private:
-  double number(const std::string& prompt, bool may_be_empty);
+  double number(const std::string& prompt, bool may_be_empty, std::string hint = {});
+  recording::TruthSample measured(const std::string& hint);
 
   Ask ask_;
 };

@@ -66,10 +66,16 @@ TEST(Summary, RefusesWhatIsNoMeasurement) {
   EXPECT_EQ(message({{0, 0, 0}, {kNaN, 0, 0}}), not_finite);
   EXPECT_EQ(message({{0, 0, 0}, {0, INFINITY, 0}}), not_finite);
   EXPECT_EQ(message({{0, 0, 0}, {0, 0, -INFINITY}}), not_finite);
-  EXPECT_EQ(message({{0, 0, 0}, {0, 0, kNaN}}),
-            "run 2 has no heading error, unlike run 1: give the heading of every run or of none");
-  EXPECT_EQ(message({{0, 0, kNaN}, {0, 0, 0}}),
-            "run 2 has a heading error, unlike run 1: give the heading of every run or of none");
+}
+
+TEST(Summary, OfHeadingsThatSomeRunsLackIsThatOfTheOthers) {
+  const ClusterSummary s = summarize(std::vector<EndPose>{{3, 4, 0.1}, {3, 4, kNaN}, {6, 1, 0.3}});
+  EXPECT_TRUE(s.has_theta);
+  EXPECT_DOUBLE_EQ(s.x_cg_m, 4) << "no place is lost with its heading";
+  EXPECT_DOUBLE_EQ(s.se_x_m, 1);
+  EXPECT_DOUBLE_EQ(s.theta_cg_rad, 0.2);
+  EXPECT_DOUBLE_EQ(s.rms_theta_rad, std::sqrt(0.05));
+  EXPECT_DOUBLE_EQ(s.se_theta_rad, 0.1);
 }
 
 TEST(Summary, NamesTheDirectionOfABadRun) {

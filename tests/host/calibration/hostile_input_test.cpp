@@ -78,6 +78,14 @@ TEST(HostileInput, ExtendedMethodAsksForHeadings) {
             0U);
 }
 
+TEST(HostileInput, ExtendedMethodNamesTheRunThatLacksItsHeading) {
+  std::vector<EndPose> some(kCw.begin(), kCw.end());
+  some.push_back({0.31, -0.26, kNaN});
+  EXPECT_EQ(error_for(some, kCcw, kSide_m, kNominal, kExtended)
+                .find("clockwise run " + std::to_string(some.size()) + " has no heading error"),
+            0U);
+}
+
 TEST(HostileInput, PositionsAreEnoughForTheOtherMethods) {
   const std::vector<EndPose> cw{{-0.2, -0.26, kNaN}, {-0.25, -0.24, kNaN}},
       ccw{{0.31, -0.26, kNaN}, {0.28, -0.3, kNaN}};

@@ -95,6 +95,27 @@ TEST_F(Drive, WhatTheRobotCannotDoIsRefused) {
   EXPECT_THAT(outcome.err, HasSubstr("length"));
 }
 
+TEST_F(Drive, SaysWhereTheRobotsLimitsMakeItSlowerThanAskedFor) {
+  const auto said = [&](Words words) {
+    words.insert(words.begin(), "drive");
+    words.insert(words.end(), {"--port", simulator_.port()});
+    const Outcome outcome = support::astrolabe(words);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return outcome.err;
+  };
+  EXPECT_EQ(said({"line", "0.3", "--speed", "100"}),
+            "the robot drives at 0.75 m/s at most, its speed_limit, and not at the 100 m/s asked for\n");
+  EXPECT_EQ(said({"velocity", "5", "0", "--for", "0.2"}),
+            "the robot drives at 0.75 m/s at most, its speed_limit, and not at the 5 m/s asked for\n");
+  EXPECT_EQ(said({"spin", "90", "--yaw-rate", "3"}),
+            "the robot turns at 2 rad/s at most, its yaw_rate_limit, and not at the 3 rad/s asked for\n");
+  EXPECT_EQ(said({"circle", "0.2", "--speed", "0.5"}),
+            "on the arc the robot is slower than asked for: its yaw_rate_limit is 2 rad/s, and the arc would "
+            "need 2.5 rad/s\n");
+  EXPECT_EQ(said({"circle", "0.25", "--speed", "0.5"}), "");
+  EXPECT_EQ(said({"square", "0.3", "--speed", "0.75", "--yaw-rate", "2"}), "");
+}
+
 TEST_F(Drive, LeavesTheRobotDisarmed) {
   drive({"line", "0.1"});
   const json info =

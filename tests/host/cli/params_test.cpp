@@ -122,6 +122,94 @@ TEST_F(Params, ImportOfWhatIsNoParameterFileNamesTheFile) {
   EXPECT_THAT(outcome.err, AllOf(HasSubstr(file()), HasSubstr("line 2")));
 }
 
+TEST_F(Params, AValueFarFromThePresentOneNeedsAnAnswer) {
+  struct Far {
+    std::string assignment, before, said;
+  };
+  for (const Far& c :
+       {Far{"kp=600", "60\n", "kp would go from 60 Vs/m to 600 Vs/m, 10 times as much"},
+        Far{"b=0.35", "0.29\n", "b would go from 0.29 m to 0.35 m, +20.7 %"},
+        Far{"motor_polarity_left=-1", "1\n", "another sign"},
+        Far{"command_timeout=0", "200\n", "command_timeout would go from 200 ms to 0 ms"},
+        Far{"speed_limit=0.075", "0.75\n", "speed_limit would go from 0.75 m/s to 0.075 m/s, 1/10 of it"},
+        Far{"gear_numerator=4380", "438\n", "10 times as much"}}) {
+    const std::string name = c.assignment.substr(0, c.assignment.find('='));
+    for (const Words& how : {Words{}, Words{"--try"}}) {
+      Words words{"set", c.assignment};
+      words.insert(words.end(), how.begin(), how.end());
+      const Outcome asked = params(words);
+      EXPECT_EQ(asked.code, 1) << c.assignment;
+      EXPECT_THAT(asked.err, AllOf(HasSubstr(c.said), HasSubstr("--yes")));
+      EXPECT_EQ(get(name), c.before);
+    }
+  }
+  EXPECT_EQ(params({"set", "kp=600", "--yes"}).code, 0);
+  EXPECT_EQ(get("kp"), "600\n");
+  EXPECT_EQ(params({"set", "kp=60", "--stage-only"}).code, 0) << "nothing of it is in force";
+  EXPECT_EQ(params({"save"}).code, 1);
+  EXPECT_EQ(params({"save", "--yes"}).code, 0);
+}
+
+TEST_F(Params, AValueNearThePresentOneIsNotAskedAbout) {
+  for (const char* assignment : {"kp=100", "b=0.3", "wheel_diameter=0.08", "speed_limit=1", "over_speed=2"})
+    EXPECT_EQ(params({"set", assignment}).code, 0) << assignment;
+}
+
+TEST_F(Params, ARefusedSetNamesTheRuleTheLimitAndItsUnit) {
+  struct Refused {
+    Words assignments;
+    std::string said;
+  };
+  for (const Refused& c :
+       {Refused{{"over_speed=0.7"},
+                "over_speed = 0.7 m/s (invalid_parameter): it has to be above speed_limit = "
+                "0.75 m/s, or full speed would be a fault"},
+        Refused{{"speed_limit=1.3"}, "above speed_limit = 1.3 m/s"},
+        Refused{{"motor_polarity_right=0"}, "it has to be +1 or -1"},
+        Refused{{"battery_high=10000"},
+                "it has to be above battery_low = 10500 mV unless one of the two is 0"},
+        Refused{{"counts_per_motor_rev=1", "gear_numerator=1", "wheel_diameter=1"},
+                "one count moves a wheel by 31.4 m, and that has to be from 1e-09 m to 0.125 m"},
+        Refused{{"counts_per_motor_rev=1", "gear_numerator=30", "b=0.05"},
+                "one count turns the robot by 86.4 degrees, and has to turn it by less than 22.5 degrees"},
+        Refused{{"robot_name=caf\xc3\xa9"}, "1 to 24 characters of printable ASCII"},
+        Refused{{"speed_limit=20"}, "speed_limit = 20 m/s is out of range: 0.01 m/s to 10 m/s"}}) {
+    Words words{"set"};
+    words.insert(words.end(), c.assignments.begin(), c.assignments.end());
+    words.push_back("--yes");
+    const Outcome outcome = params(words);
+    EXPECT_EQ(outcome.code, 1) << c.said;
+    EXPECT_THAT(outcome.err, HasSubstr(c.said));
+  }
+}
+
+TEST_F(Params, ImportObeysTheChecksOfUpload) {
+  struct Refused {
+    std::string text, said;
+  };
+  const std::string factors = "c_R = 1.001\nc_L = 0.999\nb = 0.2886\n";
+  for (const Refused& c :
+       {Refused{"[parameters]\nb = 0.33\n", "b would change by +13.8 %"},
+        Refused{"[parameters]\nc_R = 1.001\n[calibration]\nmethod = \"umbmark\"\n", "has no c_L"},
+        Refused{"[parameters]\n" + factors + "[carried]\nc_R = 1.01\n", "driven with c_R = 1.01"},
+        Refused{
+            "[parameters]\n" + factors + "[nominal]\nwheel_diameter = 0.08\ncounts_per_wheel_turn = 2803.2\n",
+            "refers to a wheel of 0.08 m"}}) {
+    std::ofstream(file()) << c.text;
+    const Outcome imported = params({"import", file(), "--yes"});
+    EXPECT_EQ(imported.code, 1) << c.text;
+    EXPECT_THAT(imported.err, AllOf(HasSubstr(c.said), HasSubstr("--force")));
+    EXPECT_EQ(params({"get", "c_R", "c_L", "b"}).out, "c_R=1\nc_L=1\nb=0.29\n");
+    const Outcome uploaded = support::astrolabe({"upload", file(), "--yes", "--port", simulator_.port()});
+    EXPECT_EQ(uploaded.err, imported.err) << "both take the same way";
+  }
+  std::ofstream(file()) << "[parameters]\nb = 0.33\n[robot]\nname = \"ARES\"\nid = \"12\"\n";
+  const Outcome forced = params({"import", file(), "--yes", "--force"});
+  EXPECT_EQ(forced.code, 0) << forced.err;
+  EXPECT_THAT(forced.err, HasSubstr("warning: the calibration is of robot ARES"));
+  EXPECT_EQ(get("b"), "0.33\n");
+}
+
 TEST_F(Params, JsonAnswersAreTheOnlyThingOnStdout) {
   const Outcome outcome = params({"set", "b=0.2886", "--json"});
   const json answer = support::parse_json(outcome.out);

@@ -22,6 +22,8 @@ using testing::HasSubstr;
 
 class CutShort : public testing::Test {
  protected:
+  explicit CutShort(const std::vector<std::string>& options = {}) : simulator_(options) {}
+
   Program drive(const std::vector<std::string>& what) const {
     std::vector<std::string> words{ASTROLABE_PROGRAM, "drive"};
     words.insert(words.end(), what.begin(), what.end());
@@ -56,7 +58,7 @@ class CutShort : public testing::Test {
     return support::parse_json(astrolabe({"info", "--json", "--port", simulator_.port()}).out);
   }
 
-  support::Simulator simulator_{{}};
+  support::Simulator simulator_;
 
  private:
   void look() {
@@ -135,12 +137,55 @@ TEST_F(CutShort, TheSecondInterruptEndsTheProgramAtOnceAndTheRobotStopsByItself)
   EXPECT_LT(seconds_to_rest(now_us()), kToRest_s);
 }
 
+TEST_F(CutShort, InterruptedWhileTheRobotDoesNotAnswerItIsNotCalledStopped) {
+  Program program = drive({"line", "20", "--speed", "0.4"});
+  ASSERT_TRUE(has_gone(0.1)) << program.err();
+  simulator_.program().send(SIGSTOP);
+  program.send(SIGINT);
+  EXPECT_EQ(program.wait(), 1);
+  EXPECT_THAT(program.err(), HasSubstr("did not confirm that it stopped"));
+  EXPECT_THAT(program.err(), testing::Not(HasSubstr("at rest")));
+}
+
+TEST_F(CutShort, InterruptedOnceTheLinkIsLostTheDriveSaysThatItIsLost) {
+  Program program = drive({"line", "20", "--speed", "0.4"});
+  ASSERT_TRUE(has_gone(0.1)) << program.err();
+  program.send(SIGSTOP);  // so that it finds both when it goes on
+  simulator_.program().send(SIGKILL);
+  simulator_.program().wait();
+  program.send(SIGINT);
+  program.send(SIGCONT);
+  EXPECT_EQ(program.wait(), 1);
+  EXPECT_THAT(program.err(), HasSubstr("lost " + simulator_.port()));
+}
+
 TEST_F(CutShort, WhenTheSimulatorEndsTheDriveSaysSo) {
   Program program = drive({"line", "20", "--speed", "0.4"});
   ASSERT_TRUE(has_gone(0.1)) << program.err();
   simulator_.program().send(SIGKILL);
   EXPECT_EQ(program.wait(), 1);
   EXPECT_THAT(program.err(), HasSubstr("lost " + simulator_.port()));
+}
+
+struct FolderOfFlash {
+  test::TemporaryFolder folder;
+};
+
+class WithFlash : public FolderOfFlash, public CutShort {
+ protected:
+  WithFlash() : CutShort({"--flash", (folder.path() / "flash").string()}) {}
+};
+
+TEST_F(WithFlash, InterruptedTheSimulatorSaysThatItsLastFaultCouldNotBeSaved) {
+  Program program = drive({"line", "20", "--speed", "0.4"});
+  ASSERT_TRUE(has_gone(0.3)) << program.err();
+  program.send(SIGKILL);
+  std::filesystem::remove_all(folder.path());
+  seconds_to_rest(now_us());  // a fault stops the robot, which writes it into its flash once it stands
+  poll(nullptr, 0, 500);      // on the robot's clock, and nobody may ask it
+  simulator_.program().send(SIGINT);
+  EXPECT_EQ(simulator_.program().wait(), 1);
+  EXPECT_THAT(simulator_.program().err(), HasSubstr("flash cannot be written"));
 }
 
 TEST_F(CutShort, WhileOneProgramDrivesAnotherFindsThePortInUse) {

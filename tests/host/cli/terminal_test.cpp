@@ -111,6 +111,23 @@ TEST_F(Terminal, DriveShowsABarOnceASecondHasPassed) {
   EXPECT_THAT(drive.seen(), HasSubstr("\r\033[Kmoved     x")) << "the bar makes room for what is said";
 }
 
+TEST_F(Terminal, ARecordedRunMovesItsBarWhileItIsDriven) {
+  const test::TemporaryFolder folder;
+  TerminalProgram record(command({"record", "--lines", "1", "--length", "0.5", "--speed", "0.2", "--out",
+                                  (folder.path() / "runs").string()}));
+  EXPECT_EQ(record.wait(), 0);
+  EXPECT_THAT(record.seen(), HasSubstr("driving ██████")) << "a line is one segment, and 2.9 s long";
+}
+
+TEST_F(Terminal, WorkWithoutAKnownEndShowsNoBar) {
+  const test::TemporaryFolder folder;
+  TerminalProgram record(command({"record", "--out", (folder.path() / "run.mcap").string()}));
+  ASSERT_TRUE(record.shows("recording  1 s")) << record.seen();
+  record.type(kCtrlC);
+  EXPECT_EQ(record.wait(), 0);
+  EXPECT_THAT(record.seen(), testing::Not(HasSubstr("░")));
+}
+
 TEST_F(Terminal, ABarMakesRoomForAQuestion) {
   const support::Simulator fast;
   TerminalProgram umbmark({ASTROLABE_PROGRAM, "umbmark", "--truth", "manual", "--side", "0.5", "--runs", "1",

@@ -172,5 +172,15 @@ INSTANTIATE_TEST_SUITE_P(All, SimulatorPaths,
                                          BadPath{{"--flash", "/etc/passwd"}, "bytes"},
                                          BadPath{{"--pty", "/tmp/" + std::string(200, 'x')}, "too long"}));
 
+TEST(Usage, WhatIsPrintedOntoAFullDiskIsAnError) {
+  // Each of these prints by another way: tables, what CLI11 prints itself, and JSON.
+  for (const char* command : {"plan --squares 5", "--help", "study --trials 2 --runs 1 --json"}) {
+    support::Program program(
+        {"/bin/sh", "-c", std::string(ASTROLABE_PROGRAM) + " " + command + " > /dev/full"});
+    EXPECT_EQ(program.wait(), 1) << command;
+    EXPECT_THAT(program.err(), HasSubstr("cannot be written")) << command;
+  }
+}
+
 }  // namespace
 }  // namespace astro

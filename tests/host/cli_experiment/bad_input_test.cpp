@@ -67,6 +67,47 @@ TEST_F(BadInput, CalibrationOverWhatWasMeasured) {
 TEST_F(BadInput, MillimetresCalledMetres) {
   refuses_end_poses("ex_m,ey_m\n300,-250\n310,-260\n", {"cw.csv", "391 m", "ex_mm or ex_m"});
 }
+TEST_F(BadInput, SizesInMillimetres) {
+  const auto end_poses = [&](const std::string& side, const std::string& wheelbase) {
+    return std::vector<std::string>{"calibrate",   "end-poses",
+                                    "--cw",        file("cw.csv", kGood),
+                                    "--ccw",       file("ccw.csv", kGood),
+                                    "--side",      side,
+                                    "--wheelbase", wheelbase};
+  };
+  refuses(end_poses("3000", "290"), {"--side", "'3000'", "0.1 to 100 m"});
+  refuses(end_poses("3", "290"), {"--wheelbase", "'290'", "0.05 to 2 m"});
+  refuses({"study", "--trials", "2", "--wheelbase", "290"}, {"--wheelbase", "'290'"});
+  refuses({"plan", "--squares", "5", "--side", "3000"}, {"--side", "'3000'"});
+  refuses({"umbmark", "--truth", "sim", "--out", "x", "--side", "3000"}, {"side 3000 m"});
+  refuses({"drive", "square", "3000"}, {"a side of 3000 m", "100 m", "in metres"});
+  refuses({"drive", "line", "1200"}, {"1200 m", "1000 m", "in metres"});
+}
+TEST_F(BadInput, TenfoldTypoInOneOfFiveRuns) {
+  refuses_end_poses("ex_mm,ey_mm\n300,-250\n310,-260\n3050,-255\n295,-248\n305,-252\n",
+                    {"cw.csv", "run 3", "x = 3.05 m", "0.305 m", "decimal point"});
+  refuses_end_poses("ex_mm,ey_mm\n300,-250\n310,-26\n305,-255\n295,-248\n305,-252\n",
+                    {"cw.csv", "run 2", "y = -0.026 m"});
+}
+TEST_F(BadInput, FolderOfGroundTruthThatIsNotThere) {
+  refuses({"umbmark", "--port", "/nowhere", "--truth", "file", "--truth-folder", "/no/truth", "--out",
+           (folder_.path() / "x").string()},
+          {"--truth-folder", "there is no folder '/no/truth'"});
+}
+TEST_F(BadInput, ExportOfFactorsThatARobotWouldRefuse) {
+  for (const char* to : {"x.yaml", "x.json", "x.toml"})
+    refuses({"calibrate", "export",
+             file("calib.toml",
+                  "[parameters]\nc_R = 1.7\nc_L = 1\nb = 0.29\n[carried]\nb "
+                  "= 0.29\n[nominal]\nwheel_diameter = "
+                  "0.072\ncounts_per_wheel_turn = 2803.2\n"),
+             "--to", (folder_.path() / to).string()},
+            {"calib.toml", "c_R = 1.7", "0.5 to 1.5"});
+  refuses({"calibrate", "export",
+           file("b.toml", "[parameters]\nc_R = 1\nc_L = 1\nb = 2.9\n[carried]\nb = 0.29\n"), "--to",
+           (folder_.path() / "x.json").string()},
+          {"b.toml", "b = 2.9 m", "0.05 m to 2 m"});
+}
 TEST_F(BadInput, EmptyNameOfAFile) {
   refuses({"record", "--lines", "1", "--out", ""}, {"--out", "needs the name"});
 }

@@ -178,6 +178,44 @@ TEST_F(Ml, IsUploadedWhateverTheRobotCarriesButNotForAnotherWheel) {
   EXPECT_THAT(refused.err, AllOf(HasSubstr("0.072 m"), HasSubstr("0.08 m"), HasSubstr("--force")));
 }
 
+TEST_F(Ml, DamagedRecordingsAreUsedOnlyIfThatIsWantedAndThenWarnedOf) {
+  namespace fs = std::filesystem;
+  const fs::path copy = simulator_->folder() / "damaged", run = copy / "before" / "square-cw-1.mcap";
+  fs::copy(out(), copy, fs::copy_options::recursive);
+  std::fstream file(run, std::ios::in | std::ios::out | std::ios::binary);
+  // A byte of the checksum in front of the end: nothing that was driven is missing, which alone would be
+  // refused.
+  const auto checksum = static_cast<std::streamoff>(fs::file_size(run) - 10);
+  file.seekg(checksum);
+  const char byte = static_cast<char>(file.get() ^ 1);
+  file.seekp(checksum);
+  file.put(byte);
+  file.close();
+  const std::string page = (copy / "page.html").string();
+  for (std::vector<std::string> command :
+       {std::vector<std::string>{"compare", copy.string()},
+        {"report", copy.string(), "--out", page},
+        {"calibrate", "runs", (copy / "before").string()},
+        {"calibrate", "check", (copy / "before").string(), "--with", out() + "/calib-before.toml"}}) {
+    const Outcome refused = astrolabe(command);
+    EXPECT_EQ(refused.code, 1) << command[0];
+    EXPECT_THAT(refused.err, AllOf(HasSubstr("square-cw-1.mcap is damaged"), HasSubstr("--damaged")));
+    command.push_back("--damaged");
+    const Outcome used = astrolabe(command);
+    EXPECT_EQ(used.code, 0) << command[0] << ": " << used.err;
+    EXPECT_THAT(used.err, AllOf(HasSubstr("warning: "), HasSubstr("square-cw-1.mcap is damaged")));
+  }
+
+  fs::copy_file(fs::path(out()) / "before" / "square-cw-1.mcap", run, fs::copy_options::overwrite_existing);
+  fs::resize_file(run, fs::file_size(run) - 8);
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"compare", copy.string()}, {"report", copy.string(), "--out", page}}) {
+    const Outcome outcome = astrolabe(command);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("warning: "), HasSubstr("square-cw-1.mcap was cut off")));
+  }
+}
+
 TEST_F(Ml, WarnsOfAnotherRobotWhereverItIsUsed) {
   const Simulator other({"--fast", "--seed", "2"});
   const std::string file = out() + "/calib-before.toml", drives = (other.folder() / "drives").string();

@@ -117,6 +117,22 @@ TEST(Record, WritesWhatTheRobotDid) {
   EXPECT_TRUE(fs::exists(simulator.folder() / "csv" / "odometry.csv"));
 }
 
+TEST(Record, CountsItsSecondsOnTheRobotsClock) {
+  for (const std::vector<std::string>& options : {std::vector<std::string>{}, {"--fast"}}) {
+    const Simulator simulator(options);
+    const fs::path csv = simulator.folder() / "csv";
+    const support::Outcome outcome =
+        astrolabe({"record", "--port", simulator.port(), "--seconds", "2", "--out",
+                   (simulator.folder() / "drive.mcap").string(), "--csv", csv.string()});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    std::ifstream file(csv / "odometry.csv");
+    const auto samples = std::count(std::istreambuf_iterator<char>(file), {}, '\n') - 1;
+    // A sample each 10 ms; the end is looked for every 50 ms, in which a simulator in fast motion goes on for
+    // the 100 ms that one word of the host is good for.
+    EXPECT_NEAR(static_cast<double>(samples), 200, 20) << (options.empty() ? "real time" : "--fast");
+  }
+}
+
 TEST(Record, ReplacesNothing) {
   const Simulator simulator;
   const auto record = [&](const std::string& name, const std::string& csv) {
@@ -150,6 +166,46 @@ TEST(Record, KeepsWhatCameBeforeTheLinkWasLost) {
   EXPECT_EQ(record.wait(), 1);
   EXPECT_THAT(record.err(), HasSubstr("what came before is in '" + out + "'"));
   EXPECT_TRUE(fs::exists(out));
+}
+
+// A file that may not grow past this size stands for a full disk.
+std::vector<std::string> with_files_up_to(const std::string& blocks_of_512_bytes,
+                                          std::vector<std::string> command) {
+  command.insert(
+      command.begin(),
+      {"/bin/sh", "-c", "ulimit -f " + blocks_of_512_bytes + "; exec \"$0\" \"$@\"", ASTROLABE_PROGRAM});
+  return command;
+}
+
+TEST(Record, InterruptedOnAFullDiskSaysThatNothingCouldBeWritten) {
+  const Simulator simulator;
+  const std::string out = (simulator.folder() / "drive.mcap").string();
+  support::Program record(with_files_up_to("16", {"record", "--port", simulator.port(), "--out", out}));
+  ASSERT_TRUE(support::eventually([&] { return record.err().find("Ctrl-C ends it") != std::string::npos; }));
+  poll(nullptr, 0, 300);  // thousands of samples, in fast motion
+  record.send(SIGINT);
+  EXPECT_EQ(record.wait(), 1) << record.err();
+  EXPECT_THAT(record.err(), testing::AllOf(HasSubstr("cannot write"), HasSubstr("drive.mcap")));
+  EXPECT_FALSE(fs::exists(out));
+}
+
+TEST(Umbmark, InterruptedOnceTheLinkIsLostSaysSoAndDoesNotStartTheRunAgain) {
+  Simulator simulator(std::vector<std::string>{});
+  const std::string out = (simulator.folder() / "x").string();
+  std::vector<std::string> command = umbmark(simulator, out, {"--runs", "1", "--no-extras"});
+  command.insert(command.begin(), ASTROLABE_PROGRAM);
+  support::Program program(command);
+  // Asking the robot whether it drives would take the port from the experiment.
+  ASSERT_TRUE(support::eventually([&] { return fs::exists(fs::path(out) / "experiment.json"); }));
+  poll(nullptr, 0, 1000);
+  program.send(SIGSTOP);  // so that it finds both when it goes on
+  simulator.program().send(SIGKILL);
+  simulator.program().wait();
+  program.send(SIGINT);
+  program.send(SIGCONT);
+  EXPECT_EQ(program.wait(), 1);
+  EXPECT_THAT(program.err(), HasSubstr("lost " + simulator.port()));
+  EXPECT_THAT(program.err(), testing::Not(HasSubstr("starts again")));
 }
 
 TEST(Umbmark, AsksEachQuestionOnceWhenTheInputHasEnded) {

@@ -103,6 +103,64 @@ TEST_F(Resume, ADriveOutlivesAPersonWhoWalksAwayFromTheTapeMeasure) {
   EXPECT_EQ(run.info.truth_source, "manual");
 }
 
+/// A person who measures about the same each time, and in one run forgets a decimal point.
+class ATypingPerson {
+ public:
+  explicit ATypingPerson(int mistyped) : mistyped_(mistyped) {}
+  std::string operator()(const std::string& prompt) {
+    if (prompt.find("end x") == std::string::npos) return "0";
+    ++measured;
+    return measured == mistyped_ ? "0.6" : std::to_string(0.06 + 0.001 * (measured % 3));
+  }
+  int measured = 0;
+
+ private:
+  int mistyped_;
+};
+
+class MistypedTruth : public Resume {
+ protected:
+  /// What was asked about and what was noticed until the squares of the first phase were done.
+  void measure(ATypingPerson& person, bool keep) {
+    Plan plan = small_plan();
+    plan.truth = "manual";
+    plan.runs = 3;
+    plan.order = Order::cw_first;
+    ExperimentHooks hooks;
+    hooks.keep = [&](const std::string& why) { return asked.push_back(why), keep; };
+    hooks.run.notice = [&](const std::string& text) { noticed.push_back(text); };
+    hooks.agree = [](const auto&, const auto&) { return false; };
+    truth::ManualSource source(std::ref(person));
+    EXPECT_THROW(run_experiment(desk_.client, source, plan, folder_.path(), hooks), Error);
+  }
+  std::vector<std::string> asked, noticed;
+};
+
+TEST_F(MistypedTruth, OfTheThirdSquareIsAskedForAgainAndNamesTheRun) {
+  ATypingPerson person(3);
+  measure(person, false);
+  EXPECT_EQ(person.measured, 7) << "six squares, one of them twice";
+  ASSERT_EQ(asked.size(), 1U);
+  EXPECT_THAT(asked[0], testing::AllOf(HasSubstr("before: square cw 3: x = "), HasSubstr("in the others")));
+}
+
+TEST_F(MistypedTruth, IsKeptIfSomebodySaysThatItIsRight) {
+  ATypingPerson person(3);
+  measure(person, true);
+  EXPECT_EQ(person.measured, 6);
+  EXPECT_EQ(asked.size(), 1U);
+}
+
+TEST_F(MistypedTruth, OfAnEarlierSquareIsToldOnceWithItsRecording) {
+  ATypingPerson person(1);
+  measure(person, false);
+  EXPECT_EQ(person.measured, 6);
+  EXPECT_TRUE(asked.empty());
+  ASSERT_EQ(noticed.size(), 1U);
+  EXPECT_THAT(noticed[0],
+              testing::AllOf(HasSubstr("before: square cw 1: x = "), HasSubstr("square-cw-1.mcap'")));
+}
+
 TEST_F(Resume, AFinishedExperimentDrivesNothing) {
   run(small_plan());
   ExperimentHooks hooks;

@@ -66,6 +66,17 @@ TEST(Roll, WheelsThatDisagreeChangeNothing) {
   EXPECT_THAT(verdict.sentence, HasSubstr("left wheel counts 0.25"));
 }
 
+TEST(Roll, ATenfoldTypoInTheLengthIsNotTakenForAnotherWheel) {
+  for (const double typo : {0.1, 10.0}) {
+    Roll roll = along_the_tape(1);
+    *roll.distance_m *= typo;
+    EXPECT_THROW(judge_roll(roll), Error);
+    roll = ten_turns(1);
+    *roll.turns *= typo;
+    EXPECT_THROW(judge_roll(roll), Error);
+  }
+}
+
 TEST(Roll, AWheelThatDidNotTurnIsNamed) {
   Roll roll = ten_turns(1);
   roll.counts[1] = 3;

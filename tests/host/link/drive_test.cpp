@@ -171,6 +171,88 @@ TEST_F(Drive, CtrlCStopsThenDisarms) {
   EXPECT_NE(std::find(stop, seen.end(), Disarm::kId), seen.end());
 }
 
+class InterruptedDrive : public Drive {
+ protected:
+  /// Drives until the first segment is done; `then` happens in the moment in which Ctrl-C is pressed.
+  template <class Then>
+  void drive_until_ctrl_c(Then then) {
+    DriveHooks hooks;
+    hooks.interrupted = [&] { return pressed_; };
+    hooks.segment_done = [&](const SegmentDone&) {
+      if (!std::exchange(pressed_, true)) then();
+    };
+    DriveSession session(client, hooks);
+    session.run(square(1, Sense::cw));
+  }
+
+  bool pressed_ = false;
+};
+
+TEST_F(InterruptedDrive, SaysSoOnlyOnceTheRobotConfirmedThatItIsAtRestAndDisarmed) {
+  try {
+    drive_until_ctrl_c([] {});
+    FAIL();
+  } catch (const Interrupted& stopped) {
+    EXPECT_STREQ(stopped.what(), "stopped: the robot is at rest and disarmed");
+  }
+  EXPECT_EQ(link.robot.mode, Mode::disarmed);
+}
+
+TEST_F(InterruptedDrive, OfARobotThatRefusesToStopDisarmsAndSaysThatTheStopIsNotConfirmed) {
+  try {
+    drive_until_ctrl_c([&] { link.robot.refuse_next = ErrorReply{ErrorCode::busy, 0}; });
+    FAIL();
+  } catch (const NotStopped& error) {
+    EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("did not confirm"), HasSubstr("refused Stop")));
+  }
+  EXPECT_EQ(link.robot.mode, Mode::disarmed);
+}
+
+TEST_F(InterruptedDrive, OfARobotThatNoLongerAnswersSaysThatTheStopIsNotConfirmed) {
+  EXPECT_THROW(drive_until_ctrl_c([&] { link.fate = [](bool, std::uint8_t) { return Fate::lost; }; }),
+               NotStopped);
+}
+
+TEST_F(InterruptedDrive, OfARobotThatIsNotDisarmedSaysThatTheStopIsNotConfirmed) {
+  EXPECT_THROW(drive_until_ctrl_c([&] {
+                 link.fate = [](bool, std::uint8_t id) {
+                   return id == Disarm::kId ? Fate::lost : Fate::arrives;
+                 };
+               }),
+               NotStopped);
+}
+
+TEST_F(InterruptedDrive, EndsWithTheFaultThatWasLatchedOnTheWayToRest) {
+  EXPECT_THROW(drive_until_ctrl_c([&] {
+                 link.fate = [this](bool to_robot, std::uint8_t id) {
+                   if (to_robot && id == Stop::kId) link.robot.raise(Fault::stall);
+                   return Fate::arrives;
+                 };
+               }),
+               DriveFault);
+}
+
+TEST_F(Drive, ThatFailsAndCannotStopTheRobotEitherSaysSoInANotice) {
+  std::string notice;
+  DriveHooks hooks;
+  hooks.notice = [&](const std::string& sentence) { notice = sentence; };
+  try {
+    DriveSession session(client, hooks);
+    link.fate = [](bool, std::uint8_t) { return Fate::lost; };
+    throw Error("the disk is full");
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "the disk is full");
+  }
+  EXPECT_THAT(notice, HasSubstr("did not confirm"));
+}
+
+TEST_F(Drive, ThatIsEndedTellsThatTheRobotDidNotConfirmIt) {
+  DriveSession session(client);
+  session.set_velocity(0.1, 0);
+  link.fate = [](bool, std::uint8_t) { return Fate::lost; };
+  EXPECT_THROW(session.end(), NotStopped);
+}
+
 TEST_F(Drive, SaysThatAnotherProgramStoppedTheRobot) {
   DriveSession session(client);
   link.fate = [&, met = false](bool, std::uint8_t id) mutable {

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "host/base/error.hpp"
@@ -67,6 +68,43 @@ TEST(DamagedRun, AFlippedBitIsNeverReadSilently) {
       EXPECT_NE(error.find("flipped.mcap"), std::string::npos) << error;
     }
   }
+}
+
+TEST(DamagedRun, WhoseEndIsThereIsCalledDamagedAndNeverCutOff) {
+  const TempFolder folder;
+  const Bytes file = small_file(folder);
+  // Lengths of records and all else; the last 8 bytes are the end itself.
+  for (std::size_t at = 8; at < file.size() - 8; ++at)
+    for (const std::uint8_t flip : {std::uint8_t{0x01}, std::uint8_t{0x80}}) {
+      Bytes bad = file;
+      bad[at] ^= flip;
+      const std::string error = complaint([&] { run_from_bytes(bad, "flipped.mcap"); });
+      EXPECT_THAT(error, testing::HasSubstr("flipped.mcap is")) << "byte " << at;
+      EXPECT_THAT(error, testing::Not(testing::HasSubstr("cut off"))) << "byte " << at;
+    }
+}
+
+TEST(DamagedRun, IsReadAsFarAsItGoesIfThatIsWanted) {
+  const TempFolder folder;
+  const recording::Run run = small_run();
+  Bytes file = small_file(folder);
+  int read = 0;
+  for (std::size_t at = file.size() / 4; at < file.size() / 2; ++at) {
+    file[at] ^= 0x10;
+    try {
+      const recording::Run some = run_from_bytes(file, "flipped.mcap", Damage::accepted);
+      ++read;
+      EXPECT_THAT(some.warning, testing::HasSubstr("flipped.mcap is damaged"));
+      for (const OdometrySample& sample : some.odometry) {
+        const auto i = static_cast<std::size_t>(sample.time_us / 1'000'000);
+        EXPECT_EQ(sample.x_m, run.odometry[i].x_m) << "byte " << at;
+        EXPECT_EQ(sample.left_counts, run.odometry[i].left_counts) << "byte " << at;
+      }
+    } catch (const Error&) {  // what says that it is a run may be what is damaged
+    }
+    file[at] ^= 0x10;
+  }
+  EXPECT_GT(read, 0);
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ TEST(EmulatorProgram, IsLeftAloneByASecondOneThatIsRefused) {
 TEST(EmulatorProgram, DrivesForOneProgramAtATime) {
   const EmulatorProgram emulator;
   // Not about a host that falls silent, which the first would do where the machine is busy.
-  ASSERT_EQ(astrolabe({"params", "set", "command_timeout=5000", "--port", emulator.usb()}).code, 0);
+  ASSERT_EQ(astrolabe({"params", "set", "command_timeout=5000", "--yes", "--port", emulator.usb()}).code, 0);
   support::Program first({ASTROLABE_PROGRAM, "drive", "line", "30", "--port", emulator.serial()});
   const auto mode = [&] {
     const Outcome info = astrolabe({"info", "--port", emulator.usb(), "--json"});
