@@ -9,8 +9,7 @@ Board::Board() {
   battery_.start();
   uart_.start();
   serial_number_ = serial_number(system_.unique_id());
-  usb_.start({serial_number_.data(), serial_number_.size()},
-             system_.reset_cause() != hal::ResetCause::power_on);
+  usb_.start({serial_number_.data(), serial_number_.size()});
   watchdog::start();
 }
 

@@ -33,6 +33,10 @@ bool wait_idle() {
   return true;
 }
 
+/// The whole area, and not only what has changed: the processor fetches ahead where it likes, and what it has
+/// fetched of another sector while the flash was busy is not that sector's content.
+void forget() { commands::end(kBase, Flash::kBytes); }
+
 bool program_page(std::uint32_t offset, std::span<const std::uint8_t> bytes) {
   return commands::run(kWriteEnable, 0) && commands::write(kProgramPage, kBase + offset, bytes) &&
          wait_idle();
@@ -55,7 +59,7 @@ bool Flash::erase(std::uint32_t sector) noexcept {
   const std::uint32_t offset = sector * kSectorBytes;
   const bool done = commands::begin() && commands::run(kWriteEnable, 0) &&
                     commands::run(kEraseSector, kBase + offset) && wait_idle();
-  commands::end(kBase + offset, kSectorBytes);
+  forget();
   const auto* bytes = mapped(offset);
   return done && std::all_of(bytes, bytes + kSectorBytes, [](std::uint8_t byte) { return byte == 0xFF; });
 }
@@ -64,7 +68,7 @@ bool Flash::program(std::uint32_t offset, std::span<const std::uint8_t> bytes) n
   if (offset >= kBytes || bytes.size() > kSectorBytes - offset % kSectorBytes) return false;
   if (offset % kProgramBytes != 0 || bytes.size() % kProgramBytes != 0) return false;
   const bool done = commands::begin() && program_pages(offset, bytes);
-  commands::end(kBase + offset, static_cast<std::uint32_t>(bytes.size()));
+  forget();
   return done && std::equal(bytes.begin(), bytes.end(), mapped(offset));
 }
 

@@ -60,10 +60,13 @@ void Uart::interrupt() {
 
 void Uart::receive(std::uint32_t status) {
   std::array<std::uint8_t, kQueue> bytes{};
+  // Cleared before the queue is counted. A character that comes in between is counted, or else flags the
+  // line's silence anew; if the flag were cleared afterwards, a single one could wait in the queue for the
+  // next.
+  LPUART6[lpuart::STAT].write(status & kEvents);
   std::size_t count = LPUART6[lpuart::WATER].get(lpuart::WATER_RXCOUNT);
   if (count > bytes.size()) count = bytes.size();
   for (std::size_t i = 0; i < count; ++i) bytes[i] = static_cast<std::uint8_t>(LPUART6[lpuart::DATA].read());
-  LPUART6[lpuart::STAT].write(status & kEvents);
   received_.push(std::span(bytes).first(count));
 }
 

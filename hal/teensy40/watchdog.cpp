@@ -17,7 +17,9 @@ constexpr std::uint32_t kStopped =
 constexpr std::uint32_t kRunning = kStopped | rtwdog::CS_EN(1);
 
 /// The configuration is open for 128 bus clocks after the key: nothing may come between.
+/// So this runs in ITCM, its constants too: a fetch from the flash may take longer than that.
 void configure(std::uint32_t control, std::uint32_t timeout) {
+  open_gate(CCM[ccm::CCGR5], ccm::CCGR5_CG2);
   const cpu::InterruptsOff guard;
   RTWDOG[rtwdog::CNT].write(kUnlock);
   static_cast<void>(poll(RTWDOG[rtwdog::CS], rtwdog::CS_ULK, 1, kReads));
@@ -29,10 +31,7 @@ void configure(std::uint32_t control, std::uint32_t timeout) {
 
 }  // namespace
 
-void start() {
-  open_gate(CCM[ccm::CCGR5], ccm::CCGR5_CG2);
-  configure(kRunning, kTimeOut_counts);
-}
+void start() { configure(kRunning, kTimeOut_counts); }
 
 void stop() { configure(kStopped, 0xFFFF); }
 

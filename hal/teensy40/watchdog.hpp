@@ -11,10 +11,11 @@ namespace astro::teensy40::watchdog {
 ///         through their output pin is not known.
 inline constexpr std::uint32_t kTimeOut_ms = 512;
 
-/// Arms it. Boot has switched it off, as it bites 32 ms after a reset.
+/// Arms it. Boot has switched it off.
 void start();
 
-/// For the boot loader, which does not feed.
+/// At boot, since it bites 32 ms after a reset unless the ROM has stopped it; and for the boot loader, which
+/// does not feed.
 void stop();
 
 /// A single store: any context.

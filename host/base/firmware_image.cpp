@@ -57,6 +57,15 @@ std::string version_in(const std::vector<std::uint8_t>& flash) {
   return fmt::format("{}.{}.{}", version[0], version[1], version[2]);
 }
 
+std::string board_in(const std::vector<std::uint8_t>& flash) {
+  constexpr std::size_t kBytesAt = 15, kBoardAt = 16, kBoardBytes = 16;
+  const std::uint8_t* info = flash.data() + kInfoAt;
+  if (info[kBytesAt] < kBoardAt + kBoardBytes) return "";
+  const std::uint8_t *board = info + kBoardAt, *end = std::find(board, board + kBoardBytes, 0);
+  const bool printable = std::all_of(board, end, [](std::uint8_t c) { return c > ' ' && c < 0x7F; });
+  return printable ? std::string(board, end) : "";
+}
+
 }  // namespace
 
 FirmwareImage read_firmware_image(const std::filesystem::path& hex) {
@@ -70,7 +79,7 @@ FirmwareImage read_firmware_image(const std::filesystem::path& hex) {
   if (std::filesystem::file_size(hex, missing) > kMostHexBytes)
     throw Error(fmt::format("'{}' is larger than any image for a Teensy 4.0: build it with ./dev firmware",
                             hex.string()));
-  FirmwareImage image{std::vector<std::uint8_t>(FirmwareImage::kBytes, 0xFF), ""};
+  FirmwareImage image{std::vector<std::uint8_t>(FirmwareImage::kBytes, 0xFF), "", ""};
   std::uint32_t upper = 0;
   int number = 0;
   bool ended = false;
@@ -93,6 +102,7 @@ FirmwareImage read_firmware_image(const std::filesystem::path& hex) {
     throw Error(
         fmt::format("'{}' is no image for a Teensy 4.0: build one with ./dev firmware", hex.string()));
   image.version = version_in(image.flash);
+  if (!image.version.empty()) image.board = board_in(image.flash);
   return image;
 }
 

@@ -13,6 +13,7 @@ struct FirmwareImage {
 
   std::vector<std::uint8_t> flash;  // from kBase on; 0xFF where the file says nothing
   std::string version;              // "0.1.0"; empty: it is not Astrolabe's
+  std::string board;                // "teensy40"; empty: it does not say
 };
 
 /// Reads an Intel HEX file and checks its sums, its addresses and the header that the chip starts by. Throws

@@ -26,7 +26,7 @@ constexpr std::string_view kBoard = "teensy40";
 struct FlashOptions {
   ConnectionOptions connection;
   fs::path file = kBuilt;
-  bool button = false;
+  bool button = false, yes = false;
 };
 
 std::unique_ptr<link::Client> find_robot(ConnectionOptions& options) {
@@ -47,10 +47,20 @@ void check_board(const protocol::HelloReply& robot, const fs::path& file) {
                             robot.robot_name.view(), robot.board.view(), file.string(), kBoard));
 }
 
-void check_origin(const FirmwareImage& image, const fs::path& file) {
-  if (image.version.empty())
-    throw Error(fmt::format("'{}' is not firmware of Astrolabe: flash it with --button if you want it",
-                            file.string()));
+bool is_for_this_board(const FirmwareImage& image) { return !image.version.empty() && image.board == kBoard; }
+
+std::string describe(const FirmwareImage& image, const fs::path& file) {
+  if (image.version.empty()) return fmt::format("'{}' is not firmware of Astrolabe", file.string());
+  const std::string what = fmt::format("'{}' is firmware {} of Astrolabe", file.string(), image.version);
+  if (image.board.empty()) return what + " and does not say for which board";
+  return fmt::format("{} for the board '{}'", what, image.board);
+}
+
+/// Before anything is erased.
+void check_origin(const FirmwareImage& image, const FlashOptions& options) {
+  if (is_for_this_board(image)) return say(describe(image, options.file));
+  if (!options.yes && !confirm(fmt::format("{}. Flash it anyway?", describe(image, options.file))))
+    throw Error("nothing was flashed");
 }
 
 void check_at_rest(link::Client& client) {
@@ -92,12 +102,12 @@ void check_parameters(const link::RemoteParameters& before, const link::RemotePa
 void run(FlashOptions& options) {
   const FirmwareImage image = read_firmware_image(options.file);
   const fs::path loader = find_loader();
+  check_origin(image, options);
   if (options.button) {
     say("press the button on the Teensy, unless it is in its boot loader already");
     run_loader(loader, options.file);
     return say(fmt::format("flashed {}; next, once its LED blinks: astrolabe info", options.file.string()));
   }
-  check_origin(image, options.file);
   const auto client = find_robot(options.connection);
   const std::string old = firmware_version(client->robot());
   say(fmt::format("{} carries firmware {}", client->robot().robot_name.view(), old));
@@ -107,6 +117,9 @@ void run(FlashOptions& options) {
   client->request(protocol::Disarm{});
   request_restart<protocol::EnterBootloader>(*client);
   run_loader(loader, options.file);
+  if (!is_for_this_board(image))
+    return say(
+        fmt::format("flashed {}; whether it runs, 'astrolabe info' shows if it can", options.file.string()));
   wait_for(*client);
   check_version(image.version, firmware_version(client->robot()));
   const link::RemoteParameters now = link::RemoteParameters::fetch(*client);
@@ -125,6 +138,7 @@ void add_flash(Command app) {
       .type_name("FILE")
       .capture_default_str();
   command.add_flag("--button", options->button, "do not talk to the robot: somebody presses its button");
+  command.add_flag("--yes", options->yes, "flash also what is not Astrolabe's, or not for this board");
   add_connection(command, options->connection);
   examples(command, {"astrolabe flash", "astrolabe flash astrolabe-teensy40.hex --port /dev/ttyACM0",
                      "astrolabe flash --button"});

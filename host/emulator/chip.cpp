@@ -29,8 +29,9 @@ constexpr std::uint16_t kCallHalfKay = 0xBEFB, kWaitForEvent = 0xBF20;  // bkpt 
 
 }  // namespace
 
-Chip::Chip()
-    : cpu_(std::make_unique<Cpu>(
+Chip::Chip(HandOver hand_over)
+    : hand_over_(hand_over),
+      cpu_(std::make_unique<Cpu>(
           memory_,
           Cpu::Hooks{[this] { return interrupted(); }, [this] { skip_to(std::min(next_event_, end_)); },
                      [this](std::uint32_t address, int bytes) {
@@ -48,8 +49,14 @@ Chip::Chip()
                      [this](std::uint32_t number) {
                        on_exception(number);
                        return failure_.empty() && exceptions_.violation.empty() && number != kNeverExecuted;
+                     },
+                     [this](std::uint32_t address) {
+                       return address < Memory::kFlash || cached_flash_.stale(address) ||
+                              !protection_.at(address).read;
                      }})),
-      exceptions_(*cpu_, memory_, protection_) {}
+      exceptions_(*cpu_, memory_, protection_) {
+  control_.on_invalidate = [this](std::uint32_t address) { cached_flash_.drop(address); };
+}
 
 void Chip::start(Reset cause) {
   wishes_.clear();
@@ -57,6 +64,7 @@ void Chip::start(Reset cause) {
   exceptions_.reset();
   control_.reset();
   for (Model* model : models_) model->reset();
+  cached_flash_.clear();
   remember_reset(cause);
   in_bootloader_ = false;
   boot();
@@ -67,7 +75,8 @@ void Chip::boot() {
   if (flash_busy_) fail("NOR flash: the boot ROM reads it while it is busy, and finds nothing");
   std::uint32_t entry = 0;
   std::memcpy(&entry, memory_.at(kImageVectorTable + 4, 4).data(), 4);
-  for (const int reg : {UC_ARM_REG_PRIMASK, UC_ARM_REG_BASEPRI, UC_ARM_REG_FAULTMASK, UC_ARM_REG_IPSR})
+  for (const int reg :
+       {UC_ARM_REG_PRIMASK, UC_ARM_REG_BASEPRI, UC_ARM_REG_FAULTMASK, UC_ARM_REG_IPSR, UC_ARM_REG_CONTROL})
     cpu_->set(reg, 0);
   cpu_->set(UC_ARM_REG_SP, 0);
   if ((entry & 1) == 0) {
@@ -78,10 +87,26 @@ void Chip::boot() {
     std::memcpy(&entry, vectors.data() + 4, 4);
     cpu_->set(UC_ARM_REG_SP, stack);
   }
+  if (hand_over_ == HandOver::untidy) leave_rom_state();
   cpu_->set(UC_ARM_REG_LR, ~0U);
   cpu_->set(UC_ARM_REG_EPSR, 1U << 24);
   cpu_->set(UC_ARM_REG_PC, entry);
   cpu_->refresh();
+}
+
+void Chip::leave_rom_state() {
+  constexpr std::uint32_t kRomStack = Memory::kOcram + 0x8000;
+  const std::uint32_t main_stack = cpu_->get(UC_ARM_REG_SP);
+  protection_.leave_rom_state();
+  control_.leave_rom_state();
+  for (Model* model : models_) model->leave_rom_state();
+  for (int reg = UC_ARM_REG_R0; reg <= UC_ARM_REG_R12; ++reg) cpu_->set(reg, 0xDEAD'BEEF);
+  cpu_->set(UC_ARM_REG_CONTROL, 2);  // SPSEL
+  cpu_->set(UC_ARM_REG_SP, kRomStack);
+  cpu_->set(UC_ARM_REG_MSP, main_stack);
+  cpu_->set(UC_ARM_REG_BASEPRI, 0x10);
+  cpu_->set(UC_ARM_REG_FAULTMASK, 1);
+  reschedule();
 }
 
 void Chip::wake(Model& model, Cycles when) {
@@ -175,6 +200,7 @@ void Chip::on_exception(std::uint32_t number) {
 }
 
 void Chip::set_flash_busy(bool busy) {
+  if (busy) cached_flash_.distrust([this](std::uint32_t address) { return control_.cached(address); });
   flash_busy_ = busy;
   access_changed_ = true;
 }
@@ -189,7 +215,9 @@ void Chip::apply_access() {
   access_changed_ = false;
   const auto largest = memory_.largest(), present = memory_.ranges();
   for (std::size_t i = 0; i < largest.size(); ++i) apply_access(largest[i], present[i].bytes.size());
-  cpu_->set_traps(protection_.traps());
+  std::vector<Protection::Span> traps = protection_.traps();
+  if (cached_flash_.any()) traps.push_back({Memory::kFlash, Memory::kFlashBytes});
+  cpu_->set_traps(traps);
 }
 
 void Chip::apply_access(const Memory::Range& range, std::size_t present_bytes) {
@@ -218,6 +246,10 @@ void Chip::bad_access() {
   if (flash_busy_ && bad.address >= Memory::kFlash && !bad.write)
     return fail(fmt::format("NOR flash: 0x{:08X} is {} while the flash is busy", bad.address,
                             bad.fetch ? "executed" : "read"));
+  if (cached_flash_.stale(bad.address) && !bad.fetch)
+    return fail(
+        fmt::format("data cache: 0x{:08X} is read, whose line may have been fetched while the flash was busy",
+                    bad.address));
   const Protection::Access allowed = protection_.at(bad.address);
   if (bad.fetch ? allowed.execute : bad.write ? allowed.write : allowed.read) {
     if (!bad.fetch) exceptions_.bfar = bad.address;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/emulator/bus.hpp"
+#include "host/emulator/cached_flash.hpp"
 #include "host/emulator/cpu.hpp"
 #include "host/emulator/exceptions.hpp"
 #include "host/emulator/memory.hpp"
@@ -14,16 +15,24 @@
 
 namespace astro::emulator {
 
+/// What the boot ROM leaves behind. `untidy`: all that a program must not rely on, because no manual promises
+/// it: MPU on, interrupts enabled and pending, every mask set, the process stack in use, USB still attached.
+enum class HandOver : std::uint8_t { tidy, untidy };
+
 /// Processor, memories, interrupt controller and virtual time: the machine that models are put into.
 class Chip : public Machine {
  public:
-  Chip();
+  explicit Chip(HandOver hand_over);
 
   Memory& memory() { return memory_; }
   Cpu& cpu() { return *cpu_; }
   Bus& bus() { return bus_; }
   /// The MPU.
   const Protection& protection() const { return protection_; }
+  /// CFSR: what the last fault was.
+  std::uint32_t fault_status() const { return exceptions_.cfsr; }
+  /// An exception waits to be taken.
+  bool pending(int number) const { return exceptions_.pending(number); }
 
   /// Models take part in resets and events once they are here.
   void add(Model& model) { models_.push_back(&model); }
@@ -53,6 +62,8 @@ class Chip : public Machine {
   void wake(Model& model, Cycles when) override;
   void fail(const std::string& what) override;
   bool clocked(Gate gate) const override { return gates(gate); }
+  void wait(Cycles time) override { skipped_ += time; }
+  bool runs_from_flash() const override { return cpu_->pc() >= Memory::kFlash; }
   std::span<std::uint8_t> dma(std::uint32_t address, std::uint32_t bytes) override;
   void restart(Reset cause) override;
 
@@ -73,12 +84,14 @@ class Chip : public Machine {
   void apply_access(const Memory::Range& range, std::size_t present_bytes);
   void lock_up() { restart(Reset::software); }
   void boot();
+  void leave_rom_state();
 
   struct Wish {
     Model* model;
     Cycles when;
   };
 
+  HandOver hand_over_;
   Memory memory_;
   Bus bus_{*this};
   std::unique_ptr<Cpu> cpu_;
@@ -89,6 +102,7 @@ class Chip : public Machine {
   std::vector<Wish> wishes_;
   Cycles skipped_ = 0;  // time in which no instruction ran
   Cycles next_event_ = kNever, end_ = 0;
+  CachedFlash cached_flash_;
   std::string failure_;
   std::optional<Reset> restart_;
   bool in_bootloader_ = false, flash_busy_ = false, access_changed_ = true;

@@ -118,7 +118,7 @@ bool Cpu::on_invalid(uc_engine*, uc_mem_type type, std::uint64_t address, int, s
 
 void Cpu::on_trap(uc_engine*, uc_mem_type type, std::uint64_t address, int, std::int64_t, void* self) {
   auto& cpu = *static_cast<Cpu*>(self);
-  if (cpu.trapped_) return;
+  if (cpu.trapped_ || !cpu.hooks_.trapped(static_cast<std::uint32_t>(address))) return;
   cpu.trapped_ = true;
   cpu.bad_ = {static_cast<std::uint32_t>(address), type == UC_MEM_WRITE, false};
 }

@@ -29,6 +29,8 @@ class Cpu {
     std::function<void(std::uint32_t address, std::uint32_t value, int bytes)> write;
     // EXC_RETURN, SVC, BKPT by the engine's numbers; false: the run cannot go on.
     std::function<bool(std::uint32_t number)> exception;
+    // An access within set_traps(): true ends the run.
+    std::function<bool(std::uint32_t address)> trapped;
   };
   static constexpr std::uint32_t kThumb = 1U << 24;  // of the program status
   enum class End : std::uint8_t { interrupted, sleeping, bad_access, bad_instruction, not_thumb };
@@ -55,8 +57,8 @@ class Cpu {
   /// What the processor may do from `base` on; all else ends in bad_access. Whole pages of Protection::kPage.
   /// Not from within a hook.
   void allow(std::uint32_t base, std::uint32_t bytes, const Protection::Access& access);
-  /// Ranges that lie within a page: an access there ends in bad_access, after the block of instructions that
-  /// it is in. Not from within a hook.
+  /// Ranges of any size: an access there that Hooks::trapped minds ends in bad_access, after the block of
+  /// instructions that it is in. Not from within a hook.
   void set_traps(const std::vector<Protection::Span>& traps);
 
   std::uint64_t instructions() const { return instructions_; }

@@ -28,6 +28,12 @@ void Exceptions::reset() {
   violation.clear();
 }
 
+void Exceptions::leave_rom_state() {
+  for (const int number : {exception::kPendSv, exception::kSysTick, exception::kFirstInterrupt}) pend(number);
+  for (int number = exception::kFirstInterrupt; number < exception::kCount; ++number) enable(number, true);
+  cfsr = kStackingBusError;
+}
+
 void Exceptions::pend(int number) {
   if (pending_[index(number)]) return;
   pending_[index(number)] = true;

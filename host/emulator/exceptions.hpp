@@ -24,6 +24,8 @@ class Exceptions {
   Exceptions(Cpu& cpu, Memory& memory, const Protection& protection)
       : cpu_(cpu), memory_(memory), protection_(protection) {}
   void reset();
+  /// As a boot ROM may leave it: exceptions wait, all interrupts are enabled, and an old fault is on record.
+  void leave_rom_state();
 
   // What the system control space shows and changes.
   std::uint32_t vector_table = 0;

@@ -44,6 +44,12 @@ class Machine {
   /// True while the gate lets the clock through in run mode.
   virtual bool clocked(Gate gate) const = 0;
 
+  /// The processor waits so long for a peripheral that answers late.
+  virtual void wait(Cycles time) = 0;
+
+  /// True while the instructions come from the flash, where any fetch may take a microsecond.
+  virtual bool runs_from_flash() const = 0;
+
   /// Memory for a bus master. Empty after fail() if the range is no RAM, or RAM that the processor caches
   /// (the firmware's MPU setting decides), where a real master would see stale data.
   virtual std::span<std::uint8_t> dma(std::uint32_t address, std::uint32_t bytes) = 0;
@@ -66,6 +72,8 @@ class Model {
 
   /// Reset values, whatever the cause. What survives a warm reset is the model's to keep.
   virtual void reset() = 0;
+  /// After reset(): what a boot ROM may have done to it before the program begins.
+  virtual void leave_rom_state() {}
 };
 
 }  // namespace astro::emulator

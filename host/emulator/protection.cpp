@@ -1,6 +1,7 @@
 #include "host/emulator/protection.hpp"
 
 #include "hal/teensy40/registers/registers.hpp"
+#include "host/emulator/memory.hpp"
 
 namespace astro::emulator {
 namespace {
@@ -34,6 +35,28 @@ void Protection::reset() {
   regions_ = {};
   selected_ = 0;
   on_ = background_ = false;
+  changed_();
+}
+
+/// Every region from number 8 on takes something away that a program needs, so that none of them may stay.
+void Protection::leave_rom_state() {
+  constexpr std::uint32_t kAll = mpu::RASR_AP(3), kNone = mpu::RASR_AP(0), kReadOnly = mpu::RASR_AP(7);
+  constexpr std::uint32_t kNoCode = mpu::RASR_XN(1);
+  const auto region = [](std::uint32_t base, std::uint32_t size_log2, std::uint32_t attributes) {
+    return Region{base, attributes | mpu::RASR_SIZE(size_log2 - 1) | mpu::RASR_ENABLE(1)};
+  };
+  regions_ = {};
+  regions_[0] = region(0, 32, kAll);
+  regions_[8] = region(Memory::kItcm, 17, kNone);
+  regions_[9] = region(Memory::kDtcm, 19, kNone);
+  regions_[10] = region(0x4000'0000, 26, kNone);  // peripherals
+  regions_[11] = region(Memory::kFlash + 0x1F'0000, 16, kNone);
+  regions_[12] = region(Memory::kItcm, 15, kAll | kNoCode);
+  regions_[13] = region(Memory::kDtcm, 15, kReadOnly);
+  regions_[14] = region(Memory::kDtcm, 12, kNone);
+  regions_[15] = region(Memory::kItcm, 10, kNone);
+  on_ = true;
+  background_ = false;
   changed_();
 }
 
@@ -91,6 +114,8 @@ void Protection::write(std::uint32_t offset, std::uint32_t value) {
     background_ = (value & kPrivilegedDefault) != 0;
   } else if (offset == mpu::RNR.value) {
     selected_ = value % regions_.size();
+  } else if (on_) {
+    machine_.fail("MPU: a region is programmed while the MPU is on (CTRL.ENABLE)");
   } else if (offset == mpu::RBAR.value) {
     if (mpu::RBAR_VALID.of(value) != 0) selected_ = mpu::RBAR_REGION.of(value);
     regions_[selected_].base = value & ~0x1FU;

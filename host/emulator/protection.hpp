@@ -32,6 +32,8 @@ class Protection {
   Protection(Machine& machine, std::function<void()> changed)
       : machine_(machine), changed_(std::move(changed)) {}
   void reset();
+  /// As a boot ROM may leave it: on, and with regions that the next program cannot live with.
+  void leave_rom_state();
 
   std::uint32_t read(std::uint32_t offset) const;
   void write(std::uint32_t offset, std::uint32_t value);

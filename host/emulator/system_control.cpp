@@ -27,6 +27,13 @@ void SystemControl::reset() {
   tick_at_ = kNever;
 }
 
+void SystemControl::leave_rom_state() {
+  tick_control_ = 7;
+  tick_reload_ = 23'999;
+  tick_at_ = machine_.now() + tick_cycles();
+  exceptions_.leave_rom_state();
+}
+
 Cycles SystemControl::tick_cycles() const {
   // The reference clock is 100 kHz on this chip, whatever the manual says.
   return Cycles{tick_reload_ + 1} * ((tick_control_ & 4) != 0 ? 1 : kCyclesPerSecond / 100'000);
@@ -132,8 +139,10 @@ void SystemControl::write_scb(std::uint32_t offset, std::uint32_t value) {
     exceptions_.hfsr &= ~value;
   } else if (offset == scb::CPACR.value) {
     cpacr_ = value;
+  } else if (offset == scb::DCIMVAC.value) {
+    on_invalidate(value);
   }
-  // What is left is cache maintenance, and no cache is modelled.
+  // What is left is cache maintenance of other kinds, and no cache is modelled.
 }
 
 std::uint32_t SystemControl::read_tick(std::uint32_t offset) {
@@ -150,7 +159,7 @@ std::uint32_t SystemControl::read_tick(std::uint32_t offset) {
 void SystemControl::write_tick(std::uint32_t offset, std::uint32_t value) {
   if (offset == systick::CSR.value) {
     const bool starts = (tick_control_ & 1) == 0 && (value & 1) != 0;
-    if (tick_at_ != kNever && ((tick_control_ ^ value) & 4) != 0)
+    if (tick_at_ != kNever && (value & 1) != 0 && ((tick_control_ ^ value) & 4) != 0)
       machine_.fail("SysTick CSR: the clock is changed while it counts");
     tick_control_ = value & 7;
     if (starts) tick_at_ = machine_.now() + tick_cycles();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "host/emulator/exceptions.hpp"
 #include "host/emulator/machine.hpp"
@@ -14,12 +15,17 @@ class SystemControl {
   SystemControl(Machine& machine, Exceptions& exceptions, Protection& protection)
       : machine_(machine), exceptions_(exceptions), protection_(protection) {}
   void reset();
+  /// As a boot ROM may leave it: SysTick runs, and asks for its interrupt.
+  void leave_rom_state();
 
   std::uint32_t read(std::uint32_t address);
   void write(std::uint32_t address, std::uint32_t value);
 
   Cycles next_event() const { return tick_at_; }
   void event();
+
+  /// The firmware drops the line of the data cache at an address.
+  std::function<void(std::uint32_t)> on_invalidate = [](std::uint32_t) {};
 
   /// As the firmware has set MPU and caches: whether the processor may keep a copy of this address.
   bool cached(std::uint32_t address) const;

@@ -34,7 +34,8 @@ namespace astro::emulator {
 /// model says.
 class Teensy {
  public:
-  explicit Teensy(const std::filesystem::path& hex, const sim::Config& robot = {});
+  explicit Teensy(const std::filesystem::path& hex, const sim::Config& robot = {},
+                  HandOver hand_over = HandOver::untidy);
 
   void run_for(std::chrono::nanoseconds time);
   /// Runs until `done`, asked every `step`; false if that takes longer than `limit`.
@@ -53,6 +54,7 @@ class Teensy {
   /// Somebody presses the reset button.
   void press_reset() { chip_.start(Reset::pin); }
 
+  Pit& timers() { return pit_; }
   Lpuart& serial() { return lpuart_; }
   UsbController& usb() { return usb_; }
   World& world() { return world_; }

@@ -1,9 +1,14 @@
 #include "host/simulator/server.hpp"
 
+#include <fmt/format.h>
 #include <poll.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <fstream>
+#include <system_error>
 #include <thread>
 
 #include "host/base/error.hpp"
@@ -19,7 +24,6 @@ constexpr std::uintmax_t kMostFlashBytes = std::uintmax_t{8} << 20;  // the larg
 constexpr std::uint64_t kLease_us = 100'000;  // virtual time that one word of the host is good for
 constexpr auto kPatience = 200ms;  // real time that a host may take nothing before it is left behind
 constexpr auto kSilence = 1s;      // real time that a host may say nothing before time goes on without it
-constexpr auto kTick = 1ms;
 constexpr int kStepsPerLook = 50;  // virtual ms between two looks at the host while running ahead
 
 sim::Config with_flash(sim::Config config, const fs::path& path) {
@@ -64,13 +68,14 @@ Server::Server(const sim::Config& robot, const MocapConfig& mocap, const ServerC
     : Server(std::make_unique<ServedVirtualRobot>(with_flash(robot, config.flash), mocap), config) {}
 
 Server::Server(std::unique_ptr<Served> robot, const ServerConfig& config)
-    : config_(config), robot_(std::move(robot)), due_(Clock::now()) {
+    : config_(config), robot_(std::move(robot)), pace_(Clock::now()) {
   channels_.emplace_back(*robot_, 0, config.pty);
   if (!config.second_pty.empty()) channels_.emplace_back(*robot_, 1, config.second_pty);
   truth_.emplace(beside(config.pty, ".mocap"));
   if (!config.second_pty.empty()) truth_->add_link(beside(config.second_pty, ".mocap"));
   const auto content = robot_->flash();
   saved_flash_.assign(content.begin(), content.end());
+  check_flash_can_be_kept();
 }
 
 Server::~Server() {
@@ -86,11 +91,10 @@ void Server::run(const std::function<bool()>& stop) {
     const bool host_is_behind = transmit();
     if (runs_ahead(host_is_behind)) {
       for (int i = 0; i < kStepsPerLook; ++i) step();
-      due_ = Clock::now() + kTick;
-    } else if (Clock::now() >= due_) {
+      pace_.restart(Clock::now() + Pace::kStep);
+    } else if (pace_.due(Clock::now())) {
       step();
-      due_ += kTick;
-      if (Clock::now() - due_ > 50 * kTick) due_ = Clock::now();  // we were held up: do not hurry after it
+      pace_.stepped();
     } else {
       wait();
     }
@@ -108,11 +112,15 @@ void Server::receive() {
   if (!heard) return;
   last_heard_us_ = robot_->now_us();
   heard_at_ = Clock::now();
-  step();  // answered at once, whatever the pace
-  save_flash();
+  // Answered at once. Fast motion does not count; else the step is one of those that real time asks for.
+  if (!config_.fast && !pace_.may_hurry(heard_at_)) return;
+  step();
+  pace_.stepped();
 }
 
+/// What the robot has kept is on the disk before anybody hears of it.
 bool Server::transmit() {
+  save_flash();
   bool behind = truth_->flush();
   for (Channel& channel : channels_) behind |= channel.transmit();
   return behind;
@@ -127,7 +135,7 @@ bool Server::runs_ahead(bool host_is_behind) {
   if (robot_->now_us() - last_heard_us_ >= kLease_us) {
     // Stand still for a host that is late, be its machine ever so busy, but not for one that hangs or has
     // gone.
-    if (connected() && Clock::now() - heard_at_ < kSilence) due_ = Clock::now() + kTick;
+    if (connected() && Clock::now() - heard_at_ < kSilence) pace_.restart(Clock::now() + Pace::kStep);
     return false;
   }
   if (!host_is_behind) {
@@ -135,7 +143,7 @@ bool Server::runs_ahead(bool host_is_behind) {
     return true;
   }
   // Stand still for a host that is busy, but not for one that hangs.
-  if (Clock::now() - behind_since_ < kPatience) due_ = Clock::now() + kTick;
+  if (Clock::now() - behind_since_ < kPatience) pace_.restart(Clock::now() + Pace::kStep);
   return false;
 }
 
@@ -146,7 +154,7 @@ void Server::step() {
 }
 
 void Server::wait() {
-  const auto until = std::chrono::duration_cast<std::chrono::microseconds>(due_ - Clock::now());
+  const auto until = std::chrono::duration_cast<std::chrono::microseconds>(pace_.next() - Clock::now());
   if (until <= 0us) return;
   if (!connected()) {
     std::this_thread::sleep_for(until);
@@ -157,6 +165,15 @@ void Server::wait() {
     if (channel.connected()) hosts.push_back(channel.waits_for());
   const timespec timeout{0, static_cast<long>(std::min<std::int64_t>(until.count(), 20'000) * 1000)};
   ppoll(hosts.data(), hosts.size(), &timeout, nullptr);
+}
+
+void Server::check_flash_can_be_kept() const {
+  if (config_.flash.empty()) return;
+  std::error_code none;
+  if (fs::exists(config_.flash, none) && access(config_.flash.c_str(), W_OK) != 0)
+    throw Error(fmt::format("the robot's flash '{}' cannot be written: {}", config_.flash.string(),
+                            std::generic_category().message(errno)));
+  const recording::PartFile probe(config_.flash);
 }
 
 void Server::save_flash() {

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "host/simulator/channel.hpp"
+#include "host/simulator/pace.hpp"
 #include "host/simulator/served.hpp"
 #include "host/simulator/truth_server.hpp"
 #include "host/simulator/virtual_robot.hpp"
@@ -19,7 +20,9 @@ struct ServerConfig {
   // Symlink to make, which leads to the robot's port 0; the cameras' socket is beside it, with ".mocap"
   // added.
   std::filesystem::path pty;
-  std::filesystem::path flash{};  // keeps the robot's flash between starts; empty: nothing is kept
+  // Keeps the robot's flash between starts, on the disk before a host hears that it is kept; empty: nothing
+  // is kept.
+  std::filesystem::path flash{};
   bool fast = false;
   std::filesystem::path second_pty{};  // to port 1; empty: none
 };
@@ -36,6 +39,7 @@ std::vector<std::uint8_t> load_flash(const std::filesystem::path& path);
 class Server {
  public:
   Server(const sim::Config& robot, const MocapConfig& mocap, const ServerConfig& config);
+  /// Throws astro::Error if a pty or the flash's file cannot be had.
   /// Another robot than VirtualRobot, which has been given load_flash(config.flash).
   Server(std::unique_ptr<Served> robot, const ServerConfig& config);
   ~Server();
@@ -55,6 +59,7 @@ class Server {
   bool runs_ahead(bool host_is_behind);
   void step();
   void wait();
+  void check_flash_can_be_kept() const;
   void save_flash();
 
   ServerConfig config_;
@@ -64,7 +69,7 @@ class Server {
   std::uint64_t last_heard_us_ = 0;   // virtual
   Clock::time_point heard_at_{};      // the same in real time
   Clock::time_point behind_since_{};  // real time since when the host takes nothing
-  Clock::time_point due_;             // of the next millisecond, in real time
+  Pace pace_;
   std::vector<std::uint8_t> saved_flash_;
 };
 

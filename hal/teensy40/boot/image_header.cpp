@@ -51,9 +51,10 @@ struct VectorTable {
 struct ImageInfo {
   std::array<char, 12> name{"Astrolabe"};
   Version version = kFirmwareVersion;
-  std::uint8_t reserved = 0;
+  std::uint8_t bytes = 32;  // of this record; 0 in images that do not name their board
+  std::array<char, 16> board{"teensy40"};
 };
-static_assert(sizeof(ImageInfo) == 16);
+static_assert(sizeof(ImageInfo) == 32);
 
 }  // namespace
 

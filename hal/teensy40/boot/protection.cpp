@@ -40,6 +40,12 @@ void set(std::uint32_t number, const Region& region) {
                        mpu::RASR_ENABLE(1));
 }
 
+/// The MPU has 16 regions. A higher one wins, so that one that the ROM has left would overrule ours.
+void clear(std::uint32_t number) {
+  MPU[mpu::RNR].write(number);
+  MPU[mpu::RASR].write(0);
+}
+
 /// Which lines are valid is undefined after power-on, and a restart keeps those of the program before: 4 ways
 /// of 256 lines of 32 bytes are dropped.
 void forget_data_cache() {
@@ -50,7 +56,10 @@ void forget_data_cache() {
 
 }  // namespace
 
+/// The MPU is off: reset() switches it off, because a region must not change while it is in force.
 void start() {
+  constexpr std::uint32_t kAllRegions = 16;
+  for (std::uint32_t number = 0; number < kAllRegions; ++number) clear(number);
   for (std::uint32_t number = 0; number < kRegions.size(); ++number) set(number, kRegions[number]);
   MPU[mpu::CTRL].write(mpu::CTRL_ENABLE(1));
   cpu::synchronize();

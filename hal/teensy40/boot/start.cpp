@@ -4,8 +4,10 @@
 #include "hal/teensy40/boot/protection.hpp"
 #include "hal/teensy40/boot/vectors.hpp"
 #include "hal/teensy40/clock.hpp"
+#include "hal/teensy40/clock_gate.hpp"
 #include "hal/teensy40/cpu.hpp"
 #include "hal/teensy40/pins.hpp"
+#include "hal/teensy40/watchdog.hpp"
 
 // What stays in the flash and runs there, before RAM holds the rest. No constant of it may lie elsewhere, and
 // the compiler must not turn a loop of it into a call of memcpy, which is not there yet.
@@ -24,7 +26,18 @@ int main();
 namespace astro::teensy40 {
 namespace {
 
+/// The other two watchdogs pull a pin 16 s after a reset. Their clocks run then unless the ROM has stopped
+/// them.
+void stop_power_down_counters() {
+  open_gate(CCM[ccm::CCGR3], ccm::CCGR3_CG8);
+  open_gate(CCM[ccm::CCGR5], ccm::CCGR5_CG5);
+  WDOG1[wdog::WMCR].write(0);
+  WDOG2[wdog::WMCR].write(0);
+}
+
 [[noreturn, gnu::noinline]] void run() {
+  watchdog::stop();
+  stop_power_down_counters();
   vectors::start();
   protection::start();
   core_clock::start();
@@ -45,19 +58,6 @@ namespace {
   CCM[ccm::CCGR4].modify(0, ccm::CCGR4_CG9(3));  // so that a fault may silence FlexPWM2 at any time
 }
 
-/// WDOG3 bites 32 ms after a reset unless the ROM has stopped it; the other two pull a pin after 16 s. Their
-/// clocks run after a reset unless the ROM has stopped those.
-[[gnu::always_inline]] inline void stop_watchdogs() {
-  CCM[ccm::CCGR3].modify(0, ccm::CCGR3_CG8(3));
-  CCM[ccm::CCGR5].modify(0, ccm::CCGR5_CG2(3) | ccm::CCGR5_CG5(3));
-  RTWDOG[rtwdog::CNT].write(0xD928'C520);
-  for (int reads = 0; reads < 1000 && RTWDOG[rtwdog::CS].get(rtwdog::CS_ULK) == 0;) ++reads;
-  RTWDOG[rtwdog::TOVAL].write(0xFFFF);
-  RTWDOG[rtwdog::CS].write(rtwdog::CS_UPDATE(1) | rtwdog::CS_CLK(1) | rtwdog::CS_CMD32EN(1));
-  WDOG1[wdog::WMCR].write(0);
-  WDOG2[wdog::WMCR].write(0);
-}
-
 [[gnu::always_inline]] inline void copy(std::uint32_t* to, const std::uint32_t* end,
                                         const std::uint32_t* from) {
   while (to < end) *to++ = *from++;
@@ -69,7 +69,6 @@ extern "C" [[noreturn]] void start_from_flash();
 
 extern "C" IN_FLASH void start_from_flash() {
   hold_outputs_low();
-  stop_watchdogs();
   PMU[pmu::MISC0_SET].write(pmu::MISC0_REFTOP_SELFBIASOFF(1));  // the reference is up by now
   copy(&code_start, &code_end, &code_load);
   copy(&data_start, &data_end, &data_load);
@@ -79,11 +78,21 @@ extern "C" IN_FLASH void start_from_flash() {
   run();
 }
 
-/// 4 banks of 32 KB for code, 12 for data; no stack and no data before that is done. GPR16's upper bits are
-/// where the core finds its vectors after a reset: they stay with the ROM.
+/// First what the ROM may have left behind: interrupts, the process stack, the MPU with regions that forbid
+/// what follows, and masks that would keep every interrupt away for ever. Then 4 banks of 32 KB for code, 12
+/// for data; no stack and no data before that is done. GPR16's upper bits are where the core finds its
+/// vectors after a reset: they stay with the ROM.
 extern "C" [[gnu::naked, gnu::section(".boot")]] void reset() {
   asm volatile(
       "cpsid i\n"
+      "movs r0, #0\n"
+      "msr control, r0\n"
+      "ldr r1, =0xE000ED94\n"  // MPU_CTRL
+      "str r0, [r1]\n"
+      "dsb\n"
+      "isb\n"
+      "msr basepri, r0\n"
+      "msr faultmask, r0\n"
       "ldr r0, =0x400AC000\n"  // IOMUXC_GPR
       "ldr r1, =0xAAAAAAFF\n"
       "str r1, [r0, #0x44]\n"  // GPR17

@@ -19,15 +19,22 @@ constexpr std::size_t kEntries = 16 + 160;
 /// What the ROM may have left running would find no handler and restart the chip for ever.
 void silence_interrupts() {
   constexpr std::uint32_t kBanks = 160 / 32;
+  constexpr std::uint32_t kDropSysTick = 1U << 25, kDropPendSv = 1U << 27;  // ICSR: PENDSTCLR, PENDSVCLR
   SysTick[systick::CSR].write(0);
+  SCB[scb::ICSR].write(kDropSysTick | kDropPendSv);
   for (std::uint32_t bank = 0; bank < kBanks; ++bank) {
     Register<std::uint32_t>(NVIC[nvic::ICER0].address() + 4 * bank).write(~0U);
     Register<std::uint32_t>(NVIC[nvic::ICPR0].address() + 4 * bank).write(~0U);
   }
 }
 
-/// The program counter that the core put on the stack, if there still is one.
-std::uint32_t where(std::uint32_t frame) {
+/// Bits of CFSR. Each says that the registers did not get onto the stack, or not back from it, so that what
+/// lies there is something else: MUNSTKERR, MSTKERR, MLSPERR, UNSTKERR, STKERR, LSPERR.
+constexpr std::uint32_t kNoFrame = 1U << 3 | 1U << 4 | 1U << 5 | 1U << 11 | 1U << 12 | 1U << 13;
+
+/// The program counter that the core put on the stack, if it could and there still is one.
+std::uint32_t where(std::uint32_t frame, std::uint32_t fault_status) {
+  if ((fault_status & kNoFrame) != 0) return 0;
   constexpr std::uint32_t kBytes = 32, kProgramCounter = 24;
   const auto bottom = static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(&stack_bottom));
   const auto top = static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(&stack_top));
@@ -41,8 +48,9 @@ extern "C" [[noreturn, gnu::used]] void end_by_fault(std::uint32_t exception, st
   Motors::coast();
   SRC[src::GPR5].write(marker::kFault);
   SRC[src::GPR6].write(exception);
-  SRC[src::GPR7].write(where(frame));
-  SRC[src::GPR8].write(SCB[scb::CFSR].read());
+  const std::uint32_t fault_status = SCB[scb::CFSR].read();
+  SRC[src::GPR7].write(where(frame, fault_status));
+  SRC[src::GPR8].write(fault_status);
   cpu::synchronize();
   SCB[scb::AIRCR].write(scb::AIRCR_VECTKEY(0x05FA) | scb::AIRCR_SYSRESETREQ(1));
   cpu::synchronize();
@@ -64,6 +72,7 @@ extern "C" [[gnu::naked]] void fault_handler() {
 
 void start() {
   silence_interrupts();
+  SCB[scb::CFSR].write(~0U);  // a fault in the ROM is none of this program's
   const auto handler = reinterpret_cast<std::uintptr_t>(fault_handler);
   table.fill(handler);
   table[0] = reinterpret_cast<std::uintptr_t>(&stack_top);

@@ -105,6 +105,11 @@ void detach() {
   USB1[usb::USBCMD].write(0);
 }
 
+void power_down() {
+  open_gate(CCM[ccm::CCGR6], ccm::CCGR6_CG0);
+  detach();
+}
+
 Events take_events() {
   const std::uint32_t status = USB1[usb::USBSTS].read();
   USB1[usb::USBSTS].write(status);

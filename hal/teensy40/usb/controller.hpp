@@ -16,8 +16,10 @@ inline constexpr std::size_t kHeads = 10;
 
 /// Clocks, transceiver and controller; attaches to the bus.
 void start();
-/// Leaves the bus. A host has seen it after some 25 ms.
+/// Leaves the bus.
 void detach();
+/// The same whatever state the controller is in: what ran before this program may have left it attached.
+void power_down();
 
 /// Events that wait, which this takes.
 struct Events {

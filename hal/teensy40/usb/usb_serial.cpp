@@ -22,14 +22,12 @@ constexpr Pipe pipe_of(std::uint8_t endpoint) { return {endpoint & 0x0FU, (endpo
 
 }  // namespace
 
-void UsbSerial::start(std::string_view serial_number, bool was_attached) {
+void UsbSerial::start(std::string_view serial_number) {
   active = this;
   control_.start(serial_number);
   install(irq::kUsb1, urgency::kUsb, interrupt);
-  if (was_attached)
-    stay_away();
-  else
-    controller::start();
+  controller::power_down();
+  stay_away();
 }
 
 void UsbSerial::detach() noexcept {
@@ -42,7 +40,10 @@ void UsbSerial::stay_away() {
 }
 
 void UsbSerial::come_back_in_time() {
-  constexpr std::uint64_t kNoticed_us = 25'000;
+  // A hub tells its host of a change when it is asked, every 255 ms at full speed and every 256 ms at high
+  // speed (USB 2.0, 11.23.1: bInterval of its status endpoint, 0xFF and 0x0C). A device that is back sooner
+  // may never have been gone as far as the host knows.
+  constexpr std::uint64_t kNoticed_us = 300'000;
   if (!away_ || Clock().now_us() - left_at_us_ < kNoticed_us) return;
   away_ = false;
   controller::start();

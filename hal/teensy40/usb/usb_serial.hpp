@@ -21,9 +21,10 @@ namespace astro::teensy40 {
 /// Cost    an interrupt of some microseconds for each packet; 2 KB.
 class UsbSerial {
  public:
-  /// One in a program. `serial_number` outlives it; `was_attached`: the chip restarts, and a host may know
-  /// it.
-  void start(std::string_view serial_number, bool was_attached);
+  /// One in a program. `serial_number` outlives it. Stays off the bus for 0.3 s, whatever the reason of the
+  /// start: the program before, the boot loader or the ROM may have been attached, and the host must forget
+  /// it. Comes back in read().
+  void start(std::string_view serial_number);
 
   // Main loop only, which reads every now and then; none blocks.
   std::size_t read(std::span<std::uint8_t> into) noexcept;

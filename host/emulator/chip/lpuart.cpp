@@ -9,6 +9,7 @@ namespace {
 using namespace teensy40;
 
 constexpr int kUartIrq = 25;
+constexpr Cycles kTimeToRead = 1000 * kCyclesPerMicrosecond;  // for a handler that has just cleared IDLE
 constexpr std::uint32_t kClearable = lpuart::STAT_OR.mask() | lpuart::STAT_IDLE.mask() |
                                      lpuart::STAT_NF.mask() | lpuart::STAT_FE.mask() | lpuart::STAT_PF.mask();
 
@@ -20,7 +21,7 @@ void Lpuart::reset() {
   received_.clear();
   sending_.clear();
   incoming_.clear();
-  arrives_at_ = departs_at_ = idle_at_ = kNever;
+  arrives_at_ = departs_at_ = idle_at_ = found_by_ = kNever;
 }
 
 std::uint32_t Lpuart::baud() const {
@@ -52,8 +53,8 @@ void Lpuart::arrive() {
   const std::uint8_t byte = incoming_.front();
   incoming_.pop_front();
   arrives_at_ = incoming_.empty() ? kNever : arrives_at_ + byte_time();
-  idle_at_ = machine_.now() + byte_time();
   if (lpuart::CTRL_RE.of(control_) == 0 || !connected()) return;
+  idle_at_ = machine_.now() + byte_time();  // only a character that is stored arms the flag again
   if (received_.size() >= capacity(lpuart::FIFO_RXFE))
     return machine_.fail("LPUART6 DATA: overrun, the receiver's queue was not emptied");
   received_.push_back(byte);
@@ -73,6 +74,9 @@ void Lpuart::event() {
     idle_at_ = kNever;
     if (lpuart::CTRL_RE.of(control_) != 0) events_ |= lpuart::STAT_IDLE.mask();
   }
+  if (std::exchange(found_by_, found_by_ <= now ? kNever : found_by_) <= now)
+    machine_.fail(
+        "LPUART6 STAT: IDLE was cleared over a character that nothing will tell of: it waits in the queue");
   update();
 }
 
@@ -82,7 +86,18 @@ std::uint32_t Lpuart::status() const {
   return events_ | lpuart::STAT_RDRF(data) | lpuart::STAT_TDRE(room) | lpuart::STAT_TC(sending_.empty());
 }
 
+/// Characters wait below the watermark, and the event that tells of them is over.
+bool Lpuart::stranded() const {
+  const bool told =
+      (status() & (lpuart::STAT_RDRF.mask() | lpuart::STAT_IDLE.mask())) != 0 || idle_at_ != kNever;
+  return lpuart::CTRL_ILIE.of(control_) != 0 && !received_.empty() && !told;
+}
+
 void Lpuart::update() {
+  if (!stranded())
+    found_by_ = kNever;
+  else if (found_by_ == kNever)
+    found_by_ = machine_.now() + kTimeToRead;
   const std::uint32_t now = status();
   const bool level = (lpuart::CTRL_RIE.of(control_) != 0 && lpuart::STAT_RDRF.of(now) != 0) ||
                      (lpuart::CTRL_ILIE.of(control_) != 0 && lpuart::STAT_IDLE.of(now) != 0) ||
@@ -90,7 +105,7 @@ void Lpuart::update() {
                      (lpuart::CTRL_TIE.of(control_) != 0 && lpuart::STAT_TDRE.of(now) != 0) ||
                      (lpuart::CTRL_TCIE.of(control_) != 0 && lpuart::STAT_TC.of(now) != 0);
   machine_.set_interrupt(kUartIrq, level);
-  machine_.wake(*this, std::min({arrives_at_, held_ ? kNever : departs_at_, idle_at_}));
+  machine_.wake(*this, std::min({arrives_at_, held_ ? kNever : departs_at_, idle_at_, found_by_}));
 }
 
 std::uint32_t Lpuart::read_data() {
@@ -105,6 +120,7 @@ std::uint32_t Lpuart::read_data() {
 }
 
 std::uint32_t Lpuart::read(std::uint32_t offset) {
+  machine_.wait(read_takes);
   if (offset == lpuart::PARAM.value) return 0x0202;
   if (offset == lpuart::BAUD.value) return baud_;
   if (offset == lpuart::STAT.value) return status();

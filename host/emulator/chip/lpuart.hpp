@@ -23,6 +23,9 @@ class Lpuart : public Model {
   void event() override;
   void reset() override;
 
+  /// What the processor waits for each register that it reads: a bus that others use.
+  Cycles read_takes = 0;
+
   // The host's end.
   void send(std::span<const std::uint8_t> bytes);
   std::vector<std::uint8_t> receive();
@@ -48,6 +51,7 @@ class Lpuart : public Model {
   void write_data(std::uint32_t value);
   std::uint32_t read_data();
   std::uint32_t status() const;
+  bool stranded() const;
   void update();
 
   Machine& machine_;
@@ -58,7 +62,7 @@ class Lpuart : public Model {
   std::deque<std::uint8_t> incoming_;
   std::vector<std::uint8_t> outgoing_;
   bool held_ = false;
-  Cycles arrives_at_ = kNever, departs_at_ = kNever, idle_at_ = kNever;
+  Cycles arrives_at_ = kNever, departs_at_ = kNever, idle_at_ = kNever, found_by_ = kNever;
 };
 
 }  // namespace astro::emulator

@@ -29,6 +29,17 @@ std::uint64_t Pit::lifetime_us() const {
   return (first.control & kEnabled) != 0 ? (machine_.now() - first.began) / kCyclesPerMicrosecond : 0;
 }
 
+void Pit::age(std::uint64_t counts) {
+  catch_up();
+  Channel &lower = channels_[0], &upper = channels_[1];
+  const std::uint64_t left = (std::uint64_t{upper.count} << 32 | current(lower)) - counts;
+  lower.due = machine_.now() + ((left & 0xFFFF'FFFF) + 1) * cycles_per_count();
+  lower.began -= counts * cycles_per_count();
+  lower.began_anew = true;
+  upper.count = static_cast<std::uint32_t>(left >> 32);
+  update();
+}
+
 Cycles Pit::cycles_per_count() const { return kCyclesPerSecond / ccm_.timer_hz(); }
 
 std::uint32_t Pit::current(const Channel& channel) const {
@@ -44,7 +55,7 @@ void Pit::begin_period(Channel& channel, Cycles at) {
 
 /// Channel n has come to zero; so may those that are chained to it.
 void Pit::end_period(std::size_t n) {
-  channels_[n].flag = true;
+  channels_[n].flag = channels_[n].began_anew = true;
   begin_period(channels_[n], channels_[n].due);
   for (++n; n < channels_.size(); ++n) {
     Channel& next = channels_[n];
@@ -69,7 +80,8 @@ std::uint32_t Pit::read(std::uint32_t offset) {
   if (offset == pit::MCR.value) return pit::MCR_MDIS(stopped_);
   if (offset == pit::LTMR64H.value) {
     held_low_ = current(channels_[0]);
-    return current(channels_[1]);
+    const bool late = channels_[0].began_anew && held_low_ == channels_[0].load;
+    return current(channels_[1]) + (late ? 1 : 0);
   }
   if (offset == pit::LTMR64L.value) return held_low_;
   const Channel& channel = channels_[(offset - kChannels) / 16];
@@ -101,6 +113,7 @@ void Pit::set_control(std::size_t n, std::uint32_t value) {
   channel.control = value;
   if (ran == runs) return;
   channel.began = machine_.now();
+  channel.began_anew = false;
   begin_period(channel, machine_.now());
 }
 

@@ -23,6 +23,12 @@ void Rtwdog::reset() {
   unlocked_until_ = 0;
 }
 
+/// As after a reset: it bites after 32 ms.
+void Rtwdog::leave_rom_state() {
+  control_ |= rtwdog::CS_EN(1);
+  feed();
+}
+
 bool Rtwdog::running() const { return rtwdog::CS_EN.of(control_) != 0; }
 
 Cycles Rtwdog::timeout() const {
@@ -44,6 +50,9 @@ void Rtwdog::write_key(std::uint32_t value) {
   if (key == kUnlock) {
     if (rtwdog::CS_UPDATE.of(control_) == 0)
       return machine_.fail("RTWDOG CNT: unlocked, but CS.UPDATE was 0");
+    if (machine_.runs_from_flash())
+      return machine_.fail(
+          "RTWDOG CNT: unlocked by code in the flash, whose next fetch may outlast the 128 bus clocks");
     unlocked_until_ = machine_.now() + kWindow;
     configured_ = false;
   } else if (key == kRefresh) {

@@ -6,7 +6,7 @@
 
 namespace astro::emulator {
 
-/// Watchdog 3. The ROM has switched it off on the way to the firmware.
+/// Watchdog 3. The ROM has switched it off on the way to the firmware, or not.
 class Rtwdog : public Model {
  public:
   explicit Rtwdog(Machine& machine) : machine_(machine) {}
@@ -15,6 +15,7 @@ class Rtwdog : public Model {
   void write(std::uint32_t offset, std::uint32_t value) override;
   void event() override { machine_.restart(Reset::watchdog); }
   void reset() override;
+  void leave_rom_state() override;
 
   bool running() const;
 

@@ -37,11 +37,14 @@ ServedTeensy::~ServedTeensy() {
 
 void ServedTeensy::start(const fs::path& hex) {
   robot_ = std::make_unique<EmulatedRobot>(hex, config_, mocap_);
+  due_us_ = 0;
 }
 
 void ServedTeensy::step() {
-  constexpr int kStepsPerMillisecond = 5;
-  for (int i = 0; i < kStepsPerMillisecond; ++i) robot_->step();
+  // By the chip's time: what the computer at the USB port does, enumerating above all, takes time of its own.
+  constexpr std::uint64_t kMillisecond_us = 1000;
+  due_us_ += kMillisecond_us;
+  while (now_us() < due_us_) robot_->step();
   if (robot_->teensy().in_bootloader()) wait_in_bootloader();
 }
 

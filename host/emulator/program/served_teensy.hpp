@@ -40,6 +40,7 @@ class ServedTeensy : public simulator::Served {
   std::filesystem::path fifo_, flashed_;
   std::unique_ptr<EmulatedRobot> robot_;
   std::optional<HalfKay> halfkay_;
+  std::uint64_t due_us_ = 0;  // what its time must be after the next step
 };
 
 }  // namespace astro::emulator

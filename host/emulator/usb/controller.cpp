@@ -23,9 +23,31 @@ bool writable(std::uint32_t offset) {
   return offset >= usb::ENDPTCTRL0.value || std::ranges::find(kWritable, offset) != kWritable.end();
 }
 
+/// A host asks a hub for changes every 255 ms at full speed, every 256 ms at high speed (USB 2.0, 11.23.1).
+constexpr Cycles kNoticed = 256'000 * kCyclesPerMicrosecond;
+
 }  // namespace
 
+void UsbController::leave_rom_state() { on_bus_ = known_ = true; }
+
+void UsbController::leave_bus() {
+  if (on_bus_) left_at_ = machine_.now();
+  on_bus_ = false;
+}
+
+void UsbController::attach() {
+  if (usb::USBMODE_CM.of(mode_) != kDevice)
+    machine_.fail("USB1 USBCMD: attached before USBMODE makes it a device");
+  if (!clocked_()) machine_.fail("USB1 USBCMD: attached without its PLL or with the transceiver off");
+  if (list_ == 0) machine_.fail("USB1 USBCMD: attached without queue heads (ENDPTLISTADDR)");
+  if (on_bus_ || (known_ && machine_.now() - left_at_ < kNoticed))
+    machine_.fail(
+        "USB1 USBCMD: attached again less than 256 ms after it left the bus, which a host may miss");
+  on_bus_ = known_ = true;
+}
+
 void UsbController::reset() {
+  leave_bus();
   command_ = 0x0008'0000;
   status_ = enable_ = address_ = next_address_ = list_ = mode_ = setup_waiting_ = complete_ = 0;
   address_due_ = resetting_ = suspended_ = missed_reset_ = false;
@@ -114,12 +136,8 @@ void UsbController::write_command(std::uint32_t value) {
     reset();
     return update();
   }
-  if (usb::USBCMD_RS.of(value) != 0 && usb::USBCMD_RS.of(command_) == 0) {
-    if (usb::USBMODE_CM.of(mode_) != kDevice)
-      machine_.fail("USB1 USBCMD: attached before USBMODE makes it a device");
-    if (!clocked_()) machine_.fail("USB1 USBCMD: attached without its PLL or with the transceiver off");
-    if (list_ == 0) machine_.fail("USB1 USBCMD: attached without queue heads (ENDPTLISTADDR)");
-  }
+  if (usb::USBCMD_RS.of(value) == 0) leave_bus();
+  if (usb::USBCMD_RS.of(value) != 0 && usb::USBCMD_RS.of(command_) == 0) attach();
   command_ = value;
 }
 

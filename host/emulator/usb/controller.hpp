@@ -20,7 +20,8 @@ struct Packet {
 };
 
 /// The device controller USB1: its registers towards the firmware, and the bus towards a host. Walks the
-/// queue heads and transfer descriptors in memory as the chip's bus master does.
+/// queue heads and transfer descriptors in memory as the chip's bus master does. A device that a host knows
+/// must stay away long enough for any host to notice before it attaches again.
 ///
 /// Not modelled  isochronous transfers, lists of more than one descriptor, descriptors without IOC, timers.
 class UsbController : public Model {
@@ -31,6 +32,7 @@ class UsbController : public Model {
   std::uint32_t read(std::uint32_t offset) override;
   void write(std::uint32_t offset, std::uint32_t value) override;
   void reset() override;
+  void leave_rom_state() override;
 
   // The bus.
   bool attached() const;
@@ -68,6 +70,8 @@ class UsbController : public Model {
   void retire(int endpoint, bool in, std::uint32_t left);
   void write_endpoint(int endpoint, std::uint32_t value);
   void write_command(std::uint32_t value);
+  void attach();
+  void leave_bus();
   void raise(std::uint32_t event);
   void refuse(std::uint32_t offset);
   void update();
@@ -79,6 +83,8 @@ class UsbController : public Model {
   bool address_due_ = false, resetting_ = false, high_speed_ = false, suspended_ = false;
   bool missed_reset_ = false;  // a bus reset ended before the firmware had flushed what it had primed
   bool plugged_ = true;
+  bool on_bus_ = false, known_ = false;  // by the firmware or by what ran before; to a host
+  Cycles left_at_ = 0;
   std::array<std::uint32_t, kEndpoints> endpoint_{};
   std::array<Queue, 2 * kEndpoints> queues_{};
 };

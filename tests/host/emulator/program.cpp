@@ -120,6 +120,30 @@ void run(const std::string& command) {
 
 }  // namespace
 
+std::string in_ram(const std::string& code) {
+  return R"(
+    ldr r0, =begin
+    ldr r1, =end
+    movs r2, #0x400 >> 8
+    lsls r2, #8
+  1: ldr r3, [r0], #4
+    str r3, [r2], #4
+    cmp r0, r1
+    blo 1b
+    ldr r3, =0x401
+    bx r3
+    .ltorg
+    .balign 4
+begin:
+)" + code +
+         R"(
+    stay
+    .ltorg
+    .balign 4
+end:
+)";
+}
+
 Program::Program(const std::string& code) {
   const std::string at = folder_.path() / "";
   std::ofstream(at + "frame.s") << frame();
@@ -129,7 +153,7 @@ Program::Program(const std::string& code) {
   run(fmt::format("arm-none-eabi-ld -Ttext=0x60000000 -e reset -o {0}program.elf {0}frame.o {0}program.o",
                   at));
   run(fmt::format("arm-none-eabi-objcopy -O ihex {0}program.elf {0}program.hex", at));
-  teensy_ = std::make_unique<Teensy>(hex());
+  teensy_ = std::make_unique<Teensy>(hex(), sim::Config{}, HandOver::tidy);
 }
 
 std::string Program::stopped_by(std::chrono::nanoseconds limit) {

@@ -13,8 +13,12 @@ namespace astro::emulator {
 
 using namespace std::chrono_literals;
 
+/// These lines, copied to ITCM and run there: for what must not depend on the flash.
+std::string in_ram(const std::string& code);
+
 /// A few lines of assembler as the whole image of a Teensy: they stand behind the label main, in flash, with
-/// FlexRAM, stack and vector table set up, and run when the test lets time pass.
+/// FlexRAM, stack and vector table set up, and run when the test lets time pass. The ROM has left nothing
+/// behind.
 ///
 ///   register names    INSTANCE_REGISTER, as PIT_MCR
 ///   set REG, value    a 32-bit write; set16 a 16-bit one

@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 #include <poll.h>
 
+#include <array>
 #include <atomic>
 #include <fstream>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "common/safety/fault.hpp"
 #include "host/base/error.hpp"
@@ -65,6 +67,90 @@ TEST(Server, InRealTimeNeverRunsAheadOfTheWallClock) {
   constexpr std::int64_t kTwoWords_us = 2 * 1000;
   EXPECT_LE(static_cast<std::int64_t>(passed_us), wall_us + kTwoWords_us);
   EXPECT_GE(passed_us, 100'000U) << "and it runs, also on a machine with much else to do";
+}
+
+TEST(Server, InRealTimeNeverRunsAheadForAHostThatSpeaksOften) {
+  const Served served(false);
+  Host host(served);
+  const auto wall = steady_clock::now();
+  const std::uint64_t start_us = host.device_us();
+  std::uint64_t now_us = start_us;
+  int words = 0;
+  for (; steady_clock::now() - wall < milliseconds(400); ++words) now_us = host.device_us();
+  const auto wall_us =
+      std::chrono::duration_cast<std::chrono::microseconds>(steady_clock::now() - wall).count();
+  constexpr std::int64_t kTwoSteps_us = 2 * 1000;
+  EXPECT_LE(static_cast<std::int64_t>(now_us - start_us), wall_us + kTwoSteps_us) << words << " words";
+}
+
+/// Keeps a byte that it is sent, a while after it has come, and says so.
+class Keeper : public astro::simulator::Served {
+ public:
+  void step() override {
+    ++now_ms_;
+    if (now_ms_ != keeps_at_ms_) return;
+    kept_[0] = heard_;
+    answer_ = heard_;
+  }
+  std::uint64_t now_us() override { return now_ms_ * 1000; }
+  std::size_t room(int) override { return 1; }
+  void write(int, std::span<const std::uint8_t> bytes) override {
+    heard_ = bytes[0];
+    keeps_at_ms_ = now_ms_ + 45;
+  }
+  std::size_t read(int, std::span<std::uint8_t> into) override {
+    if (answer_ == 0) return 0;
+    into[0] = std::exchange(answer_, std::uint8_t{0});
+    return 1;
+  }
+  std::vector<recording::TruthSample> take_truth() override { return {}; }
+  std::span<const std::uint8_t> flash() override { return kept_; }
+
+ private:
+  std::uint64_t now_ms_ = 0, keeps_at_ms_ = 0;
+  std::uint8_t heard_ = 0, answer_ = 0;
+  std::array<std::uint8_t, 4096> kept_{};
+};
+
+TEST(Server, HasTheFlashInItsFileBeforeTheHostHearsThatItIsKept) {
+  const test::TemporaryFolder folder;
+  const auto pty = folder.path() / "robot.pty", flash = folder.path() / "flash";
+  Server server(std::make_unique<Keeper>(), {pty, flash});
+  std::atomic<bool> stop = false;
+  std::thread thread([&] { server.run([&] { return stop.load(); }); });
+  const auto host = link::open_transport(pty);
+  for (const std::uint8_t byte : {std::uint8_t{'a'}, std::uint8_t{'b'}, std::uint8_t{'c'}}) {
+    host->write(std::array{byte});
+    std::array<std::uint8_t, 1> answer{};
+    EXPECT_EQ(host->read(answer, seconds(10)), 1U);
+    EXPECT_EQ(answer[0], byte);
+    std::ifstream file(flash, std::ios::binary);  // at once: a power cut may come now
+    EXPECT_EQ(file.get(), byte);
+  }
+  stop = true;
+  thread.join();
+}
+
+std::string refusal(const std::filesystem::path& flash) {
+  const test::TemporaryFolder folder;
+  try {
+    const Server server(std::make_unique<Keeper>(), {folder.path() / "robot.pty", flash});
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Server, RefusesAFlashFileThatItCannotWriteBeforeAnyRobotRuns) {
+  const test::TemporaryFolder folder;
+  const auto flash = folder.path() / "flash";
+  std::filesystem::create_directory(folder.path() / "flash.part");
+  EXPECT_THAT(refusal(flash), testing::HasSubstr("flash.part"));
+  EXPECT_THAT(refusal("/proc/robot.flash"), testing::HasSubstr("/proc/robot.flash"))
+      << "where nobody makes a file";
+  std::filesystem::remove(folder.path() / "flash.part");
+  EXPECT_EQ(refusal(flash), "");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "flash.part")) << "the trial leaves nothing";
 }
 
 TEST(Server, InFastMotionRunsAheadOfAHostThatKeepsUp) {

@@ -26,6 +26,22 @@ TEST_P(RobotAt, SaysWhoItIs) {
   EXPECT_EQ(status.reset_cause, protocol::ResetCause::power_on);
 }
 
+/// On a bus that others use, a read of a register takes so long that a character comes, and the line falls
+/// silent, within the handler of the character before.
+TEST(SerialPort, FindsACharacterThatComesWhileTheOneBeforeIsTaken) {
+  auto robot = std::make_shared<EmulatedRobot>(kImage, sim::Config{}, simulator::MocapConfig{});
+  Teensy& teensy = robot->teensy();
+  teensy.run_for(std::chrono::milliseconds(50));
+  teensy.serial().read_takes = 15 * kCyclesPerMicrosecond;
+  for (int us = 0; us < 80; ++us) {
+    SCOPED_TRACE(us);
+    teensy.serial().send(std::array<std::uint8_t, 1>{0});  // ends a frame without content
+    teensy.run_for(std::chrono::microseconds(10 + us));
+    teensy.serial().send(std::array<std::uint8_t, 1>{0});
+    ASSERT_NO_THROW(teensy.run_for(std::chrono::milliseconds(3)));
+  }
+}
+
 TEST(Teensy, WithTheSameImageAndRobotGoesTheSameWayAndWithAnotherRobotItsOwn) {
   const auto state_after_50_ms = [](std::uint64_t seed) {
     sim::Config robot;

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 
 #include "hal/teensy40/arithmetic/reset_cause.hpp"
@@ -21,6 +22,7 @@ constexpr std::uint32_t kMemManage = 4, kUsageFault = 6;
 class Start : public testing::Test {
  protected:
   std::uint32_t read(Register<std::uint32_t> at) { return teensy_.chip().bus().read(at.address(), 4); }
+  std::uint32_t fault_status() { return teensy_.chip().fault_status(); }
   bool led() { return (teensy_.gpio7().driven() & gpio7::kLed) != 0; }
 
   emulator::Teensy teensy_{image("hex", "blink")};
@@ -60,6 +62,19 @@ TEST_F(Start, LetsNothingRunButCodeMemoryAndTheRom) {
   }
 }
 
+TEST_F(Start, LeavesNothingOfWhatTheRomHasLeftBehind) {
+  teensy_.run_for(5ms);
+  emulator::Cpu& cpu = teensy_.chip().cpu();
+  EXPECT_EQ(cpu.get(UC_ARM_REG_CONTROL), 0U) << "the main stack";
+  for (const int mask : {UC_ARM_REG_PRIMASK, UC_ARM_REG_BASEPRI, UC_ARM_REG_FAULTMASK})
+    EXPECT_EQ(cpu.get(mask), 0U);
+  EXPECT_FALSE(teensy_.chip().pending(emulator::exception::kSysTick));
+  EXPECT_FALSE(teensy_.chip().pending(emulator::exception::kPendSv));
+  for (std::size_t number = 8; number < 16; ++number)
+    EXPECT_EQ(mpu::RASR_ENABLE.of(teensy_.chip().protection().region(number).attributes), 0U) << number;
+  EXPECT_EQ(fault_status(), 0U) << "a fault that is not this program's";
+}
+
 TEST_F(Start, AFaultLeavesItsKindAndPlaceAndBeginsAnew) {
   teensy_.run_for(5ms);
   constexpr std::uint16_t kUndefined = 0xDE00;  // udf #0
@@ -72,6 +87,37 @@ TEST_F(Start, AFaultLeavesItsKindAndPlaceAndBeginsAnew) {
   const bool before = led();
   teensy_.run_for(1ms);
   EXPECT_NE(led(), before);
+}
+
+/// Machine code that switches the MPU off, makes the 32 bytes at r1 nobody's, switches it on, and faults.
+constexpr std::array<std::uint16_t, 12> kDenyAndFault{
+    0x2300, 0x6043,  // movs r3, #0; str r3, [r0, #4]: CTRL
+    0x230F, 0x6083,  // movs r3, #15; str r3, [r0, #8]: RNR
+    0x60C1, 0x6102,  // str r1, [r0, #12]: RBAR; str r2, [r0, #16]: RASR
+    0x2301, 0x6043,  // movs r3, #1; str r3, [r0, #4]
+    0xF3BF, 0x8F4F,  // dsb
+    0xDE00, 0xDE00   // udf #0
+};
+
+TEST_F(Start, AFaultWhoseFrameDidNotGetOntoTheStackLeavesItsKindAndNoPlace) {
+  teensy_.run_for(5ms);
+  std::memcpy(teensy_.chip().memory().at(kSpare, sizeof kDenyAndFault).data(), kDenyAndFault.data(),
+              sizeof kDenyAndFault);
+  // The frame of 32 bytes begins in the last 8 of those that nobody may touch: what lies at the place of its
+  // program counter can be read, and is something else.
+  constexpr std::uint32_t kDenied = emulator::Memory::kDtcm + 0x400, kFrame = kDenied + 24;
+  std::memset(teensy_.chip().memory().at(kDenied, 64).data(), 0x5A, 64);
+  emulator::Cpu& cpu = teensy_.chip().cpu();
+  cpu.set(UC_ARM_REG_R0, MPU.base);
+  cpu.set(UC_ARM_REG_R1, kDenied);
+  cpu.set(UC_ARM_REG_R2, mpu::RASR_SIZE(4) | mpu::RASR_ENABLE(1));
+  cpu.set(UC_ARM_REG_SP, kFrame + 32);
+  cpu.set(UC_ARM_REG_PC, kSpare | 1U);
+  teensy_.run_for(10ms);
+  EXPECT_EQ(read(SRC[src::GPR5]), marker::kFault);
+  EXPECT_EQ(read(SRC[src::GPR6]), kMemManage);
+  EXPECT_EQ(read(SRC[src::GPR7]), 0U) << "what was on the stack before";
+  EXPECT_NE(read(SRC[src::GPR8]) & 1U << 4, 0U) << "MSTKERR";
 }
 
 TEST_F(Start, AStackThatIsUsedUpLeavesItsKindAndBeginsAnew) {

@@ -127,6 +127,33 @@ TEST_F(Flash, RefusesWhatIsNoFirmwareOfAstrolabe) {
   EXPECT_THAT(outcome.err, HasSubstr("is not firmware of Astrolabe"));
 }
 
+constexpr std::uint32_t kBoardInImage = 0x1040;
+
+TEST_F(Flash, AsksBeforeItFlashesAnImageForAnotherBoardOfAstrolabe) {
+  const Setting loader("ASTROLABE_LOADER", script("touch \"$0.ran\""));
+  const std::string image = patched(kBoardInImage, 'T');
+  for (const bool button : {false, true}) {
+    std::vector<std::string> words{"flash", image, "--port", emulator_.usb()};
+    if (button) words = {"flash", image, "--button"};
+    const Outcome outcome = astrolabe(words);
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("for the board 'Teensy40'"), HasSubstr("--yes")));
+  }
+  EXPECT_FALSE(std::filesystem::exists(emulator_.folder() / "loader.sh.ran")) << "nothing was erased";
+  EXPECT_EQ(ask({"info"})["mode"], "disarmed") << "the robot was left alone";
+}
+
+TEST_F(Flash, AsksBeforeItFlashesWhatIsNotAstrolabesByTheButton) {
+  const Setting loader("ASTROLABE_LOADER", script("touch \"$0.ran\""));
+  const std::string image = patched(0x1030, 'a');
+  const Outcome outcome = astrolabe({"flash", image, "--button"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("is not firmware of Astrolabe"), HasSubstr("--yes")));
+  EXPECT_FALSE(std::filesystem::exists(emulator_.folder() / "loader.sh.ran"));
+  EXPECT_EQ(astrolabe({"flash", image, "--button", "--yes"}).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(emulator_.folder() / "loader.sh.ran"));
+}
+
 TEST_F(Flash, RefusesAnImageForALargerFlash) {
   const Outcome outcome = flash(patched(0x52, 0x80), emulator_.usb());  // 8 MB: a Teensy 4.1
   EXPECT_EQ(outcome.code, 1);

@@ -24,7 +24,8 @@ class Usb : public testing::TestWithParam<bool> {
   static constexpr std::uint8_t kAddress = 7;
 
   void SetUp() override {
-    ASSERT_TRUE(teensy_.run_until([&] { return teensy_.usb().attached(); }, 100ms));
+    ASSERT_TRUE(
+        teensy_.run_until([&] { return teensy_.usb().attached(); }, 500ms));  // it stays away at first
     host_.reset(GetParam());
   }
 

@@ -147,11 +147,29 @@ TEST_P(Usb, LeavesTheBusWhenItHasMissedAResetAndComesBack) {
   teensy_.usb().end_reset(high_speed());  // over before the firmware has run
   teensy_.run_for(1ms);
   EXPECT_FALSE(teensy_.usb().attached()) << "so that the host forgets it";
-  ASSERT_TRUE(teensy_.run_until([&] { return teensy_.usb().attached(); }, 50ms));
+  ASSERT_TRUE(teensy_.run_until([&] { return teensy_.usb().attached(); }, 500ms));
   host_.reset(high_speed());
   configure();
   open_port();
   EXPECT_TRUE(hello(22));
+}
+
+TEST_P(Usb, StaysOffTheBusAfterEveryStartUntilAnyHostHasNoticed) {
+  constexpr double kHubIsAsked_ms = 256;
+  const auto away_ms = [this] {
+    const Cycles begun = teensy_.now();
+    EXPECT_FALSE(teensy_.usb().attached());
+    EXPECT_TRUE(teensy_.run_until([&] { return teensy_.usb().attached(); }, 500ms));
+    return static_cast<double>(teensy_.now() - begun) / 600e3;
+  };
+  teensy_.press_reset();
+  EXPECT_GT(away_ms(), kHubIsAsked_ms) << "the button";
+  teensy_.power_cycle();
+  EXPECT_GT(away_ms(), kHubIsAsked_ms) << "the supply: HalfKay may have been attached before";
+  host_.reset(high_speed());
+  configure();
+  open_port();
+  EXPECT_TRUE(hello(23));
 }
 
 TEST_P(Usb, ForgetsEverythingInABusResetInTheMiddleOfATransfer) {

@@ -52,5 +52,33 @@ TEST(Mpu, ASmallRegionIsThereToLetNobodyIn) {
   EXPECT_EQ(region("0x20200000", "0x10000009"), "");
 }
 
+TEST(Mpu, IsOffWhileItsRegionsAreProgrammed) {
+  const std::string on = "set MPU_RNR, 0\n set MPU_RBAR, 0\n set MPU_RASR, 0x0308003F\n set MPU_CTRL, 5\n ";
+  for (const char* write : {"set MPU_RBAR, 0x20200011", "set MPU_RASR, 0"})
+    EXPECT_THAT(refusal(on + write), HasSubstr("MPU: a region is programmed while the MPU is on")) << write;
+  EXPECT_EQ(refusal(on + "set MPU_CTRL, 0\n set MPU_RNR, 1\n set MPU_RBAR, 0x20200000"), "");
+}
+
+TEST(HandOver, LeavesWhatAProgramMustNotRelyOn) {
+  const Program program("stay");
+  Teensy teensy(program.hex(), {}, HandOver::untidy);
+  Chip& chip = teensy.chip();
+  EXPECT_TRUE(chip.protection().on());
+  EXPECT_EQ(chip.cpu().get(UC_ARM_REG_CONTROL), 2U) << "the process stack";
+  EXPECT_NE(chip.cpu().get(UC_ARM_REG_BASEPRI), 0U);
+  EXPECT_EQ(chip.cpu().get(UC_ARM_REG_FAULTMASK), 1U);
+  EXPECT_TRUE(chip.pending(exception::kSysTick));
+  EXPECT_TRUE(chip.pending(exception::kPendSv));
+}
+
+TEST(HandOver, KillsAProgramThatReliesOnIt) {
+  Program program("movs r0, #1\n keep 0");
+  Teensy teensy(program.hex(), {}, HandOver::untidy);
+  teensy.run_for(1ms);
+  EXPECT_NE(teensy.word_at(Memory::kDtcm), 1U) << "no region of its own lets it write there";
+  EXPECT_EQ(program.stopped_by(), "");
+  EXPECT_EQ(program.result(0), 1U);
+}
+
 }  // namespace
 }  // namespace astro::emulator

@@ -156,6 +156,33 @@ TEST(Pit, TheLifetimeTimerCountsMicrosecondsAndItsHalvesBelongTogether) {
   EXPECT_NEAR(program.result(1), 240'000, 5) << "10 ms of 24 MHz";
 }
 
+TEST(Pit, TheUpperHalfOfTheLifetimeTimerIsACountLateWhenTheLowerHalfBeginsAnew) {
+  Program program(std::string(kPit) + R"(
+    set PIT_CHANNEL0_LDVAL, 0xFFFFFFFF
+    set PIT_CHANNEL1_LDVAL, 0xFFFFFFFF
+    set PIT_CHANNEL1_TCTRL, 5
+    set PIT_CHANNEL0_TCTRL, 1
+    pause 1                        // the first count is all ones, too
+  1: get PIT_LTMR64H
+    mov r4, r0
+    get PIT_LTMR64L
+    adds r1, r0, #1
+    bne 1b
+    mov r0, r4
+    keep 0
+    pause 1
+    get PIT_LTMR64H
+    keep 1
+    stay
+  )");
+  program.teensy().run_for(100us);
+  ASSERT_EQ(program.result(0), 0U);
+  program.teensy().timers().age((std::uint64_t{1} << 32) - 24 * 110);  // 10 us are left
+  program.teensy().run_for(20us);
+  EXPECT_EQ(program.result(0), 0xFFFF'FFFFU);
+  EXPECT_EQ(program.result(1), 0xFFFF'FFFEU);
+}
+
 TEST(Pit, AChannelDoesNotStartWhileTheModuleIsOff) {
   Program program("set CCM_CCGR1, 0xFFFFFFFF\n set PIT_CHANNEL0_TCTRL, 1");
   EXPECT_THAT(program.stopped_by(), HasSubstr("PIT CHANNEL0_TCTRL: started while MCR.MDIS"));

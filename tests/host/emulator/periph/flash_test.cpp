@@ -12,9 +12,8 @@ using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-// Lines that run from ITCM, since the flash cannot be read while it works.
-std::string in_ram(const std::string& code) {
-  return R"(
+// The flash cannot be read while it works, so these lines run from ITCM.
+const std::string kCommands = R"(
   .macro unlock
     set FLEXSPI_LUTKEY, 0x5AF05AF0
     set FLEXSPI_LUTCR, 2
@@ -60,36 +59,30 @@ std::string in_ram(const std::string& code) {
     lsls r0, #31
     bne 1002b
   .endm
-    ldr r0, =begin
-    ldr r1, =end
-    movs r2, #0x400 >> 8
-    lsls r2, #8
-  1: ldr r3, [r0], #4
-    str r3, [r2], #4
-    cmp r0, r1
-    blo 1b
-    ldr r3, =0x401
-    bx r3
-    .ltorg
-    .balign 4
-begin:
-)" + code +
-         R"(
-    stay
-    .ltorg
-    .balign 4
-end:
 )";
-}
 
 /// Erasing takes but 1 ms here.
 struct Worker : Program {
-  explicit Worker(const std::string& code) : Program(in_ram(code)) {
+  explicit Worker(const std::string& code) : Program(kCommands + in_ram(code)) {
     teensy().flash().times.erase = 1'000 * kCyclesPerMicrosecond;
   }
   std::string outcome() { return stopped_by(10ms); }
   std::span<std::uint8_t> parameters() { return teensy().flash().parameters(); }
 };
+
+// Instruction and data cache on, as is the default memory map: the flash is cached.
+constexpr const char* kCached = "unlock\n set SCB_CCR, 0x30000\n enable\n erase 0x1F1000\n idle\n";
+
+TEST(Flash, IsNotReadFromALineThatMayHaveBeenFetchedWhileItWorked) {
+  constexpr const char* kOtherSector = "  get 0x601F0020\n";
+  EXPECT_THAT(
+      Worker(std::string(kCached) + kOtherSector).outcome(),
+      HasSubstr("data cache: 0x601F0020 is read, whose line may have been fetched while the flash was busy"));
+  EXPECT_THAT(Worker(std::string(kCached) + "set SCB_DCIMVAC, 0x601F0000\n" + kOtherSector).outcome(),
+              HasSubstr("data cache: 0x601F0020"))
+      << "the line before";
+  EXPECT_EQ(Worker(std::string(kCached) + "set SCB_DCIMVAC, 0x601F0020\n" + kOtherSector).outcome(), "");
+}
 
 TEST(Flash, ErasingSetsASectorAndNoMore) {
   Worker program("unlock\n enable\n erase 0x1F1800\n idle");
@@ -183,7 +176,7 @@ TEST(Flash, APageAndASectorTakeTheirTypicalTimes) {
   EXPECT_TRUE(page.teensy().flash().busy());
   page.teensy().run_for(100us);
   EXPECT_FALSE(page.teensy().flash().busy());
-  Program sector(in_ram("unlock\n enable\n erase 0x1F0000"));
+  Program sector(kCommands + in_ram("unlock\n enable\n erase 0x1F0000"));
   sector.teensy().run_for(44ms);
   EXPECT_TRUE(sector.teensy().flash().busy());
   sector.teensy().run_for(2ms);

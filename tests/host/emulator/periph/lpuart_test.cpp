@@ -116,6 +116,53 @@ TEST(Lpuart, ALineThatFallsSilentIsFlaggedUntilTheFlagIsCleared) {
   EXPECT_EQ(program.result(2) >> 20 & 1, 0U);
 }
 
+TEST(Lpuart, AClearedSilenceIsNotFlaggedAgainBeforeANewCharacter) {
+  Program program = port(R"(
+    until LPUART6_STAT, 0x00100000, 0x00100000
+    set LPUART6_STAT, 0x00100000
+    pause 100
+    get LPUART6_STAT
+    keep 0
+    until LPUART6_STAT, 0x00100000, 0x00100000
+    keep 1
+  )");
+  EXPECT_EQ(stopped_by(program, {1}), "");
+  EXPECT_EQ(program.result(0) >> 20 & 1, 0U);
+  EXPECT_EQ(program.result(1), 0U) << "it still waits";
+  program.teensy().serial().send(Bytes{2});
+  EXPECT_EQ(program.stopped_by(), "");
+  EXPECT_NE(program.result(1), 0U);
+}
+
+// One byte is below the watermark: only the line's silence tells of it.
+const std::string kBySilence = kQueues + "  set LPUART6_WATER, 0x00010000\n  set LPUART6_CTRL, 0x001C0000\n";
+
+TEST(Lpuart, ACharacterThatNothingTellsOfEndsTheRun) {
+  Program program(kBySilence + R"(
+    until LPUART6_STAT, 0x00100000, 0x00100000
+    set LPUART6_STAT, 0x00100000
+  )");
+  EXPECT_EQ(stopped_by(program, {1}), "") << "it may still be read";
+  EXPECT_THAT(program.stopped_by(), HasSubstr("LPUART6 STAT: IDLE was cleared over a character"));
+}
+
+TEST(Lpuart, ACharacterThatIsReadAfterItsSilenceWasClearedIsNoFault) {
+  Program program(kBySilence + R"(
+    until LPUART6_STAT, 0x00100000, 0x00100000
+    set LPUART6_STAT, 0x00100000
+    get LPUART6_DATA
+  )");
+  EXPECT_EQ(stopped_by(program, {1}), "");
+  EXPECT_EQ(program.stopped_by(), "");
+}
+
+TEST(Lpuart, ABusThatOthersUseMakesTheProcessorWait) {
+  Program program = port("get LPUART6_STAT\n get LPUART6_STAT");
+  program.teensy().serial().read_takes = 20 * kCyclesPerMicrosecond;
+  program.teensy().run_for(10us);  // a block of instructions runs to its end
+  EXPECT_GE(program.teensy().now_us(), 40U);
+}
+
 TEST(Lpuart, EachEventHasItsInterrupt) {
   struct Case {
     const char *name, *control;

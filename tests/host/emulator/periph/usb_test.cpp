@@ -76,6 +76,28 @@ struct Device : Program {
 
 std::string refusal(const std::string& code) { return Program(kReady + code).stopped_by(); }
 
+// The host knows it, and it leaves.
+constexpr const char* kLeave = "  set USB1_USBCMD, 0\n";
+
+TEST(UsbController, ThatComesBackBeforeAHostHasNoticedEndsTheRun) {
+  EXPECT_THAT(refusal(kLeave + kAttach),
+              HasSubstr("USB1 USBCMD: attached again less than 256 ms after it left"));
+  Program back(kReady + kLeave + "1: get 0x20000000\n cmp r0, #0\n beq 1b\n" + kAttach);
+  EXPECT_EQ(back.stopped_by(), "");
+  back.teensy().chip().wait(256'000 * kCyclesPerMicrosecond);  // the processor, not 150 million instructions
+  back.teensy().chip().memory().at(Memory::kDtcm, 4)[0] = 1;
+  EXPECT_EQ(back.stopped_by(), "");
+  EXPECT_TRUE(back.teensy().usb().attached());
+}
+
+TEST(UsbController, ThatTheRomHasLeftAttachedIsTakenOffTheBusFirst) {
+  const Program program("stay");
+  Teensy teensy(program.hex(), {}, HandOver::untidy);
+  teensy.usb().write(usb::USBMODE.value, 2);
+  teensy.usb().write(usb::USBCMD.value, 1);
+  EXPECT_THROW(teensy.run_for(1ms), Stopped);
+}
+
 TEST(UsbController, TheStepsOfTheManualAttachIt) {
   Device device;
   EXPECT_TRUE(device.usb().attached());

@@ -28,7 +28,7 @@ const std::string kStarted = kFirstTime + R"(
 constexpr std::uint32_t kByWatchdog = 1U << 7, kPowerOn = 1U << 0;
 
 TEST(Rtwdog, TheRomLeavesItOffAndLocked) {
-  Program program("get RTWDOG_CS\n keep 0");
+  Program program(in_ram("get RTWDOG_CS\n keep 0"));
   EXPECT_EQ(program.stopped_by(), "");
   EXPECT_EQ(program.result(0) & 0x0080, 0U) << "EN";
   EXPECT_EQ(program.result(0) & 0x0800, 0U) << "ULK";
@@ -37,7 +37,7 @@ TEST(Rtwdog, TheRomLeavesItOffAndLocked) {
 }
 
 TEST(Rtwdog, LeftAloneItResetsTheChipInItsTimeAndTheCauseSaysSo) {
-  Program program(kStarted + "1: wfi\n b 1b");
+  Program program(in_ram(kStarted + "1: wfi\n b 1b"));
   program.teensy().run_for(990us);
   EXPECT_TRUE(program.teensy().watchdog().running());
   EXPECT_EQ(program.result(0), 0U);
@@ -46,25 +46,25 @@ TEST(Rtwdog, LeftAloneItResetsTheChipInItsTimeAndTheCauseSaysSo) {
 }
 
 TEST(Rtwdog, FedInTimeItNeverBites) {
-  Program program(kStarted + "1: pause 900\n set RTWDOG_CNT, 0xB480A602\n b 1b");
+  Program program(in_ram(kStarted + "1: pause 900\n set RTWDOG_CNT, 0xB480A602\n b 1b"));
   program.teensy().run_for(5ms);
   EXPECT_EQ(program.result(0), 0U);
 }
 
 TEST(Rtwdog, ALateMealIsTooLate) {
-  Program program(kStarted + "  pause 1100\n set RTWDOG_CNT, 0xB480A602\n wfi");
+  Program program(in_ram(kStarted + "  pause 1100\n set RTWDOG_CNT, 0xB480A602\n wfi"));
   program.teensy().run_for(2ms);
   EXPECT_EQ(program.result(0), kByWatchdog | kPowerOn);
 }
 
 TEST(Rtwdog, ThePrescalerMakesItsTime256TimesAsLong) {
-  Program program(kFirstTime + R"(
+  Program program(in_ram(kFirstTime + R"(
     set RTWDOG_CNT, 0xD928C520
     set RTWDOG_TOVAL, 5
     set RTWDOG_CS, 0x31A0
   1: wfi
     b 1b
-  )");
+  )"));
   program.teensy().run_for(39ms);
   EXPECT_EQ(program.result(0), 0U);
   program.teensy().run_for(2ms);
@@ -72,7 +72,7 @@ TEST(Rtwdog, ThePrescalerMakesItsTime256TimesAsLong) {
 }
 
 TEST(Rtwdog, ItIsOffAgainAfterAReset) {
-  Program program(kStarted + "1: wfi\n b 1b");
+  Program program(in_ram(kStarted + "1: wfi\n b 1b"));
   program.teensy().run_for(2ms);
   EXPECT_FALSE(program.teensy().watchdog().running());
   program.teensy().run_for(5ms);
@@ -80,18 +80,18 @@ TEST(Rtwdog, ItIsOffAgainAfterAReset) {
 }
 
 TEST(Rtwdog, ItCanBeStoppedWithTheKey) {
-  Program program(kStarted + R"(
+  Program program(in_ram(kStarted + R"(
     set RTWDOG_CNT, 0xD928C520
     set RTWDOG_CS, 0x2120
   1: wfi
     b 1b
-  )");
+  )"));
   program.teensy().run_for(5ms);
   EXPECT_EQ(program.result(0), 0U);
 }
 
 TEST(Rtwdog, TheKeyOpensItAndTheConfigurationClosesIt) {
-  Program program(kFirstTime + R"(
+  Program program(in_ram(kFirstTime + R"(
     set RTWDOG_CNT, 0xD928C520
     get RTWDOG_CS
     mov r4, r0
@@ -104,7 +104,7 @@ TEST(Rtwdog, TheKeyOpensItAndTheConfigurationClosesIt) {
     keep 0
     get RTWDOG_TOVAL
     keep 2
-  )");
+  )"));
   EXPECT_EQ(program.stopped_by(), "");
   EXPECT_EQ(program.result(0) & 0xC00, 0x800U) << "ULK";
   EXPECT_EQ(program.result(1) & 0xC00, 0x400U) << "RCS";
@@ -113,30 +113,30 @@ TEST(Rtwdog, TheKeyOpensItAndTheConfigurationClosesIt) {
 
 TEST(Rtwdog, WithoutTheKeyNothingIsConfigured) {
   for (const char* write : {"RTWDOG_CS, 0x2120", "RTWDOG_TOVAL, 1", "RTWDOG_WIN, 0"})
-    EXPECT_THAT(Program(std::string("set ") + write).stopped_by(),
+    EXPECT_THAT(Program(in_ram(std::string("set ") + write)).stopped_by(),
                 HasSubstr("RTWDOG: configured without the key, or more than 128 bus clocks after it"))
         << write;
 }
 
 TEST(Rtwdog, TheConfigurationIsOpenFor128BusClocks) {
-  Program program("set RTWDOG_CNT, 0xD928C520\n pause 1\n set RTWDOG_CS, 0x2120");
+  Program program(in_ram("set RTWDOG_CNT, 0xD928C520\n pause 1\n set RTWDOG_CS, 0x2120"));
   EXPECT_THAT(program.stopped_by(), HasSubstr("RTWDOG: configured without the key, or more than 128"));
 }
 
 TEST(Rtwdog, OneConfigurationUsesTheKeyUp) {
-  Program program("set RTWDOG_CNT, 0xD928C520\n set RTWDOG_CS, 0x2120\n set RTWDOG_TOVAL, 1");
+  Program program(in_ram("set RTWDOG_CNT, 0xD928C520\n set RTWDOG_CS, 0x2120\n set RTWDOG_TOVAL, 1"));
   EXPECT_THAT(program.stopped_by(), HasSubstr("RTWDOG: configured without the key"));
 }
 
 TEST(Rtwdog, OtherKeysAreRefused) {
   for (const char* key : {"0xD928C521", "0xA602B480", "0xC520", "0xA602", "0"})
-    EXPECT_THAT(Program(std::string("set RTWDOG_CNT, ") + key).stopped_by(),
+    EXPECT_THAT(Program(in_ram(std::string("set RTWDOG_CNT, ") + key)).stopped_by(),
                 HasSubstr("RTWDOG CNT: neither the key that unlocks nor the one that feeds"))
         << key;
 }
 
 TEST(Rtwdog, WithoutUpdateItIsLockedUntilTheNextReset) {
-  Program program("set RTWDOG_CNT, 0xD928C520\n set RTWDOG_CS, 0x2180\n set RTWDOG_CNT, 0xD928C520");
+  Program program(in_ram("set RTWDOG_CNT, 0xD928C520\n set RTWDOG_CS, 0x2180\n set RTWDOG_CNT, 0xD928C520"));
   EXPECT_THAT(program.stopped_by(), HasSubstr("RTWDOG CNT: unlocked, but CS.UPDATE was 0"));
 }
 
@@ -148,7 +148,7 @@ const std::string kHalves = kFirstTime + R"(
 )";
 
 TEST(Rtwdog, ByHalvesTheKeysAreWrittenLowerHalfFirst) {
-  Program program(kHalves + R"(
+  Program program(in_ram(kHalves + R"(
     movs r5, #5
   1: pause 900
     set RTWDOG_CNT, 0xA602
@@ -158,29 +158,40 @@ TEST(Rtwdog, ByHalvesTheKeysAreWrittenLowerHalfFirst) {
     set RTWDOG_CNT, 0xC520
     set RTWDOG_CNT, 0xD928
     set RTWDOG_CS, 0x2120
-  )");
+  )"));
   program.teensy().run_for(10ms);
   EXPECT_EQ(program.result(0), 0U);
   EXPECT_FALSE(program.teensy().watchdog().running());
 }
 
 TEST(Rtwdog, HalvesThatDoNotBelongTogetherAreRefused) {
-  EXPECT_THAT(Program(kHalves + "  set RTWDOG_CNT, 0xD928").stopped_by(),
+  EXPECT_THAT(Program(in_ram(kHalves + "  set RTWDOG_CNT, 0xD928")).stopped_by(),
               HasSubstr("RTWDOG CNT: neither the key"));
-  EXPECT_THAT(Program(kHalves + "  set RTWDOG_CNT, 0xC520\n set RTWDOG_CNT, 0xB480").stopped_by(),
+  EXPECT_THAT(Program(in_ram(kHalves + "  set RTWDOG_CNT, 0xC520\n set RTWDOG_CNT, 0xB480")).stopped_by(),
               HasSubstr("RTWDOG CNT: neither the key"));
-  EXPECT_THAT(Program(kHalves + "  set RTWDOG_CNT, 0xB480A602").stopped_by(),
+  EXPECT_THAT(Program(in_ram(kHalves + "  set RTWDOG_CNT, 0xB480A602")).stopped_by(),
               HasSubstr("RTWDOG CNT: neither the key"));
 }
 
 TEST(Rtwdog, WhatIsNotModelledIsRefused) {
   const std::string key = "  set RTWDOG_CNT, 0xD928C520\n";
-  EXPECT_THAT(Program(key + "  set RTWDOG_CS, 0x20A0").stopped_by(),
+  EXPECT_THAT(Program(in_ram(key + "  set RTWDOG_CS, 0x20A0")).stopped_by(),
               HasSubstr("RTWDOG CS: only the 32 kHz oscillator is modelled"));
-  EXPECT_THAT(Program(key + "  set RTWDOG_CS, 0xA1A0").stopped_by(),
+  EXPECT_THAT(Program(in_ram(key + "  set RTWDOG_CS, 0xA1A0")).stopped_by(),
               HasSubstr("RTWDOG CS: neither its window nor its interrupt is modelled"));
-  EXPECT_THAT(Program(key + "  set RTWDOG_CS, 0x21E0").stopped_by(),
+  EXPECT_THAT(Program(in_ram(key + "  set RTWDOG_CS, 0x21E0")).stopped_by(),
               HasSubstr("RTWDOG CS: neither its window nor its interrupt is modelled"));
+}
+
+TEST(Rtwdog, IsUnlockedByCodeThatDoesNotWaitForTheFlash) {
+  EXPECT_THAT(Program("set RTWDOG_CNT, 0xD928C520").stopped_by(),
+              HasSubstr("RTWDOG CNT: unlocked by code in the flash"));
+}
+
+TEST(Rtwdog, MayRunWhenTheRomHandsOver) {
+  const Program program("stay");
+  Teensy teensy(program.hex(), {}, HandOver::untidy);
+  EXPECT_TRUE(teensy.watchdog().running());
 }
 
 constexpr const char* kSleep = "\n1: wfi\n b 1b";
