@@ -13,7 +13,7 @@ namespace {
 using support::HandFedDrive;
 using support::without_feedback;
 
-std::vector<std::uint16_t> aborted(Drive& drive) {
+std::vector<std::uint16_t> aborted_tags(Drive& drive) {
   std::vector<std::uint16_t> tags;
   while (!drive.events().empty()) {
     const SegmentEvent event = drive.events().pop();
@@ -41,11 +41,11 @@ TEST(Requests, WhateverOpensTheBridgesEmptiesTheQueueAndSaysSoOfEachSegment) {
     }
     EXPECT_EQ(rig.drive().queued(), 0U);
     EXPECT_EQ(rig.drive().running_tag(), 0);
-    EXPECT_EQ(aborted(rig.drive()), (std::vector<std::uint16_t>{1, 2, 3}));
+    EXPECT_EQ(aborted_tags(rig.drive()), (std::vector<std::uint16_t>{1, 2, 3}));
     rig.drive().clear_faults();
     rig.drive().arm();
     rig.ticks(100);
-    EXPECT_TRUE(aborted(rig.drive()).empty());
+    EXPECT_TRUE(aborted_tags(rig.drive()).empty());
     EXPECT_TRUE(rig.drive().at_rest()) << "nothing is left to drive";
   }
 }
@@ -58,7 +58,7 @@ TEST(Requests, StopEmptiesAQueueThatWaitsInAPause) {
   rig.ticks(10);
   rig.drive().stop();
   EXPECT_EQ(rig.drive().queued(), 0U);
-  EXPECT_EQ(aborted(rig.drive()), (std::vector<std::uint16_t>{1, 2}));
+  EXPECT_EQ(aborted_tags(rig.drive()), (std::vector<std::uint16_t>{1, 2}));
   EXPECT_EQ(rig.drive().mode(), protocol::Mode::idle) << "no longer paused";
 }
 

@@ -10,8 +10,9 @@ import sys
 import time
 from pathlib import Path
 
-from changes import changes_in
-from programs import PROGRAMS, order_for, write_ninja
+sys.dont_write_bytecode = True  # the sources stay as they are
+from changes import changes_in  # noqa: E402
+from programs import PROGRAMS, order_for, write_ninja  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 DEFAULT_PATHS = ["common/safety", "common/params", "firmware/app"]
