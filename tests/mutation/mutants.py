@@ -10,8 +10,9 @@ import sys
 import time
 from pathlib import Path
 
-from changes import changes_in
-from programs import PROGRAMS, order_for, write_ninja
+sys.dont_write_bytecode = True  # the sources stay as they are
+from changes import changes_in  # noqa: E402
+from programs import PROGRAMS, order_for, write_ninja  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 DEFAULT_PATHS = ["common/safety", "common/params", "firmware/app"]
@@ -47,8 +48,8 @@ def sources_in(paths):
 class Bench:
     """A copy of the sources with a build of its own, in which one change at a time is made and undone."""
 
-    def __init__(self, folder, jobs):
-        self.folder, self.jobs = folder, jobs
+    def __init__(self, folder, jobs, programs):
+        self.folder, self.jobs, self.programs = folder, jobs, programs
         self.seconds = {}
         folder.mkdir(parents=True, exist_ok=True)
         for part in COPIED:
@@ -71,6 +72,9 @@ class Bench:
         for target in (self.folder / part).rglob("*.?pp"):
             if target.relative_to(self.folder) not in wanted:
                 target.unlink()
+
+    def order_for(self, file):
+        return [program for program in order_for(file) if program in self.programs]
 
     def build(self, program):
         return subprocess.run(["ninja", "-C", str(self.folder), f"-j{self.jobs}", program], stdout=subprocess.PIPE,
@@ -109,7 +113,7 @@ class Bench:
         sound = file.read_text()
         file.write_text(change.apply(sound))
         try:
-            for program in order_for(change.file):
+            for program in self.order_for(change.file):
                 built = self.build(program)
                 if built.returncode != 0:
                     return "invalid", ""
@@ -127,6 +131,8 @@ def main():
     parser.add_argument("--seed", type=int, default=1, help="which sample")
     parser.add_argument("--count", type=int, default=150, help="how many changes; 0: all")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="compilers at once")
+    parser.add_argument("--programs", nargs="+", choices=PROGRAMS, default=PROGRAMS,
+                        help="only these; without robot a change is judged in seconds, by fewer tests")
     parser.add_argument("--list", action="store_true", help="only show the changes that would be made")
     parser.add_argument("--folder", default=str(ROOT / "build" / "mutants"), help="where to build")
     options = parser.parse_args()
@@ -137,8 +143,8 @@ def main():
     pick.shuffle(sites)
     bench = None
     if not options.list:
-        bench = Bench(Path(options.folder), options.jobs)
-        needed = {p for site in sites for p in order_for(site[0].file)}
+        bench = Bench(Path(options.folder), options.jobs, options.programs)
+        needed = {p for site in sites for p in bench.order_for(site[0].file)}
         bench.prove_sound([p for p in PROGRAMS if p in needed])
 
     # Sites are drawn one by one, since those whose change is equivalent or no program do not count; neighbours in one

@@ -5,6 +5,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <set>
 #include <string>
 
 #include "tests/common/params/random_set.hpp"
@@ -101,6 +102,44 @@ TEST(Validation, WantsTheBatteryLimitsInOrderUnlessOneIsOff) {
   EXPECT_EQ(verdict_with(Param::battery_high, 10'499), Param::battery_high);
   EXPECT_EQ(verdict_with(Param::battery_high, 0), Param::none);
   EXPECT_EQ(verdict_with(Param::battery_low, 0), Param::none);
+}
+
+TEST(Validation, ABatteryLimitOfAMillivoltIsALimit) {
+  ParameterSet set;
+  set.set(Param::battery_low, 1);
+  set.set(Param::battery_high, 1);
+  EXPECT_EQ(verdict(set), Param::battery_high);
+  set.set(Param::battery_high, 2);
+  EXPECT_EQ(verdict(set), Param::none);
+  set.set(Param::battery_high, 0);
+  EXPECT_EQ(verdict(set), Param::none) << "off";
+}
+
+TEST(ParameterSet, OnlyGainsMayDifferWhereOnlyGainsMay) {
+  const std::set<Param> gains{Param::kp,
+                              Param::ki,
+                              Param::kS_left,
+                              Param::kV_left,
+                              Param::kA_left,
+                              Param::kS_right,
+                              Param::kV_right,
+                              Param::kA_right,
+                              Param::k_sync,
+                              Param::path_k_along,
+                              Param::path_k_cross,
+                              Param::path_k_heading,
+                              Param::observer_bandwidth};
+  EXPECT_TRUE(only_gains_differ({}, {}));
+  for (const ParamRow& row : kParamTable) {
+    ParameterSet other;
+    if (row.kind == ParamKind::text) {
+      other.set_text(row.id, "another");
+    } else {
+      other.set(row.id, row.default_raw + 1);
+    }
+    EXPECT_EQ(only_gains_differ({}, other), gains.contains(row.id)) << row.name;
+    EXPECT_EQ(only_gains_differ(other, {}), gains.contains(row.id)) << row.name;
+  }
 }
 
 TEST(Validation, WantsOverSpeedAboveTheSpeedLimit) {

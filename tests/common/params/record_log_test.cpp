@@ -21,7 +21,7 @@ struct StrictFlash : sim::NorFlash<3, 1024, 4> {
 };
 using Log = RecordLog<StrictFlash>;
 
-constexpr std::uint32_t kUnit = Log::kUnit, kSector = Log::kSectorBytes;
+constexpr std::uint32_t kUnitBytes = Log::kUnit, kLogSectorBytes = Log::kSectorBytes;
 
 void put_le(std::vector<std::uint8_t>& bytes, std::uint32_t value, int count) {
   for (int i = 0; i < count; ++i) bytes.push_back(static_cast<std::uint8_t>(value >> 8 * i));
@@ -35,8 +35,8 @@ std::vector<std::uint8_t> header(std::uint32_t payload_bytes, std::uint32_t sequ
 }
 
 /// An intact record of `units` units, whose one row no firmware knows.
-std::vector<std::uint8_t> record_of(std::uint32_t units, std::uint32_t sequence) {
-  const std::uint32_t payload = units * kUnit - 16;
+std::vector<std::uint8_t> whole_record(std::uint32_t units, std::uint32_t sequence) {
+  const std::uint32_t payload = units * kUnitBytes - 16;
   std::vector<std::uint8_t> bytes = header(payload, sequence);
   put_le(bytes, 0x7001, 2);
   bytes.push_back(static_cast<std::uint8_t>(payload - 3));
@@ -53,8 +53,8 @@ Log::Newest found_in(StrictFlash& flash) {
 TEST(RecordLog, ARottenLengthInTheLastUnitIsNotFollowedOutOfThePart) {
   for (std::uint32_t sector = 0; sector < Log::kSectors; ++sector) {
     StrictFlash flash;
-    flash.put_back(0, record_of(4, 7));
-    flash.put_back((sector + 1) * kSector - kUnit, header(500, 8));
+    flash.put_back(0, whole_record(4, 7));
+    flash.put_back((sector + 1) * kLogSectorBytes - kUnitBytes, header(500, 8));
     const Log::Newest newest = found_in(flash);
     EXPECT_TRUE(newest.found);
     EXPECT_EQ(newest.sequence, 7U);
@@ -67,8 +67,8 @@ TEST(RecordLog, ARottenLengthInTheLastUnitIsNotFollowedOutOfThePart) {
 TEST(RecordLog, ARecordMayFillItsSectorToTheLastByte) {
   for (std::uint32_t sector = 0; sector < Log::kSectors; ++sector) {
     StrictFlash flash;
-    const auto record = record_of(4, 7);
-    const auto at = static_cast<std::uint32_t>((sector + 1) * kSector - record.size());
+    const auto record = whole_record(4, 7);
+    const auto at = static_cast<std::uint32_t>((sector + 1) * kLogSectorBytes - record.size());
     flash.put_back(at, record);
     const Log::Newest newest = found_in(flash);
     EXPECT_TRUE(newest.found);
@@ -83,20 +83,21 @@ TEST(RecordLog, ARecordThatReachesIntoTheNextSectorIsNone) {
   // Half of it would go with the next erase.
   for (std::uint32_t sector = 0; sector + 1 < Log::kSectors; ++sector) {
     StrictFlash flash;
-    const auto record = record_of(4, 7);
-    flash.put_back(static_cast<std::uint32_t>((sector + 1) * kSector - record.size() + kUnit), record);
+    const auto record = whole_record(4, 7);
+    flash.put_back(static_cast<std::uint32_t>((sector + 1) * kLogSectorBytes - record.size() + kUnitBytes),
+                   record);
     EXPECT_FALSE(found_in(flash).found) << sector;
   }
 }
 
 TEST(RecordLog, IsAppendedToBehindEverythingThatIsNotBlank) {
   StrictFlash flash;
-  flash.rot(5 * kUnit + 3, 0x01);  // one bit in the sixth unit
+  flash.rot(5 * kUnitBytes + 3, 0x01);  // one bit in the sixth unit
   Record record;
   ASSERT_TRUE(record.rewrite(ParameterSet{}, 1));
   ASSERT_TRUE(Log(flash).append(0, record));
   const Log::Newest newest = found_in(flash);
-  EXPECT_EQ(newest.at, 6 * kUnit);
+  EXPECT_EQ(newest.at, 6 * kUnitBytes);
   EXPECT_EQ(newest.skipped, 1U);
 }
 
@@ -106,7 +107,7 @@ TEST(RecordLog, IsAppendedToAtTheStartOfABlankSectorAndNotBeforeIt) {
     Record record;
     ASSERT_TRUE(record.rewrite(ParameterSet{}, 1));
     ASSERT_TRUE(Log(flash).append(sector, record));
-    EXPECT_EQ(found_in(flash).at, sector * kSector);
+    EXPECT_EQ(found_in(flash).at, sector * kLogSectorBytes);
     EXPECT_EQ(flash.outside, 0);
   }
 }
