@@ -1,6 +1,7 @@
 #include "host/link/discovery.hpp"
 
 #include "host/link/client.hpp"
+#include "host/link/shared_port.hpp"
 
 namespace astro::link {
 
@@ -10,7 +11,7 @@ std::vector<FoundPort> find_robots(const std::vector<Port>& ports, microseconds 
   for (const Port& port : ports) {
     FoundPort result{port, std::nullopt, {}};
     try {
-      Client client(open_transport(port.address, baud));
+      Client client(open_shared_port(port.address, baud));
       result.robot = client.connect({timeout / kTries, kTries});
     } catch (const Error& error) {
       result.reason = error.what();

@@ -17,7 +17,7 @@ struct FoundPort {
 };
 
 /// Says Hello at each port, one after the other, at most about `timeout` per port. A port that another
-/// program uses is left alone: its reason says so.
+/// program shares is asked through it; one that it does not share is left alone: its reason says so.
 std::vector<FoundPort> find_robots(const std::vector<Port>& ports, microseconds timeout,
                                    unsigned baud = kDefaultBaud);
 
