@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/file.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -22,6 +23,8 @@ namespace astro::link {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr const char* kExtension = ".socket";
 
 /// A socket's address holds 107 characters, a path may be longer: through its open folder it is always short.
 class SocketAddress {
@@ -75,12 +78,40 @@ Greeting wait_for_greeting(const Descriptor& connection, microseconds patience) 
   }
 }
 
+/// Keeps others from sweeping away what takes a dead socket's place at this moment. Nothing if somebody holds
+/// the lock for long, which only a stopped program does.
+Descriptor lock_folder(const fs::path& path) {
+  constexpr int kTries = 50;
+  Descriptor folder(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  for (int i = 0; i < kTries; ++i) {
+    if (::flock(folder.get(), LOCK_EX | LOCK_NB) == 0) return folder;
+    ::poll(nullptr, 0, 5);
+  }
+  return {};
+}
+
+/// Takes away the sockets of dead programs, whose ports may never come back under the same name.
+void sweep(const fs::path& folder) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const fs::path& path = entry.path();
+    if (path.extension() != kExtension || !path.filename().string().starts_with("port-")) continue;
+    const SocketAddress address(path);
+    const Descriptor probe = new_socket();
+    if (!address.usable() || !probe) return;
+    if (::connect(probe.get(), address.get(), SocketAddress::size()) != 0 && errno == ECONNREFUSED)
+      ::unlink(path.c_str());
+  }
+}
+
 }  // namespace
 
-fs::path socket_of(const std::string& port_key) { return runtime_folder() / (port_key + ".socket"); }
+fs::path socket_of(const std::string& port_key) { return runtime_folder() / (port_key + kExtension); }
 
 Descriptor listen_at(const fs::path& socket) {
   constexpr int kBacklog = 16;
+  const Descriptor folder = lock_folder(socket.parent_path());
+  if (folder) sweep(socket.parent_path());
   const fs::path fresh = socket.string() + "." + std::to_string(::getpid());
   const SocketAddress address(fresh);
   Descriptor listener = new_socket();

@@ -16,8 +16,8 @@ namespace astro::link {
 
 std::filesystem::path socket_of(const std::string& port_key);
 
-/// Listens there, in place of a socket that a dead program has left behind. To be called by who holds the
-/// port's lock. Throws Error.
+/// Listens there, in place of a socket that a dead program has left behind, and takes away those of other
+/// ports. To be called by who holds the port's lock. Throws Error.
 Descriptor listen_at(const std::filesystem::path& socket);
 
 /// Takes the file away. To be called by who holds the port's lock.

@@ -3,42 +3,18 @@
 
 #include "common/protocol/messages.hpp"
 #include "host/link/relay.hpp"
+#include "host/link/relay_rules.hpp"
 
 /// From the programs to the robot.
 namespace astro::link {
 
 using namespace protocol;  // NOLINT(google-build-using-namespace): this file is all messages
-using std::chrono::milliseconds;
 
 namespace {
 
 constexpr std::uint16_t kOnlooker = 0x8000;  // bit 15 of a request id
-constexpr microseconds kRepeat = milliseconds(60);
-// What asks longer than that has given up by itself: a Client tries for a second, and four for a commit.
-constexpr microseconds kTurn = milliseconds(1000);
-constexpr microseconds kCommitTurn = milliseconds(4500);
 // More than a line holds on its way when all programs ask at once; then the line itself has stopped.
 constexpr std::size_t kMostOnTheLine = 256;
-constexpr auto kStagingLost = static_cast<ErrorCode>(13);
-
-template <std::size_t N>
-constexpr bool is_one_of(std::uint8_t message, const std::array<std::uint8_t, N>& ids) {
-  return std::find(ids.begin(), ids.end(), message) != ids.end();
-}
-
-/// What makes its sender the driver.
-constexpr bool drives(std::uint8_t message) {
-  return is_one_of(message, std::array{Arm::kId, Velocity::kId, WheelVoltage::kId, AddSegment::kId});
-}
-constexpr bool stops(std::uint8_t message) {
-  return is_one_of(message, std::array{EmergencyStop::kId, Stop::kId, Disarm::kId});
-}
-constexpr bool opens_staging(std::uint8_t message) {
-  return is_one_of(message, std::array{RevertParameters::kId, DefaultParameters::kId});
-}
-constexpr bool needs_staging(std::uint8_t message) {
-  return is_one_of(message, std::array{StageParameter::kId, CommitParameters::kId, ApplyParameters::kId});
-}
 
 }  // namespace
 
@@ -66,7 +42,7 @@ void Relay::take(RelaySession& session, Body body, microseconds now) {
   if (!session.answer.empty() && session.answered == header) return push(session, session.answer);
   if (take_here(session, header, body)) return;
   if (const auto refused = refusal(session, header.message_id)) return reply_with(session, header, *refused);
-  if (stops(header.message_id)) depose_driver(session);
+  if (relay_rules::stops(header.message_id)) depose_driver(session);
   if (session.current && session.current->header == header) return repeat(session, now);
   begin(session, Exchange(header, body), now);
 }
@@ -116,9 +92,9 @@ void Relay::take_ping(RelaySession& session, const Header& header, Body body, mi
 }
 
 std::optional<ErrorReply> Relay::refusal(const RelaySession& session, std::uint8_t message) const {
-  const bool goes_on = drives(message) || message == Resume::kId;
+  const bool goes_on = relay_rules::drives(message) || message == Resume::kId;
   if (session.stopped_by && goes_on && message != Arm::kId) return ErrorReply{ErrorCode::not_armed, 0};
-  if (!drives(message) || !driver_ || driver_ == session.id) return std::nullopt;
+  if (!relay_rules::drives(message) || !driver_ || driver_ == session.id) return std::nullopt;
   const RelaySession* driver = find(*driver_);
   if (driver == nullptr || driver->stopped_by) return std::nullopt;
   return ErrorReply{ErrorCode::busy, 0};
@@ -148,7 +124,7 @@ void Relay::send(RelaySession& session, Exchange& exchange, microseconds now) {
   }
   exchange.state = Exchange::State::sent;
   exchange.sent_at = now;
-  const bool first = stops(exchange.header.message_id);
+  const bool first = relay_rules::stops(exchange.header.message_id);
   if (to_robot_.frames() >= (first ? 2 : 1) * kMostOnTheLine) return;
   first ? to_robot_.push_first(exchange.frame) : to_robot_.push(exchange.frame);
 }
@@ -158,12 +134,12 @@ void Relay::begin(RelaySession& session, Exchange exchange, microseconds now) {
   std::erase(waiting_, session.id);
   const std::uint8_t message = exchange.header.message_id;
   if (message == Hello::kId) return take_hello(session, std::move(exchange), now);
-  if (drives(message) && driver_ != session.id) {
+  if (relay_rules::drives(message) && driver_ != session.id) {
     driver_ = session.id;
     driver_confirmed_ = false;
   }
   session.current = std::move(exchange);
-  const bool at_once = driver_ == session.id || stops(message);
+  const bool at_once = driver_ == session.id || relay_rules::stops(message);
   if (!at_once) return wait_for_turn(session);
   if (staging_allows(session, message)) send(session, *session.current, now);
 }
@@ -191,71 +167,22 @@ void Relay::take_hello(RelaySession& session, Exchange exchange, microseconds no
 void Relay::repeat(RelaySession& session, microseconds now) {
   Exchange& exchange = *session.current;
   if (exchange.state == Exchange::State::waits) return;
-  const bool onlooker = (exchange.robot_id & kOnlooker) != 0 && !stops(exchange.header.message_id);
+  const bool onlooker =
+      (exchange.robot_id & kOnlooker) != 0 && !relay_rules::stops(exchange.header.message_id);
   if (!onlooker || under_way_ == session.id) return send(session, exchange, now);
   exchange.state = Exchange::State::waits;  // its turn was over before the answer came
   wait_for_turn(session);
 }
 
-void Relay::wait_for_turn(RelaySession& session) {
-  if (std::find(waiting_.begin(), waiting_.end(), session.id) == waiting_.end())
-    waiting_.push_back(session.id);
-}
-
 /// Judged when the request goes to the robot, not when it came: others may have opened the area meanwhile.
 /// False: the request has been refused.
 bool Relay::staging_allows(const RelaySession& asker, std::uint8_t message) {
-  if (opens_staging(message)) staging_ = {true, asker.id};
-  if (!needs_staging(message) || !staging_.opened || staging_.owner == asker.id) return true;
+  if (relay_rules::opens_staging(message)) staging_ = {true, asker.id};
+  if (!relay_rules::needs_staging(message) || !staging_.opened || staging_.owner == asker.id) return true;
   RelaySession& session = *find(asker.id);
   const Header header = session.current->header;
-  reply_with(session, header, ErrorReply{kStagingLost, 0});
+  reply_with(session, header, ErrorReply{relay_rules::kStagingLost, 0});
   return false;
-}
-
-void Relay::next_onlooker(microseconds now) {
-  if (under_way_ && now >= give_up_at_) under_way_.reset();
-  while (!under_way_ && !waiting_.empty()) {
-    RelaySession* session = find(waiting_.front());
-    waiting_.pop_front();
-    if (session == nullptr || !session->current || session->current->state == Exchange::State::sent) continue;
-    const std::uint8_t message = session->current->header.message_id;
-    if (!staging_allows(*session, message)) continue;
-    under_way_ = session->id;
-    give_up_at_ = now + (message == CommitParameters::kId ? kCommitTurn : kTurn);
-    send(*session, *session->current, now);
-  }
-}
-
-/// The relay's own request, as that of an onlooker, until the robot has acknowledged it.
-void Relay::ask_for_telemetry(microseconds now) {
-  RelaySession& self = sessions_.front();
-  if (ask_again_) {
-    ask_again_ = false;
-    stream_ = {};
-    for (const RelaySession& session : sessions_) stream_ = TelemetryWish::merge(stream_, session.telemetry);
-    own_requests_ = static_cast<std::uint16_t>(own_requests_ == 0xFFFF ? 1 : own_requests_ + 1);
-    std::array<std::uint8_t, kMaxBody> body;  // NOLINT(cppcoreguidelines-pro-type-member-init)
-    const std::size_t size = encode(stream_, own_requests_, body);
-    begin(self, Exchange({SetTelemetry::kId, own_requests_}, std::span(body).first(size)), now);
-  } else if (self.current && self.current->state == Exchange::State::sent &&
-             now >= self.current->sent_at + kRepeat) {
-    repeat(self, now);
-  }
-}
-
-void Relay::tick(microseconds now) {
-  ask_for_telemetry(now);
-  next_onlooker(now);
-}
-
-std::optional<microseconds> Relay::next_tick() const {
-  std::optional<microseconds> next;
-  if (under_way_ && !waiting_.empty()) next = give_up_at_;
-  const auto& own = sessions_.front().current;
-  if (own && own->state == Exchange::State::sent)
-    next = std::min(next.value_or(microseconds::max()), own->sent_at + kRepeat);
-  return next;
 }
 
 }  // namespace astro::link

@@ -47,6 +47,8 @@ bool write_all(int descriptor, FrameQueue& queue, bool is_socket) {
 RelayServer::RelayServer(SharedLine shared)
     : shared_(std::move(shared)), wake_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
   if (!wake_) throw Error("the port cannot be served: no descriptor is left");
+  constexpr std::array<std::uint8_t, 1> kEndOfWhateverCameBefore{0};
+  relay_.to_robot().push(kEndOfWhateverCameBefore);
   start();
 }
 

@@ -22,8 +22,8 @@ using boost::asio::local::stream_protocol;
 using std::chrono::milliseconds;
 
 constexpr microseconds kGreeting = milliseconds(1000);  // an idle holder greets within a millisecond
-constexpr microseconds kStart =
-    milliseconds(500);  // between a holder's lock and its socket, and the other way
+// Between a holder's lock and its socket, and between its end and the lock's.
+constexpr microseconds kStart = milliseconds(1000);
 constexpr milliseconds kPause(5);
 
 /// The way of one program to a port: through its own relay or through that of another program.

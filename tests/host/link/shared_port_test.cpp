@@ -105,6 +105,19 @@ TEST_F(SharedPortOfTheSystem, TheSocketGoesWithTheProgram) {
   EXPECT_TRUE(fs::is_empty(runtime_folder()));
 }
 
+TEST_F(SharedPortOfTheSystem, DeadSocketsOfOtherPortsAreSweptAndLiveOnesAreNot) {
+  make_runtime_folder();
+  const auto dead = socket_of("port-9-9"), live = socket_of("port-9-8");
+  listen_at(dead);  // and ended without taking it away
+  const Descriptor listener = listen_at(live);
+  ASSERT_FALSE(fs::exists(dead)) << "swept by the next that listens";
+  listen_at(dead);
+  ASSERT_TRUE(fs::exists(dead));
+  const auto port = open_shared_port(pty.path());
+  EXPECT_FALSE(fs::exists(dead));
+  EXPECT_TRUE(fs::exists(live));
+}
+
 TEST_F(SharedPortOfTheSystem, AnExclusiveHolderIsSaidToUseThePort) {
   const auto exclusive = open_transport(pty.path());
   EXPECT_THAT(why_not(), HasSubstr(pty.path() + " is in use by another program"));
