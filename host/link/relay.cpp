@@ -113,6 +113,7 @@ void Relay::from_robot(Body bytes, microseconds now) {
     const protocol::Header header = *protocol::peek(*body);  // a framer's body always has a header
     header.request_id == 0 ? take_event(*body) : take_answer(header, *body, now);
   }
+  noise_ = !bytes.empty() && framer_.counts().good == 0;
   tick(now);
 }
 

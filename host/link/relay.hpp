@@ -97,6 +97,7 @@ class Relay {
   std::list<RelaySession> sessions_;  // the first is the relay itself, which asks for telemetry
   SessionId next_session_ = 1;
   protocol::Framer framer_;
+  bool noise_ = false;  // bytes have come, and no good frame yet
   FrameQueue to_robot_;
   std::uint16_t next_id_ = 0;
 

@@ -166,6 +166,9 @@ void Relay::take_hello(RelaySession& session, Exchange exchange, microseconds no
 
 void Relay::repeat(RelaySession& session, microseconds now) {
   Exchange& exchange = *session.current;
+  // Only frames are passed on, and who says Hello is to know of a device that sends something else.
+  constexpr std::array<std::uint8_t, 2> kNoFrame{0x55, 0};
+  if (noise_ && exchange.header.message_id == Hello::kId) push(session, kNoFrame);
   if (exchange.state == Exchange::State::waits) return;
   const bool onlooker =
       (exchange.robot_id & kOnlooker) != 0 && !relay_rules::stops(exchange.header.message_id);

@@ -77,7 +77,8 @@ class RelayedTransport : public link::Transport {
  public:
   using microseconds = link::microseconds;
 
-  RelayedTransport(RelayRig& rig, link::PortUser user) : rig_(rig), id_(rig.relay.join(std::move(user))) {}
+  RelayedTransport(RelayRig& rig, link::PortUser user, bool greets = true)
+      : rig_(rig), id_(rig.relay.join(std::move(user), greets)) {}
 
   void write(std::span<const std::uint8_t> bytes) override {
     rig_.relay.from_session(id_, bytes, rig_.now);

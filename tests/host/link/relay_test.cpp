@@ -437,6 +437,19 @@ TEST_F(SharedPort, GarbageFromAProgramStaysWithTheRelay) {
 
 // ---- what people are told
 
+TEST(Relay, ADeviceThatSendsNoFramesIsToldFromASilentOne) {
+  for (const bool talks : {true, false}) {
+    RelayRig line;
+    line.arrives = [](bool, const Header&) { return false; };
+    test::RelayedTransport transport(line, {11, "astrolabe info"}, false);
+    const std::vector<std::uint8_t> text{'l', 'o', 'g', 'i', 'n', ':'};
+    if (talks) line.relay.from_robot(text, line.now);
+    Client client(transport);
+    EXPECT_THAT(thrown_by([&] { client.connect(); }),
+                HasSubstr(talks ? "is not an Astrolabe robot" : "does not answer"));
+  }
+}
+
 TEST_F(SharedPort, AFaultIsReportedAsThatFaultThoughTheAbortedSegmentArrivesFirst) {
   DriveSession session(first.client);
   rig.arrives = [&](bool to_robot, const Header&) {
