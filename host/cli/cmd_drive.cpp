@@ -36,11 +36,6 @@ struct VelocityOptions {
   double v_mps = 0, omega_radps = 0, seconds = 0;
 };
 
-void add_common_options(Command command, DriveOptions& options) {
-  add_connection(command, options.connection);
-  add_json_flag(command, options.json);
-}
-
 Option add_number(Command command, const std::string& name, double& value, const std::string& what) {
   return command.add_option(name, value, what).type_name("");
 }
@@ -65,7 +60,7 @@ Command add_path(Command drive, const std::string& name, const std::string& what
                  const std::shared_ptr<PathOptions>& options, link::Path (*path)(const PathOptions&)) {
   const Command command = drive.add_subcommand(name, what);
   add_limits(command, options->limits);
-  add_common_options(command, options->drive);
+  add_drive_options(command, options->drive);
   command.callback([options, path] { drive_path(options->drive, path(*options)); });
   return command;
 }
@@ -79,7 +74,8 @@ void add_line(Command drive) {
   add_number(command, "LENGTH", options->length_m, "metres; backwards if negative")
       .required()
       .check(finite());
-  examples(command, {"astrolabe drive line 1", "astrolabe drive line -0.5 --speed 0.2"});
+  examples(command, {"astrolabe drive line 1", "astrolabe drive line -0.5 --speed 0.2",
+                     "astrolabe drive line 2 --record line.mcap"});
 }
 
 void add_spin(Command drive) {
@@ -149,7 +145,7 @@ void add_velocity(Command drive) {
       .type_name("SECONDS")
       .required()
       .check(between(0.001, 86'400, "s"));
-  add_common_options(command, options->drive);
+  add_drive_options(command, options->drive);
   examples(command, {"astrolabe drive velocity 0.3 0 --for 2", "astrolabe drive velocity 0 -0.5 --for 10"});
   command.callback(
       [options] { drive_velocity(options->drive, options->v_mps, options->omega_radps, options->seconds); });

@@ -7,6 +7,7 @@
 #include "host/cli/command.hpp"
 #include "host/cli/connection.hpp"
 #include "host/cli/console.hpp"
+#include "host/cli/drive_recording.hpp"
 #include "host/cli/interrupt.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/programme_options.hpp"
@@ -39,22 +40,6 @@ struct RecordOptions {
   bool pause = false;
 };
 
-recording::RunInfo describe(link::Client& client) {
-  const protocol::HelloReply& robot = client.robot();
-  recording::RunInfo info;
-  const experiment::RobotIdentity identity = experiment::identity_of(robot);
-  info.robot_name = identity.name;
-  info.robot_id = identity.id;
-  info.board = robot.board.view();
-  info.firmware = fmt::format("{}.{}.{}", robot.fw_major, robot.fw_minor, robot.fw_patch);
-  info.started_at = experiment::utc_now();
-  const link::RemoteParameters parameters = link::RemoteParameters::fetch(client);
-  for (const link::ParameterRow& row : parameters.rows())
-    if (row.kind != protocol::ParameterKind::text)
-      info.parameters[row.name] = link::to_real(row, row.active.raw);
-  return info;
-}
-
 /// What cannot be written is known before the drive, which nobody can repeat.
 void require_new(const fs::path& file) {
   if (fs::exists(file) && !fs::is_directory(file))
@@ -77,7 +62,7 @@ void drive(RecordOptions& options) {
   const auto client = connect(options.connection);
   const auto truth = open_truth(options.truth, options.connection.port);
   if (options.truth.source == "none") say("without --truth nothing can be calibrated from these runs");
-  recording::RunInfo info = describe(*client);
+  recording::RunInfo info = describe_robot(*client);
   info.speed_mps = options.programme.speed_mps;
   record_programme(*client, *truth, runs, info, options.out, options.pause);
   print_path(fs::absolute(options.out));
@@ -140,7 +125,7 @@ void listen(RecordOptions& options) {
     for (const char* name : {"odometry.csv", "truth.csv"}) require_new(options.csv / name);
   const auto client = connect(options.connection);
   const auto truth = open_truth(options.truth, options.connection.port);
-  recording::RunInfo info = describe(*client);
+  recording::RunInfo info = describe_robot(*client);
   info.kind = "free";
   Progress progress("recording");
   RobotStopwatch stopwatch(*client);
@@ -189,7 +174,8 @@ void add_record(Command app) {
   options->pause_option = command.add_flag("--pause", options->pause, "wait for Enter before each run");
   command.footer(
       "With numbers of runs it drives them, each from rest to rest and into a file of its own;\n"
-      "those that the folder holds already are not driven again. Without, it drives nothing.\n"
+      "those that the folder holds already are not driven again. Without, it drives nothing and\n"
+      "records what another program at the same port drives.\n"
       "The files open in Foxglove, PlotJuggler and 'ros2 bag'.\n"
       "Examples:\n"
       "  astrolabe record --out drive.mcap\n"

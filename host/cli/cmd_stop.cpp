@@ -40,7 +40,8 @@ void run(StopOptions& options) {
 
 void add_stop(Command app) {
   const auto options = std::make_shared<StopOptions>();
-  const Command command = app.add_subcommand("stop", "let the robot ramp to rest and disarm it");
+  const Command command = app.add_subcommand(
+      "stop", "let the robot ramp to rest and disarm it, also while another program drives it");
   command.add_flag("--emergency", options->emergency,
                    "motors off at once; they stay off until the fault is cleared");
   add_connection(command, options->connection);

@@ -7,6 +7,7 @@
 #include "host/cli/interrupt.hpp"
 #include "host/cli/options.hpp"
 #include "host/link/discovery.hpp"
+#include "host/link/shared_port.hpp"
 
 namespace astro::cli {
 namespace {
@@ -35,8 +36,9 @@ std::string only_robot(unsigned baud) {
 
 void add_connection(Command command, ConnectionOptions& options) {
   command
-      .add_option("--port,-p", options.port,
-                  "serial port or pty of the robot (default: the only robot found)")
+      .add_option(
+          "--port,-p", options.port,
+          "serial port or pty of the robot, shared with other programs\n(default: the only robot found)")
       .type_name("PORT");
   command.add_option("--baud", options.baud, "speed of a serial port; USB and ptys do not care")
       .type_name("BAUD")
@@ -46,7 +48,7 @@ void add_connection(Command command, ConnectionOptions& options) {
 
 std::unique_ptr<link::Client> connect(ConnectionOptions& options) {
   if (options.port.empty()) options.port = only_robot(options.baud);
-  auto client = std::make_unique<link::Client>(link::open_transport(options.port, options.baud));
+  auto client = std::make_unique<link::Client>(link::open_shared_port(options.port, options.baud));
   client->connect();
   return client;
 }

@@ -8,10 +8,13 @@
 
 #include "host/base/degrees.hpp"
 #include "host/cli/console.hpp"
+#include "host/cli/drive_recording.hpp"
 #include "host/cli/limit_notes.hpp"
+#include "host/cli/options.hpp"
 #include "host/cli/path_progress.hpp"
 #include "host/cli/robot_view.hpp"
 #include "host/cli/steering.hpp"
+#include "host/experiment/record_run.hpp"
 
 namespace astro::cli {
 namespace {
@@ -63,14 +66,28 @@ std::string short_words(const recording::OdometrySample& at) {
 
 }  // namespace
 
+void add_drive_options(Command command, DriveOptions& options) {
+  add_connection(command, options.connection);
+  add_json_flag(command, options.json);
+  command.add_option("--record", options.record, "also record the drive into this MCAP file")
+      .type_name("FILE");
+}
+
 void drive(DriveOptions& options, const DriveJob& job) {
+  DriveRecording::check(options.record);
   const auto client = connect(options.connection);
   job.connected(*client);
+  std::optional<DriveRecording> recording;
+  if (!options.record.empty()) recording.emplace(options.record, *client);
   Stopwatch stopwatch;
-  OdometryWatch odometry(*client, kPeriod_ms, [&](const recording::OdometrySample& sample) {
-    stopwatch.moved_to(sample);
-    job.moved(sample);
-  });
+  OdometryWatch odometry(
+      *client, recording ? experiment::kTelemetryPeriod_ms : kPeriod_ms,
+      [&](const recording::OdometrySample& sample) {
+        if (recording) recording->add(sample);
+        stopwatch.moved_to(sample);
+        job.moved(sample);
+      },
+      recording ? DriveRecording::kFields : OdometryWatch::kFields);
   const recording::OdometrySample start = odometry.fresh();
   try {
     link::DriveHooks hooks = drive_hooks();
@@ -79,10 +96,14 @@ void drive(DriveOptions& options, const DriveJob& job) {
     job.work(*client, session);
     session.end();
   } catch (const link::Interrupted&) {
-    report(options, "interrupted", start, odometry.fresh(), stopwatch.seconds());
+    const recording::OdometrySample end = odometry.fresh();
+    if (recording) recording->close();
+    report(options, "interrupted", start, end, stopwatch.seconds());
     throw;
   }
-  report(options, "completed", start, odometry.fresh(), stopwatch.seconds());
+  const recording::OdometrySample end = odometry.fresh();
+  if (recording) recording->close();
+  report(options, "completed", start, end, stopwatch.seconds());
 }
 
 void drive_path(DriveOptions& options, const link::Path& path) {

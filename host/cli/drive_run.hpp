@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -14,7 +15,11 @@ namespace astro::cli {
 struct DriveOptions {
   ConnectionOptions connection;
   bool json = false;
+  std::filesystem::path record;  // empty: nothing is recorded
 };
+
+/// --port, --baud, --json and --record of every command that drives.
+void add_drive_options(Command command, DriveOptions& options);
 
 /// What a drive does while the robot is armed, and what it is told meanwhile.
 struct DriveJob {
@@ -25,7 +30,8 @@ struct DriveJob {
 };
 
 /// Connects, arms, works, lets the robot come to rest, disarms it and prints where the odometry ended; that
-/// too if Ctrl-C ended the work, then throws link::Interrupted.
+/// too if Ctrl-C ended the work, then throws link::Interrupted. What is recorded is kept however the drive
+/// ends.
 void drive(DriveOptions& options, const DriveJob& job);
 
 /// The same for a path, with a progress bar.

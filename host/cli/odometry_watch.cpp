@@ -9,14 +9,15 @@ namespace astro::cli {
 using protocol::SetTelemetry;
 using protocol::Telemetry;
 
-OdometryWatch::OdometryWatch(link::Client& client, std::uint16_t period_ms, Listener listener)
+OdometryWatch::OdometryWatch(link::Client& client, std::uint16_t period_ms, Listener listener,
+                             std::uint32_t fields)
     : client_(client),
       subscription_(client.on<Telemetry>([this, hear = std::move(listener)](const Telemetry& telemetry) {
         if ((telemetry.fields & Telemetry::kPose) == 0) return;
         newest_ = experiment::to_sample(telemetry);
         hear(newest_);
       })) {
-  client_.request(SetTelemetry{period_ms, Telemetry::kPose | Telemetry::kTwist});
+  client_.request(SetTelemetry{period_ms, fields});
 }
 
 OdometryWatch::~OdometryWatch() {

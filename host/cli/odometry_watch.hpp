@@ -14,9 +14,12 @@ class OdometryWatch {
  public:
   using Listener = std::function<void(const recording::OdometrySample&)>;
 
-  /// `listener` hears of every sample; it must not call the client.
+  static constexpr std::uint32_t kFields = protocol::Telemetry::kPose | protocol::Telemetry::kTwist;
+
+  /// `listener` hears of every sample; it must not call the client. `fields`: with kPose.
   OdometryWatch(
-      link::Client& client, std::uint16_t period_ms, Listener listener = [](const auto&) {});
+      link::Client& client, std::uint16_t period_ms, Listener listener = [](const auto&) {},
+      std::uint32_t fields = kFields);
   ~OdometryWatch();
   OdometryWatch(const OdometryWatch&) = delete;
   OdometryWatch& operator=(const OdometryWatch&) = delete;

@@ -1,29 +1,10 @@
 #include "host/cli/runtime_link.hpp"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
 #include <string>
-
-#include "host/base/error.hpp"
-#include "host/link/ports.hpp"
 
 namespace astro::cli {
 
 namespace fs = std::filesystem;
-
-fs::path make_runtime_folder() {
-  const fs::path folder = link::runtime_folder();
-  if (mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
-    throw Error("the folder '" + folder.string() + "' cannot be made: " + std::strerror(errno) +
-                "; set XDG_RUNTIME_DIR to a folder of yours");
-  struct stat about {};
-  if (lstat(folder.c_str(), &about) != 0 || !S_ISDIR(about.st_mode) || about.st_uid != geteuid())
-    throw Error("'" + folder.string() + "' is not a folder of yours: set XDG_RUNTIME_DIR to one");
-  return folder;
-}
 
 RuntimeLink::RuntimeLink(const fs::path& folder, const fs::path& pty) : target_(fs::absolute(pty)) {
   std::error_code error;

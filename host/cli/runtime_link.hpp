@@ -5,10 +5,6 @@
 /// Where the programs of one user find each other's simulators.
 namespace astro::cli {
 
-/// link::runtime_folder(), made if need be, for this user alone. Throws astro::Error if it cannot be made or
-/// belongs to somebody else.
-std::filesystem::path make_runtime_folder();
-
 /// A symlink in the runtime folder to a simulator elsewhere, for as long as it lives; none if the simulator
 /// is in that folder anyway or all names for it are taken. `ports` finds the simulator by it.
 class RuntimeLink {

@@ -51,7 +51,7 @@ void remove_dead_link(const fs::path& link) {
 // Only what is to be put there needs the runtime folder; for a simulator elsewhere it is a courtesy.
 std::optional<RuntimeLink> make_it_found(const fs::path& pty) {
   try {
-    return std::optional<RuntimeLink>(std::in_place, make_runtime_folder(), pty);
+    return std::optional<RuntimeLink>(std::in_place, link::make_runtime_folder(), pty);
   } catch (const Error& error) {
     say(fmt::format("'astrolabe ports' will not find this robot: {}", error.what()));
     return std::nullopt;
@@ -150,7 +150,7 @@ sim::Config reference_robot() {
 }
 
 void prepare(SimOptions& options, std::size_t flash_bytes) {
-  if (options.server.pty.empty()) options.server.pty = make_runtime_folder() / "astro.pty";
+  if (options.server.pty.empty()) options.server.pty = link::make_runtime_folder() / "astro.pty";
   simulator::sweep_dead_links(link::runtime_folder());
   check_folder("--pty", options.server.pty);
   check_folder("--usb-pty", options.server.second_pty);

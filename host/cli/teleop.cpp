@@ -82,9 +82,9 @@ void add_teleop(Command drive) {
       .type_name("RAD/S")
       .capture_default_str()
       .check(between(0.001, 100, "rad/s"));
-  add_connection(command, options->drive.connection);
-  add_json_flag(command, options->drive.json);
-  examples(command, {"astrolabe drive teleop", "astrolabe drive teleop --speed 0.2 --yaw-rate 0.5"});
+  add_drive_options(command, options->drive);
+  examples(command, {"astrolabe drive teleop", "astrolabe drive teleop --speed 0.2 --yaw-rate 0.5",
+                     "astrolabe drive teleop --record tour.mcap"});
   command.callback([options] { run(*options); });
 }
 

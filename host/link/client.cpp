@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "host/link/relay_messages.hpp"
 #include "host/link/restore.hpp"
 
 namespace astro::link {
@@ -45,11 +46,16 @@ Client::Body Client::exchange(Body frame, std::uint16_t id, std::string_view req
   const auto body = ask(frame, id, patience);
   if (!body) {
     throw LinkLost(name() + " does not answer any more (" + std::string(request) + ", " +
-                   std::to_string(patience.tries) + " tries): is the robot still on and connected?");
+                   std::to_string(patience.tries) + " tries): " + why_silent());
   }
   if (body->front() != protocol::ErrorReply::kId) return *body;
   const auto error = understand<protocol::ErrorReply>(*body, request);
   throw RobotRefused(request, error.code, error.detail);
+}
+
+std::string Client::why_silent() {
+  const std::string why = transport_.why_silent();
+  return why.empty() ? "is the robot still on and connected?" : why;
 }
 
 bool Client::step(microseconds deadline) {
@@ -83,6 +89,8 @@ void Client::dispatch_event(Body body) {
   };
   if (const auto missed = protocol::decode<protocol::EventsMissed>(body); missed.ok())
     counts_.missed_events += missed->count;
+  if (const auto farewell = protocol::decode<Farewell>(body); farewell.ok())
+    throw LinkLost("lost " + name() + ": " + std::string(sentence(farewell->reason)));
   std::apply([&](auto&... listeners) { (deliver(listeners), ...); }, listeners_);
   const bool booted = body.front() == protocol::Booted::kId;
   if (booted && waiting_for_ != 0 && !connecting_) {
@@ -125,7 +133,7 @@ void Client::keep_alive() {
     ++counts_.lost_pings;
     if (++lost_pings_ == kLostPings) {
       lost_pings_ = 0;
-      throw LinkLost(name() + " does not answer any more: is the robot still on and connected?");
+      throw LinkLost(name() + " does not answer any more: " + why_silent());
     }
   } else if (ping_ ||
              (now() < next_ping() && device_us_ - answered_device_us_ < std::uint64_t{kKeepAlive.count()})) {

@@ -50,7 +50,9 @@ void Client::reconnect(microseconds timeout) {
               std::string(known.robot_name.view()) + "' was before: connect the first one again");
 }
 
-void Client::no_robot() const {
+void Client::no_robot() {
+  if (const std::string why = transport_.why_silent(); !why.empty())
+    throw Error(name() + " does not answer: " + why);
   if (echo_) {
     throw Error(name() + " sends back what it is sent: it is a looped-back line or a terminal, not a robot");
   }

@@ -3,6 +3,7 @@
 #include <future>
 
 #include "host/link/client.hpp"
+#include "host/link/shared_port.hpp"
 
 namespace astro::link {
 
@@ -12,7 +13,7 @@ FoundPort ask(const Port& port, microseconds timeout, unsigned baud) {
   constexpr int kTries = 2;  // the first may end in what the robot received before
   FoundPort result{port, std::nullopt, {}};
   try {
-    Client client(open_transport(port.address, baud));
+    Client client(open_shared_port(port.address, baud));
     result.robot = client.connect({timeout / kTries, kTries});
   } catch (const Error& error) {
     result.reason = error.what();

@@ -17,7 +17,8 @@ struct FoundPort {
 };
 
 /// Says Hello at all ports at once, at most about `timeout` altogether; the answers are in the order of the
-/// ports. A port that another program uses is left alone: its reason says so.
+/// ports. A port that another program shares is asked through it; one that it does not share is left alone:
+/// its reason says so.
 std::vector<FoundPort> find_robots(const std::vector<Port>& ports, microseconds timeout,
                                    unsigned baud = kDefaultBaud);
 

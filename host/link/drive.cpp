@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/link/port_socket.hpp"
 #include "host/link/rest.hpp"
 #include "host/link/restore.hpp"
 
@@ -16,7 +17,8 @@ namespace {
 constexpr microseconds kPoll =
     milliseconds(1000);  // an event must have been lost by then, or the segment is long
 constexpr microseconds kRestPoll = milliseconds(50);
-constexpr microseconds kTimeToNotice = milliseconds(2000);  // the command time-out, and the ramp after it
+constexpr microseconds kTimeToNotice =
+    milliseconds(4000);  // an armed robot waits 2.5 s for its host; one that drives ramps to rest
 constexpr microseconds kVelocityPeriod = milliseconds(50);
 constexpr std::size_t kMostSegments = 0xFFFF;
 
@@ -25,6 +27,10 @@ std::int32_t micro(double value, const char* what) {
   if (!(std::abs(steps) <= 0x7FFFFFFF))
     throw Error(std::string(what) + " of " + std::to_string(value) + " is not possible");
   return static_cast<std::int32_t>(steps);
+}
+
+std::string in_brackets(std::uint32_t pid, const CommandLine& command) {
+  return pid == 0 ? "" : " (" + in_words(pid, command.view()) + ")";
 }
 
 Fault first_fault(std::uint32_t mask) {
@@ -93,9 +99,7 @@ void DriveSession::wait_until_free() {
   while (true) {
     const Mode mode = client_.request(GetStatus{}).mode;
     if (mode == Mode::disarmed || mode == Mode::fault) return;
-    if (client_.now() >= deadline)
-      throw Error(
-          "the robot is driving for another program: end that one, or 'astrolabe stop' ends its drive");
+    if (client_.now() >= deadline) fail_busy();
     client_.pump(kRestPoll);
   }
 }
@@ -114,7 +118,7 @@ void DriveSession::arm() {
     hooks_.notice("cleared " + fault_names(report.latched) + ", which an earlier drive left behind");
   }
   fault_.reset();
-  client_.request(Arm{});
+  command(Arm{});
 }
 
 void DriveSession::run(std::span<const AddSegment> segments) {
@@ -132,10 +136,9 @@ void DriveSession::run(std::span<const AddSegment> segments) {
 bool DriveSession::add(const AddSegment& segment) {
   check();
   try {
-    client_.request(segment);
+    command(segment);
     return true;
   } catch (const RobotRefused& refused) {
-    if (refused.code() == ErrorCode::faulted) fail(static_cast<Fault>(refused.detail()));
     if (refused.code() != ErrorCode::queue_full) throw;
     return false;
   }
@@ -152,7 +155,7 @@ void DriveSession::wait_for_progress() {
 void DriveSession::ask_for_progress() {
   const Status status = client_.request(GetStatus{});
   if (status.latched_faults != 0) fail(first_fault(status.latched_faults));
-  if (status.mode == Mode::disarmed) throw Error("the drive ended early: another program disarmed the robot");
+  if (status.mode == Mode::disarmed) fail_ended("the drive ended early", "disarmed");
   if (status.mode == Mode::idle && status.queued_segments == 0) done_ = accepted_;
   check();
 }
@@ -160,9 +163,8 @@ void DriveSession::ask_for_progress() {
 void DriveSession::check() {
   if (fault_) fail(*fault_);
   if (booted_) throw LinkLost("the robot at " + client_.name() + " has restarted: the drive is lost");
-  if (aborted_ != 0 && !stopping_) {
-    throw Error("segment " + std::to_string(aborted_) + " was aborted: another program stopped the robot");
-  }
+  if (aborted_ != 0 && !stopping_)
+    fail_ended("segment " + std::to_string(aborted_) + " was aborted", "stopped");
   if (!stopping_ && hooks_.interrupted()) {
     end();
     throw Interrupted("stopped: the robot is at rest and disarmed");
@@ -171,18 +173,13 @@ void DriveSession::check() {
 
 void DriveSession::set_velocity(double v_mps, double omega_radps) {
   check();
-  client_.request(Velocity{micro(v_mps, "a speed in m/s"), micro(omega_radps, "a yaw rate in rad/s")});
+  command(Velocity{micro(v_mps, "a speed in m/s"), micro(omega_radps, "a yaw rate in rad/s")});
 }
 
 void DriveSession::set_wheel_voltages(double left_V, double right_V) {
   check();
   const auto milli = [](double volts) { return static_cast<std::int32_t>(std::lround(1e3 * volts)); };
-  try {
-    client_.request(WheelVoltage{milli(left_V), milli(right_V)});
-  } catch (const RobotRefused& refused) {
-    if (refused.code() == ErrorCode::faulted) fail(static_cast<Fault>(refused.detail()));
-    throw;
-  }
+  command(WheelVoltage{milli(left_V), milli(right_V)});
 }
 
 void DriveSession::hold_velocity(double v_mps, double omega_radps, microseconds duration) {
@@ -216,10 +213,56 @@ void DriveSession::wait_for_rest() {
   throw Error("the robot did not come to rest and was disarmed: its motors are off, but it may roll on");
 }
 
-void DriveSession::fail(Fault fault) const {
-  throw DriveFault("the robot stopped by itself: " + std::string(name(fault)) +
-                       "; remove its cause, then run 'astrolabe faults --clear'",
-                   fault);
+template <Request M>
+void DriveSession::command(const M& motion) {
+  try {
+    client_.request(motion);
+  } catch (const RobotRefused& refused) {
+    explain(refused);
+    throw;
+  }
+}
+
+void DriveSession::explain(const RobotRefused& refused) {
+  if (refused.code() == ErrorCode::faulted) fail(static_cast<Fault>(refused.detail()));
+  if (refused.code() == ErrorCode::not_armed) fail_ended("the drive ended early", "stopped");
+  if (refused.code() == ErrorCode::busy && port_users().driver_pid != 0) fail_busy();
+}
+
+/// Who else is at this port; nobody where it is not shared.
+PortUsers DriveSession::port_users() {
+  try {
+    return client_.request(GetPortUsers{}, {.timeout = milliseconds(60), .tries = 3});
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+void DriveSession::fail_busy() {
+  const PortUsers users = port_users();
+  throw Error("the robot is driving for another program" +
+              in_brackets(users.driver_pid, users.driver_command) +
+              ": end that one, or 'astrolabe stop' ends its drive");
+}
+
+/// What ends a drive arrives before the reason: of a fault the robot reports the aborted segment first.
+void DriveSession::fail_ended(const std::string& what, const std::string& done_to_robot) {
+  const FaultReport report = client_.request(GetFaults{});
+  if (report.latched != 0) fail(report.first != Fault::none ? report.first : first_fault(report.latched));
+  const PortUsers users = port_users();
+  throw Error(what + ": another program" + in_brackets(users.stopper_pid, users.stopper_command) + " " +
+              done_to_robot + " the robot");
+}
+
+void DriveSession::fail(Fault fault) {
+  std::string cause = "the robot stopped by itself: ";
+  if (fault == Fault::emergency_stop) {
+    const PortUsers users = port_users();
+    cause =
+        "another program" + in_brackets(users.stopper_pid, users.stopper_command) + " stopped the robot: ";
+  }
+  throw DriveFault(
+      cause + std::string(name(fault)) + "; remove its cause, then run 'astrolabe faults --clear'", fault);
 }
 
 }  // namespace astro::link

@@ -7,6 +7,7 @@
 
 #include "common/safety/fault.hpp"
 #include "host/link/client.hpp"
+#include "host/link/relay_messages.hpp"
 
 namespace astro::link {
 
@@ -49,7 +50,7 @@ struct DriveHooks {
 ///
 /// Errors  DriveFault: a fault was latched; Interrupted; NotStopped: as Interrupted, but the robot did not
 ///         confirm that it stopped; LinkLost, also for a robot that restarted; Error if another program
-///         stopped or disarmed the robot; all that Client::request throws.
+///         stopped or disarmed the robot, which it names where it knows it; all that Client::request throws.
 class DriveSession {
  public:
   /// Arms. Clears command_timeout and link_lost first, which an earlier program left behind by ending, and
@@ -93,7 +94,13 @@ class DriveSession {
   void check();
   void wait_for_rest();
   void rest_and_disarm();
-  [[noreturn]] void fail(Fault fault) const;
+  template <protocol::Request M>
+  void command(const M& motion);
+  void explain(const RobotRefused& refused);
+  [[noreturn]] void fail(Fault fault);
+  [[noreturn]] void fail_ended(const std::string& what, const std::string& done_to_robot);
+  [[noreturn]] void fail_busy();
+  PortUsers port_users();
 
   Client& client_;
   DriveHooks hooks_;

@@ -4,6 +4,7 @@
 #include <boost/asio/error.hpp>
 #include <boost/asio/ip/address.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/local/stream_protocol.hpp>
 #include <boost/asio/posix/stream_descriptor.hpp>
 #include <charconv>
 #include <thread>
@@ -23,8 +24,11 @@ constexpr microseconds kReopenPause = milliseconds(50);
 }  // namespace
 
 template <class Stream>
-StreamTransport<Stream>::StreamTransport(std::string name, Opener open)
-    : name_(std::move(name)), open_(std::move(open)), stream_(open_(context_)) {}
+StreamTransport<Stream>::StreamTransport(std::string name, Opener open, Sentences sentences)
+    : name_(std::move(name)),
+      open_(std::move(open)),
+      sentences_(std::move(sentences)),
+      stream_(open_(context_)) {}
 
 template <class Stream>
 microseconds StreamTransport<Stream>::now() const {
@@ -67,7 +71,7 @@ void StreamTransport<Stream>::write(std::span<const std::uint8_t> bytes) {
     if (error == asio::error::would_block) {
       if (!wait_for(Stream::wait_write, kWriteTimeout)) lose("it takes no more bytes");
     } else if (error) {
-      lose("it was unplugged, switched off or ended");
+      lose(sentences_.lost());
     }
   }
 }
@@ -78,7 +82,7 @@ std::size_t StreamTransport<Stream>::read(std::span<std::uint8_t> into, microsec
     error_code error;
     const std::size_t size = stream().read_some(asio::buffer(into.data(), into.size()), error);
     if (!error) return size;
-    if (error != asio::error::would_block) lose("it was unplugged, switched off or ended");
+    if (error != asio::error::would_block) lose(sentences_.lost());
     if (waited || !wait_for(Stream::wait_read, timeout)) return 0;
   }
 }
@@ -105,6 +109,8 @@ void StreamTransport<Stream>::reopen(microseconds timeout) {
     pause(std::min(kReopenPause, deadline - now()));
   }
 }
+
+template class StreamTransport<asio::local::stream_protocol::socket>;  // shared_port.cpp opens these
 
 namespace {
 
@@ -142,6 +148,17 @@ asio::ip::tcp::socket connect_tcp(asio::io_context& context, const std::string& 
 }
 
 }  // namespace
+
+int open_line(const std::string& address, unsigned baud) {
+  if (!address.starts_with("tcp:")) return open_serial_port(address, baud);
+  asio::io_context context;
+  return connect_tcp(context, address, parse_tcp(address)).release();
+}
+
+std::string tcp_key(const std::string& address) {
+  const auto endpoint = parse_tcp(address);
+  return "port-tcp-" + endpoint.address().to_string() + "-" + std::to_string(endpoint.port());
+}
 
 std::unique_ptr<Transport> open_transport(const std::string& address, unsigned baud) {
   if (address.empty()) throw Error("no port is named: 'astrolabe ports' lists the robots that are here");

@@ -4,8 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 
+#include "host/base/error.hpp"
 #include "host/link/serial_port.hpp"
 
 namespace astro::link {
@@ -46,6 +49,19 @@ fs::path runtime_folder() {
   const char* folder = std::getenv("XDG_RUNTIME_DIR");
   const fs::path base = folder != nullptr && *folder != '\0' ? folder : "/tmp";
   return base / ("astrolabe-" + std::to_string(::getuid()));
+}
+
+fs::path make_runtime_folder() {
+  const fs::path folder = runtime_folder();
+  if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
+    throw Error("the folder '" + folder.string() + "' cannot be made: " + std::strerror(errno) +
+                "; set XDG_RUNTIME_DIR to a folder of yours");
+  struct stat about {};
+  if (::lstat(folder.c_str(), &about) != 0 || !S_ISDIR(about.st_mode) || about.st_uid != ::geteuid())
+    throw Error("'" + folder.string() + "' is not a folder of yours: set XDG_RUNTIME_DIR to one");
+  if ((about.st_mode & 077) != 0 && ::chmod(folder.c_str(), 0700) != 0)
+    throw Error("'" + folder.string() + "' is open to others and cannot be closed: set XDG_RUNTIME_DIR");
+  return folder;
 }
 
 std::vector<Port> candidate_ports(const fs::path& devices, const fs::path& simulators) {

@@ -17,6 +17,10 @@ struct Port {
 /// below /tmp where that variable is not set. May not exist.
 std::filesystem::path runtime_folder();
 
+/// runtime_folder(), made if need be, for this user alone. Throws Error if it cannot be made or belongs to
+/// somebody else.
+std::filesystem::path make_runtime_folder();
+
 /// /dev/serial/by-id/*, /dev/ttyACM*, /dev/ttyUSB*, each device once, then simulators; sorted. Links that
 /// lead nowhere are left out, and so is a runtime folder that somebody else owns. Opens nothing.
 std::vector<Port> candidate_ports(const std::filesystem::path& devices = "/dev",

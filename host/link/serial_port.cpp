@@ -7,33 +7,19 @@
 #include <sys/file.h>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
-#include <utility>
 
 #include "host/base/error.hpp"
+#include "host/link/descriptor.hpp"
 #include "host/link/ports.hpp"
 
 namespace astro::link {
 
 namespace {
-
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  int get() const { return number_; }
-  int release() { return std::exchange(number_, -1); }
-
- private:
-  int number_;
-};
 
 std::string ports_here() {
   std::string list;
@@ -79,6 +65,16 @@ void make_raw(termios2& mode, unsigned baud) {
 
 }  // namespace
 
+std::string port_key(dev_t device) {
+  return "port-" + std::to_string(major(device)) + "-" + std::to_string(minor(device));
+}
+
+std::string port_key_of(int descriptor) {
+  struct stat about {};
+  ::fstat(descriptor, &about);
+  return port_key(about.st_rdev);
+}
+
 int open_serial_port(const std::string& path, unsigned baud) {
   Descriptor port(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (port.get() < 0) throw Error(why_not_open(path, errno));
@@ -90,7 +86,8 @@ int open_serial_port(const std::string& path, unsigned baud) {
       throw Error(path + " is not a robot but the terminal that '" + *user + "' runs in");
     }
   }
-  if (::flock(port.get(), LOCK_EX | LOCK_NB) != 0) throw Error(why_not_open(path, EBUSY));
+  if (::flock(port.get(), LOCK_EX | LOCK_NB) != 0)
+    throw PortInUse(why_not_open(path, EBUSY), port_key(about.st_rdev));
   make_raw(mode, baud);
   if (::ioctl(port.get(), TCSETS2, &mode) != 0) {
     throw Error(path + " cannot be set to " + std::to_string(baud) + " baud: " + std::strerror(errno));

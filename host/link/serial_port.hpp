@@ -4,12 +4,30 @@
 
 #include <optional>
 #include <string>
+#include <utility>
+
+#include "host/base/error.hpp"
 
 namespace astro::link {
 
-/// Opens and locks a serial port or pty for open_transport(), which says what it throws. Returns a
-/// non-blocking file descriptor that the caller owns. The lock is flock's: it ends with the process, however
-/// that ends.
+/// Another program has locked the port.
+class PortInUse : public Error {
+ public:
+  PortInUse(const std::string& sentence, std::string key) : Error(sentence), key_(std::move(key)) {}
+  /// The same in all programs, by whatever name they know the port.
+  const std::string& key() const { return key_; }
+
+ private:
+  std::string key_;
+};
+
+/// A file name for what belongs to this device: "port-136-3".
+std::string port_key(dev_t device);
+std::string port_key_of(int descriptor);
+
+/// Opens and locks a serial port or pty for open_transport(), which says what it throws, PortInUse where
+/// another program has it. Returns a non-blocking file descriptor that the caller owns. The lock is flock's:
+/// it ends with the process, however that ends.
 int open_serial_port(const std::string& path, unsigned baud);
 
 /// Name of a process whose controlling terminal this device is. A pty's number is given away again once its

@@ -45,6 +45,10 @@ class Transport {
   /// under way are lost. Throws Error, with a sentence that says why it cannot be opened.
   virtual void reopen(microseconds timeout) = 0;
 
+  /// Why nothing comes although the line is there, where that is not the robot's doing; to be asked after a
+  /// time-out, and may take half a second. Empty: not known.
+  virtual std::string why_silent() { return {}; }
+
   /// The address as people know it: "/dev/ttyACM0".
   virtual const std::string& name() const = 0;
 };

@@ -161,8 +161,10 @@ class FakeRobot {
     if (refuse_next) {
       push(*std::exchange(refuse_next, std::nullopt), header.request_id);
     } else {
+      bool known = false;
       protocol::Requests::visit([&]<class M>() {
         if (M::kId != header.message_id) return;
+        known = true;
         if constexpr (std::is_same_v<typename M::Reply, protocol::Ack>) {
           const auto refused = carry_out(*protocol::decode<M>(body));
           refused ? push(*refused, header.request_id) : push(protocol::Ack{}, header.request_id);
@@ -170,6 +172,7 @@ class FakeRobot {
           answer(*protocol::decode<M>(body), header.request_id);
         }
       });
+      if (!known) push(*no(protocol::ErrorCode::unknown_message), header.request_id);
     }
     last_request_ = header;
     last_reply_ = out_.size() > before ? out_.back() : Bytes{};

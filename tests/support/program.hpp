@@ -48,6 +48,7 @@ class Program {
   Program& operator=(const Program&) = delete;
 
   void send(int signal) const { kill(pid_, signal); }
+  pid_t pid() const { return pid_; }
 
   /// Exit code, or 128 + the signal that ended it.
   int wait() {

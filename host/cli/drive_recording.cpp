@@ -1,0 +1,65 @@
+#include "host/cli/drive_recording.hpp"
+
+#include <fmt/format.h>
+
+#include "host/base/error.hpp"
+#include "host/cli/console.hpp"
+#include "host/experiment/journal.hpp"
+#include "host/experiment/robot_identity.hpp"
+#include "host/link/parameters.hpp"
+
+namespace astro::cli {
+namespace {
+
+recording::RunInfo free_drive(link::Client& client) {
+  recording::RunInfo info = describe_robot(client);
+  info.kind = "free";
+  return info;
+}
+
+}  // namespace
+
+recording::RunInfo describe_robot(link::Client& client) {
+  const protocol::HelloReply& robot = client.robot();
+  recording::RunInfo info;
+  const experiment::RobotIdentity identity = experiment::identity_of(robot);
+  info.robot_name = identity.name;
+  info.robot_id = identity.id;
+  info.board = robot.board.view();
+  info.firmware = fmt::format("{}.{}.{}", robot.fw_major, robot.fw_minor, robot.fw_patch);
+  info.started_at = experiment::utc_now();
+  const link::RemoteParameters parameters = link::RemoteParameters::fetch(client);
+  for (const link::ParameterRow& row : parameters.rows())
+    if (row.kind != protocol::ParameterKind::text)
+      info.parameters[row.name] = link::to_real(row, row.active.raw);
+  return info;
+}
+
+void DriveRecording::check(const std::filesystem::path& file) {
+  if (!file.empty() && std::filesystem::exists(file))
+    throw Error(
+        fmt::format("'{}' exists, and a recording replaces nothing: name another file", file.string()));
+}
+
+DriveRecording::DriveRecording(const std::filesystem::path& file, link::Client& client)
+    : info_(free_drive(client)), writer_(file, info_) {}
+
+DriveRecording::~DriveRecording() {
+  try {
+    close();
+  } catch (const std::exception& error) {
+    say(error.what());
+  }
+}
+
+void DriveRecording::add(const recording::OdometrySample& sample) {
+  if (open_) writer_.add(sample);
+}
+
+void DriveRecording::close() {
+  if (!open_) return;
+  open_ = false;
+  writer_.close(info_);
+}
+
+}  // namespace astro::cli

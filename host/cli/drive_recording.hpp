@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+
+#include "host/link/client.hpp"
+#include "host/recording/run_writer.hpp"
+
+namespace astro::cli {
+
+/// The robot and its parameters as they are now, and the time: the beginning of what a recording says of
+/// itself.
+recording::RunInfo describe_robot(link::Client& client);
+
+/// A recording of what a robot does while this program drives it. Without ground truth.
+class DriveRecording {
+ public:
+  static constexpr std::uint32_t kFields =
+      protocol::Telemetry::kPose | protocol::Telemetry::kCounts | protocol::Telemetry::kTwist;
+
+  /// Throws astro::Error if `file` exists, because a recording replaces nothing. Nothing if it is empty.
+  static void check(const std::filesystem::path& file);
+
+  DriveRecording(const std::filesystem::path& file, link::Client& client);
+  /// The file gets its name, however the drive has ended.
+  ~DriveRecording();
+  DriveRecording(const DriveRecording&) = delete;
+  DriveRecording& operator=(const DriveRecording&) = delete;
+
+  /// Throws astro::Error if it cannot be written: a drive that is to be recorded ends then.
+  void add(const recording::OdometrySample& sample);
+
+  /// The same as the destructor, and throws where it cannot be written.
+  void close();
+
+ private:
+  recording::RunInfo info_;
+  recording::RunWriter writer_;
+  bool open_ = true;
+};
+
+}  // namespace astro::cli
