@@ -31,7 +31,7 @@ void divide_by_pis_denominator(Natural& value) {
   value /= 14'887;
 }
 
-Geometry::Wheel make_wheel(const ParameterSet& set, Param factor) {
+[[gnu::cold]] Geometry::Wheel make_wheel(const ParameterSet& set, Param factor) {
   constexpr std::uint32_t kNanometresPerMetre = 1'000'000'000;
   Geometry::Wheel wheel;
 

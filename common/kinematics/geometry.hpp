@@ -28,6 +28,6 @@ struct Geometry {
 inline constexpr std::int32_t kTickHz = 1000;
 
 /// `set` must be valid (common/params): every result then fits with room for 2^9 counts per tick.
-Geometry make_geometry(const ParameterSet& set);
+[[gnu::cold]] Geometry make_geometry(const ParameterSet& set);
 
 }  // namespace astro

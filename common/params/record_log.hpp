@@ -27,6 +27,8 @@ class RecordLog {
     bool found = false;
     std::uint32_t at = 0;
     std::uint32_t sequence = 0;
+    bool found_outside = false;   // also in another sector
+    std::uint32_t outside = 0;    // the newest there: what is left if the newest's sector is lost
     std::uint32_t skipped = 0;    // damaged places met on the way
     std::uint32_t claimed = 0;    // by the damaged record that says it is the newest of them
     bool damaged_record = false;  // there is one
@@ -44,7 +46,12 @@ class RecordLog {
   /// Reads all sectors once and leaves the newest intact record in `record`, an empty one if there is none.
   Newest newest(Record& record) const {
     Newest newest;
-    for (std::uint32_t sector = 0; sector < kSectors; ++sector) search(sector * kSectorBytes, record, newest);
+    for (std::uint32_t sector = 0; sector < kSectors; ++sector) {
+      Newest here = newest;
+      here.found = false;
+      search(sector * kSectorBytes, record, here);
+      merge(here, newest);
+    }
     record.room(0);
     if (newest.found) read(newest.at, (newest.sector() + 1) * kSectorBytes, record);
     return newest;
@@ -106,6 +113,24 @@ class RecordLog {
       in_damage = damaged;
       at += kUnit;
     }
+  }
+
+  /// `here` has gone on from `newest` through one more sector, of which alone it holds the newest record.
+  static void merge(Newest here, Newest& newest) {
+    const bool wins =
+        here.found && (!newest.found || static_cast<std::int32_t>(here.sequence - newest.sequence) > 0);
+    const Newest& left = wins ? newest : here;  // the one that is not the newest
+    if (left.found &&
+        (!newest.found_outside || static_cast<std::int32_t>(left.sequence - newest.outside) > 0)) {
+      here.found_outside = newest.found_outside = true;
+      here.outside = newest.outside = left.sequence;
+    }
+    if (!wins) {
+      here.found = newest.found;
+      here.at = newest.at;
+      here.sequence = newest.sequence;
+    }
+    newest = here;
   }
 
   /// Sequence numbers are serial numbers (RFC 1982): the records in flash lie far less than 2^31 apart.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "common/base/result.hpp"
 #include "common/params/parameter_set.hpp"
@@ -20,6 +21,8 @@ struct Load {
   Param refused = Param::none;  // what validate() named
   std::uint32_t sequence = 0;   // of the newest record; 0 without one
   std::uint32_t skipped = 0;    // damaged places: bit rot, torn writes, a sector whose erase was cut
+  bool two_sectors = false;     // an older record lies in another sector than the newest ...
+  std::uint32_t outside = 0;    // ... and this is the newest there
   bool outrun = false;  // one of them says it is newer than `set`: it rotted, or its commit was cut short
 };
 
@@ -46,7 +49,12 @@ class Store {
   /// The newest intact set, whatever lies around it.
   Load load() {
     const auto newest = log_.newest(record_);
-    Load load{.set = {}, .sequence = newest.sequence, .skipped = newest.skipped, .outrun = newest.outrun()};
+    Load load{.set = {},
+              .sequence = newest.sequence,
+              .skipped = newest.skipped,
+              .two_sectors = newest.found_outside,
+              .outside = newest.outside,
+              .outrun = newest.outrun()};
     if (!newest.found) return load;
     const ParameterSet set = record_.set();
     const auto verdict = validate(set);
@@ -60,11 +68,14 @@ class Store {
   }
 
   /// Makes `set` the one that load() finds, and proves it by reading back. Rows that only newer firmware
-  /// knows stay as they are. After any error load() finds what it found before.
-  Result<void, CommitError> commit(const ParameterSet& set) {
+  /// knows stay as they are. After any error load() finds what it found before. `beyond` is a sequence number
+  /// that was reached already, by records that may be lost.
+  Result<void, CommitError> commit(const ParameterSet& set, std::optional<std::uint32_t> beyond = {}) {
     if (!validate(set)) return CommitError::refused;
     const auto newest = log_.newest(record_);
-    if (!record_.rewrite(set, next_sequence(newest))) return CommitError::no_room;
+    std::uint32_t sequence = next_sequence(newest);
+    if (beyond && static_cast<std::int32_t>(*beyond + 1 - sequence) > 0) sequence = *beyond + 1;
+    if (!record_.rewrite(set, sequence)) return CommitError::no_room;
     const bool written = newest.found ? write_after(newest.sector()) : write_first();
     if (!written) return CommitError::flash_failed;
     return {};

@@ -21,7 +21,7 @@ enum class Fault : std::uint8_t {
   stall,            // duty without motion
   encoder,          // counts that the motor cannot have produced
   tick_overrun,     // the control tick did not end in time
-  parameters,       // no valid parameter set
+  parameters,       // the parameters that were committed last are lost or refused
   flash,            // flash did not read back what was written
   emergency_stop,   // commanded by a host
   runaway,          // a wheel turns against its voltage, or faster than the voltage can turn it

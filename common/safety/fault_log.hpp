@@ -74,10 +74,12 @@ class FaultLog {
     return false;
   }
 
- private:
-  static constexpr std::uint32_t kAll = kSlots * Flash::kSectors;
+  /// Of a slot, what an entry takes. What is left belongs to others: an entry neither reads nor writes it.
   static constexpr std::uint32_t kWrittenBytes =
       (kFaultRecordBytes + Flash::kProgramBytes - 1) / Flash::kProgramBytes * Flash::kProgramBytes;
+
+ private:
+  static constexpr std::uint32_t kAll = kSlots * Flash::kSectors;
   using Written = std::array<std::uint8_t, kWrittenBytes>;
 
   struct Place {

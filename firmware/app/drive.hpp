@@ -31,7 +31,7 @@ class Drive {
 
   /// What a parameter set means for the tick. Takes long divisions: made outside the tick, taken in inside.
   struct Configuration {
-    explicit Configuration(const ParameterSet& set);
+    [[gnu::cold]] explicit Configuration(const ParameterSet& set);
 
     Wheels::Configuration wheels;
     MotionLimits limits;

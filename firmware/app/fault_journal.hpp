@@ -11,12 +11,12 @@ namespace astro {
 /// Carries faults from the tick into the log in flash: what was going on is noted in the tick that finds a
 /// fault, and written by the main loop once the robot stands with its outputs off, since the processor may
 /// stand still while the flash erases.
-template <NorFlash Flash>
+template <NorFlash Flash, class Mark>
 class FaultJournal {
  public:
   using Reply = Result<protocol::FaultLogEntry, protocol::ErrorReply>;
 
-  explicit FaultJournal(Flash& flash) : log_(flash) {
+  FaultJournal(Flash& flash, Mark mark) : log_(flash), mark_(mark) {
     const auto last = log_.get(0);
     if (last) start_ = last->start + 1;
     told_already_ = last && last->was.fault == Fault::flash && last->was.time_us < kStarting_us;
@@ -40,7 +40,7 @@ class FaultJournal {
 
   /// From the main loop, as often as it goes: at most one entry a turn.
   template <class Board>
-  void write(Board& board, const Drive& drive) {
+  [[gnu::cold]] void write(Board& board, const Drive& drive) {
     FaultCircumstances oldest;
     {
       auto hold = board.hold_tick();
@@ -49,9 +49,10 @@ class FaultJournal {
     }
     // One that the flash does not take is dropped: trying again for ever would only wear it further.
     static_cast<void>(log_.append(oldest, start_));
+    mark_.refresh();  // the sector may have been erased
   }
 
-  Reply entry(std::uint16_t index) const {
+  [[gnu::cold]] Reply entry(std::uint16_t index) const {
     const auto found = log_.get(index);
     if (!found) return protocol::ErrorReply{protocol::ErrorCode::out_of_range, 0};
     return protocol::FaultLogEntry{.number = found->number,
@@ -82,6 +83,7 @@ class FaultJournal {
   }
 
   FaultLog<Flash> log_;
+  Mark mark_;
   PendingFaults pending_;
   std::uint32_t start_ = 1;
   std::uint32_t seen_ = 0, at_start_ = 0;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "common/base/nor_flash.hpp"
+#include "common/params/commit_mark.hpp"
+#include "common/safety/fault_log.hpp"
 
 namespace astro {
 
@@ -13,6 +15,9 @@ struct FlashLayout {
 
   using Parameters = FlashRegion<Flash, 0, kParameterSectors>;
   using Log = FlashRegion<Flash, kParameterSectors, kLogSectors>;
+
+  /// Beside the entries of the fault log, so that the loss of every parameter sector is noticed.
+  using Mark = CommitMark<Log, FaultLog<Log>::kSlotBytes, FaultLog<Log>::kWrittenBytes>;
 
   explicit FlashLayout(Flash& flash) : parameters(flash), log(flash) {}
 

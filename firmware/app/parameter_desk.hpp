@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "common/params/store.hpp"
 #include "common/protocol/parameters.hpp"
 
@@ -9,20 +11,26 @@ namespace astro {
 ///
 /// The set being prepared belongs to the port that opened it. Nobody else stages into it, commits or applies
 /// it, so two hosts never mix their values.
-template <NorFlash Flash>
+template <NorFlash Flash, class Mark>
 class ParameterDesk {
  public:
   template <class Reply>
   using Answer = Result<Reply, protocol::ErrorReply>;
 
-  explicit ParameterDesk(Flash& flash) : store_(flash) {}
+  /// `mark` lies in other sectors than the parameters.
+  ParameterDesk(Flash& flash, Mark mark) : store_(flash), mark_(mark) {}
 
-  /// Reads the flash. False if it holds a set that this firmware refuses; the defaults are then in force.
-  bool load() {
+  /// Reads the flash. False if it holds a set that this firmware refuses, or lacks one that was committed:
+  /// the defaults or an older set are then in force.
+  [[gnu::cold]] bool load() {
     const Load loaded = store_.load();
     active_ = staged_ = loaded.set;
     fell_back_ = loaded.outrun;
-    return loaded.status != LoadStatus::refused;
+    const std::optional<std::uint32_t> reached = mark_.newest();
+    const bool lost = reached && (loaded.status == LoadStatus::no_record ||
+                                  static_cast<std::int32_t>(*reached - loaded.sequence) > 0);
+    if (!lost) follow(loaded, reached);
+    return loaded.status != LoadStatus::refused && !lost;
   }
 
   const ParameterSet& active() const { return active_; }
@@ -91,10 +99,12 @@ class ParameterDesk {
   }
 
   /// Flash first, then memory: what is in force then is what a restart would find.
-  Answer<protocol::Ack> commit(int port) {
+  [[gnu::cold]] Answer<protocol::Ack> commit(int port) {
     if (const Answer<protocol::Ack> refused = judge(port); !refused) return refused;
-    if (!store_.commit(staged_)) return error(protocol::ErrorCode::flash_failed);
+    const std::optional<std::uint32_t> reached = mark_.newest();
+    if (!store_.commit(staged_, reached)) return error(protocol::ErrorCode::flash_failed);
     active_ = staged_;
+    follow(store_.load(), reached);
     return protocol::Ack{};
   }
 
@@ -104,6 +114,17 @@ class ParameterDesk {
   }
 
   static constexpr int kNobody = -1;
+
+  /// Brings the mark up to what lies in flash, and proved so: never ahead of it, so that a power cut in
+  /// between raises no alarm. A cut before it is made up for at the next start. It need not follow every
+  /// commit, only be ahead of every record outside the newest one's sector, since sectors are lost as a
+  /// whole.
+  void follow(const Load& loaded, std::optional<std::uint32_t> reached) {
+    if (loaded.status == LoadStatus::no_record) return;
+    const bool told =
+        reached && (!loaded.two_sectors || static_cast<std::int32_t>(*reached - loaded.outside) > 0);
+    if (!told) mark_.raise(loaded.sequence);
+  }
 
   /// Whether this port may put the staged set in force.
   Answer<protocol::Ack> judge(int port) const {
@@ -124,6 +145,7 @@ class ParameterDesk {
   int owner_ = kNobody;  // the port whose session has opened staged_
   bool fell_back_ = false;
   Store<Flash> store_;
+  Mark mark_;
 };
 
 }  // namespace astro

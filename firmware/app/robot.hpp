@@ -31,12 +31,12 @@ template <hal::Board Board>
 class Robot {
  public:
   /// Outputs are off until a host arms the robot.
-  explicit Robot(Board& board)
+  [[gnu::cold]] explicit Robot(Board& board)
       : board_(board),
         drive_(ParameterSet::defaults()),
         flash_(board.flash()),
-        desk_(flash_.parameters),
-        journal_(flash_.log) {
+        desk_(flash_.parameters, typename Layout::Mark(flash_.log)),
+        journal_(flash_.log, typename Layout::Mark(flash_.log)) {
     board_.motors().coast();
     const bool readable = desk_.load();
     drive_.configure(desk_.active());
@@ -90,7 +90,7 @@ class Robot {
   static constexpr int kNobody = -1;
   enum class Reset : std::uint8_t { none, reboot, bootloader };
   static constexpr int kPorts = std::remove_reference_t<decltype(std::declval<Board&>().ports())>::kPorts;
-  using Flash = std::remove_reference_t<decltype(std::declval<Board&>().flash())>;
+  using Layout = FlashLayout<std::remove_reference_t<decltype(std::declval<Board&>().flash())>>;
 
   protocol::ResetCause reset_cause() {
     return static_cast<protocol::ResetCause>(board_.system().reset_cause());  // the same values in both
@@ -329,6 +329,10 @@ class Robot {
   }
 
   Answer<Ack> handle(int, const protocol::SetPose& request) {
+    // Half of what a position can hold, 4194 km: the robot does not drive over the edge from there.
+    constexpr std::int64_t kFarthest = std::int64_t{1} << 62;
+    for (const std::int64_t position : {request.x, request.y})
+      if (position > kFarthest || position < -kFarthest) return error(ErrorCode::out_of_range);
     auto hold = board_.hold_tick();
     if (!drive_.stands()) return error(ErrorCode::moving);
     drive_.set_pose({request.x, request.y, Angle::from_raw(request.theta), 0});
@@ -360,7 +364,7 @@ class Robot {
     return done;
   }
   /// Computed while the tick goes on, swapped in while it is held.
-  void put_in_force() {
+  [[gnu::cold]] void put_in_force() {
     const Drive::Configuration configuration(desk_.active());
     auto hold = board_.hold_tick();
     drive_.configure(configuration);
@@ -545,8 +549,8 @@ class Robot {
   Drive drive_;  // what the tick uses comes first: instructions reach only so far from the begin of an object
   TickClock ticks_;
   CheckIn check_in_;
-  FlashLayout<Flash> flash_;
-  ParameterDesk<typename FlashLayout<Flash>::Parameters> desk_;
+  Layout flash_;
+  ParameterDesk<typename Layout::Parameters, typename Layout::Mark> desk_;
   std::array<Session, kPorts> sessions_{};
   EventLog<kPorts> events_;
   std::int32_t battery_mv_ = 0;
@@ -554,7 +558,7 @@ class Robot {
   Host asking_, driver_;
   Reset reset_wanted_ = Reset::none;
   std::uint64_t reset_due_us_ = 0;
-  FaultJournal<typename FlashLayout<Flash>::Log> journal_;
+  FaultJournal<typename Layout::Log, typename Layout::Mark> journal_;
 };
 
 }  // namespace astro

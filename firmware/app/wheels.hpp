@@ -19,7 +19,7 @@ class Wheels {
 
   /// What the parameters mean for the tick. Takes divisions: made outside the tick.
   struct Configuration {
-    Configuration(const ParameterSet& set, const Geometry& wheels);
+    [[gnu::cold]] Configuration(const ParameterSet& set, const Geometry& wheels);
 
     Geometry geometry;
     PairGains gains;

@@ -16,7 +16,9 @@ constexpr std::array<std::string_view, kFaultNames.size()> kAdvice{
     "voltage on a motor and no motion: look for a blocked wheel or a loose motor or encoder lead",
     "counts that no motor can produce: check the encoder's leads",
     "the control tick came late while driving: report it, the firmware should never do that",
-    "no valid parameter set was found at the start: 'astrolabe params import' or 'params defaults'",
+    "the parameters that were saved last cannot be read, and older ones or the defaults are in force: load "
+    "yours "
+    "with 'astrolabe params import' or 'upload', or keep these with 'params save'",
     "the flash did not keep what was written: the last set stays in force, the part may be worn",
     "somebody pressed emergency stop",
     "a wheel turned against its voltage: 'astrolabe check-wiring' finds a wrong motor or encoder polarity",

@@ -29,6 +29,13 @@ TEST_F(KeepAlive, PingsTwentyTimesASecondOfOurClock) {
               10);  // 50 ms and up to one tick of 1 ms to read
 }
 
+TEST_F(KeepAlive, CountsTheEventsThatTheRobotSaysItDropped) {
+  link.robot.event(EventsMissed{3});
+  link.robot.event(EventsMissed{4});
+  client.pump(milliseconds(10));
+  EXPECT_EQ(client.counts().missed_events, 7U);
+}
+
 TEST_F(KeepAlive, KeepsAMovingRobotGoingWhosePumpRuns) {
   client.request(Velocity{100, 0});
   client.pump(seconds(5));
