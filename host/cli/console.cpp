@@ -32,6 +32,13 @@ void to_stderr(std::string_view text) {
   std::fflush(stderr);
 }
 
+// "study: 12 %, trial 60 of 500".
+std::string progress_line(const std::string& what, double fraction, std::string_view note) {
+  // Some work has no end that is known beforehand; then only the note says something.
+  const std::string part = fraction > 0 ? fmt::format("{:.0f} %", 100 * std::min(fraction, 1.0)) : "";
+  return fmt::format("{}: {}{}{}", what, part, part.empty() || note.empty() ? "" : ", ", note);
+}
+
 // How long a Ctrl-C can go unnoticed that comes just before a read.
 constexpr int kLookMs = 50;
 
@@ -59,8 +66,12 @@ bool stderr_is_terminal() { return isatty(STDERR_FILENO) == 1; }
 void say(std::string_view line) { to_stderr(fmt::format("{}\n", line)); }
 
 void complain(std::string_view sentence) {
-  const bool colour = stderr_is_terminal();
+  const bool colour = obeys_escapes(STDERR_FILENO);
   to_stderr(fmt::format("{}astrolabe:{} {}\n", colour ? "\033[31m" : "", colour ? "\033[0m" : "", sentence));
+}
+
+void complain_of_memory() {
+  std::fputs("astrolabe: there is not enough memory: end other programs, or do less at a time\n", stderr);
 }
 
 std::string ask(const std::string& prompt) {
@@ -89,13 +100,23 @@ bool confirm(const std::string& question) {
   return answer == "y" || answer == "Y" || answer == "yes";
 }
 
+bool ProgressLines::due(std::chrono::steady_clock::duration elapsed) {
+  if (elapsed < next_) return false;
+  next_ = elapsed + std::min<std::chrono::steady_clock::duration>(elapsed, std::chrono::minutes(1));
+  return true;
+}
+
 Progress::Progress(std::string what) : what_(std::move(what)), started_(std::chrono::steady_clock::now()) {}
 
 Progress::~Progress() { clear(); }
 
 void Progress::show(double fraction, std::string_view note) {
   const auto now = std::chrono::steady_clock::now();
-  if (!stderr_is_terminal() || now - started_ < kPatience || now - shown_ < kBetweenRedraws) return;
+  if (!obeys_escapes(STDERR_FILENO)) {
+    if (lines_.due(now - started_)) say(progress_line(what_, fraction, note));
+    return;
+  }
+  if (now - started_ < kPatience || now - shown_ < kBetweenRedraws) return;
   shown_ = now;
   visible_ = true;
   constexpr int kCells = 20;

@@ -3,16 +3,24 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <iostream>
 
 #include "host/base/degrees.hpp"
 #include "host/base/error.hpp"
+#include "host/base/shown.hpp"
 #include "host/link/refusal.hpp"
 
 namespace astro::cli {
 
 void write(const std::string& text) {
-  const bool taken = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
-  if (!taken || std::fflush(stdout) != 0) throw Error("the output cannot be written: is the disk full?");
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  flush_output();
+}
+
+void flush_output() {
+  std::cout.flush();
+  const bool is_out = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
+  if (!is_out) throw Error("the output cannot be written: is the disk full?");
 }
 
 void print(const std::string& text) { write(text + '\n'); }
@@ -50,8 +58,13 @@ Json to_json(const recording::PlanarPose& pose) {
 }
 
 std::string in_words(const recording::PlanarPose& pose) {
-  return fmt::format("x {:8.4f} m   y {:8.4f} m   heading {:9.3f} deg", pose.x_m, pose.y_m,
-                     degrees(pose.theta_rad));
+  return fmt::format("x {:8.4f} m   y {:8.4f} m   heading {:9.3f} deg", without_minus_zero(pose.x_m, 4),
+                     without_minus_zero(pose.y_m, 4), without_minus_zero(degrees(pose.theta_rad), 3));
+}
+
+std::string in_short_words(const recording::PlanarPose& pose) {
+  return fmt::format("x {:7.3f} m  y {:7.3f} m  {:7.1f} deg", without_minus_zero(pose.x_m, 3),
+                     without_minus_zero(pose.y_m, 3), without_minus_zero(degrees(pose.theta_rad), 1));
 }
 
 }  // namespace astro::cli

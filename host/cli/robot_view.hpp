@@ -20,6 +20,10 @@ void write(const std::string& text);
 void print(const std::string& text);
 void print_json(const Json& json);
 
+/// Hands to the system what was printed by whatever means. Throws astro::Error if stdout takes no more: what
+/// a full disk has swallowed must not look like a result.
+void flush_output();
+
 std::string firmware_version(const protocol::HelloReply& robot);
 std::string hex_id(const protocol::HelloReply& robot);
 
@@ -35,5 +39,8 @@ Json to_json(const recording::PlanarPose& pose);
 
 /// "x 1.0000 m   y -0.0003 m   heading 0.02 deg".
 std::string in_words(const recording::PlanarPose& pose);
+
+/// "x  1.000 m  y  0.000 m   0.0 deg", for lines that change all the time.
+std::string in_short_words(const recording::PlanarPose& pose);
 
 }  // namespace astro::cli
