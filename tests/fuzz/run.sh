@@ -10,6 +10,8 @@ cmake --build build/host-asan --target common.protocol.test common.params.test c
 cmake --preset host -DASTROLABE_TESTS=ON >/dev/null
 cmake --build build/host --target target.power_cut.test
 ASTRO_CUT_EVERY_WORD=1 build/host/tests/target.power_cut.test --gtest_filter='*PowerCut*'  # minutes
+tests/fuzz/kill.sh
+tests/fuzz/fail.sh
 end=$((SECONDS + seconds))
 rounds=0
 while ((SECONDS < end)); do
