@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "host/base/degrees.hpp"
+#include "host/base/shown.hpp"
 #include "host/cli/console.hpp"
 #include "host/experiment/method_names.hpp"
 #include "host/experiment/ml_sentences.hpp"
@@ -20,7 +21,7 @@ using experiment::with_error;
 using Rows = std::vector<std::vector<std::string>>;
 
 std::string known(double value, int decimals) {
-  return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "-";
+  return std::isfinite(value) ? fmt::format("{:.{}f}", without_minus_zero(value, decimals), decimals) : "-";
 }
 
 std::string percent(double ratio) {
@@ -32,8 +33,8 @@ std::string squares_text(const calibration::ExperimentSummary& squares) {
   const auto cluster = [](const char* name, const calibration::ClusterSummary& c) {
     return std::vector<std::string>{name,
                                     fmt::format("{}", c.runs),
-                                    fmt::format("{:.1f}", 1000 * c.x_cg_m),
-                                    fmt::format("{:.1f}", 1000 * c.y_cg_m),
+                                    known(1000 * c.x_cg_m, 1),
+                                    known(1000 * c.y_cg_m, 1),
                                     known(1000 * c.theta_cg_rad, 2),
                                     fmt::format("{:.1f}", 1000 * c.r_cg_m)};
   };
@@ -59,8 +60,8 @@ std::string factors_text(const Calibration& found) {
 
 std::string end_pose_text(const calibration::Estimate& estimate) {
   return table({{"method", std::string(calibration::name_of(estimate.options.method))},
-                {"alpha", fmt::format("{:.5f}°", degrees(estimate.alpha_rad))},
-                {"beta", fmt::format("{:.5f}°", degrees(estimate.beta_rad))},
+                {"alpha", fmt::format("{:.5f}°", without_minus_zero(degrees(estimate.alpha_rad), 5))},
+                {"beta", fmt::format("{:.5f}°", without_minus_zero(degrees(estimate.beta_rad), 5))},
                 {"R", fmt::format("{:.3f} m", estimate.radius_m)}});
 }
 

@@ -121,7 +121,7 @@ class Monitor {
     figures_.drift = client_.clock().drift();
     figures_.counts = client_.counts();
     figures_.frames = client_.frames();
-    if (seen_ > 0) picture_.draw(monitor_picture(robot_, newest_, figures_));
+    if (seen_ > 0) picture_.draw(monitor_picture(robot_, newest_, figures_), monitor_line(newest_, figures_));
     draw_at_ = client_.now() + milliseconds(100);
   }
 

@@ -101,7 +101,7 @@ void write_report(const TuneOptions& options, const TuneResult& result, const li
 void conclude(const TuneOptions& options, const TuneResult& result) {
   const std::string path = std::filesystem::absolute(options.out).string();
   if (!options.json)
-    return print(fmt::format("{}{}\nReport: {}", result.uploaded ? steps_in_words(result) + "\n" : "",
+    return print(fmt::format("{}\n{}{}\nReport: {}", step_after_in_words(result), wrapped(verdict(result)),
                              result.uploaded ? "The new values are loaded." : "Nothing was loaded.", path));
   Json json = to_json(result);
   json["report"] = path;

@@ -44,6 +44,13 @@ void to_stderr(std::string_view text) {
 
 constexpr std::size_t kLongestAnswer = 65536;
 
+// "study: 12 %, trial 60 of 500".
+std::string progress_line(const std::string& what, double fraction, std::string_view note) {
+  // Some work has no end that is known beforehand; then only the note says something.
+  const std::string part = fraction > 0 ? fmt::format("{:.0f} %", 100 * std::min(fraction, 1.0)) : "";
+  return fmt::format("{}: {}{}{}", what, part, part.empty() || note.empty() ? "" : ", ", note);
+}
+
 // How long a Ctrl-C can go unnoticed that comes just before a read.
 constexpr int kLookMs = 50;
 
@@ -71,13 +78,17 @@ bool stderr_is_terminal() { return isatty(STDERR_FILENO) == 1; }
 void say(std::string_view line) { to_stderr(plain_text(line) + '\n'); }
 
 void complain(std::string_view sentence) {
-  const bool colour = stderr_is_terminal();
+  const bool colour = obeys_escapes(STDERR_FILENO);
   to_stderr(fmt::format("{}astrolabe:{} {}\n", colour ? "\033[31m" : "", colour ? "\033[0m" : "",
                         one_line(sentence)));
 }
 
 std::string in_words(const std::filesystem::filesystem_error& error) {
   return fmt::format("cannot use '{}': {}", error.path1().string(), error.code().message());
+}
+
+void complain_of_memory() {
+  std::fputs("astrolabe: there is not enough memory: end other programs, or do less at a time\n", stderr);
 }
 
 std::string ask(const std::string& prompt) {
@@ -109,13 +120,26 @@ bool confirm(const std::string& question) {
   return answer == "y" || answer == "Y" || answer == "yes";
 }
 
+bool ProgressLines::due(std::chrono::steady_clock::duration elapsed) {
+  if (elapsed < next_) return false;
+  next_ = elapsed + std::min<std::chrono::steady_clock::duration>(elapsed, std::chrono::minutes(1));
+  return true;
+}
+
 Progress::Progress(std::string what) : what_(std::move(what)), started_(std::chrono::steady_clock::now()) {}
 
 Progress::~Progress() { clear(); }
 
+// Where a line cannot be rewritten, a new one now and then.
+void Progress::add_line(double fraction, std::string_view note) {
+  if (obeys_escapes(STDERR_FILENO)) return;
+  if (lines_.due(std::chrono::steady_clock::now() - started_)) say(progress_line(what_, fraction, note));
+}
+
 bool Progress::due() {
   const auto now = std::chrono::steady_clock::now();
-  if (!stderr_is_terminal() || now - started_ < kPatience || now - shown_ < kBetweenRedraws) return false;
+  if (!obeys_escapes(STDERR_FILENO) || now - started_ < kPatience || now - shown_ < kBetweenRedraws)
+    return false;
   shown_ = now;
   return true;
 }
@@ -128,6 +152,7 @@ void Progress::rewrite(const std::string& line) {
 }
 
 void Progress::show(double fraction, std::string_view note) {
+  add_line(fraction, note);
   if (!due()) return;
   constexpr int kCells = 20;
   const int full = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * kCells + 0.5);
@@ -137,6 +162,7 @@ void Progress::show(double fraction, std::string_view note) {
 }
 
 void Progress::show(std::string_view note) {
+  add_line(0, note);
   if (due()) rewrite(fmt::format("{}  {}", what_, note));
 }
 

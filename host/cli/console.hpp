@@ -22,6 +22,9 @@ void complain(std::string_view sentence);
 /// "cannot use 'PATH': what the system said", for whatever no other sentence fits.
 std::string in_words(const std::filesystem::filesystem_error& error);
 
+/// The sentence that memory has run out; takes none itself.
+void complain_of_memory();
+
 /// Asks on stderr, reads a line from stdin. Throws astro::Error if stdin is no terminal: says that --yes
 /// answers.
 bool confirm(const std::string& question);
@@ -30,8 +33,20 @@ bool confirm(const std::string& question);
 /// Ctrl-C.
 std::string ask(const std::string& prompt);
 
-/// A bar on stderr that rewrites its line; silent unless stderr is a terminal. Shown only once a second has
-/// passed.
+/// When progress is told where no line can be rewritten, as in a file or a pipe: after 10 s, then whenever
+/// the time has doubled, but every minute at least. A short job says nothing, and the log of a long one stays
+/// short.
+class ProgressLines {
+ public:
+  /// True if a line is due now; `elapsed` since the beginning of the work.
+  bool due(std::chrono::steady_clock::duration elapsed);
+
+ private:
+  std::chrono::steady_clock::duration next_ = std::chrono::seconds(10);
+};
+
+/// A bar on stderr that rewrites its line, shown only once a second has passed. Lines as ProgressLines says
+/// where stderr is no terminal, or one that cannot rewrite.
 class Progress {
  public:
   explicit Progress(std::string what);
@@ -47,12 +62,14 @@ class Progress {
   void clear();
 
  private:
+  void add_line(double fraction, std::string_view note);
   bool due();
   void rewrite(const std::string& line);
 
   std::string what_;
   std::chrono::steady_clock::time_point started_;
   std::chrono::steady_clock::time_point shown_;
+  ProgressLines lines_;
   bool visible_ = false;
 };
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <optional>
 
-#include "host/base/degrees.hpp"
 #include "host/cli/console.hpp"
 #include "host/cli/drive_recording.hpp"
 #include "host/cli/limit_notes.hpp"
@@ -59,10 +58,6 @@ class BarDuring {
  private:
   std::optional<Progress>& bar_;
 };
-
-std::string short_words(const recording::OdometrySample& at) {
-  return fmt::format("x {:7.3f} m  y {:7.3f} m  {:7.1f} deg", at.x_m, at.y_m, degrees(at.theta_rad));
-}
 
 }  // namespace
 
@@ -122,7 +117,7 @@ void drive_path(DriveOptions& options, const link::Path& path) {
     const std::string part =
         way.segments() > 1 ? fmt::format("{}/{}  ", std::min(way.done() + 1, way.segments()), way.segments())
                            : "";
-    bar->show(way.fraction(), part + short_words(sample));
+    bar->show(way.fraction(), part + in_short_words(pose_of(sample)));
   };
   drive(options, job);
 }
@@ -139,7 +134,8 @@ void drive_velocity(DriveOptions& options, double v_mps, double omega_radps, dou
   job.moved = [&](const recording::OdometrySample& sample) {
     if (!bar) return;
     if (begun_us == 0) begun_us = sample.time_us;
-    bar->show(static_cast<double>(sample.time_us - begun_us) / 1e6 / seconds, short_words(sample));
+    bar->show(static_cast<double>(sample.time_us - begun_us) / 1e6 / seconds,
+              in_short_words(pose_of(sample)));
   };
   drive(options, job);
 }

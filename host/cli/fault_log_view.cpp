@@ -6,6 +6,7 @@
 
 #include "common/protocol/enums.hpp"
 #include "common/safety/fault.hpp"
+#include "host/base/shown.hpp"
 #include "host/cli/console.hpp"
 
 namespace astro::cli {
@@ -21,7 +22,7 @@ std::string name_or_number(std::uint8_t value) {
 }
 
 std::string volts(std::int32_t mv) { return fmt::format("{:.2f} V", mv / 1e3); }
-std::string speed(std::int32_t umps) { return fmt::format("{:.3f} m/s", umps / 1e6); }
+std::string speed(std::int32_t umps) { return fmt::format("{:.3f} m/s", without_minus_zero(umps / 1e6, 3)); }
 
 }  // namespace
 

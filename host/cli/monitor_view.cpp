@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host/base/degrees.hpp"
+#include "host/base/shown.hpp"
 #include "host/cli/console.hpp"
 #include "host/cli/terminal.hpp"
 #include "host/experiment/record_run.hpp"
@@ -26,8 +27,9 @@ std::string wheels(const Telemetry& telemetry) {
   constexpr int kHalf = 10;
   const auto row = [](const char* name, std::int32_t set, std::int32_t is, std::int16_t drive,
                       std::int32_t counts) {
-    return fmt::format("  {:<6} {:+8.3f}  {:+8.3f}    {}  {:+6.1f} %  {:12}\n", name, mps(set), mps(is),
-                       gauge(duty(drive), kHalf), 100 * duty(drive), counts);
+    return fmt::format("  {:<6} {:+8.3f}  {:+8.3f}    {}  {:+6.1f} %  {:12}\n", name,
+                       without_minus_zero(mps(set), 3), without_minus_zero(mps(is), 3),
+                       gauge(duty(drive), kHalf), without_minus_zero(100 * duty(drive), 1), counts);
   };
   return "  wheel   set m/s    is m/s    duty                               counts\n" +
          row("left", telemetry.setpoint.left_umps, telemetry.wheel_speed.left_umps, telemetry.duty.left,
@@ -38,7 +40,8 @@ std::string wheels(const Telemetry& telemetry) {
 
 std::string link_line(const LinkFigures& link) {
   if (!link.lost.empty()) return "  link      LOST: " + link.lost + "\n";
-  const std::string drift = link.drift ? fmt::format("{:+.1f} ppm", *link.drift * 1e6) : "not known yet";
+  const std::string drift =
+      link.drift ? fmt::format("{:+.1f} ppm", without_minus_zero(*link.drift * 1e6, 1)) : "not known yet";
   return fmt::format("  link      round trip {:.2f} ms   robot's clock {}\n", link.round_trip_ms, drift) +
          fmt::format("            frames {} good, {} bad   repeated {}   lost pings {}\n", link.frames.good,
                      link.frames.bad(), link.counts.repeats, link.counts.lost_pings);
@@ -59,10 +62,21 @@ std::string monitor_picture(const std::string& robot, const Telemetry& telemetry
          fmt::format("  mode      {}\n", mode_in_words(telemetry.state)) +
          fmt::format("  faults    {}\n", faults_in_words(telemetry.state.latched_faults)) +
          fmt::format("  battery   {:.2f} V\n\n", telemetry.battery.mv / 1e3) +
-         fmt::format("  pose      x {:10.4f} m     y {:10.4f} m     heading {:10.2f} deg\n", at.x_m, at.y_m,
-                     degrees(at.theta_rad)) +
-         fmt::format("  velocity  v {:+10.3f} m/s   omega {:+8.3f} rad/s\n\n", at.v_mps, at.omega_radps) +
+         fmt::format("  pose      x {:10.4f} m     y {:10.4f} m     heading {:10.2f} deg\n",
+                     without_minus_zero(at.x_m, 4), without_minus_zero(at.y_m, 4),
+                     without_minus_zero(degrees(at.theta_rad), 2)) +
+         fmt::format("  velocity  v {:+10.3f} m/s   omega {:+8.3f} rad/s\n\n",
+                     without_minus_zero(at.v_mps, 3), without_minus_zero(at.omega_radps, 3)) +
          wheels(telemetry) + "\n" + link_line(link) + "\n  Q quits\n";
+}
+
+std::string monitor_line(const Telemetry& telemetry, const LinkFigures& link) {
+  if (!link.lost.empty()) return "link LOST: " + link.lost;
+  const recording::OdometrySample at = experiment::to_sample(telemetry);
+  const std::uint32_t faults = telemetry.state.latched_faults;
+  return fmt::format("{}{}  {:.2f} V  {}", mode_in_words(telemetry.state),
+                     faults == 0 ? "" : ", " + faults_in_words(faults), telemetry.battery.mv / 1e3,
+                     in_short_words({at.x_m, at.y_m, at.theta_rad}));
 }
 
 Json to_json(const Telemetry& telemetry) {

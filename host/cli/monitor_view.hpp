@@ -23,6 +23,9 @@ struct LinkFigures {
 std::string monitor_picture(const std::string& robot, const protocol::Telemetry& telemetry,
                             const LinkFigures& link);
 
+/// The same in one line, for terminals where nothing can be drawn over: mode, faults, battery, pose.
+std::string monitor_line(const protocol::Telemetry& telemetry, const LinkFigures& link);
+
 /// The same sample for programs.
 Json to_json(const protocol::Telemetry& telemetry);
 

@@ -109,12 +109,19 @@ bool takes(const CLI::App& command, const std::string& option) {
   return command.get_option_no_throw(option.substr(0, option.find('='))) != nullptr;
 }
 
+bool names_no_command(const Place& place) {
+  return !place.unknown.empty() && !place.unknown.starts_with('-');
+}
+
+std::string unknown_command(const Place& place) {
+  return fmt::format("there is no command '{} {}'{}", place.path, place.unknown,
+                     suggestion(place.unknown, command_names(*place.command)));
+}
+
 std::string what_is_wrong(const Place& place, const CLI::ParseError& error, int argc, char** argv) {
   if (place.unknown.starts_with('-') && !takes(*place.command, place.unknown))
     return unknown_argument(place, place.unknown);
-  if (!place.unknown.empty() && !place.unknown.starts_with('-'))
-    return fmt::format("there is no command '{} {}'{}", place.path, place.unknown,
-                       suggestion(place.unknown, command_names(*place.command)));
+  if (names_no_command(place)) return unknown_command(place);
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
     return unknown_argument(place, first_extra(error.what(), argc, argv));
   if (place.command->get_require_subcommand_min() > 0) return fmt::format("'{}' needs a command", place.path);
@@ -143,8 +150,13 @@ void Program::version(const std::string& text) { app_->set_version_flag("--versi
 int Program::run(int argc, char** argv) {
   try {
     app_->parse(argc, argv);
-  } catch (const CLI::Success& wish) {
-    return app_->exit(wish);  // --help, --version
+  } catch (const CLI::Success& wish) {  // --help, --version
+    // The library would explain the command above the word that it does not know.
+    if (const Place place = place_of(*app_, argc, argv); names_no_command(place)) {
+      complain(fmt::format("{} ('{} --help' explains)", unknown_command(place), place.path));
+      return kWrongUsage;
+    }
+    return app_->exit(wish);
   } catch (const CLI::ParseError& error) {
     complain(sentence_for(*app_, error, argc, argv));
     return kWrongUsage;

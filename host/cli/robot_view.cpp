@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <iostream>
 
 #include "host/base/degrees.hpp"
 #include "host/base/error.hpp"
 #include "host/base/plain_text.hpp"
+#include "host/base/shown.hpp"
 #include "host/cli/console.hpp"
 #include "host/link/refusal.hpp"
 
@@ -15,12 +17,16 @@ namespace astro::cli {
 namespace {
 
 void to_stdout(const std::string& text) {
-  const bool taken = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
-  if (!taken || std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-    throw Error("the output cannot be written: is the disk full?");
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  flush_output();
 }
 
 }  // namespace
+
+void flush_output() {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    throw Error("the output cannot be written: is the disk full?");
+}
 
 void write(const std::string& text) { to_stdout(plain_text(text)); }
 
@@ -61,8 +67,13 @@ Json to_json(const recording::PlanarPose& pose) {
 }
 
 std::string in_words(const recording::PlanarPose& pose) {
-  return fmt::format("x {:8.4f} m   y {:8.4f} m   heading {:9.3f} deg", pose.x_m, pose.y_m,
-                     degrees(pose.theta_rad));
+  return fmt::format("x {:8.4f} m   y {:8.4f} m   heading {:9.3f} deg", without_minus_zero(pose.x_m, 4),
+                     without_minus_zero(pose.y_m, 4), without_minus_zero(degrees(pose.theta_rad), 3));
+}
+
+std::string in_short_words(const recording::PlanarPose& pose) {
+  return fmt::format("x {:7.3f} m  y {:7.3f} m  {:7.1f} deg", without_minus_zero(pose.x_m, 3),
+                     without_minus_zero(pose.y_m, 3), without_minus_zero(degrees(pose.theta_rad), 1));
 }
 
 }  // namespace astro::cli

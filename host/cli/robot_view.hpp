@@ -16,8 +16,8 @@ namespace astro::cli {
 /// Keys keep the order in which a person would ask.
 using Json = nlohmann::ordered_json;
 
-/// To stdout, through plain_text; print adds a newline. Throws astro::Error if this, or anything before it, could
-/// not be written.
+/// To stdout, through plain_text; print adds a newline. Throws astro::Error if this, or anything before it,
+/// could not be written.
 void write(const std::string& text);
 void print(const std::string& text);
 
@@ -29,6 +29,10 @@ template <class AnyJson>
 void print_json(const AnyJson& json) {
   print(json.dump(2, ' ', false, AnyJson::error_handler_t::replace));
 }
+
+/// Hands to the system what was printed by whatever means. Throws astro::Error if stdout takes no more: what
+/// a full disk has swallowed must not look like a result.
+void flush_output();
 
 std::string firmware_version(const protocol::HelloReply& robot);
 std::string hex_id(const protocol::HelloReply& robot);
@@ -45,5 +49,8 @@ Json to_json(const recording::PlanarPose& pose);
 
 /// "x 1.0000 m   y -0.0003 m   heading 0.02 deg".
 std::string in_words(const recording::PlanarPose& pose);
+
+/// "x  1.000 m  y  0.000 m   0.0 deg", for lines that change all the time.
+std::string in_short_words(const recording::PlanarPose& pose);
 
 }  // namespace astro::cli

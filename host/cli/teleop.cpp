@@ -1,18 +1,17 @@
 #include "host/cli/teleop.hpp"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <memory>
 
-#include "host/base/degrees.hpp"
 #include "host/base/error.hpp"
+#include "host/cli/console.hpp"
 #include "host/cli/drive_run.hpp"
 #include "host/cli/keys.hpp"
 #include "host/cli/limit_notes.hpp"
 #include "host/cli/options.hpp"
-#include "host/cli/robot_view.hpp"
 #include "host/cli/steering.hpp"
+#include "host/cli/teleop_view.hpp"
 #include "host/cli/terminal.hpp"
 
 namespace astro::cli {
@@ -22,24 +21,6 @@ struct TeleopOptions {
   DriveOptions drive;
   double speed_mps = 0.4, yaw_rate_radps = 1.0;  // gentle: a person reacts late
 };
-
-constexpr const char* kHelp =
-    "     W or ↑   faster                space   stop\n"
-    "     S or ↓   slower, backwards     Q       quit\n"
-    "     A or ←   turn left\n"
-    "     D or →   turn right\n\n";
-
-std::string view(const std::string& robot, const SteeringWheel& wheel, const recording::OdometrySample& at) {
-  constexpr int kHalf = 15;
-  return fmt::format("\n  steering {}\n\n{}", robot, kHelp) +
-         fmt::format("  speed     {}  {:+5.2f} m/s    is {:+6.3f}\n", gauge(wheel.forward(), kHalf),
-                     wheel.v_mps(), at.v_mps) +
-         // Left is left on the bar too.
-         fmt::format("  turning   {}  {:+5.2f} rad/s  is {:+6.3f}\n\n", gauge(-wheel.left(), kHalf),
-                     wheel.omega_radps(), at.omega_radps) +
-         fmt::format("  odometry  x {:.3f} m   y {:.3f} m   heading {:.1f} deg\n", at.x_m, at.y_m,
-                     degrees(at.theta_rad));
-}
 
 void run(TeleopOptions& options) {
   if (isatty(STDIN_FILENO) != 1 || isatty(STDERR_FILENO) != 1)
@@ -57,13 +38,15 @@ void run(TeleopOptions& options) {
     Steering steering(client, session);
     SteeringWheel wheel(options.speed_mps, options.yaw_rate_radps);
     KeyReader reader;
+    const std::string robot(client.robot().robot_name.view());
+    if (!obeys_escapes(STDERR_FILENO)) say(teleop_keys());
     while (true) {
       for (const Key key : reader.read(terminal.typed())) {
         wheel.press(key);
         if (key == Key::quit) return;
       }
       steering.step(wheel.v_mps(), wheel.omega_radps());
-      picture.draw(view(std::string(client.robot().robot_name.view()), wheel, at));
+      picture.draw(teleop_picture(robot, wheel, at, terminal_size(STDERR_FILENO)), teleop_line(wheel, at));
     }
   };
   drive(options.drive, job);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <string_view>
 
 #include "host/base/error.hpp"
 #include "host/base/plain_text.hpp"
@@ -13,6 +15,8 @@
 
 namespace astro::cli {
 namespace {
+
+constexpr auto kBetweenLines = std::chrono::seconds(1);
 
 termios before{};  // global: a signal handler puts it back
 
@@ -59,12 +63,31 @@ TerminalSize terminal_size(int fd) {
   return {size.ws_col, size.ws_row};
 }
 
+bool obeys_escapes(int fd) {
+  const char* const kind = std::getenv("TERM");
+  return isatty(fd) == 1 && kind != nullptr && *kind != '\0' && std::string_view(kind) != "dumb";
+}
+
 Picture::~Picture() {
   if (drawn_) write_all(fd_, "\033[?25h");
 }
 
-void Picture::draw(const std::string& picture) {
-  const std::string text = plain_text(picture);
+void Picture::draw(const std::string& text, const std::string& line) {
+  if (redraws_)
+    draw_over(plain_text(text));
+  else
+    add_line(plain_text(line));
+}
+
+void Picture::add_line(const std::string& line) {
+  const auto now = std::chrono::steady_clock::now();
+  if (line == line_ || now - line_at_ < kBetweenLines) return;
+  line_ = line;
+  line_at_ = now;
+  write_all(fd_, line + "\n");
+}
+
+void Picture::draw_over(const std::string& text) {
   const TerminalSize size = terminal_size(fd_);
   std::string frame = drawn_ ? "" : "\033[?25l";
   if (lines_ > 0) frame += "\033[" + std::to_string(lines_) + "F";

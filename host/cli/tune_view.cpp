@@ -7,7 +7,9 @@
 #include <ctime>
 #include <limits>
 #include <numbers>
+#include <span>
 
+#include "host/base/degrees.hpp"
 #include "host/cli/console.hpp"
 
 namespace astro::cli {
@@ -133,9 +135,7 @@ std::vector<std::string> notes(const TuneResult& result) {
   return list;
 }
 
-}  // namespace
-
-std::string steps_in_words(const TuneResult& result) {
+std::string steps_in_words(std::span<const TunedStep> steps) {
   std::vector<std::vector<std::string>> rows{
       {"step", "wheel", "", "rise 10-90 %", "overshoot", "largest error", "rms error"}};
   const auto add = [&](const std::string& title, Side side, const char* what, const StepFigures& figures) {
@@ -144,13 +144,54 @@ std::string steps_in_words(const TuneResult& result) {
                     fmt::format("{:.1f} mm/s", 1e3 * figures.worst_error_mps),
                     fmt::format("{:.1f} mm/s", 1e3 * figures.rms_error_mps)});
   };
-  for (const TunedStep& step : result.steps) {
+  for (const TunedStep& step : steps) {
     for (const Side side : kSides) {
       if (step.was_measured) add(step.title, side, "measured", figures(step.measured[at(side)]));
       add(step.title, side, "predicted", figures(step.predicted[at(side)]));
     }
   }
   return table(rows, "lllrrrr");
+}
+
+// Of the wheel that follows its set point worse.
+double rms_error_mps(const tuning::StepCourses& courses) {
+  return std::max(figures(courses[0]).rms_error_mps, figures(courses[1]).rms_error_mps);
+}
+
+}  // namespace
+
+std::string step_after_in_words(const TuneResult& result) {
+  return result.uploaded ? steps_in_words(std::span(result.steps).subspan(1, 1)) : "";
+}
+
+std::string verdict(const TuneResult& result) {
+  constexpr double kSame = 0.1,
+                   kSame_mps = 5e-4;    // a repeated step differs by that, and encoders resolve no less
+  constexpr double kUnexplained = 2.0;  // what the model left out is then as large as what it tells
+  const TunedStep &first = result.steps[0], &next = result.steps[1];
+  const double before = rms_error_mps(first.measured), predicted = rms_error_mps(next.predicted);
+  const double now = next.was_measured ? rms_error_mps(next.measured) : predicted;
+  const double same_mps = std::max(kSame * before, kSame_mps);
+  const bool is_better = now<before - same_mps, is_worse = now> before + same_mps;
+  std::string text = fmt::format(
+      "Verdict: with the new values the wheels {} their set point {} before: rms error {:.1f} mm/s, before "
+      "{:.1f}",
+      next.was_measured ? "follow" : "should follow",
+      is_better  ? "better than"
+      : is_worse ? "worse than"
+                 : "about as well as",
+      1e3 * now, 1e3 * before);
+  text +=
+      next.was_measured ? fmt::format(", predicted {:.1f};", 1e3 * predicted) : " (predicted, not measured);";
+  text +=
+      fmt::format(" phase margin {:.0f} deg, before {:.0f}.", degrees(result.design.margins.phase_margin_rad),
+                  degrees(result.margins_before.phase_margin_rad));
+  if (!next.was_measured) return text;
+  if (is_worse)
+    text += " The old values are in the table of changes above; 'astrolabe params set' puts them back.";
+  else if (now > kUnexplained * predicted + kSame_mps)
+    text += " The model explains less than half of it: look for slip, play or a weak supply.";
+  return text;
 }
 
 std::string in_words(const TuneResult& result) {
@@ -161,7 +202,7 @@ std::string in_words(const TuneResult& result) {
       result.before.kp, result.before.ki, margins_in_words(result.margins_before), result.design.kp,
       result.design.ki, margins_in_words(result.design.margins), hertz(result.design.largest_bandwidth_radps),
       1e3 * result.design.noise_V);
-  text += steps_in_words(result);
+  text += steps_in_words(result.steps);
   for (const std::string& note : notes(result)) text += fmt::format("\n{}\n", note);
   return text;
 }
@@ -187,6 +228,7 @@ Json to_json(const TuneResult& result) {
           {"changes", changes},
           {"steps", steps_json(result)},
           {"notes", notes(result)},
+          {"verdict", verdict(result)},
           {"uploaded", result.uploaded}};
 }
 

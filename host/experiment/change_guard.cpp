@@ -55,6 +55,19 @@ std::string far_change(const link::ParameterRow& row, const Change& change) {
   return fmt::format("{}, {}{}", step, times(ratio), *before != 0 ? "" : " (compared with the default)");
 }
 
+/// A percentage says how much of a quantity there is more or less. From -1 to 1, as a polarity changes, it
+/// would be -200 %; words say what that means.
+std::string change_in_words(const Change& change) {
+  const double* before = std::get_if<double>(&change.before);
+  const double* after = std::get_if<double>(&change.after);
+  if (before == nullptr || after == nullptr || *before == 0) return "";
+  if (*after == -*before) return "reversed";
+  if (*after != 0 && std::signbit(*after) != std::signbit(*before)) return "other sign";
+  const double percent = 100 * (*after / *before - 1);
+  const bool is_visible = std::abs(percent) >= 5e-5;
+  return is_visible ? fmt::format("{:+.4f} %", percent) : "< 0.0001 %";
+}
+
 std::string shown(const link::Value& value) {
   if (const double* number = std::get_if<double>(&value)) return fmt::format("{:.9g}", *number);
   return std::get<std::string>(value);
@@ -150,11 +163,9 @@ std::vector<std::string> far_changes(const link::RemoteParameters& robot,
 
 std::vector<std::vector<std::string>> side_by_side(const std::vector<Change>& changes) {
   std::vector<std::vector<std::string>> rows{{"parameter", "unit", "on the robot", "new", "change"}};
-  for (const Change& change : changes) {
-    const double ratio = relative(change);
-    rows.push_back({change.name, change.unit, shown(change.before), shown(change.after),
-                    ratio == 0 ? "" : fmt::format("{:+.4f} %", 100 * ratio)});
-  }
+  for (const Change& change : changes)
+    rows.push_back(
+        {change.name, change.unit, shown(change.before), shown(change.after), change_in_words(change)});
   return rows;
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "host/base/degrees.hpp"
+#include "host/base/shown.hpp"
 
 namespace astro::experiment {
 namespace {
@@ -23,9 +24,9 @@ std::string as_sentence(std::string remark, const std::vector<calibration::RunFi
 }  // namespace
 
 std::string with_error(double value, double error, int decimals) {
-  if (!std::isfinite(error)) return fmt::format("{:.{}f}", value, decimals);
+  if (!std::isfinite(error)) return fmt::format("{:.{}f}", without_minus_zero(value, decimals), decimals);
   if (error > 0) decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 9);
-  return fmt::format("{:.{}f} ± {:.{}f}", value, decimals, error, decimals);
+  return fmt::format("{:.{}f} ± {:.{}f}", without_minus_zero(value, decimals), decimals, error, decimals);
 }
 
 std::string extent_sentence(const MlResult& ml) {

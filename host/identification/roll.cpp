@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "host/base/error.hpp"
+#include "host/base/shown.hpp"
 
 namespace astro::identification {
 namespace {
@@ -25,7 +26,9 @@ double decoding_factor(double ratio) {
   return std::abs(ratio / factor - 1) <= kAlike ? factor : 1;
 }
 
-std::string in_percent(double ratio) { return fmt::format("{:+.1f} %", 100 * (ratio - 1)); }
+std::string in_percent(double ratio) {
+  return fmt::format("{:+.1f} %", without_minus_zero(100 * (ratio - 1), 1));
+}
 
 void propose(const Roll& roll, double ratio, RollVerdict& verdict) {
   const double factor = decoding_factor(ratio), counts = roll.counts_per_motor_rev * factor;

@@ -27,8 +27,8 @@ struct RollVerdict {
 /// another encoder: counts_per_motor_rev. Another ratio is another gear, if turns were counted, and otherwise
 /// a wheel of another diameter. Wheels that disagree by more than 5 % change nothing. Within 3 % nothing is
 /// changed: calibrate and umbmark measure that better.
-/// Throws astro::Error if the wheels turned less than half a turn, counted next to nothing, or counted five times
-/// as much or as little as the length explains and no decoding does.
+/// Throws astro::Error if the wheels turned less than half a turn, counted next to nothing, or counted five
+/// times as much or as little as the length explains and no decoding does.
 RollVerdict judge_roll(const Roll& roll);
 
 }  // namespace astro::identification

@@ -1,7 +1,10 @@
 #include "host/recording/run_writer.hpp"
 
+#include <time.h>
+
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 
 #include "host/base/error.hpp"
 #include "host/recording/ros_messages.hpp"
@@ -14,6 +17,16 @@ std::uint16_t add_topic(McapWriter& mcap, std::string_view topic, const RosType&
   // Readers of bags look the key up; empty means that nothing is known about the publisher's quality of
   // service.
   return mcap.add_channel(schema, topic, "cdr", {{"offered_qos_profiles", ""}});
+}
+
+/// Microseconds since 1970 of "2024-06-11T12:00:00Z"; nothing if `text` is no such time.
+std::optional<std::int64_t> utc_us(const std::string& text) {
+  std::tm time{};
+  const char* const end = strptime(text.c_str(), "%Y-%m-%dT%H:%M:%SZ", &time);
+  if (end == nullptr || *end != '\0') return std::nullopt;
+  const std::time_t seconds = timegm(&time);
+  if (seconds < 0) return std::nullopt;
+  return std::int64_t{seconds} * 1'000'000;
 }
 
 void keep_first(std::optional<double>& first, double heading_rad) {
@@ -34,12 +47,16 @@ RunWriter::RunWriter(const std::filesystem::path& path, const RunInfo& info, Mca
 }
 
 /// MCAP knows no time before zero; the stamp inside the message keeps the true one.
-std::uint64_t RunWriter::log_time_ns(std::int64_t time_us) const {
+std::uint64_t RunWriter::log_time_ns(std::int64_t time_us) {
   if (!fits_stamp(time_us)) {
     throw Error(path_.string() + " cannot hold the time " + std::to_string(time_us) +
                 " us: times are microseconds of the robot's clock, within 2^31 s");
   }
-  return static_cast<std::uint64_t>(std::max<std::int64_t>(0, time_us)) * 1000;
+  if (!utc_offset_us_) {
+    const auto started_us = utc_us(record_.info.started_at);
+    utc_offset_us_ = started_us ? *started_us - time_us : 0;
+  }
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(0, time_us + *utc_offset_us_)) * 1000;
 }
 
 void RunWriter::add(const OdometrySample& sample) {

@@ -14,6 +14,10 @@ namespace astro::recording {
 ///
 /// Topics  /odom nav_msgs/msg/Odometry (odom -> base_link), /wheel_counts astrolabe_msgs/msg/WheelCounts,
 ///         /truth geometry_msgs/msg/PoseStamped (frame truth); run info as Metadata "astrolabe.run".
+/// Times   stamps inside the messages are the robot's clock. MCAP's own times are UTC, so that viewers show
+/// when it was
+///         driven and not 1970: the first message is at RunInfo::started_at, the others as far from it by the
+///         robot's clock. Without a started_at they, too, are the robot's clock.
 /// Limits  the poses of invalid truth samples are not kept; between two samples of a stream the heading must
 /// change
 ///         by less than half a turn, or whole turns are lost.
@@ -28,12 +32,13 @@ class RunWriter {
   void close(const RunInfo& final);
 
  private:
-  std::uint64_t log_time_ns(std::int64_t time_us) const;
+  std::uint64_t log_time_ns(std::int64_t time_us);
 
   std::filesystem::path path_;
   PartFile file_;
   McapWriter mcap_;
   RunRecord record_;
+  std::optional<std::int64_t> utc_offset_us_;  // UTC minus the robot's clock; known from the first message on
   std::uint16_t odometry_ = 0, counts_ = 0, truth_ = 0;
 };
 

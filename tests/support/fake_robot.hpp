@@ -44,7 +44,7 @@ class FakeRobot {
   std::optional<protocol::ErrorReply> refuse_next;  // whatever the next new request is
   std::uint16_t greatest_request_id = 0;
   bool mute_events = false;
-  bool never_rests = false;  // Stop leaves it in the ramp
+  bool never_rests = false;      // Stop leaves it in the ramp
   bool staging_is_ours = false;  // false again once another session has opened the staging area
 
   FakeRobot() {

@@ -21,9 +21,10 @@ struct LifeReport {
 
 /// What must hold after every millisecond:
 ///   - the motors have power only while the robot is armed, and it arms only if a host asks it to
-///   - three seconds after the last byte from any host the bridges are open. Where command_timeout is longer than
-///     200 ms the robot may drive for that much longer; where it is 0 it may drive on, as its owner has decided. A
-///     robot that was told to stop is exempt in neither case.
+///   - three seconds after the last byte from any host the bridges are open. Where command_timeout is longer
+///   than
+///     200 ms the robot may drive for that much longer; where it is 0 it may drive on, as its owner has
+///     decided. A robot that was told to stop is exempt in neither case.
 LifeReport live(std::uint64_t seed);
 
 }  // namespace astro::support

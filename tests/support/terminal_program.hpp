@@ -3,6 +3,7 @@
 #include <poll.h>
 #include <pty.h>
 #include <signal.h>
+#include <stdlib.h>
 #include <sys/ioctl.h>
 #include <sys/wait.h>
 #include <termios.h>
@@ -16,18 +17,24 @@
 
 namespace astro::support {
 
-/// A child process with a terminal of its own of 80 x 24, as a person would run it.
+struct TerminalKind {
+  unsigned short columns = 80, rows = 24;
+  const char* name = "xterm";  // what TERM says
+};
+
+/// A child process with a terminal of its own, as a person would run it.
 class TerminalProgram {
  public:
-  explicit TerminalProgram(const std::vector<std::string>& command) {
+  explicit TerminalProgram(const std::vector<std::string>& command, TerminalKind kind = {}) {
     std::vector<char*> arguments;
     for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
-    winsize size{24, 80, 0, 0};
+    winsize size{kind.rows, kind.columns, 0, 0};
     std::array<char, 64> name{};
     pid_ = forkpty(&master_, name.data(), nullptr, &size);
     if (pid_ < 0) throw std::runtime_error("forkpty failed");
     if (pid_ == 0) {
+      setenv("TERM", kind.name, 1);
       alarm(120);  // whatever the test does, the child ends; the timer survives exec
       execv(arguments[0], arguments.data());
       _exit(127);

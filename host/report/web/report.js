@@ -40,6 +40,10 @@
     dragmode: touch ? false : 'zoom', ...more,
   });
 
+  // On paper a group of runs fits one page: two paths beside one another over the errors, or four of them, smaller.
+  const onPaper = () => document.documentElement.hasAttribute('data-printing');
+  const heightOnPaper = (group, kind) => (group.phases.length > 2 ? { path: 250, errors: 330 } : { path: 330, errors: 430 })[kind];
+
   // Each drawing takes the figure's dataset and the width it has, and returns what to plot and how high.
   const drawings = {
     merit(data) {
@@ -85,7 +89,7 @@
       return [traces, layout({
         xaxis: axis('x error in mm', { range: [-reach, reach], constrain: 'domain' }),
         yaxis: axis('y error in mm', { range: [-reach, reach], constrain: 'domain', scaleanchor: 'x' }),
-      }), Math.min(width, 540)];
+      }), Math.min(width, onPaper() ? 280 : 540)];
     },
 
     path(data, figure, width) {
@@ -119,7 +123,7 @@
         xaxis: axis('x in m', line ? { range: spanX } : { range: square(spanX), constrain: 'domain' }),
         yaxis: axis(line ? 'y in mm' : 'y in m', line ? { range: spanY } : { range: square(spanY), constrain: 'domain', scaleanchor: 'x' }),
         annotations: traces.length ? [] : [{ text: 'not driven in this phase', showarrow: false, xref: 'paper', yref: 'paper', x: 0.5, y: 0.5 }],
-      }), line ? 280 : Math.min(width, 520)];
+      }), Math.min(line ? 280 : Math.min(width, 520), onPaper() ? heightOnPaper(group, 'path') : Infinity)];
     },
 
     errors(data, figure, width) {
@@ -137,7 +141,7 @@
         return [row ? `yaxis${row + 1}` : 'yaxis', axis(title, { range: padded([Math.min(lo, 0), Math.max(hi, 0)], least), domain: [(2 - row) * 0.35, (2 - row) * 0.35 + 0.3], nticks: 5 })];
       }));
       const legend = { orientation: 'h', x: 0, y: 1.01, xanchor: 'left', yanchor: 'bottom', itemwidth: 40 };
-      return [traces, layout({ ...strips, legend, xaxis: axis('time in s', { anchor: 'y3', rangemode: 'tozero' }), margin: { l: 64, r: 12, t: 34, b: 44 } }), width < 500 ? 470 : 540];
+      return [traces, layout({ ...strips, legend, xaxis: axis('time in s', { anchor: 'y3', rangemode: 'tozero' }), margin: { l: 64, r: 12, t: 34, b: 44 } }), onPaper() ? heightOnPaper(group, 'errors') : width < 500 ? 470 : 540];
     },
 
     // Speed over voltage, with what accelerating took off: the model is then a line on either side of its dead zone.

@@ -238,7 +238,8 @@ TEST_F(OnePort, ARecordedDriveThatIsInterruptedKeepsWhatItRecorded) {
   EXPECT_GT(run.odometry.back().x_m - run.odometry.front().x_m, 0.2);
 }
 
-// The robot tells onlookers from its driver: the pings of a monitor do not keep the drive of a killed program alive.
+// The robot tells onlookers from its driver: the pings of a monitor do not keep the drive of a killed program
+// alive.
 TEST_F(OnePort, KilledBesideAMonitorThatServesItADriveEndsByTheRobotsTimeOut) {
   Program monitor = start({"monitor", "--json"});
   ASSERT_TRUE(shows_samples(monitor));

@@ -84,6 +84,39 @@ TEST_F(Terminal, TeleopWithoutATerminalSaysWhatToDo) {
   EXPECT_THAT(outcome.err, HasSubstr("terminal"));
 }
 
+TEST_F(Terminal, TeleopShowsAllOfItAt40Columns) {
+  TerminalProgram teleop(command({"drive", "teleop"}), {40, 24, "xterm"});
+  for (const char* const line : {"space    stop", "turning   +0.00 rad/s  is +0.000", "heading 0.0 deg"})
+    ASSERT_TRUE(teleop.shows(line)) << teleop.seen();
+  teleop.type("q");
+  EXPECT_EQ(teleop.wait(), 0);
+}
+
+TEST_F(Terminal, ADumbTerminalGetsLinesAndNoEscapeSequence) {
+  const support::TerminalKind dumb{80, 24, "dumb"};
+  TerminalProgram teleop(command({"drive", "teleop"}), dumb);
+  ASSERT_TRUE(teleop.shows("W faster")) << teleop.seen();
+  teleop.type("w");
+  ASSERT_TRUE(teleop.shows("+0.08 m/s  +0.00 rad/s  x   0.0")) << teleop.seen();
+  teleop.type("q");
+  EXPECT_EQ(teleop.wait(), 0);
+  EXPECT_THAT(teleop.seen(), Not(HasSubstr("\033")));
+
+  TerminalProgram monitor(command({"monitor"}), dumb);
+  ASSERT_TRUE(monitor.shows(" V  x ")) << monitor.seen();
+  monitor.type("q");
+  EXPECT_EQ(monitor.wait(), 0);
+  EXPECT_THAT(monitor.seen(), Not(HasSubstr("\033")));
+
+  TerminalProgram drive(command({"drive", "line", "0.5", "--speed", "0.2"}), dumb);
+  EXPECT_EQ(drive.wait(), 0);
+  EXPECT_THAT(drive.seen(), Not(HasSubstr("\033")));
+
+  TerminalProgram mistake({ASTROLABE_PROGRAM, "upload", "/no/such/file"}, dumb);
+  EXPECT_EQ(mistake.wait(), 1);
+  EXPECT_THAT(mistake.seen(), testing::AllOf(HasSubstr("astrolabe: "), Not(HasSubstr("\033"))));
+}
+
 TEST_F(Terminal, MonitorIsAPictureInPlaceUntilQ) {
   TerminalProgram monitor(command({"monitor"}));
   ASSERT_TRUE(monitor.shows("battery   1")) << monitor.seen();

@@ -112,6 +112,33 @@ TEST(Tune, TextSaysModelGainsAndSteps) {
                                  HasSubstr("Nothing was loaded."), HasSubstr("tune.html")));
 }
 
+std::size_t times(const std::string& text, const std::string& word) {
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos; at += word.size()) ++count;
+  return count;
+}
+
+TEST(Tune, ShowsEachStepOnceAndEndsWithAVerdict) {
+  const Simulator simulator({"--fast", "--motor-mismatch", "0.1"});
+  const Outcome offered = tune(simulator, {"--on-ground", "--yes"});
+  ASSERT_EQ(offered.code, 0) << offered.err;
+  EXPECT_THAT(offered.out, AllOf(HasSubstr("\nVerdict: with the new values the wheels should follow"),
+                                 HasSubstr("predicted")));
+  const Outcome loaded = tune(simulator, {"--on-ground", "--yes", "--upload"});
+  ASSERT_EQ(loaded.code, 0) << loaded.err;
+  // Two wheels, each measured and predicted.
+  EXPECT_EQ(times(loaded.out, "\nbefore "), 4U) << loaded.out;
+  EXPECT_EQ(times(loaded.out, "\na jump, new gains alone "), 2U) << loaded.out;
+  EXPECT_EQ(times(loaded.out, "\nafter "), 4U) << loaded.out;
+  EXPECT_EQ(times(loaded.out, "Verdict: "), 1U) << loaded.out;
+  EXPECT_THAT(loaded.out, HasSubstr("\nVerdict: with the new values the wheels follow their set point"));
+  const Outcome again = tune(simulator, {"--on-ground", "--yes", "--upload", "--json"});
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_THAT(support::parse_json(again.out)["verdict"].get<std::string>(),
+              HasSubstr("follow their set point about as well as before"))
+      << "the robot holds the same values as at the last step";
+}
+
 TEST(Tune, SaysWhenSpeedsCannotBeWhatTheRobotBelieves) {
   const Simulator simulator({"--fast", "--counts-per-rev", "32"});
   const Outcome outcome = tune(simulator, {"--on-ground", "--yes", "--max-distance", "0.8"});

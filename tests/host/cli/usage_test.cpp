@@ -82,6 +82,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{{}, {"needs a command", "astrolabe --help"}},
         Mistake{{"calibarte"}, {"'astrolabe calibarte'", "did you mean 'calibrate'"}},
         Mistake{{"xyz", "--port", "a"}, {"'astrolabe xyz'"}}, Mistake{{"--foo"}, {"no option '--foo'"}},
+        Mistake{{"nonsense", "--help"}, {"no command 'astrolabe nonsense'", "'astrolabe --help' explains"}},
+        Mistake{{"drive", "lin", "--help"}, {"no command 'astrolabe drive lin'", "did you mean 'line'"}},
         Mistake{{"drive"}, {"'astrolabe drive' needs a command", "astrolabe drive --help"}},
         Mistake{{"drive", "lin", "1"}, {"'astrolabe drive lin'", "did you mean 'line'"}},
         Mistake{{"drive", "line"}, {"LENGTH is required", "astrolabe drive line --help"}},

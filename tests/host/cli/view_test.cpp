@@ -1,10 +1,15 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <limits>
+#include <numbers>
 
+#include "host/base/shown.hpp"
 #include "host/cli/console.hpp"
 #include "host/cli/fault_help.hpp"
 #include "host/cli/monitor_view.hpp"
+#include "host/cli/teleop_view.hpp"
 #include "host/cli/terminal.hpp"
 
 namespace astro::cli {
@@ -68,6 +73,93 @@ TEST(MonitorPicture, FitsATerminalOf80By24) {
   EXPECT_LE(std::count(picture.begin(), picture.end(), '\n'), 23);  // the cursor needs one
   for (std::size_t begin = 0, end; (end = picture.find('\n', begin)) != std::string::npos; begin = end + 1)
     EXPECT_LE(width(picture.substr(begin, end - begin)), 80U) << picture.substr(begin, end - begin);
+}
+
+std::size_t widest_line(const std::string& text) {
+  std::size_t widest = 0;
+  for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
+    widest = std::max(widest, width(text.substr(begin, end - begin)));
+  return widest;
+}
+
+TEST(MonitorLine, SaysModeFaultsBatteryAndPose) {
+  protocol::Telemetry telemetry;
+  telemetry.battery.mv = 12'040;
+  EXPECT_EQ(monitor_line(telemetry, {}), "disarmed  12.04 V  x   0.000 m  y   0.000 m      0.0 deg");
+  telemetry.state.latched_faults = bit(Fault::stall);
+  EXPECT_THAT(monitor_line(telemetry, {}), HasSubstr("disarmed, stall"));
+  LinkFigures figures;
+  figures.lost = "it was unplugged";
+  EXPECT_THAT(monitor_line(telemetry, figures), HasSubstr("LOST: it was unplugged"));
+}
+
+// What a person needs to steer: every key, what is asked of the robot, what it does, and where it is.
+void expect_all_that_steers(const std::string& picture) {
+  for (const char* const word :
+       {"faster", "slower, backwards", "turn left", "turn right", "stop", "quit", "-9.00 m/s", "-9.00 rad/s",
+        "is -9.999", "x -999.999 m", "y -999.999 m", "heading -9999.9 deg"})
+    EXPECT_THAT(picture, HasSubstr(word));
+}
+
+TEST(TeleopPicture, SaysTheSameAt40ColumnsAsAt80) {
+  SteeringWheel wheel(9, 9);
+  for (int i = 0; i < 5; ++i) {
+    wheel.press(Key::backward);
+    wheel.press(Key::right);
+  }
+  recording::OdometrySample at;
+  at.v_mps = at.omega_radps = -9.999;
+  at.x_m = at.y_m = -999.999;
+  at.theta_rad = -9999.9 * std::numbers::pi / 180;
+  for (const std::size_t columns : {40U, 41U, 69U, 70U, 80U, 200U}) {
+    const std::string picture = teleop_picture("ASTRO", wheel, at, {columns, 24});
+    EXPECT_LE(widest_line(picture), columns) << picture;
+    EXPECT_LE(std::count(picture.begin(), picture.end(), '\n'), 23) << picture;
+    expect_all_that_steers(picture);
+  }
+  EXPECT_THAT(teleop_picture("ASTRO", wheel, at, {80, 24}), HasSubstr("███████████████┃"));
+}
+
+TEST(TeleopPicture, GivesUpTheKeysBeforeTheFiguresWhereRowsAreFew) {
+  for (const std::size_t columns : {40U, 80U}) {
+    const std::string picture = teleop_picture("ASTRO", {0.4, 1}, {}, {columns, 10});
+    EXPECT_LE(std::count(picture.begin(), picture.end(), '\n'), 9) << picture;
+    EXPECT_THAT(picture, testing::AllOf(HasSubstr("odometry"), HasSubstr("heading 0.0 deg"),
+                                        Not(HasSubstr("faster"))));
+  }
+}
+
+TEST(WithoutMinusZero, ShowsNoSignBeforeNothingButZeros) {
+  EXPECT_EQ(in_words({-4e-5, -0.0, -8e-6}), "x   0.0000 m   y   0.0000 m   heading     0.000 deg");
+  EXPECT_EQ(in_words({-6e-5, -5.01e-5, -1e-5}), "x  -0.0001 m   y  -0.0001 m   heading    -0.001 deg");
+  EXPECT_EQ(in_short_words({-4e-4, -0.0, -8e-4}), "x   0.000 m  y   0.000 m      0.0 deg");
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(without_minus_zero(-kInfinity, 3), -kInfinity);
+  EXPECT_TRUE(std::isnan(without_minus_zero(std::nan(""), 3)));
+  // Nobody needs to know which way a tie is rounded: what is printed decides.
+  for (const double value : {-0.5, -0.05, -0.0005, -0.25, -0.00049999}) {
+    for (const int decimals : {0, 1, 2, 3}) {
+      const std::string shown = fmt::format("{:.{}f}", without_minus_zero(value, decimals), decimals);
+      EXPECT_EQ(shown.starts_with('-'), shown.find_first_of("123456789") != std::string::npos) << shown;
+    }
+  }
+}
+
+TEST(MonitorPicture, ShowsNoMinusBeforeZeros) {
+  protocol::Telemetry telemetry;
+  telemetry.pose = {-1, -1, 0, 0};
+  telemetry.twist = {-1, -1};
+  telemetry.wheel_speed = telemetry.setpoint = {-1, -1};
+  telemetry.duty = {-1, -1};
+  EXPECT_THAT(monitor_picture("ASTRO", telemetry, {}), Not(testing::ContainsRegex("-0[.]0+[^0-9]")));
+}
+
+TEST(ProgressLines, ComeAfterTenSecondsThenEverMoreRarelyButEveryMinute) {
+  ProgressLines lines;
+  std::vector<int> due;
+  for (int second = 0; second <= 300; ++second)
+    if (lines.due(std::chrono::seconds(second))) due.push_back(second);
+  EXPECT_THAT(due, testing::ElementsAre(10, 20, 40, 80, 140, 200, 260));
 }
 
 TEST(MonitorPicture, SaysThatTheLinkIsLost) {

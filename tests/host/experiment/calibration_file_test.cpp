@@ -203,5 +203,19 @@ TEST_F(ChangeGuard, RefusesNamesAndValuesThatTheRobotDoesNotHave) {
       ThrowsMessage<Error>(HasSubstr("c_R")));
 }
 
+TEST(SideBySide, SaysWhatAChangeMeansAndNeverMinusTwoHundredPercentOfASign) {
+  const auto change = [](double before, double after) {
+    return side_by_side({{"x", "", before, after}}).at(1).back();
+  };
+  EXPECT_EQ(change(1, -1), "reversed");
+  EXPECT_EQ(change(-1, 1), "reversed");
+  EXPECT_EQ(change(2, -1), "other sign");
+  EXPECT_EQ(change(1, 1.00207), "+0.2070 %");
+  EXPECT_EQ(change(60, 0), "-100.0000 %");
+  EXPECT_EQ(change(0, 3), "");
+  EXPECT_EQ(change(1, 1 - 1e-9), "< 0.0001 %");
+  EXPECT_EQ(side_by_side({{"name", "", std::string("a"), std::string("b")}}).at(1).back(), "");
+}
+
 }  // namespace
 }  // namespace astro::experiment

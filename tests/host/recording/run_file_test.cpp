@@ -6,6 +6,7 @@
 
 #include "host/base/error.hpp"
 #include "host/recording/files.hpp"
+#include "host/recording/mcap_reader.hpp"
 #include "host/recording/mcap_writer.hpp"
 #include "host/recording/numbers.hpp"
 #include "host/recording/run_metadata.hpp"
@@ -171,6 +172,46 @@ TEST(RunWriter, WhatWasRecordedMoreThanTwoSecondsBeforeTheEndOutlivesTheRecorder
   ASSERT_GE(rescued.odometry.size(), 400U);
   EXPECT_EQ(rescued.odometry[399].left_counts, run.odometry[399].left_counts);
   EXPECT_THAT(complaint([&] { read_run(folder / "run.mcap"); }), HasSubstr("run.mcap.part"));
+}
+
+std::vector<std::uint64_t> log_times_ns(const std::filesystem::path& path) {
+  std::vector<std::uint64_t> times;
+  McapHandlers handlers;
+  handlers.message = [&](const mcap::Channel&, const mcap::Schema*, const mcap::Message& message) {
+    EXPECT_EQ(message.publish_time_ns, message.log_time_ns);
+    times.push_back(message.log_time_ns);
+  };
+  read_mcap(load_file(path), handlers);
+  return times;
+}
+
+TEST(RunWriter, LogsWhenItWasDrivenAndStampsByTheRobotsClock) {
+  const TempFolder folder;
+  RunInfo info = full_info();
+  constexpr std::uint64_t kStarted_ns = 1'718'107'200'000'000'000;  // date -u -d 2024-06-11T12:00:00Z +%s%N
+  const auto driven = [&](const std::string& name) {
+    RunWriter writer(folder / name, info);
+    for (const std::int64_t time_us : {500, 1'000'500}) {
+      OdometrySample sample;
+      sample.time_us = time_us;
+      writer.add(sample);
+    }
+    writer.add(TruthSample{100, 0, 0, 0, true});  // earlier than the first message, by the robot's clock
+    writer.close(info);
+    return log_times_ns(folder / name);
+  };
+  EXPECT_THAT(driven("utc.mcap"), testing::ElementsAre(kStarted_ns, kStarted_ns, kStarted_ns + 1'000'000'000,
+                                                       kStarted_ns + 1'000'000'000, kStarted_ns - 400'000));
+  const recording::Run back = read_run(folder / "utc.mcap");
+  EXPECT_EQ(back.odometry[0].time_us, 500);
+  EXPECT_EQ(back.odometry[1].time_us, 1'000'500);
+  EXPECT_EQ(back.truth[0].time_us, 100);
+  for (const char* const unknown : {"", "yesterday", "2024-06-11", "1969-12-31T23:59:59Z"}) {
+    info.started_at = unknown;
+    EXPECT_THAT(driven("unknown.mcap"),
+                testing::ElementsAre(500'000, 500'000, 1'000'500'000, 1'000'500'000, 100'000))
+        << unknown;
+  }
 }
 
 TEST(RunWriter, RefusesTimesThatAStampCannotHold) {

@@ -12,6 +12,9 @@ bool browser_is_installed();
 /// clock.
 std::string open_in_browser(const std::string& html, int virtual_ms = 60'000);
 
+/// The pages of the document as it is printed on paper after all scripts have run.
+int pages_on_paper(const std::string& html);
+
 /// One <figure> of an opened page.
 struct DrawnFigure {
   std::string kind, group, phase;  // its data attributes, "" where it has none

@@ -74,6 +74,14 @@ TEST_F(ReportInBrowser, DrawsPathsWithoutGroundTruthAndPhasesOfUnequalLength) {
   }
 }
 
+TEST_F(ReportInBrowser, PrintsEachGroupOfRunsOnOnePage) {
+  // Five groups on a page each, and at most three pages of the rest: nothing is left half empty by a figure
+  // that would not fit any more.
+  const int pages = pages_on_paper(render_html(thesis_input()));
+  EXPECT_GE(pages, 6);
+  EXPECT_LE(pages, 5 + 3);
+}
+
 TEST_F(ReportInBrowser, SaysSoWhereAFigureCannotBeDrawn) {
   std::string html = render_html(thesis_input(1));
   html.replace(html.find(assets::library_js()), assets::library_js().size(), "");

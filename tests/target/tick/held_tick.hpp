@@ -9,8 +9,8 @@
 namespace astro::target {
 
 /// Instructions that the main loop spends in one go while it holds the control tick: with BASEPRI raised, as
-/// hold_tick() does. Not counted is the flash driver, which switches all interrupts off for the 20 us in which
-/// a page goes over the wire: the firmware writes flash only at rest.
+/// hold_tick() does. Not counted is the flash driver, which switches all interrupts off for the 20 us in
+/// which a page goes over the wire: the firmware writes flash only at rest.
 class HeldTick {
  public:
   explicit HeldTick(emulator::Teensy& teensy) : cpu_(teensy.chip().cpu()) {
