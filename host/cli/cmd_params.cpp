@@ -27,7 +27,7 @@ using link::RemoteParameters;
 struct ParamsOptions {
   ConnectionOptions connection;
   std::vector<std::string> words;
-  fs::path file;
+  std::filesystem::path file;
   bool json = false, yes = false, force = false, try_out = false;
 };
 
