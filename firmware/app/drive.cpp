@@ -221,7 +221,17 @@ void Drive::report(SegmentEvent::Kind kind, std::uint16_t tag) { events_.push({n
 void Drive::end_segments() {
   if (steering_ == Steering::path) report(SegmentEvent::Kind::aborted, running_.tag);
   if (steering_ == Steering::path) steering_ = Steering::none;
-  for (; !queue_.empty(); queue_.drop()) report(SegmentEvent::Kind::aborted, queue_.front().tag);
+  end_waiting();
+}
+
+void Drive::drop_waiting() {
+  if (armed() && !faults().any()) end_waiting();
+}
+
+void Drive::end_waiting() {
+  events_.push_all(queue_, [now_us = now_us_](const QueuedSegment& one) {
+    return SegmentEvent{now_us, one.tag, SegmentEvent::Kind::aborted};
+  });
   planned_ = path_open_ = false;
   ++ticket_;
 }

@@ -77,6 +77,9 @@ class Drive {
   /// Gives it its target, within the limits.
   void aim(TwistRamp& ramp, const BodyTwist& twist) const;
   bool drive_velocity(const TwistRamp& planned);
+  /// Of what drive_velocity() does, the long part beforehand: ends the segments that wait, if it would be
+  /// taken.
+  void drop_waiting();
 
   // The profile of the next segment takes divisions and roots: it is made outside the tick.
 
@@ -122,6 +125,7 @@ class Drive {
   void follow_state();
   void begin_ramp();
   void end_segments();
+  void end_waiting();
   bool standing() const;
   void start_path();
   void start_segment();

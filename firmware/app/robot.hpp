@@ -277,6 +277,7 @@ class Robot {
   }
 
   Answer<Ack> handle(int, const protocol::Velocity& request) {
+    drop_waiting();
     TwistRamp ramp = ramp_from_here();
     drive_.aim(ramp, {request.v_umps, request.omega_uradps});
     auto hold = board_.hold_tick();
@@ -284,6 +285,10 @@ class Robot {
     return Ack{};
   }
 
+  void drop_waiting() {
+    auto hold = board_.hold_tick();
+    drive_.drop_waiting();
+  }
   TwistRamp ramp_from_here() {
     auto hold = board_.hold_tick();
     return drive_.ramp_from_here();

@@ -34,15 +34,28 @@ class Ring {
   const T& front() const { return slots_[first_]; }
   T pop() {
     const T value = slots_[first_];
-    drop();
-    return value;
-  }
-  void drop() {
     first_ = wrapped(first_ + 1);
     --size_;
+    return value;
+  }
+  /// Takes what `make` makes of each value of `from`, the oldest first, as far as there is room; empties
+  /// `from`.
+  template <class U, std::size_t M, class Make>
+  void push_all(Ring<U, M>& from, Make&& make) {
+    std::size_t to = wrapped(first_ + size_), at = from.first_;
+    const std::size_t count = from.size_ < N - size_ ? from.size_ : N - size_;
+    for (std::size_t left = count; left != 0; --left) {
+      slots_[to] = make(from.slots_[at]);
+      to = wrapped(to + 1);
+      at = from.wrapped(at + 1);
+    }
+    size_ += count;
+    from.clear();
   }
 
  private:
+  template <class U, std::size_t M>
+  friend class Ring;
   // Cheaper than a remainder: a full queue is emptied while the tick is held.
   static std::size_t wrapped(std::size_t place) { return place < N ? place : place - N; }
 

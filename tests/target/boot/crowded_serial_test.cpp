@@ -18,9 +18,12 @@ using protocol::Telemetry;
 
 TEST(CrowdedSerialPort, AnswersEveryRequestAndLosesNoEvent) {
   auto robot = std::make_shared<EmulatedRobot>(target::kImage, sim::Config{}, simulator::MocapConfig{});
+  // A fault is written into the log, and nobody is answered while a sector is erased: not what this is about.
+  robot->teensy().flash().times = {50 * kCyclesPerMicrosecond, 500 * kCyclesPerMicrosecond};
   link::Client client(std::make_unique<PortTransport>(robot, Port::serial));
   client.connect();
   client.pump(50ms);
+  const auto repeats = client.counts().repeats;  // the robot was not up yet when the first Hello came
   int samples = 0, faults = 0;
   std::vector<int> started, done;
   const auto on_sample = client.on<Telemetry>([&](const auto&) { ++samples; });
@@ -60,7 +63,7 @@ TEST(CrowdedSerialPort, AnswersEveryRequestAndLosesNoEvent) {
   EXPECT_EQ(done, tags);
   EXPECT_EQ(faults, 10);
   EXPECT_EQ(client.counts().missed_events, 0U);
-  EXPECT_EQ(client.counts().repeats, 0U);
+  EXPECT_EQ(client.counts().repeats, repeats);
   EXPECT_EQ(client.counts().lost_pings, 0U);
   EXPECT_GT(client.counts().requests - begun, 200U);
   fmt::print("{} requests beside {} samples of telemetry: each answered, the slowest after {} us\n",
