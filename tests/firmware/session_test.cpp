@@ -206,157 +206,158 @@ TEST_F(Frames, AfterTheDriverSaidHelloTrafficAtNoPortKeepsItsDriveAlive) {
     send(protocol::ClearFaults{}, 104, driver);
     silence_ms(2);
   }
+}
 
-  TEST_F(Frames, WhoPausesAndResumesAtAnotherPortLeavesTheDriveToItsDriver) {
-    ask(protocol::Arm{});
-    ask(link::line(0.5).front());
-    run_ms(500);
-    send(protocol::Pause{}, 1);
-    run_ms(1000);
-    ASSERT_EQ(mode(), protocol::Mode::paused);
-    send(protocol::Resume{}, 2);  // and then port 1 says nothing more
-    run_ms(3000);
-    EXPECT_EQ(drive().faults().mask(), 0U);
-    EXPECT_NEAR(board().truth().x_m, 0.5, 0.005);
-  }
+TEST_F(Frames, WhoPausesAndResumesAtAnotherPortLeavesTheDriveToItsDriver) {
+  ask(protocol::Arm{});
+  ask(link::line(0.5).front());
+  run_ms(500);
+  send(protocol::Pause{}, 1);
+  run_ms(1000);
+  ASSERT_EQ(mode(), protocol::Mode::paused);
+  send(protocol::Resume{}, 2);  // and then port 1 says nothing more
+  run_ms(3000);
+  EXPECT_EQ(drive().faults().mask(), 0U);
+  EXPECT_NEAR(board().truth().x_m, 0.5, 0.005);
+}
 
-  TEST_F(Frames, APathThatIsResumedAfterItsDriverHasGoneEndsByTheTimeout) {
-    ask(protocol::Arm{});
-    ask(link::line(0.5).front());
-    run_ms(500);
-    ask(protocol::Pause{});
-    run_ms(1000);
-    silence_ms(1000);  // the driver has gone
-    const double paused_at_m = board().truth().x_m;
-    for (int i = 0; i < 30; ++i) {
-      send(protocol::Resume{}, static_cast<std::uint16_t>(1 + i));  // however often somebody says so
-      silence_ms(100);
-    }
-    EXPECT_EQ(drive().faults().first(), Fault::link_lost);
-    EXPECT_TRUE(open());
-    EXPECT_NEAR(board().truth().x_m, paused_at_m, 0.01);
-  }
-
-  TEST_F(Frames, NobodyElseArmsDuringADriveNorWhileItIsPaused) {
-    received();
-    ask(protocol::Arm{});
-    ask(link::line(0.5).front());
-    run_ms(500);
-    send(protocol::Arm{}, 1);
-    EXPECT_EQ(error(received().back()), ErrorCode::moving);
-    ask(protocol::Pause{});
-    run_ms(1000);
-    received();
-    send(protocol::Arm{}, 2);
-    EXPECT_EQ(error(received().back()), ErrorCode::moving);
-    ask(protocol::Resume{});
-    run_ms(3000);
-    EXPECT_EQ(drive().faults().mask(), 0U);
-    EXPECT_NEAR(board().truth().x_m, 0.5, 0.005);
-    received();
-    send(protocol::Arm{}, 3);
-    EXPECT_EQ(received().back().header.message_id, protocol::Ack::kId) << "the drive has ended";
-  }
-
-  TEST_F(Frames, ARefusedRequestDoesNotMakeItsSenderTheDriver) {
-    send(protocol::Arm{}, 1);
-    send(link::line(5).front(), 2);
-    for (int i = 0; i < 10; ++i) {
-      send(protocol::Ping{}, static_cast<std::uint16_t>(10 + i));
-      send(protocol::AddSegment{}, static_cast<std::uint16_t>(30 + i), 0);  // empty: out of range
-      silence_ms(100);
-    }
-    EXPECT_EQ(drive().faults().mask(), 0U);
-  }
-
-  TEST_F(Frames, AnotherProtocolVersionIsToldOurs) {
-    received();
-    send(protocol::Hello{protocol::kProtocolVersion + 1}, 1);
-    const auto answers = received();
-    ASSERT_EQ(answers.size(), 1U);
-    const auto reply = protocol::decode<protocol::ErrorReply>(answers[0].body);
-    ASSERT_TRUE(reply.ok());
-    EXPECT_EQ(reply->code, ErrorCode::wrong_version);
-    EXPECT_EQ(reply->detail, protocol::kProtocolVersion);
-  }
-
-  TEST_F(Frames, MalformedAndUnknownRequestsAreNamedAndHarmless) {
-    received();
-    send_body({0x3F, 7, 0});        // no such request
-    send_body({0x08, 8, 0, 1, 2});  // a Velocity cut short
-    const auto answers = received();
-    ASSERT_EQ(answers.size(), 2U);
-    EXPECT_EQ(error(answers[0]), ErrorCode::unknown_message);
-    EXPECT_EQ(answers[0].header.request_id, 7);
-    EXPECT_EQ(error(answers[1]), ErrorCode::malformed);
-  }
-
-  TEST_F(Frames, GarbageIsCountedAndDoesNotDisturb) {
-    std::vector<std::uint8_t> garbage;
-    for (int i = 0; i < 5000; ++i) garbage.push_back(static_cast<std::uint8_t>(i * 7 + i / 13));
-    for (std::size_t at = 0; at < garbage.size(); at += 500) {
-      send(std::span(garbage).subspan(at, 500));
-      silence_ms(1);
-    }
-    send(std::vector<std::uint8_t>{0});
-    received();
-    send(protocol::Ping{}, 1);
-    EXPECT_EQ(received().size(), 1U);
-    EXPECT_GT(ask(protocol::GetStatus{}).rx_bad_frames, 0U);
-  }
-
-  TEST_F(Frames, TelemetryComesAtItsRateWithItsFields) {
-    received();
-    send(protocol::SetTelemetry{20, protocol::Telemetry::kCounts | protocol::Telemetry::kBattery}, 1);
-    received();
-    silence_ms(998);
-    const auto answers = received();
-    EXPECT_NEAR(static_cast<double>(answers.size()), 50, 1);
-    for (const Answer& answer : answers) {
-      const auto telemetry = protocol::decode<protocol::Telemetry>(answer.body);
-      ASSERT_TRUE(telemetry.ok());
-      EXPECT_EQ(telemetry->fields, protocol::Telemetry::kCounts | protocol::Telemetry::kBattery);
-      EXPECT_GT(telemetry->battery.mv, 11'000);
-    }
-  }
-
-  TEST_F(Frames, UnknownTelemetryFieldsAreRefused) {
-    EXPECT_EQ(refusal(protocol::SetTelemetry{10, 1U << 20}).code(), ErrorCode::out_of_range);
-  }
-
-  TEST_F(Frames, AHostThatNeverReadsDoesNotHoldTheRobotUp) {
-    send(protocol::SetTelemetry{1, protocol::Telemetry::kAll}, 1);
-    silence_ms(5000);  // far more than the queue holds
-    ask(protocol::Arm{});
-    ask(link::line(0.2).front());
-    run_ms(3000);
-    EXPECT_NEAR(board().truth().x_m, 0.2, 0.002);
-  }
-
-  TEST_F(Frames, TwoHostsAtTwoPortsAreAnsweredEach) {
-    received();
-    send(protocol::Ping{}, 5);
-    const protocol::Pong pong = ask(protocol::Ping{});  // at port 0
-    EXPECT_GT(pong.device_time_us, 0U);
-    const auto answers = received();
-    ASSERT_EQ(answers.size(), 1U);
-    EXPECT_EQ(answers[0].header.message_id, protocol::Pong::kId);
-    EXPECT_EQ(answers[0].header.request_id, 5);
-  }
-
-  TEST_F(Frames, ARebootIsAnsweredBeforeItHappens) {
-    received();
-    send(protocol::Reboot{}, 1);
-    const auto answers = received();
-    ASSERT_EQ(answers.size(), 1U);
-    EXPECT_EQ(answers[0].header.message_id, protocol::Ack::kId);
+TEST_F(Frames, APathThatIsResumedAfterItsDriverHasGoneEndsByTheTimeout) {
+  ask(protocol::Arm{});
+  ask(link::line(0.5).front());
+  run_ms(500);
+  ask(protocol::Pause{});
+  run_ms(1000);
+  silence_ms(1000);  // the driver has gone
+  const double paused_at_m = board().truth().x_m;
+  for (int i = 0; i < 30; ++i) {
+    send(protocol::Resume{}, static_cast<std::uint16_t>(1 + i));  // however often somebody says so
     silence_ms(100);
-    const auto events = received();
-    ASSERT_FALSE(events.empty());
-    const auto booted = protocol::decode<protocol::Booted>(events[0].body);
-    ASSERT_TRUE(booted.ok());
-    EXPECT_EQ(booted->reset_cause, protocol::ResetCause::software);
   }
+  EXPECT_EQ(drive().faults().first(), Fault::link_lost);
+  EXPECT_TRUE(open());
+  EXPECT_NEAR(board().truth().x_m, paused_at_m, 0.01);
+}
+
+TEST_F(Frames, NobodyElseArmsDuringADriveNorWhileItIsPaused) {
+  received();
+  ask(protocol::Arm{});
+  ask(link::line(0.5).front());
+  run_ms(500);
+  send(protocol::Arm{}, 1);
+  EXPECT_EQ(error(received().back()), ErrorCode::moving);
+  ask(protocol::Pause{});
+  run_ms(1000);
+  received();
+  send(protocol::Arm{}, 2);
+  EXPECT_EQ(error(received().back()), ErrorCode::moving);
+  ask(protocol::Resume{});
+  run_ms(3000);
+  EXPECT_EQ(drive().faults().mask(), 0U);
+  EXPECT_NEAR(board().truth().x_m, 0.5, 0.005);
+  received();
+  send(protocol::Arm{}, 3);
+  EXPECT_EQ(received().back().header.message_id, protocol::Ack::kId) << "the drive has ended";
+}
+
+TEST_F(Frames, ARefusedRequestDoesNotMakeItsSenderTheDriver) {
+  send(protocol::Arm{}, 1);
+  send(link::line(5).front(), 2);
+  for (int i = 0; i < 10; ++i) {
+    send(protocol::Ping{}, static_cast<std::uint16_t>(10 + i));
+    send(protocol::AddSegment{}, static_cast<std::uint16_t>(30 + i), 0);  // empty: out of range
+    silence_ms(100);
+  }
+  EXPECT_EQ(drive().faults().mask(), 0U);
+}
+
+TEST_F(Frames, AnotherProtocolVersionIsToldOurs) {
+  received();
+  send(protocol::Hello{protocol::kProtocolVersion + 1}, 1);
+  const auto answers = received();
+  ASSERT_EQ(answers.size(), 1U);
+  const auto reply = protocol::decode<protocol::ErrorReply>(answers[0].body);
+  ASSERT_TRUE(reply.ok());
+  EXPECT_EQ(reply->code, ErrorCode::wrong_version);
+  EXPECT_EQ(reply->detail, protocol::kProtocolVersion);
+}
+
+TEST_F(Frames, MalformedAndUnknownRequestsAreNamedAndHarmless) {
+  received();
+  send_body({0x3F, 7, 0});        // no such request
+  send_body({0x08, 8, 0, 1, 2});  // a Velocity cut short
+  const auto answers = received();
+  ASSERT_EQ(answers.size(), 2U);
+  EXPECT_EQ(error(answers[0]), ErrorCode::unknown_message);
+  EXPECT_EQ(answers[0].header.request_id, 7);
+  EXPECT_EQ(error(answers[1]), ErrorCode::malformed);
+}
+
+TEST_F(Frames, GarbageIsCountedAndDoesNotDisturb) {
+  std::vector<std::uint8_t> garbage;
+  for (int i = 0; i < 5000; ++i) garbage.push_back(static_cast<std::uint8_t>(i * 7 + i / 13));
+  for (std::size_t at = 0; at < garbage.size(); at += 500) {
+    send(std::span(garbage).subspan(at, 500));
+    silence_ms(1);
+  }
+  send(std::vector<std::uint8_t>{0});
+  received();
+  send(protocol::Ping{}, 1);
+  EXPECT_EQ(received().size(), 1U);
+  EXPECT_GT(ask(protocol::GetStatus{}).rx_bad_frames, 0U);
+}
+
+TEST_F(Frames, TelemetryComesAtItsRateWithItsFields) {
+  received();
+  send(protocol::SetTelemetry{20, protocol::Telemetry::kCounts | protocol::Telemetry::kBattery}, 1);
+  received();
+  silence_ms(998);
+  const auto answers = received();
+  EXPECT_NEAR(static_cast<double>(answers.size()), 50, 1);
+  for (const Answer& answer : answers) {
+    const auto telemetry = protocol::decode<protocol::Telemetry>(answer.body);
+    ASSERT_TRUE(telemetry.ok());
+    EXPECT_EQ(telemetry->fields, protocol::Telemetry::kCounts | protocol::Telemetry::kBattery);
+    EXPECT_GT(telemetry->battery.mv, 11'000);
+  }
+}
+
+TEST_F(Frames, UnknownTelemetryFieldsAreRefused) {
+  EXPECT_EQ(refusal(protocol::SetTelemetry{10, 1U << 20}).code(), ErrorCode::out_of_range);
+}
+
+TEST_F(Frames, AHostThatNeverReadsDoesNotHoldTheRobotUp) {
+  send(protocol::SetTelemetry{1, protocol::Telemetry::kAll}, 1);
+  silence_ms(5000);  // far more than the queue holds
+  ask(protocol::Arm{});
+  ask(link::line(0.2).front());
+  run_ms(3000);
+  EXPECT_NEAR(board().truth().x_m, 0.2, 0.002);
+}
+
+TEST_F(Frames, TwoHostsAtTwoPortsAreAnsweredEach) {
+  received();
+  send(protocol::Ping{}, 5);
+  const protocol::Pong pong = ask(protocol::Ping{});  // at port 0
+  EXPECT_GT(pong.device_time_us, 0U);
+  const auto answers = received();
+  ASSERT_EQ(answers.size(), 1U);
+  EXPECT_EQ(answers[0].header.message_id, protocol::Pong::kId);
+  EXPECT_EQ(answers[0].header.request_id, 5);
+}
+
+TEST_F(Frames, ARebootIsAnsweredBeforeItHappens) {
+  received();
+  send(protocol::Reboot{}, 1);
+  const auto answers = received();
+  ASSERT_EQ(answers.size(), 1U);
+  EXPECT_EQ(answers[0].header.message_id, protocol::Ack::kId);
+  silence_ms(100);
+  const auto events = received();
+  ASSERT_FALSE(events.empty());
+  const auto booted = protocol::decode<protocol::Booted>(events[0].body);
+  ASSERT_TRUE(booted.ok());
+  EXPECT_EQ(booted->reset_cause, protocol::ResetCause::software);
+}
 
 }  // namespace
 }  // namespace astro

@@ -63,12 +63,12 @@ TEST_F(ForeignText, OfARobotsNameIsShownWithoutWhatATerminalObeys) {
   fs::permissions(runtime, fs::perms::owner_all);
   fs::create_symlink(robot.path(), runtime / "evil.pty");
   setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1);
-  const Outcome text = astrolabe({"ports"}), json = astrolabe({"ports", "--json"});
+  const Outcome text = astrolabe({"ports"}), printed = astrolabe({"ports", "--printed"});
   unsetenv("XDG_RUNTIME_DIR");
   is_plain(text);
   EXPECT_THAT(text.out, HasSubstr("\uFFFD]0;x\uFFFD\uFFFD[2J"));
-  is_plain(json);
-  EXPECT_EQ(support::parse_json(json.out).at(0).at("robot").at("name").get<std::string>().substr(0, 3),
+  is_plain(printed);
+  EXPECT_EQ(support::parse_json(printed.out).at(0).at("robot").at("name").get<std::string>().substr(0, 3),
             "\033]0")
       << "JSON escapes what a program may want to know";
 }
