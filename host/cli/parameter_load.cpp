@@ -17,8 +17,8 @@ void warn_of_another_robot(const link::Client& client, const experiment::Paramet
 }
 
 /// Values that were only tried are in force, but not in the robot's flash yet.
-void keep_what_was_tried(link::Client& client, const link::RemoteParameters& robot) {
-  if (staged_changes(robot).empty()) client.request(protocol::CommitParameters{});
+void keep_what_was_tried(link::RemoteParameters robot) {
+  robot.commit();
   say("the robot holds these values already");
 }
 
@@ -45,7 +45,7 @@ Loaded load_parameters(link::Client& client, const link::RemoteParameters& robot
   warn_of_another_robot(client, file);
   Loaded loaded{experiment::changes(robot, file.parameters), std::nullopt};
   if (loaded.changes.empty()) {
-    keep_what_was_tried(client, robot);
+    keep_what_was_tried(robot);
     return loaded;
   }
   say(table(experiment::side_by_side(loaded.changes), "llrrr"));

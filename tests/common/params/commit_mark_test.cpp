@@ -20,13 +20,23 @@ TEST(CommitMark, OfABlankFlashIsNone) {
 
 TEST(CommitMark, KnowsTheGreatestNumberAlsoAcrossTheWrap) {
   Flash flash;
-  for (const std::uint32_t number : {0U, 1U, 17U, 0x7FFF'0000U, 0xFFFE'0000U, 0xFFFF'FFFFU, 0U, 5U}) {
+  for (const std::uint32_t number : {0U, 1U, 17U, 0x7FFF'0000U, 0xFFFE'0000U, 0xFFFF'FFFEU, 0U, 5U}) {
     Mark(flash).raise(number);
     EXPECT_EQ(Mark(flash).newest(), number);
   }
   Mark(flash).raise(3);
   EXPECT_EQ(Mark(flash).newest(), 5U) << "it only grows";
   EXPECT_EQ(flash.misuses(), 0);
+}
+
+// The CRC-32 of four bytes of 0xFF is 0xFFFFFFFF: that number would look like erased flash.
+TEST(CommitMark, StaysBehindForTheOneNumberThatLooksLikeErasedFlash) {
+  Flash flash;
+  Mark(flash).raise(0xFFFF'FFFEU);
+  Mark(flash).raise(0xFFFF'FFFFU);
+  EXPECT_EQ(Mark(flash).newest(), 0xFFFF'FFFEU);
+  Mark(flash).raise(0);
+  EXPECT_EQ(Mark(flash).newest(), 0U);
 }
 
 TEST(CommitMark, OutlivesAnErasedSectorAndComesBackIntoIt) {

@@ -140,7 +140,7 @@ TEST(Schema, NamesEveryEnumerationValueAndNoOther) {
   EXPECT_EQ(name(Mode{9}), "?");
   EXPECT_EQ(name(Fault{16}), "?");
   EXPECT_EQ(meaning(ErrorCode::moving), "the robot must be at rest for this");
-  EXPECT_EQ(meaning(ErrorCode{13}), "an error of another protocol version");
+  EXPECT_EQ(meaning(ErrorCode{14}), "an error of another protocol version");
   EXPECT_EQ(message_name(0x08), "Velocity");
   EXPECT_EQ(message_name(0x7D), "?");
 }
@@ -152,7 +152,7 @@ TEST(Schema, GivesEachFaultButNoneItsOwnBit) {
     EXPECT_EQ(seen & mask, 0U);
     seen |= mask;
   }
-  EXPECT_EQ(seen, 0x7FFEU);
+  EXPECT_EQ(seen, 0xFFFEU);
 }
 
 TEST(Schema, CountsResetCausesAsTheBoardDoes) {

@@ -63,7 +63,7 @@ TEST_F(ForeignText, OfARobotsNameIsShownWithoutWhatATerminalObeys) {
   fs::permissions(runtime, fs::perms::owner_all);
   fs::create_symlink(robot.path(), runtime / "evil.pty");
   setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1);
-  const Outcome text = astrolabe({"ports"}), printed = astrolabe({"ports", "--printed"});
+  const Outcome text = astrolabe({"ports"}), printed = astrolabe({"ports", "--json"});
   unsetenv("XDG_RUNTIME_DIR");
   is_plain(text);
   EXPECT_THAT(text.out, HasSubstr("\uFFFD]0;x\uFFFD\uFFFD[2J"));

@@ -145,9 +145,6 @@ TEST_F(Params, AValueFarFromThePresentOneNeedsAnAnswer) {
   }
   EXPECT_EQ(params({"set", "kp=600", "--yes"}).code, 0);
   EXPECT_EQ(get("kp"), "600\n");
-  EXPECT_EQ(params({"set", "kp=60", "--stage-only"}).code, 0) << "nothing of it is in force";
-  EXPECT_EQ(params({"save"}).code, 1);
-  EXPECT_EQ(params({"save", "--yes"}).code, 0);
 }
 
 TEST_F(Params, AValueNearThePresentOneIsNotAskedAbout) {

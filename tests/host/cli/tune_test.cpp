@@ -127,7 +127,7 @@ TEST(Tune, ShowsEachStepOnceAndEndsWithAVerdict) {
   const Outcome loaded = tune(simulator, {"--on-ground", "--yes", "--upload"});
   ASSERT_EQ(loaded.code, 0) << loaded.err;
   // Two wheels, each measured and predicted.
-  EXPECT_EQ(times(loaded.out, "\nbefore "), 4U) << loaded.out;
+  EXPECT_EQ(times(loaded.out, "\nbefore  "), 4U) << loaded.out;
   EXPECT_EQ(times(loaded.out, "\na jump, new gains alone "), 2U) << loaded.out;
   EXPECT_EQ(times(loaded.out, "\nafter "), 4U) << loaded.out;
   EXPECT_EQ(times(loaded.out, "Verdict: "), 1U) << loaded.out;

@@ -19,9 +19,7 @@ TEST(Survival, ARobotWhoseHostIsKilledStopsByItselfAndServesTheNextHost) {
        {std::vector<std::string>{}, std::vector<std::string>{"--fast"}}) {
     const support::Simulator simulator(options);  // real time, then as fast as the host keeps up
     support::Program drive({ASTROLABE_PROGRAM, "drive", "line", "500", "--port", simulator.port()});
-    poll(nullptr, 0, 500);  // it is under way; looking earlier would take the port from it
-    ASSERT_THAT(astrolabe({"info", "--port", simulator.port()}).err, testing::HasSubstr("in use"))
-        << drive.err();
+    ASSERT_TRUE(support::eventually([&] { return info(simulator)["mode"] == "segment"; })) << drive.err();
     drive.send(SIGKILL);
     drive.wait();
     ASSERT_TRUE(support::eventually([&] { return info(simulator)["mode"] == "fault"; }))

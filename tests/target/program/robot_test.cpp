@@ -104,7 +104,7 @@ TEST(EmulatorProgram, DrivesForOneProgramAtATime) {
 TEST(EmulatorProgram, PausedAndResumedFromTheOtherPortADriveEndsWhereItShould) {
   const EmulatorProgram emulator;
   // Longer than a busy machine lets the driver wait, shorter than what is left of the drive after the pause.
-  ASSERT_EQ(astrolabe({"params", "set", "command_timeout=3000", "--port", emulator.usb()}).code, 0);
+  ASSERT_EQ(astrolabe({"params", "set", "command_timeout=3000", "--yes", "--port", emulator.usb()}).code, 0);
   support::Program drive({ASTROLABE_PROGRAM, "drive", "line", "8", "--port", emulator.serial(), "--json"});
   const auto mode = [&] {
     const Outcome info = astrolabe({"info", "--port", emulator.usb(), "--json"});

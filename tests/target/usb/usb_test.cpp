@@ -254,7 +254,11 @@ TEST_P(Usb, EndsATransferOfExactlyFullPacketsByAnEmptyOne) {
   configure();
   open_port();
   ASSERT_TRUE(ask(protocol::SetTelemetry{1, protocol::Telemetry::kPose}, 71));
-  teensy_.run_for(100ms);  // while nobody reads, more gathers than a transfer takes
+  teensy_.run_for(100ms);  // nobody reads
+  // Telemetry leaves room for answers; with those more gathers than a transfer takes.
+  for (std::uint16_t index = 0; index < 8; ++index)
+    ASSERT_TRUE(host_.send(kOut, frame(protocol::GetParameterInfo{index}, 72 + index), 100ms));
+  teensy_.run_for(10ms);
   std::size_t bytes = 0, full_transfers = 0;
   for (int packets = 0; packets < 60; ++packets) {
     const auto packet = host_.receive(kIn, 10ms);
