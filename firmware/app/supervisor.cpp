@@ -13,6 +13,7 @@ constexpr std::uint32_t kDither_edges = 4;    // in 16 ms: a wheel that is held 
 constexpr std::uint8_t kGoodRounds = 4;       // 32 ticks on time
 
 constexpr std::uint32_t visits(std::uint32_t ms) { return (ms + kWatchPeriod_ms - 1) / kWatchPeriod_ms; }
+constexpr std::uint32_t kSilentVisits = visits(kSilence_ms);
 template <Check C>
 constexpr std::uint32_t kVisits = visits(rule(C).hold_ms);
 
@@ -36,7 +37,9 @@ void Supervisor::configure(const ParameterSet& set) {
   battery_high_mv_ = high_mv != 0 ? high_mv : INT32_MAX;
   over_speed_umps_ = set.get(Param::over_speed);
   stall_visits_ = visits(static_cast<std::uint32_t>(set.get(Param::stall_time)));
-  command_timeout_us_ = static_cast<std::uint32_t>(set.get(Param::command_timeout)) * 1000;
+  const auto timeout_ms = static_cast<std::uint32_t>(set.get(Param::command_timeout));
+  timeout_visits_ = timeout_ms != 0 ? visits(timeout_ms) : UINT32_MAX;
+  armed_visits_ = std::max(timeout_visits_, kSilentVisits);
   longest_ramp_us_ = longest_ramp_us(set) + rule(Check::stop_timeout).hold_ms * 1000U;
 }
 
@@ -102,31 +105,30 @@ void Supervisor::advance(const TickInput& input, bool plausible, Steering steeri
 
 void Supervisor::look(const TickInput& input, Steering steering, const Wheels& wheels) {
   turn_ = (turn_ + 1) % (2 * kWatchPeriod_ms);
-  const hal::Duty& duty = wheels.forward_duty();
-  const WheelSpeeds& speeds = wheels.speeds();
-  const auto pulls = [&](std::int32_t one) { return exceeds(one, pulling_duty_); };
   switch (turn_ % kWatchPeriod_ms) {
     case 0:
-      pulling_duty_ = wheels.half_duty(input.battery_mv);
       return look_at_supply(input.battery_mv);
     case 1:
-      return look_at_speed(speeds);
+      return look_at_speed(wheels.speeds());
     case 2:
-      return look_for_stall(left_.stall, pulls(duty.left), speeds.left_umps);
+      look_at_ramp();
+      return look_for_stall(left_.stall, wheels.forward_duty().left, wheels.speeds().left_umps);
     case 3:
-      return look_for_stall(right_.stall, pulls(duty.right), speeds.right_umps);
+      pulling_duty_ = wheels.half_duty(input.battery_mv);
+      return look_for_stall(right_.stall, wheels.forward_duty().right, wheels.speeds().right_umps);
     case 4:
-      return look_for_runaway(left_.runaway, pulls(duty.left), duty.left, speeds.left_umps, steering);
+      return look_for_runaway(left_.runaway, wheels.forward_duty().left, wheels.speeds().left_umps, steering);
     case 5:
-      return look_for_runaway(right_.runaway, pulls(duty.right), duty.right, speeds.right_umps, steering);
+      return look_for_runaway(right_.runaway, wheels.forward_duty().right, wheels.speeds().right_umps,
+                              steering);
     case 6:
       if (!proven_) look_at_boot();
-      return look_at_deadlines(steering);
+      return look_for_host(steering);
     default:
-      return turn_ < kWatchPeriod_ms
-                 ? look_for_lost_channel(left_, pulls(duty.left), wheels.left_counts(), wheels.left_edges())
-                 : look_for_lost_channel(right_, pulls(duty.right), wheels.right_counts(),
-                                         wheels.right_edges());
+      return turn_ < kWatchPeriod_ms ? look_for_lost_channel(left_, wheels.forward_duty().left,
+                                                             wheels.left_counts(), wheels.left_edges())
+                                     : look_for_lost_channel(right_, wheels.forward_duty().right,
+                                                             wheels.right_counts(), wheels.right_edges());
   }
 }
 
@@ -144,50 +146,51 @@ void Supervisor::look_at_speed(const WheelSpeeds& speeds) {
     found(Check::over_speed);
 }
 
-void Supervisor::look_for_stall(Watch& watch, bool pulls, std::int32_t speed_umps) {
-  const bool stands = pulls && !exceeds(speed_umps, kStands_umps) && watched_in(Check::stall);
+void Supervisor::look_for_stall(Watch& watch, std::int32_t duty, std::int32_t speed_umps) {
+  const bool stands = pulls(duty) && !exceeds(speed_umps, kStands_umps) && watched_in(Check::stall);
   if (watch.advance(stands, stall_visits_)) found(Check::stall);
 }
 
-void Supervisor::look_for_runaway(Watch& watch, bool pulls, std::int32_t duty, std::int32_t speed_umps,
+void Supervisor::look_for_runaway(Watch& watch, std::int32_t duty, std::int32_t speed_umps,
                                   Steering steering) {
   // Without a loop a reversed wheel is just a reversed wheel.
-  const bool against = (duty ^ speed_umps) < 0 && pulls && exceeds(speed_umps, kTurns_umps) &&
+  const bool against = (duty ^ speed_umps) < 0 && pulls(duty) && exceeds(speed_umps, kTurns_umps) &&
                        steering != Steering::open_loop && watched_in(Check::runaway);
   if (watch.advance(against, kVisits<Check::runaway>)) found(Check::runaway);
 }
 
-void Supervisor::look_for_lost_channel(WheelWatch& watch, bool pulls, std::int32_t counts,
+void Supervisor::look_for_lost_channel(WheelWatch& watch, std::int32_t duty, std::int32_t counts,
                                        std::uint32_t edges) {
   // Counts, but no travel: not more than the one count that a single channel makes.
   const std::uint32_t travel = static_cast<std::uint32_t>(counts) - watch.counts, made = edges - watch.edges;
   watch.counts = static_cast<std::uint32_t>(counts);
   watch.edges = edges;
   const bool to_and_fro =
-      travel + 1 <= 2 && made >= kDither_edges && pulls && watched_in(Check::encoder_channel);
+      travel + 1 <= 2 && made >= kDither_edges && pulls(duty) && watched_in(Check::encoder_channel);
   if (watch.lost_channel.advance(to_and_fro, kVisits<Check::encoder_channel> / 2))
     found(Check::encoder_channel);
 }
 
 // While the robot stops or stands its host has nothing to repeat, and may wait a little longer.
-std::uint32_t Supervisor::silence_allowed_us() const {
-  constexpr std::uint32_t kSilence_us = kSilence_ms * 1000;
-  if (state_ == State::stopping) return kSilence_us;
-  const std::uint32_t parameter_us = command_timeout_us_ != 0 ? command_timeout_us_ : kForEver_us;
-  return state_ == State::armed ? std::max(parameter_us, kSilence_us) : parameter_us;
+std::uint32_t Supervisor::visits_allowed() const {
+  if (state_ == State::driving) return timeout_visits_;
+  return state_ == State::stopping ? kSilentVisits : armed_visits_;
 }
 
-void Supervisor::look_at_deadlines(Steering steering) {
+void Supervisor::look_at_ramp() {
+  if (state_ != State::stopping) return;
   if (watched_in(Check::stop_timeout) && now_us_ >= rest_deadline_us_) return found(Check::stop_timeout);
-  if (state_ == State::stopping && faults_.any()) {
-    if (now_us_ >= ramp_deadline_us_) astro::advance(state_, Event::fault);
-    return;  // a silent host is no further fault
-  }
+  if (faults_.any() && now_us_ >= ramp_deadline_us_) astro::advance(state_, Event::fault);
+}
+
+void Supervisor::look_for_host(Steering steering) {
   const bool repeats = state_ == State::driving && steering != Steering::path;
+  const std::uint32_t steered = ++steered_visits_, seen = ++host_visits_;
+  if ((repeats ? steered : seen) <= visits_allowed()) [[likely]]
+    return;
   const Check check = repeats ? Check::command_timeout : Check::link_lost;
-  const std::uint32_t allowed_us = silence_allowed_us();
-  if (!watched_in(check) || allowed_us == kForEver_us) return;
-  if (now_us_ - (repeats ? steered_at_us_ : host_seen_at_us_) <= allowed_us) return;
+  if (!watched_in(check)) return;
+  if (state_ == State::stopping && faults_.any()) return;                // a silent host is no further fault
   if (steering == Steering::open_loop) return raise(rule(check).fault);  // no loop, no ramp
   found(check);
 }

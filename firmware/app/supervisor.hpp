@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "common/fixed/saturate.hpp"
 #include "common/params/parameter_set.hpp"
 #include "common/safety/fault_latch.hpp"
 #include "common/safety/fault_rule.hpp"
@@ -52,8 +53,8 @@ class Supervisor {
   bool clear();
 
   /// A command that must be repeated was; a good frame came from the host that drives.
-  void steered() { steered_at_us_ = now_us_; }
-  void host_seen() { host_seen_at_us_ = now_us_; }
+  void steered() { steered_visits_ = 0; }
+  void host_seen() { host_visits_ = 0; }
 
   /// In every tick of a ramp to rest whose set point has reached zero.
   void set_point_at_rest();
@@ -70,26 +71,29 @@ class Supervisor {
   };
 
   static constexpr std::uint64_t kNever_us = UINT64_MAX;
-  static constexpr std::uint32_t kForEver_us = UINT32_MAX;
 
-  bool watched_in(Check check) const { return within(state_, rule(check).watched); }
+  /// For a check that is made always the state is not even looked at.
+  bool watched_in(Check check) const {
+    return rule(check).watched == rule_detail::kAlways || within(state_, rule(check).watched);
+  }
+  bool pulls(std::int32_t duty) const { return exceeds(duty, pulling_duty_); }
   void found(Check check);
   void begin_ramp();
   /// One of the slower watches, in turn.
   void look(const TickInput& input, Steering steering, const Wheels& wheels);
   void look_at_supply(std::int32_t battery_mv);
   void look_at_speed(const WheelSpeeds& speeds);
-  void look_for_stall(Watch& watch, bool pulls, std::int32_t speed_umps);
-  void look_for_runaway(Watch& watch, bool pulls, std::int32_t duty, std::int32_t speed_umps,
-                        Steering steering);
-  void look_for_lost_channel(WheelWatch& watch, bool pulls, std::int32_t counts, std::uint32_t edges);
-  void look_at_deadlines(Steering steering);
-  std::uint32_t silence_allowed_us() const;
+  void look_for_stall(Watch& watch, std::int32_t duty, std::int32_t speed_umps);
+  void look_for_runaway(Watch& watch, std::int32_t duty, std::int32_t speed_umps, Steering steering);
+  void look_for_lost_channel(WheelWatch& watch, std::int32_t duty, std::int32_t counts, std::uint32_t edges);
+  [[gnu::noinline]] void look_at_ramp();
+  void look_for_host(Steering steering);
+  std::uint32_t visits_allowed() const;
   void look_at_boot();
 
   std::int32_t battery_low_mv_ = 0, battery_high_mv_ = 0, over_speed_umps_ = 0;
   std::uint32_t stall_visits_ = 0;
-  std::uint32_t command_timeout_us_ = 0;
+  std::uint32_t timeout_visits_ = 0, armed_visits_ = 0;  // silences of the host that are borne
   std::uint64_t longest_ramp_us_ = 0;  // of the set point, from the fastest legal speed, and what follows
 
   std::int32_t pulling_duty_ = 0;  // a motor that gets more of it pulls
@@ -102,9 +106,9 @@ class Supervisor {
   Watch under_voltage_, over_voltage_, over_speed_;
   WheelWatch left_, right_;
   std::uint64_t now_us_ = 0;
-  std::uint64_t steered_at_us_ = 0, host_seen_at_us_ = 0;
-  std::uint64_t ramp_deadline_us_ = kNever_us;  // of a ramp after a fault
-  std::uint64_t rest_deadline_us_ = kNever_us;  // of any ramp
+  std::uint32_t steered_visits_ = 0, host_visits_ = 0;  // of look_for_host() since then
+  std::uint64_t ramp_deadline_us_ = kNever_us;          // of a ramp after a fault
+  std::uint64_t rest_deadline_us_ = kNever_us;          // of any ramp
 };
 
 }  // namespace astro

@@ -140,6 +140,7 @@ Wheels::Supply Wheels::supply_of(std::int32_t battery_mv) const {
 
 std::int32_t Wheels::half_duty(std::int32_t battery_mv) const {
   const Supply supply = supply_of(battery_mv);
+  if (supply.limit_uv == 1000 * supply.mv) return kFullDuty / 2;
   const std::uint32_t limit_mv = static_cast<std::uint32_t>(supply.limit_uv) / 1000;
   return static_cast<std::int32_t>(kFullDuty / 2 * limit_mv / static_cast<std::uint32_t>(supply.mv));
 }

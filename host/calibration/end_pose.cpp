@@ -24,15 +24,15 @@ void require_values(std::span<const EndPose> runs, const std::string& set) {
   }
 }
 
-struct Moments {
+struct MeanAndSquares {
   double mean = 0, rms = 0, se = 0;
   int count = 0;
 };
 
 /// Of one coordinate over the runs in which it was measured; NaN where there is none.
-Moments moments_of(std::span<const EndPose> runs, double EndPose::*value) {
+MeanAndSquares moments_of(std::span<const EndPose> runs, double EndPose::*value) {
   double sum = 0, squares = 0, deviations = 0;
-  Moments out;
+  MeanAndSquares out;
   const auto measured = [value](const EndPose& run) { return !std::isnan(run.*value); };
   for (const EndPose& run : runs | std::views::filter(measured)) {
     ++out.count;
@@ -52,8 +52,8 @@ ClusterSummary summarize_set(std::span<const EndPose> runs, const std::string& s
   require_values(runs, set);
   ClusterSummary out;
   out.runs = static_cast<int>(runs.size());
-  const Moments x = moments_of(runs, &EndPose::x_m), y = moments_of(runs, &EndPose::y_m),
-                theta = moments_of(runs, &EndPose::theta_rad);
+  const MeanAndSquares x = moments_of(runs, &EndPose::x_m), y = moments_of(runs, &EndPose::y_m),
+                       theta = moments_of(runs, &EndPose::theta_rad);
   out.has_theta = theta.count > 0;
   out.x_cg_m = x.mean;
   out.y_cg_m = y.mean;
