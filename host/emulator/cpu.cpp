@@ -93,6 +93,7 @@ void Cpu::on_block(uc_engine* engine, std::uint64_t address, std::uint32_t bytes
   if (cpu.stopping_) return;
   if (cpu.trapped_ || cpu.hooks_.interrupted()) {
     cpu.stopping_ = true;
+    cpu.stopped_before_ = static_cast<std::uint32_t>(address);
     uc_emu_stop(engine);
     return;
   }
@@ -144,7 +145,10 @@ void Cpu::set_traps(const std::vector<Protection::Span>& traps) {
 
 Cpu::End Cpu::run() {
   stopping_ = false;
+  stopped_before_.reset();
   const uc_err error = uc_emu_start(engine_, pc() | 1U, 1, 0, 0);
+  // The program counter may still be at the last instruction of the block before, which would run twice.
+  if (stopped_before_) set(UC_ARM_REG_PC, *stopped_before_ | 1U);
   if (std::exchange(trapped_, false)) return End::bad_access;
   if (stopping_) return End::interrupted;
   switch (error) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "host/emulator/machine.hpp"
@@ -15,10 +16,9 @@ namespace astro::emulator {
 /// The instruction engine: registers, memories, and the callbacks by which the rest of the machine takes
 /// part.
 ///
-/// Why     Unicorn, with two habits to mind: stopping it from a register access rewinds the program counter
-/// and
-///         repeats what was done, so it is only stopped between blocks of instructions; and exceptions are
-///         left to us.
+/// Why     Unicorn, with three habits to mind: stopping it from a register access rewinds the program counter
+/// and repeats what was done, so it is only stopped between blocks of instructions; stopped there it may leave
+/// the program counter at an instruction that has run; and exceptions are left to us.
 class Cpu {
  public:
   /// What the machine does when the engine asks.
@@ -93,6 +93,7 @@ class Cpu {
   std::vector<Block> blocks_;
   std::uint64_t instructions_ = 0;
   bool stopping_ = false, trapped_ = false;
+  std::optional<std::uint32_t> stopped_before_;  // the block that a stop kept from running
   std::vector<uc_hook> traps_;
   BadAccess bad_;
 };

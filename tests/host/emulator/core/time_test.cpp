@@ -51,6 +51,27 @@ TEST(Time, SleepIsEndedByAnInterruptThatPrimaskHoldsBack) {
   EXPECT_EQ(program.result(1), 0U);
 }
 
+TEST(Time, NoInstructionRunsAgainWhereARunEndedAndTheNextBegan) {
+  // The addition lies across the end of a page: the engine makes a block of it alone.
+  Program program(R"(
+    ldr r4, =20000
+    movs r5, #0
+    b 1f
+    .ltorg
+    .balign 4096
+    .space 4094
+  1: add.w r5, r5, #1
+    subs r4, #1
+    bne 1b
+    mov r0, r5
+    keep 0
+    stay
+  )");
+  // 64 instructions each, of a loop of three: runs end between its two blocks, too.
+  for (int run = 0; run < 2000; ++run) program.teensy().run_for(107ns);
+  EXPECT_EQ(program.result(0), 20'000U);
+}
+
 TEST(Time, SysTickOfTheReferenceClockCountsAt100Kilohertz) {
   Program program(R"(
     set SysTick_RVR, 99
