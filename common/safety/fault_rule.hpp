@@ -78,7 +78,9 @@ inline constexpr std::uint32_t kRampAtMost_ms = 2500;
 
 /// A robot that stops, or stands armed, whose host has said nothing for so long has no host any more, and its
 /// bridges open. Armed it waits for command_timeout if that is longer, and for ever if that is switched off.
-inline constexpr std::uint32_t kSilence_ms = 2500;
+/// About 2.5 s; silences are counted in rounds of checks, so a time that is no whole number of them is borne
+/// to the end of the round.
+inline constexpr std::uint32_t kSilence_ms = 312 * kWatchPeriod_ms;
 
 static_assert([] {
   for (std::size_t i = 0; i < kFaultRules.size(); ++i)

@@ -129,8 +129,8 @@ constexpr int kChannel = 48 + 4 * kLate;  // each wheel in every second round, f
 constexpr int kAway = 48 + kLate;
 constexpr int kHost = 200 + kLate;   // command_timeout
 constexpr int kRamp = kHost + 2500;  // and the longest ramp after it
-constexpr int kGone = 2500 + kLate;  // the silence that a robot bears that stops or stands armed
-constexpr int kRest = 1000 + kLate;  // from a set point at rest
+constexpr int kGone = 2496 + kLate;  // the silence that a robot bears that stops or stands armed
+constexpr int kRest = 1001 + kLate;  // from a set point of zero, a tick before the ramp has arrived
 
 struct Expectation {
   Fault fault;
