@@ -167,9 +167,9 @@ std::unique_ptr<Transport> open_transport(const std::string& address, unsigned b
     return std::make_unique<StreamTransport<asio::ip::tcp::socket>>(
         address, [=](asio::io_context& context) { return connect_tcp(context, address, endpoint); });
   }
-  using Descriptor = asio::posix::stream_descriptor;
-  return std::make_unique<StreamTransport<Descriptor>>(address, [=](asio::io_context& context) {
-    Descriptor descriptor(context, open_serial_port(address, baud));
+  using StreamDescriptor = asio::posix::stream_descriptor;
+  return std::make_unique<StreamTransport<StreamDescriptor>>(address, [=](asio::io_context& context) {
+    StreamDescriptor descriptor(context, open_serial_port(address, baud));
     descriptor.non_blocking(true);
     return descriptor;
   });
