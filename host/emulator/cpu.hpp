@@ -17,8 +17,8 @@ namespace astro::emulator {
 /// part.
 ///
 /// Why     Unicorn, with three habits to mind: stopping it from a register access rewinds the program counter
-/// and repeats what was done, so it is only stopped between blocks of instructions; stopped there it may leave
-/// the program counter at an instruction that has run; and exceptions are left to us.
+/// and repeats what was done, so it is only stopped between blocks of instructions; stopped there it may
+/// leave the program counter at an instruction that has run; and exceptions are left to us.
 class Cpu {
  public:
   /// What the machine does when the engine asks.
