@@ -11,7 +11,7 @@ namespace astro::calibration {
 namespace {
 
 constexpr double kSide_m = 3;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 const std::vector<EndPose> kRuns{{0.31, -0.26, 0.17},
                                  {0.30, -0.25, 0.18},
                                  {0.32, -0.27, 0.165},
@@ -34,7 +34,7 @@ TEST(MistypedRun, IsFoundWhereverItStandsAndWhicheverWayItsDecimalPointMoved) {
 TEST(MistypedRun, IsToldWithItsNumberAndThatOfTheOthers) {
   std::vector<EndPose> runs = kRuns;
   runs[2].x_m = 3.2;
-  runs[2].theta_rad = kNaN;
+  runs[2].theta_rad = kNotMeasured;
   EXPECT_EQ(described(*mistyped_run(runs, kSide_m)),
             "x = 3.2 m, and 0.305 m in the others: is its decimal point right?");
 }
