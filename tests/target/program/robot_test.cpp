@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "tests/support/json.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/target/program/emulator.hpp"
 
 // What a person without a Teensy does with the image: the ordinary commands, at either port.
@@ -153,7 +154,10 @@ TEST(EmulatorProgram, SaysWhatIsWrongInOneSentence) {
   };
   EXPECT_THAT(complaint({}), HasSubstr("firmware"));
   EXPECT_THAT(complaint({"/nonexistent.hex"}), HasSubstr("cannot read '/nonexistent.hex'"));
-  EXPECT_THAT(complaint({ASTROLABE_EMULATOR_PROGRAM}), HasSubstr("no Intel HEX record"));
+  const test::TemporaryFolder folder;
+  const std::string text = folder.path() / "notes.txt";
+  std::ofstream(text) << "no image\n";
+  EXPECT_THAT(complaint({text}), HasSubstr("no Intel HEX record"));
   EXPECT_THAT(complaint({kImage, "--usb-pyt", "x"}), HasSubstr("astrolabe-emulator"));
   EXPECT_THAT(complaint({kImage, "--pty", "/nonexistent/x"}),
               HasSubstr("--pty: there is no folder '/nonexistent' for '/nonexistent/x'"));
