@@ -12,11 +12,12 @@ ORDER = {
 }
 # They cut the power after every byte or wear out sectors, which takes minutes without optimisation.
 TOO_LONG = {"fault_log_faults_test.cpp", "power_cut_test.cpp", "thousand_commits_test.cpp", "wear_test.cpp"}
-SCENARIOS = ["fault_matrix_test.cpp"]
-# The simulated robot with a client in process: what its tests link of the host's tools, and nothing with sockets.
-HOST = ["link/client.cpp", "link/client_connect.cpp", "link/clock_map.cpp", "link/drive.cpp", "link/parameter_row.cpp",
-        "link/parameters.cpp", "link/paths.cpp", "link/refusal.cpp", "simulator/in_process.cpp",
-        "simulator/virtual_mocap.cpp", "simulator/virtual_robot.cpp"]
+SCENARIOS = ["fault_matrix_test.cpp", "stopping_test.cpp", "lives_test.cpp"]
+# The simulated robot with a client in process: what its tests link of the host's tools.
+HOST = ["base/plain_text.cpp", "link/client.cpp", "link/client_connect.cpp", "link/clock_map.cpp", "link/drive.cpp",
+        "link/parameter_row.cpp", "link/parameter_rules.cpp", "link/parameters.cpp", "link/paths.cpp",
+        "link/port_socket.cpp", "link/ports.cpp", "link/refusal.cpp", "link/rest.cpp", "link/terminal_user.cpp",
+        "simulator/in_process.cpp", "simulator/virtual_mocap.cpp", "simulator/virtual_robot.cpp"]
 PRECOMPILED = ["gmock/gmock.h", "gtest/gtest.h", "algorithm", "array", "chrono", "cmath", "filesystem", "functional",
                "map", "memory", "random", "span", "string", "vector"]
 # -O1: -O0 runs the simulated robot ten times slower, -O2 compiles half as fast again.
@@ -52,7 +53,7 @@ def sources(folder):
     host = [folder / "host" / name for name in HOST]
     linked = {name: list(core) for name in PROGRAMS}
     linked["tick"] += firmware_sources
-    linked["robot"] += firmware_sources + host
+    linked["robot"] += firmware_sources + host + [folder / "tests/support/robot_life.cpp"]
     return tests, linked
 
 
