@@ -32,7 +32,7 @@ enum class Check : std::uint8_t {
 };
 inline constexpr std::size_t kChecks = 12;
 
-/// In which states a check is made, for how long its condition must hold, and what follows.
+/// In which states a check is made, after how long its condition is found at the latest, and what follows.
 struct FaultRule {
   Check check;
   Fault fault;
@@ -70,7 +70,8 @@ inline constexpr auto kFaultRules = std::to_array<FaultRule>({
 
 constexpr const FaultRule& rule(Check check) { return kFaultRules[static_cast<std::size_t>(check)]; }
 
-/// Each slow check is made once in so many ticks: a condition is found up to that much later than it holds.
+/// Each slow check is made once in so many ticks. A condition is found when as many checks in a row saw it as
+/// fit into `hold_ms`: less than a period sooner, never later than `hold_ms` rounded up to whole periods.
 inline constexpr std::uint32_t kWatchPeriod_ms = 8;
 
 /// The longest ramp to rest after a fault; a robot that still moves is then left to coast.

@@ -16,24 +16,23 @@ namespace astro {
 /// The single place that decides whether the motors may run: it holds the state, the latch and the deadlines,
 /// and looks in every tick for what must stop the robot (the table in common/safety/fault_rule.hpp).
 ///
-///   driver           the bridge reports over-current or over-temperature
-///   under_voltage    supply below battery_low; 0 switches it off
-///   over_voltage     supply above battery_high; 0 switches it off
-///   over_speed       a wheel faster than over_speed
-///   stall            more than half of the usable voltage on a wheel that does not move, for stall_time
-///   encoder          more counts in a tick than a motor can turn; or counts to and fro while the motor
-///                    pulls, which is what a decoder makes of a single channel
-///   runaway          a wheel turns against more than half of the usable voltage: motor or encoder is
-///   reversed tick_overrun     a tick came too late, or a thousand of them took longer or shorter than a
-///   second command_timeout  no velocity or voltage for longer than the parameter of that name link_lost
-///   nothing from the host that drives: on a path and in a ramp for as long, at rest for
-///                    kArmedSilence_ms
-///   stop_timeout     the wheels still turn although their set point has been zero for a second
+/// - `driver`: the bridge reports over-current or over-temperature.
+/// - `under_voltage`, `over_voltage`: supply below `battery_low`, above `battery_high`; 0 switches it off.
+/// - `over_speed`: a wheel faster than `over_speed`.
+/// - `stall`: more than half of the usable voltage on a wheel that does not move, for `stall_time`.
+/// - `encoder`: more counts in a tick than a motor can turn; or counts to and fro while the motor pulls,
+///   which is what a decoder makes of a single channel.
+/// - `runaway`: a wheel turns against more than half of the usable voltage: motor or encoder is reversed.
+/// - `tick_overrun`: a tick came too late, or a thousand of them took longer or shorter than a second.
+/// - `command_timeout`: no velocity or voltage for longer than the parameter of that name.
+/// - `link_lost`: nothing from the host that drives: on a path for `command_timeout`, in a ramp for
+///   kSilence_ms, at rest for the longer of the two.
+/// - `stop_timeout`: the wheels still turn although their set point has been zero for a second.
 ///
 /// Every ramp to rest ends: its set point reaches zero within the time that the motion limits give, and the
 /// bridges open at the latest a second after that. After a fault they open within kRampAtMost_ms.
 ///
-/// Cost    constant: what must be seen at once in every tick, and one of the slower checks in turn.
+/// Cost: constant: what must be seen at once in every tick, and one of the slower checks in turn.
 class Supervisor {
  public:
   /// Who moves the wheels, and so what must go on for them to move.
