@@ -2,8 +2,9 @@
 
 #include <cmath>
 #include <limits>
-#include <ranges>
+#include <numeric>
 #include <string>
+#include <vector>
 
 #include "host/base/error.hpp"
 
@@ -31,20 +32,20 @@ struct MeanAndSquares {
 
 /// Of one coordinate over the runs in which it was measured; NaN where there is none.
 MeanAndSquares moments_of(std::span<const EndPose> runs, double EndPose::*value) {
-  double sum = 0, squares = 0, deviations = 0;
+  std::vector<double> measured;
+  for (const EndPose& run : runs)
+    if (!std::isnan(run.*value)) measured.push_back(run.*value);
+  const auto squares_about = [&measured](double center) {
+    double sum = 0;
+    for (const double one : measured) sum += (one - center) * (one - center);
+    return sum;
+  };
+  const auto n = static_cast<double>(measured.size());
   MeanAndSquares out;
-  const auto measured = [value](const EndPose& run) { return !std::isnan(run.*value); };
-  for (const EndPose& run : runs | std::views::filter(measured)) {
-    ++out.count;
-    sum += run.*value;
-    squares += run.*value * run.*value;
-  }
-  const double n = out.count;
-  out.mean = n > 0 ? sum / n : kNaN;
-  out.rms = n > 0 ? std::sqrt(squares / n) : kNaN;
-  for (const EndPose& run : runs | std::views::filter(measured))
-    deviations += std::pow(run.*value - out.mean, 2);
-  out.se = n < 2 ? kNaN : std::sqrt(deviations / (n * (n - 1)));
+  out.count = static_cast<int>(measured.size());
+  out.mean = n > 0 ? std::accumulate(measured.begin(), measured.end(), 0.0) / n : kNaN;
+  out.rms = n > 0 ? std::sqrt(squares_about(0) / n) : kNaN;
+  out.se = n < 2 ? kNaN : std::sqrt(squares_about(out.mean) / (n * (n - 1)));
   return out;
 }
 

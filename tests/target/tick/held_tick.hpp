@@ -9,7 +9,7 @@
 namespace astro::target {
 
 /// Instructions that the main loop spends in one go while it holds the control tick: with BASEPRI raised, as
-/// hold_tick() does. Not counted is the flash driver, which switches all interrupts off for the 20 us in
+/// hold_tick() does. Not counted is the flash driver, which switches all interrupts off for the 71 us in
 /// which a page goes over the wire: the firmware writes flash only at rest.
 class HeldTick {
  public:
