@@ -4,10 +4,11 @@
 #include <thread>
 
 #include "tests/host/campaign/place.hpp"
+#include "tests/target/firmware_file.hpp"
 
 // SIGKILL at a system call of every command that writes. What it leaves behind is old or new, or says by its
 // name that it is unfinished; the robot's outputs are off; the same command again does the work.
-// ASTRO_KILLS=600 ASTRO_SEED=7 makes the few kills of the ordinary tests as many, elsewhere.
+// ASTRO_KILLS=40 ASTRO_SEED=7 kills each command so often, at other calls, in place of twice.
 namespace astro::campaign {
 namespace {
 
@@ -22,10 +23,8 @@ unsigned number_in(const char* variable, unsigned otherwise) {
 
 unsigned kill_seed() { return number_in("ASTRO_SEED", 20261122); }
 
-// Of each scenario, and of the two simulated flash files.
-std::size_t kills_each() {
-  return std::max<std::size_t>(2, number_in("ASTRO_KILLS", 0) / (scenarios().size() + 1) + 1);
-}
+/// Of each command; at each of its calls where they are fewer.
+std::size_t kills_each() { return number_in("ASTRO_KILLS", 2); }
 
 class Killed : public testing::TestWithParam<std::string> {
  protected:
@@ -68,30 +67,38 @@ std::vector<std::string> names() {
 INSTANTIATE_TEST_SUITE_P(All, Killed, testing::ValuesIn(names()),
                          [](const auto& test) { return test.param; });
 
-// The robot's side: the simulator dies while it keeps its flash in a file.
-class FlashFile : public Killed {};
+struct FlashLife {
+  TracedOutcome robot;
+  std::string acknowledged;
+};
 
-Words sim_with_flash(const test::TemporaryFolder& folder) {
-  return {ASTROLABE_PROGRAM,
-          "sim",
-          "--fast",
-          "--pty",
-          (folder.path() / "robot").string(),
-          "--flash",
-          (folder.path() / "flash").string()};
+// The robot's side: the program that plays the robot dies while it keeps its flash in a file.
+class FlashFile : public Killed {
+ protected:
+  Words robot(const test::TemporaryFolder& folder) const {
+    Words words = GetParam() == "simulator" ? Words{ASTROLABE_PROGRAM, "sim", "--fast"}
+                                            : Words{ASTROLABE_EMULATOR_PROGRAM, target::kImage, "--fast"};
+    for (const auto& [option, file] : {std::pair{"--pty", "robot"}, {"--flash", "flash"}}) {
+      words.emplace_back(option);
+      words.push_back((folder.path() / file).string());
+    }
+    return words;
+  }
+  std::string factors_of(const test::TemporaryFolder& folder) const;
+  FlashLife live(const test::TemporaryFolder& folder, Interference interference) const;
+};
+
+/// False if the robot's program has ended before.
+bool is_there(const test::TemporaryFolder& folder, int robot_pid) {
+  const auto port = folder.path() / "robot";
+  support::eventually([&] { return std::filesystem::exists(port) || kill(robot_pid, 0) != 0; });
+  return std::filesystem::exists(port) && kill(robot_pid, 0) == 0;
 }
 
-/// False if the simulator has ended before.
-bool is_there(const test::TemporaryFolder& folder, int simulator) {
-  const auto robot = folder.path() / "robot";
-  support::eventually([&] { return std::filesystem::exists(robot) || kill(simulator, 0) != 0; });
-  return std::filesystem::exists(robot) && kill(simulator, 0) == 0;
-}
-
-std::string factors_of(const test::TemporaryFolder& folder) {
-  // A simulator that was killed has left the name of its terminal behind.
+std::string FlashFile::factors_of(const test::TemporaryFolder& folder) const {
+  // One that was killed has left the name of its terminal behind.
   std::filesystem::remove(folder.path() / "robot");
-  const support::Program simulator(sim_with_flash(folder));
+  const support::Program again(robot(folder));
   const std::string port = (folder.path() / "robot").string();
   support::Outcome outcome;
   support::eventually([&] {
@@ -105,10 +112,10 @@ constexpr const char* kDefaultFactors = "c_R=1\nc_L=1\nkp=60\n";
 constexpr const char* kFirstFactors = "c_R=1.001\nc_L=0.999\nkp=50\n";
 constexpr const char* kSecondFactors = "c_R=1.002\nc_L=0.998\nkp=55\n";
 
-/// Sets the first factors, then the second, while the simulator is being killed; returns which are
+/// Sets the first factors, then the second, while the robot's program is being killed; returns which are
 /// acknowledged.
-const char* set_both(const test::TemporaryFolder& folder, int simulator) {
-  if (!is_there(folder, simulator)) return kDefaultFactors;
+const char* set_both(const test::TemporaryFolder& folder, int robot_pid) {
+  if (!is_there(folder, robot_pid)) return kDefaultFactors;
   const auto set = [&](const Words& values) {
     Words words{"params", "set", "--yes", "--port", (folder.path() / "robot").string()};
     words.insert(words.end(), values.begin(), values.end());
@@ -118,13 +125,8 @@ const char* set_both(const test::TemporaryFolder& folder, int simulator) {
   return set({"c_R=1.002", "c_L=0.998", "kp=55"}) ? kSecondFactors : kFirstFactors;
 }
 
-struct FlashLife {
-  TracedOutcome simulator;
-  std::string acknowledged;
-};
-
-/// A simulator that is told to set both, and is ended then if it has not been killed before.
-FlashLife live(const test::TemporaryFolder& folder, Interference interference) {
+/// One that is told to set both, and is ended then if it has not been killed before.
+FlashLife FlashFile::live(const test::TemporaryFolder& folder, Interference interference) const {
   FlashLife life;
   std::thread host;
   support::TraceHooks hooks;
@@ -135,31 +137,31 @@ FlashLife live(const test::TemporaryFolder& folder, Interference interference) {
       kill(pid, SIGTERM);
     });
   };
-  life.simulator = support::run_traced(sim_with_flash(folder), folder.path().string(), interference, hooks);
+  life.robot = support::run_traced(robot(folder), folder.path().string(), interference, hooks);
   host.join();
   return life;
 }
 
-TEST_F(FlashFile, OfTheSimulatorHoldsOneOfTheSetsAndAllThatWasAcknowledged) {
+TEST_P(FlashFile, HoldsOneOfTheSetsAndAllThatWasAcknowledged) {
   std::size_t calls = 0;
   {
     const test::TemporaryFolder folder;
     const FlashLife undisturbed = live(folder, {});
-    ASSERT_EQ(undisturbed.acknowledged, kSecondFactors) << undisturbed.simulator.err;
+    ASSERT_EQ(undisturbed.acknowledged, kSecondFactors) << undisturbed.robot.err;
     EXPECT_EQ(factors_of(folder), kSecondFactors);
-    calls = undisturbed.simulator.calls.size();
+    calls = undisturbed.robot.calls.size();
     ASSERT_GE(calls, 3U) << "it opens, writes and renames";
   }
   const unsigned seed = kill_seed();
   std::size_t hits = 0;
-  for (const std::size_t at : spread(kills_each(), calls, seed)) {
+  for (const std::size_t at : spread((kills_each() + 1) / 2, calls, seed)) {
     for (const Harm harm : {Harm::killed_before, Harm::killed_amid}) {
       const test::TemporaryFolder folder;
       const FlashLife life = live(folder, {harm, at});
       SCOPED_TRACE(testing::Message()
-                   << "killed at call " << at << " of " << calls << ": " << life.simulator.calls.back());
-      hits += life.simulator.was_hit ? 1 : 0;
-      // What was under way when the simulator died was acknowledged to nobody, and may have come through or
+                   << "killed at call " << at << " of " << calls << ": " << life.robot.calls.back());
+      hits += life.robot.was_hit ? 1 : 0;
+      // What was under way when it died was acknowledged to nobody, and may have come through or
       // not.
       const std::string now = factors_of(folder);
       const bool is_next =
@@ -169,9 +171,12 @@ TEST_F(FlashFile, OfTheSimulatorHoldsOneOfTheSetsAndAllThatWasAcknowledged) {
     }
     if (HasFailure()) break;
   }
-  std::printf("sim --flash: %zu kills over %zu calls, seed %u\n", hits, calls, seed);
+  std::printf("%s --flash: %zu kills over %zu calls, seed %u\n", GetParam().c_str(), hits, calls, seed);
   EXPECT_GT(hits, 0U);
 }
+
+INSTANTIATE_TEST_SUITE_P(OfThe, FlashFile, testing::Values("simulator", "emulator"),
+                         [](const auto& test) { return test.param; });
 
 }  // namespace
 }  // namespace astro::campaign

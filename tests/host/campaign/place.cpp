@@ -62,7 +62,8 @@ void expect_readable(const fs::path& file) {
   const bool is_part = file.extension() == ".part";
   try {
     const recording::Run run = recording::run_from_bytes(recording::load_file(file), file.string());
-    EXPECT_EQ(run.warning.empty(), !is_part) << file << run.warning;
+    // Between its last byte and its name a recording is whole and yet called unfinished.
+    EXPECT_TRUE(run.warning.empty() || is_part) << file << run.warning;
   } catch (const std::exception& error) {
     EXPECT_TRUE(is_part && fs::file_size(file) < kBeforeFirstChunk) << file << ": " << error.what();
   }

@@ -74,6 +74,10 @@ std::vector<Scenario> make() {
        [](const Place&) {
          return Words{"drive", "square", "0.3"};
        }},
+      {"drive_record", nothing,
+       [](const Place& place) {
+         return Words{"drive", "square", "0.3", "--record", place.path("run.mcap")};
+       }},
       {"record", nothing,
        [](const Place& place) {
          return Words{"record", "--seconds", "0.2", "--truth", "sim", "--out", place.path("run.mcap")};
