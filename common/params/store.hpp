@@ -37,10 +37,9 @@ enum class CommitError : std::uint8_t {
 /// The sector that holds the newest record is never erased: whenever the power goes, the next load() finds
 /// either the old set or the new one.
 ///
-/// Flash   at least two sectors of at least one record. Used only while the robot is at rest.
-/// Cost    load and commit read all sectors once; commit programs one record, and erases a sector each time
-/// one
-///         is full. RAM: one Record, no heap.
+/// Flash: at least two sectors of at least one record. Used only while the robot is at rest.
+/// Cost: load and commit read all sectors once; commit programs one record, and erases a sector each time one
+/// is full. RAM: one Record, no heap.
 template <NorFlash Flash>
 class Store {
  public:

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
+#include <random>
 #include <vector>
 
 #include "common/base/crc32.hpp"
@@ -109,6 +112,40 @@ TEST(RecordLog, IsAppendedToAtTheStartOfABlankSectorAndNotBeforeIt) {
     ASSERT_TRUE(Log(flash).append(sector, record));
     EXPECT_EQ(found_in(flash).at, sector * kLogSectorBytes);
     EXPECT_EQ(flash.outside, 0);
+  }
+}
+
+// Against the obvious way: all records in a list. Sequence numbers start shortly before they wrap.
+TEST(RecordLog, FindsTheNewestAndTheNewestOutsideItsSectorWhereverTheyLie) {
+  struct Placed {
+    std::uint32_t at, age;
+    std::uint32_t sector() const { return at / kLogSectorBytes; }
+  };
+  std::mt19937 random(20'261'122);
+  for (int round = 0; round < 500; ++round) {
+    StrictFlash flash;
+    std::vector<Placed> placed;
+    std::vector<std::uint32_t> ages(12);
+    std::iota(ages.begin(), ages.end(), 0U);
+    std::ranges::shuffle(ages, random);
+    for (std::uint32_t sector = 0; sector < Log::kSectors; ++sector)
+      for (std::uint32_t i = 0, records = random() % 5; i < records; ++i) {
+        placed.push_back({sector * kLogSectorBytes + i * 4 * kUnitBytes, ages.back()});
+        ages.pop_back();
+        flash.put_back(placed.back().at, whole_record(4, UINT32_MAX - 5 + placed.back().age));
+      }
+    const Log::Newest newest = found_in(flash);
+    ASSERT_EQ(newest.found, !placed.empty());
+    if (placed.empty()) continue;
+    const Placed& youngest = *std::ranges::max_element(placed, {}, &Placed::age);
+    EXPECT_EQ(newest.at, youngest.at);
+    EXPECT_EQ(newest.sequence, UINT32_MAX - 5 + youngest.age);
+    EXPECT_FALSE(newest.outrun());
+    std::erase_if(placed, [sector = youngest.sector()](const Placed& one) { return one.sector() == sector; });
+    ASSERT_EQ(newest.found_outside, !placed.empty()) << round;
+    if (placed.empty()) continue;
+    EXPECT_EQ(newest.outside, UINT32_MAX - 5 + std::ranges::max_element(placed, {}, &Placed::age)->age)
+        << round;
   }
 }
 
