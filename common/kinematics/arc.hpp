@@ -18,8 +18,7 @@ namespace astro {
 ///         hold and position below 2^-40 m are carried to the next step.
 /// Cost    constant, one sine and cosine, no division; callable from the control tick.
 /// Source  Sola, Deray, Atchuthan, arXiv:1812.01537v9, eqs. 156-158: the chord of an arc of length s and
-/// angle a is
-///         s * sin(a/2) / (a/2), and points along the mean of both headings.
+///         angle a is s * sin(a/2) / (a/2), and points along the mean of both headings.
 class ArcIntegrator {
  public:
   /// travel in 2^-61 m, turn in 2^-64 turn. Always inlined: it has two callers, both of them in the tick.

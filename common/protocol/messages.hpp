@@ -19,8 +19,7 @@
 /// beside this file is written from them.
 ///
 /// Ids     0x01-0x3F requests, 0x80 | request its own reply, 0x7E and 0x7F the general replies, 0xC0-0xFF
-/// events.
-///         Append only: an id that was once used keeps its meaning or is left unused.
+///         events. Append only: an id that was once used keeps its meaning or is left unused.
 namespace astro::protocol {
 
 /// A list of message types. `visit` calls `f.template operator()<M>()` for each, in order.

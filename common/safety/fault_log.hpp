@@ -22,8 +22,7 @@ namespace astro {
 ///
 /// Flash   at least two sectors. Written only while the robot stands with its outputs off.
 /// Cost    each call reads all slots, 128 on the reference robot; append programs one, and erases a sector
-/// each time
-///         one is full. No heap; 64 bytes of stack.
+///         each time one is full. No heap; 64 bytes of stack.
 template <NorFlash Flash>
 class FaultLog {
  public:

@@ -9,8 +9,7 @@
 ///
 /// Units   metres; radians, counter-clockwise, continuous (not wrapped).
 /// Cost    no sine or cosine for steps below kSmall_rad: the heading's unit vector turns with it and is kept
-/// at
-///         length 1. After an hour at 1 kHz it agrees with cos(theta), sin(theta) to 1e-10.
+///         at length 1. After an hour at 1 kHz it agrees with cos(theta), sin(theta) to 1e-10.
 namespace astro::sim {
 
 struct Pose {

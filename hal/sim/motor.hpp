@@ -5,8 +5,7 @@
 /// A brushed DC gear motor from the figures of its data sheet. Everything is referred to the output shaft.
 ///
 /// Electrical   i = (V - Ke w) / R. The winding's inductance is left out: about 1 mH / 1.7 ohm = 0.6 ms is
-/// less
-///              than one control tick and 1/70 of the mechanical time constant.
+///              less than one control tick and 1/70 of the mechanical time constant.
 /// Mechanical   J dw/dt = Ke i - B w - friction - load. Friction opposes motion and is at most
 ///              Tc + m Ke |i| while turning, Ts + m Ke |i| at rest: the gear loses a fixed part m of the
 ///              torque that passes through it. A lower torque constant Kt < Ke would do the same while

@@ -19,8 +19,7 @@
 /// bound within a few percent.
 ///
 /// Frames  see trajectory.hpp. Factors are absolute: wheel travel = c * nominal travel, whatever the robot
-/// carried
-///         while it drove, so a calibration of a calibrated robot composes by itself.
+///         carried while it drove, so a calibration of a calibrated robot composes by itself.
 /// Source  Kalman innovations as likelihood: Schweppe 1965; start: Censi et al. 2013 (relative_pose.hpp).
 namespace astro::calibration {
 

@@ -35,9 +35,8 @@ struct RelativePoseFit {
 ///
 /// Nothing where the pieces leave an unknown open: fewer than three, no turning, no displacement.
 /// Source  Censi, Franchi, Marchionni, Oriolo: Simultaneous calibration of odometry and sensor parameters for
-/// mobile
-///         robots, IEEE T-RO 29(2), 2013, section V; here with the wheel path inside a piece, not its mean
-///         speeds.
+///         mobile robots, IEEE T-RO 29(2), 2013, section V; here with the wheel path inside a piece, not its
+///         mean speeds.
 std::optional<RelativePoseFit> fit_relative_poses(std::span<const RelativePose> pieces);
 
 /// The same after `rounds` of leaving out the worst: in each, pieces are dropped whose error in position or

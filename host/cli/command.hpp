@@ -7,8 +7,7 @@
 ///
 /// Output  data on stdout; everything else (progress, questions, warnings) on stderr.
 /// Errors  a callback throws astro::Error with one sentence; main prints it and exits with 1. Wrong usage
-/// exits
-///         with 2, Ctrl-C with 130.
+///         exits with 2, Ctrl-C with 130.
 namespace astro::cli {
 
 void add_sim(Command app);

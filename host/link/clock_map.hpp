@@ -28,8 +28,7 @@ struct HostTime {
 /// Filter  of every kGroup round trips only the fastest is kept: a delay can only be added to, so the fastest
 ///         tells most. The last kKept of them count.
 /// Fit     host = offset + slope * device by least squares through the middles of the kept round trips,
-/// weighted
-///         by 1 / rtt^2. Slope 1 until they span ten times the best round trip.
+///         weighted by 1 / rtt^2. Slope 1 until they span ten times the best round trip.
 /// Error   each middle is wrong by at most rtt / 2 and the fit is linear in the middles, which gives the
 /// bound. Range   differences of 64-bit counts: nothing wraps, no precision is lost far from the origin. Cost
 /// add: constant. to_host: one sum over at most kKept + 1 round trips.

@@ -17,9 +17,8 @@ namespace astro::link {
 ///            only one request is under way at a time, because the robot remembers one answer of theirs.
 ///            Stop, EmergencyStop and Disarm wait for nobody.
 /// Driver     who first sends Arm, Velocity, WheelVoltage or AddSegment, unless the robot refuses it; until
-/// it
-///            disarms the robot, says Hello or goes, a fault is raised, or another program stops it. To the
-///            others these requests are refused as busy, and to a driver whom another program stopped as
+///            it disarms the robot, says Hello or goes, a fault is raised, or another program stops it. To
+///            the others these requests are refused as busy, and to a driver whom another program stopped as
 ///            not_armed, until it arms the robot again.
 /// Hello      answered from the robot's last HelloReply, because a Hello ends a session at the robot.
 /// Telemetry  the robot sends what serves all; each program gets the groups and the rate it asked for.

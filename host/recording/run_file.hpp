@@ -10,9 +10,8 @@
 /// Runs on disk, one MCAP file each. See run_writer.hpp for topics and limits.
 ///
 /// Round trip  write then read gives the same run: times, positions, twists, counts and info bit for bit;
-/// headings
-///             to 1e-12 rad per thousand radians, whole turns included. The pose of an invalid truth sample
-///             comes back as NaN. `warning` is not stored.
+///             headings to 1e-12 rad per thousand radians, whole turns included. The pose of an invalid truth
+///             sample comes back as NaN. `warning` is not stored.
 namespace astro::recording {
 
 /// Appears under its name whole or not at all. Throws astro::Error naming the file.

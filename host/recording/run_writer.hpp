@@ -15,12 +15,10 @@ namespace astro::recording {
 /// Topics  /odom nav_msgs/msg/Odometry (odom -> base_link), /wheel_counts astrolabe_msgs/msg/WheelCounts,
 ///         /truth geometry_msgs/msg/PoseStamped (frame truth); run info as Metadata "astrolabe.run".
 /// Times   stamps inside the messages are the robot's clock. MCAP's own times are UTC, so that viewers show
-/// when it was
-///         driven and not 1970: the first message is at RunInfo::started_at, the others as far from it by the
-///         robot's clock. Without a started_at they, too, are the robot's clock.
+///         when it was driven and not 1970: the first message is at RunInfo::started_at, the others as far
+///         from it by the robot's clock. Without a started_at they, too, are the robot's clock.
 /// Limits  the poses of invalid truth samples are not kept; between two samples of a stream the heading must
-/// change
-///         by less than half a turn, or whole turns are lost.
+///         change by less than half a turn, or whole turns are lost.
 /// Errors  astro::Error naming the file: the disk, or a time that is not within +-2^31 s.
 class RunWriter {
  public:

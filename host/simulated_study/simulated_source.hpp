@@ -14,8 +14,7 @@ namespace astro::simulated_study {
 /// sample of truth lies outside of the drive, as on the kinematic robot.
 ///
 /// Errors  beside those of DriveSource: counts at another rate, sizes that no plan or robot takes, a robot
-/// that
-///         does not come through (a fault, a wheel that will not rest).
+///         that does not come through (a fault, a wheel that will not rest).
 /// Cost    about 0.2 s for ten 3 m squares.
 class SimulatedSource : public study::DriveSource {
  public:

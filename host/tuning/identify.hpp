@@ -11,9 +11,8 @@
 /// Turns both wheels and finds out what voltage does to them.
 ///
 /// Course   voltage up and down slowly, forward and then backward (dead zone, gain); then steps of three
-/// fifths
-///          and of the whole voltage, each forward and backward, twice (time constant). Both wheels get the
-///          same voltage, so a robot on the ground drives straight on and comes back.
+///          fifths and of the whole voltage, each forward and backward, twice (time constant). Both wheels
+///          get the same voltage, so a robot on the ground drives straight on and comes back.
 /// Limits   never more than `voltage_V`. On the ground each move turns round before it is `distance_m` long;
 ///          a wheel that gets further from the start than that ends it with an Error. A wheel that stands at
 ///          seven tenths of the voltage, or turns backward, ends it too: before the firmware's own stall
