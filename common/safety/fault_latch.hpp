@@ -21,11 +21,6 @@ class FaultLatch {
     ++raised_;
     return true;
   }
-  /// The same for every fault whose bit is set; the lowest counts as the first.
-  void raise_all(std::uint32_t mask, std::uint64_t time_us) {
-    for (std::size_t i = 1; i < kFaultNames.size(); ++i)
-      if ((mask & bit(static_cast<Fault>(i))) != 0) raise(static_cast<Fault>(i), time_us);
-  }
   void clear() {
     mask_ = 0;
     first_ = Fault::none;

@@ -34,6 +34,7 @@ Drive::Configuration::Configuration(const ParameterSet& parameters)
     : wheels(parameters, make_geometry(parameters)),
       limits(make_limits(parameters)),
       rates(limits),
+      thresholds(parameters),
       set(parameters) {}
 
 void Drive::configure(const Configuration& configuration) {
@@ -43,7 +44,7 @@ void Drive::configure(const Configuration& configuration) {
   odometry_.set_geometry(geometry_);
   wheels_.configure(configuration.wheels);
   follower_.set_gains(configuration.set);
-  supervisor_.configure(configuration.set);
+  supervisor_.configure(configuration.thresholds);
 }
 
 Drive::Output Drive::advance(const TickInput& input) {
@@ -169,7 +170,7 @@ bool Drive::drive_velocity(const TwistRamp& planned) {
   end_segments();
   paused_ = false;
   steering_ = Steering::repeated;
-  seen_ = state();
+  state_is_followed();
   return true;
 }
 
@@ -180,7 +181,7 @@ bool Drive::drive_wheels(const WheelVoltages& voltages) {
   end_segments();
   paused_ = false;
   steering_ = Steering::open_loop;
-  seen_ = state();
+  state_is_followed();
   voltages_ = voltages;
   return true;
 }
@@ -243,7 +244,7 @@ bool Drive::standing() const {
 
 void Drive::start_path() {
   if (!supervisor_.request(Event::drive)) return;
-  seen_ = state();
+  state_is_followed();
   steering_ = Steering::path;
   if (!path_open_ || strayed(follower_.reference(), odometry_.pose())) follower_.begin_path(odometry_.pose());
   start_segment();
@@ -279,7 +280,7 @@ void Drive::end_segment() {
   if (!paused_ && planned_) return start_segment();
   steering_ = Steering::none;
   supervisor_.request(Event::rest);
-  seen_ = state();
+  state_is_followed();
 }
 
 Drive::Wish Drive::wish() {

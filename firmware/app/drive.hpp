@@ -36,7 +36,8 @@ class Drive {
     Wheels::Configuration wheels;
     MotionLimits limits;
     TwistRamp::Rates rates;
-    ParameterSet set;  // what needs no computing
+    Supervisor::Thresholds thresholds;
+    ParameterSet set;  // the gains, which need no computing
   };
 
   explicit Drive(const ParameterSet& set) { configure(set); }
@@ -123,6 +124,7 @@ class Drive {
 
   bool on_path() const { return steering_ == Steering::path && state() == State::driving; }
   void follow_state();
+  void state_is_followed() { seen_ = state(); }
   void begin_ramp();
   void end_segments();
   void end_waiting();

@@ -22,8 +22,9 @@ class FaultJournal {
     told_already_ = last && last->was.fault == Fault::flash && last->was.time_us < kStarting_us;
   }
 
-  /// Once a tick, before it moves anything: what the tick before it found, and the main loop since. `then_us`
-  /// is that tick's time. Not inlined: that would take registers from control and odometry.
+  /// Once a tick, before it moves anything, and before faults are cleared: what the tick before found, and the
+  /// main loop since. `then_us` is that tick's time. Not inlined: that would take registers from control and
+  /// odometry.
   [[gnu::noinline]] void watch(const Drive& drive, std::uint64_t then_us, std::int32_t battery_mv) {
     const std::uint32_t mask = drive.faults().mask();
     const std::uint32_t fresh = (mask & ~seen_) | at_start_;

@@ -185,9 +185,16 @@ class Robot {
     const std::size_t size =
         reply ? frame(*reply, header.request_id, out) : frame(reply.error(), header.request_id, out);
     send(port, std::span(out).first(size));
-    // A Pong is about now and never repeated; a Hello may be carried out again.
-    if (header.message_id == protocol::Ping::kId || header.message_id == protocol::Hello::kId) return;
-    sessions_[port].remember(header, std::span(out).first(size));
+    if (!carried_out_anew(header.message_id)) sessions_[port].remember(header, std::span(out).first(size));
+  }
+
+  /// Whether a repeated request is carried out again in place of getting the same answer. A Pong is about now.
+  /// Hello and what stops the robot may be carried out twice, and must never be taken for a request of long
+  /// ago whose id has come round.
+  static constexpr bool carried_out_anew(std::uint8_t message) {
+    constexpr std::array kAnew{protocol::Ping::kId, protocol::Hello::kId, protocol::Stop::kId,
+                               protocol::EmergencyStop::kId, protocol::Disarm::kId};
+    return std::find(kAnew.begin(), kAnew.end(), message) != kAnew.end();
   }
 
   static protocol::ErrorReply error(ErrorCode code, std::uint16_t detail = 0) { return {code, detail}; }
@@ -400,10 +407,17 @@ class Robot {
   }
 
   Answer<Ack> handle(int, const protocol::ClearFaults&) {
-    collect_events();  // what is cleared in the turn in which it came is told all the same
-    auto hold = board_.hold_tick();
-    if (!drive_.clear_faults()) return error(ErrorCode::moving);
-    reported_faults_ = 0;
+    collect_events();
+    std::uint32_t fresh = 0;
+    {
+      // What came since the last tick, or only just now, is logged and told all the same.
+      auto hold = board_.hold_tick();
+      journal_.watch(drive_, ticks_.last_us(), battery_mv_);
+      fresh = drive_.faults().mask() & ~reported_faults_;
+      if (!drive_.clear_faults()) return error(ErrorCode::moving);
+      reported_faults_ = 0;
+    }
+    note_faults(fresh);
     return Ack{};
   }
 

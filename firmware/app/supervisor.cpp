@@ -31,16 +31,16 @@ std::uint64_t longest_ramp_us(const ParameterSet& set) {
 
 }  // namespace
 
-void Supervisor::configure(const ParameterSet& set) {
-  battery_low_mv_ = set.get(Param::battery_low);
-  const std::int32_t high_mv = set.get(Param::battery_high);
-  battery_high_mv_ = high_mv != 0 ? high_mv : INT32_MAX;
-  over_speed_umps_ = set.get(Param::over_speed);
-  stall_visits_ = visits(static_cast<std::uint32_t>(set.get(Param::stall_time)));
-  const auto timeout_ms = static_cast<std::uint32_t>(set.get(Param::command_timeout));
-  timeout_visits_ = timeout_ms != 0 ? visits(timeout_ms) : UINT32_MAX;
-  armed_visits_ = std::max(timeout_visits_, kSilentVisits);
-  longest_ramp_us_ = longest_ramp_us(set) + rule(Check::stop_timeout).hold_ms * 1000U;
+Supervisor::Thresholds::Thresholds(const ParameterSet& set)
+    : battery_low_mv(set.get(Param::battery_low)),
+      battery_high_mv(set.get(Param::battery_high)),
+      over_speed_umps(set.get(Param::over_speed)),
+      stall_visits(visits(static_cast<std::uint32_t>(set.get(Param::stall_time)))),
+      timeout_visits(visits(static_cast<std::uint32_t>(set.get(Param::command_timeout)))),
+      armed_visits(std::max(timeout_visits, kSilentVisits)),
+      longest_ramp_us(::astro::longest_ramp_us(set) + rule(Check::stop_timeout).hold_ms * 1000U) {
+  if (battery_high_mv == 0) battery_high_mv = INT32_MAX;
+  if (timeout_visits == 0) timeout_visits = armed_visits = UINT32_MAX;
 }
 
 bool Supervisor::request(Event event) {
@@ -73,7 +73,7 @@ bool Supervisor::clear() {
 
 void Supervisor::begin_ramp() {
   ramp_deadline_us_ = kNever_us;
-  rest_deadline_us_ = now_us_ + longest_ramp_us_;
+  rest_deadline_us_ = now_us_ + thresholds_.longest_ramp_us;
 }
 
 void Supervisor::set_point_at_rest() {
@@ -133,22 +133,22 @@ void Supervisor::look(const TickInput& input, Steering steering, const Wheels& w
 }
 
 void Supervisor::look_at_supply(std::int32_t battery_mv) {
-  const bool high = battery_mv > battery_high_mv_ && watched_in(Check::over_voltage);
+  const bool high = battery_mv > thresholds_.battery_high_mv && watched_in(Check::over_voltage);
   if (over_voltage_.advance(high, kVisits<Check::over_voltage>)) found(Check::over_voltage);
-  const bool low = battery_mv < battery_low_mv_ && watched_in(Check::under_voltage);
+  const bool low = battery_mv < thresholds_.battery_low_mv && watched_in(Check::under_voltage);
   if (under_voltage_.advance(low, kVisits<Check::under_voltage>)) found(Check::under_voltage);
 }
 
 void Supervisor::look_at_speed(const WheelSpeeds& speeds) {
-  const bool fast =
-      exceeds(speeds.left_umps, over_speed_umps_) || exceeds(speeds.right_umps, over_speed_umps_);
+  const bool fast = exceeds(speeds.left_umps, thresholds_.over_speed_umps) ||
+                    exceeds(speeds.right_umps, thresholds_.over_speed_umps);
   if (over_speed_.advance(fast && watched_in(Check::over_speed), kVisits<Check::over_speed>))
     found(Check::over_speed);
 }
 
 void Supervisor::look_for_stall(Watch& watch, std::int32_t duty, std::int32_t speed_umps) {
   const bool stands = pulls(duty) && !exceeds(speed_umps, kStands_umps) && watched_in(Check::stall);
-  if (watch.advance(stands, stall_visits_)) found(Check::stall);
+  if (watch.advance(stands, thresholds_.stall_visits)) found(Check::stall);
 }
 
 void Supervisor::look_for_runaway(Watch& watch, std::int32_t duty, std::int32_t speed_umps,
@@ -173,8 +173,8 @@ void Supervisor::look_for_lost_channel(WheelWatch& watch, std::int32_t duty, std
 
 // While the robot stops or stands its host has nothing to repeat, and may wait a little longer.
 std::uint32_t Supervisor::visits_allowed() const {
-  if (state_ == State::driving) return timeout_visits_;
-  return state_ == State::stopping ? kSilentVisits : armed_visits_;
+  if (state_ == State::driving) return thresholds_.timeout_visits;
+  return state_ == State::stopping ? kSilentVisits : thresholds_.armed_visits;
 }
 
 void Supervisor::look_at_ramp() {

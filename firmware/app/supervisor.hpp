@@ -38,7 +38,17 @@ class Supervisor {
   /// Who moves the wheels, and so what must go on for them to move.
   enum class Steering : std::uint8_t { none, repeated, path, open_loop };
 
-  void configure(const ParameterSet& set);
+  /// What a parameter set means for the checks. Takes long divisions: made outside the tick, taken in inside.
+  struct Thresholds {
+    [[gnu::cold]] explicit Thresholds(const ParameterSet& set);
+
+    std::int32_t battery_low_mv, battery_high_mv, over_speed_umps;
+    std::uint32_t stall_visits;
+    std::uint32_t timeout_visits, armed_visits;  // silences of the host that are borne
+    std::uint64_t longest_ramp_us;  // of the set point, from the fastest legal speed, and what follows
+  };
+
+  void configure(const Thresholds& thresholds) { thresholds_ = thresholds; }
 
   State state() const { return state_; }
   Permission permission() const { return astro::permission(state_); }
@@ -90,11 +100,7 @@ class Supervisor {
   std::uint32_t visits_allowed() const;
   void look_at_boot();
 
-  std::int32_t battery_low_mv_ = 0, battery_high_mv_ = 0, over_speed_umps_ = 0;
-  std::uint32_t stall_visits_ = 0;
-  std::uint32_t timeout_visits_ = 0, armed_visits_ = 0;  // silences of the host that are borne
-  std::uint64_t longest_ramp_us_ = 0;  // of the set point, from the fastest legal speed, and what follows
-
+  Thresholds thresholds_{ParameterSet{}};
   std::int32_t pulling_duty_ = 0;  // a motor that gets more of it pulls
   State state_ = State::boot;
   FaultLatch faults_;

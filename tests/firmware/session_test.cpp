@@ -59,6 +59,52 @@ TEST_F(Frames, ARepeatedRequestIsAnsweredAgainAndCarriedOutOnce) {
   EXPECT_EQ(drive().queued() + (drive().mode() == protocol::Mode::segment ? 1U : 0U), 1U);
 }
 
+TEST_F(Frames, WhatStopsTheRobotIsCarriedOutEachTimeThoughItsIdHasComeRound) {
+  const auto drive_on = [&] {
+    send(protocol::ClearFaults{}, 1);
+    send(protocol::Arm{}, 2);
+    send(protocol::Velocity{300'000, 0}, 3);
+    received();
+    ASSERT_EQ(drive().mode(), protocol::Mode::velocity);
+  };
+  constexpr std::uint16_t kId = protocol::kOnlookerBit + 7;
+  drive_on();
+  send(protocol::EmergencyStop{}, kId);
+  received();
+  ASSERT_EQ(drive().mode(), protocol::Mode::fault);
+  drive_on();
+  send(protocol::EmergencyStop{}, kId);
+  received();
+  EXPECT_EQ(drive().mode(), protocol::Mode::fault);
+  drive_on();
+  for (int i = 0; i < 2; ++i) {
+    send(protocol::Disarm{}, kId + 1);
+    received();
+    EXPECT_EQ(drive().mode(), protocol::Mode::disarmed) << i;
+    drive_on();
+  }
+  for (int i = 0; i < 2; ++i) {
+    send(protocol::Stop{}, kId + 2);
+    received();
+    EXPECT_NE(drive().mode(), protocol::Mode::velocity) << i;
+    run_ms(1000);
+    drive_on();
+  }
+}
+
+TEST_F(Frames, AFaultThatIsClearedInTheTurnInWhichItCameIsToldAndLogged) {
+  received();
+  send(protocol::EmergencyStop{}, 1);
+  send(protocol::ClearFaults{}, 2);
+  const auto all = received();
+  EXPECT_TRUE(std::any_of(all.begin(), all.end(), [](const Answer& one) {
+    return one.header.message_id == protocol::FaultRaised::kId;
+  }));
+  run_ms(100);
+  EXPECT_EQ(ask(protocol::GetFaults{}).raised_count, 1U);
+  EXPECT_EQ(ask(protocol::GetFaultLog{0}).fault, static_cast<std::uint8_t>(Fault::emergency_stop));
+}
+
 TEST_F(Frames, APingInBetweenDoesNotMakeTheRobotForget) {
   send(protocol::Arm{}, 1);
   send(link::line(1).front(), 2);
