@@ -17,9 +17,9 @@ inline constexpr std::array<std::string_view, 9> kModeNames{
     "disarmed", "idle", "velocity", "segment", "stopping", "fault", "boot", "wheels", "paused"};
 constexpr std::span<const std::string_view> names(Mode) { return kModeNames; }
 
-/// Nothing moves the wheels.
-constexpr bool at_rest(Mode mode) {
-  return mode != Mode::velocity && mode != Mode::segment && mode != Mode::stopping && mode != Mode::wheels;
+/// The motors drive the wheels. In all other modes they brake or are off, and the robot may roll on.
+constexpr bool gives_power(Mode mode) {
+  return mode == Mode::velocity || mode == Mode::segment || mode == Mode::stopping || mode == Mode::wheels;
 }
 
 enum class SegmentKind : std::uint8_t { line, spin, arc, stop };

@@ -120,7 +120,9 @@ struct CommitParameters {
   static constexpr std::uint8_t kId = 0x0E;
   static constexpr std::string_view kName = "CommitParameters";
   static constexpr std::string_view kDoc =
-      "Checks the staged set as a whole, writes it to flash and puts it in force; all of it or nothing.";
+      "Checks the staged set as a whole, puts it in force, and writes to flash what was staged since the "
+      "area was opened; "
+      "all of it or nothing.";
   static constexpr std::tuple<> kFields{};
   bool operator==(const CommitParameters&) const = default;
 };
@@ -150,7 +152,9 @@ struct ApplyParameters {
   static constexpr std::uint8_t kId = 0x1A;
   static constexpr std::string_view kName = "ApplyParameters";
   static constexpr std::string_view kDoc =
-      "The staged set comes in force until the next restart; while driving, if nothing but gains differs.";
+      "The staged set comes in force until the next restart, and is no part of the next commit; while "
+      "driving, if nothing "
+      "but gains differs.";
   static constexpr std::tuple<> kFields{};
   bool operator==(const ApplyParameters&) const = default;
 };

@@ -72,6 +72,7 @@ class ParameterDesk {
     const ParamRow* row = find(request.id);
     if (row == nullptr) return error(protocol::ErrorCode::unknown_parameter);
     if (port != owner_) return error(protocol::ErrorCode::staging_lost);
+    changed_ |= std::uint64_t{1} << (row - kParamTable.data());
     if (row->kind == ParamKind::text) {
       staged_.set_text(row->id, request.text);
     } else {
@@ -80,10 +81,16 @@ class ParameterDesk {
     return protocol::Ack{};
   }
 
-  /// The staged set is `from` and belongs to this port, whoever had one before.
-  void open(int port, const ParameterSet& from) {
-    staged_ = from;
+  /// The staged set is that in force, or that of the defaults, and belongs to this port, whoever had one before.
+  void open(int port) {
+    staged_ = active_;
     owner_ = port;
+    changed_ = 0;
+  }
+  void open_defaults(int port) {
+    staged_ = ParameterSet::defaults();
+    owner_ = port;
+    changed_ = ~std::uint64_t{0};
   }
   /// A new session at this port has staged nothing.
   void close(int port) {
@@ -95,15 +102,21 @@ class ParameterDesk {
     if (const Answer<protocol::Ack> refused = judge(port); !refused) return refused;
     if (driving && !only_gains_differ(active_, staged_)) return error(protocol::ErrorCode::moving);
     active_ = staged_;
+    changed_ = 0;  // only tried, and no part of the next commit
     return protocol::Ack{};
   }
 
-  /// Flash first, then memory: what is in force then is what a restart would find.
+  /// Flash first, then memory. Into the flash comes only what this session has staged; what somebody has only
+  /// tried (ApplyParameters) stays in force beside it and goes with the next restart.
   [[gnu::cold]] Answer<protocol::Ack> commit(int port) {
     if (const Answer<protocol::Ack> refused = judge(port); !refused) return refused;
     const std::optional<std::uint32_t> reached = mark_.newest();
-    if (!store_.commit(staged_, reached)) return error(protocol::ErrorCode::flash_failed);
+    const ParameterSet kept = changed_in(store_.load().set);
+    if (const auto verdict = validate(kept); !verdict)
+      return error(protocol::ErrorCode::invalid_parameter, static_cast<std::uint16_t>(verdict.error()));
+    if (!store_.commit(kept, reached)) return error(protocol::ErrorCode::flash_failed);
     active_ = staged_;
+    changed_ = 0;
     follow(store_.load(), reached);
     return protocol::Ack{};
   }
@@ -126,6 +139,20 @@ class ParameterDesk {
     if (!told) mark_.raise(loaded.sequence);
   }
 
+  /// `set` with what has been staged since the area was opened.
+  ParameterSet changed_in(ParameterSet set) const {
+    for (std::size_t i = 0; i < kParamCount; ++i) {
+      if ((changed_ >> i & 1U) == 0) continue;
+      const ParamRow& row = kParamTable[i];
+      if (row.kind == ParamKind::text) {
+        set.set_text(row.id, staged_.text(row.id));
+      } else {
+        set.set(row.id, staged_.get(row.id));
+      }
+    }
+    return set;
+  }
+
   /// Whether this port may put the staged set in force.
   Answer<protocol::Ack> judge(int port) const {
     if (port != owner_) return error(protocol::ErrorCode::staging_lost);
@@ -142,6 +169,8 @@ class ParameterDesk {
   }
 
   ParameterSet active_, staged_;
+  std::uint64_t changed_ = 0;  // bit n: row n was staged since staged_ was opened
+  static_assert(kParamCount <= 64);
   int owner_ = kNobody;  // the port whose session has opened staged_
   bool fell_back_ = false;
   Store<Flash> store_;

@@ -383,11 +383,11 @@ class Robot {
   }
 
   Answer<Ack> handle(int port, const protocol::RevertParameters&) {
-    desk_.open(port, desk_.active());
+    desk_.open(port);
     return Ack{};
   }
   Answer<Ack> handle(int port, const protocol::DefaultParameters&) {
-    desk_.open(port, ParameterSet::defaults());
+    desk_.open_defaults(port);
     return Ack{};
   }
 

@@ -6,8 +6,8 @@ namespace astro {
 namespace {
 
 // What nlohmann-json and the heap take: a value in an array that grows by doubling, an array or object with
-// its block of memory, a node of an object with its key.
-constexpr std::size_t kValueBytes = 32, kContainerBytes = 64, kMemberBytes = 96;
+// its block of memory, a node of an object with its key, a string of its own.
+constexpr std::size_t kValueBytes = 32, kContainerBytes = 64, kMemberBytes = 96, kStringBytes = 64;
 constexpr int kMostJsonLevels = 100;
 constexpr std::size_t kFreeJsonBytes = std::size_t{40} << 20;
 
@@ -32,7 +32,10 @@ bool json_fits_memory(std::string_view text) {
   int depth = 0;
   bool in_string = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '"') in_string = !in_string;
+    if (text[i] == '"') {
+      in_string = !in_string;
+      if (in_string) bytes += kStringBytes;
+    }
     if (in_string && text[i] == '\\') ++i;  // what is escaped ends no string
     if (in_string) continue;
     bytes += bytes_behind(text[i]);

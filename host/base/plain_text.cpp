@@ -42,8 +42,8 @@ Character take(std::string_view text) {
 
 bool is_safe(std::uint32_t code) {
   if (code < 0x20) return code == '\n' || code == '\t';
-  if (code >= 0x7F && code < 0xA0) return false;       // DEL and C1
-  if (code == 0x200E || code == 0x200F) return false;  // marks of direction
+  if (code >= 0x7F && code < 0xA0) return false;                        // DEL and C1
+  if (code == 0x61C || code == 0x200E || code == 0x200F) return false;  // marks of direction
   if (code >= 0x2028 && code <= 0x202E) return false;  // separators, embeddings and overrides
   return !(code >= 0x2066 && code <= 0x2069);          // isolates
 }

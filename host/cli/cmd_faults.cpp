@@ -7,6 +7,7 @@
 #include "host/cli/console.hpp"
 #include "host/cli/fault_help.hpp"
 #include "host/cli/fault_log_view.hpp"
+#include "host/cli/interrupt.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/robot_view.hpp"
 
@@ -43,9 +44,10 @@ Json as_json(const protocol::FaultReport& report, bool cleared) {
 }
 
 std::vector<protocol::FaultLogEntry> fetch_log(link::Client& client) {
+  constexpr std::size_t kMostEntries = 1024;  // a robot that says so many has 128
   std::vector<protocol::FaultLogEntry> entries;
   try {
-    while (entries.size() <= 0xFFFF)
+    for (; entries.size() < kMostEntries; check_interrupt())
       entries.push_back(client.request(protocol::GetFaultLog{static_cast<std::uint16_t>(entries.size())}));
   } catch (const link::RobotRefused& refused) {
     if (refused.code() != protocol::ErrorCode::out_of_range) throw;

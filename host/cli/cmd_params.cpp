@@ -72,6 +72,7 @@ void load(link::Client& client, const ParamsOptions& options, RemoteParameters& 
   const std::vector<Change> changes = experiment::changes(robot, values);
   if (changes.empty()) {
     // They may have been tried only, and then are not in its flash yet.
+    for (const auto& [name, value] : values) robot.stage(name, value);
     robot.commit();
     say("the robot holds these values already");
     return report(options, changes, true);
@@ -110,7 +111,7 @@ void set(link::Client& client, const ParamsOptions& options, RemoteParameters& r
 }
 
 void save(const ParamsOptions& options, RemoteParameters& robot) {
-  robot.commit();
+  robot.save();
   say("the values in force, tried ones too, are now in the robot's flash");
   report(options, {}, true);
 }

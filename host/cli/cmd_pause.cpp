@@ -16,7 +16,7 @@ void pause(ConnectionOptions& options) {
   constexpr auto kTimeToRest = std::chrono::seconds(5);
   client->request(protocol::Pause{});
   const link::microseconds deadline = client->now() + kTimeToRest;
-  while (!protocol::at_rest(client->request(protocol::GetStatus{}).mode)) {
+  while (protocol::gives_power(client->request(protocol::GetStatus{}).mode)) {
     if (interrupted() || client->now() >= deadline)
       throw Error("the robot has not come to rest: 'astrolabe stop' stops it");
     client->pump(std::chrono::milliseconds(50));

@@ -4,8 +4,8 @@
 #include "host/cli/command.hpp"
 #include "host/cli/connection.hpp"
 #include "host/cli/console.hpp"
-#include "host/cli/fault_help.hpp"
 #include "host/cli/options.hpp"
+#include "host/cli/robot_view.hpp"
 #include "host/link/rest.hpp"
 
 namespace astro::cli {
@@ -23,10 +23,14 @@ void ramp_to_rest(link::Client& client) {
   client.request(protocol::Disarm{});
   if (!rests)
     throw Error("the robot did not come to rest, so it was disarmed: its motors are off, but it may roll on");
-  if ((status.latched_faults & bit(Fault::stop_timeout)) != 0)
-    throw Error("the robot has switched its motors off and may roll on: " +
-                std::string(fault_help(Fault::stop_timeout)));
-  say("the robot is at rest and disarmed");
+  if (status.latched_faults == 0) return say("the robot is at rest and disarmed");
+  // A fault has opened the bridges, maybe at speed.
+  const std::string faults = faults_in_words(status.latched_faults);
+  if (!link::wait_until_wheels_stand(client))
+    throw Error("the robot rolls on with its motors off (" + faults +
+                "): 'astrolabe faults' says what to do about it");
+  say("the robot stands and is disarmed; its motors are off because of " + faults +
+      ": see 'astrolabe faults'");
 }
 
 void run(StopOptions& options) {

@@ -48,7 +48,8 @@ void add_connection(Command command, ConnectionOptions& options) {
 
 std::unique_ptr<link::Client> connect(ConnectionOptions& options) {
   if (options.port.empty()) options.port = only_robot(options.baud);
-  auto client = std::make_unique<link::Client>(link::open_shared_port(options.port, options.baud));
+  auto client = std::make_unique<link::Client>(
+      link::open_shared_port(options.port, options.baud, [](const std::string& sentence) { say(sentence); }));
   client->connect();
   return client;
 }

@@ -1,5 +1,6 @@
 #include "host/cli/console.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <unistd.h>
@@ -71,6 +72,11 @@ bool await_input(std::string& bytes) {
 }
 
 }  // namespace
+
+void hold_standard_streams() {
+  for (const auto& [stream, other_way] : {std::pair{0, O_WRONLY}, {1, O_RDONLY}, {2, O_RDONLY}})
+    if (fcntl(stream, F_GETFD) < 0 && errno == EBADF) static_cast<void>(open("/dev/null", other_way));
+}
 
 bool stdout_is_terminal() { return isatty(STDOUT_FILENO) == 1; }
 bool stderr_is_terminal() { return isatty(STDERR_FILENO) == 1; }

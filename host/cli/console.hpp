@@ -10,6 +10,10 @@
 /// plain_text, because names and messages hold text of robots and files.
 namespace astro::cli {
 
+/// To be called before anything is opened: where standard input, output or error are closed, the next file
+/// would take their place, and what is printed would go down a robot's line. Writing to them fails from then on.
+void hold_standard_streams();
+
 bool stdout_is_terminal();
 bool stderr_is_terminal();
 

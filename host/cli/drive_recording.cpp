@@ -53,7 +53,13 @@ DriveRecording::~DriveRecording() {
 }
 
 void DriveRecording::add(const recording::OdometrySample& sample) {
-  if (open_) writer_.add(sample);
+  if (!open_) return;
+  try {
+    writer_.add(sample);
+  } catch (...) {
+    failure_ = std::current_exception();
+    open_ = false;
+  }
 }
 
 void DriveRecording::close() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <filesystem>
 
 #include "host/link/client.hpp"
@@ -26,8 +27,12 @@ class DriveRecording {
   DriveRecording(const DriveRecording&) = delete;
   DriveRecording& operator=(const DriveRecording&) = delete;
 
-  /// Throws astro::Error if it cannot be written: a drive that is to be recorded ends then.
+  /// Nothing any more once a sample could not be written: it is called amid a drive, which has to end in good
+  /// order before anybody hears of it. See failed().
   void add(const recording::OdometrySample& sample);
+  /// The drive is to end, and then to be told why by rethrow().
+  bool failed() const { return failure_ != nullptr; }
+  void rethrow() const { std::rethrow_exception(failure_); }
 
   /// The same as the destructor, and throws where it cannot be written.
   void close();
@@ -36,6 +41,7 @@ class DriveRecording {
   recording::RunInfo info_;
   recording::RunWriter writer_;
   bool open_ = true;
+  std::exception_ptr failure_;
 };
 
 }  // namespace astro::cli

@@ -8,6 +8,7 @@
 
 #include "host/cli/console.hpp"
 #include "host/cli/drive_recording.hpp"
+#include "host/cli/interrupt.hpp"
 #include "host/cli/limit_notes.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/path_progress.hpp"
@@ -87,16 +88,23 @@ void drive(DriveOptions& options, const DriveJob& job) {
   try {
     link::DriveHooks hooks = drive_hooks();
     hooks.segment_done = job.segment_done;
+    hooks.interrupted = [&] { return interrupted() || (recording && recording->failed()); };
     link::DriveSession session(*client, hooks);
     job.work(*client, session);
     session.end();
   } catch (const link::Interrupted&) {
     const recording::OdometrySample end = odometry.fresh();
+    if (recording && recording->failed()) {
+      report(options, "interrupted", start, end, stopwatch.seconds());
+      say("the drive was ended because it could not be recorded; the robot is at rest and disarmed");
+      recording->rethrow();
+    }
     if (recording) recording->close();
     report(options, "interrupted", start, end, stopwatch.seconds());
     throw;
   }
   const recording::OdometrySample end = odometry.fresh();
+  if (recording && recording->failed()) recording->rethrow();
   if (recording) recording->close();
   report(options, "completed", start, end, stopwatch.seconds());
 }

@@ -1,7 +1,10 @@
 #include "host/cli/interrupt.hpp"
 
+#include <time.h>
+
 #include <atomic>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 
 #include "host/link/drive.hpp"
@@ -13,12 +16,26 @@ volatile std::sig_atomic_t raised = 0;
 std::atomic<void (*)()> last_act = nullptr;
 static_assert(decltype(last_act)::is_always_lock_free, "a signal handler reads it");
 
-void on_signal(int) {
-  if (raised != 0) {
-    if (const auto act = last_act.load()) act();
-    std::_Exit(130);
+/// Programs that end others send a signal to the process and then to its group, and a terminal that closes
+/// sends one after the other. Only a person who presses Ctrl-C again means that nothing is to be waited for.
+constexpr std::int64_t kAgain_ms = 300;
+std::atomic<std::int64_t> raised_at_ms = 0;
+
+std::int64_t now_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1'000'000;
+}
+
+void on_signal(int signal) {
+  if (raised == 0) {
+    raised_at_ms = now_ms();
+    raised = 1;
+    return;
   }
-  raised = 1;
+  if (signal != SIGINT || now_ms() - raised_at_ms < kAgain_ms) return;
+  if (const auto act = last_act.load()) act();
+  std::_Exit(130);
 }
 
 }  // namespace

@@ -2,7 +2,8 @@
 
 namespace astro::cli {
 
-/// SIGINT, SIGTERM and SIGHUP set a flag from now on; a second one ends the program at once.
+/// SIGINT, SIGTERM and SIGHUP set a flag from now on; another SIGINT, 0.3 s later or more, ends the program at
+/// once.
 void watch_for_interrupt();
 
 /// What whoever drives a robot asks (link::DriveHooks::interrupted); a drive that is interrupted stops the

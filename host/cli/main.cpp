@@ -54,7 +54,7 @@ int run(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     complain_of_memory();
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "astrolabe: this should not have happened, please report it: %s\n", error.what());
+    complain(std::string("this should not have happened, please report it: ") + error.what());
   } catch (...) {
     std::fputs("astrolabe: this should not have happened, please report it\n", stderr);
   }
@@ -65,6 +65,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   std::set_terminate(end_at_once);
+  hold_standard_streams();
   watch_for_interrupt();
   try {
     return run(argc, argv);

@@ -17,7 +17,8 @@ void warn_of_another_robot(const link::Client& client, const experiment::Paramet
 }
 
 /// Values that were only tried are in force, but not in the robot's flash yet.
-void keep_what_was_tried(link::RemoteParameters robot) {
+void keep_what_was_tried(link::RemoteParameters robot, const experiment::ParameterFile& file) {
+  for (const auto& [name, value] : file.parameters) robot.stage(name, value);
   robot.commit();
   say("the robot holds these values already");
 }
@@ -28,6 +29,9 @@ bool warn_of_far_changes(const link::RemoteParameters& robot,
                          const std::vector<experiment::Change>& changes) {
   const std::vector<std::string> far = experiment::far_changes(robot, changes);
   for (const std::string& clause : far) say("warning: " + clause);
+  for (const experiment::Change& change : changes)
+    if (change.name == "command_timeout" && change.after == link::Value(0.0))
+      say("warning: with command_timeout = 0 a robot goes on driving when its host has gone");
   return !far.empty();
 }
 
@@ -45,7 +49,7 @@ Loaded load_parameters(link::Client& client, const link::RemoteParameters& robot
   warn_of_another_robot(client, file);
   Loaded loaded{experiment::changes(robot, file.parameters), std::nullopt};
   if (loaded.changes.empty()) {
-    keep_what_was_tried(robot);
+    keep_what_was_tried(robot, file);
     return loaded;
   }
   say(table(experiment::side_by_side(loaded.changes), "llrrr"));

@@ -17,6 +17,7 @@ namespace {
 constexpr microseconds kPoll =
     milliseconds(1000);  // an event must have been lost by then, or the segment is long
 constexpr microseconds kRestPoll = milliseconds(50);
+constexpr microseconds kAsk = milliseconds(50);  // how often the hooks are asked
 constexpr microseconds kTimeToNotice =
     milliseconds(4000);  // an armed robot waits 2.5 s for its host; one that drives ramps to rest
 constexpr microseconds kVelocityPeriod = milliseconds(50);
@@ -65,7 +66,7 @@ DriveSession::~DriveSession() {
       hooks_.notice(error.what());
     } catch (const std::exception&) {  // nobody can be told
     }
-  } catch (const std::exception&) {  // the robot has confirmed that it stands
+  } catch (const std::exception&) {  // a fault, by which the robot has switched its motors off
   }
 }
 
@@ -73,7 +74,7 @@ void DriveSession::end() {
   ended_ = true;
   try {
     rest_and_disarm();
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {
     throw NotStopped("the robot did not confirm that it stopped, and may still be moving: " +
                      std::string(error.what()));
   }
@@ -86,7 +87,7 @@ void DriveSession::rest_and_disarm() {
     stop();
   } catch (const LinkLost&) {
     throw;  // it cannot be told to disarm either
-  } catch (const Error&) {
+  } catch (const std::exception&) {
     client_.request(Disarm{});
     throw;
   }
@@ -147,7 +148,9 @@ bool DriveSession::add(const AddSegment& segment) {
 void DriveSession::wait_for_progress() {
   const std::uint16_t before = done_;
   const auto something = [&] { return done_ != before || fault_ || booted_ || hooks_.interrupted(); };
-  const bool happened = client_.pump_until(something, kPoll);
+  const microseconds deadline = client_.now() + kPoll;
+  bool happened = false;
+  while (!happened && client_.now() < deadline) happened = client_.pump_until(something, kAsk);
   check();
   if (!happened) ask_for_progress();
 }
@@ -156,7 +159,9 @@ void DriveSession::ask_for_progress() {
   const Status status = client_.request(GetStatus{});
   if (status.latched_faults != 0) fail(first_fault(status.latched_faults));
   if (status.mode == Mode::disarmed) fail_ended("the drive ended early", "disarmed");
-  if (status.mode == Mode::idle && status.queued_segments == 0) done_ = accepted_;
+  const bool idle = status.mode == Mode::idle && status.queued_segments == 0;
+  if (idle && port_users().stopper_pid != 0) fail_ended("the drive ended early", "stopped");
+  if (idle) done_ = accepted_;
   check();
 }
 

@@ -35,8 +35,9 @@ class Interrupted : public Error {
 };
 
 struct DriveHooks {
-  /// Asked at least every 50 ms; true stops and disarms the robot and ends the drive with Interrupted. For
-  /// the flag that Ctrl-C sets.
+  /// Asked at least every 50 ms while the robot drives; true stops and disarms the robot and ends the drive
+  /// with Interrupted. For the flag that Ctrl-C sets. Not asked while the robot ramps to rest, which ends by
+  /// itself.
   std::function<bool()> interrupted = [] { return false; };
   /// Sentences worth showing that are not errors.
   std::function<void(const std::string&)> notice = [](const std::string&) {};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -12,31 +13,36 @@ namespace astro::link {
 /// frames enter and leave: one that has begun is always finished.
 class FrameQueue {
  public:
-  void push(std::span<const std::uint8_t> frame) { insert(frames_.end(), frame); }
+  /// `withdrawable`: withdraw() drops it as long as it has not begun.
+  void push(std::span<const std::uint8_t> frame, bool withdrawable = false) {
+    insert(frames_.end(), frame, withdrawable);
+  }
 
   /// Before all frames that have not begun.
   void push_first(std::span<const std::uint8_t> frame) {
-    insert(begun_ == 0 ? frames_.begin() : frames_.begin() + 1, frame);
+    insert(begun_ == 0 ? frames_.begin() : frames_.begin() + 1, frame, false);
   }
 
   /// Drops all frames that have not begun.
   void drop_waiting() {
-    while (frames_.size() > (begun_ == 0 ? 0U : 1U)) {
-      bytes_ -= frames_.back().size();
-      frames_.pop_back();
-    }
+    drop_if([](const Frame&) { return true; });
+  }
+  /// Those of them that may be withdrawn.
+  void withdraw() {
+    drop_if([](const Frame& frame) { return frame.withdrawable; });
   }
 
   /// What is left of the first frame; empty if there is none.
   std::span<const std::uint8_t> front() const {
-    return frames_.empty() ? std::span<const std::uint8_t>() : std::span(frames_.front()).subspan(begun_);
+    return frames_.empty() ? std::span<const std::uint8_t>()
+                           : std::span(frames_.front().bytes).subspan(begun_);
   }
 
   /// So many bytes of front() have been written.
   void taken(std::size_t count) {
     begun_ += count;
     bytes_ -= count;
-    if (!frames_.empty() && begun_ == frames_.front().size()) {
+    if (!frames_.empty() && begun_ == frames_.front().bytes.size()) {
       frames_.pop_front();
       begun_ = 0;
     }
@@ -48,10 +54,25 @@ class FrameQueue {
   std::size_t bytes() const { return bytes_; }
 
  private:
-  using Frames = std::deque<std::vector<std::uint8_t>>;
-  void insert(Frames::const_iterator at, std::span<const std::uint8_t> frame) {
-    frames_.emplace(at, frame.begin(), frame.end());
+  struct Frame {
+    std::vector<std::uint8_t> bytes;
+    bool withdrawable;
+  };
+  using Frames = std::deque<Frame>;
+
+  void insert(Frames::const_iterator at, std::span<const std::uint8_t> frame, bool withdrawable) {
+    frames_.insert(at, Frame{{frame.begin(), frame.end()}, withdrawable});
     bytes_ += frame.size();
+  }
+  template <class Which>
+  void drop_if(const Which& which) {
+    const auto waiting = frames_.begin() + (begun_ == 0 ? 0 : 1);
+    const auto left = std::remove_if(waiting, frames_.end(), [&](const Frame& frame) {
+      if (!which(frame)) return false;
+      bytes_ -= frame.bytes.size();
+      return true;
+    });
+    frames_.erase(left, frames_.end());
   }
 
   Frames frames_;

@@ -102,6 +102,12 @@ void RemoteParameters::put_in_force(const Request& request) {
   for (ParameterRow& row : rows_) row.active = row.staged;
 }
 
+void RemoteParameters::save() {
+  revert();
+  for (const ParameterRow& row : rows_) stage(row.name, to_value(row, row.active));
+  commit();
+}
+
 void RemoteParameters::revert() {
   client_->request(RevertParameters{});
   opened_ = true;

@@ -35,9 +35,10 @@ class RemoteParameters {
   /// force. Another session that opens it afterwards takes it away: RobotRefused, staging_lost.
   void stage(std::string_view name, const Value& value);
 
-  /// All staged values come in force and into flash, or none. Without any, what was only applied comes into
-  /// flash.
+  /// All values staged since the area was opened come in force and into flash, or none.
   void commit();
+  /// Commits all values in force, those that were only applied among them.
+  void save();
 
   /// All staged values come in force until the robot restarts, or none: also while it drives, if only gains
   /// differ.

@@ -1,50 +1,38 @@
 #include "host/link/port_socket.hpp"
 
-#include <fcntl.h>
 #include <poll.h>
-#include <sys/file.h>
 #include <sys/socket.h>
-#include <sys/stat.h>
 #include <sys/un.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cstddef>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 
 #include "host/base/error.hpp"
-#include "host/link/ports.hpp"
 #include "host/link/relay_messages.hpp"
 
 namespace astro::link {
 
-namespace fs = std::filesystem;
-
 namespace {
 
-constexpr const char* kExtension = ".socket";
-
-/// A socket's address holds 107 characters, a path may be longer: through its open folder it is always short.
+/// Abstract: the name begins with a zero and has no file.
 class SocketAddress {
  public:
-  explicit SocketAddress(const fs::path& path)
-      : folder_(::open(path.parent_path().c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC)) {
+  explicit SocketAddress(const std::string& port_key) {
+    const std::string name = "astrolabe-" + port_key;
     address_.sun_family = AF_UNIX;
-    const std::string name =
-        "/proc/self/fd/" + std::to_string(folder_.get()) + "/" + path.filename().string();
-    fits_ = folder_ && name.size() < sizeof(address_.sun_path);
-    if (fits_) name.copy(address_.sun_path, name.size());
+    const std::size_t length = name.copy(address_.sun_path + 1, sizeof(address_.sun_path) - 1);
+    size_ = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + length);
   }
-  bool usable() const { return fits_; }
   const sockaddr* get() const { return reinterpret_cast<const sockaddr*>(&address_); }
-  static socklen_t size() { return sizeof(sockaddr_un); }
+  socklen_t size() const { return size_; }
 
  private:
-  Descriptor folder_;
   sockaddr_un address_{};
-  bool fits_ = false;
+  socklen_t size_;
 };
 
 Descriptor new_socket() {
@@ -78,60 +66,21 @@ Greeting wait_for_greeting(const Descriptor& connection, microseconds patience) 
   }
 }
 
-/// Keeps others from sweeping away what takes a dead socket's place at this moment. Nothing if somebody holds
-/// the lock for long, which only a stopped program does.
-Descriptor lock_folder(const fs::path& path) {
-  constexpr int kTries = 50;
-  Descriptor folder(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  for (int i = 0; i < kTries; ++i) {
-    if (::flock(folder.get(), LOCK_EX | LOCK_NB) == 0) return folder;
-    ::poll(nullptr, 0, 5);
-  }
-  return {};
-}
-
-/// Takes away the sockets of dead programs, whose ports may never come back under the same name.
-void sweep(const fs::path& folder) {
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const fs::path& path = entry.path();
-    if (path.extension() != kExtension || !path.filename().string().starts_with("port-")) continue;
-    const SocketAddress address(path);
-    const Descriptor probe = new_socket();
-    if (!address.usable() || !probe) return;
-    if (::connect(probe.get(), address.get(), SocketAddress::size()) != 0 && errno == ECONNREFUSED)
-      ::unlink(path.c_str());
-  }
-}
-
 }  // namespace
 
-fs::path socket_of(const std::string& port_key) { return runtime_folder() / (port_key + kExtension); }
-
-Descriptor listen_at(const fs::path& socket) {
+Descriptor listen_at(const std::string& port_key) {
   constexpr int kBacklog = 16;
-  const Descriptor folder = lock_folder(socket.parent_path());
-  if (folder) sweep(socket.parent_path());
-  const fs::path fresh = socket.string() + "." + std::to_string(::getpid());
-  const SocketAddress address(fresh);
+  const SocketAddress address(port_key);
   Descriptor listener = new_socket();
-  ::unlink(fresh.c_str());
-  // The mode comes from the open socket, so that the file never has another one.
-  if (!address.usable() || !listener || ::fchmod(listener.get(), 0600) != 0 ||
-      ::bind(listener.get(), address.get(), SocketAddress::size()) != 0 ||
-      ::listen(listener.get(), kBacklog) != 0 || ::rename(fresh.c_str(), socket.c_str()) != 0) {
-    const std::string why = std::strerror(errno);
-    ::unlink(fresh.c_str());
-    throw Error("the socket '" + socket.string() + "' cannot be made: " + why);
-  }
+  if (!listener || ::bind(listener.get(), address.get(), address.size()) != 0 ||
+      ::listen(listener.get(), kBacklog) != 0)
+    throw Error("the socket for other programs cannot be made: " + std::string(std::strerror(errno)));
   return listener;
 }
 
-void remove_socket(const fs::path& socket) { ::unlink(socket.c_str()); }
-
 std::optional<PortUser> peer_of(const Descriptor& connection) {
   const auto peer = credentials(connection);
-  if (!peer || peer->uid != ::geteuid()) return std::nullopt;
+  if (!peer || (peer->uid != ::geteuid() && peer->uid != 0)) return std::nullopt;
   return describe_process(peer->pid);
 }
 
@@ -151,13 +100,14 @@ std::string in_words(std::uint32_t pid, std::string_view command) {
          (command.empty() ? std::string() : ", '" + std::string(command) + "'");
 }
 
-Served connect_to(const fs::path& socket, microseconds patience) {
-  const SocketAddress address(socket);
+Served connect_to(const std::string& port_key, microseconds patience) {
+  const SocketAddress address(port_key);
   Descriptor connection = new_socket();
-  if (!address.usable() || !connection) return {};
-  const bool connected = ::connect(connection.get(), address.get(), SocketAddress::size()) == 0;
+  if (!connection) return {};
+  const bool connected = ::connect(connection.get(), address.get(), address.size()) == 0;
   if (!connected && errno != EAGAIN) return {};
-  const auto holder = connected ? peer_of(connection) : std::optional<PortUser>(PortUser{});
+  std::optional<PortUser> holder = connected ? peer_of(connection) : PortUser{};
+  if (!holder && ::geteuid() == 0) holder = PortUser{};  // root may stop anybody's robot
   if (!holder) return {};
   const Greeting greeting = connected ? wait_for_greeting(connection, patience) : Greeting::none;
   if (greeting == Greeting::came) return {std::move(connection), std::nullopt};

@@ -2,7 +2,6 @@
 
 #include <sys/types.h>
 
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -10,21 +9,20 @@
 #include "host/link/relay_session.hpp"
 #include "host/link/transport.hpp"
 
-/// The socket by which the programs of one user find the one that holds a port: a file in runtime_folder(),
-/// which only this user can enter, named by the port's key.
+/// The socket by which programs find the one that holds a port: an abstract one of Linux, named by the port's
+/// key. It ends with the program that listens, and it is found whatever the environment says: an emergency
+/// stop may come from another terminal, from cron or from ssh. Everybody can connect to it, so each side looks
+/// at the other's user before it says a word.
+///
+/// Rejected: a file in the folder that XDG_RUNTIME_DIR names. Two terminals need not agree about that, and
+/// files outlive those who made them.
 namespace astro::link {
 
-std::filesystem::path socket_of(const std::string& port_key);
-
-/// Listens there, in place of a socket that a dead program has left behind, and takes away those of other
-/// ports. To be called by who holds the port's lock. Throws Error.
-Descriptor listen_at(const std::filesystem::path& socket);
-
-/// Takes the file away. To be called by who holds the port's lock.
-void remove_socket(const std::filesystem::path& socket);
+/// Throws Error if the name is taken, by a program of another user or by one that has not ended yet.
+Descriptor listen_at(const std::string& port_key);
 
 /// The program at the other end of a connection, or the one that listens there; nothing if it belongs to
-/// another user.
+/// another user, who is not root.
 std::optional<PortUser> peer_of(const Descriptor& connection);
 
 /// The process and its command line, of which only the printable part is kept.
@@ -40,7 +38,7 @@ struct Served {
 };
 
 /// Waits up to `patience` for the greeting. Neither: nobody of ours listens there.
-Served connect_to(const std::filesystem::path& socket, microseconds patience);
+Served connect_to(const std::string& port_key, microseconds patience);
 
 /// The sentence for Served::busy.
 std::string does_not_answer(const PortUser& holder);

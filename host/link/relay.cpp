@@ -8,7 +8,9 @@ namespace astro::link {
 namespace {
 
 constexpr SessionId kSelf = 0;
-constexpr std::size_t kMostSessions = 32;
+// Programs that do more than look or stop; and connections, of which some may be of programs that hang.
+constexpr std::ptrdiff_t kMostPlaces = 32;
+constexpr std::size_t kMostSessions = 96;
 // A program that computes or waits at a prompt for a while still finds the answers and events of that time;
 // of telemetry only what one would also find in a serial port's buffer.
 constexpr std::size_t kRoomForTelemetry = 1U << 16;
@@ -35,8 +37,26 @@ SessionId Relay::join(PortUser user, bool greets) {
   session.user = std::move(user);
   session.greets = greets;
   if (greets) session.out.push(protocol::Frame(Welcome{}, 0).bytes());
-  if (sessions_.size() > kMostSessions + 1) close(session, FarewellReason::too_many);
+  if (sessions_.size() > kMostSessions + 1) make_room(session);
   return session.id;
+}
+
+/// One that has never said anything goes first: an emergency stop must not wait outside for those that hang.
+void Relay::make_room(RelaySession& newcomer) {
+  const auto silent = std::find_if(sessions_.begin(), sessions_.end(), [&](const RelaySession& s) {
+    return s.greets && !s.closing && s.framer.counts().good == 0;
+  });
+  close(silent != sessions_.end() ? *silent : newcomer, FarewellReason::too_many);
+}
+
+/// False if there is none, and the session ends.
+bool Relay::give_place(RelaySession& session) {
+  if (session.has_place) return true;
+  const auto taken = std::count_if(sessions_.begin(), sessions_.end(),
+                                   [](const RelaySession& s) { return s.has_place && !s.closing; });
+  session.has_place = taken < kMostPlaces;
+  if (!session.has_place) close(session, FarewellReason::too_many);
+  return session.has_place;
 }
 
 void Relay::leave(SessionId id) {

@@ -15,7 +15,8 @@ namespace astro::link {
 /// Requests   each program's ids are replaced by fresh ones, so that an answer returns to the asker only. The
 ///            program that drives sends with bit 15 of the id clear, all others with it set; of those others
 ///            only one request is under way at a time, because the robot remembers one answer of theirs.
-///            Stop, EmergencyStop and Disarm wait for nobody.
+///            Stop, EmergencyStop and Disarm wait for nobody, and what was to set the robot in motion and has
+///            not gone to it yet goes no more.
 /// Driver     who first sends Arm, Velocity, WheelVoltage or AddSegment, unless the robot refuses it; until
 ///            it disarms the robot, says Hello or goes, a fault is raised, or another program stops it. To
 ///            the others these requests are refused as busy, and to a driver whom another program stopped as
@@ -24,7 +25,8 @@ namespace astro::link {
 /// Telemetry  the robot sends what serves all; each program gets the groups and the rate it asked for.
 /// Parameters the staging area belongs to the program that sent RevertParameters or DefaultParameters last;
 ///            what others then stage, commit or apply is refused as staging_lost.
-/// Bounds     what a program does not read is dropped: telemetry first; then the program is let go.
+/// Bounds     what a program does not read is dropped: telemetry first; then the program is let go. So many may
+///            drive, change parameters or have telemetry; whoever only looks or stops needs no such place.
 class Relay {
  public:
   Relay();
@@ -58,6 +60,8 @@ class Relay {
     std::optional<SessionId> owner;  // nobody: closed
   };
 
+  void make_room(RelaySession& newcomer);
+  bool give_place(RelaySession& session);
   RelaySession* find(SessionId id);
   const RelaySession* find(SessionId id) const;
 

@@ -39,6 +39,7 @@ void Relay::take(RelaySession& session, Body body, microseconds now) {
   const Header header = *peek(body);
   if (header.request_id == 0 || session.closing) return;
   if (header.message_id == Ping::kId) return take_ping(session, header, body, now);
+  if (relay_rules::takes_a_place(header.message_id) && !give_place(session)) return;
   if (!session.answer.empty() && session.answered == header) return push(session, session.answer);
   if (take_here(session, header, body)) return;
   if (const auto refused = refusal(session, header.message_id)) return reply_with(session, header, *refused);
@@ -92,8 +93,8 @@ void Relay::take_ping(RelaySession& session, const Header& header, Body body, mi
 }
 
 std::optional<ErrorReply> Relay::refusal(const RelaySession& session, std::uint8_t message) const {
-  const bool goes_on = relay_rules::drives(message) || message == Resume::kId;
-  if (session.stopped_by && goes_on && message != Arm::kId) return ErrorReply{ErrorCode::not_armed, 0};
+  if (session.stopped_by && relay_rules::sets_in_motion(message) && message != Arm::kId)
+    return ErrorReply{ErrorCode::not_armed, 0};
   if (!relay_rules::drives(message) || !driver_ || driver_ == session.id) return std::nullopt;
   const RelaySession* driver = find(*driver_);
   if (driver == nullptr || driver->stopped_by) return std::nullopt;
@@ -125,8 +126,10 @@ void Relay::send(RelaySession& session, Exchange& exchange, microseconds now) {
   exchange.state = Exchange::State::sent;
   exchange.sent_at = now;
   const bool first = relay_rules::stops(exchange.header.message_id);
+  if (first) to_robot_.withdraw();
   if (to_robot_.frames() >= (first ? 2 : 1) * kMostOnTheLine) return;
-  first ? to_robot_.push_first(exchange.frame) : to_robot_.push(exchange.frame);
+  first ? to_robot_.push_first(exchange.frame)
+        : to_robot_.push(exchange.frame, relay_rules::sets_in_motion(exchange.header.message_id));
 }
 
 void Relay::begin(RelaySession& session, Exchange exchange, microseconds now) {
@@ -169,6 +172,9 @@ void Relay::repeat(RelaySession& session, microseconds now) {
   // Only frames are passed on, and who says Hello is to know of a device that sends something else.
   constexpr std::array<std::uint8_t, 2> kNoFrame{0x55, 0};
   if (noise_ && exchange.header.message_id == Hello::kId) push(session, kNoFrame);
+  // Somebody has said Hello or drives by now, whose session a second first Hello would end.
+  if (exchange.header.message_id == Hello::kId && (hello_ || driver_))
+    return take_hello(session, Exchange(exchange.header, std::vector(exchange.body)), now);
   if (exchange.state == Exchange::State::waits) return;
   const bool onlooker =
       (exchange.robot_id & kOnlooker) != 0 && !relay_rules::stops(exchange.header.message_id);

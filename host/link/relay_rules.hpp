@@ -24,11 +24,18 @@ constexpr bool drives(std::uint8_t message) {
 constexpr bool stops(std::uint8_t message) {
   return is_one_of(message, std::array{EmergencyStop::kId, Stop::kId, Disarm::kId});
 }
+/// What must not come to the robot after a Stop that came later.
+constexpr bool sets_in_motion(std::uint8_t message) { return drives(message) || message == Resume::kId; }
 constexpr bool opens_staging(std::uint8_t message) {
   return is_one_of(message, std::array{RevertParameters::kId, DefaultParameters::kId});
 }
 constexpr bool needs_staging(std::uint8_t message) {
   return is_one_of(message, std::array{StageParameter::kId, CommitParameters::kId, ApplyParameters::kId});
+}
+/// What a program needs a place for, of which there are so many; to look and to stop is free.
+constexpr bool takes_a_place(std::uint8_t message) {
+  return sets_in_motion(message) || message == SetTelemetry::kId || opens_staging(message) ||
+         needs_staging(message);
 }
 
 }  // namespace astro::link::relay_rules

@@ -25,6 +25,7 @@ namespace {
 constexpr microseconds kLineTimeout = milliseconds(1000);  // for a line that takes no bytes
 constexpr microseconds kFarewellTimeout =
     milliseconds(2000);  // for a program that does not read its Farewell
+constexpr microseconds kUntilADescriptorIsFree = milliseconds(100);
 
 microseconds steady_now() {
   return std::chrono::duration_cast<microseconds>(std::chrono::steady_clock::now().time_since_epoch());
@@ -55,11 +56,7 @@ RelayServer::RelayServer(SharedLine shared)
 RelayServer::~RelayServer() {
   stop();
   if (lost_) return;
-  if (guests_ > 0) {
-    go_on_alone();
-    return;
-  }
-  if (!shared_.socket.empty()) remove_socket(shared_.socket);  // before the lock goes, with the line
+  if (guests_ > 0) go_on_alone();
 }
 
 void RelayServer::start() {
@@ -103,9 +100,9 @@ void RelayServer::run() {
 int RelayServer::milliseconds_to_wait() const {
   constexpr int kLook = 100;
   int wait = -1;
-  const bool must_look =
-      line_blocked_since_ || std::any_of(connections_.begin(), connections_.end(),
-                                         [](auto& c) { return c.closing_since.has_value(); });
+  const bool must_look = line_blocked_since_ || accept_from_ > steady_now() ||
+                         std::any_of(connections_.begin(), connections_.end(),
+                                     [](auto& c) { return c.closing_since.has_value(); });
   if (must_look) wait = kLook;
   if (const auto tick = relay_.next_tick()) {
     const auto left = std::chrono::ceil<milliseconds>(*tick - steady_now()).count();
@@ -122,14 +119,15 @@ void RelayServer::turn() {
     const bool waits = !relay_.to_session(connection.session).empty();
     ready.push_back({connection.socket.get(), static_cast<short>(POLLIN | (waits ? POLLOUT : 0)), 0});
   }
-  if (shared_.listener) ready.push_back({shared_.listener.get(), POLLIN, 0});
+  const bool listens = shared_.listener && steady_now() >= accept_from_;
+  if (listens) ready.push_back({shared_.listener.get(), POLLIN, 0});
   if (::poll(ready.data(), ready.size(), milliseconds_to_wait()) < 0) return;
 
   if (ready[0].revents != 0) take_new_connections();
   for (std::size_t i = 2; i < ready.size() && i - 2 < connections_.size(); ++i)
     if (ready[i].revents != 0 && ready[i].fd == connections_[i - 2].socket.get())
       read_from(connections_[i - 2]);
-  if (shared_.listener && ready.back().revents != 0) accept_guest();
+  if (listens && ready.back().revents != 0) accept_guest();
   relay_.tick(steady_now());
   write_line();
   if (!lost_ && ready[1].revents != 0) read_line();
@@ -150,13 +148,16 @@ void RelayServer::take_new_connections() {
 
 void RelayServer::accept_guest() {
   Descriptor socket(::accept4(shared_.listener.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
-  if (!socket) return;
+  if (!socket) {
+    if (errno == EMFILE || errno == ENFILE) accept_from_ = steady_now() + kUntilADescriptorIsFree;
+    return;
+  }
   if (auto user = peer_of(socket)) add(std::move(socket), std::move(*user), true);
 }
 
 void RelayServer::add(Descriptor socket, PortUser user, bool guest) {
   const SessionId session = relay_.join(std::move(user), guest);
-  connections_.push_back({std::move(socket), session, guest, std::nullopt});
+  connections_.push_back({std::move(socket), session, guest, std::nullopt, false});
   if (guest) ++guests_;
 }
 
@@ -198,8 +199,13 @@ bool RelayServer::write_to(Connection& connection) {
   if (open && !why) return true;
   if (why && !connection.guest) own_end_ = static_cast<int>(*why);
   if (why && !connection.closing_since) connection.closing_since = steady_now();
-  const bool told = !open || queue.empty() || steady_now() - *connection.closing_since > kFarewellTimeout;
-  if (!told) return true;
+  // What it goes on sending is read and dropped until it hangs up: a socket that is closed with bytes unread
+  // would cut it off before it has read why.
+  if (open && queue.empty() && !connection.told) {
+    connection.told = true;
+    ::shutdown(connection.socket.get(), SHUT_WR);
+  }
+  if (open && steady_now() - *connection.closing_since <= kFarewellTimeout) return true;
   relay_.leave(connection.session);
   connection.session = 0;
   return false;
@@ -215,10 +221,8 @@ void RelayServer::end_connections() {
 void RelayServer::lose_line() {
   relay_.close_all(FarewellReason::line_lost);
   line_blocked_since_.reset();
-  if (!shared_.socket.empty()) remove_socket(shared_.socket);
   shared_.listener.reset();
   shared_.line.reset();  // so that who comes first can open it again
-  shared_.lock.reset();
   lost_ = true;
 }
 
@@ -233,7 +237,7 @@ void RelayServer::go_on_alone() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_DFL);
   ::signal(SIGPIPE, SIG_IGN);
   ::alarm(0);
-  std::vector<int> keep{wake_.get(), shared_.line.get(), shared_.lock.get(), shared_.listener.get()};
+  std::vector<int> keep{wake_.get(), shared_.line.get(), shared_.listener.get()};
   for (const Connection& connection : connections_) keep.push_back(connection.socket.get());
   const int most = static_cast<int>(::sysconf(_SC_OPEN_MAX));
   for (int number = 0; number < std::min(most, 65'536); ++number)
@@ -243,7 +247,6 @@ void RelayServer::go_on_alone() {
   if (shared_.listener) ::listen(shared_.listener.get(), kBacklog);  // in our name from now on: SO_PEERCRED
   stop_ = false;
   while (guests_ > 0 && !lost_) turn();
-  if (!lost_ && !shared_.socket.empty()) remove_socket(shared_.socket);
   ::_exit(0);
 }
 

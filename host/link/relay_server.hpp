@@ -2,7 +2,6 @@
 
 #include <atomic>
 #include <deque>
-#include <filesystem>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -16,10 +15,8 @@ namespace astro::link {
 
 /// What a relay moves its bytes through.
 struct SharedLine {
-  Descriptor line;  // to the robot; non-blocking
-  Descriptor lock;  // of the port, where the line itself does not hold it
-  Descriptor listener;
-  std::filesystem::path socket;  // of the listener; empty: there is none
+  Descriptor line;      // to the robot; non-blocking
+  Descriptor listener;  // none where nobody can be let in
 };
 
 /// A Relay on a thread of its own: a program that computes, prints or waits at a prompt still serves the
@@ -50,6 +47,7 @@ class RelayServer {
     SessionId session = 0;
     bool guest = true;
     std::optional<microseconds> closing_since;
+    bool told = false;  // its Farewell has been written
   };
 
   void start();
@@ -73,6 +71,7 @@ class RelayServer {
   Relay relay_;  // the thread's
   std::deque<Connection> connections_;
   std::optional<microseconds> line_blocked_since_;
+  microseconds accept_from_{};  // not before: no descriptor was left for a guest
 
   Descriptor wake_;
   std::mutex mutex_;

@@ -49,6 +49,7 @@ struct RelaySession {
   FrameQueue out;  // to the program
   std::uint64_t dropped = 0;
   std::optional<Farewell> closing;
+  bool has_place = false;  // one of those that are limited
 
   std::optional<Exchange> current;
   // Pings change nothing and are not remembered by the robot, so that several may be under way: the newest

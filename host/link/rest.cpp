@@ -1,6 +1,7 @@
 #include "host/link/rest.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "host/link/parameters.hpp"
 
@@ -29,7 +30,7 @@ microseconds longest_ramp(Client& client) {
 }
 
 bool rests_before(Client& client, microseconds deadline) {
-  while (!protocol::at_rest(client.request(protocol::GetStatus{}).mode)) {
+  while (protocol::gives_power(client.request(protocol::GetStatus{}).mode)) {
     if (client.now() >= deadline) return false;
     client.pump(kPoll);
   }
@@ -37,6 +38,24 @@ bool rests_before(Client& client, microseconds deadline) {
 }
 
 }  // namespace
+
+bool wait_until_wheels_stand(Client& client) {
+  constexpr std::uint16_t kPeriod_ms = 20;
+  constexpr std::int32_t kStanding_umps = 3'000;  // as the robot itself judges it
+  constexpr microseconds kRollsOn = milliseconds(2000), kNextSample = milliseconds(500);
+  bool came = false, stand = false;
+  const auto watching = client.on<protocol::Telemetry>([&](const protocol::Telemetry& sample) {
+    came = true;
+    stand = std::abs(sample.wheel_speed.left_umps) <= kStanding_umps &&
+            std::abs(sample.wheel_speed.right_umps) <= kStanding_umps;
+  });
+  client.request(protocol::SetTelemetry{kPeriod_ms, protocol::Telemetry::kWheelSpeed});
+  if (!client.pump_until([&] { return came; }, kNextSample))
+    throw LinkLost(client.name() + " does not tell its wheels' speeds");
+  client.pump_until([&] { return stand; }, kRollsOn);
+  client.request(protocol::SetTelemetry{});
+  return stand;
+}
 
 bool wait_for_rest(Client& client) {
   const microseconds start = client.now();

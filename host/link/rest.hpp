@@ -11,4 +11,9 @@ namespace astro::link {
 /// Errors  all that Client::request throws.
 [[nodiscard]] bool wait_for_rest(Client& client);
 
+/// Waits for wheels that nothing drives any more: a robot whose bridges a fault has opened rolls on until it
+/// has used up its speed. False if they still turn after two seconds. Ends this client's telemetry.
+/// Errors  all that Client::request throws; LinkLost if no telemetry comes.
+[[nodiscard]] bool wait_until_wheels_stand(Client& client);
+
 }  // namespace astro::link

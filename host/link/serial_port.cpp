@@ -37,7 +37,7 @@ std::string why_not_open(const std::string& path, int error) {
       return "no permission to open " + path +
              ": add yourself to its group (sudo usermod -aG dialout $USER), then log in again";
     case EBUSY:
-      return path + " is in use by another program: end that one first";
+      return path + " is in use by another program, which shares it with nobody: end that one first";
     case ELOOP:
       return path + " is a link that leads back to itself: name the port, " + ports_here();
     case EISDIR:
@@ -65,14 +65,19 @@ void make_raw(termios2& mode, unsigned baud) {
 
 }  // namespace
 
-std::string port_key(dev_t device) {
-  return "port-" + std::to_string(major(device)) + "-" + std::to_string(minor(device));
+std::string port_key(const struct stat& about) {
+  // A container numbers its ptys anew, in a file system of its own.
+  constexpr unsigned kFirstPty = 136, kLastPty = 143;
+  const unsigned kind = major(about.st_rdev);
+  const bool is_pty = kind >= kFirstPty && kind <= kLastPty;
+  return (is_pty ? "pty-" + std::to_string(about.st_dev) : "port") + "-" + std::to_string(kind) + "-" +
+         std::to_string(minor(about.st_rdev));
 }
 
 std::string port_key_of(int descriptor) {
   struct stat about {};
   ::fstat(descriptor, &about);
-  return port_key(about.st_rdev);
+  return port_key(about);
 }
 
 int open_serial_port(const std::string& path, unsigned baud) {
@@ -87,9 +92,10 @@ int open_serial_port(const std::string& path, unsigned baud) {
     }
   }
   if (::flock(port.get(), LOCK_EX | LOCK_NB) != 0)
-    throw PortInUse(why_not_open(path, EBUSY), port_key(about.st_rdev));
+    throw PortInUse(why_not_open(path, EBUSY), port_key(about));
   make_raw(mode, baud);
   if (::ioctl(port.get(), TCSETS2, &mode) != 0) {
+    if (errno == EIO) throw Error(why_not_open(path, EIO));
     throw Error(path + " cannot be set to " + std::to_string(baud) + " baud: " + std::strerror(errno));
   }
   return port.release();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <sys/types.h>
+#include <sys/stat.h>
 
 #include <optional>
 #include <string>
@@ -21,8 +21,8 @@ class PortInUse : public Error {
   std::string key_;
 };
 
-/// A file name for what belongs to this device: "port-136-3".
-std::string port_key(dev_t device);
+/// The same for one device in all programs, by whatever path they know it: "port-188-0".
+std::string port_key(const struct stat& about);
 std::string port_key_of(int descriptor);
 
 /// Opens and locks a serial port or pty for open_transport(), which says what it throws, PortInUse where

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -14,6 +15,10 @@ namespace astro::link {
 /// holds it. A program that holds the port and has stopped is named in the sentence of the Error.
 ///
 /// Throws Error as open_transport() does; a port is in use only where its holder does not share it.
-std::unique_ptr<Transport> open_shared_port(const std::string& address, unsigned baud = kDefaultBaud);
+///
+/// `notice` gets a sentence where this program holds the port and can let nobody in.
+using Notice = std::function<void(const std::string&)>;
+std::unique_ptr<Transport> open_shared_port(
+    const std::string& address, unsigned baud = kDefaultBaud, Notice notice = [](const std::string&) {});
 
 }  // namespace astro::link

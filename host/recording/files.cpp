@@ -78,19 +78,27 @@ PartFile::PartFile(fs::path path, Replaces replaces) : path_(std::move(path)), p
   std::error_code ignored, error;
   if (fs::is_directory(path_, ignored))
     throw Error("'" + path_.string() + "' is a folder: name a file in it");
-  if (replaces != Replaces::recordings_too && is_recording(path_))
-    throw Error("'" + path_.string() + "' is a recording, and nothing replaces one: name another file");
+  if (fs::exists(path_, ignored) && !fs::is_regular_file(path_, ignored))
+    throw Error("'" + path_.string() + "' is a device or a pipe: name a file");
+  const auto is_kept = [&] { return replaces != Replaces::recordings_too && is_recording(path_); };
+  const std::string kept =
+      "'" + path_.string() + "' is a recording, and nothing replaces one: name another file";
+  if (is_kept()) throw Error(kept);
   if (path_.has_parent_path()) fs::create_directories(path_.parent_path(), error);
   if (error) {
     throw Error("cannot make the folder " + path_.parent_path().string() + ": " + error.message());
   }
   open_part();
+  if (!is_kept()) return;
+  ::unlink(part_.c_str());  // another program has made it before this one held the lock
+  give_up(kept);
 }
 
 /// Without following a link: who may write into the folder must not choose which file is emptied. The lock is
 /// held until the file has its name, so that two programs never write one file.
 void PartFile::open_part() {
-  while (true) {
+  constexpr int kTries = 100;
+  for (int tries = 1;; ++tries) {
     descriptor_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
     if (descriptor_ < 0) fail("create");
     struct stat opened {
@@ -103,9 +111,10 @@ void PartFile::open_part() {
     // Another program may have given the file its name between open and flock: it is no longer ours to empty.
     if (::lstat(part_.c_str(), &named) == 0 && named.st_ino == opened.st_ino && named.st_dev == opened.st_dev)
       break;
+    if (tries == kTries) give_up(part_.string() + " changes again and again: choose another folder");
     ::close(descriptor_);
   }
-  if (::ftruncate(descriptor_, 0) != 0) fail("empty");
+  if (::ftruncate(descriptor_, 0) != 0) give_up("cannot empty " + part_.string() + ": " + reason(errno));
 }
 
 void PartFile::give_up(const std::string& sentence) {
@@ -129,10 +138,10 @@ void PartFile::fail(const std::string& what) const {
 
 void PartFile::write(ByteView bytes) {
   while (!bytes.empty()) {
-    empty_ = false;
     const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) fail("write");
+    empty_ = false;
     bytes = bytes.subspan(static_cast<std::size_t>(written));
   }
 }

@@ -86,6 +86,47 @@ TEST_F(Parameters, AppliedValuesAreInForceAndForgottenByARestart) {
   EXPECT_EQ(active(Param::kp), kp);
 }
 
+TEST_F(Parameters, ACommitKeepsWhatItsSessionStagedAndNothingThatWasOnlyTried) {
+  const std::int32_t kp = active(Param::kp);
+  open_staging();
+  stage(Param::kp, kp / 2);
+  ask(protocol::ApplyParameters{});
+  for (const bool anew : {true, false}) {
+    if (anew) open_staging();
+    stage(Param::b, 300'000'000);
+    ask(protocol::CommitParameters{});
+    EXPECT_EQ(active(Param::kp), kp / 2) << "it stays in force";
+    EXPECT_EQ(active(Param::b), 300'000'000);
+  }
+  ask(protocol::Reboot{});
+  silence_ms(100);
+  client_.connect();
+  EXPECT_EQ(active(Param::kp), kp) << "as it was said";
+  EXPECT_EQ(active(Param::b), 300'000'000);
+  open_staging();
+  stage(Param::kp, kp / 2);
+  ask(protocol::ApplyParameters{});
+  open_staging();
+  stage(Param::kp, kp / 2);  // the value in force, on purpose
+  ask(protocol::CommitParameters{});
+  ask(protocol::Reboot{});
+  silence_ms(100);
+  client_.connect();
+  EXPECT_EQ(active(Param::kp), kp / 2);
+}
+
+TEST_F(Parameters, ACommitThatWouldNotFitWhatIsInTheFlashIsRefused) {
+  // Tried: over_speed far up. Then a speed limit that only fits that one.
+  open_staging();
+  stage(Param::over_speed, 3'000'000);
+  ask(protocol::ApplyParameters{});
+  open_staging();
+  stage(Param::speed_limit, 2'000'000);
+  const link::RobotRefused refused = refusal(protocol::CommitParameters{});
+  EXPECT_EQ(refused.code(), ErrorCode::invalid_parameter);
+  EXPECT_EQ(refused.detail(), id(Param::over_speed));
+}
+
 TEST_F(Parameters, GainsMayBeAppliedWhileDrivingAndTheRobotDoesNotFlinch) {
   ask(protocol::Arm{});
   for (int i = 0; i < 20; ++i) {

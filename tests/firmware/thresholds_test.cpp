@@ -227,6 +227,9 @@ TEST(MostCounts, OfCoarseEncodersIsASixteenthOfATurnByTheCoarserWheel) {
   set.set(Param::gear_numerator, 10);  // a count is 3.534 mm, and 1 / 515.6 turn of the robot
   EXPECT_TRUE(believed(set, 32, false));
   EXPECT_FALSE(believed(set, 33, false));
+  set.set(Param::gear_numerator, 330);  // more than the thousand that any late tick may count
+  EXPECT_TRUE(believed(set, 1000, false));
+  EXPECT_FALSE(believed(set, 1001, false));
   set.set(Param::gear_numerator, 295);  // just less than the thousand that any late tick may count
   EXPECT_TRUE(believed(set, 950, false));
   EXPECT_FALSE(believed(set, 951, false));

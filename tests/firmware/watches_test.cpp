@@ -337,6 +337,55 @@ TEST(ChannelWatch, WaitsForFortyEightMilliseconds) {
   }
 }
 
+// ---- a ramp whose wheels do not come to rest
+
+TEST(StopWatch, WaitsForASecondOnceTheSetPointIsZero) {
+  Span span;
+  for (int phase = 0; phase < kPeriod_ms; ++phase) {
+    HandFedDrive rig(without_feedback(fine_encoders()));
+    rig.ticks(phase);
+    rig.arm();
+    rig.velocity = BodyTwist{1'000, 0};
+    rig.ticks(150, 50, 50);
+    rig.velocity.reset();
+    rig.drive().stop();
+    do rig.tick(50, 50);  // 3.9 mm/s: they do not stand
+    while (rig.drive().wheels().set_points().left_umps != 0);
+    span.take(ticks_to(Fault::stop_timeout, rig, [&] { rig.tick(50, 50); }));
+  }
+  EXPECT_EQ(span.least, 1'000);
+  EXPECT_EQ(span.most, 1'000 + kPeriod_ms - 1);
+}
+
+// ---- the sign of life for the watchdog
+
+TEST(Supervision, IsReportedOnceForEachTick) {
+  HandFedDrive rig;
+  EXPECT_FALSE(rig.drive().take_supervised());
+  for (int i = 0; i < 3; ++i) {
+    rig.tick();
+    EXPECT_TRUE(rig.drive().take_supervised());
+    EXPECT_FALSE(rig.drive().take_supervised());
+  }
+}
+
+// ---- gains that change amid a ramp
+
+TEST(GainsChangedAmidARamp, LeaveTheDutyWhereItIs) {
+  HandFedDrive rig;
+  rig.arm();
+  rig.velocity = BodyTwist{700'000, 0};
+  for (int i = 0; i < 400; ++i) rig.tick(i / 100, i / 100);  // it lags behind, still speeding up
+  const int before = rig.output().duty.left;
+  const int step = rig.tick(4, 4).duty.left - before;
+  ParameterSet gentler;
+  gentler.set(Param::kA_left, 3 * gentler.get(Param::kA_left));
+  gentler.set(Param::kp, gentler.get(Param::kp) / 2);
+  rig.drive().configure(gentler);
+  const int after = rig.tick(4, 4).duty.left;
+  EXPECT_NEAR(after - before, 2 * step, 150) << "of 32767: what a tick of the ramp makes";
+}
+
 // ---- after a fault was cleared, everything is looked at anew
 
 /// Brings the fault, clears it while its cause goes on, and drives again at once.

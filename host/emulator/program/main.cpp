@@ -58,6 +58,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  cli::hold_standard_streams();
   cli::watch_for_interrupt();
   try {
     return run(argc, argv);

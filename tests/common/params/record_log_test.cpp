@@ -129,7 +129,7 @@ TEST(RecordLog, FindsTheNewestAndTheNewestOutsideItsSectorWhereverTheyLie) {
     std::iota(ages.begin(), ages.end(), 0U);
     std::ranges::shuffle(ages, random);
     for (std::uint32_t sector = 0; sector < Log::kSectors; ++sector)
-      for (std::uint32_t i = 0, records = random() % 5; i < records; ++i) {
+      for (std::uint32_t i = 0, records = static_cast<std::uint32_t>(random() % 5); i < records; ++i) {
         placed.push_back({sector * kLogSectorBytes + i * 4 * kUnitBytes, ages.back()});
         ages.pop_back();
         flash.put_back(placed.back().at, whole_record(4, UINT32_MAX - 5 + placed.back().age));

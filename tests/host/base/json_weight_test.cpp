@@ -10,7 +10,7 @@ namespace astro {
 namespace {
 
 TEST(JsonWeight, IsTooMuchWhereShortValuesWouldTakeManyTimesTheirText) {
-  for (const char* value : {"[],", "1,", "{},", "[", "\"\":0,"})
+  for (const char* value : {"[],", "1,", "{},", "[", "\"\":0,", "\"\","})
     EXPECT_FALSE(json_fits_memory(support::filled(value, 8'000'000))) << value;
 }
 

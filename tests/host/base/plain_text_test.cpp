@@ -26,6 +26,10 @@ TEST(PlainText, TakesAwayWhatMovesATerminal) {
                        "desrever\xE2\x81\xA6"),
             "�desrever�")
       << "direction of writing";
+  EXPECT_EQ(plain_text("a\xD8\x9C"
+                       "b"),
+            "a�b")
+      << "the Arabic mark of direction";
   EXPECT_EQ(plain_text("a\xE2\x80\xA8"
                        "b"),
             "a�b")

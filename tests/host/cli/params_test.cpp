@@ -31,6 +31,28 @@ class Params : public testing::Test {
   support::Simulator simulator_;
 };
 
+TEST_F(Params, AnUnrelatedChangeDoesNotKeepWhatWasOnlyTried) {
+  const std::string before = get("kp");
+  ASSERT_EQ(params({"set", "kp=44", "--try", "--yes"}).code, 0);
+  ASSERT_EQ(params({"set", "b=0.291", "--yes"}).code, 0);
+  EXPECT_EQ(get("kp"), "44\n") << "in force until the restart";
+  ASSERT_EQ(support::astrolabe({"reboot", "--port", simulator_.port()}).code, 0);
+  EXPECT_EQ(get("kp"), before);
+  EXPECT_EQ(get("b"), "0.291\n");
+  for (const Words& keep : {Words{"save"}, Words{"set", "kp=44", "--yes"}}) {
+    ASSERT_EQ(params({"set", "kp=44", "--try", "--yes"}).code, 0);
+    ASSERT_EQ(params(keep).code, 0);
+    ASSERT_EQ(support::astrolabe({"reboot", "--port", simulator_.port()}).code, 0);
+    EXPECT_EQ(get("kp"), "44\n") << keep.front();
+    ASSERT_EQ(params({"defaults", "--yes"}).code, 0);
+  }
+}
+
+TEST_F(Params, ATimeOutOfZeroIsWarnedOf) {
+  EXPECT_THAT(params({"set", "command_timeout=0", "--yes"}).err,
+              HasSubstr("goes on driving when its host has gone"));
+}
+
 TEST_F(Params, ListShowsEveryRowWithUnitLimitsAndMeaning) {
   const Outcome outcome = params({"list"});
   ASSERT_EQ(outcome.code, 0);

@@ -65,12 +65,72 @@ TEST_F(CutShort, InterruptedTheRobotRampsToRestAndIsDisarmed) {
 TEST_F(CutShort, TheSecondInterruptEndsTheProgramAtOnceAndTheRobotStopsByItself) {
   Program program = drive({"line", "20", "--speed", "0.4"});
   ASSERT_TRUE(has_gone(0.3)) << program.err();
-  program.send(SIGSTOP);  // so that both are waiting when it goes on
+  simulator_.program().send(SIGSTOP);  // so that the first has something to wait for
   program.send(SIGINT);
-  program.send(SIGTERM);
-  program.send(SIGCONT);
+  poll(nullptr, 0, 400);
+  program.send(SIGINT);
   EXPECT_EQ(program.wait(), 130);
+  EXPECT_EQ(program.err(), "");
+  simulator_.program().send(SIGCONT);
   EXPECT_LT(seconds_to_rest(now_us()), kToRest_s);
+}
+
+TEST_F(CutShort, WhoeverEndsItWithSeveralSignalsAtOnceMeansOneInterrupt) {
+  for (const int second : {SIGINT, SIGTERM, SIGHUP}) {
+    Program program = drive({"line", "20", "--speed", "0.4"});
+    ASSERT_TRUE(has_gone(0.3)) << program.err();
+    program.send(SIGSTOP);  // so that both are waiting when it goes on
+    program.send(SIGTERM);
+    program.send(second);
+    program.send(SIGCONT);
+    EXPECT_EQ(program.wait(), 130);
+    EXPECT_EQ(program.err(), "astrolabe: stopped: the robot is at rest and disarmed\n");
+    EXPECT_EQ(info()["mode"], "disarmed");
+  }
+}
+
+TEST_F(CutShort, StopDoesNotCallARobotAtRestThatAFaultLetsRollOn) {
+  Program program = drive({"velocity", "0.7", "0", "--for", "60"});
+  ASSERT_TRUE(has_gone(0.5)) << program.err();
+  ASSERT_EQ(astrolabe({"stop", "--emergency", "--port", simulator_.port()}).code, 0);
+  EXPECT_TRUE(has_gone(0.01)) << "it rolls on";
+  const Outcome stop = astrolabe({"stop", "--port", simulator_.port()});
+  EXPECT_THAT(stop.err, HasSubstr("emergency_stop"));
+  EXPECT_THAT(stop.err, testing::Not(HasSubstr("the robot is at rest and disarmed")));
+  if (stop.code == 0) {
+    EXPECT_THAT(stop.err, HasSubstr("the robot stands"));
+    EXPECT_LT(seconds_to_rest(now_us()), 0.1);
+  }
+  program.wait();
+}
+
+TEST_F(CutShort, ADriveThatCanNoLongerBeRecordedRampsToRestAndSaysWhy) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.path() / "run.mcap";
+  Program program({"/bin/sh", "-c", "ulimit -f 16; exec \"$0\" \"$@\"", ASTROLABE_PROGRAM, "drive",
+                   "velocity", "0.7", "0", "--for", "60", "--record", file, "--port", simulator_.port()});
+  EXPECT_EQ(program.wait(), 1);
+  EXPECT_LT(seconds_to_rest(now_us()), 0.1) << "it stood when the program ended";
+  EXPECT_EQ(info()["mode"], "disarmed");
+  EXPECT_EQ(info()["faults"], json::array());
+  EXPECT_THAT(program.err(), HasSubstr("could not be recorded; the robot is at rest and disarmed"));
+  EXPECT_THAT(program.err(), testing::Not(HasSubstr("did not confirm")));
+  const std::string text = program.err();
+  const std::size_t once = text.find("cannot write");
+  EXPECT_NE(once, std::string::npos) << text;
+  EXPECT_EQ(text.find("cannot write", once + 1), std::string::npos) << "told once: " << text;
+}
+
+TEST_F(CutShort, ClosedStandardStreamsAreNotTheRobotsLine) {
+  const auto bad_frames = [&] { return info()["rx_bad_frames"].get<int>(); };
+  const int before = bad_frames();
+  for (const char* const closed : {">&-", "2>&-", "<&-", "<&- >&- 2>&-"}) {
+    Program program({"/bin/sh", "-c", std::string("exec \"$0\" info --json --port \"$1\" ") + closed,
+                     ASTROLABE_PROGRAM, simulator_.port()});
+    const bool can_print = std::string(closed) == "2>&-" || std::string(closed) == "<&-";
+    EXPECT_EQ(program.wait(), can_print ? 0 : 1) << closed;
+  }
+  EXPECT_EQ(bad_frames(), before);
 }
 
 TEST_F(CutShort, InterruptedWhileTheRobotDoesNotAnswerItIsNotCalledStopped) {

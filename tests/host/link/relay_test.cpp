@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <memory>
 #include <utility>
 
 #include "host/link/drive.hpp"
@@ -45,6 +46,24 @@ std::string thrown_by(Work work) {
   }
   return "nothing was thrown";
 }
+
+/// Answers what waits for the line, whenever it is told to.
+class FakeRobotAt {
+ public:
+  explicit FakeRobotAt(Relay& relay) : relay_(relay) {}
+  void answer(microseconds now) {
+    while (!relay_.to_robot().empty()) {
+      const auto bytes = relay_.to_robot().front();
+      const std::vector<std::uint8_t> frame(bytes.begin(), bytes.end());
+      relay_.to_robot().taken(frame.size());
+      for (const auto& reply : robot_.receive(frame)) relay_.from_robot(reply, now);
+    }
+  }
+
+ private:
+  Relay& relay_;
+  test::FakeRobot robot_;
+};
 
 class SharedPort : public testing::Test {
  protected:
@@ -240,6 +259,50 @@ TEST_F(SharedPort, AnEmergencyStopOvertakesWhatWaitsForTheLine) {
   EXPECT_THAT(order, testing::ElementsAre(EmergencyStop::kId, Ping::kId));
 }
 
+/// The requests that wait for the line, in their order; the line takes them.
+std::vector<std::uint8_t> taken_from(Relay& relay) {
+  protocol::Framer framer;
+  std::vector<std::uint8_t> order;
+  while (!relay.to_robot().empty()) {
+    for (const std::uint8_t byte : relay.to_robot().front())
+      if (const auto body = framer.push(byte)) order.push_back(body->front());
+    relay.to_robot().taken(relay.to_robot().front().size());
+  }
+  return order;
+}
+
+TEST_F(SharedPort, WhatWasToMoveTheRobotAndHasNotGoneToItWhenAStopComesGoesNoMore) {
+  for (const bool by_another : {false, true})
+    for (const auto& motion : {Frame(Velocity{100'000, 0}, 2), Frame(line(1, {}).front(), 2),
+                               Frame(Resume{}, 2), Frame(Arm{}, 2)}) {
+      Relay relay;
+      const SessionId driver = relay.join({11, "drive"}), other = relay.join({22, "stop"});
+      relay.from_session(driver, Frame(Arm{}, 1).bytes(), rig.now);
+      taken_from(relay);
+      relay.from_session(driver, motion.bytes(), rig.now);
+      relay.from_session(driver, Frame(Ping{}, 3).bytes(), rig.now);
+      relay.from_session(by_another ? other : driver, Frame(Stop{}, 4).bytes(), rig.now);
+      EXPECT_THAT(taken_from(relay), testing::ElementsAre(Stop::kId, Ping::kId)) << by_another;
+    }
+}
+
+TEST(Relay, ARepeatedFirstHelloLeavesADriverAloneThatCameMeanwhile) {
+  Relay relay;
+  FakeRobotAt robot(relay);
+  const SessionId monitor = relay.join({11, "monitor"}), driver = relay.join({22, "drive"});
+  const Frame hello(Hello{}, 1);
+  relay.from_session(monitor, hello.bytes(), milliseconds(0));
+  taken_from(relay);  // lost on the line
+  relay.from_session(driver, hello.bytes(), milliseconds(100));
+  robot.answer(milliseconds(101));
+  relay.from_session(driver, Frame(Arm{}, 2).bytes(), milliseconds(102));
+  robot.answer(milliseconds(103));
+  relay.from_session(monitor, hello.bytes(), milliseconds(300));
+  EXPECT_THAT(taken_from(relay), testing::Not(testing::Contains(Hello::kId)))
+      << "the robot's answer is known";
+  EXPECT_FALSE(relay.to_session(monitor).empty());
+}
+
 TEST_F(SharedPort, ARepeatedRequestHasTheSameIdAndIsCarriedOutOnce) {
   first.client.request(Arm{});
   int lost = 2;
@@ -418,11 +481,34 @@ TEST_F(SharedPort, ARestartOfTheRobotIsANewBeginningForAll) {
 }
 
 TEST_F(SharedPort, TooManyProgramsAreTurnedAwayWithTheReason) {
-  std::vector<SessionId> many;
-  while (many.size() < 40) many.push_back(rig.relay.join({1, "astrolabe monitor"}));
-  EXPECT_EQ(rig.relay.closing(many.back()), FarewellReason::too_many);
-  EXPECT_EQ(rig.relay.closing(many.front()), std::nullopt);
+  std::vector<std::unique_ptr<RelayedProgram>> many;
+  const auto ask_for_telemetry = [&] {
+    many.push_back(std::make_unique<RelayedProgram>(rig, 1, "astrolabe monitor"));
+    many.back()->send(SetTelemetry{100, Telemetry::kPose}, 900);
+    return rig.relay.closing(many.back()->id());
+  };
+  for (int i = 0; i < 32; ++i) ASSERT_EQ(ask_for_telemetry(), std::nullopt) << i;
+  EXPECT_EQ(ask_for_telemetry(), FarewellReason::too_many);
+  EXPECT_EQ(rig.relay.closing(many.front()->id()), std::nullopt);
   EXPECT_EQ(second.client.request(GetStatus{}).mode, Mode::disarmed);
+  many.erase(many.begin());
+  EXPECT_EQ(ask_for_telemetry(), std::nullopt) << "one has gone";
+}
+
+TEST_F(SharedPort, AStopFindsAPlaceBesideProgramsThatHangAndThoseThatTakeEveryPlace) {
+  first.client.request(Arm{});
+  std::vector<std::unique_ptr<RelayedProgram>> monitors;
+  for (int i = 0; i < 40; ++i) {
+    monitors.push_back(std::make_unique<RelayedProgram>(rig, 1, "astrolabe monitor"));
+    monitors.back()->send(SetTelemetry{100, Telemetry::kPose}, 900);
+  }
+  std::vector<SessionId> silent;
+  for (int i = 0; i < 300; ++i) silent.push_back(rig.relay.join({2, "hangs"}));
+  EXPECT_EQ(rig.relay.closing(silent.front()), FarewellReason::too_many) << "the longest silent goes first";
+  RelayedProgram stop(rig, 3, "astrolabe stop");
+  stop.client.request(Stop{});
+  EXPECT_EQ(rig.count(Stop::kId), 1);
+  EXPECT_EQ(rig.relay.closing(first.id()), std::nullopt) << "and whoever speaks stays";
 }
 
 TEST_F(SharedPort, GarbageFromAProgramStaysWithTheRelay) {

@@ -9,40 +9,35 @@
 #include <sys/un.h>
 #include <sys/wait.h>
 
-#include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 
 #include "host/link/client.hpp"
 #include "host/link/port_socket.hpp"
-#include "host/link/ports.hpp"
 #include "host/link/serial_port.hpp"
 #include "tests/support/pty.hpp"
 #include "tests/support/served_robot.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 // One port and several programs, as far as only an operating system can show it: the other programs are
 // connections of this process, and children where a program has to die.
 namespace astro::link {
 namespace {
 
-namespace fs = std::filesystem;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 using test::Pty;
 using test::ServedRobot;
 using testing::HasSubstr;
 
-/// A runtime folder of this test's own.
 class SharedPortOfTheSystem : public testing::Test {
  protected:
-  SharedPortOfTheSystem() { ::setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1); }
-  ~SharedPortOfTheSystem() override { ::unsetenv("XDG_RUNTIME_DIR"); }
-
-  fs::path socket() const {
+  std::string key() const {
     struct stat about {};
     ::stat(pty.path().c_str(), &about);
-    return socket_of(port_key(about.st_rdev));
+    return port_key(about);
   }
+  bool somebody_listens() const { return static_cast<bool>(connect_to(key(), seconds(1)).connection); }
 
   std::string why_not() const {
     try {
@@ -72,9 +67,6 @@ class SharedPortOfTheSystem : public testing::Test {
   }
 
   Pty pty;
-
- private:
-  test::TemporaryFolder folder_;
 };
 
 TEST_F(SharedPortOfTheSystem, TheSecondProgramWorksAsIfItHadThePort) {
@@ -88,34 +80,86 @@ TEST_F(SharedPortOfTheSystem, TheSecondProgramWorksAsIfItHadThePort) {
   EXPECT_EQ(second.name(), pty.path());
 }
 
-TEST_F(SharedPortOfTheSystem, SocketAndFolderArePrivateToTheUser) {
-  fs::create_directory(runtime_folder());
-  fs::permissions(runtime_folder(), fs::perms::all);  // left open by whoever made it
+/// What a program of user 65534 sees or does; its exit code.
+int as_another_user(const std::function<int()>& work) {
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(::setgid(65'534) == 0 && ::setuid(65'534) == 0 ? work() : 99);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 98;
+}
+
+TEST_F(SharedPortOfTheSystem, AProgramOfAnotherUserIsNotServed) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root can be somebody else for a moment";
   const auto port = open_shared_port(pty.path());
-  EXPECT_EQ(fs::status(socket()).permissions(), fs::perms::owner_read | fs::perms::owner_write);
-  EXPECT_EQ(fs::status(runtime_folder()).permissions(), fs::perms::owner_all);
+  EXPECT_EQ(as_another_user([&] {
+              const Served served = connect_to(key(), seconds(1));
+              return served.connection ? 1 : 0;
+            }),
+            0);
+  EXPECT_TRUE(somebody_listens()) << "and its own user's are";
+}
+
+TEST_F(SharedPortOfTheSystem, ANameThatAProgramOfAnotherUserHoldsIsSaidAndNotBelieved) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root can be somebody else for a moment";
+  int ready[2], done[2];
+  ASSERT_EQ(::pipe(ready) + ::pipe(done), 0);
+  const pid_t stranger = ::fork();
+  if (stranger == 0) {
+    char byte = 0;
+    ::close(done[1]);
+    if (::setuid(65'534) != 0) ::_exit(1);
+    const Descriptor listener = listen_at(key());
+    ::_exit(::write(ready[1], "x", 1) == 1 && ::read(done[0], &byte, 1) == 0 ? 0 : 1);
+  }
+  char byte = 0;
+  ASSERT_EQ(::read(ready[0], &byte, 1), 1);
+  std::string said;
+  {
+    const auto port =
+        open_shared_port(pty.path(), kDefaultBaud, [&](const std::string& text) { said = text; });
+    EXPECT_THAT(said, HasSubstr("no other program can stop or watch this robot"));
+  }
+  for (const int end : {ready[0], ready[1], done[0], done[1]}) ::close(end);
+  ::waitpid(stranger, nullptr, 0);
+}
+
+TEST_F(SharedPortOfTheSystem, IsFoundWhateverTheEnvironmentSays) {
+  const ServedRobot robot(pty.master());
+  ::setenv("XDG_RUNTIME_DIR", "/nonexistent", 1);
+  Client first(open_shared_port(pty.path()));
+  first.connect();
+  ::unsetenv("XDG_RUNTIME_DIR");
+  Client second(open_shared_port(pty.path()));
+  EXPECT_EQ(second.connect().robot_name.view(), "astro");
 }
 
 TEST_F(SharedPortOfTheSystem, TheSocketGoesWithTheProgram) {
   {
     const auto port = open_shared_port(pty.path());
-    EXPECT_TRUE(fs::exists(socket()));
+    EXPECT_TRUE(somebody_listens());
   }
-  EXPECT_FALSE(fs::exists(socket()));
-  EXPECT_TRUE(fs::is_empty(runtime_folder()));
+  EXPECT_FALSE(somebody_listens());
 }
 
-TEST_F(SharedPortOfTheSystem, DeadSocketsOfOtherPortsAreSweptAndLiveOnesAreNot) {
-  make_runtime_folder();
-  const auto dead = socket_of("port-9-9"), live = socket_of("port-9-8");
-  listen_at(dead);  // and ended without taking it away
-  const Descriptor listener = listen_at(live);
-  ASSERT_FALSE(fs::exists(dead)) << "swept by the next that listens";
-  listen_at(dead);
-  ASSERT_TRUE(fs::exists(dead));
-  const auto port = open_shared_port(pty.path());
-  EXPECT_FALSE(fs::exists(dead));
-  EXPECT_TRUE(fs::exists(live));
+TEST_F(SharedPortOfTheSystem, AGuestThatIsTurnedAwayReadsWhyThoughItGoesOnWriting) {
+  const ServedRobot robot(pty.master());
+  Client first(open_shared_port(pty.path()));
+  first.connect();
+  std::vector<std::unique_ptr<Client>> many;
+  for (int i = 0; i < 32; ++i) {
+    many.push_back(std::make_unique<Client>(open_shared_port(pty.path())));
+    many.back()->connect();
+    many.back()->request(protocol::SetTelemetry{1000, protocol::Telemetry::kPose});
+  }
+  Client last(open_shared_port(pty.path()));
+  last.connect();
+  try {
+    last.request(protocol::SetTelemetry{1000, protocol::Telemetry::kPose});
+    ADD_FAILURE() << "there is no place left";
+  } catch (const LinkLost& lost) {
+    EXPECT_THAT(lost.what(), HasSubstr("too many programs"));
+  }
 }
 
 TEST_F(SharedPortOfTheSystem, AnExclusiveHolderIsSaidToUseThePort) {
@@ -156,7 +200,6 @@ TEST_F(SharedPortOfTheSystem, AKilledHolderIsNamedAndItsPlaceTaken) {
                 HasSubstr("the program that held the port (process id " + std::to_string(holder)));
     EXPECT_THAT(lost.what(), HasSubstr("has ended"));
   }
-  EXPECT_TRUE(fs::exists(socket())) << "left behind";
   client.reconnect(seconds(5));
   EXPECT_EQ(client.request(protocol::GetStatus{}).mode, protocol::Mode::disarmed);
   Client next(open_shared_port(pty.path()));
@@ -216,7 +259,7 @@ TEST_F(SharedPortOfTheSystem, WhatServesTheOthersEndsWithTheLastOfThem) {
   const auto end = std::chrono::steady_clock::now() + seconds(10);
   while (!free() && std::chrono::steady_clock::now() < end) ::usleep(2000);
   EXPECT_TRUE(free());
-  EXPECT_FALSE(fs::exists(socket()));
+  EXPECT_FALSE(somebody_listens());
 }
 
 TEST_F(SharedPortOfTheSystem, ALoopbackAddressIsSharedLikeAPort) {
@@ -242,18 +285,6 @@ TEST_F(SharedPortOfTheSystem, ALoopbackAddressIsSharedLikeAPort) {
     EXPECT_THROW(second.pump(seconds(5)), LinkLost);
   }
   ::close(listener);
-}
-
-TEST_F(SharedPortOfTheSystem, ALongRuntimeFolderIsNoHindrance) {
-  // A socket's address has room for 107 characters.
-  const fs::path deep = fs::path(std::getenv("XDG_RUNTIME_DIR")) / std::string(120, 'x');
-  fs::create_directory(deep);
-  ::setenv("XDG_RUNTIME_DIR", deep.c_str(), 1);
-  const ServedRobot robot(pty.master());
-  Client first(open_shared_port(pty.path()));
-  first.connect();
-  Client second(open_shared_port(pty.path()));
-  second.connect();
 }
 
 }  // namespace

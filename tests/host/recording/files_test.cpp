@@ -81,6 +81,14 @@ TEST(PartFile, IsNoPipe) {
   EXPECT_NE(complaint([&] { PartFile(folder / "run").commit(); }), "");
 }
 
+TEST(PartFile, PutsNothingInThePlaceOfAPipeOrADevice) {
+  const TempFolder folder;
+  ASSERT_EQ(mkfifo((folder / "run").c_str(), 0600), 0);
+  EXPECT_THAT(complaint([&] { PartFile(folder / "run").commit(); }), HasSubstr("is a device or a pipe"));
+  EXPECT_THAT(complaint([&] { PartFile("/dev/full").commit(); }), HasSubstr("is a device or a pipe"));
+  EXPECT_FALSE(std::filesystem::is_regular_file(folder / "run"));
+}
+
 TEST(PartFile, IsWrittenByOneProgramAtATime) {
   const TempFolder folder;
   PartFile first(folder / "run");
