@@ -372,18 +372,23 @@ TEST(Supervision, IsReportedOnceForEachTick) {
 // ---- gains that change amid a ramp
 
 TEST(GainsChangedAmidARamp, LeaveTheDutyWhereItIs) {
-  HandFedDrive rig;
+  HandFedDrive rig(fine_encoders());
   rig.arm();
   rig.velocity = BodyTwist{700'000, 0};
-  for (int i = 0; i < 400; ++i) rig.tick(i / 100, i / 100);  // it lags behind, still speeding up
-  const int before = rig.output().duty.left;
-  const int step = rig.tick(4, 4).duty.left - before;
-  ParameterSet gentler;
-  gentler.set(Param::kA_left, 3 * gentler.get(Param::kA_left));
-  gentler.set(Param::kp, gentler.get(Param::kp) / 2);
-  rig.drive().configure(gentler);
-  const int after = rig.tick(4, 4).duty.left;
-  EXPECT_NEAR(after - before, 2 * step, 150) << "of 32767: what a tick of the ramp makes";
+  const auto obey = [&] {  // the wheels do what they are told
+    const WheelSpeeds& told = rig.drive().wheels().set_points();
+    return rig.tick(static_cast<int>(told.left_umps / support::kFineCount_umps),
+                    static_cast<int>(told.right_umps / support::kFineCount_umps));
+  };
+  int duty = 0;
+  while (rig.drive().wheels().set_points().left_umps < 60'000) duty = obey().duty.left;  // amid the ramp
+  const int step = obey().duty.left - duty;
+  duty += step;
+  ParameterSet other = fine_encoders();
+  other.set(Param::kA_left, 3 * other.get(Param::kA_left));
+  rig.drive().configure(other);
+  EXPECT_NEAR(obey().duty.left, duty + step, 100) << "of 32767; three times kA alone would be 3000 more";
+  EXPECT_EQ(rig.drive().faults().mask(), 0U);
 }
 
 // ---- after a fault was cleared, everything is looked at anew
