@@ -44,7 +44,8 @@ Json as_json(const protocol::FaultReport& report, bool cleared) {
 }
 
 std::vector<protocol::FaultLogEntry> fetch_log(link::Client& client) {
-  constexpr std::size_t kMostEntries = 1024;  // a robot that says so many has 128
+  constexpr std::size_t kMostEntries =
+      1024;  // a fault log holds 128; a broken robot may never say that it ends
   std::vector<protocol::FaultLogEntry> entries;
   try {
     for (; entries.size() < kMostEntries; check_interrupt())

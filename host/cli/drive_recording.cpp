@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "host/base/error.hpp"
 #include "host/cli/console.hpp"
 #include "host/experiment/journal.hpp"
@@ -63,6 +65,7 @@ void DriveRecording::add(const recording::OdometrySample& sample) {
 }
 
 void DriveRecording::close() {
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
   if (!open_) return;
   open_ = false;
   writer_.close(info_);

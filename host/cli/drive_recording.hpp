@@ -28,11 +28,9 @@ class DriveRecording {
   DriveRecording& operator=(const DriveRecording&) = delete;
 
   /// Nothing any more once a sample could not be written: it is called amid a drive, which has to end in good
-  /// order before anybody hears of it. See failed().
+  /// order before anybody hears of it: the drive is to end where failed() is true, and close() says why.
   void add(const recording::OdometrySample& sample);
-  /// The drive is to end, and then to be told why by rethrow().
   bool failed() const { return failure_ != nullptr; }
-  void rethrow() const { std::rethrow_exception(failure_); }
 
   /// The same as the destructor, and throws where it cannot be written.
   void close();

@@ -94,17 +94,13 @@ void drive(DriveOptions& options, const DriveJob& job) {
     session.end();
   } catch (const link::Interrupted&) {
     const recording::OdometrySample end = odometry.fresh();
-    if (recording && recording->failed()) {
-      report(options, "interrupted", start, end, stopwatch.seconds());
-      say("the drive was ended because it could not be recorded; the robot is at rest and disarmed");
-      recording->rethrow();
-    }
-    if (recording) recording->close();
     report(options, "interrupted", start, end, stopwatch.seconds());
+    if (recording && recording->failed())
+      say("the drive was ended because it could not be recorded; the robot is at rest and disarmed");
+    if (recording) recording->close();
     throw;
   }
   const recording::OdometrySample end = odometry.fresh();
-  if (recording && recording->failed()) recording->rethrow();
   if (recording) recording->close();
   report(options, "completed", start, end, stopwatch.seconds());
 }

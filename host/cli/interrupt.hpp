@@ -13,7 +13,7 @@ bool interrupted();
 /// Throws link::Interrupted if the flag is set.
 void check_interrupt();
 
-/// Called by the second signal before it ends the program, and so restricted to what a signal handler may do;
+/// Called by the SIGINT that ends the program before it does so, and so restricted to what a signal handler may do;
 /// nullptr: nothing.
 void before_forced_exit(void (*act)());
 

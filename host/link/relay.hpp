@@ -25,8 +25,8 @@ namespace astro::link {
 /// Telemetry  the robot sends what serves all; each program gets the groups and the rate it asked for.
 /// Parameters the staging area belongs to the program that sent RevertParameters or DefaultParameters last;
 ///            what others then stage, commit or apply is refused as staging_lost.
-/// Bounds     what a program does not read is dropped: telemetry first; then the program is let go. So many may
-///            drive, change parameters or have telemetry; whoever only looks or stops needs no such place.
+/// Bounds     what a program does not read is dropped: telemetry first; then the program is let go. At most
+///            32 drive, change parameters or have telemetry; whoever only looks or stops needs no such place.
 class Relay {
  public:
   Relay();

@@ -172,8 +172,9 @@ void Relay::repeat(RelaySession& session, microseconds now) {
   // Only frames are passed on, and who says Hello is to know of a device that sends something else.
   constexpr std::array<std::uint8_t, 2> kNoFrame{0x55, 0};
   if (noise_ && exchange.header.message_id == Hello::kId) push(session, kNoFrame);
-  // Somebody has said Hello or drives by now, whose session a second first Hello would end.
-  if (exchange.header.message_id == Hello::kId && (hello_ || driver_))
+  // Somebody has said Hello or drives by now, whose session another Hello of an owner would end.
+  const bool owners = exchange.state == Exchange::State::sent && (exchange.robot_id & kOnlooker) == 0;
+  if (exchange.header.message_id == Hello::kId && (hello_ || (driver_ && owners)))
     return take_hello(session, Exchange(exchange.header, std::vector(exchange.body)), now);
   if (exchange.state == Exchange::State::waits) return;
   const bool onlooker =

@@ -83,7 +83,10 @@ class SharedPort {
     try {
       return listen_at(key);
     } catch (const Error& error) {
-      throw PortInUse(address_ + " is in use by another program: " + error.what(), key);
+      throw PortInUse(address_ +
+                          " is in use by another program, which shares it with nobody: end that one first (" +
+                          error.what() + ")",
+                      key);
     }
   }
 

@@ -114,7 +114,7 @@ void PartFile::open_part() {
     if (tries == kTries) give_up(part_.string() + " changes again and again: choose another folder");
     ::close(descriptor_);
   }
-  if (::ftruncate(descriptor_, 0) != 0) give_up("cannot empty " + part_.string() + ": " + reason(errno));
+  if (::ftruncate(descriptor_, 0) != 0) give_up(why_not("empty"));
 }
 
 void PartFile::give_up(const std::string& sentence) {
@@ -128,13 +128,14 @@ PartFile::~PartFile() {
   ::close(descriptor_);
 }
 
-void PartFile::fail(const std::string& what) const {
+std::string PartFile::why_not(const std::string& what) const {
   if (errno == ELOOP)
-    throw Error(part_.string() +
-                " is a link, and nothing is written through one: remove it or name another file");
-  throw Error("cannot " + what + " " + part_.string() + ": " + reason(errno) +
-              "; check the disk or choose another folder");
+    return part_.string() + " is a link, and nothing is written through one: remove it or name another file";
+  return "cannot " + what + " " + part_.string() + ": " + reason(errno) +
+         "; check the disk or choose another folder";
 }
+
+void PartFile::fail(const std::string& what) const { throw Error(why_not(what)); }
 
 void PartFile::write(ByteView bytes) {
   while (!bytes.empty()) {

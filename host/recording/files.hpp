@@ -37,6 +37,7 @@ class PartFile {
 
  private:
   void open_part();
+  std::string why_not(const std::string& what) const;  // by errno
   [[noreturn]] void fail(const std::string& what) const;
   [[noreturn]] void give_up(const std::string& sentence);
 

@@ -241,24 +241,6 @@ TEST_F(SharedPort, AnEmergencyStopWaitsForNobody) {
   EXPECT_TRUE(is_onlookers(rig.at_robot.back()));
 }
 
-TEST_F(SharedPort, AnEmergencyStopOvertakesWhatWaitsForTheLine) {
-  Relay relay;
-  const SessionId one = relay.join({11, "one"}), two = relay.join({22, "two"});
-  relay.from_session(one, Frame(Arm{}, 1).bytes(), rig.now);
-  relay.from_session(one, Frame(Ping{}, 2).bytes(), rig.now);
-  relay.to_robot().taken(3);  // the line has begun with the first frame
-  relay.from_session(two, Frame(EmergencyStop{}, 1).bytes(), rig.now);
-  protocol::Framer framer;
-  std::vector<std::uint8_t> order;
-  while (!relay.to_robot().empty()) {
-    for (const std::uint8_t byte : relay.to_robot().front())
-      if (const auto body = framer.push(byte)) order.push_back(body->front());
-    relay.to_robot().taken(relay.to_robot().front().size());
-  }
-  // The rest of the Arm is no frame by itself.
-  EXPECT_THAT(order, testing::ElementsAre(EmergencyStop::kId, Ping::kId));
-}
-
 /// The requests that wait for the line, in their order; the line takes them.
 std::vector<std::uint8_t> taken_from(Relay& relay) {
   protocol::Framer framer;
@@ -269,6 +251,17 @@ std::vector<std::uint8_t> taken_from(Relay& relay) {
     relay.to_robot().taken(relay.to_robot().front().size());
   }
   return order;
+}
+
+TEST_F(SharedPort, AnEmergencyStopOvertakesWhatWaitsForTheLine) {
+  Relay relay;
+  const SessionId one = relay.join({11, "one"}), two = relay.join({22, "two"});
+  relay.from_session(one, Frame(Arm{}, 1).bytes(), rig.now);
+  relay.from_session(one, Frame(Ping{}, 2).bytes(), rig.now);
+  relay.to_robot().taken(3);  // the line has begun with the first frame
+  relay.from_session(two, Frame(EmergencyStop{}, 1).bytes(), rig.now);
+  // The rest of the Arm is no frame by itself.
+  EXPECT_THAT(taken_from(relay), testing::ElementsAre(EmergencyStop::kId, Ping::kId));
 }
 
 TEST_F(SharedPort, WhatWasToMoveTheRobotAndHasNotGoneToItWhenAStopComesGoesNoMore) {
