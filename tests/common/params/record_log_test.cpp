@@ -67,6 +67,15 @@ TEST(RecordLog, ARottenLengthInTheLastUnitIsNotFollowedOutOfThePart) {
   }
 }
 
+TEST(RecordLog, ADamagedRecordCountsWhateverHalfOfTheNumbersItsOwnIsIn) {
+  for (const std::uint32_t sequence : {0U, 1U, 0x7FFF'FFFFU, 0x8000'0000U, 0xFFFF'FFFFU}) {
+    StrictFlash flash;
+    flash.put_back(0, whole_record(4, sequence - 1));
+    flash.put_back(kLogSectorBytes, header(500, sequence));
+    EXPECT_TRUE(found_in(flash).outrun()) << sequence;
+  }
+}
+
 TEST(RecordLog, ARecordMayFillItsSectorToTheLastByte) {
   for (std::uint32_t sector = 0; sector < Log::kSectors; ++sector) {
     StrictFlash flash;
