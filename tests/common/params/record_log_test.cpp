@@ -67,7 +67,7 @@ TEST(RecordLog, ARottenLengthInTheLastUnitIsNotFollowedOutOfThePart) {
   }
 }
 
-TEST(RecordLog, ADamagedRecordCountsWhateverHalfOfTheNumbersItsOwnIsIn) {
+TEST(RecordLog, ADamagedRecordIsReportedAsNewerWhateverItsSequenceNumber) {
   for (const std::uint32_t sequence : {0U, 1U, 0x7FFF'FFFFU, 0x8000'0000U, 0xFFFF'FFFFU}) {
     StrictFlash flash;
     flash.put_back(0, whole_record(4, sequence - 1));
