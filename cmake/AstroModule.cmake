@@ -3,6 +3,10 @@
 # astro_program(astrolabe SOURCES ... DEPENDS ... LIBRARIES ...)
 #   an executable in build/<preset>/bin.
 # DEPENDS names modules of this project and is held to cmake/layers.cmake; LIBRARIES names what Debian provides.
+# astro_subdirectories(): all folders below that have a CMakeLists.txt.
+# astro_family(host.robot)
+#   the same, and a target of that name which links all modules below: for tests, which may use everything. A module
+#   names the rooms that it uses.
 include(layers)
 set_property(GLOBAL PROPERTY ASTRO_MODULES "")
 
@@ -39,4 +43,22 @@ function(astro_program name)
   astro_check_edges(${name} ${folder} ${arg_DEPENDS})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE astro_compile ${arg_DEPENDS} ${arg_LIBRARIES})
+endfunction()
+
+macro(astro_subdirectories)
+  file(GLOB parts LIST_DIRECTORIES true RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS *)
+  foreach(part IN LISTS parts)
+    if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${part}/CMakeLists.txt)
+      add_subdirectory(${part})
+    endif()
+  endforeach()
+endmacro()
+
+function(astro_family name)
+  astro_subdirectories()
+  get_property(modules GLOBAL PROPERTY ASTRO_MODULES)
+  string(REPLACE "." "\\." pattern "${name}")
+  list(FILTER modules INCLUDE REGEX "^${pattern}\\.")
+  add_library(${name} INTERFACE)
+  target_link_libraries(${name} INTERFACE ${modules})
 endfunction()

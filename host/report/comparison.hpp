@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "host/calibration/umbmark.hpp"
+#include "host/calibration/end_poses/umbmark.hpp"
 
 /// Did the calibration help, by how much, and how sure is that?
 namespace astro::report {

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "host/recording/files.hpp"
+#include "host/base/files.hpp"
 #include "host/report/assets.hpp"
 #include "host/report/figures.hpp"
 #include "host/report/html.hpp"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "host/calibration/end_pose.hpp"
-#include "host/recording/run.hpp"
+#include "host/calibration/end_poses/end_pose.hpp"
+#include "host/recording/run/run.hpp"
 
 /// The before/after report: one HTML file that needs nothing but a browser.
 namespace astro::report {

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "host/recording/aligned_paths.hpp"
+#include "host/recording/run/aligned_paths.hpp"
 
 namespace astro::report {
 

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "host/recording/planar_pose.hpp"
-#include "host/recording/run.hpp"
+#include "host/recording/run/planar_pose.hpp"
+#include "host/recording/run/run.hpp"
 
 /// A run as the figures need it: what the robot believed and how wrong that was, at the same times.
 namespace astro::report {

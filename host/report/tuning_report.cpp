@@ -114,7 +114,7 @@ Section gains(const TuningInput& input) {
   return out;
 }
 
-std::string step_row(const std::string& what, const identification::StepFigures& figures) {
+std::string step_row(const std::string& what, const motor::StepFigures& figures) {
   return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
                      escape(capitalised(what)), fixed(1e3 * figures.rise_s, 0),
                      fixed(100 * figures.overshoot, 1), fixed(1e3 * figures.worst_error_mps, 1),

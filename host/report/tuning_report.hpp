@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "host/identification/motor_model.hpp"
-#include "host/identification/step_figures.hpp"
+#include "host/motor/model/motor_model.hpp"
+#include "host/motor/model/step_figures.hpp"
 #include "host/report/report.hpp"
 
 /// The page of `astrolabe tune`: what voltage does to the wheels, the gains that follow, and steps of speed
@@ -14,14 +14,14 @@ namespace astro::report {
 
 struct MotorFigure {
   std::string wheel;  // "left"
-  identification::MotorFit fit;
+  motor::MotorFit fit;
   double breakaway_forward_V = 0, breakaway_backward_V = 0;  // NaN: not seen
 };
 
 /// One wheel's answer. Series of equal length; `measured_mps` is empty where only a prediction is shown.
 struct StepLines {
   std::vector<double> time_s, set_point_mps, measured_mps, predicted_mps;
-  identification::StepFigures measured, predicted;
+  motor::StepFigures measured, predicted;
 };
 
 struct StepFigure {

@@ -7,8 +7,8 @@
 #include <ctime>
 #include <vector>
 
-#include "host/calibration/maximum_likelihood.hpp"
-#include "host/study/synthetic_drive.hpp"
+#include "host/calibration/likelihood/maximum_likelihood.hpp"
+#include "host/simulation/study/synthetic_drive.hpp"
 
 namespace {
 
@@ -19,15 +19,15 @@ using calibration::Trajectory;
 double cpu_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 std::vector<Trajectory> squares(int count) {
-  study::DriveModel model;
+  simulation::study::DriveModel model;
   model.carried = {1, 1, 0.29};
   model.actual = {1.0071, 1.0029, 0.29005};
   model.metres_per_count = 8.07e-5;
   std::vector<Trajectory> runs;
   for (int i = 0; i < count; ++i)
-    runs.push_back(study::synthetic_drive(study::square_course(3, i % 2 == 0 ? Sense::cw : Sense::ccw), model,
+    runs.push_back(simulation::study::synthetic_drive(simulation::study::square_course(3, i % 2 == 0 ? Sense::cw : Sense::ccw), model,
                                           fmt::format("run {}", i + 1),
-                                          study::derived_seed(1, static_cast<std::uint64_t>(i))));
+                                          simulation::study::derived_seed(1, static_cast<std::uint64_t>(i))));
   return runs;
 }
 

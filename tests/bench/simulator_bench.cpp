@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "host/experiment/experiment.hpp"
-#include "host/simulator/in_process.hpp"
+#include "host/experiment/drive/experiment.hpp"
+#include "host/simulation/robot/in_process.hpp"
 
 namespace {
 
@@ -28,13 +28,13 @@ sim::Config reference_robot() {
 
 /// Robot and world driving squares, telemetry at 100 Hz drained as a host would; no host work beside it.
 double speed_against_real_time() {
-  auto robot = std::make_shared<simulator::VirtualRobot>(reference_robot(), simulator::MocapConfig{});
-  link::Client client(std::make_unique<simulator::InProcessTransport>(robot));
+  auto robot = std::make_shared<simulation::VirtualRobot>(reference_robot(), simulation::MocapConfig{});
+  robot::Client client(std::make_unique<simulation::InProcessTransport>(robot));
   client.connect();
   client.pump(std::chrono::milliseconds(50));  // through boot
   client.request(protocol::Arm{});
   client.request(protocol::SetTelemetry{10, protocol::Telemetry::kPose | protocol::Telemetry::kCounts});
-  for (const auto& segment : link::square(3, link::Sense::ccw, {0.3, 1.0})) client.request(segment);
+  for (const auto& segment : robot::square(3, robot::Sense::ccw, {0.3, 1.0})) client.request(segment);
   const std::uint64_t from_us = robot->now_us();
   const double start_s = cpu_s();
   client.pump(std::chrono::seconds(50));
@@ -44,10 +44,10 @@ double speed_against_real_time() {
 double experiment_s(double& virtual_s, double& improvement) {
   const auto folder = std::filesystem::temp_directory_path() / fmt::format("astrolabe-bench-{}", getpid());
   const double start_s = cpu_s();
-  auto robot = std::make_shared<simulator::VirtualRobot>(reference_robot(), simulator::MocapConfig{});
-  link::Client client(std::make_unique<simulator::InProcessTransport>(robot));
+  auto robot = std::make_shared<simulation::VirtualRobot>(reference_robot(), simulation::MocapConfig{});
+  robot::Client client(std::make_unique<simulation::InProcessTransport>(robot));
   client.connect();
-  simulator::InProcessTruth truth(robot);
+  simulation::InProcessTruth truth(robot);
   experiment::Plan plan;
   plan.truth = "sim";
   const experiment::Results results = experiment::run_experiment(client, truth, plan, folder, {});

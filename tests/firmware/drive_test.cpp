@@ -14,7 +14,7 @@ using protocol::Mode;
 class Driving : public support::RobotOnBench {
  protected:
   void arm() { ask(protocol::Arm{}); }
-  void add(const link::Path& path, std::uint16_t first_tag = 1) {
+  void add(const robot::Path& path, std::uint16_t first_tag = 1) {
     for (protocol::AddSegment segment : path) {
       segment.tag = first_tag++;
       ask(segment);
@@ -36,7 +36,7 @@ class Driving : public support::RobotOnBench {
 TEST_F(Driving, OutputsAreOffAtBootAndStayOffUntilArmed) {
   EXPECT_TRUE(open());
   EXPECT_EQ(refusal(protocol::Velocity{100'000, 0}).code(), ErrorCode::not_armed);
-  EXPECT_EQ(refusal(link::line(1).front()).code(), ErrorCode::not_armed);
+  EXPECT_EQ(refusal(robot::line(1).front()).code(), ErrorCode::not_armed);
   silence_ms(100);
   EXPECT_TRUE(open());
   EXPECT_EQ(mode(), Mode::disarmed);
@@ -98,7 +98,7 @@ TEST_F(Driving, StopRampsWithinTheAccelerationLimitAndStaysArmed) {
 
 TEST_F(Driving, ALineEndsWhereItShould) {
   arm();
-  add(link::line(1));
+  add(robot::line(1));
   ASSERT_TRUE(until_rest());
   EXPECT_NEAR(x_m(), 1, 0.001);  // settles within half a millimetre
   EXPECT_NEAR(y_m(), 0, 0.001);
@@ -106,7 +106,7 @@ TEST_F(Driving, ALineEndsWhereItShould) {
 
 TEST_F(Driving, ASquareClosesInItsOwnOdometry) {
   arm();
-  add(link::square(3, link::Sense::ccw, {0.3, 1.0}));
+  add(robot::square(3, robot::Sense::ccw, {0.3, 1.0}));
   ASSERT_TRUE(until_rest());
   std::printf("3 m square: closes to %.2f mm, %.2f mrad\n", 1000 * std::hypot(x_m(), y_m()),
               1000 * theta_rad());
@@ -116,7 +116,7 @@ TEST_F(Driving, ASquareClosesInItsOwnOdometry) {
 
 TEST_F(Driving, AnArcTurnsByItsAngleAlongItsLength) {
   arm();
-  add(link::arc(0.5 * std::numbers::pi, 0.25));  // quarter circle of radius 1 m
+  add(robot::arc(0.5 * std::numbers::pi, 0.25));  // quarter circle of radius 1 m
   ASSERT_TRUE(until_rest());
   EXPECT_NEAR(x_m(), 1, 0.003);
   EXPECT_NEAR(y_m(), 1, 0.003);
@@ -130,7 +130,7 @@ TEST_F(Driving, SegmentsEndInOrderUnderTheirTags) {
     tags.push_back(done.tag);
   });
   arm();
-  add(link::square(0.2, link::Sense::cw), 11);
+  add(robot::square(0.2, robot::Sense::cw), 11);
   ASSERT_TRUE(until_rest());
   run_ms(20);
   EXPECT_EQ(tags, (std::vector<int>{11, 12, 13, 14, 15, 16, 17, 18}));
@@ -142,7 +142,7 @@ TEST_F(Driving, StopAbortsTheQueueAndSaysSo) {
     aborted += done.outcome == protocol::SegmentOutcome::aborted ? 1 : 0;
   });
   arm();
-  add(link::square(1, link::Sense::cw));
+  add(robot::square(1, robot::Sense::cw));
   run_ms(500);
   ask(protocol::Stop{});
   ASSERT_TRUE(until_rest());
@@ -152,9 +152,9 @@ TEST_F(Driving, StopAbortsTheQueueAndSaysSo) {
 
 TEST_F(Driving, TheQueueTakesSixteenBesidesTheOneUnderWay) {
   arm();
-  add(link::line(5));
+  add(robot::line(5));
   run_ms(10);
-  protocol::AddSegment more = link::line(0.1).front();
+  protocol::AddSegment more = robot::line(0.1).front();
   for (int i = 0; i < 16; ++i) ask(more);
   EXPECT_EQ(refusal(more).code(), ErrorCode::queue_full);
 }
@@ -162,17 +162,17 @@ TEST_F(Driving, TheQueueTakesSixteenBesidesTheOneUnderWay) {
 TEST_F(Driving, RefusesSegmentsThatAreNone) {
   arm();
   EXPECT_EQ(refusal(protocol::AddSegment{}).code(), ErrorCode::out_of_range) << "empty";
-  protocol::AddSegment bent = link::line(1).front();
+  protocol::AddSegment bent = robot::line(1).front();
   bent.angle = 1 << 20;
   EXPECT_EQ(refusal(bent).code(), ErrorCode::out_of_range) << "a line does not turn";
-  protocol::AddSegment backward_speed = link::line(1).front();
+  protocol::AddSegment backward_speed = robot::line(1).front();
   backward_speed.speed_umps = -1;
   EXPECT_EQ(refusal(backward_speed).code(), ErrorCode::out_of_range);
 }
 
 TEST_F(Driving, WhatNeedsRestIsRefusedWhileMoving) {
   arm();
-  add(link::line(1));
+  add(robot::line(1));
   run_ms(200);
   EXPECT_EQ(refusal(protocol::SetPose{}).code(), ErrorCode::moving);
   EXPECT_EQ(refusal(protocol::CommitParameters{}).code(), ErrorCode::moving);
@@ -183,7 +183,7 @@ TEST_F(Driving, WhatNeedsRestIsRefusedWhileMoving) {
 
 TEST_F(Driving, DisarmOpensTheBridgesAtOnce) {
   arm();
-  add(link::line(1));
+  add(robot::line(1));
   run_ms(500);
   ASSERT_TRUE(powered());
   ask(protocol::Disarm{});
@@ -204,8 +204,8 @@ TEST(Wiring, PolarityParametersMakeForwardForward) {
   config.slip_m = 0;
   config.wiring.left_motor_reversed = true;
   config.wiring.left_encoder_reversed = true;
-  auto robot = std::make_shared<simulator::VirtualRobot>(config, simulator::MocapConfig{});
-  link::Client client(std::make_unique<simulator::InProcessTransport>(robot));
+  auto robot = std::make_shared<simulation::VirtualRobot>(config, simulation::MocapConfig{});
+  robot::Client client(std::make_unique<simulation::InProcessTransport>(robot));
   client.connect();
   client.pump(std::chrono::milliseconds(50));  // through boot
   client.request(protocol::RevertParameters{});
@@ -213,7 +213,7 @@ TEST(Wiring, PolarityParametersMakeForwardForward) {
   client.request(protocol::StageParameter{static_cast<std::uint16_t>(Param::encoder_polarity_left), -1, {}});
   client.request(protocol::CommitParameters{});
   client.request(protocol::Arm{});
-  client.request(link::line(0.5).front());
+  client.request(robot::line(0.5).front());
   client.pump(std::chrono::seconds(4));
   EXPECT_NEAR(robot->board().truth().x_m, 0.5, 0.002);
   EXPECT_NEAR(robot->board().truth().theta_rad, 0, 0.003);
@@ -259,7 +259,7 @@ TEST_F(Driving, WheelVoltagesAreRefusedWhileTheRobotDrives) {
 
 TEST_F(Driving, APauseStopsOnThePathAndResumeEndsItWhereItShould) {
   arm();
-  add(link::arc(1, 0.25 / std::numbers::pi));  // half a radian
+  add(robot::arc(1, 0.25 / std::numbers::pi));  // half a radian
   run_ms(1200);
   ask(protocol::Pause{});
   ASSERT_TRUE(client_.pump_until([&] { return mode() == Mode::paused; }, std::chrono::seconds(5)));
@@ -282,7 +282,7 @@ TEST_F(Driving, APausedPathReportsItsSegmentDoneOnceAndItsStartTwice) {
   const auto on_start = client_.on<protocol::SegmentStarted>([&](const auto&) { ++started; });
   const auto on_done = client_.on<protocol::SegmentDone>([&](const auto&) { ++done; });
   arm();
-  add(link::line(0.5));
+  add(robot::line(0.5));
   run_ms(500);
   ask(protocol::Pause{});
   run_ms(3000);
@@ -295,7 +295,7 @@ TEST_F(Driving, APausedPathReportsItsSegmentDoneOnceAndItsStartTwice) {
 
 TEST_F(Driving, PausedAgainAndAgainALineStillEndsToTheMillimetre) {
   arm();
-  add(link::line(1));
+  add(robot::line(1));
   for (int i = 0; i < 6; ++i) {
     run_ms(400);
     ask(protocol::Pause{});
@@ -310,7 +310,7 @@ TEST_F(Driving, PausedAgainAndAgainALineStillEndsToTheMillimetre) {
 TEST_F(Driving, WhilePausedTheQueueFillsAndNothingMoves) {
   arm();
   ask(protocol::Pause{});
-  add(link::square(0.2, link::Sense::cw));
+  add(robot::square(0.2, robot::Sense::cw));
   run_ms(2000);
   EXPECT_EQ(mode(), Mode::paused);
   EXPECT_EQ(drive().queued(), 8U);
@@ -322,7 +322,7 @@ TEST_F(Driving, WhilePausedTheQueueFillsAndNothingMoves) {
 
 TEST_F(Driving, StopEndsAPausedPath) {
   arm();
-  add(link::line(1));
+  add(robot::line(1));
   run_ms(500);
   ask(protocol::Pause{});
   run_ms(2000);
@@ -335,7 +335,7 @@ TEST_F(Driving, StopEndsAPausedPath) {
 
 TEST_F(Driving, ARobotThatIsCarriedAwayWhilePausedDoesNotRaceBack) {
   arm();
-  add(link::line(1));
+  add(robot::line(1));
   run_ms(500);
   ask(protocol::Pause{});
   run_ms(2000);
@@ -349,7 +349,7 @@ TEST_F(Driving, ARobotThatIsCarriedAwayWhilePausedDoesNotRaceBack) {
 TEST_F(Driving, APoseThatIsSetWhilePausedIsWhereThePathGoesOnHoweverNearItIs) {
   // 30 mm are within what the robot would otherwise take for its own error, and correct.
   arm();
-  add(link::line(1));
+  add(robot::line(1));
   run_ms(500);
   ask(protocol::Pause{});
   run_ms(2000);
@@ -376,9 +376,9 @@ TEST_F(Driving, AStopSegmentStandsForItsTime) {
   EXPECT_EQ(refusal(stand).code(), ErrorCode::out_of_range) << "for no time at all";
   stand.dwell_ms = 700;
   stand.tag = 2;
-  add(link::line(0.1));
+  add(robot::line(0.1));
   ask(stand);
-  add(link::line(0.1), 3);
+  add(robot::line(0.1), 3);
   ASSERT_TRUE(until_rest());
   run_ms(20);
   ASSERT_EQ(done.size(), 3U);
@@ -396,8 +396,8 @@ TEST_F(Driving, TelemetryTellsHowThePathIsFollowed) {
   });
   ask(protocol::SetTelemetry{5, protocol::Telemetry::kPath});
   arm();
-  add(link::line(0.3));
-  add(link::line(0.1), 2);
+  add(robot::line(0.3));
+  add(robot::line(0.1), 2);
   run_ms(300);
   EXPECT_EQ(last.path.queued, 1);
   EXPECT_EQ(last.path.tag, 1);
@@ -408,7 +408,7 @@ TEST_F(Driving, TelemetryTellsHowThePathIsFollowed) {
 
 TEST_F(Driving, ARobotThatIsTurnedWhilePausedDoesNotSpinBack) {
   arm();
-  add(link::line(1));
+  add(robot::line(1));
   run_ms(500);
   ask(protocol::Pause{});
   run_ms(2000);

@@ -21,14 +21,14 @@ class FaultLogOfARobot : public support::RobotOnBench {
     std::vector<FaultLogEntry> all;
     try {
       while (true) all.push_back(ask(protocol::GetFaultLog{static_cast<std::uint16_t>(all.size())}));
-    } catch (const link::RobotRefused& refused) {
+    } catch (const robot::RobotRefused& refused) {
       EXPECT_EQ(refused.code(), protocol::ErrorCode::out_of_range);
     }
     return all;
   }
   void drive_line() {
     ask(protocol::Arm{});
-    ask(link::line(5).front());
+    ask(robot::line(5).front());
     run_ms(1500);
     ASSERT_EQ(mode(), Mode::segment);
   }

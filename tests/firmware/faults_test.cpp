@@ -16,7 +16,7 @@ class Faults : public support::RobotOnBench {
  protected:
   void drive_line() {
     ask(protocol::Arm{});
-    ask(link::line(5).front());
+    ask(robot::line(5).front());
     run_ms(1000);
     ASSERT_TRUE(powered());
   }
@@ -24,7 +24,7 @@ class Faults : public support::RobotOnBench {
     EXPECT_TRUE(open()) << "outputs are off";
     EXPECT_EQ(mode(), Mode::fault);
     EXPECT_EQ(drive().faults().first(), fault) << name(drive().faults().first());
-    const link::RobotRefused refused = refusal(protocol::Arm{});
+    const robot::RobotRefused refused = refusal(protocol::Arm{});
     EXPECT_EQ(refused.code(), ErrorCode::faulted);
     EXPECT_EQ(refused.detail(), static_cast<std::uint16_t>(fault));
     silence_ms(2000);
@@ -106,7 +106,7 @@ TEST_F(Faults, OverVoltage) {
 TEST_F(Faults, AWheelThatIsHeldStalls) {
   ask(protocol::Arm{});
   board().set_load(sim::Side::left, {.torque_Nm = 0, .drag_Nm = 100});
-  ask(link::line(5).front());
+  ask(robot::line(5).front());
   run_ms(3000);
   expect_latched(Fault::stall);
 }
@@ -146,7 +146,7 @@ TEST_F(Faults, EveryFaultInEveryModeEndsWithOutputsOff) {
       [&] {
         ask(protocol::Arm{}), ask(protocol::Velocity{200'000, 500'000});
       },
-      [&] { ask(protocol::Arm{}), ask(link::line(3).front()); },
+      [&] { ask(protocol::Arm{}), ask(robot::line(3).front()); },
       [&] {
         ask(protocol::Arm{}), ask(protocol::Velocity{200'000, 0}), run_ms(150), ask(protocol::Stop{});
       },

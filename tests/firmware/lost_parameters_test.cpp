@@ -69,7 +69,7 @@ TEST_F(LostParameters, AllSectorsGoneIsAFaultThatSaysSoUntilSomebodyCommitsAgain
     power_cycle();
     EXPECT_EQ(faults(), bit(Fault::parameters));
     EXPECT_EQ(in_force(), 290'000'000) << "the default";
-    const link::RobotRefused refused = refusal(protocol::Arm{});
+    const robot::RobotRefused refused = refusal(protocol::Arm{});
     EXPECT_EQ(refused.code(), ErrorCode::faulted);
     EXPECT_EQ(refused.detail(), static_cast<int>(Fault::parameters));
   }
@@ -142,7 +142,7 @@ TEST_F(LostParameters, APowerCutAnywhereInACommitRaisesNoAlarmAndHidesNoLoss) {
       --committed_;
       try {
         commit();
-      } catch (const link::RobotRefused&) {
+      } catch (const robot::RobotRefused&) {
         ++committed_;
       }
       power_cycle();

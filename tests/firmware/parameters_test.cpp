@@ -41,7 +41,7 @@ TEST_F(Parameters, AnInvalidSetNamesTheParameterAndChangesNothing) {
   open_staging();
   stage(Param::c_R, kOne_30 + 1000);
   stage(Param::b, 1);  // a nanometre
-  const link::RobotRefused refused = refusal(protocol::CommitParameters{});
+  const robot::RobotRefused refused = refusal(protocol::CommitParameters{});
   EXPECT_EQ(refused.code(), ErrorCode::invalid_parameter);
   EXPECT_EQ(refused.detail(), id(Param::b));
   EXPECT_EQ(active(Param::c_R), kOne_30);
@@ -63,7 +63,7 @@ TEST_F(Parameters, RevertDropsAndDefaultsStage) {
 
 TEST_F(Parameters, ThePoseStaysWhereItIsAcrossACommit) {
   ask(protocol::Arm{});
-  ask(link::line(0.3).front());
+  ask(robot::line(0.3).front());
   run_ms(3000);
   const Pose before = drive().pose();
   ask(protocol::Disarm{});
@@ -207,7 +207,7 @@ TEST_F(Parameters, OnlyWhoOpensTheStagingAreaChangesParameters) {
 }
 
 TEST_F(Parameters, ASecondHostTakesTheStagingAreaAndTheFirstIsToldNothingIsMixed) {
-  link::Client other(std::make_unique<simulator::InProcessTransport>(robot_, 1));
+  robot::Client other(std::make_unique<simulation::InProcessTransport>(robot_, 1));
   other.connect();
   open_staging();
   stage(Param::c_R, kOne_30 + 1000);
@@ -239,7 +239,7 @@ TEST_F(Parameters, ANewSessionCommitsNothingThatTheOneBeforeItStaged) {
 TEST_F(Parameters, AHelloAtTheOtherPortLeavesTheStagingAreaAlone) {
   open_staging();
   stage(Param::b, 300'000'000);
-  link::Client other(std::make_unique<simulator::InProcessTransport>(robot_, 1));
+  robot::Client other(std::make_unique<simulation::InProcessTransport>(robot_, 1));
   other.connect();
   ask(protocol::CommitParameters{});
   EXPECT_EQ(active(Param::b), 300'000'000);

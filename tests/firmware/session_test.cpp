@@ -49,8 +49,8 @@ class Frames : public support::RobotOnBench {
 TEST_F(Frames, ARepeatedRequestIsAnsweredAgainAndCarriedOutOnce) {
   received();  // Booted
   send(protocol::Arm{}, 1);
-  send(link::line(1).front(), 2);
-  send(link::line(1).front(), 2);
+  send(robot::line(1).front(), 2);
+  send(robot::line(1).front(), 2);
   const auto all = received();
   const auto replies = std::count_if(all.begin(), all.end(), [](const Answer& one) {
     return one.header.request_id != 0;  // events have none
@@ -107,9 +107,9 @@ TEST_F(Frames, AFaultThatIsClearedInTheTurnInWhichItCameIsToldAndLogged) {
 
 TEST_F(Frames, APingInBetweenDoesNotMakeTheRobotForget) {
   send(protocol::Arm{}, 1);
-  send(link::line(1).front(), 2);
+  send(robot::line(1).front(), 2);
   send(protocol::Ping{}, 3);
-  send(link::line(1).front(), 2);
+  send(robot::line(1).front(), 2);
   received();
   EXPECT_EQ(drive().queued() + (drive().mode() == protocol::Mode::segment ? 1U : 0U), 1U);
 }
@@ -119,9 +119,9 @@ constexpr std::uint16_t kOnlooker = protocol::kOnlookerBit;
 TEST_F(Frames, AnOnlookersRequestDoesNotMakeTheRobotForgetTheDriversNorTheOtherWayRound) {
   received();
   send(protocol::Arm{}, 1);
-  send(link::line(1).front(), 2);
+  send(robot::line(1).front(), 2);
   send(protocol::GetStatus{}, kOnlooker + 2);
-  send(link::line(1).front(), 2);
+  send(robot::line(1).front(), 2);
   received();
   EXPECT_EQ(drive().queued() + (drive().mode() == protocol::Mode::segment ? 1U : 0U), 1U);
   send(protocol::Stop{}, kOnlooker + 3);
@@ -135,7 +135,7 @@ TEST_F(Frames, AnOnlookersRequestDoesNotMakeTheRobotForgetTheDriversNorTheOtherW
 
 TEST_F(Frames, AnOnlookerAtTheDriversPortDoesNotKeepADriveAlive) {
   ask(protocol::Arm{});
-  ask(link::line(5).front());  // from port 0, whose owner then falls silent
+  ask(robot::line(5).front());  // from port 0, whose owner then falls silent
   for (std::uint16_t i = 0; i < 30; ++i) {
     send(protocol::GetStatus{}, kOnlooker + 1 + i, 0);
     send(protocol::Hello{}, kOnlooker + 100 + i, 0);
@@ -146,14 +146,14 @@ TEST_F(Frames, AnOnlookerAtTheDriversPortDoesNotKeepADriveAlive) {
 
 TEST_F(Frames, AnOnlookerWhoseMotionIsTakenIsTheDriverAndItsFramesAreTheSignsOfLife) {
   send(protocol::Arm{}, kOnlooker + 1);
-  send(link::line(0.5).front(), kOnlooker + 2);
+  send(robot::line(0.5).front(), kOnlooker + 2);
   for (std::uint16_t i = 0; i < 30; ++i) {
     send(protocol::Ping{}, kOnlooker + 10 + i);
     silence_ms(100);
   }
   EXPECT_EQ(drive().faults().mask(), 0U);
   EXPECT_NEAR(board().truth().x_m, 0.5, 0.005);
-  send(link::line(5).front(), kOnlooker + 50);
+  send(robot::line(5).front(), kOnlooker + 50);
   for (std::uint16_t i = 0; i < 30; ++i) {
     send(protocol::Ping{}, 10 + i);  // of the port's owner, who does not drive
     silence_ms(100);
@@ -165,7 +165,7 @@ TEST_F(Frames, AHelloOfAnOnlookerIsAnsweredAndBeginsNoSession) {
   ask(protocol::Arm{});
   ask(protocol::SetTelemetry{100, protocol::Telemetry::kBattery});
   ask(protocol::RevertParameters{});
-  ask(link::line(0.5).front());
+  ask(robot::line(0.5).front());
   int samples = 0;
   const auto telemetry = client_.on<protocol::Telemetry>([&](const auto&) { ++samples; });
   for (std::uint16_t i = 0; i < 6; ++i) {
@@ -183,7 +183,7 @@ TEST_F(Frames, AnOnlookerStopsWhatTheDriverDrives) {
   for (int i = 0; i < 3; ++i) {
     ask(protocol::ClearFaults{});
     ask(protocol::Arm{});
-    ask(link::line(5).front());
+    ask(robot::line(5).front());
     run_ms(300);
     if (i == 0) send(protocol::Stop{}, kOnlooker + 1, 0);
     if (i == 1) send(protocol::Disarm{}, kOnlooker + 2, 0);
@@ -207,17 +207,17 @@ TEST_F(Frames, ARequestWithId0IsNeitherCarriedOutNorAnswered) {
 
 TEST_F(Frames, ANewSessionMayReuseIds) {
   send(protocol::Arm{}, 1);
-  send(link::line(1).front(), 2);
+  send(robot::line(1).front(), 2);
   received();
   send(protocol::Hello{}, 1);
-  send(link::line(1).front(), 2);
+  send(robot::line(1).front(), 2);
   received();
   EXPECT_EQ(drive().queued() + (drive().mode() == protocol::Mode::segment ? 1U : 0U), 2U);
 }
 
 TEST_F(Frames, AnOnlookerAtAnotherPortDoesNotKeepADriveAlive) {
   ask(protocol::Arm{});
-  ask(link::line(5).front());  // from port 0, which then falls silent
+  ask(robot::line(5).front());  // from port 0, which then falls silent
   for (int i = 0; i < 30; ++i) {
     send(protocol::Ping{}, 1, 1);
     silence_ms(100);
@@ -227,7 +227,7 @@ TEST_F(Frames, AnOnlookerAtAnotherPortDoesNotKeepADriveAlive) {
 
 TEST_F(Frames, ANewSessionDoesNotKeepTheDriveOfTheLastOneAlive) {
   ask(protocol::Arm{});
-  ask(link::line(5).front());
+  ask(robot::line(5).front());
   run_ms(300);
   client_.connect();
   run_ms(3000);  // pings all the time
@@ -239,7 +239,7 @@ TEST_F(Frames, AfterTheDriverSaidHelloTrafficAtNoPortKeepsItsDriveAlive) {
     const int other = 1 - driver;
     send(protocol::Hello{}, 100, driver);
     send(protocol::Arm{}, 101, driver);
-    send(link::line(5).front(), 102, driver);
+    send(robot::line(5).front(), 102, driver);
     silence_ms(150);
     send(protocol::Hello{}, 103, driver);
     for (std::uint16_t i = 0; i < 30; ++i) {
@@ -256,7 +256,7 @@ TEST_F(Frames, AfterTheDriverSaidHelloTrafficAtNoPortKeepsItsDriveAlive) {
 
 TEST_F(Frames, WhoPausesAndResumesAtAnotherPortLeavesTheDriveToItsDriver) {
   ask(protocol::Arm{});
-  ask(link::line(0.5).front());
+  ask(robot::line(0.5).front());
   run_ms(500);
   send(protocol::Pause{}, 1);
   run_ms(1000);
@@ -269,7 +269,7 @@ TEST_F(Frames, WhoPausesAndResumesAtAnotherPortLeavesTheDriveToItsDriver) {
 
 TEST_F(Frames, APathThatIsResumedAfterItsDriverHasGoneEndsByTheTimeout) {
   ask(protocol::Arm{});
-  ask(link::line(0.5).front());
+  ask(robot::line(0.5).front());
   run_ms(500);
   ask(protocol::Pause{});
   run_ms(1000);
@@ -287,7 +287,7 @@ TEST_F(Frames, APathThatIsResumedAfterItsDriverHasGoneEndsByTheTimeout) {
 TEST_F(Frames, NobodyElseArmsDuringADriveNorWhileItIsPaused) {
   received();
   ask(protocol::Arm{});
-  ask(link::line(0.5).front());
+  ask(robot::line(0.5).front());
   run_ms(500);
   send(protocol::Arm{}, 1);
   EXPECT_EQ(error(received().back()), ErrorCode::moving);
@@ -307,7 +307,7 @@ TEST_F(Frames, NobodyElseArmsDuringADriveNorWhileItIsPaused) {
 
 TEST_F(Frames, ARefusedRequestDoesNotMakeItsSenderTheDriver) {
   send(protocol::Arm{}, 1);
-  send(link::line(5).front(), 2);
+  send(robot::line(5).front(), 2);
   for (int i = 0; i < 10; ++i) {
     send(protocol::Ping{}, static_cast<std::uint16_t>(10 + i));
     send(protocol::AddSegment{}, static_cast<std::uint16_t>(30 + i), 0);  // empty: out of range
@@ -375,7 +375,7 @@ TEST_F(Frames, AHostThatNeverReadsDoesNotHoldTheRobotUp) {
   send(protocol::SetTelemetry{1, protocol::Telemetry::kAll}, 1);
   silence_ms(5000);  // far more than the queue holds
   ask(protocol::Arm{});
-  ask(link::line(0.2).front());
+  ask(robot::line(0.2).front());
   run_ms(3000);
   EXPECT_NEAR(board().truth().x_m, 0.2, 0.002);
 }

@@ -1,6 +1,6 @@
 // ROS 2 messages.
-#include "host/recording/cdr.hpp"
-#include "host/recording/ros_messages.hpp"
+#include "host/ros2/cdr.hpp"
+#include "host/ros2/ros_messages.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace astro::fuzz {

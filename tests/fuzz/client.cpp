@@ -4,8 +4,8 @@
 
 #include "common/protocol/frame.hpp"
 #include "common/protocol/messages.hpp"
-#include "host/link/client.hpp"
-#include "host/link/parameters.hpp"
+#include "host/robot/client/client.hpp"
+#include "host/robot/parameters/parameters.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace astro::fuzz {
@@ -13,7 +13,7 @@ namespace {
 
 /// Each request is answered by the next piece of the input: a length, then a body whose request id becomes
 /// that of the request unless its length has the highest bit set; then it is sent as it is.
-class Stranger : public link::Transport {
+class Stranger : public robot::Transport {
  public:
   explicit Stranger(ByteView input) : input_(input) {}
 
@@ -21,16 +21,16 @@ class Stranger : public link::Transport {
     for (const std::uint8_t byte : bytes)
       if (const auto body = framer_.push(byte)) answer(protocol::peek(*body)->request_id);
   }
-  std::size_t read(std::span<std::uint8_t> into, link::microseconds timeout) override {
+  std::size_t read(std::span<std::uint8_t> into, robot::microseconds timeout) override {
     if (out_.empty()) now_ += timeout;
-    if (out_.empty() && input_.empty() && ++silences_ > 50) throw link::LinkLost("the input has ended");
+    if (out_.empty() && input_.empty() && ++silences_ > 50) throw robot::LinkLost("the input has ended");
     const std::size_t size = std::min(into.size(), out_.size());
     std::copy_n(out_.begin(), size, into.begin());
     out_.erase(out_.begin(), out_.begin() + static_cast<std::ptrdiff_t>(size));
     return size;
   }
-  link::microseconds now() const override { return now_; }
-  void reopen(link::microseconds) override {}
+  robot::microseconds now() const override { return now_; }
+  void reopen(robot::microseconds) override {}
   const std::string& name() const override { return name_; }
 
  private:
@@ -52,7 +52,7 @@ class Stranger : public link::Transport {
   ByteView input_;
   protocol::Framer framer_;
   Bytes out_;
-  link::microseconds now_{0};
+  robot::microseconds now_{0};
   int silences_ = 0;
   std::string name_ = "stranger";
 };
@@ -69,13 +69,13 @@ void append_answer(Bytes& to, const M& message) {
 
 void take(ByteView input) {
   Stranger stranger(input);
-  link::Client client(stranger);
+  robot::Client client(stranger);
   try {
     client.connect({std::chrono::milliseconds(100), 2});
-    auto parameters = link::RemoteParameters::fetch(client);
-    for (const link::ParameterRow& row : parameters.rows()) {
-      const link::Value value = parameters.value(row.name);
-      link::describe(row, value);
+    auto parameters = robot::RemoteParameters::fetch(client);
+    for (const robot::ParameterRow& row : parameters.rows()) {
+      const robot::Value value = parameters.value(row.name);
+      robot::describe(row, value);
       parameters.stage(row.name, value);
     }
     client.request(protocol::GetStatus{});

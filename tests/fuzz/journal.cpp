@@ -3,7 +3,7 @@
 #include <iterator>
 
 #include "host/base/error.hpp"
-#include "host/experiment/journal.hpp"
+#include "host/experiment/files/journal.hpp"
 #include "tests/fuzz/input_file.hpp"
 #include "tests/fuzz/target.hpp"
 

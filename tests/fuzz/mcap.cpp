@@ -1,11 +1,11 @@
 // Recordings: the container with all that it holds, and a run put together from it. The first byte says
 // whether the rest is a file, or the content of a chunk of an otherwise intact file, behind its checksums.
 #include "host/base/error.hpp"
-#include "host/recording/mcap_reader.hpp"
-#include "host/recording/mcap_writer.hpp"
-#include "host/recording/ros_messages.hpp"
-#include "host/recording/run_file.hpp"
-#include "host/recording/run_metadata.hpp"
+#include "host/recording/mcap/reader.hpp"
+#include "host/recording/mcap/writer.hpp"
+#include "host/ros2/ros_messages.hpp"
+#include "host/recording/files/run_file.hpp"
+#include "host/recording/run/run_metadata.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace astro::fuzz {

@@ -2,16 +2,16 @@
 #include <cmath>
 
 #include "host/base/plain_text.hpp"
-#include "host/cli/options.hpp"
-#include "host/recording/numbers.hpp"
+#include "host/console/options.hpp"
+#include "host/base/numbers.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace astro::fuzz {
 
 void take(ByteView input) {
   const std::string text(text_of(input));
-  for (const cli::Check& check :
-       {cli::between(-3, 5, "m"), cli::positive("s"), cli::finite(), cli::fraction()}) {
+  for (const console::Check& check :
+       {console::between(-3, 5, "m"), console::positive("s"), console::finite(), console::fraction()}) {
     std::string word = text;
     if (!check(word).empty()) continue;
     const std::string_view digits = std::string_view(word).substr(word.starts_with('+') ? 1 : 0);
@@ -19,7 +19,7 @@ void take(ByteView input) {
     require(value && std::isfinite(*value), "a number that was let through is finite");
   }
   std::string word = text;
-  if (cli::whole(1, 1000)(word).empty())
+  if (console::whole(1, 1000)(word).empty())
     require(std::stoull(word) >= 1 && std::stoull(word) <= 1000,
             "a count that was let through is within its limits");
   const std::string plain = plain_text(text);

@@ -2,7 +2,7 @@
 // frames.
 #include "common/protocol/frame.hpp"
 #include "common/protocol/messages.hpp"
-#include "host/simulator/virtual_robot.hpp"
+#include "host/simulation/robot/virtual_robot.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace astro::fuzz {
@@ -28,7 +28,7 @@ Piece next(ByteView& input) {
 }  // namespace
 
 void take(ByteView input) {
-  simulator::VirtualRobot robot(sim::Config{}, {});
+  simulation::VirtualRobot robot(sim::Config{}, {});
   std::array<std::uint8_t, 8192> out{};
   for (int pieces = 0; !input.empty() && pieces < 40; ++pieces) {
     const Piece piece = next(input);

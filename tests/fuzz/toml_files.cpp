@@ -3,7 +3,7 @@
 #include <iterator>
 
 #include "host/base/error.hpp"
-#include "host/experiment/calibration_file.hpp"
+#include "host/experiment/analysis/calibration_file.hpp"
 #include "tests/fuzz/input_file.hpp"
 #include "tests/fuzz/target.hpp"
 

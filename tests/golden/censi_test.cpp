@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "host/calibration/relative_pose.hpp"
+#include "host/calibration/preparation/relative_pose.hpp"
 
 // The closed form against the answers that its authors published for a Khepera III with a laser scanner.
 namespace astro::golden {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/calibration/trajectory.hpp"
+#include "host/calibration/motion/trajectory.hpp"
 
 /// The OptiOdom recordings of Sousa et al. (INESC TEC, MIT licence): a real robot, encoder ticks and
 /// OptiTrack. Read where they are at hand (../shared/data/sousa_optiodom beside the checkout), never copied.

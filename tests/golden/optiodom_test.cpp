@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <numbers>
 
-#include "host/calibration/maximum_likelihood.hpp"
-#include "host/calibration/path_errors.hpp"
-#include "host/calibration/umbmark.hpp"
+#include "host/calibration/likelihood/maximum_likelihood.hpp"
+#include "host/calibration/judgement/path_errors.hpp"
+#include "host/calibration/end_poses/umbmark.hpp"
 
 // A real robot that knew nothing of this project: OptiTrack and ticks of Sousa et al.
 namespace astro::golden {

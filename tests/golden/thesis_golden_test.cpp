@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "host/calibration/end_pose_csv.hpp"
-#include "host/calibration/umbmark.hpp"
+#include "host/calibration/end_poses/end_pose_csv.hpp"
+#include "host/calibration/end_poses/umbmark.hpp"
 #include "tests/golden/printed.hpp"
 #include "tests/golden/thesis_tables.hpp"
 

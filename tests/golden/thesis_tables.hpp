@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "host/calibration/end_pose.hpp"
+#include "host/calibration/end_poses/end_pose.hpp"
 
 /// Tables 11-16 of the thesis: end-pose errors (absolute - odometry) of the real robot on a 3 m square, five
 /// runs per direction, before calibration, after UMBmark and after extended UMBmark.

@@ -5,8 +5,8 @@
 #include <functional>
 #include <map>
 
-#include "host/link/client.hpp"
-#include "host/simulator/virtual_robot.hpp"
+#include "host/robot/client/client.hpp"
+#include "host/simulation/robot/virtual_robot.hpp"
 #include "tests/common/fixed/seeded.hpp"
 
 // Long random lives of a robot: commands, faults, silence, noise on the line, power cuts and restarts in any
@@ -15,7 +15,7 @@ namespace astro {
 namespace {
 
 using protocol::Mode;
-using simulator::VirtualRobot;
+using simulation::VirtualRobot;
 
 constexpr int kSteps = 50'000;
 
@@ -74,7 +74,7 @@ class Witness {
 };
 
 /// The link in process, with the witness at every tick.
-class WitnessedTransport : public link::Transport {
+class WitnessedTransport : public robot::Transport {
  public:
   WitnessedTransport(VirtualRobot& robot, Witness& witness) : robot_(robot), witness_(witness) {}
 
@@ -84,18 +84,18 @@ class WitnessedTransport : public link::Transport {
       if (!bytes.empty()) step();
     }
   }
-  std::size_t read(std::span<std::uint8_t> into, link::microseconds timeout) override {
-    const link::microseconds deadline = now() + timeout;
+  std::size_t read(std::span<std::uint8_t> into, robot::microseconds timeout) override {
+    const robot::microseconds deadline = now() + timeout;
     while (true) {
       const std::size_t count = robot_.board().ports().host_read(0, into);
       if (count != 0 || now() >= deadline) return count;
       step();
     }
   }
-  link::microseconds now() const override {
-    return link::microseconds(static_cast<std::int64_t>(robot_.board().world_us()));
+  robot::microseconds now() const override {
+    return robot::microseconds(static_cast<std::int64_t>(robot_.board().world_us()));
   }
-  void reopen(link::microseconds) override {}
+  void reopen(robot::microseconds) override {}
   const std::string& name() const override { return name_; }
 
   void step() {
@@ -111,7 +111,7 @@ class WitnessedTransport : public link::Transport {
 
 class Campaign {
  public:
-  explicit Campaign(std::uint64_t seed) : random_(seed), robot_(config(seed), simulator::MocapConfig{}) {
+  explicit Campaign(std::uint64_t seed) : random_(seed), robot_(config(seed), simulation::MocapConfig{}) {
     client_.connect();
   }
 
@@ -122,9 +122,9 @@ class Campaign {
       try {
         (this->*act)();
         ++done_[name];
-      } catch (const link::RobotRefused&) {
+      } catch (const robot::RobotRefused&) {
         ++refused_;
-      } catch (const link::LinkLost&) {
+      } catch (const robot::LinkLost&) {
         ++lost_;  // it restarted while a request was under way
       }
       witness_.arm_asked = false;
@@ -217,7 +217,7 @@ class Campaign {
                                            sim::Tear::torn);
     try {
       commit();
-    } catch (const link::RobotRefused&) {
+    } catch (const robot::RobotRefused&) {
     }
     start_again(hal::ResetCause::power_on);
     ++cut_commits_;
@@ -311,7 +311,7 @@ class Campaign {
   VirtualRobot robot_;
   Witness witness_{robot_};
   WitnessedTransport transport_{robot_, witness_};
-  link::Client client_{transport_};
+  robot::Client client_{transport_};
   ParameterSet committed_, under_way_;  // under way: of a commit whose answer did not come
   std::map<std::string, int> done_;
   int refused_ = 0, lost_ = 0, restarts_ = 0, cut_commits_ = 0;

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "host/link/drive.hpp"
-#include "host/link/paths.hpp"
+#include "host/robot/motion/drive.hpp"
+#include "host/robot/motion/paths.hpp"
 #include "tests/support/desk.hpp"
 
 // A robot that is left alone or told to stop, in virtual time to the millisecond.
@@ -30,7 +30,7 @@ class LeftAlone : public testing::Test {
 
   void get_moving() {
     desk.client.request(protocol::Arm{});
-    desk.client.request(link::line(50, {0.5, 0}).front());
+    desk.client.request(robot::line(50, {0.5, 0}).front());
     desk.client.pump(std::chrono::seconds(2));
     ASSERT_NEAR(speed_mps(), 0.5, 0.02);
   }
@@ -68,13 +68,13 @@ TEST_F(LeftAlone, AnotherHostClearsTheFaultAndDrivesOn) {
   get_moving();
   seconds_to_rest();
   for (int ms = 0; ms < 200; ++ms) desk.robot->step();
-  link::Client second(std::make_unique<simulator::InProcessTransport>(desk.robot));
+  robot::Client second(std::make_unique<simulation::InProcessTransport>(desk.robot));
   second.connect();
   std::vector<std::string> notices;
-  link::DriveHooks hooks;
+  robot::DriveHooks hooks;
   hooks.notice = [&](const std::string& notice) { notices.push_back(notice); };
-  link::DriveSession drive(second, hooks);
-  drive.run(link::line(0.5));
+  robot::DriveSession drive(second, hooks);
+  drive.run(robot::line(0.5));
   ASSERT_EQ(notices.size(), 1U);
   EXPECT_NE(notices[0].find("link_lost"), std::string::npos);
 }
@@ -109,8 +109,8 @@ TEST_F(LeftAlone, EmergencyStopOpensTheBridgesAtOnce) {
 
 TEST_F(LeftAlone, DisarmedTheRobotTakesNoMotion) {
   for (int i = 0; i < 2; ++i) {
-    EXPECT_THROW(desk.client.request(protocol::Velocity{300'000, 0}), link::RobotRefused);
-    EXPECT_THROW(desk.client.request(link::line(1).front()), link::RobotRefused);
+    EXPECT_THROW(desk.client.request(protocol::Velocity{300'000, 0}), robot::RobotRefused);
+    EXPECT_THROW(desk.client.request(robot::line(1).front()), robot::RobotRefused);
     desk.client.request(protocol::Arm{});
     desk.client.request(protocol::Disarm{});
   }

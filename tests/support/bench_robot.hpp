@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "host/link/client.hpp"
-#include "host/link/paths.hpp"
-#include "host/simulator/in_process.hpp"
+#include "host/robot/client/client.hpp"
+#include "host/robot/motion/paths.hpp"
+#include "host/simulation/robot/in_process.hpp"
 
 /// The firmware on the simulated board with a host's client, in virtual time, for claims about what the robot
 /// does.
@@ -18,8 +18,8 @@ class RobotOnBench : public testing::Test {
   using Bridge = sim::Bridge;
 
   explicit RobotOnBench(const sim::Config& config = quiet())
-      : robot_(std::make_shared<simulator::VirtualRobot>(config, simulator::MocapConfig{})),
-        client_(std::make_unique<simulator::InProcessTransport>(robot_)) {
+      : robot_(std::make_shared<simulation::VirtualRobot>(config, simulation::MocapConfig{})),
+        client_(std::make_unique<simulation::InProcessTransport>(robot_)) {
     client_.connect();
     run_ms(50);  // through boot
   }
@@ -36,10 +36,10 @@ class RobotOnBench : public testing::Test {
   }
   /// The code that the robot refuses with; fails the test if it does not refuse.
   template <class Message>
-  link::RobotRefused refusal(const Message& message) {
+  robot::RobotRefused refusal(const Message& message) {
     try {
       client_.request(message);
-    } catch (const link::RobotRefused& refused) {
+    } catch (const robot::RobotRefused& refused) {
       return refused;
     }
     ADD_FAILURE() << Message::kName << " was not refused";
@@ -59,8 +59,8 @@ class RobotOnBench : public testing::Test {
   bool powered() { return board().motors().state() == Bridge::drive; }
   bool open() { return board().motors().state() == Bridge::coast; }
 
-  std::shared_ptr<simulator::VirtualRobot> robot_;
-  link::Client client_;
+  std::shared_ptr<simulation::VirtualRobot> robot_;
+  robot::Client client_;
 };
 
 }  // namespace astro::support

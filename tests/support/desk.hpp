@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
-#include "host/experiment/experiment.hpp"
-#include "host/simulator/in_process.hpp"
+#include "host/experiment/drive/experiment.hpp"
+#include "host/simulation/robot/in_process.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 /// A simulated robot on a desk, in process and in virtual time: what scenario and experiment tests drive.
@@ -24,16 +24,16 @@ inline constexpr double kThesisSlip_m = 2.645e-6;
 
 struct Desk {
   explicit Desk(const sim::Config& config)
-      : robot(std::make_shared<simulator::VirtualRobot>(config, simulator::MocapConfig{.seed = config.seed})),
-        client(std::make_unique<simulator::InProcessTransport>(robot)),
+      : robot(std::make_shared<simulation::VirtualRobot>(config, simulation::MocapConfig{.seed = config.seed})),
+        client(std::make_unique<simulation::InProcessTransport>(robot)),
         truth(robot) {
     client.connect();
     client.pump(std::chrono::milliseconds(50));  // through boot
   }
 
-  std::shared_ptr<simulator::VirtualRobot> robot;
-  link::Client client;
-  simulator::InProcessTruth truth;
+  std::shared_ptr<simulation::VirtualRobot> robot;
+  robot::Client client;
+  simulation::InProcessTruth truth;
 };
 
 using test::TemporaryFolder;

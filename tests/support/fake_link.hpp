@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "host/link/transport.hpp"
+#include "host/robot/port/transport.hpp"
 #include "tests/support/fake_robot.hpp"
 
 namespace astro::test {
@@ -16,9 +16,9 @@ namespace astro::test {
 enum class Fate { arrives, lost, corrupted, twice, link_drops };
 
 /// A FakeRobot at the other end of a line in virtual time: reading is what makes time pass.
-class FakeLink : public link::Transport {
+class FakeLink : public robot::Transport {
  public:
-  using microseconds = link::microseconds;
+  using microseconds = robot::microseconds;
 
   FakeRobot robot;
 
@@ -84,7 +84,7 @@ class FakeLink : public link::Transport {
   std::deque<std::pair<microseconds, Bytes>> under_way_;
   std::deque<std::uint8_t> arrived_;
 
-  [[noreturn]] void lose() { throw link::LinkLost("lost fake0: it was unplugged"); }
+  [[noreturn]] void lose() { throw robot::LinkLost("lost fake0: it was unplugged"); }
 
   void tick() {
     const bool waits = waits_after_us != 0 && robot.device_us - robot.last_request_us >= waits_after_us;

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "host/link/client.hpp"
-#include "host/link/relay.hpp"
+#include "host/robot/client/client.hpp"
+#include "host/robot/sharing/relay.hpp"
 #include "tests/support/fake_robot.hpp"
 
 namespace astro::test {
@@ -16,11 +16,11 @@ namespace astro::test {
 /// A FakeRobot, a relay and the programs at it, in one virtual time: whoever reads makes it pass.
 class RelayRig {
  public:
-  using microseconds = link::microseconds;
+  using microseconds = robot::microseconds;
   using Bytes = FakeRobot::Bytes;
 
   FakeRobot robot;
-  link::Relay relay;
+  robot::Relay relay;
   std::vector<protocol::Header> at_robot;  // of all requests, in the order in which they came
   // Whether a frame arrives; asked for each.
   std::function<bool(bool to_robot, const protocol::Header&)> arrives = [](bool, const protocol::Header&) {
@@ -73,11 +73,11 @@ class RelayRig {
 };
 
 /// A program's way through the relay.
-class RelayedTransport : public link::Transport {
+class RelayedTransport : public robot::Transport {
  public:
-  using microseconds = link::microseconds;
+  using microseconds = robot::microseconds;
 
-  RelayedTransport(RelayRig& rig, link::PortUser user, bool greets = true)
+  RelayedTransport(RelayRig& rig, robot::PortUser user, bool greets = true)
       : rig_(rig), id_(rig.relay.join(std::move(user), greets)) {}
 
   void write(std::span<const std::uint8_t> bytes) override {
@@ -97,11 +97,11 @@ class RelayedTransport : public link::Transport {
   void reopen(microseconds) override { throw Error("this port is not opened again"); }
   const std::string& name() const override { return name_; }
 
-  link::SessionId id() const { return id_; }
+  robot::SessionId id() const { return id_; }
 
  private:
   RelayRig& rig_;
-  link::SessionId id_;
+  robot::SessionId id_;
   std::string name_ = "port0";
 };
 
@@ -117,7 +117,7 @@ struct RelayedProgram {
 
   /// Its connection ends, as when it is killed.
   void leave() { rig_.relay.leave(transport.id()); }
-  link::SessionId id() const { return transport.id(); }
+  robot::SessionId id() const { return transport.id(); }
   /// A request on its way, without waiting for the answer.
   template <protocol::Message M>
   void send(const M& message, std::uint16_t id) {
@@ -125,7 +125,7 @@ struct RelayedProgram {
   }
 
   RelayedTransport transport;
-  link::Client client;
+  robot::Client client;
 
  private:
   RelayRig& rig_;

@@ -7,7 +7,7 @@
 
 #include "common/protocol/frame.hpp"
 #include "common/protocol/messages.hpp"
-#include "host/simulator/virtual_robot.hpp"
+#include "host/simulation/robot/virtual_robot.hpp"
 
 namespace astro::support {
 namespace {
@@ -350,7 +350,7 @@ class Life {
   }
 
   Random random_;
-  simulator::VirtualRobot robot_;
+  simulation::VirtualRobot robot_;
   LifeReport report_;
   int port_ = 0;
   std::uint16_t request_id_ = 0;

@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "host/link/transport.hpp"
+#include "host/robot/port/transport.hpp"
 
 namespace astro::test {
 
 /// Something at a port that answers each write with bytes of a test's choice, in virtual time.
-class ScriptedTransport : public link::Transport {
+class ScriptedTransport : public robot::Transport {
  public:
   using Bytes = std::vector<std::uint8_t>;
   using Answer = std::function<Bytes(std::span<const std::uint8_t>)>;
@@ -23,22 +23,22 @@ class ScriptedTransport : public link::Transport {
     const Bytes more = answer_(bytes);
     waiting_.insert(waiting_.end(), more.begin(), more.end());
   }
-  std::size_t read(std::span<std::uint8_t> into, link::microseconds timeout) override {
+  std::size_t read(std::span<std::uint8_t> into, robot::microseconds timeout) override {
     if (waiting_.empty()) now_ += timeout;
     const std::size_t size = std::min(into.size(), waiting_.size());
     std::copy_n(waiting_.begin(), size, into.begin());
     waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(size));
     return size;
   }
-  link::microseconds now() const override { return now_; }
-  void reopen(link::microseconds) override { waiting_.clear(); }
+  robot::microseconds now() const override { return now_; }
+  void reopen(robot::microseconds) override { waiting_.clear(); }
   const std::string& name() const override { return name_; }
 
  private:
   Answer answer_;
   Bytes waiting_;
   std::string name_ = "port0";
-  link::microseconds now_{0};
+  robot::microseconds now_{0};
 };
 
 }  // namespace astro::test

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/truth/socket_source.hpp"
+#include "host/truth/live/socket_source.hpp"
 #include "tests/support/json.hpp"
 #include "tests/support/program.hpp"
 

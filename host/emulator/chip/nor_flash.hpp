@@ -6,7 +6,7 @@
 #include <span>
 
 #include "hal/sim/flash_faults.hpp"
-#include "host/emulator/machine.hpp"
+#include "host/emulator/core/machine.hpp"
 
 namespace astro::emulator {
 

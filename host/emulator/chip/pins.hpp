@@ -5,7 +5,7 @@
 
 #include "hal/teensy40/registers/registers.hpp"
 #include "host/emulator/chip/stored.hpp"
-#include "host/emulator/memory.hpp"
+#include "host/emulator/core/memory.hpp"
 
 namespace astro::emulator {
 

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "host/emulator/machine.hpp"
+#include "host/emulator/core/machine.hpp"
 
 namespace astro::emulator {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <unordered_map>
 
-#include "host/emulator/machine.hpp"
+#include "host/emulator/core/machine.hpp"
 
 namespace astro::emulator {
 

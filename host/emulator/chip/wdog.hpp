@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "hal/teensy40/registers/registers.hpp"
-#include "host/emulator/machine.hpp"
+#include "host/emulator/core/machine.hpp"
 
 namespace astro::emulator {
 

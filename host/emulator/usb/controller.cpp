@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "hal/teensy40/registers/registers.hpp"
-#include "host/emulator/register_names.hpp"
+#include "host/emulator/core/register_names.hpp"
 
 namespace astro::emulator {
 namespace {

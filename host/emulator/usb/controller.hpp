@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "host/emulator/machine.hpp"
+#include "host/emulator/core/machine.hpp"
 
 namespace astro::emulator {
 

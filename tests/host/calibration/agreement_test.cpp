@@ -1,4 +1,4 @@
-#include "host/calibration/agreement.hpp"
+#include "host/calibration/likelihood/agreement.hpp"
 
 #include <gtest/gtest.h>
 

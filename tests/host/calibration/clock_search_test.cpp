@@ -1,4 +1,4 @@
-#include "host/calibration/clock_search.hpp"
+#include "host/calibration/clock/clock_search.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,11 +14,11 @@ namespace astro::calibration {
 namespace {
 
 Trajectory drive(double offset_s, double skew, bool headings = true) {
-  study::DriveModel model = astro_drive();
+  simulation::study::DriveModel model = astro_drive();
   model.clock_offset_s = offset_s;
   model.clock_skew = skew;
   model.headings = headings;
-  return study::synthetic_drive(study::square_course(1.7, Sense::cw), model, "run", kSeed);
+  return simulation::study::synthetic_drive(simulation::study::square_course(1.7, Sense::cw), model, "run", kSeed);
 }
 
 // A start for the likelihood, which pulls in from a few tenths of a second: a bin of the search will do.
@@ -53,8 +53,8 @@ TEST(ClockSearch, DoesNotMindAMirroredTruth) {
 
 TEST(ClockSearch, IsAsFastForALongSteadyDriveAndKnowsItAgain) {
   // Ten minutes of one spin: nothing varies but its ends, and the square of its samples would take seconds.
-  study::DriveModel model = astro_drive();
-  const Trajectory run = study::synthetic_drive(study::spin_course(600), model, "run", kSeed);
+  simulation::study::DriveModel model = astro_drive();
+  const Trajectory run = simulation::study::synthetic_drive(simulation::study::spin_course(600), model, "run", kSeed);
   const ClockFit fit = search_clock(run, 0.29, {});
   EXPECT_NEAR(fit.offset_s, 0, 0.1);
   EXPECT_GT(fit.likeness, 0.95);
@@ -62,9 +62,9 @@ TEST(ClockSearch, IsAsFastForALongSteadyDriveAndKnowsItAgain) {
 
 TEST(ClockSearch, FindsNothingInCommonWithAnotherDrive) {
   Trajectory run = drive(0, 0);
-  run.truth = study::synthetic_drive({{study::Leg::Kind::rest, 0, 0, 11},
-                                      {study::Leg::Kind::straight, 0.7, 0, 0},
-                                      {study::Leg::Kind::rest, 0, 0, 16}},
+  run.truth = simulation::study::synthetic_drive({{simulation::study::Leg::Kind::rest, 0, 0, 11},
+                                      {simulation::study::Leg::Kind::straight, 0.7, 0, 0},
+                                      {simulation::study::Leg::Kind::rest, 0, 0, 16}},
                                      astro_drive(), "other", kSeed)
                   .truth;
   const ClockFit fit = search_clock(run, 0.29, {});
@@ -74,13 +74,13 @@ TEST(ClockSearch, FindsNothingInCommonWithAnotherDrive) {
 
 /// As a webcam, tags or UWB see it.
 Trajectory noisy_drive(double offset_s, double skew, double truth_rate_hz, std::uint64_t seed) {
-  study::DriveModel model = astro_drive();
+  simulation::study::DriveModel model = astro_drive();
   model.noise.sigma_xy_m = 0.05;
   model.noise.sigma_theta_rad = 3 * std::numbers::pi / 180;
   model.truth_rate_hz = truth_rate_hz;
   model.clock_offset_s = offset_s;
   model.clock_skew = skew;
-  return study::synthetic_drive(study::square_course(1.7, Sense::cw), model, "run", seed);
+  return simulation::study::synthetic_drive(simulation::study::square_course(1.7, Sense::cw), model, "run", seed);
 }
 
 // Speeds told over a second have a peak as wide; the likelihood pulls in from there.
@@ -105,27 +105,27 @@ TEST(ClockSearch, FindsAnyOffsetAndASlowClockUnderFiveCentimetresOfNoise) {
 }
 
 TEST(ClockSearch, SeesASpinByWhereTheBodyGoesRound) {
-  study::DriveModel model = astro_drive();
+  simulation::study::DriveModel model = astro_drive();
   model.headings = false;
   model.clock_offset_s = 482.3;
-  const Trajectory run = study::synthetic_drive(study::spin_course(19), model, "spin", kSeed);
+  const Trajectory run = simulation::study::synthetic_drive(simulation::study::spin_course(19), model, "spin", kSeed);
   EXPECT_NEAR(search_clock(run, 0.29, {}).offset_s, 482.3, kBin_s);
 }
 
 TEST(ClockSearch, ExplainsAllMotionOfABodyHalfAWheelbaseOrTwoAheadWithoutHeadings) {
   // Lines, spins and rests in turn: a body thought to be anywhere else moves wrongly in every other one.
-  study::Course course{{study::Leg::Kind::rest, 0, 0, 2}};
+  simulation::study::Course course{{simulation::study::Leg::Kind::rest, 0, 0, 2}};
   for (int i = 0; i < 8; ++i) {
-    course.push_back({study::Leg::Kind::straight, 0.2 + 0.02 * i, 0, 0});
-    course.push_back({study::Leg::Kind::turn, 0, i % 2 == 0 ? 1.5 - 0.4 * i : 1.5 + 0.4 * i, 0});
-    course.push_back({study::Leg::Kind::rest, 0, 0, 0.5 + 0.1 * (i % 3)});
+    course.push_back({simulation::study::Leg::Kind::straight, 0.2 + 0.02 * i, 0, 0});
+    course.push_back({simulation::study::Leg::Kind::turn, 0, i % 2 == 0 ? 1.5 - 0.4 * i : 1.5 + 0.4 * i, 0});
+    course.push_back({simulation::study::Leg::Kind::rest, 0, 0, 0.5 + 0.1 * (i % 3)});
   }
-  course.push_back({study::Leg::Kind::rest, 0, 0, 2});
+  course.push_back({simulation::study::Leg::Kind::rest, 0, 0, 2});
   for (const double lever_m : {0.145, 0.58}) {
-    study::DriveModel model = quiet_drive();
+    simulation::study::DriveModel model = quiet_drive();
     model.headings = false;
     model.lever = {lever_m, 0, 0};
-    Trajectory run = study::synthetic_drive(course, model, "run", kSeed);
+    Trajectory run = simulation::study::synthetic_drive(course, model, "run", kSeed);
     for (BodySample& sample : run.truth) sample.time_s -= 40;
     const ClockFit fit = search_clock(run, 0.29, {});
     EXPECT_GT(fit.correlation, 0.99) << lever_m << ": a lever of twice that explains less than 0.92";
@@ -139,24 +139,24 @@ Trajectory between(Trajectory run, double from_s, double to_s) {
 }
 
 /// Lines, turns and rests of a robot that somebody plays with.
-study::Course wandering(double duration_s) {
+simulation::study::Course wandering(double duration_s) {
   std::mt19937_64 random(kSeed);
   std::uniform_real_distribution<double> part(0, 1);
-  study::Course course;
+  simulation::study::Course course;
   for (double time_s = 0; time_s < duration_s;) {
     const double rest_s = 1 + 9 * part(random), length_m = 0.3 + 2 * part(random),
                  angle_rad = 6 * part(random) - 3;
-    course.push_back({study::Leg::Kind::rest, 0, 0, rest_s});
-    course.push_back({study::Leg::Kind::straight, length_m, 0, 0});
-    course.push_back({study::Leg::Kind::turn, 0, angle_rad, 0});
+    course.push_back({simulation::study::Leg::Kind::rest, 0, 0, rest_s});
+    course.push_back({simulation::study::Leg::Kind::straight, length_m, 0, 0});
+    course.push_back({simulation::study::Leg::Kind::turn, 0, angle_rad, 0});
     time_s += rest_s + length_m / 0.3 + std::abs(angle_rad) + 1;
   }
   return course;
 }
 
 TEST(ClockSearch, FindsAMinuteInATakeOfAnHour) {
-  study::DriveModel model = astro_drive();
-  const Trajectory hour = study::synthetic_drive(wandering(3600), model, "hour", kSeed);
+  simulation::study::DriveModel model = astro_drive();
+  const Trajectory hour = simulation::study::synthetic_drive(wandering(3600), model, "hour", kSeed);
   std::printf("seed %llu\n", static_cast<unsigned long long>(kSeed));
   for (const double from_s : {300.0, 1700.0, 3300.0}) {
     Trajectory run = between(hour, from_s, from_s + 60);
@@ -170,7 +170,7 @@ TEST(ClockSearch, FindsAMinuteInATakeOfAnHour) {
 }
 
 TEST(ClockSearch, FindsAMinuteOfTruthInADriveOfAnHour) {
-  Trajectory run = study::synthetic_drive(wandering(3600), astro_drive(), "hour", kSeed);
+  Trajectory run = simulation::study::synthetic_drive(wandering(3600), astro_drive(), "hour", kSeed);
   std::erase_if(run.truth, [](const BodySample& s) { return s.time_s < 1700 || s.time_s > 1760; });
   for (BodySample& sample : run.truth) sample.time_s -= 5000;
   const ClockFit fit = search_clock(run, 0.29, {});
@@ -179,21 +179,21 @@ TEST(ClockSearch, FindsAMinuteOfTruthInADriveOfAnHour) {
   EXPECT_NEAR(fit.robot_time_s(1730 - 5000, middle_s), 1730, kBin_s);
 }
 
-study::Course laps(int count) {
-  study::Course course{{study::Leg::Kind::rest, 0, 0, 2}};
+simulation::study::Course laps(int count) {
+  simulation::study::Course course{{simulation::study::Leg::Kind::rest, 0, 0, 2}};
   for (int side = 0; side < 4 * count; ++side) {
-    course.push_back({study::Leg::Kind::straight, 0.5, 0, 0});
-    course.push_back({study::Leg::Kind::turn, 0, std::numbers::pi / 2, 0});
+    course.push_back({simulation::study::Leg::Kind::straight, 0.5, 0, 0});
+    course.push_back({simulation::study::Leg::Kind::turn, 0, std::numbers::pi / 2, 0});
   }
-  course.push_back({study::Leg::Kind::rest, 0, 0, 2});
+  course.push_back({simulation::study::Leg::Kind::rest, 0, 0, 2});
   return course;
 }
 
 /// Ten laps of 17.3 s.
 Trajectory ten_laps(double offset_s, double sigma_m = 5e-4) {
-  study::DriveModel model = astro_drive();
+  simulation::study::DriveModel model = astro_drive();
   model.noise.sigma_xy_m = sigma_m;
-  Trajectory run = study::synthetic_drive(laps(10), model, "laps", kSeed);
+  Trajectory run = simulation::study::synthetic_drive(laps(10), model, "laps", kSeed);
   for (BodySample& sample : run.truth) sample.time_s -= offset_s;
   return run;
 }

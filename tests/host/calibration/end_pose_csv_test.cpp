@@ -1,4 +1,4 @@
-#include "host/calibration/end_pose_csv.hpp"
+#include "host/calibration/end_poses/end_pose_csv.hpp"
 
 #include <gtest/gtest.h>
 

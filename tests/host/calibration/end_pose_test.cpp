@@ -1,4 +1,4 @@
-#include "host/calibration/end_pose.hpp"
+#include "host/calibration/end_poses/end_pose.hpp"
 
 #include <gtest/gtest.h>
 

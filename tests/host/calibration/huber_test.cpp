@@ -1,4 +1,4 @@
-#include "host/calibration/huber.hpp"
+#include "host/calibration/likelihood/huber.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <random>
 
-#include "host/calibration/innovation.hpp"
+#include "host/calibration/likelihood/innovation.hpp"
 
 namespace astro::calibration {
 namespace {

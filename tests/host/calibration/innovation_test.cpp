@@ -1,11 +1,11 @@
-#include "host/calibration/innovation.hpp"
+#include "host/calibration/likelihood/innovation.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "host/calibration/prepared_run.hpp"
+#include "host/calibration/preparation/prepared_run.hpp"
 #include "tests/host/calibration/ml_drives.hpp"
 
 // The filter against what it stands for: the normal distribution of all truth samples of a drive at once,
@@ -26,11 +26,11 @@ struct Scene {
 /// A second of an arc and a spin: small enough for a dense matrix.
 Scene scene(bool headings) {
   Scene scene;
-  study::DriveModel model = astro_drive();
+  simulation::study::DriveModel model = astro_drive();
   model.truth_rate_hz = 20;
   model.headings = headings;
-  const study::Course course{{study::Leg::Kind::turn, 0.3, 0.7, 0}, {study::Leg::Kind::turn, 0, -0.8, 0}};
-  scene.trajectory = study::synthetic_drive(course, model, "run", kSeed);
+  const simulation::study::Course course{{simulation::study::Leg::Kind::turn, 0.3, 0.7, 0}, {simulation::study::Leg::Kind::turn, 0, -0.8, 0}};
+  scene.trajectory = simulation::study::synthetic_drive(course, model, "run", kSeed);
   scene.run = prepare(std::vector{scene.trajectory}, model.carried, true, Density::all).runs.front();
   scene.run.source = &scene.trajectory;
   scene.unknowns << model.actual.c_r, model.actual.c_l, model.actual.b_m, 0.03, -0.02, 0.4, 0.001, 0.1, 0.2,

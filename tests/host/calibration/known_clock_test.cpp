@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "host/calibration/maximum_likelihood.hpp"
+#include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "tests/host/calibration/ml_drives.hpp"
 
 namespace astro::calibration {
@@ -10,7 +10,7 @@ namespace {
 
 /// Squares whose truth is late by so much.
 std::vector<Trajectory> late_squares(double late_s) {
-  study::DriveModel model = quiet_drive();
+  simulation::study::DriveModel model = quiet_drive();
   model.clock_offset_s = late_s;
   return squares(model, 2, 1);
 }

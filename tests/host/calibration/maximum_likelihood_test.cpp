@@ -1,4 +1,4 @@
-#include "host/calibration/maximum_likelihood.hpp"
+#include "host/calibration/likelihood/maximum_likelihood.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace astro::calibration {
 namespace {
 
-using study::DriveModel;
+using simulation::study::DriveModel;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -53,7 +53,7 @@ TEST(MaximumLikelihood, ReachesTheCramerRaoBoundAndKnowsHowFarItIsOff) {
   double E_d = 0, scale = 0, b_over_scale = 0, chi_square = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
     const MlEstimate found = estimate_ml(
-        squares(model, 4, 2, study::derived_seed(kSeed, static_cast<std::uint64_t>(trial))), model.carried);
+        squares(model, 4, 2, simulation::study::derived_seed(kSeed, static_cast<std::uint64_t>(trial))), model.carried);
     const Eigen::Vector3d error(found.factors.c_r - model.actual.c_r, found.factors.c_l - model.actual.c_l,
                                 found.factors.b_m - model.actual.b_m);
     Eigen::Matrix3d covariance;
@@ -84,7 +84,7 @@ TEST(MaximumLikelihood, DoesNotClaimMoreThanItKnowsOfARobotThatHardlySlips) {
   double chi_square = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
     const MlEstimate found = estimate_ml(
-        squares(model, 2, 1, study::derived_seed(kSeed, static_cast<std::uint64_t>(trial))), model.carried);
+        squares(model, 2, 1, simulation::study::derived_seed(kSeed, static_cast<std::uint64_t>(trial))), model.carried);
     for (const double miss : misses(found, model.actual)) chi_square += miss * miss / kTrials;
   }
   std::printf("squares of the errors, in standard errors: %.2f of 3\n", chi_square);
@@ -111,7 +111,7 @@ TEST(MaximumLikelihood, TakesWheelsOutOfRoundNeitherForSlipNorForAnotherWheelbas
   double chi_square = 0, K_m = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
     const MlEstimate found = estimate_ml(
-        out_of_round(squares(model, 4, 2, study::derived_seed(kSeed, static_cast<std::uint64_t>(trial))),
+        out_of_round(squares(model, 4, 2, simulation::study::derived_seed(kSeed, static_cast<std::uint64_t>(trial))),
                      1e-3),
         model.carried);
     EXPECT_GT(found.thinned_to_s, 0.1);
@@ -130,7 +130,7 @@ TEST(MaximumLikelihood, AShortRunAmongThemKeepsNobodyFromSeeingThat) {
   DriveModel model = astro_drive();
   model.noise.K_m = 5e-7;
   std::vector<Trajectory> runs = squares(model, 4, 2);
-  runs.push_back(study::synthetic_drive(study::line_course(0.25, 0.2), model, "short", kSeed));
+  runs.push_back(simulation::study::synthetic_drive(simulation::study::line_course(0.25, 0.2), model, "short", kSeed));
   const MlEstimate found = estimate_ml(out_of_round(std::move(runs), 1e-3), model.carried);
   EXPECT_GT(found.thinned_to_s, 0.1);
   EXPECT_LT(found.noise.K_m, 3 * model.noise.K_m);
@@ -327,9 +327,9 @@ TEST(MaximumLikelihood, SaysSoWhenArcsAndSpinsWantDifferentWheelbases) {
   arcs.actual.b_m *= 1.01;
   std::vector<Trajectory> runs = squares(spins, 4);
   for (int i = 0; i < 4; ++i)
-    runs.push_back(study::synthetic_drive(
-        study::circle_course(0.75, (i % 2 == 0 ? 4 : -4) * std::numbers::pi), arcs,
-        "circle " + std::to_string(i), study::derived_seed(kSeed, 90 + static_cast<std::uint64_t>(i))));
+    runs.push_back(simulation::study::synthetic_drive(
+        simulation::study::circle_course(0.75, (i % 2 == 0 ? 4 : -4) * std::numbers::pi), arcs,
+        "circle " + std::to_string(i), simulation::study::derived_seed(kSeed, 90 + static_cast<std::uint64_t>(i))));
   const MlEstimate found = estimate_ml(runs, spins.carried);
   ASSERT_TRUE(found.wheelbase_by_kind);
   EXPECT_TRUE(found.wheelbase_by_kind->disagrees);
@@ -351,7 +351,7 @@ TEST(MaximumLikelihood, TakesRunsWithOtherClocksEach) {
   std::vector<Trajectory> runs;
   // A line first: it tells an offset and next to nothing of the skew.
   model.clock_skew = 0.01;
-  runs.push_back(study::synthetic_drive(study::line_course(1), model, "line", kSeed));
+  runs.push_back(simulation::study::synthetic_drive(simulation::study::line_course(1), model, "line", kSeed));
   for (const double offset_s : {0.3, -500.0, 77.7}) {
     model.clock_offset_s = offset_s;
     runs.push_back(squares(model, 1, 3, kSeed + runs.size()).front());
@@ -384,7 +384,7 @@ TEST(MaximumLikelihood, UsesSpinsOfPositionsAloneWithABodyOffTheAxis) {
   for (const LeverArm& lever : {LeverArm{0.3, 0, 0}, {-0.3, 0, 0}, {-0.2, -0.2, 0}}) {
     model.lever = lever;
     std::vector<Trajectory> runs = squares(model, 2, 1.7);
-    runs.push_back(study::synthetic_drive(study::spin_course(19), model, "spin", kSeed));
+    runs.push_back(simulation::study::synthetic_drive(simulation::study::spin_course(19), model, "spin", kSeed));
     const MlEstimate found = estimate_ml(runs, model.carried);
     expect_true(found, model.actual);
     EXPECT_EQ(found.runs.size(), 3u);
@@ -398,7 +398,7 @@ TEST(MaximumLikelihood, DoesWithoutASpinThatPositionsCannotSee) {
   model.lever = {};
   model.clock_offset_s = 7;
   std::vector<Trajectory> runs = squares(model, 4);
-  runs.insert(runs.begin() + 1, study::synthetic_drive(study::spin_course(19), model, "spin", kSeed));
+  runs.insert(runs.begin() + 1, simulation::study::synthetic_drive(simulation::study::spin_course(19), model, "spin", kSeed));
   const MlEstimate found = estimate_ml(runs, model.carried);
   expect_true(found, model.actual);
   EXPECT_EQ(found.runs.size(), 4u);
@@ -411,8 +411,8 @@ TEST(MaximumLikelihood, CallsAWideCircleATurn) {
   std::vector<Trajectory> runs;
   for (const double turn : {1.0, -1.0})
     runs.push_back(
-        study::synthetic_drive(study::circle_course(4, turn * 2 * std::numbers::pi), model, "circle", kSeed));
-  runs.push_back(study::synthetic_drive(study::line_course(3), model, "line", kSeed));
+        simulation::study::synthetic_drive(simulation::study::circle_course(4, turn * 2 * std::numbers::pi), model, "circle", kSeed));
+  runs.push_back(simulation::study::synthetic_drive(simulation::study::line_course(3), model, "line", kSeed));
   expect_true(estimate_ml(runs, model.carried), model.actual);
 }
 
@@ -428,7 +428,7 @@ TEST(MaximumLikelihood, TellsTheMotionsApart) {
   const DriveModel model = astro_drive();
   std::vector<Trajectory> runs = squares(model, 2);
   runs.push_back(
-      study::synthetic_drive(study::circle_course(0.75, 2 * std::numbers::pi), model, "circle", kSeed));
+      simulation::study::synthetic_drive(simulation::study::circle_course(0.75, 2 * std::numbers::pi), model, "circle", kSeed));
   const MlEstimate found = estimate_ml(runs, model.carried);
   ASSERT_EQ(found.kinds.size(), 4u);
   EXPECT_EQ(found.kinds[0].motion, Motion::rest);

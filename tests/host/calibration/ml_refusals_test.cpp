@@ -5,14 +5,14 @@
 #include <numbers>
 
 #include "host/base/error.hpp"
-#include "host/calibration/maximum_likelihood.hpp"
+#include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "tests/host/calibration/ml_drives.hpp"
 
 // What cannot be calibrated is said in one sentence that names it and the remedy.
 namespace astro::calibration {
 namespace {
 
-using study::DriveModel;
+using simulation::study::DriveModel;
 using testing::AllOf;
 using testing::HasSubstr;
 
@@ -27,8 +27,8 @@ std::string refusal(const std::vector<Trajectory>& runs) {
   return "accepted";
 }
 
-std::vector<Trajectory> one(const study::Course& course, const DriveModel& model = astro_drive()) {
-  return {study::synthetic_drive(course, model, "run 7", kSeed)};
+std::vector<Trajectory> one(const simulation::study::Course& course, const DriveModel& model = astro_drive()) {
+  return {simulation::study::synthetic_drive(course, model, "run 7", kSeed)};
 }
 
 TEST(MlRefuses, NoRuns) { EXPECT_THAT(refusal({}), HasSubstr("no runs")); }
@@ -46,7 +46,7 @@ TEST(MlRefuses, ARunWithoutOdometry) {
 }
 
 TEST(MlRefuses, ARunTooShort) {
-  EXPECT_THAT(refusal(one(study::line_course(0.1))), AllOf(HasSubstr("run 7"), HasSubstr("too short")));
+  EXPECT_THAT(refusal(one(simulation::study::line_course(0.1))), AllOf(HasSubstr("run 7"), HasSubstr("too short")));
 }
 
 TEST(MlRefuses, TimesThatRunBackwards) {
@@ -85,25 +85,25 @@ TEST(MlRefuses, AReversedEncoder) {
 }
 
 TEST(MlRefuses, ASpinOfExchangedWheelsWithAllItsCauses) {
-  std::vector<Trajectory> runs = one(study::spin_course(4 * kPi));
+  std::vector<Trajectory> runs = one(simulation::study::spin_course(4 * kPi));
   for (WheelSample& sample : runs[0].wheels) std::swap(sample.left_m, sample.right_m);
   EXPECT_THAT(refusal(runs), AllOf(HasSubstr("mirrored"), HasSubstr("clockwise"), HasSubstr("exchanged")));
 }
 
 TEST(MlRefuses, TruthOfAnotherDrive) {
   std::vector<Trajectory> runs = squares(astro_drive(), 1);
-  runs[0].truth = one({{study::Leg::Kind::rest, 0, 0, 11},
-                       {study::Leg::Kind::straight, 0.7, 0, 0},
-                       {study::Leg::Kind::rest, 0, 0, 40}})[0]
+  runs[0].truth = one({{simulation::study::Leg::Kind::rest, 0, 0, 11},
+                       {simulation::study::Leg::Kind::straight, 0.7, 0, 0},
+                       {simulation::study::Leg::Kind::rest, 0, 0, 40}})[0]
                       .truth;
   EXPECT_THAT(refusal(runs), AllOf(HasSubstr("run 1"), HasSubstr("same drive")));
 }
 
 TEST(MlRefuses, ADriveWhoseLapsCannotBeTold) {
-  study::Course course{{study::Leg::Kind::rest, 0, 0, 1}};
+  simulation::study::Course course{{simulation::study::Leg::Kind::rest, 0, 0, 1}};
   for (int side = 0; side < 32; ++side) {
-    course.push_back({study::Leg::Kind::straight, 0.5, 0, 0});
-    course.push_back({study::Leg::Kind::turn, 0, kPi / 2, 0});
+    course.push_back({simulation::study::Leg::Kind::straight, 0.5, 0, 0});
+    course.push_back({simulation::study::Leg::Kind::turn, 0, kPi / 2, 0});
   }
   DriveModel model = astro_drive();
   model.clock_offset_s = 300;
@@ -118,7 +118,7 @@ TEST(MlRefuses, SpinsUnderPositionsThatStandStill) {
   model.headings = false;
   model.lever = {};
   model.clock_offset_s = 7;
-  EXPECT_THAT(refusal(one(study::spin_course(6 * kPi), model)),
+  EXPECT_THAT(refusal(one(simulation::study::spin_course(6 * kPi), model)),
               AllOf(HasSubstr("run 7"), HasSubstr("stand still"), HasSubstr("export the orientation")));
 }
 
@@ -163,11 +163,11 @@ TEST(MlRefuses, HeadingsCountedClockwise) {
 }
 
 TEST(MlRefuses, ARobotThatNeverTurned) {
-  EXPECT_THAT(refusal(one(study::line_course(4))), AllOf(HasSubstr("never turned"), HasSubstr("drive")));
+  EXPECT_THAT(refusal(one(simulation::study::line_course(4))), AllOf(HasSubstr("never turned"), HasSubstr("drive")));
 }
 
 TEST(MlRefuses, ARobotThatOnlySpun) {
-  EXPECT_THAT(refusal(one(study::spin_course(6 * kPi))), AllOf(HasSubstr("on the spot"), HasSubstr("lines")));
+  EXPECT_THAT(refusal(one(simulation::study::spin_course(6 * kPi))), AllOf(HasSubstr("on the spot"), HasSubstr("lines")));
 }
 
 TEST(MlRefuses, OneCircleAlone) {
@@ -176,7 +176,7 @@ TEST(MlRefuses, OneCircleAlone) {
   model.acceleration_mps2 = 100;
   for (const double radius_m : {0.5, 1.0, 1.7})
     for (const double turn_rad : {4 * kPi, -4 * kPi})
-      EXPECT_THAT(refusal(one(study::circle_course(radius_m, turn_rad, 0.3), model)),
+      EXPECT_THAT(refusal(one(simulation::study::circle_course(radius_m, turn_rad, 0.3), model)),
                   HasSubstr("move alike"));
 }
 

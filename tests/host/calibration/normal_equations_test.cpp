@@ -1,4 +1,4 @@
-#include "host/calibration/normal_equations.hpp"
+#include "host/calibration/likelihood/normal_equations.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "host/calibration/odd_run.hpp"
+#include "host/calibration/end_poses/odd_run.hpp"
 
 #include <gmock/gmock.h>
 

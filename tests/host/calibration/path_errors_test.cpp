@@ -1,4 +1,4 @@
-#include "host/calibration/path_errors.hpp"
+#include "host/calibration/judgement/path_errors.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 namespace astro::calibration {
 namespace {
 
-using study::DriveModel;
+using simulation::study::DriveModel;
 
 TEST(PathErrors, AreNothingForTheRightFactorsOfAQuietRobot) {
   const DriveModel model = quiet_drive();

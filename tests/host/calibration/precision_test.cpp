@@ -1,4 +1,4 @@
-#include "host/calibration/precision.hpp"
+#include "host/calibration/judgement/precision.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "host/calibration/recorded_motion.hpp"
+#include "host/calibration/clock/recorded_motion.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "host/calibration/relative_pose.hpp"
+#include "host/calibration/preparation/relative_pose.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "host/calibration/replay.hpp"
+#include "host/calibration/end_poses/replay.hpp"
 
 #include <gtest/gtest.h>
 

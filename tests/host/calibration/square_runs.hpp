@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "host/base/error.hpp"
-#include "host/calibration/replay.hpp"
-#include "host/calibration/umbmark.hpp"
+#include "host/calibration/end_poses/replay.hpp"
+#include "host/calibration/end_poses/umbmark.hpp"
 
 /// Noise-free experiments by exact replay, and the robot of the thesis.
 namespace astro::calibration::test {

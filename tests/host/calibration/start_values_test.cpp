@@ -1,4 +1,4 @@
-#include "host/calibration/start_values.hpp"
+#include "host/calibration/preparation/start_values.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace astro::calibration {
 namespace {
 
-using study::DriveModel;
+using simulation::study::DriveModel;
 
 constexpr double kPi = std::numbers::pi;
 
@@ -82,16 +82,16 @@ TEST(StartValues, KnowTheHeadingOfASpinByTheLeverThatOtherRunsTell) {
   model.headings = false;
   model.lever = {-0.2, -0.1, 0};
   std::vector<Trajectory> runs = squares(model, 1, 1.7);
-  runs.push_back(study::synthetic_drive(study::spin_course(6 * kPi), model, "spin", kSeed));
+  runs.push_back(simulation::study::synthetic_drive(simulation::study::spin_course(6 * kPi), model, "spin", kSeed));
   EXPECT_NEAR(std::remainder(starts(runs, model).back()[kStartTheta], 2 * kPi), 0, 1e-4);
 }
 
 TEST(StartValues, FindNoLeverWherePositionsTellNone) {
   DriveModel model = astro_drive();
   model.headings = false;
-  for (const study::Course& course :
-       {study::line_course(3), study::spin_course(6 * kPi), study::circle_course(0.7, 4 * kPi)}) {
-    const std::vector<Trajectory> runs{study::synthetic_drive(course, model, "run", kSeed)};
+  for (const simulation::study::Course& course :
+       {simulation::study::line_course(3), simulation::study::spin_course(6 * kPi), simulation::study::circle_course(0.7, 4 * kPi)}) {
+    const std::vector<Trajectory> runs{simulation::study::synthetic_drive(course, model, "run", kSeed)};
     for (const Unknowns& u : starts(runs, model)) {
       EXPECT_LT(std::hypot(u[kLeverX], u[kLeverY]), 0.2);
       EXPECT_TRUE(u.allFinite());

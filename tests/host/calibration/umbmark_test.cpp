@@ -1,4 +1,4 @@
-#include "host/calibration/umbmark.hpp"
+#include "host/calibration/end_poses/umbmark.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <random>
 
-#include "host/calibration/compose.hpp"
+#include "host/calibration/end_poses/compose.hpp"
 #include "tests/host/calibration/square_runs.hpp"
 
 namespace astro::calibration {

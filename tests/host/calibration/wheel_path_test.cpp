@@ -1,4 +1,4 @@
-#include "host/calibration/wheel_path.hpp"
+#include "host/calibration/motion/wheel_path.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "host/calibration/whiteness.hpp"
+#include "host/calibration/likelihood/whiteness.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,9 +5,9 @@
 #include <fstream>
 #include <random>
 
-#include "host/experiment/calibration_file.hpp"
-#include "host/recording/files.hpp"
-#include "host/recording/run_file.hpp"
+#include "host/experiment/analysis/calibration_file.hpp"
+#include "host/base/files.hpp"
+#include "host/recording/files/run_file.hpp"
 #include "tests/support/json.hpp"
 
 namespace astro::campaign {

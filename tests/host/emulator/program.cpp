@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "host/emulator/register_names.hpp"
+#include "host/emulator/core/register_names.hpp"
 
 namespace astro::emulator {
 namespace {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "host/emulator/stopped.hpp"
-#include "host/emulator/teensy.hpp"
+#include "host/emulator/core/stopped.hpp"
+#include "host/emulator/robot/teensy.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace astro::emulator {

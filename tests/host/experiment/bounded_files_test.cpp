@@ -5,8 +5,8 @@
 #include <iterator>
 
 #include "host/base/error.hpp"
-#include "host/experiment/calibration_file.hpp"
-#include "host/experiment/journal.hpp"
+#include "host/experiment/analysis/calibration_file.hpp"
+#include "host/experiment/files/journal.hpp"
 #include "tests/support/bounded.hpp"
 #include "tests/support/desk.hpp"
 

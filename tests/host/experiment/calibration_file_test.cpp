@@ -1,4 +1,4 @@
-#include "host/experiment/calibration_file.hpp"
+#include "host/experiment/analysis/calibration_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "host/experiment/change_guard.hpp"
+#include "host/experiment/drive/change_guard.hpp"
 #include "tests/support/desk.hpp"
 
 namespace astro::experiment {
@@ -123,9 +123,9 @@ TEST(RobotIdentity, IsToldApartByTheIdAlone) {
 
 class ChangeGuard : public testing::Test {
  protected:
-  ChangeGuard() : desk_(sim::Config{}), robot_(link::RemoteParameters::fetch(desk_.client)) {}
+  ChangeGuard() : desk_(sim::Config{}), robot_(robot::RemoteParameters::fetch(desk_.client)) {}
   support::Desk desk_;
-  link::RemoteParameters robot_;
+  robot::RemoteParameters robot_;
 };
 
 TEST_F(ChangeGuard, LeavesOutWhatTheRobotHoldsAlready) {

@@ -1,12 +1,12 @@
-#include "host/experiment/dead_reckoning.hpp"
+#include "host/experiment/analysis/dead_reckoning.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "host/base/error.hpp"
-#include "host/experiment/calibration_file.hpp"
-#include "host/experiment/experiment.hpp"
-#include "host/experiment/experiment_folder.hpp"
+#include "host/experiment/analysis/calibration_file.hpp"
+#include "host/experiment/drive/experiment.hpp"
+#include "host/experiment/files/experiment_folder.hpp"
 #include "tests/support/desk.hpp"
 
 namespace astro::experiment {

@@ -1,4 +1,4 @@
-#include "host/experiment/experiment.hpp"
+#include "host/experiment/drive/experiment.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "host/experiment/method_names.hpp"
-#include "host/link/upload.hpp"
+#include "host/experiment/files/method_names.hpp"
+#include "host/robot/parameters/upload.hpp"
 #include "tests/support/desk.hpp"
 
 namespace astro::experiment {
@@ -98,7 +98,7 @@ TEST(Experiment, FindsTheTrueGeometryWithoutSlip) {
 TEST(Experiment, ExtendedUmbmarkComposesWithWhatTheRobotCarries) {
   const sim::Config config = thesis_robot(0, 1);
   Desk desk(config);
-  link::upload(desk.client, {{"c_R", 0.998}, {"c_L", 1.002}, {"b", 0.295}});
+  robot::upload(desk.client, {{"c_R", 0.998}, {"c_L", 1.002}, {"b", 0.295}});
   Plan plan = squares_only(3, 2);
   plan.method = method_named("extended", "average", "exact");
   const Results results = calibrate(desk, plan);
@@ -114,7 +114,7 @@ TEST(Experiment, TheSwappedPairOfTheThesisMakesTheRobotWorse) {
   Desk desk(config);
   const double c_large = 2 * config.true_ed / (config.true_ed + 1), c_small = 2 / (config.true_ed + 1);
   const auto error_with = [&](double c_r, double c_l, double b_m) {
-    link::upload(desk.client, {{"c_R", c_r}, {"c_L", c_l}, {"b", b_m}});
+    robot::upload(desk.client, {{"c_R", c_r}, {"c_L", c_l}, {"b", b_m}});
     return calibrate(desk, squares_only(1)).before().summary.E_max_syst_m;
   };
   const double uncalibrated_m = error_with(1, 1, 0.29);
@@ -152,7 +152,7 @@ TEST(Experiment, UploadsOnlyWhatIsAgreedTo) {
   ExperimentHooks hooks;
   hooks.agree = [](const Calibration&, const std::vector<Change>&) { return false; };
   EXPECT_THROW(run_experiment(desk.client, desk.truth, squares_only(1), folder.path(), hooks), Error);
-  EXPECT_EQ(std::get<double>(link::RemoteParameters::fetch(desk.client).value("c_R")), 1.0);
+  EXPECT_EQ(std::get<double>(robot::RemoteParameters::fetch(desk.client).value("c_R")), 1.0);
 }
 
 TEST(Experiment, UploadsWhatIsObjectedToOnlyIfToldTo) {

@@ -1,4 +1,4 @@
-#include "host/experiment/export.hpp"
+#include "host/experiment/analysis/export.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "host/experiment/experiment.hpp"
-#include "host/experiment/experiment_folder.hpp"
-#include "host/experiment/json.hpp"
-#include "host/experiment/method_names.hpp"
-#include "host/experiment/until.hpp"
-#include "host/link/upload.hpp"
+#include "host/experiment/drive/experiment.hpp"
+#include "host/experiment/files/experiment_folder.hpp"
+#include "host/experiment/analysis/json.hpp"
+#include "host/experiment/files/method_names.hpp"
+#include "host/experiment/analysis/until.hpp"
+#include "host/robot/parameters/upload.hpp"
 #include "tests/support/desk.hpp"
 
 // Experiments with maximum likelihood, the default where cameras follow the robot.
@@ -182,7 +182,7 @@ TEST_F(MlExperiment, SaysWhatWasReachedWhenTheMostSquaresAreDriven) {
 TEST_F(MlExperiment, GoesOnWithTheSquaresThatAreRecorded) {
   const Plan plan = until_plan(1e-5, 4);
   hooks_.run.interrupted = [this] { return driven_.size() >= 6; };  // in the second of the third pair
-  EXPECT_THROW(run(plan), link::Interrupted);
+  EXPECT_THROW(run(plan), robot::Interrupted);
   EXPECT_EQ(recorded_squares(folder_.path(), plan, 0), 2);
   hooks_.run.interrupted = [] { return false; };
   run(plan);

@@ -1,4 +1,4 @@
-#include "host/experiment/plan.hpp"
+#include "host/experiment/files/plan.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/base/error.hpp"
-#include "host/experiment/method_names.hpp"
+#include "host/experiment/files/method_names.hpp"
 
 namespace astro::experiment {
 namespace {

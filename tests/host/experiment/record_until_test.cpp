@@ -3,9 +3,9 @@
 #include <malloc.h>
 
 #include "host/base/error.hpp"
-#include "host/experiment/record_run.hpp"
-#include "host/recording/run_file.hpp"
-#include "host/recording/run_writer.hpp"
+#include "host/experiment/drive/record_run.hpp"
+#include "host/recording/files/run_file.hpp"
+#include "host/recording/files/run_writer.hpp"
 #include "tests/support/bounded.hpp"
 #include "tests/support/desk.hpp"
 

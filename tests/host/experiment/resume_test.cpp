@@ -3,9 +3,9 @@
 
 #include <fstream>
 
-#include "host/link/upload.hpp"
-#include "host/recording/run_file.hpp"
-#include "host/truth/manual_source.hpp"
+#include "host/robot/parameters/upload.hpp"
+#include "host/recording/files/run_file.hpp"
+#include "host/truth/manual/manual_source.hpp"
 #include "tests/support/desk.hpp"
 
 namespace astro::experiment {
@@ -45,7 +45,7 @@ class Resume : public testing::Test {
   }
   void interrupt_in_run(int n) {
     int started = 0;
-    EXPECT_THROW(run(small_plan(), interrupted_in_run(n, started)), link::Interrupted);
+    EXPECT_THROW(run(small_plan(), interrupted_in_run(n, started)), robot::Interrupted);
   }
 
   Desk desk_;
@@ -184,7 +184,7 @@ TEST_F(Resume, RefusesAnotherRobot) {
 
 TEST_F(Resume, RefusesARobotWhoseParametersChangedInTheMiddleOfAPhase) {
   interrupt_in_run(2);
-  link::upload(desk_.client, {{"c_R", 1.001}});
+  robot::upload(desk_.client, {{"c_R", 1.001}});
   EXPECT_THAT([&] { run(small_plan()); },
               ThrowsMessage<Error>(HasSubstr("phase 'before' of this experiment began")));
 }

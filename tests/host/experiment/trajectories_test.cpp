@@ -1,4 +1,4 @@
-#include "host/experiment/trajectories.hpp"
+#include "host/experiment/analysis/trajectories.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "host/base/error.hpp"
-#include "host/experiment/run_set.hpp"
-#include "host/recording/run_file.hpp"
+#include "host/experiment/files/run_set.hpp"
+#include "host/recording/files/run_file.hpp"
 #include "tests/support/desk.hpp"
 
 namespace astro::experiment {

@@ -5,10 +5,10 @@
 #include <fstream>
 #include <numbers>
 
-#include "host/experiment/record_run.hpp"
-#include "host/recording/end_error.hpp"
-#include "host/truth/file_source.hpp"
-#include "host/truth/manual_source.hpp"
+#include "host/experiment/drive/record_run.hpp"
+#include "host/recording/run/end_error.hpp"
+#include "host/truth/files/file_source.hpp"
+#include "host/truth/manual/manual_source.hpp"
 #include "tests/support/desk.hpp"
 
 // Ground truth that is only known after a run ends up as that run's end error, exactly.
@@ -23,7 +23,7 @@ recording::Run drive_line(Desk& desk, truth::Source& source) {
   info.kind = "line";
   info.phase = "before";
   info.index = 1;
-  recording::Run run = record_run(desk.client, source, link::line(0.5), info, {});
+  recording::Run run = record_run(desk.client, source, robot::line(0.5), info, {});
   complete(run, source);
   return run;
 }

@@ -1,4 +1,4 @@
-#include "host/experiment/until.hpp"
+#include "host/experiment/analysis/until.hpp"
 
 #include <gtest/gtest.h>
 

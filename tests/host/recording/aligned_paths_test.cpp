@@ -1,4 +1,4 @@
-#include "host/recording/aligned_paths.hpp"
+#include "host/recording/run/aligned_paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "host/recording/end_error.hpp"
+#include "host/recording/run/end_error.hpp"
 #include "tests/host/recording/support.hpp"
 
 namespace astro::recording {

@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
 
-#include "host/recording/compression.hpp"
-#include "host/recording/mcap_reader.hpp"
-#include "host/recording/ros_messages.hpp"
-#include "host/recording/run_file.hpp"
+#include "host/recording/mcap/compression.hpp"
+#include "host/recording/mcap/reader.hpp"
+#include "host/ros2/ros_messages.hpp"
+#include "host/recording/files/run_file.hpp"
 #include "tests/host/recording/support.hpp"
 #include "tests/support/bounded.hpp"
 

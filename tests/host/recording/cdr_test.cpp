@@ -1,8 +1,8 @@
-#include "host/recording/cdr.hpp"
+#include "host/ros2/cdr.hpp"
 
 #include <gmock/gmock.h>
 
-#include "host/recording/ros_messages.hpp"
+#include "host/ros2/ros_messages.hpp"
 
 namespace astro::recording {
 namespace {

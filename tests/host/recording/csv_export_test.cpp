@@ -1,10 +1,10 @@
-#include "host/recording/csv_export.hpp"
+#include "host/recording/files/csv_export.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "host/recording/files.hpp"
+#include "host/base/files.hpp"
 #include "tests/host/recording/support.hpp"
 
 namespace astro::recording {

@@ -1,4 +1,4 @@
-#include "host/recording/end_error.hpp"
+#include "host/recording/run/end_error.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,10 +1,10 @@
-#include "host/recording/files.hpp"
+#include "host/base/files.hpp"
 
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
-#include "host/recording/folder_lock.hpp"
-#include "host/recording/run_folder.hpp"
+#include "host/base/folder_lock.hpp"
+#include "host/recording/files/run_folder.hpp"
 #include "tests/host/recording/support.hpp"
 
 namespace astro::recording {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <random>
 
-#include "host/recording/mcap_reader.hpp"
-#include "host/recording/mcap_writer.hpp"
+#include "host/recording/mcap/reader.hpp"
+#include "host/recording/mcap/writer.hpp"
 
 namespace astro::recording {
 namespace {

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <map>
 
-#include "host/recording/files.hpp"
-#include "host/recording/mcap_reader.hpp"
-#include "host/recording/ros_messages.hpp"
+#include "host/base/files.hpp"
+#include "host/recording/mcap/reader.hpp"
+#include "host/ros2/ros_messages.hpp"
 
 namespace astro::recording {
 namespace {

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 #include <lz4frame.h>
 
-#include "host/recording/compression.hpp"
-#include "host/recording/mcap_reader.hpp"
-#include "host/recording/mcap_writer.hpp"
+#include "host/recording/mcap/compression.hpp"
+#include "host/recording/mcap/reader.hpp"
+#include "host/recording/mcap/writer.hpp"
 
 namespace astro::recording {
 namespace {

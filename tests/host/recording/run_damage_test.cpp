@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "host/base/error.hpp"
-#include "host/recording/files.hpp"
-#include "host/recording/run_file.hpp"
-#include "host/recording/run_writer.hpp"
+#include "host/base/files.hpp"
+#include "host/recording/files/run_file.hpp"
+#include "host/recording/files/run_writer.hpp"
 #include "tests/host/recording/support.hpp"
 
 namespace astro::recording {

@@ -1,16 +1,16 @@
-#include "host/recording/run_file.hpp"
+#include "host/recording/files/run_file.hpp"
 
 #include <gmock/gmock.h>
 
 #include <limits>
 
 #include "host/base/error.hpp"
-#include "host/recording/files.hpp"
-#include "host/recording/mcap_reader.hpp"
-#include "host/recording/mcap_writer.hpp"
-#include "host/recording/numbers.hpp"
-#include "host/recording/run_metadata.hpp"
-#include "host/recording/run_writer.hpp"
+#include "host/base/files.hpp"
+#include "host/recording/mcap/reader.hpp"
+#include "host/recording/mcap/writer.hpp"
+#include "host/base/numbers.hpp"
+#include "host/recording/run/run_metadata.hpp"
+#include "host/recording/files/run_writer.hpp"
 #include "tests/host/recording/support.hpp"
 
 namespace astro::recording {

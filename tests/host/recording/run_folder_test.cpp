@@ -1,9 +1,9 @@
-#include "host/recording/run_folder.hpp"
+#include "host/recording/files/run_folder.hpp"
 
 #include <gmock/gmock.h>
 
 #include "host/base/error.hpp"
-#include "host/recording/run_file.hpp"
+#include "host/recording/files/run_file.hpp"
 #include "tests/host/recording/support.hpp"
 
 namespace astro::recording {

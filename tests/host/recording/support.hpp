@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "host/recording/bytes.hpp"
-#include "host/recording/planar_pose.hpp"
-#include "host/recording/run.hpp"
+#include "host/base/bytes.hpp"
+#include "host/recording/run/planar_pose.hpp"
+#include "host/recording/run/run.hpp"
 
 /// What several tests of recordings need.
 namespace astro::recording::support {

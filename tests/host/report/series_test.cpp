@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/recording/end_error.hpp"
+#include "host/recording/run/end_error.hpp"
 #include "tests/host/report/example_input.hpp"
 
 namespace astro::report {

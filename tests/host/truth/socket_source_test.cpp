@@ -1,4 +1,4 @@
-#include "host/truth/socket_source.hpp"
+#include "host/truth/live/socket_source.hpp"
 
 #include <gmock/gmock.h>
 #include <sys/socket.h>

@@ -2,8 +2,8 @@
 
 #include <iostream>
 
-#include "host/emulator/stopped.hpp"
-#include "host/emulator/teensy.hpp"
+#include "host/emulator/core/stopped.hpp"
+#include "host/emulator/robot/teensy.hpp"
 #include "tests/target/firmware_file.hpp"
 
 namespace astro::emulator {

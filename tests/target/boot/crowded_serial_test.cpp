@@ -4,9 +4,9 @@
 #include <numeric>
 #include <vector>
 
-#include "host/emulator/emulated_robot.hpp"
-#include "host/link/client.hpp"
-#include "host/link/paths.hpp"
+#include "host/emulator/robot/emulated_robot.hpp"
+#include "host/robot/client/client.hpp"
+#include "host/robot/motion/paths.hpp"
 #include "tests/target/firmware_file.hpp"
 
 // All telemetry every millisecond is more than the serial port of 1,000,000 baud takes.
@@ -17,10 +17,10 @@ using namespace std::chrono_literals;
 using protocol::Telemetry;
 
 TEST(CrowdedSerialPort, AnswersEveryRequestAndLosesNoEvent) {
-  auto robot = std::make_shared<EmulatedRobot>(target::kImage, sim::Config{}, simulator::MocapConfig{});
+  auto robot = std::make_shared<EmulatedRobot>(target::kImage, sim::Config{}, simulation::MocapConfig{});
   // A fault is written into the log, and nobody is answered while a sector is erased: not what this is about.
   robot->teensy().flash().times = {50 * kCyclesPerMicrosecond, 500 * kCyclesPerMicrosecond};
-  link::Client client(std::make_unique<PortTransport>(robot, Port::serial));
+  robot::Client client(std::make_unique<PortTransport>(robot, Port::serial));
   client.connect();
   client.pump(50ms);
   const auto repeats = client.counts().repeats;  // the robot was not up yet when the first Hello came
@@ -38,7 +38,7 @@ TEST(CrowdedSerialPort, AnswersEveryRequestAndLosesNoEvent) {
   client.request(protocol::Arm{});
   constexpr int kSegments = 12;
   for (int tag = 1; tag <= kSegments; ++tag) {
-    protocol::AddSegment segment = link::line(0.01).front();
+    protocol::AddSegment segment = robot::line(0.01).front();
     segment.tag = static_cast<std::uint16_t>(tag);
     client.request(segment);
   }

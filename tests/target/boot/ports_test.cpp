@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "host/emulator/emulated_robot.hpp"
-#include "host/link/client.hpp"
+#include "host/emulator/robot/emulated_robot.hpp"
+#include "host/robot/client/client.hpp"
 #include "tests/target/firmware_file.hpp"
 
 namespace astro::emulator {
@@ -16,8 +16,8 @@ INSTANTIATE_TEST_SUITE_P(BothPorts, RobotAt, testing::Values(Port::serial, Port:
 });
 
 TEST_P(RobotAt, SaysWhoItIs) {
-  auto robot = std::make_shared<EmulatedRobot>(kImage, sim::Config{}, simulator::MocapConfig{});
-  link::Client client(std::make_unique<PortTransport>(robot, GetParam()));
+  auto robot = std::make_shared<EmulatedRobot>(kImage, sim::Config{}, simulation::MocapConfig{});
+  robot::Client client(std::make_unique<PortTransport>(robot, GetParam()));
   client.connect();
   const protocol::Status status = client.request(protocol::GetStatus{});
   fmt::print("battery {} mV, ticks {}, overruns {}\n", status.battery_mv, status.tick_count,
@@ -29,7 +29,7 @@ TEST_P(RobotAt, SaysWhoItIs) {
 /// On a bus that others use, a read of a register takes so long that a character comes, and the line falls
 /// silent, within the handler of the character before.
 TEST(SerialPort, FindsACharacterThatComesWhileTheOneBeforeIsTaken) {
-  auto robot = std::make_shared<EmulatedRobot>(kImage, sim::Config{}, simulator::MocapConfig{});
+  auto robot = std::make_shared<EmulatedRobot>(kImage, sim::Config{}, simulation::MocapConfig{});
   Teensy& teensy = robot->teensy();
   teensy.run_for(std::chrono::milliseconds(50));
   teensy.serial().read_takes = 15 * kCyclesPerMicrosecond;

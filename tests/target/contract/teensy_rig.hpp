@@ -5,7 +5,7 @@
 #include <string>
 
 #include "hal/interface/board.hpp"
-#include "host/emulator/teensy.hpp"
+#include "host/emulator/robot/teensy.hpp"
 #include "tests/contract/rig.hpp"
 #include "tests/support/elf_symbols.hpp"
 #include "tests/target/images/puppet.hpp"

@@ -3,8 +3,8 @@
 
 #include <cstring>
 
-#include "host/emulator/emulated_robot.hpp"
-#include "host/link/client.hpp"
+#include "host/emulator/robot/emulated_robot.hpp"
+#include "host/robot/client/client.hpp"
 #include "tests/target/firmware_file.hpp"
 
 namespace astro::emulator {
@@ -54,7 +54,7 @@ class RunningRobot : public testing::Test {
   protocol::ResetCause cause_after_restart() {
     teensy().run_for(1s);
     EXPECT_TRUE(outputs_off()) << "nothing drives again by itself";
-    link::Client again(std::make_unique<PortTransport>(robot_, Port::serial));
+    robot::Client again(std::make_unique<PortTransport>(robot_, Port::serial));
     again.connect();
     const protocol::Status status = again.request(protocol::GetStatus{});
     using protocol::ResetCause;
@@ -66,8 +66,8 @@ class RunningRobot : public testing::Test {
   }
 
   std::shared_ptr<EmulatedRobot> robot_ =
-      std::make_shared<EmulatedRobot>(kImage, sim::Config{}, simulator::MocapConfig{});
-  link::Client client_{std::make_unique<PortTransport>(robot_, Port::serial)};
+      std::make_shared<EmulatedRobot>(kImage, sim::Config{}, simulation::MocapConfig{});
+  robot::Client client_{std::make_unique<PortTransport>(robot_, Port::serial)};
   Cycles happened_at_ = 0;
 };
 
@@ -136,7 +136,7 @@ TEST_F(RunningRobot, ThatRebootsOnRequestSaysSo) {
 }
 
 TEST_F(RunningRobot, EntersTheBootloaderOnlyWhenDisarmedAndWithOutputsOff) {
-  EXPECT_THROW(client_.request(protocol::EnterBootloader{}), link::RobotRefused);
+  EXPECT_THROW(client_.request(protocol::EnterBootloader{}), robot::RobotRefused);
   client_.request(protocol::Disarm{});
   client_.request(protocol::EnterBootloader{});
   EXPECT_TRUE(teensy().run_until([&] { return teensy().in_bootloader(); }, 200ms));

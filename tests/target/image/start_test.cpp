@@ -5,7 +5,7 @@
 
 #include "hal/teensy40/arithmetic/reset_cause.hpp"
 #include "hal/teensy40/pins.hpp"
-#include "host/emulator/teensy.hpp"
+#include "host/emulator/robot/teensy.hpp"
 #include "tests/target/image/hex_file.hpp"
 
 namespace astro::target {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "common/safety/fault.hpp"
-#include "host/emulator/emulated_robot.hpp"
-#include "host/link/client.hpp"
+#include "host/emulator/robot/emulated_robot.hpp"
+#include "host/robot/client/client.hpp"
 #include "tests/target/firmware_file.hpp"
 
 // The very image that is flashed: its fault log outlives resets and power cuts.
@@ -28,7 +28,7 @@ class FaultLog : public testing::Test {
     try {
       while (true)
         all.push_back(client_.request(protocol::GetFaultLog{static_cast<std::uint16_t>(all.size())}));
-    } catch (const link::RobotRefused& refused) {
+    } catch (const robot::RobotRefused& refused) {
       EXPECT_EQ(refused.code(), protocol::ErrorCode::out_of_range);
     }
     return all;
@@ -40,8 +40,8 @@ class FaultLog : public testing::Test {
   }
 
   std::shared_ptr<EmulatedRobot> robot_ =
-      std::make_shared<EmulatedRobot>(kImage, sim::Config{}, simulator::MocapConfig{});
-  link::Client client_{std::make_unique<PortTransport>(robot_, Port::serial)};
+      std::make_shared<EmulatedRobot>(kImage, sim::Config{}, simulation::MocapConfig{});
+  robot::Client client_{std::make_unique<PortTransport>(robot_, Port::serial)};
 };
 
 TEST_F(FaultLog, OutlivesAResetAndAPowerCycle) {

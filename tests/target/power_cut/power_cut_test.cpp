@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "common/params/table.hpp"
-#include "host/emulator/emulated_robot.hpp"
-#include "host/link/client.hpp"
+#include "host/emulator/robot/emulated_robot.hpp"
+#include "host/robot/client/client.hpp"
 #include "tests/target/firmware_file.hpp"
 
 namespace astro::emulator {
@@ -49,7 +49,7 @@ class CutRobot {
       client_.request(protocol::StageParameter{kParameter, value, {}});
       client_.request(protocol::CommitParameters{});
       return true;
-    } catch (const link::RobotRefused&) {
+    } catch (const robot::RobotRefused&) {
       return false;
     }
   }
@@ -63,8 +63,8 @@ class CutRobot {
 
  private:
   std::shared_ptr<EmulatedRobot> robot_ =
-      std::make_shared<EmulatedRobot>(kImage, sim::Config{}, simulator::MocapConfig{});
-  link::Client client_{std::make_unique<PortTransport>(robot_, Port::serial)};
+      std::make_shared<EmulatedRobot>(kImage, sim::Config{}, simulation::MocapConfig{});
+  robot::Client client_{std::make_unique<PortTransport>(robot_, Port::serial)};
 };
 
 /// Bytes that held something are blank now: a sector of old records was erased, not one that was blank

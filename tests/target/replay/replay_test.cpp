@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "host/emulator/teensy.hpp"
+#include "host/emulator/robot/teensy.hpp"
 #include "tests/support/elf_symbols.hpp"
 #include "tests/target/replay/trace.hpp"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "host/emulator/teensy.hpp"
+#include "host/emulator/robot/teensy.hpp"
 
 namespace astro::target {
 

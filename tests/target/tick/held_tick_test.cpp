@@ -8,9 +8,9 @@
 #include <string>
 
 #include "common/params/table.hpp"
-#include "host/emulator/emulated_robot.hpp"
-#include "host/link/client.hpp"
-#include "host/link/paths.hpp"
+#include "host/emulator/robot/emulated_robot.hpp"
+#include "host/robot/client/client.hpp"
+#include "host/robot/motion/paths.hpp"
 #include "tests/target/firmware_file.hpp"
 
 // While the main loop holds the tick no byte of the UART is taken either: it overruns after 40 us, which are
@@ -37,7 +37,7 @@ class TickHeld : public testing::Test {
     const std::string name = std::string(M::kName) + ", " + when;
     try {
       client_.request(message);
-    } catch (const link::RobotRefused& refused) {
+    } catch (const robot::RobotRefused& refused) {
       if (!may_refuse_) ADD_FAILURE() << name << ": " << refused.what();
     }
     client_.pump(5ms);
@@ -79,9 +79,9 @@ class TickHeld : public testing::Test {
   }
 
   std::shared_ptr<EmulatedRobot> robot_ =
-      std::make_shared<EmulatedRobot>(kImage, sim::Config{}, simulator::MocapConfig{});
+      std::make_shared<EmulatedRobot>(kImage, sim::Config{}, simulation::MocapConfig{});
   HeldTick held_{robot_->teensy()};
-  link::Client client_{std::make_unique<emulator::PortTransport>(robot_, emulator::Port::serial)};
+  robot::Client client_{std::make_unique<emulator::PortTransport>(robot_, emulator::Port::serial)};
   bool may_refuse_ = false;
   std::map<std::string, std::uint32_t> worst_;
 };
@@ -106,7 +106,7 @@ TEST_F(TickHeld, ByAnyRequestIsHeldForAtMost500Instructions) {
   ask_whatever("stopping");
   pump(2s, "stopping");
 
-  for (int i = 0; i < 16; ++i) ask(link::line(0.2).front(), "path");
+  for (int i = 0; i < 16; ++i) ask(robot::line(0.2).front(), "path");
   pump(300ms, "path");
   ask_whatever("path");
   ask(protocol::Pause{}, "path");
@@ -116,7 +116,7 @@ TEST_F(TickHeld, ByAnyRequestIsHeldForAtMost500Instructions) {
   ask(protocol::Velocity{100'000, -100'000}, "path");
   ask(protocol::Stop{}, "velocity");
   pump(2s, "stopping");
-  for (int i = 0; i < 16; ++i) ask(link::line(0.2).front(), "path");
+  for (int i = 0; i < 16; ++i) ask(robot::line(0.2).front(), "path");
   ask(protocol::Disarm{}, "path");
   ask(protocol::Arm{}, "disarmed");
   ask(protocol::WheelVoltage{500, 500}, "armed");

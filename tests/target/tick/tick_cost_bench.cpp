@@ -2,8 +2,8 @@
 
 #include <chrono>
 
-#include "host/emulator/emulated_robot.hpp"
-#include "host/experiment/experiment.hpp"
+#include "host/emulator/robot/emulated_robot.hpp"
+#include "host/experiment/drive/experiment.hpp"
 #include "tests/support/desk.hpp"
 #include "tests/target/firmware_file.hpp"
 #include "tests/target/tick/tick_profile.hpp"
@@ -17,7 +17,7 @@ using target::kImage;
 
 experiment::Results run(const std::shared_ptr<emulator::EmulatedRobot>& robot, int runs) {
   const support::TemporaryFolder folder;
-  link::Client client(std::make_unique<emulator::PortTransport>(robot, emulator::Port::serial));
+  robot::Client client(std::make_unique<emulator::PortTransport>(robot, emulator::Port::serial));
   emulator::EmulatedTruth truth(robot);
   client.connect();
   experiment::Plan plan;
@@ -30,7 +30,7 @@ experiment::Results run(const std::shared_ptr<emulator::EmulatedRobot>& robot, i
 
 std::shared_ptr<emulator::EmulatedRobot> thesis_robot() {
   return std::make_shared<emulator::EmulatedRobot>(kImage, support::thesis_robot(support::kThesisSlip_m, 1),
-                                                   simulator::MocapConfig{});
+                                                   simulation::MocapConfig{});
 }
 
 }  // namespace

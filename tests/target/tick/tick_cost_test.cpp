@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "host/emulator/emulated_robot.hpp"
-#include "host/link/client.hpp"
-#include "host/link/drive.hpp"
-#include "host/link/paths.hpp"
+#include "host/emulator/robot/emulated_robot.hpp"
+#include "host/robot/client/client.hpp"
+#include "host/robot/motion/drive.hpp"
+#include "host/robot/motion/paths.hpp"
 #include "tests/target/firmware_file.hpp"
 #include "tests/target/tick/tick_profile.hpp"
 
@@ -19,15 +19,15 @@ constexpr const char* kElf = ASTRO_IMAGE_DIR "/astrolabe-teensy40.elf";
 class TickCost : public testing::Test {
  protected:
   std::shared_ptr<EmulatedRobot> robot_ =
-      std::make_shared<EmulatedRobot>(kImage, sim::Config{}, simulator::MocapConfig{});
-  link::Client client_{std::make_unique<emulator::PortTransport>(robot_, emulator::Port::serial)};
+      std::make_shared<EmulatedRobot>(kImage, sim::Config{}, simulation::MocapConfig{});
+  robot::Client client_{std::make_unique<emulator::PortTransport>(robot_, emulator::Port::serial)};
 };
 
 TEST_F(TickCost, OfControlOdometryAndSafetyIsWithin350InstructionsAroundASquare) {
   client_.connect();
   TickProfile profile(robot_->teensy(), kElf);
-  link::DriveSession session(client_);
-  for (const link::Sense sense : {link::Sense::cw, link::Sense::ccw}) session.run(link::square(0.5, sense));
+  robot::DriveSession session(client_);
+  for (const robot::Sense sense : {robot::Sense::cw, robot::Sense::ccw}) session.run(robot::square(0.5, sense));
   session.hold_velocity(0.4, 1.0, 1s);
   profile.print();
   EXPECT_GT(profile.ticks(), 10'000U);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/emulator/teensy.hpp"
+#include "host/emulator/robot/teensy.hpp"
 
 namespace astro::target {
 

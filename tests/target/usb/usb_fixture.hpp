@@ -9,7 +9,7 @@
 #include "common/protocol/codec.hpp"
 #include "common/protocol/framer.hpp"
 #include "common/protocol/messages.hpp"
-#include "host/emulator/usb/host.hpp"
+#include "host/emulator/robot/usb_host.hpp"
 
 namespace astro::emulator {
 

@@ -1,0 +1,160 @@
+#include "host/base/files.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include "host/base/error.hpp"
+
+namespace astro::recording {
+namespace fs = std::filesystem;
+namespace {
+
+std::string reason(int code) { return std::generic_category().message(code); }
+
+fs::path part_of(fs::path path) { return path += ".part"; }
+
+bool is_recording(const fs::path& path) {
+  constexpr char kMagic[] = {'\x89', 'M', 'C', 'A', 'P'};
+  char start[sizeof kMagic] = {};
+  std::ifstream file(path, std::ios::binary);
+  return file.read(start, sizeof start) && std::equal(std::begin(start), std::end(start), kMagic);
+}
+
+std::string too_large(const fs::path& path, std::uintmax_t size, std::uintmax_t most_bytes) {
+  if (most_bytes == kMaxFileBytes) return path.string() + " is larger than 4 GiB: split it into shorter runs";
+  return path.string() + " has " + std::to_string(size >> 20U) +
+         " MiB, and no file of its kind has more than " + std::to_string(most_bytes >> 20U) +
+         ": name the right file";
+}
+
+/// So that the new name, too, survives a power cut. Some file systems cannot; then there is nothing to be
+/// done.
+void sync_folder(const fs::path& folder) {
+  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+}  // namespace
+
+Bytes load_file(const fs::path& path, std::uintmax_t most_bytes) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::status_known(status)) throw Error("cannot read " + path.string() + ": " + error.message());
+  if (!fs::exists(status)) {
+    if (fs::exists(part_of(path), error)) {
+      throw Error(path.string() + " was never finished: what was recorded of it is in " +
+                  part_of(path).string() + "; rename that file to use it, or record the run again");
+    }
+    throw Error(path.string() + " does not exist: check the path");
+  }
+  if (fs::is_directory(status)) throw Error(path.string() + " is a folder: name a file in it");
+  if (!fs::is_regular_file(status)) throw Error(path.string() + " is a device or a pipe: name a file");
+  const std::uintmax_t size = fs::file_size(path, error);
+  if (error) throw Error("cannot read " + path.string() + ": " + error.message());
+  if (size > most_bytes) throw Error(too_large(path, size, most_bytes));
+
+  Bytes bytes(static_cast<std::size_t>(size));
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (!file.is_open() || file.bad()) {
+    throw Error("cannot read " + path.string() + ": check its permissions and the disk");
+  }
+  bytes.resize(static_cast<std::size_t>(file.gcount()));  // a file that shrank meanwhile
+  return bytes;
+}
+
+PartFile::PartFile(fs::path path, Replaces replaces) : path_(std::move(path)), part_(part_of(path_)) {
+  std::error_code ignored, error;
+  if (fs::is_directory(path_, ignored))
+    throw Error("'" + path_.string() + "' is a folder: name a file in it");
+  if (fs::exists(path_, ignored) && !fs::is_regular_file(path_, ignored))
+    throw Error("'" + path_.string() + "' is a device or a pipe: name a file");
+  const auto is_kept = [&] { return replaces != Replaces::recordings_too && is_recording(path_); };
+  const std::string kept =
+      "'" + path_.string() + "' is a recording, and nothing replaces one: name another file";
+  if (is_kept()) throw Error(kept);
+  if (path_.has_parent_path()) fs::create_directories(path_.parent_path(), error);
+  if (error) {
+    throw Error("cannot make the folder " + path_.parent_path().string() + ": " + error.message());
+  }
+  open_part();
+  if (!is_kept()) return;
+  ::unlink(part_.c_str());  // another program has made it before this one held the lock
+  give_up(kept);
+}
+
+/// Without following a link: who may write into the folder must not choose which file is emptied. The lock is
+/// held until the file has its name, so that two programs never write one file.
+void PartFile::open_part() {
+  constexpr int kTries = 100;
+  for (int tries = 1;; ++tries) {
+    descriptor_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) fail("create");
+    struct stat opened {
+    }, named{};
+    if (::fstat(descriptor_, &opened) == 0 && !S_ISREG(opened.st_mode))
+      give_up(part_.string() +
+              " is no file, so nothing can be recorded there: remove it or name another file");
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+      give_up(part_.string() + " is being written by another program: wait for it or name another file");
+    // Another program may have given the file its name between open and flock: it is no longer ours to empty.
+    if (::lstat(part_.c_str(), &named) == 0 && named.st_ino == opened.st_ino && named.st_dev == opened.st_dev)
+      break;
+    if (tries == kTries) give_up(part_.string() + " changes again and again: choose another folder");
+    ::close(descriptor_);
+  }
+  if (::ftruncate(descriptor_, 0) != 0) give_up(why_not("empty"));
+}
+
+void PartFile::give_up(const std::string& sentence) {
+  ::close(std::exchange(descriptor_, -1));
+  throw Error(sentence);
+}
+
+PartFile::~PartFile() {
+  if (descriptor_ < 0) return;
+  if (empty_) ::unlink(part_.c_str());  // while it is locked: afterwards the name may be another program's
+  ::close(descriptor_);
+}
+
+std::string PartFile::why_not(const std::string& what) const {
+  if (errno == ELOOP)
+    return part_.string() + " is a link, and nothing is written through one: remove it or name another file";
+  return "cannot " + what + " " + part_.string() + ": " + reason(errno) +
+         "; check the disk or choose another folder";
+}
+
+void PartFile::fail(const std::string& what) const { throw Error(why_not(what)); }
+
+void PartFile::write(ByteView bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail("write");
+    empty_ = false;
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+}
+
+void PartFile::commit() {
+  if (::fsync(descriptor_) != 0) fail("bring to the disk");
+  std::error_code error;
+  fs::rename(part_, path_, error);
+  if (error)
+    throw Error("cannot rename " + part_.string() + " to " + path_.string() + ": " + error.message());
+  if (::close(std::exchange(descriptor_, -1)) != 0) fail("close");
+  sync_folder(path_.parent_path());
+}
+
+}  // namespace astro::recording

@@ -1,0 +1,81 @@
+#include "host/calibration/end_poses/least_squares.hpp"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <numbers>
+
+#include "host/base/error.hpp"
+#include "host/calibration/end_poses/compose.hpp"
+#include "host/calibration/end_poses/replay.hpp"
+
+namespace astro::calibration {
+namespace {
+
+using Parameters = Eigen::Vector2d;  // ln E_d, ln E_b: a step can never make a ratio negative
+using Residuals = Eigen::Vector4d;
+using Jacobian = Eigen::Matrix<double, 4, 2>;
+
+struct Problem {
+  const MeanErrors& mean;
+  double side_m;
+  const WheelFactors& carried;
+  double weight_cw, weight_ccw;
+
+  Residuals operator()(const Parameters& p) const {
+    const WheelFactors truth = compose(carried, std::exp(p(0)), std::exp(p(1)));
+    const EndPose cw = replay_square(side_m, Sense::cw, carried, truth);
+    const EndPose ccw = replay_square(side_m, Sense::ccw, carried, truth);
+    return {weight_cw * (cw.x_m - mean.cw.x_m), weight_cw * (cw.y_m - mean.cw.y_m),
+            weight_ccw * (ccw.x_m - mean.ccw.x_m), weight_ccw * (ccw.y_m - mean.ccw.y_m)};
+  }
+
+  Jacobian derivative(const Parameters& p) const {
+    constexpr double kStep =
+        1e-5;  // rounding 1e-11 and curvature 1e-10, both relative: far from the fit's own error
+    Jacobian out;
+    for (int column = 0; column < 2; ++column) {
+      const Parameters step = kStep * Parameters::Unit(column);
+      out.col(column) = ((*this)(p + step) - (*this)(p - step)) / (2 * kStep);
+    }
+    return out;
+  }
+};
+
+Parameters start(const MeanErrors& mean, double side_m, double b_m) {
+  const Ratios guess = umbmark_ratios(mean, side_m, b_m, AngleSource::average);
+  const bool usable = guess.E_d > 0.5 && guess.E_d < 2 && guess.E_b > 0.5 && guess.E_b < 2;
+  return usable ? Parameters(std::log(guess.E_d), std::log(guess.E_b)) : Parameters::Zero();
+}
+
+Parameters solve(const Problem& problem, Parameters p) {
+  constexpr int kMostSteps = 50;
+  constexpr double kSettled = 1e-13;
+  for (int i = 0; i < kMostSteps; ++i) {
+    const Parameters step = problem.derivative(p).colPivHouseholderQr().solve(-problem(p));
+    p += step;
+    if (step.norm() < kSettled) return p;
+    if (!p.allFinite() || p.norm() > 1) break;
+  }
+  throw Error(
+      "no pair of wheel and wheelbase ratios explains these end positions: check the units, the side length "
+      "and "
+      "that the clockwise and counter-clockwise runs are not exchanged");
+}
+
+}  // namespace
+
+Ratios fit_end_positions(const MeanErrors& mean, RunCounts runs, double side_m, const WheelFactors& carried) {
+  const Problem problem{mean, side_m, carried, std::sqrt(runs.cw), std::sqrt(runs.ccw)};
+  const Parameters p = solve(problem, start(mean, side_m, carried.b_m));
+
+  Ratios out{.E_d = std::exp(p(0)), .E_b = std::exp(p(1))};
+  const WheelFactors truth = compose(carried, out.E_d, out.E_b);
+  const double right = truth.c_r / carried.c_r;
+  const double left = truth.c_l / carried.c_l;
+  out.alpha_rad = std::numbers::pi / 2 * (1 - (right + left) / 2 / out.E_b);
+  out.beta_rad = side_m * (right - left) / truth.b_m;
+  out.curvature_per_m = (right - left) / truth.b_m / ((right + left) / 2);
+  return out;
+}
+
+}  // namespace astro::calibration

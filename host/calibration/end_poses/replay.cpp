@@ -1,0 +1,32 @@
+#include "host/calibration/end_poses/replay.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "host/calibration/motion/arc.hpp"
+
+namespace astro::calibration {
+EndPose replay_square(double side_m, Sense sense, const WheelFactors& believed, const WheelFactors& truth) {
+  const double right = truth.c_r / believed.c_r;
+  const double left = truth.c_l / believed.c_l;
+  const double sign = sense == Sense::ccw ? 1 : -1;
+  const double spin_m = sign * believed.b_m * std::numbers::pi / 4;
+  EndPose pose;
+  for (int leg = 0; leg < 4; ++leg) {
+    advance(pose, side_m * right, side_m * left, truth.b_m);
+    advance(pose, spin_m * right, -spin_m * left, truth.b_m);
+  }
+  pose.theta_rad -= sign * 2 * std::numbers::pi;
+  return pose;
+}
+
+double replay_E_max_syst_m(double side_m, const WheelFactors& believed, const WheelFactors& truth) {
+  const auto r_m = [&](Sense sense) {
+    const EndPose error = replay_square(side_m, sense, believed, truth);
+    return std::hypot(error.x_m, error.y_m);
+  };
+  return std::max(r_m(Sense::cw), r_m(Sense::ccw));
+}
+
+}  // namespace astro::calibration

@@ -1,0 +1,186 @@
+#include "host/calibration/end_poses/umbmark.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "host/base/error.hpp"
+#include "host/calibration/end_poses/compose.hpp"
+#include "host/calibration/end_poses/least_squares.hpp"
+
+namespace astro::calibration {
+namespace {
+
+using Vector5 = Eigen::Matrix<double, 5, 1>;  // E_d, E_b, c_R, c_L, b
+using Vector6 = Eigen::Matrix<double, 6, 1>;  // x, y, theta of cw, then of ccw
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+struct Experiment {
+  double side_m;
+  const WheelFactors& carried;
+  const Options& options;
+  RunCounts runs;
+
+  Ratios ratios(const Vector6& m) const {
+    const MeanErrors mean{{m(0), m(1), m(2)}, {m(3), m(4), m(5)}};
+    switch (options.method) {
+      case Method::extended:
+        return extended_ratios(mean, side_m, carried.b_m, options.formula);
+      case Method::least_squares:
+        return fit_end_positions(mean, runs, side_m, carried);
+      case Method::umbmark:
+        break;
+    }
+    return umbmark_ratios(mean, side_m, carried.b_m, options.angles);
+  }
+
+  Vector5 results(const Vector6& m) const {
+    const Ratios r = ratios(m);
+    const WheelFactors f = compose(carried, r.E_d, r.E_b);
+    return (Vector5() << r.E_d, r.E_b, f.c_r, f.c_l, f.b_m).finished();
+  }
+};
+
+void require_inputs(std::span<const EndPose> cw, std::span<const EndPose> ccw, double side_m,
+                    const WheelFactors& carried) {
+  if (!std::isfinite(side_m) || side_m <= 0) {
+    throw Error("the side of the square is " + std::to_string(side_m) +
+                " m: give the length of one leg in metres, such as 3");
+  }
+  require_usable(carried);
+  if (cw.empty() && ccw.empty()) {
+    throw Error(
+        "there are no runs at all: drive the square at least once clockwise and once counter-clockwise");
+  }
+  if (cw.empty() || ccw.empty()) {
+    throw Error(
+        std::string("there are no ") + (cw.empty() ? "clockwise" : "counter-clockwise") +
+        " runs, and one direction alone cannot separate the error of the wheel diameters from that of the "
+        "wheelbase: drive the square in both directions");
+  }
+}
+
+void require_headings(std::span<const EndPose> runs, const std::string& direction) {
+  const auto lacks = [](const EndPose& run) { return std::isnan(run.theta_rad); };
+  const bool none = std::all_of(runs.begin(), runs.end(), lacks);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (lacks(runs[i])) {
+      throw Error(
+          (none ? "the " + direction + " runs have" : direction + " run " + std::to_string(i + 1) + " has") +
+          " no heading error, which the extended method calibrates from: measure the end headings "
+          "(etheta_rad or etheta_deg), or use the method umbmark");
+    }
+    if (std::abs(runs[i].theta_rad) > std::numbers::pi) {
+      throw Error(direction + " run " + std::to_string(i + 1) + " has a heading error of " +
+                  std::to_string(runs[i].theta_rad) +
+                  " rad, more than half a turn: check the units, and write it between -180 and 180 degrees");
+    }
+  }
+}
+
+void require_plausible(const Ratios& r) {
+  const auto plausible = [](double ratio) { return ratio > 0.5 && ratio < 2; };
+  if (plausible(r.E_d) && plausible(r.E_b)) return;
+  throw Error(
+      "the end poses ask for E_d = " + std::to_string(r.E_d) + " and E_b = " + std::to_string(r.E_b) +
+      ", which is no robot that drives a square: check the units, the side length and that the clockwise "
+      "and counter-clockwise runs are not exchanged");
+}
+
+Vector6 means_of(const ExperimentSummary& s) {
+  const auto theta = [](const ClusterSummary& c) { return c.has_theta ? c.theta_cg_rad : 0; };
+  return (Vector6() << s.cw.x_cg_m, s.cw.y_cg_m, theta(s.cw), s.ccw.x_cg_m, s.ccw.y_cg_m, theta(s.ccw))
+      .finished();
+}
+
+/// Of the mean of one direction. A heading that was not measured is held at zero, without variance.
+Eigen::Matrix3d covariance_of_mean(std::span<const EndPose> runs) {
+  Eigen::Matrix3Xd deviations(3, static_cast<Eigen::Index>(runs.size()));
+  for (Eigen::Index i = 0; i < deviations.cols(); ++i) {
+    const EndPose& run = runs[static_cast<std::size_t>(i)];
+    deviations.col(i) << run.x_m, run.y_m, std::isnan(run.theta_rad) ? 0 : run.theta_rad;
+  }
+  deviations.colwise() -= deviations.rowwise().mean().eval();
+  const double n = static_cast<double>(runs.size());
+  return deviations * deviations.transpose() / (n * (n - 1));  // 0 / 0 = NaN for one run, as promised
+}
+
+/// Delta method: J C J^T with a central difference for J. The step leaves 1e-9 of J to rounding and less to
+/// curvature.
+StandardErrors standard_errors(const Experiment& experiment, const Vector6& mean, const Matrix6& covariance) {
+  constexpr double kStep = 1e-5;  // of the side, or radians
+  Eigen::Matrix<double, 5, 6> jacobian;
+  for (int column = 0; column < 6; ++column) {
+    const double h = column % 3 == 2 ? kStep : kStep * experiment.side_m;
+    const Vector6 step = h * Vector6::Unit(column);
+    jacobian.col(column) = (experiment.results(mean + step) - experiment.results(mean - step)) / (2 * h);
+  }
+  const Vector5 se = (jacobian * covariance * jacobian.transpose()).diagonal().cwiseSqrt();
+  return {se(0), se(1), se(2), se(3), se(4)};
+}
+
+}  // namespace
+
+Estimate estimate_factors(std::span<const EndPose> cw, std::span<const EndPose> ccw, double side_m,
+                          const WheelFactors& carried, const Options& options) {
+  require_inputs(cw, ccw, side_m, carried);
+  Estimate out;
+  out.options = options;
+  out.side_m = side_m;
+  out.carried = carried;
+  out.summary = summarize(cw, ccw);
+  if (options.method == Method::extended) {
+    require_headings(cw, "clockwise");
+    require_headings(ccw, "counter-clockwise");
+  }
+
+  const Experiment experiment{side_m, carried, options, {out.summary.cw.runs, out.summary.ccw.runs}};
+  const Vector6 mean = means_of(out.summary);
+  const Ratios ratios = experiment.ratios(mean);
+  require_plausible(ratios);
+  out.alpha_rad = ratios.alpha_rad;
+  out.beta_rad = ratios.beta_rad;
+  out.alpha_Ed_rad = ratios.alpha_Ed_rad;
+  out.radius_m = 1 / ratios.curvature_per_m;
+  out.E_d = ratios.E_d;
+  out.E_b = ratios.E_b;
+  out.factors = compose(carried, ratios.E_d, ratios.E_b);
+
+  Matrix6 covariance = Matrix6::Zero();
+  covariance.topLeftCorner<3, 3>() = covariance_of_mean(cw);
+  covariance.bottomRightCorner<3, 3>() = covariance_of_mean(ccw);
+  out.se = standard_errors(experiment, mean, covariance);
+  return out;
+}
+
+std::string_view name_of(Method method) {
+  switch (method) {
+    case Method::umbmark:
+      return "umbmark";
+    case Method::extended:
+      return "extended";
+    case Method::least_squares:
+      break;
+  }
+  return "least-squares";
+}
+
+std::string_view name_of(AngleSource angles) {
+  switch (angles) {
+    case AngleSource::x:
+      return "x";
+    case AngleSource::y:
+      return "y";
+    case AngleSource::thesis:
+      return "thesis";
+    case AngleSource::average:
+      break;
+  }
+  return "average";
+}
+
+std::string_view name_of(Formula formula) { return formula == Formula::exact ? "exact" : "published"; }
+
+}  // namespace astro::calibration

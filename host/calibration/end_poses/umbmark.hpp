@@ -1,0 +1,61 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "host/calibration/end_poses/closed_form.hpp"
+#include "host/calibration/end_poses/end_pose.hpp"
+
+/// Wheel factors from the end poses of squares driven both ways round: UMBmark (Borenstein & Feng 1996),
+/// extended UMBmark (Jung & Chung 2011) and the exact fit of the end positions.
+namespace astro::calibration {
+
+/// umbmark        end positions, first order in the angles; `angles` says which coordinates
+/// extended       end headings; `formula` says exact or as published
+/// least_squares  end positions, exact arcs, no small-angle bias
+enum class Method { umbmark, extended, least_squares };
+
+struct Options {
+  Method method = Method::umbmark;
+  AngleSource angles = AngleSource::average;  // read by Method::umbmark
+  Formula formula = Formula::exact;           // read by Method::extended
+};
+
+/// Standard errors from the scatter of the runs within each direction, to first order. All NaN with fewer
+/// than two runs in a direction: one run shows no scatter. They hold no bias of the method, no error of the
+/// side length, and nothing of the uncertainty of what the robot carried.
+struct StandardErrors {
+  double E_d = 0, E_b = 0, c_r = 0, c_l = 0, b_m = 0;
+};
+
+struct Estimate {
+  Options options;
+  double side_m = 0;
+  WheelFactors carried;  // what the robot believed while it drove
+
+  double alpha_rad = 0, beta_rad = 0, alpha_Ed_rad = 0;  // see closed_form.hpp
+  double radius_m = 0;  // of a leg: positive curves to the left, infinite when beta is 0
+  double E_d = 1, E_b = 1;
+  WheelFactors factors;  // what to load: E_d and E_b composed with `carried`, see compose.hpp
+  StandardErrors se;
+  ExperimentSummary summary;
+};
+
+/// `side_m` is the leg as the odometry measured it. `carried` are the factors in force during all of the
+/// runs; for a nominal robot {1, 1, nominal wheelbase}.
+///
+/// Throws astro::Error, each with its remedy, when
+///   a direction is missing, a value is not finite, or only some runs of a direction have a heading
+///   the method is extended and a run has no heading, or one beyond half a turn
+///   the side or a carried factor is not positive and finite
+///   a ratio comes out beyond 0.5..2: wrong units, side or sets, not a robot
+Estimate estimate_factors(std::span<const EndPose> cw, std::span<const EndPose> ccw, double side_m,
+                          const WheelFactors& carried, const Options& options = {});
+
+/// The names users type and read: "umbmark", "extended", "least-squares"; "x", "y", "thesis", "average";
+/// "exact", "published".
+std::string_view name_of(Method method);
+std::string_view name_of(AngleSource angles);
+std::string_view name_of(Formula formula);
+
+}  // namespace astro::calibration

@@ -1,0 +1,70 @@
+#include "host/calibration/judgement/path_errors.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "host/calibration/likelihood/ml_fit.hpp"
+#include "host/calibration/preparation/path_alignment.hpp"
+
+namespace astro::calibration {
+namespace {
+
+/// Sums of squares on their way to a root mean square.
+struct SquareSum {
+  double sum = 0, count = 0;
+  void add(double value) {
+    sum += value * value;
+    ++count;
+  }
+  double rms() const { return std::sqrt(sum / count); }
+};
+
+/// The tracked body where the odometry, which starts at (0, 0, 0), has it.
+BodySample placed(const BodySample& odometry, const Unknowns& u) {
+  const double c = std::cos(u[kStartTheta]), s = std::sin(u[kStartTheta]);
+  const double heading = u[kStartTheta] + odometry.theta_rad;
+  const double ch = std::cos(heading), sh = std::sin(heading);
+  return {odometry.time_s,
+          u[kStartX] + c * odometry.x_m - s * odometry.y_m + ch * u[kLeverX] - sh * u[kLeverY],
+          u[kStartY] + s * odometry.x_m + c * odometry.y_m + sh * u[kLeverX] + ch * u[kLeverY],
+          heading + u[kLeverYaw]};
+}
+
+}  // namespace
+
+PathErrors path_errors(std::span<const Trajectory> runs, const WheelFactors& factors,
+                       const MlOptions& options) {
+  const PreparedRuns prepared = prepare(runs, factors, options.clock_known, Density::all);
+  const MlFit fit(prepared, factors, options, true);
+  PathErrors errors;
+  errors.left_out = prepared.left_out;
+  SquareSum final_m, heading_rad, path_m;
+  for (std::size_t i = 0; i < fit.runs().size(); ++i) {
+    const PreparedRun& run = fit.runs()[i];
+    const Unknowns& u = fit.unknowns()[i];
+    RunErrors of_run{run.source->name};
+    SquareSum run_m;
+    const std::vector<BodySample> odometry = dead_reckoned(run, {u[kClockOffset], u[kSkew]}, factors);
+    for (std::size_t k = 0; k < odometry.size(); ++k) {
+      const BodySample expected = placed(odometry[k], u);
+      const double miss_m = std::hypot(expected.x_m - run.truth[k].x_m, expected.y_m - run.truth[k].y_m);
+      run_m.add(miss_m);
+      path_m.add(miss_m);
+      if (k + 1 < odometry.size()) continue;
+      of_run.final_m = miss_m;
+      of_run.final_heading_rad =
+          run.has_headings ? std::remainder(expected.theta_rad - run.truth[k].theta_rad, 2 * std::numbers::pi)
+                           : std::nan("");
+    }
+    of_run.path_rms_m = run_m.rms();
+    final_m.add(of_run.final_m);
+    if (run.has_headings) heading_rad.add(of_run.final_heading_rad);
+    errors.runs.push_back(of_run);
+  }
+  errors.final_rms_m = final_m.rms();
+  errors.final_heading_rms_rad = heading_rad.rms();
+  errors.path_rms_m = path_m.rms();
+  return errors;
+}
+
+}  // namespace astro::calibration

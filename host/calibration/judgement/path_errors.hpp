@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/calibration/likelihood/maximum_likelihood.hpp"
+
+/// How well given factors dead-reckon given drives: the judgement that a calibration has to stand on drives
+/// that it has not seen.
+namespace astro::calibration {
+
+/// Odometry less truth, in the plane of truth; of one run.
+struct RunErrors {
+  std::string name;
+  double final_m = 0,
+         final_heading_rad = 0;  // at the last truth sample; heading in [-pi, pi], NaN without headings
+  double path_rms_m = 0;         // over all truth samples
+};
+
+struct PathErrors {
+  std::vector<RunErrors> runs;
+  std::vector<std::string> left_out;                  // runs that cannot be used: why, each
+  double final_rms_m = 0, final_heading_rms_rad = 0;  // over the runs
+  double path_rms_m = 0;                              // over all samples of all runs
+};
+
+/// Dead reckoning by `factors` alone from where each run starts. What is not the robot's is fitted to these
+/// runs with the factors held: lever arm, clocks, and the start poses.
+///
+/// Throws astro::Error as estimate_ml does for runs that cannot be used.
+PathErrors path_errors(std::span<const Trajectory> runs, const WheelFactors& factors,
+                       const MlOptions& options = {});
+
+}  // namespace astro::calibration

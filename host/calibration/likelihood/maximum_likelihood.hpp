@@ -1,0 +1,135 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/calibration/end_poses/end_pose.hpp"
+#include "host/calibration/preparation/slip_events.hpp"
+#include "host/calibration/motion/trajectory.hpp"
+
+/// Wheel factors by maximum likelihood from whole trajectories.
+///
+/// Unknown are c_R, c_L, b; the lever arm of the tracked body; per run its start pose and the offset between
+/// the two clocks; one skew of the clocks; and the noise itself. A Kalman filter runs along each drive
+/// (innovation.hpp), its innovations are made as likely as they can be by Gauss-Newton, with Huber's weights
+/// against outliers. For normal noise that is the maximum-likelihood estimate, and it reaches the Cramer-Rao
+/// bound within a few percent.
+///
+/// Frames  see trajectory.hpp. Factors are absolute: wheel travel = c * nominal travel, whatever the robot
+///         carried while it drove, so a calibration of a calibrated robot composes by itself.
+/// Source  Kalman innovations as likelihood: Schweppe 1965; start: Censi et al. 2013 (relative_pose.hpp).
+namespace astro::calibration {
+
+struct MlOptions {
+  /// True: the truth's times are already the robot's, and neither offset nor skew is estimated.
+  bool clock_known = false;
+  /// A given noise model is used as it stands; without one it is estimated.
+  std::optional<NoiseModel> noise;
+  /// Huber's weights for slips and for truth samples. Off: least squares, for comparison.
+  bool robust = true;
+};
+
+/// Of c_R, c_L and b in this order; b in metres.
+using FactorCovariance = std::array<std::array<double, 3>, 3>;
+
+/// What people ask for: E_d = c_R / c_L, S = (c_R + c_L) / 2, and b.
+struct MlErrors {
+  double c_r = 0, c_l = 0, b_m = 0;
+  double E_d = 0, scale = 0;
+  double b_over_scale_m = 0;  // b / S: all that squares driven by odometry can see of b
+};
+
+struct RunFit {
+  std::string name;
+  double distance_m = 0, rotation_rad = 0;  // driven, as far as truth covers it; rotation counts both senses
+  double clock_offset_s = 0;  // robot's clock less tracker's, in the middle of the run; 0 if known
+  double clock_offset_se_s = 0;
+  double chi_square = 0;  // of the innovations
+  int degrees_of_freedom = 0;
+  /// How far this run, its slips counted in full, is from what all others say about c_R, c_L and b:
+  /// chi-square with `disagreement_dof` degrees of freedom for a run like the others (fewer than 3 where the
+  /// run cannot see all three; 0 if there are no others).
+  double disagreement = 0;
+  int disagreement_dof = 0;
+  bool outlier =
+      false;  // less likely than one in a thousand among as many runs, the others being as they are
+  std::vector<Jolt> jolts;
+};
+
+/// Innovations while the robot moved in one way.
+struct KindFit {
+  Motion motion = Motion::line;
+  int samples = 0;
+  double distance_m = 0, rotation_rad = 0;
+  double rms_xy_m = 0, rms_theta_rad = 0;  // of the innovations; theta NaN without headings
+  double chi_square_per_dof = 0;
+};
+
+/// Whether arcs and spins want the same wheelbase: real tyres turn about another point when they spin.
+struct WheelbaseByKind {
+  double arc_over_spin = 1, standard_error = 0;
+  /// More than four standard errors and 0.1 % apart. Not widened by `dispersion`: runs that differ because of
+  /// this would hide it.
+  bool disagrees = false;
+};
+
+struct MlEstimate {
+  WheelFactors factors;
+  FactorCovariance covariance{};
+  MlErrors se;
+  LeverArm lever, lever_se;  // yaw NaN where no heading was measured
+  double clock_skew = 0,
+         clock_skew_se = 0;  // the robot's clock runs (1 + skew) times as fast as the tracker's
+  NoiseModel noise;          // K: its upper limit of 95 % where the data do not tell it to a third
+  /// Time between the truth samples of the longest run of which the likelihood is made, where closer ones
+  /// share errors that slip and tracker do not explain (whiteness.hpp); 0 where none do and all were taken.
+  double thinned_to_s = 0;
+  std::vector<RunFit> runs;
+  std::vector<std::string> left_out;                 // runs that cannot be used and harm nobody: why, each
+  std::vector<KindFit> kinds;                        // those that occur, in the order of Motion
+  std::optional<WheelbaseByKind> wheelbase_by_kind;  // only with enough of both
+  /// How much more the runs that are no outliers scatter than their noise explains; the covariance and all
+  /// standard errors of factors are already widened by it. 1 where they do not.
+  double dispersion = 1;
+  double chi_square = 0;
+  int degrees_of_freedom = 0;
+  int iterations = 0;
+
+  double E_d() const { return factors.c_r / factors.c_l; }
+  double scale() const { return (factors.c_r + factors.c_l) / 2; }
+  /// Plain words about what does not fit; empty if everything does. Sentences for a person.
+  std::vector<std::string> remarks() const;
+};
+
+/// `carried` tells the nominal geometry (only b is used, as a scale for what is plausible) and where to start
+/// when the truth has no headings.
+///
+/// Throws astro::Error in one sentence with its remedy for
+///   no runs; a run too short, without truth, or whose two streams do not overlap (named)
+///   headings of truth that never change although the wheels turn the robot
+///   truth that turns the other way: mirrored axes or exchanged wheels
+///   runs that never turn, never go straight, or otherwise leave one of the three open
+///   factors beyond half or twice of what is plausible: wrong units or counts
+/// Cost    linear in the samples; ten 3 m squares of 60 Hz take about 0.2 s.
+MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& carried,
+                       const MlOptions& options = {});
+
+/// The covariance of c_R, c_L, b (b in m) that no unbiased estimator can beat: the inverse of the Fisher
+/// information of these runs for a robot of which everything is known but what `options` has estimated.
+/// `options.noise` must be given. The path comes from the wheels and `factors`; of truth the times matter,
+/// and what the search for the clocks and the checks of usable runs need. As for the estimate, no two samples
+/// of truth closer than two of the wheels count (prepared_run.hpp): with all of them, trackers of centimetres
+/// over counts at 20 Hz would seem up to 1.6 times as good as they are; at 100 Hz over 60 Hz nothing changes.
+///
+/// Throws astro::Error as estimate_ml does for runs that cannot be used, and if the runs leave one of the
+/// three open.
+FactorCovariance cramer_rao_bound(std::span<const Trajectory> runs, const WheelFactors& factors,
+                                  const LeverArm& lever, const MlOptions& options);
+
+/// Standard deviations that a covariance stands for.
+MlErrors errors_of(const FactorCovariance& covariance, const WheelFactors& factors);
+
+}  // namespace astro::calibration

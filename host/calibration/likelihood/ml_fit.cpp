@@ -1,0 +1,204 @@
+#include "host/calibration/likelihood/ml_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host/base/error.hpp"
+#include "host/calibration/preparation/start_values.hpp"
+#include "host/calibration/likelihood/whiteness.hpp"
+
+namespace astro::calibration {
+namespace {
+
+constexpr int kMostSteps = 30, kMostRounds = 6, kMostScorings = 20;
+// A cost that falls by less has parameters that move by less than a twentieth of their standard errors.
+constexpr double kSettled = 1e-3;
+constexpr double kNoiseSettled = 0.01;  // of the logarithms of the variances
+constexpr double kLargestNoiseStep = 2;
+constexpr double kLargestK_m = 1e-2;
+constexpr int kFewestLooks = 20;  // of a run
+constexpr int kMostPhases = 4;
+
+double cost_of(std::span<const InnovationSums> sums) {
+  double cost = 0;
+  for (const InnovationSums& run : sums) cost += run.cost;
+  return cost;
+}
+
+/// Moves the logarithm of a variance, kept as its `power`-th root, and tells by how much it really did.
+double scale_variance(double& value, int power, double change, double least, double most) {
+  const double step = std::clamp(change, -kLargestNoiseStep, kLargestNoiseStep);
+  const double before = value;
+  value = std::clamp(before * std::exp(step / power), least, most);
+  return std::abs(power * std::log(value / before));
+}
+
+}  // namespace
+
+MlFit::MlFit(const PreparedRuns& prepared, const WheelFactors& carried, const MlOptions& options,
+             bool factors_held)
+    : runs_(prepared.runs),
+      carried_(carried),
+      unknowns_(start_values(prepared, carried)),
+      noise_(options.noise ? *options.noise : start_noise(prepared)) {
+  held_.factors = factors_held;
+  held_.clock = options.clock_known;
+  held_.lever_yaw =
+      std::none_of(runs_.begin(), runs_.end(), [](const PreparedRun& run) { return run.has_headings; });
+  for (Unknowns& u : unknowns_) {
+    if (held_.clock) u[kSkew] = u[kClockOffset] = 0;
+    if (held_.factors) u.head<3>() << carried.c_r, carried.c_l, carried.b_m;
+  }
+  // A first guess is judged by least squares: what seems an outlier to it may be the truth.
+  maximise();
+  require_plausible();
+  if (options.robust) looks_.doubt = Doubt::tracker_and_wheels;
+  if (options.noise) {
+    if (options.robust) maximise();
+  } else {
+    fit_with_noise();
+    while (!innovations_are_independent()) {
+      looks_.stride *= 2;
+      fit_with_noise();
+    }
+    if (looks_.stride > 1) {
+      phases_ = std::min(looks_.stride, kMostPhases);
+      fit_with_noise();
+    }
+    widen_uncertain_slip();
+  }
+  require_plausible();
+}
+
+void MlFit::fit_with_noise() {
+  for (int round = 0; round < kMostRounds; ++round) {
+    const bool settled = fit_noise();
+    maximise();
+    if (settled) break;
+  }
+}
+
+bool MlFit::innovations_are_independent() const {
+  std::vector<std::vector<Eigen::Vector3d>> all;
+  for (std::size_t i = 0; i < runs_.size(); ++i)
+    all.push_back(standard_innovations(runs_[i], unknowns_[i], noise_, looks_at(runs_[i], 0)));
+  return are_independent(all, kShared + kOwn * static_cast<int>(runs_.size()));
+}
+
+std::vector<InnovationSums> MlFit::pass(std::span<const Unknowns> unknowns, Doubt doubt) const {
+  std::vector<InnovationSums> sums;
+  for (std::size_t i = 0; i < runs_.size(); ++i) {
+    std::vector<InnovationSums> passes;
+    for (int phase = 0; phase < phases_; ++phase) {
+      Looks looks = looks_at(runs_[i], phase);
+      looks.doubt = doubt;
+      passes.push_back(innovations(runs_[i], unknowns[i], noise_, looks));
+    }
+    sums.push_back(mean_of(passes));
+  }
+  return sums;
+}
+
+std::vector<InnovationSums> MlFit::sums_with_wheels_believed() const {
+  return pass(unknowns_, std::min(looks_.doubt, Doubt::tracker));
+}
+
+NoiseSlope MlFit::noise_slopes() const {
+  NoiseSlope sum;
+  for (std::size_t i = 0; i < runs_.size(); ++i)
+    for (int phase = 0; phase < phases_; ++phase) {
+      const NoiseSlope part = noise_slope(runs_[i], unknowns_[i], noise_, looks_at(runs_[i], phase));
+      sum.gradient += part.gradient / phases_;
+      sum.curvature += part.curvature / phases_;
+    }
+  // Without headings their noise is told by nothing and stays.
+  sum.curvature.diagonal().array() += 1e-9;
+  return sum;
+}
+
+/// Thinned truth begins at several samples, so that the result does not hang on one of them. Their
+/// likelihoods are averaged, not added: what they tell about slip is the same. A short run keeps enough to
+/// tell something.
+Looks MlFit::looks_at(const PreparedRun& run, int phase) const {
+  Looks looks = looks_;
+  looks.stride = std::clamp(static_cast<int>(run.truth.size()) / kFewestLooks, 1, looks_.stride);
+  looks.first = phase * looks.stride / phases_;
+  return looks;
+}
+
+void MlFit::maximise() {
+  double damping = 0;
+  sums_ = pass(unknowns_, looks_.doubt);
+  for (int step = 0; step < kMostSteps; ++step) {
+    ++iterations_;
+    const std::vector<Unknowns> steps = gauss_newton_step(sums_, held_, damping);
+    double expected = 0;
+    std::vector<Unknowns> next = unknowns_;
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      next[i] += steps[i];
+      expected += steps[i].dot(sums_[i].gradient);
+    }
+    std::vector<InnovationSums> sums = pass(next, looks_.doubt);
+    const double fall = cost_of(sums_) - cost_of(sums);
+    if (fall > -kSettled) {
+      unknowns_ = std::move(next);
+      sums_ = std::move(sums);
+      damping = damping < 1e-3 ? 0 : damping / 10;
+    } else {
+      damping = std::max(10 * damping, 1e-3);
+      if (damping > 1e6) return;
+    }
+    // A damped step is small for being damped.
+    if (damping == 0 && (expected < kSettled || std::abs(fall) < kSettled)) return;
+  }
+}
+
+/// Fisher's scoring in the logarithms; true if hardly anything changed.
+bool MlFit::fit_noise() {
+  double first = 0;
+  for (int step = 0; step < kMostScorings; ++step) {
+    const NoiseSlope slope = noise_slopes();
+    const Eigen::Vector3d change = -slope.curvature.ldlt().solve(slope.gradient);
+    const double moved = std::max({scale_variance(noise_.K_m, 1, change[0], 1e-13, kLargestK_m),
+                                   scale_variance(noise_.sigma_xy_m, 2, change[1], 1e-7, 1),
+                                   scale_variance(noise_.sigma_theta_rad, 2, change[2], 1e-7, 1)});
+    if (step == 0) first = moved;
+    if (moved < kNoiseSettled) break;
+  }
+  return first < kNoiseSettled;
+}
+
+/// A covariance takes K for certain. Where the data hardly tell it (good tyres, a short drive: it may come
+/// out as zero) that would claim far too much, so K is doubled until -2 log likelihood has risen by 2.7: its
+/// upper limit of 95 %.
+void MlFit::widen_uncertain_slip() {
+  constexpr double kSurelyKnown = 0.1;  // variance of log K: within a third of itself
+  constexpr double kRise = 2.7;
+  if (2 * noise_slopes().curvature.inverse()(0, 0) < kSurelyKnown) return;
+  double least = std::numeric_limits<double>::infinity();
+  while (true) {
+    const double cost = cost_of(sums_) + log_determinant(sums_, held_);
+    least = std::min(least, cost);
+    // Put so that what is no number ends it, too.
+    if (!(cost <= least + kRise && noise_.K_m < kLargestK_m)) return;
+    noise_.K_m *= 2;
+    maximise();
+  }
+}
+
+void MlFit::require_plausible() const {
+  const Unknowns& u = unknowns_.front();
+  const auto outside = [](double ratio) { return !(ratio > 0.5 && ratio < 2); };
+  if (outside(u[kCRight]) || outside(u[kCLeft]) || outside(u[kB] / carried_.b_m))
+    throw Error(
+        fmt::format("c_R = {:.3g}, c_L = {:.3g} and b = {:.3g} m came out, which no robot of {:.3g} m "
+                    "wheelbase has: check the unit "
+                    "of the ground truth, the wheel diameter and the counts of a turn",
+                    u[kCRight], u[kCLeft], u[kB], carried_.b_m));
+}
+
+}  // namespace astro::calibration

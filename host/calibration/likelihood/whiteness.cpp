@@ -1,0 +1,59 @@
+#include "host/calibration/likelihood/whiteness.hpp"
+
+#include <algorithm>
+
+#include "host/calibration/likelihood/agreement.hpp"
+
+namespace astro::calibration {
+namespace {
+
+// Of some forty sums one in a hundred drives is so far off by chance, and every second sample of it suffices,
+// too.
+constexpr double kUnlikely = 1e-4;
+constexpr double kMatters = 1.2;      // of a variance: a tenth of a standard error
+constexpr int kBlocksPerUnknown = 2;  // else what was fitted is most of what sums could tell
+
+struct BlockSums {
+  Eigen::Vector3d mean_square = Eigen::Vector3d::Zero();  // of the sums over `length`, by their length
+  int blocks = 0;
+};
+
+BlockSums sums_over(std::span<const std::vector<Eigen::Vector3d>> runs, std::size_t length) {
+  BlockSums sums;
+  for (const std::vector<Eigen::Vector3d>& run : runs)
+    for (std::size_t begin = 0; begin + length <= run.size(); begin += length) {
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      for (std::size_t i = begin; i < begin + length; ++i) sum += run[i];
+      sums.mean_square += sum.cwiseAbs2() / static_cast<double>(length);
+      ++sums.blocks;
+    }
+  if (sums.blocks > 0) sums.mean_square /= sums.blocks;
+  return sums;
+}
+
+/// Of a mean of `count` squares that is 1 or, if the fit took part of it, as little as `left`.
+bool is_far(double mean_square, double left, int count) {
+  if (mean_square > kMatters) return chi_square_tail(mean_square * count, count) < kUnlikely;
+  const double at_least = mean_square / left;
+  return at_least < 1 / kMatters && 1 - chi_square_tail(at_least * count, count) < kUnlikely;
+}
+
+}  // namespace
+
+bool are_independent(std::span<const std::vector<Eigen::Vector3d>> runs, int fitted) {
+  const Eigen::Vector3d single = sums_over(runs, 1).mean_square;
+  const auto components = static_cast<int>((single.array() > 0).count());
+  for (std::size_t length = 2;; length *= 2) {
+    const BlockSums sums = sums_over(runs, length);
+    if (components == 0 || sums.blocks < kBlocksPerUnknown * std::max(1, fitted)) return true;
+    const int count = components * sums.blocks;
+    const double left = 1 - static_cast<double>(fitted) / count;
+    if (is_far(sums.mean_square.sum() / single.sum(), left, count)) return false;
+    // What was fitted may all have been told by one of them.
+    if (sums.blocks < 2 * kBlocksPerUnknown * fitted) continue;
+    for (int i = 0; i < 3; ++i)
+      if (single[i] > 0 && is_far(sums.mean_square[i] / single[i], left, sums.blocks)) return false;
+  }
+}
+
+}  // namespace astro::calibration

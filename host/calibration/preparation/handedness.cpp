@@ -1,0 +1,83 @@
+#include "host/calibration/preparation/handedness.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "host/base/degrees.hpp"
+#include "host/base/error.hpp"
+#include "host/calibration/preparation/path_alignment.hpp"
+
+namespace astro::calibration {
+namespace {
+
+// Steps that stand out of the noise and are far below half a turn.
+constexpr double kStep_s = 0.2, kLargestStep_rad = 2.5;
+// Of the wheels' turning: what a body that turns with the robot cannot fall below, even with a wheel twice
+// its size.
+constexpr double kLeastSlope = 0.2;
+
+/// Turning of truth per turning of the wheels, by least squares; noise of headings averages out.
+double heading_slope(const PreparedRun& run, const std::vector<BodySample>& odometry) {
+  double product = 0, square = 0;
+  for (std::size_t i = 0, from = 0; i < run.truth.size(); ++i) {
+    if (run.truth[i].time_s - run.truth[from].time_s < kStep_s) continue;
+    const double truth =
+        std::remainder(run.truth[i].theta_rad - run.truth[from].theta_rad, 2 * std::numbers::pi);
+    const double wheels = odometry[i].theta_rad - odometry[from].theta_rad;
+    from = i;
+    if (std::abs(wheels) > kLargestStep_rad) continue;  // a long gap
+    product += truth * wheels;
+    square += wheels * wheels;
+  }
+  return square > 0 ? product / square : 1;
+}
+
+enum class Positions { agree, oppose, silent };
+
+Positions sense_of_positions(const PreparedRun& run, const std::vector<BodySample>& odometry) {
+  // A line is its own mirror image, and so is nearly a spin on the spot.
+  if (run.distance_m < 1) return Positions::silent;
+  const double straight_m = fit_rigid(odometry, run.truth, false).rms_m;
+  const double mirrored_m = fit_rigid(odometry, run.truth, true).rms_m;
+  if (straight_m > 0.05 && mirrored_m < straight_m / 3) return Positions::oppose;
+  return mirrored_m > 0.05 && straight_m < mirrored_m / 3 ? Positions::agree : Positions::silent;
+}
+
+[[noreturn]] void refuse_opposite_turn(const std::string& name, Positions positions) {
+  if (positions == Positions::agree)
+    throw Error(name +
+                ": the headings of the ground truth turn right where its positions and the wheels turn left: "
+                "they are "
+                "clockwise; negate them");
+  throw Error(
+      name +
+      fmt::format(": the ground truth turns right where the wheels say left: its axes are mirrored (a Y-up "
+                  "export has x = Z, y = X), {}or the left and right wheels are exchanged; 'astrolabe "
+                  "check-wiring' tells whether they are",
+                  positions == Positions::silent ? "its headings are clockwise, " : ""));
+}
+
+}  // namespace
+
+void require_senses(const PreparedRun& run, const ClockFit& clock, const WheelFactors& carried) {
+  if (run.rotation_rad < 1) return;
+  const std::vector<BodySample> odometry = dead_reckoned(run, clock, carried);
+  const Positions positions = sense_of_positions(run, odometry);
+  if (run.has_headings) {
+    const double slope = heading_slope(run, odometry);
+    if (slope < -kLeastSlope) refuse_opposite_turn(run.source->name, positions);
+    if (slope < kLeastSlope)
+      throw Error(
+          fmt::format("{}: the wheels turned the robot by {:.0f} degrees and the heading of the ground truth "
+                      "stayed: export the "
+                      "orientation of the body, too; and if it did not turn, an encoder or a motor is "
+                      "reversed ('astrolabe "
+                      "check-wiring' tells)",
+                      run.source->name, degrees(run.rotation_rad)));
+  }
+  if (positions == Positions::oppose) refuse_opposite_turn(run.source->name, positions);
+}
+
+}  // namespace astro::calibration

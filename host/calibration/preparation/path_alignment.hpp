@@ -1,0 +1,28 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "host/calibration/preparation/prepared_run.hpp"
+#include "host/calibration/preparation/relative_pose.hpp"
+#include "host/calibration/motion/wheel_path.hpp"
+
+/// Paths laid over one another.
+namespace astro::calibration {
+
+/// Travel of the wheels from one robot's time to another, in steps short enough to be arcs of constant twist.
+std::vector<WheelStep> wheel_steps(const WheelPath& path, double from_s, double to_s);
+
+/// Dead reckoning by `factors` at the times of the prepared truth, from pose (0, 0, 0) at the first.
+std::vector<BodySample> dead_reckoned(const PreparedRun& run, const ClockFit& clock,
+                                      const WheelFactors& factors);
+
+/// The rigid motion, or its mirror image, that carries one path closest to another.
+struct RigidFit {
+  double rotation_rad = 0, x_m = 0,
+         y_m = 0;  // to = R(rotation) * from + (x, y), y of `from` negated if mirrored
+  double rms_m = 0;
+};
+RigidFit fit_rigid(std::span<const BodySample> from, std::span<const BodySample> to, bool mirrored);
+
+}  // namespace astro::calibration

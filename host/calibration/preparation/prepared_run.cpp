@@ -1,0 +1,250 @@
+#include "host/calibration/preparation/prepared_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host/base/degrees.hpp"
+#include "host/base/error.hpp"
+#include "host/calibration/motion/median_period.hpp"
+#include "host/calibration/preparation/handedness.hpp"
+#include "host/calibration/motion/tracker_noise.hpp"
+#include "host/calibration/motion/wheel_path.hpp"
+
+namespace astro::calibration {
+namespace {
+
+constexpr int kFewestSamples = 20;
+constexpr double kLongestPause_s = 3600;
+// Over less a cubic follows what a robot can do; a robot that stands may be silent.
+constexpr double kLongestWheelGap_s = 0.3, kWheelGapMotion_m = 0.01;
+// Less than either is a robot that was pushed, not driven.
+constexpr double kShortestDrive_m = 0.2, kSmallestTurn_rad = 0.5;
+constexpr double kLeastCorrelation = 0.5, kLeastLikeness = 0.9, kSurelyRight = 0.9;
+// Truth beyond the wheels' ends would be taken for standing still; half a clock's error is kept away from
+// them.
+constexpr double kMargin_s = 0.02;
+constexpr double kWindow_s = 0.1;  // half of the time over which a motion is told
+// Likewise for lines against arcs: a robot that is held on a line sways about it.
+constexpr double kLongWindow_s = 0.5;
+constexpr double kSlowest_mps = 0.002;
+
+// Of one stream.
+template <class Sample>
+void require_times(const std::string& name, const char* stream, const std::vector<Sample>& samples) {
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (!std::isfinite(samples[i].time_s))
+      throw Error(fmt::format("{} has {} without a time: record it again", name, stream));
+    const double step_s = i > 0 ? samples[i].time_s - samples[i - 1].time_s : 0;
+    if (step_s < 0)
+      throw Error(fmt::format("{} has {} whose times run backwards: record it again", name, stream));
+    if (step_s > kLongestPause_s)
+      throw Error(fmt::format(
+          "{} has {} that jumps by {:.0f} s: two recordings in one, or a clock that was set; cut it there",
+          name, stream, step_s));
+  }
+}
+
+void require_wheels(const Trajectory& run) {
+  if (run.wheels.size() < kFewestSamples) throw Error(run.name + " has hardly any odometry: record it again");
+  require_times(run.name, "odometry", run.wheels);
+  for (std::size_t i = 0; i < run.wheels.size(); ++i) {
+    const WheelSample& now = run.wheels[i];
+    if (!std::isfinite(now.left_m) || !std::isfinite(now.right_m))
+      throw Error(run.name + " has odometry that is no number: record it again");
+    if (i == 0) continue;
+    const WheelSample& before = run.wheels[i - 1];
+    const double moved_m =
+        std::max(std::abs(now.left_m - before.left_m), std::abs(now.right_m - before.right_m));
+    if (now.time_s - before.time_s > kLongestWheelGap_s && moved_m > kWheelGapMotion_m)
+      throw Error(fmt::format(
+          "{} lost its odometry for {:.1f} s while the robot moved by {:.2f} m, and nobody knows how: leave "
+          "it out, or record it again",
+          run.name, now.time_s - before.time_s, moved_m));
+  }
+}
+
+void require_samples(const Trajectory& run) {
+  if (run.wheels.size() < 2) throw Error(run.name + " has no odometry: record it again");
+  const auto finite = std::count_if(run.truth.begin(), run.truth.end(), [](const BodySample& sample) {
+    return std::isfinite(sample.x_m) && std::isfinite(sample.y_m);
+  });
+  if (finite < kFewestSamples)
+    throw Error(
+        fmt::format("{} has {} samples of ground truth: maximum likelihood needs the whole drive; take "
+                    "--method umbmark or "
+                    "extended for end poses alone",
+                    run.name, finite));
+  require_wheels(run);
+  require_times(run.name, "ground truth", run.truth);
+}
+
+/// What the centre travelled and how far the robot turned, by roughly right factors.
+MotionExtent extent_between(const WheelState& a, const WheelState& b, const WheelFactors& factors) {
+  const double left = factors.c_l * (b.left_m - a.left_m), right = factors.c_r * (b.right_m - a.right_m);
+  return {std::abs(left + right) / 2, std::abs(right - left) / factors.b_m};
+}
+
+/// Within so much of a moment.
+MotionExtent extent_around(const WheelPath& path, double time_s, double half_window_s,
+                           const WheelFactors& factors) {
+  return extent_between(path.at(time_s - half_window_s), path.at(time_s + half_window_s), factors);
+}
+
+Motion motion_at(const WheelPath& path, double time_s, const WheelFactors& factors) {
+  const double wheelbase_m = factors.b_m;
+  const MotionExtent now = extent_around(path, time_s, kWindow_s, factors);
+  if (now.distance_m + now.rotation_rad * wheelbase_m / 2 < 2 * kWindow_s * kSlowest_mps) return Motion::rest;
+  if (now.distance_m < now.rotation_rad * wheelbase_m / 4) return Motion::spin;
+  const MotionExtent longer = extent_around(path, time_s, kLongWindow_s, factors);
+  return longer.distance_m > 10 * wheelbase_m * longer.rotation_rad ? Motion::line : Motion::arc;
+}
+
+PreparedRun cropped(const Trajectory& run, const ClockFit& clock, Density density) {
+  PreparedRun prepared;
+  prepared.source = &run;
+  prepared.has_headings = mostly_headings(run.truth);
+  prepared.clock_middle_s = (run.wheels.front().time_s + run.wheels.back().time_s) / 2 - clock.offset_s;
+  // A hair less, so that a multiple of the tracker's period is not missed by its jitter.
+  const double spacing_s = density == Density::all ? 0 : 0.9 * median_period_s(run.wheels);
+  double last_s = -std::numeric_limits<double>::infinity();
+  for (const BodySample& sample : run.truth) {
+    if (!std::isfinite(sample.x_m) || !std::isfinite(sample.y_m)) continue;
+    if (prepared.has_headings && !std::isfinite(sample.theta_rad)) continue;
+    // Before the clock has its say: which samples are taken must not hang on where a search found it.
+    if (sample.time_s - last_s < spacing_s) continue;
+    last_s = sample.time_s;
+    const double u = clock.robot_time_s(sample.time_s, prepared.clock_middle_s);
+    if (u < run.wheels.front().time_s + kMargin_s || u > run.wheels.back().time_s - kMargin_s) continue;
+    prepared.truth.push_back(sample);
+  }
+  return prepared;
+}
+
+/// Turning of whatever radius, but not counts that flicker on a line: what is left of each second.
+double net_rotation_rad(const PreparedRun& run, const WheelPath& path, const ClockFit& clock,
+                        const WheelFactors& factors) {
+  double sum_rad = 0;
+  WheelState before;
+  for (std::size_t i = 0, from = 0; i < run.truth.size(); ++i) {
+    const WheelState now = path.at(clock.robot_time_s(run.truth[i].time_s, run.clock_middle_s));
+    if (i == 0) before = now;
+    if (run.truth[i].time_s - run.truth[from].time_s < 1 && i + 1 < run.truth.size()) continue;
+    sum_rad += extent_between(before, now, factors).rotation_rad;
+    from = i;
+    before = now;
+  }
+  return sum_rad;
+}
+
+void tell_motion(PreparedRun& run, const ClockFit& clock, const WheelFactors& factors) {
+  const WheelPath path(run.source->wheels);
+  WheelState before;
+  for (std::size_t i = 0; i < run.truth.size(); ++i) {
+    const double u = clock.robot_time_s(run.truth[i].time_s, run.clock_middle_s);
+    run.motion.push_back(motion_at(path, u, factors));
+    const WheelState now = path.at(u);
+    if (i > 0) {
+      const MotionExtent moved = extent_between(before, now, factors);
+      MotionExtent& extent = run.extent[static_cast<std::size_t>(run.motion[i])];
+      extent.distance_m += moved.distance_m;
+      extent.rotation_rad += moved.rotation_rad;
+    }
+    before = now;
+  }
+  for (const MotionExtent& extent : run.extent) run.distance_m += extent.distance_m;
+  run.rotation_rad = net_rotation_rad(run, path, clock, factors);
+}
+
+void require_motion(const PreparedRun& run) {
+  if (run.truth.size() < kFewestSamples)
+    throw Error(
+        fmt::format("{}: only {} samples of ground truth fall into the time of the drive: check that both "
+                    "were recorded together",
+                    run.source->name, run.truth.size()));
+  if (run.distance_m < kShortestDrive_m && run.rotation_rad < kSmallestTurn_rad)
+    throw Error(
+        fmt::format("{} is too short: {:.2f} m and {:.0f} degrees under ground truth; drive at least a metre "
+                    "or a turn, or leave it out",
+                    run.source->name, run.distance_m, degrees(run.rotation_rad)));
+}
+
+ClockFit clock_of(const Trajectory& run, const WheelFactors& carried, std::optional<double> skew) {
+  const ClockFit clock = search_clock(run, carried.b_m, skew);
+  if (!skew || clock.correlation >= kSurelyRight) return clock;
+  const ClockFit anew = search_clock(run, carried.b_m, {});
+  return anew.correlation > clock.correlation ? anew : clock;
+}
+
+bool in_common(const ClockFit& clock) {
+  return clock.correlation >= kLeastCorrelation || clock.likeness >= kLeastLikeness;
+}
+
+/// Positions of a body on the axis of a spin stand still.
+bool is_blind_spin(const Trajectory& run, const ClockFit& clock, double wheelbase_m) {
+  if (mostly_headings(run.truth) || in_common(clock)) return false;
+  double distance_m = 0, turned_m = 0;
+  for (std::size_t i = 1; i < run.wheels.size(); ++i) {
+    const double left = run.wheels[i].left_m - run.wheels[i - 1].left_m;
+    const double right = run.wheels[i].right_m - run.wheels[i - 1].right_m;
+    distance_m += std::abs(left + right) / 2;
+    turned_m += std::abs(right - left) / 2;
+  }
+  return turned_m > kSmallestTurn_rad * wheelbase_m / 2 && distance_m < turned_m / 4;
+}
+
+std::string blind_sentence(const Trajectory& run) {
+  return run.name +
+         " turned on the spot under positions that stand still, which tell neither its clock nor how far it "
+         "turned: export the orientation of the body, too, or mount it away from the axis";
+}
+
+void require_clock(const Trajectory& run, const ClockFit& clock) {
+  if (!in_common(clock))
+    throw Error(
+        run.name +
+        ": the motions of wheels and ground truth have nothing in common at any offset of their clocks: "
+        "check that they belong to the same drive, and with 'astrolabe check-wiring' that no encoder is "
+        "reversed");
+  if (clock.rival_offset_s && clock.correlation >= kLeastCorrelation)
+    throw Error(fmt::format(
+        "{} repeats itself, so that its clocks may be {:.1f} s apart as well as {:.1f} s: record wheels and "
+        "ground truth from the rest before the drive to the rest after it, or give the truth the robot's "
+        "times "
+        "and --clock known",
+        run.name, clock.offset_s, *clock.rival_offset_s));
+}
+
+}  // namespace
+
+PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& carried, bool clock_known,
+                     Density density) {
+  if (runs.empty()) throw Error("there are no runs to calibrate from");
+  PreparedRuns prepared;
+  std::optional<double> skew;
+  for (const Trajectory& run : runs) {
+    require_samples(run);
+    ClockFit clock;
+    if (!clock_known) {
+      clock = clock_of(run, carried, skew);
+      if (is_blind_spin(run, clock, carried.b_m)) {
+        prepared.left_out.push_back(blind_sentence(run));
+        continue;
+      }
+      require_clock(run, clock);
+      skew = clock.skew;
+    }
+    PreparedRun ready = cropped(run, clock, density);
+    tell_motion(ready, clock, carried);
+    require_motion(ready);
+    require_senses(ready, clock, carried);
+    prepared.runs.push_back(std::move(ready));
+    prepared.clocks.push_back(clock);
+  }
+  if (prepared.runs.empty()) throw Error(prepared.left_out.front());
+  return prepared;
+}
+
+}  // namespace astro::calibration

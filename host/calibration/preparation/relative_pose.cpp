@@ -1,0 +1,129 @@
+#include "host/calibration/preparation/relative_pose.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "host/calibration/motion/arc.hpp"
+
+namespace astro::calibration {
+namespace {
+
+// Heading per unit of travel of each wheel.
+struct TurnRates {
+  double left = 0, right = 0;
+};
+
+// Displacement of the robot, in wheelbases, and how far it turned.
+struct Displacement {
+  double x_m = 0, y_m = 0, theta_rad = 0;
+};
+
+Displacement displacement(const RelativePose& piece, const TurnRates& rates) {
+  Displacement at;
+  for (const WheelStep& step : piece.steps) {
+    advance(at, rates.right * step.right, -rates.left * step.left, 1);
+  }
+  return at;
+}
+
+std::optional<TurnRates> fit_headings(std::span<const RelativePose> pieces) {
+  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d right_side = Eigen::Vector2d::Zero();
+  for (const RelativePose& piece : pieces) {
+    Eigen::Vector2d travel = Eigen::Vector2d::Zero();
+    for (const WheelStep& step : piece.steps) travel += Eigen::Vector2d(step.left, step.right);
+    normal += travel * travel.transpose();
+    right_side += travel * piece.theta_rad;
+  }
+  // Straight pieces alone leave the sum of both open, spins alone the difference.
+  if (!(normal.determinant() > 1e-9 * normal.trace() * normal.trace())) return {};
+  const Eigen::Vector2d rates = normal.ldlt().solve(right_side);
+  return TurnRates{rates[0], rates[1]};
+}
+
+// The displacements as 0 = row * (b, x, y, cos yaw, sin yaw), two rows a piece.
+Eigen::Matrix<double, 5, 5> displacement_normal(std::span<const RelativePose> pieces,
+                                                const TurnRates& rates) {
+  Eigen::Matrix<double, 5, 5> normal = Eigen::Matrix<double, 5, 5>::Zero();
+  for (const RelativePose& piece : pieces) {
+    const Displacement robot = displacement(piece, rates);
+    const double c = std::cos(robot.theta_rad), s = std::sin(robot.theta_rad);
+    Eigen::Matrix<double, 2, 5> rows;
+    rows << -robot.x_m, 1 - c, s, piece.x_m, -piece.y_m,  //
+        -robot.y_m, -s, 1 - c, piece.y_m, piece.x_m;
+    normal += rows.transpose() * rows;
+  }
+  return normal;
+}
+
+double quantile(std::vector<double> values, double fraction) {
+  std::sort(values.begin(), values.end());
+  const auto index =
+      static_cast<std::size_t>(std::floor(fraction * static_cast<double>(values.size()) + 0.5));
+  return values[std::min(index, values.size() - 1)];
+}
+
+std::vector<RelativePose> without_worst(std::vector<RelativePose> pieces, const RelativePoseFit& fit,
+                                        double fraction) {
+  std::vector<double> position, heading;
+  for (const RelativePose& piece : pieces) {
+    const RelativePose expected = predicted(piece, fit);
+    position.push_back(std::hypot(expected.x_m - piece.x_m, expected.y_m - piece.y_m));
+    heading.push_back(std::abs(std::remainder(expected.theta_rad - piece.theta_rad, 2 * std::numbers::pi)));
+  }
+  const double most_position = quantile(position, 1 - fraction),
+               most_heading = quantile(heading, 1 - fraction);
+  std::vector<RelativePose> kept;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    if (position[i] <= most_position && heading[i] <= most_heading) kept.push_back(std::move(pieces[i]));
+  return kept;
+}
+
+}  // namespace
+
+std::optional<RelativePoseFit> fit_relative_poses(std::span<const RelativePose> pieces) {
+  if (pieces.size() < 3) return {};
+  const std::optional<TurnRates> rates = fit_headings(pieces);
+  if (!rates) return {};
+  const Eigen::Matrix<double, 5, 5> normal = displacement_normal(pieces, *rates);
+  const Eigen::Matrix3d free = normal.topLeftCorner<3, 3>();
+  const Eigen::FullPivLU<Eigen::Matrix3d> lu(free);
+  if (lu.rcond() < 1e-12) return {};
+  const Eigen::Matrix<double, 3, 2> mixed = normal.topRightCorner<3, 2>();
+  const Eigen::Matrix2d reduced = normal.bottomRightCorner<2, 2>() - mixed.transpose() * lu.solve(mixed);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen((reduced + reduced.transpose()) / 2);
+  Eigen::Vector2d yaw = eigen.eigenvectors().col(0);
+  Eigen::Vector3d rest = -lu.solve(mixed * yaw);
+  if (rest[0] < 0) {
+    rest = -rest;
+    yaw = -yaw;
+  }
+  return RelativePoseFit{-rates->left * rest[0],
+                         rates->right * rest[0],
+                         rest[0],
+                         {rest[1], rest[2], std::atan2(yaw[1], yaw[0])}};
+}
+
+std::optional<RelativePoseFit> fit_relative_poses_trimmed(std::span<const RelativePose> pieces, int rounds,
+                                                          double fraction) {
+  std::vector<RelativePose> kept(pieces.begin(), pieces.end());
+  std::optional<RelativePoseFit> fit = fit_relative_poses(kept);
+  for (int round = 0; round < rounds && fit; ++round) {
+    kept = without_worst(std::move(kept), *fit, fraction);
+    fit = fit_relative_poses(kept);
+  }
+  return fit;
+}
+
+RelativePose predicted(const RelativePose& piece, const RelativePoseFit& fit) {
+  const Displacement robot = displacement(piece, {-fit.r_left / fit.b_m, fit.r_right / fit.b_m});
+  const double c = std::cos(robot.theta_rad), s = std::sin(robot.theta_rad);
+  const double dx = fit.b_m * robot.x_m + (c - 1) * fit.sensor.x_m - s * fit.sensor.y_m;
+  const double dy = fit.b_m * robot.y_m + s * fit.sensor.x_m + (c - 1) * fit.sensor.y_m;
+  const double cy = std::cos(fit.sensor.yaw_rad), sy = std::sin(fit.sensor.yaw_rad);
+  return {piece.steps, cy * dx + sy * dy, cy * dy - sy * dx, robot.theta_rad};
+}
+
+}  // namespace astro::calibration

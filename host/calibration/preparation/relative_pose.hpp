@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "host/calibration/end_poses/end_pose.hpp"
+#include "host/calibration/motion/trajectory.hpp"
+
+/// Wheel factors and lever arm from relative poses in closed form: no start value, no iteration, no noise
+/// model.
+namespace astro::calibration {
+
+/// Travel of both wheels while the robot's twist hardly changed.
+struct WheelStep {
+  double left = 0, right = 0;  // in any unit of wheel travel: metres of a nominal wheel, or radians
+};
+
+/// What the wheels and a sensor on the robot tell about the same piece of a drive.
+struct RelativePose {
+  std::vector<WheelStep> steps;            // in order
+  double x_m = 0, y_m = 0, theta_rad = 0;  // sensor's pose at the end, seen from its pose at the start
+};
+
+/// Metres per unit of wheel travel (wheel radii, if the unit is a radian), wheelbase, and pose of the sensor
+/// on the robot. Radii are negative where a wheel turns against what is believed.
+struct RelativePoseFit {
+  double r_left = 0, r_right = 0, b_m = 0;
+  LeverArm sensor;
+};
+
+/// Two linear least squares: headings give r / b of each wheel; the displacements, which are linear in b, in
+/// the lever arm and in the sine and cosine of its yaw, then give the rest as the eigenvector of the smaller
+/// eigenvalue of a 2x2 matrix. Of the two signs the one with b > 0 is returned.
+///
+/// Nothing where the pieces leave an unknown open: fewer than three, no turning, no displacement.
+/// Source  Censi, Franchi, Marchionni, Oriolo: Simultaneous calibration of odometry and sensor parameters for
+///         mobile robots, IEEE T-RO 29(2), 2013, section V; here with the wheel path inside a piece, not its
+///         mean speeds.
+std::optional<RelativePoseFit> fit_relative_poses(std::span<const RelativePose> pieces);
+
+/// The same after `rounds` of leaving out the worst: in each, pieces are dropped whose error in position or
+/// in heading is beyond the (1 - fraction) quantile.
+std::optional<RelativePoseFit> fit_relative_poses_trimmed(std::span<const RelativePose> pieces, int rounds,
+                                                          double fraction);
+
+/// What a sensor on a robot of these measures should have seen.
+RelativePose predicted(const RelativePose& piece, const RelativePoseFit& fit);
+
+}  // namespace astro::calibration

@@ -1,0 +1,158 @@
+#include "host/calibration/preparation/slip_events.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "host/calibration/motion/median.hpp"
+#include "host/calibration/motion/median_period.hpp"
+#include "host/calibration/preparation/path_alignment.hpp"
+
+namespace astro::calibration {
+namespace {
+
+constexpr double kWindow_s = 0.5;
+constexpr std::size_t kFewestSamples = 8;  // fewer, and their median follows one that is wrong
+constexpr double kReach = 2;               // windows in which its samples must lie
+constexpr double kStepsPerWindow = 10;     // moments that are looked at
+constexpr double kLasting = 3;             // windows on either side over which a jolt lasts
+constexpr double kFar = 8;                 // in standard deviations of all moments
+constexpr double kLeast_rad = 0.02;
+constexpr std::size_t kMost = 3;
+
+struct Parting {
+  double time_s = 0;
+  std::size_t at = 0;  // sample of truth
+  double turned_rad = 0, moved_m = 0;
+};
+
+/// Compares what truth says before and after the moments of a run.
+class Moments {
+ public:
+  Moments(const PreparedRun& run, const Unknowns& u)
+      : run_(run),
+        odometry_(dead_reckoned(run, {u[kClockOffset], u[kSkew]}, {u[kCRight], u[kCLeft], u[kB]})),
+        period_s_(median_period_s(run.truth)),
+        window_s_(std::max(kWindow_s, static_cast<double>(kFewestSamples) * period_s_)) {
+    for (std::size_t k = 0; k < run.truth.size(); ++k) {
+      const BodySample& truth = run.truth[k];
+      const double theta = truth.theta_rad - u[kLeverYaw], c = std::cos(theta), s = std::sin(theta);
+      const double turn = theta - odometry_[k].theta_rad;
+      robot_.push_back({truth.x_m - c * u[kLeverX] + s * u[kLeverY],
+                        truth.y_m - s * u[kLeverX] - c * u[kLeverY], turn, std::cos(turn), std::sin(turn)});
+    }
+  }
+
+  double window_s() const { return window_s_; }
+
+  /// What a window says that begins `gap` windows after a sample, less what one says that ends as long
+  /// before. Nothing if truth is lost there.
+  std::optional<Parting> parting(std::size_t at, double gap) const {
+    const double time_s = run_.truth[at].time_s, near_s = gap * window_s_;
+    const double far_s = near_s + kReach * window_s_;
+    std::vector<Eigen::Vector3d> before, after;
+    for (std::size_t k = at; k-- > 0 && run_.truth[k].time_s > time_s - far_s && before.size() < most();)
+      if (run_.truth[k].time_s < time_s - near_s) before.push_back(told(k, at));
+    for (std::size_t k = at;
+         k < run_.truth.size() && run_.truth[k].time_s < time_s + far_s && after.size() < most(); ++k)
+      if (run_.truth[k].time_s >= time_s + near_s) after.push_back(told(k, at));
+    if (std::min(before.size(), after.size()) < kFewestSamples) return {};
+    const Eigen::Vector3d was = middle(before), is = middle(after);
+    return Parting{time_s, at, std::remainder(is[2] - was[2], 2 * std::numbers::pi),
+                   (is - was).head<2>().norm()};
+  }
+
+  std::vector<Parting> all() const {
+    std::vector<Parting> found;
+    double next_s = run_.truth.front().time_s;
+    for (std::size_t at = 0; at < run_.truth.size(); ++at) {
+      if (run_.truth[at].time_s < next_s || run_.motion[at] == Motion::rest) continue;
+      next_s = run_.truth[at].time_s + window_s_ / kStepsPerWindow;
+      if (const auto here = parting(at, 0)) found.push_back(*here);
+    }
+    return found;
+  }
+
+ private:
+  std::size_t most() const {
+    const double samples = period_s_ > 0 ? window_s_ / period_s_ : 1e3;
+    return static_cast<std::size_t>(std::clamp(samples, static_cast<double>(kFewestSamples), 1e3));
+  }
+
+  /// Where the robot is at sample `to` if it was where truth had it at sample `from`.
+  Eigen::Vector3d told(std::size_t from, std::size_t to) const {
+    const BodySample &was = odometry_[from], &is = odometry_[to];
+    const Placed& robot = robot_[from];
+    const double dx = is.x_m - was.x_m, dy = is.y_m - was.y_m;
+    return {robot.x_m + robot.cosine * dx - robot.sine * dy, robot.y_m + robot.sine * dx + robot.cosine * dy,
+            robot.turn_rad + is.theta_rad};
+  }
+
+  static Eigen::Vector3d middle(const std::vector<Eigen::Vector3d>& poses) {
+    Eigen::Vector3d pose;
+    for (int i = 0; i < 3; ++i) {
+      std::vector<double> values;
+      for (const Eigen::Vector3d& each : poses)
+        values.push_back(i < 2 ? each[i] : std::remainder(each[2] - poses[0][2], 2 * std::numbers::pi));
+      pose[i] = median_of(std::move(values));
+    }
+    pose[2] += poses[0][2];
+    return pose;
+  }
+
+  /// The robot where truth has it, and how the plane of odometry lies there.
+  struct Placed {
+    double x_m, y_m, turn_rad, cosine, sine;
+  };
+
+  const PreparedRun& run_;
+  std::vector<BodySample> odometry_;
+  std::vector<Placed> robot_;
+  double period_s_, window_s_;
+};
+
+/// Of several moments of one jolt the one at which it is largest.
+std::vector<Jolt> lasting(const Moments& moments, double start_s, std::vector<Parting> candidates) {
+  std::vector<Jolt> found;
+  const auto size = [](const Parting& parting) { return std::abs(parting.turned_rad); };
+  while (!candidates.empty() && found.size() < kMost) {
+    const Parting here = *std::max_element(candidates.begin(), candidates.end(),
+                                           [&](const auto& a, const auto& b) { return size(a) < size(b); });
+    const auto later = moments.parting(here.at, kLasting);
+    if (later && later->turned_rad / here.turned_rad > 0.5)
+      found.push_back({here.time_s, here.time_s - start_s, here.turned_rad, here.moved_m});
+    std::erase_if(candidates, [&](const Parting& other) {
+      return std::abs(other.time_s - here.time_s) < 2 * moments.window_s();
+    });
+  }
+  std::sort(found.begin(), found.end(), [](const Jolt& a, const Jolt& b) { return a.time_s < b.time_s; });
+  return found;
+}
+
+}  // namespace
+
+std::vector<std::vector<Jolt>> find_jolts(std::span<const PreparedRun> runs,
+                                          std::span<const Unknowns> unknowns) {
+  std::vector<std::optional<Moments>> moments(runs.size());
+  std::vector<std::vector<Parting>> partings(runs.size());
+  std::vector<double> turned_rad;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (!runs[i].has_headings || runs[i].truth.size() < 2 * kFewestSamples) continue;
+    partings[i] = moments[i].emplace(runs[i], unknowns[i]).all();
+    for (const Parting& parting : partings[i]) turned_rad.push_back(parting.turned_rad);
+  }
+  std::vector<std::vector<Jolt>> found(runs.size());
+  if (turned_rad.empty()) return found;
+  const double far_rad = std::max(kLeast_rad, kFar * deviation_of(turned_rad));
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    std::erase_if(partings[i], [&](const Parting& each) { return std::abs(each.turned_rad) < far_rad; });
+    if (!partings[i].empty())
+      found[i] = lasting(*moments[i], runs[i].source->truth.front().time_s, partings[i]);
+  }
+  return found;
+}
+
+}  // namespace astro::calibration

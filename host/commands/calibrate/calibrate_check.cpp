@@ -1,0 +1,161 @@
+#include "host/commands/calibrate/calibrate_check.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "host/base/error.hpp"
+#include "host/console/console.hpp"
+#include "host/commands/shared/damaged_option.hpp"
+#include "host/commands/shared/robot_view.hpp"
+#include "host/experiment/analysis/dead_reckoning.hpp"
+#include "host/experiment/analysis/json.hpp"
+#include "host/experiment/analysis/squares.hpp"
+
+namespace astro::commands {
+namespace {
+
+namespace fs = std::filesystem;
+using experiment::DeadReckoning;
+using experiment::MlChoice;
+
+struct CheckOptions {
+  fs::path folder;
+  std::vector<fs::path> with;
+  std::vector<std::string> without;
+  std::string clock = "auto";
+  bool runs = false, json = false, damaged = false;
+};
+
+MlChoice::Clock clock_of(const CheckOptions& options) {
+  if (options.clock == "auto") return MlChoice::Clock::automatic;
+  return options.clock == "known" ? MlChoice::Clock::known : MlChoice::Clock::estimated;
+}
+
+void warn_of_other_robots(const std::vector<experiment::NamedFactors>& factors,
+                          const experiment::RunSet& set) {
+  const experiment::RobotIdentity driven = experiment::identity_of(set.runs.front().info);
+  for (const experiment::NamedFactors& one : factors)
+    if (const std::string other =
+            experiment::different_robots("'" + one.name + "'", one.robot, "the drives' robot", driven);
+        !other.empty())
+      console::say("warning: " + other);
+}
+
+/// What one robot carried when it drove them all.
+calibration::WheelFactors carried_by_all(const CheckOptions& options, const experiment::RunSet& set) {
+  const calibration::WheelFactors first = experiment::carried_factors(set.runs.front().info);
+  for (std::size_t i = 1; i < set.runs.size(); ++i) {
+    const calibration::WheelFactors one = experiment::carried_factors(set.runs[i].info);
+    if (one.c_r != first.c_r || one.c_l != first.c_l || one.b_m != first.b_m)
+      throw Error(
+          fmt::format("the robot carried other factors in {} than in {}: check the folders in '{}' "
+                      "each for itself",
+                      set.names[i], set.names.front(), options.folder.string()));
+  }
+  return first;
+}
+
+std::vector<DeadReckoning> judged(const CheckOptions& options) {
+  const experiment::RunSet set = read_recordings(options.damaged, [&](recording::Damage damage) {
+    return experiment::read_run_set(options.folder, options.without, damage);
+  });
+  warn_of_recordings(set.runs);
+  const auto wheel = experiment::nominal_wheel(set.runs.front().info, set.names.front());
+  std::vector<experiment::NamedFactors> factors{{"carried", carried_by_all(options, set)}};
+  for (const fs::path& file : options.with) factors.push_back(experiment::factors_of_file(file, wheel));
+  warn_of_other_robots(factors, set);
+  return experiment::dead_reckon(set, factors, clock_of(options));
+}
+
+/// Of `runs` runs; a root mean square of n scatters by 1 / sqrt(2 n) of itself.
+std::vector<std::string> row(const std::string& name, std::size_t runs, double final_m, double heading_rad,
+                             double path_m) {
+  const auto milli = [&](double value) {
+    if (!std::isfinite(value)) return std::string("-");
+    if (runs < 2) return fmt::format("{:.1f}", 1000 * value);
+    return fmt::format("{:.1f} ± {:.1f}", 1000 * value,
+                       1000 * value / std::sqrt(2 * static_cast<double>(runs)));
+  };
+  return {name, milli(final_m), milli(std::abs(heading_rad)), milli(path_m)};
+}
+
+std::string text_of(const std::vector<DeadReckoning>& all, bool runs) {
+  std::vector<std::vector<std::string>> rows{{"", "end mm", "heading mrad", "path mm"}};
+  for (const DeadReckoning& one : all) {
+    const calibration::PathErrors& errors = one.errors;
+    rows.push_back(row(one.by.name, errors.runs.size(), errors.final_rms_m, errors.final_heading_rms_rad,
+                       errors.path_rms_m));
+    if (!runs) continue;
+    for (const calibration::RunErrors& run : errors.runs)
+      rows.push_back(row("  " + run.name, 1, run.final_m, run.final_heading_rad, run.path_rms_m));
+  }
+  const std::size_t count = all.front().errors.runs.size();
+  return console::wrapped(fmt::format("Odometry less ground truth over {} drive{}, root mean squares: at the end, and "
+                             "all along the path.",
+                             count, count == 1 ? "" : "s")) +
+         console::table(rows);
+}
+
+nlohmann::json json_of(const std::vector<DeadReckoning>& all) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const DeadReckoning& one : all) {
+    nlohmann::json runs = nlohmann::json::array();
+    for (const calibration::RunErrors& run : one.errors.runs)
+      runs.push_back({{"name", run.name},
+                      {"end_m", run.final_m},
+                      {"heading_rad", experiment::number(run.final_heading_rad)},
+                      {"path_m", run.path_rms_m}});
+    json.push_back({{"by", one.by.name},
+                    {"c_R", one.by.factors.c_r},
+                    {"c_L", one.by.factors.c_l},
+                    {"b_m", one.by.factors.b_m},
+                    {"end_m", one.errors.final_rms_m},
+                    {"heading_rad", experiment::number(one.errors.final_heading_rms_rad)},
+                    {"path_m", one.errors.path_rms_m},
+                    {"runs", runs}});
+  }
+  return json;
+}
+
+}  // namespace
+
+void add_calibrate_check(console::Command calibrate) {
+  const auto options = std::make_shared<CheckOptions>();
+  const console::Command command = calibrate.add_subcommand("check", "what calibrations are worth on recorded drives");
+  command.add_option("folder", options->folder, "folder with recordings that have ground truth").required();
+  command.add_option("--with", options->with, "calib.toml to judge (repeatable)").required().one_each_time();
+  command.add_option("--without", options->without, "a recording to leave out, by its name (repeatable)")
+      .one_each_time();
+  command
+      .add_option("--clock", options->clock,
+                  "known: ground truth has the robot's times;\n"
+                  "estimated: offsets and skew are found;\n"
+                  "auto: what the recordings say")
+      .one_of({"auto", "known", "estimated"})
+      .capture_default_str();
+  add_damaged_flag(command, options->damaged);
+  command.add_flag("--runs", options->runs, "each drive for itself, too");
+  command.add_flag("--json", options->json, "print one JSON array");
+  command.footer(
+      "The recorded wheels are followed with the factors that the robot carried and with\n"
+      "those of each file. Fair are drives that the calibration has not seen.\n"
+      "Examples:\n"
+      "  astrolabe calibrate check friday --with monday.toml\n"
+      "  astrolabe calibrate check friday --with ml.toml --with umbmark.toml --runs");
+  command.callback([options] {
+    const std::vector<DeadReckoning> all = judged(*options);
+    for (const std::string& why : all.front().errors.left_out) console::say(why + "; it was left out");
+    if (options->json) {
+      print_json(json_of(all));
+    } else {
+      write(text_of(all, options->runs));
+    }
+  });
+}
+
+}  // namespace astro::commands

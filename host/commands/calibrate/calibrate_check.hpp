@@ -1,0 +1,10 @@
+#pragma once
+
+#include "host/console/command_line.hpp"
+
+namespace astro::commands {
+
+/// `calibrate check`: what calibrations are worth on recorded drives.
+void add_calibrate_check(console::Command calibrate);
+
+}  // namespace astro::commands

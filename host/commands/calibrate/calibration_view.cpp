@@ -1,0 +1,127 @@
+#include "host/commands/calibrate/calibration_view.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/base/degrees.hpp"
+#include "host/base/shown.hpp"
+#include "host/console/console.hpp"
+#include "host/experiment/files/method_names.hpp"
+#include "host/experiment/analysis/likelihood_sentences.hpp"
+#include "host/experiment/analysis/until.hpp"
+
+namespace astro::commands {
+namespace {
+
+using experiment::Calibration;
+using experiment::MlResult;
+using experiment::with_error;
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string known(double value, int decimals) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", without_minus_zero(value, decimals), decimals) : "-";
+}
+
+std::string percent(double ratio) {
+  const double change = 100 * (ratio - 1);
+  return std::abs(change) < 5e-5 ? "0" : fmt::format("{:+.4f} %", change);
+}
+
+std::string squares_text(const calibration::ExperimentSummary& squares) {
+  const auto cluster = [](const char* name, const calibration::ClusterSummary& c) {
+    return std::vector<std::string>{name,
+                                    fmt::format("{}", c.runs),
+                                    known(1000 * c.x_cg_m, 1),
+                                    known(1000 * c.y_cg_m, 1),
+                                    known(1000 * c.theta_cg_rad, 2),
+                                    fmt::format("{:.1f}", 1000 * c.r_cg_m)};
+  };
+  return console::table({{"squares", "runs", "x_cg mm", "y_cg mm", "theta_cg mrad", "r_cg mm"},
+                cluster("cw", squares.cw),
+                cluster("ccw", squares.ccw)}) +
+         fmt::format("E_max_syst {} mm\n",
+                     with_error(1000 * squares.E_max_syst_m, 1000 * squares.se_E_max_syst_m, 1));
+}
+
+/// The factors, and what they say about those carried.
+std::string factors_text(const Calibration& found) {
+  const experiment::FactorErrors& se = found.se;
+  const calibration::WheelFactors &now = found.factors, &old = found.carried;
+  return console::table({{"", "", "against carried"},
+                {"c_R", with_error(now.c_r, se.c_r, 8), percent(now.c_r / old.c_r)},
+                {"c_L", with_error(now.c_l, se.c_l, 8), percent(now.c_l / old.c_l)},
+                {"b mm", with_error(1000 * now.b_m, 1000 * se.b_m, 4), percent(now.b_m / old.b_m)},
+                {"S", with_error(found.scale(), se.scale, 8), percent(found.scale_change())},
+                {"E_d", with_error(found.E_d(), se.E_d, 7), ""},
+                {"E_b", with_error(found.E_b(), se.E_b, 7), ""}});
+}
+
+std::string end_pose_text(const calibration::Estimate& estimate) {
+  return console::table({{"method", std::string(calibration::name_of(estimate.options.method))},
+                {"alpha", fmt::format("{:.5f}°", without_minus_zero(degrees(estimate.alpha_rad), 5))},
+                {"beta", fmt::format("{:.5f}°", without_minus_zero(degrees(estimate.beta_rad), 5))},
+                {"R", fmt::format("{:.3f} m", estimate.radius_m)}});
+}
+
+std::string runs_text(const MlResult& ml) {
+  Rows rows{{"run", "metres", "degrees", "chi²/dof", "disagrees"}};
+  if (!ml.options.clock_known) rows[0].push_back("offset ms");
+  for (const calibration::RunFit& run : ml.estimate.runs) {
+    rows.push_back(
+        {run.name, fmt::format("{:.2f}", run.distance_m), fmt::format("{:.0f}", degrees(run.rotation_rad)),
+         fmt::format("{:.2f}", run.chi_square / std::max(1, run.degrees_of_freedom)),
+         run.disagreement_dof > 0 ? fmt::format("{:.1f} of {}", run.disagreement, run.disagreement_dof)
+                                  : std::string("-")});
+    if (!ml.options.clock_known)
+      rows.back().push_back(with_error(1000 * run.clock_offset_s, 1000 * run.clock_offset_se_s, 2));
+    if (run.outlier) rows.back().push_back("outlier");
+  }
+  return console::table(rows);
+}
+
+std::string motions_text(const calibration::MlEstimate& estimate) {
+  Rows rows{{"motion", "samples", "metres", "degrees", "rms mm", "rms mrad", "chi²/dof"}};
+  for (const calibration::KindFit& kind : estimate.kinds)
+    rows.push_back({std::string(experiment::name_of(kind.motion)), fmt::format("{}", kind.samples),
+                    fmt::format("{:.2f}", kind.distance_m), fmt::format("{:.0f}", degrees(kind.rotation_rad)),
+                    known(1000 * kind.rms_xy_m, 2), known(1000 * kind.rms_theta_rad, 2),
+                    fmt::format("{:.2f}", kind.chi_square_per_dof)});
+  return console::table(rows);
+}
+
+std::string ml_text(const MlResult& ml) {
+  std::string text;
+  for (const std::string& sentence :
+       {experiment::lever_sentence(ml), experiment::clock_sentence(ml), experiment::noise_sentence(ml)})
+    text += console::wrapped(sentence);
+  text += '\n' + runs_text(ml) + '\n' + motions_text(ml.estimate) + '\n';
+  for (const std::string& sentence : experiment::verdict_sentences(ml)) text += console::wrapped(sentence);
+  return text;
+}
+
+}  // namespace
+
+std::string calibration_text(const Calibration& calibration) {
+  std::string text;
+  if (calibration.squares) text += squares_text(*calibration.squares) + '\n';
+  if (const calibration::Estimate* estimate = calibration.end_poses()) text += end_pose_text(*estimate);
+  const MlResult* ml = calibration.ml();
+  if (ml != nullptr) text += console::wrapped(experiment::extent_sentence(*ml));
+  text += factors_text(calibration);
+  if (ml != nullptr) text += '\n' + ml_text(*ml);
+  return text;
+}
+
+std::string calibration_summary(const Calibration& calibration) {
+  const MlResult* ml = calibration.ml();
+  if (ml == nullptr) return fmt::format("calibrated by {}:\n", calibration.method());
+  std::string text =
+      console::wrapped(experiment::extent_sentence(*ml)) +
+      console::wrapped("Standard errors: " + experiment::described(experiment::precision_of(calibration)) + ".");
+  for (const std::string& sentence : experiment::verdict_sentences(*ml)) text += console::wrapped(sentence);
+  return text;
+}
+
+}  // namespace astro::commands

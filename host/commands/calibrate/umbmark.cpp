@@ -1,0 +1,204 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "host/base/error.hpp"
+#include "host/commands/calibrate/calibration_view.hpp"
+#include "host/commands/calibrate/commands.hpp"
+#include "host/commands/shared/connection.hpp"
+#include "host/console/console.hpp"
+#include "host/console/interrupt.hpp"
+#include "host/commands/shared/limit_notes.hpp"
+#include "host/commands/calibrate/method_option.hpp"
+#include "host/console/options.hpp"
+#include "host/commands/shared/path_progress.hpp"
+#include "host/commands/shared/robot_view.hpp"
+#include "host/commands/shared/truth_option.hpp"
+#include "host/console/wrong_usage.hpp"
+#include "host/experiment/drive/experiment.hpp"
+#include "host/experiment/files/method_names.hpp"
+#include "host/experiment/analysis/report_input.hpp"
+#include "host/report/report.hpp"
+
+namespace astro::commands {
+namespace {
+
+struct UmbmarkOptions {
+  ConnectionOptions connection;
+  TruthOption truth;
+  experiment::Plan plan;
+  std::filesystem::path out;
+  std::string order = "alternating";
+  MethodOption method;
+  experiment::Until until;
+  console::Option until_option, truth_folder;
+  bool yes = false, force = false, json = false, no_extras = false, pause = false;
+};
+
+void add_options(console::Command command, UmbmarkOptions& options) {
+  experiment::Plan& plan = options.plan;
+  add_connection(command, options.connection);
+  command.add_option("--truth", options.truth.source, "sim, manual (tape measure) or file")
+      .one_of({"sim", "manual", "file"})
+      .required();
+  options.truth_folder = command.add_option("--truth-folder", options.truth.folder,
+                                            "--truth file: where the CSV of each run appears;\n"
+                                            "default: OUT/truth");
+  command
+      .add_option("--out", options.out,
+                  "folder of the experiment; the same folder again goes on where it was")
+      .required();
+  command.add_option("--runs", plan.runs, "squares in each direction, before and after")
+      .capture_default_str();
+  options.until_option = command
+                             .add_option("--until", options.until.target,
+                                         "drive squares until E_d, the scale and b have\n"
+                                         "standard errors below this, 0.05% or 0.0005;\n"
+                                         "--runs then counts the squares after")
+                             .transform(console::fraction());
+  command.add_option("--max-runs", options.until.most, "--until: the most squares in each direction")
+      .needs(options.until_option)
+      .capture_default_str();
+  command.add_option("--side", plan.side_m, "side of the square, m").capture_default_str();
+  command.add_option("--speed", plan.speed_mps, "m/s").capture_default_str();
+  command.add_option("--yaw-rate", plan.yaw_rate_radps, "of the turns, rad/s").capture_default_str();
+  command.add_option("--order", options.order, "of the directions")
+      .one_of({"alternating", "cw-first", "ccw-first"})
+      .capture_default_str();
+  command.add_option("--rounds", plan.rounds, "calibrate, upload and drive again so often")
+      .capture_default_str();
+  command.add_option("--line", plan.line_m, "length of the straight line, m").capture_default_str();
+  command.add_option("--circle", plan.circle_radius_m, "radius of the circles, m").capture_default_str();
+  command.add_flag("--no-extras", options.no_extras, "squares only, no line and circles");
+  add_method(command, options.method, {"auto", "ml", "umbmark", "extended", "least-squares"},
+             "auto: ml (maximum likelihood over whole drives)\n"
+             "with ground truth along the way, else extended\n"
+             "where every run has an end heading, or umbmark");
+  command.add_flag("--pause", options.pause, "wait for Enter before each run (always with --truth manual)");
+  command.add_flag("--yes,-y", options.yes, "upload without asking");
+  console::add_force(command, options.force);
+  command.add_flag("--json", options.json, "print the result as one JSON object");
+}
+
+/// How much of the phase under way is driven.
+struct Way {
+  int before = 0, total = 1;  // runs
+  std::optional<PathProgress> run;
+
+  double console::fraction() const { return (before + (run ? run->fraction() : 0)) / total; }
+};
+
+experiment::ExperimentHooks hooks_for(const UmbmarkOptions& options, console::Progress& progress) {
+  experiment::ExperimentHooks hooks;
+  const auto way = std::make_shared<Way>();
+  hooks.run.interrupted = console::interrupted;
+  hooks.run.notice = [&progress](const std::string& text) {
+    progress.clear();
+    console::say(text);
+  };
+  hooks.run_started = [way, &plan = options.plan, &progress](const experiment::RunSpec& spec, int number,
+                                                             int total) {
+    *way = {number - 1, total, PathProgress(experiment::path_of(plan, spec))};
+    progress.show(way->fraction(), spec.title());
+  };
+  hooks.run.segment_done = [way](std::uint16_t tag) { way->run->segment_done(tag); };
+  hooks.run.moved = [way, &progress](const recording::OdometrySample& sample) {
+    way->run->moved_to(sample);
+    progress.show(way->fraction(), fmt::format("run {} of {}", way->before + 1, way->total));
+  };
+  hooks.run_finished = [&progress](const experiment::RunSpec& spec, const recording::Run&) {
+    progress.clear();
+    console::say("recorded " + spec.title());
+  };
+  const bool pauses = options.pause || options.truth.source == "manual";
+  hooks.ready = [pauses, &progress](const experiment::RunSpec& spec) {
+    if (!pauses) return;
+    progress.clear();
+    console::ask(fmt::format("next is {}: put the robot on its start mark and press Enter ", spec.title()));
+  };
+  hooks.keep = [&progress](const std::string& why) {
+    progress.clear();
+    const std::string answer = console::ask(why + " [y: keep it, n: it is corrected or entered again] ");
+    return answer == "y" || answer == "yes";
+  };
+  hooks.agree = [&options, &progress](const experiment::Calibration& found, const auto& changes) {
+    progress.clear();
+    console::say('\n' + calibration_summary(found));
+    console::say(console::table(experiment::side_by_side(changes)));
+    const experiment::FactorErrors& se = found.se;
+    const std::string note =
+        experiment::insignificance(changes, {{"c_R", se.c_r}, {"c_L", se.c_l}, {"b", se.b_m}});
+    if (!note.empty()) console::say(note);
+    return options.yes || console::confirm("Load these into the robot?");
+  };
+  hooks.force = options.force;
+  hooks.uploaded = [](const std::string& sentence) { console::say(sentence + "\n"); };
+  return hooks;
+}
+
+void run(UmbmarkOptions& options) {
+  options.plan.order = experiment::order_named(options.order);
+  options.plan.method = options.method.choice();
+  options.plan.extras = !options.no_extras;
+  options.plan.truth = options.truth.source;
+  if (options.until_option.count() > 0) options.plan.until = options.until;
+  options.plan.check();
+  if (options.truth_folder.count() > 0 && options.truth.source != "file")
+    throw console::WrongUsage("--truth-folder is of --truth file, and this is --truth " + options.truth.source);
+  if (options.truth_folder.count() > 0 && !std::filesystem::is_directory(options.truth.folder))
+    throw Error(fmt::format("--truth-folder: there is no folder '{}': make it, or name another",
+                            options.truth.folder.string()));
+  if (options.truth.folder.empty()) options.truth.folder = options.out / "truth";
+  const auto client = connect(options.connection);
+  robot::Path all;
+  for (const experiment::RunSpec& spec : experiment::runs_of_phase(options.plan, 0, 1)) {
+    const robot::Path path = experiment::path_of(options.plan, spec);
+    all.insert(all.end(), path.begin(), path.end());
+  }
+  say_what_is_clamped(*client, all);
+  console::Progress progress("driving");
+  const auto truth = open_truth(options.truth, options.connection.port, [&](const std::string& prompt) {
+    progress.clear();
+    return console::ask(prompt);
+  });
+  const experiment::Results results =
+      run_experiment(*client, *truth, options.plan, options.out, hooks_for(options, progress));
+  const std::filesystem::path report = std::filesystem::absolute(options.out / "report.html");
+  report::write_report(report, experiment::report_input(results));
+  if (options.json) {
+    nlohmann::json json = to_json(results);
+    json["report"] = report.string();
+    print_json(json);
+    return;
+  }
+  write(console::table(experiment::before_after_table(results)) + '\n' + console::wrapped(results.verdict()));
+  print("Report: " + report.string());
+}
+
+}  // namespace
+
+void add_umbmark(console::Command app) {
+  const auto options = std::make_shared<UmbmarkOptions>();
+  const console::Command command = app.add_subcommand(
+      "umbmark", "the whole experiment: squares, calibration, upload, squares again, report");
+  add_options(command, *options);
+  command.footer(
+      "Ctrl-C stops the robot; the same command goes on from the last recorded run.\n"
+      "--truth file reads a CSV per run: before-square-cw-1.csv, before-line-1.csv, ...\n"
+      "Its header names the columns: x_m or x_mm, y_m or y_mm, theta_rad or theta_deg\n"
+      "(counter-clockwise). Its first row is the pose at the start, its last row that at\n"
+      "the end, in any frame; without theta in the robot's own at the start, x forward:\n"
+      "  x_m,y_m,theta_deg\n"
+      "  1.000,2.000,90.0\n"
+      "  1.012,1.987,91.5\n"
+      "Examples:\n"
+      "  astrolabe umbmark --truth sim --out my-experiment\n"
+      "  astrolabe umbmark --port /dev/ttyACM0 --truth manual --runs 5 --side 3 --out my-experiment\n"
+      "  astrolabe umbmark --truth sim --until 0.05% --out my-experiment\n"
+      "  astrolabe umbmark --port P --truth sim --runs 5 --side 3 --out DIR --yes --json");
+  command.callback([options] { run(*options); });
+}
+
+}  // namespace astro::commands

@@ -1,0 +1,147 @@
+#include "host/commands/drive/drive_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "host/console/console.hpp"
+#include "host/commands/shared/drive_recording.hpp"
+#include "host/console/interrupt.hpp"
+#include "host/commands/shared/limit_notes.hpp"
+#include "host/console/options.hpp"
+#include "host/commands/shared/path_progress.hpp"
+#include "host/commands/shared/robot_view.hpp"
+#include "host/commands/drive/steering.hpp"
+#include "host/experiment/drive/record_run.hpp"
+
+namespace astro::commands {
+namespace {
+
+constexpr std::uint16_t kPeriod_ms = 20;  // Steering wants no less
+
+/// How long the robot moved, on its own clock.
+class Stopwatch {
+ public:
+  void moved_to(const recording::OdometrySample& sample) {
+    constexpr double kStill_mps = 0.002, kStill_radps = 0.01;
+    if (std::abs(sample.v_mps) < kStill_mps && std::abs(sample.omega_radps) < kStill_radps) return;
+    if (first_us_ == 0) first_us_ = sample.time_us;
+    last_us_ = sample.time_us;
+  }
+  double seconds() const { return static_cast<double>(last_us_ - first_us_) / 1e6; }
+
+ private:
+  std::int64_t first_us_ = 0, last_us_ = 0;
+};
+
+void report(const DriveOptions& options, const char* outcome, const recording::OdometrySample& start,
+            const recording::OdometrySample& end, double seconds) {
+  const recording::PlanarPose moved = recording::in_frame_of(pose_of(start), pose_of(end));
+  if (options.json)
+    return print_json(Json{{"outcome", outcome},
+                           {"duration_s", seconds},
+                           {"moved", to_json(moved)},
+                           {"odometry", to_json(pose_of(end))}});
+  print(fmt::format("moved     {}   in {:.1f} s", in_words(moved), seconds));
+  print(fmt::format("odometry  {}", in_words(pose_of(end))));
+}
+
+/// A bar that exists only while the work goes on: what comes after it begins on a clean line.
+class BarDuring {
+ public:
+  explicit BarDuring(std::optional<console::Progress>& bar) : bar_(bar) { bar_.emplace("driving"); }
+  BarDuring(const BarDuring&) = delete;
+  BarDuring& operator=(const BarDuring&) = delete;
+  ~BarDuring() { bar_.reset(); }
+
+ private:
+  std::optional<console::Progress>& bar_;
+};
+
+}  // namespace
+
+void add_drive_options(console::Command command, DriveOptions& options) {
+  add_connection(command, options.connection);
+  console::add_json_flag(command, options.json);
+  command.add_option("--record", options.record, "also record the drive into this MCAP file")
+      .type_name("FILE");
+}
+
+void drive(DriveOptions& options, const DriveJob& job) {
+  DriveRecording::check(options.record);
+  const auto client = connect(options.connection);
+  job.connected(*client);
+  std::optional<DriveRecording> recording;
+  if (!options.record.empty()) recording.emplace(options.record, *client);
+  Stopwatch stopwatch;
+  OdometryWatch odometry(
+      *client, recording ? experiment::kTelemetryPeriod_ms : kPeriod_ms,
+      [&](const recording::OdometrySample& sample) {
+        if (recording) recording->add(sample);
+        stopwatch.moved_to(sample);
+        job.moved(sample);
+      },
+      recording ? DriveRecording::kFields : OdometryWatch::kFields);
+  const recording::OdometrySample start = odometry.fresh();
+  try {
+    robot::DriveHooks hooks = drive_hooks();
+    hooks.segment_done = job.segment_done;
+    hooks.interrupted = [&] { return console::interrupted() || (recording && recording->failed()); };
+    robot::DriveSession session(*client, hooks);
+    job.work(*client, session);
+    session.end();
+  } catch (const robot::Interrupted&) {
+    const recording::OdometrySample end = odometry.fresh();
+    report(options, "interrupted", start, end, stopwatch.seconds());
+    if (recording && recording->failed())
+      console::say("the drive was ended because it could not be recorded; the robot is at rest and disarmed");
+    if (recording) recording->close();
+    throw;
+  }
+  const recording::OdometrySample end = odometry.fresh();
+  if (recording) recording->close();
+  report(options, "completed", start, end, stopwatch.seconds());
+}
+
+void drive_path(DriveOptions& options, const robot::Path& path) {
+  PathProgress way(path);
+  std::optional<console::Progress> bar;
+  DriveJob job;
+  job.connected = [&](robot::Client& client) { say_what_is_clamped(client, path); };
+  job.work = [&](robot::Client&, robot::DriveSession& session) {
+    const BarDuring showing(bar);
+    session.run(path);
+  };
+  job.segment_done = [&](const protocol::SegmentDone& done) { way.segment_done(done.tag); };
+  job.moved = [&](const recording::OdometrySample& sample) {
+    if (!bar) return;
+    way.moved_to(sample);
+    const std::string part =
+        way.segments() > 1 ? fmt::format("{}/{}  ", std::min(way.done() + 1, way.segments()), way.segments())
+                           : "";
+    bar->show(way.fraction(), part + in_short_words(pose_of(sample)));
+  };
+  drive(options, job);
+}
+
+void drive_velocity(DriveOptions& options, double v_mps, double omega_radps, double seconds) {
+  std::optional<console::Progress> bar;
+  std::int64_t begun_us = 0;
+  DriveJob job;
+  job.connected = [&](robot::Client& client) { say_what_is_clamped(client, v_mps, omega_radps); };
+  job.work = [&](robot::Client& client, robot::DriveSession& session) {
+    const BarDuring showing(bar);
+    Steering(client, session).hold(v_mps, omega_radps, robot::microseconds(std::llround(seconds * 1e6)));
+  };
+  job.moved = [&](const recording::OdometrySample& sample) {
+    if (!bar) return;
+    if (begun_us == 0) begun_us = sample.time_us;
+    bar->show(static_cast<double>(sample.time_us - begun_us) / 1e6 / seconds,
+              in_short_words(pose_of(sample)));
+  };
+  drive(options, job);
+}
+
+}  // namespace astro::commands

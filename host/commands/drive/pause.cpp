@@ -1,0 +1,52 @@
+#include <memory>
+
+#include "host/base/error.hpp"
+#include "host/commands/drive/commands.hpp"
+#include "host/commands/shared/connection.hpp"
+#include "host/console/console.hpp"
+#include "host/console/interrupt.hpp"
+#include "host/console/options.hpp"
+#include "host/commands/shared/robot_view.hpp"
+
+namespace astro::commands {
+namespace {
+
+void pause(ConnectionOptions& options) {
+  const auto client = connect(options);
+  constexpr auto kTimeToRest = std::chrono::seconds(5);
+  client->request(protocol::Pause{});
+  const robot::microseconds deadline = client->now() + kTimeToRest;
+  while (protocol::gives_power(client->request(protocol::GetStatus{}).mode)) {
+    if (console::interrupted() || client->now() >= deadline)
+      throw Error("the robot has not come to rest: 'astrolabe stop' stops it");
+    client->pump(std::chrono::milliseconds(50));
+  }
+  const protocol::Status status = client->request(protocol::GetStatus{});
+  if (status.mode != protocol::Mode::paused)
+    throw Error("the robot is not paused but " + std::string(protocol::name(status.mode)) +
+                ", faults: " + faults_in_words(status.latched_faults));
+  console::say("the robot waits on its path until 'astrolabe resume'; 'astrolabe stop' ends the drive");
+}
+
+void resume(ConnectionOptions& options) {
+  connect(options)->request(protocol::Resume{});
+  console::say("the robot goes on");
+}
+
+console::Command add(console::Command app, const char* name, const char* what, void (*run)(ConnectionOptions&)) {
+  const auto options = std::make_shared<ConnectionOptions>();
+  const console::Command command = app.add_subcommand(name, what);
+  add_connection(command, *options);
+  command.callback([options, run] { run(*options); });
+  return command;
+}
+
+}  // namespace
+
+void add_pause(console::Command app) {
+  console::examples(add(app, "pause", "let a robot that drives a path come to rest on it", pause),
+           {"astrolabe pause", "astrolabe pause --port /dev/ttyS0"});
+  console::examples(add(app, "resume", "let a paused robot go on", resume), {"astrolabe resume"});
+}
+
+}  // namespace astro::commands

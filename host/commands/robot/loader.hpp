@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+
+namespace astro::commands {
+
+/// teensy_loader_cli on the PATH, or what the environment variable ASTROLABE_LOADER names. Throws
+/// astro::Error with the remedy if there is none.
+std::filesystem::path find_loader();
+
+/// Runs it on `hex` until it ends; it waits for a Teensy in its bootloader. Throws astro::Error with the last
+/// line it said if it fails, robot::Interrupted on Ctrl-C.
+void run_loader(const std::filesystem::path& loader, const std::filesystem::path& hex);
+
+}  // namespace astro::commands

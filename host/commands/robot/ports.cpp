@@ -1,0 +1,69 @@
+#include <memory>
+
+#include "host/commands/robot/commands.hpp"
+#include "host/console/console.hpp"
+#include "host/console/options.hpp"
+#include "host/commands/shared/robot_view.hpp"
+#include "host/robot/client/discovery.hpp"
+
+namespace astro::commands {
+namespace {
+
+struct PortsOptions {
+  unsigned baud = robot::kDefaultBaud;
+  bool json = false;
+};
+
+Json as_json(const std::vector<robot::FoundPort>& found) {
+  Json list = Json::array();
+  for (const robot::FoundPort& at : found) {
+    Json entry = {{"port", at.port.address},
+                  {"device", at.port.device},
+                  {"simulator", at.port.simulator},
+                  {"robot", nullptr}};
+    if (at.robot) {
+      entry["robot"] = {{"name", std::string(at.robot->robot_name.view())},
+                        {"id", hex_id(*at.robot)},
+                        {"board", std::string(at.robot->board.view())},
+                        {"firmware", firmware_version(*at.robot)}};
+    } else {
+      entry["reason"] = at.reason;
+    }
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+void show(const std::vector<robot::FoundPort>& found) {
+  std::vector<std::vector<std::string>> rows{{"port", "robot", "board", "firmware"}};
+  for (const robot::FoundPort& at : found)
+    if (at.robot)
+      rows.push_back({at.port.address, std::string(at.robot->robot_name.view()),
+                      std::string(at.robot->board.view()), firmware_version(*at.robot)});
+  if (rows.size() > 1) write(console::table(rows, "llll"));
+  if (rows.size() == 1) console::say("no robot was found; 'astrolabe sim' starts a simulated one");
+  for (const robot::FoundPort& at : found)
+    if (!at.robot) console::say("no robot: " + at.reason);
+}
+
+void run(const PortsOptions& options) {
+  const auto found = robot::find_robots(robot::candidate_ports(), std::chrono::milliseconds(500), options.baud);
+  if (options.json) return print_json(as_json(found));
+  show(found);
+}
+
+}  // namespace
+
+void add_ports(console::Command app) {
+  const auto options = std::make_shared<PortsOptions>();
+  const console::Command command = app.add_subcommand("ports", "find robots at serial ports and simulators of yours");
+  command.add_option("--baud", options->baud, "speed of serial ports; USB and ptys do not care")
+      .type_name("BAUD")
+      .capture_default_str()
+      .check(console::whole(1, 20'000'000));
+  console::add_json_flag(command, options->json);
+  console::examples(command, {"astrolabe ports", "astrolabe ports --json | jq -r '.[].port'"});
+  command.callback([options] { run(*options); });
+}
+
+}  // namespace astro::commands

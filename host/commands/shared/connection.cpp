@@ -1,0 +1,64 @@
+#include "host/commands/shared/connection.hpp"
+
+#include <fmt/format.h>
+
+#include "host/base/error.hpp"
+#include "host/console/console.hpp"
+#include "host/console/interrupt.hpp"
+#include "host/console/options.hpp"
+#include "host/robot/client/discovery.hpp"
+#include "host/robot/sharing/shared_port.hpp"
+
+namespace astro::commands {
+namespace {
+
+std::string only_robot(unsigned baud) {
+  std::string robots, reasons, last;
+  int count = 0;
+  for (const robot::FoundPort& found :
+       robot::find_robots(robot::candidate_ports(), std::chrono::milliseconds(500), baud)) {
+    if (found.robot) {
+      robots += fmt::format("{}{} ({})", count++ == 0 ? "" : ", ", found.port.address,
+                            found.robot->robot_name.view());
+      last = found.port.address;
+    } else {
+      reasons += (reasons.empty() ? "" : "; ") + found.reason;
+    }
+  }
+  if (count == 1) return last;
+  if (count > 1) throw Error("several robots are here, say with --port which one: " + robots);
+  if (!reasons.empty()) throw Error("no robot was found: " + reasons);
+  throw Error(
+      "no robot was found: plug one in, start one with 'astrolabe sim', or name its port with --port");
+}
+
+}  // namespace
+
+void add_connection(console::Command command, ConnectionOptions& options) {
+  command
+      .add_option(
+          "--port,-p", options.port,
+          "serial port or pty of the robot, shared with other programs\n(default: the only robot found)")
+      .type_name("PORT");
+  command.add_option("--baud", options.baud, "speed of a serial port; USB and ptys do not care")
+      .type_name("BAUD")
+      .capture_default_str()
+      .check(console::whole(1, 20'000'000));
+}
+
+std::unique_ptr<robot::Client> connect(ConnectionOptions& options) {
+  if (options.port.empty()) options.port = only_robot(options.baud);
+  auto client = std::make_unique<robot::Client>(
+      robot::open_shared_port(options.port, options.baud, [](const std::string& sentence) { console::say(sentence); }));
+  client->connect();
+  return client;
+}
+
+robot::DriveHooks drive_hooks() {
+  robot::DriveHooks hooks;
+  hooks.interrupted = console::interrupted;
+  hooks.notice = [](const std::string& text) { console::say(text); };
+  return hooks;
+}
+
+}  // namespace astro::commands

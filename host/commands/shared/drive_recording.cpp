@@ -1,0 +1,74 @@
+#include "host/commands/shared/drive_recording.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "host/base/error.hpp"
+#include "host/console/console.hpp"
+#include "host/experiment/files/journal.hpp"
+#include "host/experiment/files/robot_identity.hpp"
+#include "host/robot/parameters/parameters.hpp"
+
+namespace astro::commands {
+namespace {
+
+recording::RunInfo free_drive(robot::Client& client) {
+  recording::RunInfo info = describe_robot(client);
+  info.kind = "free";
+  return info;
+}
+
+}  // namespace
+
+recording::RunInfo describe_robot(robot::Client& client) {
+  const protocol::HelloReply& robot = client.robot();
+  recording::RunInfo info;
+  const experiment::RobotIdentity identity = experiment::identity_of(robot);
+  info.robot_name = identity.name;
+  info.robot_id = identity.id;
+  info.board = robot.board.view();
+  info.firmware = fmt::format("{}.{}.{}", robot.fw_major, robot.fw_minor, robot.fw_patch);
+  info.started_at = experiment::utc_now();
+  const robot::RemoteParameters parameters = robot::RemoteParameters::fetch(client);
+  for (const robot::ParameterRow& row : parameters.rows())
+    if (row.kind != protocol::ParameterKind::text)
+      info.parameters[row.name] = robot::to_real(row, row.active.raw);
+  return info;
+}
+
+void DriveRecording::check(const std::filesystem::path& file) {
+  if (!file.empty() && std::filesystem::exists(file))
+    throw Error(
+        fmt::format("'{}' exists, and a recording replaces nothing: name another file", file.string()));
+}
+
+DriveRecording::DriveRecording(const std::filesystem::path& file, robot::Client& client)
+    : info_(free_drive(client)), writer_(file, info_) {}
+
+DriveRecording::~DriveRecording() {
+  try {
+    close();
+  } catch (const std::exception& error) {
+    console::say(error.what());
+  }
+}
+
+void DriveRecording::add(const recording::OdometrySample& sample) {
+  if (!open_) return;
+  try {
+    writer_.add(sample);
+  } catch (...) {
+    failure_ = std::current_exception();
+    open_ = false;
+  }
+}
+
+void DriveRecording::close() {
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+  if (!open_) return;
+  open_ = false;
+  writer_.close(info_);
+}
+
+}  // namespace astro::commands

@@ -1,0 +1,82 @@
+#include "host/commands/shared/limit_notes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "host/console/console.hpp"
+#include "host/robot/parameters/parameters.hpp"
+
+namespace astro::commands {
+namespace {
+
+using protocol::AddSegment;
+
+struct Asked {
+  double speed_mps = 0, yaw_rate_radps = 0;
+  double arc_yaw_rate_radps = 0;  // that the speed asked for would need on the tightest arc
+};
+
+double radius_m(const AddSegment& arc) {
+  const double angle_rad = 2 * std::numbers::pi * std::ldexp(static_cast<double>(arc.angle), -32);
+  return std::abs(1e-9 * static_cast<double>(arc.length_nm) / angle_rad);
+}
+
+Asked asked_by(const robot::Path& path) {
+  Asked asked;
+  for (const AddSegment& segment : path) {
+    const bool moves = segment.length_nm != 0, turns = segment.angle != 0;
+    const double speed_mps = 1e-6 * segment.speed_umps;
+    if (moves) asked.speed_mps = std::max(asked.speed_mps, speed_mps);
+    if (turns) asked.yaw_rate_radps = std::max(asked.yaw_rate_radps, 1e-6 * segment.yaw_rate_uradps);
+    if (moves && turns)
+      asked.arc_yaw_rate_radps = std::max(asked.arc_yaw_rate_radps, speed_mps / radius_m(segment));
+  }
+  return asked;
+}
+
+/// A robot without this parameter has no such limit.
+double limit_of(const robot::RemoteParameters& robot, const char* name) {
+  const robot::ParameterRow* row = robot.find(name);
+  return row == nullptr ? HUGE_VAL : robot::to_real(*row, row->active.raw);
+}
+
+void say_what_is_above(const robot::RemoteParameters& robot, const Asked& asked) {
+  constexpr double kStep = 1e-6;  // of the wire
+  const double speed_mps = limit_of(robot, "speed_limit"), yaw_rate_radps = limit_of(robot, "yaw_rate_limit");
+  if (asked.speed_mps > speed_mps + kStep)
+    console::say(fmt::format(
+        "the robot drives at {:g} m/s at most, its speed_limit, and not at the {:g} m/s asked for", speed_mps,
+        asked.speed_mps));
+  if (asked.yaw_rate_radps > yaw_rate_radps + kStep)
+    console::say(fmt::format(
+        "the robot turns at {:g} rad/s at most, its yaw_rate_limit, and not at the {:g} rad/s asked for",
+        yaw_rate_radps, asked.yaw_rate_radps));
+  // The robot takes the tighter of both limits on an arc; what speed_limit takes off is said above.
+  const double arc_radps =
+      asked.speed_mps > 0 ? asked.arc_yaw_rate_radps * std::min(1.0, speed_mps / asked.speed_mps) : 0;
+  if (arc_radps > yaw_rate_radps + kStep)
+    console::say(fmt::format(
+        "on the arc the robot is slower than asked for: its yaw_rate_limit is {:g} rad/s, and the arc would "
+        "need {:.3g} rad/s",
+        yaw_rate_radps, arc_radps));
+}
+
+void say_what_is_clamped(robot::Client& client, const Asked& asked) {
+  if (asked.speed_mps > 0 || asked.yaw_rate_radps > 0)
+    say_what_is_above(robot::RemoteParameters::fetch(client), asked);
+}
+
+}  // namespace
+
+void say_what_is_clamped(robot::Client& client, const robot::Path& path) {
+  say_what_is_clamped(client, asked_by(path));
+}
+
+void say_what_is_clamped(robot::Client& client, double v_mps, double omega_radps) {
+  say_what_is_clamped(client, Asked{std::abs(v_mps), std::abs(omega_radps), 0});
+}
+
+}  // namespace astro::commands

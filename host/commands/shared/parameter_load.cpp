@@ -1,0 +1,68 @@
+#include "host/commands/shared/parameter_load.hpp"
+
+#include <fmt/format.h>
+
+#include "host/base/error.hpp"
+#include "host/console/console.hpp"
+#include "host/commands/shared/params_view.hpp"
+#include "host/experiment/files/robot_identity.hpp"
+
+namespace astro::commands {
+namespace {
+
+void warn_of_another_robot(const robot::Client& client, const experiment::ParameterFile& file) {
+  const std::string other = experiment::different_robots("the calibration", file.robot, "this",
+                                                         experiment::identity_of(client.robot()));
+  if (!other.empty()) console::say("warning: " + other);
+}
+
+/// Values that were only tried are in force, but not in the robot's flash yet.
+void keep_what_was_tried(robot::RemoteParameters robot, const experiment::ParameterFile& file) {
+  for (const auto& [name, value] : file.parameters) robot.stage(name, value);
+  robot.commit();
+  console::say("the robot holds these values already");
+}
+
+}  // namespace
+
+bool warn_of_far_changes(const robot::RemoteParameters& robot,
+                         const std::vector<experiment::Change>& changes) {
+  const std::vector<std::string> far = experiment::far_changes(robot, changes);
+  for (const std::string& clause : far) console::say("warning: " + clause);
+  for (const experiment::Change& change : changes)
+    if (change.name == "command_timeout" && change.after == robot::Value(0.0))
+      console::say("warning: with command_timeout = 0 a robot goes on driving when its host has gone");
+  return !far.empty();
+}
+
+bool agreed(const robot::RemoteParameters& robot, const std::vector<experiment::Change>& changes, bool yes,
+            std::size_t unasked) {
+  console::say(console::table(experiment::side_by_side(changes), "llrrr"));
+  const bool far = warn_of_far_changes(robot, changes);
+  if (yes || (changes.size() <= unasked && !far)) return true;
+  return console::confirm(changes.size() == 1 ? "Put this value in force?"
+                                     : fmt::format("Put these {} values in force?", changes.size()));
+}
+
+Loaded load_parameters(robot::Client& client, const robot::RemoteParameters& robot,
+                       const experiment::ParameterFile& file, const LoadOptions& options) {
+  warn_of_another_robot(client, file);
+  Loaded loaded{experiment::changes(robot, file.parameters), std::nullopt};
+  if (loaded.changes.empty()) {
+    keep_what_was_tried(robot, file);
+    return loaded;
+  }
+  console::say(console::table(experiment::side_by_side(loaded.changes), "llrrr"));
+  if (const std::string why = experiment::objection(robot, file, loaded.changes);
+      !why.empty() && !options.force)
+    throw Error(why);
+  warn_of_far_changes(robot, loaded.changes);
+  if (const std::string note = experiment::insignificance(loaded.changes, file.standard_errors);
+      !note.empty())
+    console::say(note);
+  if (!options.yes && !console::confirm("Load these into the robot?")) throw Error("nothing was changed");
+  loaded.report = robot::upload(client, file.parameters);
+  return loaded;
+}
+
+}  // namespace astro::commands

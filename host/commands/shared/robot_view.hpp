@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "common/protocol/session.hpp"
+#include "common/protocol/status.hpp"
+#include "host/recording/run/planar_pose.hpp"
+
+/// What the robot says, in words and keys that all commands share.
+namespace astro::commands {
+
+/// Keys keep the order in which a person would ask.
+using Json = nlohmann::ordered_json;
+
+/// To stdout, through plain_text; print adds a newline. Throws astro::Error if this, or anything before it,
+/// could not be written.
+void write(const std::string& text);
+void print(const std::string& text);
+
+/// As it stands where a program reads stdout, which opens what it is given; through plain_text on a terminal.
+void print_path(const std::filesystem::path& path);
+
+/// Valid JSON whatever its texts hold: a robot's or a file's may be no UTF-8.
+template <class AnyJson>
+void print_json(const AnyJson& json) {
+  print(json.dump(2, ' ', false, AnyJson::error_handler_t::replace));
+}
+
+/// Hands to the system what was printed by whatever means. Throws astro::Error if stdout takes no more: what
+/// a full disk has swallowed must not look like a result.
+void flush_output();
+
+std::string firmware_version(const protocol::HelloReply& robot);
+std::string hex_id(const protocol::HelloReply& robot);
+
+std::vector<std::string> fault_list(std::uint32_t mask);
+
+/// "none" or the names.
+std::string faults_in_words(std::uint32_t mask);
+
+/// "2 h 03 min 10 s", "12.3 s".
+std::string duration_in_words(std::uint64_t us);
+
+Json to_json(const recording::PlanarPose& pose);
+
+/// "x 1.0000 m   y -0.0003 m   heading 0.02 deg".
+std::string in_words(const recording::PlanarPose& pose);
+
+/// "x  1.000 m  y  0.000 m   0.0 deg", for lines that change all the time.
+std::string in_short_words(const recording::PlanarPose& pose);
+
+}  // namespace astro::commands

@@ -1,0 +1,19 @@
+#include "host/commands/shared/truth_option.hpp"
+
+#include "host/base/error.hpp"
+#include "host/truth/files/file_source.hpp"
+#include "host/truth/source/no_source.hpp"
+#include "host/truth/live/socket_source.hpp"
+
+namespace astro::commands {
+
+std::unique_ptr<truth::Source> open_truth(const TruthOption& option, const std::string& port,
+                                          const truth::Ask& asking) {
+  if (option.source == "sim") return std::make_unique<truth::SocketSource>(truth::mocap_socket_of(port));
+  if (option.source == "manual") return std::make_unique<truth::ManualSource>(asking);
+  if (option.source == "file") return std::make_unique<truth::FileSource>(option.folder, asking);
+  if (option.source == "none") return std::make_unique<truth::NoSource>();
+  throw Error("'" + option.source + "' is no source of ground truth: choose sim, manual, file or none");
+}
+
+}  // namespace astro::commands

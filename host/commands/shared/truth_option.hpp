@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "host/console/console.hpp"
+#include "host/truth/manual/manual_source.hpp"
+#include "host/truth/source/source.hpp"
+
+namespace astro::commands {
+
+/// --truth: where ground truth comes from.
+///   sim     the virtual cameras beside the port of an 'astrolabe sim'
+///   manual  a person with a tape measure is asked after each run
+///   file    each run's ground truth is read from a CSV that another program wrote
+///   none    nothing (record only)
+struct TruthOption {
+  std::string source;
+  std::filesystem::path folder;  // file: where the CSV files appear
+};
+
+/// `asking`: how a person is asked, where one is. Throws astro::Error if it cannot be had.
+std::unique_ptr<truth::Source> open_truth(const TruthOption& option, const std::string& port,
+                                          const truth::Ask& asking = ask);
+
+}  // namespace astro::commands

@@ -1,0 +1,31 @@
+#include <memory>
+
+#include "host/commands/simulate/commands.hpp"
+#include "host/console/options.hpp"
+#include "host/simulation/program/served_robot_options.hpp"
+
+namespace astro::commands {
+namespace {
+
+void run(const SimOptions& wanted) {
+  SimOptions options = wanted;
+  prepare(options, sim::Flash::kBytes);
+  simulation::MocapConfig mocap;
+  mocap.seed = options.robot.seed;
+  simulation::Server server(options.robot, mocap, options.server);
+  serve(server, "a simulated robot");
+}
+
+}  // namespace
+
+void add_sim(console::Command app) {
+  const auto options = std::make_shared<SimOptions>();
+  const console::Command command = app.add_subcommand(
+      "sim", "run a simulated robot behind a pseudo terminal, with virtual cameras beside it");
+  add_sim_options(command, *options);
+  console::examples(command, {"astrolabe sim", "astrolabe sim --pty /tmp/astro --fast",
+                     "astrolabe sim --true-ed 1 --true-wheelbase 0.29 --slip 0 --flash astro.flash"});
+  command.callback([options] { run(*options); });
+}
+
+}  // namespace astro::commands

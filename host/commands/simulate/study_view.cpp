@@ -1,0 +1,124 @@
+#include "host/commands/simulate/study_view.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "host/console/console.hpp"
+
+namespace astro::commands {
+namespace {
+
+using nlohmann::json;
+using simulation::study::Errors;
+using simulation::study::Row;
+using simulation::study::Summary;
+using simulation::study::TrialSetup;
+
+struct Column {
+  const char *key, *heading, *unit;
+  double per_unit;
+};
+
+constexpr std::array<Column, simulation::study::kFigures> kColumns = {{{"E_d", "E_d", "x1e-4", 1e4},
+                                                           {"b_over_S", "b/S", "x1e-4", 1e4},
+                                                           {"scale", "scale S", "x1e-4", 1e4},
+                                                           {"E_max_m", "E_max", "mm", 1e3},
+                                                           {"theta_rad", "theta", "mrad", 1e3},
+                                                           {"line_10m_m", "10 m line", "mm", 1e3}}};
+
+std::string setup_text(const TrialSetup& setup) {
+  const double degrees = setup.noise.sigma_theta_rad * 180 / std::numbers::pi;
+  return fmt::format(
+      "{13}\n"
+      "{0} + {0} squares of {1:g} m; b {2:g} m, E_d {3:g}, E_b {4:g}, scale {5:g}\n"
+      "slip {6:g} m; truth {7:g} Hz, {8:g} mm, {9:.3g} deg; counts {10:g} Hz\n"
+      "clock {11}; noise {12} to ml\n",
+      setup.runs, setup.side_m, setup.wheelbase_m, setup.E_d, setup.E_b, setup.scale, setup.noise.K_m,
+      setup.truth_rate_hz, setup.noise.sigma_xy_m * 1000, degrees, setup.count_rate_hz,
+      setup.clock_known ? "known" : "estimated", setup.noise_known ? "known" : "estimated",
+      setup.model == simulation::study::Model::simulator ? "simulated robot: firmware, motors, encoders"
+                                             : "kinematic robot: wheels and noise alone");
+}
+
+std::vector<std::string> cells(const Row& row) {
+  std::vector<std::string> cells{row.name};
+  for (std::size_t f = 0; f < simulation::study::kFigures; ++f)
+    cells.push_back(three_digits(row.rms[f] * kColumns[f].per_unit));
+  return cells;
+}
+
+// Of the figures that scatter at all, the one that is least certain.
+double worst_relative_error(const std::vector<Row>& rows) {
+  double worst = 0;
+  for (const Row& row : rows)
+    for (std::size_t f = 0; f < simulation::study::kFigures; ++f)
+      if (row.rms[f] > 0) worst = std::max(worst, row.se[f] / row.rms[f]);
+  return worst;
+}
+
+std::string ml_text(const Summary& summary) {
+  std::string text;
+  if (const auto& ratios = summary.ml_over_bound; !ratios.empty())
+    text += fmt::format("ml over the bound: E_d {:.3f} ± {:.3f}, b/S {:.3f} ± {:.3f}, S {:.3f} ± {:.3f}\n",
+                        ratios[0].value, ratios[0].se, ratios[1].value, ratios[1].se, ratios[2].value,
+                        ratios[2].se);
+  if (const auto& honesty = summary.ml_covariance)
+    text += fmt::format("chi-square of ml's errors by its own covariance: {:.3f} ± {:.3f}, honest is 3\n",
+                        honesty->mean, honesty->se);
+  return text;
+}
+
+json figures(const Errors& values) {
+  json object;
+  for (std::size_t f = 0; f < simulation::study::kFigures; ++f) object[kColumns[f].key] = values[f];
+  return object;
+}
+
+json row_json(const Row& row) {
+  return {{"name", row.name}, {"trials", row.trials}, {"rms", figures(row.rms)}, {"se", figures(row.se)}};
+}
+
+}  // namespace
+
+std::string three_digits(double value) {
+  if (!std::isfinite(value) || value == 0) return fmt::format("{:g}", value);
+  const int before = static_cast<int>(std::floor(std::log10(std::abs(value) * (1 + 1e-9))));
+  return fmt::format("{:.{}f}", value, std::clamp(2 - before, 0, 9));
+}
+
+std::string study_text(const Summary& summary) {
+  std::vector<std::vector<std::string>> rows{{"rms errors"}, {""}};
+  for (const Column& column : kColumns) {
+    rows[0].emplace_back(column.heading);
+    rows[1].emplace_back(column.unit);
+  }
+  for (const Row& row : summary.methods) rows.push_back(cells(row));
+  rows.push_back(cells(summary.bound));
+  std::string text = setup_text(summary.setup) + '\n' + console::table(rows) + '\n';
+  text += fmt::format("{} trials: chance moves figures by up to {:.1f} % (one standard error)\n",
+                      summary.setup.trials, 100 * worst_relative_error(summary.methods));
+  text += ml_text(summary);
+  for (const std::string& failure : summary.failures) text += failure + '\n';
+  return text;
+}
+
+json study_json(const Summary& summary) {
+  json result = {{"setup", to_json(summary.setup)},  {"methods", json::array()},
+                 {"bound", row_json(summary.bound)}, {"ml_over_bound", json()},
+                 {"ml_covariance", json()},          {"failures", summary.failures}};
+  for (const Row& row : summary.methods) result["methods"].push_back(row_json(row));
+  for (std::size_t i = 0; i < summary.ml_over_bound.size(); ++i)
+    result["ml_over_bound"][kColumns[i].key] = {{"value", summary.ml_over_bound[i].value},
+                                                {"se", summary.ml_over_bound[i].se}};
+  if (const auto& honesty = summary.ml_covariance)
+    result["ml_covariance"] = {
+        {"trials", honesty->trials}, {"mean", honesty->mean}, {"se", honesty->se}, {"expected", 3}};
+  return result;
+}
+
+}  // namespace astro::commands

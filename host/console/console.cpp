@@ -1,0 +1,222 @@
+#include "host/console/console.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <utility>
+
+#include "host/base/error.hpp"
+#include "host/base/plain_text.hpp"
+#include "host/console/interrupt.hpp"
+#include "host/console/terminal.hpp"
+
+namespace astro::console {
+namespace {
+
+constexpr auto kPatience = std::chrono::seconds(1);
+constexpr auto kBetweenRedraws = std::chrono::milliseconds(80);
+constexpr std::size_t kLongestSentence = 4000;  // bytes
+constexpr std::string_view kClearLine = "\r\033[K";
+
+// Columns a terminal uses for UTF-8 text: every byte that does not continue a character.
+std::size_t width_of(std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+/// A file can put anything into a complaint about it: a name with line feeds, a cell of megabytes.
+std::string one_line(std::string_view sentence) {
+  const bool too_long = sentence.size() > kLongestSentence;
+  std::string line = plain_text(sentence.substr(0, kLongestSentence)) + (too_long ? " ..." : "");
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  return line;
+}
+
+void to_stderr(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
+constexpr std::size_t kLongestAnswer = 65536;
+
+// "study: 12 %, trial 60 of 500".
+std::string progress_line(const std::string& what, double fraction, std::string_view note) {
+  // Some work has no end that is known beforehand; then only the note says something.
+  const std::string part = fraction > 0 ? fmt::format("{:.0f} %", 100 * std::min(fraction, 1.0)) : "";
+  return fmt::format("{}: {}{}{}", what, part, part.empty() || note.empty() ? "" : ", ", note);
+}
+
+// How long a Ctrl-C can go unnoticed that comes just before a read.
+constexpr int kLookMs = 50;
+
+// Appends what has come on stdin to `bytes`; false at its end. Polls, for a signal that arrives between a
+// look at its flag and a read that blocks would wait for the next key.
+bool await_input(std::string& bytes) {
+  while (true) {
+    check_interrupt();
+    pollfd input{STDIN_FILENO, POLLIN, 0};
+    if (poll(&input, 1, kLookMs) <= 0) continue;
+    std::array<char, 256> chunk{};
+    const ssize_t count = read(STDIN_FILENO, chunk.data(), chunk.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    bytes.append(chunk.data(), static_cast<std::size_t>(count));
+    return true;
+  }
+}
+
+}  // namespace
+
+void hold_standard_streams() {
+  for (const auto& [stream, other_way] : {std::pair{0, O_WRONLY}, {1, O_RDONLY}, {2, O_RDONLY}})
+    if (fcntl(stream, F_GETFD) < 0 && errno == EBADF) static_cast<void>(open("/dev/null", other_way));
+}
+
+bool stdout_is_terminal() { return isatty(STDOUT_FILENO) == 1; }
+bool stderr_is_terminal() { return isatty(STDERR_FILENO) == 1; }
+
+void say(std::string_view line) { to_stderr(plain_text(line) + '\n'); }
+
+void complain(std::string_view sentence) {
+  const bool colour = obeys_escapes(STDERR_FILENO);
+  to_stderr(fmt::format("{}astrolabe:{} {}\n", colour ? "\033[31m" : "", colour ? "\033[0m" : "",
+                        one_line(sentence)));
+}
+
+std::string in_words(const std::filesystem::filesystem_error& error) {
+  return fmt::format("cannot use '{}': {}", error.path1().string(), error.code().message());
+}
+
+void complain_of_memory() {
+  std::fputs("astrolabe: there is not enough memory: end other programs, or do less at a time\n", stderr);
+}
+
+std::string ask(const std::string& prompt) {
+  static std::string read_ahead;  // answers typed, or piped in, before their question
+  to_stderr(plain_text(prompt));
+  std::size_t end = 0;
+  while ((end = read_ahead.find('\n')) == std::string::npos)
+    if (!await_input(read_ahead)) {
+      if (read_ahead.empty()) {
+        to_stderr("\n");  // the question stands there already, and nothing has ended its line
+        throw Error(
+            "the input ended where an answer was expected: answer at a terminal, or pipe all answers in");
+      }
+      return std::exchange(read_ahead, {});
+    } else if (read_ahead.size() > kLongestAnswer) {
+      throw Error(
+          "the input has no end of a line where an answer was expected: give one answer in each line");
+    }
+  const std::string line = read_ahead.substr(0, end);
+  read_ahead.erase(0, end + 1);
+  return line;
+}
+
+bool confirm(const std::string& question) {
+  if (isatty(STDIN_FILENO) != 1)
+    throw Error("'" + question +
+                "' needs an answer and the input is no terminal: give --yes to agree beforehand");
+  const std::string answer = ask(question + " [y/N] ");
+  return answer == "y" || answer == "Y" || answer == "yes";
+}
+
+bool ProgressLines::due(std::chrono::steady_clock::duration elapsed) {
+  if (elapsed < next_) return false;
+  next_ = elapsed + std::min<std::chrono::steady_clock::duration>(elapsed, std::chrono::minutes(1));
+  return true;
+}
+
+Progress::Progress(std::string what) : what_(std::move(what)), started_(std::chrono::steady_clock::now()) {}
+
+Progress::~Progress() { clear(); }
+
+// Where a line cannot be rewritten, a new one now and then.
+void Progress::add_line(double fraction, std::string_view note) {
+  if (obeys_escapes(STDERR_FILENO)) return;
+  if (lines_.due(std::chrono::steady_clock::now() - started_)) say(progress_line(what_, fraction, note));
+}
+
+bool Progress::due() {
+  const auto now = std::chrono::steady_clock::now();
+  if (!obeys_escapes(STDERR_FILENO) || now - started_ < kPatience || now - shown_ < kBetweenRedraws)
+    return false;
+  shown_ = now;
+  return true;
+}
+
+void Progress::rewrite(const std::string& line) {
+  visible_ = true;
+  // A line that wraps could not be rewritten.
+  to_stderr(
+      fmt::format("{}{}", kClearLine, clipped(plain_text(line), terminal_size(STDERR_FILENO).columns - 1)));
+}
+
+void Progress::show(double fraction, std::string_view note) {
+  add_line(fraction, note);
+  if (!due()) return;
+  constexpr int kCells = 20;
+  const int full = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * kCells + 0.5);
+  std::string bar;
+  for (int i = 0; i < kCells; ++i) bar += i < full ? "█" : "░";
+  rewrite(fmt::format("{} {} {:3.0f} %  {}", what_, bar, 100 * std::clamp(fraction, 0.0, 1.0), note));
+}
+
+void Progress::show(std::string_view note) {
+  add_line(0, note);
+  if (due()) rewrite(fmt::format("{}  {}", what_, note));
+}
+
+void Progress::clear() {
+  if (visible_) to_stderr(kClearLine);
+  visible_ = false;
+}
+
+std::string table(const std::vector<std::vector<std::string>>& rows, std::string_view alignment) {
+  const auto is_left = [&](std::size_t i) { return i < alignment.size() ? alignment[i] == 'l' : i == 0; };
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows)
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (i == widths.size()) widths.push_back(0);
+      widths[i] = std::max(widths[i], width_of(row[i]));
+    }
+  std::string text;
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string padding(widths[i] - width_of(row[i]), ' ');
+      line += (i == 0 ? "" : "  ") + (is_left(i) ? row[i] + padding : padding + row[i]);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + '\n';
+  }
+  return text;
+}
+
+std::string wrapped(const std::string& text) {
+  constexpr std::size_t kColumns = 80;
+  std::string out, line;
+  std::size_t width = 0;
+  const auto flush = [&] {
+    out += line + '\n';
+    line.clear();
+    width = 0;
+  };
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    const std::string word = text.substr(at, end - at);
+    if (width > 0 && width + 1 + width_of(word) > kColumns) flush();
+    line += (width > 0 ? " " : "") + word;
+    width += (width > 0 ? 1 : 0) + width_of(word);
+    at = end + 1;
+  }
+  flush();
+  return out;
+}
+
+}  // namespace astro::console

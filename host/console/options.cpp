@@ -1,0 +1,83 @@
+#include "host/console/options.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace astro::console {
+namespace {
+
+std::optional<double> finite_number(const std::string& text) {
+  const char* end = text.data() + text.size();
+  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
+  double value = 0;
+  const auto parsed = std::from_chars(begin, end, value);
+  if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+template <class Accept>
+Check number(Accept accept, const std::string& allowed) {
+  return [=](std::string& text) -> std::string {
+    const auto value = finite_number(text);
+    if (value && accept(*value)) return {};
+    return fmt::format("'{}' is not {}", text, allowed);
+  };
+}
+
+}  // namespace
+
+Check between(double least, double greatest, const std::string& unit) {
+  const std::string limits =
+      fmt::format("a number from {:g} to {:g}{}{}", least, greatest, unit.empty() ? "" : " ", unit);
+  return number([=](double value) { return value >= least && value <= greatest; }, limits);
+}
+
+Check positive(const std::string& unit) {
+  const std::string allowed = unit.empty() ? "a number above 0" : "a number above 0 (in " + unit + ")";
+  return number([](double value) { return value > 0; }, allowed);
+}
+
+Check whole(std::uint64_t least, std::uint64_t greatest) {
+  return [=](std::string& text) -> std::string {
+    std::uint64_t value = 0;
+    const char* end = text.data() + text.size();
+    const auto parsed = std::from_chars(text.data(), end, value);
+    if (parsed.ec == std::errc() && parsed.ptr == end && value >= least && value <= greatest) return {};
+    return fmt::format("'{}' is not a whole number from {} to {}", text, least, greatest);
+  };
+}
+
+Check finite() {
+  return number([](double) { return true; }, "a number");
+}
+
+Check fraction() {
+  return [](std::string& text) -> std::string {
+    const bool percent = text.ends_with('%');
+    const auto value = finite_number(percent ? text.substr(0, text.size() - 1) : text);
+    if (!value || *value <= 0) return fmt::format("'{}' is not like 0.05% or 0.0005", text);
+    text = fmt::format("{}", percent ? *value / 100 : *value);
+    return {};
+  };
+}
+
+void examples(Command command, std::initializer_list<const char*> lines) {
+  std::string footer = "\nExamples:";
+  for (const char* line : lines) footer += std::string("\n  ") + line;
+  command.footer(footer);
+}
+
+void add_force(Command command, bool& force) {
+  command.add_flag("--force", force,
+                   "upload also a change of more than 10 %, or on top of other\nparameters");
+}
+
+void add_json_flag(Command command, bool& json) {
+  command.add_flag("--json", json, "print JSON instead of text for people");
+}
+
+}  // namespace astro::console

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+
+#include "host/console/command_line.hpp"
+
+/// Pieces that the options of many commands are made of.
+namespace astro::console {
+
+/// Accepts finite numbers from `least` to `greatest`; the complaint names both and the unit.
+Check between(double least, double greatest, const std::string& unit);
+
+/// Accepts finite numbers greater than 0.
+Check positive(const std::string& unit);
+
+/// Accepts whole numbers in decimal digits.
+Check whole(std::uint64_t least, std::uint64_t greatest);
+
+/// Accepts finite numbers.
+Check finite();
+
+/// Accepts "0.05%" or "0.0005", greater than 0; as a transform it leaves the plain number.
+Check fraction();
+
+/// "Examples:" and one line each, as the footer of a command's help.
+void examples(Command command, std::initializer_list<const char*> lines);
+
+/// Adds --force, of what uploads a calibration: see experiment::objection.
+void add_force(Command command, bool& force);
+
+/// Adds --json.
+void add_json_flag(Command command, bool& json);
+
+}  // namespace astro::console

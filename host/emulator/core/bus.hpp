@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <unordered_map>
+
+#include "host/emulator/core/machine.hpp"
+
+namespace astro::emulator {
+
+/// Brings each access to the model that it is for, and lets nothing pass that the chip would not forgive: no
+/// register there, the wrong width, a clock that is switched off.
+class Bus {
+ public:
+  static constexpr std::uint32_t kPage = 0x1000;
+
+  explicit Bus(Machine& machine) : machine_(machine) {}
+
+  /// `model` answers for `bytes` from `base`. No gate: its clock cannot be switched off.
+  void map(Model& model, std::uint32_t base, std::uint32_t bytes, std::optional<Gate> gate = {});
+
+  std::uint32_t read(std::uint32_t address, int bytes);
+  void write(std::uint32_t address, std::uint32_t value, int bytes);
+
+ private:
+  struct Slot {
+    Model* model;
+    std::uint32_t base;
+    std::optional<Gate> gate;
+  };
+
+  const Slot* legal(std::uint32_t address, int bytes, const char* verb);
+
+  Machine& machine_;
+  std::unordered_map<std::uint32_t, Slot> slots_;  // by page
+};
+
+}  // namespace astro::emulator

@@ -1,0 +1,310 @@
+#include "host/emulator/core/chip.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "host/emulator/core/register_names.hpp"
+#include "host/emulator/core/stopped.hpp"
+
+namespace astro::emulator {
+namespace {
+
+constexpr std::uint32_t kPrivatePeripherals = 0xE000'0000;
+constexpr std::uint32_t kImageVectorTable = 0x6000'1000;
+constexpr Cycles kEntry = 12;  // of an exception, from the core's manual
+
+/// Causes in CFSR.
+namespace cause {
+constexpr std::uint32_t kFetchDenied = 1U << 0, kAccessDenied = 1U << 1 | 1U << 7;
+constexpr std::uint32_t kFetchBusError = 1U << 8, kAccessBusError = 1U << 9 | 1U << 15;
+constexpr std::uint32_t kUndefined = 1U << 16, kNotThumb = 1U << 17;
+}  // namespace cause
+
+// What the engine calls its exceptions.
+constexpr std::uint32_t kSvcNumber = 2, kNeverExecuted = 3, kBreakpoint = 7, kReturn = 8, kBreakpointToo = 16;
+constexpr std::uint16_t kCallHalfKay = 0xBEFB, kWaitForEvent = 0xBF20;  // bkpt #251, wfe
+
+}  // namespace
+
+Chip::Chip(HandOver hand_over)
+    : hand_over_(hand_over),
+      cpu_(std::make_unique<Cpu>(
+          memory_,
+          Cpu::Hooks{[this] { return interrupted(); }, [this] { skip_to(std::min(next_event_, end_)); },
+                     [this](std::uint32_t address, int bytes) {
+                       if (address < kPrivatePeripherals) return bus_.read(address, bytes);
+                       if (find_register(address) == nullptr || bytes != 4)
+                         fail(name_of(address) + ": read of a register that is not modelled");
+                       return control_.read(address);
+                     },
+                     [this](std::uint32_t address, std::uint32_t value, int bytes) {
+                       if (address < kPrivatePeripherals) return bus_.write(address, value, bytes);
+                       if (find_register(address) == nullptr || bytes != 4)
+                         fail(name_of(address) + ": write of a register that is not modelled");
+                       control_.write(address, value);
+                     },
+                     [this](std::uint32_t number) {
+                       on_exception(number);
+                       return failure_.empty() && exceptions_.violation.empty() && number != kNeverExecuted;
+                     },
+                     [this](std::uint32_t address) {
+                       return address < Memory::kFlash || cached_flash_.stale(address) ||
+                              !protection_.at(address).read;
+                     }})),
+      exceptions_(*cpu_, memory_, protection_) {
+  control_.on_invalidate = [this](std::uint32_t address) { cached_flash_.drop(address); };
+}
+
+void Chip::start(Reset cause) {
+  wishes_.clear();
+  next_event_ = kNever;
+  exceptions_.reset();
+  control_.reset();
+  for (Model* model : models_) model->reset();
+  cached_flash_.clear();
+  remember_reset(cause);
+  in_bootloader_ = false;
+  boot();
+}
+
+/// The ROM enters a function as it stands, or takes stack and entry from a vector table.
+void Chip::boot() {
+  if (flash_busy_) fail("NOR flash: the boot ROM reads it while it is busy, and finds nothing");
+  std::uint32_t entry = 0;
+  std::memcpy(&entry, memory_.at(kImageVectorTable + 4, 4).data(), 4);
+  for (const int reg :
+       {UC_ARM_REG_PRIMASK, UC_ARM_REG_BASEPRI, UC_ARM_REG_FAULTMASK, UC_ARM_REG_IPSR, UC_ARM_REG_CONTROL})
+    cpu_->set(reg, 0);
+  cpu_->set(UC_ARM_REG_SP, 0);
+  if ((entry & 1) == 0) {
+    const auto vectors = memory_.at(entry, 8);
+    if (vectors.empty()) return fail("the image's entry lies in no memory");
+    std::uint32_t stack = 0;
+    std::memcpy(&stack, vectors.data(), 4);
+    std::memcpy(&entry, vectors.data() + 4, 4);
+    cpu_->set(UC_ARM_REG_SP, stack);
+  }
+  if (hand_over_ == HandOver::untidy) leave_rom_state();
+  cpu_->set(UC_ARM_REG_LR, ~0U);
+  cpu_->set(UC_ARM_REG_EPSR, 1U << 24);
+  cpu_->set(UC_ARM_REG_PC, entry);
+  cpu_->refresh();
+}
+
+void Chip::leave_rom_state() {
+  constexpr std::uint32_t kRomStack = Memory::kOcram + 0x8000;
+  const std::uint32_t main_stack = cpu_->get(UC_ARM_REG_SP);
+  protection_.leave_rom_state();
+  control_.leave_rom_state();
+  for (Model* model : models_) model->leave_rom_state();
+  for (int reg = UC_ARM_REG_R0; reg <= UC_ARM_REG_R12; ++reg) cpu_->set(reg, 0xDEAD'BEEF);
+  cpu_->set(UC_ARM_REG_CONTROL, 2);  // SPSEL
+  cpu_->set(UC_ARM_REG_SP, kRomStack);
+  cpu_->set(UC_ARM_REG_MSP, main_stack);
+  cpu_->set(UC_ARM_REG_BASEPRI, 0x10);
+  cpu_->set(UC_ARM_REG_FAULTMASK, 1);
+  reschedule();
+}
+
+void Chip::wake(Model& model, Cycles when) {
+  const auto wish =
+      std::find_if(wishes_.begin(), wishes_.end(), [&](const Wish& w) { return w.model == &model; });
+  if (wish != wishes_.end())
+    wish->when = when;
+  else
+    wishes_.push_back({&model, when});
+  reschedule();
+}
+
+void Chip::reschedule() {
+  next_event_ = control_.next_event();
+  for (const Wish& wish : wishes_) next_event_ = std::min(next_event_, wish.when);
+}
+
+void Chip::run_events() {
+  while (next_event_ <= now()) {
+    if (control_.next_event() <= now()) control_.event();
+    for (std::size_t i = 0; i < wishes_.size(); ++i)
+      if (wishes_[i].when <= now()) {
+        wishes_[i].when = kNever;
+        wishes_[i].model->event();
+      }
+    reschedule();
+  }
+}
+
+void Chip::fail(const std::string& what) {
+  if (!failure_.empty()) return;
+  const std::uint32_t pc = cpu_->pc() & ~1U;
+  const std::string name = symbols.name_at(pc);
+  failure_ = fmt::format("{} (PC 0x{:08X}{}{}, {:.6f} s)", what, pc, name.empty() ? "" : " in ", name,
+                         static_cast<double>(now()) / static_cast<double>(kCyclesPerSecond));
+}
+
+void Chip::restart(Reset cause) { restart_ = cause; }
+
+std::span<std::uint8_t> Chip::dma(std::uint32_t address, std::uint32_t bytes) {
+  const auto found = memory_.at(address, bytes);
+  if (found.empty() || address >= Memory::kFlash || address < Memory::kDtcm) {
+    fail(fmt::format("a bus master goes to 0x{:08X}, which is no RAM", address));
+    return {};
+  }
+  if (control_.cached(address) || (bytes != 0 && control_.cached(address + bytes - 1))) {
+    fail(fmt::format("a bus master goes to 0x{:08X}, which the processor caches", address));
+    return {};
+  }
+  return found;
+}
+
+/// Called before each block of instructions: something is due that the engine must be left for.
+bool Chip::interrupted() {
+  return now() >= std::min(next_event_, end_) || restart_ || !failure_.empty() || in_bootloader_ ||
+         !exceptions_.violation.empty() || access_changed_ || exceptions_.due().has_value();
+}
+
+void Chip::take_exception() {
+  const std::optional<int> number = exceptions_.due();
+  if (!number) return;
+  skipped_ += kEntry;
+  if (!exceptions_.enter(*number)) lock_up();
+}
+
+void Chip::pend_fault(int number, std::uint32_t cause) {
+  if (const std::optional<int> taken = exceptions_.fault(number, cause))
+    exceptions_.pend(*taken);
+  else
+    lock_up();
+}
+
+void Chip::on_exception(std::uint32_t number) {
+  if (number == kReturn) {
+    exceptions_.leave(cpu_->pc() | 1U);
+  } else if (number == kSvcNumber) {
+    pend_fault(exception::kSvc, 0);
+  } else if (number == kNeverExecuted) {  // registers, and what lies above them
+    pend_fault(exception::kMemManage, cause::kFetchDenied);
+  } else if (number == kBreakpoint || number == kBreakpointToo) {
+    std::uint16_t instruction = 0;
+    if (const auto code = memory_.at(cpu_->pc() & ~1U, 2); !code.empty())
+      std::memcpy(&instruction, code.data(), 2);
+    if (instruction == kCallHalfKay)
+      in_bootloader_ = true;
+    else
+      fail("a breakpoint, which takes a Teensy to its boot loader whatever the motors do");
+  } else {
+    fail(fmt::format("exception {} of the engine", number));
+  }
+}
+
+void Chip::set_flash_busy(bool busy) {
+  if (busy) cached_flash_.distrust([this](std::uint32_t address) { return control_.cached(address); });
+  flash_busy_ = busy;
+  access_changed_ = true;
+}
+
+void Chip::set_layout(const Memory::Layout& layout) {
+  memory_.set_layout(layout);
+  access_changed_ = true;
+}
+
+/// The engine learns what the MPU, the layout of FlexRAM and a busy flash leave to the processor.
+void Chip::apply_access() {
+  access_changed_ = false;
+  const auto largest = memory_.largest(), present = memory_.ranges();
+  for (std::size_t i = 0; i < largest.size(); ++i) apply_access(largest[i], present[i].bytes.size());
+  std::vector<Protection::Span> traps = protection_.traps();
+  if (cached_flash_.any()) traps.push_back({Memory::kFlash, Memory::kFlashBytes});
+  cpu_->set_traps(traps);
+}
+
+void Chip::apply_access(const Memory::Range& range, std::size_t present_bytes) {
+  const std::uint64_t end = std::uint64_t{range.base} + range.bytes.size();
+  std::vector<std::uint64_t> edges = protection_.edges();
+  edges.insert(edges.end(), {range.base, range.base + present_bytes, end});
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    if (edges[i] < range.base || edges[i] >= end || edges[i] == edges[i + 1]) continue;
+    const auto base = static_cast<std::uint32_t>(edges[i]);
+    Protection::Access access = protection_.page(base);
+    access.write = access.write && range.writable;
+    if (base - range.base >= present_bytes || (flash_busy_ && range.base == Memory::kFlash))
+      access = {false, false, false};
+    cpu_->allow(base, static_cast<std::uint32_t>(edges[i + 1] - edges[i]), access);
+  }
+}
+
+void Chip::enter_fault(int number, std::uint32_t cause) {
+  const std::optional<int> taken = exceptions_.fault(number, cause);
+  if (!taken || !exceptions_.enter(*taken)) lock_up();
+}
+
+void Chip::bad_access() {
+  const Cpu::BadAccess& bad = cpu_->bad_access();
+  if (flash_busy_ && bad.address >= Memory::kFlash && !bad.write)
+    return fail(fmt::format("NOR flash: 0x{:08X} is {} while the flash is busy", bad.address,
+                            bad.fetch ? "executed" : "read"));
+  if (cached_flash_.stale(bad.address) && !bad.fetch)
+    return fail(
+        fmt::format("data cache: 0x{:08X} is read, whose line may have been fetched while the flash was busy",
+                    bad.address));
+  const Protection::Access allowed = protection_.at(bad.address);
+  if (bad.fetch ? allowed.execute : bad.write ? allowed.write : allowed.read) {
+    if (!bad.fetch) exceptions_.bfar = bad.address;
+    enter_fault(exception::kBusFault, bad.fetch ? cause::kFetchBusError : cause::kAccessBusError);
+  } else {
+    if (!bad.fetch) exceptions_.mmfar = bad.address;
+    enter_fault(exception::kMemManage, bad.fetch ? cause::kFetchDenied : cause::kAccessDenied);
+  }
+}
+
+void Chip::bad_instruction(bool thumb) {
+  const auto before = memory_.at((cpu_->pc() & ~1U) - 2, 2);
+  std::uint16_t instruction = 0;
+  if (!before.empty()) std::memcpy(&instruction, before.data(), 2);
+  if (thumb && instruction == kWaitForEvent) return fail("WFE is not modelled");
+  enter_fault(exception::kUsageFault, thumb ? cause::kUndefined : cause::kNotThumb);
+}
+
+void Chip::run_cpu() {
+  const Cpu::End end = cpu_->run();
+  if (in_bootloader_ || !failure_.empty()) return;
+  if (end == Cpu::End::sleeping) sleep(end_);
+  if (end == Cpu::End::bad_access) bad_access();
+  if (end == Cpu::End::bad_instruction || end == Cpu::End::not_thumb)
+    bad_instruction(end == Cpu::End::bad_instruction);
+}
+
+void Chip::skip_to(Cycles when) {
+  if (when > now()) skipped_ += when - now();
+}
+
+void Chip::sleep(Cycles end) {
+  while (!exceptions_.wakes() && !restart_ && failure_.empty()) {
+    if (next_event_ >= end) {
+      skip_to(end);
+      return;
+    }
+    skip_to(next_event_);
+    run_events();
+  }
+}
+
+void Chip::run_until(Cycles end) {
+  end_ = end;
+  while (now() < end && !in_bootloader_) {
+    run_events();
+    if (!exceptions_.violation.empty()) fail(exceptions_.violation);
+    if (!failure_.empty()) throw Stopped(failure_);
+    if (restart_) start(*std::exchange(restart_, std::nullopt));
+    if (access_changed_) apply_access();
+    take_exception();
+    if (exceptions_.violation.empty()) run_cpu();
+  }
+  if (!failure_.empty()) throw Stopped(failure_);
+  if (in_bootloader_) skip_to(end);
+}
+
+}  // namespace astro::emulator

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/emulator/core/bus.hpp"
+#include "host/emulator/core/cached_flash.hpp"
+#include "host/emulator/core/cpu.hpp"
+#include "host/emulator/core/exceptions.hpp"
+#include "host/emulator/core/memory.hpp"
+#include "host/emulator/core/protection.hpp"
+#include "host/emulator/core/symbols.hpp"
+#include "host/emulator/core/system_control.hpp"
+
+namespace astro::emulator {
+
+/// What the boot ROM leaves behind. `untidy`: all that a program must not rely on, because no manual promises
+/// it: MPU on, interrupts enabled and pending, every mask set, the process stack in use, USB still attached.
+enum class HandOver : std::uint8_t { tidy, untidy };
+
+/// Processor, memories, interrupt controller and virtual time: the machine that models are put into.
+class Chip : public Machine {
+ public:
+  explicit Chip(HandOver hand_over);
+
+  Memory& memory() { return memory_; }
+  Cpu& cpu() { return *cpu_; }
+  Bus& bus() { return bus_; }
+  /// The MPU.
+  const Protection& protection() const { return protection_; }
+  /// CFSR: what the last fault was.
+  std::uint32_t fault_status() const { return exceptions_.cfsr; }
+  /// An exception waits to be taken.
+  bool pending(int number) const { return exceptions_.pending(number); }
+
+  /// Models take part in resets and events once they are here.
+  void add(Model& model) { models_.push_back(&model); }
+
+  /// What addresses are called in messages.
+  Symbols symbols;
+  /// Whose gates decide what is clocked; where the reason of a reset is written.
+  std::function<bool(Gate)> gates;
+  std::function<void(Reset)> remember_reset;
+  /// The flash is erasing or programming, or has come to its end: meanwhile nobody may read it.
+  void set_flash_busy(bool busy);
+  /// FlexRAM is shared out anew.
+  void set_layout(const Memory::Layout& layout);
+
+  /// Power comes on, or the chip starts again: models reset, then the boot ROM.
+  void start(Reset cause);
+
+  /// Runs until `end`. Throws Stopped if the firmware broke a rule.
+  void run_until(Cycles end);
+
+  /// The firmware has called the boot loader: the processor stands still.
+  bool in_bootloader() const { return in_bootloader_; }
+
+  // Machine
+  Cycles now() const override { return skipped_ + cpu_->instructions(); }
+  void set_interrupt(int irq, bool level) override { exceptions_.set_line(irq, level); }
+  void wake(Model& model, Cycles when) override;
+  void fail(const std::string& what) override;
+  bool clocked(Gate gate) const override { return gates(gate); }
+  void wait(Cycles time) override { skipped_ += time; }
+  bool runs_from_flash() const override { return cpu_->pc() >= Memory::kFlash; }
+  std::span<std::uint8_t> dma(std::uint32_t address, std::uint32_t bytes) override;
+  void restart(Reset cause) override;
+
+ private:
+  bool interrupted();
+  void run_events();
+  void reschedule();
+  void run_cpu();
+  void sleep(Cycles end);
+  void take_exception();
+  void on_exception(std::uint32_t number);
+  void pend_fault(int number, std::uint32_t cause);
+  void skip_to(Cycles when);
+  void bad_access();
+  void bad_instruction(bool thumb);
+  void enter_fault(int number, std::uint32_t cause);
+  void apply_access();
+  void apply_access(const Memory::Range& range, std::size_t present_bytes);
+  void lock_up() { restart(Reset::software); }
+  void boot();
+  void leave_rom_state();
+
+  struct Wish {
+    Model* model;
+    Cycles when;
+  };
+
+  HandOver hand_over_;
+  Memory memory_;
+  Bus bus_{*this};
+  std::unique_ptr<Cpu> cpu_;
+  Protection protection_{*this, [this] { access_changed_ = true; }};
+  Exceptions exceptions_;
+  SystemControl control_{*this, exceptions_, protection_};
+  std::vector<Model*> models_;
+  std::vector<Wish> wishes_;
+  Cycles skipped_ = 0;  // time in which no instruction ran
+  Cycles next_event_ = kNever, end_ = 0;
+  CachedFlash cached_flash_;
+  std::string failure_;
+  std::optional<Reset> restart_;
+  bool in_bootloader_ = false, flash_busy_ = false, access_changed_ = true;
+};
+
+}  // namespace astro::emulator

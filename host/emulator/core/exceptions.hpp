@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "host/emulator/core/cpu.hpp"
+
+namespace astro::emulator {
+
+/// The numbers of the core's own exceptions; interrupt n is 16 + n.
+namespace exception {
+inline constexpr int kNmi = 2, kHardFault = 3, kMemManage = 4, kBusFault = 5, kUsageFault = 6, kSvc = 11,
+                     kPendSv = 14, kSysTick = 15, kFirstInterrupt = 16, kCount = 16 + 160;
+}
+
+/// The nested vectored interrupt controller and the core's way into and out of handlers.
+///
+/// Not modelled  the floating point context and the process stack: the image uses neither
+///               (tests/target/image), and the run ends where a program does.
+class Exceptions {
+ public:
+  Exceptions(Cpu& cpu, Memory& memory, const Protection& protection)
+      : cpu_(cpu), memory_(memory), protection_(protection) {}
+  void reset();
+  /// As a boot ROM may leave it: exceptions wait, all interrupts are enabled, and an old fault is on record.
+  void leave_rom_state();
+
+  // What the system control space shows and changes.
+  std::uint32_t vector_table = 0;
+  bool mem_manage_enabled = false, bus_fault_enabled = false, usage_fault_enabled = false;
+  std::uint32_t cfsr = 0, hfsr = 0, mmfar = 0, bfar = 0;
+  void enable(int number, bool on) { enabled_[index(number)] = on; }
+  bool enabled(int number) const { return enabled_[index(number)]; }
+  void set_priority(int number, std::uint8_t byte) { priority_[index(number)] = byte & 0xF0; }
+  std::uint8_t priority(int number) const { return priority_[index(number)]; }
+  void pend(int number);
+  void clear(int number);
+  /// By software: in vain while the peripheral still asks.
+  void unpend(int number);
+  bool pending(int number) const { return pending_[index(number)]; }
+  int running() const { return static_cast<int>(cpu_.get(UC_ARM_REG_IPSR) & 0x1FF); }
+
+  /// A peripheral's line. That it rises is remembered, also when it falls before the handler runs; while it
+  /// is up, the interrupt is pending again as soon as its handler has ended.
+  void set_line(int irq, bool level);
+
+  /// The exception that is to be taken now.
+  std::optional<int> due() const;
+  /// True if it would end a WFI: PRIMASK does not count.
+  bool wakes() const;
+  /// Enters the handler of `number`. False if the core has locked up.
+  bool enter(int number);
+  /// A handler returns with this value in the program counter.
+  void leave(std::uint32_t return_value);
+  /// An instruction could not be carried out, or exception `number` cannot be taken where it must be: the
+  /// exception that this leads to, or nothing if the core has locked up. `cause` are its bits in CFSR.
+  std::optional<int> fault(int number, std::uint32_t cause = 0);
+
+  /// What is wrong with what the firmware did, if anything: no handler, a return without a call.
+  std::string violation;
+
+ private:
+  static std::size_t index(int number) { return static_cast<std::size_t>(number); }
+  bool can_take(int number) const;
+  std::optional<int> push_frame(std::uint32_t sp, std::uint32_t frame);
+  int level(int number) const;
+  int running_level(bool with_masks) const;
+  int best() const;
+
+  Cpu& cpu_;
+  Memory& memory_;
+  const Protection& protection_;
+  std::array<bool, exception::kCount> enabled_{}, pending_{}, active_{}, line_{};
+  std::array<std::uint8_t, exception::kCount> priority_{};
+  int pending_count_ = 0;
+};
+
+}  // namespace astro::emulator

@@ -1,0 +1,180 @@
+#include "host/experiment/analysis/calibration_file.hpp"
+
+#include <fmt/format.h>
+
+#include <sstream>
+
+#include "host/base/error.hpp"
+#include "host/base/plain_text.hpp"
+#include "host/experiment/files/toml_file.hpp"
+#include "host/base/files.hpp"
+
+namespace astro::experiment {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Calibrations and parameters take the place of their like, not of what somebody measured or of a journal.
+void require_own_kind(const fs::path& path) {
+  if (fs::exists(path) && !fs::is_directory(path) && path.extension() != ".toml")
+    throw Error(fmt::format("'{}' exists and is no .toml, as what would replace it is: name another file",
+                            path.string()));
+}
+
+void save(const fs::path& path, const std::string& text) {
+  require_own_kind(path);
+  recording::PartFile file(path);
+  file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  file.commit();
+}
+
+std::string factor_lines(double c_r, double c_l, double b_m) {
+  return fmt::format("c_R = {}\nc_L = {}\nb = {} # m\n\n", real_text(c_r), real_text(c_l), real_text(b_m));
+}
+
+std::string end_pose_lines(const calibration::Estimate& estimate) {
+  std::string text;
+  if (estimate.options.method == calibration::Method::umbmark)
+    text += fmt::format("angles = \"{}\"\n", calibration::name_of(estimate.options.angles));
+  if (estimate.options.method == calibration::Method::extended)
+    text += fmt::format("formula = \"{}\"\n", calibration::name_of(estimate.options.formula));
+  return text + fmt::format("side_m = {}\n", real_text(estimate.side_m));
+}
+
+std::string covariance_lines(const calibration::FactorCovariance& covariance) {
+  std::string text = "# Rows and columns c_R, c_L, b (m).\n[covariance]\nmatrix = [\n";
+  for (const auto& row : covariance)
+    text += fmt::format("  [{}, {}, {}],\n", real_text(row[0]), real_text(row[1]), real_text(row[2]));
+  return text + "]\n\n";
+}
+
+std::string nominal_lines(const NominalWheel& wheel) {
+  return fmt::format(
+      "# The wheel that c_R and c_L refer to.\n[nominal]\nwheel_diameter = {} # m\n"
+      "counts_per_wheel_turn = {}\n\n",
+      real_text(wheel.diameter_m), real_text(wheel.counts_per_turn));
+}
+
+std::string robot_lines(const RobotIdentity& robot) {
+  std::ostringstream text;
+  text << "[robot]\nname = " << toml::value(robot.name) << "\nid = " << toml::value(robot.id) << "\n\n";
+  return text.str();
+}
+
+std::string calibration_lines(const Calibration& calibration) {
+  std::string text = fmt::format("[calibration]\nmethod = \"{}\"\n", calibration.method());
+  text += fmt::format(
+      "absolute = {} # {}\n", calibration.absolute(),
+      calibration.absolute() ? "true whatever the robot carries by now" : "only on top of [carried]");
+  if (const calibration::Estimate* estimate = calibration.end_poses()) text += end_pose_lines(*estimate);
+  if (const MlResult* ml = calibration.ml()) text += fmt::format("runs = {}\n", ml->estimate.runs.size());
+  text += fmt::format("E_d = {}\nE_b = {}\nscale = {}\n", real_text(calibration.E_d()),
+                      real_text(calibration.E_b()), real_text(calibration.scale()));
+  if (calibration.squares)
+    text += fmt::format("runs_cw = {}\nruns_ccw = {}\nE_max_syst_m = {}\n", calibration.squares->cw.runs,
+                        calibration.squares->ccw.runs, real_text(calibration.squares->E_max_syst_m));
+  return text;
+}
+
+robot::Value value_of(const toml::node& node, const std::string& where) {
+  if (const auto number = node.value_exact<double>()) return *number;
+  if (const auto integer = node.value_exact<std::int64_t>()) return static_cast<double>(*integer);
+  if (const auto flag = node.value_exact<bool>()) return *flag ? 1.0 : 0.0;
+  if (const auto text = node.value_exact<std::string>()) return *text;
+  throw Error(where + " is neither a number nor a text");
+}
+
+std::map<std::string, double> numbers_in(toml::node_view<const toml::node> section) {
+  std::map<std::string, double> numbers;
+  if (const toml::table* table = section.as_table())
+    for (const auto& [key, node] : *table)
+      if (const auto number = node.value<double>()) numbers[std::string(key.str())] = *number;
+  return numbers;
+}
+
+/// An experiment's folder has its calibrations beside the recordings.
+std::string in_place_of_a_calibration(const fs::path& folder) {
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (const fs::path& file = entry.path(); file.extension() == ".toml")
+      return fmt::format("'{}' is a folder: name a calibration in it, such as '{}'", folder.string(),
+                         file.string());
+  return fmt::format(
+      "'{}' is a folder, and none of a calibration: name a file that 'astrolabe calibrate' wrote",
+      folder.string());
+}
+
+NominalWheel wheel_of(const toml::table& file, const fs::path& path) {
+  const NominalWheel wheel{file["nominal"]["wheel_diameter"].value_or(0.0),
+                           file["nominal"]["counts_per_wheel_turn"].value_or(0.0)};
+  if (!(wheel.diameter_m > 0) || !(wheel.counts_per_turn > 0))
+    throw Error("'" + path.string() +
+                "': [nominal] needs a wheel_diameter and counts_per_wheel_turn above 0");
+  return wheel;
+}
+
+calibration::FactorCovariance covariance_of(const toml::table& file, const fs::path& path) {
+  calibration::FactorCovariance covariance;
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t column = 0; column < 3; ++column) {
+      const auto entry = file["covariance"]["matrix"][row][column].value<double>();
+      if (!entry)
+        throw Error("'" + path.string() + "': [covariance] needs a matrix of three rows of three numbers");
+      covariance[row][column] = *entry;
+    }
+  return covariance;
+}
+
+}  // namespace
+
+void write_calibration(const fs::path& path, const Calibration& calibration) {
+  const calibration::WheelFactors &factors = calibration.factors, &carried = calibration.carried;
+  std::string text =
+      "# Found by Astrolabe; 'astrolabe upload " + path.filename().string() + "' loads it.\n\n";
+  text += "[parameters]\n" + factor_lines(factors.c_r, factors.c_l, factors.b_m);
+  text += "[standard_errors]\n" + factor_lines(calibration.se.c_r, calibration.se.c_l, calibration.se.b_m);
+  if (const MlResult* ml = calibration.ml()) text += covariance_lines(ml->estimate.covariance);
+  if (calibration.wheel) text += nominal_lines(*calibration.wheel);
+  if (!calibration.robot.id.empty()) text += robot_lines(calibration.robot);
+  text += "# What the robot believed while it drove.\n[carried]\n" +
+          factor_lines(carried.c_r, carried.c_l, carried.b_m);
+  save(path, text + calibration_lines(calibration));
+}
+
+void write_parameters(const fs::path& path, const ParameterValues& values) {
+  toml::table parameters;
+  for (const auto& [name, value] : values) {
+    if (const double* number = std::get_if<double>(&value)) {
+      parameters.insert(name, *number);
+    } else {
+      parameters.insert(name, plain_text(std::get<std::string>(value)));
+    }
+  }
+  std::ostringstream text;
+  text << "# A robot's parameters; 'astrolabe params import' loads them.\n\n"
+       << toml::table{{"parameters", parameters}} << '\n';
+  save(path, text.str());
+}
+
+ParameterFile read_parameter_file(const fs::path& path) {
+  if (fs::is_directory(path)) throw Error(in_place_of_a_calibration(path));
+  const toml::table file = parse_toml(path);
+  const toml::table* parameters = file["parameters"].as_table();
+  if (parameters == nullptr || parameters->empty())
+    throw Error("'" + path.string() +
+                "' has no [parameters]: it is no calibration and no export of a robot's parameters");
+  ParameterFile result;
+  for (const auto& [key, node] : *parameters) {
+    const std::string name(key.str());
+    result.parameters[name] = value_of(node, "'" + path.string() + "': [parameters] " + name);
+  }
+  result.carried = numbers_in(file["carried"]);
+  result.standard_errors = numbers_in(file["standard_errors"]);
+  result.robot = {file["robot"]["name"].value_or(std::string()), file["robot"]["id"].value_or(std::string())};
+  result.method = file["calibration"]["method"].value_or(std::string());
+  result.absolute = file["calibration"]["absolute"].value_or(false);
+  if (file.contains("nominal")) result.wheel = wheel_of(file, path);
+  if (file.contains("covariance")) result.covariance = covariance_of(file, path);
+  return result;
+}
+
+}  // namespace astro::experiment

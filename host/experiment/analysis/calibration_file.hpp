@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "host/experiment/analysis/calibration.hpp"
+#include "host/robot/parameters/parameter_row.hpp"
+
+/// calib.toml, the result of a calibration on its way to the robot; and the file of `params export`. Both
+/// keep what is to be loaded under [parameters], by table name and in SI units.
+namespace astro::experiment {
+
+using ParameterValues = std::map<std::string, robot::Value>;
+
+/// Writes [parameters] c_R, c_L, b; [standard_errors] and, from maximum likelihood, [covariance]; [nominal],
+/// the wheel that c_R and c_L refer to, and [robot], where they are known; [carried]; [calibration] with how
+/// it was found.
+void write_calibration(const std::filesystem::path& path, const Calibration& calibration);
+
+/// Writes parameters alone.
+void write_parameters(const std::filesystem::path& path, const ParameterValues& values);
+
+struct ParameterFile {
+  ParameterValues parameters;
+  /// What the robot carried when the calibration was driven; empty in a file without [carried].
+  std::map<std::string, double> carried;
+  /// Of c_R, c_L and b ; NaN where the method or the data could not tell, empty in a file that no calibration
+  /// wrote.
+  std::map<std::string, double> standard_errors;
+  /// The parameters hold whatever the robot carries by now (Calibration::absolute).
+  bool absolute = false;
+  std::optional<NominalWheel> wheel;  // [nominal]
+  /// Of c_R, c_L and b; none in a file without [covariance].
+  std::optional<calibration::FactorCovariance> covariance;
+  RobotIdentity robot;  // [robot]
+  std::string method;   // "" in a file that no calibration wrote
+};
+
+/// Throws astro::Error naming the file, and the line where TOML knows it: no such file, not TOML, no
+/// [parameters], a value that is neither number nor text, a damaged [covariance] or [nominal].
+ParameterFile read_parameter_file(const std::filesystem::path& path);
+
+}  // namespace astro::experiment

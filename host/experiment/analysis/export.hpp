@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "host/experiment/analysis/calibration_file.hpp"
+
+/// A calibration for programs of others.
+namespace astro::experiment {
+
+/// The parameters of ROS 2's diff_drive_controller that a calibration decides. That controller moves a wheel
+/// that turns by an angle phi by phi * wheel_radius * (its multiplier), and turns the robot by the difference
+/// of both over wheel_separation * wheel_separation_multiplier.
+///
+/// Source  ros2_controllers, diff_drive_controller/src/odometry.cpp and diff_drive_controller.cpp.
+struct DiffDrive {
+  double wheel_radius_m = 0, wheel_separation_m = 0;  // nominal, as in a robot's URDF
+  double left_wheel_radius_multiplier = 1, right_wheel_radius_multiplier = 1;
+  double wheel_separation_multiplier = 1;
+};
+
+/// The nominal sizes that the receiver has.
+struct NominalSizes {
+  std::optional<double> wheel_radius_m;      // otherwise half of the file's wheel diameter
+  std::optional<double> wheel_separation_m;  // otherwise the b that the robot carried
+};
+
+/// Throws astro::Error for a parameter that a robot would refuse because of its limits, naming value, unit
+/// and limits. Those that this version's table does not have are left to the robot.
+void require_loadable(const ParameterFile& file);
+
+/// Throws astro::Error if the file has no c_R, c_L or b or one that a robot would refuse, or if neither it
+/// nor `nominal` tells a size, naming the option that does.
+DiffDrive diff_drive(const ParameterFile& file, const NominalSizes& nominal);
+
+/// Whether ROS 2 takes it for a node in a file of parameters: "controller", "/left_robot/controller".
+///
+/// Source  rmw, rmw/validate_node_name.h and validate_namespace.h.
+bool is_ros2_node(std::string_view name);
+
+/// A file for `--params-file` of a controller node called `node`.
+std::string ros2_yaml(const ParameterFile& file, const DiffDrive& parameters, const std::string& node);
+
+/// All that calib.toml at `path` holds, and, where it is given, [diff_drive_controller].
+std::string toml_text(const std::filesystem::path& path, const std::optional<DiffDrive>& parameters);
+
+/// The same as JSON; numbers that do not exist are null.
+std::string json_text(const std::filesystem::path& path, const std::optional<DiffDrive>& parameters);
+
+}  // namespace astro::experiment

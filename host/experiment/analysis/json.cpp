@@ -1,0 +1,89 @@
+#include "host/experiment/analysis/json.hpp"
+
+#include <cmath>
+
+#include "host/base/degrees.hpp"
+
+namespace astro::experiment {
+namespace {
+
+// "x_cg_cw_m": the flat keys of one direction.
+void add_cluster(nlohmann::json& json, const calibration::ClusterSummary& cluster,
+                 const std::string& direction) {
+  json["x_cg_" + direction + "_m"] = number(cluster.x_cg_m);
+  json["y_cg_" + direction + "_m"] = number(cluster.y_cg_m);
+  json["theta_cg_" + direction + "_rad"] = number(cluster.theta_cg_rad);
+  json["r_cg_" + direction + "_m"] = number(cluster.r_cg_m);
+}
+
+void add_squares(nlohmann::json& json, const calibration::ExperimentSummary& squares) {
+  json["runs_cw"] = squares.cw.runs;
+  json["runs_ccw"] = squares.ccw.runs;
+  json["E_max_syst_m"] = squares.E_max_syst_m;
+  add_cluster(json, squares.cw, "cw");
+  add_cluster(json, squares.ccw, "ccw");
+}
+
+void add_end_poses(nlohmann::json& json, const calibration::Estimate& estimate) {
+  json["side_m"] = estimate.side_m;
+  json["alpha_deg"] = number(degrees(estimate.alpha_rad));
+  json["beta_deg"] = number(degrees(estimate.beta_rad));
+  json["R_m"] = number(estimate.radius_m);
+  if (estimate.options.method == calibration::Method::umbmark)
+    json["angles"] = calibration::name_of(estimate.options.angles);
+  if (estimate.options.method == calibration::Method::extended) {
+    json["formula"] = calibration::name_of(estimate.options.formula);
+    json["alpha_Ed_deg"] = number(degrees(estimate.alpha_Ed_rad));
+  }
+}
+
+}  // namespace
+
+nlohmann::json number(double value) {
+  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
+}
+
+nlohmann::json to_json(const calibration::ClusterSummary& cluster) {
+  return {{"runs", cluster.runs},
+          {"x_cg_m", number(cluster.x_cg_m)},
+          {"y_cg_m", number(cluster.y_cg_m)},
+          {"theta_cg_rad", number(cluster.theta_cg_rad)},
+          {"r_cg_m", number(cluster.r_cg_m)},
+          {"se_x_m", number(cluster.se_x_m)},
+          {"se_y_m", number(cluster.se_y_m)},
+          {"se_theta_rad", number(cluster.se_theta_rad)},
+          {"se_r_m", number(cluster.se_r_m)},
+          {"rms_x_m", number(cluster.rms_x_m)},
+          {"rms_y_m", number(cluster.rms_y_m)},
+          {"rms_r_m", number(cluster.rms_r_m)},
+          {"rms_theta_rad", number(cluster.rms_theta_rad)}};
+}
+
+nlohmann::json to_json(const calibration::ExperimentSummary& summary) {
+  return {{"E_max_syst_m", number(summary.E_max_syst_m)},
+          {"se_E_max_syst_m", number(summary.se_E_max_syst_m)},
+          {"cw", to_json(summary.cw)},
+          {"ccw", to_json(summary.ccw)}};
+}
+
+nlohmann::json to_json(const calibration::WheelFactors& factors) {
+  return {{"c_R", factors.c_r}, {"c_L", factors.c_l}, {"b_m", factors.b_m}};
+}
+
+nlohmann::json to_json(const Calibration& calibration) {
+  nlohmann::json json = to_json(calibration.factors);
+  const FactorErrors& se = calibration.se;
+  json["method"] = calibration.method();
+  json["E_d"] = calibration.E_d();
+  json["E_b"] = calibration.E_b();
+  json["scale"] = calibration.scale();
+  json["standard_errors"] = {{"E_b", number(se.E_b)}, {"E_d", number(se.E_d)}, {"scale", number(se.scale)},
+                             {"c_R", number(se.c_r)}, {"c_L", number(se.c_l)}, {"b_m", number(se.b_m)}};
+  json["carried"] = to_json(calibration.carried);
+  if (calibration.squares) add_squares(json, *calibration.squares);
+  if (const calibration::Estimate* estimate = calibration.end_poses()) add_end_poses(json, *estimate);
+  if (const MlResult* ml = calibration.ml()) json.update(to_json(*ml));
+  return json;
+}
+
+}  // namespace astro::experiment

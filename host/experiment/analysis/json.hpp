@@ -1,0 +1,25 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "host/experiment/analysis/calibration.hpp"
+
+/// The keys under which --json prints results; numbers that do not exist are null.
+namespace astro::experiment {
+
+nlohmann::json to_json(const calibration::ExperimentSummary& summary);
+nlohmann::json to_json(const calibration::ClusterSummary& cluster);
+
+/// The same keys for all methods (factors, their errors, what was carried, squares); and those of the method.
+nlohmann::json to_json(const Calibration& calibration);
+
+/// The keys of maximum likelihood alone: covariance, lever arm, clock, noise, runs, motions, remarks.
+nlohmann::json to_json(const MlResult& ml);
+
+/// {"c_R", "c_L", "b_m"}
+nlohmann::json to_json(const calibration::WheelFactors& factors);
+
+/// Null where the value is not finite: JSON has no NaN.
+nlohmann::json number(double value);
+
+}  // namespace astro::experiment

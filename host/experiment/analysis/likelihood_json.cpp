@@ -1,0 +1,84 @@
+#include "host/experiment/analysis/json.hpp"
+#include "host/experiment/files/method_names.hpp"
+
+namespace astro::experiment {
+namespace {
+
+nlohmann::json jolts_json(const std::vector<calibration::Jolt>& jolts) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const calibration::Jolt& jolt : jolts)
+    json.push_back({{"time_s", jolt.time_s},
+                    {"since_start_s", jolt.since_start_s},
+                    {"turned_rad", jolt.turned_rad},
+                    {"moved_m", jolt.moved_m}});
+  return json;
+}
+
+nlohmann::json run_json(const calibration::RunFit& run) {
+  return {{"name", run.name},
+          {"distance_m", run.distance_m},
+          {"rotation_rad", run.rotation_rad},
+          {"clock_offset_s", number(run.clock_offset_s)},
+          {"clock_offset_se_s", number(run.clock_offset_se_s)},
+          {"chi_square", number(run.chi_square)},
+          {"degrees_of_freedom", run.degrees_of_freedom},
+          {"disagreement", number(run.disagreement)},
+          {"disagreement_dof", run.disagreement_dof},
+          {"outlier", run.outlier},
+          {"jolts", jolts_json(run.jolts)}};
+}
+
+nlohmann::json kind_json(const calibration::KindFit& kind) {
+  return {{"motion", name_of(kind.motion)},
+          {"samples", kind.samples},
+          {"distance_m", kind.distance_m},
+          {"rotation_rad", kind.rotation_rad},
+          {"rms_xy_m", number(kind.rms_xy_m)},
+          {"rms_theta_rad", number(kind.rms_theta_rad)},
+          {"chi_square_per_dof", number(kind.chi_square_per_dof)}};
+}
+
+nlohmann::json lever_json(const calibration::LeverArm& lever) {
+  return {{"x_m", number(lever.x_m)}, {"y_m", number(lever.y_m)}, {"yaw_rad", number(lever.yaw_rad)}};
+}
+
+nlohmann::json agreement_json(const std::optional<calibration::WheelbaseByKind>& wheelbase) {
+  if (!wheelbase) return {};
+  return {{"arc_over_spin", number(wheelbase->arc_over_spin)},
+          {"standard_error", number(wheelbase->standard_error)},
+          {"disagrees", wheelbase->disagrees}};
+}
+
+}  // namespace
+
+nlohmann::json to_json(const MlResult& ml) {
+  const calibration::MlEstimate& estimate = ml.estimate;
+  nlohmann::json json = {{"covariance", {{"of", {"c_R", "c_L", "b_m"}}, {"matrix", estimate.covariance}}},
+                         {"b_over_scale_m", estimate.factors.b_m / estimate.scale()},
+                         {"b_over_scale_se_m", number(estimate.se.b_over_scale_m)},
+                         {"lever_arm", lever_json(estimate.lever)},
+                         {"lever_arm_se", lever_json(estimate.lever_se)},
+                         {"clock",
+                          {{"known", ml.options.clock_known},
+                           {"skew", number(estimate.clock_skew)},
+                           {"skew_se", number(estimate.clock_skew_se)}}},
+                         {"noise",
+                          {{"given", ml.options.noise.has_value()},
+                           {"K_m", estimate.noise.K_m},
+                           {"sigma_xy_m", estimate.noise.sigma_xy_m},
+                           {"sigma_theta_rad", number(estimate.noise.sigma_theta_rad)}}},
+                         {"thinned_to_s", estimate.thinned_to_s},
+                         {"chi_square", number(estimate.chi_square)},
+                         {"degrees_of_freedom", estimate.degrees_of_freedom},
+                         {"dispersion", number(estimate.dispersion)},
+                         {"iterations", estimate.iterations},
+                         {"wheelbase_by_motion", agreement_json(estimate.wheelbase_by_kind)},
+                         {"remarks", estimate.remarks()}};
+  json["runs"] = nlohmann::json::array();
+  for (const calibration::RunFit& run : estimate.runs) json["runs"].push_back(run_json(run));
+  json["motions"] = nlohmann::json::array();
+  for (const calibration::KindFit& kind : estimate.kinds) json["motions"].push_back(kind_json(kind));
+  return json;
+}
+
+}  // namespace astro::experiment

@@ -1,0 +1,88 @@
+#include "host/experiment/analysis/likelihood_sentences.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "host/base/degrees.hpp"
+#include "host/base/shown.hpp"
+
+namespace astro::experiment {
+namespace {
+
+/// A remark with a capital and a full stop, unless it begins with the name of a run, which stays as it is.
+std::string as_sentence(std::string remark, const std::vector<calibration::RunFit>& runs) {
+  const bool named = std::any_of(runs.begin(), runs.end(),
+                                 [&](const auto& run) { return remark.starts_with(run.name + ' '); });
+  if (!named && !remark.empty() && remark[0] >= 'a' && remark[0] <= 'z')
+    remark[0] = static_cast<char>(remark[0] - 'a' + 'A');
+  return remark.ends_with('.') ? remark : remark + '.';
+}
+
+}  // namespace
+
+std::string with_error(double value, double error, int decimals) {
+  if (!std::isfinite(error)) return fmt::format("{:.{}f}", without_minus_zero(value, decimals), decimals);
+  if (error > 0) decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 9);
+  return fmt::format("{:.{}f} ± {:.{}f}", without_minus_zero(value, decimals), decimals, error, decimals);
+}
+
+std::string extent_sentence(const MlResult& ml) {
+  double distance_m = 0, rotation_rad = 0;
+  for (const calibration::RunFit& run : ml.estimate.runs) {
+    distance_m += run.distance_m;
+    rotation_rad += run.rotation_rad;
+  }
+  return fmt::format("Maximum likelihood over {} whole drive{}: {:.1f} m and {:.1f} turns.",
+                     ml.estimate.runs.size(), ml.estimate.runs.size() == 1 ? "" : "s", distance_m,
+                     rotation_rad / (2 * std::numbers::pi));
+}
+
+std::string lever_sentence(const MlResult& ml) {
+  const calibration::LeverArm &lever = ml.estimate.lever, &se = ml.estimate.lever_se;
+  std::string text =
+      fmt::format("The tracked body sits at x {} mm, y {} mm", with_error(1000 * lever.x_m, 1000 * se.x_m, 2),
+                  with_error(1000 * lever.y_m, 1000 * se.y_m, 2));
+  if (std::isfinite(lever.yaw_rad))
+    text += fmt::format(", yaw {}°", with_error(degrees(lever.yaw_rad), degrees(se.yaw_rad), 3));
+  return text + " on the robot (x ahead, y left of the midpoint between the wheels).";
+}
+
+std::string clock_sentence(const MlResult& ml) {
+  if (ml.options.clock_known) return "The times of the ground truth are taken for the robot's own.";
+  return fmt::format(
+      "The robot's clock runs {} ppm {} than that of the ground truth; the offset was found for each run.",
+      with_error(1e6 * std::abs(ml.estimate.clock_skew), 1e6 * ml.estimate.clock_skew_se, 1),
+      ml.estimate.clock_skew < 0 ? "slower" : "faster");
+}
+
+std::string noise_sentence(const MlResult& ml) {
+  const calibration::NoiseModel& noise = ml.estimate.noise;
+  const bool headings = std::isfinite(ml.estimate.lever.yaw_rad);
+  std::string text =
+      fmt::format("Noise, {}: wheel slip K = {:.3g} m; ground truth {:.3g} mm",
+                  ml.options.noise ? "given" : "estimated", noise.K_m, 1000 * noise.sigma_xy_m);
+  if (headings) text += fmt::format(" and {:.3g} mrad", 1000 * noise.sigma_theta_rad);
+  text += fmt::format(" a sample. Chi-square per degree of freedom: {:.2f}.",
+                      ml.estimate.chi_square / std::max(1, ml.estimate.degrees_of_freedom));
+  if (ml.estimate.thinned_to_s > 0)
+    text += fmt::format(
+        " Ground truth was taken every {:.2g} s: closer samples share errors that come and go (wheels out of "
+        "round, tyres that give, times that jitter).",
+        ml.estimate.thinned_to_s);
+  return text;
+}
+
+std::vector<std::string> verdict_sentences(const MlResult& ml) {
+  std::vector<std::string> sentences = ml.estimate.remarks();
+  for (std::string& sentence : sentences) sentence = as_sentence(std::move(sentence), ml.estimate.runs);
+  if (sentences.empty())
+    sentences.push_back(ml.estimate.wheelbase_by_kind
+                            ? "The runs agree with each other, and so do arcs and spins about the wheelbase."
+                            : "The runs agree with each other.");
+  return sentences;
+}
+
+}  // namespace astro::experiment

@@ -1,0 +1,98 @@
+#include "host/experiment/analysis/report_input.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "host/experiment/analysis/likelihood_sentences.hpp"
+
+namespace astro::experiment {
+namespace {
+
+using Row = report::DescriptionRow;
+
+std::string squares_text(const Results& results) {
+  std::string text;
+  for (const PhaseResult& phase : results.phases)
+    text += fmt::format("{}{}: {} clockwise and {} counter-clockwise", text.empty() ? "" : "; ", phase.name,
+                        phase.summary.cw.runs, phase.summary.ccw.runs);
+  return fmt::format("side {} m; {}", results.journal.plan.side_m, text);
+}
+
+std::vector<Row> description_of(const Results& results) {
+  const Journal& journal = results.journal;
+  std::vector<Row> rows{
+      {"Robot", journal.robot_name},
+      {"Unique id", journal.robot_id},
+      {"Board", journal.board},
+      {"Firmware", journal.firmware},
+      {"Started", journal.started_at},
+      {"Ground truth", journal.plan.truth},
+      {"Squares", squares_text(results)},
+      {"Speed", fmt::format("{} m/s, {} rad/s", journal.plan.speed_mps, journal.plan.yaw_rate_radps)}};
+  if (journal.plan.until)
+    rows.push_back({"Driven until", fmt::format("the standard errors of E_d, S and b are at most {:.3g} %",
+                                                100 * journal.plan.until->target)});
+  return rows;
+}
+
+/// What phase `i` carried, with the errors of the calibration that it comes from.
+std::vector<report::CarriedValue> carried_of(const Results& results, std::size_t i) {
+  const calibration::WheelFactors& carried = results.phases[i].squares.carried;
+  const FactorErrors unknown;
+  const bool found = i > 0 && results.phases[i - 1].calibration.has_value();
+  const FactorErrors& se = found ? results.phases[i - 1].calibration->se : unknown;
+  return {{carried.c_r, se.c_r}, {carried.c_l, se.c_l}, {carried.b_m, se.b_m}};
+}
+
+std::string ml_text(const MlResult& ml) {
+  std::string text =
+      extent_sentence(ml) +
+      " All recordings up to then count, not only the squares. The factors are absolute: they refer to "
+      "the nominal wheel, whatever the robot carried while it drove.\n\n" +
+      lever_sentence(ml) + ' ' + clock_sentence(ml) + "\n\n" + noise_sentence(ml) + "\n\n";
+  for (const std::string& sentence : verdict_sentences(ml)) text += sentence + ' ';
+  return text;
+}
+
+std::string end_pose_text(const calibration::Estimate& estimate) {
+  std::string text;
+  if (estimate.options.method == calibration::Method::umbmark)
+    text += fmt::format(" Angles from: {}.", calibration::name_of(estimate.options.angles));
+  if (estimate.options.method == calibration::Method::extended)
+    text += fmt::format(" Formula: {}.", calibration::name_of(estimate.options.formula));
+  return text +
+         "\n\nThe estimate is composed with the factors that the robot carried while it drove. A closed "
+         "square is blind to the common scale of both wheels, so c_R + c_L is left as it was.";
+}
+
+std::string method_text(const Calibration& calibration) {
+  const std::string name = fmt::format("Method: {}.", calibration.method());
+  if (const MlResult* ml = calibration.ml()) return name + ' ' + ml_text(*ml);
+  return name + end_pose_text(*calibration.end_poses());
+}
+
+}  // namespace
+
+report::ReportInput report_input(const Results& results) {
+  report::ReportInput input;
+  input.title = "Odometry calibration of " + results.journal.robot_name;
+  input.description = description_of(results);
+  for (std::size_t i = 0; i < results.phases.size(); ++i) {
+    const PhaseResult& phase = results.phases[i];
+    input.phases.push_back(
+        {phase.name, phase.runs, phase.summary, phase.squares.cw, phase.squares.ccw, carried_of(results, i)});
+  }
+  const calibration::WheelFactors& old = results.before().squares.carried;
+  const calibration::WheelFactors& now = results.after().squares.carried;
+  const Calibration* last = results.last_calibration();
+  const FactorErrors se = last != nullptr ? last->se : FactorErrors{};
+  input.parameters = {{"c_R", "", old.c_r, now.c_r, se.c_r},
+                      {"c_L", "", old.c_l, now.c_l, se.c_l},
+                      {"b", "m", old.b_m, now.b_m, se.b_m}};
+  if (const std::string other = results.other_robot(); !other.empty()) input.notes.push_back(other + '.');
+  if (last != nullptr) input.method = method_text(*last);
+  return input;
+}
+
+}  // namespace astro::experiment

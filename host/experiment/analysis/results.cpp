@@ -1,0 +1,173 @@
+#include "host/experiment/analysis/results.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "host/base/error.hpp"
+#include "host/experiment/files/experiment_folder.hpp"
+#include "host/experiment/analysis/json.hpp"
+#include "host/experiment/files/robot_identity.hpp"
+#include "host/recording/files/run_folder.hpp"
+
+namespace astro::experiment {
+namespace {
+
+namespace fs = std::filesystem;
+
+RunSet read_phase(const fs::path& folder, const Plan& plan, std::size_t phase, recording::Damage damage) {
+  const std::vector<RunSpec> specs = runs_of_phase(plan, phase, squares_in_phase(folder, plan, phase));
+  for (const RunSpec& spec : specs)
+    if (!fs::exists(file_of(folder, spec))) return {};
+  return read_specs(folder, specs, damage);
+}
+
+std::string millimetres(double metres, double error) {
+  if (!std::isfinite(error)) return fmt::format("{:.1f}", 1000 * metres);
+  return fmt::format("{:.1f} ± {:.1f}", 1000 * metres, 1000 * error);
+}
+
+std::vector<std::string> row(const Results& results, const std::string& name, const std::string& unit,
+                             const auto& value) {
+  std::vector<std::string> cells{name, unit};
+  for (const PhaseResult& phase : results.phases) cells.push_back(value(phase));
+  return cells;
+}
+
+}  // namespace
+
+const Calibration* Results::last_calibration() const {
+  if (phases.size() < 2) return nullptr;
+  const std::optional<Calibration>& last = phases[phases.size() - 2].calibration;
+  return last ? &*last : nullptr;
+}
+
+report::Improvement Results::gain() const {
+  return report::improvement(report::E_max_syst_mm(before().summary), report::E_max_syst_mm(after().summary));
+}
+
+std::string Results::other_robot() const {
+  for (const PhaseResult& phase : phases)
+    for (const recording::Run& run : phase.runs)
+      if (const std::string sentence =
+              different_robots("'" + before().name + "'", identity_of(before().runs.front().info),
+                               "'" + phase.name + "'", identity_of(run.info));
+          !sentence.empty())
+        return sentence + ": what is compared may be the robots";
+  return {};
+}
+
+std::string Results::verdict() const {
+  return fmt::format("E_max_syst is {}: improvement factor {}. {}", report::claim(gain()),
+                     report::describe(gain()),
+                     report::verdict_sentence(report::E_max_syst_mm(before().summary),
+                                              report::E_max_syst_mm(after().summary)));
+}
+
+Results read_results(const fs::path& folder, recording::Damage damage) {
+  Results results;
+  results.journal = read_journal(folder);
+  const Plan& plan = results.journal.plan;
+  const std::vector<std::string> names = phase_names(plan);
+  std::vector<RunSet> sets;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    PhaseResult phase;
+    phase.name = names[i];
+    sets.push_back(read_phase(folder, plan, i, damage));
+    if (sets.back().runs.empty()) break;
+    phase.runs = sets.back().runs;
+    phase.squares = squares_of(phase.runs);
+    phase.summary = calibration::summarize(phase.squares.cw, phase.squares.ccw);
+    if (i + 1 < names.size()) phase.calibration = calibrate_after(sets, plan.method);
+    results.phases.push_back(std::move(phase));
+  }
+  if (results.phases.empty())
+    throw Error("the experiment in '" + folder.string() +
+                "' has not driven its first phase to the end: run 'astrolabe "
+                "umbmark --out " +
+                folder.string() + "' again to go on with it");
+  return results;
+}
+
+Results read_folders(const std::vector<fs::path>& folders, recording::Damage damage) {
+  Results results;
+  for (const fs::path& folder : folders) {
+    PhaseResult phase;
+    phase.name = fs::absolute(folder).lexically_normal().filename().string();
+    phase.runs = recording::read_runs(folder, damage);
+    phase.squares = squares_of(phase.runs);
+    phase.summary = calibration::summarize(phase.squares.cw, phase.squares.ccw);
+    results.phases.push_back(std::move(phase));
+  }
+  const recording::RunInfo& info = results.before().runs.front().info;
+  Journal& journal = results.journal;
+  journal.robot_id = info.robot_id;
+  journal.robot_name = info.robot_name;
+  journal.board = info.board;
+  journal.firmware = info.firmware;
+  journal.started_at = info.started_at;
+  journal.plan.truth = info.truth_source;
+  journal.plan.side_m = results.before().squares.side_m;
+  journal.plan.speed_mps = info.speed_mps;
+  journal.plan.runs = results.before().summary.cw.runs;
+  return results;
+}
+
+nlohmann::json to_json(const Results& results) {
+  nlohmann::json json;
+  json["before"] = to_json(results.before().summary);
+  json["after"] = results.phases.size() > 1 ? to_json(results.after().summary) : nlohmann::json();
+  json["improvement"] = results.phases.size() > 1 ? number(results.improvement()) : nlohmann::json();
+  json["improvement_95"] = nullptr;
+  if (results.phases.size() > 1)
+    json["improvement_95"] = {number(results.gain().low), number(results.gain().high)};
+  json["phases"] = nlohmann::json::array();
+  for (const PhaseResult& phase : results.phases) {
+    nlohmann::json entry = {{"name", phase.name}, {"carried", to_json(phase.squares.carried)}};
+    entry["squares"] = to_json(phase.summary);
+    entry["estimate"] = phase.calibration ? to_json(*phase.calibration) : nlohmann::json();
+    json["phases"].push_back(entry);
+  }
+  json["parameters"] = {{"old", to_json(results.before().squares.carried)}, {"new", nullptr}};
+  if (const Calibration* last = results.last_calibration()) {
+    json["parameters"]["new"] = to_json(results.after().squares.carried);
+    json["parameters"]["standard_errors"] = {
+        {"c_R", number(last->se.c_r)}, {"c_L", number(last->se.c_l)}, {"b_m", number(last->se.b_m)}};
+  }
+  json["robot"] = {{"id", results.journal.robot_id}, {"name", results.journal.robot_name}};
+  return json;
+}
+
+std::vector<std::vector<std::string>> before_after_table(const Results& results) {
+  std::vector<std::vector<std::string>> rows;
+  rows.push_back(row(results, "", "", [](const PhaseResult& phase) { return phase.name; }));
+  rows.push_back(row(results, "E_max_syst", "mm", [](const PhaseResult& phase) {
+    return millimetres(phase.summary.E_max_syst_m, phase.summary.se_E_max_syst_m);
+  }));
+  const auto cluster = [&](const std::string& name, auto member) {
+    rows.push_back(row(results, name + " r_cg", "mm", [&](const PhaseResult& phase) {
+      return millimetres((phase.summary.*member).r_cg_m, (phase.summary.*member).se_r_m);
+    }));
+    rows.push_back(row(results, name + " RMS r", "mm", [&](const PhaseResult& phase) {
+      return fmt::format("{:.1f}", 1000 * (phase.summary.*member).rms_r_m);
+    }));
+    rows.push_back(row(results, name + " RMS heading", "mrad", [&](const PhaseResult& phase) {
+      const double rms = (phase.summary.*member).rms_theta_rad;
+      return std::isfinite(rms) ? fmt::format("{:.1f}", 1000 * rms) : std::string("-");
+    }));
+  };
+  cluster("cw", &calibration::ExperimentSummary::cw);
+  cluster("ccw", &calibration::ExperimentSummary::ccw);
+  rows.push_back(row(results, "c_R", "", [](const PhaseResult& phase) {
+    return fmt::format("{:.7f}", phase.squares.carried.c_r);
+  }));
+  rows.push_back(row(results, "c_L", "", [](const PhaseResult& phase) {
+    return fmt::format("{:.7f}", phase.squares.carried.c_l);
+  }));
+  rows.push_back(row(results, "b", "mm", [](const PhaseResult& phase) {
+    return fmt::format("{:.4f}", 1000 * phase.squares.carried.b_m);
+  }));
+  return rows;
+}
+
+}  // namespace astro::experiment

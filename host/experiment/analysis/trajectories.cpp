@@ -1,0 +1,129 @@
+#include "host/experiment/analysis/trajectories.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "host/base/error.hpp"
+
+namespace astro::experiment {
+namespace {
+
+std::string leave_out(const std::string& name) {
+  return fmt::format("leave it out with 'astrolabe calibrate runs --without {}'", name);
+}
+
+double parameter(const recording::RunInfo& info, const char* parameter, const std::string& name) {
+  const auto found = info.parameters.find(parameter);
+  if (found == info.parameters.end() || !std::isfinite(found->second) || found->second <= 0)
+    throw Error(fmt::format("the recording '{}' does not say what {} the robot carried: {}", name, parameter,
+                            leave_out(name)));
+  return found->second;
+}
+
+/// Distance since the first sample of a counter that wraps at 2^32.
+class Travel {
+ public:
+  double advance(std::int32_t counts, double metres_per_count) {
+    const auto now = static_cast<std::uint32_t>(counts);
+    if (!first_) total_ += static_cast<std::int32_t>(now - seen_);
+    first_ = false;
+    seen_ = now;
+    return static_cast<double>(total_) * metres_per_count;
+  }
+
+ private:
+  bool first_ = true;
+  std::uint32_t seen_ = 0;
+  std::int64_t total_ = 0;
+};
+
+/// Keeps the first of several samples with one time; a step back is somebody's restart.
+class Clock {
+ public:
+  Clock(std::int64_t origin_us, const std::string& run, const char* stream)
+      : origin_us_(origin_us), run_(run), stream_(stream) {}
+
+  bool advances(std::int64_t time_us) {
+    if (any_ && time_us < last_us_)
+      throw Error(fmt::format("the times of the {} in '{}' run backwards, as after a restart: {}", stream_,
+                              run_, leave_out(run_)));
+    const bool later = !any_ || time_us > last_us_;
+    any_ = true;
+    last_us_ = time_us;
+    return later;
+  }
+  double seconds() const { return static_cast<double>(last_us_ - origin_us_) * 1e-6; }
+
+ private:
+  std::int64_t origin_us_;
+  const std::string& run_;
+  const char* stream_;
+  bool any_ = false;
+  std::int64_t last_us_ = 0;
+};
+
+}  // namespace
+
+double NominalWheel::metres_per_count() const { return std::numbers::pi * diameter_m / counts_per_turn; }
+
+bool NominalWheel::measures_like(const NominalWheel& other) const {
+  constexpr double kSame = 1e-8;  // above a step of the wire format, far below a calibration
+  return std::abs(metres_per_count() / other.metres_per_count() - 1) < kSame;
+}
+
+NominalWheel nominal_wheel(const recording::RunInfo& info, const std::string& name) {
+  return {parameter(info, "wheel_diameter", name), parameter(info, "counts_per_motor_rev", name) *
+                                                       parameter(info, "gear_numerator", name) /
+                                                       parameter(info, "gear_denominator", name)};
+}
+
+bool has_moving_truth(const recording::RunInfo& info) {
+  return !info.truth_source.empty() && info.truth_source != "manual" &&
+         info.truth_clock != "start and end of the run";
+}
+
+calibration::Trajectory trajectory_of(const recording::Run& run, const std::string& name) {
+  if (!has_moving_truth(run.info))
+    throw Error(
+        fmt::format("nothing followed the robot while '{}' was recorded, and maximum likelihood needs that: "
+                    "{}, or use --method extended or umbmark",
+                    name, leave_out(name)));
+  if (run.odometry.empty())
+    throw Error(fmt::format("the recording '{}' holds no odometry: {}", name, leave_out(name)));
+  calibration::Trajectory trajectory;
+  trajectory.name = name;
+  const double metres_per_count = nominal_wheel(run.info, name).metres_per_count();
+  const std::int64_t origin_us = run.odometry.front().time_us;
+  Travel left, right;
+  Clock robot(origin_us, name, "odometry"), tracker(origin_us, name, "ground truth");
+  for (const recording::OdometrySample& sample : run.odometry)
+    if (robot.advances(sample.time_us))
+      trajectory.wheels.push_back({robot.seconds(), left.advance(sample.left_counts, metres_per_count),
+                                   right.advance(sample.right_counts, metres_per_count)});
+  for (const recording::TruthSample& sample : run.truth)
+    if (sample.valid && tracker.advances(sample.time_us))
+      trajectory.truth.push_back({tracker.seconds(), sample.x_m, sample.y_m, sample.theta_rad});
+  return trajectory;
+}
+
+std::vector<calibration::Trajectory> trajectories_of(const RunSet& set) {
+  std::vector<calibration::Trajectory> trajectories;
+  for (std::size_t i = 0; i < set.runs.size(); ++i) {
+    trajectories.push_back(trajectory_of(set.runs[i], set.names[i]));
+    const recording::RunInfo &first = set.runs.front().info, &info = set.runs[i].info;
+    if (info.robot_id != first.robot_id)
+      throw Error(fmt::format("'{}' and '{}' were driven by different robots: calibrate each for itself",
+                              set.names.front(), set.names[i]));
+    if (nominal_wheel(info, set.names[i]) != nominal_wheel(first, set.names.front()))
+      throw Error(
+          fmt::format("'{}' and '{}' were driven with different wheel diameters, gears or encoders in the "
+                      "parameters, to which c_R and c_L refer: calibrate each for itself",
+                      set.names.front(), set.names[i]));
+  }
+  return trajectories;
+}
+
+}  // namespace astro::experiment

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/calibration/motion/trajectory.hpp"
+#include "host/experiment/files/run_set.hpp"
+#include "host/recording/run/run.hpp"
+
+/// From recordings to what maximum likelihood is given.
+namespace astro::experiment {
+
+/// The wheels as the robot's parameters describe them, without c_R and c_L.
+struct NominalWheel {
+  double diameter_m = 0;
+  double counts_per_turn = 0;  // of the wheel: encoder counts times gear ratio
+  bool operator==(const NominalWheel&) const = default;
+
+  /// Travel of a wheel with c = 1.
+  double metres_per_count() const;
+  /// A count means the same: c_R and c_L of one are those of the other.
+  bool measures_like(const NominalWheel& other) const;
+};
+
+/// Throws astro::Error, calling the run `name`, where the recording does not say.
+NominalWheel nominal_wheel(const recording::RunInfo& info, const std::string& name);
+
+/// Whether truth was seen while the robot moved, and with its times: cameras, in contrast to a tape measure
+/// and to files of which only both ends count.
+bool has_moving_truth(const recording::RunInfo& info);
+
+/// A run of any kind. Times are seconds since its first odometry sample on both clocks; wheel travel comes
+/// from the counts, in which the robot has applied its encoder polarity and which may wrap; truth samples
+/// that are not valid are left out.
+///
+/// Throws astro::Error, calling the run `name`: no moving truth, no odometry, times that run backwards (the
+/// robot restarted), a recording that does not tell the nominal wheel.
+calibration::Trajectory trajectory_of(const recording::Run& run, const std::string& name);
+
+/// All of them. Throws astro::Error also if they are of different robots or nominal wheels: factors mean
+/// nothing then.
+std::vector<calibration::Trajectory> trajectories_of(const RunSet& set);
+
+}  // namespace astro::experiment

@@ -1,0 +1,172 @@
+#include "host/experiment/drive/change_guard.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+namespace astro::experiment {
+namespace {
+
+constexpr double kMostChange = 0.10;
+
+bool is_factor(const std::string& name) { return name == "c_R" || name == "c_L" || name == "b"; }
+
+double relative(const Change& change) {
+  const double* before = std::get_if<double>(&change.before);
+  const double* after = std::get_if<double>(&change.after);
+  return before != nullptr && after != nullptr && *before != 0 ? *after / *before - 1 : 0;
+}
+
+/// A change by this factor or more, up or down, is far.
+double far_factor(std::string_view name) {
+  constexpr std::array kNominalSizes{"wheel_diameter", "counts_per_motor_rev", "gear_numerator",
+                                     "gear_denominator"};
+  constexpr std::array kLimits{
+      "speed_limit",    "yaw_rate_limit",    "acceleration_limit", "yaw_acceleration_limit", "jerk_limit",
+      "yaw_jerk_limit", "motor_voltage_max", "battery_low",        "battery_high",           "over_speed"};
+  const auto among = [name](const auto& names) { return std::ranges::find(names, name) != names.end(); };
+  if (is_factor(std::string(name))) return 1 + kMostChange;
+  if (among(kNominalSizes)) return 1.25;
+  return among(kLimits) ? 2 : 3;
+}
+
+std::string times(double ratio) {
+  if (ratio > 1 / 1.5 && ratio < 1.5) return fmt::format("{:+.1f} %", 100 * (ratio - 1));
+  return ratio > 1 ? fmt::format("{:.3g} times as much", ratio) : fmt::format("1/{:.3g} of it", 1 / ratio);
+}
+
+/// Empty if it is not far.
+std::string far_change(const robot::ParameterRow& row, const Change& change) {
+  const double *before = std::get_if<double>(&change.before), *after = std::get_if<double>(&change.after);
+  if (before == nullptr || after == nullptr || row.name == "telemetry_period")
+    return {};  // not read any more
+  const std::string step =
+      fmt::format("{} would go from {} to {}", row.name, describe(row, *before), describe(row, *after));
+  if (*after == 0) return step;
+  const double usual = *before != 0 ? *before : robot::to_real(row, row.default_value);
+  if (usual == 0) return {};
+  const double ratio = *after / usual, most = far_factor(row.name);
+  if (ratio < 0) return step + ", another sign";
+  constexpr double kRounding = 1e-6;  // a tenth more is held as slightly more than a tenth
+  if (ratio < most * (1 + kRounding) && ratio > 1 / most * (1 - kRounding)) return {};
+  return fmt::format("{}, {}{}", step, times(ratio), *before != 0 ? "" : " (compared with the default)");
+}
+
+/// A percentage says how much of a quantity there is more or less. From -1 to 1, as a polarity changes, it
+/// would be -200 %; words say what that means.
+std::string change_in_words(const Change& change) {
+  const double* before = std::get_if<double>(&change.before);
+  const double* after = std::get_if<double>(&change.after);
+  if (before == nullptr || after == nullptr || *before == 0) return "";
+  if (*after == -*before) return "reversed";
+  if (*after != 0 && std::signbit(*after) != std::signbit(*before)) return "other sign";
+  const double percent = 100 * (*after / *before - 1);
+  const bool is_visible = std::abs(percent) >= 5e-5;
+  return is_visible ? fmt::format("{:+.4f} %", percent) : "< 0.0001 %";
+}
+
+std::string shown(const robot::Value& value) {
+  if (const double* number = std::get_if<double>(&value)) return fmt::format("{:.9g}", *number);
+  return std::get<std::string>(value);
+}
+
+}  // namespace
+
+std::vector<Change> changes(const robot::RemoteParameters& robot, const ParameterValues& values) {
+  for (const auto& [name, value] : values) robot.row(name);  // throws for names that the robot does not have
+  std::vector<Change> list;
+  for (const robot::ParameterRow& row : robot.rows()) {
+    const auto found = values.find(row.name);
+    if (found == values.end()) continue;
+    const robot::RawValue raw = robot::to_raw(row, found->second);
+    if (raw == row.active) continue;
+    list.push_back({row.name, row.unit, robot::to_value(row, row.active), robot::to_value(row, raw)});
+  }
+  return list;
+}
+
+std::string suspicion(const std::vector<Change>& changes) {
+  for (const Change& change : changes)
+    if (is_factor(change.name) && std::abs(relative(change)) > kMostChange)
+      return fmt::format(
+          "{} would change by {:+.1f} %, and a calibration moves it by a few at most: check units, side "
+          "and robot",
+          change.name, 100 * relative(change));
+  return {};
+}
+
+std::string wrong_basis(const robot::RemoteParameters& robot, const ParameterFile& file) {
+  constexpr double kSame = 1e-8;  // above a step of the wire format, far below a calibration
+  const auto on_robot = [&](const char* name) { return std::get<double>(robot.value(name)); };
+  if (!file.absolute)
+    for (const auto& [name, carried] : file.carried)
+      if (const double now = on_robot(name.c_str()); std::abs(now - carried) > kSame)
+        return fmt::format(
+            "the calibration was driven with {} = {:.9g}, and the robot now carries {:.9g}: load the old "
+            "value or drive again",
+            name, carried, now);
+  if (!file.wheel) return {};
+  const NominalWheel now{
+      on_robot("wheel_diameter"),
+      on_robot("counts_per_motor_rev") * on_robot("gear_numerator") / on_robot("gear_denominator")};
+  if (now.measures_like(*file.wheel)) return {};
+  return fmt::format(
+      "the calibration refers to a wheel of {:.6g} m with {:.6g} counts a turn, and the robot now believes "
+      "in "
+      "{:.6g} m and {:.6g}: load the old values or drive again",
+      file.wheel->diameter_m, file.wheel->counts_per_turn, now.diameter_m, now.counts_per_turn);
+}
+
+std::string incomplete(const ParameterFile& file) {
+  const auto has = [&](const char* name) { return file.parameters.contains(name); };
+  if (file.method.empty() || (has("c_R") && has("c_L") && has("b"))) return {};
+  const char* missing = !has("c_R") ? "c_R" : !has("c_L") ? "c_L" : "b";
+  return fmt::format("the calibration has no {}, and c_R, c_L and b were found together: calibrate again",
+                     missing);
+}
+
+std::string objection(const robot::RemoteParameters& robot, const ParameterFile& file,
+                      const std::vector<Change>& changes) {
+  std::string why = incomplete(file);
+  if (why.empty()) why = wrong_basis(robot, file);
+  if (why.empty()) why = suspicion(changes);
+  return why.empty() ? why : why + " (--force uploads all the same)";
+}
+
+std::string insignificance(const std::vector<Change>& changes,
+                           const std::map<std::string, double>& standard_errors) {
+  bool any = false;
+  for (const Change& change : changes) {
+    if (!is_factor(change.name)) return {};
+    const auto error = standard_errors.find(change.name);
+    if (error == standard_errors.end() || !(error->second > 0)) return {};
+    if (std::abs(std::get<double>(change.after) - std::get<double>(change.before)) > 2 * error->second)
+      return {};
+    any = true;
+  }
+  return any ? "no factor changes by more than twice its standard error: what the robot carries may be as "
+               "good"
+             : "";
+}
+
+std::vector<std::string> far_changes(const robot::RemoteParameters& robot,
+                                     const std::vector<Change>& changes) {
+  std::vector<std::string> clauses;
+  for (const Change& change : changes)
+    if (std::string clause = far_change(robot.row(change.name), change); !clause.empty())
+      clauses.push_back(std::move(clause));
+  return clauses;
+}
+
+std::vector<std::vector<std::string>> side_by_side(const std::vector<Change>& changes) {
+  std::vector<std::vector<std::string>> rows{{"parameter", "unit", "on the robot", "new", "change"}};
+  for (const Change& change : changes)
+    rows.push_back(
+        {change.name, change.unit, shown(change.before), shown(change.after), change_in_words(change)});
+  return rows;
+}
+
+}  // namespace astro::experiment

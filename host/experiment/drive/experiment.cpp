@@ -1,0 +1,263 @@
+#include "host/experiment/drive/experiment.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "host/base/error.hpp"
+#include "host/experiment/files/experiment_folder.hpp"
+#include "host/experiment/drive/mistyped_square.hpp"
+#include "host/experiment/files/robot_identity.hpp"
+#include "host/experiment/analysis/until.hpp"
+#include "host/robot/parameters/upload.hpp"
+#include "host/base/folder_lock.hpp"
+#include "host/recording/files/run_file.hpp"
+
+namespace astro::experiment {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+constexpr int kTriesPerRun = 3;
+constexpr auto kReconnectPatience = 10s;
+
+class Session {
+ public:
+  Session(robot::Client& client, truth::Source& truth, const Plan& plan, fs::path folder,
+          const ExperimentHooks& hooks)
+      : client_(client), truth_(truth), folder_(std::move(folder)), lock_(folder_), hooks_(hooks) {
+    open_journal(plan);
+  }
+
+  Results run() {
+    const std::vector<std::string> phases = phase_names(journal_.plan);
+    for (std::size_t i = 0; i < phases.size(); ++i) {
+      drive_phase(i);
+      if (i + 1 < phases.size()) calibrate(i);
+    }
+    return read_results(folder_);
+  }
+
+ private:
+  void open_journal(const Plan& plan) {
+    const protocol::HelloReply& robot = client_.robot();
+    const RobotIdentity identity = identity_of(robot);
+    if (has_journal(folder_)) {
+      journal_ = read_journal(folder_);
+      if (nlohmann::json(journal_.plan) != nlohmann::json(plan))
+        throw Error("'" + folder_.string() +
+                    "' holds an experiment with other settings: give the same ones to go on with it, or "
+                    "another --out");
+      if (const std::string other =
+              different_robots("the experiment in '" + folder_.string() + "'",
+                               {journal_.robot_name, journal_.robot_id}, "this", identity);
+          !other.empty())
+        throw Error(other + ": choose another --out");
+      return;
+    }
+    journal_.plan = plan;
+    journal_.robot_id = identity.id;
+    journal_.robot_name = identity.name;
+    journal_.board = robot.board.view();
+    journal_.firmware = fmt::format("{}.{}.{}", robot.fw_major, robot.fw_minor, robot.fw_patch);
+    journal_.started_at = utc_now();
+    write_journal(folder_, journal_);
+  }
+
+  static calibration::WheelFactors factors_of(const robot::RemoteParameters& robot) {
+    return {std::get<double>(robot.value("c_R")), std::get<double>(robot.value("c_L")),
+            std::get<double>(robot.value("b"))};
+  }
+
+  void drive_phase(std::size_t phase) {
+    const Plan& plan = journal_.plan;
+    announced_ = false;
+    if (open_ended(plan, phase)) drive_until_enough(phase, *plan.until);
+    drive_missing(runs_of_phase(plan, phase, squares_in_phase(folder_, plan, phase)));
+  }
+
+  void drive_until_enough(std::size_t phase, const Until& until) {
+    const Plan& plan = journal_.plan;
+    if (journal_.carried.contains(phase_names(plan)[phase + 1])) return;  // an earlier session had enough
+    for (int squares = squares_in_phase(folder_, plan, phase);; ++squares) {
+      const std::vector<RunSpec> specs = squares_of_phase(plan, phase, squares);
+      drive_missing(specs);
+      const Calibration found = calibrate_with(read_specs(folder_, specs));
+      if (found.ml() == nullptr)
+        throw Error(
+            "--until needs maximum likelihood, and these runs have no ground truth along the way: "
+            "give --runs");
+      const calibration::Precision reached = precision_of(found);
+      hooks_.run.notice(fmt::format("{}: {} + {} squares give {}", specs.front().phase, squares, squares,
+                                    described(reached)));
+      if (reaches(reached, until.target)) return;
+      if (squares >= until.most) {
+        hooks_.run.notice(
+            fmt::format("{}: that is not the {:.3g} % asked for, but {} squares in each "
+                        "direction are the most: going on with it",
+                        specs.front().phase, 100 * until.target, until.most));
+        return;
+      }
+    }
+  }
+
+  void drive_missing(const std::vector<RunSpec>& specs) {
+    std::vector<RunSpec> missing;
+    for (const RunSpec& spec : specs)
+      if (!fs::exists(file_of(folder_, spec))) missing.push_back(spec);
+    if (missing.empty()) return;
+
+    const robot::RemoteParameters parameters = robot::RemoteParameters::fetch(client_);
+    begin_phase(specs.front().phase, factors_of(parameters));
+    if (missing.size() < specs.size() && !announced_)
+      hooks_.run.notice(fmt::format("{}: {} of {} runs are recorded already", specs.front().phase,
+                                    specs.size() - missing.size(), specs.size()));
+    announced_ = true;
+    const auto total = static_cast<int>(specs.size());
+    int number = total - static_cast<int>(missing.size());
+    for (const RunSpec& spec : missing) {
+      ++number;
+      recording::Run run;
+      if (const fs::path driven = file_without_truth(folder_, spec); fs::exists(driven)) {
+        hooks_.run.notice(
+            fmt::format("{} is driven, but its ground truth is missing (remove '{}' to drive again)",
+                        spec.title(), driven.string()));
+        run = recording::read_run(driven);
+      } else {
+        hooks_.ready(spec);
+        hooks_.run_started(spec, number, total);
+        run = drive(spec, parameters);
+      }
+      keep(spec, run);
+      hooks_.run_finished(spec, run);
+    }
+  }
+
+  /// On the disk before somebody is asked for its truth, who may err, walk away or press Ctrl-C.
+  void keep(const RunSpec& spec, recording::Run& run) {
+    const fs::path driven = file_without_truth(folder_, spec);
+    if (truth_.comes_afterwards()) {
+      recording::write_run(driven, run);
+      try {
+        complete_plausibly(spec, run);
+      } catch (const robot::Interrupted&) {
+        throw;
+      } catch (const Error& error) {
+        throw Error(std::string(error.what()) +
+                    "; the drive is kept, and the same command goes on with its ground truth");
+      }
+    }
+    recording::write_run(file_of(folder_, spec), run);
+    fs::remove(driven);
+  }
+
+  /// Its ground truth, asked for again as long as it looks mistyped and nobody says that it is right.
+  void complete_plausibly(const RunSpec& spec, recording::Run& run) {
+    while (true) {
+      recording::Run whole = run;
+      complete(whole, truth_);
+      const auto odd = mistyped_square(folder_, journal_.plan, spec, whole);
+      if (odd && odd->file.empty() && !hooks_.keep(odd->why)) continue;
+      run = std::move(whole);
+      if (odd && !odd->file.empty() && warned_of_.insert(odd->file).second)
+        hooks_.run.notice(
+            fmt::format("warning: {} To drive it again, remove '{}'", odd->why, odd->file.string()));
+      return;
+    }
+  }
+
+  /// A phase is driven with one set of parameters, also when it is resumed.
+  void begin_phase(const std::string& phase, const calibration::WheelFactors& factors) {
+    const auto known = journal_.carried.find(phase);
+    if (known != journal_.carried.end()) {
+      if (!same_factors(known->second, factors))
+        throw Error(fmt::format(
+            "the robot carries c_R {:.9f}, c_L {:.9f}, b {:.9f} m, but phase '{}' of this experiment "
+            "began with {:.9f}, {:.9f}, {:.9f} m: load those, or choose another --out",
+            factors.c_r, factors.c_l, factors.b_m, phase, known->second.c_r, known->second.c_l,
+            known->second.b_m));
+      return;
+    }
+    journal_.carried[phase] = factors;
+    write_journal(folder_, journal_);
+  }
+
+  recording::Run drive(const RunSpec& spec, const robot::RemoteParameters& parameters) {
+    recording::RunInfo info = info_of(journal_.plan, spec);
+    info.robot_name = journal_.robot_name;
+    info.robot_id = journal_.robot_id;
+    info.board = journal_.board;
+    info.firmware = journal_.firmware;
+    for (const robot::ParameterRow& row : parameters.rows())
+      if (row.kind != protocol::ParameterKind::text)
+        info.parameters[row.name] = robot::to_real(row, row.active.raw);
+    const robot::Path path = path_of(journal_.plan, spec);
+    for (int attempt = 1;; ++attempt) {
+      info.started_at = utc_now();
+      try {
+        return record_run(client_, truth_, path, info, hooks_.run);
+      } catch (const robot::LinkLost& lost) {
+        if (attempt == kTriesPerRun || hooks_.run.interrupted()) throw;
+        hooks_.run.notice(fmt::format("{}; this run starts again", lost.what()));
+        client_.reconnect(kReconnectPatience);
+        hooks_.ready(spec);
+      }
+    }
+  }
+
+  Calibration calibrate_with(const RunSet& current) const {
+    std::vector<RunSet> phases = finished_;
+    phases.push_back(current);
+    return calibrate_after(phases, journal_.plan.method);
+  }
+
+  void calibrate(std::size_t phase) {
+    const Plan& plan = journal_.plan;
+    const std::vector<RunSpec> specs = runs_of_phase(plan, phase, squares_in_phase(folder_, plan, phase));
+    RunSet set = read_specs(folder_, specs);
+    const Calibration found = calibrate_with(set);
+    finished_.push_back(std::move(set));
+    const fs::path file = folder_ / fmt::format("calib-{}.toml", specs.front().phase);
+    write_calibration(file, found);
+    if (!journal_.carried.contains(phase_names(plan)[phase + 1])) upload(found, file);
+  }
+
+  void upload(const Calibration& found, const fs::path& file) {
+    const ParameterFile calibration = read_parameter_file(file);
+    const robot::RemoteParameters robot = robot::RemoteParameters::fetch(client_);
+    const std::vector<Change> list = changes(robot, calibration.parameters);
+    if (list.empty()) return;  // an earlier session got this far
+    if (const std::string why = objection(robot, calibration, list); !why.empty() && !hooks_.force)
+      throw Error(why);
+    if (!hooks_.agree(found, list))
+      throw Error("the new parameters were not uploaded; 'astrolabe umbmark --out " + folder_.string() +
+                  "' goes on from here");
+    const robot::UploadReport report = robot::upload(client_, calibration.parameters);
+    if (report.active != robot::ActiveSet::new_set) throw Error(report.sentence());
+    hooks_.uploaded(report.sentence());
+  }
+
+  robot::Client& client_;
+  truth::Source& truth_;
+  fs::path folder_;
+  recording::FolderLock lock_;  // two sessions would record and calibrate each other's runs
+  const ExperimentHooks& hooks_;
+  Journal journal_;
+  std::vector<RunSet> finished_;  // phases before the one under way
+  std::set<fs::path> warned_of_;  // recordings that look mistyped
+  bool announced_ = false;        // what of this phase was recorded before
+};
+
+}  // namespace
+
+Results run_experiment(robot::Client& client, truth::Source& truth, const Plan& plan, const fs::path& folder,
+                       const ExperimentHooks& hooks) {
+  plan.check();
+  return Session(client, truth, plan, folder, hooks).run();
+}
+
+}  // namespace astro::experiment

@@ -1,0 +1,203 @@
+#include "host/experiment/drive/record_run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <deque>
+#include <exception>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "host/base/error.hpp"
+
+namespace astro::experiment {
+namespace {
+
+using namespace std::chrono_literals;
+using protocol::Telemetry;
+
+constexpr auto kRest = 700ms;  // at each end; host/recording/run/rest.hpp wants more than 200 ms
+constexpr std::uint32_t kFields = Telemetry::kPose | Telemetry::kCounts | Telemetry::kTwist;
+constexpr int kSamplesPerLook = 5;  // at the truth
+
+constexpr robot::Sense sense_of(recording::Direction direction) {
+  return direction == recording::Direction::cw ? robot::Sense::cw : robot::Sense::ccw;
+}
+
+/// Hands both streams on for as long as it lives: truth between the first and the newest odometry, as it
+/// comes.
+class Collector {
+ public:
+  using Moved = std::function<void(const recording::OdometrySample&)>;
+
+  Collector(
+      robot::Client& client, truth::Source& truth, const SampleSink& sink, Moved moved = [](const auto&) {})
+      : client_(client),
+        truth_(truth),
+        sink_(sink),
+        moved_(std::move(moved)),
+        subscription_(client.on<Telemetry>([this](const Telemetry& telemetry) {
+          take(to_sample(telemetry));
+          if (++count_.odometry % kSamplesPerLook == 0) look();
+        })) {
+    truth_.poll();  // what was seen before is not of this run
+    client_.request(protocol::SetTelemetry{kTelemetryPeriod_ms, kFields});
+  }
+
+  /// Records for so long, or until `interrupted`, by the robot's clock: a simulator in fast motion would
+  /// stand for minutes in a second of ours.
+  void stand(std::chrono::microseconds duration, const std::function<bool()>& interrupted) {
+    const std::size_t before = count_.odometry;
+    stand_from_us_.reset();
+    const auto done = [&] {
+      if (count_.odometry > before && !stand_from_us_) stand_from_us_ = newest_us_;
+      return interrupted() || (stand_from_us_ && newest_us_ - *stand_from_us_ >= duration.count());
+    };
+    if (!client_.pump_until(done, 10 * duration))
+      throw Error("the robot's telemetry has dried up while it stood: is the link good?");
+  }
+
+  /// Stops the stream. The truth may arrive a little later than the robot's word: waits until it is there.
+  void finish() {
+    client_.request(protocol::SetTelemetry{0, 0});
+    look();
+    for (int i = 0; i < 20 && newest_truth_us_ && *newest_truth_us_ + 100'000 < newest_us_; ++i) {
+      client_.pump(20ms);
+      look();
+    }
+  }
+
+  const Recorded& count() const { return count_; }
+
+ private:
+  void take(const recording::OdometrySample& sample) {
+    if (!first_us_) first_us_ = sample.time_us;
+    newest_us_ = sample.time_us;
+    sink_.odometry(sample);
+    moved_(sample);
+  }
+  void look() {
+    for (const recording::TruthSample& sample : truth_.poll()) {
+      newest_truth_us_ = sample.time_us;
+      early_.push_back(sample);
+    }
+    for (; first_us_ && !early_.empty() && early_.front().time_us <= newest_us_; early_.pop_front()) {
+      if (early_.front().time_us < *first_us_) continue;
+      sink_.truth(early_.front());
+      ++count_.truth;
+    }
+  }
+
+  robot::Client& client_;
+  truth::Source& truth_;
+  const SampleSink& sink_;
+  Moved moved_;
+  Recorded count_;
+  std::deque<recording::TruthSample> early_;  // truth later than the newest odometry
+  std::optional<std::int64_t> first_us_, newest_truth_us_, stand_from_us_;
+  std::int64_t newest_us_ = 0;
+  robot::Subscription subscription_;
+};
+
+}  // namespace
+
+recording::OdometrySample to_sample(const Telemetry& telemetry) {
+  constexpr double kMetre = 0x1p-40;
+  constexpr double kTurn = 0x1p-64;
+  recording::OdometrySample sample;
+  sample.time_us = static_cast<std::int64_t>(telemetry.device_time_us);
+  sample.x_m = static_cast<double>(telemetry.pose.x) * kMetre;
+  sample.y_m = static_cast<double>(telemetry.pose.y) * kMetre;
+  sample.theta_rad =
+      2 * std::numbers::pi * (telemetry.pose.turns + static_cast<double>(telemetry.pose.theta) * kTurn);
+  sample.v_mps = telemetry.twist.v_umps * 1e-6;
+  sample.omega_radps = telemetry.twist.omega_uradps * 1e-6;
+  sample.left_counts = telemetry.counts.left;
+  sample.right_counts = telemetry.counts.right;
+  return sample;
+}
+
+robot::Path path_of(const Plan& plan, const RunSpec& spec) {
+  const robot::PathLimits limits{plan.speed_mps, plan.yaw_rate_radps};
+  if (spec.kind == "square") return robot::square(plan.side_m, sense_of(spec.direction), limits);
+  if (spec.kind == "circle") return robot::circle(plan.circle_radius_m, 1, sense_of(spec.direction), limits);
+  return robot::line(plan.line_m, limits);
+}
+
+recording::RunInfo info_of(const Plan& plan, const RunSpec& spec) {
+  recording::RunInfo info;
+  info.kind = spec.kind;
+  info.direction = spec.direction;
+  info.phase = spec.phase;
+  info.index = spec.index;
+  info.size_m = spec.kind == "square"   ? plan.side_m
+                : spec.kind == "circle" ? plan.circle_radius_m
+                                        : plan.line_m;
+  info.speed_mps = plan.speed_mps;
+  return info;
+}
+
+recording::Run record_run(robot::Client& client, truth::Source& truth, const robot::Path& path,
+                          const recording::RunInfo& info, const RunHooks& hooks) {
+  recording::Run run;
+  run.info = info;
+  run.info.truth_source = truth.name();
+  run.info.truth_clock = truth.clock();
+  robot::DriveHooks drive_hooks;
+  drive_hooks.interrupted = hooks.interrupted;
+  drive_hooks.notice = hooks.notice;
+  drive_hooks.segment_done = [&](const protocol::SegmentDone& done) { hooks.segment_done(done.tag); };
+
+  robot::DriveSession drive(client, drive_hooks);
+  client.request(protocol::SetPose{});
+  const SampleSink sink{[&](const auto& sample) { run.odometry.push_back(sample); },
+                        [&](const auto& sample) { run.truth.push_back(sample); }};
+  Collector collector(client, truth, sink, hooks.moved);
+  const auto stand = [&] {
+    collector.stand(kRest, hooks.interrupted);
+    drive.pump(0us);  // throws if it was interrupted, or if the robot found a fault
+  };
+  stand();
+  drive.run(path);
+  stand();
+  collector.finish();
+  return run;
+}
+
+void complete(recording::Run& run, truth::Source& truth) {
+  const std::vector<recording::TruthSample> samples = truth.complete(run);
+  run.truth.insert(run.truth.end(), samples.begin(), samples.end());
+}
+
+Recorded record_until(robot::Client& client, truth::Source& truth, const SampleSink& sink,
+                      const std::function<bool()>& done) {
+  // What the sink throws is about the recording, and must not be taken for a link that is lost.
+  std::exception_ptr failure;
+  const auto guarded = [&](const auto& take) {
+    return [&failure, take](const auto& sample) {
+      try {
+        if (!failure) take(sample);
+      } catch (...) {
+        failure = std::current_exception();
+      }
+    };
+  };
+  const SampleSink guard{guarded(sink.odometry), guarded(sink.truth)};
+  Collector collector(client, truth, guard);
+  std::string warning;
+  try {
+    while (!client.pump_until([&] { return failure || done(); }, 50ms)) {
+    }
+    collector.finish();
+  } catch (const Error& error) {
+    if (!failure && collector.count().odometry == 0) throw;
+    warning = error.what();
+  }
+  if (failure) std::rethrow_exception(failure);
+  Recorded recorded = collector.count();
+  recorded.warning = warning;
+  return recorded;
+}
+
+}  // namespace astro::experiment

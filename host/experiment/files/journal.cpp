@@ -1,0 +1,96 @@
+#include "host/experiment/files/journal.hpp"
+
+#include <fmt/chrono.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "host/base/error.hpp"
+#include "host/base/json_weight.hpp"
+#include "host/base/files.hpp"
+
+namespace astro::experiment {
+namespace {
+
+constexpr int kFormat = 2;  // 1 meant end poses by "auto"
+
+std::filesystem::path file_in(const std::filesystem::path& folder) { return folder / "experiment.json"; }
+
+std::string why_no_experiment(const std::filesystem::path& folder) {
+  const std::string why = !std::filesystem::exists(folder) ? "does not exist"
+                          : !std::filesystem::is_directory(folder)
+                              ? "is a file"
+                              : "holds no experiment (no experiment.json)";
+  return fmt::format("'{}' {}: name the --out of 'astrolabe umbmark', or two or more folders of recordings",
+                     folder.string(), why);
+}
+
+/// A plan that nobody could have given was not written by this program; its counts say how much memory is
+/// taken.
+void require_drivable(const Plan& plan, const std::string& damaged, const std::string& remedy) {
+  try {
+    plan.check();
+  } catch (const Error& error) {
+    throw Error(damaged + " (" + error.what() + ")" + remedy);
+  }
+}
+
+}  // namespace
+
+std::string utc_now() {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::now()));
+}
+
+bool has_journal(const std::filesystem::path& folder) { return std::filesystem::exists(file_in(folder)); }
+
+Journal read_journal(const std::filesystem::path& folder) {
+  const std::filesystem::path path = file_in(folder);
+  if (!std::filesystem::exists(path)) throw Error(why_no_experiment(folder));
+  const recording::Bytes bytes = recording::load_file(path, recording::kMaxSettingsBytes);
+  const std::string damaged = "'" + path.string() + "' is damaged";
+  const std::string remedy =
+      ": the recordings beside it can still be calibrated with 'astrolabe calibrate runs'";
+  if (!json_fits_memory(recording::as_text(bytes))) throw Error(damaged + remedy);
+  try {
+    const auto json = nlohmann::json::parse(bytes.begin(), bytes.end());
+    if (json.at("format") != kFormat)
+      throw Error("'" + path.string() +
+                  "' was written by another version of Astrolabe: use that one to go on with it");
+    Journal journal;
+    json.at("plan").get_to(journal.plan);
+    require_drivable(journal.plan, damaged, remedy);
+    const auto& robot = json.at("robot");
+    robot.at("id").get_to(journal.robot_id);
+    robot.at("name").get_to(journal.robot_name);
+    robot.at("board").get_to(journal.board);
+    robot.at("firmware").get_to(journal.firmware);
+    json.at("started_at").get_to(journal.started_at);
+    for (const auto& [phase, carried] : json.at("carried").items())
+      journal.carried[phase] = {carried.at("c_R"), carried.at("c_L"), carried.at("b_m")};
+    return journal;
+  } catch (const nlohmann::json::exception&) {
+    throw Error(damaged + remedy);
+  }
+}
+
+void write_journal(const std::filesystem::path& folder, const Journal& journal) {
+  nlohmann::json carried = nlohmann::json::object();
+  for (const auto& [phase, factors] : journal.carried)
+    carried[phase] = {{"c_R", factors.c_r}, {"c_L", factors.c_l}, {"b_m", factors.b_m}};
+  const nlohmann::json json = {{"format", kFormat},
+                               {"started_at", journal.started_at},
+                               {"plan", journal.plan},
+                               {"robot",
+                                {{"id", journal.robot_id},
+                                 {"name", journal.robot_name},
+                                 {"board", journal.board},
+                                 {"firmware", journal.firmware}}},
+                               {"carried", carried}};
+  // A robot's texts may be no UTF-8.
+  const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  recording::PartFile file(file_in(folder));
+  file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  file.commit();
+}
+
+}  // namespace astro::experiment

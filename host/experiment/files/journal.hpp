@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "host/calibration/end_poses/end_pose.hpp"
+#include "host/experiment/files/plan.hpp"
+
+namespace astro::experiment {
+
+/// experiment.json: what a folder's experiment is and how far it went, so that it can be resumed. The runs
+/// themselves are the files beside it.
+struct Journal {
+  Plan plan;
+  std::string robot_id, robot_name, board, firmware, started_at;
+  /// What the robot carried when a phase began, by phase.
+  std::map<std::string, calibration::WheelFactors> carried;
+};
+
+bool has_journal(const std::filesystem::path& folder);
+
+/// Throws astro::Error naming the file: not there, not ours, damaged.
+Journal read_journal(const std::filesystem::path& folder);
+void write_journal(const std::filesystem::path& folder, const Journal& journal);
+
+/// "2026-03-01T12:00:00Z"
+std::string utc_now();
+
+}  // namespace astro::experiment

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "host/calibration/motion/trajectory.hpp"
+#include "host/experiment/files/plan.hpp"
+
+/// From the words that people type to the choices that they mean.
+namespace astro::experiment {
+
+inline constexpr std::string_view kAutomaticName = "auto";
+inline constexpr std::string_view kMlName = "ml";
+
+/// "auto", "ml", "umbmark", "extended", "least-squares"; "x", "y", "thesis", "average"; "exact", "published".
+/// Throws astro::Error naming the word and what it may be.
+MethodChoice method_named(const std::string& method, const std::string& angles, const std::string& formula);
+
+/// What method_named takes.
+std::string_view name_of(const MethodChoice& method);
+
+/// "rest", "line", "arc", "spin".
+std::string_view name_of(calibration::Motion motion);
+
+/// "alternating", "cw-first", "ccw-first".
+Order order_named(const std::string& order);
+
+}  // namespace astro::experiment

@@ -1,0 +1,175 @@
+#include "host/experiment/files/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "host/base/error.hpp"
+#include "host/experiment/files/method_names.hpp"
+
+namespace astro::experiment {
+namespace {
+
+using recording::Direction;
+
+constexpr int kMostCounted = 1'000'000;  // of runs and rounds, in a file
+
+bool within(double value, double least, double most) { return value >= least && value <= most; }
+
+void need(bool condition, const std::string& sentence) {
+  if (!condition) throw Error(sentence);
+}
+
+/// The library makes some number of anything: 1e300, true and 2^32 + 5. What is no count is none here.
+int count_in(const nlohmann::json& json) {
+  const auto number = json.get<double>();
+  return json.is_number() && number == std::trunc(number) && within(number, 0, kMostCounted)
+             ? static_cast<int>(number)
+             : -1;
+}
+
+void check_until(const Plan& plan) {
+  need(within(plan.until->target, 1e-6, 0.1),
+       fmt::format("a precision of {:g} % cannot be driven for: choose 0.0001 % to 10 %",
+                   100 * plan.until->target));
+  need(
+      plan.until->most >= kFewestPairs && plan.until->most <= 1000,
+      fmt::format("at most {} squares in each direction: choose {} to 1000", plan.until->most, kFewestPairs));
+  need(plan.order == Order::alternating,
+       "squares driven until a precision is reached alternate: leave out --order");
+  need(plan.method.family != MethodChoice::Family::end_poses,
+       fmt::format("only maximum likelihood knows its precision as it goes: leave out --until or --method {}",
+                   name_of(plan.method)));
+  need(plan.truth != "manual" && plan.truth != "file",
+       fmt::format("--until needs ground truth along the whole drive, which --truth {} has not: give --runs",
+                   plan.truth));
+}
+
+}  // namespace
+
+void Plan::check() const {
+  need(runs >= 1 && runs <= 1000,
+       fmt::format("{} runs in each direction cannot be driven: choose 1 to 1000", runs));
+  if (until) check_until(*this);
+  need(rounds >= 1 && rounds <= 20, fmt::format("{} rounds cannot be driven: choose 1 to 20", rounds));
+  need(within(side_m, 0.2, 100),
+       fmt::format("a square of side {} m cannot be driven: choose 0.2 m to 100 m", side_m));
+  need(within(speed_mps, 0.01, 5),
+       fmt::format("a speed of {} m/s cannot be driven: choose 0.01 to 5 m/s", speed_mps));
+  need(within(yaw_rate_radps, 0.05, 20),
+       fmt::format("a yaw rate of {} rad/s cannot be driven: choose 0.05 to 20 rad/s", yaw_rate_radps));
+  need(within(line_m, 0.1, 100),
+       fmt::format("a line of {} m cannot be driven: choose 0.1 m to 100 m", line_m));
+  need(within(circle_radius_m, 0.1, 50),
+       fmt::format("a circle of radius {} m cannot be driven: choose 0.1 m to 50 m", circle_radius_m));
+}
+
+std::string_view name_of(Direction direction) {
+  switch (direction) {
+    case Direction::cw:
+      return "cw";
+    case Direction::ccw:
+      return "ccw";
+    default:
+      return "";
+  }
+}
+
+std::string_view name_of(Order order) {
+  switch (order) {
+    case Order::cw_first:
+      return "cw-first";
+    case Order::ccw_first:
+      return "ccw-first";
+    default:
+      return "alternating";
+  }
+}
+
+std::string RunSpec::file_name() const {
+  if (direction == Direction::none) return fmt::format("{}-{}.mcap", kind, index);
+  return fmt::format("{}-{}-{}.mcap", kind, name_of(direction), index);
+}
+
+std::string RunSpec::title() const {
+  const std::string start = phase.empty() ? kind : phase + ": " + kind;
+  if (direction == Direction::none) return fmt::format("{} {}", start, index);
+  return fmt::format("{} {} {}", start, name_of(direction), index);
+}
+
+std::vector<std::string> phase_names(const Plan& plan) {
+  std::vector<std::string> names{"before"};
+  if (plan.rounds == 1) names.emplace_back("after");
+  for (int i = 1; plan.rounds > 1 && i <= plan.rounds; ++i) names.push_back(fmt::format("after-{}", i));
+  return names;
+}
+
+bool open_ended(const Plan& plan, std::size_t phase) {
+  return plan.until.has_value() && phase + 1 < phase_names(plan).size();
+}
+
+std::vector<RunSpec> squares_of_phase(const Plan& plan, std::size_t phase, int squares) {
+  const std::string name = phase_names(plan).at(phase);
+  const Direction first = plan.order == Order::ccw_first ? Direction::ccw : Direction::cw;
+  const Direction second = first == Direction::cw ? Direction::ccw : Direction::cw;
+  std::vector<RunSpec> specs;
+  for (int i = 1; i <= squares; ++i) {
+    specs.push_back({name, "square", first, i});
+    if (plan.order == Order::alternating) specs.push_back({name, "square", second, i});
+  }
+  for (int i = 1; plan.order != Order::alternating && i <= squares; ++i)
+    specs.push_back({name, "square", second, i});
+  return specs;
+}
+
+std::vector<RunSpec> runs_of_phase(const Plan& plan, std::size_t phase, int squares) {
+  std::vector<RunSpec> specs = squares_of_phase(plan, phase, squares);
+  const std::string name = phase_names(plan).at(phase);
+  const bool last = phase + 1 == phase_names(plan).size();
+  if (plan.extras && (phase == 0 || last)) {
+    specs.push_back({name, "line", Direction::none, 1});
+    specs.push_back({name, "circle", Direction::cw, 1});
+    specs.push_back({name, "circle", Direction::ccw, 1});
+  }
+  return specs;
+}
+
+void to_json(nlohmann::json& json, const Plan& plan) {
+  json = {{"runs", plan.runs},
+          {"side_m", plan.side_m},
+          {"speed_mps", plan.speed_mps},
+          {"yaw_rate_radps", plan.yaw_rate_radps},
+          {"order", name_of(plan.order)},
+          {"rounds", plan.rounds},
+          {"line_m", plan.line_m},
+          {"circle_radius_m", plan.circle_radius_m},
+          {"extras", plan.extras},
+          {"method", name_of(plan.method)},
+          {"angles", calibration::name_of(plan.method.options.angles)},
+          {"formula", calibration::name_of(plan.method.options.formula)},
+          {"truth", plan.truth},
+          {"until", nullptr}};
+  if (plan.until) json["until"] = {{"target", plan.until->target}, {"most", plan.until->most}};
+}
+
+void from_json(const nlohmann::json& json, Plan& plan) {
+  plan.runs = count_in(json.at("runs"));
+  json.at("side_m").get_to(plan.side_m);
+  json.at("speed_mps").get_to(plan.speed_mps);
+  json.at("yaw_rate_radps").get_to(plan.yaw_rate_radps);
+  plan.order = order_named(json.at("order").get<std::string>());
+  plan.rounds = count_in(json.at("rounds"));
+  json.at("line_m").get_to(plan.line_m);
+  json.at("circle_radius_m").get_to(plan.circle_radius_m);
+  json.at("extras").get_to(plan.extras);
+  plan.method = method_named(json.at("method").get<std::string>(), json.at("angles").get<std::string>(),
+                             json.at("formula").get<std::string>());
+  json.at("truth").get_to(plan.truth);
+  plan.until.reset();
+  if (const auto& until = json.at("until"); !until.is_null())
+    plan.until = Until{until.at("target").get<double>(), count_in(until.at("most"))};
+}
+
+}  // namespace astro::experiment

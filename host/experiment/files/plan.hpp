@@ -1,0 +1,83 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/calibration/end_poses/umbmark.hpp"
+#include "host/recording/run/run.hpp"
+
+/// What an experiment drives, in which order, and where each run is kept.
+namespace astro::experiment {
+
+/// How the factors are found. automatic: maximum likelihood where all runs were recorded with moving ground
+/// truth; where not, extended UMBmark, exact, if every square has an end heading, or else UMBmark with
+/// averaged angles.
+struct MethodChoice {
+  enum class Family { automatic, ml, end_poses };
+  Family family = Family::automatic;
+  calibration::Options options;  // read by Family::end_poses
+};
+
+enum class Order { alternating, cw_first, ccw_first };
+
+/// Drive on until the standard errors of E_d, S and b / b are all below `target` (a ratio: 0.0005 for 0.05
+/// %), but no more than `most` squares in each direction.
+struct Until {
+  double target = 0;
+  int most = 50;
+};
+
+struct Plan {
+  int runs = 5;  // squares in each direction and phase
+  /// Where a calibration follows, its precision says how many squares there are; the last phase has `runs`.
+  std::optional<Until> until;
+  double side_m = 3;
+  double speed_mps = 0.3;
+  double yaw_rate_radps = 1.0;
+  Order order = Order::alternating;
+  int rounds = 1;  // calibrate, upload and drive again so often
+  double line_m = 3;
+  double circle_radius_m = 0.75;
+  bool extras = true;  // line and circles in the first and the last phase
+  MethodChoice method;
+  std::string truth;  // name of the source
+
+  /// Throws astro::Error naming the value that cannot be driven.
+  void check() const;
+};
+
+/// One drive of a plan.
+struct RunSpec {
+  std::string phase, kind;
+  recording::Direction direction = recording::Direction::none;
+  int index = 1;
+
+  /// "square-cw-3.mcap"
+  std::string file_name() const;
+  /// "before: square cw 3", without a phase "square cw 3"
+  std::string title() const;
+};
+
+/// "before", "after" for one round; "before", "after-1", ..., "after-N" for N rounds.
+std::vector<std::string> phase_names(const Plan& plan);
+
+/// Whether the squares of a phase are driven until they are enough.
+bool open_ended(const Plan& plan, std::size_t phase);
+
+/// At least so many squares in each direction before the precision is asked for.
+inline constexpr int kFewestPairs = 2;
+
+/// The runs of one phase in the order of driving, with so many squares in each direction.
+std::vector<RunSpec> runs_of_phase(const Plan& plan, std::size_t phase, int squares);
+std::vector<RunSpec> squares_of_phase(const Plan& plan, std::size_t phase, int squares);
+
+void to_json(nlohmann::json& json, const Plan& plan);
+void from_json(const nlohmann::json& json, Plan& plan);
+
+std::string_view name_of(recording::Direction direction);
+std::string_view name_of(Order order);
+
+}  // namespace astro::experiment

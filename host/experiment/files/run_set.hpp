@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/recording/run/run.hpp"
+#include "host/recording/files/run_file.hpp"
+
+namespace astro::experiment {
+
+/// Recordings that are calibrated together and what people call them: names[i] is that of runs[i].
+struct RunSet {
+  std::vector<std::string> names;
+  std::vector<recording::Run> runs;
+};
+
+/// All recordings below `folder` in natural order, named by their path in it without the extension
+/// ("square-cw-3", "before/square-cw-3"), but for those in `without`: a name, or its last part where only one
+/// recording has it.
+///
+/// Throws astro::Error if nothing is left, if two are copies of one recording, for a name that no recording
+/// or more than one has, and what recording::list_runs and recording::read_run throw.
+RunSet read_run_set(const std::filesystem::path& folder, std::span<const std::string> without = {},
+                    recording::Damage damage = recording::Damage::refused);
+
+}  // namespace astro::experiment

@@ -1,0 +1,93 @@
+#include "host/experiment/files/toml_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+
+#include "host/base/error.hpp"
+#include "host/base/files.hpp"
+
+namespace astro::experiment {
+namespace {
+
+constexpr int kMostLevels = 16;  // of brackets, and of dots within each; our own files have two
+
+/// Walks over TOML and measures how deeply it nests, by brackets and by the dots of keys. The library's
+/// tables are nested as deeply as the text, and it visits them by recursion: text that nests deeply enough
+/// would exhaust the stack. Text that is no TOML gets some answer; the library refuses it.
+class Nesting {
+ public:
+  explicit Nesting(std::string_view text) : text_(text) {}
+
+  /// The line at which there are more than `most` levels; 0: nowhere.
+  int exceeds(int most) {
+    while (at_ < text_.size()) {
+      step();
+      if (brackets_ > most || dots_ > most) return line_;
+    }
+    return 0;
+  }
+
+ private:
+  void step() {
+    const char c = text_[at_];
+    if (c == '"' || c == '\'') return skip_string(c);
+    if (c == '#') return skip_to_end_of_line();
+    if (c == '[' || c == '{') ++brackets_;
+    if (c == ']' || c == '}') --brackets_;
+    // A key ends at each of these; blanks may stand round its dots.
+    if (c == '.') ++dots_;
+    if (std::string_view("=,[]{}\n").find(c) != std::string_view::npos) dots_ = 0;
+    advance(1);
+  }
+  void skip_string(char quote) {
+    const std::string_view three = quote == '"' ? "\"\"\"" : "\'\'\'";
+    const bool multi_line = text_.substr(at_, 3) == three;
+    const std::string_view end = multi_line ? three : three.substr(0, 1);
+    advance(end.size());
+    while (at_ < text_.size() && text_.substr(at_, end.size()) != end) {
+      if (!multi_line && text_[at_] == '\n') return;  // not closed: refused by the library
+      advance(quote == '"' && text_[at_] == '\\' ? 2 : 1);
+    }
+    advance(end.size());
+    // A text in three quotes may end in one or two quotes of its own.
+    for (int i = 0; multi_line && i < 2 && at_ < text_.size() && text_[at_] == quote; ++i) advance(1);
+  }
+  void skip_to_end_of_line() {
+    while (at_ < text_.size() && text_[at_] != '\n') ++at_;
+  }
+  void advance(std::size_t count) {
+    for (; count > 0 && at_ < text_.size(); --count, ++at_)
+      if (text_[at_] == '\n') ++line_;
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  int line_ = 1, brackets_ = 0, dots_ = 0;
+};
+
+}  // namespace
+
+toml::table parse_toml(const std::filesystem::path& path) {
+  const recording::Bytes bytes = recording::load_file(path, recording::kMaxSettingsBytes);
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (const int line = Nesting(text).exceeds(kMostLevels); line > 0)
+    throw Error(fmt::format("'{}' line {} nests more than {} levels deep, which no file of Astrolabe does",
+                            path.string(), line, kMostLevels));
+  try {
+    return toml::parse(text, path.string());
+  } catch (const toml::parse_error& error) {
+    throw Error(fmt::format("'{}' line {} is not TOML: {}", path.string(), error.source().begin.line,
+                            error.description()));
+  }
+}
+
+std::string real_text(double value) {
+  if (!std::isfinite(value)) return "nan";
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+
+}  // namespace astro::experiment

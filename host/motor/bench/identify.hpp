@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <limits>
+#include <optional>
+
+#include "host/motor/model/motor_model.hpp"
+#include "host/motor/bench/bench.hpp"
+
+/// Turns both wheels and finds out what voltage does to them.
+///
+/// Course   voltage up and down slowly, forward and then backward (dead zone, gain); then steps of three
+///          fifths and of the whole voltage, each forward and backward, twice (time constant). Both wheels
+///          get the same voltage, so a robot on the ground drives straight on and comes back.
+/// Limits   never more than `voltage_V`. On the ground each move turns round before it is `distance_m` long;
+///          a wheel that gets further from the start than that ends it with an Error. A wheel that stands at
+///          seven tenths of the voltage, or turns backward, ends it too: before the firmware's own stall
+///          fault.
+namespace astro::motor {
+
+struct Bounds {
+  double voltage_V = 5;
+  double distance_m = std::numeric_limits<double>::infinity();  // from the start, to either side
+};
+
+struct WheelIdentity {
+  motor::MotorFit fit;
+  std::optional<double> breakaway_forward_V, breakaway_backward_V;  // magnitudes
+
+  /// The mean of those that were seen; at least kS.
+  double breakaway_V() const;
+};
+
+struct Identity {
+  std::array<WheelIdentity, 2> wheels;
+  double seconds = 0;
+};
+
+/// `progress` hears of the part that is done. Throws astro::Error with one sentence that names the wheel, and
+/// as DriveSession does. The wheels stand when it returns.
+Identity identify(Bench& bench, robot::DriveSession& session, const Bounds& bounds,
+                  const std::function<void(double)>& progress);
+
+}  // namespace astro::motor

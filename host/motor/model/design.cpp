@@ -1,0 +1,149 @@
+#include "host/motor/model/design.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "host/base/error.hpp"
+
+namespace astro::motor {
+namespace {
+
+using std::numbers::pi;
+constexpr double kPhaseMargin_rad = pi / 3;
+constexpr double kLeastIntegral = 0.1, kMostIntegral = 1.0;  // of kp times the crossover
+constexpr double kMostNoise_V = 0.2;  // a fifth of what makes a motor of this kind turn
+constexpr double kLeastCrossover_radps = 0.1, kMostObserver_radps = 500;  // the parameter's own limit
+
+double hertz(double radps) { return radps / (2 * pi); }
+
+enum class Limit { none, phase, noise };
+
+struct Attempt {
+  double kp = 0, ki = 0;
+  Limit limit = Limit::none;
+};
+
+Attempt at_crossover(const DesignTask& task, double crossover_radps) {
+  const SpeedLoop loop{task.motor, 0, 0, task.observer_radps, task.tick_s};
+  const std::complex<double> plant = plant_at(loop, crossover_radps);
+  double phase = std::arg(plant);
+  if (phase > 0) phase -= 2 * pi;
+  // What the PI may lag behind by, and the least it has to.
+  const double room = pi + phase - kPhaseMargin_rad;
+  const double lag = std::clamp(room, std::atan(kLeastIntegral), std::atan(kMostIntegral));
+  // kp + ki T / (z - 1) with 1 / (z - 1) = -1/2 - j / (2 tan(w T / 2))
+  const double gain = 1 / std::abs(plant), half = crossover_radps * task.tick_s / 2;
+  Attempt attempt;
+  attempt.ki = gain * std::sin(lag) * 2 * std::tan(half) / task.tick_s;
+  attempt.kp = gain * std::cos(lag) + attempt.ki * task.tick_s / 2;
+  if (room < lag) attempt.limit = Limit::phase;
+  const double noise_V = attempt.kp * quantisation_speed_mps(task.observer_radps, task.count_m, task.tick_s);
+  if (noise_V > kMostNoise_V && attempt.limit == Limit::none) attempt.limit = Limit::noise;
+  return attempt;
+}
+
+Design finished(const DesignTask& task, double crossover_radps) {
+  const Attempt attempt = at_crossover(task, crossover_radps);
+  Design design{attempt.kp, attempt.ki, {}, 0, 0};
+  design.margins = margins({task.motor, attempt.kp, attempt.ki, task.observer_radps, task.tick_s});
+  design.noise_V = attempt.kp * quantisation_speed_mps(task.observer_radps, task.count_m, task.tick_s);
+  return design;
+}
+
+double bandwidth_at(const DesignTask& task, double crossover_radps) {
+  return finished(task, crossover_radps).margins.bandwidth_radps;
+}
+
+struct Largest {
+  double crossover_radps = 0;
+  Limit because = Limit::none;
+};
+
+// Up to it phase and noise allow every crossover: both only get worse.
+Largest largest_crossover(const DesignTask& task) {
+  double low = kLeastCrossover_radps, high = 0.5 * pi / task.tick_s;
+  Limit because = at_crossover(task, low).limit;
+  if (because != Limit::none) return {0, because};
+  for (int i = 0; i < 50; ++i) {
+    const double middle = std::sqrt(low * high);
+    const Limit limit = at_crossover(task, middle).limit;
+    if (limit != Limit::none) because = limit;
+    (limit == Limit::none ? low : high) = middle;
+  }
+  return {low, because};
+}
+
+// The observer that would carry the bandwidth, to whole tens; nullopt: none does.
+std::optional<double> observer_for(DesignTask task) {
+  for (double observer = 10 * std::ceil(task.observer_radps / 10 + 1e-9); observer <= kMostObserver_radps;
+       observer += 10) {
+    task.observer_radps = observer;
+    const Largest largest = largest_crossover(task);
+    if (largest.crossover_radps > 0 && bandwidth_at(task, largest.crossover_radps) >= task.bandwidth_radps)
+      return observer;
+  }
+  return std::nullopt;
+}
+
+[[noreturn]] void refuse(const DesignTask& task, double largest_radps, Limit because) {
+  const auto observer = observer_for(task);
+  const std::string more =
+      observer ? fmt::format(", or set observer_bandwidth to {:.0f} rad/s", *observer) : "";
+  const std::string what = because == Limit::noise ? "the steps of the encoder would rattle the motors"
+                           : observer              ? "the wheel speed observer lags too much for it"
+                                                   : "the observer and the tick of 1 ms lag too much for it";
+  throw Error(fmt::format("a bandwidth of {:.3g} Hz is too much, {}: choose at most {:.1f} Hz{}",
+                          hertz(task.bandwidth_radps), what, hertz(largest_radps), more));
+}
+
+double crossover_for(const DesignTask& task, double largest_radps) {
+  double low = kLeastCrossover_radps, high = largest_radps;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = std::sqrt(low * high);
+    (bandwidth_at(task, middle) < task.bandwidth_radps ? low : high) = middle;
+  }
+  return std::sqrt(low * high);
+}
+
+// The one with the largest integral gain: what a load displaces the wheel by is its force over ki.
+double stiffest_crossover(const DesignTask& task, double largest_radps) {
+  constexpr int kTrials = 60;
+  double best_radps = largest_radps, most = 0;
+  for (int i = 1; i <= kTrials; ++i) {
+    const double crossover_radps = largest_radps * i / kTrials;
+    const double ki = at_crossover(task, crossover_radps).ki;
+    if (ki <= most) continue;
+    most = ki;
+    best_radps = crossover_radps;
+  }
+  return best_radps;
+}
+
+}  // namespace
+
+Design design_gains(const DesignTask& wanted) {
+  DesignTask task = wanted;
+  if (!(task.motor.kV > 0) || !(task.motor.kA > 0))
+    throw Error("the measured motor model has no positive kV and kA: measure again with more voltage");
+  const Largest largest = largest_crossover(task);
+  if (largest.crossover_radps == 0)
+    throw Error("the encoder is too coarse for any speed loop with this observer: lower observer_bandwidth");
+  // Floored, so that the figure in the refusal is itself accepted.
+  const double most_radps = bandwidth_at(task, largest.crossover_radps);
+  if (task.bandwidth_radps == 0) {
+    Design design = finished(task, stiffest_crossover(task, largest.crossover_radps));
+    design.largest_bandwidth_radps = most_radps;
+    return design;
+  }
+  if (task.bandwidth_radps > 1.002 * most_radps)
+    refuse(task, std::floor(hertz(most_radps) * 10) / 10 * 2 * pi, largest.because);
+  Design design = finished(task, crossover_for(task, largest.crossover_radps));
+  design.largest_bandwidth_radps = most_radps;
+  return design;
+}
+
+}  // namespace astro::motor

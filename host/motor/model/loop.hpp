@@ -1,0 +1,45 @@
+#pragma once
+
+#include <complex>
+
+#include "host/motor/model/motor_model.hpp"
+
+/// The wheel's speed loop as the firmware closes it, exactly as sampled: motor and wheel with the voltage
+/// held for a tick, counts, the tracking observer, PI.
+///
+///   motor     dx(z) / V(z) = z^-1 (T (1 - g) + T g (1 - p) z^-1 / (1 - p z^-1)) / kV,
+///             p = e^(-T/tau), tau = kA / kV, g = tau (1 - p) / T
+///   observer  v(z) / dx(z) = a^2 / (1 - (1 - a) z^-1)^2 / T,   a = w T  (common/control/observer.hpp)
+///   PI        u(z) / e(z) = kp + ki T z^-1 / (1 - z^-1)        (integrates after it acts)
+///
+/// At low frequency the observer is a lag of 2 / w: 10 ms at its default of 200 rad/s, far more than the
+/// tick. Friction is not in here; it is the feed-forward's, and what that misses is the integral's.
+namespace astro::motor {
+
+struct SpeedLoop {
+  MotorModel motor;
+  double kp = 0, ki = 0;      // V s/m, V/m
+  double observer_radps = 0;  // parameter observer_bandwidth
+  double tick_s = 1e-3;
+};
+
+/// Volts to observed speed, and the PI, at a frequency below pi / tick_s.
+std::complex<double> plant_at(const SpeedLoop& loop, double omega_radps);
+std::complex<double> controller_at(const SpeedLoop& loop, double omega_radps);
+
+struct Margins {
+  double crossover_radps = 0;   // the last at which the open loop's gain is 1
+  double phase_margin_rad = 0;  // the least of all crossings
+  double gain_margin = 0;       // factor on kp and ki together; infinite if there is none
+  double bandwidth_radps = 0;   // observed speed over set point, without feed-forward, at -3 dB
+  double sensitivity = 0;       // peak of |1 / (1 + L)|
+};
+
+/// By scanning 600 frequencies a decade of which the crossings are refined. All 0 for a loop without gain.
+Margins margins(const SpeedLoop& loop);
+
+/// Rms of the observed speed while a wheel turns evenly, from the steps of the encoder alone: as if each were
+/// off by white noise of a count / sqrt(12).
+double quantisation_speed_mps(double observer_radps, double count_m, double tick_s = 1e-3);
+
+}  // namespace astro::motor

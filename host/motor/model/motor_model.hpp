@@ -1,0 +1,64 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "host/motor/model/sample.hpp"
+
+/// What voltage does to a wheel, from samples of both:
+///
+///   V = kS sign(v) + kV v + kA dv/dt
+///
+/// the firmware's own feed-forward (common/control/wheel_controller.hpp).
+///
+/// Estimator  Counts are not differentiated. The equation is multiplied by a smooth bump phi that vanishes at
+///            both ends of a window together with its slope, and integrated by parts:
+///
+///              [phi V] = kS [phi sign(v)] - kV [phi' x] + kA [phi'' x],   [.] the integral over the window
+///
+///            so the position enters as it was counted, and a constant offset of it (the half count that a
+///            floor loses) not at all.
+/// Unbiased   The encoder's steps are noise in the regressors, which shortens kA in least squares (with
+///            windows of 60 ms by 2 % for ASTRO, by 16 % with an eighth of its counts). The voltage is known
+///            without noise, so a wheel that obeys the model under the same voltages gives instruments: five
+///            rounds, each with the model of the round before.
+/// Windows    Only those in which the wheel turns one way from end to end and the motor drives: a gear loses
+///            torque in proportion to what it passes on, so a wheel that brakes follows another law.
+/// Source     modulating functions: Shinbrot, Trans. ASME 79 (1957); instruments from a model: Young,
+///            Automatica 6 (1970).
+namespace astro::motor {
+
+struct MotorModel {
+  double kS = 0;  // V
+  double kV = 0;  // V s/m
+  double kA = 0;  // V s^2/m
+
+  double time_constant_s() const { return kA / kV; }
+};
+
+/// One window, divided by [phi]: means weighted with the bump.
+struct Window {
+  double voltage_V = 0, sense = 0, speed_mps = 0, acceleration_mps2 = 0;
+};
+
+struct MotorFit {
+  MotorModel model, standard_error;
+  double residual_V = 0;  // rms
+  double r_squared = 0;
+  std::vector<Window> windows;  // those that the fit rests on
+};
+
+/// `count_m`: travel of one count. Samples in order of time, at any rate that gives the wheel's time constant
+/// ten samples; may hold several drives.
+///
+/// Standard errors allow for windows that are alike because they are neighbours (Newey and West).
+/// Throws astro::Error, one clause without a subject ("turned too little ..."), where the data do not hold a
+/// model.
+MotorFit fit_motor(std::span<const Sample> samples, double count_m);
+
+/// Voltage at which a wheel that stood began to turn, while the voltage rose slowly from zero; with the sign
+/// of the motion. nullopt if it did not turn.
+std::optional<double> breakaway_V(std::span<const Sample> rise, double count_m);
+
+}  // namespace astro::motor

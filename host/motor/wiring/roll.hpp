@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+
+/// Counts per revolution, from rolling the robot by hand along a tape measure.
+namespace astro::motor {
+
+/// What the robot believes, and what it saw.
+struct Roll {
+  std::array<double, 2> counts{};  // left, right; signs do not matter
+  double counts_per_motor_rev = 0, gear_ratio = 0, wheel_diameter_m = 0;
+  /// What was measured: one of them.
+  std::optional<double> distance_m, turns;
+};
+
+struct RollVerdict {
+  std::array<double, 2> ratio{};  // counts that were seen over counts that the parameters lead to expect
+  std::string sentence;           // what that means and the remedy
+  bool agrees = false;            // within what a tape measure and an eye can tell
+  std::map<std::string, double> parameters;  // to change, by name
+};
+
+/// A ratio within 5 % of 1/8, 1/4, 1/2, 2, 4 or 8 is a decoder that counts other edges than was thought, or
+/// another encoder: counts_per_motor_rev. Another ratio is another gear, if turns were counted, and otherwise
+/// a wheel of another diameter. Wheels that disagree by more than 5 % change nothing. Within 3 % nothing is
+/// changed: calibrate and umbmark measure that better.
+/// Throws astro::Error if the wheels turned less than half a turn, counted next to nothing, or counted five
+/// times as much or as little as the length explains and no decoding does.
+RollVerdict judge_roll(const Roll& roll);
+
+}  // namespace astro::motor

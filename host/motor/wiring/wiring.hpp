@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/motor/model/sample.hpp"
+
+/// What is wrong with the wires of a robot, from turning one motor after the other.
+///
+/// Counts alone say little: a reversed motor and a reversed encoder look alike, so do swapped motors and
+/// swapped encoders, and two faults can cancel (a robot whose motors and encoders are both swapped turns left
+/// for right and counts as it should). Who looks at the wheels knows. With that, every motor and encoder is
+/// placed and oriented on its own, whatever combination of faults there is.
+namespace astro::motor {
+
+/// What one encoder did while a motor was driven, forward positive as the robot's parameters have it.
+struct EncoderTrace {
+  long counts = 0;   // from the first sample to the last
+  long range = 0;    // most minus least
+  long changes = 0;  // samples that differ from the one before
+};
+
+enum class Motion { none, forward, backward, toggles };
+
+/// A wheel that turned. `toggles`: up and down by one for ever, as with one channel of two.
+Motion motion_of(const EncoderTrace& trace);
+
+/// What a person saw; `wheel` is nullopt if none turned.
+struct Sighting {
+  std::optional<Side> wheel;
+  bool forward = true;
+};
+
+/// One motor, driven forward as the robot believes.
+struct Probe {
+  std::array<EncoderTrace, 2> encoders;  // left, right
+  double voltage_V = 0;                  // the most that was put on it
+  std::optional<Sighting> seen;          // nullopt: nobody looked
+};
+
+/// The robot's parameters, each +1 or -1: left, right.
+struct Polarities {
+  std::array<int, 2> motor{1, 1}, encoder{1, 1};
+};
+
+/// One thing that is wrong, in a sentence with its remedy. `fault`: a word for scripts.
+struct Finding {
+  std::string fault, sentence;
+};
+
+struct WiringVerdict {
+  std::vector<Finding> findings;             // empty: nothing is wrong
+  std::map<std::string, double> parameters;  // those to change, by name; they hold once wires are right
+  bool needs_hands = false;                  // wires have to be changed: parameters alone do not do
+  bool needs_eyes = false;                   // somebody has to say what turned
+};
+
+/// `probes`: of the left and of the right motor, as the robot names them.
+WiringVerdict judge_wiring(const std::array<Probe, 2>& probes, const Polarities& polarities);
+
+}  // namespace astro::motor

@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <string>
+
+#include "common/base/version.hpp"
+#include "host/base/error.hpp"
+#include "host/commands/calibrate/commands.hpp"
+#include "host/commands/drive/commands.hpp"
+#include "host/commands/robot/commands.hpp"
+#include "host/commands/shared/robot_view.hpp"
+#include "host/commands/simulate/commands.hpp"
+#include "host/commands/tune/commands.hpp"
+#include "host/console/console.hpp"
+#include "host/console/interrupt.hpp"
+#include "host/console/program.hpp"
+#include "host/console/wrong_usage.hpp"
+#include "host/robot/motion/drive.hpp"
+
+namespace {
+
+// This file is all commands.
+using namespace astro::commands;  // NOLINT(google-build-using-namespace)
+using namespace astro::console;   // NOLINT(google-build-using-namespace)
+
+constexpr int kFailed = 1, kWrongUsage = 2, kInterrupted = 130;
+
+void add_commands(Command app) {
+  for (const auto add :
+       {add_umbmark, add_calibrate, add_upload,  add_record,       add_compare, add_report, add_sim,
+        add_ports,   add_info,      add_params,  add_drive,        add_stop,    add_pause,  add_faults,
+        add_reboot,  add_flash,     add_monitor, add_check_wiring, add_tune,    add_plan,   add_study})
+    add(app);
+}
+
+int run(int argc, char** argv) {
+  Program program("astrolabe", "Calibrates the odometry of differential-drive robots.");
+  program.version(fmt::format("astrolabe {}.{}.{}", astro::kFirmwareVersion.major,
+                              astro::kFirmwareVersion.minor, astro::kFirmwareVersion.patch));
+  const Command app = program.command();
+  app.require_subcommand(1, 1);
+  app.footer("'astrolabe COMMAND --help' shows options and examples.");
+  add_commands(app);
+  const int code = program.run(argc, argv);
+  flush_output();
+  return code;
+}
+
+/// Where no exception may pass, as inside of the standard library's walk through a folder, the program ends
+/// here and not in main(). It says the same, and leaves no core file. A robot that was armed stops by its own
+/// time-out.
+[[noreturn]] void end_at_once() {
+  try {
+    if (const std::exception_ptr why = std::current_exception()) std::rethrow_exception(why);
+    std::fputs("astrolabe: this should not have happened, please report it: it ended itself\n", stderr);
+  } catch (const std::bad_alloc&) {
+    complain_of_memory();
+  } catch (const std::exception& error) {
+    complain(std::string("this should not have happened, please report it: ") + error.what());
+  } catch (...) {
+    std::fputs("astrolabe: this should not have happened, please report it\n", stderr);
+  }
+  std::_Exit(kFailed);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::set_terminate(end_at_once);
+  hold_standard_streams();
+  watch_for_interrupt();
+  try {
+    return run(argc, argv);
+  } catch (const astro::robot::Interrupted& error) {
+    complain(error.what());
+    return kInterrupted;
+  } catch (const WrongUsage& error) {
+    complain(error.what());
+    return kWrongUsage;
+  } catch (const astro::Error& error) {
+    complain(error.what());  // also after Ctrl-C: the disk may be full, or the robot not have stopped
+    return kFailed;
+  } catch (const std::filesystem::filesystem_error& error) {
+    complain(in_words(error));
+    return kFailed;
+  } catch (const std::bad_alloc&) {
+    complain_of_memory();
+    return kFailed;
+  } catch (const std::exception& error) {
+    complain(std::string("this should not have happened, please report it: ") + error.what());
+    return kFailed;
+  }
+}

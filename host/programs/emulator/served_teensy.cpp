@@ -1,0 +1,95 @@
+#include "host/programs/emulator/served_teensy.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "host/base/error.hpp"
+#include "host/console/console.hpp"
+#include "host/base/files.hpp"
+
+namespace astro::emulator {
+namespace {
+
+namespace fs = std::filesystem;
+
+Port port_of(int number) { return number == 0 ? Port::serial : Port::usb; }
+
+fs::path beside(fs::path path, const char* suffix) { return path += suffix; }
+
+}  // namespace
+
+ServedTeensy::ServedTeensy(fs::path hex, sim::Config config, const simulation::MocapConfig& mocap,
+                           fs::path pty)
+    : config_(std::move(config)),
+      mocap_(mocap),
+      fifo_(beside(pty, ".halfkay")),
+      flashed_(beside(pty, ".flashed.hex")) {
+  std::error_code none;
+  if (fs::is_fifo(fifo_, none))
+    fs::remove(fifo_, none);  // of a program that was killed: a loader would wait at it
+  start(hex);
+}
+
+ServedTeensy::~ServedTeensy() {
+  std::error_code ignored;
+  fs::remove(flashed_, ignored);
+}
+
+void ServedTeensy::start(const fs::path& hex) {
+  robot_ = std::make_unique<EmulatedRobot>(hex, config_, mocap_);
+  due_us_ = 0;
+}
+
+void ServedTeensy::step() {
+  // By the chip's time: what the computer at the USB port does, enumerating above all, takes time of its own.
+  constexpr std::uint64_t kMillisecond_us = 1000;
+  due_us_ += kMillisecond_us;
+  while (now_us() < due_us_) robot_->step();
+  if (robot_->teensy().in_bootloader()) wait_in_bootloader();
+}
+
+void ServedTeensy::wait_in_bootloader() {
+  if (!halfkay_) {
+    halfkay_.emplace(fifo_);
+    console::say("the robot is in its boot loader: flash it with cat IMAGE.hex > " + fifo_.string());
+  }
+  const auto image = halfkay_->receive();
+  if (!image) return;
+  const auto kept = flash();
+  config_.flash.assign(kept.begin(), kept.end());
+  try {
+    recording::PartFile file(flashed_);
+    file.write(recording::as_bytes(*image));
+    file.commit();
+    start(flashed_);
+  } catch (const Error& error) {
+    return console::complain(error.what());
+  }
+  halfkay_.reset();
+  console::say("flashed");
+}
+
+std::size_t ServedTeensy::room(int port) {
+  constexpr std::size_t kUnderway = 1024;  // what an adapter or an operating system holds
+  return kUnderway - std::min(kUnderway, robot_->underway(port_of(port)));
+}
+
+void ServedTeensy::write(int port, std::span<const std::uint8_t> bytes) {
+  robot_->send(port_of(port), bytes);
+}
+
+std::size_t ServedTeensy::read(int port, std::span<std::uint8_t> into) {
+  return robot_->receive(port_of(port), into);
+}
+
+bool ServedTeensy::present(int port) { return port_of(port) == Port::serial || robot_->usb().present(); }
+
+void ServedTeensy::set_open(int port, bool open, std::uint32_t baud) {
+  if (port_of(port) != Port::usb) return;
+  if (open)
+    robot_->usb().open(baud);
+  else
+    robot_->usb().close();
+}
+
+}  // namespace astro::emulator

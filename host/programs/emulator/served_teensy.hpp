@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "host/emulator/robot/emulated_robot.hpp"
+#include "host/programs/emulator/halfkay.hpp"
+#include "host/simulation/server/served.hpp"
+
+namespace astro::emulator {
+
+/// An emulated robot behind ptys: port 0 is LPUART6, port 1 is USB. In its boot loader it waits for an image
+/// at `beside` + ".halfkay"; flashing keeps the sectors of the parameters, as on a Teensy.
+class ServedTeensy : public simulation::Served {
+ public:
+  /// Errors as Teensy.
+  ServedTeensy(std::filesystem::path hex, sim::Config config, const simulation::MocapConfig& mocap,
+               std::filesystem::path beside);
+  ~ServedTeensy() override;
+
+  void step() override;
+  std::uint64_t now_us() override { return robot_->teensy().now_us(); }
+  std::size_t room(int port) override;
+  void write(int port, std::span<const std::uint8_t> bytes) override;
+  std::size_t read(int port, std::span<std::uint8_t> into) override;
+  bool present(int port) override;
+  void set_open(int port, bool open, std::uint32_t baud) override;
+  std::vector<recording::TruthSample> take_truth() override { return robot_->take_truth(); }
+  std::span<const std::uint8_t> flash() override { return robot_->teensy().flash().parameters(); }
+
+ private:
+  void start(const std::filesystem::path& hex);
+  void wait_in_bootloader();
+
+  sim::Config config_;
+  simulation::MocapConfig mocap_;
+  std::filesystem::path fifo_, flashed_;
+  std::unique_ptr<EmulatedRobot> robot_;
+  std::optional<HalfKay> halfkay_;
+  std::uint64_t due_us_ = 0;  // what its time must be after the next step
+};
+
+}  // namespace astro::emulator

@@ -1,0 +1,175 @@
+#include "host/recording/files/run_file.hpp"
+
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <numbers>
+#include <set>
+
+#include "host/base/error.hpp"
+#include "host/base/files.hpp"
+#include "host/recording/mcap/reader.hpp"
+#include "host/recording/run/planar_pose.hpp"
+#include "host/ros2/ros_messages.hpp"
+#include "host/recording/run/run_metadata.hpp"
+#include "host/recording/files/run_writer.hpp"
+
+namespace astro::recording {
+namespace {
+
+/// So many samples are taken from a file of any size, and one more for each so many bytes of it. A robot that
+/// stands still packs best: its messages differ by their times alone, and take 26 bytes each.
+constexpr std::size_t kFreeSamples = 300'000, kLeastBytesPerSample = 20;
+
+/// What the messages of a file hold, before the streams are put together.
+struct Streams {
+  std::string file;
+  std::size_t most = 0;  // samples
+  // A vector that grows by doubling would take three times the memory of its samples for a moment.
+  std::deque<OdometrySample> odometry;
+  std::deque<WheelCounts> counts;
+  std::deque<TruthSample> truth;
+  bool unreadable = false;
+
+  template <class T>
+  void keep(std::deque<T>& stream, const std::optional<T>& sample) {
+    if (odometry.size() + counts.size() + truth.size() >= most)
+      throw Error(file + " holds more samples than any drive whose recording has its size: it is damaged");
+    if (sample) stream.push_back(*sample);
+    unreadable = unreadable || !sample;
+  }
+  void take(const mcap::Channel& channel, const mcap::Schema* schema, const mcap::Message& message) {
+    if (schema == nullptr || channel.message_encoding != "cdr") return;
+    if (schema->name == odometry_type().name && channel.topic == "/odom") {
+      keep(odometry, decode_odometry(message.data));
+    } else if (schema->name == wheel_counts_type().name && channel.topic == "/wheel_counts") {
+      keep(counts, decode_counts(message.data));
+    } else if (schema->name == pose_stamped_type().name && channel.topic == "/truth") {
+      keep(truth, decode_truth(message.data));
+    }
+  }
+};
+
+struct RunFile {
+  RunRecord record;
+  Streams streams;
+  std::string warning;
+};
+
+/// What is to be said of a file that is not whole; "" if it is.
+std::string warning_of(const std::string& file, const McapReport& report, Damage damage) {
+  if (!report.is_mcap) throw Error(file + " is not an MCAP file: name a recording made by astrolabe");
+  const std::string damaged =
+      file + " is damaged (" + (report.warnings.empty() ? std::string() : report.warnings.front()) + ")";
+  if (report.damaged && damage == Damage::refused)
+    throw DamagedRecording(damaged + ": copy it again from where it was recorded, or record the run again");
+  if (report.damaged) return damaged + ": some of the run is missing, and results from it may be wrong";
+  if (report.truncated) return file + " was cut off while it was recorded: what was driven last is missing";
+  return "";
+}
+
+RunFile parse(ByteView bytes, const std::string& file, bool with_data, Damage damage) {
+  RunFile out;
+  out.streams.file = file;
+  out.streams.most = kFreeSamples + bytes.size() / kLeastBytesPerSample;
+  std::optional<mcap::Map> entries;
+  McapHandlers handlers;
+  // The last record counts: the first is written before the run, the last after it.
+  handlers.metadata = [&](const mcap::Metadata& metadata) {
+    if (metadata.name == kRunRecordName) entries = metadata.entries;
+  };
+  if (with_data) {
+    handlers.message = [&](const mcap::Channel& channel, const mcap::Schema* schema,
+                           const mcap::Message& message) { out.streams.take(channel, schema, message); };
+  }
+  out.warning = warning_of(file, read_mcap(bytes, handlers), damage);
+  if (!entries) {
+    throw Error(file + " is not a recording of a run (it has no record " + std::string(kRunRecordName) +
+                "): name one made by astrolabe");
+  }
+  out.record = run_record(*entries, file);
+  return out;
+}
+
+/// Of a damaged file: leaves out poses and counts whose other half is missing.
+void drop_singles(Streams& streams) {
+  std::set<std::int64_t> poses, counts;
+  for (const OdometrySample& sample : streams.odometry) poses.insert(sample.time_us);
+  for (const WheelCounts& sample : streams.counts) counts.insert(sample.time_us);
+  std::erase_if(streams.odometry, [&](const auto& sample) { return !counts.contains(sample.time_us); });
+  std::erase_if(streams.counts, [&](const auto& sample) { return !poses.contains(sample.time_us); });
+}
+
+/// Gives every pose the counts of its instant; the writer puts them into the file in pairs.
+void pair_counts(const std::string& file, bool cut_off, Streams& streams) {
+  const std::size_t pairs = std::min(streams.odometry.size(), streams.counts.size());
+  bool good = !streams.unreadable && (cut_off || streams.odometry.size() == streams.counts.size());
+  for (std::size_t i = 0; i < pairs && good; ++i) {
+    good = streams.odometry[i].time_us == streams.counts[i].time_us;
+    streams.odometry[i].left_counts = streams.counts[i].left;
+    streams.odometry[i].right_counts = streams.counts[i].right;
+  }
+  if (!good) {
+    throw Error(file + " holds messages that do not belong to a run (the poses of /odom do not match the " +
+                "counts of /wheel_counts): the file was edited, use the original");
+  }
+  streams.odometry.resize(pairs);
+}
+
+/// As a vector; the memory of the deque goes as that of the vector is filled.
+template <class Sample>
+std::vector<Sample> drained(std::deque<Sample>& samples) {
+  std::vector<Sample> all;
+  all.reserve(samples.size());
+  for (; !samples.empty(); samples.pop_front()) all.push_back(samples.front());
+  return all;
+}
+
+/// Makes headings continuous: each within half a turn of the last finite one, the first at `first_rad` but
+/// for rounding.
+template <class Sample>
+void unwrap(std::deque<Sample>& samples, const std::optional<double>& first_rad) {
+  double last_rad = first_rad.value_or(std::numeric_limits<double>::quiet_NaN());
+  for (Sample& sample : samples) {
+    if (!std::isfinite(sample.theta_rad)) continue;
+    if (std::isfinite(last_rad)) {
+      const double turns = std::round((last_rad - sample.theta_rad) / (2 * std::numbers::pi));
+      sample.theta_rad += turns * (2 * std::numbers::pi);
+    }
+    last_rad = sample.theta_rad;
+  }
+}
+
+}  // namespace
+
+void write_run(const std::filesystem::path& path, const Run& run) {
+  RunWriter writer(path, run.info);
+  auto truth = run.truth.begin();
+  for (const OdometrySample& sample : run.odometry) {
+    while (truth != run.truth.end() && truth->time_us <= sample.time_us) writer.add(*truth++);
+    writer.add(sample);
+  }
+  while (truth != run.truth.end()) writer.add(*truth++);
+  writer.close(run.info);
+}
+
+Run run_from_bytes(ByteView bytes, const std::string& name, Damage damage) {
+  RunFile file = parse(bytes, name, true, damage);
+  if (damage == Damage::accepted && !file.warning.empty()) drop_singles(file.streams);
+  pair_counts(name, !file.warning.empty(), file.streams);
+  unwrap(file.streams.odometry, file.record.first_odometry_heading_rad);
+  unwrap(file.streams.truth, file.record.first_truth_heading_rad);
+  file.streams.counts = {};
+  return {std::move(file.record.info), drained(file.streams.odometry), drained(file.streams.truth),
+          std::move(file.warning)};
+}
+
+Run read_run(const std::filesystem::path& path, Damage damage) {
+  return run_from_bytes(load_file(path), path.string(), damage);
+}
+
+RunInfo read_run_info(const std::filesystem::path& path) {
+  return parse(load_file(path), path.string(), false, Damage::refused).record.info;
+}
+
+}  // namespace astro::recording

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "host/recording/run/run.hpp"
+#include "host/recording/files/run_file.hpp"
+
+/// The runs of an experiment: all *.mcap below one folder.
+namespace astro::recording {
+
+struct RunEntry {
+  std::filesystem::path path;
+  RunInfo info;
+};
+
+/// The recordings below `folder`, in natural order of their paths ("cw-2" before "cw-10"), whatever the file
+/// system says. Throws astro::Error naming the folder if it is not there, cannot be read or holds no
+/// recording.
+std::vector<std::filesystem::path> list_runs(const std::filesystem::path& folder);
+
+/// Their infos or the runs themselves, in that order. Throw astro::Error naming the file that is no run.
+std::vector<RunEntry> read_run_infos(const std::filesystem::path& folder);
+std::vector<Run> read_runs(const std::filesystem::path& folder, Damage damage = Damage::refused);
+
+/// Whether `a` comes before `b` when the digits in them are read as numbers.
+bool natural_less(std::string_view a, std::string_view b);
+
+}  // namespace astro::recording

@@ -1,0 +1,232 @@
+#include "host/recording/mcap/reader.hpp"
+
+#include <algorithm>
+
+#include "host/recording/mcap/compression.hpp"
+
+namespace astro::recording {
+namespace {
+
+using mcap::Op;
+
+constexpr std::size_t kMaxWarnings = 8;
+
+struct Record {
+  std::uint8_t op = 0;
+  std::size_t start = 0;
+  ByteView content;
+};
+
+class Walker {
+ public:
+  Walker(ByteView file, const McapHandlers& handlers, const McapLimits& limits)
+      : file_(file), handlers_(handlers), limits_(limits) {}
+
+  McapReport walk() {
+    ByteCursor cursor(file_);
+    report_.is_mcap = is_magic(cursor.take(sizeof mcap::kMagic));
+    if (!report_.is_mcap) return report_;
+    while (!footer_seen_) {
+      Record record;
+      if (!next(cursor, record)) {
+        no_footer(record.start);
+        return report_;
+      }
+      take(record);
+    }
+    check_end(cursor);
+    return report_;
+  }
+
+ private:
+  static bool is_magic(ByteView bytes) { return std::ranges::equal(bytes, mcap::kMagic); }
+
+  void warn(const std::string& what) {
+    if (report_.warnings.size() < kMaxWarnings) report_.warnings.push_back(what);
+  }
+  void cut_off(const std::string& what) {
+    report_.truncated = true;
+    warn(what);
+  }
+  void damage(const std::string& what, std::size_t at) {
+    report_.damaged = true;
+    warn(what + " at byte " + std::to_string(at));
+  }
+
+  /// A file whose end is there was not cut off: something before it is wrong, such as a length.
+  void no_footer(std::size_t at) {
+    if (file_.size() >= 2 * sizeof mcap::kMagic && is_magic(file_.last(sizeof mcap::kMagic)))
+      return damage("a record that does not fit into the file", at);
+    cut_off("the file ends at byte " + std::to_string(file_.size()) + " without a footer");
+  }
+
+  /// Opcode 0 does not exist; it is what a file system leaves where a power cut came before the bytes.
+  static bool next(ByteCursor& cursor, Record& record) {
+    record.start = cursor.offset();
+    record.op = cursor.number<std::uint8_t>();
+    record.content = cursor.take(cursor.number<std::uint64_t>());
+    return cursor.ok() && record.op != 0;
+  }
+
+  void take(const Record& record) {
+    switch (static_cast<Op>(record.op)) {
+      case Op::header:
+        return header(record);
+      case Op::chunk:
+        return chunk(record);
+      case Op::metadata:
+        return metadata(record);
+      case Op::data_end:
+        return data_end(record);
+      case Op::footer:
+        return footer(record);
+      default:
+        return take_content(record, record.start);
+    }
+  }
+
+  /// The records that stand in chunks as well as outside. `at` is the place in the file to complain about.
+  void take_content(const Record& record, std::size_t at) {
+    switch (static_cast<Op>(record.op)) {
+      case Op::schema:
+        return schema(record, at);
+      case Op::channel:
+        return channel(record, at);
+      case Op::message:
+        return message(record, at);
+      default:
+        return;  // indexes, attachments, and what is yet to be invented
+    }
+  }
+
+  void header(const Record& record) {
+    const auto header = mcap::decode_header(record.content);
+    if (!header) return damage("bad header", record.start);
+    report_.profile = header->profile;
+    report_.library = header->library;
+  }
+
+  void schema(const Record& record, std::size_t at) {
+    auto schema = mcap::decode_schema(record.content);
+    if (!schema) return damage("bad schema", at);
+    keep(schemas_, std::move(*schema), at);
+  }
+
+  void channel(const Record& record, std::size_t at) {
+    auto channel = mcap::decode_channel(record.content);
+    if (!channel) return damage("bad channel", at);
+    keep(channels_, std::move(*channel), at);
+  }
+
+  static std::uint64_t memory_of(const mcap::Schema& schema) {
+    return sizeof schema + schema.name.size() + schema.encoding.size() + schema.text.size();
+  }
+  static std::uint64_t memory_of(const mcap::Channel& channel) {
+    std::uint64_t bytes = sizeof channel + channel.topic.size() + channel.message_encoding.size();
+    for (const auto& [key, value] : channel.metadata)
+      bytes += sizeof(mcap::Map::value_type) + key.size() + value.size();
+    return bytes;
+  }
+
+  /// A definition may come again, in each chunk even, and takes the place of the one before.
+  template <class Definition>
+  void keep(std::map<std::uint16_t, Definition>& all, Definition&& definition, std::size_t at) {
+    const auto before = all.find(definition.id);
+    const std::uint64_t freed = before == all.end() ? 0 : memory_of(before->second);
+    const std::uint64_t bytes = definition_bytes_ - freed + memory_of(definition);
+    if (bytes > limits_.definition_bytes + file_.size())
+      return damage("more schemas and channels than this reader takes,", at);
+    definition_bytes_ = bytes;
+    all.insert_or_assign(definition.id, std::move(definition));
+  }
+
+  void message(const Record& record, std::size_t at) {
+    if (!handlers_.message) return;
+    const auto message = mcap::decode_message(record.content);
+    if (!message) return damage("bad message", at);
+    const auto channel = channels_.find(message->channel_id);
+    if (channel == channels_.end()) return damage("message of an unknown channel", at);
+    const auto schema = schemas_.find(channel->second.schema_id);
+    handlers_.message(channel->second, schema == schemas_.end() ? nullptr : &schema->second, *message);
+  }
+
+  void metadata(const Record& record) {
+    const auto metadata = mcap::decode_metadata(record.content);
+    if (!metadata) return damage("bad metadata", record.start);
+    if (handlers_.metadata) handlers_.metadata(*metadata);
+  }
+
+  void chunk(const Record& record) {
+    const auto chunk = mcap::decode_chunk(record.content);
+    if (!chunk) return damage("bad chunk", record.start);
+    if (!handlers_.message) return;
+    if (chunk->size > std::max<std::uint64_t>(limits_.chunk_bytes, file_.size())) {
+      return damage("chunk of " + std::to_string(chunk->size) + " bytes, more than this reader takes,",
+                    record.start);
+    }
+    expanded_bytes_ += chunk->size;
+    if (expanded_bytes_ > limits_.all_chunks_bytes + limits_.most_gain * file_.size())
+      return damage(
+          "chunks that expand to more than " + std::to_string(limits_.most_gain) + " times the file,",
+          record.start);
+    const auto bytes = expand(chunk->compression, chunk->records, chunk->size);
+    if (!bytes) return damage("chunk that does not expand", record.start);
+    if (chunk->crc != 0 && chunk->crc != crc32_ieee(*bytes)) {
+      return damage("chunk with a wrong checksum", record.start);
+    }
+    ByteCursor cursor(*bytes);
+    while (cursor.left() > 0) {
+      Record inner;
+      if (!next(cursor, inner)) return damage("chunk that ends inside a record", record.start);
+      take_content(inner, record.start);
+    }
+  }
+
+  void data_end(const Record& record) {
+    data_end_seen_ = true;
+    ByteCursor cursor(record.content);
+    const auto crc = cursor.number<std::uint32_t>();
+    if (!cursor.ok()) return damage("bad end of data", record.start);
+    if (crc != 0 && crc != crc32_ieee(file_.first(record.start))) {
+      damage("the data have a wrong checksum: found", record.start);
+    }
+  }
+
+  void footer(const Record& record) {
+    footer_seen_ = true;
+    const auto footer = mcap::decode_footer(record.content);
+    if (!footer || footer->summary_start > record.start) return damage("bad footer", record.start);
+    if (footer->summary_crc == 0) return;
+    constexpr std::size_t kCovered = mcap::kRecordHeadBytes + 2 * sizeof(std::uint64_t);
+    const auto start =
+        footer->summary_start == 0 ? record.start : static_cast<std::size_t>(footer->summary_start);
+    if (footer->summary_crc != crc32_ieee(file_.subspan(start, record.start + kCovered - start))) {
+      damage("the summary has a wrong checksum: found", record.start);
+    }
+  }
+
+  void check_end(ByteCursor& cursor) {
+    if (!data_end_seen_) damage("no end of data before the footer", cursor.offset());
+    const std::size_t at = cursor.offset();
+    const ByteView magic = cursor.take(sizeof mcap::kMagic);
+    if (!cursor.ok()) return cut_off("the file ends inside its last 8 bytes");
+    if (!is_magic(magic) || cursor.left() > 0) damage("the file does not end like an MCAP file", at);
+  }
+
+  ByteView file_;
+  const McapHandlers& handlers_;
+  const McapLimits& limits_;
+  McapReport report_;
+  std::map<std::uint16_t, mcap::Schema> schemas_;
+  std::map<std::uint16_t, mcap::Channel> channels_;
+  std::uint64_t definition_bytes_ = 0, expanded_bytes_ = 0;
+  bool data_end_seen_ = false, footer_seen_ = false;
+};
+
+}  // namespace
+
+McapReport read_mcap(ByteView file, const McapHandlers& handlers, const McapLimits& limits) {
+  return Walker(file, handlers, limits).walk();
+}
+
+}  // namespace astro::recording

@@ -1,0 +1,162 @@
+#include "host/robot/client/client.hpp"
+
+#include <algorithm>
+
+#include "host/robot/sharing/relay_messages.hpp"
+#include "host/robot/client/restore.hpp"
+
+namespace astro::robot {
+
+using std::chrono::milliseconds;
+
+namespace {
+
+constexpr microseconds kKeepAlive = milliseconds(50);  // a quarter of the shortest time-out of a moving robot
+constexpr microseconds kPingTimeout = Patience().timeout;
+constexpr int kLostPings = Patience().tries;
+constexpr std::uint64_t kRestarted_us = 1'000'000;  // a clock that jumps back further than frames can be late
+constexpr std::uint8_t kLastRequest = 0x3F;
+
+}  // namespace
+
+Client::Client(std::unique_ptr<Transport> transport) : owned_(std::move(transport)), transport_(*owned_) {}
+Client::Client(Transport& transport) : transport_(transport) {}
+
+void Client::send(Body frame) {
+  last_sent_ = now();
+  transport_.write(frame);
+}
+
+std::optional<Client::Body> Client::ask(Body frame, std::uint16_t id, Patience patience) {
+  const Restore waiting(waiting_for_, id);
+  reply_.clear();
+  for (int i = 0; i < patience.tries; ++i) {
+    ++(i == 0 ? counts_.requests : counts_.repeats);
+    send(frame);
+    const microseconds deadline = now() + patience.timeout;
+    do {
+      step(deadline);
+      if (!reply_.empty()) return reply_;
+    } while (now() < deadline || receiver_.has_more());
+  }
+  return std::nullopt;
+}
+
+Client::Body Client::exchange(Body frame, std::uint16_t id, std::string_view request, Patience patience) {
+  const auto body = ask(frame, id, patience);
+  if (!body) {
+    throw LinkLost(name() + " does not answer any more (" + std::string(request) + ", " +
+                   std::to_string(patience.tries) + " tries): " + why_silent());
+  }
+  if (body->front() != protocol::ErrorReply::kId) return *body;
+  const auto error = understand<protocol::ErrorReply>(*body, request);
+  throw RobotRefused(request, error.code, error.detail);
+}
+
+std::string Client::why_silent() {
+  const std::string why = transport_.why_silent();
+  return why.empty() ? "is the robot still on and connected?" : why;
+}
+
+bool Client::step(microseconds deadline) {
+  const auto body = receiver_.next(transport_, deadline);
+  if (body) dispatch(*body);
+  return body.has_value();
+}
+
+void Client::dispatch(Body body) {
+  const protocol::Header header = *protocol::peek(body);  // a framer's body always has a header
+  if (header.request_id == 0) return dispatch_event(body);
+  if (header.message_id <= kLastRequest) {
+    echo_ = true;
+  } else if (header.request_id == waiting_for_ && reply_.empty()) {
+    reply_.assign(body.begin(), body.end());
+  } else if (ping_ && header.request_id == ping_->id) {
+    take_pong(body);
+  } else {
+    ++counts_.stale_replies;
+    if (header.message_id == protocol::Pong::kId) note_answer();  // late, but a sign of life
+  }
+}
+
+void Client::dispatch_event(Body body) {
+  const auto deliver = [&]<class M>(Listeners<M>& listeners) {
+    const auto event = protocol::decode<M>(body);
+    if (!event.ok()) return;
+    if constexpr (requires { event->device_time_us; }) note_device_time(event->device_time_us);
+    if constexpr (M::kId == protocol::Booted::kId) forget();
+    listeners.call(*event);
+  };
+  if (const auto missed = protocol::decode<protocol::EventsMissed>(body); missed.ok())
+    counts_.missed_events += missed->count;
+  if (const auto farewell = protocol::decode<Farewell>(body); farewell.ok())
+    throw LinkLost("lost " + name() + ": " + std::string(sentence(farewell->reason)));
+  std::apply([&](auto&... listeners) { (deliver(listeners), ...); }, listeners_);
+  const bool booted = body.front() == protocol::Booted::kId;
+  if (booted && waiting_for_ != 0 && !connecting_) {
+    throw LinkLost("the robot at " + name() + " has restarted: what was under way is lost");
+  }
+}
+
+void Client::take_pong(Body body) {
+  const Sent ping = *ping_;
+  ping_.reset();
+  if (const auto pong = protocol::decode<protocol::Pong>(body); pong.ok()) {
+    clock_.add({ping.at.count(), pong->device_time_us, now().count()});
+    note_device_time(pong->device_time_us);
+  }
+  note_answer();
+}
+
+void Client::note_device_time(std::uint64_t device_us) {
+  if (device_us + kRestarted_us < device_us_) forget();
+  device_us_ = std::max(device_us_, device_us);
+}
+
+void Client::note_answer() {
+  answered_device_us_ = device_us_;
+  lost_pings_ = 0;
+}
+
+void Client::forget() {
+  ping_.reset();
+  clock_.reset();
+  device_us_ = answered_device_us_ = 0;
+  lost_pings_ = 0;
+}
+
+microseconds Client::next_ping() const { return ping_ ? ping_->at + kPingTimeout : last_sent_ + kKeepAlive; }
+
+void Client::keep_alive() {
+  if (ping_ && now() >= next_ping()) {
+    ping_.reset();
+    ++counts_.lost_pings;
+    if (++lost_pings_ == kLostPings) {
+      lost_pings_ = 0;
+      throw LinkLost(name() + " does not answer any more: " + why_silent());
+    }
+  } else if (ping_ ||
+             (now() < next_ping() && device_us_ - answered_device_us_ < std::uint64_t{kKeepAlive.count()})) {
+    return;
+  }
+  const std::uint16_t id = next_id();
+  ++counts_.pings;
+  ping_ = Sent{id, now()};
+  send(protocol::Frame(protocol::Ping{}, id).bytes());
+}
+
+bool Client::pump_until(const std::function<bool()>& done, microseconds timeout) {
+  const microseconds deadline = now() + timeout;
+  do {
+    if (done()) return true;
+    keep_alive();
+    step(std::min(deadline, next_ping()));
+  } while (now() < deadline || receiver_.has_more());
+  return done();
+}
+
+void Client::pump(microseconds duration) {
+  pump_until([] { return false; }, duration);
+}
+
+}  // namespace astro::robot

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/protocol/session.hpp"
+#include "host/robot/port/open_transport.hpp"
+#include "host/robot/port/ports.hpp"
+
+namespace astro::robot {
+
+struct FoundPort {
+  Port port;
+  std::optional<protocol::HelloReply> robot;
+  std::string reason;  // one sentence, where there is no robot
+};
+
+/// Says Hello at all ports at once, at most about `timeout` altogether; the answers are in the order of the
+/// ports. A port that another program shares is asked through it; one that it does not share is left alone:
+/// its reason says so.
+std::vector<FoundPort> find_robots(const std::vector<Port>& ports, microseconds timeout,
+                                   unsigned baud = kDefaultBaud);
+
+/// At every candidate port of this machine.
+std::vector<FoundPort> find_robots(microseconds timeout = std::chrono::milliseconds(500));
+
+}  // namespace astro::robot

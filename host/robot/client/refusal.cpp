@@ -1,0 +1,53 @@
+#include "host/robot/client/refusal.hpp"
+
+#include "common/safety/fault.hpp"
+
+namespace astro::robot {
+
+namespace {
+
+std::string addition(protocol::ErrorCode code, std::uint16_t detail) {
+  switch (code) {
+    case protocol::ErrorCode::faulted:
+      return ": " + std::string(name(static_cast<Fault>(detail))) +
+             "; remove its cause, then run 'astrolabe faults --clear'";
+    case protocol::ErrorCode::invalid_parameter:
+    case protocol::ErrorCode::unknown_parameter:
+      return detail == 0 ? "" : ": parameter " + std::to_string(detail);
+    case protocol::ErrorCode::wrong_version:
+      return ": the robot speaks protocol " + std::to_string(detail);
+    default:
+      return detail == 0 ? "" : " (detail " + std::to_string(detail) + ")";
+  }
+}
+
+/// The clause of protocol::meaning up to where it explains the detail to programs.
+std::string clause(protocol::ErrorCode code) {
+  const std::string_view all = protocol::meaning(code);
+  return std::string(all.substr(0, all.find("; detail")));
+}
+
+std::string sentence(std::string_view what, protocol::ErrorCode code, std::uint16_t detail,
+                     std::string_view why) {
+  return "the robot refused " + std::string(what) + " (" + std::string(protocol::name(code)) +
+         "): " + (why.empty() ? clause(code) + addition(code, detail) : std::string(why));
+}
+
+}  // namespace
+
+RobotRefused::RobotRefused(std::string_view what, protocol::ErrorCode code, std::uint16_t detail,
+                           std::string_view why)
+    : Error(sentence(what, code, detail, why)), code_(code), detail_(detail) {}
+
+std::string fault_names(std::uint32_t mask) {
+  std::string names;
+  for (unsigned i = 0; i < 32; ++i) {
+    if (((mask >> i) & 1U) == 0) continue;
+    const auto fault = static_cast<Fault>(i);
+    names += (names.empty() ? "" : ", ") +
+             (name(fault) == "?" ? "fault " + std::to_string(i) : std::string(name(fault)));
+  }
+  return names;
+}
+
+}  // namespace astro::robot

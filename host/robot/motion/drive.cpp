@@ -1,0 +1,273 @@
+#include "host/robot/motion/drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/robot/sharing/port_socket.hpp"
+#include "host/robot/motion/rest.hpp"
+#include "host/robot/client/restore.hpp"
+
+namespace astro::robot {
+
+using namespace protocol;  // NOLINT(google-build-using-namespace): this file is all messages
+using std::chrono::milliseconds;
+
+namespace {
+
+constexpr microseconds kPoll =
+    milliseconds(1000);  // an event must have been lost by then, or the segment is long
+constexpr microseconds kRestPoll = milliseconds(50);
+constexpr microseconds kAsk = milliseconds(50);  // how often the hooks are asked
+constexpr microseconds kTimeToNotice =
+    milliseconds(4000);  // an armed robot waits 2.5 s for its host; one that drives ramps to rest
+constexpr microseconds kVelocityPeriod = milliseconds(50);
+constexpr std::size_t kMostSegments = 0xFFFF;
+
+std::int32_t micro(double value, const char* what) {
+  const double steps = std::round(value * 1e6);
+  if (!(std::abs(steps) <= 0x7FFFFFFF))
+    throw Error(std::string(what) + " of " + std::to_string(value) + " is not possible");
+  return static_cast<std::int32_t>(steps);
+}
+
+std::string in_brackets(std::uint32_t pid, const CommandLine& command) {
+  return pid == 0 ? "" : " (" + in_words(pid, command.view()) + ")";
+}
+
+Fault first_fault(std::uint32_t mask) {
+  for (unsigned i = 1; i < 32; ++i) {
+    if (((mask >> i) & 1U) != 0) return static_cast<Fault>(i);
+  }
+  return Fault::none;
+}
+
+}  // namespace
+
+DriveSession::DriveSession(Client& client, DriveHooks hooks) : client_(client), hooks_(std::move(hooks)) {
+  on_done_ = client_.on<SegmentDone>([this](const SegmentDone& done) {
+    done_ = std::max(done_, done.tag);
+    if (done.outcome == SegmentOutcome::aborted) aborted_ = done.tag;
+    hooks_.segment_done(done);
+  });
+  on_fault_ = client_.on<FaultRaised>([this](const FaultRaised& raised) {
+    if (!fault_) fault_ = raised.fault;
+  });
+  on_boot_ = client_.on<Booted>([this](const Booted&) { booted_ = true; });
+  wait_until_free();
+  arm();
+}
+
+DriveSession::~DriveSession() {
+  if (ended_) return;
+  try {
+    end();
+  } catch (const NotStopped& error) {
+    try {
+      hooks_.notice(error.what());
+    } catch (const std::exception&) {  // nobody can be told
+    }
+  } catch (const std::exception&) {  // a fault, by which the robot has switched its motors off
+  }
+}
+
+void DriveSession::end() {
+  ended_ = true;
+  try {
+    rest_and_disarm();
+  } catch (const std::exception& error) {
+    throw NotStopped("the robot did not confirm that it stopped, and may still be moving: " +
+                     std::string(error.what()));
+  }
+  if (fault_) fail(*fault_);
+}
+
+/// A robot that does not come to rest by its ramp is disarmed all the same, which opens its bridges.
+void DriveSession::rest_and_disarm() {
+  try {
+    stop();
+  } catch (const LinkLost&) {
+    throw;  // it cannot be told to disarm either
+  } catch (const std::exception&) {
+    client_.request(Disarm{});
+    throw;
+  }
+  client_.request(Disarm{});
+}
+
+/// A program that was killed leaves an armed robot behind, which notices it within the command time-out.
+void DriveSession::wait_until_free() {
+  const microseconds deadline = client_.now() + kTimeToNotice;
+  while (true) {
+    const Mode mode = client_.request(GetStatus{}).mode;
+    if (mode == Mode::disarmed || mode == Mode::fault) return;
+    if (client_.now() >= deadline) fail_busy();
+    client_.pump(kRestPoll);
+  }
+}
+
+void DriveSession::arm() {
+  constexpr std::uint32_t kLeftBehind = bit(Fault::command_timeout) | bit(Fault::link_lost);
+  const FaultReport report = client_.request(GetFaults{});
+  if ((report.latched & ~kLeftBehind) != 0) {
+    throw DriveFault("the robot is not armed because of a latched fault: " + fault_names(report.latched) +
+                         "; remove its cause, then run 'astrolabe faults --clear'",
+                     first_fault(report.latched & ~kLeftBehind));
+  }
+  if (report.latched != 0) {
+    wait_for_rest();  // its host may have died a moment ago, and it is still ramping down
+    client_.request(ClearFaults{});
+    hooks_.notice("cleared " + fault_names(report.latched) + ", which an earlier drive left behind");
+  }
+  fault_.reset();
+  command(Arm{});
+}
+
+void DriveSession::run(std::span<const AddSegment> segments) {
+  if (segments.size() > kMostSegments) throw Error("a path of more than 65535 segments is not possible");
+  accepted_ = done_ = aborted_ = 0;
+  for (AddSegment segment : segments) {
+    segment.tag = static_cast<std::uint16_t>(accepted_ + 1);
+    while (!add(segment)) wait_for_progress();
+    accepted_ = segment.tag;
+  }
+  while (done_ < accepted_) wait_for_progress();
+  check();
+}
+
+bool DriveSession::add(const AddSegment& segment) {
+  check();
+  try {
+    command(segment);
+    return true;
+  } catch (const RobotRefused& refused) {
+    if (refused.code() != ErrorCode::queue_full) throw;
+    return false;
+  }
+}
+
+void DriveSession::wait_for_progress() {
+  const std::uint16_t before = done_;
+  const auto something = [&] { return done_ != before || fault_ || booted_ || hooks_.interrupted(); };
+  const microseconds deadline = client_.now() + kPoll;
+  bool happened = false;
+  while (!happened && client_.now() < deadline) happened = client_.pump_until(something, kAsk);
+  check();
+  if (!happened) ask_for_progress();
+}
+
+void DriveSession::ask_for_progress() {
+  const Status status = client_.request(GetStatus{});
+  if (status.latched_faults != 0) fail(first_fault(status.latched_faults));
+  if (status.mode == Mode::disarmed) fail_ended("the drive ended early", "disarmed");
+  const bool idle = status.mode == Mode::idle && status.queued_segments == 0;
+  if (idle && port_users().stopper_pid != 0) fail_ended("the drive ended early", "stopped");
+  if (idle) done_ = accepted_;
+  check();
+}
+
+void DriveSession::check() {
+  if (fault_) fail(*fault_);
+  if (booted_) throw LinkLost("the robot at " + client_.name() + " has restarted: the drive is lost");
+  if (aborted_ != 0 && !stopping_)
+    fail_ended("segment " + std::to_string(aborted_) + " was aborted", "stopped");
+  if (!stopping_ && hooks_.interrupted()) {
+    end();
+    throw Interrupted("stopped: the robot is at rest and disarmed");
+  }
+}
+
+void DriveSession::set_velocity(double v_mps, double omega_radps) {
+  check();
+  command(Velocity{micro(v_mps, "a speed in m/s"), micro(omega_radps, "a yaw rate in rad/s")});
+}
+
+void DriveSession::set_wheel_voltages(double left_V, double right_V) {
+  check();
+  const auto milli = [](double volts) { return static_cast<std::int32_t>(std::lround(1e3 * volts)); };
+  command(WheelVoltage{milli(left_V), milli(right_V)});
+}
+
+void DriveSession::hold_velocity(double v_mps, double omega_radps, microseconds duration) {
+  const std::uint64_t start = client_.request(Ping{}).device_time_us;
+  while (true) {
+    set_velocity(v_mps, omega_radps);
+    const std::uint64_t now = client_.request(Ping{}).device_time_us;
+    const auto left = duration - microseconds(static_cast<std::int64_t>(now - start));
+    if (left <= microseconds::zero()) break;
+    const microseconds period = std::min(kVelocityPeriod, left);
+    const std::uint64_t next = now + static_cast<std::uint64_t>(period.count());
+    client_.pump_until([&] { return client_.device_time_us() >= next || fault_ || booted_; }, period);
+  }
+  stop();
+}
+
+void DriveSession::pump(microseconds duration) {
+  client_.pump_until([&] { return fault_ || booted_ || hooks_.interrupted(); }, duration);
+  check();
+}
+
+void DriveSession::stop() {
+  const Restore stopping(stopping_, true);
+  client_.request(Stop{});
+  wait_for_rest();
+  aborted_ = 0;  // by us
+}
+
+void DriveSession::wait_for_rest() {
+  if (robot::wait_for_rest(client_)) return;
+  throw Error("the robot did not come to rest and was disarmed: its motors are off, but it may roll on");
+}
+
+template <Request M>
+void DriveSession::command(const M& motion) {
+  try {
+    client_.request(motion);
+  } catch (const RobotRefused& refused) {
+    explain(refused);
+    throw;
+  }
+}
+
+void DriveSession::explain(const RobotRefused& refused) {
+  if (refused.code() == ErrorCode::faulted) fail(static_cast<Fault>(refused.detail()));
+  if (refused.code() == ErrorCode::not_armed) fail_ended("the drive ended early", "stopped");
+  if (refused.code() == ErrorCode::busy && port_users().driver_pid != 0) fail_busy();
+}
+
+/// Who else is at this port; nobody where it is not shared.
+PortUsers DriveSession::port_users() {
+  try {
+    return client_.request(GetPortUsers{}, {.timeout = milliseconds(60), .tries = 3});
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+void DriveSession::fail_busy() {
+  const PortUsers users = port_users();
+  throw Error("the robot is driving for another program" +
+              in_brackets(users.driver_pid, users.driver_command) +
+              ": end that one, or 'astrolabe stop' ends its drive");
+}
+
+/// What ends a drive arrives before the reason: of a fault the robot reports the aborted segment first.
+void DriveSession::fail_ended(const std::string& what, const std::string& done_to_robot) {
+  const FaultReport report = client_.request(GetFaults{});
+  if (report.latched != 0) fail(report.first != Fault::none ? report.first : first_fault(report.latched));
+  const PortUsers users = port_users();
+  throw Error(what + ": another program" + in_brackets(users.stopper_pid, users.stopper_command) + " " +
+              done_to_robot + " the robot");
+}
+
+void DriveSession::fail(Fault fault) {
+  std::string cause = "the robot stopped by itself: ";
+  if (fault == Fault::emergency_stop) {
+    const PortUsers users = port_users();
+    cause =
+        "another program" + in_brackets(users.stopper_pid, users.stopper_command) + " stopped the robot: ";
+  }
+  throw DriveFault(
+      cause + std::string(name(fault)) + "; remove its cause, then run 'astrolabe faults --clear'", fault);
+}
+
+}  // namespace astro::robot

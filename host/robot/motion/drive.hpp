@@ -1,0 +1,116 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "common/safety/fault.hpp"
+#include "host/robot/client/client.hpp"
+#include "host/robot/sharing/relay_messages.hpp"
+
+namespace astro::robot {
+
+/// The robot stopped by itself, or is not to be armed because it once did.
+class DriveFault : public Error {
+ public:
+  DriveFault(const std::string& sentence, Fault fault) : Error(sentence), fault_(fault) {}
+  Fault fault() const { return fault_; }
+
+ private:
+  Fault fault_;
+};
+
+/// The robot was told to stop and did not confirm that it is at rest and disarmed: it may still move.
+class NotStopped : public Error {
+ public:
+  using Error::Error;
+};
+
+/// The person in front of the program wanted the robot to stop, and the robot has confirmed that it is at
+/// rest and disarmed; or no robot was driving.
+class Interrupted : public Error {
+ public:
+  using Error::Error;
+};
+
+struct DriveHooks {
+  /// Asked at least every 50 ms while the robot drives; true stops and disarms the robot and ends the drive
+  /// with Interrupted. For the flag that Ctrl-C sets. Not asked while the robot ramps to rest, which ends by
+  /// itself.
+  std::function<bool()> interrupted = [] { return false; };
+  /// Sentences worth showing that are not errors.
+  std::function<void(const std::string&)> notice = [](const std::string&) {};
+  /// Each segment that ended; tags count from 1 in the order of the run.
+  std::function<void(const protocol::SegmentDone&)> segment_done = [](const protocol::SegmentDone&) {};
+};
+
+/// An armed robot. It is disarmed at the end, however that comes: at rest, unless the link is gone. Whoever
+/// is done with it calls end(), which tells if the robot did not confirm it; the destructor, on the way out
+/// with another error, can tell it in a notice only.
+///
+/// Errors  DriveFault: a fault was latched; Interrupted; NotStopped: as Interrupted, but the robot did not
+///         confirm that it stopped; LinkLost, also for a robot that restarted; Error if another program
+///         stopped or disarmed the robot, which it names where it knows it; all that Client::request throws.
+class DriveSession {
+ public:
+  /// Arms. Clears command_timeout and link_lost first, which an earlier program left behind by ending, and
+  /// says so in a notice; any other latched fault is thrown. Throws Error, and leaves the robot alone, if it
+  /// stays armed for another program.
+  explicit DriveSession(Client& client, DriveHooks hooks = {});
+  DriveSession(const DriveSession&) = delete;
+  DriveSession& operator=(const DriveSession&) = delete;
+  ~DriveSession();
+
+  /// Drives the segments one after the other and returns when the last has ended. Keeps the robot's queue as
+  /// full as it goes; numbers them itself. An event that was lost on the way is made up for by asking.
+  void run(std::span<const protocol::AddSegment> segments);
+
+  /// One velocity; holds until the robot's command time-out.
+  void set_velocity(double v_mps, double omega_radps);
+
+  /// Voltages on the motors, open loop, forward positive; they hold until the robot's command time-out. Only
+  /// from rest, or after other voltages.
+  void set_wheel_voltages(double left_V, double right_V);
+
+  /// Holds a velocity for this long on the robot's clock, then ramps to rest.
+  void hold_velocity(double v_mps, double omega_radps, microseconds duration);
+
+  /// As Client::pump, and throws as run() does.
+  void pump(microseconds duration);
+
+  /// Ramps to rest, empties the queue and returns once the robot stands.
+  void stop();
+
+  /// Ramps to rest and disarms; the drive is over, and nothing else may be called. Throws NotStopped if the
+  /// robot does not confirm both, DriveFault if a fault was latched on the way.
+  void end();
+
+ private:
+  void wait_until_free();
+  void arm();
+  bool add(const protocol::AddSegment& segment);
+  void wait_for_progress();
+  void ask_for_progress();
+  void check();
+  void wait_for_rest();
+  void rest_and_disarm();
+  template <protocol::Request M>
+  void command(const M& motion);
+  void explain(const RobotRefused& refused);
+  [[noreturn]] void fail(Fault fault);
+  [[noreturn]] void fail_ended(const std::string& what, const std::string& done_to_robot);
+  [[noreturn]] void fail_busy();
+  PortUsers port_users();
+
+  Client& client_;
+  DriveHooks hooks_;
+  std::optional<Fault> fault_;
+  bool booted_ = false;
+  bool stopping_ = false;
+  bool ended_ = false;                                   // end() has tried, whatever came of it
+  std::uint16_t accepted_ = 0, done_ = 0, aborted_ = 0;  // tags; of the run under way
+  Subscription on_done_, on_fault_, on_boot_;
+};
+
+}  // namespace astro::robot

@@ -1,0 +1,68 @@
+#include "host/robot/motion/rest.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "host/robot/parameters/parameters.hpp"
+
+namespace astro::robot {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr microseconds kPoll = milliseconds(50);
+constexpr microseconds kUsually = milliseconds(5000);
+
+/// From the fastest legal speed to rest, with a second each for the jerk limit and for the wheels to settle
+/// (the robot's own deadline), and one for the link. The robot describes its table itself; a limit that it
+/// does not have counts for nothing.
+microseconds longest_ramp(Client& client) {
+  const RemoteParameters parameters = RemoteParameters::fetch(client);
+  const auto value = [&](std::string_view name) {
+    return parameters.find(name) != nullptr ? std::get<double>(parameters.value(name)) : 0;
+  };
+  const auto seconds = [&](std::string_view speed, std::string_view acceleration) {
+    return value(acceleration) > 0 ? value(speed) / value(acceleration) : 0;
+  };
+  const double ramp_s = std::max(seconds("speed_limit", "acceleration_limit"),
+                                 seconds("yaw_rate_limit", "yaw_acceleration_limit"));
+  return microseconds(static_cast<std::int64_t>(1e6 * (ramp_s + 3)));
+}
+
+bool rests_before(Client& client, microseconds deadline) {
+  while (protocol::gives_power(client.request(protocol::GetStatus{}).mode)) {
+    if (client.now() >= deadline) return false;
+    client.pump(kPoll);
+  }
+  return true;
+}
+
+}  // namespace
+
+bool wait_until_wheels_stand(Client& client) {
+  constexpr std::uint16_t kPeriod_ms = 20;
+  constexpr std::int32_t kStanding_umps = 3'000;  // as the robot itself judges it
+  constexpr microseconds kRollsOn = milliseconds(2000), kNextSample = milliseconds(500);
+  bool came = false, stand = false;
+  const auto watching = client.on<protocol::Telemetry>([&](const protocol::Telemetry& sample) {
+    came = true;
+    stand = std::abs(sample.wheel_speed.left_umps) <= kStanding_umps &&
+            std::abs(sample.wheel_speed.right_umps) <= kStanding_umps;
+  });
+  client.request(protocol::SetTelemetry{kPeriod_ms, protocol::Telemetry::kWheelSpeed});
+  if (!client.pump_until([&] { return came; }, kNextSample))
+    throw LinkLost(client.name() + " does not tell its wheels' speeds");
+  client.pump_until([&] { return stand; }, kRollsOn);
+  client.request(protocol::SetTelemetry{});
+  return stand;
+}
+
+bool wait_for_rest(Client& client) {
+  const microseconds start = client.now();
+  if (rests_before(client, start + kUsually)) return true;
+  if (rests_before(client, start + longest_ramp(client))) return true;
+  client.request(protocol::Disarm{});
+  return false;
+}
+
+}  // namespace astro::robot

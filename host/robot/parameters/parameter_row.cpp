@@ -1,0 +1,93 @@
+#include "host/robot/parameters/parameter_row.hpp"
+
+#include <charconv>
+#include <cmath>
+
+#include "host/base/error.hpp"
+#include "host/base/plain_text.hpp"
+
+namespace astro::robot {
+
+using protocol::ParameterKind;
+
+namespace {
+
+// Powers of ten up to 10^22 are exact doubles: dividing by one rounds once, multiplying by 10^-n would twice.
+double power_of_ten(int exponent) { return std::pow(10.0, exponent); }
+
+double to_steps(const ParameterRow& row, double value) {
+  switch (row.kind) {
+    case ParameterKind::binary_scaled:
+      return std::ldexp(value, -row.exponent);
+    case ParameterKind::decimal_scaled:
+      return row.exponent < 0 ? value * power_of_ten(-row.exponent) : value / power_of_ten(row.exponent);
+    default:
+      return value;
+  }
+}
+
+std::string number(double value) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+RawValue raw_number(const ParameterRow& row, double value) {
+  const std::string what = row.name + " = " + describe(row, value);
+  if (!std::isfinite(value)) throw Error(what + " is not a number");
+  const bool whole = row.kind == ParameterKind::integer || row.kind == ParameterKind::flag;
+  if (whole && value != std::nearbyint(value)) throw Error(what + " is not possible: it takes whole numbers");
+  const double steps = std::round(to_steps(row, value));
+  if (steps < row.minimum || steps > row.maximum) {
+    throw Error(what + " is out of range: " + describe(row, to_real(row, row.minimum)) + " to " +
+                describe(row, to_real(row, row.maximum)));
+  }
+  return {static_cast<std::int32_t>(steps), {}};
+}
+
+RawValue raw_text(const ParameterRow& row, const std::string& text) {
+  const auto size = static_cast<std::int64_t>(text.size());
+  if (!Text<24>::fits(text) || size < row.minimum || size > row.maximum) {
+    throw Error(row.name + " = '" + text + "' has " + std::to_string(size) + " bytes; possible are " +
+                std::to_string(row.minimum) + " to " + std::to_string(row.maximum));
+  }
+  if (plain_text(text) != text || text.find_first_of("\n\t") != std::string::npos)
+    throw Error(row.name + " takes plain text: UTF-8 without control characters");
+  return {0, text};
+}
+
+}  // namespace
+
+double to_real(const ParameterRow& row, std::int32_t raw) {
+  switch (row.kind) {
+    case ParameterKind::binary_scaled:
+      return std::ldexp(raw, row.exponent);
+    case ParameterKind::decimal_scaled:
+      return row.exponent < 0 ? raw / power_of_ten(-row.exponent) : raw * power_of_ten(row.exponent);
+    default:
+      return raw;
+  }
+}
+
+Value to_value(const ParameterRow& row, const RawValue& raw) {
+  if (row.kind == ParameterKind::text) return raw.text;
+  return to_real(row, raw.raw);
+}
+
+RawValue to_raw(const ParameterRow& row, const Value& value) {
+  const auto* text = std::get_if<std::string>(&value);
+  if (row.kind == ParameterKind::text) {
+    if (text == nullptr)
+      throw Error(row.name + " takes a text, not the number " + number(std::get<double>(value)));
+    return raw_text(row, *text);
+  }
+  if (text != nullptr) throw Error(row.name + " takes a number, not the text '" + *text + "'");
+  return raw_number(row, std::get<double>(value));
+}
+
+std::string describe(const ParameterRow& row, const Value& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) return "'" + *text + "'";
+  const bool plain = row.unit.empty() || row.unit == "1";
+  return number(std::get<double>(value)) + (plain ? "" : " " + row.unit);
+}
+
+}  // namespace astro::robot

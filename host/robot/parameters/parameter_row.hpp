@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+
+#include "common/protocol/parameters.hpp"
+
+namespace astro::robot {
+
+/// What people write and read: a number in the row's unit, or a text.
+using Value = std::variant<double, std::string>;
+
+/// A value as the robot holds it. The text is empty unless the row's kind is text, raw is 0 if it is.
+struct RawValue {
+  std::int32_t raw = 0;
+  std::string text;
+  bool operator==(const RawValue&) const = default;
+};
+
+/// One row of the robot's own parameter table, with the values that it holds.
+struct ParameterRow {
+  std::uint16_t id = 0;
+  std::string name, unit, doc;
+  protocol::ParameterKind kind{};
+  int exponent = 0;
+  std::int32_t minimum = 0, maximum = 0;  // raw; of a text: of its length in bytes
+  std::int32_t default_value = 0;         // raw; the table does not carry a text's default
+  RawValue active;                        // in force
+  RawValue staged;                        // what a commit would put in force
+};
+
+/// Exact for raw * 2^exponent; for raw * 10^exponent the double nearest to the decimal number.
+double to_real(const ParameterRow& row, std::int32_t raw);
+
+/// A raw value for people.
+Value to_value(const ParameterRow& row, const RawValue& raw);
+
+/// Nearest raw value. Throws Error, naming parameter, value, unit and limits, for what the row does not
+/// allow: not a number, out of range, a fraction for an integer or flag, a number for a text and the reverse.
+RawValue to_raw(const ParameterRow& row, const Value& value);
+
+/// "0.29 m", "'astro'": shortest digits that give the same double again.
+std::string describe(const ParameterRow& row, const Value& value);
+
+}  // namespace astro::robot

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "host/robot/client/client.hpp"
+#include "host/robot/parameters/parameter_row.hpp"
+
+namespace astro::robot {
+
+/// The robot's parameter table as the robot itself describes it: works for firmware with parameters that this
+/// program has never heard of.
+///
+/// Errors  what Client::request throws; a refused value or set is named by its parameter.
+class RemoteParameters {
+ public:
+  /// Many times those of today. Two requests for each take a second and a half on a slow link.
+  static constexpr std::uint16_t kMostParameters = 512;
+
+  /// Two requests per parameter. The Client must outlive the result. Throws Error if the robot claims more
+  /// than kMostParameters.
+  static RemoteParameters fetch(Client& client);
+
+  const std::vector<ParameterRow>& rows() const { return rows_; }
+  const ParameterRow* find(std::string_view name) const;
+
+  /// Throws Error where the robot has no such parameter.
+  const ParameterRow& row(std::string_view name) const;
+
+  /// In force, in the row's unit or as text.
+  Value value(std::string_view name) const;
+
+  /// Nothing changes on the robot before commit(). Throws as to_raw does, without asking the robot. The first
+  /// call of stage(), commit() or apply() opens the robot's staging area for this session, with the set in
+  /// force. Another session that opens it afterwards takes it away: RobotRefused, staging_lost.
+  void stage(std::string_view name, const Value& value);
+
+  /// All values staged since the area was opened come in force and into flash, or none.
+  void commit();
+  /// Commits all values in force, those that were only applied among them.
+  void save();
+
+  /// All staged values come in force until the robot restarts, or none: also while it drives, if only gains
+  /// differ.
+  void apply();
+
+  /// Open the staging area anew: with the set in force; with the factory defaults.
+  void revert();
+  void defaults();
+
+  /// Reads all values again: one request per parameter.
+  void refresh();
+
+ private:
+  explicit RemoteParameters(Client& client) : client_(&client) {}
+  void read_value(ParameterRow& row);
+  template <class Request>
+  void put_in_force(const Request& request);
+  ParameterRow& mutable_row(std::string_view name);
+
+  Client* client_;
+  std::vector<ParameterRow> rows_;
+  bool opened_ = false;
+};
+
+}  // namespace astro::robot

@@ -1,0 +1,107 @@
+#include "host/robot/parameters/upload.hpp"
+
+#include <optional>
+#include <type_traits>
+
+namespace astro::robot {
+
+namespace {
+
+class Upload {
+ public:
+  Upload(Client& client, const std::map<std::string, Value>& values, microseconds patience)
+      : client_(client), values_(values), patience_(patience) {}
+
+  UploadReport run() {
+    RemoteParameters parameters = through_drops([&] { return RemoteParameters::fetch(client_); });
+    const std::vector<ParameterRow> before = parameters.rows();
+    for (const auto& [name, value] : values_) to_raw(parameters.row(name), value);
+    change(parameters);
+    through_drops([&] { parameters.refresh(); });
+    return compare(before, parameters.rows());
+  }
+
+ private:
+  Client& client_;
+  const std::map<std::string, Value>& values_;
+  microseconds patience_;
+  int drops_ = 0;
+
+  /// For what may be done twice: begins again after each drop.
+  template <class Work>
+  std::invoke_result_t<Work> through_drops(Work work) {
+    while (true) {
+      try {
+        return work();
+      } catch (const LinkLost&) {
+        find_again();
+      }
+    }
+  }
+
+  void find_again() {
+    constexpr int kDrops = 5;
+    if (++drops_ > kDrops)
+      throw LinkLost(unknown("the link to " + client_.name() + " drops again and again"));
+    try {
+      client_.reconnect(patience_);
+    } catch (const LinkLost& lost) {
+      throw LinkLost(unknown(lost.what()));
+    }
+  }
+
+  static std::string unknown(const std::string& why) {
+    return why + "; the robot holds the old set or the new one, whole: upload again once it answers";
+  }
+
+  void change(RemoteParameters& parameters) {
+    try {
+      parameters.revert();
+      for (const auto& [name, value] : values_) parameters.stage(name, value);
+      parameters.commit();
+    } catch (const LinkLost&) {
+      find_again();
+    } catch (const RobotRefused& refused) {
+      // Opening the staging area anew would take it from the session that has it now.
+      if (refused.code() != protocol::ErrorCode::staging_lost) through_drops([&] { parameters.revert(); });
+      throw;
+    }
+  }
+
+  UploadReport compare(const std::vector<ParameterRow>& before,
+                       const std::vector<ParameterRow>& after) const {
+    UploadReport report;
+    report.link_dropped = drops_ > 0;
+    bool is_old = true, is_new = true;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const auto wanted = values_.find(before[i].name);
+      const RawValue fresh = wanted == values_.end() ? before[i].active : to_raw(before[i], wanted->second);
+      is_old = is_old && after[i].active == before[i].active;
+      is_new = is_new && after[i].active == fresh;
+      if (wanted == values_.end()) continue;
+      report.values.push_back({before[i].name, before[i].unit, to_value(before[i], before[i].active),
+                               to_value(before[i], fresh), to_value(before[i], after[i].active)});
+    }
+    if (!is_old && !is_new) {
+      throw Error("the robot at " + client_.name() +
+                  " holds neither the old nor the new parameters: did another " +
+                  "program change them? 'astrolabe params list' shows what it holds");
+    }
+    report.active = is_new ? ActiveSet::new_set : ActiveSet::old_set;
+    return report;
+  }
+};
+
+}  // namespace
+
+std::string UploadReport::sentence() const {
+  const std::string drop = link_dropped ? "the link dropped on the way; " : "";
+  return drop + (active == ActiveSet::new_set ? "the robot holds the new set, read back and compared"
+                                              : "the robot holds the old set, unchanged: upload again");
+}
+
+UploadReport upload(Client& client, const std::map<std::string, Value>& values, microseconds patience) {
+  return Upload(client, values, patience).run();
+}
+
+}  // namespace astro::robot

@@ -1,0 +1,178 @@
+#include "host/robot/port/open_transport.hpp"
+
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/error.hpp>
+#include <boost/asio/ip/address.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/local/stream_protocol.hpp>
+#include <boost/asio/posix/stream_descriptor.hpp>
+#include <charconv>
+#include <thread>
+
+#include "host/robot/port/serial_port.hpp"
+#include "host/robot/port/stream_transport.hpp"
+
+namespace astro::robot {
+
+namespace asio = boost::asio;
+using boost::system::error_code;
+using std::chrono::milliseconds;
+
+namespace {
+constexpr microseconds kWriteTimeout = milliseconds(1000);
+constexpr microseconds kReopenPause = milliseconds(50);
+}  // namespace
+
+template <class Stream>
+StreamTransport<Stream>::StreamTransport(std::string name, Opener open, Sentences sentences)
+    : name_(std::move(name)),
+      open_(std::move(open)),
+      sentences_(std::move(sentences)),
+      stream_(open_(context_)) {}
+
+template <class Stream>
+microseconds StreamTransport<Stream>::now() const {
+  return std::chrono::duration_cast<microseconds>(std::chrono::steady_clock::now().time_since_epoch());
+}
+
+template <class Stream>
+Stream& StreamTransport<Stream>::stream() {
+  if (!stream_) throw LinkLost("lost " + name_ + ": it has to be opened again");
+  return *stream_;
+}
+
+template <class Stream>
+void StreamTransport<Stream>::lose(const std::string& why) {
+  stream_.reset();
+  throw LinkLost("lost " + name_ + ": " + why);
+}
+
+template <class Stream>
+template <class Wait>
+bool StreamTransport<Stream>::wait_for(Wait what, microseconds timeout) {
+  bool ready = false;
+  stream().async_wait(what, [&](const error_code& error) { ready = !error; });
+  context_.restart();
+  context_.run_for(timeout);
+  if (!ready) {
+    stream().cancel();
+    context_.restart();
+    context_.run();
+  }
+  return ready;
+}
+
+template <class Stream>
+void StreamTransport<Stream>::write(std::span<const std::uint8_t> bytes) {
+  while (!bytes.empty()) {
+    error_code error;
+    const std::size_t written = stream().write_some(asio::buffer(bytes.data(), bytes.size()), error);
+    bytes = bytes.subspan(written);
+    if (error == asio::error::would_block) {
+      if (!wait_for(Stream::wait_write, kWriteTimeout)) lose("it takes no more bytes");
+    } else if (error) {
+      lose(sentences_.lost());
+    }
+  }
+}
+
+template <class Stream>
+std::size_t StreamTransport<Stream>::read(std::span<std::uint8_t> into, microseconds timeout) {
+  for (bool waited = timeout <= microseconds::zero();; waited = true) {
+    error_code error;
+    const std::size_t size = stream().read_some(asio::buffer(into.data(), into.size()), error);
+    if (!error) return size;
+    if (error != asio::error::would_block) lose(sentences_.lost());
+    if (waited || !wait_for(Stream::wait_read, timeout)) return 0;
+  }
+}
+
+template <class Stream>
+void StreamTransport<Stream>::pause(microseconds duration) {
+  if (duration > microseconds::zero()) std::this_thread::sleep_for(duration);
+}
+
+template <class Stream>
+void StreamTransport<Stream>::reopen(microseconds timeout) {
+  const microseconds deadline = now() + timeout;
+  stream_.reset();
+  // A device that comes and goes at once must not keep the processor busy.
+  if (reopened_) pause(std::min(*reopened_ + kReopenPause - now(), timeout));
+  while (true) {
+    try {
+      stream_.emplace(open_(context_));
+      reopened_ = now();
+      return;
+    } catch (const Error&) {
+      if (now() >= deadline) throw;
+    }
+    pause(std::min(kReopenPause, deadline - now()));
+  }
+}
+
+template class StreamTransport<asio::local::stream_protocol::socket>;  // shared_port.cpp opens these
+
+namespace {
+
+asio::ip::tcp::endpoint parse_tcp(const std::string& address) {
+  const Error bad("'" + address + "' is not an address: write tcp:HOST:PORT, for example tcp:localhost:5555");
+  const std::string rest = address.substr(4);
+  const auto colon = rest.rfind(':');
+  if (colon == std::string::npos) throw bad;
+  std::string host = rest.substr(0, colon);
+  if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
+  std::uint16_t port = 0;
+  const char* end = rest.data() + rest.size();
+  const auto parsed = std::from_chars(rest.data() + colon + 1, end, port);
+  if (parsed.ec != std::errc() || parsed.ptr != end || port == 0 || host.empty()) throw bad;
+  if (host == "localhost") host = "127.0.0.1";
+  error_code no_number;
+  const auto ip = asio::ip::make_address(host, no_number);
+  if (no_number || !ip.is_loopback()) {
+    throw Error(address +
+                " is not on this machine: a robot's link has no protection, so only localhost is allowed");
+  }
+  return {ip, port};
+}
+
+asio::ip::tcp::socket connect_tcp(asio::io_context& context, const std::string& address,
+                                  const asio::ip::tcp::endpoint& endpoint) {
+  asio::ip::tcp::socket socket(context);
+  error_code error;
+  socket.connect(endpoint, error);
+  if (error)
+    throw Error("nobody listens at " + address + " (" + error.message() + "): is the simulator running?");
+  socket.set_option(asio::ip::tcp::no_delay(true));
+  socket.non_blocking(true);
+  return socket;
+}
+
+}  // namespace
+
+int open_line(const std::string& address, unsigned baud) {
+  if (!address.starts_with("tcp:")) return open_serial_port(address, baud);
+  asio::io_context context;
+  return connect_tcp(context, address, parse_tcp(address)).release();
+}
+
+std::string tcp_key(const std::string& address) {
+  const auto endpoint = parse_tcp(address);
+  return "port-tcp-" + endpoint.address().to_string() + "-" + std::to_string(endpoint.port());
+}
+
+std::unique_ptr<Transport> open_transport(const std::string& address, unsigned baud) {
+  if (address.empty()) throw Error("no port is named: 'astrolabe ports' lists the robots that are here");
+  if (address.starts_with("tcp:")) {
+    const auto endpoint = parse_tcp(address);
+    return std::make_unique<StreamTransport<asio::ip::tcp::socket>>(
+        address, [=](asio::io_context& context) { return connect_tcp(context, address, endpoint); });
+  }
+  using StreamDescriptor = asio::posix::stream_descriptor;
+  return std::make_unique<StreamTransport<StreamDescriptor>>(address, [=](asio::io_context& context) {
+    StreamDescriptor descriptor(context, open_serial_port(address, baud));
+    descriptor.non_blocking(true);
+    return descriptor;
+  });
+}
+
+}  // namespace astro::robot

@@ -1,0 +1,81 @@
+#include "host/robot/port/ports.hpp"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+#include "host/base/error.hpp"
+#include "host/robot/port/serial_port.hpp"
+
+namespace astro::robot {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<fs::path> entries(const fs::path& folder) {
+  std::vector<fs::path> paths;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) paths.push_back(entry.path());
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+bool is_mine(const fs::path& folder) {
+  struct stat about {};
+  return ::lstat(folder.c_str(), &about) == 0 && S_ISDIR(about.st_mode) && about.st_uid == ::geteuid();
+}
+
+bool leads_to_a_terminal(const fs::path& device) {
+  struct stat about {};
+  return ::stat(device.c_str(), &about) == 0 && S_ISCHR(about.st_mode) && terminal_user(about.st_rdev);
+}
+
+void add(std::vector<Port>& ports, const fs::path& path, bool simulator) {
+  std::error_code dead;
+  const fs::path device = fs::canonical(path, dead);
+  if (dead || (simulator && leads_to_a_terminal(device))) return;
+  const auto same = [&](const Port& port) { return port.device == device; };
+  if (std::none_of(ports.begin(), ports.end(), same)) ports.push_back({path, device, simulator});
+}
+
+}  // namespace
+
+fs::path runtime_folder() {
+  const char* folder = std::getenv("XDG_RUNTIME_DIR");
+  const fs::path base = folder != nullptr && *folder != '\0' ? folder : "/tmp";
+  return base / ("astrolabe-" + std::to_string(::getuid()));
+}
+
+fs::path make_runtime_folder() {
+  const fs::path folder = runtime_folder();
+  if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
+    throw Error("the folder '" + folder.string() + "' cannot be made: " + std::strerror(errno) +
+                "; set XDG_RUNTIME_DIR to a folder of yours");
+  struct stat about {};
+  if (::lstat(folder.c_str(), &about) != 0 || !S_ISDIR(about.st_mode) || about.st_uid != ::geteuid())
+    throw Error("'" + folder.string() + "' is not a folder of yours: set XDG_RUNTIME_DIR to one");
+  if ((about.st_mode & 077) != 0 && ::chmod(folder.c_str(), 0700) != 0)
+    throw Error("'" + folder.string() + "' is open to others and cannot be closed: set XDG_RUNTIME_DIR");
+  return folder;
+}
+
+std::vector<Port> candidate_ports(const fs::path& devices, const fs::path& simulators) {
+  std::vector<Port> ports;
+  for (const auto& path : entries(devices / "serial" / "by-id")) add(ports, path, false);
+  for (const auto& path : entries(devices)) {
+    const std::string name = path.filename();
+    if (name.starts_with("ttyACM") || name.starts_with("ttyUSB")) add(ports, path, false);
+  }
+  if (!is_mine(simulators)) return ports;
+  for (const auto& path : entries(simulators)) {
+    if (path.extension() == ".pty") add(ports, path, true);
+  }
+  return ports;
+}
+
+}  // namespace astro::robot

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace astro::robot {
+
+/// Something that a robot may be behind.
+struct Port {
+  std::string address;     // what open_transport takes; a name that survives re-plugging where there is one
+  std::string device;      // what it leads to: /dev/ttyACM0, /dev/pts/3
+  bool simulator = false;  // a link in runtime_folder()
+};
+
+/// Where simulators of this user put NAME.pty, a symlink to their pty: $XDG_RUNTIME_DIR/astrolabe-UID, or
+/// below /tmp where that variable is not set. May not exist.
+std::filesystem::path runtime_folder();
+
+/// runtime_folder(), made if need be, for this user alone. Throws Error if it cannot be made or belongs to
+/// somebody else.
+std::filesystem::path make_runtime_folder();
+
+/// /dev/serial/by-id/*, /dev/ttyACM*, /dev/ttyUSB*, each device once, then simulators; sorted. Links that
+/// lead nowhere are left out, and so is a runtime folder that somebody else owns. Opens nothing.
+std::vector<Port> candidate_ports(const std::filesystem::path& devices = "/dev",
+                                  const std::filesystem::path& simulators = runtime_folder());
+
+}  // namespace astro::robot

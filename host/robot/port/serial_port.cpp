@@ -1,0 +1,104 @@
+#include "host/robot/port/serial_port.hpp"
+
+// termios2, for any baud, is the kernel's; glibc's <termios.h> cannot be included beside it.
+#include <asm/ioctls.h>
+#include <asm/termbits.h>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "host/base/error.hpp"
+#include "host/robot/port/descriptor.hpp"
+#include "host/robot/port/ports.hpp"
+
+namespace astro::robot {
+
+namespace {
+
+std::string ports_here() {
+  std::string list;
+  for (const Port& port : candidate_ports()) list += (list.empty() ? "" : ", ") + port.address;
+  return list.empty() ? "no serial port and no simulator is here" : "here are " + list;
+}
+
+std::string why_not_open(const std::string& path, int error) {
+  switch (error) {
+    case ENOENT:
+    case ENOTDIR:
+      return "there is no port " + path + "; " + ports_here();
+    case EACCES:
+    case EPERM:
+      return "no permission to open " + path +
+             ": add yourself to its group (sudo usermod -aG dialout $USER), then log in again";
+    case EBUSY:
+      return path + " is in use by another program, which shares it with nobody: end that one first";
+    case ELOOP:
+      return path + " is a link that leads back to itself: name the port, " + ports_here();
+    case EISDIR:
+      return path + " is a folder, not a serial port";
+    case EIO:
+    case ENXIO:
+    case ENODEV:
+      return path + " has nothing behind it: the device was unplugged or its simulator has ended";
+    default:
+      return "cannot open " + path + ": " + std::strerror(error);
+  }
+}
+
+// 8N1, no flow control, every byte as it is; a read with nothing there must not look like a hang-up: VMIN 1.
+void make_raw(termios2& mode, unsigned baud) {
+  mode.c_iflag = IGNBRK | IGNPAR;
+  mode.c_oflag = 0;
+  mode.c_lflag = 0;
+  mode.c_cflag = CS8 | CREAD | CLOCAL | BOTHER | (mode.c_cflag & HUPCL);
+  mode.c_ispeed = 0;  // as the other way
+  mode.c_ospeed = baud;
+  mode.c_cc[VMIN] = 1;
+  mode.c_cc[VTIME] = 0;
+}
+
+}  // namespace
+
+std::string port_key(const struct stat& about) {
+  // A container numbers its ptys anew, in a file system of its own.
+  constexpr unsigned kFirstPty = 136, kLastPty = 143;
+  const unsigned kind = major(about.st_rdev);
+  const bool is_pty = kind >= kFirstPty && kind <= kLastPty;
+  return (is_pty ? "pty-" + std::to_string(about.st_dev) : "port") + "-" + std::to_string(kind) + "-" +
+         std::to_string(minor(about.st_rdev));
+}
+
+std::string port_key_of(int descriptor) {
+  struct stat about {};
+  ::fstat(descriptor, &about);
+  return port_key(about);
+}
+
+int open_serial_port(const std::string& path, unsigned baud) {
+  Descriptor port(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  if (port.get() < 0) throw Error(why_not_open(path, errno));
+  termios2 mode{};
+  if (::ioctl(port.get(), TCGETS2, &mode) != 0) throw Error(path + " is not a serial port");
+  struct stat about {};
+  if (::fstat(port.get(), &about) == 0) {
+    if (const auto user = terminal_user(about.st_rdev)) {
+      throw Error(path + " is not a robot but the terminal that '" + *user + "' runs in");
+    }
+  }
+  if (::flock(port.get(), LOCK_EX | LOCK_NB) != 0)
+    throw PortInUse(why_not_open(path, EBUSY), port_key(about));
+  make_raw(mode, baud);
+  if (::ioctl(port.get(), TCSETS2, &mode) != 0) {
+    if (errno == EIO) throw Error(why_not_open(path, EIO));
+    throw Error(path + " cannot be set to " + std::to_string(baud) + " baud: " + std::strerror(errno));
+  }
+  return port.release();
+}
+
+}  // namespace astro::robot

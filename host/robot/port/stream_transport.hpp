@@ -1,0 +1,51 @@
+#pragma once
+
+#include <boost/asio/io_context.hpp>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "host/robot/port/transport.hpp"
+
+/// Transport over an Asio stream (posix::stream_descriptor, ip::tcp::socket). Internal to host/link.
+namespace astro::robot {
+
+template <class Stream>
+class StreamTransport final : public Transport {
+ public:
+  /// Opens the address anew each time; throws Error where it cannot.
+  using Opener = std::function<Stream(boost::asio::io_context&)>;
+
+  /// What people are told, where it depends on what is at the other end.
+  struct Sentences {
+    std::function<std::string()> lost = [] { return std::string("it was unplugged, switched off or ended"); };
+    std::function<std::string()> silent = [] { return std::string(); };
+  };
+
+  StreamTransport(std::string name, Opener open) : StreamTransport(std::move(name), std::move(open), {}) {}
+  StreamTransport(std::string name, Opener open, Sentences sentences);
+
+  void write(std::span<const std::uint8_t> bytes) override;
+  std::size_t read(std::span<std::uint8_t> into, microseconds timeout) override;
+  microseconds now() const override;
+  void reopen(microseconds timeout) override;
+  std::string why_silent() override { return sentences_.silent(); }
+  const std::string& name() const override { return name_; }
+
+ private:
+  template <class Wait>
+  bool wait_for(Wait what, microseconds timeout);
+  Stream& stream();
+  [[noreturn]] void lose(const std::string& why);
+  void pause(microseconds duration);
+
+  std::string name_;
+  Opener open_;
+  Sentences sentences_;
+  boost::asio::io_context context_;  // before stream_: outlives it
+  std::optional<Stream> stream_;     // nothing once the other end is gone
+  std::optional<microseconds> reopened_;
+};
+
+}  // namespace astro::robot

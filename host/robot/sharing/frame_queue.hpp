@@ -1,0 +1,83 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <vector>
+
+namespace astro::robot {
+
+/// Frames that wait to be written to a file descriptor that takes as many bytes as it likes. Only whole
+/// frames enter and leave: one that has begun is always finished.
+class FrameQueue {
+ public:
+  /// `withdrawable`: withdraw() drops it as long as it has not begun.
+  void push(std::span<const std::uint8_t> frame, bool withdrawable = false) {
+    insert(frames_.end(), frame, withdrawable);
+  }
+
+  /// Before all frames that have not begun.
+  void push_first(std::span<const std::uint8_t> frame) {
+    insert(begun_ == 0 ? frames_.begin() : frames_.begin() + 1, frame, false);
+  }
+
+  /// Drops all frames that have not begun.
+  void drop_waiting() {
+    drop_if([](const Frame&) { return true; });
+  }
+  /// Those of them that may be withdrawn.
+  void withdraw() {
+    drop_if([](const Frame& frame) { return frame.withdrawable; });
+  }
+
+  /// What is left of the first frame; empty if there is none.
+  std::span<const std::uint8_t> front() const {
+    return frames_.empty() ? std::span<const std::uint8_t>()
+                           : std::span(frames_.front().bytes).subspan(begun_);
+  }
+
+  /// So many bytes of front() have been written.
+  void taken(std::size_t count) {
+    begun_ += count;
+    bytes_ -= count;
+    if (!frames_.empty() && begun_ == frames_.front().bytes.size()) {
+      frames_.pop_front();
+      begun_ = 0;
+    }
+  }
+
+  bool empty() const { return frames_.empty(); }
+  std::size_t frames() const { return frames_.size(); }
+  /// Not yet taken.
+  std::size_t bytes() const { return bytes_; }
+
+ private:
+  struct Frame {
+    std::vector<std::uint8_t> bytes;
+    bool withdrawable;
+  };
+  using Frames = std::deque<Frame>;
+
+  void insert(Frames::const_iterator at, std::span<const std::uint8_t> frame, bool withdrawable) {
+    frames_.insert(at, Frame{{frame.begin(), frame.end()}, withdrawable});
+    bytes_ += frame.size();
+  }
+  template <class Which>
+  void drop_if(const Which& which) {
+    const auto waiting = frames_.begin() + (begun_ == 0 ? 0 : 1);
+    const auto left = std::remove_if(waiting, frames_.end(), [&](const Frame& frame) {
+      if (!which(frame)) return false;
+      bytes_ -= frame.bytes.size();
+      return true;
+    });
+    frames_.erase(left, frames_.end());
+  }
+
+  Frames frames_;
+  std::size_t begun_ = 0;  // bytes of the first frame that have been taken
+  std::size_t bytes_ = 0;
+};
+
+}  // namespace astro::robot

@@ -1,0 +1,128 @@
+#include "host/robot/sharing/shared_port.hpp"
+
+#include <boost/asio/local/stream_protocol.hpp>
+#include <chrono>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "host/robot/sharing/port_socket.hpp"
+#include "host/robot/sharing/relay_server.hpp"
+#include "host/robot/port/serial_port.hpp"
+#include "host/robot/port/stream_transport.hpp"
+
+namespace astro::robot {
+
+namespace {
+
+using boost::asio::local::stream_protocol;
+using std::chrono::milliseconds;
+
+constexpr microseconds kGreeting = milliseconds(1000);  // an idle holder greets within a millisecond
+// Between a holder's lock and its socket, and between its end and the lock's.
+constexpr microseconds kStart = milliseconds(1000);
+constexpr milliseconds kPause(5);
+
+/// The way of one program to a port: through its own relay or through that of another program.
+class SharedPort {
+ public:
+  SharedPort(std::string address, unsigned baud, Notice notice)
+      : address_(std::move(address)), baud_(baud), notice_(std::move(notice)) {}
+
+  Descriptor open() {
+    if (server_ && !server_->lost() && server_->has_guests()) return server_->connect_self();
+    server_.reset();
+    holder_.reset();
+    const auto deadline = std::chrono::steady_clock::now() + kStart;
+    while (true) {
+      try {
+        return hold();
+      } catch (const PortInUse& used) {
+        if (Descriptor connection = join(used.key())) return connection;
+        if (std::chrono::steady_clock::now() >= deadline) throw;
+      }
+      std::this_thread::sleep_for(kPause);
+    }
+  }
+
+  std::string why_lost() const {
+    if (server_) return server_->why_ended();
+    return "the program that held the port" +
+           (holder_ ? " (" + in_words(holder_->pid, holder_->command) + ")" : std::string()) + " has ended";
+  }
+
+  std::string why_silent() const {
+    if (server_ || key_.empty()) return {};
+    const Served probe = connect_to(key_, kGreeting / 2);
+    return probe.busy ? does_not_answer(*probe.busy) : std::string();
+  }
+
+ private:
+  bool is_tcp() const { return address_.starts_with("tcp:"); }
+
+  Descriptor hold() {
+    SharedLine shared;
+    if (is_tcp()) {
+      shared.listener = hold_tcp();
+      shared.line.reset(open_line(address_, baud_));
+    } else {
+      shared.line.reset(open_line(address_, baud_));
+      try {
+        shared.listener = listen_at(port_key_of(shared.line.get()));
+      } catch (const Error& error) {  // the port is this program's all the same
+        notice_(address_ + ": no other program can stop or watch this robot meanwhile; " + error.what());
+      }
+    }
+    server_ = std::make_unique<RelayServer>(std::move(shared));
+    return server_->connect_self();
+  }
+
+  /// A TCP address has no file to lock; the name of its socket stands for it.
+  Descriptor hold_tcp() const {
+    const std::string key = tcp_key(address_);
+    try {
+      return listen_at(key);
+    } catch (const Error& error) {
+      throw PortInUse(address_ +
+                          " is in use by another program, which shares it with nobody: end that one first (" +
+                          error.what() + ")",
+                      key);
+    }
+  }
+
+  /// Nothing if the holder does not share the port, or has just ended.
+  Descriptor join(const std::string& key) {
+    Served served = connect_to(key, kGreeting);
+    if (served.busy) throw Error(address_ + ": " + does_not_answer(*served.busy));
+    if (served.connection) {
+      key_ = key;
+      holder_ = peer_of(served.connection);
+    }
+    return std::move(served.connection);
+  }
+
+  std::string address_;
+  unsigned baud_;
+  Notice notice_;
+  std::unique_ptr<RelayServer> server_;  // of a program that holds the port
+  std::string key_;                      // of a program that another one serves
+  std::optional<PortUser> holder_;
+};
+
+}  // namespace
+
+std::unique_ptr<Transport> open_shared_port(const std::string& address, unsigned baud, Notice notice) {
+  if (address.empty()) return open_transport(address, baud);  // which says so
+  using Stream = StreamTransport<stream_protocol::socket>;
+  const auto port = std::make_shared<SharedPort>(address, baud, std::move(notice));
+  return std::make_unique<Stream>(
+      address,
+      [port](boost::asio::io_context& context) {
+        stream_protocol::socket socket(context, stream_protocol(), port->open().release());
+        socket.non_blocking(true);
+        return socket;
+      },
+      Stream::Sentences{[port] { return port->why_lost(); }, [port] { return port->why_silent(); }});
+}
+
+}  // namespace astro::robot

@@ -1,0 +1,180 @@
+#include "host/simulation/program/served_robot_options.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "host/base/error.hpp"
+#include "host/console/console.hpp"
+#include "host/console/interrupt.hpp"
+#include "host/console/options.hpp"
+#include "host/simulation/program/runtime_link.hpp"
+#include "host/robot/port/ports.hpp"
+#include "host/simulation/server/pty.hpp"
+
+namespace astro::simulation {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check_folder(const char* option, const fs::path& path) {
+  if (path.empty()) return;
+  const fs::path folder = fs::absolute(path).parent_path();
+  if (!fs::is_directory(folder))
+    throw Error(fmt::format("{}: there is no folder '{}' for '{}'", option, folder.string(), path.string()));
+}
+
+constexpr std::size_t kSectorBytes = 4096;
+
+void check_flash(const fs::path& path, std::size_t bytes) {
+  if (path.empty()) return;
+  check_folder("--flash", path);
+  if (!fs::exists(path)) return;
+  if (!fs::is_regular_file(path)) throw Error("--flash: '" + path.string() + "' is not a file");
+  // Shorter by whole sectors: of an earlier version, which had fewer.
+  if (const auto size = fs::file_size(path); size == 0 || size > bytes || size % kSectorBytes != 0)
+    throw Error(fmt::format("--flash: '{}' has {} bytes and a robot's flash {}: it is another file",
+                            path.string(), fs::file_size(path), bytes));
+}
+
+// The pty of a simulator that was killed has gone, and its number may be given to ours in a moment: then its
+// link would look alive.
+void remove_dead_link(const fs::path& link) {
+  std::error_code error;
+  if (fs::is_symlink(link, error) && !fs::exists(link, error)) fs::remove(link, error);
+}
+
+// Only what is to be put there needs the runtime folder; for a simulator elsewhere it is a courtesy.
+std::optional<RuntimeLink> make_it_found(const fs::path& pty) {
+  try {
+    return std::optional<RuntimeLink>(std::in_place, robot::make_runtime_folder(), pty);
+  } catch (const Error& error) {
+    console::say(fmt::format("'astrolabe ports' will not find this robot: {}", error.what()));
+    return std::nullopt;
+  }
+}
+
+struct WiringFault {
+  const char* name;
+  bool sim::Wiring::*flag;
+};
+
+constexpr WiringFault kWiringFaults[] = {
+    {"left-motor-reversed", &sim::Wiring::left_motor_reversed},
+    {"right-motor-reversed", &sim::Wiring::right_motor_reversed},
+    {"motors-swapped", &sim::Wiring::motors_swapped},
+    {"left-motor-dead", &sim::Wiring::left_motor_dead},
+    {"right-motor-dead", &sim::Wiring::right_motor_dead},
+    {"left-encoder-reversed", &sim::Wiring::left_encoder_reversed},
+    {"right-encoder-reversed", &sim::Wiring::right_encoder_reversed},
+    {"encoders-swapped", &sim::Wiring::encoders_swapped},
+    {"left-encoder-dead", &sim::Wiring::left_encoder_dead},
+    {"right-encoder-dead", &sim::Wiring::right_encoder_dead},
+    {"left-channel-lost", &sim::Wiring::left_channel_lost},
+    {"right-channel-lost", &sim::Wiring::right_channel_lost},
+};
+
+std::string wiring_fault_names() {
+  std::string names;
+  for (const WiringFault& fault : kWiringFaults)
+    names += (names.empty() ? "" : ", ") + std::string(fault.name);
+  return names;
+}
+
+// Empty where it is known; CLI11 shows what is returned.
+std::string wire_wrongly(sim::Wiring& wiring, const std::string& name) {
+  for (const WiringFault& fault : kWiringFaults) {
+    if (name != fault.name) continue;
+    wiring.*fault.flag = true;
+    return {};
+  }
+  return fmt::format("'{}' is no fault of the wiring; there are {}", name, wiring_fault_names());
+}
+
+void add_build_options(console::Command command, sim::Config& robot) {
+  command
+      .add_option_function(
+          "--wiring", [](const std::vector<std::string>&) {},
+          "built with this fault: " + wiring_fault_names())
+      .type_name("FAULT,...")
+      .delimiter(',')
+      .check([&robot](const std::string& name) { return wire_wrongly(robot.wiring, name); });
+  command.add_option("--counts-per-rev", robot.counts_per_motor_rev, "that the encoders really have")
+      .type_name("N")
+      .capture_default_str()
+      .check(console::between(1, 65536, "counts"));
+  command
+      .add_option("--motor-mismatch", robot.motor_mismatch,
+                  "constant of the right motor over that of the left one, minus one")
+      .type_name("RATIO")
+      .capture_default_str()
+      .check(console::between(-0.5, 0.5, ""));
+  command.add_flag("--on-stand", robot.on_stand, "with the wheels off the ground");
+}
+
+void add_robot_options(console::Command command, sim::Config& robot) {
+  command.add_option("--true-wheelbase", robot.true_wheelbase_m, "wheelbase that the robot really has, in m")
+      .type_name("M")
+      .capture_default_str()
+      .check(console::between(0.05, 2, "m"));
+  command.add_option("--true-ed", robot.true_ed, "true ratio of the wheel diameters, right over left")
+      .type_name("RATIO")
+      .capture_default_str()
+      .check(console::between(0.5, 2, ""));
+  command.add_option("--scale", robot.scale, "true mean wheel diameter over the nominal one")
+      .type_name("RATIO")
+      .capture_default_str()
+      .check(console::between(0.5, 2, ""));
+  command.add_option("--slip", robot.slip_m, "wheel slip: variance of the travel per metre, in m; 0: none")
+      .type_name("M")
+      .capture_default_str()
+      .check(console::between(0, 0.01, "m"));
+  command.add_option("--seed", robot.seed, "seed of all noise; also decides the robot's unique id")
+      .type_name("N")
+      .capture_default_str()
+      .check(console::whole(0, std::numeric_limits<std::uint64_t>::max()));
+}
+
+}  // namespace
+
+// A robot that is off as the one of the reference measurements was.
+sim::Config reference_robot() {
+  sim::Config robot;
+  robot.true_ed = 1.00416;
+  robot.true_wheelbase_m = 0.99521 * robot.nominal_wheelbase_m;
+  return robot;
+}
+
+void prepare(SimOptions& options, std::size_t flash_bytes) {
+  if (options.server.pty.empty()) options.server.pty = robot::make_runtime_folder() / "astro.pty";
+  simulation::sweep_dead_links(robot::runtime_folder());
+  check_folder("--pty", options.server.pty);
+  check_folder("--usb-pty", options.server.second_pty);
+  check_flash(options.server.flash, flash_bytes);
+  remove_dead_link(options.server.pty);
+  remove_dead_link(options.server.second_pty);
+}
+
+void serve(simulation::Server& server, const std::string& what) {
+  const fs::path& pty = server.config().pty;
+  const auto link = make_it_found(pty);
+  console::say(fmt::format("{} is at {}", what, pty.string()));
+  console::say(fmt::format("next: astrolabe info --port {}   (Ctrl-C here ends it)", pty.string()));
+  server.run(console::interrupted);
+}
+
+void add_sim_options(console::Command command, SimOptions& options) {
+  command.add_option("--pty", options.server.pty, "path to put the robot at; default: where 'ports' looks")
+      .type_name("PATH");
+  add_robot_options(command, options.robot);
+  add_build_options(command, options.robot);
+  command.add_flag("--fast", options.server.fast, "let virtual time run ahead while a host keeps up with it");
+  command.add_option("--flash", options.server.flash, "file that keeps the parameters between starts")
+      .type_name("FILE");
+}
+
+}  // namespace astro::simulation

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "host/console/command_line.hpp"
+#include "host/simulation/server/server.hpp"
+
+/// What `astrolabe sim` and `astrolabe-emulator` have in common.
+namespace astro::simulation {
+
+/// A robot that is off as the one of the reference measurements was.
+sim::Config reference_robot();
+
+struct SimOptions {
+  simulation::ServerConfig server;
+  sim::Config robot = reference_robot();
+};
+
+void add_sim_options(console::Command command, SimOptions& options);
+
+/// Chooses the pty if none is named; throws astro::Error if the flash file cannot be a robot's.
+void prepare(SimOptions& options, std::size_t flash_bytes);
+
+/// Says where the robot is and serves it until Ctrl-C. `what`: "a simulated robot".
+void serve(simulation::Server& server, const std::string& what);
+
+}  // namespace astro::simulation

@@ -1,0 +1,26 @@
+#include "host/simulation/robot/virtual_mocap.hpp"
+
+#include <cmath>
+
+namespace astro::simulation {
+
+VirtualMocap::VirtualMocap(const MocapConfig& config)
+    : config_(config),
+      cos_(std::cos(config.origin_theta_rad)),
+      sin_(std::sin(config.origin_theta_rad)),
+      random_(config.seed) {}
+
+std::optional<recording::TruthSample> VirtualMocap::advance(std::uint64_t time_us, const sim::Pose& truth) {
+  if (static_cast<double>(time_us) < due_us_) return std::nullopt;
+  due_us_ += 1e6 / config_.rate_hz;
+  recording::TruthSample sample;
+  sample.time_us = static_cast<std::int64_t>(time_us);
+  sample.x_m =
+      config_.origin_x_m + cos_ * truth.x_m - sin_ * truth.y_m + config_.position_sd_m * normal_(random_);
+  sample.y_m =
+      config_.origin_y_m + sin_ * truth.x_m + cos_ * truth.y_m + config_.position_sd_m * normal_(random_);
+  sample.theta_rad = config_.origin_theta_rad + truth.theta_rad + config_.heading_sd_rad * normal_(random_);
+  return sample;
+}
+
+}  // namespace astro::simulation

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <random>
+
+#include "hal/sim/chassis.hpp"
+#include "host/recording/run/run.hpp"
+
+namespace astro::simulation {
+
+struct MocapConfig {
+  double rate_hz = 60;
+  double position_sd_m = 0.0002;  // what the maker of the thesis's cameras states
+  double heading_sd_rad = 0.001;
+  std::uint64_t seed = 1;
+  // The tracker's frame as seen from the simulated world's: an uncalibrated origin, as in any lab.
+  double origin_x_m = 1.25, origin_y_m = -0.75, origin_theta_rad = 0.4;
+};
+
+/// Eight cameras that see a simulated robot: the true pose at a fixed rate, in the tracker's own frame, with
+/// white noise. Deterministic: the same seed and poses give the same samples.
+class VirtualMocap {
+ public:
+  explicit VirtualMocap(const MocapConfig& config);
+
+  /// Call once per millisecond; a sample when one is due.
+  std::optional<recording::TruthSample> advance(std::uint64_t time_us, const sim::Pose& truth);
+
+  /// The robot's clock, which the samples are stamped with, starts again at 0.
+  void restart_clock() { due_us_ = 0; }
+
+ private:
+  MocapConfig config_;
+  double cos_, sin_;
+  std::mt19937_64 random_;
+  std::normal_distribution<double> normal_;
+  double due_us_ = 0;
+};
+
+}  // namespace astro::simulation

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "firmware/app/robot.hpp"
+#include "hal/sim/board.hpp"
+#include "host/simulation/robot/virtual_mocap.hpp"
+
+namespace astro::simulation {
+
+/// The firmware on the simulated board, watched by the virtual cameras; time is virtual and moves only in
+/// step().
+///
+/// The same configuration and the same bytes at the same times give the same bytes back.
+class VirtualRobot {
+ public:
+  VirtualRobot(const sim::Config& config, const MocapConfig& mocap);
+
+  /// One millisecond: the control tick, the main loop, then the world.
+  void step();
+
+  /// The processor starts again, for this reason; the robot stays where it is.
+  void restart(hal::ResetCause cause);
+
+  sim::Board& board() { return board_; }
+  const Robot<sim::Board>& robot() const { return *robot_; }
+  std::uint64_t now_us() { return board_.clock().now_us(); }
+
+  /// What the cameras saw since the last call; at most the last minute is kept for who never asks.
+  std::vector<recording::TruthSample> take_truth();
+
+ private:
+  sim::Board board_;
+  std::optional<Robot<sim::Board>> robot_;
+  VirtualMocap mocap_;
+  std::vector<recording::TruthSample> seen_;
+};
+
+}  // namespace astro::simulation

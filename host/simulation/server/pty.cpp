@@ -1,0 +1,165 @@
+#include "host/simulation/server/pty.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstddef>
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <vector>
+
+#include "host/base/error.hpp"
+
+namespace astro::simulation {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const std::string& what) {
+  throw Error("no pseudo terminal can be opened: " + what + ": " + std::strerror(errno));
+}
+
+int open_master() {
+  const int fd = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
+  if (fd < 0) fail("posix_openpt");
+  if (grantpt(fd) != 0 || unlockpt(fd) != 0) fail("unlockpt");
+  return fd;
+}
+
+std::string device_of(int fd) {
+  std::array<char, 128> name{};
+  if (ptsname_r(fd, name.data(), name.size()) != 0) fail("ptsname");
+  return name.data();
+}
+
+// The settings belong to the terminal, not to who has it open: they stay when this descriptor is closed.
+void make_raw(const std::string& device) {
+  const int fd = open(device.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+  if (fd < 0) fail(device);
+  termios settings{};
+  if (tcgetattr(fd, &settings) != 0) fail("tcgetattr");
+  cfmakeraw(&settings);
+  if (tcsetattr(fd, TCSANOW, &settings) != 0) fail("tcsetattr");
+  close(fd);
+}
+
+// An abstract socket's name belongs to one process and goes with it, however it ends; that the link's target
+// exists says nothing, because the number of a dead simulator's terminal is soon another program's. -1:
+// somebody else has the name.
+int try_claim(const fs::path& link) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  const std::string path = fs::absolute(link).lexically_normal();
+  const std::string name = fmt::format("astrolabe-pty-{:016x}", std::hash<std::string>{}(path));
+  name.copy(address.sun_path + 1, sizeof(address.sun_path) - 1);  // a leading zero byte makes it abstract
+  const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
+  const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  if (fd < 0) fail("socket");
+  if (bind(fd, reinterpret_cast<const sockaddr*>(&address), size) == 0) return fd;
+  if (errno != EADDRINUSE) fail("bind");
+  close(fd);
+  return -1;
+}
+
+int claim(const fs::path& link) {
+  if (const int fd = try_claim(link); fd >= 0) return fd;
+  throw Error("'" + link.string() + "' is in use by another simulator: stop it or choose another --pty");
+}
+
+bool left_behind(const fs::path& link) {
+  return fs::is_symlink(link) && fs::read_symlink(link).parent_path() == "/dev/pts";
+}
+
+/// A link in the runtime folder leads to a terminal, or to the link of a simulator that lies elsewhere. Looks
+/// at the claim for a moment: a simulator that starts just then is told that its name is taken, and its link
+/// stays.
+bool is_dead(const fs::path& link) {
+  std::error_code error;
+  const fs::path target = fs::read_symlink(link, error);
+  if (error) return false;
+  const fs::path claimed = left_behind(link) ? link : target;
+  if (!fs::exists(fs::symlink_status(claimed, error))) return true;
+  if (!left_behind(claimed)) return false;  // nothing of a simulator's
+  const int claim = try_claim(claimed);
+  if (claim >= 0) close(claim);
+  return claim >= 0;
+}
+
+void make_link(const fs::path& device, const fs::path& link) {
+  std::error_code error;
+  if (left_behind(link)) {
+    fs::remove(link);
+  } else if (fs::exists(fs::symlink_status(link))) {
+    throw Error("'" + link.string() + "' exists and is not a simulator's: choose another path for --pty");
+  }
+  fs::create_symlink(device, link, error);
+  if (error)
+    throw Error("'" + link.string() + "' cannot be made: " + error.message() +
+                "; choose another path for --pty");
+}
+
+}  // namespace
+
+Pty::Pty(fs::path link) : fd_(open_master()), device_(device_of(fd_)) {
+  make_raw(device_);
+  add_link(link);
+}
+
+Pty::~Pty() {
+  std::error_code ignored;
+  for (const fs::path& link : links_)
+    if (fs::is_symlink(link) && fs::read_symlink(link, ignored) == device_) fs::remove(link, ignored);
+  for (const int claimed : claims_) close(claimed);
+  close(fd_);
+}
+
+void Pty::add_link(const fs::path& link) {
+  claims_.push_back(claim(link));
+  make_link(device_, link);
+  links_.push_back(link);
+}
+
+bool Pty::connected() const {
+  pollfd state{fd_, POLLOUT, 0};
+  return poll(&state, 1, 0) >= 0 && (state.revents & POLLHUP) == 0;
+}
+
+std::uint32_t Pty::baud() const {
+  termios settings{};
+  return tcgetattr(fd_, &settings) == 0 && cfgetospeed(&settings) == B134 ? 134 : 115'200;
+}
+
+std::size_t Pty::read(std::span<std::uint8_t> into) {
+  const ssize_t count = ::read(fd_, into.data(), into.size());
+  return count > 0 ? static_cast<std::size_t>(count) : 0;  // EAGAIN, or EIO while nobody is there
+}
+
+std::size_t Pty::write(std::span<const std::uint8_t> bytes) {
+  const ssize_t count = ::write(fd_, bytes.data(), bytes.size());
+  return count > 0 ? static_cast<std::size_t>(count) : 0;
+}
+
+void sweep_dead_links(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_directory(fs::symlink_status(folder, error))) return;  // a link could lead to anybody's folder
+  std::vector<fs::path> dead;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == ".pty" && entry.is_symlink(error) && is_dead(entry.path()))
+      dead.push_back(entry.path());
+  for (fs::path link : dead) {
+    fs::remove(link, error);
+    link += ".mocap";
+    if (fs::is_socket(fs::symlink_status(link, error)) || fs::is_symlink(link, error))
+      fs::remove(link, error);
+  }
+}
+
+}  // namespace astro::simulation

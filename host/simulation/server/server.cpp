@@ -1,0 +1,188 @@
+#include "host/simulation/server/server.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+#include <thread>
+
+#include "host/base/error.hpp"
+#include "host/base/files.hpp"
+
+namespace astro::simulation {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+constexpr std::uintmax_t kMostFlashBytes = std::uintmax_t{8} << 20;  // the largest of a Teensy's family
+constexpr std::uint64_t kLease_us = 100'000;  // virtual time that one word of the host is good for
+constexpr auto kPatience = 200ms;  // real time that a host may take nothing before it is left behind
+constexpr auto kSilence = 1s;      // real time that a host may say nothing before time goes on without it
+constexpr int kStepsPerLook = 50;  // virtual ms between two looks at the host while running ahead
+
+sim::Config with_flash(sim::Config config, const fs::path& path) {
+  config.flash = load_flash(path);
+  return config;
+}
+
+fs::path beside(fs::path pty, const char* suffix) { return pty += suffix; }
+
+class ServedVirtualRobot : public Served {
+ public:
+  ServedVirtualRobot(const sim::Config& config, const MocapConfig& mocap) : robot_(config, mocap) {}
+
+  void step() override { robot_.step(); }
+  std::uint64_t now_us() override { return robot_.now_us(); }
+  std::size_t room(int port) override { return robot_.board().ports().host_room(port); }
+  void write(int port, std::span<const std::uint8_t> bytes) override {
+    robot_.board().ports().host_write(port, bytes);
+  }
+  std::size_t read(int port, std::span<std::uint8_t> into) override {
+    return robot_.board().ports().host_read(port, into);
+  }
+  std::vector<recording::TruthSample> take_truth() override { return robot_.take_truth(); }
+  std::span<const std::uint8_t> flash() override { return robot_.board().flash().content(); }
+
+ private:
+  VirtualRobot robot_;
+};
+
+}  // namespace
+
+std::vector<std::uint8_t> load_flash(const fs::path& path) {
+  if (path.empty()) return {};
+  const fs::file_status status = fs::symlink_status(path);
+  if (fs::is_symlink(status))
+    throw Error("'" + path.string() +
+                "' is a link, and a robot's flash replaces what has its name: name the file");
+  return fs::exists(status) ? recording::load_file(path, kMostFlashBytes) : std::vector<std::uint8_t>{};
+}
+
+Server::Server(const sim::Config& robot, const MocapConfig& mocap, const ServerConfig& config)
+    : Server(std::make_unique<ServedVirtualRobot>(with_flash(robot, config.flash), mocap), config) {}
+
+Server::Server(std::unique_ptr<Served> robot, const ServerConfig& config)
+    : config_(config), robot_(std::move(robot)), pace_(Clock::now()) {
+  channels_.emplace_back(*robot_, 0, config.pty);
+  if (!config.second_pty.empty()) channels_.emplace_back(*robot_, 1, config.second_pty);
+  truth_.emplace(beside(config.pty, ".mocap"));
+  if (!config.second_pty.empty()) truth_->add_link(beside(config.second_pty, ".mocap"));
+  const auto content = robot_->flash();
+  saved_flash_.assign(content.begin(), content.end());
+  check_flash_can_be_kept();
+}
+
+Server::~Server() {
+  try {
+    save_flash();
+  } catch (const std::exception&) {  // said while running; nobody listens any more
+  }
+}
+
+void Server::run(const std::function<bool()>& stop) {
+  while (!stop()) {
+    receive();
+    const bool host_is_behind = transmit();
+    if (runs_ahead(host_is_behind)) {
+      for (int i = 0; i < kStepsPerLook; ++i) step();
+      pace_.restart(Clock::now() + Pace::kStep);
+    } else if (pace_.due(Clock::now())) {
+      step();
+      pace_.stepped();
+    } else {
+      wait();
+    }
+  }
+  save_flash();  // said here if it fails; the destructor cannot
+}
+
+void Server::receive() {
+  truth_->accept_clients();
+  bool heard = false;
+  for (Channel& channel : channels_) {
+    heard |= channel.receive();  // first, so that what was sent before the port was closed arrives
+    channel.look();
+  }
+  if (!heard) return;
+  last_heard_us_ = robot_->now_us();
+  heard_at_ = Clock::now();
+  // Answered at once. Fast motion does not count; else the step is one of those that real time asks for.
+  if (!config_.fast && !pace_.may_hurry(heard_at_)) return;
+  step();
+  pace_.stepped();
+}
+
+/// What the robot has kept is on the disk before anybody hears of it.
+bool Server::transmit() {
+  save_flash();
+  bool behind = truth_->flush();
+  for (Channel& channel : channels_) behind |= channel.transmit();
+  return behind;
+}
+
+bool Server::connected() const {
+  return std::any_of(channels_.begin(), channels_.end(), [](const Channel& c) { return c.connected(); });
+}
+
+bool Server::runs_ahead(bool host_is_behind) {
+  if (!config_.fast) return false;
+  if (robot_->now_us() - last_heard_us_ >= kLease_us) {
+    // Stand still for a host that is late, be its machine ever so busy, but not for one that hangs or has
+    // gone.
+    if (connected() && Clock::now() - heard_at_ < kSilence) pace_.restart(Clock::now() + Pace::kStep);
+    return false;
+  }
+  if (!host_is_behind) {
+    behind_since_ = Clock::now();
+    return true;
+  }
+  // Stand still for a host that is busy, but not for one that hangs.
+  if (Clock::now() - behind_since_ < kPatience) pace_.restart(Clock::now() + Pace::kStep);
+  return false;
+}
+
+void Server::step() {
+  robot_->step();
+  for (const recording::TruthSample& sample : robot_->take_truth()) truth_->send(sample);
+  if (robot_->now_us() < last_heard_us_) last_heard_us_ = 0;  // the robot restarted
+}
+
+void Server::wait() {
+  const auto until = std::chrono::duration_cast<std::chrono::microseconds>(pace_.next() - Clock::now());
+  if (until <= 0us) return;
+  if (!connected()) {
+    std::this_thread::sleep_for(until);
+    return;
+  }
+  std::vector<pollfd> hosts;
+  for (const Channel& channel : channels_)
+    if (channel.connected()) hosts.push_back(channel.waits_for());
+  const timespec timeout{0, static_cast<long>(std::min<std::int64_t>(until.count(), 20'000) * 1000)};
+  ppoll(hosts.data(), hosts.size(), &timeout, nullptr);
+}
+
+void Server::check_flash_can_be_kept() const {
+  if (config_.flash.empty()) return;
+  std::error_code none;
+  if (fs::exists(config_.flash, none) && access(config_.flash.c_str(), W_OK) != 0)
+    throw Error(fmt::format("the robot's flash '{}' cannot be written: {}", config_.flash.string(),
+                            std::generic_category().message(errno)));
+  const recording::PartFile probe(config_.flash);
+}
+
+void Server::save_flash() {
+  const auto content = robot_->flash();
+  if (config_.flash.empty() || std::equal(content.begin(), content.end(), saved_flash_.begin())) return;
+  recording::PartFile file(config_.flash);
+  file.write(content);
+  file.commit();
+  saved_flash_.assign(content.begin(), content.end());
+}
+
+}  // namespace astro::simulation

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "host/recording/run/run.hpp"
+
+namespace astro::simulation {
+
+/// The virtual cameras' own way to a host: a Unix socket beside the robot's pty, so only programs of this
+/// machine reach it. Text, one line a sample, after a line that names the format
+/// (host/truth/live/socket_source.hpp reads it):
+///
+///   astrolabe-mocap 1
+///   TIME_US X_M Y_M THETA_RAD VALID
+class TruthServer {
+ public:
+  /// Throws astro::Error if the socket cannot be made at `path`.
+  explicit TruthServer(std::filesystem::path path);
+  ~TruthServer();
+  TruthServer(const TruthServer&) = delete;
+  TruthServer& operator=(const TruthServer&) = delete;
+
+  /// Another name for the same socket, taken away with it. Throws astro::Error if it cannot be made.
+  void add_link(const std::filesystem::path& link);
+
+  void accept_clients();
+  void send(const recording::TruthSample& sample);
+
+  /// Tries to hand over what is waiting; true if some client has not taken all yet. A client that falls more
+  /// than a few megabytes behind is let go.
+  bool flush();
+
+ private:
+  struct Client {
+    int fd;
+    std::string waiting;
+  };
+
+  std::filesystem::path path_;
+  std::vector<std::filesystem::path> links_;
+  int fd_ = -1;
+  std::vector<Client> clients_;
+};
+
+}  // namespace astro::simulation

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include "host/base/error.hpp"
+
+/// What set-ups and programmes have to keep to.
+namespace astro::simulation::study {
+
+/// `what` is named with its unit: "the side of the square in metres".
+inline void require_positive(double value, const std::string& what) {
+  if (std::isfinite(value) && value > 0) return;
+  throw Error(what + " is " + std::to_string(value) + ": give a positive number");
+}
+
+/// Drives are held in memory as a whole; 20 million samples of counts and ground truth are about 1 GB.
+inline void require_fits_memory(double driving_time_s, double truth_rate_hz, double count_rate_hz) {
+  constexpr double kMostSamples = 20e6;
+  if (driving_time_s * (truth_rate_hz + count_rate_hz) <= kMostSamples) return;
+  throw Error("some " + std::to_string(std::llround(driving_time_s / 3600)) +
+              " hours of driving are more than fit into memory: take fewer or shorter runs, or lower rates");
+}
+
+}  // namespace astro::simulation::study

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/calibration/likelihood/maximum_likelihood.hpp"
+#include "host/calibration/end_poses/replay.hpp"
+#include "host/calibration/motion/trajectory.hpp"
+
+/// What a study repeats: one robot, one programme of squares, one ground truth.
+namespace astro::simulation::study {
+
+/// Which robot drives: kinematics and noise alone, or the firmware on the simulated board.
+enum class Model { kinematic, simulator };
+std::string_view name_of(Model model);
+std::optional<Model> model_named(std::string_view name);
+
+/// The defaults are the robot of the reference measurements: its errors, and the slip that gives their
+/// scatter. The body has no lever arm, and counts of the kinematic robot are of any fineness; the estimators
+/// do not know that.
+struct TrialSetup {
+  Model model = Model::kinematic;
+  int trials = 200;
+  std::uint64_t seed = 1;
+  int runs = 5;  // squares in each direction
+  double side_m = 3;
+  double wheelbase_m = 0.290;  // that the robot believes in, with c_R = c_L = 1
+  double E_d = 1.00416;        // D_R / D_L
+  double E_b = 0.99521;        // b / (S wheelbase_m)
+  double scale = 1.005;        // S, common to both wheels and the wheelbase
+  calibration::NoiseModel noise{2.645e-6, 5e-4, 0.0026179938779914943};  // 0.15 degrees
+  double count_rate_hz = 100, truth_rate_hz = 60;
+  bool clock_known = true;
+  double clock_offset_sd_s = 0.03;  // between runs; only if the clock is not known
+  bool noise_known = false;         // to maximum likelihood
+
+  calibration::WheelFactors carried() const { return {1, 1, wheelbase_m}; }
+  calibration::WheelFactors actual() const;
+  /// What maximum likelihood is told.
+  calibration::MlOptions ml_options() const;
+
+  /// Throws astro::Error where a set-up for one robot is given to another.
+  void require(Model driven) const;
+
+  /// Throws astro::Error naming what is not positive and finite, too many or too few trials or runs,
+  /// drives that do not fit into memory, or squares on which the errors turn the robot by half a turn.
+  void check() const;
+};
+
+/// Keys as in the shard files. `setup_from` throws nlohmann::json::exception for what is missing or no
+/// number, and astro::Error for a model that it does not know.
+nlohmann::json to_json(const TrialSetup& setup);
+TrialSetup setup_from(const nlohmann::json& json);
+
+/// A count of trials or runs; -1 for a number that counts nothing, such as 1e300 or -2.
+int count_from(const nlohmann::json& json);
+
+/// The runs of a trial count from 0, clockwise and counter-clockwise in turn. "square ccw 1" is run 1.
+calibration::Sense sense_of(int run);
+std::string name_of(int run);
+
+/// Of all noise of a trial: it depends on (seed, trial) alone.
+std::uint64_t seed_of(const TrialSetup& setup, int trial);
+
+/// Robot's clock less tracker's in each run of a trial; all 0 where the clock is known.
+std::vector<double> clock_offsets_s(const TrialSetup& setup, int trial);
+
+}  // namespace astro::simulation::study

@@ -1,0 +1,148 @@
+#include "host/simulation/study/shard_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "host/base/error.hpp"
+#include "host/base/json_weight.hpp"
+
+namespace astro::simulation::study {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kFormat = "astrolabe study 2";
+
+// JSON has no such numbers, and its writer makes null of them, which here is no answer at all.
+json to_json(double value) {
+  if (std::isfinite(value)) return value;
+  return std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
+}
+
+double number_from(const json& value) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (value == "nan") return std::numeric_limits<double>::quiet_NaN();
+  if (value == "inf") return kInfinity;
+  if (value == "-inf") return -kInfinity;
+  return value.get<double>();
+}
+
+json to_json(const Errors& errors) {
+  json list = json::array();
+  for (const double error : errors) list.push_back(to_json(error));
+  return list;
+}
+
+Errors errors_from(const json& value) {
+  Errors errors{};
+  for (std::size_t f = 0; f < kFigures; ++f) errors[f] = number_from(value.at(f));
+  return errors;
+}
+
+json to_json(const Trial& trial) {
+  json errors = json::array();
+  for (const auto& answer : trial.errors) errors.push_back(answer ? to_json(*answer) : json());
+  return {{"trial", trial.index},
+          {"errors", errors},
+          {"ml_chi_square", trial.ml_chi_square ? to_json(*trial.ml_chi_square) : json()},
+          {"failure", trial.failure}};
+}
+
+Trial trial_from(const json& value) {
+  Trial trial;
+  trial.index = count_from(value.at("trial"));
+  value.at("failure").get_to(trial.failure);
+  const json& errors = value.at("errors");
+  for (std::size_t i = 0; i < trial.errors.size(); ++i)
+    if (!errors.at(i).is_null()) trial.errors[i] = errors_from(errors.at(i));
+  if (const json& square = value.at("ml_chi_square"); !square.is_null())
+    trial.ml_chi_square = number_from(square);
+  return trial;
+}
+
+void require_same(const Part& first, const Part& other) {
+  const json a = to_json(first.setup), b = to_json(other.setup);
+  for (const auto& [key, value] : a.items())
+    if (b.at(key) != value)
+      throw Error("'" + first.name + "' was made with " + key + " " + value.dump() + " and '" + other.name +
+                  "' with " + b.at(key).dump() + ": merge shards of one study only");
+}
+
+struct Held {
+  const Part* part;
+  const Trial* trial;
+  int index() const { return trial->index; }
+};
+
+/// Stable, so that of a trial in two files the one named first comes first. Takes memory for the trials that
+/// are there, not for as many as a file claims.
+std::vector<Held> sorted_by_index(const std::vector<Part>& parts) {
+  std::vector<Held> held;
+  for (const Part& part : parts) {
+    require_same(parts.front(), part);
+    for (const Trial& trial : part.trials) held.push_back({&part, &trial});
+  }
+  std::stable_sort(held.begin(), held.end(),
+                   [](const Held& a, const Held& b) { return a.index() < b.index(); });
+  return held;
+}
+
+[[noreturn]] void refuse_gap(int count, int begin, int end) {
+  const std::string which =
+      end - begin == 1 ? std::to_string(begin) : std::to_string(begin) + " to " + std::to_string(end - 1);
+  throw Error("of " + std::to_string(count) + " trials " + which +
+              " are missing: run their shard, or name its file, too");
+}
+
+}  // namespace
+
+std::string to_text(const TrialSetup& setup, const std::vector<Trial>& trials) {
+  json list = json::array();
+  for (const Trial& trial : trials) list.push_back(to_json(trial));
+  return json{{"format", kFormat}, {"methods", kMethods}, {"setup", to_json(setup)}, {"trials", list}}.dump(
+             1) +
+         "\n";
+}
+
+Part read_part(const std::string& text, const std::string& name) {
+  if (!json_fits_memory(text))
+    throw Error("'" + name + "' is no shard of a study: give what 'astrolabe study --out' wrote");
+  try {
+    const json file = json::parse(text);
+    if (file.at("format") != kFormat || file.at("methods") != json(kMethods))
+      throw Error("'" + name + "' was written by another version of 'astrolabe study': run its shard again");
+    Part part{name, setup_from(file.at("setup")), {}};
+    for (const json& trial : file.at("trials")) part.trials.push_back(trial_from(trial));
+    part.setup.check();
+    return part;
+  } catch (const json::exception&) {
+    throw Error("'" + name + "' is no shard of a study: give what 'astrolabe study --out' wrote");
+  }
+}
+
+std::vector<Trial> merge(const std::vector<Part>& parts) {
+  if (parts.empty()) throw Error("there is nothing to merge: name the files of all shards");
+  const int count = parts.front().setup.trials;
+  const std::vector<Held> held = sorted_by_index(parts);
+  int next = 0;
+  for (const Held& trial : held) {
+    if (trial.index() < 0 || trial.index() >= count)
+      throw Error("'" + trial.part->name + "' holds trial " + std::to_string(trial.index()) +
+                  " of a study of " + std::to_string(count) + ": it is damaged, run its shard again");
+    if (trial.index() < next)
+      throw Error("trial " + std::to_string(trial.index()) + " is in '" +
+                  held[static_cast<std::size_t>(next) - 1].part->name + "' and in '" + trial.part->name +
+                  "': name each shard once");
+    if (trial.index() > next) refuse_gap(count, next, trial.index());
+    ++next;
+  }
+  if (next < count) refuse_gap(count, next, count);
+  std::vector<Trial> all;
+  all.reserve(held.size());
+  for (const Held& trial : held) all.push_back(*trial.trial);
+  return all;
+}
+
+}  // namespace astro::simulation::study

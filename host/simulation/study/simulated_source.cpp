@@ -1,0 +1,132 @@
+#include "host/simulation/study/simulated_source.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "host/base/error.hpp"
+#include "host/experiment/drive/record_run.hpp"
+#include "host/experiment/analysis/trajectories.hpp"
+#include "host/robot/parameters/upload.hpp"
+#include "host/recording/run/end_error.hpp"
+#include "host/simulation/robot/in_process.hpp"
+#include "host/simulation/study/synthetic_drive.hpp"
+
+namespace astro::simulation {
+namespace {
+
+using namespace std::chrono_literals;
+using simulation::study::TrialSetup;
+
+// Apart from the clocks of a trial.
+constexpr std::uint64_t kWheels = 2'000'000, kCameras = 2'000'001;
+constexpr double kCountRate_hz = 1000.0 / experiment::kTelemetryPeriod_ms;
+
+sim::Config robot_of(const TrialSetup& setup, double K_m) {
+  sim::Config robot;
+  robot.nominal_wheelbase_m = setup.wheelbase_m;
+  robot.true_ed = setup.E_d;
+  robot.scale = setup.scale;
+  robot.true_wheelbase_m = setup.actual().b_m;
+  // The simulator's slip is per metre that a true wheel rolls, the study's per metre of a nominal one.
+  robot.slip_m = K_m / setup.scale;
+  return robot;
+}
+
+simulation::MocapConfig cameras_of(const TrialSetup& setup, const calibration::NoiseModel& noise) {
+  simulation::MocapConfig cameras;
+  cameras.rate_hz = setup.truth_rate_hz;
+  cameras.position_sd_m = noise.sigma_xy_m;
+  cameras.heading_sd_rad = noise.sigma_theta_rad;
+  return cameras;
+}
+
+experiment::Plan plan_of(const TrialSetup& setup) {
+  experiment::Plan plan;
+  plan.runs = setup.runs;
+  plan.side_m = setup.side_m;
+  return plan;
+}
+
+experiment::RunSpec spec_of(int run) {
+  const bool cw = simulation::study::sense_of(run) == calibration::Sense::cw;
+  return {"", "square", cw ? recording::Direction::cw : recording::Direction::ccw, run / 2 + 1};
+}
+
+/// A robot that is switched on and carries what the set-up says.
+class Desk {
+ public:
+  Desk(const sim::Config& config, const simulation::MocapConfig& cameras, const TrialSetup& setup)
+      : robot_(std::make_shared<simulation::VirtualRobot>(config, cameras)),
+        client_(std::make_unique<simulation::InProcessTransport>(robot_)),
+        truth_(robot_),
+        plan_(plan_of(setup)) {
+    client_.connect();
+    client_.pump(50ms);  // through boot
+    const double believed_m = std::get<double>(robot::RemoteParameters::fetch(client_).value("b"));
+    if (std::abs(believed_m - setup.wheelbase_m) > 1e-9) robot::upload(client_, {{"b", setup.wheelbase_m}});
+    const robot::RemoteParameters carried = robot::RemoteParameters::fetch(client_);
+    for (const robot::ParameterRow& row : carried.rows())
+      if (row.kind != protocol::ParameterKind::text)
+        parameters_[row.name] = robot::to_real(row, row.active.raw);
+  }
+
+  recording::Run drive(int run) {
+    const experiment::RunSpec spec = spec_of(run);
+    recording::RunInfo info = experiment::info_of(plan_, spec);
+    info.parameters = parameters_;
+    return experiment::record_run(client_, truth_, path_of(plan_, spec), info, {});
+  }
+
+ private:
+  std::shared_ptr<simulation::VirtualRobot> robot_;
+  robot::Client client_;
+  simulation::InProcessTruth truth_;
+  experiment::Plan plan_;
+  std::map<std::string, double> parameters_;
+};
+
+simulation::study::Drives driven(const sim::Config& robot, const simulation::MocapConfig& cameras,
+                     const TrialSetup& setup) {
+  Desk desk(robot, cameras, setup);
+  simulation::study::Drives drives;
+  for (int run = 0; run < 2 * setup.runs; ++run) {
+    const recording::Run recorded = desk.drive(run);
+    const recording::EndError end = recording::end_error(recorded);
+    drives.end_errors.push_back({end.x_m, end.y_m, end.theta_rad});
+    drives.runs.push_back(experiment::trajectory_of(recorded, simulation::study::name_of(run)));
+  }
+  return drives;
+}
+
+}  // namespace
+
+void SimulatedSource::check(const TrialSetup& setup) const {
+  setup.require(simulation::study::Model::simulator);
+  setup.check();
+  plan_of(setup).check();
+  if (setup.count_rate_hz != kCountRate_hz)
+    throw Error("the simulated robot's counts are recorded at " + std::to_string(std::lround(kCountRate_hz)) +
+                " Hz: leave the rate of the counts at that, or take the kinematic model");
+}
+
+simulation::study::Drives SimulatedSource::of_trial(const TrialSetup& setup, int trial) const {
+  const std::uint64_t seed = simulation::study::seed_of(setup, trial);
+  sim::Config robot = robot_of(setup, setup.noise.K_m);
+  simulation::MocapConfig cameras = cameras_of(setup, setup.noise);
+  robot.seed = simulation::study::derived_seed(seed, kWheels);
+  cameras.seed = simulation::study::derived_seed(seed, kCameras);
+  simulation::study::Drives drives = driven(robot, cameras, setup);
+  const std::vector<double> offsets_s = clock_offsets_s(setup, trial);
+  for (std::size_t run = 0; run < drives.runs.size(); ++run)
+    for (calibration::BodySample& sample : drives.runs[run].truth) sample.time_s -= offsets_s[run];
+  return drives;
+}
+
+std::vector<calibration::Trajectory> SimulatedSource::without_noise(const TrialSetup& setup) const {
+  return driven(robot_of(setup, 0), cameras_of(setup, {0, 0, 0}), setup).runs;
+}
+
+}  // namespace astro::simulation

@@ -1,0 +1,136 @@
+#include "host/simulation/study/summary.hpp"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <random>
+
+#include "host/simulation/study/synthetic_drive.hpp"
+
+namespace astro::simulation::study {
+namespace {
+
+using calibration::FactorCovariance;
+using calibration::WheelFactors;
+
+constexpr int kDraws = 20000;                           // leaves a Monte Carlo error of 1 %; some 50 ms
+constexpr std::uint64_t kDrawSeed = 2'000'000'000'000;  // apart from the trials
+
+/// Mean of some numbers and its standard error (NaN for one number).
+struct Mean {
+  double value = 0, se = 0;
+};
+
+template <class Read>
+Mean mean_of(std::size_t count, Read read) {
+  const auto n = static_cast<double>(count);
+  double sum = 0, squares = 0;
+  for (std::size_t i = 0; i < count; ++i) sum += read(i);
+  const double mean = sum / n;
+  for (std::size_t i = 0; i < count; ++i) squares += (read(i) - mean) * (read(i) - mean);
+  return {mean, count > 1 ? std::sqrt(squares / (n - 1) / n) : std::nan("")};
+}
+
+std::vector<Errors> draws_from(const FactorCovariance& covariance, const TrialSetup& setup) {
+  Eigen::Matrix3d matrix;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      matrix(i, j) = covariance[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+  const Eigen::Matrix3d root = matrix.llt().matrixL();
+  const WheelFactors actual = setup.actual();
+  std::mt19937_64 random(derived_seed(setup.seed, kDrawSeed));
+  std::normal_distribution<double> normal;
+  std::vector<Errors> errors;
+  for (int i = 0; i < kDraws; ++i) {
+    const double a = normal(random), b = normal(random), c = normal(random);
+    const Eigen::Vector3d e = root * Eigen::Vector3d(a, b, c);
+    errors.push_back(errors_of({actual.c_r + e[0], actual.c_l + e[1], actual.b_m + e[2]}, setup));
+  }
+  return errors;
+}
+
+/// Where the errors of `method` stand in the trials.
+std::vector<Errors> answers_of(std::size_t method, const std::vector<Trial>& trials) {
+  std::vector<Errors> errors;
+  for (const Trial& trial : trials)
+    if (trial.errors[method]) errors.push_back(*trial.errors[method]);
+  return errors;
+}
+
+std::string failure_of(std::size_t method, const std::vector<Trial>& trials) {
+  const std::string name(kMethods[method]);
+  int failed = 0;
+  std::string example;
+  for (const Trial& trial : trials) {
+    if (trial.errors[method]) continue;
+    ++failed;
+    if (example.empty() && trial.failure.starts_with(name + ": "))
+      example = ", as in trial " + std::to_string(trial.index) + ": " + trial.failure.substr(name.size() + 2);
+  }
+  if (failed == 0) return {};
+  return name + " gave no answer in " + std::to_string(failed) + " of " + std::to_string(trials.size()) +
+         " trials" + example;
+}
+
+std::optional<Honesty> honesty_of(const std::vector<Trial>& trials) {
+  std::vector<double> values;
+  for (const Trial& trial : trials)
+    if (trial.ml_chi_square) values.push_back(*trial.ml_chi_square);
+  if (values.empty()) return std::nullopt;
+  const Mean mean = mean_of(values.size(), [&](std::size_t i) { return values[i]; });
+  // As chi-squares of 3 scatter: what few trials show of that is too little as often as not.
+  return Honesty{static_cast<int>(values.size()), mean.value,
+                 std::sqrt(6 / static_cast<double>(values.size()))};
+}
+
+}  // namespace
+
+Row row_of(const std::string& name, const std::vector<Errors>& errors) {
+  Row row;
+  row.name = name;
+  row.trials = static_cast<int>(errors.size());
+  for (std::size_t f = 0; f < kFigures; ++f) {
+    const Mean square = mean_of(errors.size(), [&](std::size_t i) { return errors[i][f] * errors[i][f]; });
+    row.rms[f] = std::sqrt(square.value);
+    row.se[f] = row.rms[f] > 0 ? square.se / (2 * row.rms[f]) : 0;
+  }
+  return row;
+}
+
+Row bound_of(const TrialSetup& setup, const DriveSource& source) {
+  calibration::MlOptions options = setup.ml_options();
+  options.noise = setup.noise;
+  const WheelFactors actual = setup.actual();
+  const FactorCovariance covariance =
+      cramer_rao_bound(source.without_noise(setup), actual, calibration::LeverArm{}, options);
+  Row row = row_of("Cramer-Rao bound", draws_from(covariance, setup));
+  const calibration::MlErrors exact = errors_of(covariance, actual);
+  row.rms[kE_d] = exact.E_d;
+  row.rms[kB_over_S] = exact.b_over_scale_m / setup.wheelbase_m;
+  row.rms[kScale] = exact.scale;
+  row.se[kE_d] = row.se[kB_over_S] = row.se[kScale] = 0;
+  return row;
+}
+
+Summary summarize(const TrialSetup& setup, const DriveSource& source, const std::vector<Trial>& trials) {
+  source.check(setup);
+  Summary summary;
+  summary.setup = setup;
+  summary.bound = bound_of(setup, source);
+  for (std::size_t method = 0; method < kMethods.size(); ++method) {
+    const std::vector<Errors> errors = answers_of(method, trials);
+    if (!errors.empty()) summary.methods.push_back(row_of(std::string(kMethods[method]), errors));
+    if (const std::string failure = failure_of(method, trials); !failure.empty())
+      summary.failures.push_back(failure);
+  }
+  if (!summary.methods.empty() && summary.methods.back().name == kMethods[kMl]) {
+    const Row& last = summary.methods.back();
+    for (const Figure figure : {kE_d, kB_over_S, kScale})
+      summary.ml_over_bound.push_back(
+          {last.rms[figure] / summary.bound.rms[figure],
+           last.rms[figure] / summary.bound.rms[figure] / std::sqrt(2.0 * last.trials)});
+  }
+  summary.ml_covariance = honesty_of(trials);
+  return summary;
+}
+
+}  // namespace astro::simulation::study

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/calibration/likelihood/maximum_likelihood.hpp"
+#include "host/simulation/study/drive_source.hpp"
+#include "host/simulation/study/setup.hpp"
+#include "host/simulation/study/trial.hpp"
+
+/// From trials to the table: what each method leaves, and what no method can go below.
+namespace astro::simulation::study {
+
+/// Root mean squares over trials with their Monte Carlo standard errors (delta method:
+/// sd(e^2) / (2 rms sqrt(n))); NaN for a single answer. Those of the first three of the bound are exact: 0.
+struct Row {
+  std::string name;
+  int trials = 0;
+  Errors rms{}, se{};
+};
+
+/// A method's rms over the bound's. By chance it lies within a few standard errors of what it would be after
+/// infinitely many trials.
+struct Ratio {
+  double value = 0, se = 0;
+};
+
+/// Mean of e' C^-1 e over trials: 3 for a covariance that is true. More: it claims too much.
+struct Honesty {
+  int trials = 0;
+  double mean = 0, se = 0;
+};
+
+struct Summary {
+  TrialSetup setup;
+  std::vector<Row> methods;  // those with an answer in any trial, in the order of kMethods
+  Row bound;
+  /// Of E_d, b / S and S; empty without an answer of maximum likelihood.
+  std::vector<Ratio> ml_over_bound;
+  std::optional<Honesty> ml_covariance;
+  std::vector<std::string> failures;  // a sentence for each method that failed
+};
+
+/// Rms and its standard error per figure. `errors` is not empty.
+Row row_of(const std::string& name, const std::vector<Errors>& errors);
+
+/// The Cramer-Rao bound of the set-up as `source` drives it; its last three figures are those of factors
+/// drawn from it.
+Row bound_of(const TrialSetup& setup, const DriveSource& source);
+
+/// `trials` in order of their index, for results that are the same to the last bit.
+/// Throws astro::Error where `source` and cramer_rao_bound do.
+Summary summarize(const TrialSetup& setup, const DriveSource& source, const std::vector<Trial>& trials);
+
+}  // namespace astro::simulation::study

@@ -1,0 +1,238 @@
+#include "host/simulation/study/synthetic_drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "host/calibration/motion/arc.hpp"
+
+namespace astro::simulation::study {
+namespace {
+
+using calibration::BodySample;
+using calibration::LeverArm;
+using calibration::Trajectory;
+using calibration::WheelFactors;
+using calibration::WheelSample;
+
+// Fine enough that what an arc of constant twist per step leaves out is far below a micrometre.
+constexpr double kStep_s = 1.0 / 600;
+
+struct Pose {
+  double x_m = 0, y_m = 0, theta_rad = 0;
+};
+
+/// The whole course at every fine step, in robot time.
+struct Track {
+  std::vector<double> left_m, right_m;  // nominal travel
+  std::vector<Pose> pose;               // of the robot
+};
+
+// Fraction of a leg after `time_s` of a trapezoid of the given peak rate and acceleration, both per whole
+// leg.
+double covered(double time_s, double rate, double acceleration) {
+  const double peak = std::min(rate, std::sqrt(acceleration));
+  const double ramp_s = peak / acceleration;
+  const double total_s = ramp_s + 1 / peak;
+  if (time_s >= total_s) return 1;
+  if (time_s < ramp_s) return acceleration * time_s * time_s / 2;
+  if (time_s > total_s - ramp_s) {
+    const double left_s = total_s - time_s;
+    return 1 - acceleration * left_s * left_s / 2;
+  }
+  return peak * (time_s - ramp_s / 2);
+}
+
+class Drive {
+ public:
+  Drive(const DriveModel& model, std::uint64_t seed) : model_(model), random_(seed) { keep(); }
+
+  void follow(const Leg& leg) {
+    if (leg.kind == Leg::Kind::rest) {
+      for (double t = 0; t < leg.duration_s - kStep_s / 2; t += kStep_s) advance(0, 0);
+      return;
+    }
+    const double length = std::abs(leg.length_m), angle = std::abs(leg.angle_rad);
+    const double rate = std::min(length > 0 ? model_.speed_mps / length : 1e9,
+                                 angle > 0 ? model_.yaw_rate_radps / angle : 1e9);
+    const double acceleration = std::min(length > 0 ? model_.acceleration_mps2 / length : 1e9,
+                                         angle > 0 ? model_.yaw_acceleration_radps2 / angle : 1e9);
+    const double half_track_m = leg.angle_rad * model_.carried.b_m / 2;
+    double before = 0;
+    for (double t = kStep_s; before < 1; t += kStep_s) {
+      const double now = covered(t, rate, acceleration);
+      advance((leg.length_m - half_track_m) * (now - before) / model_.carried.c_l,
+              (leg.length_m + half_track_m) * (now - before) / model_.carried.c_r);
+      before = now;
+    }
+  }
+
+  const Track& track() const { return track_; }
+  std::mt19937_64& random() { return random_; }
+
+ private:
+  double slipped(double factor, double nominal_m) {
+    return factor * nominal_m + std::sqrt(model_.noise.K_m * std::abs(nominal_m)) * normal_(random_);
+  }
+
+  void advance(double left_m, double right_m) {
+    left_m_ += left_m;
+    right_m_ += right_m;
+    if (left_m != 0 || right_m != 0) {
+      const double l = slipped(model_.actual.c_l, left_m), r = slipped(model_.actual.c_r, right_m);
+      calibration::advance(pose_, r, l, model_.actual.b_m);
+    }
+    keep();
+  }
+
+  void keep() {
+    track_.left_m.push_back(left_m_);
+    track_.right_m.push_back(right_m_);
+    track_.pose.push_back(pose_);
+  }
+
+  const DriveModel& model_;
+  std::mt19937_64 random_;
+  std::normal_distribution<double> normal_;
+  double left_m_ = 0, right_m_ = 0;
+  Pose pose_;
+  Track track_;
+};
+
+double between(double a, double b, double fraction) { return a + fraction * (b - a); }
+
+Pose pose_at(const Track& track, double time_s) {
+  const double at = std::clamp(time_s / kStep_s, 0.0, static_cast<double>(track.pose.size() - 1));
+  const std::size_t i = std::min(static_cast<std::size_t>(at), track.pose.size() - 2);
+  const double fraction = at - static_cast<double>(i);
+  const Pose &a = track.pose[i], &b = track.pose[i + 1];
+  return {between(a.x_m, b.x_m, fraction), between(a.y_m, b.y_m, fraction),
+          between(a.theta_rad, b.theta_rad, fraction)};
+}
+
+double travel_at(const std::vector<double>& travel_m, double time_s) {
+  const double at = std::clamp(time_s / kStep_s, 0.0, static_cast<double>(travel_m.size() - 1));
+  const std::size_t i = std::min(static_cast<std::size_t>(at), travel_m.size() - 2);
+  return between(travel_m[i], travel_m[i + 1], at - static_cast<double>(i));
+}
+
+double whole_counts(double travel_m, double metres_per_count) {
+  return metres_per_count > 0 ? std::floor(travel_m / metres_per_count) * metres_per_count : travel_m;
+}
+
+BodySample seen(const Pose& robot, const DriveModel& model, std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  const double c = std::cos(robot.theta_rad), s = std::sin(robot.theta_rad);
+  BodySample sample;
+  sample.x_m =
+      robot.x_m + c * model.lever.x_m - s * model.lever.y_m + model.noise.sigma_xy_m * normal(random);
+  sample.y_m =
+      robot.y_m + s * model.lever.x_m + c * model.lever.y_m + model.noise.sigma_xy_m * normal(random);
+  const double heading = robot.theta_rad + model.lever.yaw_rad + model.noise.sigma_theta_rad * normal(random);
+  if (model.headings) sample.theta_rad = std::remainder(heading, 2 * std::numbers::pi);
+  return sample;
+}
+
+Course between_rests(Course path, double rest_s) {
+  const Leg rest{Leg::Kind::rest, 0, 0, rest_s};
+  path.insert(path.begin(), rest);
+  path.push_back(rest);
+  return path;
+}
+
+Pose mean_truth(const std::vector<BodySample>& truth, double from_s, double to_s) {
+  Pose sum;
+  double c = 0, s = 0, count = 0;
+  for (const BodySample& sample : truth) {
+    if (sample.time_s < from_s || sample.time_s > to_s) continue;
+    sum.x_m += sample.x_m;
+    sum.y_m += sample.y_m;
+    c += std::cos(sample.theta_rad);
+    s += std::sin(sample.theta_rad);
+    ++count;
+  }
+  return {sum.x_m / count, sum.y_m / count, std::atan2(s, c)};
+}
+
+Pose dead_reckoned(const std::vector<WheelSample>& wheels, const WheelFactors& carried) {
+  Pose pose;
+  for (std::size_t i = 1; i < wheels.size(); ++i)
+    calibration::advance(pose, carried.c_r * (wheels[i].right_m - wheels[i - 1].right_m),
+                         carried.c_l * (wheels[i].left_m - wheels[i - 1].left_m), carried.b_m);
+  return pose;
+}
+
+}  // namespace
+
+Course square_course(double side_m, calibration::Sense sense, double rest_s) {
+  const double quarter = (sense == calibration::Sense::ccw ? 1 : -1) * std::numbers::pi / 2;
+  Course path;
+  for (int corner = 0; corner < 4; ++corner) {
+    path.push_back({Leg::Kind::straight, side_m, 0, 0});
+    path.push_back({Leg::Kind::turn, 0, quarter, 0});
+  }
+  return between_rests(path, rest_s);
+}
+
+Course line_course(double length_m, double rest_s) {
+  return between_rests({{Leg::Kind::straight, length_m, 0, 0}}, rest_s);
+}
+
+Course spin_course(double angle_rad, double rest_s) {
+  return between_rests({{Leg::Kind::turn, 0, angle_rad, 0}}, rest_s);
+}
+
+Course circle_course(double radius_m, double angle_rad, double rest_s) {
+  return between_rests({{Leg::Kind::turn, radius_m * std::abs(angle_rad), angle_rad, 0}}, rest_s);
+}
+
+Trajectory synthetic_drive(const Course& course, const DriveModel& model, const std::string& name,
+                           std::uint64_t seed) {
+  Drive drive(model, seed);
+  for (const Leg& leg : course) drive.follow(leg);
+  const double end_s = static_cast<double>(drive.track().pose.size() - 1) * kStep_s;
+
+  Trajectory run;
+  run.name = name;
+  for (int i = 0; i / model.count_rate_hz <= end_s; ++i) {
+    const double time_s = i / model.count_rate_hz;
+    run.wheels.push_back({time_s,
+                          whole_counts(travel_at(drive.track().left_m, time_s), model.metres_per_count),
+                          whole_counts(travel_at(drive.track().right_m, time_s), model.metres_per_count)});
+  }
+  // Robot time u = t + offset + skew (t - middle), solved for t at the first sample.
+  const double middle_s = end_s / 2;
+  const auto robot_time = [&](double t) {
+    return t + model.clock_offset_s + model.clock_skew * (t + model.clock_offset_s - middle_s);
+  };
+  for (double t = -model.clock_offset_s - std::abs(model.clock_skew) * end_s; robot_time(t) <= end_s;
+       t += 1 / model.truth_rate_hz) {
+    if (robot_time(t) < 0) continue;
+    BodySample sample = seen(pose_at(drive.track(), robot_time(t)), model, drive.random());
+    sample.time_s = t;
+    run.truth.push_back(sample);
+  }
+  return run;
+}
+
+calibration::EndPose end_error(const Trajectory& run, const WheelFactors& carried, double rest_s) {
+  const double end_s = run.truth.back().time_s, start_s = run.truth.front().time_s;
+  const Pose from = mean_truth(run.truth, start_s, start_s + 0.9 * rest_s);
+  const Pose to = mean_truth(run.truth, end_s - 0.9 * rest_s, end_s);
+  const Pose odometry = dead_reckoned(run.wheels, carried);
+  const double dx = to.x_m - from.x_m, dy = to.y_m - from.y_m;
+  const double c = std::cos(from.theta_rad), s = std::sin(from.theta_rad);
+  return {c * dx + s * dy - odometry.x_m, c * dy - s * dx - odometry.y_m,
+          std::remainder(to.theta_rad - from.theta_rad - odometry.theta_rad, 2 * std::numbers::pi)};
+}
+
+std::uint64_t derived_seed(std::uint64_t seed, std::uint64_t index) {
+  // SplitMix64 (Steele, Lea, Flood 2014).
+  std::uint64_t z = seed + (index + 1) * 0x9E3779B97F4A7C15U;
+  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U;
+  z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
+  return z ^ (z >> 31);
+}
+
+}  // namespace astro::simulation::study

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "host/calibration/end_poses/end_pose.hpp"
+#include "host/calibration/end_poses/replay.hpp"
+#include "host/calibration/motion/trajectory.hpp"
+
+/// Drives of a robot that is kinematics and noise alone: what a calibration is given, from a robot whose true
+/// factors are known. Much faster than the simulated robot, and exactly the model that maximum likelihood
+/// believes in.
+namespace astro::simulation::study {
+
+/// One piece of a course, as the robot's odometry measures it.
+struct Leg {
+  enum class Kind { rest, straight, turn };
+  Kind kind = Kind::rest;
+  double length_m = 0;    // straight: signed; turn: arc length of the centre, 0 for a spin
+  double angle_rad = 0;   // turn: counter-clockwise positive
+  double duration_s = 0;  // rest
+};
+
+using Course = std::vector<Leg>;
+
+/// Rest, then the path, then rest again; each rest of `rest_s`. Distances in metres, angles in radians.
+Course square_course(double side_m, calibration::Sense sense, double rest_s = 1);
+Course line_course(double length_m, double rest_s = 1);
+Course spin_course(double angle_rad, double rest_s = 1);
+Course circle_course(double radius_m, double angle_rad, double rest_s = 1);
+
+/// How it is driven and watched.
+struct DriveModel {
+  calibration::WheelFactors carried;  // by these the robot believes to follow the course
+  calibration::WheelFactors actual;   // and these are true
+  calibration::NoiseModel noise;
+  calibration::LeverArm lever;
+  double speed_mps = 0.3, acceleration_mps2 = 0.5;
+  double yaw_rate_radps = 1.0, yaw_acceleration_radps2 = 2.0;
+  double count_rate_hz = 100, truth_rate_hz = 60;
+  double metres_per_count = 0;  // of a nominal wheel; 0: counts of any fineness
+  bool headings = true;         // of truth
+  double clock_offset_s = 0;    // robot's clock less tracker's, in the middle of the run
+  double clock_skew = 0;        // the robot's clock runs (1 + skew) times as fast
+};
+
+/// The drive as it would have been recorded. Equal seeds give equal drives.
+/// Errors  none; rates, speeds and accelerations are positive.
+/// Cost    about 2 ms for a minute.
+calibration::Trajectory synthetic_drive(const Course& course, const DriveModel& model,
+                                        const std::string& name, std::uint64_t seed);
+
+/// The end pose error that UMBmark is given: truth less odometry by `carried`, each between the rests at its
+/// ends, averaged over them. For a body without lever arm, and with headings.
+calibration::EndPose end_error(const calibration::Trajectory& run, const calibration::WheelFactors& carried,
+                               double rest_s = 1);
+
+/// A seed for part `index` of something seeded with `seed`: independent streams for neighbouring numbers.
+std::uint64_t derived_seed(std::uint64_t seed, std::uint64_t index);
+
+}  // namespace astro::simulation::study

@@ -1,0 +1,111 @@
+#include "host/simulation/study/trial.hpp"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <numbers>
+
+#include "host/base/error.hpp"
+#include "host/calibration/motion/arc.hpp"
+#include "host/calibration/likelihood/maximum_likelihood.hpp"
+#include "host/calibration/end_poses/replay.hpp"
+#include "host/calibration/end_poses/umbmark.hpp"
+
+namespace astro::simulation::study {
+namespace {
+
+using calibration::EndPose;
+using calibration::Sense;
+using calibration::WheelFactors;
+
+constexpr double kLineLength_m = 10;
+
+double line_miss_m(const WheelFactors& believed, const WheelFactors& actual) {
+  EndPose end;
+  advance(end, kLineLength_m * actual.c_r / believed.c_r, kLineLength_m * actual.c_l / believed.c_l,
+          actual.b_m);
+  return std::hypot(end.x_m - kLineLength_m, end.y_m);
+}
+
+double heading_rms_rad(double side_m, const WheelFactors& believed, const WheelFactors& actual) {
+  const auto turn = [&](Sense sense) { return replay_square(side_m, sense, believed, actual).theta_rad; };
+  return std::hypot(turn(Sense::cw), turn(Sense::ccw)) / std::numbers::sqrt2;
+}
+
+/// The squares as UMBmark is given them.
+struct EndErrors {
+  std::vector<EndPose> cw, ccw;
+};
+
+EndErrors by_sense(const std::vector<EndPose>& errors) {
+  EndErrors ends;
+  for (std::size_t run = 0; run < errors.size(); ++run)
+    (sense_of(static_cast<int>(run)) == Sense::cw ? ends.cw : ends.ccw).push_back(errors[run]);
+  return ends;
+}
+
+WheelFactors by_end_poses(const TrialSetup& setup, const EndErrors& ends,
+                          const calibration::Options& options) {
+  return estimate_factors(ends.cw, ends.ccw, setup.side_m, setup.carried(), options).factors;
+}
+
+double normalised_square(const calibration::MlEstimate& estimate, const WheelFactors& actual) {
+  const Eigen::Vector3d error(estimate.factors.c_r - actual.c_r, estimate.factors.c_l - actual.c_l,
+                              estimate.factors.b_m - actual.b_m);
+  Eigen::Matrix3d covariance;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      covariance(i, j) = estimate.covariance[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+  return error.dot(covariance.ldlt().solve(error));
+}
+
+}  // namespace
+
+Errors errors_of(const WheelFactors& found, const TrialSetup& setup) {
+  const WheelFactors actual = setup.actual();
+  const double scale = (found.c_r + found.c_l) / 2;
+  return {found.c_r / found.c_l - setup.E_d,
+          found.b_m / scale / setup.wheelbase_m - setup.E_b,
+          scale - setup.scale,
+          replay_E_max_syst_m(setup.side_m, found, actual),
+          heading_rms_rad(setup.side_m, found, actual),
+          line_miss_m(found, actual)};
+}
+
+Trial run_trial(const TrialSetup& setup, const DriveSource& source, int index) {
+  using calibration::AngleSource;
+  using calibration::Formula;
+  using calibration::Method;
+  Trial trial;
+  trial.index = index;
+  Drives drives;
+  try {
+    drives = source.of_trial(setup, index);
+  } catch (const Error& error) {
+    trial.failure = std::string(kMethods[0]) + ": " + error.what();
+    return trial;
+  }
+  const EndErrors ends = by_sense(drives.end_errors);
+  std::size_t method = 0;
+  const auto attempt = [&](auto estimate) {
+    try {
+      trial.errors[method] = errors_of(estimate(), setup);
+    } catch (const Error& error) {
+      trial.failure = std::string(kMethods[method]) + ": " + error.what();
+    }
+    ++method;
+  };
+  attempt([&] { return setup.carried(); });
+  for (const calibration::Options& options : {calibration::Options{Method::umbmark, AngleSource::thesis, {}},
+                                              calibration::Options{Method::umbmark, AngleSource::average, {}},
+                                              calibration::Options{Method::extended, {}, Formula::published},
+                                              calibration::Options{Method::extended, {}, Formula::exact}})
+    attempt([&] { return by_end_poses(setup, ends, options); });
+  attempt([&] {
+    const calibration::MlEstimate estimate = estimate_ml(drives.runs, setup.carried(), setup.ml_options());
+    trial.ml_chi_square = normalised_square(estimate, setup.actual());
+    return estimate.factors;
+  });
+  return trial;
+}
+
+}  // namespace astro::simulation::study

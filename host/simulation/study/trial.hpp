@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "host/calibration/end_poses/end_pose.hpp"
+#include "host/simulation/study/drive_source.hpp"
+#include "host/simulation/study/setup.hpp"
+
+/// One trial: the squares are driven once, and every method calibrates from the same data.
+namespace astro::simulation::study {
+
+/// In the order of the table.
+inline constexpr std::array<std::string_view, 6> kMethods = {
+    "uncalibrated", "umbmark thesis", "umbmark average", "extended published", "extended exact", "ml",
+};
+inline constexpr std::size_t kMl = 5;
+
+/// What is wrong with a set of factors. The first three are differences of E_d, of b / S over the believed
+/// wheelbase, and of S. The others are what is left, noise-free, once the factors are loaded: E_max_syst of
+/// the square, the heading error at its end (rms of both directions), and how far from the believed end 10 m
+/// end that the robot believes straight.
+enum Figure : std::size_t { kE_d, kB_over_S, kScale, kE_max_m, kTheta_rad, kLine_m };
+inline constexpr std::size_t kFigures = 6;
+using Errors = std::array<double, kFigures>;
+
+/// `found` against what is true in `setup`; the first three are signed.
+Errors errors_of(const calibration::WheelFactors& found, const TrialSetup& setup);
+
+struct Trial {
+  int index = 0;
+  /// Of each method; none where it gave no answer.
+  std::array<std::optional<Errors>, kMethods.size()> errors;
+  /// e' C^-1 e of c_R, c_L and b with the covariance that maximum likelihood claims.
+  std::optional<double> ml_chi_square;
+  std::string failure;  // why the last method that gave none did not: "ml: sentence"
+
+  bool operator==(const Trial&) const = default;
+};
+
+/// Errors  what `source` throws; what a method throws as astro::Error is its failure.
+/// Cost    that of driving and of estimate_ml: about 0.3 s for ten squares.
+Trial run_trial(const TrialSetup& setup, const DriveSource& source, int index);
+
+}  // namespace astro::simulation::study

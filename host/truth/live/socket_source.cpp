@@ -1,0 +1,109 @@
+#include "host/truth/live/socket_source.hpp"
+
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <string_view>
+
+#include "host/base/error.hpp"
+
+namespace astro::truth {
+namespace {
+
+constexpr std::string_view kGreeting = "astrolabe-mocap 1";
+
+// What is read at once, so that who sends faster than we read cannot hold us; the rest is there the next
+// time.
+constexpr std::size_t kMostPending = std::size_t{1} << 20;
+constexpr std::size_t kLongestLine = 1024;
+
+int connect_to(const std::filesystem::path& path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  const std::string text = path.string();
+  if (text.size() >= sizeof(address.sun_path))
+    throw Error("the path '" + text + "' is too long for a socket");
+  std::strcpy(address.sun_path, text.c_str());
+  const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  if (fd < 0 || connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
+    const std::string reason = std::strerror(errno);
+    if (fd >= 0) close(fd);
+    throw Error("no virtual cameras at '" + text + "' (" + reason +
+                "): --truth sim needs a robot started with 'astrolabe sim'");
+  }
+  return fd;
+}
+
+template <class Number>
+bool take(std::string_view& line, Number& number) {
+  while (!line.empty() && line.front() == ' ') line.remove_prefix(1);
+  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), number);
+  if (error != std::errc{}) return false;
+  line.remove_prefix(static_cast<std::size_t>(end - line.data()));
+  return true;
+}
+
+}  // namespace
+
+SocketSource::SocketSource(const std::filesystem::path& path) : path_(path), fd_(connect_to(path)) {}
+
+SocketSource::~SocketSource() { close(fd_); }
+
+std::vector<recording::TruthSample> SocketSource::poll() {
+  std::array<char, 16384> bytes;  // NOLINT(cppcoreguidelines-pro-type-member-init)
+  ssize_t count = -1;
+  while (pending_.size() < kMostPending && (count = recv(fd_, bytes.data(), bytes.size(), MSG_DONTWAIT)) > 0)
+    pending_.append(bytes.data(), static_cast<std::size_t>(count));
+  if (count == 0)
+    throw Error("the simulator's cameras at '" + path_.string() + "' have gone: is it still running?");
+
+  std::vector<recording::TruthSample> samples;
+  std::size_t start = 0;
+  for (std::size_t end; (end = pending_.find('\n', start)) != std::string::npos; start = end + 1) {
+    const std::string_view line(pending_.data() + start, end - start);
+    if (greeted_) {
+      samples.push_back(parse(line));
+    } else if (line == kGreeting) {
+      greeted_ = true;
+    } else {
+      throw Error("what answers at '" + path_.string() + "' is not this version's simulator");
+    }
+  }
+  pending_.erase(0, start);
+  if (pending_.size() > kLongestLine) fail_line();
+  return samples;
+}
+
+void SocketSource::fail_line() const {
+  throw Error("the simulator's cameras at '" + path_.string() + "' sent a line that is no pose");
+}
+
+recording::TruthSample SocketSource::parse(std::string_view line) const {
+  recording::TruthSample sample;
+  int valid = 0;
+  if (!take(line, sample.time_us) || !take(line, sample.x_m) || !take(line, sample.y_m) ||
+      !take(line, sample.theta_rad) || !take(line, valid))
+    fail_line();
+  sample.valid = valid != 0;
+  return sample;
+}
+
+std::filesystem::path mocap_socket_of(const std::filesystem::path& port) {
+  // The socket lies beside the symlink that the simulator made, but people may hold a symlink to that
+  // symlink.
+  std::filesystem::path path = port;
+  for (int hops = 0; hops < 8; ++hops) {
+    const std::filesystem::path socket = path.string() + ".mocap";
+    if (std::filesystem::exists(socket) || !std::filesystem::is_symlink(path)) return socket;
+    const std::filesystem::path next = std::filesystem::read_symlink(path);
+    path = next.is_absolute() ? next : path.parent_path() / next;
+  }
+  return port.string() + ".mocap";
+}
+
+}  // namespace astro::truth

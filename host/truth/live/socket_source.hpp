@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "host/truth/source/source.hpp"
+
+namespace astro::truth {
+
+/// The virtual cameras of a simulator in another process (host/simulation/server/truth_server.hpp has the format).
+class SocketSource : public Source {
+ public:
+  /// Throws astro::Error if nobody serves there: says that --truth sim needs 'astrolabe sim'.
+  explicit SocketSource(const std::filesystem::path& path);
+  ~SocketSource() override;
+
+  std::vector<recording::TruthSample> poll() override;
+  std::string name() const override { return "sim"; }
+  std::string clock() const override { return "robot"; }
+
+ private:
+  recording::TruthSample parse(std::string_view line) const;
+  [[noreturn]] void fail_line() const;
+
+  std::filesystem::path path_;
+  int fd_ = -1;
+  bool greeted_ = false;
+  std::string pending_;  // an unfinished line
+};
+
+/// Where the simulator behind `port` (a path, perhaps a symlink to its pty) serves its cameras.
+std::filesystem::path mocap_socket_of(const std::filesystem::path& port);
+
+}  // namespace astro::truth

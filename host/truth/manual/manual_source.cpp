@@ -1,0 +1,78 @@
+#include "host/truth/manual/manual_source.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "host/recording/run/run_metadata.hpp"
+#include "host/truth/source/plausibility.hpp"
+
+namespace astro::truth {
+namespace {
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t\r");
+  if (first == std::string::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+/// No number is the same as no number.
+bool same_number(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+}  // namespace
+
+double ManualSource::number(const std::string& prompt, bool may_be_empty, std::string hint) {
+  while (true) {
+    const std::string answer = trimmed(ask_(hint + prompt));
+    if (answer.empty() && may_be_empty) return std::numeric_limits<double>::quiet_NaN();
+    const char* first = answer.data() + (answer.starts_with('+') ? 1 : 0);
+    const char* last = answer.data() + answer.size();
+    double value = 0;
+    const auto [end, error] = std::from_chars(first, last, value);
+    if (error == std::errc{} && end == last && std::isfinite(value)) return value;
+    hint = "'" + answer + "' is no number, a decimal point is needed. ";
+  }
+}
+
+recording::TruthSample ManualSource::measured(const std::string& hint) {
+  recording::TruthSample end;
+  end.x_m = number("measured end x (m, forward of the start): ", false, hint);
+  end.y_m = number("measured end y (m, left of the start): ", false);
+  end.theta_rad = number("measured end heading (degrees, counter-clockwise; empty: not measured): ", true) *
+                  std::numbers::pi / 180;
+  return end;
+}
+
+std::vector<recording::TruthSample> ManualSource::complete(const recording::Run& run) {
+  recording::TruthSample end = measured("");
+  while (true) {
+    const std::string why = implausible_end(run, {}, end);
+    if (why.empty()) break;
+    const recording::TruthSample again = measured(recording::run_name(run.info) + ": " + why +
+                                                  " Enter it again, the same values to keep them.\n");
+    const bool same = same_number(again.x_m, end.x_m) && same_number(again.y_m, end.y_m) &&
+                      same_number(again.theta_rad, end.theta_rad);
+    end = again;
+    if (same) break;
+  }
+  return at_both_ends(run, {}, end);
+}
+
+std::vector<recording::TruthSample> at_both_ends(const recording::Run& run,
+                                                 const recording::TruthSample& start,
+                                                 const recording::TruthSample& end, std::int64_t stretch_us) {
+  std::vector<recording::TruthSample> samples;
+  for (const recording::OdometrySample& odometry : run.odometry) {
+    const bool early = odometry.time_us - run.odometry.front().time_us <= stretch_us;
+    const bool late = run.odometry.back().time_us - odometry.time_us <= stretch_us;
+    if (!early && !late) continue;
+    recording::TruthSample sample = early ? start : end;
+    sample.time_us = odometry.time_us;
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+}  // namespace astro::truth

@@ -1,0 +1,59 @@
+#include "host/truth/source/plausibility.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "host/base/degrees.hpp"
+#include "host/recording/run/planar_pose.hpp"
+
+namespace astro::truth {
+namespace {
+
+using recording::PlanarPose;
+
+constexpr double kMostOfTheWay = 0.25, kLeast_m = 0.2, kMost_rad = std::numbers::pi / 3;
+
+PlanarPose pose_of(const recording::OdometrySample& sample) {
+  return {sample.x_m, sample.y_m, sample.theta_rad};
+}
+
+double length_m(const recording::Run& run) {
+  double length = 0;
+  for (std::size_t i = 1; i < run.odometry.size(); ++i)
+    length += std::hypot(run.odometry[i].x_m - run.odometry[i - 1].x_m,
+                         run.odometry[i].y_m - run.odometry[i - 1].y_m);
+  return length;
+}
+
+template <class... Numbers>
+std::string sentence(const char* format, Numbers... numbers) {
+  std::array<char, 200> text{};
+  std::snprintf(text.data(), text.size(), format, numbers...);
+  return text.data();
+}
+
+}  // namespace
+
+std::string implausible_end(const recording::Run& run, const recording::TruthSample& start,
+                            const recording::TruthSample& end) {
+  if (run.odometry.empty()) return "";
+  const PlanarPose odometry =
+      recording::in_frame_of(pose_of(run.odometry.front()), pose_of(run.odometry.back()));
+  const PlanarPose measured =
+      recording::in_frame_of({start.x_m, start.y_m, start.theta_rad}, {end.x_m, end.y_m, end.theta_rad});
+  const double way_m = length_m(run);
+  const double off_m = std::hypot(measured.x_m - odometry.x_m, measured.y_m - odometry.y_m);
+  if (!(off_m <= std::max(kLeast_m, kMostOfTheWay * way_m)))
+    return sentence("this end is %.4g m from where odometry ends, after a run of %.4g m: is it in metres?",
+                    off_m, way_m);
+  const double turned_rad = recording::wrapped_rad(measured.theta_rad - odometry.theta_rad);
+  if (std::abs(turned_rad) > kMost_rad)
+    return sentence(
+        "this heading is %.0f degrees from that of odometry: is it in degrees, counter-clockwise?",
+        degrees(std::abs(turned_rad)));
+  return "";
+}
+
+}  // namespace astro::truth

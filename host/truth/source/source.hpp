@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/recording/run/run.hpp"
+
+/// Where ground truth comes from while a robot drives.
+namespace astro::truth {
+
+/// A stream of poses of the tracked body, in the tracker's own frame.
+///
+/// Threads one.
+class Source {
+ public:
+  Source() = default;
+  Source(const Source&) = delete;
+  Source& operator=(const Source&) = delete;
+  virtual ~Source() = default;
+
+  /// All samples that arrived since the last call, oldest first; never waits. Times are on the robot's clock
+  /// if clock() is "robot". Throws astro::Error once the tracker is gone.
+  virtual std::vector<recording::TruthSample> poll() = 0;
+
+  /// Whether truth comes from complete(): from people and files, whom a drive must not be lost to.
+  virtual bool comes_afterwards() const { return false; }
+
+  /// After a run: what can only be had once the robot stands at its end (a tape measure, a file). `run` holds
+  /// the odometry of the whole run, standing still at both ends. None for sources that stream.
+  virtual std::vector<recording::TruthSample> complete(const recording::Run& run) {
+    static_cast<void>(run);
+    return {};
+  }
+
+  /// "sim", "vrpn", ...: what a recording says of it.
+  virtual std::string name() const = 0;
+  virtual std::string clock() const = 0;
+};
+
+}  // namespace astro::truth

@@ -1,0 +1,170 @@
+#include "host/simulation/study/programme.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "host/simulation/study/kinematic_source.hpp"
+#include "host/simulation/study/shortest_programme.hpp"
+#include "host/simulation/study/summary.hpp"
+#include "tests/host/calibration/square_runs.hpp"
+
+namespace astro::simulation::study {
+namespace {
+
+using calibration::Precision;
+using calibration::test::error_of;
+
+Forecast of(const Counts& counts) { return forecast(Programme{}.with(counts)); }
+
+bool meets(const Forecast& forecast, double target) {
+  const Precision reached = forecast.relative();
+  return reached.E_d <= target && reached.scale <= target && reached.b <= target;
+}
+
+TEST(Forecast, OfTenSquaresIsTheBoundThatAStudyComparesWith) {
+  TrialSetup setup;
+  setup.E_d = setup.E_b = setup.scale = 1;
+  setup.clock_known = false;
+  const Row bound = bound_of(setup, KinematicSource());
+  const Forecast ten = of({10, 0, 0, 0});
+  EXPECT_NEAR(ten.se.E_d / bound.rms[kE_d], 1, 1e-9);
+  EXPECT_NEAR(ten.se.scale / bound.rms[kScale], 1, 1e-9);
+  EXPECT_NEAR(ten.se.b_over_scale_m / setup.wheelbase_m / bound.rms[kB_over_S], 1, 1e-9);
+}
+
+TEST(Forecast, OfSquaresFollowsTheDesignRules) {
+  const Forecast ten = of({10, 0, 0, 0});
+  const Precision reached = ten.relative();
+  const Precision rule = reachable_precision(ten.extent, ten.programme.noise.K_m, ten.programme.wheelbase_m);
+  EXPECT_NEAR(reached.E_d / rule.E_d, 1, 0.04);  // what precision.hpp promises
+  EXPECT_NEAR(reached.scale / rule.scale, 1, 0.04);
+  // The rule's b is b / S; b itself has the error of S, 1.05e-4 beside 3.8e-4, on top.
+  EXPECT_NEAR(ten.se.b_over_scale_m / ten.programme.wheelbase_m / rule.b, 1, 0.04);
+  EXPECT_GT(reached.b, rule.b);
+}
+
+TEST(Forecast, OfFourTimesTheRunsIsHalfTheErrorInFourTimesTheTime) {
+  const Forecast few = of({2, 2, 2, 2}), many = of({8, 8, 8, 8});
+  EXPECT_NEAR(many.relative().E_d / few.relative().E_d, 0.5,
+              1e-6);  // all that runs share is estimated from all
+  EXPECT_NEAR(many.relative().b / few.relative().b, 0.5, 1e-6);
+  EXPECT_NEAR(many.driving_time_s, 4 * few.driving_time_s, 1e-9);
+  EXPECT_NEAR(many.extent.distance_m, 4 * few.extent.distance_m, 1e-9);
+}
+
+TEST(Forecast, KnowsHowFarHowManyTurnsAndHowLong) {
+  const double pi = std::numbers::pi;
+  const Forecast f = of({0, 1, 2, 0});
+  EXPECT_NEAR(f.extent.distance_m, 3, 1e-12);
+  EXPECT_NEAR(f.extent.rotation_rad, 2 * 5 * 2 * pi, 1e-9);
+  // Each run rests 2 s; 3 m at 0.3 m/s with a ramp of 0.6 s, five turns at 1 rad/s with a ramp of 0.5 s.
+  EXPECT_NEAR(f.driving_time_s, 12.6 + 2 * (2 + 10 * pi + 0.5), 0.05);
+  EXPECT_EQ(f.programme.text(), "1 line of 3 m, 2 spins of 5 turns");
+}
+
+TEST(Forecast, WorseGroundTruthAndMoreSlipTakePrecision) {
+  const Programme squares = Programme{}.with({2, 0, 0, 0});
+  Programme slippery = squares, blurred = squares;
+  slippery.noise.K_m *= 4;
+  blurred.noise.sigma_theta_rad *= 10;
+  blurred.noise.sigma_xy_m *= 10;
+  const Precision best = forecast(squares).relative();
+  EXPECT_NEAR(forecast(slippery).relative().E_d / best.E_d, 2, 0.02) << "slip is nearly all of the noise";
+  EXPECT_GT(forecast(blurred).relative().b, 1.05 * best.b);
+}
+
+TEST(Forecast, RefusesProgrammesThatLeaveAFactorOpen) {
+  const auto message = [](const Counts& counts) { return error_of([&] { (void)of(counts); }); };
+  EXPECT_EQ(message({0, 0, 0, 0}), "the programme is empty: say how many squares, lines, spins or circles");
+  EXPECT_EQ(message({0, 7, 0, 0}),
+            "lines never turn, so nothing tells the wheelbase: add squares, spins or circles");
+  EXPECT_EQ(message({0, 0, 7, 0}),
+            "spins tell the ratio of wheels and wheelbase but no size: add squares, lines or circles");
+  EXPECT_EQ(message({0, 0, 0, 1}),
+            "one circle turns one way round, which leaves wheels and wheelbase open: drive two");
+  EXPECT_EQ(message({-1, 0, 0, 0}), "the number of squares is -1: give 0 to 1000");
+  EXPECT_EQ(message({600, 600, 0, 0}),
+            "the programme has 1200 runs and 1000 are the most: drive longer ones");
+  Programme vast;
+  vast.side_m = 1000;
+  EXPECT_EQ(error_of([&] {
+              (void)forecast(vast.with({1000, 0, 0, 0}));
+            }),
+            "some 3705 hours of driving are more than fit into memory: take fewer or shorter runs, or lower "
+            "rates");
+  Programme flat;
+  flat.side_m = 0;
+  EXPECT_EQ(error_of([&] {
+              (void)forecast(flat.with({2, 0, 0, 0}));
+            }),
+            "the side of the squares in metres is 0.000000: give a positive number");
+}
+
+TEST(ShortestProgramme, MeetsTheTargetAndTakesNoRunTooMany) {
+  for (const double target : {1e-2, 1e-3, 5e-4, 2e-4}) {
+    const Forecast found =
+        shortest_programme({target, target, target}, {kSquares, kLines, kSpins, kCircles}, Programme{});
+    EXPECT_TRUE(meets(found, target)) << target;
+    for (const Kind kind : {kSquares, kLines, kSpins, kCircles}) {
+      Counts less = found.programme.counts;
+      less[kind] -= kind == kLines ? 1 : 2;
+      if (less[kind] < 0 || less == Counts{}) continue;
+      try {
+        EXPECT_FALSE(meets(of(less), target)) << target << ", without one of " << kKindNames[kind];
+      } catch (const Error&) {
+        // What is left cannot tell all three factors.
+      }
+    }
+  }
+}
+
+TEST(ShortestProgramme, IsTheShortestOfAllThatAreTried) {
+  constexpr double kTarget = 5e-4;
+  const Forecast found =
+      shortest_programme({kTarget, kTarget, kTarget}, {kLines, kSpins, kCircles}, Programme{});
+  for (int lines = 0; lines <= 8; ++lines)
+    for (int spins = 0; spins <= 4; spins += 2)
+      for (int circles = 0; circles <= 6; circles += 2) {
+        if (spins + circles == 0 || lines + circles == 0) continue;
+        const Forecast other = of({0, lines, spins, circles});
+        if (meets(other, kTarget)) {
+          EXPECT_GE(other.driving_time_s, found.driving_time_s - 1e-9) << other.programme.text();
+        }
+      }
+}
+
+TEST(ShortestProgramme, UsesTheKindsItMayAndFewerKindsAreNeverFaster) {
+  const Precision target{3e-4, 3e-4, 3e-4};
+  const Forecast all = shortest_programme(target, {kSquares, kLines, kSpins, kCircles}, Programme{});
+  const Forecast squares = shortest_programme(target, {kSquares}, Programme{});
+  EXPECT_EQ(squares.programme.counts[kLines] + squares.programme.counts[kSpins], 0);
+  EXPECT_GE(squares.driving_time_s, all.driving_time_s);
+  EXPECT_EQ(squares.programme.counts[kSquares] % 2, 0) << "as many each way";
+}
+
+TEST(ShortestProgramme, LooksAtEachOfTheThreeTargets) {
+  const Precision loose{1e-2, 1e-2, 1e-2};
+  for (const auto precise : {&Precision::E_d, &Precision::scale, &Precision::b}) {
+    Precision target = loose;
+    target.*precise = 1e-4;
+    const Forecast found = shortest_programme(target, {kLines, kSpins}, Programme{});
+    EXPECT_LE(found.relative().*precise, 1e-4);
+    EXPECT_GT(found.relative().*precise, 0.9e-4) << "and no more than it takes";
+  }
+}
+
+TEST(ShortestProgramme, RefusesWhatCannotBeReached) {
+  const auto message = [](double target, const std::vector<Kind>& kinds) {
+    return error_of([&] { (void)shortest_programme({target, target, target}, kinds, Programme{}); });
+  };
+  EXPECT_EQ(message(5e-4, {kLines}),
+            "lines never turn, so nothing tells the wheelbase: add squares, spins or circles");
+  EXPECT_EQ(message(1e-7, {kSquares}),
+            "a precision this fine takes more than 1000 runs: drive longer ones, ask for less, or lessen the "
+            "slip");
+  EXPECT_EQ(message(0, {kSquares}), "the precision wanted of E_d is 0.000000: give a positive number");
+}
+
+}  // namespace
+}  // namespace astro::simulation::study

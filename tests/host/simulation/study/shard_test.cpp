@@ -1,0 +1,172 @@
+#include "host/simulation/study/shard_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "host/simulation/study/study.hpp"
+#include "tests/host/calibration/square_runs.hpp"
+#include "tests/support/bounded.hpp"
+
+namespace astro::simulation::study {
+namespace {
+
+using calibration::test::error_of;
+
+TEST(Shard, EachTrialIsInExactlyOne) {
+  for (const int trials : {1, 7, 200, 1000003})
+    for (const int of : {1, 2, 3, 8, 200}) {
+      int next = 0;
+      for (int number = 1; number <= of; ++number) {
+        const Shard shard{number, of};
+        EXPECT_EQ(shard.begin(trials), next);
+        EXPECT_GE(shard.end(trials), next);
+        next = shard.end(trials);
+      }
+      EXPECT_EQ(next, trials);
+    }
+}
+
+// Trials without driving: figures of awkward digits, and one failure.
+std::vector<Trial> some_trials(int begin, int end) {
+  std::vector<Trial> trials;
+  for (int i = begin; i < end; ++i) {
+    Trial trial;
+    trial.index = i;
+    for (std::size_t m = 0; m < kMethods.size(); ++m) {
+      Errors errors;
+      for (std::size_t f = 0; f < kFigures; ++f)
+        errors[f] = 1.0 / (3.0 + i + static_cast<double>(m) * 0.1 + static_cast<double>(f));
+      trial.errors[m] = errors;
+    }
+    trial.ml_chi_square = std::numeric_limits<double>::denorm_min() * (i + 1);
+    trials.push_back(trial);
+  }
+  trials.front().errors[kMl].reset();
+  trials.front().ml_chi_square.reset();
+  trials.front().failure = "ml: \"quoted\", and\nbroken";
+  return trials;
+}
+
+TrialSetup of_trials(int trials) {
+  TrialSetup setup;
+  setup.trials = trials;
+  setup.seed = std::numeric_limits<std::uint64_t>::max();
+  return setup;
+}
+
+Part part(const std::string& name, int begin, int end, const TrialSetup& setup = of_trials(10)) {
+  return read_part(to_text(setup, some_trials(begin, end)), name);
+}
+
+TEST(ShardFile, GivesBackEveryBit) {
+  const Part read = part("a.json", 2, 6);
+  EXPECT_EQ(read.trials, some_trials(2, 6));
+  EXPECT_EQ(to_text(read.setup, read.trials), to_text(of_trials(10), some_trials(2, 6)));
+  EXPECT_EQ(read.setup.seed, of_trials(10).seed);
+}
+
+TEST(ShardFile, SaysWhichRobotDrove) {
+  TrialSetup setup = of_trials(10);
+  for (const Model model : {Model::kinematic, Model::simulator}) {
+    setup.model = model;
+    EXPECT_EQ(part("a.json", 2, 6, setup).setup.model, model);
+  }
+  std::string other = to_text(setup, some_trials(2, 6));
+  other.replace(other.find("simulator"), 9, "emulator?");
+  EXPECT_EQ(error_of([&] { read_part(other, "a.json"); }),
+            "'emulator?' is no model of a robot: there are kinematic and simulator");
+}
+
+TEST(ShardFile, GivesBackWhatIsNoNumberAsThatAndNotAsNoAnswer) {
+  std::vector<Trial> trials = some_trials(0, 2);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  trials[1].errors[kMl] = Errors{std::nan(""), kInfinity, -kInfinity, 1, 2, 3};
+  trials[1].ml_chi_square = std::nan("");
+  const std::string text = to_text(of_trials(2), trials);
+  const std::vector<Trial> read = read_part(text, "x.json").trials;
+  const Errors errors = read[1].errors[kMl].value();
+  EXPECT_TRUE(std::isnan(errors[0]));
+  EXPECT_EQ(errors[1], kInfinity);
+  EXPECT_EQ(errors[2], -kInfinity);
+  EXPECT_EQ(errors[5], 3);
+  EXPECT_TRUE(std::isnan(read[1].ml_chi_square.value()));
+  EXPECT_FALSE(read[0].errors[kMl].has_value());
+  EXPECT_FALSE(read[0].ml_chi_square.has_value());
+  EXPECT_EQ(to_text(of_trials(2), read), text) << "and so on for ever";
+}
+
+TEST(ShardFile, ThatIsNoneIsNamed) {
+  const std::string none = "'x.json' is no shard of a study: give what 'astrolabe study --out' wrote";
+  for (const std::string text : {"", "{}", "[1, 2", "{\"format\": 3", "name,x\n1,2\n"})
+    EXPECT_EQ(error_of([&] { read_part(text, "x.json"); }), none) << text;
+  std::string cut = to_text(of_trials(10), some_trials(0, 5));
+  cut.resize(cut.size() / 2);
+  EXPECT_EQ(error_of([&] { read_part(cut, "x.json"); }), none);
+  EXPECT_EQ(error_of([&] { read_part(R"({"format": "astrolabe study 0", "methods": []})", "x.json"); }),
+            "'x.json' was written by another version of 'astrolabe study': run its shard again");
+}
+
+TEST(ShardFile, OfShortValuesThatWouldTakeManyTimesItsSizeIsRefusedUnread) {
+  std::string text = "[";
+  while (text.size() < 20'000'000) text += "[],";
+  const support::Taken taken = support::measured([&] { read_part(text, "x.json"); });
+  EXPECT_BOUNDED(taken, text.size());
+  EXPECT_EQ(taken.complaint, "'x.json' is no shard of a study: give what 'astrolabe study --out' wrote");
+}
+
+TEST(ShardFile, WithACountThatIsNoneIsRefused) {
+  const std::string text = to_text(of_trials(10), some_trials(0, 1));
+  const auto with = [&](const std::string& key, const std::string& value) {
+    std::string changed = text;
+    const std::size_t at = changed.find("\"" + key + "\": ") + key.size() + 4;
+    changed.replace(at, changed.find_first_of(",\n", at) - at, value);
+    return error_of([&] { merge({read_part(changed, "x.json")}); });
+  };
+  for (const std::string count : {"1e300", "-1", "4294967306", "2.5", "1e999"}) {
+    EXPECT_NE(with("trials", count), "") << count;
+    EXPECT_NE(with("runs", count), "") << count;
+    EXPECT_NE(with("trial", count), "") << count;
+  }
+  EXPECT_EQ(with("seed", "1e300"), "the seed of a study is a whole number, not 1e+300");
+}
+
+TEST(Merge, OfFewTrialsTakesMemoryForThoseAloneWhateverCountIsClaimed) {
+  const std::vector<Part> parts{part("a", 0, 4, of_trials(10'000'000))};
+  const support::Taken taken = support::measured([&] { merge(parts); });
+  EXPECT_BOUNDED(taken, 0);
+  EXPECT_EQ(taken.complaint,
+            "of 10000000 trials 4 to 9999999 are missing: run their shard, or name its file, too");
+}
+
+TEST(Merge, PutsTheTrialsInOrderWhateverTheOrderOfTheFiles) {
+  const std::vector<Trial> merged = merge({part("c", 7, 10), part("a", 0, 3), part("b", 3, 7)});
+  ASSERT_EQ(merged.size(), 10U);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(merged[static_cast<std::size_t>(i)].index, i);
+}
+
+TEST(Merge, RefusesWhatIsNotOneWholeStudy) {
+  const auto message = [](const std::vector<Part>& parts) { return error_of([&] { merge(parts); }); };
+  EXPECT_EQ(message({}), "there is nothing to merge: name the files of all shards");
+  EXPECT_EQ(message({part("a", 0, 4), part("b", 3, 10)}),
+            "trial 3 is in 'a' and in 'b': name each shard once");
+  EXPECT_EQ(message({part("a", 0, 4), part("b", 6, 10)}),
+            "of 10 trials 4 to 5 are missing: run their shard, or name its file, too");
+  EXPECT_EQ(message({part("a", 1, 10)}),
+            "of 10 trials 0 are missing: run their shard, or name its file, too");
+  TrialSetup other = of_trials(10);
+  other.side_m = 2;
+  EXPECT_EQ(message({part("a", 0, 4), part("b", 4, 10, other)}),
+            "'a' was made with side_m 3.0 and 'b' with 2.0: merge shards of one study only");
+  other = of_trials(10);
+  other.model = Model::simulator;
+  EXPECT_EQ(
+      message({part("a", 0, 4), part("b", 4, 10, other)}),
+      "'a' was made with model \"kinematic\" and 'b' with \"simulator\": merge shards of one study only");
+  EXPECT_EQ(message({part("a", 0, 12)}),
+            "'a' holds trial 10 of a study of 10: it is damaged, run its shard again");
+}
+
+}  // namespace
+}  // namespace astro::simulation::study

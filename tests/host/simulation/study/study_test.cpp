@@ -1,0 +1,93 @@
+#include "host/simulation/study/study.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "host/simulation/study/kinematic_source.hpp"
+#include "host/simulation/study/shard_file.hpp"
+#include "host/simulation/study/summary.hpp"
+#include "tests/host/calibration/square_runs.hpp"
+
+namespace astro::simulation::study {
+namespace {
+
+const KinematicSource kRobot;
+const auto kSilent = [](int, int) {};
+
+TrialSetup small_setup(int trials) {
+  TrialSetup setup;
+  setup.trials = trials;
+  setup.runs = 1;
+  setup.side_m = 1;
+  setup.clock_known = false;
+  return setup;
+}
+
+TEST(Study, ShardsMergedAreTheWholeToTheLastBitWhateverTheJobs) {
+  const TrialSetup setup = small_setup(7);
+  const std::vector<Trial> whole = run_study(setup, kRobot, {1, 1}, 1, kSilent);
+  std::vector<Part> parts;
+  for (const int number : {3, 1, 2})
+    parts.push_back(
+        read_part(to_text(setup, run_study(setup, kRobot, {number, 3}, 4, kSilent)), std::to_string(number)));
+  EXPECT_EQ(merge(parts), whole);
+  const Summary a = summarize(setup, kRobot, whole), b = summarize(setup, kRobot, merge(parts));
+  ASSERT_EQ(a.methods.size(), kMethods.size());
+  for (std::size_t m = 0; m < a.methods.size(); ++m) {
+    EXPECT_EQ(a.methods[m].rms, b.methods[m].rms);
+    EXPECT_EQ(a.methods[m].se, b.methods[m].se);
+  }
+  EXPECT_EQ(a.bound.rms, b.bound.rms);
+}
+
+TEST(Study, AnotherSeedIsAnotherStudy) {
+  TrialSetup setup = small_setup(1);
+  const std::vector<Trial> first = run_study(setup, kRobot, {1, 1}, 1, kSilent);
+  setup.seed = 2;
+  EXPECT_NE(run_study(setup, kRobot, {1, 1}, 1, kSilent), first);
+}
+
+TEST(Study, WhoeverWatchesCanEndIt) {
+  const auto enough = [](int, int) { throw std::runtime_error("enough"); };
+  EXPECT_THROW(run_study(small_setup(100000), kRobot, {1, 1}, 1, enough), std::runtime_error);
+}
+
+TEST(Study, AnEmptyShardIsRefused) {
+  EXPECT_EQ(calibration::test::error_of([] {
+              run_study(small_setup(3), kRobot, {1, 4}, 1, kSilent);
+            }),
+            "shard 1/4 of 3 trials is empty: make fewer shards or more trials");
+}
+
+// The full claims, over hundreds of trials of ten squares, are for `astrolabe study`; here enough of them to
+// notice a loss of some 25 %.
+class MaximumLikelihoodStudy : public testing::TestWithParam<bool> {};
+
+TEST_P(MaximumLikelihoodStudy, ReachesTheBoundWithAnHonestCovariance) {
+  TrialSetup setup;
+  setup.trials = 100;
+  setup.runs = 1;
+  setup.side_m = 1;
+  setup.clock_known = GetParam();
+  const Summary summary = summarize(setup, kRobot, run_study(setup, kRobot, {1, 1}, 2, kSilent));
+  EXPECT_TRUE(summary.failures.empty());
+  for (const Ratio& ratio : summary.ml_over_bound) {
+    EXPECT_LT(ratio.value, 1 + 3 * ratio.se);
+    EXPECT_GT(ratio.value, 1 - 3 * ratio.se) << "nobody is better than the bound";
+  }
+  ASSERT_TRUE(summary.ml_covariance.has_value());
+  EXPECT_NEAR(summary.ml_covariance->mean, 3, 3 * std::sqrt(6.0 / setup.trials))
+      << "chi-square's own scatter";
+  const Row& ml = summary.methods.back();
+  const Row& extended = summary.methods[summary.methods.size() - 2];
+  EXPECT_LT(ml.rms[kB_over_S], extended.rms[kB_over_S] / 2);
+  EXPECT_LT(ml.rms[kScale], extended.rms[kScale] / 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(Clock, MaximumLikelihoodStudy, testing::Bool(),
+                         [](const auto& clock) { return clock.param ? "Known" : "Estimated"; });
+
+}  // namespace
+}  // namespace astro::simulation::study
