@@ -120,8 +120,7 @@ std::string ask(const std::string& prompt) {
 
 bool confirm(const std::string& question) {
   if (isatty(STDIN_FILENO) != 1)
-    throw Error("'" + question +
-                "' needs an answer and the input is no terminal: give --yes to agree beforehand");
+    throw Error("'" + question + "' needs an answer and the input is no terminal", {Help::agree_beforehand});
   const std::string answer = ask(question + " [y/N] ");
   return answer == "y" || answer == "Y" || answer == "yes";
 }

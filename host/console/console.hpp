@@ -33,7 +33,7 @@ void complain_of_memory();
 /// answers.
 bool confirm(const std::string& question);
 
-/// A line from stdin after a prompt on stderr. Throws astro::Error at the end of input, robot::Interrupted on
+/// A line from stdin after a prompt on stderr. Throws astro::Error at the end of input, Interrupted on
 /// Ctrl-C.
 std::string ask(const std::string& prompt);
 

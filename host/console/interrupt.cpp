@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "host/robot/motion/drive.hpp"
+#include "host/base/interrupted.hpp"
 
 namespace astro::console {
 namespace {
@@ -52,7 +52,7 @@ void watch_for_interrupt() {
 bool interrupted() { return raised != 0; }
 
 void check_interrupt() {
-  if (interrupted()) throw robot::Interrupted("interrupted");
+  if (interrupted()) throw Interrupted("interrupted");
 }
 
 void before_forced_exit(void (*act)()) { last_act = act; }

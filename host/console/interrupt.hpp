@@ -7,10 +7,10 @@ namespace astro::console {
 void watch_for_interrupt();
 
 /// What whoever drives a robot asks (robot::DriveHooks::interrupted); a drive that is interrupted stops the
-/// robot and throws robot::Interrupted, and main exits with 130.
+/// robot and throws Interrupted, and main exits with 130.
 bool interrupted();
 
-/// Throws robot::Interrupted if the flag is set.
+/// Throws Interrupted if the flag is set.
 void check_interrupt();
 
 /// Called by the SIGINT that ends the program before it does so, and so restricted to what a signal handler may do;

@@ -71,13 +71,4 @@ void examples(Command command, std::initializer_list<const char*> lines) {
   command.footer(footer);
 }
 
-void add_force(Command command, bool& force) {
-  command.add_flag("--force", force,
-                   "upload also a change of more than 10 %, or on top of other\nparameters");
-}
-
-void add_json_flag(Command command, bool& json) {
-  command.add_flag("--json", json, "print JSON instead of text for people");
-}
-
 }  // namespace astro::console

@@ -27,10 +27,4 @@ Check fraction();
 /// "Examples:" and one line each, as the footer of a command's help.
 void examples(Command command, std::initializer_list<const char*> lines);
 
-/// Adds --force, of what uploads a calibration: see experiment::objection.
-void add_force(Command command, bool& force);
-
-/// Adds --json.
-void add_json_flag(Command command, bool& json);
-
 }  // namespace astro::console

@@ -122,7 +122,7 @@ TEST_F(Parameters, ACommitThatWouldNotFitWhatIsInTheFlashIsRefused) {
   ask(protocol::ApplyParameters{});
   open_staging();
   stage(Param::speed_limit, 2'000'000);
-  const link::RobotRefused refused = refusal(protocol::CommitParameters{});
+  const robot::RobotRefused refused = refusal(protocol::CommitParameters{});
   EXPECT_EQ(refused.code(), ErrorCode::invalid_parameter);
   EXPECT_EQ(refused.detail(), id(Param::over_speed));
 }

@@ -8,6 +8,7 @@
 
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "host/calibration/judgement/path_errors.hpp"
+#include "host/calibration/judgement/remarks.hpp"
 #include "host/calibration/end_poses/umbmark.hpp"
 
 // A real robot that knew nothing of this project: OptiTrack and ticks of Sousa et al.
@@ -100,7 +101,7 @@ TEST_F(Optiodom, RawLogsGiveTheirClockAndWhereTheMarkersSat) {
   // Looked at every 50 ms the wheels seem to slip ten times as much as over seconds (3.3e-6 m), and arcs to
   // want a wheelbase 2 % larger than spins do: errors that come back.
   EXPECT_GT(found.thinned_to_s, 0.5);
-  EXPECT_TRUE(found.remarks().empty());
+  EXPECT_TRUE(calibration::remarks(found).empty());
   // Heavier tails than normal: a real tracker has a few bad moments that the noise is not allowed to follow.
   EXPECT_NEAR(found.chi_square / found.degrees_of_freedom, 1.1, 0.15);
 }

@@ -15,7 +15,7 @@
 #include "common/safety/fault.hpp"
 
 /// As much of a robot as the host's side of the link can tell: bytes in, bytes out, a clock of its own. Knows
-/// no motion: a segment takes kSegment_us. It remembers its last reply as host/link asks of a robot.
+/// no motion: a segment takes kSegment_us. It remembers its last reply as host/robot/client asks of a robot.
 namespace astro::test {
 
 struct FakeParameter {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/calibration/end_poses/end_pose.hpp"
+#include "host/calibration/motion/wheel_factors.hpp"
 
 /// What a measured pair of ratios does to the factors that the robot carried while it was measured.
 namespace astro::calibration {

@@ -12,11 +12,6 @@ struct EndPose {
   double x_m = 0, y_m = 0, theta_rad = 0;
 };
 
-/// The factors that a robot's odometry carries: wheel travel = c * nominal travel, b the wheelbase.
-struct WheelFactors {
-  double c_r = 1, c_l = 1, b_m = 0;
-};
-
 /// The figures of the thesis's tables for one direction, with the standard errors of the means.
 ///
 /// se_r is hypot(se_x, se_y), the rms distance of the measured centre from the true one. The first-order

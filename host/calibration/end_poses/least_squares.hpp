@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/calibration/end_poses/closed_form.hpp"
+#include "host/calibration/motion/wheel_factors.hpp"
 
 namespace astro::calibration {
 

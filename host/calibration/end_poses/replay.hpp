@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/calibration/end_poses/end_pose.hpp"
+#include "host/calibration/motion/wheel_factors.hpp"
 
 /// Exact-arc replay of a square: where a robot really ends that believes it has come back to its start.
 namespace astro::calibration {

@@ -5,6 +5,7 @@
 
 #include "host/calibration/end_poses/closed_form.hpp"
 #include "host/calibration/end_poses/end_pose.hpp"
+#include "host/calibration/motion/wheel_factors.hpp"
 
 /// Wheel factors from the end poses of squares driven both ways round: UMBmark (Borenstein & Feng 1996),
 /// extended UMBmark (Jung & Chung 2011) and the exact fit of the end positions.

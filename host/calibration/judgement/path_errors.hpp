@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
+#include "host/calibration/motion/wheel_factors.hpp"
 
 /// How well given factors dead-reckon given drives: the judgement that a calibration has to stand on drives
 /// that it has not seen.

@@ -1,9 +1,10 @@
+#include "host/calibration/judgement/remarks.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "host/base/degrees.hpp"
-#include "host/calibration/likelihood/maximum_likelihood.hpp"
 
 namespace astro::calibration {
 namespace {
@@ -11,8 +12,7 @@ namespace {
 std::string outlier_sentence(const RunFit& run) {
   return fmt::format(
       "{} disagrees with the others about the factors (chi-square {:.0f} of {}): a slip, a push or a wrong "
-      "ground truth; "
-      "look at it, and leave it out with --without if so",
+      "ground truth",
       run.name, run.disagreement, run.disagreement_dof);
 }
 
@@ -24,7 +24,7 @@ std::string jolt_sentence(const RunFit& run) {
   return fmt::format(
       "{}: the ground truth turned and the wheels did not, {}: a castor, a cable, a hand, or markers taken "
       "for "
-      "others; look there, and leave the run out with --without if it was an accident",
+      "others",
       run.name, fmt::join(moments, " and "));
 }
 
@@ -39,33 +39,31 @@ std::string wheelbase_sentence(const WheelbaseByKind& kind) {
 
 }  // namespace
 
-std::vector<std::string> MlEstimate::remarks() const {
-  std::vector<std::string> sentences;
-  for (const std::string& why : left_out) sentences.push_back(why + "; it was left out");
-  for (const RunFit& run : runs)
-    if (run.outlier) sentences.push_back(outlier_sentence(run));
-  for (const RunFit& run : runs)
-    if (!run.jolts.empty()) sentences.push_back(jolt_sentence(run));
-  const double ratio = chi_square / degrees_of_freedom;
+std::vector<Remark> remarks(const MlEstimate& estimate) {
+  std::vector<Remark> list;
+  for (const std::string& why : estimate.left_out) list.push_back({why + "; it was left out"});
+  for (const RunFit& run : estimate.runs)
+    if (run.outlier) list.push_back({outlier_sentence(run), {Help::leave_out_if_accident}});
+  for (const RunFit& run : estimate.runs)
+    if (!run.jolts.empty()) list.push_back({jolt_sentence(run), {Help::leave_out_if_accident}});
+  const double ratio = estimate.chi_square / estimate.degrees_of_freedom;
   if (ratio < 0.5)
-    sentences.push_back(fmt::format(
+    list.push_back({fmt::format(
         "the ground truth is only {:.2g} times as far from the wheels as the given noise explains, "
         "so the standard errors are too large: let the noise be estimated",
-        std::sqrt(ratio)));
+        std::sqrt(ratio))});
   if (ratio > 1.5)
-    sentences.push_back(
-        fmt::format("the ground truth is {:.1f} times as far from the wheels as the given noise explains, so "
+    list.push_back({fmt::format("the ground truth is {:.1f} times as far from the wheels as the given noise explains, so "
                     "the standard errors are too "
                     "small: let the noise be estimated",
-                    std::sqrt(ratio)));
-  if (dispersion > 1)
-    sentences.push_back(
-        fmt::format("the runs differ {:.1f} times as much as the noise within them explains; the standard "
+                    std::sqrt(ratio))});
+  if (estimate.dispersion > 1)
+    list.push_back({fmt::format("the runs differ {:.1f} times as much as the noise within them explains; the standard "
                     "errors are widened by that",
-                    std::sqrt(dispersion)));
-  if (wheelbase_by_kind && wheelbase_by_kind->disagrees)
-    sentences.push_back(wheelbase_sentence(*wheelbase_by_kind));
-  return sentences;
+                    std::sqrt(estimate.dispersion))});
+  if (estimate.wheelbase_by_kind && estimate.wheelbase_by_kind->disagrees)
+    list.push_back({wheelbase_sentence(*estimate.wheelbase_by_kind)});
+  return list;
 }
 
 }  // namespace astro::calibration

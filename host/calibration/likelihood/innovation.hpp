@@ -8,6 +8,7 @@
 #include "host/calibration/likelihood/robust_mode.hpp"
 #include "host/calibration/motion/trajectory.hpp"
 #include "host/calibration/motion/wheel_path.hpp"
+#include "host/calibration/preparation/prepared_run.hpp"
 
 /// The Kalman filter that turns a drive into innovations, with their derivatives by every unknown.
 ///
@@ -41,21 +42,6 @@ inline constexpr int kShared = kSkew + 1, kOwn = kClockOffset + 1 - kShared;
 
 using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 using Information = Eigen::Matrix<double, kUnknowns, kUnknowns>;
-
-struct MotionExtent {
-  double distance_m = 0, rotation_rad = 0;
-};
-
-/// A drive made ready: truth that wheels cover, and what was going on at each of its samples.
-struct PreparedRun {
-  const Trajectory* source = nullptr;
-  std::vector<BodySample> truth;
-  std::vector<Motion> motion;  // between the previous sample and this one
-  double clock_middle_s = 0;   // tracker's time about which the skew turns
-  bool has_headings = true;    // of all samples; else none is used
-  double distance_m = 0, rotation_rad = 0;
-  std::array<MotionExtent, 4> extent{};  // by Motion
-};
 
 /// How a filter looks at truth.
 struct Looks {

@@ -12,7 +12,7 @@
 #include "host/calibration/likelihood/agreement.hpp"
 #include "host/calibration/motion/median_period.hpp"
 #include "host/calibration/likelihood/ml_fit.hpp"
-#include "host/calibration/preparation/start_values.hpp"
+#include "host/calibration/likelihood/start_values.hpp"
 
 namespace astro::calibration {
 namespace {

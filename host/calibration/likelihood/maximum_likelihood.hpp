@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "host/calibration/end_poses/end_pose.hpp"
-#include "host/calibration/preparation/slip_events.hpp"
+#include "host/calibration/likelihood/slip_events.hpp"
 #include "host/calibration/motion/trajectory.hpp"
+#include "host/calibration/motion/wheel_factors.hpp"
 
 /// Wheel factors by maximum likelihood from whole trajectories.
 ///
@@ -100,8 +100,6 @@ struct MlEstimate {
 
   double E_d() const { return factors.c_r / factors.c_l; }
   double scale() const { return (factors.c_r + factors.c_l) / 2; }
-  /// Plain words about what does not fit; empty if everything does. Sentences for a person.
-  std::vector<std::string> remarks() const;
 };
 
 /// `carried` tells the nominal geometry (only b is used, as a scale for what is plausible) and where to start

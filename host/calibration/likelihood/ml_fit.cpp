@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "host/base/error.hpp"
-#include "host/calibration/preparation/start_values.hpp"
+#include "host/calibration/likelihood/start_values.hpp"
 #include "host/calibration/likelihood/whiteness.hpp"
 
 namespace astro::calibration {

@@ -5,7 +5,8 @@
 
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "host/calibration/likelihood/normal_equations.hpp"
-#include "host/calibration/preparation/prepared_run.hpp"
+#include "host/calibration/motion/wheel_factors.hpp"
+#include "host/calibration/preparation/preparation.hpp"
 
 /// The search for the likeliest unknowns.
 namespace astro::calibration {

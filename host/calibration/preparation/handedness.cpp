@@ -49,14 +49,13 @@ Positions sense_of_positions(const PreparedRun& run, const std::vector<BodySampl
   if (positions == Positions::agree)
     throw Error(name +
                 ": the headings of the ground truth turn right where its positions and the wheels turn left: "
-                "they are "
-                "clockwise; negate them");
+                "they are clockwise; negate them");
   throw Error(
       name +
       fmt::format(": the ground truth turns right where the wheels say left: its axes are mirrored (a Y-up "
-                  "export has x = Z, y = X), {}or the left and right wheels are exchanged; 'astrolabe "
-                  "check-wiring' tells whether they are",
-                  positions == Positions::silent ? "its headings are clockwise, " : ""));
+                  "export has x = Z, y = X), {}or the left and right wheels are exchanged",
+                  positions == Positions::silent ? "its headings are clockwise, " : ""),
+      {Help::check_wiring});
 }
 
 }  // namespace
@@ -71,11 +70,10 @@ void require_senses(const PreparedRun& run, const ClockFit& clock, const WheelFa
     if (slope < kLeastSlope)
       throw Error(
           fmt::format("{}: the wheels turned the robot by {:.0f} degrees and the heading of the ground truth "
-                      "stayed: export the "
-                      "orientation of the body, too; and if it did not turn, an encoder or a motor is "
-                      "reversed ('astrolabe "
-                      "check-wiring' tells)",
-                      run.source->name, degrees(run.rotation_rad)));
+                      "stayed: export the orientation of the body, too; and if it did not turn, an encoder or "
+                      "a motor is reversed",
+                      run.source->name, degrees(run.rotation_rad)),
+          {Help::check_wiring});
   }
   if (positions == Positions::oppose) refuse_opposite_turn(run.source->name, positions);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "host/calibration/preparation/prepared_run.hpp"
+#include "host/calibration/motion/wheel_factors.hpp"
+#include "host/calibration/preparation/preparation.hpp"
 
 /// Whether wheels and ground truth turn the same way.
 namespace astro::calibration {

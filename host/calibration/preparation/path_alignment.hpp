@@ -3,7 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "host/calibration/preparation/prepared_run.hpp"
+#include "host/calibration/motion/wheel_factors.hpp"
+#include "host/calibration/preparation/preparation.hpp"
 #include "host/calibration/preparation/relative_pose.hpp"
 #include "host/calibration/motion/wheel_path.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "host/calibration/end_poses/end_pose.hpp"
-#include "host/calibration/preparation/prepared_run.hpp"
+#include "host/calibration/motion/wheel_factors.hpp"
+#include "host/calibration/preparation/preparation.hpp"
 
 /// Where on the robot a body sits whose positions alone are known.
 namespace astro::calibration {

@@ -1,43 +1,25 @@
 #pragma once
 
-#include <span>
-#include <string>
+#include <array>
 #include <vector>
 
-#include "host/calibration/clock/clock_search.hpp"
-#include "host/calibration/end_poses/end_pose.hpp"
-#include "host/calibration/likelihood/innovation.hpp"
+#include "host/calibration/motion/trajectory.hpp"
 
-/// From what was recorded to what the filter can follow, or the sentence why not.
 namespace astro::calibration {
 
-/// Which samples of truth are used.
-enum class Density {
-  all,
-  /// No two closer than two samples of the wheels are: what the wheels did between these is a guess that all
-  /// truth in between shares, and would count for more than it tells. Rejected: means over as long, for they
-  /// smooth the slip, too (K comes out 13 % too small).
-  independent
+struct MotionExtent {
+  double distance_m = 0, rotation_rad = 0;
 };
 
-/// What of `runs` the estimator uses, and where the clocks stand. `carried` need only be roughly right.
-///
-/// Throws astro::Error naming the run for
-///   no odometry or hardly any truth; odometry lost while the robot moved; a robot that did not move
-///   times that run backwards or jump by an hour; values that are no numbers
-///   streams that do not overlap, or whose motions have nothing in common
-///   a drive that repeats itself, recorded so that nothing tells which lap is which
-///   no run but such as are left out
-///   headings of truth that never change although the wheels turn the robot
-///   truth that turns against the wheels: headings clockwise, axes mirrored, or wheels exchanged
-struct PreparedRuns {
-  std::vector<PreparedRun> runs;
-  std::vector<ClockFit> clocks;  // of each run; zero if the clocks are known
-  /// Why a run that spoils nothing is not among them, with the remedy: a spin of unknown clock under
-  /// positions that stand still.
-  std::vector<std::string> left_out;
+/// A drive made ready: truth that wheels cover, and what was going on at each of its samples.
+struct PreparedRun {
+  const Trajectory* source = nullptr;
+  std::vector<BodySample> truth;
+  std::vector<Motion> motion;  // between the previous sample and this one
+  double clock_middle_s = 0;   // tracker's time about which the skew turns
+  bool has_headings = true;    // of all samples; else none is used
+  double distance_m = 0, rotation_rad = 0;
+  std::array<MotionExtent, 4> extent{};  // by Motion
 };
-PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& carried, bool clock_known,
-                     Density density);
 
 }  // namespace astro::calibration

@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "host/calibration/end_poses/end_pose.hpp"
 #include "host/calibration/motion/trajectory.hpp"
 
 /// Wheel factors and lever arm from relative poses in closed form: no start value, no iteration, no noise

@@ -52,7 +52,7 @@ void add_result(console::Command command, CalibrateOptions& options) {
 
 void add_ml(console::Command command, CalibrateOptions& options) {
   MlOptions& ml = options.ml;
-  const Option K =
+  const console::Option K =
       command.add_option("--K", ml.noise.K_m, "ml: wheel slip, variance per metre, m").check(console::positive("m"));
   const console::Option xy =
       command.add_option("--sigma-xy", ml.noise.sigma_xy_m, "ml: noise of ground truth per coordinate, m")

@@ -1,3 +1,4 @@
+#include "host/commands/base/remedies.hpp"
 #include "host/commands/calibrate/calibrate_export.hpp"
 
 #include <iostream>
@@ -44,7 +45,7 @@ std::string text_of(const ExportOptions& options) {
   try {
     experiment::require_loadable(file);
   } catch (const Error& error) {
-    throw Error("'" + options.file.string() + "': " + error.what());
+    throw Error("'" + options.file.string() + "': " + in_words(error));
   }
   if (format == "ros2")
     return experiment::ros2_yaml(file, experiment::diff_drive(file, options.nominal), options.node);

@@ -8,6 +8,7 @@
 #include "host/base/degrees.hpp"
 #include "host/base/shown.hpp"
 #include "host/console/console.hpp"
+#include "host/commands/base/remedies.hpp"
 #include "host/experiment/files/method_names.hpp"
 #include "host/experiment/analysis/likelihood_sentences.hpp"
 #include "host/experiment/analysis/until.hpp"
@@ -91,13 +92,19 @@ std::string motions_text(const calibration::MlEstimate& estimate) {
   return console::table(rows);
 }
 
+std::string verdict_text(const MlResult& ml) {
+  std::string text;
+  for (const Remark& remark : experiment::verdict(ml)) text += console::wrapped(in_words(remark) + '.');
+  return text;
+}
+
 std::string ml_text(const MlResult& ml) {
   std::string text;
   for (const std::string& sentence :
        {experiment::lever_sentence(ml), experiment::clock_sentence(ml), experiment::noise_sentence(ml)})
     text += console::wrapped(sentence);
   text += '\n' + runs_text(ml) + '\n' + motions_text(ml.estimate) + '\n';
-  for (const std::string& sentence : experiment::verdict_sentences(ml)) text += console::wrapped(sentence);
+  text += verdict_text(ml);
   return text;
 }
 
@@ -120,7 +127,7 @@ std::string calibration_summary(const Calibration& calibration) {
   std::string text =
       console::wrapped(experiment::extent_sentence(*ml)) +
       console::wrapped("Standard errors: " + experiment::described(experiment::precision_of(calibration)) + ".");
-  for (const std::string& sentence : experiment::verdict_sentences(*ml)) text += console::wrapped(sentence);
+  text += verdict_text(*ml);
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "host/base/error.hpp"
+#include "host/commands/base/flags.hpp"
 #include "host/commands/calibrate/calibration_view.hpp"
 #include "host/commands/calibrate/commands.hpp"
 #include "host/commands/shared/connection.hpp"
@@ -78,7 +79,7 @@ void add_options(console::Command command, UmbmarkOptions& options) {
              "where every run has an end heading, or umbmark");
   command.add_flag("--pause", options.pause, "wait for Enter before each run (always with --truth manual)");
   command.add_flag("--yes,-y", options.yes, "upload without asking");
-  console::add_force(command, options.force);
+  add_force(command, options.force);
   command.add_flag("--json", options.json, "print the result as one JSON object");
 }
 
@@ -87,7 +88,7 @@ struct Way {
   int before = 0, total = 1;  // runs
   std::optional<PathProgress> run;
 
-  double console::fraction() const { return (before + (run ? run->fraction() : 0)) / total; }
+  double fraction() const { return (before + (run ? run->fraction() : 0)) / total; }
 };
 
 experiment::ExperimentHooks hooks_for(const UmbmarkOptions& options, console::Progress& progress) {

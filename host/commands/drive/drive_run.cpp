@@ -1,3 +1,4 @@
+#include "host/commands/base/flags.hpp"
 #include "host/commands/drive/drive_run.hpp"
 
 #include <fmt/format.h>
@@ -64,7 +65,7 @@ class BarDuring {
 
 void add_drive_options(console::Command command, DriveOptions& options) {
   add_connection(command, options.connection);
-  console::add_json_flag(command, options.json);
+  add_json_flag(command, options.json);
   command.add_option("--record", options.record, "also record the drive into this MCAP file")
       .type_name("FILE");
 }
@@ -92,7 +93,7 @@ void drive(DriveOptions& options, const DriveJob& job) {
     robot::DriveSession session(*client, hooks);
     job.work(*client, session);
     session.end();
-  } catch (const robot::Interrupted&) {
+  } catch (const Interrupted&) {
     const recording::OdometrySample end = odometry.fresh();
     report(options, "interrupted", start, end, stopwatch.seconds());
     if (recording && recording->failed())

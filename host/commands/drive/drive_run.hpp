@@ -30,7 +30,7 @@ struct DriveJob {
 };
 
 /// Connects, arms, works, lets the robot come to rest, disarms it and prints where the odometry ended; that
-/// too if Ctrl-C ended the work, then throws robot::Interrupted. What is recorded is kept however the drive
+/// too if Ctrl-C ended the work, then throws Interrupted. What is recorded is kept however the drive
 /// ends.
 void drive(DriveOptions& options, const DriveJob& job);
 

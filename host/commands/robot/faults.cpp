@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "host/commands/base/flags.hpp"
 #include "host/commands/robot/commands.hpp"
 #include "host/commands/shared/connection.hpp"
 #include "host/console/console.hpp"
@@ -85,7 +86,7 @@ void add_faults(console::Command app) {
                 "came in and the time since then")
       .excludes(clear);
   add_connection(command, options->connection);
-  console::add_json_flag(command, options->json);
+  add_json_flag(command, options->json);
   console::examples(command, {"astrolabe faults", "astrolabe faults --clear", "astrolabe faults --log",
                      "astrolabe faults --json"});
   command.callback([options] { run(*options); });

@@ -6,6 +6,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/firmware_image.hpp"
+#include "host/commands/base/remedies.hpp"
 #include "host/commands/robot/commands.hpp"
 #include "host/commands/shared/connection.hpp"
 #include "host/console/console.hpp"
@@ -37,7 +38,7 @@ std::unique_ptr<robot::Client> find_robot(ConnectionOptions& options) {
     const bool absent = options.port.empty() ? robot::candidate_ports().empty() : !fs::exists(options.port);
     if (!silent && !absent) throw;
     throw Error(
-        fmt::format("{} (if it runs no firmware, press its button and flash with --button)", error.what()));
+        fmt::format("{} (if it runs no firmware, press its button and flash with --button)", in_words(error)));
   }
 }
 
@@ -76,7 +77,7 @@ void wait_for(robot::Client& client) {
     throw Error(
         fmt::format("the robot did not come back: {} (if its LED does not blink, press its button and flash "
                     "again with --button)",
-                    error.what()));
+                    in_words(error)));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "host/commands/base/flags.hpp"
 #include "host/commands/robot/commands.hpp"
 #include "host/commands/shared/connection.hpp"
 #include "host/console/console.hpp"
@@ -88,7 +89,7 @@ void add_info(console::Command app) {
   const auto options = std::make_shared<InfoOptions>();
   const console::Command command = app.add_subcommand("info", "say which robot answers and how it is");
   add_connection(command, options->connection);
-  console::add_json_flag(command, options->json);
+  add_json_flag(command, options->json);
   console::examples(command,
            {"astrolabe info", "astrolabe info --port /dev/ttyACM0", "astrolabe info --json | jq .faults"});
   command.callback([options] { run(*options); });

@@ -88,7 +88,7 @@ class Running {
       }
       if (std::chrono::steady_clock::now() - begun > kUntilItIsTooLong)
         throw Error("the loader found no Teensy: plug in its USB cable, and flash again with --button");
-      if (console::interrupted()) throw robot::Interrupted(kInterrupted);
+      if (console::interrupted()) throw Interrupted(kInterrupted);
       pollfd state{words_, POLLIN, 0};
       if (poll(&state, 1, 50) <= 0) continue;
       const ssize_t count = read(words_, buffer.data(), buffer.size());
@@ -98,10 +98,10 @@ class Running {
     }
   }
 
-  /// Throws robot::Interrupted if Ctrl-C at the terminal, which reaches the loader too, has ended it.
+  /// Throws Interrupted if Ctrl-C at the terminal, which reaches the loader too, has ended it.
   bool succeeded() {
     const int status = wait();
-    if (WIFSIGNALED(status) && console::interrupted()) throw robot::Interrupted(kInterrupted);
+    if (WIFSIGNALED(status) && console::interrupted()) throw Interrupted(kInterrupted);
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;
   }
 

@@ -9,7 +9,7 @@ namespace astro::commands {
 std::filesystem::path find_loader();
 
 /// Runs it on `hex` until it ends; it waits for a Teensy in its bootloader. Throws astro::Error with the last
-/// line it said if it fails, robot::Interrupted on Ctrl-C.
+/// line it said if it fails, Interrupted on Ctrl-C.
 void run_loader(const std::filesystem::path& loader, const std::filesystem::path& hex);
 
 }  // namespace astro::commands

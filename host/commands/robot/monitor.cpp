@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "host/base/error.hpp"
+#include "host/commands/base/remedies.hpp"
+#include "host/commands/base/flags.hpp"
 #include "host/commands/robot/commands.hpp"
 #include "host/commands/shared/connection.hpp"
 #include "host/console/console.hpp"
@@ -37,10 +39,10 @@ class Stream {
         period_ms_(static_cast<std::uint16_t>(std::lround(1000 / rate_hz))),
         subscription_(
             client.on<Telemetry>([this](const Telemetry& telemetry) { waiting_.push_back(telemetry); })) {
-    console::ask();
+    ask();
   }
 
-  void console::ask() { client_.request(protocol::SetTelemetry{period_ms_, Telemetry::kAll}); }
+  void ask() { client_.request(protocol::SetTelemetry{period_ms_, Telemetry::kAll}); }
 
   /// What has come since the last call; waits for a moment if nothing has.
   std::vector<Telemetry> take() {
@@ -82,7 +84,7 @@ class Monitor {
       try {
         if (look()) return;
       } catch (const robot::LinkLost& lost) {
-        figures_.lost = lost.what();
+        figures_.lost = in_words(lost);
         draw();
         find_again();
       }
@@ -166,7 +168,7 @@ void add_monitor(console::Command app) {
       .type_name("N")
       .check(console::whole(1, std::uint64_t{1} << 53));
   add_connection(command, options->connection);
-  console::add_json_flag(command, options->json);
+  add_json_flag(command, options->json);
   console::examples(command, {"astrolabe monitor", "astrolabe monitor --json --rate 100 --count 1000 > samples.jsonl",
                      "astrolabe monitor --count 1 | jq .battery_V"});
   command.callback([options] { run(*options); });

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "host/base/error.hpp"
+#include "host/commands/base/flags.hpp"
 #include "host/commands/robot/commands.hpp"
 #include "host/commands/shared/connection.hpp"
 #include "host/console/console.hpp"
@@ -170,12 +171,12 @@ void add_yes_flag(console::Command command, const std::shared_ptr<ParamsOptions>
 void add_readers(console::Command params, const std::shared_ptr<ParamsOptions>& options) {
   const console::Command all = add(params, "list", "show all parameters; * marks those that are not at their default",
                           options, without_client(list));
-  console::add_json_flag(all, options->json);
+  add_json_flag(all, options->json);
   console::examples(all, {"astrolabe params list", "astrolabe params list --json | jq -r '.[].name'"});
 
   const console::Command one = add(params, "get", "print values", options, without_client(get));
   one.add_option("name", options->words, "what 'params list' calls it").required().type_name("");
-  console::add_json_flag(one, options->json);
+  add_json_flag(one, options->json);
   console::examples(one,
            {"astrolabe params get b", "astrolabe params get c_R c_L b", "astrolabe params get b --json"});
 
@@ -198,10 +199,10 @@ void add_writers(console::Command params, const std::shared_ptr<ParamsOptions>& 
                            options, import_from_file);
   file.add_option("file", options->file, "of 'params export', or a calibration").required().type_name("");
   console::examples(file, {"astrolabe params import astro.toml", "astrolabe params import astro.toml --yes --json"});
-  console::add_force(file, options->force);
+  add_force(file, options->force);
   for (const console::Command command : {some, file}) {
     add_yes_flag(command, options);
-    console::add_json_flag(command, options->json);
+    add_json_flag(command, options->json);
   }
 }
 
@@ -213,7 +214,7 @@ void add_keepers(console::Command params, const std::shared_ptr<ParamsOptions>& 
       add(params, "defaults", "put all parameters back to their defaults", options, without_client(defaults));
   console::examples(factory, {"astrolabe params defaults", "astrolabe params defaults --yes"});
   add_yes_flag(factory, options);
-  for (const console::Command command : {keep, factory}) console::add_json_flag(command, options->json);
+  for (const console::Command command : {keep, factory}) add_json_flag(command, options->json);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "host/commands/base/flags.hpp"
 #include "host/commands/robot/commands.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
@@ -61,7 +62,7 @@ void add_ports(console::Command app) {
       .type_name("BAUD")
       .capture_default_str()
       .check(console::whole(1, 20'000'000));
-  console::add_json_flag(command, options->json);
+  add_json_flag(command, options->json);
   console::examples(command, {"astrolabe ports", "astrolabe ports --json | jq -r '.[].port'"});
   command.callback([options] { run(*options); });
 }

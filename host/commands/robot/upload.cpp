@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/base/error.hpp"
+#include "host/commands/base/flags.hpp"
 #include "host/commands/robot/commands.hpp"
 #include "host/commands/shared/connection.hpp"
 #include "host/console/console.hpp"
@@ -58,7 +59,7 @@ void add_upload(console::Command app) {
       .required();
   add_connection(command, options->connection);
   command.add_flag("--yes,-y", options->yes, "do not ask");
-  console::add_force(command, options->force);
+  add_force(command, options->force);
   command.add_flag("--json", options->json, "print what the robot now holds as one JSON object");
   command.footer(
       "All values come in force together or not at all, also when the link drops in the middle.\n"

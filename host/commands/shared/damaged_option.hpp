@@ -18,7 +18,7 @@ auto read_recordings(bool damaged, Read read) {
   try {
     return read(damaged ? recording::Damage::accepted : recording::Damage::refused);
   } catch (const recording::DamagedRecording& error) {
-    throw Error(std::string(error.what()) + "; --damaged uses what can be read of it");
+    throw Error(std::string(error.what()) + "; --damaged uses what can be read of it", error.remedy());
   }
 }
 

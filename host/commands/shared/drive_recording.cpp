@@ -1,3 +1,4 @@
+#include "host/commands/base/remedies.hpp"
 #include "host/commands/shared/drive_recording.hpp"
 
 #include <fmt/format.h>
@@ -49,6 +50,8 @@ DriveRecording::DriveRecording(const std::filesystem::path& file, robot::Client&
 DriveRecording::~DriveRecording() {
   try {
     close();
+  } catch (const Error& error) {
+    console::say(in_words(error));
   } catch (const std::exception& error) {
     console::say(error.what());
   }

@@ -53,9 +53,8 @@ Loaded load_parameters(robot::Client& client, const robot::RemoteParameters& rob
     return loaded;
   }
   console::say(console::table(experiment::side_by_side(loaded.changes), "llrrr"));
-  if (const std::string why = experiment::objection(robot, file, loaded.changes);
-      !why.empty() && !options.force)
-    throw Error(why);
+  if (const auto why = experiment::objection(robot, file, loaded.changes); why && !options.force)
+    throw Error(*why);
   warn_of_far_changes(robot, loaded.changes);
   if (const std::string note = experiment::insignificance(loaded.changes, file.standard_errors);
       !note.empty())

@@ -17,7 +17,7 @@ class PathProgress {
   void moved_to(const recording::OdometrySample& sample);
   void segment_done(std::uint16_t tag);
 
-  double console::fraction() const;
+  double fraction() const;
   std::size_t segments() const { return ends_m_.size(); }
   std::size_t done() const { return done_; }
 

@@ -22,6 +22,6 @@ struct TruthOption {
 
 /// `asking`: how a person is asked, where one is. Throws astro::Error if it cannot be had.
 std::unique_ptr<truth::Source> open_truth(const TruthOption& option, const std::string& port,
-                                          const truth::Ask& asking = ask);
+                                          const truth::Ask& asking = console::ask);
 
 }  // namespace astro::commands

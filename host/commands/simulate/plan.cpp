@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "host/commands/base/flags.hpp"
 #include "host/commands/simulate/commands.hpp"
 #include "host/console/options.hpp"
 #include "host/commands/simulate/plan_view.hpp"
@@ -68,7 +69,7 @@ void add_robot(console::Command command, PlanOptions& options) {
   simulation::study::Programme& programme = options.programme;
   add_size(command, "--wheelbase", programme.wheelbase_m, "of the robot, m");
   add_noise(command, programme.noise, options.sigma_theta_deg, programme.truth_rate_hz);
-  console::add_json_flag(command, options.json);
+  add_json_flag(command, options.json);
 }
 
 void run(PlanOptions& options) {

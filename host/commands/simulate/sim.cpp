@@ -2,7 +2,7 @@
 
 #include "host/commands/simulate/commands.hpp"
 #include "host/console/options.hpp"
-#include "host/simulation/program/served_robot_options.hpp"
+#include "host/commands/serving/served_robot_options.hpp"
 
 namespace astro::commands {
 namespace {

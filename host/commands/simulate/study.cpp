@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "host/base/error.hpp"
+#include "host/commands/base/flags.hpp"
 #include "host/commands/simulate/commands.hpp"
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
@@ -111,7 +112,7 @@ void add_work(console::Command command, StudyOptions& options) {
         return shard_named(text) ? "" : "'" + text + "' is no shard: give 1/4 for the first of four";
       });
   command.add_option("--out", options.out, "write the trials here").type_name("FILE");
-  console::add_json_flag(command, options.json);
+  add_json_flag(command, options.json);
 }
 
 void print_summary(const simulation::study::TrialSetup& setup, const std::vector<simulation::study::Trial>& trials, bool json) {
@@ -160,7 +161,7 @@ void add_merge(console::Command study) {
   const auto options = std::make_shared<MergeOptions>();
   const console::Command command = study.add_subcommand("merge", "put the shards of one study together");
   command.add_option("FILES", options->files, "what 'study --shard I/N --out FILE' wrote, all N").required();
-  console::add_json_flag(command, options->json);
+  add_json_flag(command, options->json);
   console::examples(command, {"astrolabe study merge part-*.json", "astrolabe study merge part-*.json --json"});
   command.callback([options] {
     std::vector<simulation::study::Part> parts;

@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "host/commands/base/flags.hpp"
 #include "host/commands/tune/commands.hpp"
 #include "host/console/options.hpp"
 #include "host/commands/tune/wiring_check.hpp"
@@ -44,7 +45,7 @@ void add_check_wiring(console::Command app) {
   add_answers(command, *options);
   command.add_flag("--upload", options->upload, "load corrected parameters without asking");
   command.add_flag("--yes,-y", options->yes, "the wheels are off the ground: do not ask");
-  console::add_json_flag(command, options->json);
+  add_json_flag(command, options->json);
   console::examples(command,
            {"astrolabe check-wiring", "astrolabe check-wiring --roll",
             "astrolabe check-wiring --yes --saw-left left-forward --saw-right right-backward --upload"});

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "host/base/error.hpp"
+#include "host/commands/base/flags.hpp"
 #include "host/commands/tune/commands.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
@@ -47,7 +48,7 @@ void add_options(console::Command command, TuneOptions& options) {
   command.add_flag("--upload", options.upload, "load the new values without asking, and measure again");
   command.add_flag("--yes,-y", options.yes,
                    "do not ask before the wheels turn; loads nothing without --upload");
-  console::add_json_flag(command, options.json);
+  add_json_flag(command, options.json);
   command.add_option("--out", options.out, "the report to write").type_name("FILE").capture_default_str();
 }
 

@@ -14,7 +14,7 @@ namespace astro::commands {
 motor::RollVerdict roll(robot::Client& client, const motor::RobotFacts& facts,
                                  const WiringOptions& options);
 
-/// As ask; throws robot::Interrupted if Ctrl-C ended the input.
+/// As ask; throws Interrupted if Ctrl-C ended the input.
 std::string ask_or_interrupt(const std::string& prompt);
 
 }  // namespace astro::commands

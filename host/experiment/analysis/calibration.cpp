@@ -83,8 +83,8 @@ double Calibration::scale_change() const { return 2 * scale() / (carried.c_r + c
 Calibration calibrate(const Squares& squares, const MethodChoice& method) {
   if (method.family == Family::ml)
     throw Error(
-        "maximum likelihood needs whole drives with ground truth, and end poses are all there is: "
-        "choose --method extended or umbmark");
+        "maximum likelihood needs whole drives with ground truth, and end poses are all there is",
+        {Help::use_end_poses});
   const calibration::Estimate estimate = calibration::estimate_factors(
       squares.cw, squares.ccw, squares.side_m, squares.carried, options_for(squares, method));
   Calibration result;

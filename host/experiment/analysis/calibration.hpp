@@ -8,6 +8,7 @@
 
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "host/calibration/end_poses/umbmark.hpp"
+#include "host/calibration/motion/wheel_factors.hpp"
 #include "host/experiment/files/plan.hpp"
 #include "host/experiment/files/robot_identity.hpp"
 #include "host/experiment/files/run_set.hpp"

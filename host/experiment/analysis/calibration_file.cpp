@@ -93,14 +93,13 @@ std::map<std::string, double> numbers_in(toml::node_view<const toml::node> secti
 }
 
 /// An experiment's folder has its calibrations beside the recordings.
-std::string in_place_of_a_calibration(const fs::path& folder) {
+[[noreturn]] void fail_for_folder(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder))
     if (const fs::path& file = entry.path(); file.extension() == ".toml")
-      return fmt::format("'{}' is a folder: name a calibration in it, such as '{}'", folder.string(),
-                         file.string());
-  return fmt::format(
-      "'{}' is a folder, and none of a calibration: name a file that 'astrolabe calibrate' wrote",
-      folder.string());
+      throw Error(fmt::format("'{}' is a folder: name a calibration in it, such as '{}'", folder.string(),
+                              file.string()));
+  throw Error(fmt::format("'{}' is a folder that holds no calibration", folder.string()),
+              {Help::name_calibration});
 }
 
 NominalWheel wheel_of(const toml::table& file, const fs::path& path) {
@@ -128,8 +127,7 @@ calibration::FactorCovariance covariance_of(const toml::table& file, const fs::p
 
 void write_calibration(const fs::path& path, const Calibration& calibration) {
   const calibration::WheelFactors &factors = calibration.factors, &carried = calibration.carried;
-  std::string text =
-      "# Found by Astrolabe; 'astrolabe upload " + path.filename().string() + "' loads it.\n\n";
+  std::string text = "# Found by Astrolabe, to be uploaded to the robot that drove.\n\n";
   text += "[parameters]\n" + factor_lines(factors.c_r, factors.c_l, factors.b_m);
   text += "[standard_errors]\n" + factor_lines(calibration.se.c_r, calibration.se.c_l, calibration.se.b_m);
   if (const MlResult* ml = calibration.ml()) text += covariance_lines(ml->estimate.covariance);
@@ -150,13 +148,13 @@ void write_parameters(const fs::path& path, const ParameterValues& values) {
     }
   }
   std::ostringstream text;
-  text << "# A robot's parameters; 'astrolabe params import' loads them.\n\n"
+  text << "# The parameters of a robot, exported by Astrolabe.\n\n"
        << toml::table{{"parameters", parameters}} << '\n';
   save(path, text.str());
 }
 
 ParameterFile read_parameter_file(const fs::path& path) {
-  if (fs::is_directory(path)) throw Error(in_place_of_a_calibration(path));
+  if (fs::is_directory(path)) fail_for_folder(path);
   const toml::table file = parse_toml(path);
   const toml::table* parameters = file["parameters"].as_table();
   if (parameters == nullptr || parameters->empty())

@@ -12,8 +12,7 @@ double factor(const ParameterFile& file, const std::filesystem::path& path, cons
   const auto found = file.parameters.find(name);
   const double* value = found == file.parameters.end() ? nullptr : std::get_if<double>(&found->second);
   if (value == nullptr)
-    throw Error(fmt::format("{} has no {} under [parameters]: name a file that 'astrolabe calibrate' wrote",
-                            path.string(), name));
+    throw Error(fmt::format("{} has no {} under [parameters]", path.string(), name), {Help::name_calibration});
   return *value;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/calibration/judgement/path_errors.hpp"
+#include "host/calibration/motion/wheel_factors.hpp"
 #include "host/experiment/analysis/calibration.hpp"
 #include "host/experiment/files/run_set.hpp"
 

@@ -38,7 +38,7 @@ double factor(const ParameterFile& file, const std::string& name) {
   const auto found = file.parameters.find(name);
   const double* value = found == file.parameters.end() ? nullptr : std::get_if<double>(&found->second);
   if (value == nullptr || !std::isfinite(*value) || *value <= 0)
-    throw Error("the file has no " + name + " under [parameters]: export what 'astrolabe calibrate' wrote");
+    throw Error("the file has no " + name + " under [parameters]", {Help::name_calibration});
   require_possible(name, *value);
   return *value;
 }
@@ -104,9 +104,10 @@ DiffDrive diff_drive(const ParameterFile& file, const NominalSizes& nominal) {
   const std::optional<double> separation_m =
       nominal.wheel_separation_m ? nominal.wheel_separation_m : carried_base(file);
   if (!separation_m)
-    throw Error("the file does not tell the wheelbase that the robot believed in: give --wheel-separation");
+    throw Error("the file does not tell the wheelbase that the robot believed in",
+                {Help::give_wheel_separation});
   if (!file.wheel && !nominal.wheel_radius_m)
-    throw Error("the file does not tell the nominal wheel that c_R and c_L refer to: give --wheel-radius");
+    throw Error("the file does not tell the nominal wheel that c_R and c_L refer to", {Help::give_wheel_radius});
   // What the factors refer to: with a file that does not say, the nominal wheel is the receiver's.
   const double our_radius_m = file.wheel ? file.wheel->diameter_m / 2 : *nominal.wheel_radius_m;
   DiffDrive result;
@@ -152,7 +153,7 @@ std::string ros2_yaml(const ParameterFile& file, const DiffDrive& parameters, co
 }
 
 std::string toml_text(const fs::path& path, const std::optional<DiffDrive>& parameters) {
-  std::string text = "# A calibration of Astrolabe; 'astrolabe upload' loads it.\n";
+  std::string text = "# Found by Astrolabe, to be uploaded to the robot that drove.\n";
   for (const auto& [section, node] : extended(path, parameters)) {
     const toml::table* table = node.as_table();
     if (table == nullptr) continue;  // calibrations are tables of values, and nothing else is read

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "host/calibration/motion/wheel_factors.hpp"
 #include "host/experiment/analysis/calibration.hpp"
 
 /// The keys under which --json prints results; numbers that do not exist are null.

@@ -1,3 +1,4 @@
+#include "host/calibration/judgement/remarks.hpp"
 #include "host/experiment/analysis/json.hpp"
 #include "host/experiment/files/method_names.hpp"
 
@@ -11,6 +12,12 @@ nlohmann::json jolts_json(const std::vector<calibration::Jolt>& jolts) {
                     {"since_start_s", jolt.since_start_s},
                     {"turned_rad", jolt.turned_rad},
                     {"moved_m", jolt.moved_m}});
+  return json;
+}
+
+nlohmann::json remark_facts(const calibration::MlEstimate& estimate) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const Remark& remark : calibration::remarks(estimate)) json.push_back(remark.fact);
   return json;
 }
 
@@ -73,7 +80,7 @@ nlohmann::json to_json(const MlResult& ml) {
                          {"dispersion", number(estimate.dispersion)},
                          {"iterations", estimate.iterations},
                          {"wheelbase_by_motion", agreement_json(estimate.wheelbase_by_kind)},
-                         {"remarks", estimate.remarks()}};
+                         {"remarks", remark_facts(estimate)}};
   json["runs"] = nlohmann::json::array();
   for (const calibration::RunFit& run : estimate.runs) json["runs"].push_back(run_json(run));
   json["motions"] = nlohmann::json::array();

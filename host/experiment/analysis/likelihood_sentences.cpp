@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/calibration/judgement/remarks.hpp"
 #include "host/base/degrees.hpp"
 #include "host/base/shown.hpp"
 
@@ -13,12 +14,12 @@ namespace astro::experiment {
 namespace {
 
 /// A remark with a capital and a full stop, unless it begins with the name of a run, which stays as it is.
-std::string as_sentence(std::string remark, const std::vector<calibration::RunFit>& runs) {
+std::string capitalised(std::string remark, const std::vector<calibration::RunFit>& runs) {
   const bool named = std::any_of(runs.begin(), runs.end(),
                                  [&](const auto& run) { return remark.starts_with(run.name + ' '); });
   if (!named && !remark.empty() && remark[0] >= 'a' && remark[0] <= 'z')
     remark[0] = static_cast<char>(remark[0] - 'a' + 'A');
-  return remark.ends_with('.') ? remark : remark + '.';
+  return remark;
 }
 
 }  // namespace
@@ -75,14 +76,14 @@ std::string noise_sentence(const MlResult& ml) {
   return text;
 }
 
-std::vector<std::string> verdict_sentences(const MlResult& ml) {
-  std::vector<std::string> sentences = ml.estimate.remarks();
-  for (std::string& sentence : sentences) sentence = as_sentence(std::move(sentence), ml.estimate.runs);
-  if (sentences.empty())
-    sentences.push_back(ml.estimate.wheelbase_by_kind
-                            ? "The runs agree with each other, and so do arcs and spins about the wheelbase."
-                            : "The runs agree with each other.");
-  return sentences;
+std::vector<Remark> verdict(const MlResult& ml) {
+  std::vector<Remark> remarks = calibration::remarks(ml.estimate);
+  for (Remark& remark : remarks) remark.fact = capitalised(std::move(remark.fact), ml.estimate.runs);
+  if (remarks.empty())
+    remarks.push_back({ml.estimate.wheelbase_by_kind
+                           ? "The runs agree with each other, and so do arcs and spins about the wheelbase"
+                           : "The runs agree with each other"});
+  return remarks;
 }
 
 }  // namespace astro::experiment

@@ -51,7 +51,7 @@ std::string ml_text(const MlResult& ml) {
       " All recordings up to then count, not only the squares. The factors are absolute: they refer to "
       "the nominal wheel, whatever the robot carried while it drove.\n\n" +
       lever_sentence(ml) + ' ' + clock_sentence(ml) + "\n\n" + noise_sentence(ml) + "\n\n";
-  for (const std::string& sentence : verdict_sentences(ml)) text += sentence + ' ';
+  for (const Remark& remark : verdict(ml)) text += remark.fact + ". ";
   return text;
 }
 

@@ -83,9 +83,8 @@ Results read_results(const fs::path& folder, recording::Damage damage) {
   }
   if (results.phases.empty())
     throw Error("the experiment in '" + folder.string() +
-                "' has not driven its first phase to the end: run 'astrolabe "
-                "umbmark --out " +
-                folder.string() + "' again to go on with it");
+                    "' has not driven its first phase to the end",
+                {Help::resume_experiment, folder.string()});
   return results;
 }
 

@@ -60,7 +60,7 @@ Squares squares_of(std::span<const recording::Run> runs) {
     if (run.info.kind == "square" && run.info.direction != Direction::none)
       accept(squares, run, squares.cw.empty() && squares.ccw.empty());
   if (squares.cw.empty() && squares.ccw.empty())
-    throw Error("none of the recordings is a square: drive some with 'astrolabe umbmark'");
+    throw Error("none of the recordings is a square", {Help::drive_squares});
   return squares;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/calibration/end_poses/end_pose.hpp"
+#include "host/calibration/motion/wheel_factors.hpp"
 #include "host/recording/run/run.hpp"
 
 /// From recordings to the end errors of squares.

@@ -11,15 +11,11 @@
 namespace astro::experiment {
 namespace {
 
-std::string leave_out(const std::string& name) {
-  return fmt::format("leave it out with 'astrolabe calibrate runs --without {}'", name);
-}
-
 double parameter(const recording::RunInfo& info, const char* parameter, const std::string& name) {
   const auto found = info.parameters.find(parameter);
   if (found == info.parameters.end() || !std::isfinite(found->second) || found->second <= 0)
-    throw Error(fmt::format("the recording '{}' does not say what {} the robot carried: {}", name, parameter,
-                            leave_out(name)));
+    throw Error(fmt::format("the recording '{}' does not say what {} the robot carried", name, parameter),
+                {Help::leave_run_out, name});
   return found->second;
 }
 
@@ -48,8 +44,8 @@ class Clock {
 
   bool advances(std::int64_t time_us) {
     if (any_ && time_us < last_us_)
-      throw Error(fmt::format("the times of the {} in '{}' run backwards, as after a restart: {}", stream_,
-                              run_, leave_out(run_)));
+      throw Error(fmt::format("the times of the {} in '{}' run backwards, as after a restart", stream_, run_),
+                  {Help::leave_run_out, run_});
     const bool later = !any_ || time_us > last_us_;
     any_ = true;
     last_us_ = time_us;
@@ -88,11 +84,10 @@ bool has_moving_truth(const recording::RunInfo& info) {
 calibration::Trajectory trajectory_of(const recording::Run& run, const std::string& name) {
   if (!has_moving_truth(run.info))
     throw Error(
-        fmt::format("nothing followed the robot while '{}' was recorded, and maximum likelihood needs that: "
-                    "{}, or use --method extended or umbmark",
-                    name, leave_out(name)));
+        fmt::format("nothing followed the robot while '{}' was recorded, and maximum likelihood needs that", name),
+        {Help::leave_run_out_or_use_end_poses, name});
   if (run.odometry.empty())
-    throw Error(fmt::format("the recording '{}' holds no odometry: {}", name, leave_out(name)));
+    throw Error(fmt::format("the recording '{}' holds no odometry", name), {Help::leave_run_out, name});
   calibration::Trajectory trajectory;
   trajectory.name = name;
   const double metres_per_count = nominal_wheel(run.info, name).metres_per_count();

@@ -128,12 +128,13 @@ std::string incomplete(const ParameterFile& file) {
                      missing);
 }
 
-std::string objection(const robot::RemoteParameters& robot, const ParameterFile& file,
-                      const std::vector<Change>& changes) {
+std::optional<Remark> objection(const robot::RemoteParameters& robot, const ParameterFile& file,
+                                const std::vector<Change>& changes) {
   std::string why = incomplete(file);
   if (why.empty()) why = wrong_basis(robot, file);
   if (why.empty()) why = suspicion(changes);
-  return why.empty() ? why : why + " (--force uploads all the same)";
+  if (why.empty()) return std::nullopt;
+  return Remark{why, {Help::override_guard}};
 }
 
 std::string insignificance(const std::vector<Change>& changes,

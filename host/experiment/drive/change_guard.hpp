@@ -1,9 +1,11 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "host/base/remedy.hpp"
 #include "host/experiment/analysis/calibration_file.hpp"
 #include "host/robot/parameters/parameters.hpp"
 
@@ -29,10 +31,10 @@ std::string suspicion(const std::vector<Change>& changes);
 /// need the nominal wheel (diameter, gear, encoder) that they refer to, as far as the file tells it.
 std::string wrong_basis(const robot::RemoteParameters& robot, const ParameterFile& file);
 
-/// Why these changes are not uploaded unless somebody insists, from the two above; "" if nothing is against
-/// it. The sentence names the option --force that both 'upload' and 'umbmark' have.
-std::string objection(const robot::RemoteParameters& robot, const ParameterFile& file,
-                      const std::vector<Change>& changes);
+/// Why these changes are not uploaded unless somebody insists, from the two above; none if nothing is against
+/// it.
+std::optional<Remark> objection(const robot::RemoteParameters& robot, const ParameterFile& file,
+                                const std::vector<Change>& changes);
 
 /// The sentence that no factor changes by more than twice its standard error, or "": nothing speaks against
 /// such an upload, and little for it. `standard_errors` by name; NaN and those that are missing are unknown.

@@ -50,13 +50,13 @@ class Session {
       journal_ = read_journal(folder_);
       if (nlohmann::json(journal_.plan) != nlohmann::json(plan))
         throw Error("'" + folder_.string() +
-                    "' holds an experiment with other settings: give the same ones to go on with it, or "
-                    "another --out");
+"' holds an experiment with other settings",
+                    {Help::give_same_settings_or_choose_other_folder});
       if (const std::string other =
               different_robots("the experiment in '" + folder_.string() + "'",
                                {journal_.robot_name, journal_.robot_id}, "this", identity);
           !other.empty())
-        throw Error(other + ": choose another --out");
+        throw Error(other, {Help::choose_other_folder});
       return;
     }
     journal_.plan = plan;
@@ -89,8 +89,9 @@ class Session {
       const Calibration found = calibrate_with(read_specs(folder_, specs));
       if (found.ml() == nullptr)
         throw Error(
-            "--until needs maximum likelihood, and these runs have no ground truth along the way: "
-            "give --runs");
+            "a precision can only be driven for by maximum likelihood, and these runs have no ground truth along "
+            "the way",
+            {Help::count_runs});
       const calibration::Precision reached = precision_of(found);
       hooks_.run.notice(fmt::format("{}: {} + {} squares give {}", specs.front().phase, squares, squares,
                                     described(reached)));
@@ -144,11 +145,12 @@ class Session {
       recording::write_run(driven, run);
       try {
         complete_plausibly(spec, run);
-      } catch (const robot::Interrupted&) {
+      } catch (const Interrupted&) {
         throw;
       } catch (const Error& error) {
         throw Error(std::string(error.what()) +
-                    "; the drive is kept, and the same command goes on with its ground truth");
+                        "; the drive is kept, and the same command goes on with its ground truth",
+                    error.remedy());
       }
     }
     recording::write_run(file_of(folder_, spec), run);
@@ -175,11 +177,11 @@ class Session {
     const auto known = journal_.carried.find(phase);
     if (known != journal_.carried.end()) {
       if (!same_factors(known->second, factors))
-        throw Error(fmt::format(
-            "the robot carries c_R {:.9f}, c_L {:.9f}, b {:.9f} m, but phase '{}' of this experiment "
-            "began with {:.9f}, {:.9f}, {:.9f} m: load those, or choose another --out",
-            factors.c_r, factors.c_l, factors.b_m, phase, known->second.c_r, known->second.c_l,
-            known->second.b_m));
+        throw Error(fmt::format("the robot carries c_R {:.9f}, c_L {:.9f}, b {:.9f} m, but phase '{}' of this "
+                                "experiment began with {:.9f}, {:.9f}, {:.9f} m",
+                                factors.c_r, factors.c_l, factors.b_m, phase, known->second.c_r,
+                                known->second.c_l, known->second.b_m),
+                    {Help::load_factors_or_choose_other_folder});
       return;
     }
     journal_.carried[phase] = factors;
@@ -231,11 +233,9 @@ class Session {
     const robot::RemoteParameters robot = robot::RemoteParameters::fetch(client_);
     const std::vector<Change> list = changes(robot, calibration.parameters);
     if (list.empty()) return;  // an earlier session got this far
-    if (const std::string why = objection(robot, calibration, list); !why.empty() && !hooks_.force)
-      throw Error(why);
+    if (const auto why = objection(robot, calibration, list); why && !hooks_.force) throw Error(*why);
     if (!hooks_.agree(found, list))
-      throw Error("the new parameters were not uploaded; 'astrolabe umbmark --out " + folder_.string() +
-                  "' goes on from here");
+      throw Error("the new parameters were not uploaded", {Help::resume_experiment, folder_.string()});
     const robot::UploadReport report = robot::upload(client_, calibration.parameters);
     if (report.active != robot::ActiveSet::new_set) throw Error(report.sentence());
     hooks_.uploaded(report.sentence());

@@ -16,22 +16,21 @@ constexpr int kFormat = 2;  // 1 meant end poses by "auto"
 
 std::filesystem::path file_in(const std::filesystem::path& folder) { return folder / "experiment.json"; }
 
-std::string why_no_experiment(const std::filesystem::path& folder) {
+[[noreturn]] void fail_no_experiment(const std::filesystem::path& folder) {
   const std::string why = !std::filesystem::exists(folder) ? "does not exist"
                           : !std::filesystem::is_directory(folder)
                               ? "is a file"
                               : "holds no experiment (no experiment.json)";
-  return fmt::format("'{}' {}: name the --out of 'astrolabe umbmark', or two or more folders of recordings",
-                     folder.string(), why);
+  throw Error(fmt::format("'{}' {}", folder.string(), why), {Help::name_experiment});
 }
 
 /// A plan that nobody could have given was not written by this program; its counts say how much memory is
 /// taken.
-void require_drivable(const Plan& plan, const std::string& damaged, const std::string& remedy) {
+void require_drivable(const Plan& plan, const std::string& damaged) {
   try {
     plan.check();
   } catch (const Error& error) {
-    throw Error(damaged + " (" + error.what() + ")" + remedy);
+    throw Error(damaged + " (" + error.what() + ")", {Help::calibrate_recordings});
   }
 }
 
@@ -45,12 +44,10 @@ bool has_journal(const std::filesystem::path& folder) { return std::filesystem::
 
 Journal read_journal(const std::filesystem::path& folder) {
   const std::filesystem::path path = file_in(folder);
-  if (!std::filesystem::exists(path)) throw Error(why_no_experiment(folder));
+  if (!std::filesystem::exists(path)) fail_no_experiment(folder);
   const recording::Bytes bytes = recording::load_file(path, recording::kMaxSettingsBytes);
   const std::string damaged = "'" + path.string() + "' is damaged";
-  const std::string remedy =
-      ": the recordings beside it can still be calibrated with 'astrolabe calibrate runs'";
-  if (!json_fits_memory(recording::as_text(bytes))) throw Error(damaged + remedy);
+  if (!json_fits_memory(recording::as_text(bytes))) throw Error(damaged, {Help::calibrate_recordings});
   try {
     const auto json = nlohmann::json::parse(bytes.begin(), bytes.end());
     if (json.at("format") != kFormat)
@@ -58,7 +55,7 @@ Journal read_journal(const std::filesystem::path& folder) {
                   "' was written by another version of Astrolabe: use that one to go on with it");
     Journal journal;
     json.at("plan").get_to(journal.plan);
-    require_drivable(journal.plan, damaged, remedy);
+    require_drivable(journal.plan, damaged);
     const auto& robot = json.at("robot");
     robot.at("id").get_to(journal.robot_id);
     robot.at("name").get_to(journal.robot_name);
@@ -69,7 +66,7 @@ Journal read_journal(const std::filesystem::path& folder) {
       journal.carried[phase] = {carried.at("c_R"), carried.at("c_L"), carried.at("b_m")};
     return journal;
   } catch (const nlohmann::json::exception&) {
-    throw Error(damaged + remedy);
+    throw Error(damaged, {Help::calibrate_recordings});
   }
 }
 

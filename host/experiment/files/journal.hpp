@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "host/calibration/end_poses/end_pose.hpp"
+#include "host/calibration/motion/wheel_factors.hpp"
 #include "host/experiment/files/plan.hpp"
 
 namespace astro::experiment {

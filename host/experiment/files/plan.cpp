@@ -18,8 +18,8 @@ constexpr int kMostCounted = 1'000'000;  // of runs and rounds, in a file
 
 bool within(double value, double least, double most) { return value >= least && value <= most; }
 
-void need(bool condition, const std::string& sentence) {
-  if (!condition) throw Error(sentence);
+void need(bool condition, const std::string& sentence, const Remedy& remedy = {}) {
+  if (!condition) throw Error(sentence, remedy);
 }
 
 /// The library makes some number of anything: 1e300, true and 2^32 + 5. What is no count is none here.
@@ -38,13 +38,15 @@ void check_until(const Plan& plan) {
       plan.until->most >= kFewestPairs && plan.until->most <= 1000,
       fmt::format("at most {} squares in each direction: choose {} to 1000", plan.until->most, kFewestPairs));
   need(plan.order == Order::alternating,
-       "squares driven until a precision is reached alternate: leave out --order");
+       "squares driven until a precision is reached alternate", {Help::keep_order});
   need(plan.method.family != MethodChoice::Family::end_poses,
-       fmt::format("only maximum likelihood knows its precision as it goes: leave out --until or --method {}",
-                   name_of(plan.method)));
+       "only maximum likelihood knows its precision as it goes",
+       {Help::drop_precision_or_method, std::string(name_of(plan.method))});
   need(plan.truth != "manual" && plan.truth != "file",
-       fmt::format("--until needs ground truth along the whole drive, which --truth {} has not: give --runs",
-                   plan.truth));
+       fmt::format("a precision can only be driven for with ground truth along the whole drive, which the source "
+                   "'{}' has not",
+                   plan.truth),
+       {Help::count_runs});
 }
 
 }  // namespace

@@ -51,8 +51,8 @@ void require_no_copies(const RunSet& set) {
   for (std::size_t i = 0; i < set.runs.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
       if (is_copy(set.runs[i], set.runs[k]))
-        throw Error(fmt::format("{} and {} are the same recording: leave one out with --without {}",
-                                set.names[k], set.names[i], set.names[i]));
+        throw Error(fmt::format("{} and {} are the same recording", set.names[k], set.names[i]),
+                    {Help::leave_copy_out, set.names[i]});
 }
 
 }  // namespace

@@ -67,9 +67,9 @@ void Course::check_room() const {
   for (const Side side : kSides)
     if (std::abs(moved_m(side, origin_)) > bounds_.distance_m)
       throw Error(
-          fmt::format("stopped: the {} wheel got further than {:g} m from its start; give it more room "
-                      "with --max-distance",
-                      name(side), bounds_.distance_m));
+          fmt::format("stopped: the {} wheel got further than {:g} m from its start", name(side),
+                      bounds_.distance_m),
+          {Help::give_more_room});
 }
 
 // A robot that turns on the spot, or whose wheel does not turn, is not to be driven on.
@@ -79,15 +79,12 @@ void Course::check_sense(double voltage_V, const Moment& from) const {
     const double forward_m = moved_m(side, from) * std::copysign(1.0, voltage_V);
     if (forward_m < -kBackward_m)
       throw Error(
-          fmt::format("stopped: the {} wheel counts backward under forward voltage; "
-                      "'astrolabe check-wiring' finds what is reversed",
-                      name(side)));
+          fmt::format("stopped: the {} wheel counts backward under forward voltage", name(side)),
+          {Help::check_wiring});
     if (std::abs(voltage_V) >= stands_V && std::abs(forward_m) < 10 * bench_.facts().count_m[at(side)])
-      throw Error(fmt::format(
-          "stopped: the {} wheel does not turn, or does not count, at {:.1f} V; 'astrolabe check-wiring' "
-          "finds out which{}",
-          name(side), std::abs(voltage_V),
-          stands_V < kFeeble_V ? ", or give it more with --max-voltage" : ""));
+      throw Error(fmt::format("stopped: the {} wheel does not turn, or does not count, at {:.1f} V", name(side),
+                              std::abs(voltage_V)),
+                  {stands_V < kFeeble_V ? Help::check_wiring_or_raise_voltage : Help::check_wiring});
   }
 }
 
@@ -147,7 +144,7 @@ WheelIdentity Course::identity(Side side) const {
   try {
     wheel.fit = fit_motor(samples(side, rise_begin_[0], bench_.moments().size()), count_m);
   } catch (const Error& error) {
-    throw Error(fmt::format("the {} wheel {}", name(side), error.what()));
+    throw Error(fmt::format("the {} wheel {}", name(side), error.what()), error.remedy());
   }
   return wheel;
 }

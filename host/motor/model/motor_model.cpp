@@ -188,7 +188,7 @@ double r_squared(const std::vector<Pair>& windows, const Eigen::VectorXd& residu
 
 void check(const MotorModel& model) {
   if (!(model.kV > 0) || !(model.kA > 0))
-    throw Error("does not follow its voltage: 'astrolabe check-wiring' finds crossed or reversed wires");
+    throw Error("does not follow its voltage", {Help::check_wiring});
 }
 
 }  // namespace

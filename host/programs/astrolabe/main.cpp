@@ -9,6 +9,8 @@
 
 #include "common/base/version.hpp"
 #include "host/base/error.hpp"
+#include "host/base/interrupted.hpp"
+#include "host/commands/base/remedies.hpp"
 #include "host/commands/calibrate/commands.hpp"
 #include "host/commands/drive/commands.hpp"
 #include "host/commands/robot/commands.hpp"
@@ -19,7 +21,6 @@
 #include "host/console/interrupt.hpp"
 #include "host/console/program.hpp"
 #include "host/console/wrong_usage.hpp"
-#include "host/robot/motion/drive.hpp"
 
 namespace {
 
@@ -75,14 +76,14 @@ int main(int argc, char** argv) {
   watch_for_interrupt();
   try {
     return run(argc, argv);
-  } catch (const astro::robot::Interrupted& error) {
-    complain(error.what());
+  } catch (const astro::Interrupted& error) {
+    complain(in_words(error));
     return kInterrupted;
   } catch (const WrongUsage& error) {
     complain(error.what());
     return kWrongUsage;
   } catch (const astro::Error& error) {
-    complain(error.what());  // also after Ctrl-C: the disk may be full, or the robot not have stopped
+    complain(in_words(error));  // also after Ctrl-C: the disk may be full, or the robot not have stopped
     return kFailed;
   } catch (const std::filesystem::filesystem_error& error) {
     complain(in_words(error));

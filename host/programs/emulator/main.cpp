@@ -4,11 +4,12 @@
 #include <string>
 
 #include "host/base/error.hpp"
+#include "host/commands/base/remedies.hpp"
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
 #include "host/console/options.hpp"
 #include "host/console/program.hpp"
-#include "host/simulation/program/served_robot_options.hpp"
+#include "host/commands/serving/served_robot_options.hpp"
 #include "host/programs/emulator/served_teensy.hpp"
 
 namespace {
@@ -16,8 +17,8 @@ namespace {
 using namespace astro;  // NOLINT(google-build-using-namespace): a program's own file
 namespace fs = std::filesystem;
 
-void run(const fs::path& hex, simulation::SimOptions& options) {
-  simulation::prepare(options, emulator::NorFlash::kParametersEnd - emulator::NorFlash::kParameters);
+void run(const fs::path& hex, commands::SimOptions& options) {
+  commands::prepare(options, emulator::NorFlash::kParametersEnd - emulator::NorFlash::kParameters);
   if (const fs::path& usb = options.server.second_pty;
       !usb.empty() && fs::weakly_canonical(fs::absolute(usb).parent_path()) / usb.filename() ==
                           fs::weakly_canonical(fs::absolute(options.server.pty).parent_path()) /
@@ -31,7 +32,7 @@ void run(const fs::path& hex, simulation::SimOptions& options) {
       options.server);
   if (!options.server.second_pty.empty())
     console::say("its USB port is at " + options.server.second_pty.string());
-  simulation::serve(server, "an emulated robot");
+  commands::serve(server, "an emulated robot");
 }
 
 int run(int argc, char** argv) {
@@ -39,11 +40,11 @@ int run(int argc, char** argv) {
                        "Runs a robot's firmware image on an emulated Teensy 4.0 behind a pseudo terminal.");
   const console::Command app = program.command();
   fs::path hex;
-  simulation::SimOptions options;
+  commands::SimOptions options;
   app.add_option("firmware", hex, "image for the Teensy 4.0, as './dev firmware' builds it")
       .type_name("HEX")
       .required();
-  simulation::add_sim_options(app, options);
+  commands::add_sim_options(app, options);
   app.add_option("--usb-pty", options.server.second_pty,
                  "path to put the USB port at; --pty is the serial port")
       .type_name("PATH");
@@ -58,12 +59,15 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  cli::hold_standard_streams();
+  console::hold_standard_streams();
   console::watch_for_interrupt();
   try {
     return run(argc, argv);
   } catch (const std::filesystem::filesystem_error& error) {
     console::complain(console::in_words(error));
+    return 1;
+  } catch (const astro::Error& error) {
+    console::complain(astro::commands::in_words(error));
     return 1;
   } catch (const std::exception& error) {
     console::complain(error.what());

@@ -1,3 +1,4 @@
+#include "host/commands/base/remedies.hpp"
 #include "host/programs/emulator/served_teensy.hpp"
 
 #include <algorithm>
@@ -63,7 +64,7 @@ void ServedTeensy::wait_in_bootloader() {
     file.commit();
     start(flashed_);
   } catch (const Error& error) {
-    return console::complain(error.what());
+    return console::complain(commands::in_words(error));
   }
   halfkay_.reset();
   console::say("flashed");

@@ -57,8 +57,7 @@ std::vector<fs::path> list_runs(const fs::path& folder) {
   }
   if (error) throw Error("cannot list the folder " + folder.string() + ": " + error.message());
   if (paths.empty()) {
-    throw Error("no recordings (*.mcap) in " + folder.string() +
-                ": record some with `astrolabe record` or `astrolabe umbmark`, or name another folder");
+    throw Error("no recordings (*.mcap) in " + folder.string(), {Help::record_runs});
   }
   std::sort(paths.begin(), paths.end(), [](const fs::path& a, const fs::path& b) {
     return natural_less(a.generic_string(), b.generic_string());

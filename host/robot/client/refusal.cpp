@@ -9,8 +9,7 @@ namespace {
 std::string addition(protocol::ErrorCode code, std::uint16_t detail) {
   switch (code) {
     case protocol::ErrorCode::faulted:
-      return ": " + std::string(name(static_cast<Fault>(detail))) +
-             "; remove its cause, then run 'astrolabe faults --clear'";
+      return ": " + std::string(name(static_cast<Fault>(detail)));
     case protocol::ErrorCode::invalid_parameter:
     case protocol::ErrorCode::unknown_parameter:
       return detail == 0 ? "" : ": parameter " + std::to_string(detail);
@@ -37,7 +36,10 @@ std::string sentence(std::string_view what, protocol::ErrorCode code, std::uint1
 
 RobotRefused::RobotRefused(std::string_view what, protocol::ErrorCode code, std::uint16_t detail,
                            std::string_view why)
-    : Error(sentence(what, code, detail, why)), code_(code), detail_(detail) {}
+    : Error(sentence(what, code, detail, why),
+            {code == protocol::ErrorCode::faulted && why.empty() ? Help::clear_faults : Help::none}),
+      code_(code),
+      detail_(detail) {}
 
 std::string fault_names(std::uint32_t mask) {
   std::string names;

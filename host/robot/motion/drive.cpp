@@ -75,8 +75,10 @@ void DriveSession::end() {
   try {
     rest_and_disarm();
   } catch (const std::exception& error) {
+    const auto* known = dynamic_cast<const Error*>(&error);
     throw NotStopped("the robot did not confirm that it stopped, and may still be moving: " +
-                     std::string(error.what()));
+                         std::string(error.what()),
+                     known == nullptr ? Remedy{} : known->remedy());
   }
   if (fault_) fail(*fault_);
 }
@@ -109,8 +111,7 @@ void DriveSession::arm() {
   constexpr std::uint32_t kLeftBehind = bit(Fault::command_timeout) | bit(Fault::link_lost);
   const FaultReport report = client_.request(GetFaults{});
   if ((report.latched & ~kLeftBehind) != 0) {
-    throw DriveFault("the robot is not armed because of a latched fault: " + fault_names(report.latched) +
-                         "; remove its cause, then run 'astrolabe faults --clear'",
+    throw DriveFault("the robot is not armed because of a latched fault: " + fault_names(report.latched),
                      first_fault(report.latched & ~kLeftBehind));
   }
   if (report.latched != 0) {
@@ -246,8 +247,8 @@ PortUsers DriveSession::port_users() {
 void DriveSession::fail_busy() {
   const PortUsers users = port_users();
   throw Error("the robot is driving for another program" +
-              in_brackets(users.driver_pid, users.driver_command) +
-              ": end that one, or 'astrolabe stop' ends its drive");
+              in_brackets(users.driver_pid, users.driver_command),
+              {Help::stop_other_program});
 }
 
 /// What ends a drive arrives before the reason: of a fault the robot reports the aborted segment first.
@@ -266,8 +267,7 @@ void DriveSession::fail(Fault fault) {
     cause =
         "another program" + in_brackets(users.stopper_pid, users.stopper_command) + " stopped the robot: ";
   }
-  throw DriveFault(
-      cause + std::string(name(fault)) + "; remove its cause, then run 'astrolabe faults --clear'", fault);
+  throw DriveFault(cause + std::string(name(fault)), fault);
 }
 
 }  // namespace astro::robot

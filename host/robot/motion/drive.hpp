@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/safety/fault.hpp"
+#include "host/base/interrupted.hpp"
 #include "host/robot/client/client.hpp"
 #include "host/robot/sharing/relay_messages.hpp"
 
@@ -14,7 +15,7 @@ namespace astro::robot {
 /// The robot stopped by itself, or is not to be armed because it once did.
 class DriveFault : public Error {
  public:
-  DriveFault(const std::string& sentence, Fault fault) : Error(sentence), fault_(fault) {}
+  DriveFault(const std::string& fact, Fault fault) : Error(fact, {Help::clear_faults}), fault_(fault) {}
   Fault fault() const { return fault_; }
 
  private:
@@ -23,13 +24,6 @@ class DriveFault : public Error {
 
 /// The robot was told to stop and did not confirm that it is at rest and disarmed: it may still move.
 class NotStopped : public Error {
- public:
-  using Error::Error;
-};
-
-/// The person in front of the program wanted the robot to stop, and the robot has confirmed that it is at
-/// rest and disarmed; or no robot was driving.
-class Interrupted : public Error {
  public:
   using Error::Error;
 };

@@ -59,8 +59,7 @@ const ParameterRow* RemoteParameters::find(std::string_view name) const {
 
 const ParameterRow& RemoteParameters::row(std::string_view name) const {
   if (const ParameterRow* found = find(name)) return *found;
-  throw Error("the robot has no parameter '" + std::string(name) +
-              "': 'astrolabe params list' shows those it has");
+  throw Error("the robot has no parameter '" + std::string(name) + "'", {Help::list_parameters});
 }
 
 ParameterRow& RemoteParameters::mutable_row(std::string_view name) {

@@ -84,8 +84,8 @@ class Upload {
     }
     if (!is_old && !is_new) {
       throw Error("the robot at " + client_.name() +
-                  " holds neither the old nor the new parameters: did another " +
-                  "program change them? 'astrolabe params list' shows what it holds");
+                      " holds neither the old nor the new parameters: another program may have changed them",
+                  {Help::list_parameters});
     }
     report.active = is_new ? ActiveSet::new_set : ActiveSet::old_set;
     return report;

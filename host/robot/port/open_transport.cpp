@@ -161,7 +161,7 @@ std::string tcp_key(const std::string& address) {
 }
 
 std::unique_ptr<Transport> open_transport(const std::string& address, unsigned baud) {
-  if (address.empty()) throw Error("no port is named: 'astrolabe ports' lists the robots that are here");
+  if (address.empty()) throw Error("no port is named", {Help::find_robots});
   if (address.starts_with("tcp:")) {
     const auto endpoint = parse_tcp(address);
     return std::make_unique<StreamTransport<asio::ip::tcp::socket>>(

@@ -8,7 +8,7 @@
 
 #include "host/robot/port/transport.hpp"
 
-/// Transport over an Asio stream (posix::stream_descriptor, ip::tcp::socket). Internal to host/link.
+/// Transport over an Asio stream (posix::stream_descriptor, ip::tcp::socket). Internal to this room.
 namespace astro::robot {
 
 template <class Stream>

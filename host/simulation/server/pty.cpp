@@ -71,7 +71,7 @@ int try_claim(const fs::path& link) {
 
 int claim(const fs::path& link) {
   if (const int fd = try_claim(link); fd >= 0) return fd;
-  throw Error("'" + link.string() + "' is in use by another simulator: stop it or choose another --pty");
+  throw Error("'" + link.string() + "' is in use by another simulator", {Help::stop_simulator_or_choose_other_path});
 }
 
 bool left_behind(const fs::path& link) {
@@ -98,12 +98,11 @@ void make_link(const fs::path& device, const fs::path& link) {
   if (left_behind(link)) {
     fs::remove(link);
   } else if (fs::exists(fs::symlink_status(link))) {
-    throw Error("'" + link.string() + "' exists and is not a simulator's: choose another path for --pty");
+    throw Error("'" + link.string() + "' exists and is not a simulator's", {Help::choose_other_path});
   }
   fs::create_symlink(device, link, error);
   if (error)
-    throw Error("'" + link.string() + "' cannot be made: " + error.message() +
-                "; choose another path for --pty");
+    throw Error("'" + link.string() + "' cannot be made (" + error.message() + ")", {Help::choose_other_path});
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ int listen_at(const std::filesystem::path& path) {
   address.sun_family = AF_UNIX;
   const std::string text = path.string();
   if (text.size() >= sizeof(address.sun_path))
-    throw Error("the path '" + text + "' is too long for a socket: choose a shorter one for --pty");
+    throw Error("the path '" + text + "' is too long for a socket", {Help::choose_shorter_path});
   std::strcpy(address.sun_path, text.c_str());
   std::error_code ignored;
   if (std::filesystem::is_socket(path, ignored)) std::filesystem::remove(path, ignored);

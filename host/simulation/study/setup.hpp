@@ -10,6 +10,7 @@
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "host/calibration/end_poses/replay.hpp"
 #include "host/calibration/motion/trajectory.hpp"
+#include "host/calibration/motion/wheel_factors.hpp"
 
 /// What a study repeats: one robot, one programme of squares, one ground truth.
 namespace astro::simulation::study {

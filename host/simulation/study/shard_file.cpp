@@ -108,17 +108,17 @@ std::string to_text(const TrialSetup& setup, const std::vector<Trial>& trials) {
 
 Part read_part(const std::string& text, const std::string& name) {
   if (!json_fits_memory(text))
-    throw Error("'" + name + "' is no shard of a study: give what 'astrolabe study --out' wrote");
+    throw Error("'" + name + "' is no shard of a study", {Help::name_shard});
   try {
     const json file = json::parse(text);
     if (file.at("format") != kFormat || file.at("methods") != json(kMethods))
-      throw Error("'" + name + "' was written by another version of 'astrolabe study': run its shard again");
+      throw Error("'" + name + "' was written by another version of the study", {Help::run_shard_again});
     Part part{name, setup_from(file.at("setup")), {}};
     for (const json& trial : file.at("trials")) part.trials.push_back(trial_from(trial));
     part.setup.check();
     return part;
   } catch (const json::exception&) {
-    throw Error("'" + name + "' is no shard of a study: give what 'astrolabe study --out' wrote");
+    throw Error("'" + name + "' is no shard of a study", {Help::name_shard});
   }
 }
 

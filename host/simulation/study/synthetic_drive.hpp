@@ -8,6 +8,7 @@
 #include "host/calibration/end_poses/end_pose.hpp"
 #include "host/calibration/end_poses/replay.hpp"
 #include "host/calibration/motion/trajectory.hpp"
+#include "host/calibration/motion/wheel_factors.hpp"
 
 /// Drives of a robot that is kinematics and noise alone: what a calibration is given, from a robot whose true
 /// factors are known. Much faster than the simulated robot, and exactly the model that maximum likelihood

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "host/calibration/end_poses/end_pose.hpp"
+#include "host/calibration/motion/wheel_factors.hpp"
 #include "host/simulation/study/drive_source.hpp"
 #include "host/simulation/study/setup.hpp"
 

@@ -33,8 +33,7 @@ int connect_to(const std::filesystem::path& path) {
   if (fd < 0 || connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
     const std::string reason = std::strerror(errno);
     if (fd >= 0) close(fd);
-    throw Error("no virtual cameras at '" + text + "' (" + reason +
-                "): --truth sim needs a robot started with 'astrolabe sim'");
+    throw Error("no virtual cameras at '" + text + "' (" + reason + ")", {Help::use_simulated_robot});
   }
   return fd;
 }

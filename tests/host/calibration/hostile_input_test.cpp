@@ -7,6 +7,8 @@
 
 #include "tests/host/calibration/square_runs.hpp"
 
+#include "host/calibration/motion/wheel_factors.hpp"
+
 namespace astro::calibration {
 namespace {
 

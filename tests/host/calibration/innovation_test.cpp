@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "host/calibration/preparation/prepared_run.hpp"
+#include "host/calibration/preparation/preparation.hpp"
 #include "tests/host/calibration/ml_drives.hpp"
 
 // The filter against what it stands for: the normal distribution of all truth samples of a drive at once,

@@ -7,7 +7,10 @@
 #include <numbers>
 #include <random>
 
+#include "host/calibration/judgement/remarks.hpp"
+#include "host/calibration/motion/wheel_factors.hpp"
 #include "tests/host/calibration/ml_drives.hpp"
+#include "tests/support/sentences.hpp"
 
 namespace astro::calibration {
 namespace {
@@ -53,7 +56,8 @@ TEST(MaximumLikelihood, ReachesTheCramerRaoBoundAndKnowsHowFarItIsOff) {
   double E_d = 0, scale = 0, b_over_scale = 0, chi_square = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
     const MlEstimate found = estimate_ml(
-        squares(model, 4, 2, simulation::study::derived_seed(kSeed, static_cast<std::uint64_t>(trial))), model.carried);
+        squares(model, 4, 2, simulation::study::derived_seed(kSeed, static_cast<std::uint64_t>(trial))),
+        model.carried);
     const Eigen::Vector3d error(found.factors.c_r - model.actual.c_r, found.factors.c_l - model.actual.c_l,
                                 found.factors.b_m - model.actual.b_m);
     Eigen::Matrix3d covariance;
@@ -84,7 +88,8 @@ TEST(MaximumLikelihood, DoesNotClaimMoreThanItKnowsOfARobotThatHardlySlips) {
   double chi_square = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
     const MlEstimate found = estimate_ml(
-        squares(model, 2, 1, simulation::study::derived_seed(kSeed, static_cast<std::uint64_t>(trial))), model.carried);
+        squares(model, 2, 1, simulation::study::derived_seed(kSeed, static_cast<std::uint64_t>(trial))),
+        model.carried);
     for (const double miss : misses(found, model.actual)) chi_square += miss * miss / kTrials;
   }
   std::printf("squares of the errors, in standard errors: %.2f of 3\n", chi_square);
@@ -111,8 +116,9 @@ TEST(MaximumLikelihood, TakesWheelsOutOfRoundNeitherForSlipNorForAnotherWheelbas
   double chi_square = 0, K_m = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
     const MlEstimate found = estimate_ml(
-        out_of_round(squares(model, 4, 2, simulation::study::derived_seed(kSeed, static_cast<std::uint64_t>(trial))),
-                     1e-3),
+        out_of_round(
+            squares(model, 4, 2, simulation::study::derived_seed(kSeed, static_cast<std::uint64_t>(trial))),
+            1e-3),
         model.carried);
     EXPECT_GT(found.thinned_to_s, 0.1);
     K_m += found.noise.K_m / kTrials;
@@ -130,7 +136,8 @@ TEST(MaximumLikelihood, AShortRunAmongThemKeepsNobodyFromSeeingThat) {
   DriveModel model = astro_drive();
   model.noise.K_m = 5e-7;
   std::vector<Trajectory> runs = squares(model, 4, 2);
-  runs.push_back(simulation::study::synthetic_drive(simulation::study::line_course(0.25, 0.2), model, "short", kSeed));
+  runs.push_back(
+      simulation::study::synthetic_drive(simulation::study::line_course(0.25, 0.2), model, "short", kSeed));
   const MlEstimate found = estimate_ml(out_of_round(std::move(runs), 1e-3), model.carried);
   EXPECT_GT(found.thinned_to_s, 0.1);
   EXPECT_LT(found.noise.K_m, 3 * model.noise.K_m);
@@ -266,7 +273,7 @@ TEST(MaximumLikelihood, SaysWhenWhichRunWasKicked) {
   EXPECT_NEAR(jolts[0].turned_rad, 0.06, 5e-3);
   EXPECT_NEAR(jolts[1].since_start_s, 31, 0.1);
   EXPECT_NEAR(jolts[1].turned_rad, -0.04, 5e-3);
-  EXPECT_THAT(found.remarks(),
+  EXPECT_THAT(support::sentences_of(remarks(found)),
               testing::Contains(AllOf(HasSubstr("run 3"), HasSubstr("s after its start by 3."))));
 }
 
@@ -301,7 +308,7 @@ TEST(MaximumLikelihood, GetsAlongWithGapsInTheTruth) {
 TEST(MaximumLikelihood, NamesTheRunThatSlipped) {
   const DriveModel model = astro_drive();
   std::vector<Trajectory> runs = squares(model, 8);
-  EXPECT_THAT(estimate_ml(runs, model.carried).remarks(), IsEmpty());
+  EXPECT_THAT(remarks(estimate_ml(runs, model.carried)), IsEmpty());
   const MlEstimate clean = estimate_ml(runs, model.carried);
   // The third run ends somewhere else than its wheels went: 5 degrees about the tracker's origin.
   for (BodySample& sample : runs[2].truth) {
@@ -318,7 +325,7 @@ TEST(MaximumLikelihood, NamesTheRunThatSlipped) {
   // The others say what they said before.
   EXPECT_LT(std::abs(found.E_d() - clean.E_d()), clean.se.E_d);
   EXPECT_LT(found.se.E_d, 1.3 * clean.se.E_d);
-  EXPECT_THAT(found.remarks().front(), AllOf(HasSubstr("run 3"), HasSubstr("--without")));
+  EXPECT_THAT(commands::in_words(remarks(found).front()), AllOf(HasSubstr("run 3"), HasSubstr("--without")));
 }
 
 TEST(MaximumLikelihood, SaysSoWhenArcsAndSpinsWantDifferentWheelbases) {
@@ -329,13 +336,14 @@ TEST(MaximumLikelihood, SaysSoWhenArcsAndSpinsWantDifferentWheelbases) {
   for (int i = 0; i < 4; ++i)
     runs.push_back(simulation::study::synthetic_drive(
         simulation::study::circle_course(0.75, (i % 2 == 0 ? 4 : -4) * std::numbers::pi), arcs,
-        "circle " + std::to_string(i), simulation::study::derived_seed(kSeed, 90 + static_cast<std::uint64_t>(i))));
+        "circle " + std::to_string(i),
+        simulation::study::derived_seed(kSeed, 90 + static_cast<std::uint64_t>(i))));
   const MlEstimate found = estimate_ml(runs, spins.carried);
   ASSERT_TRUE(found.wheelbase_by_kind);
   EXPECT_TRUE(found.wheelbase_by_kind->disagrees);
   EXPECT_NEAR(found.wheelbase_by_kind->arc_over_spin, 1.01,
               kFourSigma * found.wheelbase_by_kind->standard_error);
-  EXPECT_THAT(found.remarks(), testing::Contains(HasSubstr("than spins")));
+  EXPECT_THAT(support::sentences_of(remarks(found)), testing::Contains(HasSubstr("than spins")));
 }
 
 TEST(MaximumLikelihood, TakesRunsWithAndWithoutHeadingsTogether) {
@@ -384,7 +392,8 @@ TEST(MaximumLikelihood, UsesSpinsOfPositionsAloneWithABodyOffTheAxis) {
   for (const LeverArm& lever : {LeverArm{0.3, 0, 0}, {-0.3, 0, 0}, {-0.2, -0.2, 0}}) {
     model.lever = lever;
     std::vector<Trajectory> runs = squares(model, 2, 1.7);
-    runs.push_back(simulation::study::synthetic_drive(simulation::study::spin_course(19), model, "spin", kSeed));
+    runs.push_back(
+        simulation::study::synthetic_drive(simulation::study::spin_course(19), model, "spin", kSeed));
     const MlEstimate found = estimate_ml(runs, model.carried);
     expect_true(found, model.actual);
     EXPECT_EQ(found.runs.size(), 3u);
@@ -398,11 +407,12 @@ TEST(MaximumLikelihood, DoesWithoutASpinThatPositionsCannotSee) {
   model.lever = {};
   model.clock_offset_s = 7;
   std::vector<Trajectory> runs = squares(model, 4);
-  runs.insert(runs.begin() + 1, simulation::study::synthetic_drive(simulation::study::spin_course(19), model, "spin", kSeed));
+  runs.insert(runs.begin() + 1,
+              simulation::study::synthetic_drive(simulation::study::spin_course(19), model, "spin", kSeed));
   const MlEstimate found = estimate_ml(runs, model.carried);
   expect_true(found, model.actual);
   EXPECT_EQ(found.runs.size(), 4u);
-  EXPECT_THAT(found.remarks(),
+  EXPECT_THAT(support::sentences_of(remarks(found)),
               testing::Contains(AllOf(HasSubstr("spin"), HasSubstr("stand still"), HasSubstr("left out"))));
 }
 
@@ -410,8 +420,8 @@ TEST(MaximumLikelihood, CallsAWideCircleATurn) {
   DriveModel model = astro_drive();
   std::vector<Trajectory> runs;
   for (const double turn : {1.0, -1.0})
-    runs.push_back(
-        simulation::study::synthetic_drive(simulation::study::circle_course(4, turn * 2 * std::numbers::pi), model, "circle", kSeed));
+    runs.push_back(simulation::study::synthetic_drive(
+        simulation::study::circle_course(4, turn * 2 * std::numbers::pi), model, "circle", kSeed));
   runs.push_back(simulation::study::synthetic_drive(simulation::study::line_course(3), model, "line", kSeed));
   expect_true(estimate_ml(runs, model.carried), model.actual);
 }
@@ -420,15 +430,15 @@ TEST(MaximumLikelihood, SaysSoWhenTheGivenNoiseIsTooSmall) {
   const DriveModel model = astro_drive();
   MlOptions options;
   options.noise = NoiseModel{model.noise.K_m, model.noise.sigma_xy_m / 5, model.noise.sigma_theta_rad / 5};
-  EXPECT_THAT(estimate_ml(squares(model, 2), model.carried, options).remarks(),
+  EXPECT_THAT(support::sentences_of(remarks(estimate_ml(squares(model, 2), model.carried, options))),
               testing::Contains(HasSubstr("given noise")));
 }
 
 TEST(MaximumLikelihood, TellsTheMotionsApart) {
   const DriveModel model = astro_drive();
   std::vector<Trajectory> runs = squares(model, 2);
-  runs.push_back(
-      simulation::study::synthetic_drive(simulation::study::circle_course(0.75, 2 * std::numbers::pi), model, "circle", kSeed));
+  runs.push_back(simulation::study::synthetic_drive(
+      simulation::study::circle_course(0.75, 2 * std::numbers::pi), model, "circle", kSeed));
   const MlEstimate found = estimate_ml(runs, model.carried);
   ASSERT_EQ(found.kinds.size(), 4u);
   EXPECT_EQ(found.kinds[0].motion, Motion::rest);

@@ -7,6 +7,7 @@
 #include "host/base/error.hpp"
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "tests/host/calibration/ml_drives.hpp"
+#include "tests/support/sentences.hpp"
 
 // What cannot be calibrated is said in one sentence that names it and the remedy.
 namespace astro::calibration {
@@ -22,7 +23,7 @@ std::string refusal(const std::vector<Trajectory>& runs) {
   try {
     estimate_ml(runs, astro_drive().carried);
   } catch (const Error& error) {
-    return error.what();
+    return commands::in_words(error);
   }
   return "accepted";
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/calibration/motion/wheel_factors.hpp"
 #include "tests/host/calibration/square_runs.hpp"
 
 namespace astro::calibration {

@@ -9,6 +9,7 @@
 #include "host/base/error.hpp"
 #include "host/calibration/end_poses/replay.hpp"
 #include "host/calibration/end_poses/umbmark.hpp"
+#include "host/calibration/motion/wheel_factors.hpp"
 
 /// Noise-free experiments by exact replay, and the robot of the thesis.
 namespace astro::calibration::test {

@@ -1,4 +1,4 @@
-#include "host/calibration/preparation/start_values.hpp"
+#include "host/calibration/likelihood/start_values.hpp"
 
 #include <gtest/gtest.h>
 

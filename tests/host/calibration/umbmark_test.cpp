@@ -7,6 +7,7 @@
 #include <random>
 
 #include "host/calibration/end_poses/compose.hpp"
+#include "host/calibration/motion/wheel_factors.hpp"
 #include "tests/host/calibration/square_runs.hpp"
 
 namespace astro::calibration {

@@ -17,29 +17,12 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
+using console::Key;
+using console::SteeringWheel;
 
 std::size_t width(const std::string& line) {
   return static_cast<std::size_t>(
       std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
-TEST(Clipped, CountsCharactersNotBytes) {
-  EXPECT_EQ(clipped("äöü", 2), "äö");
-  EXPECT_EQ(clipped("█░", 5), "█░");
-  EXPECT_EQ(clipped("abc", 0), "");
-}
-
-TEST(Gauge, GrowsFromTheMiddleToEitherSide) {
-  EXPECT_EQ(gauge(0, 3), "░░░┃░░░");
-  EXPECT_EQ(gauge(1, 3), "░░░┃███");
-  EXPECT_EQ(gauge(-1, 3), "███┃░░░");
-  EXPECT_EQ(gauge(0.34, 3), "░░░┃█░░");
-  EXPECT_EQ(gauge(-7, 3), gauge(-1, 3));
-}
-
-TEST(Table, AlignsAsAskedAndByCharacters) {
-  EXPECT_EQ(table({{"a", "bb"}, {"ccc", "d"}}), "a    bb\nccc   d\n");
-  EXPECT_EQ(table({{"a", "bb"}, {"ü", "d"}}, "rl"), "a  bb\nü  d\n");
 }
 
 TEST(FaultHelp, SaysSomethingAboutEveryFault) {
@@ -152,14 +135,6 @@ TEST(MonitorPicture, ShowsNoMinusBeforeZeros) {
   telemetry.wheel_speed = telemetry.setpoint = {-1, -1};
   telemetry.duty = {-1, -1};
   EXPECT_THAT(monitor_picture("ASTRO", telemetry, {}), Not(testing::ContainsRegex("-0[.]0+[^0-9]")));
-}
-
-TEST(ProgressLines, ComeAfterTenSecondsThenEverMoreRarelyButEveryMinute) {
-  ProgressLines lines;
-  std::vector<int> due;
-  for (int second = 0; second <= 300; ++second)
-    if (lines.due(std::chrono::seconds(second))) due.push_back(second);
-  EXPECT_THAT(due, testing::ElementsAre(10, 20, 40, 80, 140, 200, 260));
 }
 
 TEST(MonitorPicture, SaysThatTheLinkIsLost) {

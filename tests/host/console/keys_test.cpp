@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace astro::commands {
+namespace astro::console {
 namespace {
 
 using testing::ElementsAre;
@@ -66,4 +66,4 @@ TEST(SteeringWheel, StopsAtOnceOnSpaceAndOnQuit) {
 }
 
 }  // namespace
-}  // namespace astro::commands
+}  // namespace astro::console

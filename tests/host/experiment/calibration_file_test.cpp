@@ -8,6 +8,7 @@
 
 #include "host/experiment/drive/change_guard.hpp"
 #include "tests/support/desk.hpp"
+#include "tests/support/sentences.hpp"
 
 namespace astro::experiment {
 namespace {
@@ -173,11 +174,11 @@ TEST_F(ChangeGuard, SaysThatAChangeWithinItsErrorMayBeForNothing) {
 
 TEST_F(ChangeGuard, ObjectsInOneSentenceThatNamesTheOption) {
   ParameterFile file;
-  EXPECT_EQ(objection(robot_, file, changes(robot_, {{"b", 0.31}})), "");
-  EXPECT_THAT(objection(robot_, file, changes(robot_, {{"b", 0.32}})),
+  EXPECT_FALSE(objection(robot_, file, changes(robot_, {{"b", 0.31}})));
+  EXPECT_THAT(commands::in_words(*objection(robot_, file, changes(robot_, {{"b", 0.32}}))),
               AllOf(HasSubstr("+10.3 %"), HasSubstr("--force")));
   file.carried = {{"c_R", 1.001}};
-  EXPECT_THAT(objection(robot_, file, changes(robot_, {{"b", 0.31}})),
+  EXPECT_THAT(commands::in_words(*objection(robot_, file, changes(robot_, {{"b", 0.31}}))),
               AllOf(HasSubstr("driven with"), HasSubstr("--force")));
 }
 
@@ -185,12 +186,12 @@ TEST_F(ChangeGuard, ObjectsToFactorsThatAreNotAllThere) {
   ParameterFile file;
   file.method = "ml";
   file.parameters = {{"c_R", 1.001}, {"c_L", 0.999}};
-  EXPECT_THAT(objection(robot_, file, {}), AllOf(HasSubstr("has no b"), HasSubstr("--force")));
+  EXPECT_THAT(commands::in_words(*objection(robot_, file, {})), AllOf(HasSubstr("has no b"), HasSubstr("--force")));
   file.parameters["b"] = 0.29;
-  EXPECT_EQ(objection(robot_, file, {}), "");
+  EXPECT_FALSE(objection(robot_, file, {}));
   file = {};
   file.parameters = {{"c_R", 1.001}};
-  EXPECT_EQ(objection(robot_, file, {}), "") << "no calibration, but somebody's own choice";
+  EXPECT_FALSE(objection(robot_, file, {})) << "no calibration, but somebody's own choice";
 }
 
 TEST_F(ChangeGuard, RefusesNamesAndValuesThatTheRobotDoesNotHave) {

@@ -182,7 +182,7 @@ TEST_F(MlExperiment, SaysWhatWasReachedWhenTheMostSquaresAreDriven) {
 TEST_F(MlExperiment, GoesOnWithTheSquaresThatAreRecorded) {
   const Plan plan = until_plan(1e-5, 4);
   hooks_.run.interrupted = [this] { return driven_.size() >= 6; };  // in the second of the third pair
-  EXPECT_THROW(run(plan), robot::Interrupted);
+  EXPECT_THROW(run(plan), Interrupted);
   EXPECT_EQ(recorded_squares(folder_.path(), plan, 0), 2);
   hooks_.run.interrupted = [] { return false; };
   run(plan);

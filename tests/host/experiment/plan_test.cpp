@@ -7,6 +7,7 @@
 
 #include "host/base/error.hpp"
 #include "host/experiment/files/method_names.hpp"
+#include "tests/support/sentences.hpp"
 
 namespace astro::experiment {
 namespace {
@@ -89,14 +90,14 @@ TEST(Plan, RefusesAPrecisionThatCannotBeDrivenFor) {
     plan.until = Until{5e-4, 10};
     EXPECT_NO_THROW(plan.check());
     change(plan);
-    EXPECT_THAT([&] { plan.check(); }, ThrowsMessage<Error>(HasSubstr(what)));
+    EXPECT_THAT([&] { plan.check(); }, support::ThrowsSentence(HasSubstr(what)));
   };
   refused([](Plan& plan) { plan.until->target = 0; }, "precision of 0 %");
   refused([](Plan& plan) { plan.until->most = 1; }, "at most 1 squares");
   refused([](Plan& plan) { plan.order = Order::cw_first; }, "--order");
   refused([](Plan& plan) { plan.method = method_named("extended", "average", "exact"); },
           "--method extended");
-  refused([](Plan& plan) { plan.truth = "manual"; }, "--truth manual");
+  refused([](Plan& plan) { plan.truth = "manual"; }, "source 'manual' has not: give --runs");
 }
 
 TEST(MethodNames, ComeBackAsTheyWere) {

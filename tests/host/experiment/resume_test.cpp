@@ -7,6 +7,7 @@
 #include "host/recording/files/run_file.hpp"
 #include "host/truth/manual/manual_source.hpp"
 #include "tests/support/desk.hpp"
+#include "tests/support/sentences.hpp"
 
 namespace astro::experiment {
 namespace {
@@ -45,7 +46,7 @@ class Resume : public testing::Test {
   }
   void interrupt_in_run(int n) {
     int started = 0;
-    EXPECT_THROW(run(small_plan(), interrupted_in_run(n, started)), robot::Interrupted);
+    EXPECT_THROW(run(small_plan(), interrupted_in_run(n, started)), Interrupted);
   }
 
   Desk desk_;
@@ -179,7 +180,7 @@ TEST_F(Resume, RefusesAnotherRobot) {
   interrupt_in_run(2);
   Desk other(thesis_robot(0, 2));
   EXPECT_THAT([&] { run_experiment(other.client, other.truth, small_plan(), folder_.path(), {}); },
-              ThrowsMessage<Error>(HasSubstr("choose another --out")));
+              support::ThrowsSentence(HasSubstr("choose another --out")));
 }
 
 TEST_F(Resume, RefusesARobotWhoseParametersChangedInTheMiddleOfAPhase) {

@@ -11,6 +11,7 @@
 #include "host/experiment/files/run_set.hpp"
 #include "host/recording/files/run_file.hpp"
 #include "tests/support/desk.hpp"
+#include "tests/support/sentences.hpp"
 
 namespace astro::experiment {
 namespace {
@@ -89,7 +90,7 @@ TEST(Trajectories, ATapeMeasureAndAFileOfEndPosesFollowNobody) {
     EXPECT_FALSE(has_moving_truth(run.info)) << source;
   }
   EXPECT_THAT([&] { trajectory_of(run, "line-1"); },
-              ThrowsMessage<Error>(AllOf(HasSubstr("'line-1'"), HasSubstr("--without line-1"))));
+              support::ThrowsSentence(AllOf(HasSubstr("'line-1'"), HasSubstr("--without line-1"))));
 }
 
 TEST(Trajectories, NameTheRecordingThatCannotBeUsed) {

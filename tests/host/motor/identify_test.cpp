@@ -6,6 +6,7 @@
 
 #include "host/base/error.hpp"
 #include "tests/host/motor/rig.hpp"
+#include "tests/support/sentences.hpp"
 
 namespace astro::motor {
 namespace {
@@ -89,7 +90,7 @@ std::string refusal(const sim::Config& config, const Bounds& bounds) {
     robot::DriveSession session(desk.client);
     identify(bench, session, bounds, [](double) {});
   } catch (const Error& error) {
-    sentence = error.what();
+    sentence = commands::in_words(error);
   }
   const protocol::Status status = desk.client.request(protocol::GetStatus{});
   EXPECT_EQ(status.mode, protocol::Mode::disarmed);
@@ -121,7 +122,7 @@ TEST(Identify, AnInterruptLeavesTheRobotStoppedAndDisarmed) {
     robot::DriveHooks hooks;
     hooks.interrupted = [&] { return stop; };
     robot::DriveSession session(desk.client, hooks);
-    EXPECT_THROW(identify(bench, session, {}, [&](double part) { stop = part > 0.2; }), robot::Interrupted);
+    EXPECT_THROW(identify(bench, session, {}, [&](double part) { stop = part > 0.2; }), Interrupted);
   }
   EXPECT_EQ(desk.client.request(protocol::GetStatus{}).mode, protocol::Mode::disarmed);
   for (int ms = 0; ms < 500; ++ms) desk.robot->step();

@@ -6,6 +6,7 @@
 
 #include "host/robot/motion/paths.hpp"
 #include "tests/support/fake_link.hpp"
+#include "tests/support/sentences.hpp"
 
 namespace astro::robot {
 namespace {
@@ -59,16 +60,6 @@ class Drive : public testing::Test {
   FakeLink link;
   Client client{link};
   void SetUp() override { client.connect(); }
-
-  template <class Work>
-  std::string sentence_of(Work work) {
-    try {
-      work();
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
-  }
 };
 
 TEST_F(Drive, RunsAPathLongerThanTheQueueInOrderAndDisarmsAtTheEnd) {
@@ -127,7 +118,7 @@ TEST_F(Drive, ClearsWhatAKilledProgramLeftBehindAndSaysSo) {
 TEST_F(Drive, DoesNotClearAnyOtherFault) {
   link.robot.raise(Fault::link_lost);
   link.robot.raise(Fault::stall);
-  EXPECT_THAT(sentence_of([&] { DriveSession session(client); }),
+  EXPECT_THAT(support::sentence_of([&] { DriveSession session(client); }),
               HasSubstr("link_lost, stall; remove its cause, then run 'astrolabe faults --clear'"));
   EXPECT_NE(link.robot.latched, 0U);
 }
@@ -262,7 +253,7 @@ TEST_F(Drive, SaysThatAnotherProgramStoppedTheRobot) {
     }
     return Fate::arrives;
   };
-  EXPECT_THAT(sentence_of([&] { session.run(line(1)); }), HasSubstr("segment 1 was aborted"));
+  EXPECT_THAT(support::sentence_of([&] { session.run(line(1)); }), HasSubstr("segment 1 was aborted"));
 }
 
 TEST_F(Drive, StoppingOneselfIsNoError) {

@@ -1,4 +1,4 @@
-#include "host/calibration/preparation/prepared_run.hpp"
+#include "host/calibration/preparation/preparation.hpp"
 
 #include <fmt/format.h>
 
@@ -73,10 +73,9 @@ void require_samples(const Trajectory& run) {
   });
   if (finite < kFewestSamples)
     throw Error(
-        fmt::format("{} has {} samples of ground truth: maximum likelihood needs the whole drive; take "
-                    "--method umbmark or "
-                    "extended for end poses alone",
-                    run.name, finite));
+        fmt::format("{} has {} samples of ground truth, and maximum likelihood needs the whole drive", run.name,
+                    finite),
+        {Help::use_end_poses});
   require_wheels(run);
   require_times(run.name, "ground truth", run.truth);
 }
@@ -204,17 +203,12 @@ std::string blind_sentence(const Trajectory& run) {
 void require_clock(const Trajectory& run, const ClockFit& clock) {
   if (!in_common(clock))
     throw Error(
-        run.name +
-        ": the motions of wheels and ground truth have nothing in common at any offset of their clocks: "
-        "check that they belong to the same drive, and with 'astrolabe check-wiring' that no encoder is "
-        "reversed");
+        run.name + ": the motions of wheels and ground truth have nothing in common at any offset of their clocks",
+        {Help::check_run_and_wiring});
   if (clock.rival_offset_s && clock.correlation >= kLeastCorrelation)
-    throw Error(fmt::format(
-        "{} repeats itself, so that its clocks may be {:.1f} s apart as well as {:.1f} s: record wheels and "
-        "ground truth from the rest before the drive to the rest after it, or give the truth the robot's "
-        "times "
-        "and --clock known",
-        run.name, clock.offset_s, *clock.rival_offset_s));
+    throw Error(fmt::format("{} repeats itself, so that its clocks may be {:.1f} s apart as well as {:.1f} s",
+                            run.name, clock.offset_s, *clock.rival_offset_s),
+                {Help::settle_clock});
 }
 
 }  // namespace

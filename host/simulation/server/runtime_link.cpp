@@ -1,4 +1,4 @@
-#include "host/simulation/program/runtime_link.hpp"
+#include "host/simulation/server/runtime_link.hpp"
 
 #include <string>
 

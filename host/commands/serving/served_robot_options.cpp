@@ -1,4 +1,4 @@
-#include "host/simulation/program/served_robot_options.hpp"
+#include "host/commands/serving/served_robot_options.hpp"
 
 #include <fmt/format.h>
 
@@ -12,11 +12,11 @@
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
 #include "host/console/options.hpp"
-#include "host/simulation/program/runtime_link.hpp"
+#include "host/simulation/server/runtime_link.hpp"
 #include "host/robot/port/ports.hpp"
 #include "host/simulation/server/pty.hpp"
 
-namespace astro::simulation {
+namespace astro::commands {
 namespace {
 
 namespace fs = std::filesystem;
@@ -49,9 +49,9 @@ void remove_dead_link(const fs::path& link) {
 }
 
 // Only what is to be put there needs the runtime folder; for a simulator elsewhere it is a courtesy.
-std::optional<RuntimeLink> make_it_found(const fs::path& pty) {
+std::optional<simulation::RuntimeLink> make_it_found(const fs::path& pty) {
   try {
-    return std::optional<RuntimeLink>(std::in_place, robot::make_runtime_folder(), pty);
+    return std::optional<simulation::RuntimeLink>(std::in_place, robot::make_runtime_folder(), pty);
   } catch (const Error& error) {
     console::say(fmt::format("'astrolabe ports' will not find this robot: {}", error.what()));
     return std::nullopt;
@@ -177,4 +177,4 @@ void add_sim_options(console::Command command, SimOptions& options) {
       .type_name("FILE");
 }
 
-}  // namespace astro::simulation
+}  // namespace astro::commands

@@ -1,4 +1,4 @@
-#include "host/calibration/preparation/start_values.hpp"
+#include "host/calibration/likelihood/start_values.hpp"
 
 #include <fmt/format.h>
 
@@ -65,10 +65,9 @@ std::optional<RelativePoseFit> closed_form(const PreparedRuns& runs, const Wheel
 void require_forward(const RelativePoseFit& fit) {
   for (const auto& [wheel, radius] : {std::pair{"left", fit.r_left}, std::pair{"right", fit.r_right}})
     if (!(radius > 0))
-      throw Error(fmt::format(
-          "the {} wheel comes out turning backwards: its encoder or its motor is reversed; 'astrolabe "
-          "check-wiring' finds and mends that",
-          wheel));
+      throw Error(
+          fmt::format("the {} wheel comes out turning backwards: its encoder or its motor is reversed", wheel),
+          {Help::check_wiring});
 }
 
 /// Where the tracked body of a dead-reckoned robot goes, as far as wrong factors do not bend its way much.

@@ -7,7 +7,7 @@
 #include "host/simulation/server/server.hpp"
 
 /// What `astrolabe sim` and `astrolabe-emulator` have in common.
-namespace astro::simulation {
+namespace astro::commands {
 
 /// A robot that is off as the one of the reference measurements was.
 sim::Config reference_robot();
@@ -25,4 +25,4 @@ void prepare(SimOptions& options, std::size_t flash_bytes);
 /// Says where the robot is and serves it until Ctrl-C. `what`: "a simulated robot".
 void serve(simulation::Server& server, const std::string& what);
 
-}  // namespace astro::simulation
+}  // namespace astro::commands

@@ -2,8 +2,9 @@
 
 #include <vector>
 
-#include "host/calibration/end_poses/end_pose.hpp"
-#include "host/calibration/preparation/prepared_run.hpp"
+#include "host/calibration/motion/wheel_factors.hpp"
+#include "host/calibration/likelihood/innovation.hpp"
+#include "host/calibration/preparation/preparation.hpp"
 
 /// Where the search for the likeliest parameters begins. Never at zero: a wrong yaw of the tracked body would
 /// lead to negative wheels.

@@ -1,4 +1,4 @@
-#include "host/calibration/preparation/slip_events.hpp"
+#include "host/calibration/likelihood/slip_events.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>

@@ -3,7 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "host/calibration/preparation/prepared_run.hpp"
+#include "host/calibration/likelihood/innovation.hpp"
+#include "host/calibration/preparation/preparation.hpp"
 
 /// Moments at which truth turns and the wheels do not: a castor that kicks, a cable underfoot, a hand, a
 /// marker taken for another. The factors suffer little from them (huber.hpp); a person wants to know when to

@@ -1,0 +1,41 @@
+#include "host/console/terminal.hpp"
+
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <vector>
+
+#include "host/console/console.hpp"
+
+namespace astro::console {
+namespace {
+
+TEST(Clipped, CountsCharactersNotBytes) {
+  EXPECT_EQ(clipped("äöü", 2), "äö");
+  EXPECT_EQ(clipped("█░", 5), "█░");
+  EXPECT_EQ(clipped("abc", 0), "");
+}
+
+TEST(Gauge, GrowsFromTheMiddleToEitherSide) {
+  EXPECT_EQ(gauge(0, 3), "░░░┃░░░");
+  EXPECT_EQ(gauge(1, 3), "░░░┃███");
+  EXPECT_EQ(gauge(-1, 3), "███┃░░░");
+  EXPECT_EQ(gauge(0.34, 3), "░░░┃█░░");
+  EXPECT_EQ(gauge(-7, 3), gauge(-1, 3));
+}
+
+TEST(Table, AlignsAsAskedAndByCharacters) {
+  EXPECT_EQ(table({{"a", "bb"}, {"ccc", "d"}}), "a    bb\nccc   d\n");
+  EXPECT_EQ(table({{"a", "bb"}, {"ü", "d"}}, "rl"), "a  bb\nü  d\n");
+}
+
+TEST(ProgressLines, ComeAfterTenSecondsThenEverMoreRarelyButEveryMinute) {
+  ProgressLines lines;
+  std::vector<int> due;
+  for (int second = 0; second <= 300; ++second)
+    if (lines.due(std::chrono::seconds(second))) due.push_back(second);
+  EXPECT_THAT(due, testing::ElementsAre(10, 20, 40, 80, 140, 200, 260));
+}
+
+}  // namespace
+}  // namespace astro::console

@@ -1,0 +1,3 @@
+#pragma once
+
+const char* const kHint = "run 'astrolabe umbmark' first";
