@@ -30,7 +30,7 @@ set(ASTRO_LAYERS
   "host/emulator/chip : hal/sim hal/teensy40/registers host/emulator/chip host/emulator/core"
   "host/emulator/core : hal/teensy40/registers host/base host/emulator/core"
   "host/emulator/robot : hal/sim hal/teensy40/registers host/base host/emulator/chip host/emulator/core host/emulator/robot host/emulator/usb host/robot/port host/simulation/robot host/truth/source"
-  "host/emulator/usb : hal/teensy40/registers host/emulator/chip host/emulator/core host/emulator/usb"
+  "host/emulator/usb : hal/teensy40/registers host/base host/emulator/chip host/emulator/core host/emulator/usb"
   "host/experiment/analysis : common/params host/base host/calibration/end_poses host/calibration/judgement host/calibration/likelihood host/calibration/motion host/experiment/analysis host/experiment/files host/recording/files host/recording/run host/report host/robot/parameters"
   "host/experiment/drive : host/base host/calibration/end_poses host/experiment/analysis host/experiment/drive host/experiment/files host/recording/files host/recording/run host/robot/motion host/robot/parameters host/truth/source"
   "host/experiment/files : common/protocol host/base host/calibration/end_poses host/calibration/motion host/experiment/files host/recording/files host/recording/run"
@@ -54,7 +54,7 @@ set(ASTRO_LAYERS
   "host/simulation/study : host/base host/calibration/end_poses host/calibration/judgement host/calibration/likelihood host/calibration/motion host/experiment/analysis host/experiment/drive host/recording/run host/robot/parameters host/simulation/robot host/simulation/study"
   "host/truth/files : host/base host/truth/files host/truth/manual host/truth/source"
   "host/truth/live : host/base host/truth/live host/truth/source"
-  "host/truth/manual : host/recording/run host/truth/manual host/truth/source"
+  "host/truth/manual : host/base host/recording/run host/truth/manual host/truth/source"
   "host/truth/source : host/base host/recording/run host/truth/source"
   "tests          : common hal firmware host tests"
 )

@@ -9,15 +9,29 @@
 #include <vector>
 
 /// Little-endian numbers in byte strings.
-namespace astro::recording {
+namespace astro {
 
-static_assert(std::endian::native == std::endian::little, "bytes.hpp copies numbers as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "bytes.hpp copies numbers as they are in memory");
 
 using Bytes = std::vector<std::uint8_t>;
 using ByteView = std::span<const std::uint8_t>;
 
 template <class T>
 concept Number = std::integral<T> || std::floating_point<T>;
+
+/// The number at an offset of bytes that are known to be long enough.
+template <Number T>
+T load(ByteView bytes, std::size_t offset) {
+  T value{};
+  std::memcpy(&value, bytes.subspan(offset, sizeof value).data(), sizeof value);
+  return value;
+}
+
+/// Writes a number at an offset of bytes that are known to be long enough.
+template <Number T>
+void store(std::span<std::uint8_t> bytes, std::size_t offset, T value) {
+  std::memcpy(bytes.subspan(offset, sizeof value).data(), &value, sizeof value);
+}
 
 template <Number T>
 void append(Bytes& bytes, T value) {
@@ -27,8 +41,8 @@ void append(Bytes& bytes, T value) {
 
 inline void append(Bytes& bytes, ByteView more) { bytes.insert(bytes.end(), more.begin(), more.end()); }
 
-/// A cursor over bytes that nobody vouches for. A read past the end gives zero or nothing and makes ok()
-/// false for good, so that a caller checks once, after the last field.
+/// A cursor over untrusted bytes. A read past the end gives zero or nothing and makes ok() false from then
+/// on, so that a caller checks once, after the last field.
 class ByteCursor {
  public:
   explicit ByteCursor(ByteView bytes) : bytes_(bytes) {}
@@ -49,9 +63,8 @@ class ByteCursor {
 
   template <Number T>
   T number() {
-    T value{};
-    if (const ByteView raw = take(sizeof(T)); ok_) std::memcpy(&value, raw.data(), sizeof(T));
-    return value;
+    const ByteView raw = take(sizeof(T));
+    return ok_ ? load<T>(raw, 0) : T{};
   }
 
  private:
@@ -67,4 +80,4 @@ inline std::string_view as_text(ByteView bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-}  // namespace astro::recording
+}  // namespace astro

@@ -44,8 +44,8 @@ std::string unquoted(std::string_view cell) {
 /// More columns than any tracker writes.
 constexpr std::size_t kMostColumns = 1000;
 
-/// What a table may take in memory: so much, and beyond that twice the size of its text. Short cells take
-/// many times their text, so a file of nothing but commas must not be held as a whole.
+/// Memory limit of a table: this much plus twice the size of its text. Short cells take many times the memory
+/// of their text, so a file of nothing but commas must not be held as a whole.
 constexpr std::size_t kFreeTableBytes = std::size_t{48} << 20;
 
 std::size_t memory_of(const CsvRow& row) {

@@ -17,10 +17,9 @@ struct CsvTable {
   std::vector<CsvRow> rows;
 };
 
-/// Splits comma separated text. What is accepted and refused: a byte order mark, CRLF or CR line ends, blank
-/// lines, spaces round a cell and quoted cells are accepted; an open quote, rows of other lengths,
-/// semicolons, text with a NUL byte in it, more than 1000 columns, and a table that would take more memory
-/// than twice its text and 48 MiB are refused.
+/// Splits comma separated text. Accepted: a byte order mark, CRLF or CR line ends, blank lines, spaces round
+/// a cell, quoted cells. Refused: an open quote, rows of other lengths, semicolons, text with a NUL byte in
+/// it, more than 1000 columns, a table that would take more memory than 48 MiB plus twice its text.
 CsvTable split_csv(std::string_view text, std::string_view name);
 
 /// Throws astro::Error("NAME, line N: WHAT").

@@ -4,7 +4,7 @@
 
 namespace astro {
 
-/// For people; all that is computed with is in radians.
+/// For texts that people read; computations use radians.
 constexpr double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 }  // namespace astro

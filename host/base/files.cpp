@@ -14,7 +14,7 @@
 
 #include "host/base/error.hpp"
 
-namespace astro::recording {
+namespace astro {
 namespace fs = std::filesystem;
 namespace {
 
@@ -36,8 +36,8 @@ std::string too_large(const fs::path& path, std::uintmax_t size, std::uintmax_t 
          ": name the right file";
 }
 
-/// So that the new name, too, survives a power cut. Some file systems cannot; then there is nothing to be
-/// done.
+/// Syncs the folder, so that the new name survives a power cut, too. Some file systems cannot do that; the
+/// failure is ignored.
 void sync_folder(const fs::path& folder) {
   const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
@@ -94,8 +94,8 @@ PartFile::PartFile(fs::path path, Replaces replaces) : path_(std::move(path)), p
   give_up(kept);
 }
 
-/// Without following a link: who may write into the folder must not choose which file is emptied. The lock is
-/// held until the file has its name, so that two programs never write one file.
+/// Does not follow a link: a person who may write into the folder must not choose which file is emptied. The
+/// lock is held until the file has its name, so that two programs never write one file.
 void PartFile::open_part() {
   constexpr int kTries = 100;
   for (int tries = 1;; ++tries) {
@@ -157,4 +157,4 @@ void PartFile::commit() {
   sync_folder(path_.parent_path());
 }
 
-}  // namespace astro::recording
+}  // namespace astro

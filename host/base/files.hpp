@@ -4,20 +4,20 @@
 
 #include "host/base/bytes.hpp"
 
-namespace astro::recording {
+namespace astro {
 
 /// The largest file that is read as a whole. What holds a few settings is limited to far less.
 inline constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{4} << 30;
 inline constexpr std::uintmax_t kMaxSettingsBytes = std::uintmax_t{1} << 20;
 
-/// The whole file. Throws astro::Error if it is not there, is no regular file, cannot be read, or is larger
-/// than `most_bytes`; a missing file whose `.part` is there is told apart.
+/// Reads the whole file. Throws astro::Error if it does not exist, is no regular file, cannot be read, or is
+/// larger than `most_bytes`; the message for a missing file says if its `.part` exists.
 Bytes load_file(const std::filesystem::path& path, std::uintmax_t most_bytes = kMaxFileBytes);
 
-/// A file that carries its name only once it is whole. Bytes go to `<path>.part`; commit() brings them to the
-/// disk and gives them the name, replacing what had it, but for a recording: nobody can repeat a drive.
-/// Without commit a `.part` that holds anything stays, for whoever wants to rescue what was recorded, until
-/// the same path is written again. Folders on the way are made.
+/// A file that gets its name only when it is complete. Bytes go to `<path>.part`; commit() syncs them to the
+/// disk and renames the file, replacing an older file of that name unless it is a recording, because a drive
+/// cannot be repeated. Without commit() a `.part` that holds anything stays, so that its content can be
+/// rescued, until the same path is written again. Missing folders of the path are created.
 ///
 /// Links   a folder on the way may be a link; a `.part` that is one is refused.
 /// Errors  astro::Error naming the file and what the system said, or that there is a folder or a recording of
@@ -30,8 +30,8 @@ class PartFile {
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
 
-  /// The operating system has the bytes on return: they survive the death of this process, not that of the
-  /// machine.
+  /// On return the operating system has the bytes: they survive if this process is killed, but not if the
+  /// machine loses power.
   void write(ByteView bytes);
   void commit();
 
@@ -46,4 +46,4 @@ class PartFile {
   bool empty_ = true;
 };
 
-}  // namespace astro::recording
+}  // namespace astro

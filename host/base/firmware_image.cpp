@@ -8,12 +8,13 @@
 #include <fstream>
 #include <string_view>
 
+#include "host/base/bytes.hpp"
 #include "host/base/error.hpp"
 
 namespace astro {
 namespace {
 
-// Where hal/teensy40/boot puts the words that make it an image, and who it is.
+// Where hal/teensy40/boot puts the words that make a file an image, and name and version of the firmware.
 constexpr std::size_t kConfigurationAt = 0, kVectorTableAt = 0x1000, kInfoAt = 0x1030;
 constexpr std::uint32_t kConfigurationTag = 0x4246'4346, kVectorTableTag = 0x4320'00D1;
 constexpr std::string_view kInfoTag = "Astrolabe";
@@ -45,9 +46,7 @@ std::vector<std::uint8_t> record(const std::string& line, const std::string& whe
 }
 
 std::uint32_t word(const std::vector<std::uint8_t>& flash, std::size_t offset) {
-  std::uint32_t value = 0;
-  std::memcpy(&value, flash.data() + offset, sizeof value);
-  return value;
+  return load<std::uint32_t>(flash, offset);
 }
 
 std::string version_in(const std::vector<std::uint8_t>& flash) {
@@ -93,7 +92,8 @@ FirmwareImage read_firmware_image(const std::filesystem::path& hex) {
     if (bytes[3] != kData) throw Error(where + " is a record of a kind that no image for a Teensy has");
     const std::uint32_t address = upper + static_cast<std::uint32_t>(bytes[1] << 8U | bytes[2]);
     if (address < FirmwareImage::kBase || address - FirmwareImage::kBase + bytes[0] > image.flash.size())
-      throw Error(fmt::format("{} lies at 0x{:08X}, where a Teensy 4.0 keeps no program", where, address));
+      throw Error(
+          fmt::format("{} lies at 0x{:08X}, where a Teensy 4.0 has no program memory", where, address));
     std::memcpy(image.flash.data() + (address - FirmwareImage::kBase), bytes.data() + 4, bytes[0]);
   }
   if (!ended) throw Error(fmt::format("'{}' has no end: build the image again", hex.string()));

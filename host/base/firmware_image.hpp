@@ -7,17 +7,17 @@
 
 namespace astro {
 
-/// What a file that is flashed puts into a Teensy 4.0.
+/// What flashing a file writes into a Teensy 4.0.
 struct FirmwareImage {
-  static constexpr std::uint32_t kBase = 0x6000'0000, kBytes = 0x1F'0000;  // the parameters begin behind it
+  static constexpr std::uint32_t kBase = 0x6000'0000, kBytes = 0x1F'0000;  // the parameters begin after it
 
-  std::vector<std::uint8_t> flash;  // from kBase on; 0xFF where the file says nothing
-  std::string version;              // "0.1.0"; empty: it is not Astrolabe's
-  std::string board;                // "teensy40"; empty: it does not say
+  std::vector<std::uint8_t> flash;  // from kBase on; 0xFF where the file has no data
+  std::string version;              // "0.1.0"; empty: not firmware of Astrolabe
+  std::string board;                // "teensy40"; empty: not stated
 };
 
-/// Reads an Intel HEX file and checks its sums, its addresses and the header that the chip starts by. Throws
-/// astro::Error that says what is wrong with the file.
+/// Reads an Intel HEX file and checks its checksums, its addresses and the header that the chip's boot ROM
+/// reads. Throws astro::Error that says what is wrong with the file.
 FirmwareImage read_firmware_image(const std::filesystem::path& hex);
 
 }  // namespace astro

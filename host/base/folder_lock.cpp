@@ -10,7 +10,7 @@
 
 #include "host/base/error.hpp"
 
-namespace astro::recording {
+namespace astro {
 
 FolderLock::FolderLock(const std::filesystem::path& folder) {
   std::error_code error;
@@ -26,4 +26,4 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
 
 FolderLock::~FolderLock() { ::close(descriptor_); }
 
-}  // namespace astro::recording
+}  // namespace astro

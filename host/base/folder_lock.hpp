@@ -2,10 +2,10 @@
 
 #include <filesystem>
 
-namespace astro::recording {
+namespace astro {
 
-/// Holds a folder for one program at a time, for as long as it lives; nothing is left behind, however the
-/// program ends. Makes the folder if needed. A file system that knows no locks does not lock.
+/// Locks a folder for this program for as long as the object lives; nothing is left behind, however the
+/// program ends. Creates the folder if needed. On a file system without locks it does nothing.
 ///
 /// Errors  astro::Error naming the folder: in use by another program, or it cannot be made or opened.
 class FolderLock {
@@ -19,4 +19,4 @@ class FolderLock {
   int descriptor_ = -1;
 };
 
-}  // namespace astro::recording
+}  // namespace astro

@@ -5,8 +5,8 @@
 namespace astro {
 namespace {
 
-// What nlohmann-json and the heap take: a value in an array that grows by doubling, an array or object with
-// its block of memory, a node of an object with its key, a string of its own.
+// Memory that nlohmann-json and the heap take: for a value in an array that grows by doubling, for an array
+// or object with its block of memory, for a member of an object with its key, for a string.
 constexpr std::size_t kValueBytes = 32, kContainerBytes = 64, kMemberBytes = 96, kStringBytes = 64;
 constexpr int kMostJsonLevels = 100;
 constexpr std::size_t kFreeJsonBytes = std::size_t{40} << 20;
@@ -36,7 +36,7 @@ bool json_fits_memory(std::string_view text) {
       in_string = !in_string;
       if (in_string) bytes += kStringBytes;
     }
-    if (in_string && text[i] == '\\') ++i;  // what is escaped ends no string
+    if (in_string && text[i] == '\\') ++i;  // an escaped quote does not end the string
     if (in_string) continue;
     bytes += bytes_behind(text[i]);
     depth += text[i] == '[' || text[i] == '{' ? 1 : text[i] == ']' || text[i] == '}' ? -1 : 0;

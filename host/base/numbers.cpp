@@ -2,16 +2,15 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 
-namespace astro::recording {
+namespace astro {
 namespace {
 
 template <class T>
 std::optional<T> whole(std::string_view text) {
-  T value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
+  const auto value = take_number<T>(text);
+  return text.empty() ? value : std::nullopt;
 }
 
 }  // namespace
@@ -34,5 +33,12 @@ std::string seconds_text(std::int64_t time_us) {
 
 std::optional<double> number_in(std::string_view text) { return whole<double>(text); }
 std::optional<int> integer_in(std::string_view text) { return whole<int>(text); }
+std::optional<std::uint64_t> unsigned_in(std::string_view text) { return whole<std::uint64_t>(text); }
 
-}  // namespace astro::recording
+std::optional<double> typed_number(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto value = number_in(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+}  // namespace astro

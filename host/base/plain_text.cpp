@@ -12,7 +12,7 @@ std::uint8_t byte_at(std::string_view text, std::size_t at) {
   return at < text.size() ? static_cast<std::uint8_t>(text[at]) : 0;
 }
 
-/// Length of a character from its first byte; 0 for a byte that begins none.
+/// Length of a UTF-8 character by its first byte; 0 for a byte that cannot be the first one.
 std::size_t length_from(std::uint8_t first) {
   if (first < 0x80) return 1;
   if (first >= 0xC2 && first < 0xE0) return 2;

@@ -7,8 +7,9 @@
 
 namespace astro {
 
-/// What would help against something that went wrong or looks odd. Libraries name the kind; the commands, which
-/// know what their options and subcommands are called, put it into words (host/commands/shared/remedies.hpp).
+/// What would help against something that went wrong or looks odd. Libraries name the kind; the commands,
+/// which know what their options and subcommands are called, put it into words
+/// (host/commands/base/remedies.hpp).
 enum class Help : std::uint8_t {
   none,
   // the robot
@@ -63,7 +64,7 @@ struct Remedy {
   std::string value = {};
 };
 
-/// Something worth telling that is not an error: a whole sentence, and what would help.
+/// A notice that is not an error: a whole sentence, and what would help.
 struct Remark {
   std::string fact;
   Remedy remedy = {};

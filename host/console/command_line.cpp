@@ -37,7 +37,8 @@ Option Option::one_each_time() const { return Option(option_->expected(1)->take_
 template <OptionValue T>
 Option Command::add_option(const std::string& names, T& value, const std::string& what) const {
   CLI::Option* option = app_->add_option(names, value, what);
-  // What an unset variable of a script leaves. Else a drive would begin and its recordings have no name.
+  // An unset variable of a script leaves an empty word. Without this check a drive would begin and its
+  // recordings would have no name.
   if constexpr (std::is_same_v<T, std::filesystem::path>)
     option->check([](const std::string& word) {
       return word.empty() ? std::string("needs the name of a file or folder, and got none") : std::string();

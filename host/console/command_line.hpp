@@ -14,29 +14,30 @@ class App;
 class Option;
 }  // namespace CLI
 
-/// The command line as a command sees it: what can be given to it, and what then happens. CLI11 is behind it
-/// and named in no other header: each file that includes CLI11 compiles ten seconds longer.
+/// The command line as a command sees it: its options, and what it then does. CLI11 does the work but is
+/// named in no other header, because each file that includes CLI11 compiles ten seconds longer.
 ///
 /// Both classes are handles: a copy means the same option or command, and the Program owns them all.
 namespace astro::console {
 
-/// Says what is wrong with a word, or nothing; may rewrite it where it transforms.
+/// Returns what is wrong with a word, or ""; as a transform it may also rewrite the word.
 using Check = std::function<std::string(std::string&)>;
 
-/// What the words of an option can be read into.
+/// Types that an option can store its words in.
 template <class T>
 concept OptionValue = std::same_as<T, double> || std::same_as<T, int> || std::same_as<T, unsigned> ||
     std::same_as<T, std::uint64_t> || std::same_as<T, std::string> ||
     std::same_as<T, std::filesystem::path> || std::same_as<T, std::optional<double>> ||
     std::same_as<T, std::vector<std::string>> || std::same_as<T, std::vector<std::filesystem::path>>;
 
-/// An option, a flag or a positional argument. Each function gives the option back, for the next one.
+/// An option, a flag or a positional argument. Each function returns the option, so that calls can be
+/// chained.
 class Option {
  public:
   Option() = default;  // none yet
   explicit Option(CLI::Option* option) : option_(option) {}
 
-  /// How often it was given.
+  /// How many times it was given.
   std::size_t count() const;
 
   Option required() const;
@@ -45,19 +46,19 @@ class Option {
   /// It may not be given together with `other`.
   Option excludes(Option other) const;
 
-  /// What help calls the value; "": nothing.
+  /// The name of the value in the help; "": none.
   Option type_name(const std::string& name) const;
-  /// Help shows the value that the variable has now.
+  /// The help shows the variable's present value as the default.
   Option capture_default_str() const;
 
   Option check(Check check) const;
   Option transform(Check transform) const;
-  /// Only these; help lists them.
+  /// Accepts only these words; the help lists them.
   Option one_of(const std::vector<std::string>& words) const;
 
   /// A list in one word: a,b,c for ','.
   Option delimiter(char between) const;
-  /// A list by giving the option again, one word each time.
+  /// A list that is given by repeating the option, one word each time.
   Option one_each_time() const;
 
  private:
@@ -72,7 +73,7 @@ class Command {
   /// `names`: "--port,-p", or without dashes for a positional argument. `value` must outlive the command.
   template <OptionValue T>
   Option add_option(const std::string& names, T& value, const std::string& what) const;
-  /// Hands the words over instead of keeping them.
+  /// Passes the words to `take` instead of storing them.
   Option add_option_function(const std::string& names,
                              std::function<void(const std::vector<std::string>&)> take,
                              const std::string& what) const;
@@ -80,12 +81,12 @@ class Command {
 
   Command add_subcommand(const std::string& name, const std::string& what) const;
   void require_subcommand(std::size_t least, std::size_t most) const;
-  /// One was given.
+  /// Whether a subcommand was given.
   bool has_subcommand() const;
 
-  /// Below the options in help.
+  /// Text below the options in the help.
   void footer(const std::string& text) const;
-  /// What the command does, once all of the command line was understood.
+  /// What the command does after the whole command line was parsed.
   void callback(std::function<void()> work) const;
 
  private:

@@ -19,7 +19,7 @@
 namespace astro::console {
 namespace {
 
-constexpr auto kPatience = std::chrono::seconds(1);
+constexpr auto kBarDelay = std::chrono::seconds(1);
 constexpr auto kBetweenRedraws = std::chrono::milliseconds(80);
 constexpr std::size_t kLongestSentence = 4000;  // bytes
 constexpr std::string_view kClearLine = "\r\033[K";
@@ -30,7 +30,8 @@ std::size_t width_of(std::string_view text) {
       text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
-/// A file can put anything into a complaint about it: a name with line feeds, a cell of megabytes.
+/// A message may quote text from a file: a name with line feeds, a cell of megabytes. It becomes one line of
+/// limited length.
 std::string one_line(std::string_view sentence) {
   const bool too_long = sentence.size() > kLongestSentence;
   std::string line = plain_text(sentence.substr(0, kLongestSentence)) + (too_long ? " ..." : "");
@@ -47,21 +48,22 @@ constexpr std::size_t kLongestAnswer = 65536;
 
 // "study: 12 %, trial 60 of 500".
 std::string progress_line(const std::string& what, double fraction, std::string_view note) {
-  // Some work has no end that is known beforehand; then only the note says something.
+  // For work without a known end there is no fraction, and only the note is shown.
   const std::string part = fraction > 0 ? fmt::format("{:.0f} %", 100 * std::min(fraction, 1.0)) : "";
   return fmt::format("{}: {}{}{}", what, part, part.empty() || note.empty() ? "" : ", ", note);
 }
 
-// How long a Ctrl-C can go unnoticed that comes just before a read.
-constexpr int kLookMs = 50;
+// How long a Ctrl-C that arrives just before a read can go unnoticed.
+constexpr int kPollPeriod_ms = 50;
 
-// Appends what has come on stdin to `bytes`; false at its end. Polls, for a signal that arrives between a
-// look at its flag and a read that blocks would wait for the next key.
+// Appends what has arrived on stdin to `bytes`; returns false at its end. Polls instead of blocking, because
+// a signal that arrives between the check of its flag and a blocking read would be noticed only at the next
+// key.
 bool await_input(std::string& bytes) {
   while (true) {
     check_interrupt();
     pollfd input{STDIN_FILENO, POLLIN, 0};
-    if (poll(&input, 1, kLookMs) <= 0) continue;
+    if (poll(&input, 1, kPollPeriod_ms) <= 0) continue;
     std::array<char, 256> chunk{};
     const ssize_t count = read(STDIN_FILENO, chunk.data(), chunk.size());
     if (count < 0 && errno == EINTR) continue;
@@ -104,7 +106,7 @@ std::string ask(const std::string& prompt) {
   while ((end = read_ahead.find('\n')) == std::string::npos)
     if (!await_input(read_ahead)) {
       if (read_ahead.empty()) {
-        to_stderr("\n");  // the question stands there already, and nothing has ended its line
+        to_stderr("\n");  // ends the line of the question, which is on the screen already
         throw Error(
             "the input ended where an answer was expected: answer at a terminal, or pipe all answers in");
       }
@@ -135,7 +137,7 @@ Progress::Progress(std::string what) : what_(std::move(what)), started_(std::chr
 
 Progress::~Progress() { clear(); }
 
-// Where a line cannot be rewritten, a new one now and then.
+// Where a line cannot be rewritten, prints a new one from time to time.
 void Progress::add_line(double fraction, std::string_view note) {
   if (obeys_escapes(STDERR_FILENO)) return;
   if (lines_.due(std::chrono::steady_clock::now() - started_)) say(progress_line(what_, fraction, note));
@@ -143,7 +145,7 @@ void Progress::add_line(double fraction, std::string_view note) {
 
 bool Progress::due() {
   const auto now = std::chrono::steady_clock::now();
-  if (!obeys_escapes(STDERR_FILENO) || now - started_ < kPatience || now - shown_ < kBetweenRedraws)
+  if (!obeys_escapes(STDERR_FILENO) || now - started_ < kBarDelay || now - shown_ < kBetweenRedraws)
     return false;
   shown_ = now;
   return true;

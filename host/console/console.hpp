@@ -6,12 +6,13 @@
 #include <string_view>
 #include <vector>
 
-/// The terminal: what a person sees on stderr, and what they answer. All that is printed goes through
-/// plain_text, because names and messages hold text of robots and files.
+/// The terminal: what a person sees on stderr, and what they answer. Everything that is printed goes through
+/// plain_text, because names and messages contain text from robots and files.
 namespace astro::console {
 
-/// To be called before anything is opened: where standard input, output or error are closed, the next file
-/// would take their place, and what is printed would go down a robot's line. Writing to them fails from then on.
+/// Must be called before any file is opened. If standard input, output or error is closed, the next file that
+/// is opened would get its number, and printed text would be sent to a robot. This function opens /dev/null
+/// there instead, so that writing fails.
 void hold_standard_streams();
 
 bool stdout_is_terminal();
@@ -23,34 +24,34 @@ void say(std::string_view line);
 /// "astrolabe: sentence" to stderr, the first word in red on a terminal.
 void complain(std::string_view sentence);
 
-/// "cannot use 'PATH': what the system said", for whatever no other sentence fits.
+/// "cannot use 'PATH': what the system said", for errors that have no sentence of their own.
 std::string in_words(const std::filesystem::filesystem_error& error);
 
-/// The sentence that memory has run out; takes none itself.
+/// Prints that memory has run out, without allocating any.
 void complain_of_memory();
 
-/// Asks on stderr, reads a line from stdin. Throws astro::Error if stdin is no terminal: says that --yes
-/// answers.
+/// Asks on stderr, reads a line from stdin. Throws astro::Error with Help::agree_beforehand if stdin is no
+/// terminal.
 bool confirm(const std::string& question);
 
 /// A line from stdin after a prompt on stderr. Throws astro::Error at the end of input, Interrupted on
 /// Ctrl-C.
 std::string ask(const std::string& prompt);
 
-/// When progress is told where no line can be rewritten, as in a file or a pipe: after 10 s, then whenever
-/// the time has doubled, but every minute at least. A short job says nothing, and the log of a long one stays
-/// short.
+/// When progress is reported where no line can be rewritten, as in a file or a pipe: after 10 s, then each
+/// time the elapsed time has doubled, but at least every minute. A short job prints nothing, and the log of a
+/// long one stays short.
 class ProgressLines {
  public:
-  /// True if a line is due now; `elapsed` since the beginning of the work.
+  /// True if a line is due now; `elapsed` is the time since the work began.
   bool due(std::chrono::steady_clock::duration elapsed);
 
  private:
   std::chrono::steady_clock::duration next_ = std::chrono::seconds(10);
 };
 
-/// A bar on stderr that rewrites its line, shown only once a second has passed. Lines as ProgressLines says
-/// where stderr is no terminal, or one that cannot rewrite.
+/// A progress bar on stderr that rewrites its line; it appears after one second. If stderr is no terminal, or
+/// one that cannot rewrite a line, it prints lines as ProgressLines says.
 class Progress {
  public:
   explicit Progress(std::string what);
@@ -58,11 +59,11 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// `fraction` in [0, 1]; `note` stands behind the bar.
+  /// `fraction` in [0, 1]; `note` is shown after the bar.
   void show(double fraction, std::string_view note = {});
-  /// Without a bar, for work of which nobody knows the end.
+  /// Without a bar, for work without a known end.
   void show(std::string_view note);
-  /// Takes the bar away, so that a line can be printed.
+  /// Removes the bar, so that a line can be printed.
   void clear();
 
  private:
@@ -77,8 +78,8 @@ class Progress {
   bool visible_ = false;
 };
 
-/// Plain text columns; the first row is the heading. `alignment`: 'l' or 'r' per column; where it says
-/// nothing the first is left-aligned and the others are right-aligned.
+/// Plain text columns; the first row is the heading. `alignment`: 'l' or 'r' per column; by default the first
+/// column is left-aligned and the others are right-aligned.
 std::string table(const std::vector<std::vector<std::string>>& rows, std::string_view alignment = {});
 
 /// `text` broken between words so that no line is longer than 80 columns; ends with a newline.

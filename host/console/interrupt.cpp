@@ -17,7 +17,7 @@ std::atomic<void (*)()> last_act = nullptr;
 static_assert(decltype(last_act)::is_always_lock_free, "a signal handler reads it");
 
 /// Programs that end others send a signal to the process and then to its group, and a terminal that closes
-/// sends one after the other. Only a person who presses Ctrl-C again means that nothing is to be waited for.
+/// sends several signals in a row. Only a second Ctrl-C of a person means: end at once, wait for nothing.
 constexpr std::int64_t kAgain_ms = 300;
 std::atomic<std::int64_t> raised_at_ms = 0;
 
@@ -41,7 +41,7 @@ void on_signal(int signal) {
 }  // namespace
 
 void watch_for_interrupt() {
-  signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of the write, and is told as one
+  signal(SIGXFSZ, SIG_IGN);  // a file that may not grow then is an error of write(), and is reported as one
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction action = {};
     action.sa_handler = on_signal;  // without SA_RESTART: a blocked read returns

@@ -34,7 +34,7 @@ std::optional<Key> arrow(char byte) {
   return kArrows[byte - 'A'];
 }
 
-// A control sequence goes on until its final byte: ECMA-48, 5.4.
+// A control sequence continues up to its final byte: ECMA-48, 5.4.
 bool ends_sequence(char byte) { return byte >= '@' && byte <= '~'; }
 
 }  // namespace

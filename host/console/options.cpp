@@ -2,27 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
-#include <limits>
-#include <optional>
+#include "host/base/numbers.hpp"
 
 namespace astro::console {
 namespace {
 
-std::optional<double> finite_number(const std::string& text) {
-  const char* end = text.data() + text.size();
-  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
-  double value = 0;
-  const auto parsed = std::from_chars(begin, end, value);
-  if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
 template <class Accept>
 Check number(Accept accept, const std::string& allowed) {
   return [=](std::string& text) -> std::string {
-    const auto value = finite_number(text);
+    const auto value = typed_number(text);
     if (value && accept(*value)) return {};
     return fmt::format("'{}' is not {}", text, allowed);
   };
@@ -43,10 +31,8 @@ Check positive(const std::string& unit) {
 
 Check whole(std::uint64_t least, std::uint64_t greatest) {
   return [=](std::string& text) -> std::string {
-    std::uint64_t value = 0;
-    const char* end = text.data() + text.size();
-    const auto parsed = std::from_chars(text.data(), end, value);
-    if (parsed.ec == std::errc() && parsed.ptr == end && value >= least && value <= greatest) return {};
+    const auto value = unsigned_in(text);
+    if (value && *value >= least && *value <= greatest) return {};
     return fmt::format("'{}' is not a whole number from {} to {}", text, least, greatest);
   };
 }
@@ -58,7 +44,7 @@ Check finite() {
 Check fraction() {
   return [](std::string& text) -> std::string {
     const bool percent = text.ends_with('%');
-    const auto value = finite_number(percent ? text.substr(0, text.size() - 1) : text);
+    const auto value = typed_number(percent ? text.substr(0, text.size() - 1) : text);
     if (!value || *value <= 0) return fmt::format("'{}' is not like 0.05% or 0.0005", text);
     text = fmt::format("{}", percent ? *value / 100 : *value);
     return {};

@@ -6,10 +6,10 @@
 
 #include "host/console/command_line.hpp"
 
-/// Pieces that the options of many commands are made of.
+/// Checks and texts that the options of many commands share.
 namespace astro::console {
 
-/// Accepts finite numbers from `least` to `greatest`; the complaint names both and the unit.
+/// Accepts finite numbers from `least` to `greatest`; the message names both and the unit.
 Check between(double least, double greatest, const std::string& unit);
 
 /// Accepts finite numbers greater than 0.

@@ -14,11 +14,11 @@
 namespace astro::console {
 namespace {
 
-/// The command that was being given when the mistake came up.
-struct Place {
+/// The command that the user was giving when the mistake was found.
+struct CommandContext {
   const CLI::App* command;
   std::string path;
-  std::string unknown;  // the word that was to name the next command, or an option; "": there is none
+  std::string unknown;  // the first word that is no subcommand, perhaps an option; "": none
 };
 
 const CLI::App* find(const CLI::App& app, std::string_view name) {
@@ -30,19 +30,19 @@ bool has_commands(const CLI::App& app) {
   return !app.get_subcommands([](const CLI::App*) { return true; }).empty();
 }
 
-Place place_of(const CLI::App& app, int argc, char** argv) {
-  Place place{&app, app.get_name(), ""};
-  for (int i = 1; i < argc && has_commands(*place.command); ++i) {
+CommandContext context_of(const CLI::App& app, int argc, char** argv) {
+  CommandContext context{&app, app.get_name(), ""};
+  for (int i = 1; i < argc && has_commands(*context.command); ++i) {
     const std::string word = argv[i];
-    const CLI::App* next = find(*place.command, word);
+    const CLI::App* next = find(*context.command, word);
     if (next == nullptr) {
-      place.unknown = word;
+      context.unknown = word;
       break;
     }
-    place.command = next;
-    place.path += " " + word;
+    context.command = next;
+    context.path += " " + word;
   }
-  return place;
+  return context;
 }
 
 /// Levenshtein's distance.
@@ -62,7 +62,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
 template <class Names>
 std::string suggestion(const std::string& word, const Names& names) {
   std::string best;
-  std::size_t least = word.size() < 4 ? 2 : 3;  // further apart it is another word
+  std::size_t least = word.size() < 4 ? 2 : 3;  // a larger distance means another word
   for (const std::string& name : names)
     if (const std::size_t apart = distance(word, name); apart < least) {
       least = apart;
@@ -85,15 +85,15 @@ std::vector<std::string> option_names(const CLI::App& app) {
   return names;
 }
 
-std::string unknown_argument(const Place& place, const std::string& word) {
+std::string unknown_argument(const CommandContext& context, const std::string& word) {
   const std::string name = word.substr(0, word.find('='));
-  if (!name.starts_with('-')) return fmt::format("'{}' has no place for '{}'", place.path, word);
-  return fmt::format("'{}' has no option '{}'{}", place.path, name,
-                     suggestion(name, option_names(*place.command)));
+  if (!name.starts_with('-')) return fmt::format("'{}' has no place for '{}'", context.path, word);
+  return fmt::format("'{}' has no option '{}'{}", context.path, name,
+                     suggestion(name, option_names(*context.command)));
 }
 
-// CLI11 lists the words that it could not place behind a colon, in no helpful order. The one to name is the
-// first option among them: what follows it is its value, and innocent.
+// CLI11 lists the unknown words after a colon, in no helpful order. The word to name is the first option
+// among them, because the words after it are probably its value.
 std::string first_extra(const std::string& said, int argc, char** argv) {
   std::string first;
   for (int i = 1; i < argc; ++i) {
@@ -109,22 +109,24 @@ bool takes(const CLI::App& command, const std::string& option) {
   return command.get_option_no_throw(option.substr(0, option.find('='))) != nullptr;
 }
 
-bool names_no_command(const Place& place) {
-  return !place.unknown.empty() && !place.unknown.starts_with('-');
+bool names_no_command(const CommandContext& context) {
+  return !context.unknown.empty() && !context.unknown.starts_with('-');
 }
 
-std::string unknown_command(const Place& place) {
-  return fmt::format("there is no command '{} {}'{}", place.path, place.unknown,
-                     suggestion(place.unknown, command_names(*place.command)));
+std::string unknown_command(const CommandContext& context) {
+  return fmt::format("there is no command '{} {}'{}", context.path, context.unknown,
+                     suggestion(context.unknown, command_names(*context.command)));
 }
 
-std::string what_is_wrong(const Place& place, const CLI::ParseError& error, int argc, char** argv) {
-  if (place.unknown.starts_with('-') && !takes(*place.command, place.unknown))
-    return unknown_argument(place, place.unknown);
-  if (names_no_command(place)) return unknown_command(place);
+std::string what_is_wrong(const CommandContext& context, const CLI::ParseError& error, int argc,
+                          char** argv) {
+  if (context.unknown.starts_with('-') && !takes(*context.command, context.unknown))
+    return unknown_argument(context, context.unknown);
+  if (names_no_command(context)) return unknown_command(context);
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
-    return unknown_argument(place, first_extra(error.what(), argc, argv));
-  if (place.command->get_require_subcommand_min() > 0) return fmt::format("'{}' needs a command", place.path);
+    return unknown_argument(context, first_extra(error.what(), argc, argv));
+  if (context.command->get_require_subcommand_min() > 0)
+    return fmt::format("'{}' needs a command", context.path);
   const std::string said = error.what();
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr && said.find(": ") != std::string::npos)
     return said.substr(0, said.find(": ")) + " needs a value";
@@ -132,8 +134,8 @@ std::string what_is_wrong(const Place& place, const CLI::ParseError& error, int 
 }
 
 std::string sentence_for(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
-  const Place place = place_of(app, argc, argv);
-  return fmt::format("{} ('{} --help' explains)", what_is_wrong(place, error, argc, argv), place.path);
+  const CommandContext context = context_of(app, argc, argv);
+  return fmt::format("{} ('{} --help' explains)", what_is_wrong(context, error, argc, argv), context.path);
 }
 
 constexpr int kWrongUsage = 2;
@@ -150,13 +152,13 @@ void Program::version(const std::string& text) { app_->set_version_flag("--versi
 int Program::run(int argc, char** argv) {
   try {
     app_->parse(argc, argv);
-  } catch (const CLI::Success& wish) {  // --help, --version
-    // The library would explain the command above the word that it does not know.
-    if (const Place place = place_of(*app_, argc, argv); names_no_command(place)) {
-      complain(fmt::format("{} ('{} --help' explains)", unknown_command(place), place.path));
+  } catch (const CLI::Success& help_or_version) {  // --help, --version
+    // CLI11 would print the help of the parent command although the next word is unknown.
+    if (const CommandContext context = context_of(*app_, argc, argv); names_no_command(context)) {
+      complain(fmt::format("{} ('{} --help' explains)", unknown_command(context), context.path));
       return kWrongUsage;
     }
-    return app_->exit(wish);
+    return app_->exit(help_or_version);
   } catch (const CLI::ParseError& error) {
     complain(sentence_for(*app_, error, argc, argv));
     return kWrongUsage;

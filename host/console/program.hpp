@@ -7,18 +7,18 @@
 
 namespace astro::console {
 
-/// A program's whole command line: says --help and --version, runs what was asked for, and puts wrong usage
-/// into one sentence that names the word in question and the help that explains it.
+/// A program's whole command line: prints --help and --version, runs the command that was given, and turns
+/// wrong usage into one sentence that names the wrong word and the help that explains it.
 class Program {
  public:
   Program(const std::string& name, const std::string& what);
   ~Program();
 
-  /// What its options and subcommands are added to.
+  /// The command to which options and subcommands are added.
   Command command() { return Command(app_.get()); }
   void version(const std::string& text);
 
-  /// The exit code: 0, or 2 after a sentence on stderr. What the callbacks throw comes through.
+  /// Returns the exit code: 0, or 2 after a sentence on stderr. Exceptions of the callbacks pass through.
   int run(int argc, char** argv);
 
  private:

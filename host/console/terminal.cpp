@@ -18,14 +18,14 @@ namespace {
 
 constexpr auto kBetweenLines = std::chrono::seconds(1);
 
-termios before{};  // global: a signal handler puts it back
+termios before{};  // global, because a signal handler restores it
 
 void put_back() { tcsetattr(STDIN_FILENO, TCSANOW, &before); }
 
 void write_all(int fd, std::string_view text) {
   while (!text.empty()) {
     const ssize_t count = ::write(fd, text.data(), text.size());
-    if (count <= 0) return;  // a terminal that is gone shows nothing
+    if (count <= 0) return;  // the terminal is gone
     text.remove_prefix(static_cast<std::size_t>(count));
   }
 }

@@ -5,13 +5,13 @@
 #include <chrono>
 #include <string>
 
-/// A terminal that a command takes over for a while: keys as they are pressed, and a picture redrawn in
-/// place.
+/// A terminal that a command takes over for a while: it reads keys as they are pressed, and redraws a picture
+/// in place.
 namespace astro::console {
 
-/// Keys arrive one by one and are not echoed for as long as it lives. Ctrl-C still interrupts; Ctrl-Z and
-/// Ctrl-\ do nothing, for they would leave a robot moving. The old mode comes back however it ends, a second
-/// Ctrl-C included.
+/// For as long as the object lives, keys arrive one by one and are not echoed. Ctrl-C still interrupts;
+/// Ctrl-Z and Ctrl-\ do nothing, because they would leave a robot moving. The old mode is restored however
+/// the program ends, also by a second Ctrl-C.
 class RawTerminal {
  public:
   /// Throws astro::Error if stdin is no terminal.
@@ -20,7 +20,7 @@ class RawTerminal {
   RawTerminal(const RawTerminal&) = delete;
   RawTerminal& operator=(const RawTerminal&) = delete;
 
-  /// What was typed since the last call; never waits.
+  /// Returns what was typed since the last call; never waits.
   std::string typed();
 };
 
@@ -28,15 +28,15 @@ struct TerminalSize {
   std::size_t columns = 80, rows = 24;
 };
 
-/// Of the terminal behind `fd`; the default where it does not say.
+/// Size of the terminal behind `fd`; the default if it reports none.
 TerminalSize terminal_size(int fd);
 
-/// True if `fd` is a terminal that obeys escape sequences. TERM=dumb, or none, says that it does not: it
-/// would show them as they are.
+/// True if `fd` is a terminal that obeys escape sequences. With TERM=dumb or without TERM it would print them
+/// as text.
 bool obeys_escapes(int fd);
 
-/// Lines redrawn in the same place on a terminal, cut to its size. What is drawn last stays. A terminal that
-/// obeys no escape sequences gets one short line at a time instead, below one another.
+/// Lines that are redrawn in the same place on a terminal, cut to its size. The last picture stays. A
+/// terminal without escape sequences gets one short line at a time instead, each below the last.
 class Picture {
  public:
   explicit Picture(int fd) : fd_(fd), redraws_(obeys_escapes(fd)) {}
@@ -44,9 +44,8 @@ class Picture {
   Picture(const Picture&) = delete;
   Picture& operator=(const Picture&) = delete;
 
-  /// `text`: lines, each ended by a newline. `line`: the same in one line without
-  /// its newline, for terminals that obey no escape sequences; they get it once a second, and only if it has
-  /// changed.
+  /// `text`: lines, each ended by a newline. `line`: the same in one line without a newline, for terminals
+  /// without escape sequences; it is printed at most once a second, and only if it has changed.
   void draw(const std::string& text, const std::string& line);
 
  private:
@@ -64,7 +63,7 @@ class Picture {
 /// The first `columns` characters of UTF-8 text.
 std::string clipped(const std::string& line, std::size_t columns);
 
-/// A bar from the middle outwards: `fraction` in [-1, 1], positive to the right; 2 * half + 1 characters.
+/// A bar that grows from its middle: `fraction` in [-1, 1], positive to the right; 2 * half + 1 characters.
 std::string gauge(double fraction, int half);
 
 }  // namespace astro::console

@@ -2,10 +2,10 @@
 
 #include "host/base/error.hpp"
 
-/// What was typed cannot be meant: one line, exit code 2.
+/// Wrong usage of the command line: one line, exit code 2.
 namespace astro::console {
 
-/// Options that are well-formed one by one and wrong together; found by a callback.
+/// Each option is well-formed, but their combination is wrong; thrown by a callback.
 class WrongUsage : public Error {
  public:
   using Error::Error;

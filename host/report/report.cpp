@@ -40,7 +40,7 @@ void write_report(const std::filesystem::path& path, const ReportInput& input) {
 }
 
 void write_page(const std::filesystem::path& path, const std::string& html) {
-  recording::PartFile file(path);
+  PartFile file(path);
   file.write({reinterpret_cast<const std::uint8_t*>(html.data()), html.size()});
   file.commit();
 }

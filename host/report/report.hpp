@@ -54,7 +54,7 @@ std::string render_html(const ReportInput& input);
 /// render_html to a file.
 void write_report(const std::filesystem::path& path, const ReportInput& input);
 
-/// `path` never holds half a report. Throws what recording::PartFile throws.
+/// `path` never holds half a report. Throws what PartFile throws.
 void write_page(const std::filesystem::path& path, const std::string& html);
 
 }  // namespace astro::report

@@ -5,13 +5,12 @@
 
 #include "host/base/bytes.hpp"
 
-/// CDR, the bytes of ROS 2 messages: plain CDR version 1, little-endian, behind the 4-byte encapsulation
-/// header 00 01 00 00. A number of s bytes starts at a multiple of s, counted from behind that header; a
-/// string is its length with the NUL (u32), the text and the NUL. Structs and fixed arrays add nothing of
-/// their own.
+/// CDR, the byte format of ROS 2 messages: plain CDR version 1, little-endian, after the 4-byte encapsulation
+/// header 00 01 00 00. A number of s bytes starts at a multiple of s, counted from the end of that header; a
+/// string is its length including the NUL (u32), the text and the NUL. Structs and fixed arrays add no bytes.
 ///
 /// Source  OMG DDSI-RTPS 2.3, 10.2; DDS-XTypes 1.3, 7.4.1.
-namespace astro::recording {
+namespace astro::ros2 {
 
 inline constexpr std::size_t kCdrHeaderBytes = 4;
 
@@ -33,9 +32,9 @@ class CdrWriter {
   Bytes bytes_{0, 1, 0, 0};
 };
 
-/// Reads what CdrWriter or any ROS 2 writer wrote. A message that is too short, of another encapsulation, or
-/// with a string that does not end in NUL makes ok() false for good; numbers read after that are zero. Bytes
-/// behind the last field are nobody's business: writers pad to 4.
+/// Reads what CdrWriter or any ROS 2 writer wrote. A message that is too short, has another encapsulation, or
+/// has a string that does not end in NUL makes ok() false from then on; numbers read after that are zero.
+/// Bytes after the last field are ignored, because writers pad to 4.
 class CdrReader {
  public:
   explicit CdrReader(ByteView message) : cursor_(message) {
@@ -66,4 +65,4 @@ class CdrReader {
   bool ok_ = false;
 };
 
-}  // namespace astro::recording
+}  // namespace astro::ros2

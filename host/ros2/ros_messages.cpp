@@ -20,7 +20,7 @@
   "MSG: geometry_msgs/Twist\ngeometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n" ASTRO_MSG_RULE \
   "MSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n"
 
-namespace astro::recording {
+namespace astro::ros2 {
 namespace {
 
 constexpr RosType kOdometryType{
@@ -72,7 +72,7 @@ void put_pose(CdrWriter& out, double x_m, double y_m, double z_m, double theta_r
   put_numbers(out, {x_m, y_m, z_m, flat, flat, std::sin(theta_rad / 2), std::cos(theta_rad / 2)});
 }
 
-/// The turn about z (swing-twist): 2 atan2(z, w), the same for q and -q.
+/// The rotation about z (swing-twist decomposition): 2 atan2(z, w), the same for q and -q.
 double take_pose(CdrReader& in, double& x_m, double& y_m) {
   x_m = in.number<double>();
   y_m = in.number<double>();
@@ -94,7 +94,7 @@ bool fits_stamp(std::int64_t time_us) {
   return time_us >= -kEdge && time_us < kEdge;
 }
 
-Bytes encode_odometry(const OdometrySample& sample) {
+Bytes encode_odometry(const recording::OdometrySample& sample) {
   CdrWriter out;
   put_stamp(out, sample.time_us);
   out.string(kOdomFrame);
@@ -114,7 +114,7 @@ Bytes encode_counts(const WheelCounts& counts) {
   return out.bytes();
 }
 
-Bytes encode_truth(const TruthSample& sample) {
+Bytes encode_truth(const recording::TruthSample& sample) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   CdrWriter out;
   put_stamp(out, sample.time_us);
@@ -127,9 +127,9 @@ Bytes encode_truth(const TruthSample& sample) {
   return out.bytes();
 }
 
-std::optional<OdometrySample> decode_odometry(ByteView message) {
+std::optional<recording::OdometrySample> decode_odometry(ByteView message) {
   CdrReader in(message);
-  OdometrySample sample;
+  recording::OdometrySample sample;
   sample.time_us = take_stamp(in);
   in.string();
   in.string();
@@ -152,9 +152,9 @@ std::optional<WheelCounts> decode_counts(ByteView message) {
   return counts;
 }
 
-std::optional<TruthSample> decode_truth(ByteView message) {
+std::optional<recording::TruthSample> decode_truth(ByteView message) {
   CdrReader in(message);
-  TruthSample sample;
+  recording::TruthSample sample;
   sample.time_us = take_stamp(in);
   in.string();
   sample.theta_rad = take_pose(in, sample.x_m, sample.y_m);
@@ -163,4 +163,4 @@ std::optional<TruthSample> decode_truth(ByteView message) {
   return sample;
 }
 
-}  // namespace astro::recording
+}  // namespace astro::ros2

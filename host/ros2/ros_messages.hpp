@@ -8,9 +8,9 @@
 
 /// The samples of a run as ROS 2 messages. Times are the robot's clock in `header.stamp`, which takes +-2^31
 /// s and whole nanoseconds. Poses are planar: z = 0, orientation (0, 0, sin(theta/2), cos(theta/2)).
-namespace astro::recording {
+namespace astro::ros2 {
 
-/// A message type: the name and definition that stand in the recording, so that viewers need nothing else.
+/// A message type: its name and definition are written into the recording, so that viewers need nothing else.
 struct RosType {
   std::string_view name;        // "nav_msgs/msg/Odometry"
   std::string_view definition;  // ros2msg: the .msg text, then those it refers to
@@ -22,8 +22,8 @@ const RosType& wheel_counts_type();  // astrolabe_msgs/msg/WheelCounts: stamp, l
 
 inline constexpr std::string_view kOdomFrame = "odom", kBaseFrame = "base_link", kTruthFrame = "truth";
 
-/// Running encoder counts at one instant. A type of our own, because no ROS type holds whole counts that
-/// wrap.
+/// Running encoder counts at one instant. No ROS type holds integer counts that wrap, so this type is our
+/// own.
 struct WheelCounts {
   std::int64_t time_us = 0;
   std::int32_t left = 0, right = 0;
@@ -32,16 +32,16 @@ struct WheelCounts {
 /// Whether header.stamp can hold this time.
 bool fits_stamp(std::int64_t time_us);
 
-Bytes encode_odometry(const OdometrySample& sample);  // all but the counts
+Bytes encode_odometry(const recording::OdometrySample& sample);  // all but the counts
 Bytes encode_counts(const WheelCounts& counts);
 /// A sample that is not valid becomes a pose of NaNs, which viewers draw as a gap; a valid one whose heading
 /// is NaN becomes a position with an orientation of NaNs.
-Bytes encode_truth(const TruthSample& sample);
+Bytes encode_truth(const recording::TruthSample& sample);
 
-/// Nothing if the message is too short for its type. theta comes back in (-pi, pi]; orientations that are not
-/// planar are reduced to their turn about z, whatever the sign of the quaternion.
-std::optional<OdometrySample> decode_odometry(ByteView message);
+/// Nothing if the message is too short for its type. theta is in (-pi, pi]; orientations that are not planar
+/// are reduced to their rotation about z, whatever the sign of the quaternion.
+std::optional<recording::OdometrySample> decode_odometry(ByteView message);
 std::optional<WheelCounts> decode_counts(ByteView message);
-std::optional<TruthSample> decode_truth(ByteView message);
+std::optional<recording::TruthSample> decode_truth(ByteView message);
 
-}  // namespace astro::recording
+}  // namespace astro::ros2

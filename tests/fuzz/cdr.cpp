@@ -6,12 +6,12 @@
 namespace astro::fuzz {
 
 void take(ByteView input) {
-  recording::decode_odometry(input);
-  recording::decode_truth(input);
-  if (const auto counts = recording::decode_counts(input))
-    require(recording::decode_counts(recording::encode_counts(*counts))->left == counts->left,
+  ros2::decode_odometry(input);
+  ros2::decode_truth(input);
+  if (const auto counts = ros2::decode_counts(input))
+    require(ros2::decode_counts(ros2::encode_counts(*counts))->left == counts->left,
             "counts come back from their message");
-  recording::CdrReader reader(input);
+  ros2::CdrReader reader(input);
   while (reader.ok()) {
     require(reader.string().size() <= input.size(), "a string is no longer than the message");
     reader.number<double>();
@@ -20,12 +20,11 @@ void take(ByteView input) {
 }
 
 std::vector<Bytes> seeds() {
-  recording::CdrWriter writer;
+  ros2::CdrWriter writer;
   writer.string("text");
   writer.number(1.0);
   writer.number(std::uint16_t{1});
-  return {recording::encode_odometry({}), recording::encode_counts({1, 2, 3}), recording::encode_truth({}),
-          writer.bytes()};
+  return {ros2::encode_odometry({}), ros2::encode_counts({1, 2, 3}), ros2::encode_truth({}), writer.bytes()};
 }
 
 }  // namespace astro::fuzz

@@ -1,11 +1,11 @@
 // Recordings: the container with all that it holds, and a run put together from it. The first byte says
 // whether the rest is a file, or the content of a chunk of an otherwise intact file, behind its checksums.
 #include "host/base/error.hpp"
+#include "host/recording/files/run_file.hpp"
 #include "host/recording/mcap/reader.hpp"
 #include "host/recording/mcap/writer.hpp"
-#include "host/ros2/ros_messages.hpp"
-#include "host/recording/files/run_file.hpp"
 #include "host/recording/run/run_metadata.hpp"
+#include "host/ros2/ros_messages.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace astro::fuzz {
@@ -48,22 +48,22 @@ Run small_run() {
 
 Bytes chunk_of(const Run& run) {
   Bytes chunk;
-  const auto topic = [&](std::uint16_t id, const char* name, const RosType& type) {
+  const auto topic = [&](std::uint16_t id, const char* name, const ros2::RosType& type) {
     mcap::append_record(chunk, mcap::Op::schema,
                         mcap::encode(mcap::Schema{id, std::string(type.name), "ros2msg", "x"}));
     mcap::append_record(chunk, mcap::Op::channel, mcap::encode(mcap::Channel{id, id, name, "cdr", {}}));
   };
-  topic(1, "/odom", odometry_type());
-  topic(2, "/wheel_counts", wheel_counts_type());
-  topic(3, "/truth", pose_stamped_type());
+  topic(1, "/odom", ros2::odometry_type());
+  topic(2, "/wheel_counts", ros2::wheel_counts_type());
+  topic(3, "/truth", ros2::pose_stamped_type());
   const auto message = [&](std::uint16_t channel, const Bytes& data) {
     mcap::append_record(chunk, mcap::Op::message, mcap::encode(mcap::Message{channel, 0, 0, 0, data}));
   };
   for (const OdometrySample& sample : run.odometry) {
-    message(1, encode_odometry(sample));
-    message(2, encode_counts({sample.time_us, sample.left_counts, sample.right_counts}));
+    message(1, ros2::encode_odometry(sample));
+    message(2, ros2::encode_counts({sample.time_us, sample.left_counts, sample.right_counts}));
   }
-  for (const TruthSample& sample : run.truth) message(3, encode_truth(sample));
+  for (const TruthSample& sample : run.truth) message(3, ros2::encode_truth(sample));
   return chunk;
 }
 
@@ -83,10 +83,10 @@ std::vector<Bytes> seeds() {
   all[0].push_back(0);
   McapWriter writer([&](ByteView bytes) { all[0].insert(all[0].end(), bytes.begin(), bytes.end()); },
                     {"ros2", "fuzz"});
-  const auto schema = writer.add_schema(odometry_type().name, "ros2msg", "x");
+  const auto schema = writer.add_schema(ros2::odometry_type().name, "ros2msg", "x");
   const auto channel = writer.add_channel(schema, "/odom", "cdr", {{"key", "value"}});
   writer.write_metadata({std::string(kRunRecordName), to_map({run.info, {}, {}})});
-  for (const OdometrySample& sample : run.odometry) writer.write(channel, 0, encode_odometry(sample));
+  for (const OdometrySample& sample : run.odometry) writer.write(channel, 0, ros2::encode_odometry(sample));
   writer.close();
   all[1] = chunk_of(run);
   all[1].insert(all[1].begin(), 1);

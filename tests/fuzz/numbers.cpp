@@ -1,9 +1,9 @@
 // Numbers of the command line: what a check lets through is read without loss.
 #include <cmath>
 
+#include "host/base/numbers.hpp"
 #include "host/base/plain_text.hpp"
 #include "host/console/options.hpp"
-#include "host/base/numbers.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace astro::fuzz {
@@ -15,7 +15,7 @@ void take(ByteView input) {
     std::string word = text;
     if (!check(word).empty()) continue;
     const std::string_view digits = std::string_view(word).substr(word.starts_with('+') ? 1 : 0);
-    const auto value = recording::number_in(digits);
+    const auto value = number_in(digits);
     require(value && std::isfinite(*value), "a number that was let through is finite");
   }
   std::string word = text;

@@ -7,11 +7,13 @@ namespace astro::fuzz {
 
 void take(ByteView input) {
   try {
-    const simulation::study::Part part = simulation::study::read_part(std::string(text_of(input)), "x.json");
+    const simulation::study::ShardFile part =
+        simulation::study::read_shard_file(std::string(text_of(input)), "x.json");
     const auto trials = simulation::study::merge({part});
     require(trials.size() == static_cast<std::size_t>(part.setup.trials), "a merged study is whole");
-    require(simulation::study::merge({simulation::study::read_part(simulation::study::to_text(part.setup, trials), "y.json")}).size() ==
-                trials.size(),
+    require(simulation::study::merge({simulation::study::read_shard_file(
+                                         simulation::study::to_text(part.setup, trials), "y.json")})
+                    .size() == trials.size(),
             "a study comes back from its text");
   } catch (const Error&) {
   }
@@ -25,7 +27,8 @@ std::vector<Bytes> seeds() {
   trials[1].ml_chi_square = 1;
   trials[1].failure = "why";
   trials[0].errors[0] = simulation::study::Errors{};
-  return {bytes_of(simulation::study::to_text(setup, trials)), bytes_of(simulation::study::to_text(setup, {trials[1]}))};
+  return {bytes_of(simulation::study::to_text(setup, trials)),
+          bytes_of(simulation::study::to_text(setup, {trials[1]}))};
 }
 
 }  // namespace astro::fuzz

@@ -14,10 +14,12 @@ ORDER = {
 TOO_LONG = {"fault_log_faults_test.cpp", "power_cut_test.cpp", "thousand_commits_test.cpp", "wear_test.cpp"}
 SCENARIOS = ["fault_matrix_test.cpp", "stopping_test.cpp", "lives_test.cpp"]
 # The simulated robot with a client in process: what its tests link of the host's tools.
-HOST = ["base/plain_text.cpp", "link/client.cpp", "link/client_connect.cpp", "link/clock_map.cpp", "link/drive.cpp",
-        "link/parameter_row.cpp", "link/parameter_rules.cpp", "link/parameters.cpp", "link/paths.cpp",
-        "link/port_socket.cpp", "link/ports.cpp", "link/refusal.cpp", "link/rest.cpp", "link/terminal_user.cpp",
-        "simulator/in_process.cpp", "simulator/virtual_mocap.cpp", "simulator/virtual_robot.cpp"]
+HOST = ["base/numbers.cpp", "base/plain_text.cpp", "robot/client/client.cpp", "robot/client/client_connect.cpp",
+        "robot/client/clock_map.cpp", "robot/client/refusal.cpp", "robot/motion/drive.cpp", "robot/motion/paths.cpp",
+        "robot/motion/rest.cpp", "robot/parameters/parameter_row.cpp", "robot/parameters/parameter_rules.cpp",
+        "robot/parameters/parameters.cpp", "robot/port/ports.cpp", "robot/port/terminal_user.cpp",
+        "robot/sharing/port_socket.cpp", "simulation/robot/in_process.cpp", "simulation/robot/virtual_mocap.cpp",
+        "simulation/robot/virtual_robot.cpp"]
 PRECOMPILED = ["gmock/gmock.h", "gtest/gtest.h", "algorithm", "array", "chrono", "cmath", "filesystem", "functional",
                "map", "memory", "random", "span", "string", "vector"]
 # -O1: -O0 runs the simulated robot ten times slower, -O2 compiles half as fast again.

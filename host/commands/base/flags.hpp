@@ -5,7 +5,7 @@
 /// Options that mean the same in every command.
 namespace astro::commands {
 
-/// Adds --force, of what uploads a calibration: see experiment::objection.
+/// Adds --force to a command that uploads a calibration: see experiment::objection.
 void add_force(console::Command command, bool& force);
 
 /// Adds --json.

@@ -5,10 +5,10 @@
 #include "host/base/error.hpp"
 #include "host/base/remedy.hpp"
 
-/// Where what the libraries know would help becomes the words of this command line.
+/// The words of this command line for the remedies that libraries name as data.
 namespace astro::commands {
 
-/// What is put behind a fact, with the joint between them: ": 'astrolabe ports' lists ..."; "" for Help::none.
+/// The text that follows a fact, with its punctuation: ": 'astrolabe ports' lists ..."; "" for Help::none.
 std::string in_words(const Remedy& remedy);
 
 /// The whole sentence of an error for a person.

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "host/base/error.hpp"
-#include "host/console/console.hpp"
 #include "host/commands/shared/damaged_option.hpp"
 #include "host/commands/shared/robot_view.hpp"
+#include "host/console/console.hpp"
 #include "host/experiment/analysis/dead_reckoning.hpp"
 #include "host/experiment/analysis/json.hpp"
 #include "host/experiment/analysis/squares.hpp"
@@ -46,21 +46,21 @@ void warn_of_other_robots(const std::vector<experiment::NamedFactors>& factors,
       console::say("warning: " + other);
 }
 
-/// What one robot carried when it drove them all.
+/// The factors that were loaded in all drives; throws if they differ.
 calibration::WheelFactors carried_by_all(const CheckOptions& options, const experiment::RunSet& set) {
   const calibration::WheelFactors first = experiment::carried_factors(set.runs.front().info);
   for (std::size_t i = 1; i < set.runs.size(); ++i) {
     const calibration::WheelFactors one = experiment::carried_factors(set.runs[i].info);
     if (one.c_r != first.c_r || one.c_l != first.c_l || one.b_m != first.b_m)
       throw Error(
-          fmt::format("the robot carried other factors in {} than in {}: check the folders in '{}' "
-                      "each for itself",
+          fmt::format("the robot had other factors loaded in {} than in {}: check the folders in '{}' "
+                      "separately",
                       set.names[i], set.names.front(), options.folder.string()));
   }
   return first;
 }
 
-std::vector<DeadReckoning> judged(const CheckOptions& options) {
+std::vector<DeadReckoning> evaluated(const CheckOptions& options) {
   const experiment::RunSet set = read_recordings(options.damaged, [&](recording::Damage damage) {
     return experiment::read_run_set(options.folder, options.without, damage);
   });
@@ -72,7 +72,7 @@ std::vector<DeadReckoning> judged(const CheckOptions& options) {
   return experiment::dead_reckon(set, factors, clock_of(options));
 }
 
-/// Of `runs` runs; a root mean square of n scatters by 1 / sqrt(2 n) of itself.
+/// A row for `runs` runs; the relative standard error of a root mean square of n is 1 / sqrt(2 n).
 std::vector<std::string> row(const std::string& name, std::size_t runs, double final_m, double heading_rad,
                              double path_m) {
   const auto milli = [&](double value) {
@@ -95,9 +95,10 @@ std::string text_of(const std::vector<DeadReckoning>& all, bool runs) {
       rows.push_back(row("  " + run.name, 1, run.final_m, run.final_heading_rad, run.path_rms_m));
   }
   const std::size_t count = all.front().errors.runs.size();
-  return console::wrapped(fmt::format("Odometry less ground truth over {} drive{}, root mean squares: at the end, and "
-                             "all along the path.",
-                             count, count == 1 ? "" : "s")) +
+  return console::wrapped(
+             fmt::format("Odometry less ground truth over {} drive{}, root mean squares: at the end, and "
+                         "all along the path.",
+                         count, count == 1 ? "" : "s")) +
          console::table(rows);
 }
 
@@ -126,7 +127,7 @@ nlohmann::json json_of(const std::vector<DeadReckoning>& all) {
 
 void add_calibrate_check(console::Command calibrate) {
   const auto options = std::make_shared<CheckOptions>();
-  const console::Command command = calibrate.add_subcommand("check", "what calibrations are worth on recorded drives");
+  const console::Command command = calibrate.add_subcommand("check", "test calibrations on recorded drives");
   command.add_option("folder", options->folder, "folder with recordings that have ground truth").required();
   command.add_option("--with", options->with, "calib.toml to judge (repeatable)").required().one_each_time();
   command.add_option("--without", options->without, "a recording to leave out, by its name (repeatable)")
@@ -139,16 +140,17 @@ void add_calibrate_check(console::Command calibrate) {
       .one_of({"auto", "known", "estimated"})
       .capture_default_str();
   add_damaged_flag(command, options->damaged);
-  command.add_flag("--runs", options->runs, "each drive for itself, too");
+  command.add_flag("--runs", options->runs, "each drive separately, too");
   command.add_flag("--json", options->json, "print one JSON array");
   command.footer(
-      "The recorded wheels are followed with the factors that the robot carried and with\n"
-      "those of each file. Fair are drives that the calibration has not seen.\n"
+      "The recorded wheels are followed with the factors that were loaded in the robot\n"
+      "and with those of each file. A fair test uses drives that the calibration has\n"
+      "not seen.\n"
       "Examples:\n"
       "  astrolabe calibrate check friday --with monday.toml\n"
       "  astrolabe calibrate check friday --with ml.toml --with umbmark.toml --runs");
   command.callback([options] {
-    const std::vector<DeadReckoning> all = judged(*options);
+    const std::vector<DeadReckoning> all = evaluated(*options);
     for (const std::string& why : all.front().errors.left_out) console::say(why + "; it was left out");
     if (options->json) {
       print_json(json_of(all));

@@ -4,7 +4,7 @@
 
 namespace astro::commands {
 
-/// `calibrate check`: what calibrations are worth on recorded drives.
+/// `calibrate check`: the odometry errors of calibrations on recorded drives.
 void add_calibrate_check(console::Command calibrate);
 
 }  // namespace astro::commands

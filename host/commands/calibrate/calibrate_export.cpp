@@ -1,14 +1,14 @@
-#include "host/commands/base/remedies.hpp"
 #include "host/commands/calibrate/calibrate_export.hpp"
+#include "host/commands/base/remedies.hpp"
 
 #include <iostream>
 #include <memory>
 
 #include "host/base/error.hpp"
+#include "host/base/files.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
 #include "host/experiment/analysis/export.hpp"
-#include "host/base/files.hpp"
 
 namespace astro::commands {
 namespace {
@@ -28,10 +28,10 @@ std::string format_of(const ExportOptions& options) {
   if (extension == ".json") return "json";
   if (extension == ".toml") return "toml";
   throw Error("'" + options.to.string() +
-              "' does not tell the format by its end (.yaml, .json, .toml): give --format");
+              "' does not show the format by its extension (.yaml, .json, .toml): give --format");
 }
 
-/// JSON and TOML do without sizes that nobody knows; ROS cannot.
+/// JSON and TOML can leave out unknown sizes; ROS cannot.
 std::optional<experiment::DiffDrive> sizes_if_known(const experiment::ParameterFile& file,
                                                     const experiment::NominalSizes& nominal) {
   if (!file.wheel && !nominal.wheel_radius_m) return std::nullopt;
@@ -56,7 +56,7 @@ std::string text_of(const ExportOptions& options) {
 
 void run(const ExportOptions& options) {
   const std::string text = text_of(options);
-  recording::PartFile file(options.to);
+  PartFile file(options.to);
   file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   file.commit();
   console::say("written to " + options.to.string());
@@ -71,8 +71,9 @@ void add_calibrate_export(console::Command calibrate) {
   command.add_option("file", options->file, "calib.toml of 'calibrate' or 'umbmark'").required();
   command.add_option("--to", options->to, "the file to write").required();
   command
-      .add_option("--format", options->format,
-                  "ros2 (parameters of diff_drive_controller), json\nor toml; default: by the end of --to")
+      .add_option(
+          "--format", options->format,
+          "ros2 (parameters of diff_drive_controller), json\nor toml; default: by the extension of --to")
       .one_of({"ros2", "json", "toml"});
   command
       .add_option("--wheel-radius", options->nominal.wheel_radius_m,
@@ -80,7 +81,7 @@ void add_calibrate_export(console::Command calibrate) {
       .check(console::between(0.002, 2, "m"));
   command
       .add_option("--wheel-separation", options->nominal.wheel_separation_m,
-                  "nominal wheelbase in the other program, m;\ndefault: the b that was carried")
+                  "nominal wheelbase in the other program, m;\ndefault: the b that was loaded")
       .check(console::between(0.01, 10, "m"));
   command.add_option("--node", options->node, "ros2: name of the controller")
       .check([](const std::string& name) {
@@ -92,9 +93,9 @@ void add_calibrate_export(console::Command calibrate) {
       })
       .capture_default_str();
   console::examples(command, {"astrolabe calibrate export calib.toml --to calib.yaml",
-                     "astrolabe calibrate export calib.toml --to calib.yaml --wheel-radius 0.036 "
-                     "--wheel-separation 0.3",
-                     "astrolabe calibrate export calib.toml --to calib.json"});
+                              "astrolabe calibrate export calib.toml --to calib.yaml --wheel-radius 0.036 "
+                              "--wheel-separation 0.3",
+                              "astrolabe calibrate export calib.toml --to calib.json"});
   command.callback([options] { run(*options); });
 }
 

@@ -4,7 +4,7 @@
 
 namespace astro::commands {
 
-/// `calibrate export`: a calibration for programs of others.
+/// `calibrate export`: a calibration for other programs.
 void add_calibrate_export(console::Command calibrate);
 
 }  // namespace astro::commands

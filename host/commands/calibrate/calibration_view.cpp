@@ -7,11 +7,11 @@
 
 #include "host/base/degrees.hpp"
 #include "host/base/shown.hpp"
-#include "host/console/console.hpp"
 #include "host/commands/base/remedies.hpp"
-#include "host/experiment/files/method_names.hpp"
+#include "host/console/console.hpp"
 #include "host/experiment/analysis/likelihood_sentences.hpp"
 #include "host/experiment/analysis/until.hpp"
+#include "host/experiment/files/method_names.hpp"
 
 namespace astro::commands {
 namespace {
@@ -40,30 +40,31 @@ std::string squares_text(const calibration::ExperimentSummary& squares) {
                                     fmt::format("{:.1f}", 1000 * c.r_cg_m)};
   };
   return console::table({{"squares", "runs", "x_cg mm", "y_cg mm", "theta_cg mrad", "r_cg mm"},
-                cluster("cw", squares.cw),
-                cluster("ccw", squares.ccw)}) +
+                         cluster("cw", squares.cw),
+                         cluster("ccw", squares.ccw)}) +
          fmt::format("E_max_syst {} mm\n",
                      with_error(1000 * squares.E_max_syst_m, 1000 * squares.se_E_max_syst_m, 1));
 }
 
-/// The factors, and what they say about those carried.
+/// The factors, and how they differ from those that were loaded.
 std::string factors_text(const Calibration& found) {
   const experiment::FactorErrors& se = found.se;
   const calibration::WheelFactors &now = found.factors, &old = found.carried;
   return console::table({{"", "", "against carried"},
-                {"c_R", with_error(now.c_r, se.c_r, 8), percent(now.c_r / old.c_r)},
-                {"c_L", with_error(now.c_l, se.c_l, 8), percent(now.c_l / old.c_l)},
-                {"b mm", with_error(1000 * now.b_m, 1000 * se.b_m, 4), percent(now.b_m / old.b_m)},
-                {"S", with_error(found.scale(), se.scale, 8), percent(found.scale_change())},
-                {"E_d", with_error(found.E_d(), se.E_d, 7), ""},
-                {"E_b", with_error(found.E_b(), se.E_b, 7), ""}});
+                         {"c_R", with_error(now.c_r, se.c_r, 8), percent(now.c_r / old.c_r)},
+                         {"c_L", with_error(now.c_l, se.c_l, 8), percent(now.c_l / old.c_l)},
+                         {"b mm", with_error(1000 * now.b_m, 1000 * se.b_m, 4), percent(now.b_m / old.b_m)},
+                         {"S", with_error(found.scale(), se.scale, 8), percent(found.scale_change())},
+                         {"E_d", with_error(found.E_d(), se.E_d, 7), ""},
+                         {"E_b", with_error(found.E_b(), se.E_b, 7), ""}});
 }
 
 std::string end_pose_text(const calibration::Estimate& estimate) {
-  return console::table({{"method", std::string(calibration::name_of(estimate.options.method))},
-                {"alpha", fmt::format("{:.5f}°", without_minus_zero(degrees(estimate.alpha_rad), 5))},
-                {"beta", fmt::format("{:.5f}°", without_minus_zero(degrees(estimate.beta_rad), 5))},
-                {"R", fmt::format("{:.3f} m", estimate.radius_m)}});
+  return console::table(
+      {{"method", std::string(calibration::name_of(estimate.options.method))},
+       {"alpha", fmt::format("{:.5f}°", without_minus_zero(degrees(estimate.alpha_rad), 5))},
+       {"beta", fmt::format("{:.5f}°", without_minus_zero(degrees(estimate.beta_rad), 5))},
+       {"R", fmt::format("{:.3f} m", estimate.radius_m)}});
 }
 
 std::string runs_text(const MlResult& ml) {
@@ -126,7 +127,8 @@ std::string calibration_summary(const Calibration& calibration) {
   if (ml == nullptr) return fmt::format("calibrated by {}:\n", calibration.method());
   std::string text =
       console::wrapped(experiment::extent_sentence(*ml)) +
-      console::wrapped("Standard errors: " + experiment::described(experiment::precision_of(calibration)) + ".");
+      console::wrapped("Standard errors: " + experiment::described(experiment::precision_of(calibration)) +
+                       ".");
   text += verdict_text(*ml);
   return text;
 }

@@ -4,24 +4,24 @@
 #include <optional>
 
 #include "host/base/error.hpp"
+#include "host/base/files.hpp"
 #include "host/commands/calibrate/commands.hpp"
-#include "host/commands/shared/connection.hpp"
-#include "host/console/console.hpp"
-#include "host/commands/shared/drive_recording.hpp"
-#include "host/console/interrupt.hpp"
-#include "host/console/options.hpp"
-#include "host/commands/simulate/programme_options.hpp"
 #include "host/commands/calibrate/record_programme.hpp"
+#include "host/commands/shared/connection.hpp"
+#include "host/commands/shared/drive_recording.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/commands/shared/truth_option.hpp"
+#include "host/commands/simulate/programme_options.hpp"
+#include "host/console/console.hpp"
+#include "host/console/interrupt.hpp"
+#include "host/console/options.hpp"
 #include "host/console/wrong_usage.hpp"
-#include "host/experiment/files/journal.hpp"
 #include "host/experiment/drive/record_run.hpp"
+#include "host/experiment/files/journal.hpp"
 #include "host/experiment/files/robot_identity.hpp"
-#include "host/robot/parameters/parameters.hpp"
 #include "host/recording/files/csv_export.hpp"
-#include "host/base/files.hpp"
 #include "host/recording/files/run_writer.hpp"
+#include "host/robot/parameters/parameters.hpp"
 
 namespace astro::commands {
 namespace {
@@ -40,12 +40,12 @@ struct RecordOptions {
   bool pause = false;
 };
 
-/// What cannot be written is known before the drive, which nobody can repeat.
+/// Checks before the drive that the file can be written, because a drive cannot be repeated.
 void require_new(const fs::path& file) {
   if (fs::exists(file) && !fs::is_directory(file))
     throw Error(
         fmt::format("'{}' exists, and a recording replaces nothing: name another file", file.string()));
-  const recording::PartFile can_be_written(file);
+  const PartFile can_be_written(file);
 }
 
 void drive(RecordOptions& options) {
@@ -55,24 +55,26 @@ void drive(RecordOptions& options) {
         "no runs to drive: say how many squares, lines, spins or circles, or leave them all out");
   if (options.seconds_option.count() + options.csv_option.count() > 0)
     throw console::WrongUsage(
-        "--seconds and --csv are for recording what somebody else drives: leave them out, or the runs");
+        "--seconds and --csv are for recording what another program drives: leave them out, or the runs");
   if (fs::exists(options.out) && !fs::is_directory(options.out))
     throw Error(
         fmt::format("'{}' is a file, and each run gets one of its own: name a folder", options.out.string()));
   const auto client = connect(options.connection);
   const auto truth = open_truth(options.truth, options.connection.port);
-  if (options.truth.source == "none") console::say("without --truth nothing can be calibrated from these runs");
+  if (options.truth.source == "none")
+    console::say("without --truth nothing can be calibrated from these runs");
   recording::RunInfo info = describe_robot(*client);
   info.speed_mps = options.programme.speed_mps;
   record_programme(*client, *truth, runs, info, options.out, options.pause);
   print_path(fs::absolute(options.out));
 }
 
-/// A recording that goes to the disk as it comes, so that a day of it takes no more memory than a minute. A
-/// robot that sends nothing leaves no file behind.
-class Streamed {
+/// A recording that is written while samples arrive, so that a day takes no more memory than a minute. If the
+/// robot sends nothing, no file is created.
+class StreamedRecording {
  public:
-  Streamed(const RecordOptions& options, const recording::RunInfo& info) : options_(options), info_(info) {}
+  StreamedRecording(const RecordOptions& options, const recording::RunInfo& info)
+      : options_(options), info_(info) {}
 
   template <class Sample>
   void add(const Sample& sample) {
@@ -99,8 +101,8 @@ class Streamed {
   std::optional<recording::CsvWriter> csv_;
 };
 
-/// Time on the robot's clock: that of a simulator in fast motion, or of an emulator on a busy machine, is not
-/// ours. A robot that restarts counts from 0 again.
+/// Time by the robot's clock, because the clocks of a simulator in fast motion and of an emulator on a busy
+/// machine differ from ours. A robot that restarts counts from 0 again.
 class RobotStopwatch {
  public:
   explicit RobotStopwatch(robot::Client& client)
@@ -119,7 +121,8 @@ class RobotStopwatch {
 };
 
 void listen(RecordOptions& options) {
-  if (options.pause_option.count() > 0) throw console::WrongUsage("--pause waits before runs: say how many to drive");
+  if (options.pause_option.count() > 0)
+    throw console::WrongUsage("--pause waits before runs: say how many to drive");
   require_new(options.out);
   if (!options.csv.empty())
     for (const char* name : {"odometry.csv", "truth.csv"}) require_new(options.csv / name);
@@ -139,7 +142,7 @@ void listen(RecordOptions& options) {
   if (options.seconds == 0) console::say("recording; Ctrl-C ends it");
   info.truth_source = truth->name();
   info.truth_clock = truth->clock();
-  Streamed streamed(options, info);
+  StreamedRecording streamed(options, info);
   const experiment::Recorded recorded = experiment::record_until(
       *client, *truth,
       {[&](const auto& sample) { streamed.add(sample); }, [&](const auto& sample) { streamed.add(sample); }},
@@ -157,7 +160,7 @@ void listen(RecordOptions& options) {
 void add_record(console::Command app) {
   const auto options = std::make_shared<RecordOptions>();
   const console::Command command =
-      app.add_subcommand("record", "drive runs and record them, or record while somebody else drives");
+      app.add_subcommand("record", "drive runs and record them, or record while another program drives");
   command.add_option("--out", options->out, "the MCAP file to write, or the folder for the runs").required();
   add_connection(command, options->connection);
   command.add_option("--truth", options->truth.source, "sim or none")

@@ -5,12 +5,12 @@
 #include <optional>
 
 #include "host/base/error.hpp"
-#include "host/console/console.hpp"
-#include "host/console/interrupt.hpp"
+#include "host/base/folder_lock.hpp"
 #include "host/commands/shared/limit_notes.hpp"
 #include "host/commands/shared/path_progress.hpp"
+#include "host/console/console.hpp"
+#include "host/console/interrupt.hpp"
 #include "host/experiment/files/journal.hpp"
-#include "host/base/folder_lock.hpp"
 #include "host/recording/files/run_file.hpp"
 
 namespace astro::commands {
@@ -66,7 +66,8 @@ std::vector<ProgrammeRun> missing_of(const std::vector<ProgrammeRun>& runs, cons
         "'{}' holds all of these runs already, and a recording replaces nothing: name another folder",
         folder.string()));
   if (missing.size() < runs.size())
-    console::say(fmt::format("{} of {} runs are recorded already", runs.size() - missing.size(), runs.size()));
+    console::say(
+        fmt::format("{} of {} runs are recorded already", runs.size() - missing.size(), runs.size()));
   return missing;
 }
 
@@ -82,7 +83,7 @@ std::vector<ProgrammeRun> runs_of(const Programme& programme) {
 
 void record_programme(robot::Client& client, truth::Source& truth, const std::vector<ProgrammeRun>& runs,
                       const recording::RunInfo& info, const fs::path& folder, bool pause) {
-  const recording::FolderLock lock(folder);
+  const FolderLock lock(folder);
   console::Progress progress("driving");
   experiment::RunHooks hooks;
   hooks.interrupted = console::interrupted;
@@ -101,10 +102,11 @@ void record_programme(robot::Client& client, truth::Source& truth, const std::ve
   };
   robot::Path all;
   for (const ProgrammeRun& run : missing) all.insert(all.end(), run.path.begin(), run.path.end());
-  say_what_is_clamped(client, all);
+  note_limits(client, all);
   for (const ProgrammeRun& run : missing) {
     if (pause)
-      console::ask(fmt::format("next is {}: put the robot on its start mark and press Enter ", run.spec.title()));
+      console::ask(
+          fmt::format("next is {}: put the robot on its start mark and press Enter ", run.spec.title()));
     way.emplace(run.path);
     recording::RunInfo about = info;
     about.kind = run.spec.kind;

@@ -8,19 +8,19 @@
 #include "host/commands/base/flags.hpp"
 #include "host/commands/calibrate/calibration_view.hpp"
 #include "host/commands/calibrate/commands.hpp"
-#include "host/commands/shared/connection.hpp"
-#include "host/console/console.hpp"
-#include "host/console/interrupt.hpp"
-#include "host/commands/shared/limit_notes.hpp"
 #include "host/commands/calibrate/method_option.hpp"
-#include "host/console/options.hpp"
+#include "host/commands/shared/connection.hpp"
+#include "host/commands/shared/limit_notes.hpp"
 #include "host/commands/shared/path_progress.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/commands/shared/truth_option.hpp"
+#include "host/console/console.hpp"
+#include "host/console/interrupt.hpp"
+#include "host/console/options.hpp"
 #include "host/console/wrong_usage.hpp"
+#include "host/experiment/analysis/report_input.hpp"
 #include "host/experiment/drive/experiment.hpp"
 #include "host/experiment/files/method_names.hpp"
-#include "host/experiment/analysis/report_input.hpp"
 #include "host/report/report.hpp"
 
 namespace astro::commands {
@@ -47,9 +47,7 @@ void add_options(console::Command command, UmbmarkOptions& options) {
   options.truth_folder = command.add_option("--truth-folder", options.truth.folder,
                                             "--truth file: where the CSV of each run appears;\n"
                                             "default: OUT/truth");
-  command
-      .add_option("--out", options.out,
-                  "folder of the experiment; the same folder again goes on where it was")
+  command.add_option("--out", options.out, "folder of the experiment; the same folder again continues it")
       .required();
   command.add_option("--runs", plan.runs, "squares in each direction, before and after")
       .capture_default_str();
@@ -83,8 +81,8 @@ void add_options(console::Command command, UmbmarkOptions& options) {
   command.add_flag("--json", options.json, "print the result as one JSON object");
 }
 
-/// How much of the phase under way is driven.
-struct Way {
+/// How much of the present phase has been driven.
+struct PhaseProgress {
   int before = 0, total = 1;  // runs
   std::optional<PathProgress> run;
 
@@ -93,7 +91,7 @@ struct Way {
 
 experiment::ExperimentHooks hooks_for(const UmbmarkOptions& options, console::Progress& progress) {
   experiment::ExperimentHooks hooks;
-  const auto way = std::make_shared<Way>();
+  const auto way = std::make_shared<PhaseProgress>();
   hooks.run.interrupted = console::interrupted;
   hooks.run.notice = [&progress](const std::string& text) {
     progress.clear();
@@ -147,7 +145,8 @@ void run(UmbmarkOptions& options) {
   if (options.until_option.count() > 0) options.plan.until = options.until;
   options.plan.check();
   if (options.truth_folder.count() > 0 && options.truth.source != "file")
-    throw console::WrongUsage("--truth-folder is of --truth file, and this is --truth " + options.truth.source);
+    throw console::WrongUsage("--truth-folder is of --truth file, and this is --truth " +
+                              options.truth.source);
   if (options.truth_folder.count() > 0 && !std::filesystem::is_directory(options.truth.folder))
     throw Error(fmt::format("--truth-folder: there is no folder '{}': make it, or name another",
                             options.truth.folder.string()));
@@ -158,7 +157,7 @@ void run(UmbmarkOptions& options) {
     const robot::Path path = experiment::path_of(options.plan, spec);
     all.insert(all.end(), path.begin(), path.end());
   }
-  say_what_is_clamped(*client, all);
+  note_limits(*client, all);
   console::Progress progress("driving");
   const auto truth = open_truth(options.truth, options.connection.port, [&](const std::string& prompt) {
     progress.clear();

@@ -5,14 +5,14 @@
 
 #include "host/base/error.hpp"
 #include "host/commands/drive/commands.hpp"
-#include "host/commands/drive/drive_run.hpp"
+#include "host/commands/drive/drive_job.hpp"
+#include "host/commands/drive/drive_teleop.hpp"
 #include "host/console/options.hpp"
-#include "host/commands/drive/teleop.hpp"
 
 namespace astro::commands {
 namespace {
 
-// What nobody drives at once; a number above is in millimetres.
+// Longer than any drive; a larger number is probably in millimetres.
 constexpr double kLongestSide_m = 100, kLongestLine_m = 1000;
 
 void require_plausible(const char* what, double metres, double most_m) {
@@ -36,7 +36,8 @@ struct VelocityOptions {
   double v_mps = 0, omega_radps = 0, seconds = 0;
 };
 
-console::Option add_number(console::Command command, const std::string& name, double& value, const std::string& what) {
+console::Option add_number(console::Command command, const std::string& name, double& value,
+                           const std::string& what) {
   return command.add_option(name, value, what).type_name("");
 }
 
@@ -51,13 +52,15 @@ void add_limits(console::Command command, robot::PathLimits& limits) {
 }
 
 void add_sense(console::Command command, PathOptions& options) {
-  const console::Option ccw = command.add_flag("--ccw", options.ccw, "counter-clockwise, turning left (default)");
+  const console::Option ccw =
+      command.add_flag("--ccw", options.ccw, "counter-clockwise, turning left (default)");
   command.add_flag("--cw", options.cw, "clockwise, turning right").excludes(ccw);
 }
 
-/// A leaf of `drive` that follows a path.
+/// Adds a subcommand of `drive` that follows a path.
 console::Command add_path(console::Command drive, const std::string& name, const std::string& what,
-                 const std::shared_ptr<PathOptions>& options, robot::Path (*path)(const PathOptions&)) {
+                          const std::shared_ptr<PathOptions>& options,
+                          robot::Path (*path)(const PathOptions&)) {
   const console::Command command = drive.add_subcommand(name, what);
   add_limits(command, options->limits);
   add_drive_options(command, options->drive);
@@ -67,22 +70,23 @@ console::Command add_path(console::Command drive, const std::string& name, const
 
 void add_line(console::Command drive) {
   const auto options = std::make_shared<PathOptions>();
-  const console::Command command = add_path(drive, "line", "drive straight on", options, [](const PathOptions& o) {
-    require_plausible("length", o.length_m, kLongestLine_m);
-    return robot::line(o.length_m, o.limits);
-  });
+  const console::Command command =
+      add_path(drive, "line", "drive straight on", options, [](const PathOptions& o) {
+        require_plausible("length", o.length_m, kLongestLine_m);
+        return robot::line(o.length_m, o.limits);
+      });
   add_number(command, "LENGTH", options->length_m, "metres; backwards if negative")
       .required()
       .check(console::finite());
   console::examples(command, {"astrolabe drive line 1", "astrolabe drive line -0.5 --speed 0.2",
-                     "astrolabe drive line 2 --record line.mcap"});
+                              "astrolabe drive line 2 --record line.mcap"});
 }
 
 void add_spin(console::Command drive) {
   const auto options = std::make_shared<PathOptions>();
-  const console::Command command = add_path(drive, "spin", "turn on the spot", options, [](const PathOptions& o) {
-    return robot::spin(robot::turns_from_degrees(o.angle_deg), o.limits);
-  });
+  const console::Command command = add_path(
+      drive, "spin", "turn on the spot", options,
+      [](const PathOptions& o) { return robot::spin(robot::turns_from_degrees(o.angle_deg), o.limits); });
   add_number(command, "ANGLE", options->angle_deg, "degrees; to the left if positive")
       .required()
       .check(console::finite());
@@ -115,7 +119,8 @@ void add_square(console::Command drive) {
       });
   add_number(command, "SIDE", options->length_m, "metres").required().check(console::positive("m"));
   add_sense(command, *options);
-  console::examples(command, {"astrolabe drive square 3 --cw", "astrolabe drive square 1 --ccw --speed 0.3 --json"});
+  console::examples(command,
+                    {"astrolabe drive square 3 --cw", "astrolabe drive square 1 --ccw --speed 0.3 --json"});
 }
 
 void add_circle(console::Command drive) {
@@ -137,7 +142,9 @@ void add_circle(console::Command drive) {
 void add_velocity(console::Command drive) {
   const auto options = std::make_shared<VelocityOptions>();
   const console::Command command = drive.add_subcommand("velocity", "hold a velocity for a while");
-  add_number(command, "V", options->v_mps, "speed in m/s, forward positive").required().check(console::finite());
+  add_number(command, "V", options->v_mps, "speed in m/s, forward positive")
+      .required()
+      .check(console::finite());
   add_number(command, "OMEGA", options->omega_radps, "yaw rate in rad/s, to the left positive")
       .required()
       .check(console::finite());
@@ -146,7 +153,8 @@ void add_velocity(console::Command drive) {
       .required()
       .check(console::between(0.001, 86'400, "s"));
   add_drive_options(command, options->drive);
-  console::examples(command, {"astrolabe drive velocity 0.3 0 --for 2", "astrolabe drive velocity 0 -0.5 --for 10"});
+  console::examples(command,
+                    {"astrolabe drive velocity 0.3 0 --for 2", "astrolabe drive velocity 0 -0.5 --for 10"});
   command.callback(
       [options] { drive_velocity(options->drive, options->v_mps, options->omega_radps, options->seconds); });
 }
@@ -154,12 +162,13 @@ void add_velocity(console::Command drive) {
 }  // namespace
 
 void add_drive(console::Command app) {
-  const console::Command command = app.add_subcommand("drive", "drive a path, hold a velocity or steer by keyboard");
+  const console::Command command =
+      app.add_subcommand("drive", "drive a path, hold a velocity or steer by keyboard");
   command.require_subcommand(1, 1);
   for (const auto add : {add_line, add_spin, add_arc, add_square, add_circle, add_velocity, add_teleop})
     add(command);
-  console::examples(command,
-           {"astrolabe drive line 1", "astrolabe drive square 3 --cw --speed 0.5", "astrolabe drive teleop"});
+  console::examples(command, {"astrolabe drive line 1", "astrolabe drive square 3 --cw --speed 0.5",
+                              "astrolabe drive teleop"});
 }
 
 }  // namespace astro::commands

@@ -23,7 +23,7 @@ OdometryWatch::OdometryWatch(robot::Client& client, std::uint16_t period_ms, Lis
 OdometryWatch::~OdometryWatch() {
   try {
     client_.request(SetTelemetry{0, 0});
-  } catch (const std::exception&) {  // a robot that is gone streams nothing
+  } catch (const std::exception&) {  // a lost robot sends no telemetry anyway
   }
 }
 

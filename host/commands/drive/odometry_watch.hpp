@@ -3,20 +3,20 @@
 #include <cstdint>
 #include <functional>
 
-#include "host/robot/client/client.hpp"
 #include "host/recording/run/planar_pose.hpp"
 #include "host/recording/run/run.hpp"
+#include "host/robot/client/client.hpp"
 
 namespace astro::commands {
 
-/// Asks the robot for its odometry for as long as it lives, and keeps the newest sample.
+/// Receives the robot's odometry for as long as the object lives, and keeps the newest sample.
 class OdometryWatch {
  public:
   using Listener = std::function<void(const recording::OdometrySample&)>;
 
   static constexpr std::uint32_t kFields = protocol::Telemetry::kPose | protocol::Telemetry::kTwist;
 
-  /// `listener` hears of every sample; it must not call the client. `fields`: with kPose.
+  /// `listener` gets every sample; it must not call the client. `fields` must contain kPose.
   OdometryWatch(
       robot::Client& client, std::uint16_t period_ms, Listener listener = [](const auto&) {},
       std::uint32_t fields = kFields);

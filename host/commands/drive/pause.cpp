@@ -3,10 +3,10 @@
 #include "host/base/error.hpp"
 #include "host/commands/drive/commands.hpp"
 #include "host/commands/shared/connection.hpp"
+#include "host/commands/shared/robot_view.hpp"
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
 #include "host/console/options.hpp"
-#include "host/commands/shared/robot_view.hpp"
 
 namespace astro::commands {
 namespace {
@@ -28,25 +28,15 @@ void pause(ConnectionOptions& options) {
   console::say("the robot waits on its path until 'astrolabe resume'; 'astrolabe stop' ends the drive");
 }
 
-void resume(ConnectionOptions& options) {
-  connect(options)->request(protocol::Resume{});
-  console::say("the robot goes on");
-}
-
-console::Command add(console::Command app, const char* name, const char* what, void (*run)(ConnectionOptions&)) {
-  const auto options = std::make_shared<ConnectionOptions>();
-  const console::Command command = app.add_subcommand(name, what);
-  add_connection(command, *options);
-  command.callback([options, run] { run(*options); });
-  return command;
-}
-
 }  // namespace
 
 void add_pause(console::Command app) {
-  console::examples(add(app, "pause", "let a robot that drives a path come to rest on it", pause),
-           {"astrolabe pause", "astrolabe pause --port /dev/ttyS0"});
-  console::examples(add(app, "resume", "let a paused robot go on", resume), {"astrolabe resume"});
+  const auto options = std::make_shared<ConnectionOptions>();
+  const console::Command command =
+      app.add_subcommand("pause", "let a robot that drives a path come to rest on it");
+  add_connection(command, *options);
+  console::examples(command, {"astrolabe pause", "astrolabe pause --port /dev/ttyS0"});
+  command.callback([options] { pause(*options); });
 }
 
 }  // namespace astro::commands

@@ -4,8 +4,8 @@
 
 namespace astro::commands {
 
-/// Repeats a velocity often enough for the robot's command time-out, by the robot's own clock: that of a
-/// simulator in fast motion runs ahead of ours. Needs telemetry at 20 ms or less to see that clock.
+/// Repeats a velocity often enough for the robot's command time-out. It uses the robot's clock, because the
+/// clock of a simulator in fast motion runs ahead of ours, and needs telemetry at 20 ms or less to see it.
 class Steering {
  public:
   Steering(robot::Client& client, robot::DriveSession& session) : client_(client), session_(session) {}
@@ -13,7 +13,7 @@ class Steering {
   /// Sends the velocity and waits until the next one is due, at most 50 ms. Throws as DriveSession does.
   void step(double v_mps, double omega_radps);
 
-  /// Until this long has passed on the robot's clock since the call; then ramps to rest.
+  /// Holds the velocity for this duration by the robot's clock, then ramps to rest.
   void hold(double v_mps, double omega_radps, robot::microseconds duration);
 
  private:

@@ -3,9 +3,9 @@
 #include "host/base/error.hpp"
 #include "host/commands/drive/commands.hpp"
 #include "host/commands/shared/connection.hpp"
+#include "host/commands/shared/robot_view.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
-#include "host/commands/shared/robot_view.hpp"
 #include "host/robot/motion/rest.hpp"
 
 namespace astro::commands {
@@ -24,13 +24,13 @@ void ramp_to_rest(robot::Client& client) {
   if (!rests)
     throw Error("the robot did not come to rest, so it was disarmed: its motors are off, but it may roll on");
   if (status.latched_faults == 0) return console::say("the robot is at rest and disarmed");
-  // A fault has opened the bridges, maybe at speed.
+  // A fault has opened the bridges, so the robot may still roll.
   const std::string faults = faults_in_words(status.latched_faults);
-  if (!robot::wait_until_wheels_stand(client))
+  if (!robot::wait_until_wheels_stopped(client))
     throw Error("the robot rolls on with its motors off (" + faults +
                 "): 'astrolabe faults' says what to do about it");
-  console::say("the robot stands and is disarmed; its motors are off because of " + faults +
-      ": see 'astrolabe faults'");
+  console::say("the robot has stopped and is disarmed; its motors are off because of " + faults +
+               ": see 'astrolabe faults'");
 }
 
 void run(StopOptions& options) {

@@ -14,7 +14,7 @@ namespace {
 
 using Entries = std::span<const protocol::FaultLogEntry>;
 
-/// Newer firmware may have left numbers that this version has no name for.
+/// Newer firmware may have written numbers for which this version has no name.
 template <class E>
 std::string name_or_number(std::uint8_t value) {
   const std::string_view found = name(static_cast<E>(value));

@@ -8,7 +8,7 @@
 
 namespace astro::commands {
 
-/// The fault log for people: a table, the newest first, or a sentence if there is nothing in it.
+/// The fault log as text: a table, the newest first, or a sentence if it is empty.
 std::string fault_log_table(std::span<const protocol::FaultLogEntry> entries);
 
 Json fault_log_json(std::span<const protocol::FaultLogEntry> entries);

@@ -4,13 +4,13 @@
 
 #include "host/commands/base/flags.hpp"
 #include "host/commands/robot/commands.hpp"
-#include "host/commands/shared/connection.hpp"
-#include "host/console/console.hpp"
-#include "host/commands/shared/fault_help.hpp"
 #include "host/commands/robot/fault_log_view.hpp"
+#include "host/commands/shared/connection.hpp"
+#include "host/commands/shared/fault_help.hpp"
+#include "host/commands/shared/robot_view.hpp"
+#include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
 #include "host/console/options.hpp"
-#include "host/commands/shared/robot_view.hpp"
 
 namespace astro::commands {
 namespace {
@@ -46,7 +46,7 @@ Json as_json(const protocol::FaultReport& report, bool cleared) {
 
 std::vector<protocol::FaultLogEntry> fetch_log(robot::Client& client) {
   constexpr std::size_t kMostEntries =
-      1024;  // a fault log holds 128; a broken robot may never say that it ends
+      1024;  // a fault log holds 128; a broken robot may never report its end
   std::vector<protocol::FaultLogEntry> entries;
   try {
     for (; entries.size() < kMostEntries; console::check_interrupt())
@@ -77,7 +77,8 @@ void run(FaultsOptions& options) {
 
 void add_faults(console::Command app) {
   const auto options = std::make_shared<FaultsOptions>();
-  const console::Command command = app.add_subcommand("faults", "show what stopped the robot, and release it");
+  const console::Command command =
+      app.add_subcommand("faults", "show what stopped the robot, and release it");
   const console::Option clear =
       command.add_flag("--clear", options->clear, "release all latched faults; the robot stays disarmed");
   command
@@ -88,7 +89,7 @@ void add_faults(console::Command app) {
   add_connection(command, options->connection);
   add_json_flag(command, options->json);
   console::examples(command, {"astrolabe faults", "astrolabe faults --clear", "astrolabe faults --log",
-                     "astrolabe faults --json"});
+                              "astrolabe faults --json"});
   command.callback([options] { run(*options); });
 }
 

@@ -8,12 +8,12 @@
 #include "host/base/firmware_image.hpp"
 #include "host/commands/base/remedies.hpp"
 #include "host/commands/robot/commands.hpp"
-#include "host/commands/shared/connection.hpp"
-#include "host/console/console.hpp"
 #include "host/commands/robot/loader.hpp"
-#include "host/console/options.hpp"
+#include "host/commands/shared/connection.hpp"
 #include "host/commands/shared/restart.hpp"
 #include "host/commands/shared/robot_view.hpp"
+#include "host/console/console.hpp"
+#include "host/console/options.hpp"
 #include "host/robot/parameters/parameters.hpp"
 #include "host/robot/port/ports.hpp"
 
@@ -37,8 +37,8 @@ std::unique_ptr<robot::Client> find_robot(ConnectionOptions& options) {
     const bool silent = dynamic_cast<const robot::LinkLost*>(&error) != nullptr;
     const bool absent = options.port.empty() ? robot::candidate_ports().empty() : !fs::exists(options.port);
     if (!silent && !absent) throw;
-    throw Error(
-        fmt::format("{} (if it runs no firmware, press its button and flash with --button)", in_words(error)));
+    throw Error(fmt::format("{} (if it runs no firmware, press its button and flash with --button)",
+                            in_words(error)));
   }
 }
 
@@ -57,7 +57,7 @@ std::string describe(const FirmwareImage& image, const fs::path& file) {
   return fmt::format("{} for the board '{}'", what, image.board);
 }
 
-/// Before anything is erased.
+/// Called before anything is erased.
 void check_origin(const FirmwareImage& image, const FlashOptions& options) {
   if (is_for_this_board(image)) return console::say(describe(image, options.file));
   if (!options.yes && !console::confirm(fmt::format("{}. Flash it anyway?", describe(image, options.file))))
@@ -83,7 +83,7 @@ void wait_for(robot::Client& client) {
 
 void check_version(const std::string& wanted, const std::string& now) {
   if (now != wanted)
-    throw Error(fmt::format("the robot carries firmware {} and not {}: flash again", now, wanted));
+    throw Error(fmt::format("the robot runs firmware {} and not {}: flash again", now, wanted));
 }
 
 void check_parameters(const robot::RemoteParameters& before, const robot::RemoteParameters& now) {
@@ -107,11 +107,12 @@ void run(FlashOptions& options) {
   if (options.button) {
     console::say("press the button on the Teensy, unless it is in its boot loader already");
     run_loader(loader, options.file);
-    return console::say(fmt::format("flashed {}; next, once its LED blinks: astrolabe info", options.file.string()));
+    return console::say(
+        fmt::format("flashed {}; next, once its LED blinks: astrolabe info", options.file.string()));
   }
   const auto client = find_robot(options.connection);
   const std::string old = firmware_version(client->robot());
-  console::say(fmt::format("{} carries firmware {}", client->robot().robot_name.view(), old));
+  console::say(fmt::format("{} runs firmware {}", client->robot().robot_name.view(), old));
   check_board(client->robot(), options.file);
   check_at_rest(*client);
   const robot::RemoteParameters before = robot::RemoteParameters::fetch(*client);
@@ -126,7 +127,7 @@ void run(FlashOptions& options) {
   const robot::RemoteParameters now = robot::RemoteParameters::fetch(*client);
   check_parameters(before, now);
   console::say(fmt::format("flashed: firmware {} -> {}, all {} parameters kept", old,
-                  firmware_version(client->robot()), before.rows().size()));
+                           firmware_version(client->robot()), before.rows().size()));
 }
 
 }  // namespace
@@ -138,11 +139,11 @@ void add_flash(console::Command app) {
   command.add_option("file", options->file, "image for the Teensy 4.0, as './dev firmware' builds it")
       .type_name("FILE")
       .capture_default_str();
-  command.add_flag("--button", options->button, "do not talk to the robot: somebody presses its button");
+  command.add_flag("--button", options->button, "do not contact the robot: a person presses its button");
   command.add_flag("--yes", options->yes, "flash also what is not Astrolabe's, or not for this board");
   add_connection(command, options->connection);
   console::examples(command, {"astrolabe flash", "astrolabe flash astrolabe-teensy40.hex --port /dev/ttyACM0",
-                     "astrolabe flash --button"});
+                              "astrolabe flash --button"});
   command.callback([options] { run(*options); });
 }
 

@@ -6,9 +6,9 @@
 #include "host/commands/base/flags.hpp"
 #include "host/commands/robot/commands.hpp"
 #include "host/commands/shared/connection.hpp"
+#include "host/commands/shared/robot_view.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
-#include "host/commands/shared/robot_view.hpp"
 
 namespace astro::commands {
 namespace {
@@ -87,11 +87,11 @@ void run(InfoOptions& options) {
 
 void add_info(console::Command app) {
   const auto options = std::make_shared<InfoOptions>();
-  const console::Command command = app.add_subcommand("info", "say which robot answers and how it is");
+  const console::Command command = app.add_subcommand("info", "show which robot answers and its state");
   add_connection(command, options->connection);
   add_json_flag(command, options->json);
-  console::examples(command,
-           {"astrolabe info", "astrolabe info --port /dev/ttyACM0", "astrolabe info --json | jq .faults"});
+  console::examples(command, {"astrolabe info", "astrolabe info --port /dev/ttyACM0",
+                              "astrolabe info --json | jq .faults"});
   command.callback([options] { run(*options); });
 }
 

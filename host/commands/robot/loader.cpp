@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 constexpr auto kUntilItSeemsLong = std::chrono::seconds(15), kUntilItIsTooLong = std::chrono::seconds(120);
 
-constexpr std::size_t kMostWords = std::size_t{16} << 10;  // of the loader, in bytes
+constexpr std::size_t kMostWords = std::size_t{16} << 10;  // of the loader's output, in bytes
 
 bool runnable(const fs::path& path) {
   std::error_code unreadable;
@@ -46,10 +46,10 @@ std::string last_line(const std::string& text) {
 constexpr const char* kInterrupted =
     "interrupted: the robot waits in its boot loader for 'astrolabe flash --button'";
 
-/// A loader that is running, its words on a pipe; ended with the object.
-class Running {
+/// A loader that is running, with its output on a pipe; the destructor ends it.
+class LoaderProcess {
  public:
-  explicit Running(std::array<std::string, 5> words) {
+  explicit LoaderProcess(std::array<std::string, 5> words) {
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0) throw Error("no pipe for the loader: too many files are open");
     std::array<char*, 6> arguments{};
@@ -66,19 +66,19 @@ class Running {
     close(words_);
     throw Error(fmt::format("'{}' cannot be run: is it a program?", words[0]));
   }
-  ~Running() {
+  ~LoaderProcess() {
     close(words_);
     if (pid_ <= 0) return;
-    kill(pid_, SIGKILL);  // it has nothing to lose but a transfer that is given up
+    kill(pid_, SIGKILL);  // nothing is lost but a transfer that is given up anyway
     wait();
   }
-  Running(const Running&) = delete;
-  Running& operator=(const Running&) = delete;
+  LoaderProcess(const LoaderProcess&) = delete;
+  LoaderProcess& operator=(const LoaderProcess&) = delete;
 
-  /// The end of what it says, until it closes its outputs.
+  /// Reads its output until it closes it; returns the end of it.
   std::string listen() const {
     std::string said;
-    std::vector<char> buffer(65536);  // what a pipe holds
+    std::vector<char> buffer(65536);  // capacity of a pipe
     const auto begun = std::chrono::steady_clock::now();
     bool warned = false;
     while (true) {
@@ -94,7 +94,7 @@ class Running {
       const ssize_t count = read(words_, buffer.data(), buffer.size());
       if (count <= 0) return said;
       said.append(buffer.data(), static_cast<std::size_t>(count));
-      if (said.size() > 2 * kMostWords) said.erase(0, said.size() - kMostWords);  // only its end is told
+      if (said.size() > 2 * kMostWords) said.erase(0, said.size() - kMostWords);  // only its end is reported
     }
   }
 
@@ -106,7 +106,7 @@ class Running {
   }
 
  private:
-  /// As waitpid says it; a failure if it cannot tell.
+  /// The status of waitpid; a failure if that fails.
   int wait() {
     int status = 0;
     pid_t ended = -1;
@@ -136,7 +136,7 @@ fs::path find_loader() {
 }
 
 void run_loader(const fs::path& loader, const fs::path& hex) {
-  Running running({loader.string(), "--mcu=TEENSY40", "-w", "-v", hex.string()});
+  LoaderProcess running({loader.string(), "--mcu=TEENSY40", "-w", "-v", hex.string()});
   const std::string said = running.listen();
   if (!running.succeeded())
     throw Error(fmt::format("the loader failed: {} (press the robot's button and flash again with --button)",

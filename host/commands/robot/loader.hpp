@@ -4,12 +4,12 @@
 
 namespace astro::commands {
 
-/// teensy_loader_cli on the PATH, or what the environment variable ASTROLABE_LOADER names. Throws
+/// teensy_loader_cli on the PATH, or the program that the environment variable ASTROLABE_LOADER names. Throws
 /// astro::Error with the remedy if there is none.
 std::filesystem::path find_loader();
 
-/// Runs it on `hex` until it ends; it waits for a Teensy in its bootloader. Throws astro::Error with the last
-/// line it said if it fails, Interrupted on Ctrl-C.
+/// Runs the loader on `hex` until it ends; it waits for a Teensy in its boot loader. Throws astro::Error with
+/// the last line of its output if it fails, Interrupted on Ctrl-C.
 void run_loader(const std::filesystem::path& loader, const std::filesystem::path& hex);
 
 }  // namespace astro::commands

@@ -7,14 +7,14 @@
 #include <optional>
 
 #include "host/base/error.hpp"
-#include "host/commands/base/remedies.hpp"
 #include "host/commands/base/flags.hpp"
+#include "host/commands/base/remedies.hpp"
 #include "host/commands/robot/commands.hpp"
+#include "host/commands/robot/monitor_view.hpp"
 #include "host/commands/shared/connection.hpp"
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
 #include "host/console/keys.hpp"
-#include "host/commands/robot/monitor_view.hpp"
 #include "host/console/options.hpp"
 #include "host/console/terminal.hpp"
 
@@ -31,7 +31,7 @@ struct MonitorOptions {
   std::uint64_t count = 0;  // 0: no end
 };
 
-/// Telemetry as it comes, the newest sample and how many there were.
+/// Telemetry samples in the order of their arrival.
 class Stream {
  public:
   Stream(robot::Client& client, double rate_hz)
@@ -44,7 +44,7 @@ class Stream {
 
   void ask() { client_.request(protocol::SetTelemetry{period_ms_, Telemetry::kAll}); }
 
-  /// What has come since the last call; waits for a moment if nothing has.
+  /// The samples since the last call; waits up to 50 ms if there are none.
   std::vector<Telemetry> take() {
     client_.pump_until([&] { return !waiting_.empty() || console::interrupted(); }, milliseconds(50));
     return std::exchange(waiting_, {});
@@ -82,7 +82,7 @@ class Monitor {
       if (console::interrupted() && !figures_.lost.empty()) throw Error(figures_.lost);
       console::check_interrupt();
       try {
-        if (look()) return;
+        if (update()) return;
       } catch (const robot::LinkLost& lost) {
         figures_.lost = in_words(lost);
         draw();
@@ -92,8 +92,8 @@ class Monitor {
   }
 
  private:
-  /// True once enough samples have come.
-  bool look() {
+  /// Returns true when enough samples have arrived.
+  bool update() {
     for (const Telemetry& sample : stream_.take()) {
       newest_ = sample;
       if (++seen_ == options_.count) return draw(), true;
@@ -169,7 +169,8 @@ void add_monitor(console::Command app) {
       .check(console::whole(1, std::uint64_t{1} << 53));
   add_connection(command, options->connection);
   add_json_flag(command, options->json);
-  console::examples(command, {"astrolabe monitor", "astrolabe monitor --json --rate 100 --count 1000 > samples.jsonl",
+  console::examples(command,
+                    {"astrolabe monitor", "astrolabe monitor --json --rate 100 --count 1000 > samples.jsonl",
                      "astrolabe monitor --count 1 | jq .battery_V"});
   command.callback([options] { run(*options); });
 }

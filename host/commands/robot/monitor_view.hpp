@@ -10,20 +10,20 @@
 /// What `monitor` shows.
 namespace astro::commands {
 
-/// How the link to the robot does.
+/// State of the link to the robot.
 struct LinkFigures {
   double round_trip_ms = 0;
   std::optional<double> drift;  // of the robot's clock, device seconds per host second minus 1
   robot::LinkCounts counts;
   protocol::FrameCounts frames;
-  std::string lost;  // "" or why there is none at the moment
+  std::string lost;  // "" or why the link is lost at the moment
 };
 
 /// A picture for a terminal of 80 columns and 24 rows: lines, each ended by a newline.
 std::string monitor_picture(const std::string& robot, const protocol::Telemetry& telemetry,
                             const LinkFigures& link);
 
-/// The same in one line, for terminals where nothing can be drawn over: mode, faults, battery, pose.
+/// The same in one line, for terminals that cannot redraw: mode, faults, battery, pose.
 std::string monitor_line(const protocol::Telemetry& telemetry, const LinkFigures& link);
 
 /// The same sample for programs.

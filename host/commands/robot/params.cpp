@@ -9,10 +9,10 @@
 #include "host/commands/base/flags.hpp"
 #include "host/commands/robot/commands.hpp"
 #include "host/commands/shared/connection.hpp"
-#include "host/console/console.hpp"
-#include "host/console/options.hpp"
 #include "host/commands/shared/parameter_load.hpp"
 #include "host/commands/shared/params_view.hpp"
+#include "host/console/console.hpp"
+#include "host/console/options.hpp"
 #include "host/console/terminal.hpp"
 #include "host/console/wrong_usage.hpp"
 #include "host/experiment/analysis/calibration_file.hpp"
@@ -48,7 +48,8 @@ void report(const ParamsOptions& options, const std::vector<Change>& changes, bo
 
 void list(const ParamsOptions& options, RemoteParameters& robot) {
   if (!options.json)
-    return write(parameter_table(robot, console::stdout_is_terminal() ? console::terminal_size(STDOUT_FILENO).columns : 0));
+    return write(parameter_table(
+        robot, console::stdout_is_terminal() ? console::terminal_size(STDOUT_FILENO).columns : 0));
   Json rows = Json::array();
   for (const robot::ParameterRow& row : robot.rows()) rows.push_back(to_json(row));
   print_json(rows);
@@ -61,18 +62,19 @@ void get(const ParamsOptions& options, RemoteParameters& robot) {
     const robot::ParameterRow& row = robot.row(name);
     json.push_back(to_json(row));
     text += (options.words.size() > 1 ? name + "=" : "") + plain(row) + '\n';
-    if (!options.json && console::stderr_is_terminal()) console::say(fmt::format("{}: {}", name, explanation(row)));
+    if (!options.json && console::stderr_is_terminal())
+      console::say(fmt::format("{}: {}", name, explanation(row)));
   }
   if (!options.json) return write(text);
   print_json(options.words.size() == 1 ? json.front() : json);
 }
 
-/// All of them or none: checked, staged, committed and read back.
+/// Puts all values in force or none: checks, stages, commits and reads them back.
 void load(robot::Client& client, const ParamsOptions& options, RemoteParameters& robot,
           const ParameterValues& values) {
   const std::vector<Change> changes = experiment::changes(robot, values);
   if (changes.empty()) {
-    // They may have been tried only, and then are not in its flash yet.
+    // They may only have been tried; then they are not in the flash yet.
     for (const auto& [name, value] : values) robot.stage(name, value);
     robot.commit();
     console::say("the robot holds these values already");
@@ -90,7 +92,8 @@ ParameterValues assignments(const RemoteParameters& robot, const std::vector<std
   for (const std::string& word : words) {
     const auto equals = word.find('=');
     if (equals == std::string::npos || equals == 0)
-      throw console::WrongUsage(fmt::format("'{}' sets nothing: write NAME=VALUE, for example b=0.2886", word));
+      throw console::WrongUsage(
+          fmt::format("'{}' sets nothing: write NAME=VALUE, for example b=0.2886", word));
     const std::string name = word.substr(0, equals);
     const auto value = parse_value(robot.row(name), word.substr(equals + 1));
     if (!values.emplace(name, value).second) throw console::WrongUsage(name + " is given twice");
@@ -124,9 +127,9 @@ void defaults(const ParamsOptions& options, RemoteParameters& robot) {
     robot.revert();
     throw Error("nothing was changed");
   }
-  robot.commit();  // also without changes: what was only tried is kept now
+  robot.commit();  // even without changes, because values may only have been tried
   console::say(changes.empty() ? "the robot holds its defaults already, in its flash too"
-                      : "in force, and in the robot's flash");
+                               : "in force, and in the robot's flash");
   report(options, changes, true);
 }
 
@@ -138,8 +141,8 @@ void export_to_file(const ParamsOptions& options, RemoteParameters& robot) {
 }
 
 void import_from_file(robot::Client& client, const ParamsOptions& options, const RemoteParameters& robot) {
-  const Loaded loaded = load_parameters(client, robot, experiment::read_parameter_file(options.file),
-                                        {options.yes, options.force});
+  const LoadResult loaded = load_parameters(client, robot, experiment::read_parameter_file(options.file),
+                                            {options.yes, options.force});
   if (loaded.report && loaded.report->active != robot::ActiveSet::new_set)
     throw Error(loaded.report->sentence());
   if (loaded.report) console::say(loaded.report->sentence());
@@ -149,7 +152,7 @@ void import_from_file(robot::Client& client, const ParamsOptions& options, const
 using Work = std::function<void(robot::Client&, ParamsOptions&, RemoteParameters&)>;
 
 console::Command add(console::Command params, const std::string& name, const std::string& what,
-            const std::shared_ptr<ParamsOptions>& options, Work work) {
+                     const std::shared_ptr<ParamsOptions>& options, Work work) {
   const console::Command command = params.add_subcommand(name, what);
   add_connection(command, options->connection);
   command.callback([options, work = std::move(work)] {
@@ -169,16 +172,17 @@ void add_yes_flag(console::Command command, const std::shared_ptr<ParamsOptions>
 }
 
 void add_readers(console::Command params, const std::shared_ptr<ParamsOptions>& options) {
-  const console::Command all = add(params, "list", "show all parameters; * marks those that are not at their default",
-                          options, without_client(list));
+  const console::Command all =
+      add(params, "list", "show all parameters; * marks those that are not at their default", options,
+          without_client(list));
   add_json_flag(all, options->json);
   console::examples(all, {"astrolabe params list", "astrolabe params list --json | jq -r '.[].name'"});
 
   const console::Command one = add(params, "get", "print values", options, without_client(get));
   one.add_option("name", options->words, "what 'params list' calls it").required().type_name("");
   add_json_flag(one, options->json);
-  console::examples(one,
-           {"astrolabe params get b", "astrolabe params get c_R c_L b", "astrolabe params get b --json"});
+  console::examples(
+      one, {"astrolabe params get b", "astrolabe params get c_R c_L b", "astrolabe params get b --json"});
 
   const console::Command file =
       add(params, "export", "write all values into a TOML file", options, without_client(export_to_file));
@@ -192,13 +196,16 @@ void add_writers(console::Command params, const std::shared_ptr<ParamsOptions>& 
       .required()
       .type_name("");
   some.add_flag("--try", options->try_out, "in force until the robot restarts; gains even while it drives");
-  console::examples(some, {"astrolabe params set b=0.2886", "astrolabe params set c_R=1.0021 c_L=0.9979 --yes",
-                  "astrolabe params set kp=50 --try"});
+  console::examples(some,
+                    {"astrolabe params set b=0.2886", "astrolabe params set c_R=1.0021 c_L=0.9979 --yes",
+                     "astrolabe params set kp=50 --try"});
 
-  const console::Command file = add(params, "import", "load values from a TOML file, all together or not at all",
-                           options, import_from_file);
+  const console::Command file =
+      add(params, "import", "load values from a TOML file, all together or not at all", options,
+          import_from_file);
   file.add_option("file", options->file, "of 'params export', or a calibration").required().type_name("");
-  console::examples(file, {"astrolabe params import astro.toml", "astrolabe params import astro.toml --yes --json"});
+  console::examples(
+      file, {"astrolabe params import astro.toml", "astrolabe params import astro.toml --yes --json"});
   add_force(file, options->force);
   for (const console::Command command : {some, file}) {
     add_yes_flag(command, options);
@@ -207,8 +214,8 @@ void add_writers(console::Command params, const std::shared_ptr<ParamsOptions>& 
 }
 
 void add_keepers(console::Command params, const std::shared_ptr<ParamsOptions>& options) {
-  const console::Command keep = add(params, "save", "write the values in force, tried ones too, into flash", options,
-                           without_client(save));
+  const console::Command keep = add(params, "save", "write the values in force, tried ones too, into flash",
+                                    options, without_client(save));
   console::examples(keep, {"astrolabe params save"});
   const console::Command factory =
       add(params, "defaults", "put all parameters back to their defaults", options, without_client(defaults));
@@ -221,13 +228,14 @@ void add_keepers(console::Command params, const std::shared_ptr<ParamsOptions>& 
 
 void add_params(console::Command app) {
   const auto options = std::make_shared<ParamsOptions>();
-  const console::Command command = app.add_subcommand("params", "show, change, save and load the robot's parameters");
+  const console::Command command =
+      app.add_subcommand("params", "show, change, save and load the robot's parameters");
   command.require_subcommand(1, 1);
   add_readers(command, options);
   add_writers(command, options);
   add_keepers(command, options);
-  console::examples(command,
-           {"astrolabe params list", "astrolabe params set b=0.2886", "astrolabe params export before.toml"});
+  console::examples(command, {"astrolabe params list", "astrolabe params set b=0.2886",
+                              "astrolabe params export before.toml"});
 }
 
 }  // namespace astro::commands

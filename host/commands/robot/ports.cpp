@@ -2,9 +2,9 @@
 
 #include "host/commands/base/flags.hpp"
 #include "host/commands/robot/commands.hpp"
+#include "host/commands/shared/robot_view.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
-#include "host/commands/shared/robot_view.hpp"
 #include "host/robot/client/discovery.hpp"
 
 namespace astro::commands {
@@ -48,7 +48,8 @@ void show(const std::vector<robot::FoundPort>& found) {
 }
 
 void run(const PortsOptions& options) {
-  const auto found = robot::find_robots(robot::candidate_ports(), std::chrono::milliseconds(500), options.baud);
+  const auto found =
+      robot::find_robots(robot::candidate_ports(), std::chrono::milliseconds(500), options.baud);
   if (options.json) return print_json(as_json(found));
   show(found);
 }
@@ -57,7 +58,8 @@ void run(const PortsOptions& options) {
 
 void add_ports(console::Command app) {
   const auto options = std::make_shared<PortsOptions>();
-  const console::Command command = app.add_subcommand("ports", "find robots at serial ports and simulators of yours");
+  const console::Command command =
+      app.add_subcommand("ports", "find robots at serial ports, and your simulators");
   command.add_option("--baud", options->baud, "speed of serial ports; USB and ptys do not care")
       .type_name("BAUD")
       .capture_default_str()

@@ -5,11 +5,11 @@
 #include "host/commands/base/flags.hpp"
 #include "host/commands/robot/commands.hpp"
 #include "host/commands/shared/connection.hpp"
-#include "host/console/console.hpp"
-#include "host/console/options.hpp"
 #include "host/commands/shared/parameter_load.hpp"
 #include "host/commands/shared/params_view.hpp"
 #include "host/commands/shared/robot_view.hpp"
+#include "host/console/console.hpp"
+#include "host/console/options.hpp"
 #include "host/experiment/analysis/calibration_file.hpp"
 
 namespace astro::commands {
@@ -41,7 +41,7 @@ void run(UploadOptions& options) {
   const experiment::ParameterFile file = experiment::read_parameter_file(options.file);
   const auto client = connect(options.connection);
   const robot::RemoteParameters robot = robot::RemoteParameters::fetch(*client);
-  const Loaded loaded = load_parameters(*client, robot, file, {options.yes, options.force});
+  const LoadResult loaded = load_parameters(*client, robot, file, {options.yes, options.force});
   const robot::UploadReport report =
       loaded.report.value_or(robot::UploadReport{robot::ActiveSet::new_set, false, {}});
   if (loaded.report || options.json) print_report(report, options.json);

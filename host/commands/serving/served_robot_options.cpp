@@ -12,9 +12,9 @@
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
 #include "host/console/options.hpp"
-#include "host/simulation/server/runtime_link.hpp"
 #include "host/robot/port/ports.hpp"
 #include "host/simulation/server/pty.hpp"
+#include "host/simulation/server/runtime_link.hpp"
 
 namespace astro::commands {
 namespace {
@@ -35,21 +35,21 @@ void check_flash(const fs::path& path, std::size_t bytes) {
   check_folder("--flash", path);
   if (!fs::exists(path)) return;
   if (!fs::is_regular_file(path)) throw Error("--flash: '" + path.string() + "' is not a file");
-  // Shorter by whole sectors: of an earlier version, which had fewer.
+  // A file that is shorter by whole sectors comes from an earlier version, which had fewer.
   if (const auto size = fs::file_size(path); size == 0 || size > bytes || size % kSectorBytes != 0)
     throw Error(fmt::format("--flash: '{}' has {} bytes and a robot's flash {}: it is another file",
                             path.string(), fs::file_size(path), bytes));
 }
 
-// The pty of a simulator that was killed has gone, and its number may be given to ours in a moment: then its
+// The pty of a killed simulator no longer exists, but its number may be reused for ours in a moment; then its
 // link would look alive.
 void remove_dead_link(const fs::path& link) {
   std::error_code error;
   if (fs::is_symlink(link, error) && !fs::exists(link, error)) fs::remove(link, error);
 }
 
-// Only what is to be put there needs the runtime folder; for a simulator elsewhere it is a courtesy.
-std::optional<simulation::RuntimeLink> make_it_found(const fs::path& pty) {
+// A simulator elsewhere works without its link in the runtime folder, so a failure is only reported.
+std::optional<simulation::RuntimeLink> link_in_runtime_folder(const fs::path& pty) {
   try {
     return std::optional<simulation::RuntimeLink>(std::in_place, robot::make_runtime_folder(), pty);
   } catch (const Error& error) {
@@ -85,14 +85,14 @@ std::string wiring_fault_names() {
   return names;
 }
 
-// Empty where it is known; CLI11 shows what is returned.
-std::string wire_wrongly(sim::Wiring& wiring, const std::string& name) {
+// Returns "" if the fault is known; else CLI11 shows the returned text.
+std::string apply_wiring_fault(sim::Wiring& wiring, const std::string& name) {
   for (const WiringFault& fault : kWiringFaults) {
     if (name != fault.name) continue;
     wiring.*fault.flag = true;
     return {};
   }
-  return fmt::format("'{}' is no fault of the wiring; there are {}", name, wiring_fault_names());
+  return fmt::format("'{}' is not a wiring fault; choose from {}", name, wiring_fault_names());
 }
 
 void add_build_options(console::Command command, sim::Config& robot) {
@@ -102,8 +102,10 @@ void add_build_options(console::Command command, sim::Config& robot) {
           "built with this fault: " + wiring_fault_names())
       .type_name("FAULT,...")
       .delimiter(',')
-      .check([&robot](const std::string& name) { return wire_wrongly(robot.wiring, name); });
-  command.add_option("--counts-per-rev", robot.counts_per_motor_rev, "that the encoders really have")
+      .check([&robot](const std::string& name) { return apply_wiring_fault(robot.wiring, name); });
+  command
+      .add_option("--counts-per-rev", robot.counts_per_motor_rev,
+                  "true counts per motor revolution of the encoders")
       .type_name("N")
       .capture_default_str()
       .check(console::between(1, 65536, "counts"));
@@ -141,7 +143,7 @@ void add_robot_options(console::Command command, sim::Config& robot) {
 
 }  // namespace
 
-// A robot that is off as the one of the reference measurements was.
+// Wheels and wheelbase have the errors of the robot of the reference measurements.
 sim::Config reference_robot() {
   sim::Config robot;
   robot.true_ed = 1.00416;
@@ -161,7 +163,7 @@ void prepare(SimOptions& options, std::size_t flash_bytes) {
 
 void serve(simulation::Server& server, const std::string& what) {
   const fs::path& pty = server.config().pty;
-  const auto link = make_it_found(pty);
+  const auto link = link_in_runtime_folder(pty);
   console::say(fmt::format("{} is at {}", what, pty.string()));
   console::say(fmt::format("next: astrolabe info --port {}   (Ctrl-C here ends it)", pty.string()));
   server.run(console::interrupted);

@@ -9,7 +9,7 @@
 /// What `astrolabe sim` and `astrolabe-emulator` have in common.
 namespace astro::commands {
 
-/// A robot that is off as the one of the reference measurements was.
+/// A robot whose wheels and wheelbase have the errors of the robot of the reference measurements.
 sim::Config reference_robot();
 
 struct SimOptions {
@@ -19,10 +19,10 @@ struct SimOptions {
 
 void add_sim_options(console::Command command, SimOptions& options);
 
-/// Chooses the pty if none is named; throws astro::Error if the flash file cannot be a robot's.
+/// Chooses the path of the pty if none is named; throws astro::Error if the flash file cannot be a robot's.
 void prepare(SimOptions& options, std::size_t flash_bytes);
 
-/// Says where the robot is and serves it until Ctrl-C. `what`: "a simulated robot".
+/// Prints where the robot is and serves it until Ctrl-C. `what`: "a simulated robot".
 void serve(simulation::Server& server, const std::string& what);
 
 }  // namespace astro::commands

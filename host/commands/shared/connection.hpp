@@ -18,11 +18,12 @@ struct ConnectionOptions {
 
 void add_connection(console::Command command, ConnectionOptions& options);
 
-/// A robot that has answered. Without --port: the only one found; throws astro::Error with one sentence that
-/// lists what is here if there are none or several. `options.port` then says which it was.
+/// Connects to a robot and returns after its answer. Without --port it takes the only robot found; if there
+/// is none or several, it throws astro::Error with one sentence that lists them. Sets `options.port` to the
+/// port used.
 std::unique_ptr<robot::Client> connect(ConnectionOptions& options);
 
-/// Ctrl-C, and notices on stderr.
+/// Hooks that ask for Ctrl-C and print notices on stderr.
 robot::DriveHooks drive_hooks();
 
 }  // namespace astro::commands

@@ -7,12 +7,13 @@
 #include "host/experiment/analysis/results.hpp"
 #include "host/recording/files/run_file.hpp"
 
-/// Recordings that are not whole, in commands that compute something from recordings.
+/// Incomplete recordings, in commands that compute something from recordings.
 namespace astro::commands {
 
 void add_damaged_flag(console::Command command, bool& damaged);
 
-/// What `read(damage)` returns; if it refuses a damaged recording, the error names the option that uses it.
+/// Returns what `read(damage)` returns; if it refuses a damaged recording, the error names the option that
+/// uses the rest of it.
 template <class Read>
 auto read_recordings(bool damaged, Read read) {
   try {
@@ -22,11 +23,11 @@ auto read_recordings(bool damaged, Read read) {
   }
 }
 
-/// Says which of them are not whole.
+/// Prints a warning for each incomplete recording.
 void warn_of_recordings(const std::vector<recording::Run>& runs);
 
-/// The results of an experiment's folder, or of several folders of recordings. Says what speaks against them:
-/// recordings that are not whole, and phases of different robots.
+/// The results of an experiment's folder, or of several folders of recordings. Prints warnings about
+/// incomplete recordings and about phases of different robots.
 experiment::Results read_results_of(const std::vector<std::filesystem::path>& folders, bool damaged);
 
 }  // namespace astro::commands

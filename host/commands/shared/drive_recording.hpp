@@ -3,36 +3,36 @@
 #include <exception>
 #include <filesystem>
 
-#include "host/robot/client/client.hpp"
 #include "host/recording/files/run_writer.hpp"
+#include "host/robot/client/client.hpp"
 
 namespace astro::commands {
 
-/// The robot and its parameters as they are now, and the time: the beginning of what a recording says of
-/// itself.
+/// The robot, its parameters and the time, for the metadata of a recording.
 recording::RunInfo describe_robot(robot::Client& client);
 
-/// A recording of what a robot does while this program drives it. Without ground truth.
+/// Records what a robot does while this program drives it, without ground truth.
 class DriveRecording {
  public:
   static constexpr std::uint32_t kFields =
       protocol::Telemetry::kPose | protocol::Telemetry::kCounts | protocol::Telemetry::kTwist;
 
-  /// Throws astro::Error if `file` exists, because a recording replaces nothing. Nothing if it is empty.
+  /// Throws astro::Error if `file` exists, because a recording replaces nothing. Does nothing if it is empty.
   static void check(const std::filesystem::path& file);
 
   DriveRecording(const std::filesystem::path& file, robot::Client& client);
-  /// The file gets its name, however the drive has ended.
+  /// The file gets its final name, however the drive has ended.
   ~DriveRecording();
   DriveRecording(const DriveRecording&) = delete;
   DriveRecording& operator=(const DriveRecording&) = delete;
 
-  /// Nothing any more once a sample could not be written: it is called amid a drive, which has to end in good
-  /// order before anybody hears of it: the drive is to end where failed() is true, and close() says why.
+  /// If a sample cannot be written, it does not throw, because it is called during a drive, which must end in
+  /// good order first. Then failed() is true, all further samples are ignored, the drive should be ended, and
+  /// close() throws the error.
   void add(const recording::OdometrySample& sample);
   bool failed() const { return failure_ != nullptr; }
 
-  /// The same as the destructor, and throws where it cannot be written.
+  /// As the destructor, but throws if the recording could not be written.
   void close();
 
  private:

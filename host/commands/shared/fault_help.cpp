@@ -20,10 +20,10 @@ constexpr std::array<std::string_view, kFaultNames.size()> kAdvice{
     "yours "
     "with 'astrolabe params import' or 'upload', or keep these with 'params save'",
     "the flash did not keep what was written: the last set stays in force, the part may be worn",
-    "somebody pressed emergency stop",
+    "an emergency stop was requested",
     "a wheel turned against its voltage: 'astrolabe check-wiring' finds a wrong motor or encoder polarity",
-    "the firmware hung or derailed and was restarted: report it, it should never do that",
-    "the wheels still turned a second after they were told to stand: look for a slope or a load that the "
+    "the firmware hung or ran wild and was restarted: report it, it should never do that",
+    "the wheels still turned a second after their set point became zero: look for a slope or a load that the "
     "motors do "
     "not hold; 'astrolabe check-wiring' finds a wrong polarity or gear ratio, 'astrolabe tune' weak gains",
 };

@@ -6,7 +6,7 @@
 
 namespace astro::commands {
 
-/// What a fault means and what to look at, for people. "" for a fault that this version does not know.
+/// What a fault means and what to check. "" for a fault that this version does not know.
 std::string_view fault_help(Fault fault);
 
 }  // namespace astro::commands

@@ -14,9 +14,9 @@ namespace {
 
 using protocol::AddSegment;
 
-struct Asked {
+struct RequestedMotion {
   double speed_mps = 0, yaw_rate_radps = 0;
-  double arc_yaw_rate_radps = 0;  // that the speed asked for would need on the tightest arc
+  double arc_yaw_rate_radps = 0;  // that the requested speed would need on the tightest arc
 };
 
 double radius_m(const AddSegment& arc) {
@@ -24,17 +24,17 @@ double radius_m(const AddSegment& arc) {
   return std::abs(1e-9 * static_cast<double>(arc.length_nm) / angle_rad);
 }
 
-Asked asked_by(const robot::Path& path) {
-  Asked asked;
+RequestedMotion requested_by(const robot::Path& path) {
+  RequestedMotion requested;
   for (const AddSegment& segment : path) {
     const bool moves = segment.length_nm != 0, turns = segment.angle != 0;
     const double speed_mps = 1e-6 * segment.speed_umps;
-    if (moves) asked.speed_mps = std::max(asked.speed_mps, speed_mps);
-    if (turns) asked.yaw_rate_radps = std::max(asked.yaw_rate_radps, 1e-6 * segment.yaw_rate_uradps);
+    if (moves) requested.speed_mps = std::max(requested.speed_mps, speed_mps);
+    if (turns) requested.yaw_rate_radps = std::max(requested.yaw_rate_radps, 1e-6 * segment.yaw_rate_uradps);
     if (moves && turns)
-      asked.arc_yaw_rate_radps = std::max(asked.arc_yaw_rate_radps, speed_mps / radius_m(segment));
+      requested.arc_yaw_rate_radps = std::max(requested.arc_yaw_rate_radps, speed_mps / radius_m(segment));
   }
-  return asked;
+  return requested;
 }
 
 /// A robot without this parameter has no such limit.
@@ -43,20 +43,21 @@ double limit_of(const robot::RemoteParameters& robot, const char* name) {
   return row == nullptr ? HUGE_VAL : robot::to_real(*row, row->active.raw);
 }
 
-void say_what_is_above(const robot::RemoteParameters& robot, const Asked& asked) {
+void say_which_are_exceeded(const robot::RemoteParameters& robot, const RequestedMotion& requested) {
   constexpr double kStep = 1e-6;  // of the wire
   const double speed_mps = limit_of(robot, "speed_limit"), yaw_rate_radps = limit_of(robot, "yaw_rate_limit");
-  if (asked.speed_mps > speed_mps + kStep)
+  if (requested.speed_mps > speed_mps + kStep)
     console::say(fmt::format(
         "the robot drives at {:g} m/s at most, its speed_limit, and not at the {:g} m/s asked for", speed_mps,
-        asked.speed_mps));
-  if (asked.yaw_rate_radps > yaw_rate_radps + kStep)
+        requested.speed_mps));
+  if (requested.yaw_rate_radps > yaw_rate_radps + kStep)
     console::say(fmt::format(
         "the robot turns at {:g} rad/s at most, its yaw_rate_limit, and not at the {:g} rad/s asked for",
-        yaw_rate_radps, asked.yaw_rate_radps));
-  // The robot takes the tighter of both limits on an arc; what speed_limit takes off is said above.
-  const double arc_radps =
-      asked.speed_mps > 0 ? asked.arc_yaw_rate_radps * std::min(1.0, speed_mps / asked.speed_mps) : 0;
+        yaw_rate_radps, requested.yaw_rate_radps));
+  // On an arc the robot obeys the tighter of both limits; the effect of speed_limit is reported above.
+  const double arc_radps = requested.speed_mps > 0
+                               ? requested.arc_yaw_rate_radps * std::min(1.0, speed_mps / requested.speed_mps)
+                               : 0;
   if (arc_radps > yaw_rate_radps + kStep)
     console::say(fmt::format(
         "on the arc the robot is slower than asked for: its yaw_rate_limit is {:g} rad/s, and the arc would "
@@ -64,19 +65,17 @@ void say_what_is_above(const robot::RemoteParameters& robot, const Asked& asked)
         yaw_rate_radps, arc_radps));
 }
 
-void say_what_is_clamped(robot::Client& client, const Asked& asked) {
-  if (asked.speed_mps > 0 || asked.yaw_rate_radps > 0)
-    say_what_is_above(robot::RemoteParameters::fetch(client), asked);
+void note_limits(robot::Client& client, const RequestedMotion& requested) {
+  if (requested.speed_mps > 0 || requested.yaw_rate_radps > 0)
+    say_which_are_exceeded(robot::RemoteParameters::fetch(client), requested);
 }
 
 }  // namespace
 
-void say_what_is_clamped(robot::Client& client, const robot::Path& path) {
-  say_what_is_clamped(client, asked_by(path));
-}
+void note_limits(robot::Client& client, const robot::Path& path) { note_limits(client, requested_by(path)); }
 
-void say_what_is_clamped(robot::Client& client, double v_mps, double omega_radps) {
-  say_what_is_clamped(client, Asked{std::abs(v_mps), std::abs(omega_radps), 0});
+void note_limits(robot::Client& client, double v_mps, double omega_radps) {
+  note_limits(client, RequestedMotion{std::abs(v_mps), std::abs(omega_radps), 0});
 }
 
 }  // namespace astro::commands

@@ -3,11 +3,11 @@
 #include "host/robot/client/client.hpp"
 #include "host/robot/motion/paths.hpp"
 
-/// Says on stderr where the robot's own limits make it slower than what was asked for: it clamps, and answers
-/// nothing. Reads the robot's parameters only if something was asked for.
+/// Notices on stderr where the robot's own limits make it slower than requested, because the robot reduces a
+/// requested speed without saying so. Reads the robot's parameters only if a speed was requested.
 namespace astro::commands {
 
-void say_what_is_clamped(robot::Client& client, const robot::Path& path);
-void say_what_is_clamped(robot::Client& client, double v_mps, double omega_radps);
+void note_limits(robot::Client& client, const robot::Path& path);
+void note_limits(robot::Client& client, double v_mps, double omega_radps);
 
 }  // namespace astro::commands

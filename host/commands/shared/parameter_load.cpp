@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "host/base/error.hpp"
-#include "host/console/console.hpp"
 #include "host/commands/shared/params_view.hpp"
+#include "host/console/console.hpp"
 #include "host/experiment/files/robot_identity.hpp"
 
 namespace astro::commands {
@@ -16,8 +16,8 @@ void warn_of_another_robot(const robot::Client& client, const experiment::Parame
   if (!other.empty()) console::say("warning: " + other);
 }
 
-/// Values that were only tried are in force, but not in the robot's flash yet.
-void keep_what_was_tried(robot::RemoteParameters robot, const experiment::ParameterFile& file) {
+/// Writes values to flash that are in force already, because they may only have been tried.
+void save_tried_values(robot::RemoteParameters robot, const experiment::ParameterFile& file) {
   for (const auto& [name, value] : file.parameters) robot.stage(name, value);
   robot.commit();
   console::say("the robot holds these values already");
@@ -31,7 +31,7 @@ bool warn_of_far_changes(const robot::RemoteParameters& robot,
   for (const std::string& clause : far) console::say("warning: " + clause);
   for (const experiment::Change& change : changes)
     if (change.name == "command_timeout" && change.after == robot::Value(0.0))
-      console::say("warning: with command_timeout = 0 a robot goes on driving when its host has gone");
+      console::say("warning: with command_timeout = 0 a robot keeps driving if its host disappears");
   return !far.empty();
 }
 
@@ -41,15 +41,15 @@ bool agreed(const robot::RemoteParameters& robot, const std::vector<experiment::
   const bool far = warn_of_far_changes(robot, changes);
   if (yes || (changes.size() <= unasked && !far)) return true;
   return console::confirm(changes.size() == 1 ? "Put this value in force?"
-                                     : fmt::format("Put these {} values in force?", changes.size()));
+                                              : fmt::format("Put these {} values in force?", changes.size()));
 }
 
-Loaded load_parameters(robot::Client& client, const robot::RemoteParameters& robot,
-                       const experiment::ParameterFile& file, const LoadOptions& options) {
+LoadResult load_parameters(robot::Client& client, const robot::RemoteParameters& robot,
+                           const experiment::ParameterFile& file, const LoadOptions& options) {
   warn_of_another_robot(client, file);
-  Loaded loaded{experiment::changes(robot, file.parameters), std::nullopt};
+  LoadResult loaded{experiment::changes(robot, file.parameters), std::nullopt};
   if (loaded.changes.empty()) {
-    keep_what_was_tried(robot, file);
+    save_tried_values(robot, file);
     return loaded;
   }
   console::say(console::table(experiment::side_by_side(loaded.changes), "llrrr"));

@@ -12,25 +12,26 @@ struct LoadOptions {
   bool yes = false, force = false;
 };
 
-struct Loaded {
-  std::vector<experiment::Change> changes;   // empty: the robot held these values already
+struct LoadResult {
+  std::vector<experiment::Change> changes;    // empty: the robot held these values already
   std::optional<robot::UploadReport> report;  // none without changes
 };
 
-/// Loads the parameters of a file, be it a calibration or a robot's whole table: the only way from a file to
-/// the robot. Warns if it is of another robot, shows old and new side by side, refuses what
-/// experiment::objection names unless `force`, warns of values far from the present ones, asks unless `yes`,
-/// and uploads. Throws astro::Error if nothing was loaded.
-Loaded load_parameters(robot::Client& client, const robot::RemoteParameters& robot,
-                       const experiment::ParameterFile& file, const LoadOptions& options);
+/// Loads the parameters of a file (a calibration or a robot's whole table) into the robot; the only function
+/// that does so. Warns if the file is from another robot, shows old and new values side by side, refuses what
+/// experiment::objection names unless `force`, warns about values far from the present ones, asks unless
+/// `yes`, and uploads. Throws astro::Error if nothing was loaded.
+LoadResult load_parameters(robot::Client& client, const robot::RemoteParameters& robot,
+                           const experiment::ParameterFile& file, const LoadOptions& options);
 
-/// For values that are typed: shows before and after, warns of those far from the present ones, and asks,
-/// unless `yes`, if there is one of these or if there are more changes than `unasked`. False: they are not
-/// wanted.
+/// For values that a person typed: shows before and after, warns about values far from the present ones, and
+/// asks (unless `yes`) if there is such a value or if there are more changes than `unasked`. Returns false if
+/// the person declines.
 bool agreed(const robot::RemoteParameters& robot, const std::vector<experiment::Change>& changes, bool yes,
             std::size_t unasked = 1);
 
-/// Says which of `changes` are far from what the robot holds; false if none is.
-bool warn_of_far_changes(const robot::RemoteParameters& robot, const std::vector<experiment::Change>& changes);
+/// Prints which of `changes` are far from the robot's present values; returns false if none is.
+bool warn_of_far_changes(const robot::RemoteParameters& robot,
+                         const std::vector<experiment::Change>& changes);
 
 }  // namespace astro::commands

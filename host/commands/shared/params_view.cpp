@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstdlib>
 
 #include "host/base/error.hpp"
+#include "host/base/numbers.hpp"
 #include "host/console/console.hpp"
 #include "host/console/terminal.hpp"
 
@@ -19,7 +19,7 @@ bool is_changed(const robot::ParameterRow& row) {
   return !is_text(row) && row.active.raw != row.default_value;
 }
 
-// The fewest digits that give the same raw value: a gain of 0.9 is held as 0.899993896484375.
+// The fewest digits that give the same raw value: a gain of 0.9 is stored as 0.899993896484375.
 std::string number(const robot::ParameterRow& row, std::int32_t raw) {
   const double value = robot::to_real(row, raw);
   for (int digits = 1; digits < 17; ++digits) {
@@ -91,21 +91,19 @@ std::string parameter_table(const robot::RemoteParameters& robot, std::size_t co
 
 robot::Value parse_value(const robot::ParameterRow& row, const std::string& text) {
   if (is_text(row)) return text;
-  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
-  const char* end = text.data() + text.size();
-  double value = 0;
-  const auto parsed = std::from_chars(begin, end, value);
-  if (parsed.ec != std::errc() || parsed.ptr != end)
+  const auto value = number_in(text.starts_with('+') ? std::string_view(text).substr(1) : text);
+  if (!value)
     throw Error(fmt::format("{} = '{}' is not a number{}", row.name, text,
                             unit(row).empty() ? "" : " (in " + unit(row) + ", without writing the unit)"));
-  return value;
+  return *value;
 }
 
 std::vector<experiment::Change> staged_changes(const robot::RemoteParameters& robot) {
   std::vector<experiment::Change> list;
   for (const robot::ParameterRow& row : robot.rows())
     if (row.staged != row.active)
-      list.push_back({row.name, row.unit, robot::to_value(row, row.active), robot::to_value(row, row.staged)});
+      list.push_back(
+          {row.name, row.unit, robot::to_value(row, row.active), robot::to_value(row, row.staged)});
   return list;
 }
 

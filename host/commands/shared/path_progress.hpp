@@ -3,13 +3,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "host/robot/motion/paths.hpp"
 #include "host/recording/run/run.hpp"
+#include "host/robot/motion/paths.hpp"
 
 namespace astro::commands {
 
-/// How much of a path has been driven, for a progress bar: by the way that the outer wheel goes about, so
-/// that turns on the spot count too. Drift of the odometry never carries it past a segment that is not done.
+/// How much of a path has been driven, for a progress bar. It measures about the distance of the outer wheel,
+/// so that turns on the spot count, too. Odometry drift never moves it past the end of the segment under way.
 class PathProgress {
  public:
   explicit PathProgress(const robot::Path& path);
@@ -22,9 +22,9 @@ class PathProgress {
   std::size_t done() const { return done_; }
 
  private:
-  std::vector<double> ends_m_;  // way up to the end of each segment
+  std::vector<double> ends_m_;  // distance up to the end of each segment
   std::size_t done_ = 0;
-  double way_m_ = 0;
+  double driven_m_ = 0;
   recording::OdometrySample last_;
   bool started_ = false;
 };

@@ -6,8 +6,8 @@
 
 namespace astro::commands {
 
-/// Asks for a restart by M (Reboot, EnterBootloader). The restart may take its own acknowledgement with it,
-/// and the USB device; what comes after tells.
+/// Requests a restart by M (Reboot, EnterBootloader). The acknowledgement may be lost in the restart, and so
+/// may the USB device; therefore a lost link is not an error here, and the caller checks the result.
 template <protocol::Request M>
 void request_restart(robot::Client& client) {
   constexpr auto kUntilItGoes = std::chrono::milliseconds(500);

@@ -10,7 +10,7 @@
 #include "common/protocol/status.hpp"
 #include "host/recording/run/planar_pose.hpp"
 
-/// What the robot says, in words and keys that all commands share.
+/// What the robot reports, in words and JSON keys that all commands share.
 namespace astro::commands {
 
 /// Keys keep the order in which a person would ask.
@@ -21,17 +21,17 @@ using Json = nlohmann::ordered_json;
 void write(const std::string& text);
 void print(const std::string& text);
 
-/// As it stands where a program reads stdout, which opens what it is given; through plain_text on a terminal.
+/// Unchanged if a program reads stdout, because it may open the path; through plain_text on a terminal.
 void print_path(const std::filesystem::path& path);
 
-/// Valid JSON whatever its texts hold: a robot's or a file's may be no UTF-8.
+/// Valid JSON whatever the texts contain: texts of a robot or a file may be invalid UTF-8.
 template <class AnyJson>
 void print_json(const AnyJson& json) {
   print(json.dump(2, ' ', false, AnyJson::error_handler_t::replace));
 }
 
-/// Hands to the system what was printed by whatever means. Throws astro::Error if stdout takes no more: what
-/// a full disk has swallowed must not look like a result.
+/// Flushes stdout. Throws astro::Error if it cannot be written: output that is lost on a full disk must not
+/// look like a result.
 void flush_output();
 
 std::string firmware_version(const protocol::HelloReply& robot);

@@ -2,8 +2,8 @@
 
 #include "host/base/error.hpp"
 #include "host/truth/files/file_source.hpp"
-#include "host/truth/source/no_source.hpp"
 #include "host/truth/live/socket_source.hpp"
+#include "host/truth/source/no_source.hpp"
 
 namespace astro::commands {
 
@@ -13,7 +13,7 @@ std::unique_ptr<truth::Source> open_truth(const TruthOption& option, const std::
   if (option.source == "manual") return std::make_unique<truth::ManualSource>(asking);
   if (option.source == "file") return std::make_unique<truth::FileSource>(option.folder, asking);
   if (option.source == "none") return std::make_unique<truth::NoSource>();
-  throw Error("'" + option.source + "' is no source of ground truth: choose sim, manual, file or none");
+  throw Error("'" + option.source + "' is not a source of ground truth: choose sim, manual, file or none");
 }
 
 }  // namespace astro::commands

@@ -20,7 +20,7 @@ struct TruthOption {
   std::filesystem::path folder;  // file: where the CSV files appear
 };
 
-/// `asking`: how a person is asked, where one is. Throws astro::Error if it cannot be had.
+/// `asking`: how a person is asked, if one is. Throws astro::Error if the source cannot be opened.
 std::unique_ptr<truth::Source> open_truth(const TruthOption& option, const std::string& port,
                                           const truth::Ask& asking = console::ask);
 

@@ -1,18 +1,18 @@
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
 
+#include "host/base/numbers.hpp"
 #include "host/commands/base/flags.hpp"
+#include "host/commands/shared/robot_view.hpp"
 #include "host/commands/simulate/commands.hpp"
-#include "host/console/options.hpp"
 #include "host/commands/simulate/plan_view.hpp"
 #include "host/commands/simulate/programme_options.hpp"
-#include "host/commands/shared/robot_view.hpp"
 #include "host/commands/simulate/study_options.hpp"
+#include "host/console/options.hpp"
 #include "host/console/wrong_usage.hpp"
 #include "host/simulation/study/shortest_programme.hpp"
 
@@ -28,21 +28,21 @@ struct PlanOptions {
   bool json = false;
 };
 
-// "0.05%" or "0.0005"; nothing below a billionth or above a tenth is meant.
+// "0.05%" or "0.0005"; values below 1e-9 or above 0.1 are probably typing errors.
 std::optional<double> precision_named(std::string text) {
   const bool percent = text.ends_with('%');
   if (percent) text.pop_back();
-  double value = 0;
-  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size()) return std::nullopt;
-  if (percent) value /= 100;
+  const auto number = number_in(text);
+  if (!number) return std::nullopt;
+  const double value = percent ? *number / 100 : *number;
   return value >= 1e-9 && value <= 0.1 ? std::optional(value) : std::nullopt;
 }
 
 std::vector<simulation::study::Kind> kinds_named(const std::vector<std::string>& names) {
   std::vector<simulation::study::Kind> kinds;
   for (std::size_t kind = 0; kind < simulation::study::kKinds; ++kind)
-    if (names.empty() || std::find(names.begin(), names.end(), simulation::study::kKindNames[kind]) != names.end())
+    if (names.empty() ||
+        std::find(names.begin(), names.end(), simulation::study::kKindNames[kind]) != names.end())
       kinds.push_back(static_cast<simulation::study::Kind>(kind));
   return kinds;
 }
@@ -105,7 +105,7 @@ void add_plan(console::Command app) {
       "Without runs it is about 10 squares. Standard errors are the Cramer-Rao bound of 'calibrate runs "
       "--method ml' with the given slip and\n"
       "ground truth; the time is that of driving alone. Tyres may turn about another point in spins\n"
-      "than in arcs: a wheelbase for both wants runs of both.\n"
+      "than in arcs: a wheelbase for both needs runs of both.\n"
       "Examples:\n"
       "  astrolabe plan --squares 10 --side 3\n"
       "  astrolabe plan --lines 8 --length 5 --spins 2 --turns 5 --wheelbase 0.2\n"

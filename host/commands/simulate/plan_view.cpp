@@ -7,8 +7,8 @@
 #include <numbers>
 #include <optional>
 
-#include "host/console/console.hpp"
 #include "host/commands/simulate/programme_options.hpp"
+#include "host/console/console.hpp"
 
 namespace astro::commands {
 namespace {
@@ -17,7 +17,8 @@ using calibration::Precision;
 using nlohmann::json;
 using simulation::study::Forecast;
 
-// The rules take arcs for spins, whose wheels travel far less per turn: for circles they promise too much.
+// The design rules treat arcs as spins, in which the wheels travel far less per turn, so they are too
+// optimistic for circles.
 std::optional<Precision> design_rules(const Forecast& forecast) {
   if (forecast.programme.counts[simulation::study::kCircles] > 0) return std::nullopt;
   return reachable_precision(forecast.extent, forecast.programme.noise.K_m, forecast.programme.wheelbase_m);

@@ -6,15 +6,15 @@
 
 #include "host/simulation/study/programme.hpp"
 
-/// What a programme of drives will give, as text for people and as JSON.
+/// The forecast for a programme of drives, as text and as JSON.
 namespace astro::commands {
 
-/// At most 80 columns as long as not all four kinds come in hundreds.
+/// At most 80 columns, unless all four kinds have hundreds of runs.
 std::string plan_text(const simulation::study::Forecast& forecast);
 
 nlohmann::json plan_json(const simulation::study::Forecast& forecast);
 
-/// What drives it and calibrates from it, to be typed as it stands.
+/// The commands that drive the programme and calibrate from it.
 std::vector<std::string> commands_for(const simulation::study::Programme& programme);
 
 /// "8 min 47 s", "2 h 03 min".

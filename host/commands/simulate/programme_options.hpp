@@ -11,14 +11,14 @@ namespace astro::commands {
 
 struct ProgrammeOptions {
   std::array<console::Option, simulation::study::kKinds> counts;
-  /// Numbers of runs were given, be they 0.
+  /// Whether numbers of runs were given, even if they are 0.
   bool named() const;
 };
 
 /// --squares, --lines, --spins, --circles; their sizes; --speed and --yaw-rate.
 ProgrammeOptions add_programme(console::Command command, simulation::study::Programme& programme);
 
-/// The options that ask for `programme`, those left out that have their default: "--lines 3 --spins 2".
+/// The options that give `programme`, without those at their default: "--lines 3 --spins 2".
 std::string options_for(const simulation::study::Programme& programme);
 
 }  // namespace astro::commands

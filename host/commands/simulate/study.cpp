@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -10,19 +9,20 @@
 #include <thread>
 
 #include "host/base/error.hpp"
+#include "host/base/files.hpp"
+#include "host/base/numbers.hpp"
 #include "host/commands/base/flags.hpp"
+#include "host/commands/shared/robot_view.hpp"
 #include "host/commands/simulate/commands.hpp"
+#include "host/commands/simulate/study_options.hpp"
+#include "host/commands/simulate/study_view.hpp"
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
 #include "host/console/options.hpp"
-#include "host/commands/shared/robot_view.hpp"
-#include "host/commands/simulate/study_options.hpp"
-#include "host/commands/simulate/study_view.hpp"
 #include "host/console/wrong_usage.hpp"
-#include "host/base/files.hpp"
-#include "host/simulation/study/simulated_source.hpp"
 #include "host/simulation/study/kinematic_source.hpp"
 #include "host/simulation/study/shard_file.hpp"
+#include "host/simulation/study/simulated_source.hpp"
 #include "host/simulation/study/study.hpp"
 
 namespace astro::commands {
@@ -54,14 +54,11 @@ struct MergeOptions {
 };
 
 std::optional<simulation::study::Shard> shard_named(const std::string& text) {
-  simulation::study::Shard shard;
-  const char* end = text.data() + text.size();
-  const auto number = std::from_chars(text.data(), end, shard.number);
-  if (number.ec != std::errc() || number.ptr == end || *number.ptr != '/') return std::nullopt;
-  const auto of = std::from_chars(number.ptr + 1, end, shard.of);
-  if (of.ec != std::errc() || of.ptr != end || shard.number < 1 || shard.of < shard.number)
-    return std::nullopt;
-  return shard;
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const auto number = integer_in(std::string_view(text).substr(0, slash));
+  const auto of = integer_in(std::string_view(text).substr(std::min(slash + 1, text.size())));
+  if (!number || !of || *number < 1 || *of < *number) return std::nullopt;
+  return simulation::study::Shard{*number, *of};
 }
 
 void add_setup(console::Command command, StudyOptions& options) {
@@ -80,12 +77,12 @@ void add_setup(console::Command command, StudyOptions& options) {
       .check(console::whole(0, std::numeric_limits<std::uint64_t>::max()));
   add_count(command, "--runs", setup.runs, 1, 1000, "squares in each direction");
   add_size(command, "--side", setup.side_m, "side of the square, m");
-  command.add_option("--wheelbase", setup.wheelbase_m, "wheelbase that the robot believes in, m")
+  command.add_option("--wheelbase", setup.wheelbase_m, "wheelbase parameter of the robot, m")
       .type_name("M")
       .check(console::between(0.05, 2, "m"))
       .capture_default_str();
   add_ratio(command, "--true-ed", setup.E_d, "true ratio of the wheel diameters, right over left");
-  add_ratio(command, "--true-eb", setup.E_b, "true over believed wheelbase, both at equal scale");
+  add_ratio(command, "--true-eb", setup.E_b, "true over nominal wheelbase, both at equal scale");
   add_ratio(command, "--scale", setup.scale, "common to the true wheels and wheelbase");
   add_noise(command, setup.noise, options.sigma_theta_deg, setup.truth_rate_hz);
   add_rate(command, "--count-rate", setup.count_rate_hz, "of the encoder counts, Hz; the simulator's is 100");
@@ -99,7 +96,7 @@ void add_setup(console::Command command, StudyOptions& options) {
       .type_name("S")
       .check(console::between(0, 1, "s"))
       .capture_default_str();
-  command.add_option("--noise", options.noise, "whether ml is told the noise or estimates it")
+  command.add_option("--noise", options.noise, "whether ml gets the true noise or estimates it")
       .one_of({"known", "estimated"})
       .capture_default_str();
 }
@@ -115,7 +112,8 @@ void add_work(console::Command command, StudyOptions& options) {
   add_json_flag(command, options.json);
 }
 
-void print_summary(const simulation::study::TrialSetup& setup, const std::vector<simulation::study::Trial>& trials, bool json) {
+void print_summary(const simulation::study::TrialSetup& setup,
+                   const std::vector<simulation::study::Trial>& trials, bool json) {
   const simulation::study::Summary summary = summarize(setup, robot_of(setup.model), trials);
   json ? print_json(study_json(summary)) : write(study_text(summary));
 }
@@ -138,23 +136,26 @@ void run(StudyOptions& options) {
   const bool part = options.shard.of > 1;
   if (part && options.out.empty())
     throw console::WrongUsage("--shard makes a part for 'study merge': say with --out where to put it");
-  if (part && options.json) throw console::WrongUsage("--shard prints no result: give --json to 'study merge'");
-  std::optional<recording::PartFile> file;
-  if (!options.out.empty()) file.emplace(options.out);  // what cannot be written is known before the work
+  if (part && options.json)
+    throw console::WrongUsage("--shard prints no result: give --json to 'study merge'");
+  std::optional<PartFile> file;
+  if (!options.out.empty())
+    file.emplace(options.out);  // so that a file that cannot be written is an error before the work
   const std::vector<simulation::study::Trial> trials = drive(options);
   if (file) {
     const std::string text = to_text(options.setup, trials);
     file->write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
     file->commit();
     console::say(fmt::format("trials {} to {} of {} are in '{}'", trials.front().index, trials.back().index,
-                    options.setup.trials, options.out.string()));
+                             options.setup.trials, options.out.string()));
   }
   if (!part) print_summary(options.setup, trials, options.json);
 }
 
-simulation::study::Part load(const fs::path& path) {
-  const recording::Bytes bytes = recording::load_file(path);
-  return simulation::study::read_part({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string());
+simulation::study::ShardFile load(const fs::path& path) {
+  const Bytes bytes = load_file(path);
+  return simulation::study::read_shard_file({reinterpret_cast<const char*>(bytes.data()), bytes.size()},
+                                            path.string());
 }
 
 void add_merge(console::Command study) {
@@ -162,9 +163,10 @@ void add_merge(console::Command study) {
   const console::Command command = study.add_subcommand("merge", "put the shards of one study together");
   command.add_option("FILES", options->files, "what 'study --shard I/N --out FILE' wrote, all N").required();
   add_json_flag(command, options->json);
-  console::examples(command, {"astrolabe study merge part-*.json", "astrolabe study merge part-*.json --json"});
+  console::examples(command,
+                    {"astrolabe study merge part-*.json", "astrolabe study merge part-*.json --json"});
   command.callback([options] {
-    std::vector<simulation::study::Part> parts;
+    std::vector<simulation::study::ShardFile> parts;
     for (const fs::path& path : options->files) parts.push_back(load(path));
     const std::vector<simulation::study::Trial> trials = merge(parts);
     print_summary(parts.front().setup, trials, options->json);
@@ -182,7 +184,8 @@ void add_study(console::Command app) {
   add_work(command, *options);
   command.footer(
       "A trial drives squares with noise and lets every method calibrate from them.\n"
-      "E_max, theta and the 10 m line are what is left, noise-free, the result loaded.\n"
+      "E_max, theta and the 10 m line are the noise-free errors that remain with the\n"
+      "result loaded.\n"
       "Examples:\n"
       "  astrolabe study --trials 500\n"
       "  astrolabe study --clock estimated --side 1.5 --json\n"

@@ -5,7 +5,7 @@
 #include "host/calibration/motion/trajectory.hpp"
 #include "host/console/command_line.hpp"
 
-/// Options that 'study' and 'plan' share; each shows the default it finds.
+/// Options that 'study' and 'plan' share; each shows the present value as its default.
 namespace astro::commands {
 
 void add_count(console::Command command, const std::string& name, int& value, int least, int greatest,

@@ -2,8 +2,8 @@
 
 #include "host/commands/base/flags.hpp"
 #include "host/commands/tune/commands.hpp"
+#include "host/commands/tune/wiring_dialogue.hpp"
 #include "host/console/options.hpp"
-#include "host/commands/tune/wiring_check.hpp"
 
 namespace astro::commands {
 namespace {
@@ -18,10 +18,10 @@ void add_answers(console::Command command, WiringOptions& options) {
         .check(a_sighting());
   command.add_flag("--no-look", options.no_look, "nobody looks: judge by the counts alone");
   const console::Option metres = command
-                            .add_option("--rolled-distance", options.rolled_distance_m,
-                                        "answer to --roll, in m; waits for the robot to be rolled")
-                            .type_name("M")
-                            .check(console::positive("m"));
+                                     .add_option("--rolled-distance", options.rolled_distance_m,
+                                                 "answer to --roll, in m; waits for the robot to be rolled")
+                                     .type_name("M")
+                                     .check(console::positive("m"));
   command.add_option("--rolled-turns", options.rolled_turns, "the same in wheel turns")
       .type_name("N")
       .check(console::positive(""))
@@ -46,9 +46,9 @@ void add_check_wiring(console::Command app) {
   command.add_flag("--upload", options->upload, "load corrected parameters without asking");
   command.add_flag("--yes,-y", options->yes, "the wheels are off the ground: do not ask");
   add_json_flag(command, options->json);
-  console::examples(command,
-           {"astrolabe check-wiring", "astrolabe check-wiring --roll",
-            "astrolabe check-wiring --yes --saw-left left-forward --saw-right right-backward --upload"});
+  console::examples(
+      command, {"astrolabe check-wiring", "astrolabe check-wiring --roll",
+                "astrolabe check-wiring --yes --saw-left left-forward --saw-right right-backward --upload"});
   command.callback([options] { check_wiring(*options); });
 }
 

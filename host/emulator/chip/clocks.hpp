@@ -21,7 +21,8 @@ class Analog : public Stored {
   bool arm_pll_bypassed() const;
   std::uint32_t arm_pll_mhz() const;
   bool usb_pll_ready() const;
-  /// The core must not hang on a PLL that changes: asked before each write to it.
+  /// Whether the core runs from the ARM PLL; called before each write to that PLL, which must not change
+  /// then.
   std::function<bool()> core_runs_from_arm_pll = [] { return false; };
 
  private:
@@ -36,7 +37,7 @@ class Dcdc : public Stored {
   std::uint32_t read(std::uint32_t offset) override;
   void write(std::uint32_t offset, std::uint32_t value) override;
   std::uint32_t millivolts() const;
-  /// The core must not be starved: asked before each change.
+  /// Frequency of the core; called before each change of the supply, which must be high enough for it.
   std::function<std::uint32_t()> core_mhz = [] { return 0U; };
 
  private:

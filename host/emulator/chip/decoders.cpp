@@ -10,7 +10,7 @@ using namespace teensy40;
 constexpr std::uint32_t kFlags =
     enc::CTRL_CMPIRQ.mask() | enc::CTRL_DIRQ.mask() | enc::CTRL_XIRQ.mask() | enc::CTRL_HIRQ.mask();
 
-/// How a pad gets to an input of the crossbar, and which output takes it to the decoder.
+/// How a pad is connected to an input of the crossbar, and which output leads to the decoder.
 struct Wire {
   std::uint32_t mux, select, choice, input, output;
 };

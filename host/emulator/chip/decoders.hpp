@@ -26,9 +26,9 @@ class Enc : public Model {
   void write(std::uint32_t offset, std::uint32_t value) override;
   void reset() override;
 
-  /// So many edges have come, A before B positive.
+  /// Counts edges; positive if A comes before B.
   void count(std::int32_t edges);
-  /// Sets the position, as a script does that replays counts.
+  /// Sets the position; used by scripts that replay counts.
   void preset(std::int32_t position) { position_ = static_cast<std::uint32_t>(position); }
   std::int32_t position() const { return static_cast<std::int32_t>(position_); }
   /// The delay of the input filter, in clocks of the bus; 0: it is bypassed.

@@ -58,7 +58,7 @@ void FlexPwm::load_when_period_ends() {
   machine_.wake(*this, machine_.now() + period - (machine_.now() - period_began_) % period);
 }
 
-/// The crossbar leaves every input low, which is a fault where FLVL does not say that high is.
+/// The crossbar leaves every input low, which is a fault unless FLVL makes high the fault level.
 std::uint32_t FlexPwm::faults_now() const {
   return ~pwm::FCTRL0_FLVL.of(value(pwm::FCTRL0.value)) & kFaultInputs;
 }

@@ -20,8 +20,8 @@ class FlexPwm : public Stored {
   void event() override;
   void reset() override;
 
-  /// The part of its period that a pin is high: 0 is A (left), 1 is B (right). A pad that is not FlexPWM's is
-  /// low: the driver's pull-down.
+  /// The fraction of its period in which a pin is high: 0 is A (left), 1 is B (right). A pad that is not
+  /// connected to FlexPWM is low, because of the driver chip's pull-down.
   double duty(std::size_t output) const;
   std::uint32_t period_counts() const;
 

@@ -78,7 +78,7 @@ void Flexspi::trigger() {
   machine_.wake(*this, machine_.now() + takes);
 }
 
-/// The time of the command is over. Data that the queue has not got yet make it wait.
+/// The time of the command is over. It waits longer if data are missing in the queue.
 void Flexspi::event() {
   if (!running_) return;
   const std::uint32_t wanted = command_.writes ? flexspi::IPCR1_IDATSZ.of(value(flexspi::IPCR1.value)) : 0;

@@ -11,8 +11,8 @@
 
 namespace astro::emulator {
 
-/// The controller of the program's flash: commands by sequences of its look-up table. Only the last sequence
-/// is the firmware's; the first reads the program.
+/// The controller of the program's flash: commands are sequences in its look-up table. The firmware may use
+/// only the last sequence; the first one reads the program.
 class Flexspi : public Stored {
  public:
   Flexspi(Machine& machine, NorFlash& flash) : machine_(machine), flash_(flash) {}
@@ -41,8 +41,8 @@ class Flexspi : public Stored {
   bool key_ = false, unlocked_ = false, running_ = false;
   std::uint32_t events_ = 0;
   std::array<std::uint32_t, 2> pair_{};
-  std::vector<std::uint8_t> to_flash_;  // all that the command was given
-  std::size_t sent_ = 0;                // of it: no longer in the queue
+  std::vector<std::uint8_t> to_flash_;  // all data of the command
+  std::size_t sent_ = 0;                // how many of them have left the queue
   std::deque<std::uint8_t> from_flash_;
   Command command_;
 };

@@ -9,7 +9,8 @@ namespace {
 using namespace teensy40;
 
 constexpr int kUartIrq = 25;
-constexpr Cycles kTimeToRead = 1000 * kCyclesPerMicrosecond;  // for a handler that has just cleared IDLE
+constexpr Cycles kTimeToRead =
+    1000 * kCyclesPerMicrosecond;  // allowed to a handler that has just cleared IDLE
 constexpr std::uint32_t kClearable = lpuart::STAT_OR.mask() | lpuart::STAT_IDLE.mask() |
                                      lpuart::STAT_NF.mask() | lpuart::STAT_FE.mask() | lpuart::STAT_PF.mask();
 
@@ -44,7 +45,7 @@ void Lpuart::send(std::span<const std::uint8_t> bytes) {
   }
 }
 
-/// Queues that are not switched on hold one byte.
+/// Without its FIFO enabled a direction holds one byte.
 std::size_t Lpuart::capacity(Bits enable) const { return enable.of(fifo_) != 0 ? 4 : 1; }
 
 std::vector<std::uint8_t> Lpuart::receive() { return std::exchange(outgoing_, {}); }
@@ -54,7 +55,7 @@ void Lpuart::arrive() {
   incoming_.pop_front();
   arrives_at_ = incoming_.empty() ? kNever : arrives_at_ + byte_time();
   if (lpuart::CTRL_RE.of(control_) == 0 || !connected()) return;
-  idle_at_ = machine_.now() + byte_time();  // only a character that is stored arms the flag again
+  idle_at_ = machine_.now() + byte_time();  // only a stored character arms the flag again
   if (received_.size() >= capacity(lpuart::FIFO_RXFE))
     return machine_.fail("LPUART6 DATA: overrun, the receiver's queue was not emptied");
   received_.push_back(byte);
@@ -76,7 +77,7 @@ void Lpuart::event() {
   }
   if (std::exchange(found_by_, found_by_ <= now ? kNever : found_by_) <= now)
     machine_.fail(
-        "LPUART6 STAT: IDLE was cleared over a character that nothing will tell of: it waits in the queue");
+        "LPUART6 STAT: IDLE was cleared while a character waits in the queue that no event will report");
   update();
 }
 
@@ -86,7 +87,7 @@ std::uint32_t Lpuart::status() const {
   return events_ | lpuart::STAT_RDRF(data) | lpuart::STAT_TDRE(room) | lpuart::STAT_TC(sending_.empty());
 }
 
-/// Characters wait below the watermark, and the event that tells of them is over.
+/// Characters wait below the watermark, and no event will report them.
 bool Lpuart::stranded() const {
   const bool told =
       (status() & (lpuart::STAT_RDRF.mask() | lpuart::STAT_IDLE.mask())) != 0 || idle_at_ != kNever;

@@ -23,16 +23,16 @@ class Lpuart : public Model {
   void event() override;
   void reset() override;
 
-  /// What the processor waits for each register that it reads: a bus that others use.
+  /// How long the processor waits for each register that it reads, because others use the bus.
   Cycles read_takes = 0;
 
   // The host's end.
   void send(std::span<const std::uint8_t> bytes);
   std::vector<std::uint8_t> receive();
-  /// Bytes of send() that have not reached the chip yet.
+  /// Number of bytes of send() that have not reached the chip yet.
   std::size_t underway() const { return incoming_.size(); }
   std::uint32_t baud() const;
-  /// The wire to the host stands still: a test's way to fill the robot's queue.
+  /// Stops the wire to the host, so that a test can fill the robot's queue.
   void hold_wire(bool hold) {
     held_ = hold;
     if (!hold && !sending_.empty() && departs_at_ <= machine_.now())

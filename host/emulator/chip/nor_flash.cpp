@@ -18,7 +18,7 @@ void NorFlash::restore_power() {
   on_busy(false);
 }
 
-/// All commands but the one for the status.
+/// Called by all commands except the one for the status.
 void NorFlash::refuse_while_busy() {
   if (busy()) machine_.fail("NOR flash: a command while the last one runs is ignored");
 }
@@ -38,7 +38,8 @@ bool NorFlash::begin(std::uint32_t address, Cycles takes) {
   if (!enabled_) machine_.fail("NOR flash: programming or erasing without write enable (0x06) is ignored");
   if (address < kParameters || address >= kParametersEnd)
     machine_.fail(fmt::format(
-        "NOR flash: 0x{:06X} is not the parameters': the program or the boot loader lies there", address));
+        "NOR flash: 0x{:06X} does not belong to the parameters: the program or the boot loader is there",
+        address));
   enabled_ = false;
   busy_until_ = machine_.now() + takes;
   on_busy(true);

@@ -11,8 +11,8 @@
 namespace astro::emulator {
 
 /// The serial NOR flash of a Teensy 4.0 (W25Q16JV): commands and their times, over the memory that the
-/// processor reads its program from. Programming clears bits, erasing sets a sector's; what goes wrong, power
-/// cuts first of all, is as in the simulated board's flash.
+/// processor reads its program from. Programming clears bits, erasing sets all bits of a sector. Failures,
+/// above all power cuts, are those of the simulated board's flash.
 class NorFlash : public Model {
  public:
   struct Times {

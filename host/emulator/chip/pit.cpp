@@ -53,7 +53,7 @@ void Pit::begin_period(Channel& channel, Cycles at) {
   channel.due = clocked ? at + (Cycles{channel.load} + 1) * cycles_per_count() : kNever;
 }
 
-/// Channel n has come to zero; so may those that are chained to it.
+/// Channel n has reached zero; channels chained to it may follow.
 void Pit::end_period(std::size_t n) {
   channels_[n].flag = channels_[n].began_anew = true;
   begin_period(channels_[n], channels_[n].due);

@@ -7,9 +7,9 @@
 
 namespace astro::emulator {
 
-/// Four timers that count down to zero and begin again at LDVAL, each by the module's clock or chained to the
-/// one before it: then it counts that one's periods. The first two, read as one, are the lifetime timer. Its
-/// upper half follows a count after its lower half has begun anew.
+/// Four timers that count down to zero and restart at LDVAL, each by the module's clock or chained to the
+/// timer before it: then it counts that timer's periods. The first two, read as one, are the lifetime timer.
+/// Its upper half changes one count after its lower half has restarted.
 class Pit : public Model {
  public:
   Pit(Machine& machine, const Ccm& ccm) : machine_(machine), ccm_(ccm) {}
@@ -21,13 +21,13 @@ class Pit : public Model {
 
   /// Time since channel 0 was started; 0 before.
   std::uint64_t lifetime_us() const;
-  /// The lifetime timer has run for so many counts more than it has.
+  /// Makes the lifetime timer older by this many counts.
   void age(std::uint64_t counts);
 
  private:
   struct Channel {
     std::uint32_t load = 0, control = 0;
-    std::uint32_t count = 0;  // of a chained channel, or of one that stands still
+    std::uint32_t count = 0;  // of a chained or stopped channel
     bool flag = false, began_anew = false;
     Cycles began = 0;
     Cycles due = kNever;  // the end of the period, if it counts by the module's clock

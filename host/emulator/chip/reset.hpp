@@ -8,7 +8,7 @@
 
 namespace astro::emulator {
 
-/// The reset controller: why the chip started, and four words that outlive everything but the power.
+/// The reset controller: why the chip started, and four words that survive every reset except power-on.
 class Src : public Model {
  public:
   std::uint32_t read(std::uint32_t offset) override {
@@ -37,7 +37,7 @@ class Src : public Model {
   std::array<std::uint32_t, 4> kept_{};
 };
 
-/// The fuses: an identity that differs from robot to robot.
+/// The fuses: an identity that differs between robots.
 class Ocotp : public Model {
  public:
   explicit Ocotp(Machine& machine, std::uint32_t identity) : machine_(machine), identity_(identity) {}

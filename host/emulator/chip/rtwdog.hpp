@@ -6,7 +6,7 @@
 
 namespace astro::emulator {
 
-/// Watchdog 3. The ROM has switched it off on the way to the firmware, or not.
+/// Watchdog 3. The boot ROM may or may not have switched it off.
 class Rtwdog : public Model {
  public:
   explicit Rtwdog(Machine& machine) : machine_(machine) {}

@@ -7,8 +7,8 @@
 
 namespace astro::emulator {
 
-/// Registers that hold what was written to them, with the values that they have after a reset. Models with a
-/// few registers that do more derive from it.
+/// Registers that only store what was written to them, with their reset values. Models in which some
+/// registers do more derive from it.
 class Stored : public Model {
  public:
   explicit Stored(std::unordered_map<std::uint32_t, std::uint32_t> reset_values = {})

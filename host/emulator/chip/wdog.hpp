@@ -7,8 +7,8 @@
 
 namespace astro::emulator {
 
-/// WDOG1 or WDOG2, of which the firmware wants one thing only: no power-down. A counter runs from reset on
-/// and pulls the pin WDOG_B after 16 s unless WMCR.PDE is cleared first.
+/// WDOG1 or WDOG2. The firmware only switches their power-down off: a counter runs from reset on and pulls
+/// the pin WDOG_B after 16 s unless WMCR.PDE is cleared before.
 class Wdog : public Model {
  public:
   Wdog(Machine& machine, int number) : machine_(machine), number_(number) {}

@@ -8,8 +8,8 @@
 
 namespace astro::emulator {
 
-/// Brings each access to the model that it is for, and lets nothing pass that the chip would not forgive: no
-/// register there, the wrong width, a clock that is switched off.
+/// Passes each access to the model of its address, and ends the run at accesses that fail on the chip: no
+/// register at the address, the wrong width, a clock that is switched off.
 class Bus {
  public:
   static constexpr std::uint32_t kPage = 0x1000;

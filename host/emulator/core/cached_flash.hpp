@@ -10,13 +10,13 @@
 
 namespace astro::emulator {
 
-/// Lines of the data cache that may hold something else than the flash does. The processor may fetch a line
-/// ahead of any instruction that asks for it; one that it fetches while the flash works holds anything, and
-/// stays until the firmware drops it.
+/// Lines of the data cache that may differ from the flash. The processor may fetch a line before any
+/// instruction needs it. A line that it fetches while the flash is busy has undefined content, and stays in
+/// the cache until the firmware drops it.
 class CachedFlash {
  public:
-  /// The flash begins to work: all lines that the processor may keep.
-  void distrust(const std::function<bool(std::uint32_t address)>& cached) {
+  /// The flash becomes busy: marks all lines that the processor may cache.
+  void mark_stale(const std::function<bool(std::uint32_t address)>& cached) {
     stale_.assign(Memory::kFlashBytes / kLine, false);
     for (std::uint32_t at = 0; at < Memory::kFlashBytes; at += Protection::kPage) {
       if (!cached(Memory::kFlash + at)) continue;
@@ -27,7 +27,7 @@ class CachedFlash {
   void drop(std::uint32_t address) {
     if (stale(address)) stale_[index(address)] = false;
   }
-  /// A start of the chip: what a program begins with is its own to drop, and it does not read before.
+  /// At a start of the chip nothing is marked: the program drops stale lines itself before it reads.
   void clear() { stale_.clear(); }
 
   bool any() const { return !stale_.empty(); }
@@ -39,7 +39,7 @@ class CachedFlash {
   static constexpr std::uint32_t kLine = 32;
   static std::size_t index(std::uint32_t address) { return (address - Memory::kFlash) / kLine; }
 
-  std::vector<bool> stale_;  // empty while the flash has not worked
+  std::vector<bool> stale_;  // empty until the flash was busy
 };
 
 }  // namespace astro::emulator

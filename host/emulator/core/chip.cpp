@@ -6,6 +6,7 @@
 #include <cstring>
 #include <utility>
 
+#include "host/base/bytes.hpp"
 #include "host/emulator/core/register_names.hpp"
 #include "host/emulator/core/stopped.hpp"
 
@@ -59,7 +60,7 @@ Chip::Chip(HandOver hand_over)
 }
 
 void Chip::start(Reset cause) {
-  wishes_.clear();
+  wakeups_.clear();
   next_event_ = kNever;
   exceptions_.reset();
   control_.reset();
@@ -70,22 +71,19 @@ void Chip::start(Reset cause) {
   boot();
 }
 
-/// The ROM enters a function as it stands, or takes stack and entry from a vector table.
+/// The ROM either enters a function directly, or takes stack and entry from a vector table.
 void Chip::boot() {
   if (flash_busy_) fail("NOR flash: the boot ROM reads it while it is busy, and finds nothing");
-  std::uint32_t entry = 0;
-  std::memcpy(&entry, memory_.at(kImageVectorTable + 4, 4).data(), 4);
+  auto entry = load<std::uint32_t>(memory_.at(kImageVectorTable + 4, 4), 0);
   for (const int reg :
        {UC_ARM_REG_PRIMASK, UC_ARM_REG_BASEPRI, UC_ARM_REG_FAULTMASK, UC_ARM_REG_IPSR, UC_ARM_REG_CONTROL})
     cpu_->set(reg, 0);
   cpu_->set(UC_ARM_REG_SP, 0);
   if ((entry & 1) == 0) {
     const auto vectors = memory_.at(entry, 8);
-    if (vectors.empty()) return fail("the image's entry lies in no memory");
-    std::uint32_t stack = 0;
-    std::memcpy(&stack, vectors.data(), 4);
-    std::memcpy(&entry, vectors.data() + 4, 4);
-    cpu_->set(UC_ARM_REG_SP, stack);
+    if (vectors.empty()) return fail("the image's entry is in no memory");
+    cpu_->set(UC_ARM_REG_SP, load<std::uint32_t>(vectors, 0));
+    entry = load<std::uint32_t>(vectors, 4);
   }
   if (hand_over_ == HandOver::untidy) leave_rom_state();
   cpu_->set(UC_ARM_REG_LR, ~0U);
@@ -110,27 +108,27 @@ void Chip::leave_rom_state() {
 }
 
 void Chip::wake(Model& model, Cycles when) {
-  const auto wish =
-      std::find_if(wishes_.begin(), wishes_.end(), [&](const Wish& w) { return w.model == &model; });
-  if (wish != wishes_.end())
-    wish->when = when;
+  const auto wakeup =
+      std::find_if(wakeups_.begin(), wakeups_.end(), [&](const Wakeup& w) { return w.model == &model; });
+  if (wakeup != wakeups_.end())
+    wakeup->when = when;
   else
-    wishes_.push_back({&model, when});
+    wakeups_.push_back({&model, when});
   reschedule();
 }
 
 void Chip::reschedule() {
   next_event_ = control_.next_event();
-  for (const Wish& wish : wishes_) next_event_ = std::min(next_event_, wish.when);
+  for (const Wakeup& wakeup : wakeups_) next_event_ = std::min(next_event_, wakeup.when);
 }
 
 void Chip::run_events() {
   while (next_event_ <= now()) {
     if (control_.next_event() <= now()) control_.event();
-    for (std::size_t i = 0; i < wishes_.size(); ++i)
-      if (wishes_[i].when <= now()) {
-        wishes_[i].when = kNever;
-        wishes_[i].model->event();
+    for (std::size_t i = 0; i < wakeups_.size(); ++i)
+      if (wakeups_[i].when <= now()) {
+        wakeups_[i].when = kNever;
+        wakeups_[i].model->event();
       }
     reschedule();
   }
@@ -159,7 +157,7 @@ std::span<std::uint8_t> Chip::dma(std::uint32_t address, std::uint32_t bytes) {
   return found;
 }
 
-/// Called before each block of instructions: something is due that the engine must be left for.
+/// Called before each block of instructions: true if the engine must be stopped for something that is due.
 bool Chip::interrupted() {
   return now() >= std::min(next_event_, end_) || restart_ || !failure_.empty() || in_bootloader_ ||
          !exceptions_.violation.empty() || access_changed_ || exceptions_.due().has_value();
@@ -184,12 +182,12 @@ void Chip::on_exception(std::uint32_t number) {
     exceptions_.leave(cpu_->pc() | 1U);
   } else if (number == kSvcNumber) {
     pend_fault(exception::kSvc, 0);
-  } else if (number == kNeverExecuted) {  // registers, and what lies above them
+  } else if (number == kNeverExecuted) {  // the register space, and addresses above it
     pend_fault(exception::kMemManage, cause::kFetchDenied);
   } else if (number == kBreakpoint || number == kBreakpointToo) {
     std::uint16_t instruction = 0;
     if (const auto code = memory_.at(cpu_->pc() & ~1U, 2); !code.empty())
-      std::memcpy(&instruction, code.data(), 2);
+      instruction = load<std::uint16_t>(code, 0);
     if (instruction == kCallHalfKay)
       in_bootloader_ = true;
     else
@@ -200,7 +198,7 @@ void Chip::on_exception(std::uint32_t number) {
 }
 
 void Chip::set_flash_busy(bool busy) {
-  if (busy) cached_flash_.distrust([this](std::uint32_t address) { return control_.cached(address); });
+  if (busy) cached_flash_.mark_stale([this](std::uint32_t address) { return control_.cached(address); });
   flash_busy_ = busy;
   access_changed_ = true;
 }
@@ -210,7 +208,7 @@ void Chip::set_layout(const Memory::Layout& layout) {
   access_changed_ = true;
 }
 
-/// The engine learns what the MPU, the layout of FlexRAM and a busy flash leave to the processor.
+/// Tells the engine which accesses the MPU, the layout of FlexRAM and a busy flash allow.
 void Chip::apply_access() {
   access_changed_ = false;
   const auto largest = memory_.largest(), present = memory_.ranges();
@@ -262,8 +260,7 @@ void Chip::bad_access() {
 
 void Chip::bad_instruction(bool thumb) {
   const auto before = memory_.at((cpu_->pc() & ~1U) - 2, 2);
-  std::uint16_t instruction = 0;
-  if (!before.empty()) std::memcpy(&instruction, before.data(), 2);
+  const std::uint16_t instruction = before.empty() ? 0 : load<std::uint16_t>(before, 0);
   if (thumb && instruction == kWaitForEvent) return fail("WFE is not modelled");
   enter_fault(exception::kUsageFault, thumb ? cause::kUndefined : cause::kNotThumb);
 }

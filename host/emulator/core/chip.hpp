@@ -15,11 +15,11 @@
 
 namespace astro::emulator {
 
-/// What the boot ROM leaves behind. `untidy`: all that a program must not rely on, because no manual promises
-/// it: MPU on, interrupts enabled and pending, every mask set, the process stack in use, USB still attached.
+/// The state that the boot ROM leaves behind. `untidy`: every state is as bad as no manual excludes: MPU on,
+/// interrupts enabled and pending, every mask set, the process stack in use, USB still attached.
 enum class HandOver : std::uint8_t { tidy, untidy };
 
-/// Processor, memories, interrupt controller and virtual time: the machine that models are put into.
+/// Processor, memories, interrupt controller and virtual time: the machine into which models are put.
 class Chip : public Machine {
  public:
   explicit Chip(HandOver hand_over);
@@ -34,20 +34,20 @@ class Chip : public Machine {
   /// An exception waits to be taken.
   bool pending(int number) const { return exceptions_.pending(number); }
 
-  /// Models take part in resets and events once they are here.
+  /// Adds a model, which takes part in resets and events from now on.
   void add(Model& model) { models_.push_back(&model); }
 
-  /// What addresses are called in messages.
+  /// Names of addresses in messages.
   Symbols symbols;
-  /// Whose gates decide what is clocked; where the reason of a reset is written.
+  /// Whether a clock gate is open; where the cause of a reset is stored.
   std::function<bool(Gate)> gates;
   std::function<void(Reset)> remember_reset;
-  /// The flash is erasing or programming, or has come to its end: meanwhile nobody may read it.
+  /// The flash begins (true) or ends (false) to erase or program; meanwhile it cannot be read.
   void set_flash_busy(bool busy);
-  /// FlexRAM is shared out anew.
+  /// FlexRAM is divided differently.
   void set_layout(const Memory::Layout& layout);
 
-  /// Power comes on, or the chip starts again: models reset, then the boot ROM.
+  /// Power-on or restart: resets the models, then runs the boot ROM.
   void start(Reset cause);
 
   /// Runs until `end`. Throws Stopped if the firmware broke a rule.
@@ -86,7 +86,7 @@ class Chip : public Machine {
   void boot();
   void leave_rom_state();
 
-  struct Wish {
+  struct Wakeup {
     Model* model;
     Cycles when;
   };
@@ -99,7 +99,7 @@ class Chip : public Machine {
   Exceptions exceptions_;
   SystemControl control_{*this, exceptions_, protection_};
   std::vector<Model*> models_;
-  std::vector<Wish> wishes_;
+  std::vector<Wakeup> wakeups_;
   Cycles skipped_ = 0;  // time in which no instruction ran
   Cycles next_event_ = kNever, end_ = 0;
   CachedFlash cached_flash_;

@@ -14,8 +14,8 @@ void check(uc_err error, const char* what) {
     throw std::runtime_error(std::string("Unicorn: ") + what + ": " + uc_strerror(error));
 }
 
-/// With a hook before each instruction the engine keeps the program counter up to date; without, it knows
-/// only where the block began, and faults and messages would name that.
+/// An empty hook for each instruction makes the engine keep the program counter up to date; without it, it
+/// knows only where the block began, and faults and messages would name that address.
 void on_instruction(uc_engine*, std::uint64_t, std::uint32_t, void*) {}
 
 constexpr std::size_t kBlocks = 65536;
@@ -71,7 +71,7 @@ void Cpu::set(int reg, std::uint32_t value) { uc_reg_write(engine_, reg, &value)
 
 void Cpu::refresh() { set(UC_ARM_REG_APSR_NZCV, get(UC_ARM_REG_CPSR)); }
 
-/// A halfword from 0xE800 up begins an instruction of two.
+/// A halfword of 0xE800 or more begins an instruction of two halfwords.
 std::uint32_t Cpu::count(std::uint32_t address, std::uint32_t bytes) {
   Block& known = blocks_[address / 2 % kBlocks];
   if (known.address == address && known.bytes == bytes) return known.instructions;
@@ -130,7 +130,7 @@ void Cpu::allow(std::uint32_t base, std::uint32_t bytes, const Protection::Acces
   if (access.write) rights |= UC_PROT_WRITE;
   if (access.execute) rights |= UC_PROT_EXEC;
   check(uc_mem_protect(engine_, base, bytes, rights), "protection");
-  // What has been translated would run on without looking at the memory again.
+  // Code that was translated before would run without checking the memory again.
   if (!access.execute) check(uc_ctl_remove_cache(engine_, base, std::uint64_t{base} + bytes), "translations");
 }
 

@@ -13,18 +13,18 @@
 
 namespace astro::emulator {
 
-/// The instruction engine: registers, memories, and the callbacks by which the rest of the machine takes
-/// part.
+/// The instruction engine: registers, memories, and callbacks to the rest of the machine.
 ///
-/// Why     Unicorn, with three habits to mind: stopping it from a register access rewinds the program counter
-/// and repeats what was done, so it is only stopped between blocks of instructions; stopped there it may
-/// leave the program counter at an instruction that has run; and exceptions are left to us.
+/// Uses    Unicorn, with three peculiarities. If it is stopped during a register access, it rewinds the
+///         program counter and repeats the access, so it is only stopped between blocks of instructions.
+///         Stopped there, the program counter may be at an instruction that has run already. And it leaves
+///         exceptions to us.
 class Cpu {
  public:
-  /// What the machine does when the engine asks.
+  /// Callbacks of the engine.
   struct Hooks {
     std::function<bool()> interrupted;  // before each block: true ends the run there
-    std::function<void()> spinning;     // a branch to itself: only what happens outside gets it out
+    std::function<void()> spinning;     // a branch to itself, which only an event outside can end
     std::function<std::uint32_t(std::uint32_t address, int bytes)> read;
     std::function<void(std::uint32_t address, std::uint32_t value, int bytes)> write;
     // EXC_RETURN, SVC, BKPT by the engine's numbers; false: the run cannot go on.
@@ -47,23 +47,24 @@ class Cpu {
   std::uint32_t get(int reg) const;
   void set(int reg, std::uint32_t value);
   std::uint32_t pc() const { return get(UC_ARM_REG_PC); }
-  /// The engine keeps the state of IPSR and of the Thumb bit apart: to be called after either was written.
+  /// Must be called after IPSR or the Thumb bit was written, because the engine keeps copies of them.
   void refresh();
 
   /// Runs until a hook or an instruction ends it.
   End run();
   const BadAccess& bad_access() const { return bad_; }
 
-  /// What the processor may do from `base` on; all else ends in bad_access. Whole pages of Protection::kPage.
-  /// Not from within a hook.
+  /// Sets what the processor may do from `base` on; everything else ends in bad_access. Whole pages of
+  /// Protection::kPage. Must not be called from a hook.
   void allow(std::uint32_t base, std::uint32_t bytes, const Protection::Access& access);
-  /// Ranges of any size: an access there that Hooks::trapped minds ends in bad_access, after the block of
-  /// instructions that it is in. Not from within a hook.
+  /// Ranges of any size: an access there for which Hooks::trapped returns true ends in bad_access, after its
+  /// block of instructions. Must not be called from a hook.
   void set_traps(const std::vector<Protection::Span>& traps);
 
   std::uint64_t instructions() const { return instructions_; }
 
-  /// Called with the address and number of instructions of each block that is about to run; empty: nobody.
+  /// Called with the address and number of instructions of each block that is about to run; empty: not
+  /// called.
   std::function<void(std::uint32_t address, std::uint32_t instructions)> trace;
 
  private:
@@ -93,7 +94,7 @@ class Cpu {
   std::vector<Block> blocks_;
   std::uint64_t instructions_ = 0;
   bool stopping_ = false, trapped_ = false;
-  std::optional<std::uint32_t> stopped_before_;  // the block that a stop kept from running
+  std::optional<std::uint32_t> stopped_before_;  // the block before which the engine was stopped
   std::vector<uc_hook> traps_;
   BadAccess bad_;
 };

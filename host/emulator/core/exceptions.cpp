@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "host/base/bytes.hpp"
+
 namespace astro::emulator {
 namespace {
 
@@ -95,7 +97,7 @@ bool Exceptions::wakes() const {
   return number != 0 && level(number) < running_level(false);
 }
 
-/// The exception that this leads to if there is no memory for the frame.
+/// Returns the exception that follows if there is no memory for the frame.
 std::optional<int> Exceptions::push_frame(std::uint32_t sp, std::uint32_t frame) {
   const bool allowed = protection_.at(frame).write && protection_.at(frame + kFrameBytes - 4).write;
   const auto stack = memory_.at(frame, kFrameBytes);
@@ -116,7 +118,7 @@ bool Exceptions::enter(int number) {
   const bool nested = running() != 0;
   if ((cpu_.get(UC_ARM_REG_CONTROL) & kProcessStack) != 0) violation = "the process stack is not modelled";
   if (const std::optional<int> failed = push_frame(sp, frame)) {
-    // What was to be entered waits; the handler of this runs without a frame.
+    // The intended exception stays pending; the handler of this fault runs without a frame.
     const std::optional<int> derived = level(number) < 0 ? std::nullopt : fault(*failed);
     if (!derived) return false;
     number = *derived;
@@ -129,7 +131,7 @@ bool Exceptions::enter(int number) {
   clear(number);
   std::uint32_t handler = 0;
   if (const auto entry = memory_.at(vector_table + 4 * static_cast<std::uint32_t>(number), 4); !entry.empty())
-    std::memcpy(&handler, entry.data(), 4);
+    handler = load<std::uint32_t>(entry, 0);
   if ((handler & 1) == 0 || memory_.at(handler & ~1U, 2).empty())
     violation = fmt::format("exception {} has no handler in the vector table", number);
   cpu_.set(UC_ARM_REG_PC, handler);

@@ -15,19 +15,20 @@ inline constexpr int kNmi = 2, kHardFault = 3, kMemManage = 4, kBusFault = 5, kU
                      kPendSv = 14, kSysTick = 15, kFirstInterrupt = 16, kCount = 16 + 160;
 }
 
-/// The nested vectored interrupt controller and the core's way into and out of handlers.
+/// The nested vectored interrupt controller, and how the core enters and leaves handlers.
 ///
 /// Not modelled  the floating point context and the process stack: the image uses neither
-///               (tests/target/image), and the run ends where a program does.
+///               (tests/target/image); a program that uses one ends the run.
 class Exceptions {
  public:
   Exceptions(Cpu& cpu, Memory& memory, const Protection& protection)
       : cpu_(cpu), memory_(memory), protection_(protection) {}
   void reset();
-  /// As a boot ROM may leave it: exceptions wait, all interrupts are enabled, and an old fault is on record.
+  /// As a boot ROM may leave it: exceptions are pending, all interrupts enabled, and an old fault is
+  /// recorded.
   void leave_rom_state();
 
-  // What the system control space shows and changes.
+  // State that the system control space reads and writes.
   std::uint32_t vector_table = 0;
   bool mem_manage_enabled = false, bus_fault_enabled = false, usage_fault_enabled = false;
   std::uint32_t cfsr = 0, hfsr = 0, mmfar = 0, bfar = 0;
@@ -37,16 +38,16 @@ class Exceptions {
   std::uint8_t priority(int number) const { return priority_[index(number)]; }
   void pend(int number);
   void clear(int number);
-  /// By software: in vain while the peripheral still asks.
+  /// Clears a pending exception by software; without effect while the peripheral's line is up.
   void unpend(int number);
   bool pending(int number) const { return pending_[index(number)]; }
   int running() const { return static_cast<int>(cpu_.get(UC_ARM_REG_IPSR) & 0x1FF); }
 
-  /// A peripheral's line. That it rises is remembered, also when it falls before the handler runs; while it
-  /// is up, the interrupt is pending again as soon as its handler has ended.
+  /// Sets a peripheral's line. A rising edge is remembered even if the line falls before the handler runs;
+  /// while the line is up, the interrupt becomes pending again as soon as its handler has ended.
   void set_line(int irq, bool level);
 
-  /// The exception that is to be taken now.
+  /// The exception that must be taken now.
   std::optional<int> due() const;
   /// True if it would end a WFI: PRIMASK does not count.
   bool wakes() const;
@@ -58,7 +59,7 @@ class Exceptions {
   /// exception that this leads to, or nothing if the core has locked up. `cause` are its bits in CFSR.
   std::optional<int> fault(int number, std::uint32_t cause = 0);
 
-  /// What is wrong with what the firmware did, if anything: no handler, a return without a call.
+  /// The rule that the firmware broke, if any: no handler, a return without an exception.
   std::string violation;
 
  private:

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-/// What the models of the chip's parts and the machine that holds them know of one another.
+/// The interfaces between the machine and the models of the chip's peripherals.
 namespace astro::emulator {
 
 /// Virtual time in cycles of the 600 MHz core. Every instruction takes one cycle: the emulator proves order
@@ -19,7 +19,7 @@ struct Gate {
   int reg, index;
 };
 
-/// Why the chip starts again; bit numbers of SRC_SRSR.
+/// Why the chip restarts; bit numbers of SRC_SRSR.
 enum class Reset : std::uint8_t { power_on = 0, software = 1, pin = 3, watchdog = 7 };
 
 class Model;
@@ -34,17 +34,17 @@ class Machine {
   /// The level of an interrupt line (0..159).
   virtual void set_interrupt(int irq, bool level) = 0;
 
-  /// Calls model.event() at `when`, replacing an earlier wish of the same model; kNever takes it back.
+  /// Calls model.event() at `when`, replacing an earlier request of the same model; kNever cancels it.
   virtual void wake(Model& model, Cycles when) = 0;
 
-  /// Ends the run: the firmware did something that the chip would not forgive. `what` names the register and
-  /// the rule; the machine adds PC and time. May be called anywhere; what follows is ignored.
+  /// Ends the run because the firmware did something that fails on the chip. `what` names the register and
+  /// the rule; the machine adds PC and time. May be called anywhere; later calls are ignored.
   virtual void fail(const std::string& what) = 0;
 
   /// True while the gate lets the clock through in run mode.
   virtual bool clocked(Gate gate) const = 0;
 
-  /// The processor waits so long for a peripheral that answers late.
+  /// The processor waits for this time because a peripheral answers late.
   virtual void wait(Cycles time) = 0;
 
   /// True while the instructions come from the flash, where any fetch may take a microsecond.
@@ -54,12 +54,12 @@ class Machine {
   /// (the firmware's MPU setting decides), where a real master would see stale data.
   virtual std::span<std::uint8_t> dma(std::uint32_t address, std::uint32_t bytes) = 0;
 
-  /// The chip starts again once the instruction under way is over. RAM keeps its content, as on the chip.
+  /// The chip restarts at the end of the present instruction. RAM keeps its content, as on the chip.
   virtual void restart(Reset cause) = 0;
 };
 
-/// One peripheral. Offsets are from its base. The machine has already held the access to the widths of
-/// hal/teensy40/registers and to the peripheral's clock gate; an offset without a row there never arrives.
+/// One peripheral. Offsets are from its base. The machine has already checked each access against the widths
+/// in hal/teensy40/registers and the peripheral's clock gate; an offset without a row there never arrives.
 class Model {
  public:
   virtual ~Model() = default;
@@ -67,10 +67,10 @@ class Model {
   virtual std::uint32_t read(std::uint32_t offset) = 0;
   virtual void write(std::uint32_t offset, std::uint32_t value) = 0;
 
-  /// The time asked for by Machine::wake has come.
+  /// The time requested by Machine::wake has come.
   virtual void event() {}
 
-  /// Reset values, whatever the cause. What survives a warm reset is the model's to keep.
+  /// Sets reset values, whatever the cause. A model keeps what survives a warm reset.
   virtual void reset() = 0;
   /// After reset(): what a boot ROM may have done to it before the program begins.
   virtual void leave_rom_state() {}

@@ -8,14 +8,15 @@
 namespace astro::emulator {
 
 /// What the chip has besides registers: 512 KB of FlexRAM in banks of 32 KB, each of them tightly coupled for
-/// code or for data, or behind the fixed OCRAM; and the flash. Around them lies nothing.
+/// code or for data, or part of OCRAM after its fixed bytes; and the flash. All other addresses have no
+/// memory.
 class Memory {
  public:
   static constexpr std::uint32_t kItcm = 0x0000'0000, kDtcm = 0x2000'0000, kOcram = 0x2020'0000;
   static constexpr std::uint32_t kFlash = 0x6000'0000, kFlashBytes = 2 * 1024 * 1024;
   static constexpr std::uint32_t kBank = 32 * 1024, kFlexRam = 16 * kBank, kFixedOcram = 512 * 1024;
 
-  /// How FlexRAM is shared out, in bytes. The fuses of a new chip give 128 KB, 128 KB and 256 KB.
+  /// How FlexRAM is divided, in bytes. The fuses of a new chip give 128 KB, 128 KB and 256 KB.
   struct Layout {
     std::uint32_t itcm = 4 * kBank, dtcm = 4 * kBank, ocram = 8 * kBank;
   };
@@ -29,7 +30,7 @@ class Memory {
   void set_layout(const Layout& layout) { layout_ = layout; }
 
   std::array<Range, 4> ranges() { return ranges(layout_); }
-  /// All that any layout has.
+  /// The ranges with the largest size of any layout.
   std::array<Range, 4> largest() { return ranges({kFlexRam, kFlexRam, kFlexRam}); }
 
   /// The bytes at an address; empty if they are not all in one memory.

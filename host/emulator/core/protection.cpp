@@ -22,7 +22,7 @@ Protection::Access access(const Protection::Region& region) {
   return {read, write, read && mpu::RASR_XN.of(region.attributes) == 0, cached};
 }
 
-/// Of the default memory map, normal memory is: write-back, or write-through.
+/// In the default memory map normal memory is cached, write-back or write-through.
 bool cached_by_default(std::uint32_t address) {
   return address < 0x4000'0000 || (address >= 0x6000'0000 && address < 0xA000'0000);
 }
@@ -38,7 +38,8 @@ void Protection::reset() {
   changed_();
 }
 
-/// Every region from number 8 on takes something away that a program needs, so that none of them may stay.
+/// Every region from number 8 on forbids something that a program needs, so a program must remove all of
+/// them.
 void Protection::leave_rom_state() {
   constexpr std::uint32_t kAll = mpu::RASR_AP(3), kNone = mpu::RASR_AP(0), kReadOnly = mpu::RASR_AP(7);
   constexpr std::uint32_t kNoCode = mpu::RASR_XN(1);

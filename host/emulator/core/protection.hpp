@@ -9,7 +9,7 @@
 
 namespace astro::emulator {
 
-/// What the firmware has set the MPU to (ARMv7-M PMSA, privileged accesses).
+/// The MPU as the firmware has set it (ARMv7-M PMSA, privileged accesses).
 ///
 /// Not modelled  subregions; HFNMIENA: the regions also hold in the handlers of NMI and HardFault, which on
 ///               the chip run without them.
@@ -26,13 +26,13 @@ class Protection {
   struct Span {
     std::uint32_t base, bytes;
   };
-  /// What the engine can tell apart by pages; smaller regions are for `traps()`.
+  /// Granularity of the engine's access rights; smaller regions are in `traps()`.
   static constexpr std::uint32_t kPage = 1024;
 
   Protection(Machine& machine, std::function<void()> changed)
       : machine_(machine), changed_(std::move(changed)) {}
   void reset();
-  /// As a boot ROM may leave it: on, and with regions that the next program cannot live with.
+  /// As a boot ROM may leave it: on, with regions that the next program must remove.
   void leave_rom_state();
 
   std::uint32_t read(std::uint32_t offset) const;
@@ -40,11 +40,12 @@ class Protection {
 
   bool on() const { return on_; }
   const Region& region(std::size_t number) const { return regions_[number]; }
-  /// What the processor may do at an address. Where no region is: all while the MPU is off, else nothing.
+  /// What the processor may do at an address. Without a region: everything while the MPU is off, else
+  /// nothing.
   Access at(std::uint32_t address) const { return at(address, 0); }
   /// The same for a whole page, without the regions that are smaller.
   Access page(std::uint32_t address) const { return at(address, kPage); }
-  /// Regions smaller than a page that let nobody in: a null pointer, the end of a stack.
+  /// Regions smaller than a page that allow no access: a null pointer, the end of a stack.
   std::vector<Span> traps() const;
   /// Where the regions of a page or more begin and end.
   std::vector<std::uint64_t> edges() const;

@@ -4,8 +4,8 @@
 
 namespace astro::emulator {
 
-/// The run has ended: the firmware did something that the chip would not forgive. Names the register and the
-/// rule, the program counter and the time.
+/// The run has ended because the firmware did something that fails on the chip. The message names the
+/// register and the rule, the program counter and the time.
 class Stopped : public Error {
  public:
   using Error::Error;

@@ -22,7 +22,7 @@ std::string readable(const std::string& linker_name) {
   return status == 0 ? name.get() : linker_name;
 }
 
-/// A file in memory, read by structures that all must lie within it.
+/// A file in memory; throws if a structure that is read lies outside of it.
 class File {
  public:
   explicit File(const std::filesystem::path& path) : path_(path) {
@@ -80,8 +80,8 @@ Symbols::Symbols(const std::filesystem::path& elf) {
   }
 }
 
-/// Of several names at an address the one of a thing with a size is the best. $t, $d and their like tell code
-/// from data and name nothing.
+/// If an address has several names, one with a size is preferred. Names such as $t and $d only mark code and
+/// data.
 void Symbols::add(const std::string& linker_name, std::uint32_t address, std::uint32_t bytes) {
   if (linker_name.empty() || linker_name[0] == '$') return;
   const std::string name = readable(linker_name);

@@ -7,8 +7,7 @@
 
 namespace astro::emulator {
 
-/// Names of functions and variables of an image, from the .elf that it was made of. Without one every address
-/// is nameless.
+/// Names of functions and variables of an image, from its .elf file. Without one no address has a name.
 class Symbols {
  public:
   Symbols() = default;

@@ -45,7 +45,7 @@ void SystemControl::event() {
   if ((tick_control_ & 2) != 0) exceptions_.pend(exception::kSysTick);
 }
 
-/// The coupled memories never are, whatever their region says.
+/// The tightly coupled memories are never cached, whatever their region says.
 bool SystemControl::cached(std::uint32_t address) const {
   return (ccr_ & kCacheEnabled) != 0 && address >= Memory::kOcram && protection_.at(address).cached;
 }
@@ -142,7 +142,7 @@ void SystemControl::write_scb(std::uint32_t offset, std::uint32_t value) {
   } else if (offset == scb::DCIMVAC.value) {
     on_invalidate(value);
   }
-  // What is left is cache maintenance of other kinds, and no cache is modelled.
+  // The other registers are for cache maintenance, and no cache is modelled.
 }
 
 std::uint32_t SystemControl::read_tick(std::uint32_t offset) {

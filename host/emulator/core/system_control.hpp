@@ -27,7 +27,7 @@ class SystemControl {
   /// The firmware drops the line of the data cache at an address.
   std::function<void(std::uint32_t)> on_invalidate = [](std::uint32_t) {};
 
-  /// As the firmware has set MPU and caches: whether the processor may keep a copy of this address.
+  /// Whether the processor may cache this address, with MPU and caches as the firmware has set them.
   bool cached(std::uint32_t address) const;
 
  private:

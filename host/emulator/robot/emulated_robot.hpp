@@ -21,15 +21,15 @@ class EmulatedRobot {
                 const simulation::MocapConfig& mocap)
       : teensy_(hex, config), mocap_(mocap) {}
 
-  /// A fifth of a millisecond.
+  /// Runs for a fifth of a millisecond.
   void step();
 
   Teensy& teensy() { return teensy_; }
-  /// The computer's side of the USB port. Nobody has it open at first.
+  /// The computer's side of the USB port; not open at first.
   CdcHost& usb() { return usb_; }
 
   void send(Port port, std::span<const std::uint8_t> bytes);
-  /// Sent, and not yet arrived at the robot.
+  /// Number of bytes that were sent and have not arrived at the robot yet.
   std::size_t underway(Port port);
   /// Bytes that the robot has sent since the last call, at most into.size().
   std::size_t receive(Port port, std::span<std::uint8_t> into);
@@ -47,8 +47,8 @@ class EmulatedRobot {
   std::uint64_t clock_us_ = 0;
 };
 
-/// A link to it in the same process: waiting for a byte is what makes virtual time pass. Has the USB port
-/// open for as long as it lives; errors as of a device file.
+/// A link to it in the same process: virtual time passes only while the host waits for a byte. Keeps the USB
+/// port open for as long as it lives; errors as of a device file.
 class PortTransport : public robot::Transport {
  public:
   PortTransport(std::shared_ptr<EmulatedRobot> robot, Port port);

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "hal/teensy40/registers/registers.hpp"
+#include "host/base/bytes.hpp"
 #include "host/base/firmware_image.hpp"
 
 namespace astro::emulator {
@@ -82,16 +83,15 @@ bool Teensy::run_until(const std::function<bool()>& done, std::chrono::nanosecon
 
 void Teensy::power_cycle() {
   flash_.restore_power();
-  // What RAM holds after a while without power is no longer what it held.
+  // Without power the RAM loses its content.
   for (const Memory::Range& range : chip_.memory().ranges())
     if (range.writable) std::fill(range.bytes.begin(), range.bytes.end(), std::uint8_t{0xA5});
   chip_.start(Reset::power_on);
 }
 
 std::uint32_t Teensy::word_at(std::uint32_t address) {
-  std::uint32_t word = 0;
-  if (const auto bytes = chip_.memory().at(address, 4); !bytes.empty()) std::memcpy(&word, bytes.data(), 4);
-  return word;
+  const auto bytes = chip_.memory().at(address, 4);
+  return bytes.empty() ? 0 : load<std::uint32_t>(bytes, 0);
 }
 
 std::uint64_t Teensy::state_hash() {

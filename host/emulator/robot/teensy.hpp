@@ -6,7 +6,6 @@
 #include <functional>
 
 #include "hal/sim/config.hpp"
-#include "host/emulator/core/chip.hpp"
 #include "host/emulator/chip/adc.hpp"
 #include "host/emulator/chip/clocks.hpp"
 #include "host/emulator/chip/decoders.hpp"
@@ -18,9 +17,10 @@
 #include "host/emulator/chip/reset.hpp"
 #include "host/emulator/chip/rtwdog.hpp"
 #include "host/emulator/chip/wdog.hpp"
+#include "host/emulator/core/chip.hpp"
+#include "host/emulator/robot/world.hpp"
 #include "host/emulator/usb/controller.hpp"
 #include "host/emulator/usb/phy.hpp"
-#include "host/emulator/robot/world.hpp"
 
 namespace astro::emulator {
 
@@ -30,8 +30,8 @@ namespace astro::emulator {
 ///   teensy.run_for(10ms);
 ///
 /// If the .elf lies beside the .hex, messages name functions. The same image, configuration and calls give
-/// the same state. Throws Stopped when the firmware does what the chip would not forgive; what that is, each
-/// model says.
+/// the same state. Throws Stopped if the firmware does something that fails on the chip; each model says
+/// what.
 class Teensy {
  public:
   explicit Teensy(const std::filesystem::path& hex, const sim::Config& robot = {},
@@ -65,13 +65,13 @@ class Teensy {
   Rtwdog& watchdog() { return rtwdog_; }
   Ccm& ccm() { return ccm_; }
   Chip& chip() { return chip_; }
-  /// Both encoders' shafts turn by so many counts, as their wires see it.
+  /// Turns both encoders' shafts by this many counts, as seen on their wires.
   void turn_shafts(std::int32_t left, std::int32_t right) {
     encoder_wires_.count(0, left);
     encoder_wires_.count(1, right);
   }
   std::uint32_t word_at(std::uint32_t address);
-  /// Of processor, memories and time: equal after two runs that went the same way.
+  /// A hash of processor, memories and time: equal after two equal runs.
   std::uint64_t state_hash();
 
  private:

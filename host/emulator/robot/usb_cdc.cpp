@@ -23,15 +23,15 @@ constexpr int kPacketsPerStep = 8, kMicroframesToDrain = 800;  // a tenth of a s
 
 void CdcHost::expect(bool fulfilled, const char* what) {
   if (fulfilled) return;
-  if (!teensy_.usb().attached()) throw Gone{};
+  if (!teensy_.usb().attached()) throw Detached{};
   throw Error(std::string("the USB device ") + what);
 }
 
 template <class Work>
-void CdcHost::unless_it_goes(Work work) {
+void CdcHost::while_attached(Work work) {
   try {
     work();
-  } catch (const Gone&) {
+  } catch (const Detached&) {
     present_ = false;
   }
 }
@@ -92,10 +92,10 @@ void CdcHost::open(std::uint32_t baud) {
   if (open_ && baud == baud_) return;
   open_ = true;
   baud_ = baud;
-  if (present_) unless_it_goes([this] { set_line(); });
+  if (present_) while_attached([this] { set_line(); });
 }
 
-/// What has been written before is sent first, as an operating system does it, but not for ever.
+/// Bytes written before are sent first, as an operating system does it, up to a time limit.
 void CdcHost::close() {
   if (!open_) return;
   for (int i = 0; i < kMicroframesToDrain && present_ && !to_device_.empty(); ++i) {
@@ -105,7 +105,7 @@ void CdcHost::close() {
   open_ = false;
   to_device_.clear();
   received_.clear();
-  if (present_) unless_it_goes([this] { set_line(); });
+  if (present_) while_attached([this] { set_line(); });
 }
 
 void CdcHost::send_bytes() {
@@ -132,7 +132,7 @@ void CdcHost::step() {
     to_device_.clear();
     return;
   }
-  if (!present_) unless_it_goes([this] { enumerate(); });
+  if (!present_) while_attached([this] { enumerate(); });
   if (!present_ || !open_) return;
   send_bytes();
   take_bytes();

@@ -19,7 +19,7 @@ class CdcHost {
  public:
   explicit CdcHost(Teensy& teensy) : teensy_(teensy), host_(teensy) {}
 
-  /// Does what is due. Enumerating takes some 30 ms of virtual time, moving bytes a microframe for each
+  /// Does what is due. Enumeration takes some 30 ms of virtual time, moving bytes takes a microframe per
   /// packet.
   void step();
 
@@ -33,9 +33,9 @@ class CdcHost {
   void send(std::span<const std::uint8_t> bytes) {
     if (open_) to_device_.insert(to_device_.end(), bytes.begin(), bytes.end());
   }
-  /// Bytes that the device has not taken yet.
+  /// Number of bytes that the device has not taken yet.
   std::size_t underway() const { return to_device_.size(); }
-  /// What has come since the last call.
+  /// The bytes received since the last call.
   std::vector<std::uint8_t> receive() { return std::exchange(received_, {}); }
 
  private:
@@ -44,11 +44,11 @@ class CdcHost {
     int in = 0, out = 0;
   };
 
-  struct Gone {};  // the device has left the bus in the middle of a request, which is its right
+  struct Detached {};  // the device has left the bus during a request, which it may do
 
   void expect(bool fulfilled, const char* what);
   template <class Work>
-  void unless_it_goes(Work work);
+  void while_attached(Work work);
   void enumerate();
   Pipes pipes_of(std::span<const std::uint8_t> configuration);
   void set_line();

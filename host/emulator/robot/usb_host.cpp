@@ -8,7 +8,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kMicroframe = 125us;
-constexpr int kPatience = 4000;  // microframes: half a second, what a host gives a device
+constexpr int kNakRetries = 4000;  // one per microframe: half a second, the usual time-out of a host
 
 std::array<std::uint8_t, 8> bytes_of(const UsbHost::Request& r) {
   const auto low = [](std::uint16_t word) { return static_cast<std::uint8_t>(word); };
@@ -25,7 +25,7 @@ void UsbHost::reset(bool high_speed) {
   teensy_.usb().end_reset(high_speed);
   bulk_packet_ = high_speed ? 512 : 64;
   address_ = 0;
-  begin_toggles_anew();
+  reset_toggles();
   teensy_.run_for(1ms);
 }
 
@@ -40,18 +40,18 @@ void UsbHost::resume() {
   teensy_.run_for(20ms);
 }
 
-Handshake UsbHost::patiently(const std::function<Handshake()>& transaction) {
+Handshake UsbHost::retry_nak(const std::function<Handshake()>& transaction) {
   Handshake answer = Handshake::nak;
-  for (int i = 0; i < kPatience && answer == Handshake::nak; ++i) {
+  for (int i = 0; i < kNakRetries && answer == Handshake::nak; ++i) {
     answer = transaction();
     teensy_.run_for(kMicroframe);
   }
   return answer;
 }
 
-Packet UsbHost::patient_in(int endpoint) {
+Packet UsbHost::in_with_retries(int endpoint) {
   Packet packet;
-  packet.handshake = patiently([&] {
+  packet.handshake = retry_nak([&] {
     packet = teensy_.usb().in(address_, endpoint);
     return packet.handshake;
   });
@@ -69,14 +69,14 @@ UsbHost::Outcome UsbHost::read(const Request& request, std::vector<std::uint8_t>
   if (setup_only(request) != Handshake::ack) return Outcome::no_answer;
   bool data1 = true;
   while (data.size() < request.length) {
-    const Packet packet = patient_in(0);
+    const Packet packet = in_with_retries(0);
     if (packet.handshake == Handshake::stall) return Outcome::stalled;
     if (packet.handshake != Handshake::ack || packet.data1 != data1) return Outcome::no_answer;
     data1 = !data1;
     data.insert(data.end(), packet.bytes.begin(), packet.bytes.end());
     if (packet.bytes.size() < packet_) break;
   }
-  const Handshake status = patiently([&] { return teensy_.usb().out(address_, 0, {}, true); });
+  const Handshake status = retry_nak([&] { return teensy_.usb().out(address_, 0, {}, true); });
   if (status == Handshake::stall) return Outcome::stalled;
   return status == Handshake::ack ? Outcome::done : Outcome::no_answer;
 }
@@ -86,11 +86,11 @@ UsbHost::Outcome UsbHost::write(const Request& request, std::span<const std::uin
   bool data1 = true;
   for (std::size_t at = 0; at < data.size(); at += packet_) {
     const auto part = data.subspan(at, std::min<std::size_t>(packet_, data.size() - at));
-    const Handshake answer = patiently([&] { return teensy_.usb().out(address_, 0, part, data1); });
+    const Handshake answer = retry_nak([&] { return teensy_.usb().out(address_, 0, part, data1); });
     if (answer != Handshake::ack) return answer == Handshake::stall ? Outcome::stalled : Outcome::no_answer;
     data1 = !data1;
   }
-  const Packet status = patient_in(0);
+  const Packet status = in_with_retries(0);
   if (status.handshake == Handshake::stall) return Outcome::stalled;
   const bool right = status.handshake == Handshake::ack && status.bytes.empty() && status.data1;
   if (!right) return Outcome::no_answer;
@@ -98,17 +98,17 @@ UsbHost::Outcome UsbHost::write(const Request& request, std::span<const std::uin
   return Outcome::done;
 }
 
-/// Requests after which both sides begin with DATA0 again.
+/// Some requests make both sides begin with DATA0 again.
 void UsbHost::follow(const Request& request) {
   constexpr std::uint8_t kClearFeature = 1, kSetConfiguration = 9, kSetInterface = 11;
-  if (request.type == 0x00 && request.request == kSetConfiguration) begin_toggles_anew();
-  if (request.type == 0x01 && request.request == kSetInterface) begin_toggles_anew();
+  if (request.type == 0x00 && request.request == kSetConfiguration) reset_toggles();
+  if (request.type == 0x01 && request.request == kSetInterface) reset_toggles();
   if (request.type != 0x02 || request.request != kClearFeature) return;
   auto& toggles = (request.index & 0x80) != 0 ? in_data1_ : out_data1_;
   toggles[request.index & 0xFU] = false;
 }
 
-void UsbHost::begin_toggles_anew() { out_data1_ = in_data1_ = {}; }
+void UsbHost::reset_toggles() { out_data1_ = in_data1_ = {}; }
 
 UsbHost::Outcome UsbHost::set_address(std::uint8_t address) {
   const Outcome outcome = write({0x00, 5, address, 0, 0});

@@ -10,8 +10,8 @@
 
 namespace astro::emulator {
 
-/// A USB host on the other end of the cable, in virtual time: what it does, a test says. Repeats what is
-/// answered by NAK, a microframe later each time.
+/// A USB host at the other end of the cable, in virtual time; a test decides what it does. A transaction that
+/// is answered by NAK is repeated in the next microframe.
 class UsbHost {
  public:
   struct Request {
@@ -27,10 +27,10 @@ class UsbHost {
   void suspend();
   void resume();
 
-  /// Control transfers, with all their stages. `data` is what came, or what is sent.
+  /// Control transfers with all their stages. `data`: the bytes received, or the bytes to send.
   Outcome read(const Request& request, std::vector<std::uint8_t>& data);
   Outcome write(const Request& request, std::span<const std::uint8_t> data = {});
-  /// The SETUP packet alone: the host thinks better of it.
+  /// Sends the SETUP packet alone; the host gives the transfer up.
   Handshake setup_only(const Request& request);
 
   /// Gives the device this address, and uses it from now on.
@@ -38,17 +38,17 @@ class UsbHost {
 
   /// One bulk transfer to the device; false if it did not take all within `limit`.
   bool send(int endpoint, std::span<const std::uint8_t> bytes, std::chrono::microseconds limit);
-  /// One packet from the device, if it has one within `limit`. One with the toggle of the last is a
-  /// repetition, and passed over.
+  /// One packet from the device, if it has one within `limit`. A packet with the toggle of the last one is a
+  /// repetition and is ignored.
   std::optional<Packet> receive(int endpoint, std::chrono::microseconds limit);
 
   std::uint16_t bulk_packet() const { return bulk_packet_; }
 
  private:
   void follow(const Request& request);
-  void begin_toggles_anew();
-  Handshake patiently(const std::function<Handshake()>& transaction);
-  Packet patient_in(int endpoint);
+  void reset_toggles();
+  Handshake retry_nak(const std::function<Handshake()>& transaction);
+  Packet in_with_retries(int endpoint);
 
   Teensy& teensy_;
   std::uint8_t address_ = 0;

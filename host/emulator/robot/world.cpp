@@ -35,7 +35,7 @@ World::World(Machine& machine, const sim::Config& config, const Wires& wires)
   wires_.adc.pin_V = [this] { return drivetrain_.bus_V() * kDivider; };
 }
 
-/// The chip starts again; the world goes on.
+/// The chip restarts; the world goes on.
 void World::reset() { machine_.wake(*this, machine_.now() + kStep); }
 
 void World::set_driver_fault(bool fault) {
@@ -48,7 +48,7 @@ void World::set_driver_fault(bool fault) {
 World::Bridges World::bridges() const {
   Bridges bridges;
   constexpr std::uint32_t kGpio = 5;
-  const auto high = [this](const Pin& pin) {  // a pad that is not the port's is low: the driver's pull-down
+  const auto high = [this](const Pin& pin) {  // a pad that is not connected to the port is low: pull-down
     return (wires_.gpio7.driven() & pin.bit) != 0 && wires_.pads.function(pin.mux) == kGpio;
   };
   for (std::size_t side = 0; side < 2; ++side) {
@@ -80,7 +80,7 @@ void World::event() {
   if (wiring.left_motor_reversed) drive.duty[0] = -drive.duty[0];
   if (wiring.right_motor_reversed) drive.duty[1] = -drive.duty[1];
   const sim::Pair wheels_rad = drivetrain_.advance_tick(drive);
-  if (scripted_ || (wheels_rad[0] == 0.0 && wheels_rad[1] == 0.0)) return;
+  if (wheels_rad[0] == 0.0 && wheels_rad[1] == 0.0) return;
   const auto counted = edges(wheels_rad);
   for (std::size_t side = 0; side < 2; ++side)
     if (!unplugged_[side]) wires_.encoders.count(side, counted[side]);

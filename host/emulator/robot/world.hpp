@@ -13,8 +13,8 @@
 
 namespace astro::emulator {
 
-/// The robot around the chip: the very motors, wheels and floor of hal/sim, with the driver's inputs where
-/// the pins are and the encoders' edges where the other pins are. Moves once a millisecond, as hal/sim does.
+/// The robot around the chip: motors, wheels and floor of hal/sim. The chip's pins are the inputs of the
+/// motor driver chip, and the encoders' edges go to other pins. Moves once a millisecond, as hal/sim does.
 class World : public Model {
  public:
   struct Wires {
@@ -37,14 +37,12 @@ class World : public Model {
   const sim::Drivetrain& drivetrain() const { return drivetrain_; }
   void set_load(sim::Side side, const sim::WheelLoad& load) { drivetrain_.set_load(side, load); }
   void set_supply_V(double volts) { supply_V_ = volts; }
-  /// The driver chip pulls its error output down and opens both bridges.
+  /// A fault of the driver chip: it pulls its error output down and opens both bridges.
   void set_driver_fault(bool fault);
-  /// A cable falls off; the other motor's wheel goes on.
+  /// Unplugs one encoder's cable; its counts are lost.
   void unplug(sim::Side side, bool unplugged) { unplugged_[sim::at(side)] = unplugged; }
-  /// The shafts stand still and counts come from a script instead; `edges` by side.
-  void disconnect_wheels() { scripted_ = true; }
 
-  /// What the bridges do: duty by side, signed, and whether they are open.
+  /// State of the bridges by side: signed duty, and whether they are open.
   struct Bridges {
     sim::Pair duty{};
     std::array<bool, 2> open{};
@@ -63,7 +61,7 @@ class World : public Model {
   sim::Encoders shafts_;
   double supply_V_;
   std::array<bool, 2> unplugged_{};
-  bool fault_ = false, scripted_ = false;
+  bool fault_ = false;
 };
 
 }  // namespace astro::emulator

@@ -10,7 +10,7 @@
 
 namespace astro::emulator {
 
-/// How the device answers a transaction. `nothing`: it is not there, or has another address.
+/// How the device answers a transaction. `nothing`: it is not attached, or has another address.
 enum class Handshake : std::uint8_t { ack, nak, stall, nothing };
 
 struct Packet {
@@ -20,8 +20,8 @@ struct Packet {
 };
 
 /// The device controller USB1: its registers towards the firmware, and the bus towards a host. Walks the
-/// queue heads and transfer descriptors in memory as the chip's bus master does. A device that a host knows
-/// must stay away long enough for any host to notice before it attaches again.
+/// queue heads and transfer descriptors in memory as the chip's bus master does. Before a known device
+/// attaches again, it must be detached long enough for any host to notice.
 ///
 /// Not modelled  isochronous transfers, lists of more than one descriptor, descriptors without IOC, timers.
 class UsbController : public Model {
@@ -36,12 +36,12 @@ class UsbController : public Model {
 
   // The bus.
   bool attached() const;
-  /// The host holds the bus in reset, and lets it go again: the device answers to address 0 then.
+  /// The host begins and ends a bus reset; afterwards the device has address 0.
   void begin_reset();
   void end_reset(bool high_speed);
   void suspend();
   void resume();
-  /// The cable, which is in from the start. Without it the device sees the bus fall silent.
+  /// The cable, which is plugged in at the start. Without it the bus is idle for the device.
   void unplug();
   void plug_in() { plugged_ = true; }
 
@@ -83,7 +83,8 @@ class UsbController : public Model {
   bool address_due_ = false, resetting_ = false, high_speed_ = false, suspended_ = false;
   bool missed_reset_ = false;  // a bus reset ended before the firmware had flushed what it had primed
   bool plugged_ = true;
-  bool on_bus_ = false, known_ = false;  // by the firmware or by what ran before; to a host
+  bool on_bus_ = false,
+       known_ = false;  // attached by the firmware or by the program before it; known to a host
   Cycles left_at_ = 0;
   std::array<std::uint32_t, kEndpoints> endpoint_{};
   std::array<Queue, 2 * kEndpoints> queues_{};

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "hal/teensy40/registers/registers.hpp"
+#include "host/base/bytes.hpp"
 #include "host/emulator/usb/controller.hpp"
 
 namespace astro::emulator {
@@ -16,16 +17,14 @@ constexpr std::uint32_t kInterruptWhenDone = 1U << 15, kInterruptOnSetup = 1U <<
 constexpr std::uint32_t kNoEmptyPacket = 1U << 29;
 
 std::uint32_t word(std::span<const std::uint8_t> bytes, std::size_t index) {
-  std::uint32_t value = 0;
-  std::memcpy(&value, bytes.data() + 4 * index, 4);
-  return value;
+  return load<std::uint32_t>(bytes, 4 * index);
 }
 
 void set_word(std::span<std::uint8_t> bytes, std::size_t index, std::uint32_t value) {
-  std::memcpy(bytes.data() + 4 * index, &value, 4);
+  store(bytes, 4 * index, value);
 }
 
-/// The first page may begin anywhere, the other four follow it.
+/// The data may begin anywhere in the first page; the other four pages must follow it.
 bool names_its_pages(std::span<const std::uint8_t> transfer) {
   const std::uint32_t first = word(transfer, 2), end = first + (word(transfer, 1) >> 16 & 0x7FFF);
   for (std::uint32_t page = first / kPage + 1, n = 1; page * kPage < end; ++page, ++n)
@@ -56,7 +55,7 @@ Handshake UsbController::setup(std::uint8_t address, const std::array<std::uint8
   const auto queue_head = head(0, false);
   if (queue_head.empty()) return Handshake::nothing;
   std::copy(bytes.begin(), bytes.end(), queue_head.begin() + 40);
-  // A stall is over. What is primed stays so, and moves nothing, until the firmware has flushed it.
+  // A stall ends. Primed transfers stay primed, but move no data until the firmware has flushed them.
   control(0) &= ~(usb::ENDPTCTRL0_RXS.mask() | usb::ENDPTCTRL0_TXS.mask());
   for (const bool in : {false, true}) queue(0, in) = {.primed = queue(0, in).primed, .data1 = true};
   command_ &= ~usb::USBCMD_SUTW.mask();

@@ -5,9 +5,9 @@
 #include <sstream>
 
 #include "host/base/error.hpp"
+#include "host/base/files.hpp"
 #include "host/base/plain_text.hpp"
 #include "host/experiment/files/toml_file.hpp"
-#include "host/base/files.hpp"
 
 namespace astro::experiment {
 namespace {
@@ -23,7 +23,7 @@ void require_own_kind(const fs::path& path) {
 
 void save(const fs::path& path, const std::string& text) {
   require_own_kind(path);
-  recording::PartFile file(path);
+  PartFile file(path);
   file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   file.commit();
 }

@@ -8,13 +8,13 @@
 #include <set>
 
 #include "host/base/error.hpp"
-#include "host/experiment/files/experiment_folder.hpp"
-#include "host/experiment/drive/mistyped_square.hpp"
-#include "host/experiment/files/robot_identity.hpp"
-#include "host/experiment/analysis/until.hpp"
-#include "host/robot/parameters/upload.hpp"
 #include "host/base/folder_lock.hpp"
+#include "host/experiment/analysis/until.hpp"
+#include "host/experiment/drive/mistyped_square.hpp"
+#include "host/experiment/files/experiment_folder.hpp"
+#include "host/experiment/files/robot_identity.hpp"
 #include "host/recording/files/run_file.hpp"
+#include "host/robot/parameters/upload.hpp"
 
 namespace astro::experiment {
 namespace {
@@ -49,8 +49,7 @@ class Session {
     if (has_journal(folder_)) {
       journal_ = read_journal(folder_);
       if (nlohmann::json(journal_.plan) != nlohmann::json(plan))
-        throw Error("'" + folder_.string() +
-"' holds an experiment with other settings",
+        throw Error("'" + folder_.string() + "' holds an experiment with other settings",
                     {Help::give_same_settings_or_choose_other_folder});
       if (const std::string other =
               different_robots("the experiment in '" + folder_.string() + "'",
@@ -89,7 +88,8 @@ class Session {
       const Calibration found = calibrate_with(read_specs(folder_, specs));
       if (found.ml() == nullptr)
         throw Error(
-            "a precision can only be driven for by maximum likelihood, and these runs have no ground truth along "
+            "a precision can only be driven for by maximum likelihood, and these runs have no ground truth "
+            "along "
             "the way",
             {Help::count_runs});
       const calibration::Precision reached = precision_of(found);
@@ -177,11 +177,12 @@ class Session {
     const auto known = journal_.carried.find(phase);
     if (known != journal_.carried.end()) {
       if (!same_factors(known->second, factors))
-        throw Error(fmt::format("the robot carries c_R {:.9f}, c_L {:.9f}, b {:.9f} m, but phase '{}' of this "
-                                "experiment began with {:.9f}, {:.9f}, {:.9f} m",
-                                factors.c_r, factors.c_l, factors.b_m, phase, known->second.c_r,
-                                known->second.c_l, known->second.b_m),
-                    {Help::load_factors_or_choose_other_folder});
+        throw Error(
+            fmt::format("the robot carries c_R {:.9f}, c_L {:.9f}, b {:.9f} m, but phase '{}' of this "
+                        "experiment began with {:.9f}, {:.9f}, {:.9f} m",
+                        factors.c_r, factors.c_l, factors.b_m, phase, known->second.c_r, known->second.c_l,
+                        known->second.b_m),
+            {Help::load_factors_or_choose_other_folder});
       return;
     }
     journal_.carried[phase] = factors;
@@ -244,7 +245,7 @@ class Session {
   robot::Client& client_;
   truth::Source& truth_;
   fs::path folder_;
-  recording::FolderLock lock_;  // two sessions would record and calibrate each other's runs
+  FolderLock lock_;  // two sessions would record and calibrate each other's runs
   const ExperimentHooks& hooks_;
   Journal journal_;
   std::vector<RunSet> finished_;  // phases before the one under way

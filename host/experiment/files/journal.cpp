@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "host/base/error.hpp"
-#include "host/base/json_weight.hpp"
 #include "host/base/files.hpp"
+#include "host/base/json_weight.hpp"
 
 namespace astro::experiment {
 namespace {
@@ -45,9 +45,9 @@ bool has_journal(const std::filesystem::path& folder) { return std::filesystem::
 Journal read_journal(const std::filesystem::path& folder) {
   const std::filesystem::path path = file_in(folder);
   if (!std::filesystem::exists(path)) fail_no_experiment(folder);
-  const recording::Bytes bytes = recording::load_file(path, recording::kMaxSettingsBytes);
+  const Bytes bytes = load_file(path, kMaxSettingsBytes);
   const std::string damaged = "'" + path.string() + "' is damaged";
-  if (!json_fits_memory(recording::as_text(bytes))) throw Error(damaged, {Help::calibrate_recordings});
+  if (!json_fits_memory(as_text(bytes))) throw Error(damaged, {Help::calibrate_recordings});
   try {
     const auto json = nlohmann::json::parse(bytes.begin(), bytes.end());
     if (json.at("format") != kFormat)
@@ -85,7 +85,7 @@ void write_journal(const std::filesystem::path& folder, const Journal& journal) 
                                {"carried", carried}};
   // A robot's texts may be no UTF-8.
   const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-  recording::PartFile file(file_in(folder));
+  PartFile file(file_in(folder));
   file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   file.commit();
 }

@@ -70,7 +70,7 @@ class Nesting {
 }  // namespace
 
 toml::table parse_toml(const std::filesystem::path& path) {
-  const recording::Bytes bytes = recording::load_file(path, recording::kMaxSettingsBytes);
+  const Bytes bytes = load_file(path, kMaxSettingsBytes);
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (const int line = Nesting(text).exceeds(kMostLevels); line > 0)
     throw Error(fmt::format("'{}' line {} nests more than {} levels deep, which no file of Astrolabe does",

@@ -31,10 +31,10 @@ using namespace astro::console;   // NOLINT(google-build-using-namespace)
 constexpr int kFailed = 1, kWrongUsage = 2, kInterrupted = 130;
 
 void add_commands(Command app) {
-  for (const auto add :
-       {add_umbmark, add_calibrate, add_upload,  add_record,       add_compare, add_report, add_sim,
-        add_ports,   add_info,      add_params,  add_drive,        add_stop,    add_pause,  add_faults,
-        add_reboot,  add_flash,     add_monitor, add_check_wiring, add_tune,    add_plan,   add_study})
+  for (const auto add : {add_umbmark,      add_calibrate, add_upload, add_record, add_compare, add_report,
+                         add_sim,          add_ports,     add_info,   add_params, add_drive,   add_stop,
+                         add_pause,        add_resume,    add_faults, add_reboot, add_flash,   add_monitor,
+                         add_check_wiring, add_tune,      add_plan,   add_study})
     add(app);
 }
 
@@ -51,10 +51,10 @@ int run(int argc, char** argv) {
   return code;
 }
 
-/// Where no exception may pass, as inside of the standard library's walk through a folder, the program ends
-/// here and not in main(). It says the same, and leaves no core file. A robot that was armed stops by its own
-/// time-out.
-[[noreturn]] void end_at_once() {
+/// The terminate handler, for exceptions where none may pass, for example inside the standard library's
+/// folder iterator. It prints the same as main() would, and leaves no core file. An armed robot stops by its
+/// own time-out.
+[[noreturn]] void report_and_terminate() {
   try {
     if (const std::exception_ptr why = std::current_exception()) std::rethrow_exception(why);
     std::fputs("astrolabe: this should not have happened, please report it: it ended itself\n", stderr);
@@ -71,7 +71,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::set_terminate(end_at_once);
+  std::set_terminate(report_and_terminate);
   hold_standard_streams();
   watch_for_interrupt();
   try {
@@ -83,7 +83,7 @@ int main(int argc, char** argv) {
     complain(error.what());
     return kWrongUsage;
   } catch (const astro::Error& error) {
-    complain(in_words(error));  // also after Ctrl-C: the disk may be full, or the robot not have stopped
+    complain(in_words(error));  // also after Ctrl-C: the disk may be full, or the robot may not have stopped
     return kFailed;
   } catch (const std::filesystem::filesystem_error& error) {
     complain(in_words(error));

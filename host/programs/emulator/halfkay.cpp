@@ -32,7 +32,7 @@ std::optional<std::string> HalfKay::receive() {
   ssize_t count = 0;
   while ((count = read(fd_, bytes.data(), bytes.size())) > 0)
     received_.append(bytes.data(), static_cast<std::size_t>(count));
-  const bool closed = count == 0;  // by whoever wrote; also while nobody has come
+  const bool closed = count == 0;  // by the writer, or no writer has opened it yet
   if (!closed || received_.empty()) return {};
   return std::exchange(received_, {});
 }

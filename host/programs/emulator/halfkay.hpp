@@ -6,8 +6,8 @@
 
 namespace astro::emulator {
 
-/// The way into an emulated Teensy that waits in its boot loader: a FIFO that is there only as long as the
-/// object. Whoever writes an image into it stands for teensy_loader_cli:
+/// How an image gets into an emulated Teensy that waits in its boot loader: through a FIFO that exists only
+/// as long as the object. A program that writes an image into it stands in for teensy_loader_cli:
 ///
 ///   cat firmware.hex > robot.halfkay
 class HalfKay {
@@ -18,7 +18,7 @@ class HalfKay {
   HalfKay(const HalfKay&) = delete;
   HalfKay& operator=(const HalfKay&) = delete;
 
-  /// The image, once somebody has written one to its end. Never blocks.
+  /// The image, when it was written completely; nothing before. Never blocks.
   std::optional<std::string> receive();
 
  private:

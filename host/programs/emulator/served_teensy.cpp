@@ -1,12 +1,12 @@
-#include "host/commands/base/remedies.hpp"
 #include "host/programs/emulator/served_teensy.hpp"
+#include "host/commands/base/remedies.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include "host/base/error.hpp"
-#include "host/console/console.hpp"
 #include "host/base/files.hpp"
+#include "host/console/console.hpp"
 
 namespace astro::emulator {
 namespace {
@@ -27,7 +27,7 @@ ServedTeensy::ServedTeensy(fs::path hex, sim::Config config, const simulation::M
       flashed_(beside(pty, ".flashed.hex")) {
   std::error_code none;
   if (fs::is_fifo(fifo_, none))
-    fs::remove(fifo_, none);  // of a program that was killed: a loader would wait at it
+    fs::remove(fifo_, none);  // left by a killed program; a loader would wait for it
   start(hex);
 }
 
@@ -42,7 +42,8 @@ void ServedTeensy::start(const fs::path& hex) {
 }
 
 void ServedTeensy::step() {
-  // By the chip's time: what the computer at the USB port does, enumerating above all, takes time of its own.
+  // By the chip's time, because some actions of the computer at the USB port, such as enumeration, let time
+  // pass.
   constexpr std::uint64_t kMillisecond_us = 1000;
   due_us_ += kMillisecond_us;
   while (now_us() < due_us_) robot_->step();
@@ -59,8 +60,8 @@ void ServedTeensy::wait_in_bootloader() {
   const auto kept = flash();
   config_.flash.assign(kept.begin(), kept.end());
   try {
-    recording::PartFile file(flashed_);
-    file.write(recording::as_bytes(*image));
+    PartFile file(flashed_);
+    file.write(as_bytes(*image));
     file.commit();
     start(flashed_);
   } catch (const Error& error) {
@@ -71,7 +72,7 @@ void ServedTeensy::wait_in_bootloader() {
 }
 
 std::size_t ServedTeensy::room(int port) {
-  constexpr std::size_t kUnderway = 1024;  // what an adapter or an operating system holds
+  constexpr std::size_t kUnderway = 1024;  // buffer of an adapter or an operating system
   return kUnderway - std::min(kUnderway, robot_->underway(port_of(port)));
 }
 

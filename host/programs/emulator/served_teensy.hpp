@@ -8,13 +8,13 @@
 
 #include "host/emulator/robot/emulated_robot.hpp"
 #include "host/programs/emulator/halfkay.hpp"
-#include "host/simulation/server/served.hpp"
+#include "host/simulation/server/served_robot.hpp"
 
 namespace astro::emulator {
 
 /// An emulated robot behind ptys: port 0 is LPUART6, port 1 is USB. In its boot loader it waits for an image
 /// at `beside` + ".halfkay"; flashing keeps the sectors of the parameters, as on a Teensy.
-class ServedTeensy : public simulation::Served {
+class ServedTeensy : public simulation::ServedRobot {
  public:
   /// Errors as Teensy.
   ServedTeensy(std::filesystem::path hex, sim::Config config, const simulation::MocapConfig& mocap,
@@ -40,7 +40,7 @@ class ServedTeensy : public simulation::Served {
   std::filesystem::path fifo_, flashed_;
   std::unique_ptr<EmulatedRobot> robot_;
   std::optional<HalfKay> halfkay_;
-  std::uint64_t due_us_ = 0;  // what its time must be after the next step
+  std::uint64_t due_us_ = 0;  // the chip's time at the end of the next step
 };
 
 }  // namespace astro::emulator

@@ -9,7 +9,7 @@
 namespace astro::recording {
 namespace {
 
-/// A number that is none is an empty cell: PlotJuggler and spreadsheets take that for "no sample".
+/// NaN becomes an empty cell, which PlotJuggler and spreadsheets read as "no sample".
 std::string cell(double value) { return std::isnan(value) ? "" : to_text(value); }
 
 std::string row(const OdometrySample& sample) {
@@ -24,7 +24,7 @@ std::string row(const TruthSample& sample) {
   return time + ',' + cell(sample.x_m) + ',' + cell(sample.y_m) + ',' + cell(sample.theta_rad) + ",1\n";
 }
 
-constexpr std::size_t kWriteBytes = 65536;  // at once
+constexpr std::size_t kWriteBytes = 65536;  // written at a time
 
 }  // namespace
 

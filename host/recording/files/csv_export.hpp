@@ -8,14 +8,14 @@
 
 namespace astro::recording {
 
-/// Writes `odometry.csv` and `truth.csv` into `folder` (made if needed) for PlotJuggler and spreadsheets:
-/// comma, point, one row per sample. The first column is `__time`, seconds on the robot's clock; the others
-/// carry their unit in the name and a tree in slashes. Numbers are shortest decimals that read back exactly;
-/// the pose of an invalid truth sample is left empty. Each file appears whole. Throws astro::Error naming the
-/// file.
+/// Writes `odometry.csv` and `truth.csv` into `folder` (created if needed) for PlotJuggler and spreadsheets:
+/// decimal points, commas between cells, one row per sample. The first column is `__time`, seconds on the
+/// robot's clock; the names of the others have their unit at the end and slashes as in a tree. Numbers are
+/// shortest decimals that read back exactly; the pose of an invalid truth sample is empty. Each file appears
+/// complete or not at all. Throws astro::Error naming the file.
 void export_csv(const Run& run, const std::filesystem::path& folder);
 
-/// The same two files, written while samples come. They carry their names once they are closed.
+/// The same two files, written while samples arrive. They get their names when they are closed.
 class CsvWriter {
  public:
   explicit CsvWriter(const std::filesystem::path& folder);

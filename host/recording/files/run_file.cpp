@@ -8,26 +8,28 @@
 
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
+#include "host/recording/files/run_writer.hpp"
 #include "host/recording/mcap/reader.hpp"
 #include "host/recording/run/planar_pose.hpp"
-#include "host/ros2/ros_messages.hpp"
 #include "host/recording/run/run_metadata.hpp"
-#include "host/recording/files/run_writer.hpp"
+#include "host/ros2/ros_messages.hpp"
 
 namespace astro::recording {
 namespace {
 
-/// So many samples are taken from a file of any size, and one more for each so many bytes of it. A robot that
-/// stands still packs best: its messages differ by their times alone, and take 26 bytes each.
+/// The most samples that are read from a file: this number, plus one for each kLeastBytesPerSample bytes of
+/// it. The recording of a robot that stands still compresses best: its messages differ only in their times
+/// and take 26 bytes each.
 constexpr std::size_t kFreeSamples = 300'000, kLeastBytesPerSample = 20;
 
-/// What the messages of a file hold, before the streams are put together.
+/// The samples of a file's messages, before poses and counts are paired.
 struct Streams {
   std::string file;
   std::size_t most = 0;  // samples
-  // A vector that grows by doubling would take three times the memory of its samples for a moment.
+  // A deque, because a vector that grows by doubling would for a moment take three times the memory of its
+  // samples.
   std::deque<OdometrySample> odometry;
-  std::deque<WheelCounts> counts;
+  std::deque<ros2::WheelCounts> counts;
   std::deque<TruthSample> truth;
   bool unreadable = false;
 
@@ -40,12 +42,12 @@ struct Streams {
   }
   void take(const mcap::Channel& channel, const mcap::Schema* schema, const mcap::Message& message) {
     if (schema == nullptr || channel.message_encoding != "cdr") return;
-    if (schema->name == odometry_type().name && channel.topic == "/odom") {
-      keep(odometry, decode_odometry(message.data));
-    } else if (schema->name == wheel_counts_type().name && channel.topic == "/wheel_counts") {
-      keep(counts, decode_counts(message.data));
-    } else if (schema->name == pose_stamped_type().name && channel.topic == "/truth") {
-      keep(truth, decode_truth(message.data));
+    if (schema->name == ros2::odometry_type().name && channel.topic == "/odom") {
+      keep(odometry, ros2::decode_odometry(message.data));
+    } else if (schema->name == ros2::wheel_counts_type().name && channel.topic == "/wheel_counts") {
+      keep(counts, ros2::decode_counts(message.data));
+    } else if (schema->name == ros2::pose_stamped_type().name && channel.topic == "/truth") {
+      keep(truth, ros2::decode_truth(message.data));
     }
   }
 };
@@ -56,7 +58,7 @@ struct RunFile {
   std::string warning;
 };
 
-/// What is to be said of a file that is not whole; "" if it is.
+/// The warning for a file that is not complete; "" if it is.
 std::string warning_of(const std::string& file, const McapReport& report, Damage damage) {
   if (!report.is_mcap) throw Error(file + " is not an MCAP file: name a recording made by astrolabe");
   const std::string damaged =
@@ -91,16 +93,16 @@ RunFile parse(ByteView bytes, const std::string& file, bool with_data, Damage da
   return out;
 }
 
-/// Of a damaged file: leaves out poses and counts whose other half is missing.
+/// For a damaged file: removes poses without counts and counts without poses.
 void drop_singles(Streams& streams) {
   std::set<std::int64_t> poses, counts;
   for (const OdometrySample& sample : streams.odometry) poses.insert(sample.time_us);
-  for (const WheelCounts& sample : streams.counts) counts.insert(sample.time_us);
+  for (const ros2::WheelCounts& sample : streams.counts) counts.insert(sample.time_us);
   std::erase_if(streams.odometry, [&](const auto& sample) { return !counts.contains(sample.time_us); });
   std::erase_if(streams.counts, [&](const auto& sample) { return !poses.contains(sample.time_us); });
 }
 
-/// Gives every pose the counts of its instant; the writer puts them into the file in pairs.
+/// Adds to every pose the counts of the same instant; the writer writes them in pairs.
 void pair_counts(const std::string& file, bool cut_off, Streams& streams) {
   const std::size_t pairs = std::min(streams.odometry.size(), streams.counts.size());
   bool good = !streams.unreadable && (cut_off || streams.odometry.size() == streams.counts.size());
@@ -116,7 +118,7 @@ void pair_counts(const std::string& file, bool cut_off, Streams& streams) {
   streams.odometry.resize(pairs);
 }
 
-/// As a vector; the memory of the deque goes as that of the vector is filled.
+/// Moves the samples into a vector; the deque's memory is freed while the vector is filled.
 template <class Sample>
 std::vector<Sample> drained(std::deque<Sample>& samples) {
   std::vector<Sample> all;
@@ -125,8 +127,8 @@ std::vector<Sample> drained(std::deque<Sample>& samples) {
   return all;
 }
 
-/// Makes headings continuous: each within half a turn of the last finite one, the first at `first_rad` but
-/// for rounding.
+/// Makes headings continuous: each within half a turn of the last finite one; the first one equals
+/// `first_rad` except for rounding.
 template <class Sample>
 void unwrap(std::deque<Sample>& samples, const std::optional<double>& first_rad) {
   double last_rad = first_rad.value_or(std::numeric_limits<double>::quiet_NaN());

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "host/recording/run/run.hpp"
 #include "host/recording/files/run_file.hpp"
+#include "host/recording/run/run.hpp"
 
 /// The runs of an experiment: all *.mcap below one folder.
 namespace astro::recording {
@@ -14,12 +14,12 @@ struct RunEntry {
   RunInfo info;
 };
 
-/// The recordings below `folder`, in natural order of their paths ("cw-2" before "cw-10"), whatever the file
-/// system says. Throws astro::Error naming the folder if it is not there, cannot be read or holds no
+/// The recordings below `folder`, in natural order of their paths ("cw-2" before "cw-10"), whatever order the
+/// file system gives. Throws astro::Error naming the folder if it does not exist, cannot be read or holds no
 /// recording.
 std::vector<std::filesystem::path> list_runs(const std::filesystem::path& folder);
 
-/// Their infos or the runs themselves, in that order. Throw astro::Error naming the file that is no run.
+/// The infos or the runs themselves, in that order. Throw astro::Error naming a file that is no run.
 std::vector<RunEntry> read_run_infos(const std::filesystem::path& folder);
 std::vector<Run> read_runs(const std::filesystem::path& folder, Damage damage = Damage::refused);
 

@@ -12,10 +12,9 @@
 namespace astro::recording {
 namespace {
 
-std::uint16_t add_topic(McapWriter& mcap, std::string_view topic, const RosType& type) {
+std::uint16_t add_topic(McapWriter& mcap, std::string_view topic, const ros2::RosType& type) {
   const std::uint16_t schema = mcap.add_schema(type.name, "ros2msg", type.definition);
-  // Readers of bags look the key up; empty means that nothing is known about the publisher's quality of
-  // service.
+  // Readers of bags need the key; empty means that the publisher's quality of service is unknown.
   return mcap.add_channel(schema, topic, "cdr", {{"offered_qos_profiles", ""}});
 }
 
@@ -41,14 +40,14 @@ RunWriter::RunWriter(const std::filesystem::path& path, const RunInfo& info, Mca
       mcap_([this](ByteView bytes) { file_.write(bytes); }, {"ros2", "astrolabe"}, options) {
   record_.info = info;
   mcap_.write_metadata({std::string(kRunRecordName), to_map(record_)});
-  odometry_ = add_topic(mcap_, "/odom", odometry_type());
-  counts_ = add_topic(mcap_, "/wheel_counts", wheel_counts_type());
-  truth_ = add_topic(mcap_, "/truth", pose_stamped_type());
+  odometry_ = add_topic(mcap_, "/odom", ros2::odometry_type());
+  counts_ = add_topic(mcap_, "/wheel_counts", ros2::wheel_counts_type());
+  truth_ = add_topic(mcap_, "/truth", ros2::pose_stamped_type());
 }
 
-/// MCAP knows no time before zero; the stamp inside the message keeps the true one.
+/// MCAP times cannot be negative; the stamp inside the message has the true time.
 std::uint64_t RunWriter::log_time_ns(std::int64_t time_us) {
-  if (!fits_stamp(time_us)) {
+  if (!ros2::fits_stamp(time_us)) {
     throw Error(path_.string() + " cannot hold the time " + std::to_string(time_us) +
                 " us: times are microseconds of the robot's clock, within 2^31 s");
   }
@@ -62,14 +61,15 @@ std::uint64_t RunWriter::log_time_ns(std::int64_t time_us) {
 void RunWriter::add(const OdometrySample& sample) {
   const std::uint64_t time_ns = log_time_ns(sample.time_us);
   keep_first(record_.first_odometry_heading_rad, sample.theta_rad);
-  mcap_.write(odometry_, time_ns, encode_odometry(sample));
-  mcap_.write(counts_, time_ns, encode_counts({sample.time_us, sample.left_counts, sample.right_counts}));
+  mcap_.write(odometry_, time_ns, ros2::encode_odometry(sample));
+  mcap_.write(counts_, time_ns,
+              ros2::encode_counts({sample.time_us, sample.left_counts, sample.right_counts}));
 }
 
 void RunWriter::add(const TruthSample& sample) {
   const std::uint64_t time_ns = log_time_ns(sample.time_us);
   if (sample.valid) keep_first(record_.first_truth_heading_rad, sample.theta_rad);
-  mcap_.write(truth_, time_ns, encode_truth(sample));
+  mcap_.write(truth_, time_ns, ros2::encode_truth(sample));
 }
 
 void RunWriter::close(const RunInfo& final) {

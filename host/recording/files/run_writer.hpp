@@ -8,18 +8,18 @@
 
 namespace astro::recording {
 
-/// Records a run while it is driven. The recording lies in `<path>.part` until close() gives it its name, so
-/// that a run that was cut off is never taken for a whole one; if the program dies, the `.part` reads up to
-/// about the last two seconds of data (rename it).
+/// Records a run while it is driven. The recording is in `<path>.part` until close() gives it its name, so
+/// that a run that was cut off is never mistaken for a complete one; if the program is killed, the `.part`
+/// (renamed) can be read up to about its last two seconds.
 ///
 /// Topics  /odom nav_msgs/msg/Odometry (odom -> base_link), /wheel_counts astrolabe_msgs/msg/WheelCounts,
 ///         /truth geometry_msgs/msg/PoseStamped (frame truth); run info as Metadata "astrolabe.run".
 /// Times   stamps inside the messages are the robot's clock. MCAP's own times are UTC, so that viewers show
-///         when it was driven and not 1970: the first message is at RunInfo::started_at, the others as far
-///         from it by the robot's clock. Without a started_at they, too, are the robot's clock.
+///         when it was driven and not 1970: the first message is at RunInfo::started_at, the others at their
+///         distance from it by the robot's clock. Without a started_at they are the robot's clock, too.
 /// Limits  the poses of invalid truth samples are not kept; between two samples of a stream the heading must
 ///         change by less than half a turn, or whole turns are lost.
-/// Errors  astro::Error naming the file: the disk, or a time that is not within +-2^31 s.
+/// Errors  astro::Error naming the file: it cannot be written, or a time is not within +-2^31 s.
 class RunWriter {
  public:
   RunWriter(const std::filesystem::path& path, const RunInfo& info, McapWriterOptions options = {});
@@ -36,7 +36,7 @@ class RunWriter {
   PartFile file_;
   McapWriter mcap_;
   RunRecord record_;
-  std::optional<std::int64_t> utc_offset_us_;  // UTC minus the robot's clock; known from the first message on
+  std::optional<std::int64_t> utc_offset_us_;  // UTC minus the robot's clock; set by the first message
   std::uint16_t odometry_ = 0, counts_ = 0, truth_ = 0;
 };
 

@@ -46,7 +46,7 @@ Bytes compress_zstd(ByteView bytes) {
   const std::size_t size =
       ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), ZSTD_CLEVEL_DEFAULT);
   if (ZSTD_isError(size) != 0)
-    throw std::bad_alloc();  // the only way to fail with a buffer of the bound's size
+    throw std::bad_alloc();  // with a buffer of ZSTD_compressBound() it can only fail for lack of memory
   out.resize(size);
   return out;
 }

@@ -53,14 +53,14 @@ class Walker {
     warn(what + " at byte " + std::to_string(at));
   }
 
-  /// A file whose end is there was not cut off: something before it is wrong, such as a length.
+  /// A file with an intact end was not cut off: something before it is wrong, such as a length.
   void no_footer(std::size_t at) {
     if (file_.size() >= 2 * sizeof mcap::kMagic && is_magic(file_.last(sizeof mcap::kMagic)))
       return damage("a record that does not fit into the file", at);
     cut_off("the file ends at byte " + std::to_string(file_.size()) + " without a footer");
   }
 
-  /// Opcode 0 does not exist; it is what a file system leaves where a power cut came before the bytes.
+  /// Opcode 0 does not exist; a file system leaves zeros where a power cut prevented the writing of bytes.
   static bool next(ByteCursor& cursor, Record& record) {
     record.start = cursor.offset();
     record.op = cursor.number<std::uint8_t>();
@@ -85,7 +85,7 @@ class Walker {
     }
   }
 
-  /// The records that stand in chunks as well as outside. `at` is the place in the file to complain about.
+  /// The records that may be inside or outside of chunks. `at` is the position in the file for messages.
   void take_content(const Record& record, std::size_t at) {
     switch (static_cast<Op>(record.op)) {
       case Op::schema:
@@ -95,7 +95,7 @@ class Walker {
       case Op::message:
         return message(record, at);
       default:
-        return;  // indexes, attachments, and what is yet to be invented
+        return;  // indexes, attachments, and records of later versions
     }
   }
 
@@ -128,7 +128,7 @@ class Walker {
     return bytes;
   }
 
-  /// A definition may come again, in each chunk even, and takes the place of the one before.
+  /// A definition may be repeated, even in each chunk, and replaces the one before.
   template <class Definition>
   void keep(std::map<std::uint16_t, Definition>& all, Definition&& definition, std::size_t at) {
     const auto before = all.find(definition.id);

@@ -17,11 +17,11 @@ std::string take_string(ByteCursor& cursor) {
   return std::string(as_text(cursor.take(cursor.number<std::uint32_t>())));
 }
 
-/// A pair of a map takes ten times the bytes that it has in a file; a run record has some hundred pairs.
+/// In memory a pair of a map takes ten times its bytes in the file; a run record has some hundred pairs.
 constexpr std::size_t kMostPairs = 4096;
 
-/// A pair that breaks off inside the map, and more pairs than anybody writes, fail the whole record: `cursor`
-/// is drained past its end.
+/// If a pair reaches past the end of the map, or there are too many pairs, the whole record is bad: `cursor`
+/// is moved past its end, so that ok() is false.
 Map take_map(ByteCursor& cursor) {
   ByteCursor pairs(cursor.take(cursor.number<std::uint32_t>()));
   Map map;
@@ -108,7 +108,7 @@ Bytes encode(const Chunk& chunk) {
   return out;
 }
 
-// Braced initialisers are evaluated left to right, in the order of the fields in the file.
+// Braced initialisers are evaluated from left to right, so the fields are read in the order of the file.
 std::optional<Header> decode_header(ByteView content) {
   ByteCursor c(content);
   return if_whole(c, Header{take_string(c), take_string(c)});

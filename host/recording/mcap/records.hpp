@@ -86,8 +86,8 @@ Bytes encode(const Chunk& chunk);
 std::uint64_t append_record(Bytes& to, Op op, ByteView content);
 void append_string(Bytes& to, std::string_view text);
 
-/// Decode contents; nothing if a field reaches past the end. Fields behind the known ones are left unread, as
-/// the format asks.
+/// Decode contents; nothing if a field reaches past the end. Additional fields at the end are ignored, as the
+/// format requires.
 std::optional<Header> decode_header(ByteView content);
 std::optional<Schema> decode_schema(ByteView content);
 std::optional<Channel> decode_channel(ByteView content);

@@ -71,8 +71,8 @@ void McapWriter::write_metadata(const mcap::Metadata& metadata) {
   metadata_indexes_.push_back(std::move(index));
 }
 
-/// The MessageIndex records of the open chunk, to stand at `start` in the file; appends channel and place of
-/// each to `offsets`.
+/// The MessageIndex records of the open chunk, for position `start` in the file; appends channel and position
+/// of each to `offsets`.
 Bytes McapWriter::take_message_indexes(std::uint64_t start, Bytes& offsets) {
   Bytes out;
   for (ChannelState& state : channels_) {
@@ -145,7 +145,7 @@ Bytes McapWriter::statistics() const {
   return out;
 }
 
-/// The groups of the summary, to stand at `start` in the file; appends the SummaryOffset record of each to
+/// The groups of the summary, for position `start` in the file; appends the SummaryOffset record of each to
 /// `offsets`.
 Bytes McapWriter::summary_groups(std::uint64_t start, Bytes& offsets) const {
   Bytes out;

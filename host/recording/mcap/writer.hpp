@@ -9,18 +9,18 @@
 
 namespace astro::recording {
 
-/// When a chunk is closed and given to the sink: at so many bytes, or when it spans so much time. A recorder
-/// that is killed loses the open chunk only.
+/// When a chunk is closed and passed to the sink: at this size, or when its messages span this time. A
+/// recorder that is killed loses only the open chunk.
 struct McapWriterOptions {
   std::size_t chunk_bytes = std::size_t{1} << 20;
   std::uint64_t chunk_span_ns = 2'000'000'000;
 };
 
 /// Writes an MCAP file front to back: zstd chunks with checksums, message indexes, and at the end the summary
-/// that lets viewers seek. What the sink has got is a readable file at any moment.
+/// that lets viewers seek. The bytes in the sink are a readable file at any moment.
 ///
 /// Times   nanoseconds. Messages may come in any order of time.
-/// Errors  none of its own; the sink may throw, and what it throws passes through.
+/// Errors  none of its own; exceptions of the sink pass through.
 class McapWriter {
  public:
   using Sink = std::function<void(ByteView)>;
@@ -33,12 +33,12 @@ class McapWriter {
                             std::string_view message_encoding, const mcap::Map& metadata);
 
   void write(std::uint16_t channel_id, std::uint64_t time_ns, ByteView data);
-  /// Goes to the sink at once, ahead of an open chunk.
+  /// Written to the sink at once, before the open chunk.
   void write_metadata(const mcap::Metadata& metadata);
   /// Closes the open chunk, if it holds anything.
   void flush();
-  /// Flushes and writes the summary. Nothing may be written afterwards; without it the file counts as cut
-  /// off.
+  /// Flushes and writes the summary. Nothing may be written afterwards. Without close() the file counts as
+  /// cut off.
   void close();
 
  private:

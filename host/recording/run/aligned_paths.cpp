@@ -28,7 +28,7 @@ Track odometry_track(const Run& run) {
   return track;
 }
 
-/// Sorted, because times that were mapped from another clock may step back.
+/// Sorted by time, because times that were mapped from another clock may step back.
 Track truth_track(const Run& run) {
   Track track;
   for (const TruthSample& sample : run.truth) {

@@ -13,7 +13,7 @@ struct PlanarPose {
 /// The same angle in [-pi, pi]. NaN stays NaN.
 inline double wrapped_rad(double angle_rad) { return std::remainder(angle_rad, 2 * std::numbers::pi); }
 
-/// `pose` as seen from `frame`: frame^-1 * pose. Turns add up, nothing is wrapped.
+/// `pose` in the frame `frame`: frame^-1 * pose. Headings are subtracted, not wrapped.
 inline PlanarPose in_frame_of(const PlanarPose& frame, const PlanarPose& pose) {
   const double dx_m = pose.x_m - frame.x_m;
   const double dy_m = pose.y_m - frame.y_m;

@@ -6,18 +6,19 @@
 namespace astro::recording {
 namespace {
 
-/// Difference of two running counts, right across their wrap.
+/// Difference of two running counts, correct across their wrap.
 std::int32_t moved(std::int32_t from, std::int32_t to) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(to) - static_cast<std::uint32_t>(from));
 }
 
-bool stands(const OdometrySample& a, const OdometrySample& b) {
+bool is_still(const OdometrySample& a, const OdometrySample& b) {
   const std::int32_t left = moved(a.left_counts, b.left_counts);
   const std::int32_t right = moved(a.right_counts, b.right_counts);
   return left >= -kStillCounts && left <= kStillCounts && right >= -kStillCounts && right <= kStillCounts;
 }
 
-/// Mean of poses; headings are averaged as differences to the first, so neither wraps nor whole turns matter.
+/// Mean of poses; headings are averaged as differences from the first one, so that neither wraps nor whole
+/// turns matter.
 class PoseMean {
  public:
   void add(double x_m, double y_m, double theta_rad) {
@@ -62,10 +63,10 @@ std::optional<Rest> average(const Run& run, std::int64_t from_us, std::int64_t t
   return Rest{from_us, to_us, *odometry_mean, truth.mean()};
 }
 
-/// Time of the sample furthest from the end at which `[first, last)` starts that no wheel has left.
+/// Time of the last sample, counted from `first`, before a wheel leaves its position in `first`.
 template <class Iterator>
 std::int64_t last_still_us(Iterator first, Iterator last) {
-  const auto moves = std::find_if(first, last, [&](const auto& sample) { return !stands(*first, sample); });
+  const auto moves = std::find_if(first, last, [&](const auto& sample) { return !is_still(*first, sample); });
   return std::prev(moves)->time_us;
 }
 

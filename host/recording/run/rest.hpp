@@ -5,30 +5,28 @@
 #include "host/recording/run/planar_pose.hpp"
 #include "host/recording/run/run.hpp"
 
-/// Where a run stands still at its ends. Averages over these stretches are what a run is judged by: a single
-/// tracker sample has noise of about its resolution, the mean of n samples a sqrt(n)-th of it.
+/// The rests at both ends of a run. The end error uses averages over them: a single tracker sample has noise
+/// of about its resolution, the mean of n samples has 1/sqrt(n) of it.
 namespace astro::recording {
 
-/// No wheel has moved by more than this many counts from where it stood: an encoder that rests on an edge
-/// flickers.
+/// At rest no wheel moves by more than this many counts: an encoder that rests on an edge flickers.
 inline constexpr std::int32_t kStillCounts = 1;
-/// A shorter stop is not called standing still: two frames of the slowest tracker (30 Hz) must fit well
-/// inside.
+/// A shorter stop is no rest: several frames of the slowest tracker (30 Hz) must fit into it.
 inline constexpr std::int64_t kShortestRestUs = 200'000;
-/// Left out next to the motion, for body sway and for the error of the truth's clock.
+/// Left out next to the motion, because of body sway and the error of the truth's clock.
 inline constexpr std::int64_t kSettlingUs = 50'000;
 
 struct Rest {
-  std::int64_t from_us = 0, to_us = 0;  // what was averaged over
+  std::int64_t from_us = 0, to_us = 0;  // time span of the average
   PlanarPose odometry;                  // mean pose in the odom frame
-  /// Mean pose in the truth's frame; nothing if no sample in the stretch is valid. theta NaN if none has a
+  /// Mean pose in the truth's frame; nothing if no sample of the rest is valid. theta NaN if none has a
   /// heading.
   std::optional<PlanarPose> truth;
 };
 
-/// Nothing if the run does not stand still at that end for kShortestRestUs. Samples are in order of time;
-/// truth before the first or after the last odometry sample does not count, as nobody knows whether the robot
-/// moved.
+/// Nothing if the robot is not at rest for kShortestRestUs at that end of the run. Samples are in order of
+/// time; truth before the first or after the last odometry sample is ignored, because the robot may have
+/// moved then.
 std::optional<Rest> rest_at_start(const Run& run);
 std::optional<Rest> rest_at_end(const Run& run);
 

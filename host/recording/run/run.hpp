@@ -5,10 +5,11 @@
 #include <string>
 #include <vector>
 
-/// One drive as it was recorded: what the robot believed and what really happened.
+/// One drive as it was recorded: odometry and ground truth.
 ///
 /// Frames  odometry: the robot's odom frame. truth: the tracker's frame. x forward, y left at the start of a
-///         frame's owner, theta counter-clockwise. The two frames share nothing but the motion.
+///         frame's owner, theta counter-clockwise. The two frames are not related; only the motion is the
+///         same.
 /// Times   microseconds on the robot's clock, both streams (`truth_clock` says how truth got there).
 namespace astro::recording {
 
@@ -22,10 +23,10 @@ struct OdometrySample {
 struct TruthSample {
   std::int64_t time_us = 0;
   double x_m = 0, y_m = 0, theta_rad = 0;  // theta continuous, not wrapped
-  bool valid = true;  // false: the tracker had lost the body; the pose means nothing then
+  bool valid = true;                       // false: the tracker had lost the body, and the pose means nothing
 };
 
-/// Which way round a closed path was driven; none for paths without a sense.
+/// Direction of a closed path; none for other paths.
 enum class Direction { none, cw, ccw };
 
 struct RunInfo {
@@ -39,7 +40,7 @@ struct RunInfo {
   std::string started_at;    // ISO 8601, UTC
   std::string truth_source;  // "sim", "manual", "file", "" if none
   std::string truth_clock;   // "robot" or how the times were mapped
-  /// The parameters that the robot carried while it drove, SI values by table name: c_R, c_L, b, ...
+  /// The parameters that were loaded in the robot while it drove, SI values by table name: c_R, c_L, b, ...
   std::map<std::string, double> parameters;
 };
 

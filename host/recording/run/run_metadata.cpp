@@ -34,7 +34,7 @@ constexpr std::array<std::pair<std::string_view, std::optional<double> RunRecord
     {"first_truth_heading_rad", &RunRecord::first_truth_heading_rad},
 }};
 
-/// Looks values up by key and complains in the name of the file.
+/// Looks up values by key; its errors name the file.
 class Entries {
  public:
   Entries(const mcap::Map& map, const std::string& file) : map_(map), file_(file) {}

@@ -13,8 +13,8 @@ namespace astro::recording {
 
 inline constexpr std::string_view kRunRecordName = "astrolabe.run";
 
-/// RunInfo and what the messages cannot say: a quaternion holds a heading but for whole turns, so the first
-/// finite heading of each stream stands here. Absent in a recording that was cut off.
+/// RunInfo and what the messages cannot hold: a quaternion does not hold whole turns of a heading, so the
+/// first finite heading of each stream is here. Absent in a recording that was cut off.
 struct RunRecord {
   RunInfo info;
   std::optional<double> first_odometry_heading_rad, first_truth_heading_rad;
@@ -23,13 +23,13 @@ struct RunRecord {
 mcap::Map to_map(const RunRecord& record);
 
 /// Missing keys keep their defaults and unknown keys are ignored. Throws astro::Error naming `file` if a
-/// value is not what its key promises or the recording is of a newer format.
+/// value does not have the type of its key or the recording has a newer format.
 RunRecord run_record(const mcap::Map& map, const std::string& file);
 
 /// "cw", "ccw", "none".
 std::string_view direction_text(Direction direction);
 
-/// How messages name a run: "run square cw 3 (before)", without the parts that it lacks.
+/// The name of a run in messages: "run square cw 3 (before)", without the parts that it lacks.
 std::string run_name(const RunInfo& info);
 
 }  // namespace astro::recording

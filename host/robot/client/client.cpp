@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "host/robot/sharing/relay_messages.hpp"
 #include "host/robot/client/restore.hpp"
+#include "host/robot/sharing/relay_messages.hpp"
 
 namespace astro::robot {
 
@@ -12,9 +12,10 @@ using std::chrono::milliseconds;
 namespace {
 
 constexpr microseconds kKeepAlive = milliseconds(50);  // a quarter of the shortest time-out of a moving robot
-constexpr microseconds kPingTimeout = Patience().timeout;
-constexpr int kLostPings = Patience().tries;
-constexpr std::uint64_t kRestarted_us = 1'000'000;  // a clock that jumps back further than frames can be late
+constexpr microseconds kPingTimeout = RetryPolicy().timeout;
+constexpr int kLostPings = RetryPolicy().tries;
+constexpr std::uint64_t kRestarted_us =
+    1'000'000;  // a larger step back of the clock means a restart: frames are never that late
 constexpr std::uint8_t kLastRequest = 0x3F;
 
 }  // namespace
@@ -27,13 +28,13 @@ void Client::send(Body frame) {
   transport_.write(frame);
 }
 
-std::optional<Client::Body> Client::ask(Body frame, std::uint16_t id, Patience patience) {
+std::optional<Client::Body> Client::ask(Body frame, std::uint16_t id, RetryPolicy policy) {
   const Restore waiting(waiting_for_, id);
   reply_.clear();
-  for (int i = 0; i < patience.tries; ++i) {
+  for (int i = 0; i < policy.tries; ++i) {
     ++(i == 0 ? counts_.requests : counts_.repeats);
     send(frame);
-    const microseconds deadline = now() + patience.timeout;
+    const microseconds deadline = now() + policy.timeout;
     do {
       step(deadline);
       if (!reply_.empty()) return reply_;
@@ -42,11 +43,11 @@ std::optional<Client::Body> Client::ask(Body frame, std::uint16_t id, Patience p
   return std::nullopt;
 }
 
-Client::Body Client::exchange(Body frame, std::uint16_t id, std::string_view request, Patience patience) {
-  const auto body = ask(frame, id, patience);
+Client::Body Client::exchange(Body frame, std::uint16_t id, std::string_view request, RetryPolicy policy) {
+  const auto body = ask(frame, id, policy);
   if (!body) {
     throw LinkLost(name() + " does not answer any more (" + std::string(request) + ", " +
-                   std::to_string(patience.tries) + " tries): " + why_silent());
+                   std::to_string(policy.tries) + " tries): " + why_silent());
   }
   if (body->front() != protocol::ErrorReply::kId) return *body;
   const auto error = understand<protocol::ErrorReply>(*body, request);
@@ -75,7 +76,7 @@ void Client::dispatch(Body body) {
     take_pong(body);
   } else {
     ++counts_.stale_replies;
-    if (header.message_id == protocol::Pong::kId) note_answer();  // late, but a sign of life
+    if (header.message_id == protocol::Pong::kId) note_answer();  // late, but the robot is alive
   }
 }
 

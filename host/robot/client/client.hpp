@@ -13,9 +13,9 @@
 #include "common/protocol/messages.hpp"
 #include "host/robot/client/clock_map.hpp"
 #include "host/robot/client/events.hpp"
-#include "host/robot/client/retry_policy.hpp"
 #include "host/robot/client/receiver.hpp"
 #include "host/robot/client/refusal.hpp"
+#include "host/robot/client/retry_policy.hpp"
 #include "host/robot/port/transport.hpp"
 
 namespace astro::robot {
@@ -23,47 +23,48 @@ namespace astro::robot {
 /// One robot at the other end of a Transport.
 ///
 /// Replies  One request is under way at a time, besides at most one Ping. A request without an answer is sent
-///          again under the same request id. What this assumes of the robot: per port it remembers message id
-///          and request id of the last request and the reply it gave; the same pair again gets the same reply
-///          and is not carried out again (Hello and Ping may be: they leave the robot as it is after one). So
-///          a lost AddSegment or a lost Ack never adds a segment twice. Nothing is sent between the tries:
-///          one remembered reply is enough. A robot that restarts meanwhile (Booted) forgets it; then the
-///          request fails with LinkLost.
+///          again under the same request id. This assumes that the robot remembers, per port, message id and
+///          request id of the last request and its reply: if the same pair arrives again, it sends the same
+///          reply and does not carry the request out again (except Hello and Ping, which may be repeated
+///          without effect). So a lost AddSegment or a lost Ack never adds a segment twice. Nothing else is
+///          sent between two tries, so one remembered reply is enough. A robot that restarts meanwhile
+///          (Booted) has forgotten it; then the request fails with LinkLost.
 /// Time     All from Transport::now(); waits only inside Transport::read().
-/// Alive    While pump() runs a Ping is sent when 50 ms passed since the last request on the host's clock, or
-///          50 ms on the robot's clock since the last answer: a simulator in fast motion stops its clock to
-///          wait for us. Whoever neither pumps nor asks lets a moving robot stop by its own time-out.
-/// Errors   LinkLost: gone, silent or restarted. RobotRefused: ErrorReply. Error: it cannot be understood.
+/// Alive    While pump() runs, a Ping is sent 50 ms after the last request by the host's clock, or 50 ms
+///          after the last answer by the robot's clock, because a simulator in fast motion stops its clock to
+///          wait for us. If the caller neither pumps nor requests, a moving robot stops by its own time-out.
+/// Errors   LinkLost: gone, silent or restarted. RobotRefused: ErrorReply. Error: the answer makes no sense.
 class Client {
  public:
   explicit Client(std::unique_ptr<Transport> transport);
   explicit Client(Transport& transport);  // which outlives the Client
 
-  /// Handshake, after forgetting old bytes; to be called first. Throws Error with the reason: no answer, not
-  /// a robot, what we send comes back, another protocol version.
-  const protocol::HelloReply& connect(Patience patience = {std::chrono::milliseconds(300), 5});
+  /// Handshake, after dropping old bytes; must be called first. Throws Error with the reason: no answer, not
+  /// a robot, the line sends back what we send, another protocol version.
+  const protocol::HelloReply& connect(RetryPolicy policy = {std::chrono::milliseconds(300), 5});
 
-  /// Opens the same address again and shakes hands. Telemetry may have to be asked for again. Throws LinkLost
+  /// Opens the same address again and shakes hands. Telemetry may have to be requested again. Throws LinkLost
   /// if the robot is not there in time, Error if another robot (unique_id) answers.
   void reconnect(microseconds timeout);
 
-  /// Who answered connect().
+  /// The robot that answered connect().
   const protocol::HelloReply& robot() const { return robot_; }
 
-  /// Sends, waits for the reply, repeats as above. Events meanwhile go to their listeners.
+  /// Sends, waits for the reply, repeats as described above. Events that arrive meanwhile go to their
+  /// listeners.
   template <protocol::Request M>
-  typename M::Reply request(const M& message, Patience patience = patience_for<M>()) {
+  typename M::Reply request(const M& message, RetryPolicy policy = retry_policy_for<M>()) {
     const std::uint16_t id = next_id();
     const protocol::Frame frame(message, id);
-    return understand<typename M::Reply>(exchange(frame.bytes(), id, M::kName, patience), M::kName);
+    return understand<typename M::Reply>(exchange(frame.bytes(), id, M::kName, policy), M::kName);
   }
 
-  /// Reads, dispatches and keeps the robot alive. pump_until ends early, with true, once `done`; it asks
-  /// before the first read and after each message.
+  /// Reads, dispatches and keeps the robot alive. pump_until returns true as soon as `done` does, which is
+  /// called before the first read and after each message.
   void pump(microseconds duration);
   bool pump_until(const std::function<bool()>& done, microseconds timeout);
 
-  /// M: Telemetry, SegmentStarted, SegmentDone, FaultRaised, Booted. Ends when the Subscription goes.
+  /// M: Telemetry, SegmentStarted, SegmentDone, FaultRaised, Booted. Ends when the Subscription is destroyed.
   template <protocol::Message M>
   [[nodiscard]] Subscription on(typename Listeners<M>::Callback callback) {
     return std::get<Listeners<M>>(listeners_).add(std::move(callback));
@@ -71,7 +72,7 @@ class Client {
 
   microseconds now() const { return transport_.now(); }
   const std::string& name() const { return transport_.name(); }
-  /// Newest reading of the robot's clock that any message brought; 0 before the first.
+  /// Newest time of the robot's clock in any message; 0 before the first.
   std::uint64_t device_time_us() const { return device_us_; }
   const ClockMap& clock() const { return clock_; }
   const LinkCounts& counts() const { return counts_; }
@@ -94,12 +95,12 @@ class Client {
   }
 
   std::uint16_t next_id() {
-    // Without the bit of onlookers, whose requests are no sign of life.
+    // Never with the bit of onlookers, whose requests do not keep a drive alive.
     return next_id_ = static_cast<std::uint16_t>(next_id_ + 1 == protocol::kOnlookerBit ? 1 : next_id_ + 1);
   }
   void send(Body frame);
-  Body exchange(Body frame, std::uint16_t id, std::string_view request, Patience patience);
-  std::optional<Body> ask(Body frame, std::uint16_t id, Patience patience);
+  Body exchange(Body frame, std::uint16_t id, std::string_view request, RetryPolicy policy);
+  std::optional<Body> ask(Body frame, std::uint16_t id, RetryPolicy policy);
   bool step(microseconds deadline);
   void dispatch(Body body);
   void dispatch_event(Body body);
@@ -127,14 +128,14 @@ class Client {
 
   std::uint16_t next_id_ = 0;
   std::uint16_t waiting_for_ = 0;    // 0: no request is under way
-  std::vector<std::uint8_t> reply_;  // to it; empty until it is here
+  std::vector<std::uint8_t> reply_;  // to it; empty until it arrives
   std::optional<Sent> ping_;         // under way
   int lost_pings_ = 0;               // in a row
   microseconds last_sent_{};
   std::uint64_t device_us_ = 0;           // newest seen
   std::uint64_t answered_device_us_ = 0;  // newest seen when the last answer came
   bool connecting_ = false;
-  bool echo_ = false;  // what we send comes back
+  bool echo_ = false;  // the line sends back what we send
 };
 
 }  // namespace astro::robot

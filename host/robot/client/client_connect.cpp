@@ -3,10 +3,10 @@
 #include "host/robot/client/client.hpp"
 #include "host/robot/client/restore.hpp"
 
-/// Handshake and reconnection: who is there, and is it the robot that we know.
+/// Handshake and reconnection: which robot answers, and is it the same as before.
 namespace astro::robot {
 
-const protocol::HelloReply& Client::connect(Patience patience) {
+const protocol::HelloReply& Client::connect(RetryPolicy policy) {
   forget();
   counts_ = {};
   echo_ = false;
@@ -16,7 +16,7 @@ const protocol::HelloReply& Client::connect(Patience patience) {
 
   const std::uint16_t id = next_id();
   const Restore connecting(connecting_, true);
-  const auto body = ask(protocol::Frame(protocol::Hello{}, id).bytes(), id, patience);
+  const auto body = ask(protocol::Frame(protocol::Hello{}, id).bytes(), id, policy);
   if (!body) no_robot();
   if (body->front() == protocol::ErrorReply::kId) {
     const auto error = understand<protocol::ErrorReply>(*body, "Hello");
@@ -31,8 +31,8 @@ const protocol::HelloReply& Client::connect(Patience patience) {
 void Client::reconnect(microseconds timeout) {
   const protocol::HelloReply known = robot_;
   const microseconds deadline = now() + timeout;
-  // Each failed try takes time unless the transport fails at once in a standing virtual time; that must end
-  // too.
+  // A failed try usually takes time. In virtual time a transport may fail without letting time pass; the
+  // number of tries ends that case.
   for (auto tries = timeout / std::chrono::milliseconds(10); true; --tries) {
     try {
       transport_.reopen(std::max(deadline - now(), microseconds::zero()));

@@ -7,17 +7,17 @@
 
 namespace astro::robot {
 
-/// One round trip: the host sent at `sent_us`, the robot read its clock at `device_us`, the answer was here
-/// at `received_us`. All microseconds, each side on its own steady clock.
+/// One round trip: the host sent at `sent_us`, the robot read its clock at `device_us`, the answer arrived at
+/// `received_us`. All in microseconds, each side on its own steady clock.
 struct RoundTrip {
   std::int64_t sent_us = 0;
   std::uint64_t device_us = 0;
   std::int64_t received_us = 0;
 };
 
-/// Host time of something that the robot stamped. `bound_us`: the truth is no further away, as long as the
-/// two clocks drift at a constant rate, at most kGreatestDrift while that rate is not measured yet; no
-/// assumption on how the delay splits into the ways there and back.
+/// Host time of something with a stamp of the robot's clock. `bound_us`: the error is at most this, if the
+/// two clocks drift at a constant rate (at most kGreatestDrift while the rate is not measured yet). Nothing
+/// is assumed about how the delay splits into the ways there and back.
 struct HostTime {
   std::int64_t us = 0;
   double bound_us = 0;
@@ -25,13 +25,14 @@ struct HostTime {
 
 /// Maps the robot's clock to the host's from round trips.
 ///
-/// Filter  of every kGroup round trips only the fastest is kept: a delay can only be added to, so the fastest
-///         tells most. The last kKept of them count.
+/// Filter  of every kGroup round trips only the fastest is kept: delays only add time, so the fastest one has
+///         the smallest error. The last kKept of them count.
 /// Fit     host = offset + slope * device by least squares through the middles of the kept round trips,
 ///         weighted by 1 / rtt^2. Slope 1 until they span ten times the best round trip.
 /// Error   each middle is wrong by at most rtt / 2 and the fit is linear in the middles, which gives the
-/// bound. Range   differences of 64-bit counts: nothing wraps, no precision is lost far from the origin. Cost
-/// add: constant. to_host: one sum over at most kKept + 1 round trips.
+///         bound.
+/// Range   differences of 64-bit counts: nothing wraps, no precision is lost far from the origin.
+/// Cost    add: constant. to_host: one sum over at most kKept + 1 round trips.
 class ClockMap {
  public:
   static constexpr std::size_t kGroup = 8;

@@ -10,7 +10,7 @@ namespace astro::robot {
 namespace {
 
 FoundPort ask(const Port& port, microseconds timeout, unsigned baud) {
-  constexpr int kTries = 2;  // the first may end in what the robot received before
+  constexpr int kTries = 2;  // the first may be lost among old bytes that the robot received before
   FoundPort result{port, std::nullopt, {}};
   try {
     Client client(open_shared_port(port.address, baud));

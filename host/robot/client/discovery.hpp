@@ -16,13 +16,13 @@ struct FoundPort {
   std::string reason;  // one sentence, where there is no robot
 };
 
-/// Says Hello at all ports at once, at most about `timeout` altogether; the answers are in the order of the
-/// ports. A port that another program shares is asked through it; one that it does not share is left alone:
-/// its reason says so.
+/// Sends Hello to all ports at the same time; takes at most about `timeout` in all. The answers are in the
+/// order of the ports. A port that another program shares is asked through that program; one that it does not
+/// share is not opened, and its reason says so.
 std::vector<FoundPort> find_robots(const std::vector<Port>& ports, microseconds timeout,
                                    unsigned baud = kDefaultBaud);
 
-/// At every candidate port of this machine.
+/// The same at every candidate port of this machine.
 std::vector<FoundPort> find_robots(microseconds timeout = std::chrono::milliseconds(500));
 
 }  // namespace astro::robot

@@ -7,12 +7,11 @@
 
 namespace astro::robot {
 
-/// Ends a registration when it goes.
+/// Ends the registration when it is destroyed.
 using Subscription = std::shared_ptr<const void>;
 
-/// Who wants to hear of events of type M. A callback may subscribe and unsubscribe, and may throw: the
-/// exception comes out of the call that read the event, and nothing read so far is lost. It must not call the
-/// Client.
+/// Callbacks for events of type M. A callback may subscribe and unsubscribe, and may throw: the exception
+/// leaves the call that read the event, and nothing read so far is lost. It must not call the Client.
 template <class M>
 class Listeners {
  public:

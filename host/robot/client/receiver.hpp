@@ -11,11 +11,12 @@
 
 namespace astro::robot {
 
-/// Bodies of good frames from a Transport, one at a time; what was read and not taken yet is kept.
+/// Reads bodies of good frames from a Transport, one at a time; bytes that were read but not used yet are
+/// kept.
 class Receiver {
  public:
-  /// The next body, valid until the next call; nothing if none is complete by `deadline` or after the first
-  /// bytes that came: the caller asks again. Throws LinkLost.
+  /// The next body, valid until the next call. Nothing if none is complete by `deadline`, or after the first
+  /// bytes that arrived; the caller then calls again. Throws LinkLost.
   std::optional<std::span<const std::uint8_t>> next(Transport& transport, microseconds deadline) {
     if (begin_ == end_) fill(transport, deadline);
     while (begin_ < end_) {
@@ -24,11 +25,11 @@ class Receiver {
     return std::nullopt;
   }
 
-  /// Bytes wait that next() takes without reading.
+  /// True if bytes are left that next() takes without reading.
   bool has_more() const { return begin_ < end_; }
 
-  /// Forgets everything read so far and whatever the transport holds, up to a bound: a robot that streams
-  /// never falls silent. Counts start at 0.
+  /// Drops everything read so far and what the transport holds, up to a limit, because a robot that streams
+  /// never stops sending. Counts start at 0.
   void drain(Transport& transport) {
     constexpr int kReads = 16;
     *this = Receiver();

@@ -20,7 +20,7 @@ std::string addition(protocol::ErrorCode code, std::uint16_t detail) {
   }
 }
 
-/// The clause of protocol::meaning up to where it explains the detail to programs.
+/// The clause of protocol::meaning without its explanation of the detail, which is for programs.
 std::string clause(protocol::ErrorCode code) {
   const std::string_view all = protocol::meaning(code);
   return std::string(all.substr(0, all.find("; detail")));

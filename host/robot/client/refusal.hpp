@@ -12,14 +12,14 @@ namespace astro::robot {
 /// The robot answered a request with ErrorReply: it was not carried out and has changed nothing.
 class RobotRefused : public Error {
  public:
-  /// `what` is the request's name, or "c_R = 1.7 (AddSegment)": what stands behind "the robot refused".
-  /// `why` is a clause for what this very request made the robot refuse; "": what the code says for all.
+  /// `what` follows "the robot refused": the request's name, or a value as "c_R = 1.7".
+  /// `why` is a clause with the reason for this particular request; "": the general meaning of the code.
   RobotRefused(std::string_view what, protocol::ErrorCode code, std::uint16_t detail,
                std::string_view why = {});
 
   protocol::ErrorCode code() const { return code_; }
 
-  /// As protocol::meaning(code()) says: a parameter's id, a fault, a version; else 0.
+  /// Meaning by protocol::meaning(code()): a parameter's id, a fault, a version; else 0.
   std::uint16_t detail() const { return detail_; }
 
  private:

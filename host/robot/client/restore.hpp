@@ -2,7 +2,7 @@
 
 namespace astro::robot {
 
-/// Sets a variable for a scope and puts its old value back at the end, however that comes.
+/// Sets a variable for a scope and restores its old value at the end, however the scope is left.
 template <class T>
 class Restore {
  public:

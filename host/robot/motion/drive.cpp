@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/robot/sharing/port_socket.hpp"
-#include "host/robot/motion/rest.hpp"
 #include "host/robot/client/restore.hpp"
+#include "host/robot/motion/rest.hpp"
+#include "host/robot/sharing/port_socket.hpp"
 
 namespace astro::robot {
 
@@ -17,7 +17,7 @@ namespace {
 constexpr microseconds kPoll =
     milliseconds(1000);  // an event must have been lost by then, or the segment is long
 constexpr microseconds kRestPoll = milliseconds(50);
-constexpr microseconds kAsk = milliseconds(50);  // how often the hooks are asked
+constexpr microseconds kAsk = milliseconds(50);  // period at which the hooks are asked
 constexpr microseconds kTimeToNotice =
     milliseconds(4000);  // an armed robot waits 2.5 s for its host; one that drives ramps to rest
 constexpr microseconds kVelocityPeriod = milliseconds(50);
@@ -64,7 +64,7 @@ DriveSession::~DriveSession() {
   } catch (const NotStopped& error) {
     try {
       hooks_.notice(error.what());
-    } catch (const std::exception&) {  // nobody can be told
+    } catch (const std::exception&) {  // nobody can be notified
     }
   } catch (const std::exception&) {  // a fault, by which the robot has switched its motors off
   }
@@ -76,19 +76,19 @@ void DriveSession::end() {
     rest_and_disarm();
   } catch (const std::exception& error) {
     const auto* known = dynamic_cast<const Error*>(&error);
-    throw NotStopped("the robot did not confirm that it stopped, and may still be moving: " +
-                         std::string(error.what()),
-                     known == nullptr ? Remedy{} : known->remedy());
+    throw NotStopped(
+        "the robot did not confirm that it stopped, and may still be moving: " + std::string(error.what()),
+        known == nullptr ? Remedy{} : known->remedy());
   }
   if (fault_) fail(*fault_);
 }
 
-/// A robot that does not come to rest by its ramp is disarmed all the same, which opens its bridges.
+/// A robot that does not come to rest by its ramp is disarmed anyway, which opens its bridges.
 void DriveSession::rest_and_disarm() {
   try {
     stop();
   } catch (const LinkLost&) {
-    throw;  // it cannot be told to disarm either
+    throw;  // it cannot be disarmed either
   } catch (const std::exception&) {
     client_.request(Disarm{});
     throw;
@@ -96,7 +96,7 @@ void DriveSession::rest_and_disarm() {
   client_.request(Disarm{});
 }
 
-/// A program that was killed leaves an armed robot behind, which notices it within the command time-out.
+/// A program that was killed leaves an armed robot behind; the robot notices it by its time-out.
 void DriveSession::wait_until_free() {
   const microseconds deadline = client_.now() + kTimeToNotice;
   while (true) {
@@ -115,7 +115,7 @@ void DriveSession::arm() {
                      first_fault(report.latched & ~kLeftBehind));
   }
   if (report.latched != 0) {
-    wait_for_rest();  // its host may have died a moment ago, and it is still ramping down
+    wait_for_rest();  // if its host died a moment ago, it is still ramping down
     client_.request(ClearFaults{});
     hooks_.notice("cleared " + fault_names(report.latched) + ", which an earlier drive left behind");
   }
@@ -211,7 +211,7 @@ void DriveSession::stop() {
   const Restore stopping(stopping_, true);
   client_.request(Stop{});
   wait_for_rest();
-  aborted_ = 0;  // by us
+  aborted_ = 0;  // this stop aborted it
 }
 
 void DriveSession::wait_for_rest() {
@@ -235,7 +235,7 @@ void DriveSession::explain(const RobotRefused& refused) {
   if (refused.code() == ErrorCode::busy && port_users().driver_pid != 0) fail_busy();
 }
 
-/// Who else is at this port; nobody where it is not shared.
+/// The other programs at this port; nobody if it is not shared.
 PortUsers DriveSession::port_users() {
   try {
     return client_.request(GetPortUsers{}, {.timeout = milliseconds(60), .tries = 3});
@@ -246,12 +246,12 @@ PortUsers DriveSession::port_users() {
 
 void DriveSession::fail_busy() {
   const PortUsers users = port_users();
-  throw Error("the robot is driving for another program" +
-              in_brackets(users.driver_pid, users.driver_command),
-              {Help::stop_other_program});
+  throw Error(
+      "the robot is driving for another program" + in_brackets(users.driver_pid, users.driver_command),
+      {Help::stop_other_program});
 }
 
-/// What ends a drive arrives before the reason: of a fault the robot reports the aborted segment first.
+/// The reason may arrive after the end: after a fault the robot reports the aborted segment first.
 void DriveSession::fail_ended(const std::string& what, const std::string& done_to_robot) {
   const FaultReport report = client_.request(GetFaults{});
   if (report.latched != 0) fail(report.first != Fault::none ? report.first : first_fault(report.latched));

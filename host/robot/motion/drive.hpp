@@ -12,7 +12,7 @@
 
 namespace astro::robot {
 
-/// The robot stopped by itself, or is not to be armed because it once did.
+/// The robot stopped because of a fault, or cannot be armed because of a latched one.
 class DriveFault : public Error {
  public:
   DriveFault(const std::string& fact, Fault fault) : Error(fact, {Help::clear_faults}), fault_(fault) {}
@@ -22,15 +22,15 @@ class DriveFault : public Error {
   Fault fault_;
 };
 
-/// The robot was told to stop and did not confirm that it is at rest and disarmed: it may still move.
+/// The robot did not confirm that it is at rest and disarmed after a stop request: it may still move.
 class NotStopped : public Error {
  public:
   using Error::Error;
 };
 
 struct DriveHooks {
-  /// Asked at least every 50 ms while the robot drives; true stops and disarms the robot and ends the drive
-  /// with Interrupted. For the flag that Ctrl-C sets. Not asked while the robot ramps to rest, which ends by
+  /// Called at least every 50 ms while the robot drives; true stops and disarms the robot and ends the drive
+  /// with Interrupted. For the flag that Ctrl-C sets. Not called while the robot ramps to rest, which ends by
   /// itself.
   std::function<bool()> interrupted = [] { return false; };
   /// Sentences worth showing that are not errors.
@@ -39,9 +39,9 @@ struct DriveHooks {
   std::function<void(const protocol::SegmentDone&)> segment_done = [](const protocol::SegmentDone&) {};
 };
 
-/// An armed robot. It is disarmed at the end, however that comes: at rest, unless the link is gone. Whoever
-/// is done with it calls end(), which tells if the robot did not confirm it; the destructor, on the way out
-/// with another error, can tell it in a notice only.
+/// An armed robot. At the end of the scope it is brought to rest and disarmed, however the scope is left,
+/// unless the link is lost. After a finished drive call end(), which throws if the robot did not confirm it.
+/// The destructor cannot throw; it only sends a notice.
 ///
 /// Errors  DriveFault: a fault was latched; Interrupted; NotStopped: as Interrupted, but the robot did not
 ///         confirm that it stopped; LinkLost, also for a robot that restarted; Error if another program
@@ -49,7 +49,7 @@ struct DriveHooks {
 class DriveSession {
  public:
   /// Arms. Clears command_timeout and link_lost first, which an earlier program left behind by ending, and
-  /// says so in a notice; any other latched fault is thrown. Throws Error, and leaves the robot alone, if it
+  /// says so in a notice; any other latched fault is thrown. Throws Error, without touching the robot, if it
   /// stays armed for another program.
   explicit DriveSession(Client& client, DriveHooks hooks = {});
   DriveSession(const DriveSession&) = delete;
@@ -57,14 +57,14 @@ class DriveSession {
   ~DriveSession();
 
   /// Drives the segments one after the other and returns when the last has ended. Keeps the robot's queue as
-  /// full as it goes; numbers them itself. An event that was lost on the way is made up for by asking.
+  /// full as possible and numbers the segments. If an event was lost, it asks for the robot's status instead.
   void run(std::span<const protocol::AddSegment> segments);
 
-  /// One velocity; holds until the robot's command time-out.
+  /// Sends one velocity; it holds until the robot's command time-out.
   void set_velocity(double v_mps, double omega_radps);
 
-  /// Voltages on the motors, open loop, forward positive; they hold until the robot's command time-out. Only
-  /// from rest, or after other voltages.
+  /// Sends voltages for the motors, open loop, forward positive; they hold until the robot's command
+  /// time-out. Only from rest, or after other voltages.
   void set_wheel_voltages(double left_V, double right_V);
 
   /// Holds a velocity for this long on the robot's clock, then ramps to rest.
@@ -73,7 +73,7 @@ class DriveSession {
   /// As Client::pump, and throws as run() does.
   void pump(microseconds duration);
 
-  /// Ramps to rest, empties the queue and returns once the robot stands.
+  /// Ramps to rest, empties the queue and returns when the robot is at rest.
   void stop();
 
   /// Ramps to rest and disarms; the drive is over, and nothing else may be called. Throws NotStopped if the
@@ -102,7 +102,7 @@ class DriveSession {
   std::optional<Fault> fault_;
   bool booted_ = false;
   bool stopping_ = false;
-  bool ended_ = false;                                   // end() has tried, whatever came of it
+  bool ended_ = false;                                   // end() was called, successfully or not
   std::uint16_t accepted_ = 0, done_ = 0, aborted_ = 0;  // tags; of the run under way
   Subscription on_done_, on_fault_, on_boot_;
 };

@@ -11,11 +11,11 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr microseconds kPoll = milliseconds(50);
-constexpr microseconds kUsually = milliseconds(5000);
+constexpr microseconds kUsualRamp = milliseconds(5000);
 
-/// From the fastest legal speed to rest, with a second each for the jerk limit and for the wheels to settle
-/// (the robot's own deadline), and one for the link. The robot describes its table itself; a limit that it
-/// does not have counts for nothing.
+/// Longest ramp from the greatest allowed speed to rest, plus one second each for the jerk limit, for the
+/// wheels to settle (the robot's own deadline) and for the link. A limit that is not in the robot's parameter
+/// table is ignored.
 microseconds longest_ramp(Client& client) {
   const RemoteParameters parameters = RemoteParameters::fetch(client);
   const auto value = [&](std::string_view name) {
@@ -29,7 +29,7 @@ microseconds longest_ramp(Client& client) {
   return microseconds(static_cast<std::int64_t>(1e6 * (ramp_s + 3)));
 }
 
-bool rests_before(Client& client, microseconds deadline) {
+bool stops_before(Client& client, microseconds deadline) {
   while (protocol::gives_power(client.request(protocol::GetStatus{}).mode)) {
     if (client.now() >= deadline) return false;
     client.pump(kPoll);
@@ -39,28 +39,28 @@ bool rests_before(Client& client, microseconds deadline) {
 
 }  // namespace
 
-bool wait_until_wheels_stand(Client& client) {
+bool wait_until_wheels_stopped(Client& client) {
   constexpr std::uint16_t kPeriod_ms = 20;
-  constexpr std::int32_t kStanding_umps = 3'000;  // as the robot itself judges it
+  constexpr std::int32_t kStopped_umps = 3'000;  // as the robot itself judges it
   constexpr microseconds kRollsOn = milliseconds(2000), kNextSample = milliseconds(500);
-  bool came = false, stand = false;
+  bool came = false, stopped = false;
   const auto watching = client.on<protocol::Telemetry>([&](const protocol::Telemetry& sample) {
     came = true;
-    stand = std::abs(sample.wheel_speed.left_umps) <= kStanding_umps &&
-            std::abs(sample.wheel_speed.right_umps) <= kStanding_umps;
+    stopped = std::abs(sample.wheel_speed.left_umps) <= kStopped_umps &&
+              std::abs(sample.wheel_speed.right_umps) <= kStopped_umps;
   });
   client.request(protocol::SetTelemetry{kPeriod_ms, protocol::Telemetry::kWheelSpeed});
   if (!client.pump_until([&] { return came; }, kNextSample))
-    throw LinkLost(client.name() + " does not tell its wheels' speeds");
-  client.pump_until([&] { return stand; }, kRollsOn);
+    throw LinkLost(client.name() + " sends no wheel speeds");
+  client.pump_until([&] { return stopped; }, kRollsOn);
   client.request(protocol::SetTelemetry{});
-  return stand;
+  return stopped;
 }
 
 bool wait_for_rest(Client& client) {
   const microseconds start = client.now();
-  if (rests_before(client, start + kUsually)) return true;
-  if (rests_before(client, start + longest_ramp(client))) return true;
+  if (stops_before(client, start + kUsualRamp)) return true;
+  if (stops_before(client, start + longest_ramp(client))) return true;
   client.request(protocol::Disarm{});
   return false;
 }

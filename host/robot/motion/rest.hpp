@@ -4,16 +4,18 @@
 
 namespace astro::robot {
 
-/// Waits for a robot that was told to stop, for as long as its own motion limits let a ramp take and at least
-/// five seconds. A robot that still drives then is disarmed, which opens its bridges at once: it may roll on.
+/// Waits until a robot that received a stop request gives no more power, for as long as its motion limits
+/// allow a ramp to take and at least five seconds. If it still drives then, it is disarmed, which opens its
+/// bridges at once: it may roll on.
 ///
 /// Returns false if it had to be disarmed.
 /// Errors  all that Client::request throws.
 [[nodiscard]] bool wait_for_rest(Client& client);
 
-/// Waits for wheels that nothing drives any more: a robot whose bridges a fault has opened rolls on until it
-/// has used up its speed. False if they still turn after two seconds. Ends this client's telemetry.
+/// Waits until the wheels have stopped although nothing brakes them: a robot whose bridges were opened by a
+/// fault rolls on until friction stops it. Returns false if they still turn after two seconds. Ends this
+/// client's telemetry.
 /// Errors  all that Client::request throws; LinkLost if no telemetry comes.
-[[nodiscard]] bool wait_until_wheels_stand(Client& client);
+[[nodiscard]] bool wait_until_wheels_stopped(Client& client);
 
 }  // namespace astro::robot

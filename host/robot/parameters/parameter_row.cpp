@@ -1,9 +1,9 @@
 #include "host/robot/parameters/parameter_row.hpp"
 
-#include <charconv>
 #include <cmath>
 
 #include "host/base/error.hpp"
+#include "host/base/numbers.hpp"
 #include "host/base/plain_text.hpp"
 
 namespace astro::robot {
@@ -12,7 +12,8 @@ using protocol::ParameterKind;
 
 namespace {
 
-// Powers of ten up to 10^22 are exact doubles: dividing by one rounds once, multiplying by 10^-n would twice.
+// Powers of ten up to 10^22 are exact doubles: dividing by one rounds once, multiplying by 10^-n rounds
+// twice.
 double power_of_ten(int exponent) { return std::pow(10.0, exponent); }
 
 double to_steps(const ParameterRow& row, double value) {
@@ -24,11 +25,6 @@ double to_steps(const ParameterRow& row, double value) {
     default:
       return value;
   }
-}
-
-std::string number(double value) {
-  char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
 }
 
 RawValue raw_number(const ParameterRow& row, double value) {
@@ -77,7 +73,7 @@ RawValue to_raw(const ParameterRow& row, const Value& value) {
   const auto* text = std::get_if<std::string>(&value);
   if (row.kind == ParameterKind::text) {
     if (text == nullptr)
-      throw Error(row.name + " takes a text, not the number " + number(std::get<double>(value)));
+      throw Error(row.name + " takes a text, not the number " + to_text(std::get<double>(value)));
     return raw_text(row, *text);
   }
   if (text != nullptr) throw Error(row.name + " takes a number, not the text '" + *text + "'");
@@ -87,7 +83,7 @@ RawValue to_raw(const ParameterRow& row, const Value& value) {
 std::string describe(const ParameterRow& row, const Value& value) {
   if (const auto* text = std::get_if<std::string>(&value)) return "'" + *text + "'";
   const bool plain = row.unit.empty() || row.unit == "1";
-  return number(std::get<double>(value)) + (plain ? "" : " " + row.unit);
+  return to_text(std::get<double>(value)) + (plain ? "" : " " + row.unit);
 }
 
 }  // namespace astro::robot

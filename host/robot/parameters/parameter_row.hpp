@@ -8,7 +8,7 @@
 
 namespace astro::robot {
 
-/// What people write and read: a number in the row's unit, or a text.
+/// A value as people write and read it: a number in the row's unit, or a text.
 using Value = std::variant<double, std::string>;
 
 /// A value as the robot holds it. The text is empty unless the row's kind is text, raw is 0 if it is.
@@ -25,7 +25,7 @@ struct ParameterRow {
   protocol::ParameterKind kind{};
   int exponent = 0;
   std::int32_t minimum = 0, maximum = 0;  // raw; of a text: of its length in bytes
-  std::int32_t default_value = 0;         // raw; the table does not carry a text's default
+  std::int32_t default_value = 0;         // raw; the table has no default of a text
   RawValue active;                        // in force
   RawValue staged;                        // what a commit would put in force
 };
@@ -33,7 +33,7 @@ struct ParameterRow {
 /// Exact for raw * 2^exponent; for raw * 10^exponent the double nearest to the decimal number.
 double to_real(const ParameterRow& row, std::int32_t raw);
 
-/// A raw value for people.
+/// A raw value as people read it.
 Value to_value(const ParameterRow& row, const RawValue& raw);
 
 /// Nearest raw value. Throws Error, naming parameter, value, unit and limits, for what the row does not

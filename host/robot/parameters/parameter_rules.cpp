@@ -30,7 +30,7 @@ class Staged {
     return row->name + " = " + describe(*row, to_value(*row, row->staged));
   }
 
-  /// How far one encoder count moves the wheel for which that is more.
+  /// How far one encoder count moves the larger wheel.
   std::optional<double> travel_per_count_m() const {
     const auto c_r = number("c_R"), c_l = number("c_L"), diameter_m = number("wheel_diameter"),
                counts = number("counts_per_motor_rev"), motor_turns = number("gear_numerator"),

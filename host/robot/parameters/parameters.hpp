@@ -8,13 +8,13 @@
 
 namespace astro::robot {
 
-/// The robot's parameter table as the robot itself describes it: works for firmware with parameters that this
-/// program has never heard of.
+/// The robot's parameter table as the robot itself describes it; works also for parameters that this program
+/// does not know.
 ///
 /// Errors  what Client::request throws; a refused value or set is named by its parameter.
 class RemoteParameters {
  public:
-  /// Many times those of today. Two requests for each take a second and a half on a slow link.
+  /// Many times today's number. Two requests for each take a second and a half on a slow link.
   static constexpr std::uint16_t kMostParameters = 512;
 
   /// Two requests per parameter. The Client must outlive the result. Throws Error if the robot claims more
@@ -24,27 +24,29 @@ class RemoteParameters {
   const std::vector<ParameterRow>& rows() const { return rows_; }
   const ParameterRow* find(std::string_view name) const;
 
-  /// Throws Error where the robot has no such parameter.
+  /// Throws Error if the robot has no such parameter.
   const ParameterRow& row(std::string_view name) const;
 
-  /// In force, in the row's unit or as text.
+  /// The value in force, in the row's unit or as text.
   Value value(std::string_view name) const;
 
-  /// Nothing changes on the robot before commit(). Throws as to_raw does, without asking the robot. The first
-  /// call of stage(), commit() or apply() opens the robot's staging area for this session, with the set in
-  /// force. Another session that opens it afterwards takes it away: RobotRefused, staging_lost.
+  /// Stages a value; it is not in force before commit() or apply(). Throws as to_raw does, without asking the
+  /// robot. The first call of stage(), commit() or apply() opens the robot's staging area for this session,
+  /// filled with the set in force. If another session opens it afterwards, this session loses it:
+  /// RobotRefused, staging_lost.
   void stage(std::string_view name, const Value& value);
 
-  /// All values staged since the area was opened come in force and into flash, or none.
+  /// Puts all values in force that were staged since the area was opened, and writes them to flash; all or
+  /// none.
   void commit();
-  /// Commits all values in force, those that were only applied among them.
+  /// Commits all values in force, also those that were only applied.
   void save();
 
-  /// All staged values come in force until the robot restarts, or none: also while it drives, if only gains
-  /// differ.
+  /// Puts all staged values in force until the robot restarts, all or none; also while it drives, if only
+  /// gains differ.
   void apply();
 
-  /// Open the staging area anew: with the set in force; with the factory defaults.
+  /// Open the staging area again: revert() with the set in force, defaults() with the factory defaults.
   void revert();
   void defaults();
 

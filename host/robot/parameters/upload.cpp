@@ -9,8 +9,8 @@ namespace {
 
 class Upload {
  public:
-  Upload(Client& client, const std::map<std::string, Value>& values, microseconds patience)
-      : client_(client), values_(values), patience_(patience) {}
+  Upload(Client& client, const std::map<std::string, Value>& values, microseconds reconnect_timeout)
+      : client_(client), values_(values), reconnect_timeout_(reconnect_timeout) {}
 
   UploadReport run() {
     RemoteParameters parameters = through_drops([&] { return RemoteParameters::fetch(client_); });
@@ -24,10 +24,10 @@ class Upload {
  private:
   Client& client_;
   const std::map<std::string, Value>& values_;
-  microseconds patience_;
+  microseconds reconnect_timeout_;
   int drops_ = 0;
 
-  /// For what may be done twice: begins again after each drop.
+  /// For work that may be done twice: begins again after each drop of the link.
   template <class Work>
   std::invoke_result_t<Work> through_drops(Work work) {
     while (true) {
@@ -44,7 +44,7 @@ class Upload {
     if (++drops_ > kDrops)
       throw LinkLost(unknown("the link to " + client_.name() + " drops again and again"));
     try {
-      client_.reconnect(patience_);
+      client_.reconnect(reconnect_timeout_);
     } catch (const LinkLost& lost) {
       throw LinkLost(unknown(lost.what()));
     }
@@ -62,7 +62,7 @@ class Upload {
     } catch (const LinkLost&) {
       find_again();
     } catch (const RobotRefused& refused) {
-      // Opening the staging area anew would take it from the session that has it now.
+      // Opening the staging area again would take it from the session that has it now.
       if (refused.code() != protocol::ErrorCode::staging_lost) through_drops([&] { parameters.revert(); });
       throw;
     }
@@ -100,8 +100,9 @@ std::string UploadReport::sentence() const {
                                               : "the robot holds the old set, unchanged: upload again");
 }
 
-UploadReport upload(Client& client, const std::map<std::string, Value>& values, microseconds patience) {
-  return Upload(client, values, patience).run();
+UploadReport upload(Client& client, const std::map<std::string, Value>& values,
+                    microseconds reconnect_timeout) {
+  return Upload(client, values, reconnect_timeout).run();
 }
 
 }  // namespace astro::robot

@@ -8,7 +8,7 @@
 
 namespace astro::robot {
 
-/// Which set the robot holds after an upload; never a mixture.
+/// The set that the robot holds after an upload; never a mixture.
 enum class ActiveSet { old_set, new_set };
 
 struct UploadedValue {
@@ -18,22 +18,22 @@ struct UploadedValue {
 
 struct UploadReport {
   ActiveSet active = ActiveSet::old_set;
-  bool link_dropped = false;  // on the way; the robot was found again and asked
+  bool link_dropped = false;  // during the upload; the robot was found again and asked
   std::vector<UploadedValue> values;
 
-  /// What happened and what the robot holds now, for people.
+  /// A sentence: what happened and what the robot holds now.
   std::string sentence() const;
 };
 
 /// Puts new values in force as one set: checks all of them, opens the robot's staging area, stages, commits,
-/// reads the whole table back and compares. If the link drops, the robot is looked for again for `patience`
-/// each time and asked which set it holds; a set that was not in force by then is dropped, not sent again.
+/// reads the whole table back and compares. If the link drops, it reconnects within `reconnect_timeout` and
+/// asks which set the robot holds; a set that is not in force then is given up, not sent again.
 ///
-/// Throws Error for a value that the table does not allow or a name it does not have, before anything is
-/// changed; RobotRefused if the robot does not take the set, which then stays as it was (staging_lost:
-/// another session has begun to change parameters meanwhile, and is left to go on); LinkLost if the robot
-/// does not come back (it holds the old set or the new one, whole); Error if it holds neither.
+/// Throws Error for a value that the table does not allow or a name that it does not have, before anything is
+/// changed; RobotRefused if the robot refuses the set and keeps the old one (staging_lost: another session
+/// has begun to change parameters meanwhile, and may continue); LinkLost if the robot does not come back (it
+/// holds the whole old set or the whole new one); Error if it holds neither.
 UploadReport upload(Client& client, const std::map<std::string, Value>& values,
-                    microseconds patience = std::chrono::seconds(10));
+                    microseconds reconnect_timeout = std::chrono::seconds(10));
 
 }  // namespace astro::robot

@@ -6,9 +6,9 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/local/stream_protocol.hpp>
 #include <boost/asio/posix/stream_descriptor.hpp>
-#include <charconv>
 #include <thread>
 
+#include "host/base/numbers.hpp"
 #include "host/robot/port/serial_port.hpp"
 #include "host/robot/port/stream_transport.hpp"
 
@@ -96,7 +96,7 @@ template <class Stream>
 void StreamTransport<Stream>::reopen(microseconds timeout) {
   const microseconds deadline = now() + timeout;
   stream_.reset();
-  // A device that comes and goes at once must not keep the processor busy.
+  // A device that appears and disappears again at once must not cause a busy loop.
   if (reopened_) pause(std::min(*reopened_ + kReopenPause - now(), timeout));
   while (true) {
     try {
@@ -121,10 +121,8 @@ asio::ip::tcp::endpoint parse_tcp(const std::string& address) {
   if (colon == std::string::npos) throw bad;
   std::string host = rest.substr(0, colon);
   if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
-  std::uint16_t port = 0;
-  const char* end = rest.data() + rest.size();
-  const auto parsed = std::from_chars(rest.data() + colon + 1, end, port);
-  if (parsed.ec != std::errc() || parsed.ptr != end || port == 0 || host.empty()) throw bad;
+  const auto port = unsigned_in(std::string_view(rest).substr(colon + 1));
+  if (!port || *port == 0 || *port > 0xFFFF || host.empty()) throw bad;
   if (host == "localhost") host = "127.0.0.1";
   error_code no_number;
   const auto ip = asio::ip::make_address(host, no_number);
@@ -132,7 +130,7 @@ asio::ip::tcp::endpoint parse_tcp(const std::string& address) {
     throw Error(address +
                 " is not on this machine: a robot's link has no protection, so only localhost is allowed");
   }
-  return {ip, port};
+  return {ip, static_cast<std::uint16_t>(*port)};
 }
 
 asio::ip::tcp::socket connect_tcp(asio::io_context& context, const std::string& address,

@@ -9,23 +9,23 @@ namespace astro::robot {
 
 inline constexpr unsigned kDefaultBaud = 1'000'000;
 
-/// Opens the way to a robot.
+/// Opens the connection to a robot.
 ///
 ///   a path          a serial port or a pty, or a symlink to one: raw mode, 8N1, any baud, locked against
-///   other
-///                   programs for as long as it is open
+///                   other programs for as long as it is open
 ///   tcp:HOST:PORT   only on this machine: localhost or a loopback address ("tcp:[::1]:5555")
 ///
-/// For this program alone; shared_port.hpp shares it.
+/// For this program alone; shared_port.hpp shares the port with other programs.
 ///
-/// Throws Error: no such port (and which ones there are), no permission, in use, a terminal that somebody
-/// works at, not a serial port, not on this machine, nobody listens, not an address.
+/// Throws Error: no such port (and which ones exist), no permission, in use, a terminal that somebody works
+/// at, not a serial port, not on this machine, nobody listens, not an address.
 std::unique_ptr<Transport> open_transport(const std::string& address, unsigned baud = kDefaultBaud);
 
-/// The same as a non-blocking file descriptor that the caller owns. A TCP address is not locked.
+/// Opens the same as a non-blocking file descriptor, which the caller owns. A TCP address is not locked.
 int open_line(const std::string& address, unsigned baud);
 
-/// What PortInUse::key() is for a serial port, for a TCP address. Throws Error if it is none.
+/// The key of a TCP address, as PortInUse::key() is for a serial port. Throws Error if the address is not
+/// one.
 std::string tcp_key(const std::string& address);
 
 }  // namespace astro::robot

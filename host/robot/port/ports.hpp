@@ -6,19 +6,19 @@
 
 namespace astro::robot {
 
-/// Something that a robot may be behind.
+/// A port at which a robot may be.
 struct Port {
-  std::string address;     // what open_transport takes; a name that survives re-plugging where there is one
-  std::string device;      // what it leads to: /dev/ttyACM0, /dev/pts/3
+  std::string address;  // for open_transport; a name that stays the same after re-plugging, if there is one
+  std::string device;   // what it leads to: /dev/ttyACM0, /dev/pts/3
   bool simulator = false;  // a link in runtime_folder()
 };
 
-/// Where simulators of this user put NAME.pty, a symlink to their pty: $XDG_RUNTIME_DIR/astrolabe-UID, or
-/// below /tmp where that variable is not set. May not exist.
+/// The folder where simulators of this user put NAME.pty, a symlink to their pty: $XDG_RUNTIME_DIR/astrolabe-
+/// UID, or below /tmp if that variable is not set. May not exist.
 std::filesystem::path runtime_folder();
 
-/// runtime_folder(), made if need be, for this user alone. Throws Error if it cannot be made or belongs to
-/// somebody else.
+/// runtime_folder(), created if needed, for this user alone. Throws Error if it cannot be created or belongs
+/// to somebody else.
 std::filesystem::path make_runtime_folder();
 
 /// /dev/serial/by-id/*, /dev/ttyACM*, /dev/ttyUSB*, each device once, then simulators; sorted. Links that

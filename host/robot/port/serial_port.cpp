@@ -37,7 +37,7 @@ std::string why_not_open(const std::string& path, int error) {
       return "no permission to open " + path +
              ": add yourself to its group (sudo usermod -aG dialout $USER), then log in again";
     case EBUSY:
-      return path + " is in use by another program, which shares it with nobody: end that one first";
+      return path + " is in use by another program, which does not share it: end that program first";
     case ELOOP:
       return path + " is a link that leads back to itself: name the port, " + ports_here();
     case EISDIR:
@@ -51,13 +51,14 @@ std::string why_not_open(const std::string& path, int error) {
   }
 }
 
-// 8N1, no flow control, every byte as it is; a read with nothing there must not look like a hang-up: VMIN 1.
+// 8N1, no flow control, every byte unchanged. VMIN is 1 so that a read without data does not look like a
+// hang-up.
 void make_raw(termios2& mode, unsigned baud) {
   mode.c_iflag = IGNBRK | IGNPAR;
   mode.c_oflag = 0;
   mode.c_lflag = 0;
   mode.c_cflag = CS8 | CREAD | CLOCAL | BOTHER | (mode.c_cflag & HUPCL);
-  mode.c_ispeed = 0;  // as the other way
+  mode.c_ispeed = 0;  // 0: the same as the output speed
   mode.c_ospeed = baud;
   mode.c_cc[VMIN] = 1;
   mode.c_cc[VTIME] = 0;
@@ -66,7 +67,7 @@ void make_raw(termios2& mode, unsigned baud) {
 }  // namespace
 
 std::string port_key(const struct stat& about) {
-  // A container numbers its ptys anew, in a file system of its own.
+  // Each container numbers its ptys from 0, in a file system of its own.
   constexpr unsigned kFirstPty = 136, kLastPty = 143;
   const unsigned kind = major(about.st_rdev);
   const bool is_pty = kind >= kFirstPty && kind <= kLastPty;

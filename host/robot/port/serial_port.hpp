@@ -14,24 +14,24 @@ namespace astro::robot {
 class PortInUse : public Error {
  public:
   PortInUse(const std::string& sentence, std::string key) : Error(sentence), key_(std::move(key)) {}
-  /// The same in all programs, by whatever name they know the port.
+  /// The same in all programs, whichever name of the port they use.
   const std::string& key() const { return key_; }
 
  private:
   std::string key_;
 };
 
-/// The same for one device in all programs, by whatever path they know it: "port-188-0".
+/// The same for one device in all programs, whichever path they use: "port-188-0".
 std::string port_key(const struct stat& about);
 std::string port_key_of(int descriptor);
 
-/// Opens and locks a serial port or pty for open_transport(), which says what it throws, PortInUse where
-/// another program has it. Returns a non-blocking file descriptor that the caller owns. The lock is flock's:
-/// it ends with the process, however that ends.
+/// Opens and locks a serial port or pty for open_transport(), and throws what is said there; PortInUse if
+/// another program has locked it. Returns a non-blocking file descriptor that the caller owns. The lock is
+/// flock's: it ends with the process, however that ends.
 int open_serial_port(const std::string& path, unsigned baud);
 
-/// Name of a process whose controlling terminal this device is. A pty's number is given away again once its
-/// simulator has gone: without this look a dead simulator's link can lead into somebody's shell.
+/// Name of a process whose controlling terminal this device is. A pty's number is reused when its simulator
+/// has ended: without this check the link of a dead simulator can lead into somebody's shell.
 std::optional<std::string> terminal_user(dev_t device);
 
 }  // namespace astro::robot

@@ -14,10 +14,10 @@ namespace astro::robot {
 template <class Stream>
 class StreamTransport final : public Transport {
  public:
-  /// Opens the address anew each time; throws Error where it cannot.
+  /// Opens the address; called for each opening. Throws Error if it cannot.
   using Opener = std::function<Stream(boost::asio::io_context&)>;
 
-  /// What people are told, where it depends on what is at the other end.
+  /// Clauses of messages that depend on what is at the other end.
   struct Sentences {
     std::function<std::string()> lost = [] { return std::string("it was unplugged, switched off or ended"); };
     std::function<std::string()> silent = [] { return std::string(); };
@@ -44,7 +44,7 @@ class StreamTransport final : public Transport {
   Opener open_;
   Sentences sentences_;
   boost::asio::io_context context_;  // before stream_: outlives it
-  std::optional<Stream> stream_;     // nothing once the other end is gone
+  std::optional<Stream> stream_;     // empty once the other end is gone
   std::optional<microseconds> reopened_;
 };
 

@@ -9,16 +9,16 @@
 
 namespace astro::robot {
 
-/// Frames that wait to be written to a file descriptor that takes as many bytes as it likes. Only whole
-/// frames enter and leave: one that has begun is always finished.
+/// Frames that wait to be written to a file descriptor, which may take any number of bytes at a time. Frames
+/// enter and leave whole: a frame of which some bytes were written is always finished.
 class FrameQueue {
  public:
-  /// `withdrawable`: withdraw() drops it as long as it has not begun.
+  /// `withdrawable`: withdraw() drops the frame as long as none of it was written.
   void push(std::span<const std::uint8_t> frame, bool withdrawable = false) {
     insert(frames_.end(), frame, withdrawable);
   }
 
-  /// Before all frames that have not begun.
+  /// Puts a frame before all others that have not begun.
   void push_first(std::span<const std::uint8_t> frame) {
     insert(begun_ == 0 ? frames_.begin() : frames_.begin() + 1, frame, false);
   }
@@ -27,7 +27,7 @@ class FrameQueue {
   void drop_waiting() {
     drop_if([](const Frame&) { return true; });
   }
-  /// Those of them that may be withdrawn.
+  /// Drops the withdrawable ones among them.
   void withdraw() {
     drop_if([](const Frame& frame) { return frame.withdrawable; });
   }
@@ -38,7 +38,7 @@ class FrameQueue {
                            : std::span(frames_.front().bytes).subspan(begun_);
   }
 
-  /// So many bytes of front() have been written.
+  /// Removes `count` bytes of front(), which have been written.
   void taken(std::size_t count) {
     begun_ += count;
     bytes_ -= count;
@@ -50,7 +50,7 @@ class FrameQueue {
 
   bool empty() const { return frames_.empty(); }
   std::size_t frames() const { return frames_.size(); }
-  /// Not yet taken.
+  /// Bytes that wait.
   std::size_t bytes() const { return bytes_; }
 
  private:

@@ -18,7 +18,7 @@ namespace astro::robot {
 
 namespace {
 
-/// Abstract: the name begins with a zero and has no file.
+/// An abstract address: the name begins with a zero byte and has no file.
 class SocketAddress {
  public:
   explicit SocketAddress(const std::string& port_key) {
@@ -48,9 +48,9 @@ std::optional<ucred> credentials(const Descriptor& connection) {
 
 enum class Greeting : std::uint8_t { came, none, ended };
 
-/// Reads the first frame and not a byte more.
-Greeting wait_for_greeting(const Descriptor& connection, microseconds patience) {
-  const auto deadline = std::chrono::steady_clock::now() + patience;
+/// Reads the first frame and no byte after it.
+Greeting wait_for_greeting(const Descriptor& connection, microseconds timeout) {
+  const auto deadline = std::chrono::steady_clock::now() + timeout;
   protocol::Framer framer;
   while (true) {
     const auto left =
@@ -100,22 +100,22 @@ std::string in_words(std::uint32_t pid, std::string_view command) {
          (command.empty() ? std::string() : ", '" + std::string(command) + "'");
 }
 
-Served connect_to(const std::string& port_key, microseconds patience) {
+HolderConnection connect_to(const std::string& port_key, microseconds timeout) {
   const SocketAddress address(port_key);
   Descriptor connection = new_socket();
   if (!connection) return {};
   const bool connected = ::connect(connection.get(), address.get(), address.size()) == 0;
   if (!connected && errno != EAGAIN) return {};
   std::optional<PortUser> holder = connected ? peer_of(connection) : PortUser{};
-  if (!holder && ::geteuid() == 0) holder = PortUser{};  // root may stop anybody's robot
+  if (!holder && ::geteuid() == 0) holder = PortUser{};  // root may stop any user's robot
   if (!holder) return {};
-  const Greeting greeting = connected ? wait_for_greeting(connection, patience) : Greeting::none;
+  const Greeting greeting = connected ? wait_for_greeting(connection, timeout) : Greeting::none;
   if (greeting == Greeting::came) return {std::move(connection), std::nullopt};
   if (greeting == Greeting::ended) return {};
   return {{}, holder};
 }
 
-std::string does_not_answer(const PortUser& holder) {
+std::string holder_hangs(const PortUser& holder) {
   if (holder.pid == 0) return "the program that holds the port does not answer: let it go on, or end it";
   return "the program with " + in_words(holder.pid, holder.command) +
          " holds the port and does not answer: let it go on, or end it with 'kill -9 " +

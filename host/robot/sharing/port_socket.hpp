@@ -6,41 +6,41 @@
 #include <string>
 
 #include "host/robot/port/descriptor.hpp"
-#include "host/robot/sharing/relay_session.hpp"
 #include "host/robot/port/transport.hpp"
+#include "host/robot/sharing/relay_session.hpp"
 
 /// The socket by which programs find the one that holds a port: an abstract one of Linux, named by the port's
-/// key. It ends with the program that listens, and it is found whatever the environment says: an emergency
-/// stop may come from another terminal, from cron or from ssh. Everybody can connect to it, so each side looks
-/// at the other's user before it says a word.
+/// key. It ends with the program that listens, and it does not depend on environment variables: an emergency
+/// stop may come from another terminal, from cron or from ssh. Everybody can connect to it, so each side
+/// checks the other's user before it sends anything.
 ///
-/// Rejected: a file in the folder that XDG_RUNTIME_DIR names. Two terminals need not agree about that, and
-/// files outlive those who made them.
+/// Rejected: a file in the folder that XDG_RUNTIME_DIR names. Two terminals may have different values there,
+/// and files outlive the programs that made them.
 namespace astro::robot {
 
-/// Throws Error if the name is taken, by a program of another user or by one that has not ended yet.
+/// Throws Error if the name is in use, by a program of another user or by one that has not ended yet.
 Descriptor listen_at(const std::string& port_key);
 
 /// The program at the other end of a connection, or the one that listens there; nothing if it belongs to
-/// another user, who is not root.
+/// another user who is not root.
 std::optional<PortUser> peer_of(const Descriptor& connection);
 
-/// The process and its command line, of which only the printable part is kept.
+/// The process and the printable part of its command line.
 PortUser describe_process(pid_t pid);
 
 /// "process id 12, 'astrolabe drive line 2'".
 std::string in_words(std::uint32_t pid, std::string_view command);
 
-/// One try to be served by who holds a port.
-struct Served {
-  Descriptor connection;         // greeted; else:
-  std::optional<PortUser> busy;  // who listens there but has not greeted us in time
+/// The result of one try to be served by the program that holds a port.
+struct HolderConnection {
+  Descriptor connection;         // after its greeting; empty if it did not greet us
+  std::optional<PortUser> busy;  // the program that listens there but has not greeted us in time
 };
 
-/// Waits up to `patience` for the greeting. Neither: nobody of ours listens there.
-Served connect_to(const std::string& port_key, microseconds patience);
+/// Waits up to `timeout` for the greeting. Both members are empty if no program of this user listens there.
+HolderConnection connect_to(const std::string& port_key, microseconds timeout);
 
-/// The sentence for Served::busy.
-std::string does_not_answer(const PortUser& holder);
+/// The sentence for HolderConnection::busy.
+std::string holder_hangs(const PortUser& holder);
 
 }  // namespace astro::robot

@@ -8,13 +8,14 @@ namespace astro::robot {
 namespace {
 
 constexpr SessionId kSelf = 0;
-// Programs that do more than look or stop; and connections, of which some may be of programs that hang.
-constexpr std::ptrdiff_t kMostPlaces = 32;
+// The most programs that do more than ask or stop; the most connections, some of which may be of hanging
+// programs.
+constexpr std::ptrdiff_t kMostSlots = 32;
 constexpr std::size_t kMostSessions = 96;
-// A program that computes or waits at a prompt for a while still finds the answers and events of that time;
-// of telemetry only what one would also find in a serial port's buffer.
-constexpr std::size_t kRoomForTelemetry = 1U << 16;
-constexpr std::size_t kRoom = 1U << 18;
+// A program that computes or waits at a prompt for a while still gets the answers and events of that time,
+// but of telemetry only as much as a serial port would buffer.
+constexpr std::size_t kTelemetryLimit_bytes = 1U << 16;
+constexpr std::size_t kQueueLimit_bytes = 1U << 18;
 
 }  // namespace
 
@@ -41,7 +42,8 @@ SessionId Relay::join(PortUser user, bool greets) {
   return session.id;
 }
 
-/// One that has never said anything goes first: an emergency stop must not wait outside for those that hang.
+/// A program that has never sent anything is disconnected first: programs that hang must not keep out an
+/// emergency stop.
 void Relay::make_room(RelaySession& newcomer) {
   const auto silent = std::find_if(sessions_.begin(), sessions_.end(), [&](const RelaySession& s) {
     return s.greets && !s.closing && s.framer.counts().good == 0;
@@ -49,14 +51,14 @@ void Relay::make_room(RelaySession& newcomer) {
   close(silent != sessions_.end() ? *silent : newcomer, FarewellReason::too_many);
 }
 
-/// False if there is none, and the session ends.
-bool Relay::give_place(RelaySession& session) {
-  if (session.has_place) return true;
+/// Returns false, and ends the session, if no slot is free.
+bool Relay::give_slot(RelaySession& session) {
+  if (session.has_slot) return true;
   const auto taken = std::count_if(sessions_.begin(), sessions_.end(),
-                                   [](const RelaySession& s) { return s.has_place && !s.closing; });
-  session.has_place = taken < kMostPlaces;
-  if (!session.has_place) close(session, FarewellReason::too_many);
-  return session.has_place;
+                                   [](const RelaySession& s) { return s.has_slot && !s.closing; });
+  session.has_slot = taken < kMostSlots;
+  if (!session.has_slot) close(session, FarewellReason::too_many);
+  return session.has_slot;
 }
 
 void Relay::leave(SessionId id) {
@@ -87,20 +89,21 @@ void Relay::close(RelaySession& session, FarewellReason reason) {
   if (session.greets) session.out.push(protocol::Frame(*session.closing, 0).bytes());
 }
 
-/// Nothing that the session asked for stands any more. The robot's own time-out ends its drive.
+/// Drops everything that the session requested. The robot's own time-out ends its drive.
 void Relay::release(RelaySession& session) {
   session.forget();
   if (driver_ == session.id) driver_.reset();
   if (staging_.owner == session.id) staging_.owner.reset();
   if (under_way_ == session.id) under_way_.reset();
   std::erase(waiting_, session.id);
-  if (session.telemetry.any()) ask_again_ = true;
+  if (session.telemetry.any()) telemetry_changed_ = true;
   session.telemetry = {};
 }
 
 void Relay::push(RelaySession& session, Body frame) {
   if (session.closing || session.id == kSelf) return;
-  if (session.out.bytes() + frame.size() > kRoom) return close(session, FarewellReason::reads_too_slowly);
+  if (session.out.bytes() + frame.size() > kQueueLimit_bytes)
+    return close(session, FarewellReason::reads_too_slowly);
   session.out.push(frame);
 }
 
@@ -108,8 +111,8 @@ void Relay::distribute(Body body) {
   const auto sample = protocol::decode<protocol::Telemetry>(body);
   if (!sample.ok()) return;
   for (RelaySession& session : sessions_) {
-    if (session.closing || !session.telemetry.wants(sample->device_time_us, stream_.period_ms)) continue;
-    if (session.out.bytes() > kRoomForTelemetry) {
+    if (session.closing || !session.telemetry.is_due(sample->device_time_us, stream_.period_ms)) continue;
+    if (session.out.bytes() > kTelemetryLimit_bytes) {
       ++session.dropped;
       continue;
     }

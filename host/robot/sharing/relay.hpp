@@ -9,46 +9,49 @@
 
 namespace astro::robot {
 
-/// One robot, several programs: carries their frames to the robot and its answers and events back. Moves no
-/// bytes and knows no clock of its own: relay_server.hpp does and gives them.
+/// One robot, several programs: passes their frames to the robot and its answers and events back. It does no
+/// I/O and has no clock; relay_server.hpp moves the bytes and passes the time.
 ///
-/// Requests   each program's ids are replaced by fresh ones, so that an answer returns to the asker only. The
-///            program that drives sends with bit 15 of the id clear, all others with it set; of those others
-///            only one request is under way at a time, because the robot remembers one answer of theirs.
-///            Stop, EmergencyStop and Disarm wait for nobody, and what was to set the robot in motion and has
-///            not gone to it yet goes no more.
-/// Driver     who first sends Arm, Velocity, WheelVoltage or AddSegment, unless the robot refuses it; until
-///            it disarms the robot, says Hello or goes, a fault is raised, or another program stops it. To
-///            the others these requests are refused as busy, and to a driver whom another program stopped as
-///            not_armed, until it arms the robot again.
+/// Requests   each program's ids are replaced by new ones, so that an answer returns only to the program that
+///            asked. Requests of the driver have bit 15 of the id clear, all others have it set. Of the
+///            others (onlookers) only one request is under way at a time, because the robot remembers one
+///            answer for all of them. Stop, EmergencyStop and Disarm never wait, and they withdraw requests
+///            for motion that have not been sent to the robot yet.
+/// Driver     the program that first sends Arm, Velocity, WheelVoltage or AddSegment, unless the robot
+///            refuses it. It stays the driver until it disarms the robot, sends Hello or disconnects, a fault
+///            is raised, or another program stops it. Meanwhile these requests of others are refused as busy.
+///            A driver that another program stopped gets not_armed until it arms the robot again.
 /// Hello      answered from the robot's last HelloReply, because a Hello ends a session at the robot.
-/// Telemetry  the robot sends what serves all; each program gets the groups and the rate it asked for.
-/// Parameters the staging area belongs to the program that sent RevertParameters or DefaultParameters last;
-///            what others then stage, commit or apply is refused as staging_lost.
-/// Bounds     what a program does not read is dropped: telemetry first; then the program is let go. At most
-///            32 drive, change parameters or have telemetry; whoever only looks or stops needs no such place.
+/// Telemetry  the robot sends one stream that serves all; each program gets the groups and the rate that it
+///            requested.
+/// Parameters the staging area belongs to the program that last sent RevertParameters or DefaultParameters;
+///            if others then stage, commit or apply, they are refused as staging_lost.
+/// Bounds     if a program does not read, its telemetry is dropped first; then it is disconnected. At most 32
+///            programs drive, change parameters or have telemetry (they have a slot); asking and stopping
+///            needs no slot.
 class Relay {
  public:
   Relay();
 
-  /// `greets`: a Welcome tells the program that it is served, and a Farewell why it was let go.
+  /// `greets`: the program gets a Welcome when it is served and a Farewell with the reason when it is
+  /// disconnected.
   SessionId join(PortUser user, bool greets = true);
   void leave(SessionId id);
 
   void from_session(SessionId id, std::span<const std::uint8_t> bytes, microseconds now);
   void from_robot(std::span<const std::uint8_t> bytes, microseconds now);
 
-  /// To be called at next_tick() or whenever time has passed.
+  /// Must be called at next_tick(); may be called at any time.
   void tick(microseconds now);
-  /// Nothing: no need to call tick() before something arrives.
+  /// Nothing: tick() need not be called before bytes arrive.
   std::optional<microseconds> next_tick() const;
 
-  /// What waits to be written.
+  /// Frames that wait to be written.
   FrameQueue& to_robot() { return to_robot_; }
   FrameQueue& to_session(SessionId id);
-  /// Why this session ends once its frames are written.
+  /// Why this session ends as soon as its frames are written; nothing if it does not end.
   std::optional<FarewellReason> closing(SessionId id) const;
-  /// Lets everybody go.
+  /// Disconnects all programs.
   void close_all(FarewellReason reason);
 
   std::optional<SessionId> driver() const { return driver_; }
@@ -56,12 +59,12 @@ class Relay {
  private:
   using Body = std::span<const std::uint8_t>;
   struct Staging {
-    bool opened = false;             // through this relay; before that the robot decides
-    std::optional<SessionId> owner;  // nobody: closed
+    bool opened = false;             // through this relay; until then the robot decides
+    std::optional<SessionId> owner;  // nothing: closed
   };
 
   void make_room(RelaySession& newcomer);
-  bool give_place(RelaySession& session);
+  bool give_slot(RelaySession& session);
   RelaySession* find(SessionId id);
   const RelaySession* find(SessionId id) const;
 
@@ -72,7 +75,7 @@ class Relay {
   void take_telemetry(RelaySession& session, const protocol::Header& header, Body body);
   void take_ping(RelaySession& session, const protocol::Header& header, Body body, microseconds now);
   std::optional<protocol::ErrorReply> refusal(const RelaySession& session, std::uint8_t message) const;
-  void depose_driver(const RelaySession& by);
+  void note_stopped_driver(const RelaySession& by);
   void begin(RelaySession& session, Exchange exchange, microseconds now);
   void repeat(RelaySession& session, microseconds now);
   void send(RelaySession& session, Exchange& exchange, microseconds now);
@@ -106,10 +109,10 @@ class Relay {
 
   std::optional<protocol::HelloReply> hello_;
   std::optional<SessionId> driver_;
-  bool driver_confirmed_ = false;  // the robot has taken a motion request of its
+  bool driver_confirmed_ = false;  // the robot has accepted a motion request of the driver
   Staging staging_;
-  protocol::SetTelemetry stream_;  // what the robot was asked for
-  bool ask_again_ = false;         // the wishes have changed since
+  protocol::SetTelemetry stream_;   // what was requested from the robot
+  bool telemetry_changed_ = false;  // the programs' requests have changed since
   std::uint16_t own_requests_ = 0;
 
   std::deque<SessionId> waiting_;       // onlookers whose request waits for its turn

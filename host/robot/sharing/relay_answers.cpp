@@ -12,23 +12,22 @@ using namespace protocol;  // NOLINT(google-build-using-namespace): this file is
 
 namespace {
 
-/// Ids are used again in time: an answer to what was asked longer ago than this is somebody else's. Nobody
-/// waits that long between two tries.
-constexpr microseconds kForgotten = std::chrono::seconds(3);
+/// Request ids are reused after some time, so an answer to an older request than this belongs to another one.
+/// No program waits that long between two tries.
+constexpr microseconds kAnswerTimeout = std::chrono::seconds(3);
 
 bool is_answered_by(const Exchange& exchange, const Header& answer, microseconds now) {
-  return exchange.robot_id == answer.request_id && now < exchange.sent_at + kForgotten;
+  return exchange.robot_id == answer.request_id && now < exchange.sent_at + kAnswerTimeout;
 }
 
-/// The same answer under the id by which the program asked.
+/// The same answer with the request id that the program used.
 std::vector<std::uint8_t> addressed(std::span<const std::uint8_t> body, const Header& request) {
   std::vector<std::uint8_t> bytes(body.begin(), body.end());
-  bytes[1] = static_cast<std::uint8_t>(request.request_id & 0xFF);
-  bytes[2] = static_cast<std::uint8_t>(request.request_id >> 8);
+  set_request_id(bytes, request.request_id);
   return bytes;
 }
 
-/// What is staged is for the eyes of the program that staged it.
+/// Only the program that staged a value may see it.
 void hide_staged(std::vector<std::uint8_t>& body, const Header& request) {
   const auto decoded = decode<ParameterValue>(body);
   if (!decoded.ok()) return;
@@ -65,12 +64,12 @@ void Relay::take_answer(const Header& header, Body body, microseconds now) {
 void Relay::note_answer(RelaySession& session, std::uint8_t request, Body body) {
   const bool taken = body.front() != ErrorReply::kId;
   note_motion(session, request, taken);
-  if (request == CommitParameters::kId && taken) hello_.reset();  // the robot's name may be another now
+  if (request == CommitParameters::kId && taken) hello_.reset();  // the robot's name may have changed
   if (request != Hello::kId) return;
   const auto hello = decode<HelloReply>(body);
   if (!hello.ok()) return;
   hello_ = *hello;
-  ask_again_ = true;  // a Hello ends the telemetry of its port
+  telemetry_changed_ = true;  // a Hello ends the telemetry of its port
 }
 
 void Relay::note_motion(RelaySession& session, std::uint8_t request, bool taken) {
@@ -104,13 +103,13 @@ void Relay::take_event(Body body) {
   for (RelaySession& session : sessions_) push(session, bytes);
 }
 
-/// The robot has forgotten all of this.
+/// After a restart the robot has forgotten all of this.
 void Relay::note_restart() {
   hello_.reset();
   driver_.reset();
   staging_ = {};
   stream_ = {};
-  ask_again_ = false;
+  telemetry_changed_ = false;
   under_way_.reset();
   waiting_.clear();
   for (RelaySession& session : sessions_) {

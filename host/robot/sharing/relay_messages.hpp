@@ -11,15 +11,15 @@
 #include "common/protocol/enums.hpp"
 #include "common/protocol/field.hpp"
 
-/// What the programs that share a port say to each other beside the robot's own protocol. Ids lie between its
-/// requests and its replies, where the robot has none, so that a robot refuses the request as unknown and a
-/// program that does not know the events drops them. None of them goes to the robot.
+/// Messages between programs that share a port, in addition to the robot's protocol. None of them goes to the
+/// robot. Their ids lie between its requests and its replies, where the protocol has none: a robot refuses
+/// the request as unknown, and a program that does not know the events drops them.
 namespace astro::robot {
 
-/// A program's command line, as far as it fits.
+/// A program's command line, cut to fit.
 using CommandLine = Text<96>;
 
-/// Who uses the port; process id 0: nobody.
+/// The programs at the port; process id 0: none.
 struct PortUsers {
   std::uint32_t driver_pid = 0;
   CommandLine driver_command{};
@@ -45,7 +45,7 @@ struct GetPortUsers {
   static constexpr std::tuple<> kFields{};
 };
 
-/// The first frame on each connection: the program that holds the port is awake. An event.
+/// The first frame on each connection: the program that holds the port is running. An event.
 struct Welcome {
   static constexpr std::uint8_t kId = 0x42;
   static constexpr std::string_view kName = "Welcome";
@@ -58,21 +58,21 @@ inline constexpr std::array<std::string_view, 3> kFarewellReasonNames{"line_lost
                                                                       "too_many"};
 constexpr std::span<const std::string_view> names(FarewellReason) { return kFarewellReasonNames; }
 
-/// For people, behind "lost PORT: ".
+/// The clause after "lost PORT: ".
 constexpr std::string_view sentence(FarewellReason reason) {
   switch (reason) {
     case FarewellReason::line_lost:
       return "it was unplugged, switched off or ended";
     case FarewellReason::reads_too_slowly:
-      return "this program did not take what the robot sent, and the program that holds the port has let it "
-             "go";
+      return "this program did not read what the robot sent, so the program that holds the port has "
+             "disconnected it";
     case FarewellReason::too_many:
       return "too many programs use it at once: end some of them";
   }
-  return "the program that holds the port has let this one go";
+  return "the program that holds the port has disconnected this one";
 }
 
-/// The last frame on a connection that the other side ends. An event.
+/// The last frame on a connection that the holder ends. An event.
 struct Farewell {
   FarewellReason reason{};
 

@@ -13,8 +13,8 @@ using namespace protocol;  // NOLINT(google-build-using-namespace): this file is
 namespace {
 
 constexpr std::uint16_t kOnlooker = 0x8000;  // bit 15 of a request id
-// More than a line holds on its way when all programs ask at once; then the line itself has stopped.
-constexpr std::size_t kMostOnTheLine = 256;
+// More frames than wait when all programs ask at the same time; beyond that the line itself has stopped.
+constexpr std::size_t kMostQueuedFrames = 256;
 
 }  // namespace
 
@@ -24,7 +24,7 @@ void Relay::reply_with(RelaySession& session, const Header& request, const M& me
   reply(session, request, std::span(body).first(encode(message, request.request_id, body)));
 }
 
-/// `body` carries the id under which the program asked.
+/// `body` has the request id that the program used.
 void Relay::reply(RelaySession& session, const Header& request, Body body) {
   std::array<std::uint8_t, kMaxFrame> frame;  // NOLINT(cppcoreguidelines-pro-type-member-init)
   const Body bytes = std::span(frame).first(encode_frame(body, frame));
@@ -39,16 +39,16 @@ void Relay::take(RelaySession& session, Body body, microseconds now) {
   const Header header = *peek(body);
   if (header.request_id == 0 || session.closing) return;
   if (header.message_id == Ping::kId) return take_ping(session, header, body, now);
-  if (relay_rules::takes_a_place(header.message_id) && !give_place(session)) return;
+  if (relay_rules::needs_slot(header.message_id) && !give_slot(session)) return;
   if (!session.answer.empty() && session.answered == header) return push(session, session.answer);
   if (take_here(session, header, body)) return;
   if (const auto refused = refusal(session, header.message_id)) return reply_with(session, header, *refused);
-  if (relay_rules::stops(header.message_id)) depose_driver(session);
+  if (relay_rules::stops(header.message_id)) note_stopped_driver(session);
   if (session.current && session.current->header == header) return repeat(session, now);
   begin(session, Exchange(header, body), now);
 }
 
-/// What the relay answers without the robot; false if it has to be asked.
+/// Answers requests that do not need the robot; returns false for all others.
 bool Relay::take_here(RelaySession& session, const Header& header, Body body) {
   if (header.message_id == GetPortUsers::kId) {
     PortUsers users;
@@ -76,8 +76,8 @@ void Relay::take_telemetry(RelaySession& session, const Header& header, Body bod
   if (!request.ok()) return reply_with(session, header, ErrorReply{ErrorCode::malformed, 0});
   if ((request->fields & ~Telemetry::kAll) != 0)
     return reply_with(session, header, ErrorReply{ErrorCode::out_of_range, 0});
-  session.telemetry = TelemetryWish(*request);
-  ask_again_ = true;  // also if it changes nothing: a robot that has restarted has forgotten it
+  session.telemetry = TelemetryRequest(*request);
+  telemetry_changed_ = true;  // even if nothing changed, because a robot that has restarted has forgotten it
   reply_with(session, header, Ack{});
 }
 
@@ -101,8 +101,8 @@ std::optional<ErrorReply> Relay::refusal(const RelaySession& session, std::uint8
   return ErrorReply{ErrorCode::busy, 0};
 }
 
-/// What another program stops stays stopped, be its driver ever so quick with the next velocity.
-void Relay::depose_driver(const RelaySession& by) {
+/// Notes who stopped the driver, so that its next velocity is refused and the robot stays stopped.
+void Relay::note_stopped_driver(const RelaySession& by) {
   if (!driver_ || driver_ == by.id) return;
   if (RelaySession* driver = find(*driver_); driver != nullptr && !driver->stopped_by)
     driver->stopped_by = by.user;
@@ -113,13 +113,12 @@ std::uint16_t Relay::fresh_id(const RelaySession& session) {
   return driver_ == session.id ? next_id_ : static_cast<std::uint16_t>(next_id_ | kOnlooker);
 }
 
-/// Writes the request to the line, under the same id each time.
+/// Sends the request to the robot, with the same id each time.
 void Relay::send(RelaySession& session, Exchange& exchange, microseconds now) {
   if (exchange.robot_id == 0) {
     exchange.robot_id = fresh_id(session);
     std::vector<std::uint8_t> body = exchange.body;
-    body[1] = static_cast<std::uint8_t>(exchange.robot_id & 0xFF);
-    body[2] = static_cast<std::uint8_t>(exchange.robot_id >> 8);
+    set_request_id(body, exchange.robot_id);
     std::array<std::uint8_t, kMaxFrame> frame;  // NOLINT(cppcoreguidelines-pro-type-member-init)
     exchange.frame.assign(frame.data(), frame.data() + encode_frame(body, frame));
   }
@@ -127,13 +126,13 @@ void Relay::send(RelaySession& session, Exchange& exchange, microseconds now) {
   exchange.sent_at = now;
   const bool first = relay_rules::stops(exchange.header.message_id);
   if (first) to_robot_.withdraw();
-  if (to_robot_.frames() >= (first ? 2 : 1) * kMostOnTheLine) return;
+  if (to_robot_.frames() >= (first ? 2 : 1) * kMostQueuedFrames) return;
   first ? to_robot_.push_first(exchange.frame)
         : to_robot_.push(exchange.frame, relay_rules::sets_in_motion(exchange.header.message_id));
 }
 
 void Relay::begin(RelaySession& session, Exchange exchange, microseconds now) {
-  if (under_way_ == session.id) under_way_.reset();  // it has given up what it asked before
+  if (under_way_ == session.id) under_way_.reset();  // the program has given up its last request
   std::erase(waiting_, session.id);
   const std::uint8_t message = exchange.header.message_id;
   if (message == Hello::kId) return take_hello(session, std::move(exchange), now);
@@ -147,8 +146,9 @@ void Relay::begin(RelaySession& session, Exchange exchange, microseconds now) {
   if (staging_allows(session, message)) send(session, *session.current, now);
 }
 
-/// The first Hello goes to the robot, where it ends what a program before this one has left behind; and any
-/// after which the robot may say something else than before. All others would end the driver's session.
+/// The first Hello goes to the robot, where it ends the session of an earlier program; so does one after
+/// which the robot's answer may differ. All others are answered here, because they would end the driver's
+/// session.
 void Relay::take_hello(RelaySession& session, Exchange exchange, microseconds now) {
   const auto hello = decode<Hello>(exchange.body);
   const Header header = exchange.header;
@@ -157,7 +157,7 @@ void Relay::take_hello(RelaySession& session, Exchange exchange, microseconds no
   if (!hello_) {
     session.current = std::move(exchange);
     if (driver_) return wait_for_turn(session);
-    driver_ = session.id;  // for the id: nobody drives, and the robot is to know that
+    driver_ = session.id;  // only for the id: it shows the robot that nobody drives
     send(session, *session.current, now);
     driver_.reset();
   } else if (hello->protocol_version != hello_->protocol_version) {
@@ -169,10 +169,11 @@ void Relay::take_hello(RelaySession& session, Exchange exchange, microseconds no
 
 void Relay::repeat(RelaySession& session, microseconds now) {
   Exchange& exchange = *session.current;
-  // Only frames are passed on, and who says Hello is to know of a device that sends something else.
+  // Only frames are passed on. These bytes tell a program that sends Hello that the device sends something
+  // else.
   constexpr std::array<std::uint8_t, 2> kNoFrame{0x55, 0};
   if (noise_ && exchange.header.message_id == Hello::kId) push(session, kNoFrame);
-  // Somebody has said Hello or drives by now, whose session another Hello of an owner would end.
+  // Another program has sent Hello or drives by now, and a Hello with an owner's id would end its session.
   const bool owners = exchange.state == Exchange::State::sent && (exchange.robot_id & kOnlooker) == 0;
   if (exchange.header.message_id == Hello::kId && (hello_ || (driver_ && owners)))
     return take_hello(session, Exchange(exchange.header, std::vector(exchange.body)), now);
@@ -180,12 +181,12 @@ void Relay::repeat(RelaySession& session, microseconds now) {
   const bool onlooker =
       (exchange.robot_id & kOnlooker) != 0 && !relay_rules::stops(exchange.header.message_id);
   if (!onlooker || under_way_ == session.id) return send(session, exchange, now);
-  exchange.state = Exchange::State::waits;  // its turn was over before the answer came
+  exchange.state = Exchange::State::waits;  // its turn ended before the answer came
   wait_for_turn(session);
 }
 
-/// Judged when the request goes to the robot, not when it came: others may have opened the area meanwhile.
-/// False: the request has been refused.
+/// Checked when the request is sent to the robot, not when it arrived, because others may have opened the
+/// area meanwhile. Returns false if the request was refused.
 bool Relay::staging_allows(const RelaySession& asker, std::uint8_t message) {
   if (relay_rules::opens_staging(message)) staging_ = {true, asker.id};
   if (!relay_rules::needs_staging(message) || !staging_.opened || staging_.owner == asker.id) return true;

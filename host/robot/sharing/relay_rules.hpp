@@ -7,7 +7,7 @@
 
 #include "common/protocol/messages.hpp"
 
-/// What a request means to the programs at a port, by its message id.
+/// What a request means for the other programs at a port, by its message id.
 namespace astro::robot::relay_rules {
 
 using namespace protocol;  // NOLINT(google-build-using-namespace): this file is all messages
@@ -17,14 +17,14 @@ constexpr bool is_one_of(std::uint8_t message, const std::array<std::uint8_t, N>
   return std::find(ids.begin(), ids.end(), message) != ids.end();
 }
 
-/// What makes its sender the driver.
+/// Requests that make their sender the driver.
 constexpr bool drives(std::uint8_t message) {
   return is_one_of(message, std::array{Arm::kId, Velocity::kId, WheelVoltage::kId, AddSegment::kId});
 }
 constexpr bool stops(std::uint8_t message) {
   return is_one_of(message, std::array{EmergencyStop::kId, Stop::kId, Disarm::kId});
 }
-/// What must not come to the robot after a Stop that came later.
+/// Requests that must not reach the robot after a Stop that was sent later.
 constexpr bool sets_in_motion(std::uint8_t message) { return drives(message) || message == Resume::kId; }
 constexpr bool opens_staging(std::uint8_t message) {
   return is_one_of(message, std::array{RevertParameters::kId, DefaultParameters::kId});
@@ -32,8 +32,8 @@ constexpr bool opens_staging(std::uint8_t message) {
 constexpr bool needs_staging(std::uint8_t message) {
   return is_one_of(message, std::array{StageParameter::kId, CommitParameters::kId, ApplyParameters::kId});
 }
-/// What a program needs a place for, of which there are so many; to look and to stop is free.
-constexpr bool takes_a_place(std::uint8_t message) {
+/// Requests that need one of the limited slots; asking and stopping needs none.
+constexpr bool needs_slot(std::uint8_t message) {
   return sets_in_motion(message) || message == SetTelemetry::kId || opens_staging(message) ||
          needs_staging(message);
 }

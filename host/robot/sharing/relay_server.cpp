@@ -22,16 +22,17 @@ using std::chrono::milliseconds;
 
 namespace {
 
-constexpr microseconds kLineTimeout = milliseconds(1000);  // for a line that takes no bytes
+constexpr microseconds kLineTimeout =
+    milliseconds(1000);  // time after which a line that takes no bytes is lost
 constexpr microseconds kFarewellTimeout =
     milliseconds(2000);  // for a program that does not read its Farewell
-constexpr microseconds kUntilADescriptorIsFree = milliseconds(100);
+constexpr microseconds kDescriptorRetry = milliseconds(100);
 
 microseconds steady_now() {
   return std::chrono::duration_cast<microseconds>(std::chrono::steady_clock::now().time_since_epoch());
 }
 
-/// Writes as much as the descriptor takes; false if it never will again.
+/// Writes as much as the descriptor takes; returns false if it is closed.
 bool write_all(int descriptor, FrameQueue& queue, bool is_socket) {
   while (!queue.empty()) {
     const auto bytes = queue.front();
@@ -56,11 +57,12 @@ RelayServer::RelayServer(SharedLine shared)
 RelayServer::~RelayServer() {
   stop();
   if (lost_) return;
-  if (guests_ > 0) go_on_alone();
+  if (guests_ > 0) serve_in_background();
 }
 
 void RelayServer::start() {
-  // Signals are the program's: one that comes here would not interrupt what the program waits for.
+  // Signals are for the program's own thread: one that arrives here would not interrupt what that thread
+  // waits for.
   sigset_t all, before;
   ::sigfillset(&all);
   ::pthread_sigmask(SIG_BLOCK, &all, &before);
@@ -98,12 +100,12 @@ void RelayServer::run() {
 }
 
 int RelayServer::milliseconds_to_wait() const {
-  constexpr int kLook = 100;
+  constexpr int kPollPeriod_ms = 100;
   int wait = -1;
-  const bool must_look = line_blocked_since_ || accept_from_ > steady_now() ||
+  const bool must_poll = line_blocked_since_ || accept_from_ > steady_now() ||
                          std::any_of(connections_.begin(), connections_.end(),
                                      [](auto& c) { return c.closing_since.has_value(); });
-  if (must_look) wait = kLook;
+  if (must_poll) wait = kPollPeriod_ms;
   if (const auto tick = relay_.next_tick()) {
     const auto left = std::chrono::ceil<milliseconds>(*tick - steady_now()).count();
     const int until = static_cast<int>(std::clamp<std::int64_t>(left, 0, 60'000));
@@ -131,7 +133,7 @@ void RelayServer::turn() {
   relay_.tick(steady_now());
   write_line();
   if (!lost_ && ready[1].revents != 0) read_line();
-  write_line();  // what the answers made room for
+  write_line();  // frames that the answers allow to be sent
   end_connections();
 }
 
@@ -149,7 +151,7 @@ void RelayServer::take_new_connections() {
 void RelayServer::accept_guest() {
   Descriptor socket(::accept4(shared_.listener.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
   if (!socket) {
-    if (errno == EMFILE || errno == ENFILE) accept_from_ = steady_now() + kUntilADescriptorIsFree;
+    if (errno == EMFILE || errno == ENFILE) accept_from_ = steady_now() + kDescriptorRetry;
     return;
   }
   if (auto user = peer_of(socket)) add(std::move(socket), std::move(*user), true);
@@ -199,8 +201,8 @@ bool RelayServer::write_to(Connection& connection) {
   if (open && !why) return true;
   if (why && !connection.guest) own_end_ = static_cast<int>(*why);
   if (why && !connection.closing_since) connection.closing_since = steady_now();
-  // What it goes on sending is read and dropped until it hangs up: a socket that is closed with bytes unread
-  // would cut it off before it has read why.
+  // Whatever it still sends is read and dropped until it disconnects: closing a socket with unread bytes
+  // would discard the Farewell before the program has read it.
   if (open && queue.empty() && !connection.told) {
     connection.told = true;
     ::shutdown(connection.socket.get(), SHUT_WR);
@@ -222,15 +224,15 @@ void RelayServer::lose_line() {
   relay_.close_all(FarewellReason::line_lost);
   line_blocked_since_.reset();
   shared_.listener.reset();
-  shared_.line.reset();  // so that who comes first can open it again
+  shared_.line.reset();  // so that the next program can open it again
   lost_ = true;
 }
 
-/// Two forks, so that nobody has to wait for the process that stays.
-void RelayServer::go_on_alone() {
+/// Forks twice, so that no process has to wait for the one that stays.
+void RelayServer::serve_in_background() {
   const pid_t child = ::fork();
   if (child > 0) ::waitpid(child, nullptr, 0);
-  if (child != 0) return;  // the parent; or nobody could be left behind, and the others see the line end
+  if (child != 0) return;  // the parent, also if fork() failed: then the connections of the others end
   if (::fork() != 0) ::_exit(0);
   ::setsid();
   ::prctl(PR_SET_NAME, "astrolabe-relay");
@@ -244,7 +246,8 @@ void RelayServer::go_on_alone() {
     if (std::find(keep.begin(), keep.end(), number) == keep.end()) ::close(number);
   for (int number = 0; number < 3; ++number) ::open("/dev/null", O_RDWR);
   constexpr int kBacklog = 16;
-  if (shared_.listener) ::listen(shared_.listener.get(), kBacklog);  // in our name from now on: SO_PEERCRED
+  if (shared_.listener)
+    ::listen(shared_.listener.get(), kBacklog);  // again, so that SO_PEERCRED names this process
   stop_ = false;
   while (guests_ > 0 && !lost_) turn();
   ::_exit(0);

@@ -13,14 +13,14 @@
 
 namespace astro::robot {
 
-/// What a relay moves its bytes through.
+/// The descriptors of a relay.
 struct SharedLine {
   Descriptor line;      // to the robot; non-blocking
-  Descriptor listener;  // none where nobody can be let in
+  Descriptor listener;  // empty if other programs cannot connect
 };
 
-/// A Relay on a thread of its own: a program that computes, prints or waits at a prompt still serves the
-/// others, an emergency stop first of all.
+/// A Relay on a thread of its own, so that a program that computes, prints or waits at a prompt still serves
+/// the others, above all an emergency stop.
 ///
 /// End  The destructor closes the line. If other programs still use it, a process that this one leaves behind
 ///      goes on serving them, and ends with the last of them.
@@ -34,7 +34,7 @@ class RelayServer {
   /// A connection for this program itself; it gets neither Welcome nor Farewell.
   Descriptor connect_self();
 
-  /// The line has gone, and everybody has been told.
+  /// The line is lost, and all programs have been notified.
   bool lost() const { return lost_; }
   /// Other programs are connected.
   bool has_guests() const { return guests_ > 0; }
@@ -65,13 +65,13 @@ class RelayServer {
   void end_connections();
   void lose_line();
   int milliseconds_to_wait() const;
-  void go_on_alone();
+  void serve_in_background();
 
   SharedLine shared_;
-  Relay relay_;  // the thread's
+  Relay relay_;  // used by the thread only
   std::deque<Connection> connections_;
   std::optional<microseconds> line_blocked_since_;
-  microseconds accept_from_{};  // not before: no descriptor was left for a guest
+  microseconds accept_from_{};  // accept no guest before this time, because no descriptor was free
 
   Descriptor wake_;
   std::mutex mutex_;

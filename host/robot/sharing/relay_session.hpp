@@ -9,10 +9,11 @@
 #include <vector>
 
 #include "common/protocol/frame.hpp"
+#include "host/base/bytes.hpp"
+#include "host/robot/port/transport.hpp"
 #include "host/robot/sharing/frame_queue.hpp"
 #include "host/robot/sharing/relay_messages.hpp"
 #include "host/robot/sharing/telemetry_request.hpp"
-#include "host/robot/port/transport.hpp"
 
 namespace astro::robot {
 
@@ -24,7 +25,10 @@ struct PortUser {
 
 using SessionId = int;
 
-/// One request on its way: as the program sent it, and under the id that the robot knows it by.
+/// Writes another request id into a body, which begins with the message id (one byte) and the request id.
+inline void set_request_id(std::span<std::uint8_t> body, std::uint16_t id) { store(body, 1, id); }
+
+/// One request under way: as the program sent it, and with the id that it has for the robot.
 struct Exchange {
   Exchange() = default;
   Exchange(const protocol::Header& sent_header, std::span<const std::uint8_t> sent_body)
@@ -32,8 +36,8 @@ struct Exchange {
 
   enum class State : std::uint8_t { waits, sent };
   protocol::Header header;          // as the program sent it
-  std::uint16_t robot_id = 0;       // 0: not chosen yet
-  std::vector<std::uint8_t> frame;  // for the robot, once the id is chosen
+  std::uint16_t robot_id = 0;       // 0: not assigned yet
+  std::vector<std::uint8_t> frame;  // for the robot, as soon as it has an id
   std::vector<std::uint8_t> body;   // as the program sent it
   State state = State::waits;
   microseconds sent_at{};
@@ -49,20 +53,21 @@ struct RelaySession {
   FrameQueue out;  // to the program
   std::uint64_t dropped = 0;
   std::optional<Farewell> closing;
-  bool has_place = false;  // one of those that are limited
+  bool has_slot = false;  // may drive, change parameters or have telemetry
 
   std::optional<Exchange> current;
-  // Pings change nothing and are not remembered by the robot, so that several may be under way: the newest
-  // stands at the next place to be overwritten.
+  // Pings change nothing and the robot does not remember them, so several may be under way. A new one
+  // overwrites the oldest.
   std::array<Exchange, 4> pings;
   std::size_t next_ping = 0;
 
-  // The last request that was answered and its answer, as the robot remembers them of a port.
+  // The last answered request and its answer, as the robot remembers them for a port.
   protocol::Header answered;
   std::vector<std::uint8_t> answer;
 
-  TelemetryWish telemetry;
-  std::optional<PortUser> stopped_by;  // another program ended its drive; until it arms the robot again
+  TelemetryRequest telemetry;
+  std::optional<PortUser>
+      stopped_by;  // the program that stopped its drive; cleared when it arms the robot again
 
   void forget() {
     current.reset();

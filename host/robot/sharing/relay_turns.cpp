@@ -4,7 +4,7 @@
 #include "common/protocol/messages.hpp"
 #include "host/robot/sharing/relay.hpp"
 
-/// Who may ask the robot next.
+/// Which program may ask the robot next.
 namespace astro::robot {
 
 using namespace protocol;  // NOLINT(google-build-using-namespace): this file is all messages
@@ -13,7 +13,7 @@ using std::chrono::milliseconds;
 namespace {
 
 constexpr microseconds kRepeat = milliseconds(60);
-// What asks longer than that has given up by itself: a Client tries for a second, and four for a commit.
+// After this time the program itself has given up: a Client tries for one second, and for four at a commit.
 constexpr microseconds kTurn = milliseconds(1000);
 constexpr microseconds kCommitTurn = milliseconds(4500);
 
@@ -38,13 +38,14 @@ void Relay::next_onlooker(microseconds now) {
   }
 }
 
-/// The relay's own request, as that of an onlooker, until the robot has acknowledged it.
+/// Sends the relay's own request, as an onlooker's, and repeats it until the robot acknowledges it.
 void Relay::ask_for_telemetry(microseconds now) {
   RelaySession& self = sessions_.front();
-  if (ask_again_) {
-    ask_again_ = false;
+  if (telemetry_changed_) {
+    telemetry_changed_ = false;
     stream_ = {};
-    for (const RelaySession& session : sessions_) stream_ = TelemetryWish::merge(stream_, session.telemetry);
+    for (const RelaySession& session : sessions_)
+      stream_ = TelemetryRequest::merge(stream_, session.telemetry);
     own_requests_ = static_cast<std::uint16_t>(own_requests_ == 0xFFFF ? 1 : own_requests_ + 1);
     std::array<std::uint8_t, kMaxBody> body;  // NOLINT(cppcoreguidelines-pro-type-member-init)
     const std::size_t size = encode(stream_, own_requests_, body);

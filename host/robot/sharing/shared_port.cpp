@@ -6,10 +6,10 @@
 #include <thread>
 #include <utility>
 
-#include "host/robot/sharing/port_socket.hpp"
-#include "host/robot/sharing/relay_server.hpp"
 #include "host/robot/port/serial_port.hpp"
 #include "host/robot/port/stream_transport.hpp"
+#include "host/robot/sharing/port_socket.hpp"
+#include "host/robot/sharing/relay_server.hpp"
 
 namespace astro::robot {
 
@@ -19,11 +19,11 @@ using boost::asio::local::stream_protocol;
 using std::chrono::milliseconds;
 
 constexpr microseconds kGreeting = milliseconds(1000);  // an idle holder greets within a millisecond
-// Between a holder's lock and its socket, and between its end and the lock's.
+// Longest time between a holder's lock and its socket, and between its end and the release of the lock.
 constexpr microseconds kStart = milliseconds(1000);
 constexpr milliseconds kPause(5);
 
-/// The way of one program to a port: through its own relay or through that of another program.
+/// The connection of one program to a port: through its own relay or through that of another program.
 class SharedPort {
  public:
   SharedPort(std::string address, unsigned baud, Notice notice)
@@ -53,8 +53,8 @@ class SharedPort {
 
   std::string why_silent() const {
     if (server_ || key_.empty()) return {};
-    const Served probe = connect_to(key_, kGreeting / 2);
-    return probe.busy ? does_not_answer(*probe.busy) : std::string();
+    const HolderConnection probe = connect_to(key_, kGreeting / 2);
+    return probe.busy ? holder_hangs(*probe.busy) : std::string();
   }
 
  private:
@@ -69,7 +69,7 @@ class SharedPort {
       shared.line.reset(open_line(address_, baud_));
       try {
         shared.listener = listen_at(port_key_of(shared.line.get()));
-      } catch (const Error& error) {  // the port is this program's all the same
+      } catch (const Error& error) {  // this program can use the port anyway
         notice_(address_ + ": no other program can stop or watch this robot meanwhile; " + error.what());
       }
     }
@@ -77,23 +77,23 @@ class SharedPort {
     return server_->connect_self();
   }
 
-  /// A TCP address has no file to lock; the name of its socket stands for it.
+  /// A TCP address has no file to lock; the name of its socket serves as the lock.
   Descriptor hold_tcp() const {
     const std::string key = tcp_key(address_);
     try {
       return listen_at(key);
     } catch (const Error& error) {
       throw PortInUse(address_ +
-                          " is in use by another program, which shares it with nobody: end that one first (" +
+                          " is in use by another program, which does not share it: end that program first (" +
                           error.what() + ")",
                       key);
     }
   }
 
-  /// Nothing if the holder does not share the port, or has just ended.
+  /// Empty if the holder does not share the port, or has just ended.
   Descriptor join(const std::string& key) {
-    Served served = connect_to(key, kGreeting);
-    if (served.busy) throw Error(address_ + ": " + does_not_answer(*served.busy));
+    HolderConnection served = connect_to(key, kGreeting);
+    if (served.busy) throw Error(address_ + ": " + holder_hangs(*served.busy));
     if (served.connection) {
       key_ = key;
       holder_ = peer_of(served.connection);
@@ -104,15 +104,15 @@ class SharedPort {
   std::string address_;
   unsigned baud_;
   Notice notice_;
-  std::unique_ptr<RelayServer> server_;  // of a program that holds the port
-  std::string key_;                      // of a program that another one serves
+  std::unique_ptr<RelayServer> server_;  // set if this program holds the port
+  std::string key_;                      // set if another program serves this one
   std::optional<PortUser> holder_;
 };
 
 }  // namespace
 
 std::unique_ptr<Transport> open_shared_port(const std::string& address, unsigned baud, Notice notice) {
-  if (address.empty()) return open_transport(address, baud);  // which says so
+  if (address.empty()) return open_transport(address, baud);  // which throws the error
   using Stream = StreamTransport<stream_protocol::socket>;
   const auto port = std::make_shared<SharedPort>(address, baud, std::move(notice));
   return std::make_unique<Stream>(

@@ -9,8 +9,8 @@
 
 namespace astro::simulation {
 
-/// A link to a simulated robot in the same process. Waiting for a byte is what makes virtual time pass, so a
-/// whole experiment runs as fast as it computes and always the same way.
+/// A link to a simulated robot in the same process. Virtual time passes only while the host waits for a byte,
+/// so a whole experiment runs as fast as it computes, and always in the same way.
 class InProcessTransport : public robot::Transport {
  public:
   explicit InProcessTransport(std::shared_ptr<VirtualRobot> robot, int port = 0);

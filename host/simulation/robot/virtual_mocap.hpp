@@ -11,7 +11,7 @@ namespace astro::simulation {
 
 struct MocapConfig {
   double rate_hz = 60;
-  double position_sd_m = 0.0002;  // what the maker of the thesis's cameras states
+  double position_sd_m = 0.0002;  // as stated by the maker of the thesis's cameras
   double heading_sd_rad = 0.001;
   std::uint64_t seed = 1;
   // The tracker's frame as seen from the simulated world's: an uncalibrated origin, as in any lab.
@@ -24,10 +24,10 @@ class VirtualMocap {
  public:
   explicit VirtualMocap(const MocapConfig& config);
 
-  /// Call once per millisecond; a sample when one is due.
+  /// Must be called once per millisecond; returns a sample when one is due.
   std::optional<recording::TruthSample> advance(std::uint64_t time_us, const sim::Pose& truth);
 
-  /// The robot's clock, which the samples are stamped with, starts again at 0.
+  /// The robot's clock, which stamps the samples, has restarted at 0.
   void restart_clock() { due_us_ = 0; }
 
  private:

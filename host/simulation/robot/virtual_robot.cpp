@@ -16,7 +16,7 @@ void VirtualRobot::step() {
   robot_->tick();
   robot_->poll();
   if (board_.system().take_reboot_request()) return restart(hal::ResetCause::software);
-  // There is nothing to flash here: a simulated robot comes straight back from its bootloader.
+  // A simulated robot cannot be flashed, so it returns from its boot loader at once.
   if (board_.system().take_bootloader_request()) return restart(hal::ResetCause::software);
   if (const auto sample = mocap_.advance(board_.clock().now_us(), board_.truth())) {
     if (seen_.size() >= 2 * kMinute) seen_.erase(seen_.begin(), seen_.begin() + kMinute);

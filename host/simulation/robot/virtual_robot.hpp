@@ -9,7 +9,7 @@
 
 namespace astro::simulation {
 
-/// The firmware on the simulated board, watched by the virtual cameras; time is virtual and moves only in
+/// The firmware on the simulated board, watched by the virtual cameras. Time is virtual and passes only in
 /// step().
 ///
 /// The same configuration and the same bytes at the same times give the same bytes back.
@@ -20,14 +20,14 @@ class VirtualRobot {
   /// One millisecond: the control tick, the main loop, then the world.
   void step();
 
-  /// The processor starts again, for this reason; the robot stays where it is.
+  /// The processor restarts for this reason; the robot stays where it is.
   void restart(hal::ResetCause cause);
 
   sim::Board& board() { return board_; }
   const Robot<sim::Board>& robot() const { return *robot_; }
   std::uint64_t now_us() { return board_.clock().now_us(); }
 
-  /// What the cameras saw since the last call; at most the last minute is kept for who never asks.
+  /// What the cameras saw since the last call; at least the last minute and at most the last two are kept.
   std::vector<recording::TruthSample> take_truth();
 
  private:

@@ -11,20 +11,22 @@ constexpr std::size_t kMostOutgoing = 1U << 16;
 
 }  // namespace
 
-Channel::Channel(Served& robot, int port, std::filesystem::path link)
+Channel::Channel(ServedRobot& robot, int port, std::filesystem::path link)
     : robot_(robot), port_(port), link_(std::move(link)) {
   if (robot_.present(port_))
     pty_.emplace(link_);
   else
-    const Pty probe(link_);  // a path that cannot be had is an error now, and not when the port comes
+    const Pty probe(link_);  // so that a bad path is an error now, and not when the port appears
 }
 
 pollfd Channel::waits_for() const {
-  const int in = robot_.room(port_) != 0 ? POLLIN : 0;  // else what waits would wake us for nothing
+  const int in = robot_.room(port_) != 0
+                     ? POLLIN
+                     : 0;  // otherwise waiting bytes would wake us although there is no room for them
   return {pty_->fd(), static_cast<short>(in | (outgoing_.empty() ? 0 : POLLOUT)), 0};
 }
 
-void Channel::look() {
+void Channel::update_connection() {
   if (!robot_.present(port_)) {
     pty_.reset();
     outgoing_.clear();

@@ -8,29 +8,30 @@
 #include <vector>
 
 #include "host/simulation/server/pty.hpp"
-#include "host/simulation/server/served.hpp"
+#include "host/simulation/server/served_robot.hpp"
 
 namespace astro::simulation {
 
-/// One port of a robot at one pty. The pty is there while the robot's port is.
+/// One port of a robot at one pty. The pty exists while the robot's port does.
 class Channel {
  public:
   /// Errors as Pty.
-  Channel(Served& robot, int port, std::filesystem::path link);
+  Channel(ServedRobot& robot, int port, std::filesystem::path link);
 
-  /// Brings the robot what the host has sent; false if that is nothing.
+  /// Passes bytes from the host to the robot; returns false if there were none.
   bool receive();
-  /// Brings the host what the robot has sent; true if it has not taken all yet.
+  /// Passes bytes from the robot to the host; returns true if some are left because the host has not taken
+  /// them.
   bool transmit();
-  /// Follows the robot's port and the host's program as they come and go.
-  void look();
+  /// Follows changes: the robot's port appears or disappears, a program opens or closes the pty.
+  void update_connection();
 
   bool connected() const { return connected_; }
   /// For poll(), while connected.
   pollfd waits_for() const;
 
  private:
-  Served& robot_;
+  ServedRobot& robot_;
   int port_;
   std::filesystem::path link_;
   std::optional<Pty> pty_;

@@ -7,9 +7,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Pace::Duration kGivenUp = 2s;
+constexpr Pace::Duration kRestartAfter = 2s;
 constexpr Pace::Duration kBurst = 20ms;  // a tenth of the command time-out
-constexpr int kFastest = 2;              // virtual over real time while making up
+constexpr int kFastest = 2;              // virtual over real time while it catches up
 
 }  // namespace
 
@@ -19,7 +19,7 @@ void Pace::restart(Time now) {
 }
 
 bool Pace::due(Time now) {
-  if (now - due_ > kGivenUp) restart(now);
+  if (now - due_ > kRestartAfter) restart(now);
   credit_ = std::min<Duration>(credit_ + kFastest * std::max<Duration>(now - asked_, 0ms), kBurst);
   asked_ = now;
   if (now < due_) {

@@ -4,11 +4,12 @@
 
 namespace astro::simulation {
 
-/// Keeps virtual time, which passes in steps of a millisecond, beside real time. The caller reads the clock.
+/// Keeps virtual time, which passes in steps of a millisecond, equal to real time. The caller reads the
+/// clock.
 ///
-/// A server that was held up, because others need the processor, makes up for it: each step that was missed
-/// is made, at no more than twice real time, so that a host has time to speak before the robot's own
-/// time-outs run out. After a pause of more than 2 s (a computer that slept) it begins anew instead.
+/// A server that was delayed, because other programs needed the processor, catches up: it makes each missed
+/// step, at no more than twice real time, so that a host can send something before the robot's time-outs
+/// expire. After a pause of more than 2 s (the computer slept) it starts again from the present time instead.
 class Pace {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -17,20 +18,21 @@ class Pace {
 
   explicit Pace(Time now) { restart(now); }
 
-  /// True if a step is due. To be asked before each; a step that is made is to be told by stepped().
+  /// True if a step is due. Must be called before each step, and stepped() after it.
   bool due(Time now);
-  /// True if a host that has just spoken may be answered by a step that is due only in a moment.
-  bool may_hurry(Time now) const { return due_ - now <= kStep; }
-  /// Each step counts, also one that was made early: it is not made a second time.
+  /// True if the next step may be made now, up to one step early, to answer a host that has just sent
+  /// something.
+  bool may_step_early(Time now) const { return due_ - now <= kStep; }
+  /// A step was made. An early one counts, too: it is not made a second time.
   void stepped();
   /// When to ask again.
   Time next() const { return next_; }
-  /// The next step is due at `now`, whatever was before.
+  /// Forgets the past: the next step is due at `now`.
   void restart(Time now);
 
  private:
   Time due_, asked_, next_;
-  Duration credit_{};  // real time that steps may take back now
+  Duration credit_{};  // real time that may be caught up now
 };
 
 }  // namespace astro::simulation

@@ -40,7 +40,7 @@ std::string device_of(int fd) {
   return name.data();
 }
 
-// The settings belong to the terminal, not to who has it open: they stay when this descriptor is closed.
+// The settings belong to the terminal, not to the descriptor: they stay when it is closed.
 void make_raw(const std::string& device) {
   const int fd = open(device.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
   if (fd < 0) fail(device);
@@ -51,9 +51,9 @@ void make_raw(const std::string& device) {
   close(fd);
 }
 
-// An abstract socket's name belongs to one process and goes with it, however it ends; that the link's target
-// exists says nothing, because the number of a dead simulator's terminal is soon another program's. -1:
-// somebody else has the name.
+// The name of an abstract socket belongs to one process and ends with it, however it ends. Whether the link's
+// target exists is no proof of life, because the terminal number of a dead simulator is soon reused. Returns
+// -1 if another process has the name.
 int try_claim(const fs::path& link) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
@@ -71,23 +71,23 @@ int try_claim(const fs::path& link) {
 
 int claim(const fs::path& link) {
   if (const int fd = try_claim(link); fd >= 0) return fd;
-  throw Error("'" + link.string() + "' is in use by another simulator", {Help::stop_simulator_or_choose_other_path});
+  throw Error("'" + link.string() + "' is in use by another simulator",
+              {Help::stop_simulator_or_choose_other_path});
 }
 
 bool left_behind(const fs::path& link) {
   return fs::is_symlink(link) && fs::read_symlink(link).parent_path() == "/dev/pts";
 }
 
-/// A link in the runtime folder leads to a terminal, or to the link of a simulator that lies elsewhere. Looks
-/// at the claim for a moment: a simulator that starts just then is told that its name is taken, and its link
-/// stays.
+/// A link in the runtime folder leads to a terminal, or to the link of a simulator elsewhere. Takes the claim
+/// for a moment to test it: a simulator that starts at that moment is refused the name, and its link stays.
 bool is_dead(const fs::path& link) {
   std::error_code error;
   const fs::path target = fs::read_symlink(link, error);
   if (error) return false;
   const fs::path claimed = left_behind(link) ? link : target;
   if (!fs::exists(fs::symlink_status(claimed, error))) return true;
-  if (!left_behind(claimed)) return false;  // nothing of a simulator's
+  if (!left_behind(claimed)) return false;  // not the link of a simulator
   const int claim = try_claim(claimed);
   if (claim >= 0) close(claim);
   return claim >= 0;
@@ -102,7 +102,8 @@ void make_link(const fs::path& device, const fs::path& link) {
   }
   fs::create_symlink(device, link, error);
   if (error)
-    throw Error("'" + link.string() + "' cannot be made (" + error.message() + ")", {Help::choose_other_path});
+    throw Error("'" + link.string() + "' cannot be made (" + error.message() + ")",
+                {Help::choose_other_path});
 }
 
 }  // namespace
@@ -138,7 +139,7 @@ std::uint32_t Pty::baud() const {
 
 std::size_t Pty::read(std::span<std::uint8_t> into) {
   const ssize_t count = ::read(fd_, into.data(), into.size());
-  return count > 0 ? static_cast<std::size_t>(count) : 0;  // EAGAIN, or EIO while nobody is there
+  return count > 0 ? static_cast<std::size_t>(count) : 0;  // EAGAIN, or EIO while no program has it open
 }
 
 std::size_t Pty::write(std::span<const std::uint8_t> bytes) {
@@ -148,7 +149,8 @@ std::size_t Pty::write(std::span<const std::uint8_t> bytes) {
 
 void sweep_dead_links(const fs::path& folder) {
   std::error_code error;
-  if (!fs::is_directory(fs::symlink_status(folder, error))) return;  // a link could lead to anybody's folder
+  if (!fs::is_directory(fs::symlink_status(folder, error)))
+    return;  // a link could lead to another user's folder
   std::vector<fs::path> dead;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
     if (entry.path().extension() == ".pty" && entry.is_symlink(error) && is_dead(entry.path()))

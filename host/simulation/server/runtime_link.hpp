@@ -2,11 +2,11 @@
 
 #include <filesystem>
 
-/// Where the programs of one user find each other's simulators.
+/// Where the programs of one user find the simulators of each other.
 namespace astro::simulation {
 
-/// A symlink in the runtime folder to a simulator elsewhere, for as long as it lives; none if the simulator
-/// is in that folder anyway or all names for it are taken. `ports` finds the simulator by it.
+/// A symlink in the runtime folder to a simulator elsewhere, for as long as the object lives; none if the
+/// simulator is in that folder anyway or all names are in use. Other programs find the simulator by it.
 class RuntimeLink {
  public:
   RuntimeLink(const std::filesystem::path& folder, const std::filesystem::path& pty);

@@ -21,10 +21,10 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 constexpr std::uintmax_t kMostFlashBytes = std::uintmax_t{8} << 20;  // the largest of a Teensy's family
-constexpr std::uint64_t kLease_us = 100'000;  // virtual time that one word of the host is good for
-constexpr auto kPatience = 200ms;  // real time that a host may take nothing before it is left behind
-constexpr auto kSilence = 1s;      // real time that a host may say nothing before time goes on without it
-constexpr int kStepsPerLook = 50;  // virtual ms between two looks at the host while running ahead
+constexpr std::uint64_t kRunAhead_us = 100'000;  // virtual time that may pass after bytes from the host
+constexpr auto kBusyTimeout = 200ms;  // real time that a host may take no bytes before it counts as hanging
+constexpr auto kSilenceTimeout = 1s;  // real time that a host may send nothing before time goes on without it
+constexpr int kStepsPerPoll = 50;     // virtual ms between two checks of the host while running ahead
 
 sim::Config with_flash(sim::Config config, const fs::path& path) {
   config.flash = load_flash(path);
@@ -33,7 +33,7 @@ sim::Config with_flash(sim::Config config, const fs::path& path) {
 
 fs::path beside(fs::path pty, const char* suffix) { return pty += suffix; }
 
-class ServedVirtualRobot : public Served {
+class ServedVirtualRobot : public ServedRobot {
  public:
   ServedVirtualRobot(const sim::Config& config, const MocapConfig& mocap) : robot_(config, mocap) {}
 
@@ -60,14 +60,14 @@ std::vector<std::uint8_t> load_flash(const fs::path& path) {
   const fs::file_status status = fs::symlink_status(path);
   if (fs::is_symlink(status))
     throw Error("'" + path.string() +
-                "' is a link, and a robot's flash replaces what has its name: name the file");
-  return fs::exists(status) ? recording::load_file(path, kMostFlashBytes) : std::vector<std::uint8_t>{};
+                "' is a link, and saving the robot's flash would replace the link: name the file itself");
+  return fs::exists(status) ? load_file(path, kMostFlashBytes) : std::vector<std::uint8_t>{};
 }
 
 Server::Server(const sim::Config& robot, const MocapConfig& mocap, const ServerConfig& config)
     : Server(std::make_unique<ServedVirtualRobot>(with_flash(robot, config.flash), mocap), config) {}
 
-Server::Server(std::unique_ptr<Served> robot, const ServerConfig& config)
+Server::Server(std::unique_ptr<ServedRobot> robot, const ServerConfig& config)
     : config_(config), robot_(std::move(robot)), pace_(Clock::now()) {
   channels_.emplace_back(*robot_, 0, config.pty);
   if (!config.second_pty.empty()) channels_.emplace_back(*robot_, 1, config.second_pty);
@@ -81,7 +81,7 @@ Server::Server(std::unique_ptr<Served> robot, const ServerConfig& config)
 Server::~Server() {
   try {
     save_flash();
-  } catch (const std::exception&) {  // said while running; nobody listens any more
+  } catch (const std::exception&) {  // was reported while running; a destructor cannot
   }
 }
 
@@ -90,7 +90,7 @@ void Server::run(const std::function<bool()>& stop) {
     receive();
     const bool host_is_behind = transmit();
     if (runs_ahead(host_is_behind)) {
-      for (int i = 0; i < kStepsPerLook; ++i) step();
+      for (int i = 0; i < kStepsPerPoll; ++i) step();
       pace_.restart(Clock::now() + Pace::kStep);
     } else if (pace_.due(Clock::now())) {
       step();
@@ -99,26 +99,27 @@ void Server::run(const std::function<bool()>& stop) {
       wait();
     }
   }
-  save_flash();  // said here if it fails; the destructor cannot
+  save_flash();  // a failure is reported here; the destructor cannot
 }
 
 void Server::receive() {
   truth_->accept_clients();
   bool heard = false;
   for (Channel& channel : channels_) {
-    heard |= channel.receive();  // first, so that what was sent before the port was closed arrives
-    channel.look();
+    heard |= channel.receive();  // first, so that bytes sent before the port was closed arrive
+    channel.update_connection();
   }
   if (!heard) return;
   last_heard_us_ = robot_->now_us();
   heard_at_ = Clock::now();
-  // Answered at once. Fast motion does not count; else the step is one of those that real time asks for.
-  if (!config_.fast && !pace_.may_hurry(heard_at_)) return;
+  // A step now answers the host at once. Except in fast motion it is one of the steps that real time
+  // requires.
+  if (!config_.fast && !pace_.may_step_early(heard_at_)) return;
   step();
   pace_.stepped();
 }
 
-/// What the robot has kept is on the disk before anybody hears of it.
+/// Saves the flash before bytes are sent, so that a host never hears of data that is not on the disk yet.
 bool Server::transmit() {
   save_flash();
   bool behind = truth_->flush();
@@ -132,18 +133,18 @@ bool Server::connected() const {
 
 bool Server::runs_ahead(bool host_is_behind) {
   if (!config_.fast) return false;
-  if (robot_->now_us() - last_heard_us_ >= kLease_us) {
-    // Stand still for a host that is late, be its machine ever so busy, but not for one that hangs or has
-    // gone.
-    if (connected() && Clock::now() - heard_at_ < kSilence) pace_.restart(Clock::now() + Pace::kStep);
+  if (robot_->now_us() - last_heard_us_ >= kRunAhead_us) {
+    // Virtual time waits for a host that is late because its machine is busy, but not for one that hangs or
+    // has gone.
+    if (connected() && Clock::now() - heard_at_ < kSilenceTimeout) pace_.restart(Clock::now() + Pace::kStep);
     return false;
   }
   if (!host_is_behind) {
     behind_since_ = Clock::now();
     return true;
   }
-  // Stand still for a host that is busy, but not for one that hangs.
-  if (Clock::now() - behind_since_ < kPatience) pace_.restart(Clock::now() + Pace::kStep);
+  // Virtual time waits for a host that is busy, but not for one that hangs.
+  if (Clock::now() - behind_since_ < kBusyTimeout) pace_.restart(Clock::now() + Pace::kStep);
   return false;
 }
 
@@ -173,13 +174,13 @@ void Server::check_flash_can_be_kept() const {
   if (fs::exists(config_.flash, none) && access(config_.flash.c_str(), W_OK) != 0)
     throw Error(fmt::format("the robot's flash '{}' cannot be written: {}", config_.flash.string(),
                             std::generic_category().message(errno)));
-  const recording::PartFile probe(config_.flash);
+  const PartFile probe(config_.flash);
 }
 
 void Server::save_flash() {
   const auto content = robot_->flash();
   if (config_.flash.empty() || std::equal(content.begin(), content.end(), saved_flash_.begin())) return;
-  recording::PartFile file(config_.flash);
+  PartFile file(config_.flash);
   file.write(content);
   file.commit();
   saved_flash_.assign(content.begin(), content.end());

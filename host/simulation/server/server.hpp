@@ -8,20 +8,20 @@
 #include <memory>
 #include <optional>
 
+#include "host/simulation/robot/virtual_robot.hpp"
 #include "host/simulation/server/channel.hpp"
 #include "host/simulation/server/pace.hpp"
-#include "host/simulation/server/served.hpp"
+#include "host/simulation/server/served_robot.hpp"
 #include "host/simulation/server/truth_server.hpp"
-#include "host/simulation/robot/virtual_robot.hpp"
 
 namespace astro::simulation {
 
 struct ServerConfig {
-  // Symlink to make, which leads to the robot's port 0; the cameras' socket is beside it, with ".mocap"
+  // Symlink to create, which leads to the robot's port 0; the cameras' socket is beside it, with ".mocap"
   // added.
   std::filesystem::path pty;
-  // Keeps the robot's flash between starts, on the disk before a host hears that it is kept; empty: nothing
-  // is kept.
+  // File that keeps the robot's flash between starts; written before a host hears that data was stored.
+  // Empty: nothing is kept.
   std::filesystem::path flash{};
   bool fast = false;
   std::filesystem::path second_pty{};  // to port 1; empty: none
@@ -32,19 +32,19 @@ std::vector<std::uint8_t> load_flash(const std::filesystem::path& path);
 
 /// A simulated robot behind a pty, for as long as the process lives.
 ///
-/// Real time: one virtual millisecond each real one. Fast: virtual time runs ahead as long as a host says
-/// something at least every 100 virtual ms (its client pings by the robot's clock) and takes what it is sent;
-/// otherwise it falls back to real time, so a host that dies is still noticed by the robot's own command
-/// timeout.
+/// Real time: one virtual millisecond per real millisecond. Fast: virtual time runs ahead as long as a host
+/// sends something at least every 100 virtual ms (its client pings by the robot's clock) and reads what it is
+/// sent; otherwise it falls back to real time, so that the robot's command time-out still notices a host that
+/// dies.
 class Server {
  public:
+  /// A VirtualRobot. Throws astro::Error if a pty or the file of the flash cannot be used.
   Server(const sim::Config& robot, const MocapConfig& mocap, const ServerConfig& config);
-  /// Throws astro::Error if a pty or the flash's file cannot be had.
-  /// Another robot than VirtualRobot, which has been given load_flash(config.flash).
-  Server(std::unique_ptr<Served> robot, const ServerConfig& config);
+  /// Another robot, whose flash holds load_flash(config.flash) already. Throws the same.
+  Server(std::unique_ptr<ServedRobot> robot, const ServerConfig& config);
   ~Server();
 
-  /// Until `stop` says so; asked at least every 20 ms.
+  /// Runs until `stop` returns true; it is called at least every 20 ms.
   void run(const std::function<bool()>& stop);
 
   const ServerConfig& config() const { return config_; }
@@ -63,12 +63,12 @@ class Server {
   void save_flash();
 
   ServerConfig config_;
-  std::unique_ptr<Served> robot_;
+  std::unique_ptr<ServedRobot> robot_;
   std::deque<Channel> channels_;
-  std::optional<TruthServer> truth_;  // after the ptys, which say whether the paths are free
+  std::optional<TruthServer> truth_;  // after the ptys, whose links show that the paths are free
   std::uint64_t last_heard_us_ = 0;   // virtual
   Clock::time_point heard_at_{};      // the same in real time
-  Clock::time_point behind_since_{};  // real time since when the host takes nothing
+  Clock::time_point behind_since_{};  // real time since which the host takes no bytes
   Pace pace_;
   std::vector<std::uint8_t> saved_flash_;
 };

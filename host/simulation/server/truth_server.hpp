@@ -8,8 +8,8 @@
 
 namespace astro::simulation {
 
-/// The virtual cameras' own way to a host: a Unix socket beside the robot's pty, so only programs of this
-/// machine reach it. Text, one line a sample, after a line that names the format
+/// The connection of the virtual cameras to a host: a Unix socket beside the robot's pty, which only programs
+/// of this machine can reach. Text, one line per sample, after a line that names the format
 /// (host/truth/live/socket_source.hpp reads it):
 ///
 ///   astrolabe-mocap 1
@@ -22,14 +22,14 @@ class TruthServer {
   TruthServer(const TruthServer&) = delete;
   TruthServer& operator=(const TruthServer&) = delete;
 
-  /// Another name for the same socket, taken away with it. Throws astro::Error if it cannot be made.
+  /// Adds a link to the same socket; the destructor removes it. Throws astro::Error if it cannot be created.
   void add_link(const std::filesystem::path& link);
 
   void accept_clients();
   void send(const recording::TruthSample& sample);
 
-  /// Tries to hand over what is waiting; true if some client has not taken all yet. A client that falls more
-  /// than a few megabytes behind is let go.
+  /// Tries to send what is waiting; returns true if some client has not taken all yet. A client that falls
+  /// more than a few megabytes behind is disconnected.
   bool flush();
 
  private:

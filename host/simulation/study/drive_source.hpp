@@ -6,10 +6,10 @@
 #include "host/calibration/motion/trajectory.hpp"
 #include "host/simulation/study/setup.hpp"
 
-/// Where a study's drives come from: the robot that it is about.
+/// Where a study's drives come from: the robot that drives.
 namespace astro::simulation::study {
 
-/// The squares of a trial in the order of driving, as each kind of method is given them.
+/// The squares of a trial in the order of driving, in the form that each kind of method needs.
 struct Drives {
   std::vector<calibration::Trajectory> runs;     // whole, for maximum likelihood
   std::vector<calibration::EndPose> end_errors;  // of each run, for UMBmark and its kin
@@ -24,15 +24,15 @@ class DriveSource {
   DriveSource& operator=(const DriveSource&) = delete;
   virtual ~DriveSource() = default;
 
-  /// Throws astro::Error naming what of the set-up this robot cannot drive, also where TrialSetup::check
-  /// does.
+  /// Throws astro::Error naming what this robot cannot drive in the set-up, and whatever TrialSetup::check
+  /// throws.
   virtual void check(const TrialSetup& setup) const = 0;
 
-  /// Those of one trial. Throws astro::Error if the robot does not come through.
+  /// The drives of one trial. Throws astro::Error if the robot fails to drive them.
   virtual Drives of_trial(const TrialSetup& setup, int trial) const = 0;
 
-  /// Without slip and without error of the ground truth, on equal clocks: what the Cramer-Rao bound is
-  /// computed from. Throws as of_trial.
+  /// Drives without slip, without errors of the ground truth and with equal clocks, for the Cramer-Rao bound.
+  /// Throws as of_trial.
   virtual std::vector<calibration::Trajectory> without_noise(const TrialSetup& setup) const = 0;
 };
 

@@ -5,7 +5,7 @@
 
 #include "host/base/error.hpp"
 
-/// What set-ups and programmes have to keep to.
+/// Limits that set-ups and programmes have to keep.
 namespace astro::simulation::study {
 
 /// `what` is named with its unit: "the side of the square in metres".

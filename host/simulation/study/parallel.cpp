@@ -12,7 +12,7 @@
 namespace astro::simulation::study {
 namespace {
 
-constexpr auto kBetweenLooks = std::chrono::milliseconds(100);
+constexpr auto kPollPeriod = std::chrono::milliseconds(100);
 
 class Pool {
  public:
@@ -34,7 +34,7 @@ class Pool {
 
   void watch(int threads, const std::function<void(int)>& meanwhile) {
     std::unique_lock lock(mutex_);
-    while (!changed_.wait_for(lock, kBetweenLooks, [&] { return served_ == threads; })) {
+    while (!changed_.wait_for(lock, kPollPeriod, [&] { return served_ == threads; })) {
       lock.unlock();
       meanwhile(done_);
       lock.lock();

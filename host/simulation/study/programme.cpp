@@ -47,7 +47,7 @@ void require_runs(const Counts& counts) {
   if (const int runs = total(counts); runs > kMostRuns)
     throw Error("the programme has " + std::to_string(runs) + " runs and " + std::to_string(kMostRuns) +
                 " are the most: drive longer ones");
-  if (const std::string_view sentence = left_open(counts); !sentence.empty())
+  if (const std::string_view sentence = why_undetermined(counts); !sentence.empty())
     throw Error(std::string(sentence));
 }
 
@@ -102,15 +102,15 @@ DriveModel model_of(const Programme& programme) {
 
 }  // namespace
 
-std::string_view left_open(const Counts& counts) {
+std::string_view why_undetermined(const Counts& counts) {
   const int runs = total(counts);
   if (runs == 0) return "the programme is empty: say how many squares, lines, spins or circles";
   if (counts[kLines] == runs)
-    return "lines never turn, so nothing tells the wheelbase: add squares, spins or circles";
+    return "lines never turn, so they do not determine the wheelbase: add squares, spins or circles";
   if (counts[kSpins] == runs)
-    return "spins tell the ratio of wheels and wheelbase but no size: add squares, lines or circles";
+    return "spins determine the ratio of wheels and wheelbase but no size: add squares, lines or circles";
   if (counts[kCircles] == 1 && runs == 1)
-    return "one circle turns one way round, which leaves wheels and wheelbase open: drive two";
+    return "one circle turns in one direction only, which does not separate wheels and wheelbase: drive two";
   return {};
 }
 

@@ -4,26 +4,29 @@
 #include <string>
 #include <string_view>
 
-#include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "host/calibration/judgement/precision.hpp"
+#include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "host/calibration/motion/trajectory.hpp"
 
-/// What precision a programme of drives will give, before anything is driven.
+/// The precision that a programme of drives will give, computed before anything is driven.
 namespace astro::simulation::study {
 
-/// Kinds of run. Squares are legs and spins; a spin turns on the spot; a circle is one full turn.
+/// Kinds of run. A square is four lines and four turns on the spot; a spin turns on the spot; a circle is one
+/// full turn.
 enum Kind : std::size_t { kSquares, kLines, kSpins, kCircles };
 inline constexpr std::size_t kKinds = 4;
 inline constexpr int kMostRuns = 1000;  // of a programme
 inline constexpr std::array<std::string_view, kKinds> kKindNames = {"squares", "lines", "spins", "circles"};
 
-/// How many of each kind. Of those that turn half are clockwise; an odd one, too. Lines are driven forwards.
+/// Number of runs of each kind. Half of the turning runs are clockwise, also an odd one. Lines are driven
+/// forwards.
 using Counts = std::array<int, kKinds>;
 
-/// The sentence why these runs, of whatever size, cannot tell all three factors; empty if they can.
-std::string_view left_open(const Counts& counts);
+/// A sentence why these runs, of any size, cannot determine all three factors; empty if they can.
+std::string_view why_undetermined(const Counts& counts);
 
-/// Sizes of the runs, how they are driven and what is measured. Clocks are estimated, as the estimator does.
+/// Sizes of the runs, how they are driven and what is measured. The clock offset counts as unknown, as in the
+/// estimator.
 struct Programme {
   Counts counts{};
   double side_m = 3, line_m = 3, turns = 5, radius_m = 1;
@@ -40,11 +43,11 @@ struct Programme {
 
 struct Forecast {
   Programme programme;
-  // Of a robot without errors: c_R = c_L = S = E_d = 1.
+  // For a robot without errors: c_R = c_L = S = E_d = 1.
   calibration::FactorCovariance covariance{};
   calibration::MlErrors se;
-  calibration::DriveExtent extent;  // the robot's centre, and the sum of |rotation|
-  double driving_time_s = 0;        // with a second of rest at each end of a run, without ways between runs
+  calibration::DriveExtent extent;  // distance of the robot's centre, and the sum of |rotation|
+  double driving_time_s = 0;  // with a second of rest at each end of a run, without the way between runs
   calibration::Precision relative() const { return {se.E_d, se.scale, se.b_m / programme.wheelbase_m}; }
 };
 

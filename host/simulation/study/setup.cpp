@@ -19,17 +19,17 @@ namespace {
 
 using calibration::Sense;
 
-// Apart from the seeds of the drives, which count from 0.
+// Different from the seeds of the drives, which count from 0.
 constexpr std::uint64_t kClocks = 1'000'000;
 
 void demand(bool holds, double value, const std::string& what, const std::string& remedy) {
   if (!holds) throw Error(what + " is " + std::to_string(value) + ": give " + remedy);
 }
 
-// Far more than anybody waits for; what is damaged or mistyped beyond them would exhaust the memory.
+// Far more than anybody needs; larger numbers from a damaged file or a typing error would exhaust the memory.
 constexpr int kMostTrials = 10'000'000, kMostSquares = 1000;
 
-/// An end heading tells less than half a turn: beyond that what was driven is no square for any method.
+/// An end heading is known only within half a turn; if the error is larger, no method can use the square.
 void require_square(const TrialSetup& setup) {
   double error_rad = 0;
   for (const Sense sense : {Sense::cw, Sense::ccw})
@@ -38,13 +38,12 @@ void require_square(const TrialSetup& setup) {
         std::abs(calibration::replay_square(setup.side_m, sense, setup.carried(), setup.actual()).theta_rad));
   if (error_rad < std::numbers::pi) return;
   throw Error(fmt::format(
-      "a square of {:g} m leaves a robot with these errors {:.0f} degrees off its heading, and an end pose "
-      "tells no "
-      "more than 180: give a side of at most some {:.2g} m, or smaller errors",
+      "a square of {:g} m turns a robot with these errors {:.0f} degrees away from its heading, and an end "
+      "pose can show at most 180: give a side of at most some {:.2g} m, or smaller errors",
       setup.side_m, error_rad * 180 / std::numbers::pi, setup.side_m * std::numbers::pi / error_rad));
 }
 
-/// A seed is whole: the library would make one of 1e300, too, and a different one on each machine.
+/// A seed must be an integer: the library would also convert 1e300, and differently on each machine.
 std::uint64_t seed_from(const nlohmann::json& json) {
   if (!json.is_number_integer())
     throw Error("the seed of a study is a whole number, not " + json.dump().substr(0, 40));
@@ -132,7 +131,7 @@ TrialSetup setup_from(const nlohmann::json& json) {
   TrialSetup setup;
   const auto name = json.at("model").get<std::string>();
   const std::optional<Model> model = model_named(name);
-  if (!model) throw Error("'" + name + "' is no model of a robot: there are kinematic and simulator");
+  if (!model) throw Error("'" + name + "' is not a model of a robot: choose kinematic or simulator");
   setup.model = *model;
   setup.trials = count_from(json.at("trials"));
   setup.seed = seed_from(json.at("seed"));

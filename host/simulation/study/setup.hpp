@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "host/calibration/end_poses/replay.hpp"
+#include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "host/calibration/motion/trajectory.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
 
@@ -21,15 +21,15 @@ std::string_view name_of(Model model);
 std::optional<Model> model_named(std::string_view name);
 
 /// The defaults are the robot of the reference measurements: its errors, and the slip that gives their
-/// scatter. The body has no lever arm, and counts of the kinematic robot are of any fineness; the estimators
-/// do not know that.
+/// scatter. The tracked body has no lever arm, and the counts of the kinematic robot have no resolution
+/// limit; the estimators do not know that.
 struct TrialSetup {
   Model model = Model::kinematic;
   int trials = 200;
   std::uint64_t seed = 1;
   int runs = 5;  // squares in each direction
   double side_m = 3;
-  double wheelbase_m = 0.290;  // that the robot believes in, with c_R = c_L = 1
+  double wheelbase_m = 0.290;  // the parameter in the robot, with c_R = c_L = 1
   double E_d = 1.00416;        // D_R / D_L
   double E_b = 0.99521;        // b / (S wheelbase_m)
   double scale = 1.005;        // S, common to both wheels and the wheelbase
@@ -37,14 +37,14 @@ struct TrialSetup {
   double count_rate_hz = 100, truth_rate_hz = 60;
   bool clock_known = true;
   double clock_offset_sd_s = 0.03;  // between runs; only if the clock is not known
-  bool noise_known = false;         // to maximum likelihood
+  bool noise_known = false;         // whether maximum likelihood gets the true noise
 
   calibration::WheelFactors carried() const { return {1, 1, wheelbase_m}; }
   calibration::WheelFactors actual() const;
-  /// What maximum likelihood is told.
+  /// The options for maximum likelihood.
   calibration::MlOptions ml_options() const;
 
-  /// Throws astro::Error where a set-up for one robot is given to another.
+  /// Throws astro::Error if the set-up is for another kind of robot.
   void require(Model driven) const;
 
   /// Throws astro::Error naming what is not positive and finite, too many or too few trials or runs,
@@ -52,22 +52,23 @@ struct TrialSetup {
   void check() const;
 };
 
-/// Keys as in the shard files. `setup_from` throws nlohmann::json::exception for what is missing or no
-/// number, and astro::Error for a model that it does not know.
+/// Keys as in the shard files. `setup_from` throws nlohmann::json::exception for a missing key or a value of
+/// another type, and astro::Error for an unknown model.
 nlohmann::json to_json(const TrialSetup& setup);
 TrialSetup setup_from(const nlohmann::json& json);
 
-/// A count of trials or runs; -1 for a number that counts nothing, such as 1e300 or -2.
+/// A number of trials or runs; -1 for a number that cannot be one, such as 1e300 or -2.
 int count_from(const nlohmann::json& json);
 
-/// The runs of a trial count from 0, clockwise and counter-clockwise in turn. "square ccw 1" is run 1.
+/// The runs of a trial are numbered from 0, alternating clockwise and counter-clockwise. "square ccw 1" is
+/// run 1.
 calibration::Sense sense_of(int run);
 std::string name_of(int run);
 
-/// Of all noise of a trial: it depends on (seed, trial) alone.
+/// The seed of all noise of a trial; it depends on (seed, trial) alone.
 std::uint64_t seed_of(const TrialSetup& setup, int trial);
 
-/// Robot's clock less tracker's in each run of a trial; all 0 where the clock is known.
+/// Robot's clock minus tracker's clock in each run of a trial; all 0 if the clock is known.
 std::vector<double> clock_offsets_s(const TrialSetup& setup, int trial);
 
 }  // namespace astro::simulation::study

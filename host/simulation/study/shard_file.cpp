@@ -15,7 +15,8 @@ using nlohmann::json;
 
 constexpr const char* kFormat = "astrolabe study 2";
 
-// JSON has no such numbers, and its writer makes null of them, which here is no answer at all.
+// JSON has no NaN and no infinity; its writer would write null, which here means that a method gave no
+// answer.
 json to_json(double value) {
   if (std::isfinite(value)) return value;
   return std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
@@ -62,7 +63,7 @@ Trial trial_from(const json& value) {
   return trial;
 }
 
-void require_same(const Part& first, const Part& other) {
+void require_same(const ShardFile& first, const ShardFile& other) {
   const json a = to_json(first.setup), b = to_json(other.setup);
   for (const auto& [key, value] : a.items())
     if (b.at(key) != value)
@@ -70,22 +71,22 @@ void require_same(const Part& first, const Part& other) {
                   "' with " + b.at(key).dump() + ": merge shards of one study only");
 }
 
-struct Held {
-  const Part* part;
+struct SourcedTrial {
+  const ShardFile* part;
   const Trial* trial;
   int index() const { return trial->index; }
 };
 
-/// Stable, so that of a trial in two files the one named first comes first. Takes memory for the trials that
-/// are there, not for as many as a file claims.
-std::vector<Held> sorted_by_index(const std::vector<Part>& parts) {
-  std::vector<Held> held;
-  for (const Part& part : parts) {
+/// Stable, so that if a trial is in two files, the one of the file named first comes first. Allocates memory
+/// for the trials that exist, not for the number that a file claims.
+std::vector<SourcedTrial> sorted_by_index(const std::vector<ShardFile>& parts) {
+  std::vector<SourcedTrial> held;
+  for (const ShardFile& part : parts) {
     require_same(parts.front(), part);
     for (const Trial& trial : part.trials) held.push_back({&part, &trial});
   }
   std::stable_sort(held.begin(), held.end(),
-                   [](const Held& a, const Held& b) { return a.index() < b.index(); });
+                   [](const SourcedTrial& a, const SourcedTrial& b) { return a.index() < b.index(); });
   return held;
 }
 
@@ -106,28 +107,27 @@ std::string to_text(const TrialSetup& setup, const std::vector<Trial>& trials) {
          "\n";
 }
 
-Part read_part(const std::string& text, const std::string& name) {
-  if (!json_fits_memory(text))
-    throw Error("'" + name + "' is no shard of a study", {Help::name_shard});
+ShardFile read_shard_file(const std::string& text, const std::string& name) {
+  if (!json_fits_memory(text)) throw Error("'" + name + "' is not a shard of a study", {Help::name_shard});
   try {
     const json file = json::parse(text);
     if (file.at("format") != kFormat || file.at("methods") != json(kMethods))
       throw Error("'" + name + "' was written by another version of the study", {Help::run_shard_again});
-    Part part{name, setup_from(file.at("setup")), {}};
+    ShardFile part{name, setup_from(file.at("setup")), {}};
     for (const json& trial : file.at("trials")) part.trials.push_back(trial_from(trial));
     part.setup.check();
     return part;
   } catch (const json::exception&) {
-    throw Error("'" + name + "' is no shard of a study", {Help::name_shard});
+    throw Error("'" + name + "' is not a shard of a study", {Help::name_shard});
   }
 }
 
-std::vector<Trial> merge(const std::vector<Part>& parts) {
+std::vector<Trial> merge(const std::vector<ShardFile>& parts) {
   if (parts.empty()) throw Error("there is nothing to merge: name the files of all shards");
   const int count = parts.front().setup.trials;
-  const std::vector<Held> held = sorted_by_index(parts);
+  const std::vector<SourcedTrial> held = sorted_by_index(parts);
   int next = 0;
-  for (const Held& trial : held) {
+  for (const SourcedTrial& trial : held) {
     if (trial.index() < 0 || trial.index() >= count)
       throw Error("'" + trial.part->name + "' holds trial " + std::to_string(trial.index()) +
                   " of a study of " + std::to_string(count) + ": it is damaged, run its shard again");
@@ -141,7 +141,7 @@ std::vector<Trial> merge(const std::vector<Part>& parts) {
   if (next < count) refuse_gap(count, next, count);
   std::vector<Trial> all;
   all.reserve(held.size());
-  for (const Held& trial : held) all.push_back(*trial.trial);
+  for (const SourcedTrial& trial : held) all.push_back(*trial.trial);
   return all;
 }
 

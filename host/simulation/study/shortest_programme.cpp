@@ -16,17 +16,17 @@ namespace {
 using calibration::Precision;
 using Eigen::Matrix3d;
 
-// A search looks so many steps to either side; wide enough that a square can be exchanged for lines.
+// The search tries this many steps to either side, enough to exchange a square for lines.
 constexpr int kReach = 5;
 constexpr int kMostRounds = 20;
-constexpr double kTooLittle = std::numeric_limits<double>::infinity();
+constexpr double kTargetMissed = std::numeric_limits<double>::infinity();
 
 [[noreturn]] void refuse_too_fine() {
   throw Error("a precision this fine takes more than " + std::to_string(kMostRuns) +
               " runs: drive longer ones, ask for less, or lessen the slip");
 }
 
-/// 1 where the target is just met, more where it is missed.
+/// 1 if the target is just met, more if it is missed.
 double excess(const Precision& reached, const Precision& target) {
   return std::max({reached.E_d / target.E_d, reached.scale / target.scale, reached.b / target.b});
 }
@@ -39,7 +39,7 @@ Matrix3d information_of(const Forecast& forecast) {
   return covariance.inverse();
 }
 
-/// What can be added to a programme at a time: a line, or a pair of turning runs.
+/// The smallest addition to a programme: a line, or a pair of turning runs.
 struct Unit {
   Kind kind = kSquares;
   int runs = 1;
@@ -53,7 +53,7 @@ Counts counts_of(const std::vector<Unit>& units, const std::vector<int>& numbers
   return counts;
 }
 
-/// Each unit's time and information are what it adds to one of every kind.
+/// Time and information of a unit are what it adds to a programme with one unit of every kind.
 std::vector<Unit> units_of(const std::vector<Kind>& kinds, const Programme& sizes) {
   std::vector<Unit> units;
   for (const Kind kind : kinds) units.push_back({kind, kind == kLines ? 1 : 2});
@@ -69,7 +69,7 @@ std::vector<Unit> units_of(const std::vector<Kind>& kinds, const Programme& size
   return units;
 }
 
-/// Numbers of units, the target met on the sum of their information.
+/// Searches the numbers of units whose summed information meets the target.
 class Search {
  public:
   Search(const std::vector<Unit>& units, const Precision& target, double wheelbase_m)
@@ -77,7 +77,7 @@ class Search {
 
   std::vector<int> best() {
     std::vector<int> numbers(units_.size(), 1);
-    while (time_of(numbers) == kTooLittle)
+    while (time_of(numbers) == kTargetMissed)
       for (int& number : numbers)
         if ((number *= 2) > kMostRuns) refuse_too_fine();
     for (int step = std::max(1, numbers.front() / 4); step >= 1; step /= 2)
@@ -88,8 +88,9 @@ class Search {
 
  private:
   double time_of(const std::vector<int>& numbers) const {
-    // Beside turning runs a line adds a little to b, through what runs share; alone it tells nothing of it.
-    if (!left_open(counts_of(units_, numbers)).empty()) return kTooLittle;
+    // A line adds a little information about b only beside turning runs, through the parameters that runs
+    // share.
+    if (!why_undetermined(counts_of(units_, numbers)).empty()) return kTargetMissed;
     double time_s = 0;
     Matrix3d information = Matrix3d::Zero();
     for (std::size_t i = 0; i < units_.size(); ++i) {
@@ -97,17 +98,17 @@ class Search {
       information += numbers[i] * units_[i].information;
     }
     const Matrix3d covariance = information.inverse();
-    if (!covariance.allFinite() || !(covariance.diagonal().minCoeff() > 0)) return kTooLittle;
+    if (!covariance.allFinite() || !(covariance.diagonal().minCoeff() > 0)) return kTargetMissed;
     calibration::FactorCovariance table{};
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         table[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = covariance(i, j);
     const calibration::MlErrors se = errors_of(table, nominal_);
     const bool met = excess({se.E_d, se.scale, se.b_m / nominal_.b_m}, target_) <= 1;
-    return met ? time_s : kTooLittle;
+    return met ? time_s : kTargetMissed;
   }
 
-  /// Moves to the best programme around; false if there is none better.
+  /// Moves to the best neighbouring programme; returns false if none is better.
   bool improve(std::vector<int>& numbers, int step) const {
     std::vector<int> trial = numbers, best = numbers;
     double least_s = time_of(numbers) * (1 - 1e-12);
@@ -142,7 +143,8 @@ Forecast shortest_programme(const Precision& target, const std::vector<Kind>& ki
   require_positive(target.scale, "the precision wanted of the scale");
   require_positive(target.b, "the precision wanted of the wheelbase");
   const std::vector<Unit> units = units_of(kinds, sizes);
-  // Runs together may tell a little less than their sum; then a little more is asked of the sum.
+  // All runs together may give a little less information than the sum of the units; then the sum has to meet
+  // a slightly stricter target.
   double factor = 1;
   for (int round = 0; round < kMostRounds; ++round) {
     const Precision stricter{target.E_d / factor, target.scale / factor, target.b / factor};

@@ -7,10 +7,10 @@
 #include <string>
 
 #include "host/base/error.hpp"
-#include "host/experiment/drive/record_run.hpp"
 #include "host/experiment/analysis/trajectories.hpp"
-#include "host/robot/parameters/upload.hpp"
+#include "host/experiment/drive/record_run.hpp"
 #include "host/recording/run/end_error.hpp"
+#include "host/robot/parameters/upload.hpp"
 #include "host/simulation/robot/in_process.hpp"
 #include "host/simulation/study/synthetic_drive.hpp"
 
@@ -20,7 +20,7 @@ namespace {
 using namespace std::chrono_literals;
 using simulation::study::TrialSetup;
 
-// Apart from the clocks of a trial.
+// Different from the seed of the clocks of a trial.
 constexpr std::uint64_t kWheels = 2'000'000, kCameras = 2'000'001;
 constexpr double kCountRate_hz = 1000.0 / experiment::kTelemetryPeriod_ms;
 
@@ -55,18 +55,18 @@ experiment::RunSpec spec_of(int run) {
   return {"", "square", cw ? recording::Direction::cw : recording::Direction::ccw, run / 2 + 1};
 }
 
-/// A robot that is switched on and carries what the set-up says.
-class Desk {
+/// A robot that is switched on, with the parameters of the set-up loaded.
+class SimulatedRobot {
  public:
-  Desk(const sim::Config& config, const simulation::MocapConfig& cameras, const TrialSetup& setup)
+  SimulatedRobot(const sim::Config& config, const simulation::MocapConfig& cameras, const TrialSetup& setup)
       : robot_(std::make_shared<simulation::VirtualRobot>(config, cameras)),
         client_(std::make_unique<simulation::InProcessTransport>(robot_)),
         truth_(robot_),
         plan_(plan_of(setup)) {
     client_.connect();
     client_.pump(50ms);  // through boot
-    const double believed_m = std::get<double>(robot::RemoteParameters::fetch(client_).value("b"));
-    if (std::abs(believed_m - setup.wheelbase_m) > 1e-9) robot::upload(client_, {{"b", setup.wheelbase_m}});
+    const double loaded_m = std::get<double>(robot::RemoteParameters::fetch(client_).value("b"));
+    if (std::abs(loaded_m - setup.wheelbase_m) > 1e-9) robot::upload(client_, {{"b", setup.wheelbase_m}});
     const robot::RemoteParameters carried = robot::RemoteParameters::fetch(client_);
     for (const robot::ParameterRow& row : carried.rows())
       if (row.kind != protocol::ParameterKind::text)
@@ -89,11 +89,11 @@ class Desk {
 };
 
 simulation::study::Drives driven(const sim::Config& robot, const simulation::MocapConfig& cameras,
-                     const TrialSetup& setup) {
-  Desk desk(robot, cameras, setup);
+                                 const TrialSetup& setup) {
+  SimulatedRobot simulated(robot, cameras, setup);
   simulation::study::Drives drives;
   for (int run = 0; run < 2 * setup.runs; ++run) {
-    const recording::Run recorded = desk.drive(run);
+    const recording::Run recorded = simulated.drive(run);
     const recording::EndError end = recording::end_error(recorded);
     drives.end_errors.push_back({end.x_m, end.y_m, end.theta_rad});
     drives.runs.push_back(experiment::trajectory_of(recorded, simulation::study::name_of(run)));

@@ -9,18 +9,19 @@ namespace astro::simulation {
 /// control and encoders are the simulator's; true wheels and wheelbase, slip, and the cameras' rate and
 /// errors are those of the set-up.
 ///
-/// One robot drives all squares of a trial, as `astrolabe umbmark` would drive and record them (speeds,
-/// rests, 100 Hz telemetry). Of an estimated clock the cameras' times are moved once all is recorded, and no
-/// sample of truth lies outside of the drive, as on the kinematic robot.
+/// One robot drives all squares of a trial, as an experiment would drive and record them (speeds, rests, 100
+/// Hz telemetry). If the clock is to be estimated, the cameras' times are shifted after all is recorded; no
+/// sample of truth is outside of the drive, as for the kinematic robot.
 ///
 /// Errors  beside those of DriveSource: counts at another rate, sizes that no plan or robot takes, a robot
-///         that does not come through (a fault, a wheel that will not rest).
+///         that fails (a fault, a wheel that does not come to rest).
 /// Cost    about 0.2 s for ten 3 m squares.
 class SimulatedSource : public simulation::study::DriveSource {
  public:
   void check(const simulation::study::TrialSetup& setup) const override;
   simulation::study::Drives of_trial(const simulation::study::TrialSetup& setup, int trial) const override;
-  std::vector<calibration::Trajectory> without_noise(const simulation::study::TrialSetup& setup) const override;
+  std::vector<calibration::Trajectory> without_noise(
+      const simulation::study::TrialSetup& setup) const override;
 };
 
 }  // namespace astro::simulation

@@ -14,7 +14,7 @@ namespace astro::simulation::study {
 struct Shard {
   int number = 1, of = 1;
 
-  /// Of the first trial, and one past the last.
+  /// Index of the first trial, and one past the last.
   int begin(int trials) const { return block_end(number - 1, trials); }
   int end(int trials) const { return block_end(number, trials); }
 
@@ -27,7 +27,7 @@ struct Shard {
 /// The trials of the shard, in order. Each depends on (setup, index) alone: neither `jobs`, the number of
 /// threads, nor the shards change a bit of it.
 ///
-/// `meanwhile(done, total)` is called in the caller's thread, see in_parallel; what it throws comes out.
+/// `meanwhile(done, total)` is called in the caller's thread, see in_parallel; its exceptions pass through.
 /// Throws astro::Error for a set-up that `source` cannot drive, for a shard without a trial, and what a drive
 /// throws.
 std::vector<Trial> run_study(const TrialSetup& setup, const DriveSource& source, const Shard& shard, int jobs,

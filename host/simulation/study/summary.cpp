@@ -13,7 +13,7 @@ using calibration::FactorCovariance;
 using calibration::WheelFactors;
 
 constexpr int kDraws = 20000;                           // leaves a Monte Carlo error of 1 %; some 50 ms
-constexpr std::uint64_t kDrawSeed = 2'000'000'000'000;  // apart from the trials
+constexpr std::uint64_t kDrawSeed = 2'000'000'000'000;  // different from the seeds of the trials
 
 /// Mean of some numbers and its standard error (NaN for one number).
 struct Mean {
@@ -48,7 +48,7 @@ std::vector<Errors> draws_from(const FactorCovariance& covariance, const TrialSe
   return errors;
 }
 
-/// Where the errors of `method` stand in the trials.
+/// The errors of `method` in all trials in which it gave an answer.
 std::vector<Errors> answers_of(std::size_t method, const std::vector<Trial>& trials) {
   std::vector<Errors> errors;
   for (const Trial& trial : trials)
@@ -77,7 +77,8 @@ std::optional<Honesty> honesty_of(const std::vector<Trial>& trials) {
     if (trial.ml_chi_square) values.push_back(*trial.ml_chi_square);
   if (values.empty()) return std::nullopt;
   const Mean mean = mean_of(values.size(), [&](std::size_t i) { return values[i]; });
-  // As chi-squares of 3 scatter: what few trials show of that is too little as often as not.
+  // The scatter of a chi-square with 3 degrees of freedom; estimated from few trials it would often be too
+  // small.
   return Honesty{static_cast<int>(values.size()), mean.value,
                  std::sqrt(6 / static_cast<double>(values.size()))};
 }

@@ -9,19 +9,18 @@
 #include "host/simulation/study/setup.hpp"
 #include "host/simulation/study/trial.hpp"
 
-/// From trials to the table: what each method leaves, and what no method can go below.
+/// From trials to the table: the errors that each method leaves, and the bound for every method.
 namespace astro::simulation::study {
 
 /// Root mean squares over trials with their Monte Carlo standard errors (delta method:
-/// sd(e^2) / (2 rms sqrt(n))); NaN for a single answer. Those of the first three of the bound are exact: 0.
+/// sd(e^2) / (2 rms sqrt(n))); NaN for a single answer. The first three of the bound are exact: 0.
 struct Row {
   std::string name;
   int trials = 0;
   Errors rms{}, se{};
 };
 
-/// A method's rms over the bound's. By chance it lies within a few standard errors of what it would be after
-/// infinitely many trials.
+/// A method's rms divided by the bound's, with its standard error from the finite number of trials.
 struct Ratio {
   double value = 0, se = 0;
 };
@@ -45,8 +44,8 @@ struct Summary {
 /// Rms and its standard error per figure. `errors` is not empty.
 Row row_of(const std::string& name, const std::vector<Errors>& errors);
 
-/// The Cramer-Rao bound of the set-up as `source` drives it; its last three figures are those of factors
-/// drawn from it.
+/// The Cramer-Rao bound of the set-up as `source` drives it; its last three figures come from factors drawn
+/// from its covariance.
 Row bound_of(const TrialSetup& setup, const DriveSource& source);
 
 /// `trials` in order of their index, for results that are the same to the last bit.

@@ -16,14 +16,14 @@ using calibration::Trajectory;
 using calibration::WheelFactors;
 using calibration::WheelSample;
 
-// Fine enough that what an arc of constant twist per step leaves out is far below a micrometre.
+// So short that the error of assuming a constant twist per step is far below a micrometre.
 constexpr double kStep_s = 1.0 / 600;
 
 struct Pose {
   double x_m = 0, y_m = 0, theta_rad = 0;
 };
 
-/// The whole course at every fine step, in robot time.
+/// The whole course at every time step, in robot time.
 struct Track {
   std::vector<double> left_m, right_m;  // nominal travel
   std::vector<Pose> pose;               // of the robot

@@ -10,9 +10,8 @@
 #include "host/calibration/motion/trajectory.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
 
-/// Drives of a robot that is kinematics and noise alone: what a calibration is given, from a robot whose true
-/// factors are known. Much faster than the simulated robot, and exactly the model that maximum likelihood
-/// believes in.
+/// Drives of a robot that is kinematics and noise alone, as input of a calibration; its true factors are
+/// known. Much faster than the simulated robot, and exactly the model that maximum likelihood assumes.
 namespace astro::simulation::study {
 
 /// One piece of a course, as the robot's odometry measures it.
@@ -32,18 +31,18 @@ Course line_course(double length_m, double rest_s = 1);
 Course spin_course(double angle_rad, double rest_s = 1);
 Course circle_course(double radius_m, double angle_rad, double rest_s = 1);
 
-/// How it is driven and watched.
+/// How the course is driven and observed.
 struct DriveModel {
-  calibration::WheelFactors carried;  // by these the robot believes to follow the course
-  calibration::WheelFactors actual;   // and these are true
+  calibration::WheelFactors carried;  // loaded in the robot: by these it follows the course
+  calibration::WheelFactors actual;   // the true ones
   calibration::NoiseModel noise;
   calibration::LeverArm lever;
   double speed_mps = 0.3, acceleration_mps2 = 0.5;
   double yaw_rate_radps = 1.0, yaw_acceleration_radps2 = 2.0;
   double count_rate_hz = 100, truth_rate_hz = 60;
-  double metres_per_count = 0;  // of a nominal wheel; 0: counts of any fineness
-  bool headings = true;         // of truth
-  double clock_offset_s = 0;    // robot's clock less tracker's, in the middle of the run
+  double metres_per_count = 0;  // of a nominal wheel; 0: counts are not rounded
+  bool headings = true;         // truth has headings
+  double clock_offset_s = 0;    // robot's clock minus tracker's, in the middle of the run
   double clock_skew = 0;        // the robot's clock runs (1 + skew) times as fast
 };
 
@@ -53,8 +52,8 @@ struct DriveModel {
 calibration::Trajectory synthetic_drive(const Course& course, const DriveModel& model,
                                         const std::string& name, std::uint64_t seed);
 
-/// The end pose error that UMBmark is given: truth less odometry by `carried`, each between the rests at its
-/// ends, averaged over them. For a body without lever arm, and with headings.
+/// The end pose error for UMBmark: truth minus odometry by `carried`, both averaged over the rests at the
+/// ends. For a body without lever arm, and with headings.
 calibration::EndPose end_error(const calibration::Trajectory& run, const calibration::WheelFactors& carried,
                                double rest_s = 1);
 

@@ -5,10 +5,10 @@
 #include <numbers>
 
 #include "host/base/error.hpp"
-#include "host/calibration/motion/arc.hpp"
-#include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "host/calibration/end_poses/replay.hpp"
 #include "host/calibration/end_poses/umbmark.hpp"
+#include "host/calibration/likelihood/maximum_likelihood.hpp"
+#include "host/calibration/motion/arc.hpp"
 
 namespace astro::simulation::study {
 namespace {
@@ -31,7 +31,7 @@ double heading_rms_rad(double side_m, const WheelFactors& believed, const WheelF
   return std::hypot(turn(Sense::cw), turn(Sense::ccw)) / std::numbers::sqrt2;
 }
 
-/// The squares as UMBmark is given them.
+/// The end errors of the squares by direction, as UMBmark needs them.
 struct EndErrors {
   std::vector<EndPose> cw, ccw;
 };

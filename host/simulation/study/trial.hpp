@@ -18,24 +18,24 @@ inline constexpr std::array<std::string_view, 6> kMethods = {
 };
 inline constexpr std::size_t kMl = 5;
 
-/// What is wrong with a set of factors. The first three are differences of E_d, of b / S over the believed
-/// wheelbase, and of S. The others are what is left, noise-free, once the factors are loaded: E_max_syst of
-/// the square, the heading error at its end (rms of both directions), and how far from the believed end 10 m
-/// end that the robot believes straight.
+/// Errors of a set of factors. The first three are differences of E_d, of b / S over the nominal wheelbase,
+/// and of S. The others are the noise-free errors that remain when the factors are loaded: E_max_syst of the
+/// square, the heading error at its end (rms of both directions), and after a straight line of 10 m by
+/// odometry the distance between true end and end by odometry.
 enum Figure : std::size_t { kE_d, kB_over_S, kScale, kE_max_m, kTheta_rad, kLine_m };
 inline constexpr std::size_t kFigures = 6;
 using Errors = std::array<double, kFigures>;
 
-/// `found` against what is true in `setup`; the first three are signed.
+/// Errors of `found` against the true factors of `setup`; the first three are signed.
 Errors errors_of(const calibration::WheelFactors& found, const TrialSetup& setup);
 
 struct Trial {
   int index = 0;
-  /// Of each method; none where it gave no answer.
+  /// The errors of each method; none if it gave no answer.
   std::array<std::optional<Errors>, kMethods.size()> errors;
   /// e' C^-1 e of c_R, c_L and b with the covariance that maximum likelihood claims.
   std::optional<double> ml_chi_square;
-  std::string failure;  // why the last method that gave none did not: "ml: sentence"
+  std::string failure;  // why the last method without an answer gave none: "ml: sentence"
 
   bool operator==(const Trial&) const = default;
 };

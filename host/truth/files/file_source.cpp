@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -12,6 +11,7 @@
 #include "host/base/csv_table.hpp"
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
+#include "host/base/numbers.hpp"
 #include "host/truth/source/plausibility.hpp"
 
 namespace astro::truth {
@@ -35,15 +35,13 @@ std::optional<Column> find(const CsvRow& header, const std::string& si, const st
 
 double value(const CsvRow& row, const Column& column, const std::string& name) {
   const std::string& cell = row.cells[column.index];
-  double number = 0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
-  if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(number))
-    refuse(name, row.line, "'" + cell + "' is no number");
-  return number * column.scale;
+  const auto number = number_in(cell);
+  if (!number || !std::isfinite(*number)) refuse(name, row.line, "'" + cell + "' is no number");
+  return *number * column.scale;
 }
 
-/// A column of times: any name that begins with t, time or timestamp and may go on with a unit. Only how the
-/// times relate matters, so that the unit does not.
+/// A column of times: any name that begins with t, time or timestamp, perhaps followed by a unit. Only the
+/// ratios of the times matter, so the unit does not.
 std::optional<Column> find_time(const CsvRow& header) {
   for (std::size_t i = 0; i < header.cells.size(); ++i) {
     std::string name = header.cells[i];
@@ -56,7 +54,7 @@ std::optional<Column> find_time(const CsvRow& header) {
 
 struct Poses {
   std::vector<recording::TruthSample> rows;
-  std::vector<double> part;  // of the time from the first row to the last, for each row
+  std::vector<double> part;  // for each row, its fraction of the time from the first row to the last
   bool operator==(const Poses& other) const {
     const auto same = [](const recording::TruthSample& a, const recording::TruthSample& b) {
       return a.x_m == b.x_m && a.y_m == b.y_m &&
@@ -82,9 +80,9 @@ std::vector<double> parts_of(const CsvTable& table, const std::string& name) {
 }
 
 Poses read_poses(const fs::path& path) {
-  const recording::Bytes bytes = recording::load_file(path);
+  const Bytes bytes = load_file(path);
   const std::string name = path.string();
-  const CsvTable table = split_csv(recording::as_text(bytes), name);
+  const CsvTable table = split_csv(as_text(bytes), name);
   const auto x = find(table.header, "x_m", "x_mm", 1e-3);
   const auto y = find(table.header, "y_m", "y_mm", 1e-3);
   const auto theta = find(table.header, "theta_rad", "theta_deg", std::numbers::pi / 180);
@@ -100,18 +98,18 @@ Poses read_poses(const fs::path& path) {
   if (poses.rows.size() < 2)
     throw Error("'" + name + "' holds fewer than two poses: the start and the end are needed");
   poses.part = parts_of(table, name);
-  if (!theta) poses.rows.front().theta_rad = 0;  // the frame is that of the start
+  if (!theta) poses.rows.front().theta_rad = 0;  // the frame is the robot's own at the start
   return poses;
 }
 
-/// What is missing of a file that is not there.
+/// Says whether the file or already its folder is missing.
 std::string missing(const fs::path& file) {
   const fs::path folder = file.parent_path();
   return !folder.empty() && !fs::is_directory(folder) ? "there is no folder '" + folder.string() + "'"
                                                       : "there is no file '" + file.string() + "'";
 }
 
-/// Asks until there is a file that can be read.
+/// Asks until there is a readable file.
 Poses poses_from(const fs::path& file, const Ask& ask) {
   if (!fs::exists(file))
     ask("save the ground truth of this run as '" + file.string() + "' (" + missing(file) +
@@ -127,7 +125,7 @@ Poses poses_from(const fs::path& file, const Ask& ask) {
   }
 }
 
-/// Start and end while the robot stood there, what lies between by its time.
+/// Start and end pose for the samples in which the robot stood there, the others by their time.
 std::vector<recording::TruthSample> placed(const recording::Run& run, const Poses& poses) {
   if (run.odometry.empty()) return {};
   constexpr std::int64_t kStretch_us = 500'000;

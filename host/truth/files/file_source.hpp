@@ -6,20 +6,20 @@
 
 namespace astro::truth {
 
-/// Ground truth that another program recorded: after each run a CSV is read from `folder`, by default once a
-/// person says that it is there. Its name is the run's ("before-square-cw-1.csv"); its header names the
+/// Ground truth that another program recorded: after each run a CSV is read from `folder`; if it is missing,
+/// a person is asked to save it. Its name is the run's ("before-square-cw-1.csv"); its header names the
 /// columns with units:
 ///
 ///   x_m | x_mm, y_m | y_mm, theta_rad | theta_deg (optional)
 ///
 /// Without a heading the axes are those of the robot at its start: x forward, y left.
-/// The first row is the pose at the start and the last row the pose at the end, the robot standing at both;
-/// rows between are spread over the run, which is good for plots and not for more: by a column t or time if
-/// there is one (any unit, as t_s or time_ms; it must increase), evenly otherwise.
+/// The first row is the pose at the start and the last row the pose at the end; the robot stands at both. The
+/// rows between are spread over the run, which is only good for plots: by a column t or time if there is one
+/// (any unit, as t_s or time_ms; it must increase), evenly otherwise.
 ///
-/// Errors  a file that is not there or cannot be read as that is asked for again, naming folder or file, line
-///         and column, until it can or `ask` throws. An end that is hardly that of the run (plausibility.hpp)
-///         is asked about, and kept if the file is the same afterwards.
+/// Errors  if a file is missing or cannot be read, `ask` is called with the folder or file, line and column,
+///         until the file can be read or `ask` throws. If the end can hardly be that of the run
+///         (plausibility.hpp), `ask` is called once; if the file is the same afterwards, it is kept.
 class FileSource : public Source {
  public:
   FileSource(std::filesystem::path folder, Ask ask) : folder_(std::move(folder)), ask_(std::move(ask)) {}

@@ -6,19 +6,19 @@
 
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <string_view>
 
 #include "host/base/error.hpp"
+#include "host/base/numbers.hpp"
 
 namespace astro::truth {
 namespace {
 
 constexpr std::string_view kGreeting = "astrolabe-mocap 1";
 
-// What is read at once, so that who sends faster than we read cannot hold us; the rest is there the next
-// time.
+// The most that one call reads, so that a peer that sends faster than we read cannot block us; the next call
+// reads the rest.
 constexpr std::size_t kMostPending = std::size_t{1} << 20;
 constexpr std::size_t kLongestLine = 1024;
 
@@ -41,10 +41,9 @@ int connect_to(const std::filesystem::path& path) {
 template <class Number>
 bool take(std::string_view& line, Number& number) {
   while (!line.empty() && line.front() == ' ') line.remove_prefix(1);
-  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), number);
-  if (error != std::errc{}) return false;
-  line.remove_prefix(static_cast<std::size_t>(end - line.data()));
-  return true;
+  const auto taken = take_number<Number>(line);
+  if (taken) number = *taken;
+  return taken.has_value();
 }
 
 }  // namespace
@@ -59,7 +58,8 @@ std::vector<recording::TruthSample> SocketSource::poll() {
   while (pending_.size() < kMostPending && (count = recv(fd_, bytes.data(), bytes.size(), MSG_DONTWAIT)) > 0)
     pending_.append(bytes.data(), static_cast<std::size_t>(count));
   if (count == 0)
-    throw Error("the simulator's cameras at '" + path_.string() + "' have gone: is it still running?");
+    throw Error("the simulator's cameras at '" + path_.string() +
+                "' have disconnected: is it still running?");
 
   std::vector<recording::TruthSample> samples;
   std::size_t start = 0;
@@ -93,8 +93,7 @@ recording::TruthSample SocketSource::parse(std::string_view line) const {
 }
 
 std::filesystem::path mocap_socket_of(const std::filesystem::path& port) {
-  // The socket lies beside the symlink that the simulator made, but people may hold a symlink to that
-  // symlink.
+  // The socket is beside the symlink that the simulator made, but `port` may be a symlink to that symlink.
   std::filesystem::path path = port;
   for (int hops = 0; hops < 8; ++hops) {
     const std::filesystem::path socket = path.string() + ".mocap";

@@ -7,10 +7,11 @@
 
 namespace astro::truth {
 
-/// The virtual cameras of a simulator in another process (host/simulation/server/truth_server.hpp has the format).
+/// The virtual cameras of a simulator in another process (host/simulation/server/truth_server.hpp has the
+/// format).
 class SocketSource : public Source {
  public:
-  /// Throws astro::Error if nobody serves there: says that --truth sim needs 'astrolabe sim'.
+  /// Throws astro::Error with Help::use_simulated_robot if nobody serves there.
   explicit SocketSource(const std::filesystem::path& path);
   ~SocketSource() override;
 
@@ -25,7 +26,7 @@ class SocketSource : public Source {
   std::filesystem::path path_;
   int fd_ = -1;
   bool greeted_ = false;
-  std::string pending_;  // an unfinished line
+  std::string pending_;  // an incomplete line
 };
 
 /// Where the simulator behind `port` (a path, perhaps a symlink to its pty) serves its cameras.

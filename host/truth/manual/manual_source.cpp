@@ -1,11 +1,11 @@
 #include "host/truth/manual/manual_source.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>
 
+#include "host/base/numbers.hpp"
 #include "host/recording/run/run_metadata.hpp"
 #include "host/truth/source/plausibility.hpp"
 
@@ -18,7 +18,7 @@ std::string trimmed(const std::string& text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-/// No number is the same as no number.
+/// Two NaNs count as the same.
 bool same_number(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
 }  // namespace
@@ -27,12 +27,8 @@ double ManualSource::number(const std::string& prompt, bool may_be_empty, std::s
   while (true) {
     const std::string answer = trimmed(ask_(hint + prompt));
     if (answer.empty() && may_be_empty) return std::numeric_limits<double>::quiet_NaN();
-    const char* first = answer.data() + (answer.starts_with('+') ? 1 : 0);
-    const char* last = answer.data() + answer.size();
-    double value = 0;
-    const auto [end, error] = std::from_chars(first, last, value);
-    if (error == std::errc{} && end == last && std::isfinite(value)) return value;
-    hint = "'" + answer + "' is no number, a decimal point is needed. ";
+    if (const auto value = typed_number(answer)) return *value;
+    hint = "'" + answer + "' is not a number; write it with a decimal point. ";
   }
 }
 

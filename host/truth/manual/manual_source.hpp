@@ -9,17 +9,18 @@ namespace astro::truth {
 /// Prints the question, returns the answer.
 using Ask = std::function<std::string(const std::string& prompt)>;
 
-/// A person with a tape measure, asked after each run for the end pose in the run's start frame: x forward
-/// and y left of the start mark in metres, heading counter-clockwise in degrees, empty if it was not
-/// measured. An end that is hardly that of the run (plausibility.hpp) is asked for again, and kept if the
-/// answers are the same.
+/// A person with a tape measure, who is asked after each run for the end pose in the run's start frame: x
+/// forward and y left of the start mark in metres, heading counter-clockwise in degrees, empty if it was not
+/// measured. If the end can hardly be that of the run (plausibility.hpp), the person is asked again; the same
+/// answers are then kept.
 class ManualSource : public Source {
  public:
   explicit ManualSource(Ask ask) : ask_(std::move(ask)) {}
 
   std::vector<recording::TruthSample> poll() override { return {}; }
   bool comes_afterwards() const override { return true; }
-  /// The start mark while the robot stood there, and the measured pose while it stood at the end.
+  /// Returns the start mark for the samples in which the robot stood there, and the measured pose for those
+  /// in which it stood at the end.
   std::vector<recording::TruthSample> complete(const recording::Run& run) override;
   std::string name() const override { return "manual"; }
   std::string clock() const override { return "robot"; }
@@ -32,7 +33,7 @@ class ManualSource : public Source {
 };
 
 /// A sample for every odometry sample within `stretch_us` of the run's start (pose `start`) and end (pose
-/// `end`): how a source that knows only both ends is written into a run.
+/// `end`). This is how a source that knows only both ends is written into a run.
 std::vector<recording::TruthSample> at_both_ends(const recording::Run& run,
                                                  const recording::TruthSample& start,
                                                  const recording::TruthSample& end,

@@ -4,7 +4,7 @@
 
 namespace astro::truth {
 
-/// Nobody watches.
+/// No ground truth.
 class NoSource : public Source {
  public:
   std::vector<recording::TruthSample> poll() override { return {}; }

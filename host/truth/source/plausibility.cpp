@@ -13,7 +13,7 @@ namespace {
 
 using recording::PlanarPose;
 
-constexpr double kMostOfTheWay = 0.25, kLeast_m = 0.2, kMost_rad = std::numbers::pi / 3;
+constexpr double kMostOfDistance = 0.25, kLeast_m = 0.2, kMost_rad = std::numbers::pi / 3;
 
 PlanarPose pose_of(const recording::OdometrySample& sample) {
   return {sample.x_m, sample.y_m, sample.theta_rad};
@@ -43,11 +43,11 @@ std::string implausible_end(const recording::Run& run, const recording::TruthSam
       recording::in_frame_of(pose_of(run.odometry.front()), pose_of(run.odometry.back()));
   const PlanarPose measured =
       recording::in_frame_of({start.x_m, start.y_m, start.theta_rad}, {end.x_m, end.y_m, end.theta_rad});
-  const double way_m = length_m(run);
+  const double driven_m = length_m(run);
   const double off_m = std::hypot(measured.x_m - odometry.x_m, measured.y_m - odometry.y_m);
-  if (!(off_m <= std::max(kLeast_m, kMostOfTheWay * way_m)))
+  if (!(off_m <= std::max(kLeast_m, kMostOfDistance * driven_m)))
     return sentence("this end is %.4g m from where odometry ends, after a run of %.4g m: is it in metres?",
-                    off_m, way_m);
+                    off_m, driven_m);
   const double turned_rad = recording::wrapped_rad(measured.theta_rad - odometry.theta_rad);
   if (std::abs(turned_rad) > kMost_rad)
     return sentence(

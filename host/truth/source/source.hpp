@@ -19,20 +19,21 @@ class Source {
   virtual ~Source() = default;
 
   /// All samples that arrived since the last call, oldest first; never waits. Times are on the robot's clock
-  /// if clock() is "robot". Throws astro::Error once the tracker is gone.
+  /// if clock() is "robot". Throws astro::Error if the tracker is gone.
   virtual std::vector<recording::TruthSample> poll() = 0;
 
-  /// Whether truth comes from complete(): from people and files, whom a drive must not be lost to.
+  /// Whether truth comes from complete(), that is from people or files. Then the drive is saved before they
+  /// are asked, so that it cannot be lost.
   virtual bool comes_afterwards() const { return false; }
 
-  /// After a run: what can only be had once the robot stands at its end (a tape measure, a file). `run` holds
-  /// the odometry of the whole run, standing still at both ends. None for sources that stream.
+  /// After a run: samples that exist only when the robot stands at its end (a tape measure, a file). `run`
+  /// holds the odometry of the whole run, including the rests at both ends. Empty for sources that stream.
   virtual std::vector<recording::TruthSample> complete(const recording::Run& run) {
     static_cast<void>(run);
     return {};
   }
 
-  /// "sim", "vrpn", ...: what a recording says of it.
+  /// "sim", "vrpn", ...: the name in recordings.
   virtual std::string name() const = 0;
   virtual std::string clock() const = 0;
 };

@@ -6,7 +6,7 @@
 
 #include "tests/support/bounded.hpp"
 
-// Tables that nobody has measured: refused by their line, without being held as a whole.
+// Implausible tables are refused with the line number, without holding the whole table in memory.
 namespace astro {
 namespace {
 

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <random>
 
-#include "host/experiment/analysis/calibration_file.hpp"
 #include "host/base/files.hpp"
+#include "host/experiment/analysis/calibration_file.hpp"
 #include "host/recording/files/run_file.hpp"
 #include "tests/support/json.hpp"
 
@@ -61,7 +61,7 @@ constexpr std::uintmax_t kBeforeFirstChunk = 64 * 1024;
 void expect_readable(const fs::path& file) {
   const bool is_part = file.extension() == ".part";
   try {
-    const recording::Run run = recording::run_from_bytes(recording::load_file(file), file.string());
+    const recording::Run run = recording::run_from_bytes(load_file(file), file.string());
     // Between its last byte and its name a recording is whole and yet called unfinished.
     EXPECT_TRUE(run.warning.empty() || is_part) << file << run.warning;
   } catch (const std::exception& error) {

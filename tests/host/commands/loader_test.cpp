@@ -8,7 +8,7 @@
 #include "tests/support/bounded.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-// A loader that is no loader: its last words are told, whatever it said before.
+// A program that is no loader: its last line is reported, whatever it printed before.
 namespace astro::commands {
 namespace {
 

@@ -40,7 +40,7 @@ TEST(PathProgress, CountsBackwardsWayAndTurnsOnTheSpot) {
 TEST(PathProgress, IsNeverAheadOfASegmentThatIsNotDone) {
   PathProgress way(robot::square(1, robot::Sense::ccw));
   way.moved_to(at(0, 0, 0));
-  way.moved_to(at(5, 0, 0));  // the odometry is somewhere else altogether
+  way.moved_to(at(5, 0, 0));  // the odometry is far away
   const double at_corner = way.fraction();
   EXPECT_LT(at_corner, 0.25);
   EXPECT_EQ(way.done(), 0U);

@@ -6,10 +6,10 @@
 #include <numbers>
 
 #include "host/base/shown.hpp"
-#include "host/console/console.hpp"
-#include "host/commands/shared/fault_help.hpp"
+#include "host/commands/drive/drive_teleop_view.hpp"
 #include "host/commands/robot/monitor_view.hpp"
-#include "host/commands/drive/teleop_view.hpp"
+#include "host/commands/shared/fault_help.hpp"
+#include "host/console/console.hpp"
 #include "host/console/terminal.hpp"
 
 namespace astro::commands {
@@ -76,7 +76,7 @@ TEST(MonitorLine, SaysModeFaultsBatteryAndPose) {
   EXPECT_THAT(monitor_line(telemetry, figures), HasSubstr("LOST: it was unplugged"));
 }
 
-// What a person needs to steer: every key, what is asked of the robot, what it does, and where it is.
+// What a person needs for steering: every key, what is requested of the robot, what it does, and where it is.
 void expect_all_that_steers(const std::string& picture) {
   for (const char* const word :
        {"faster", "slower, backwards", "turn left", "turn right", "stop", "quit", "-9.00 m/s", "-9.00 rad/s",

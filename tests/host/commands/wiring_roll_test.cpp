@@ -13,7 +13,7 @@ namespace {
 using testing::ElementsAre;
 using testing::Pair;
 
-/// A robot that somebody pushes for `way_m` along a tape, from the moment that its telemetry runs.
+/// A robot that a person pushes for `way_m` along a tape measure, beginning when its telemetry runs.
 motor::RollVerdict rolled(double counts_per_motor_rev, double way_m, WiringOptions options) {
   sim::Config config;
   config.counts_per_motor_rev = counts_per_motor_rev;

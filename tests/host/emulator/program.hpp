@@ -13,12 +13,12 @@ namespace astro::emulator {
 
 using namespace std::chrono_literals;
 
-/// These lines, copied to ITCM and run there: for what must not depend on the flash.
+/// The same lines copied to ITCM and run there, for tests that must not depend on the flash.
 std::string in_ram(const std::string& code);
 
-/// A few lines of assembler as the whole image of a Teensy: they stand behind the label main, in flash, with
-/// FlexRAM, stack and vector table set up, and run when the test lets time pass. The ROM has left nothing
-/// behind.
+/// A few lines of assembler as the whole image of a Teensy: they follow the label main, in flash, with
+/// FlexRAM, stack and vector table set up, and run when the test lets time pass. The boot ROM leaves a clean
+/// state.
 ///
 ///   register names    INSTANCE_REGISTER, as PIT_MCR
 ///   set REG, value    a 32-bit write; set16 a 16-bit one
@@ -34,7 +34,7 @@ class Program {
   explicit Program(const std::string& code);
 
   Teensy& teensy() { return *teensy_; }
-  /// Word n of those that the program keeps.
+  /// Word n of the program's results.
   std::uint32_t result(std::uint32_t n) { return teensy_->word_at(Memory::kDtcm + 4 * n); }
   /// What ended the run, or "" if nothing did.
   std::string stopped_by(std::chrono::nanoseconds limit = 1ms);

@@ -4,8 +4,8 @@
 #include "tests/support/program.hpp"
 #include "tests/support/terminal_program.hpp"
 
-// `astrolabe check-wiring` against simulators that are wired wrongly. The answers say what a person beside
-// such a robot would have seen.
+// `astrolabe check-wiring` against simulators with wiring faults. The answers say what a person beside such a
+// robot would have seen.
 namespace astro {
 namespace {
 

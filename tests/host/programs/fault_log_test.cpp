@@ -21,7 +21,7 @@ json log_of(const Simulator& simulator) {
 
 void stop(const Simulator& simulator) {
   ASSERT_EQ(astrolabe({"stop", "--emergency", "--port", simulator.port()}).code, 0);
-  // The robot writes once it stands, in its own time.
+  // The robot writes the entry when it is at rest, some time later.
   ASSERT_TRUE(support::eventually([&] { return !log_of(simulator).empty(); }));
 }
 

@@ -12,8 +12,7 @@
 #include "tests/support/program.hpp"
 #include "tests/support/pty_peer.hpp"
 
-// Text of a robot or a file that a terminal would obey, or that is no UTF-8, never leaves the program as it
-// is.
+// Text of a robot or a file with control sequences, or that is no UTF-8, is never printed unchanged.
 namespace astro {
 namespace {
 

@@ -6,8 +6,8 @@
 #include "tests/support/program.hpp"
 #include "tests/support/pty.hpp"
 
-// What the program finds out about a robot: info, ports, monitor, faults; and where the simulator puts
-// itself.
+// What the program reports about a robot: info, ports, monitor, faults; and where the simulator puts its
+// links.
 namespace astro {
 namespace {
 
@@ -81,7 +81,7 @@ TEST_F(Info, TellsRobotsOfDifferentSeedsApart) {
 TEST_F(Ports, ListsSimulatorsWhereverTheyAre) {
   const Simulator simulator;
   const json found = support::parse_json(astrolabe({"ports", "--json"}).out);
-  ASSERT_EQ(found.size(), 1U);  // this machine has no serial port, or the test would name it
+  ASSERT_EQ(found.size(), 1U);  // assumes that this machine has no serial port
   EXPECT_TRUE(found[0]["simulator"]);
   EXPECT_EQ(found[0]["robot"]["name"], "ASTRO");
   EXPECT_EQ(astrolabe({"info", "--port", found[0]["port"]}).code, 0);

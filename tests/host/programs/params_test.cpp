@@ -50,7 +50,7 @@ TEST_F(Params, AnUnrelatedChangeDoesNotKeepWhatWasOnlyTried) {
 
 TEST_F(Params, ATimeOutOfZeroIsWarnedOf) {
   EXPECT_THAT(params({"set", "command_timeout=0", "--yes"}).err,
-              HasSubstr("goes on driving when its host has gone"));
+              HasSubstr("keeps driving if its host disappears"));
 }
 
 TEST_F(Params, ListShowsEveryRowWithUnitLimitsAndMeaning) {
@@ -80,7 +80,7 @@ TEST_F(Params, SetComesInForceAtOnce) {
 }
 
 TEST_F(Params, GetPrintsTheFewestDigitsThatGiveTheValueAgain) {
-  EXPECT_EQ(get("kV_left"), "12.2\n");  // held as 12.1999969482421875
+  EXPECT_EQ(get("kV_left"), "12.2\n");  // stored as 12.1999969482421875
   EXPECT_THAT(params({"set", "kV_left=12.2"}).err, HasSubstr("already"));
   EXPECT_EQ(params({"get", "b", "c_R"}).out, "b=0.29\nc_R=1\n");
 }
@@ -245,7 +245,7 @@ TEST(Flash, KeepsParametersWhenTheSimulatorIsStartedAgain) {
     support::Simulator simulator({"--fast", "--flash", flash});
     EXPECT_EQ(support::astrolabe({"params", "get", "b", "--port", simulator.port()}).out, expected);
     EXPECT_EQ(support::astrolabe({"params", "set", "b=0.2886", "--port", simulator.port()}).code, 0);
-    simulator.program().send(SIGKILL);  // no goodbye: what is committed is in the file by then
+    simulator.program().send(SIGKILL);  // at once: committed values must be in the file already
   }
 }
 

@@ -73,8 +73,9 @@ TEST(PlanCommand, RefusesInOneSentenceWhatTellsTooLittle) {
   const Outcome outcome = astrolabe({"plan", "--until", "0.05%", "--kinds", "lines"});
   EXPECT_EQ(outcome.code, 1);
   EXPECT_EQ(outcome.out, "");
-  EXPECT_EQ(outcome.err,
-            "astrolabe: lines never turn, so nothing tells the wheelbase: add squares, spins or circles\n");
+  EXPECT_EQ(
+      outcome.err,
+      "astrolabe: lines never turn, so they do not determine the wheelbase: add squares, spins or circles\n");
 }
 
 }  // namespace

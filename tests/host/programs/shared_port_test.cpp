@@ -36,7 +36,7 @@ class OnePort : public support::WatchedDrive {
   static std::string process(const Program& program) {
     return "process id " + std::to_string(program.pid()) + ", 'astrolabe ";
   }
-  /// A monitor that has the port before anybody else.
+  /// A monitor that opens the port before any other program.
   static bool shows_samples(const Program& monitor) {
     return eventually([&] { return monitor.out().find('\n') != std::string::npos; });
   }
@@ -238,8 +238,8 @@ TEST_F(OnePort, ARecordedDriveThatIsInterruptedKeepsWhatItRecorded) {
   EXPECT_GT(run.odometry.back().x_m - run.odometry.front().x_m, 0.2);
 }
 
-// The robot tells onlookers from its driver: the pings of a monitor do not keep the drive of a killed program
-// alive.
+// The robot distinguishes onlookers from its driver: the pings of a monitor do not keep the drive of a killed
+// program alive.
 TEST_F(OnePort, KilledBesideAMonitorThatServesItADriveEndsByTheRobotsTimeOut) {
   Program monitor = start({"monitor", "--json"});
   ASSERT_TRUE(shows_samples(monitor));

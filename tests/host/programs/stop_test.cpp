@@ -5,7 +5,7 @@
 
 #include "tests/support/watched_drive.hpp"
 
-// Drives that are cut short, against a simulator in real time; the virtual cameras say what the robot really
+// Drives that are cut short, against a simulator in real time; the virtual cameras show what the robot really
 // does. All bounds are on the robot's clock, so a busy machine does not move them.
 namespace astro {
 namespace {
@@ -56,7 +56,7 @@ TEST_F(CutShort, InterruptedTheRobotRampsToRestAndIsDisarmed) {
     const json report = support::parse_json(program.out());
     EXPECT_EQ(report["outcome"], "interrupted");
     EXPECT_GT(report["moved"]["x_m"], 0.2);
-    EXPECT_LT(seconds_to_rest(now_us()), 0.1);  // it stood when the program ended
+    EXPECT_LT(seconds_to_rest(now_us()), 0.1);  // it was at rest when the program ended
     EXPECT_EQ(info()["mode"], "disarmed");
     EXPECT_EQ(info()["faults"], json::array());
   }
@@ -65,7 +65,7 @@ TEST_F(CutShort, InterruptedTheRobotRampsToRestAndIsDisarmed) {
 TEST_F(CutShort, TheSecondInterruptEndsTheProgramAtOnceAndTheRobotStopsByItself) {
   Program program = drive({"line", "20", "--speed", "0.4"});
   ASSERT_TRUE(has_gone(0.3)) << program.err();
-  simulator_.program().send(SIGSTOP);  // so that the first has something to wait for
+  simulator_.program().send(SIGSTOP);  // so that the first signal finds the program waiting
   program.send(SIGINT);
   poll(nullptr, 0, 400);
   program.send(SIGINT);
@@ -79,7 +79,7 @@ TEST_F(CutShort, WhoeverEndsItWithSeveralSignalsAtOnceMeansOneInterrupt) {
   for (const int second : {SIGINT, SIGTERM, SIGHUP}) {
     Program program = drive({"line", "20", "--speed", "0.4"});
     ASSERT_TRUE(has_gone(0.3)) << program.err();
-    program.send(SIGSTOP);  // so that both are waiting when it goes on
+    program.send(SIGSTOP);  // so that both wait when it continues
     program.send(SIGTERM);
     program.send(second);
     program.send(SIGCONT);
@@ -146,7 +146,7 @@ TEST_F(CutShort, InterruptedWhileTheRobotDoesNotAnswerItIsNotCalledStopped) {
 TEST_F(CutShort, InterruptedOnceTheLinkIsLostTheDriveSaysThatItIsLost) {
   Program program = drive({"line", "20", "--speed", "0.4"});
   ASSERT_TRUE(has_gone(0.1)) << program.err();
-  program.send(SIGSTOP);  // so that it finds both when it goes on
+  program.send(SIGSTOP);  // so that it receives both when it continues
   simulator_.program().send(SIGKILL);
   simulator_.program().wait();
   program.send(SIGINT);
@@ -172,8 +172,8 @@ class WithFlash : public FolderOfFlash, public CutShort {
   WithFlash() : CutShort({"--flash", (folder.path() / "flash").string()}) {}
 };
 
-// The robot writes its fault into its flash once it stands. What a real flash would keep must be on the disk
-// before anybody hears of it, so a simulator that cannot keep it does not go on.
+// The robot writes its fault into its flash when it is at rest. The content of the flash must be on the disk
+// before any host learns of it, so a simulator that cannot write it does not continue.
 TEST_F(WithFlash, ASimulatorThatCannotKeepWhatItsRobotHasWrittenEndsAndSaysSo) {
   Program program = drive({"line", "20", "--speed", "0.4"});
   ASSERT_TRUE(has_gone(0.3)) << program.err();

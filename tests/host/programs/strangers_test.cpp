@@ -11,7 +11,7 @@
 #include "tests/support/program.hpp"
 #include "tests/support/pty_peer.hpp"
 
-// Ports that are no robot, or not ours: one sentence that names the port and the reason.
+// Ports without a robot, or of another user: one sentence that names the port and the reason.
 namespace astro {
 namespace {
 
@@ -92,7 +92,7 @@ TEST(Stranger, ThatIsAnAddressOnAnotherMachine) { refuses("tcp:192.0.2.1:5555", 
 TEST(Stranger, ThatHasLeftItsPtyBehind) {
   test::Pty pty;
   const std::string path = pty.path();
-  // Held open, so that its number is given to no simulator of a test beside this one.
+  // Kept open, so that no simulator of a test that runs at the same time gets its number.
   const int other_side = open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
   pty.hang_up();
   refuses(path, "");

@@ -117,7 +117,7 @@ TEST(StudyCommand, MergeNamesWhatIsMissingMixedOrDoubled) {
   ASSERT_EQ(astrolabe(study({"--shard", "2/2", "--out", simulated, "--model", "simulator"})).code, 0);
   EXPECT_THAT(complaint({one, simulated}), HasSubstr("model"));
   EXPECT_THAT(complaint({one, folder.path() / "none"}), HasSubstr("does not exist"));
-  EXPECT_THAT(complaint({ASTROLABE_PROGRAM}), HasSubstr("is no shard of a study"));
+  EXPECT_THAT(complaint({ASTROLABE_PROGRAM}), HasSubstr("is not a shard of a study"));
 }
 
 TEST(StudyCommand, CtrlCEndsItWithoutAResult) {

@@ -166,7 +166,7 @@ TEST_F(Terminal, ABarMakesRoomForAQuestion) {
   TerminalProgram umbmark({ASTROLABE_PROGRAM, "umbmark", "--truth", "manual", "--side", "0.5", "--runs", "1",
                            "--no-extras", "--port", fast.port(), "--out", (fast.folder() / "x").string()});
   ASSERT_TRUE(umbmark.shows("press Enter")) << umbmark.seen();
-  poll(nullptr, 0, 1200);  // a bar is for whoever waits longer than a second
+  poll(nullptr, 0, 1200);  // a bar appears only after a second
   umbmark.type("\n");
   ASSERT_TRUE(umbmark.shows("measured end x")) << umbmark.seen();
   EXPECT_THAT(umbmark.seen(), HasSubstr("\r\033[Kmeasured end x"));
@@ -193,7 +193,7 @@ TEST_F(Terminal, ParameterListIsCutToItsWidth) {
   std::string line;
   while (std::getline(lines, line)) {
     const auto width = std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; });
-    EXPECT_LE(width, 81) << line;  // a carriage return is not seen
+    EXPECT_LE(width, 81) << line;  // a carriage return is not visible
   }
 }
 

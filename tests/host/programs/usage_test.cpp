@@ -5,7 +5,7 @@
 
 #include "tests/support/program.hpp"
 
-// What the program says about itself, and about words that it cannot place.
+// What the program says about itself, and about words that it does not know.
 namespace astro {
 namespace {
 
@@ -140,7 +140,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{{"study", "--trials", "1"}, {"'1' is not a whole number from 2"}},
         Mistake{{"study", "mege"}, {"'astrolabe study mege'", "did you mean 'merge'"}},
         Mistake{{"study", "merge"}, {"FILES is required"}},
-        Mistake{{"sim", "--wiring", "left"}, {"--wiring", "'left' is no fault"}},
+        Mistake{{"sim", "--wiring", "left"}, {"--wiring", "'left' is not a wiring fault"}},
         Mistake{{"sim", "--slip", "-1e-6"}, {"--slip", "'-1e-6' is not a number from"}},
         Mistake{{"sim", "--true-wheelbase", "0"}, {"--true-wheelbase", "'0' is not a number from"}},
         Mistake{{"sim", "--true-wheelbase", "nan"}, {"--true-wheelbase", "'nan'"}},
@@ -175,7 +175,7 @@ INSTANTIATE_TEST_SUITE_P(All, SimulatorPaths,
                                          BadPath{{"--pty", "/tmp/" + std::string(200, 'x')}, "too long"}));
 
 TEST(Usage, WhatIsPrintedOntoAFullDiskIsAnError) {
-  // Each of these prints by another way: tables, what CLI11 prints itself, and JSON.
+  // Each of these prints in a different way: tables, CLI11's own output, and JSON.
   for (const char* command : {"plan --squares 5", "--help", "study --trials 2 --runs 1 --json"}) {
     support::Program program(
         {"/bin/sh", "-c", std::string(ASTROLABE_PROGRAM) + " " + command + " > /dev/full"});

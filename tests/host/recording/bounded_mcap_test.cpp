@@ -1,13 +1,13 @@
 #include <gmock/gmock.h>
 
+#include "host/recording/files/run_file.hpp"
 #include "host/recording/mcap/compression.hpp"
 #include "host/recording/mcap/reader.hpp"
 #include "host/ros2/ros_messages.hpp"
-#include "host/recording/files/run_file.hpp"
 #include "tests/host/recording/support.hpp"
 #include "tests/support/bounded.hpp"
 
-// Recordings that claim far more than they hold: told within the bar of bounded.hpp.
+// Recordings that claim far more than they hold are refused within the limits of bounded.hpp.
 namespace astro::recording {
 namespace {
 
@@ -77,10 +77,11 @@ TEST(BoundedMcap, AMapOfMillionsOfPairsIsRefused) {
 
 TEST(BoundedMcap, SamplesThatPackFarBetterThanAnyDriveAreRefused) {
   Bytes definitions, message, chunk;
-  mcap::append_record(definitions, mcap::Op::schema,
-                      mcap::encode(mcap::Schema{1, std::string(pose_stamped_type().name), "ros2msg", ""}));
+  mcap::append_record(
+      definitions, mcap::Op::schema,
+      mcap::encode(mcap::Schema{1, std::string(ros2::pose_stamped_type().name), "ros2msg", ""}));
   mcap::append_record(definitions, mcap::Op::channel, mcap::encode(mcap::Channel{1, 1, "/truth", "cdr", {}}));
-  const Bytes pose = encode_truth({});
+  const Bytes pose = ros2::encode_truth({});
   mcap::append_record(message, mcap::Op::message, mcap::encode(mcap::Message{1, 0, 0, 0, pose}));
   while (chunk.size() < 12 * kMebibyte) append(chunk, message);  // the same pose a hundred thousand times
   Bytes file = start_of_file();

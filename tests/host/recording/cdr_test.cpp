@@ -9,18 +9,18 @@ namespace {
 
 using ::testing::ElementsAre;
 
-void put_header(CdrWriter& out, std::string_view frame) {
+void put_header(ros2::CdrWriter& out, std::string_view frame) {
   out.number(std::int32_t{1});
   out.number(std::uint32_t{2});
   out.string(frame);
 }
 
-void put_doubles(CdrWriter& out, int count) {
+void put_doubles(ros2::CdrWriter& out, int count) {
   for (int i = 0; i < count; ++i) out.number(1.5);
 }
 
 std::size_t pose_stamped_size(std::string_view frame) {
-  CdrWriter out;
+  ros2::CdrWriter out;
   put_header(out, frame);
   put_doubles(out, 7);
   return out.bytes().size();
@@ -30,24 +30,24 @@ std::size_t pose_stamped_size(std::string_view frame) {
 TEST(Cdr, MessagesHaveTheSizesThatOtherWritersGiveThem) {
   EXPECT_EQ(pose_stamped_size(""), 76U);
   EXPECT_EQ(pose_stamped_size("world"), 84U);
-  CdrWriter twist;
+  ros2::CdrWriter twist;
   put_doubles(twist, 6);
   EXPECT_EQ(twist.bytes().size(), 52U);
-  CdrWriter with_covariance;
+  ros2::CdrWriter with_covariance;
   put_header(with_covariance, "map");
   put_doubles(with_covariance, 7 + 36);
   EXPECT_EQ(with_covariance.bytes().size(), 364U);
-  CdrWriter transforms;  // tf2_msgs/TFMessage with one transform
+  ros2::CdrWriter transforms;  // tf2_msgs/TFMessage with one transform
   transforms.number(std::uint32_t{1});
   put_header(transforms, "odom");
   transforms.string("base_footprint");
   put_doubles(transforms, 7);
   EXPECT_EQ(transforms.bytes().size(), 108U);
-  EXPECT_EQ(encode_odometry({}).size(), 724U);
+  EXPECT_EQ(ros2::encode_odometry({}).size(), 724U);
 }
 
 TEST(Cdr, NumbersStartAtMultiplesOfTheirSizeCountedFromBehindTheHeader) {
-  CdrWriter out;
+  ros2::CdrWriter out;
   out.number(std::uint8_t{0xAA});
   out.number(std::uint16_t{0x1122});
   out.number(std::uint8_t{0xBB});
@@ -57,19 +57,19 @@ TEST(Cdr, NumbersStartAtMultiplesOfTheirSizeCountedFromBehindTheHeader) {
 }
 
 TEST(Cdr, StringsCarryTheirLengthWithTheNul) {
-  CdrWriter out;
+  ros2::CdrWriter out;
   out.string("ab");
   EXPECT_THAT(out.bytes(), ElementsAre(0, 1, 0, 0, 3, 0, 0, 0, 'a', 'b', 0));
 }
 
 TEST(Cdr, ReaderGivesBackWhatTheWriterTook) {
-  CdrWriter out;
+  ros2::CdrWriter out;
   out.number(std::uint8_t{7});
   out.string("odom");
   out.number(-1.25e300);
   out.string("");
   out.number(std::int32_t{-5});
-  CdrReader in(out.bytes());
+  ros2::CdrReader in(out.bytes());
   EXPECT_EQ(in.number<std::uint8_t>(), 7);
   EXPECT_EQ(in.string(), "odom");
   EXPECT_EQ(in.number<double>(), -1.25e300);
@@ -80,7 +80,7 @@ TEST(Cdr, ReaderGivesBackWhatTheWriterTook) {
 
 TEST(Cdr, ReaderTakesAnEmptyStringOfLengthZero) {
   const Bytes message{0, 1, 0, 0, 0, 0, 0, 0, 9, 0, 0, 0};
-  CdrReader in(message);
+  ros2::CdrReader in(message);
   EXPECT_EQ(in.string(), "");
   EXPECT_EQ(in.number<std::uint32_t>(), 9U);
   EXPECT_TRUE(in.ok());
@@ -91,7 +91,7 @@ TEST(Cdr, ReaderRefusesOtherEncapsulations) {
        {Bytes{0, 0, 0, 0}, Bytes{0, 3, 0, 0}, Bytes{0, 7, 0, 0}, Bytes{0, 1, 0}, Bytes{}}) {
     Bytes message = header;
     if (message.size() == 4) message.resize(8, 1);
-    CdrReader in(message);
+    ros2::CdrReader in(message);
     EXPECT_EQ(in.number<std::uint32_t>(), 0U);
     EXPECT_FALSE(in.ok());
   }
@@ -99,52 +99,52 @@ TEST(Cdr, ReaderRefusesOtherEncapsulations) {
 
 TEST(Cdr, ReaderRefusesStringsThatReachPastTheEndOrLackTheNul) {
   const Bytes huge{0, 1, 0, 0, 0xFF, 0xFF, 0xFF, 0xFF, 'a', 0};
-  CdrReader past(huge);
+  ros2::CdrReader past(huge);
   EXPECT_EQ(past.string(), "");
   EXPECT_FALSE(past.ok());
   const Bytes bare{0, 1, 0, 0, 2, 0, 0, 0, 'a', 'b'};
-  CdrReader without_nul(bare);
+  ros2::CdrReader without_nul(bare);
   without_nul.string();
   EXPECT_FALSE(without_nul.ok());
 }
 
 TEST(RosMessages, CutAnywhereTheyAreRefused) {
-  const Bytes odometry = encode_odometry({1, 2, 3, 0.5, 5, 6, 7, 8});
-  const Bytes truth = encode_truth({1, 2, 3, 0.5, true});
-  const Bytes counts = encode_counts({1, 2, 3});
-  ASSERT_TRUE(decode_truth(truth));
-  ASSERT_TRUE(decode_counts(counts));
-  // What stands behind the twist is its covariance, which the reader has no use for.
+  const Bytes odometry = ros2::encode_odometry({1, 2, 3, 0.5, 5, 6, 7, 8});
+  const Bytes truth = ros2::encode_truth({1, 2, 3, 0.5, true});
+  const Bytes counts = ros2::encode_counts({1, 2, 3});
+  ASSERT_TRUE(ros2::decode_truth(truth));
+  ASSERT_TRUE(ros2::decode_counts(counts));
+  // After the twist comes its covariance, which the reader does not need.
   const std::size_t twist_end = odometry.size() - 36 * sizeof(double);
-  ASSERT_TRUE(decode_odometry(ByteView(odometry).first(twist_end)));
+  ASSERT_TRUE(ros2::decode_odometry(ByteView(odometry).first(twist_end)));
   for (std::size_t size = 0; size < twist_end; ++size) {
-    EXPECT_FALSE(decode_odometry(ByteView(odometry).first(size))) << size;
+    EXPECT_FALSE(ros2::decode_odometry(ByteView(odometry).first(size))) << size;
   }
   for (std::size_t size = 0; size < truth.size(); ++size) {
-    EXPECT_FALSE(decode_truth(ByteView(truth).first(size))) << size;
+    EXPECT_FALSE(ros2::decode_truth(ByteView(truth).first(size))) << size;
   }
   for (std::size_t size = 0; size < counts.size(); ++size) {
-    EXPECT_FALSE(decode_counts(ByteView(counts).first(size))) << size;
+    EXPECT_FALSE(ros2::decode_counts(ByteView(counts).first(size))) << size;
   }
 }
 
 TEST(RosMessages, StampsHoldTimesBeforeZeroAndRefuseThoseBeyondThirtyTwoBitsOfSeconds) {
   for (const std::int64_t time_us : {std::int64_t{-1}, std::int64_t{-1'000'000}, std::int64_t{0},
                                      std::int64_t{1'999'999}, std::int64_t{2'147'483'647'999'999}}) {
-    ASSERT_TRUE(fits_stamp(time_us));
-    EXPECT_EQ(decode_counts(encode_counts({time_us, 0, 0}))->time_us, time_us);
+    ASSERT_TRUE(ros2::fits_stamp(time_us));
+    EXPECT_EQ(ros2::decode_counts(ros2::encode_counts({time_us, 0, 0}))->time_us, time_us);
   }
-  EXPECT_FALSE(fits_stamp(std::int64_t{2'147'483'648'000'000}));
-  EXPECT_FALSE(fits_stamp(std::int64_t{-2'147'483'648'000'001}));
+  EXPECT_FALSE(ros2::fits_stamp(std::int64_t{2'147'483'648'000'000}));
+  EXPECT_FALSE(ros2::fits_stamp(std::int64_t{-2'147'483'648'000'001}));
 }
 
 TEST(RosMessages, AHeadingIsTheSameForBothSignsOfItsQuaternion) {
-  Bytes message = encode_truth({0, 0, 0, 1.0, true});
-  const double theta_rad = decode_truth(message)->theta_rad;
+  Bytes message = ros2::encode_truth({0, 0, 0, 1.0, true});
+  const double theta_rad = ros2::decode_truth(message)->theta_rad;
   for (std::size_t at = message.size() - 9; at < message.size(); at += 8)
     message[at] ^= 0x80;  // signs of z, w
   EXPECT_NEAR(theta_rad, 1.0, 1e-15);
-  EXPECT_DOUBLE_EQ(decode_truth(message)->theta_rad, theta_rad);
+  EXPECT_DOUBLE_EQ(ros2::decode_truth(message)->theta_rad, theta_rad);
 }
 
 }  // namespace

@@ -120,7 +120,8 @@ TEST(LoadFile, SaysWhatTheSystemSaysOfALinkThatLeadsToItself) {
 TEST(LoadFile, RefusesWhatIsFarTooLargeForItsKindUnread) {
   const TempFolder folder;
   support::spill(folder / "x.toml", {});
-  std::filesystem::resize_file(folder / "x.toml", std::uintmax_t{300} << 20);  // without taking the disk
+  std::filesystem::resize_file(folder / "x.toml",
+                               std::uintmax_t{300} << 20);  // a sparse file that takes no disk space
   EXPECT_THAT(complaint([&] { load_file(folder / "x.toml", kMaxSettingsBytes); }),
               HasSubstr("x.toml has 300 MiB, and no file of its kind has more than 1"));
 }

@@ -27,8 +27,8 @@ class McapSamples : public ::testing::Test {
     handlers.message = [this](const mcap::Channel& channel, const mcap::Schema* schema,
                               const mcap::Message& message) {
       ++counts_[channel.topic];
-      if (schema == nullptr || schema->name != odometry_type().name) return;
-      const auto odometry = decode_odometry(message.data);
+      if (schema == nullptr || schema->name != ros2::odometry_type().name) return;
+      const auto odometry = ros2::decode_odometry(message.data);
       ASSERT_TRUE(odometry);
       x_sum_m_ += odometry->x_m;
       last_ = *odometry;

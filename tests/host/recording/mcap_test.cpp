@@ -94,7 +94,7 @@ Bytes pack_lz4(ByteView bytes) {
   return out;
 }
 
-/// A file of one chunk, put together by hand.
+/// A file of one chunk, assembled by hand.
 Bytes file_with_chunk(const mcap::Chunk& chunk) {
   Bytes file(std::begin(mcap::kMagic), std::end(mcap::kMagic));
   mcap::append_record(file, Op::header, mcap::encode(mcap::Header{"", ""}));

@@ -73,7 +73,7 @@ TEST(DamagedRun, AFlippedBitIsNeverReadSilently) {
 TEST(DamagedRun, WhoseEndIsThereIsCalledDamagedAndNeverCutOff) {
   const TempFolder folder;
   const Bytes file = small_file(folder);
-  // Lengths of records and all else; the last 8 bytes are the end itself.
+  // Every byte, lengths of records included, except the last 8, which are the end mark.
   for (std::size_t at = 8; at < file.size() - 8; ++at)
     for (const std::uint8_t flip : {std::uint8_t{0x01}, std::uint8_t{0x80}}) {
       Bytes bad = file;
@@ -100,7 +100,7 @@ TEST(DamagedRun, IsReadAsFarAsItGoesIfThatIsWanted) {
         EXPECT_EQ(sample.x_m, run.odometry[i].x_m) << "byte " << at;
         EXPECT_EQ(sample.left_counts, run.odometry[i].left_counts) << "byte " << at;
       }
-    } catch (const Error&) {  // what says that it is a run may be what is damaged
+    } catch (const Error&) {  // the record that makes it a run may be damaged
     }
     file[at] ^= 0x10;
   }

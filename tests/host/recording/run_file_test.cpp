@@ -6,11 +6,11 @@
 
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
+#include "host/base/numbers.hpp"
+#include "host/recording/files/run_writer.hpp"
 #include "host/recording/mcap/reader.hpp"
 #include "host/recording/mcap/writer.hpp"
-#include "host/base/numbers.hpp"
 #include "host/recording/run/run_metadata.hpp"
-#include "host/recording/files/run_writer.hpp"
 #include "tests/host/recording/support.hpp"
 
 namespace astro::recording {
@@ -166,7 +166,7 @@ TEST(RunWriter, WhatWasRecordedMoreThanTwoSecondsBeforeTheEndOutlivesTheRecorder
   const recording::Run run = random_run(2, 500, 0);  // 10 s
   RunWriter writer(folder / "run.mcap", run.info);
   for (const OdometrySample& sample : run.odometry) writer.add(sample);
-  const recording::Run rescued = read_run(folder / "run.mcap.part");  // as if the recorder were dead
+  const recording::Run rescued = read_run(folder / "run.mcap.part");  // as if the recorder had been killed
   expect_same_info(rescued.info, run.info);
   EXPECT_THAT(rescued.warning, HasSubstr("cut off"));
   ASSERT_GE(rescued.odometry.size(), 400U);

@@ -54,7 +54,7 @@ TEST(RunFolder, NaturalOrderIsAStrictOrder) {
                                            "b-1"};
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     for (std::size_t j = 0; j < sorted.size(); ++j) {
-      if (sorted[i] == "a/1" || sorted[i] == "a/01") continue;  // equal as numbers: told apart as text
+      if (sorted[i] == "a/1" || sorted[i] == "a/01") continue;  // equal as numbers: ordered as text
       if (sorted[j] == "a/1" || sorted[j] == "a/01") continue;
       EXPECT_EQ(natural_less(sorted[i], sorted[j]), i < j) << sorted[i] << " " << sorted[j];
     }

@@ -16,7 +16,7 @@
 /// What several tests of recordings need.
 namespace astro::recording::support {
 
-/// A folder of its own for one test, gone with it.
+/// A temporary folder for one test, removed with the object.
 class TempFolder {
  public:
   TempFolder() {
@@ -44,7 +44,7 @@ inline void spill(const std::filesystem::path& path, ByteView bytes) {
       .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
-/// What the call throws says; "" if it does not throw.
+/// The message of the exception that the call throws; "" if it does not throw.
 template <class Call>
 std::string complaint(Call&& call) {
   try {
@@ -66,7 +66,7 @@ inline PlanarPose placed(const PlanarPose& frame, const PlanarPose& pose) {
 /// A drive of 3 s at 100 Hz: `rest_s` of standstill, then from the start to `odometry_end` (as odometry sees
 /// it) and `truth_end` (as it is), both seen from the start, then standstill again.
 struct Drive {
-  PlanarPose odometry_frame, truth_frame;  // where the start lies in the two frames
+  PlanarPose odometry_frame, truth_frame;  // the start pose in the two frames
   PlanarPose odometry_end, truth_end;
   double rest_s = 0.5;
   double noise_m = 0, noise_rad = 0;  // of truth, one standard deviation

@@ -8,7 +8,8 @@
 namespace astro::robot {
 namespace {
 
-/// Two clocks and a line between them: delays are exponential on top of a least one, each way on its own.
+/// Two clocks and a line between them: each delay is a minimum plus an exponential part, independent for both
+/// ways.
 struct World {
   double drift = 0;
   std::uint64_t device_origin_us = 0;
@@ -44,7 +45,7 @@ TEST(ClockMap, OneRoundTripGivesTheMiddleAndHalfOfItAsTheBound) {
   EXPECT_FALSE(map.drift());
 }
 
-/// One that is kept: the fastest of a group of equals.
+/// A group of equal round trips, of which one is kept.
 void add_group(ClockMap& map, std::int64_t sent_us, std::int64_t rtt_us) {
   const std::int64_t device_us = 7'000'000 + sent_us + rtt_us / 2;
   for (std::size_t i = 0; i < ClockMap::kGroup; ++i)

@@ -164,7 +164,7 @@ TEST_F(Drive, CtrlCStopsThenDisarms) {
 
 class InterruptedDrive : public Drive {
  protected:
-  /// Drives until the first segment is done; `then` happens in the moment in which Ctrl-C is pressed.
+  /// Drives until the first segment is done; `then` is called when Ctrl-C is pressed.
   template <class Then>
   void drive_until_ctrl_c(Then then) {
     DriveHooks hooks;

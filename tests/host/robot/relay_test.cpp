@@ -24,7 +24,7 @@ using testing::HasSubstr;
 
 constexpr bool is_onlookers(const Header& header) { return (header.request_id & 0x8000) != 0; }
 
-/// Why it was refused; the code, or its number where this version has no name for it.
+/// Why the request was refused: the code, or its number if this version has no name for it.
 template <Request M>
 std::string refusal_of(Client& client, const M& request) {
   try {
@@ -47,7 +47,7 @@ std::string thrown_by(Work work) {
   return "nothing was thrown";
 }
 
-/// Answers what waits for the line, whenever it is told to.
+/// Answers the frames that wait for the line, on request.
 class FakeRobotAt {
  public:
   explicit FakeRobotAt(Relay& relay) : relay_(relay) {}
@@ -193,7 +193,7 @@ TEST_F(SharedPort, TheDriversOwnStopIsNobodyElses) {
   EXPECT_EQ(refusal_of(first.client, Velocity{100, 0}), "taken");
 }
 
-/// The robot hears everything and nobody hears the robot.
+/// The robot receives everything, but its answers are lost.
 auto deaf_line() {
   return [](bool to_robot, const Header&) { return to_robot; };
 }
@@ -258,9 +258,9 @@ TEST_F(SharedPort, AnEmergencyStopOvertakesWhatWaitsForTheLine) {
   const SessionId one = relay.join({11, "one"}), two = relay.join({22, "two"});
   relay.from_session(one, Frame(Arm{}, 1).bytes(), rig.now);
   relay.from_session(one, Frame(Ping{}, 2).bytes(), rig.now);
-  relay.to_robot().taken(3);  // the line has begun with the first frame
+  relay.to_robot().taken(3);  // 3 bytes of the first frame are written
   relay.from_session(two, Frame(EmergencyStop{}, 1).bytes(), rig.now);
-  // The rest of the Arm is no frame by itself.
+  // The rest of the Arm is not a frame of its own.
   EXPECT_THAT(taken_from(relay), testing::ElementsAre(EmergencyStop::kId, Ping::kId));
 }
 
@@ -367,24 +367,24 @@ TEST_F(SharedPort, ALostTelemetrySettingIsAskedForAgain) {
   EXPECT_GT(came, 50);
 }
 
-TEST(TelemetryWish, KeepsTheMeanRateBesideAStreamOfAnyPeriod) {
+TEST(TelemetryRequest, KeepsTheMeanRateBesideAStreamOfAnyPeriod) {
   for (const std::uint16_t stream : std::array<std::uint16_t, 4>{1, 3, 7, 10}) {
     for (const std::uint16_t wanted : std::array<std::uint16_t, 4>{10, 25, 100, 333}) {
-      TelemetryWish wish(SetTelemetry{wanted, Telemetry::kPose});
+      TelemetryRequest request(SetTelemetry{wanted, Telemetry::kPose});
       int came = 0;
       constexpr std::uint64_t kEnd_us = 10'000'000;
       for (std::uint64_t at = 5'000'000; at < 5'000'000 + kEnd_us; at += std::uint64_t{1000} * stream)
-        came += wish.wants(at, stream) ? 1 : 0;
+        came += request.is_due(at, stream) ? 1 : 0;
       EXPECT_NEAR(came, 10'000.0 / wanted, 1.5) << stream << " ms for " << wanted << " ms";
     }
   }
 }
 
-TEST(TelemetryWish, PassesEverySampleOfItsOwnPeriodThoughTheirTimesWaver) {
-  TelemetryWish wish(SetTelemetry{10, Telemetry::kPose});
+TEST(TelemetryRequest, PassesEverySampleOfItsOwnPeriodThoughTheirTimesWaver) {
+  TelemetryRequest request(SetTelemetry{10, Telemetry::kPose});
   int came = 0;
   for (std::uint64_t i = 0; i < 1000; ++i)
-    came += wish.wants(1'000'000 + 10'000 * i + (i % 3 == 0 ? 1000 : 0), 10) ? 1 : 0;
+    came += request.is_due(1'000'000 + 10'000 * i + (i % 3 == 0 ? 1000 : 0), 10) ? 1 : 0;
   EXPECT_EQ(came, 1000);
 }
 
@@ -420,7 +420,7 @@ TEST_F(SharedPort, AReaderThatLosesEventsIsLetGoWithTheReason) {
   EXPECT_EQ(rig.relay.closing(second.id()), FarewellReason::reads_too_slowly);
   EXPECT_LT(rig.relay.to_session(second.id()).bytes(), 100U);
   EXPECT_THAT(thrown_by([&] { second.client.pump(seconds(1)); }),
-              AllOf(HasSubstr("lost port0"), HasSubstr("did not take what the robot sent")));
+              AllOf(HasSubstr("lost port0"), HasSubstr("did not read what the robot sent")));
   first.client.request(GetStatus{});
 }
 
@@ -467,7 +467,7 @@ TEST_F(SharedPort, ARestartOfTheRobotIsANewBeginningForAll) {
   rig.robot.restart();
   rig.step();
   EXPECT_EQ(rig.relay.driver(), std::nullopt);
-  second.client.pump(milliseconds(2));  // hears of it
+  second.client.pump(milliseconds(2));  // receives the event
   EXPECT_EQ(refusal_of(second.client, Arm{}), "taken");
   second.client.connect();
   EXPECT_EQ(rig.count(Hello::kId), 2) << "it may be another robot";
@@ -514,7 +514,7 @@ TEST_F(SharedPort, GarbageFromAProgramStaysWithTheRelay) {
   EXPECT_EQ(rig.at_robot.size(), before);
 }
 
-// ---- what people are told
+// ---- messages for people
 
 TEST(Relay, ADeviceThatSendsNoFramesIsToldFromASilentOne) {
   for (const bool talks : {true, false}) {

@@ -22,7 +22,7 @@ class Request : public testing::Test {
     client.request(Arm{});
   }
 
-  /// The first frame of this kind and direction meets this fate.
+  /// The first frame of this kind and direction is treated like this.
   void once(bool to_robot, std::uint8_t message_id, Fate fate) {
     link.fate = [=, met = false](bool direction, std::uint8_t id) mutable {
       const bool hit = !met && direction == to_robot && id == message_id;

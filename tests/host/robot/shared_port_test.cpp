@@ -14,13 +14,13 @@
 #include <optional>
 
 #include "host/robot/client/client.hpp"
-#include "host/robot/sharing/port_socket.hpp"
 #include "host/robot/port/serial_port.hpp"
+#include "host/robot/sharing/port_socket.hpp"
 #include "tests/support/pty.hpp"
 #include "tests/support/served_robot.hpp"
 
-// One port and several programs, as far as only an operating system can show it: the other programs are
-// connections of this process, and children where a program has to die.
+// One port and several programs: what only an operating system can show. The other programs are connections
+// of this process, or child processes if a program has to be killed.
 namespace astro::robot {
 namespace {
 
@@ -48,7 +48,7 @@ class SharedPortOfTheSystem : public testing::Test {
     return "opened";
   }
 
-  /// A child that holds the port, says so and waits for its end.
+  /// A child process that holds the port, reports it and waits to be ended.
   pid_t holder_in_a_child() {
     int ready[2];
     if (::pipe(ready) != 0) throw std::runtime_error("no pipe");
@@ -80,7 +80,7 @@ TEST_F(SharedPortOfTheSystem, TheSecondProgramWorksAsIfItHadThePort) {
   EXPECT_EQ(second.name(), pty.path());
 }
 
-/// What a program of user 65534 sees or does; its exit code.
+/// The exit code of a program of user 65534.
 int as_another_user(const std::function<int()>& work) {
   const pid_t child = ::fork();
   if (child == 0) ::_exit(::setgid(65'534) == 0 && ::setuid(65'534) == 0 ? work() : 99);
@@ -93,7 +93,7 @@ TEST_F(SharedPortOfTheSystem, AProgramOfAnotherUserIsNotServed) {
   if (::geteuid() != 0) GTEST_SKIP() << "only root can be somebody else for a moment";
   const auto port = open_shared_port(pty.path());
   EXPECT_EQ(as_another_user([&] {
-              const Served served = connect_to(key(), seconds(1));
+              const HolderConnection served = connect_to(key(), seconds(1));
               return served.connection ? 1 : 0;
             }),
             0);
@@ -139,7 +139,7 @@ TEST_F(SharedPortOfTheSystem, TheSocketGoesWithTheProgram) {
     const auto port = open_shared_port(pty.path());
     EXPECT_TRUE(somebody_listens());
   }
-  // The look was a guest, for whom a process may be left behind until it is seen to have gone.
+  // The check was a connection, for which a process may be left behind until it notices that it has ended.
   const auto end = std::chrono::steady_clock::now() + seconds(10);
   while (somebody_listens() && std::chrono::steady_clock::now() < end) ::usleep(20'000);
   EXPECT_FALSE(somebody_listens());

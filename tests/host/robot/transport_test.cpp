@@ -36,7 +36,7 @@ std::string why_not(const std::string& address) {
   return "opened";
 }
 
-/// All of `size` bytes, or fewer if they do not come within 2 s.
+/// Reads `size` bytes, or fewer if they do not arrive within 2 s.
 Bytes read_all(Transport& transport, std::size_t size) {
   Bytes bytes(size);
   std::size_t have = 0;
@@ -81,8 +81,8 @@ TEST(SerialTransport, WaitsAsLongAsItIsTold) {
   EXPECT_GE(transport->now() - start, milliseconds(30));
 }
 
-/// Times out at a depth of the stack where `below` bytes lie over what the last time-out left there. Returns
-/// whether they are as they were.
+/// Lets a read time out at another stack depth, where `below` bytes cover what the last time-out left on the
+/// stack. Returns whether those bytes are unchanged.
 [[gnu::noinline]] bool time_out_above_a_pattern(Transport& transport) {
   std::array<volatile std::uint8_t, 4096> below;
   for (volatile std::uint8_t& byte : below) byte = 0xA5;

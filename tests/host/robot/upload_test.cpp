@@ -14,7 +14,7 @@ using testing::HasSubstr;
 const std::map<std::string, Value> kCalibration{
     {"c_R", 1.002}, {"c_L", 0.998}, {"b", 0.2886}, {"robot_name", std::string("calibrated")}};
 
-/// Something is staged by another session.
+/// Another session stages something.
 void prepare(FakeLink& link) {
   link.robot.parameter("c_R").value = {link.robot.parameter("c_R").info.id, 1 << 30, (1 << 30) + 5, {}, {}};
 }
@@ -88,7 +88,7 @@ struct Outcomes {
   int old_set = 0, new_set = 0;
 };
 
-/// Uploads with the link gone at frame `n`, for every n there is; the report must tell what the robot holds.
+/// Uploads while the link drops at frame `n`, for every n; the report must say which set the robot holds.
 Outcomes drop_at_every_frame(bool restarts) {
   Outcomes outcomes;
   for (int n = 0;; ++n) {
@@ -101,7 +101,7 @@ Outcomes drop_at_every_frame(bool restarts) {
     link.stays_away = seconds(1);
     const auto before = link.robot.parameters;
     const auto report = upload(client, kCalibration);
-    if (!report.link_dropped) return outcomes;  // n lies behind the last frame
+    if (!report.link_dropped) return outcomes;  // n is after the last frame
 
     const bool is_new = report.active == ActiveSet::new_set;
     ++(is_new ? outcomes.new_set : outcomes.old_set);

@@ -54,7 +54,7 @@ TEST(InProcess, OnlyWaitingMakesTimePass) {
   std::array<std::uint8_t, 64> into{};
   rig.transport.read(into, milliseconds(0));
   EXPECT_EQ(rig.transport.now(), start);
-  while (rig.transport.read(into, milliseconds(0)) > 0) {  // what the robot said at its start
+  while (rig.transport.read(into, milliseconds(0)) > 0) {  // what the robot sent at its start
   }
   rig.transport.read(into, milliseconds(25));
   EXPECT_LE(rig.transport.now() - start, milliseconds(25));
@@ -66,7 +66,7 @@ TEST(InProcess, BytesThatNobodyReadsDoNotStopTheRobot) {
   robot::Client client(rig.transport);
   client.connect();
   client.request(protocol::SetTelemetry{1, protocol::Telemetry::kAll});
-  for (int ms = 0; ms < 10'000; ++ms) rig.robot->step();  // 10 s of telemetry that is not taken
+  for (int ms = 0; ms < 10'000; ++ms) rig.robot->step();  // 10 s of telemetry that is not read
   EXPECT_EQ(client.request(protocol::GetStatus{}).mode, protocol::Mode::disarmed);
 }
 
@@ -103,7 +103,7 @@ TEST(InProcess, WhoNeverAsksTheCamerasFindsTheLastMinutes) {
   for (int ms = 0; ms < 200'000; ++ms) rig.robot->step();
   const auto samples = rig.robot->take_truth();
   EXPECT_GE(samples.size(), 3600U);  // a minute at 60 Hz
-  EXPECT_LE(samples.size(), 7200U);  // and not without end
+  EXPECT_LE(samples.size(), 7200U);  // but not more than two minutes
   EXPECT_GT(samples.back().time_us, 199'900'000);
 }
 

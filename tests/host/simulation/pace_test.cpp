@@ -6,7 +6,7 @@
 #include <functional>
 #include <random>
 
-// A server's loop in virtual time: it looks at its pace, steps or waits, and is held up as a test says.
+// A server's loop in virtual time: it asks its pace, steps or waits, and is delayed as a test says.
 namespace astro::simulation {
 namespace {
 
@@ -14,7 +14,7 @@ using namespace std::chrono_literals;
 
 class Loop {
  public:
-  /// `late`: how much later than asked for the loop runs again, each time.
+  /// `late`: how much later than requested the loop runs again, each time.
   explicit Loop(std::function<Pace::Duration()> late) : late_(std::move(late)) {}
 
   void run_for(Pace::Duration time) {
@@ -22,7 +22,8 @@ class Loop {
     while (now_ < end) look();
   }
   void pause(Pace::Duration time) { now_ += time; }
-  /// Real time between two words of the host, each of which is answered at once if that may be.
+  /// Real time between two requests of the host, each of which is answered by an early step if that is
+  /// allowed.
   void speak_every(Pace::Duration time) { words_ = time; }
 
   Pace::Duration virtual_time() const { return steps_ * Pace::kStep; }
@@ -40,7 +41,7 @@ class Loop {
     constexpr Pace::Duration kOfALook = 20us;
     if (words_ != 0ms && now_ >= spoken_ + words_) {
       spoken_ = now_;
-      if (pace_.may_hurry(now_)) step();
+      if (pace_.may_step_early(now_)) step();
     }
     if (pace_.due(now_))
       step();

@@ -14,9 +14,9 @@
 #include "host/base/error.hpp"
 #include "host/robot/client/client.hpp"
 #include "host/robot/motion/drive.hpp"
-#include "host/robot/port/open_transport.hpp"
-#include "host/robot/parameters/parameters.hpp"
 #include "host/robot/motion/paths.hpp"
+#include "host/robot/parameters/parameters.hpp"
+#include "host/robot/port/open_transport.hpp"
 #include "host/simulation/server/pty.hpp"
 #include "host/truth/live/socket_source.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -59,7 +59,7 @@ TEST(Server, InRealTimeNeverRunsAheadOfTheWallClock) {
   Host host(served);
   const auto wall = steady_clock::now();
   const std::uint64_t start_us = host.device_us();
-  // Without a word: every word may be worth a step, so that it is answered at once.
+  // Without any requests, because each request may cause an early step as its answer.
   while (steady_clock::now() - wall < milliseconds(400)) ::poll(nullptr, 0, 5);
   const std::uint64_t passed_us = host.device_us() - start_us;
   const auto wall_us =
@@ -83,8 +83,8 @@ TEST(Server, InRealTimeNeverRunsAheadForAHostThatSpeaksOften) {
   EXPECT_LE(static_cast<std::int64_t>(now_us - start_us), wall_us + kTwoSteps_us) << words << " words";
 }
 
-/// Keeps a byte that it is sent, a while after it has come, and says so.
-class Keeper : public astro::simulation::Served {
+/// Stores a byte that it receives in its flash after some time, and then acknowledges it.
+class Keeper : public astro::simulation::ServedRobot {
  public:
   void step() override {
     ++now_ms_;
@@ -124,7 +124,7 @@ TEST(Server, HasTheFlashInItsFileBeforeTheHostHearsThatItIsKept) {
     std::array<std::uint8_t, 1> answer{};
     EXPECT_EQ(host->read(answer, seconds(10)), 1U);
     EXPECT_EQ(answer[0], byte);
-    std::ifstream file(flash, std::ios::binary);  // at once: a power cut may come now
+    std::ifstream file(flash, std::ios::binary);  // at once, because the power may fail now
     EXPECT_EQ(file.get(), byte);
   }
   stop = true;
@@ -175,7 +175,7 @@ TEST(Server, InFastMotionStillNoticesAHostThatFallsSilent) {
     Host host(served);
     host.client.request(protocol::Arm{});
     host.client.request(robot::line(100, {0.2, 0}).front());
-  }  // gone without a word
+  }  // disconnected without Disarm
   // The robot's own time-out and the ramp after it take 0.6 s of its time: three camera seconds are enough.
   std::size_t seen = 0;
   const auto end = steady_clock::now() + seconds(30);
@@ -259,7 +259,8 @@ TEST(RuntimeFolder, IsSweptOfWhatDeadSimulatorsLeft) {
   const Pty there(elsewhere.path() / "robot");
   fs::create_symlink(there.link(), in("there.pty"));
   fs::create_symlink("/dev/pts/nobody", in("dead.pty"));
-  fs::create_symlink(fs::read_symlink(here.link()), in("reused.pty"));  // its number is another one's by now
+  fs::create_symlink(fs::read_symlink(here.link()),
+                     in("reused.pty"));  // the number of a dead simulator that was reused
   fs::create_symlink(elsewhere.path() / "gone", in("gone.pty"));
   fs::create_symlink("/dev/pts/nobody", in("dead.txt"));
   for (const char* name : {"file.pty", "dead.pty.mocap.txt"}) std::ofstream(in(name)) << "kept";

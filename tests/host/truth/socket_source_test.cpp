@@ -21,7 +21,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-/// Somebody at the other end of a socket, who sends what a test wants.
+/// The peer of a socket, which sends what a test needs.
 class Cameras {
  public:
   Cameras() {
@@ -120,7 +120,7 @@ TEST_F(Socket, SaysThatTheCamerasHaveGone) {
   cameras.send(kGreeting);
   EXPECT_THAT(source.poll(), IsEmpty());
   cameras.hang_up();
-  EXPECT_THAT(failure_of(source), HasSubstr("have gone"));
+  EXPECT_THAT(failure_of(source), HasSubstr("have disconnected"));
 }
 
 TEST(NoSocket, SaysThatASimulatorIsNeeded) {

@@ -171,7 +171,7 @@ TEST_F(Flash, SaysWhichVersionRunsIfItIsNotTheOneOfTheImage) {
   // The image claims a version in its header that its program does not report.
   const Outcome outcome = flash(patched(kVersionInImage + 2, kFirmwareVersion.patch + 1), emulator_.usb());
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("the robot carries firmware"));
+  EXPECT_THAT(outcome.err, HasSubstr("the robot runs firmware"));
 }
 
 TEST_F(Flash, SaysWhichParameterDidNotSurvive) {

@@ -209,9 +209,10 @@ TEST(Flash, AnInterruptWhoseHandlerLiesInItIsNotServedWhileItWorks) {
 TEST(Flash, OnlyTheParametersSectorsAreWritten) {
   EXPECT_THAT(
       Worker("unlock\n enable\n erase 0x1EF000").outcome(),
-      HasSubstr("NOR flash: 0x1EF000 is not the parameters': the program or the boot loader lies there"));
+      HasSubstr(
+          "NOR flash: 0x1EF000 does not belong to the parameters: the program or the boot loader is there"));
   EXPECT_THAT(Worker("unlock\n enable\n write 0x1FF000, 0, 0").outcome(),
-              HasSubstr("NOR flash: 0x1FF000 is not the parameters'"));
+              HasSubstr("NOR flash: 0x1FF000 does not belong to the parameters"));
 }
 
 TEST(Flash, ItsIdentityIsTheW25q16s) {

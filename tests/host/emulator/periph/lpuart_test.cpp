@@ -134,7 +134,7 @@ TEST(Lpuart, AClearedSilenceIsNotFlaggedAgainBeforeANewCharacter) {
   EXPECT_NE(program.result(1), 0U);
 }
 
-// One byte is below the watermark: only the line's silence tells of it.
+// One byte is below the watermark: only the idle line reports it.
 const std::string kBySilence = kQueues + "  set LPUART6_WATER, 0x00010000\n  set LPUART6_CTRL, 0x001C0000\n";
 
 TEST(Lpuart, ACharacterThatNothingTellsOfEndsTheRun) {
@@ -143,7 +143,7 @@ TEST(Lpuart, ACharacterThatNothingTellsOfEndsTheRun) {
     set LPUART6_STAT, 0x00100000
   )");
   EXPECT_EQ(stopped_by(program, {1}), "") << "it may still be read";
-  EXPECT_THAT(program.stopped_by(), HasSubstr("LPUART6 STAT: IDLE was cleared over a character"));
+  EXPECT_THAT(program.stopped_by(), HasSubstr("LPUART6 STAT: IDLE was cleared while a character waits"));
 }
 
 TEST(Lpuart, ACharacterThatIsReadAfterItsSilenceWasClearedIsNoFault) {

@@ -76,7 +76,7 @@ struct Device : Program {
 
 std::string refusal(const std::string& code) { return Program(kReady + code).stopped_by(); }
 
-// The host knows it, and it leaves.
+// The host has seen the device; then it detaches.
 constexpr const char* kLeave = "  set USB1_USBCMD, 0\n";
 
 TEST(UsbController, ThatComesBackBeforeAHostHasNoticedEndsTheRun) {

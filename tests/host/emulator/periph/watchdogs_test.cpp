@@ -266,7 +266,7 @@ TEST(Reset, AnImageWhoseEntryLiesNowhereEndsTheRun) {
   const std::uint32_t nowhere = 0x3000'0000;
   std::memcpy(flash.data() + 0x1004, &nowhere, sizeof nowhere);
   program.teensy().press_reset();
-  EXPECT_THAT(program.stopped_by(), HasSubstr("the image's entry lies in no memory"));
+  EXPECT_THAT(program.stopped_by(), HasSubstr("the image's entry is in no memory"));
 }
 
 TEST(Fuses, AreNotWritten) {

@@ -7,7 +7,7 @@
 
 #include "tests/support/program.hpp"
 
-// Whatever is wrong outside: one clear sentence that names the thing, a non-zero exit, nothing on stdout.
+// Bad input of any kind: one clear sentence that names the thing, a non-zero exit, nothing on stdout.
 namespace astro {
 namespace {
 

@@ -30,13 +30,13 @@ std::string read(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-/// One small experiment that all tests look at: 2 + 2 squares before, 1 + 1 after.
+/// One small experiment that all tests use: 2 + 2 squares before, 1 + 1 after.
 class Ml : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     simulator_ = new Simulator({"--fast", "--true-ed", std::to_string(kTrueEd), "--true-wheelbase",
                                 std::to_string(kTrueWheelbase_m), "--slip", "2.645e-6", "--seed", "1"});
-    // A tenth is reached by the fewest squares, so it says how many are driven.
+    // The fewest possible squares reach a precision of a tenth, so exactly these are driven.
     driven_ = astrolabe({"umbmark", "--port", simulator_->port(), "--truth", "sim", "--out", out(), "--side",
                          "1", "--runs", "1", "--until", "10%", "--no-extras", "--yes", "--json"});
   }
@@ -132,7 +132,7 @@ TEST_F(Ml, IsCheckedOnDrivesThatItHasNotSeen) {
   ASSERT_EQ(judged.size(), 2U);
   EXPECT_EQ(judged[0]["by"], "carried");
   EXPECT_EQ(judged[1]["by"], file);
-  // 1 m squares end a seventh of what 3 m squares do beside, slip leaves a third of that.
+  // The end error of 1 m squares is a seventh of that of 3 m squares; slip leaves a third of it.
   EXPECT_LT(judged[1]["end_m"].get<double>(), judged[0]["end_m"].get<double>() / 2);
   EXPECT_EQ(judged[1]["runs"][0]["name"], "square-ccw-1");
 
@@ -140,10 +140,10 @@ TEST_F(Ml, IsCheckedOnDrivesThatItHasNotSeen) {
   EXPECT_EQ(text.code, 0) << text.err;
   EXPECT_THAT(text.out,
               AllOf(HasSubstr("over 2 drives"), HasSubstr("heading mrad"), HasSubstr("square-cw-1")));
-  // Carried was one thing before and another after.
+  // Other factors were loaded before than after.
   const Outcome both = astrolabe({"calibrate", "check", out(), "--with", file});
   EXPECT_EQ(both.code, 1);
-  EXPECT_THAT(both.err, AllOf(HasSubstr("carried other factors"), HasSubstr("each for itself")));
+  EXPECT_THAT(both.err, AllOf(HasSubstr("had other factors loaded"), HasSubstr("separately")));
   const Outcome missing = astrolabe({"calibrate", "check", out() + "/after", "--with", file + "x"});
   EXPECT_EQ(missing.code, 1);
   EXPECT_THAT(missing.err, HasSubstr("checked.tomlx does not exist"));
@@ -183,8 +183,7 @@ TEST_F(Ml, DamagedRecordingsAreUsedOnlyIfThatIsWantedAndThenWarnedOf) {
   const fs::path copy = simulator_->folder() / "damaged", run = copy / "before" / "square-cw-1.mcap";
   fs::copy(out(), copy, fs::copy_options::recursive);
   std::fstream file(run, std::ios::in | std::ios::out | std::ios::binary);
-  // A byte of the checksum in front of the end: nothing that was driven is missing, which alone would be
-  // refused.
+  // A byte of the checksum before the end: no sample of the drive is missing, but the file is damaged anyway.
   const auto checksum = static_cast<std::streamoff>(fs::file_size(run) - 10);
   file.seekg(checksum);
   const char byte = static_cast<char>(file.get() ^ 1);

@@ -19,8 +19,8 @@ TEST(Survival, ARobotWhoseHostIsKilledStopsByItselfAndServesTheNextHost) {
        {std::vector<std::string>{}, std::vector<std::string>{"--fast"}}) {
     const support::Simulator simulator(options);  // real time, then as fast as the host keeps up
     support::Program drive({ASTROLABE_PROGRAM, "drive", "line", "500", "--port", simulator.port()});
-    // It is under way. In fast motion nobody may look: the simulator's clock goes on for whoever asks it
-    // something, also while the host that drives is late.
+    // The drive is under way. In fast motion no other program may ask the simulator: its clock goes on after
+    // any request, also while the host that drives is late.
     if (options.empty())
       ASSERT_TRUE(support::eventually([&] { return info(simulator)["mode"] == "segment"; })) << drive.err();
     else

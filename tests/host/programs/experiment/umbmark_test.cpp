@@ -43,7 +43,7 @@ TEST(Umbmark, CalibratesASimulatedRobotOverAPty) {
   const double before_m = json["before"]["E_max_syst_m"], after_m = json["after"]["E_max_syst_m"];
   std::printf("over a pty: E_max_syst %.1f mm -> %.1f mm, %.1f times smaller\n", 1000 * before_m,
               1000 * after_m, before_m / after_m);
-  EXPECT_NEAR(before_m, 0.42, 0.08);  // five runs know it to some 0.04 m
+  EXPECT_NEAR(before_m, 0.42, 0.08);  // five runs measure it to some 0.04 m
   EXPECT_GE(before_m / after_m, 5);
   for (const char* phase : {"before", "after"})
     for (const char* direction : {"cw", "ccw"})
@@ -65,7 +65,7 @@ TEST(Umbmark, CalibratesASimulatedRobotOverAPty) {
   EXPECT_GT(fs::file_size(simulator.folder() / "again.html"), 1'000'000U);
   expect_same_claim(compared.out, simulator.folder() / "again.html");
   const support::Outcome runs = astrolabe({"calibrate", "runs", out + "/before", "--json"});
-  // The same runs in another order: rounding apart.
+  // The same runs in another order: equal except for rounding.
   EXPECT_NEAR(support::parse_json(runs.out)["c_R"].get<double>(),
               json["phases"][0]["estimate"]["c_R"].get<double>(), 1e-9);
   const support::Outcome two = astrolabe({"compare", out + "/before", out + "/after", "--json"});
@@ -127,8 +127,8 @@ TEST(Record, CountsItsSecondsOnTheRobotsClock) {
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     std::ifstream file(csv / "odometry.csv");
     const auto samples = std::count(std::istreambuf_iterator<char>(file), {}, '\n') - 1;
-    // A sample each 10 ms; the end is looked for every 50 ms, in which a simulator in fast motion goes on for
-    // the 100 ms that one word of the host is good for.
+    // A sample each 10 ms; the end is checked every 50 ms, and a simulator in fast motion may run ahead by
+    // 100 ms after bytes from the host.
     EXPECT_NEAR(static_cast<double>(samples), 200, 20) << (options.empty() ? "real time" : "--fast");
   }
 }
@@ -168,7 +168,7 @@ TEST(Record, KeepsWhatCameBeforeTheLinkWasLost) {
   EXPECT_TRUE(fs::exists(out));
 }
 
-// A file that may not grow past this size stands for a full disk.
+// A limit on the size of files simulates a full disk.
 std::vector<std::string> with_files_up_to(const std::string& blocks_of_512_bytes,
                                           std::vector<std::string> command) {
   command.insert(
@@ -198,7 +198,7 @@ TEST(Umbmark, InterruptedOnceTheLinkIsLostSaysSoAndDoesNotStartTheRunAgain) {
   // Asking the robot whether it drives would take the port from the experiment.
   ASSERT_TRUE(support::eventually([&] { return fs::exists(fs::path(out) / "experiment.json"); }));
   poll(nullptr, 0, 1000);
-  program.send(SIGSTOP);  // so that it finds both when it goes on
+  program.send(SIGSTOP);  // so that it receives both when it continues
   simulator.program().send(SIGKILL);
   simulator.program().wait();
   program.send(SIGINT);

@@ -97,7 +97,7 @@ TEST_F(Upload, ALinkThatDropsLeavesTheOldSetOrTheNewOne) {
       "--port",          simulator_.port(), "--yes"};
   support::Program program(command);
   ASSERT_TRUE(support::eventually([&] { return !program.err().empty() || !program.running(); }));
-  simulator_.program().send(SIGSTOP);  // the robot falls silent in the middle
+  simulator_.program().send(SIGSTOP);  // the robot stops answering during the upload
   poll(nullptr, 0, 300);
   simulator_.program().send(SIGCONT);
   const int code = program.wait();

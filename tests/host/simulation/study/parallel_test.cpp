@@ -44,7 +44,7 @@ TEST(InParallel, TheCallerCanEndIt) {
   std::atomic<int> begun = 0;
   const auto work = [&](int) {
     ++begun;
-    asked.wait(false);  // pieces go on for as long as nobody has asked for an end
+    asked.wait(false);  // pieces continue until an end is requested
   };
   const auto meanwhile = [&](int) {
     asked = true;

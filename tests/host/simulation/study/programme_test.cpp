@@ -78,11 +78,12 @@ TEST(Forecast, RefusesProgrammesThatLeaveAFactorOpen) {
   const auto message = [](const Counts& counts) { return error_of([&] { (void)of(counts); }); };
   EXPECT_EQ(message({0, 0, 0, 0}), "the programme is empty: say how many squares, lines, spins or circles");
   EXPECT_EQ(message({0, 7, 0, 0}),
-            "lines never turn, so nothing tells the wheelbase: add squares, spins or circles");
+            "lines never turn, so they do not determine the wheelbase: add squares, spins or circles");
   EXPECT_EQ(message({0, 0, 7, 0}),
-            "spins tell the ratio of wheels and wheelbase but no size: add squares, lines or circles");
-  EXPECT_EQ(message({0, 0, 0, 1}),
-            "one circle turns one way round, which leaves wheels and wheelbase open: drive two");
+            "spins determine the ratio of wheels and wheelbase but no size: add squares, lines or circles");
+  EXPECT_EQ(
+      message({0, 0, 0, 1}),
+      "one circle turns in one direction only, which does not separate wheels and wheelbase: drive two");
   EXPECT_EQ(message({-1, 0, 0, 0}), "the number of squares is -1: give 0 to 1000");
   EXPECT_EQ(message({600, 600, 0, 0}),
             "the programme has 1200 runs and 1000 are the most: drive longer ones");
@@ -113,7 +114,7 @@ TEST(ShortestProgramme, MeetsTheTargetAndTakesNoRunTooMany) {
       try {
         EXPECT_FALSE(meets(of(less), target)) << target << ", without one of " << kKindNames[kind];
       } catch (const Error&) {
-        // What is left cannot tell all three factors.
+        // The remaining runs cannot determine all three factors.
       }
     }
   }
@@ -159,7 +160,7 @@ TEST(ShortestProgramme, RefusesWhatCannotBeReached) {
     return error_of([&] { (void)shortest_programme({target, target, target}, kinds, Programme{}); });
   };
   EXPECT_EQ(message(5e-4, {kLines}),
-            "lines never turn, so nothing tells the wheelbase: add squares, spins or circles");
+            "lines never turn, so they do not determine the wheelbase: add squares, spins or circles");
   EXPECT_EQ(message(1e-7, {kSquares}),
             "a precision this fine takes more than 1000 runs: drive longer ones, ask for less, or lessen the "
             "slip");

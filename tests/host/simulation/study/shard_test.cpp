@@ -57,12 +57,12 @@ TrialSetup of_trials(int trials) {
   return setup;
 }
 
-Part part(const std::string& name, int begin, int end, const TrialSetup& setup = of_trials(10)) {
-  return read_part(to_text(setup, some_trials(begin, end)), name);
+ShardFile part(const std::string& name, int begin, int end, const TrialSetup& setup = of_trials(10)) {
+  return read_shard_file(to_text(setup, some_trials(begin, end)), name);
 }
 
 TEST(ShardFile, GivesBackEveryBit) {
-  const Part read = part("a.json", 2, 6);
+  const ShardFile read = part("a.json", 2, 6);
   EXPECT_EQ(read.trials, some_trials(2, 6));
   EXPECT_EQ(to_text(read.setup, read.trials), to_text(of_trials(10), some_trials(2, 6)));
   EXPECT_EQ(read.setup.seed, of_trials(10).seed);
@@ -76,8 +76,8 @@ TEST(ShardFile, SaysWhichRobotDrove) {
   }
   std::string other = to_text(setup, some_trials(2, 6));
   other.replace(other.find("simulator"), 9, "emulator?");
-  EXPECT_EQ(error_of([&] { read_part(other, "a.json"); }),
-            "'emulator?' is no model of a robot: there are kinematic and simulator");
+  EXPECT_EQ(error_of([&] { read_shard_file(other, "a.json"); }),
+            "'emulator?' is not a model of a robot: choose kinematic or simulator");
 }
 
 TEST(ShardFile, GivesBackWhatIsNoNumberAsThatAndNotAsNoAnswer) {
@@ -86,7 +86,7 @@ TEST(ShardFile, GivesBackWhatIsNoNumberAsThatAndNotAsNoAnswer) {
   trials[1].errors[kMl] = Errors{std::nan(""), kInfinity, -kInfinity, 1, 2, 3};
   trials[1].ml_chi_square = std::nan("");
   const std::string text = to_text(of_trials(2), trials);
-  const std::vector<Trial> read = read_part(text, "x.json").trials;
+  const std::vector<Trial> read = read_shard_file(text, "x.json").trials;
   const Errors errors = read[1].errors[kMl].value();
   EXPECT_TRUE(std::isnan(errors[0]));
   EXPECT_EQ(errors[1], kInfinity);
@@ -99,22 +99,22 @@ TEST(ShardFile, GivesBackWhatIsNoNumberAsThatAndNotAsNoAnswer) {
 }
 
 TEST(ShardFile, ThatIsNoneIsNamed) {
-  const std::string none = "'x.json' is no shard of a study: give what 'astrolabe study --out' wrote";
+  const std::string none = "'x.json' is not a shard of a study: give what 'astrolabe study --out' wrote";
   for (const std::string text : {"", "{}", "[1, 2", "{\"format\": 3", "name,x\n1,2\n"})
-    EXPECT_EQ(support::sentence_of([&] { read_part(text, "x.json"); }), none) << text;
+    EXPECT_EQ(support::sentence_of([&] { read_shard_file(text, "x.json"); }), none) << text;
   std::string cut = to_text(of_trials(10), some_trials(0, 5));
   cut.resize(cut.size() / 2);
-  EXPECT_EQ(support::sentence_of([&] { read_part(cut, "x.json"); }), none);
-  EXPECT_EQ(support::sentence_of([&] { read_part(R"({"format": "astrolabe study 0", "methods": []})", "x.json"); }),
+  EXPECT_EQ(support::sentence_of([&] { read_shard_file(cut, "x.json"); }), none);
+  EXPECT_EQ(support::sentence_of([&] { read_shard_file(R"({"format": "astrolabe study 0", "methods": []})", "x.json"); }),
             "'x.json' was written by another version of the study: run its shard of 'astrolabe study' again");
 }
 
 TEST(ShardFile, OfShortValuesThatWouldTakeManyTimesItsSizeIsRefusedUnread) {
   std::string text = "[";
   while (text.size() < 20'000'000) text += "[],";
-  const support::Taken taken = support::measured([&] { read_part(text, "x.json"); });
+  const support::Taken taken = support::measured([&] { read_shard_file(text, "x.json"); });
   EXPECT_BOUNDED(taken, text.size());
-  EXPECT_EQ(taken.complaint, "'x.json' is no shard of a study");
+  EXPECT_EQ(taken.complaint, "'x.json' is not a shard of a study");
 }
 
 TEST(ShardFile, WithACountThatIsNoneIsRefused) {
@@ -123,7 +123,7 @@ TEST(ShardFile, WithACountThatIsNoneIsRefused) {
     std::string changed = text;
     const std::size_t at = changed.find("\"" + key + "\": ") + key.size() + 4;
     changed.replace(at, changed.find_first_of(",\n", at) - at, value);
-    return error_of([&] { merge({read_part(changed, "x.json")}); });
+    return error_of([&] { merge({read_shard_file(changed, "x.json")}); });
   };
   for (const std::string count : {"1e300", "-1", "4294967306", "2.5", "1e999"}) {
     EXPECT_NE(with("trials", count), "") << count;
@@ -134,7 +134,7 @@ TEST(ShardFile, WithACountThatIsNoneIsRefused) {
 }
 
 TEST(Merge, OfFewTrialsTakesMemoryForThoseAloneWhateverCountIsClaimed) {
-  const std::vector<Part> parts{part("a", 0, 4, of_trials(10'000'000))};
+  const std::vector<ShardFile> parts{part("a", 0, 4, of_trials(10'000'000))};
   const support::Taken taken = support::measured([&] { merge(parts); });
   EXPECT_BOUNDED(taken, 0);
   EXPECT_EQ(taken.complaint,
@@ -148,7 +148,7 @@ TEST(Merge, PutsTheTrialsInOrderWhateverTheOrderOfTheFiles) {
 }
 
 TEST(Merge, RefusesWhatIsNotOneWholeStudy) {
-  const auto message = [](const std::vector<Part>& parts) { return error_of([&] { merge(parts); }); };
+  const auto message = [](const std::vector<ShardFile>& parts) { return error_of([&] { merge(parts); }); };
   EXPECT_EQ(message({}), "there is nothing to merge: name the files of all shards");
   EXPECT_EQ(message({part("a", 0, 4), part("b", 3, 10)}),
             "trial 3 is in 'a' and in 'b': name each shard once");

@@ -3,13 +3,13 @@
 
 #include <cmath>
 
-#include "host/simulation/study/simulated_source.hpp"
 #include "host/simulation/study/kinematic_source.hpp"
 #include "host/simulation/study/shard_file.hpp"
+#include "host/simulation/study/simulated_source.hpp"
 #include "host/simulation/study/study.hpp"
 #include "host/simulation/study/summary.hpp"
 
-// Studies of the simulated robot, beside the same ones of the kinematic one.
+// Studies of the simulated robot, compared with the same studies of the kinematic robot.
 namespace astro::simulation {
 namespace {
 
@@ -36,10 +36,10 @@ TEST(SimulatedStudy, ShardsMergedAreTheWholeToTheLastBitWhateverTheJobs) {
   TrialSetup setup = small_setup(5, Model::simulator);
   setup.clock_known = false;
   const std::vector<Trial> whole = run_study(setup, kRobot, {1, 1}, 1, kSilent);
-  std::vector<simulation::study::Part> parts;
+  std::vector<simulation::study::ShardFile> parts;
   for (const int number : {2, 1})
-    parts.push_back(simulation::study::read_part(to_text(setup, run_study(setup, kRobot, {number, 2}, 3, kSilent)),
-                                     std::to_string(number)));
+    parts.push_back(simulation::study::read_shard_file(
+        to_text(setup, run_study(setup, kRobot, {number, 2}, 3, kSilent)), std::to_string(number)));
   EXPECT_EQ(merge(parts), whole);
   EXPECT_EQ(parts.front().setup.model, Model::simulator);
 }
@@ -49,8 +49,8 @@ double apart(const Row& a, const Row& b, std::size_t figure) {
   return (a.rms[figure] - b.rms[figure]) / std::hypot(a.se[figure], b.se[figure]);
 }
 
-// The full table, over hundreds of trials of ten squares, is for `astrolabe study`; here enough of it to
-// notice another slip, another noise, or factors that are off by half of their error.
+// `astrolabe study` prints the full table over hundreds of trials of ten squares; here are enough trials to
+// notice another slip, another noise, or factors with an error of half of theirs.
 TEST(SimulatedStudy, AgreesWithTheKinematicOneWithinTheScatterOfBoth) {
   constexpr int kTrials = 40;
   const TrialSetup setup = small_setup(kTrials, Model::simulator);
@@ -64,7 +64,8 @@ TEST(SimulatedStudy, AgreesWithTheKinematicOneWithinTheScatterOfBoth) {
   for (std::size_t m = 1; m < simulated.methods.size(); ++m) {
     const Row &a = simulated.methods[m], &b = kinematic.methods[m];
     for (const auto figure :
-         {simulation::study::kE_d, simulation::study::kB_over_S, simulation::study::kE_max_m, simulation::study::kTheta_rad, simulation::study::kLine_m}) {
+         {simulation::study::kE_d, simulation::study::kB_over_S, simulation::study::kE_max_m,
+          simulation::study::kTheta_rad, simulation::study::kLine_m}) {
       fmt::print("{:18} figure {}: simulated {:.3g} ± {:.2g}, kinematic {:.3g} ± {:.2g}\n", a.name,
                  static_cast<int>(figure), a.rms[figure], a.se[figure], b.rms[figure], b.se[figure]);
       // The standard error of an rms of 40 heavy-tailed figures is itself known to a quarter.
@@ -79,7 +80,8 @@ TEST(SimulatedStudy, AgreesWithTheKinematicOneWithinTheScatterOfBoth) {
              simulated.ml_covariance->mean, simulated.ml_covariance->se, simulated.ml_over_bound[0].value,
              simulated.ml_over_bound[1].value, simulated.ml_over_bound[2].value);
   EXPECT_NEAR(simulated.ml_covariance->mean, 3, 3 * std::sqrt(6.0 / kTrials)) << "chi-square's own scatter";
-  for (const simulation::study::Ratio& ratio : simulated.ml_over_bound) EXPECT_NEAR(ratio.value, 1, 3 * ratio.se);
+  for (const simulation::study::Ratio& ratio : simulated.ml_over_bound)
+    EXPECT_NEAR(ratio.value, 1, 3 * ratio.se);
 }
 
 }  // namespace

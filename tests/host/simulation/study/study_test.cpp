@@ -28,10 +28,10 @@ TrialSetup small_setup(int trials) {
 TEST(Study, ShardsMergedAreTheWholeToTheLastBitWhateverTheJobs) {
   const TrialSetup setup = small_setup(7);
   const std::vector<Trial> whole = run_study(setup, kRobot, {1, 1}, 1, kSilent);
-  std::vector<Part> parts;
+  std::vector<ShardFile> parts;
   for (const int number : {3, 1, 2})
-    parts.push_back(
-        read_part(to_text(setup, run_study(setup, kRobot, {number, 3}, 4, kSilent)), std::to_string(number)));
+    parts.push_back(read_shard_file(to_text(setup, run_study(setup, kRobot, {number, 3}, 4, kSilent)),
+                                    std::to_string(number)));
   EXPECT_EQ(merge(parts), whole);
   const Summary a = summarize(setup, kRobot, whole), b = summarize(setup, kRobot, merge(parts));
   ASSERT_EQ(a.methods.size(), kMethods.size());
@@ -61,7 +61,7 @@ TEST(Study, AnEmptyShardIsRefused) {
             "shard 1/4 of 3 trials is empty: make fewer shards or more trials");
 }
 
-// The full claims, over hundreds of trials of ten squares, are for `astrolabe study`; here enough of them to
+// `astrolabe study` checks the full claims over hundreds of trials of ten squares; here are enough trials to
 // notice a loss of some 25 %.
 class MaximumLikelihoodStudy : public testing::TestWithParam<bool> {};
 

@@ -40,7 +40,8 @@ TEST(StudyBound, OfTenSquaresIsThatOfTheDesignRules) {
   EXPECT_NEAR(bound.rms[kE_d] / rule.E_d, 1, 0.04);  // what precision.hpp promises
   EXPECT_NEAR(bound.rms[kScale] / rule.scale, 1, 0.04);
   EXPECT_NEAR(bound.rms[kB_over_S] / rule.b, 1, 0.04);
-  // Published with three digits; here the lever arm is unknown, which takes from spins what they tell of E_d.
+  // Published with three digits; here the lever arm is unknown, which removes the information of spins about
+  // E_d.
   EXPECT_NEAR(bound.rms[kE_max_m] / 21.6e-3, 1, 0.04);
   EXPECT_NEAR(bound.rms[kTheta_rad] / 8.8e-3, 1, 0.04);
   EXPECT_NEAR(bound.rms[kLine_m] / 35.0e-3, 1, 0.04);

@@ -1,4 +1,4 @@
-#include "host/commands/tune/wiring_check.hpp"
+#include "host/commands/tune/wiring_dialogue.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -6,14 +6,14 @@
 #include <map>
 
 #include "host/base/error.hpp"
-#include "host/console/console.hpp"
-#include "host/console/interrupt.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/commands/tune/wiring_roll.hpp"
+#include "host/console/console.hpp"
+#include "host/console/interrupt.hpp"
 #include "host/console/wrong_usage.hpp"
 #include "host/experiment/drive/change_guard.hpp"
-#include "host/robot/parameters/upload.hpp"
 #include "host/motor/bench/wiring_probe.hpp"
+#include "host/robot/parameters/upload.hpp"
 
 namespace astro::commands {
 namespace {
@@ -28,7 +28,8 @@ bool somebody_is_there() { return isatty(STDIN_FILENO) == 1; }
 
 void check(const WiringOptions& options) {
   if (options.saw[0].empty() != options.saw[1].empty())
-    throw console::WrongUsage("--saw-left and --saw-right go together: what turned for each of the two motors");
+    throw console::WrongUsage(
+        "--saw-left and --saw-right go together: what turned for each of the two motors");
   if (options.no_look && !options.saw[0].empty())
     throw console::WrongUsage("--no-look and --saw-left, --saw-right exclude each other");
   if ((options.rolled_distance_m || options.rolled_turns) && !options.roll)
@@ -95,7 +96,8 @@ bool offer(robot::Client& client, const std::map<std::string, double>& parameter
   const auto changes = experiment::changes(robot::RemoteParameters::fetch(client), values);
   if (changes.empty()) return true;
   console::say(console::table(experiment::side_by_side(changes), "llrrr"));
-  if (!options.upload && !(somebody_is_there() && console::confirm("Load these into the robot?"))) return false;
+  if (!options.upload && !(somebody_is_there() && console::confirm("Load these into the robot?")))
+    return false;
   const robot::UploadReport done = robot::upload(client, values);
   if (done.active != robot::ActiveSet::new_set) throw Error(done.sentence());
   console::say(done.sentence());

@@ -1,4 +1,4 @@
-#include "host/commands/drive/teleop_view.hpp"
+#include "host/commands/drive/drive_teleop_view.hpp"
 
 #include <fmt/format.h>
 
@@ -54,7 +54,7 @@ std::string teleop_picture(const std::string& robot, const console::SteeringWhee
   };
   return fmt::format("\n  steering {}\n\n{}", robot, keys_that_fit(terminal)) +
          row("speed", wheel.forward(), wheel.v_mps(), "m/s", at.v_mps) +
-         // Left is left on the bar, too.
+         // Negative, so that a left turn points to the left.
          row("turning", -wheel.left(), wheel.omega_radps(), "rad/s", at.omega_radps) +
          fmt::format("\n  odometry  x {:.3f} m  y {:.3f} m{}heading {:.1f} deg\n",
                      without_minus_zero(at.x_m, 3), without_minus_zero(at.y_m, 3),

@@ -9,29 +9,29 @@
 namespace astro::simulation {
 
 /// A robot in virtual time that Server puts behind a pty.
-class Served {
+class ServedRobot {
  public:
-  virtual ~Served() = default;
+  virtual ~ServedRobot() = default;
 
   /// One millisecond.
   virtual void step() = 0;
-  /// Virtual; may start again at 0 when the robot does.
+  /// Virtual time; may restart at 0 with the robot.
   virtual std::uint64_t now_us() = 0;
 
   // The robot's ports, numbered from 0: `pty` of ServerConfig leads to port 0, `second_pty` to port 1.
 
-  /// Bytes that write() takes now.
+  /// Number of bytes that write() can take now.
   virtual std::size_t room(int port) = 0;
   virtual void write(int port, std::span<const std::uint8_t> bytes) = 0;
-  /// Bytes that the robot has sent; 0 if none wait.
+  /// Moves bytes that the robot has sent and returns their number; 0 if none wait.
   virtual std::size_t read(int port, std::span<std::uint8_t> into) = 0;
-  /// A USB device goes when the robot restarts, and its device file with it.
+  /// Whether the port exists: a USB device, and with it its device file, disappears while the robot restarts.
   virtual bool present(int) { return true; }
-  /// A program has the port open, or not any more; asked each time its state is looked at.
+  /// Whether a program has the port open; called at each check of the connection.
   virtual void set_open(int /*port*/, bool /*open*/, std::uint32_t /*baud*/) {}
 
   virtual std::vector<recording::TruthSample> take_truth() = 0;
-  /// What the robot keeps without power.
+  /// The content of the robot's flash.
   virtual std::span<const std::uint8_t> flash() = 0;
 };
 

@@ -1,5 +1,5 @@
+#include "host/commands/drive/drive_job.hpp"
 #include "host/commands/base/flags.hpp"
-#include "host/commands/drive/drive_run.hpp"
 
 #include <fmt/format.h>
 
@@ -7,22 +7,22 @@
 #include <cmath>
 #include <optional>
 
-#include "host/console/console.hpp"
+#include "host/commands/drive/steering.hpp"
 #include "host/commands/shared/drive_recording.hpp"
-#include "host/console/interrupt.hpp"
 #include "host/commands/shared/limit_notes.hpp"
-#include "host/console/options.hpp"
 #include "host/commands/shared/path_progress.hpp"
 #include "host/commands/shared/robot_view.hpp"
-#include "host/commands/drive/steering.hpp"
+#include "host/console/console.hpp"
+#include "host/console/interrupt.hpp"
+#include "host/console/options.hpp"
 #include "host/experiment/drive/record_run.hpp"
 
 namespace astro::commands {
 namespace {
 
-constexpr std::uint16_t kPeriod_ms = 20;  // Steering wants no less
+constexpr std::uint16_t kPeriod_ms = 20;  // Steering needs at most this period
 
-/// How long the robot moved, on its own clock.
+/// How long the robot moved, by its own clock.
 class Stopwatch {
  public:
   void moved_to(const recording::OdometrySample& sample) {
@@ -49,13 +49,13 @@ void report(const DriveOptions& options, const char* outcome, const recording::O
   print(fmt::format("odometry  {}", in_words(pose_of(end))));
 }
 
-/// A bar that exists only while the work goes on: what comes after it begins on a clean line.
-class BarDuring {
+/// Shows a progress bar for a scope; text printed after it begins on a clean line.
+class ProgressBarScope {
  public:
-  explicit BarDuring(std::optional<console::Progress>& bar) : bar_(bar) { bar_.emplace("driving"); }
-  BarDuring(const BarDuring&) = delete;
-  BarDuring& operator=(const BarDuring&) = delete;
-  ~BarDuring() { bar_.reset(); }
+  explicit ProgressBarScope(std::optional<console::Progress>& bar) : bar_(bar) { bar_.emplace("driving"); }
+  ProgressBarScope(const ProgressBarScope&) = delete;
+  ProgressBarScope& operator=(const ProgressBarScope&) = delete;
+  ~ProgressBarScope() { bar_.reset(); }
 
  private:
   std::optional<console::Progress>& bar_;
@@ -110,9 +110,9 @@ void drive_path(DriveOptions& options, const robot::Path& path) {
   PathProgress way(path);
   std::optional<console::Progress> bar;
   DriveJob job;
-  job.connected = [&](robot::Client& client) { say_what_is_clamped(client, path); };
+  job.connected = [&](robot::Client& client) { note_limits(client, path); };
   job.work = [&](robot::Client&, robot::DriveSession& session) {
-    const BarDuring showing(bar);
+    const ProgressBarScope showing(bar);
     session.run(path);
   };
   job.segment_done = [&](const protocol::SegmentDone& done) { way.segment_done(done.tag); };
@@ -131,9 +131,9 @@ void drive_velocity(DriveOptions& options, double v_mps, double omega_radps, dou
   std::optional<console::Progress> bar;
   std::int64_t begun_us = 0;
   DriveJob job;
-  job.connected = [&](robot::Client& client) { say_what_is_clamped(client, v_mps, omega_radps); };
+  job.connected = [&](robot::Client& client) { note_limits(client, v_mps, omega_radps); };
   job.work = [&](robot::Client& client, robot::DriveSession& session) {
-    const BarDuring showing(bar);
+    const ProgressBarScope showing(bar);
     Steering(client, session).hold(v_mps, omega_radps, robot::microseconds(std::llround(seconds * 1e6)));
   };
   job.moved = [&](const recording::OdometrySample& sample) {

@@ -1,17 +1,17 @@
-#include "host/commands/drive/teleop.hpp"
+#include "host/commands/drive/drive_teleop.hpp"
 
 #include <unistd.h>
 
 #include <memory>
 
 #include "host/base/error.hpp"
-#include "host/console/console.hpp"
-#include "host/commands/drive/drive_run.hpp"
-#include "host/console/keys.hpp"
-#include "host/commands/shared/limit_notes.hpp"
-#include "host/console/options.hpp"
+#include "host/commands/drive/drive_job.hpp"
+#include "host/commands/drive/drive_teleop_view.hpp"
 #include "host/commands/drive/steering.hpp"
-#include "host/commands/drive/teleop_view.hpp"
+#include "host/commands/shared/limit_notes.hpp"
+#include "host/console/console.hpp"
+#include "host/console/keys.hpp"
+#include "host/console/options.hpp"
 #include "host/console/terminal.hpp"
 
 namespace astro::commands {
@@ -19,7 +19,7 @@ namespace {
 
 struct TeleopOptions {
   DriveOptions drive;
-  double speed_mps = 0.4, yaw_rate_radps = 1.0;  // gentle: a person reacts late
+  double speed_mps = 0.4, yaw_rate_radps = 1.0;  // slow, because people react late
 };
 
 void run(TeleopOptions& options) {
@@ -29,7 +29,7 @@ void run(TeleopOptions& options) {
   recording::OdometrySample at;
   DriveJob job;
   job.connected = [&](robot::Client& client) {
-    say_what_is_clamped(client, options.speed_mps, options.yaw_rate_radps);
+    note_limits(client, options.speed_mps, options.yaw_rate_radps);
   };
   job.moved = [&](const recording::OdometrySample& sample) { at = sample; };
   job.work = [&](robot::Client& client, robot::DriveSession& session) {
@@ -46,7 +46,8 @@ void run(TeleopOptions& options) {
         if (key == console::Key::quit) return;
       }
       steering.step(wheel.v_mps(), wheel.omega_radps());
-      picture.draw(teleop_picture(robot, wheel, at, console::terminal_size(STDERR_FILENO)), teleop_line(wheel, at));
+      picture.draw(teleop_picture(robot, wheel, at, console::terminal_size(STDERR_FILENO)),
+                   teleop_line(wheel, at));
     }
   };
   drive(options.drive, job);
@@ -67,7 +68,7 @@ void add_teleop(console::Command drive) {
       .check(console::between(0.001, 100, "rad/s"));
   add_drive_options(command, options->drive);
   console::examples(command, {"astrolabe drive teleop", "astrolabe drive teleop --speed 0.2 --yaw-rate 0.5",
-                     "astrolabe drive teleop --record tour.mcap"});
+                              "astrolabe drive teleop --record tour.mcap"});
   command.callback([options] { run(*options); });
 }
 

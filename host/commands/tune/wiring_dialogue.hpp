@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "host/console/command_line.hpp"
 #include "host/commands/shared/connection.hpp"
+#include "host/console/command_line.hpp"
 #include "host/motor/wiring/wiring.hpp"
 
 /// `astrolabe check-wiring`: what is asked, judged, shown and loaded.

@@ -1,0 +1,95 @@
+#include "host/commands/calibrate/calibrate_end_poses.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "host/base/error.hpp"
+#include "host/base/files.hpp"
+#include "host/calibration/end_poses/end_pose_csv.hpp"
+#include "host/calibration/end_poses/odd_run.hpp"
+#include "host/commands/calibrate/calibration_output.hpp"
+#include "host/commands/calibrate/method_option.hpp"
+#include "host/console/options.hpp"
+#include "host/experiment/analysis/calibration.hpp"
+
+namespace astro::commands {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct EndPosesOptions {
+  fs::path cw, ccw;
+  CalibrationOutput output;
+  double side_m = 0;
+  double wheelbase_m = 0;
+  double c_r = 1, c_l = 1;
+  MethodOption method;
+};
+
+std::string read_text(const fs::path& path) {
+  const Bytes bytes = load_file(path);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::vector<calibration::EndPose> end_poses(const fs::path& file, double side_m) {
+  const std::vector<calibration::EndPose> poses = calibration::read_end_poses(read_text(file), file.string());
+  if (const auto odd = calibration::mistyped_run(poses, side_m))
+    throw Error(fmt::format("{}: run {} has {} Correct it, or leave the run out", file.string(),
+                            odd->index + 1, described(*odd)));
+  for (const calibration::EndPose& pose : poses)
+    if (const double off_m = std::hypot(pose.x_m, pose.y_m); side_m > 0 && off_m > side_m)
+      throw Error(fmt::format(
+          "{}: a run of a square of {} m has an error of {:.3g} m, more than any robot's: name the "
+          "columns by their unit, ex_mm or ex_m",
+          file.string(), side_m, off_m));
+  return poses;
+}
+
+}  // namespace
+
+void add_calibrate_end_poses(console::Command calibrate) {
+  const auto options = std::make_shared<EndPosesOptions>();
+  const console::Command command =
+      calibrate.add_subcommand("end-poses", "from measured end-pose errors of squares (CSV)");
+  command
+      .add_option("--cw", options->cw,
+                  "clockwise runs: columns ex_mm|ex_m, ey_mm|ey_m, etheta_rad|etheta_deg")
+      .required();
+  command.add_option("--ccw", options->ccw, "counter-clockwise runs, the same columns").required();
+  // Limits of real robots, so that 3000 or 290 (in millimetres) are refused.
+  command.add_option("--side", options->side_m, "side of the square, m")
+      .check(console::between(0.1, 100, "m"))
+      .required();
+  command.add_option("--wheelbase", options->wheelbase_m, "wheelbase that was loaded in the robot, m")
+      .check(console::between(0.05, 2, "m"))
+      .required();
+  command.add_option("--c-right", options->c_r, "c_R that was loaded in the robot")
+      .check(console::between(0.5, 1.5, ""))
+      .capture_default_str();
+  command.add_option("--c-left", options->c_l, "c_L that was loaded in the robot")
+      .check(console::between(0.5, 1.5, ""))
+      .capture_default_str();
+  add_method(command, options->method, {"auto", "umbmark", "extended", "least-squares"},
+             "auto: extended where every run has an end heading,\numbmark where not");
+  add_output(command, options->output);
+  command.footer(
+      "An error is absolute (tape measure, mocap) minus odometry, at the end, in the run's start frame.\n"
+      "Examples:\n"
+      "  astrolabe calibrate end-poses --cw cw.csv --ccw ccw.csv --side 3 --wheelbase 0.29\n"
+      "  astrolabe calibrate end-poses --cw cw.csv --ccw ccw.csv --side 3 --wheelbase 0.29 --method umbmark "
+      "--angles x --out calib.toml");
+  command.callback([options] {
+    const experiment::MethodChoice method = options->method.choice();
+    experiment::Squares squares;
+    squares.cw = end_poses(options->cw, options->side_m);
+    squares.ccw = end_poses(options->ccw, options->side_m);
+    squares.side_m = options->side_m;
+    squares.carried = {options->c_r, options->c_l, options->wheelbase_m};
+    put_out(experiment::calibrate(squares, method), options->output);
+  });
+}
+
+}  // namespace astro::commands
