@@ -7,6 +7,7 @@
 #include <map>
 #include <tuple>
 
+#include "host/calibration/end_poses/sense.hpp"
 #include "host/report/html.hpp"
 
 namespace astro::report {
@@ -58,8 +59,8 @@ std::size_t RunGroup::most_runs() const {
 }
 
 std::string direction_name(Direction direction) {
-  if (direction == Direction::cw) return "clockwise";
-  return direction == Direction::ccw ? "counter-clockwise" : "";
+  if (direction == Direction::none) return "";
+  return in_words(direction == Direction::cw ? calibration::Sense::cw : calibration::Sense::ccw);
 }
 
 std::vector<RunGroup> group_runs(const std::vector<Phase>& phases) {

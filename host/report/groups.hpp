@@ -5,7 +5,7 @@
 
 #include "host/report/report.hpp"
 
-/// The runs sorted for comparison: what was driven the same way stands together, phase beside phase.
+/// The runs grouped for comparison: runs that were driven the same way, phase beside phase.
 namespace astro::report {
 
 struct RunGroup {

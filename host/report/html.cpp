@@ -36,7 +36,7 @@ std::string script_json(const nlohmann::json& value) {
   std::string out;
   out.reserve(plain.size());
   for (const char c : plain) {
-    // Outside of strings JSON has none of these, so the escape is always legal where it lands.
+    // JSON has these characters only inside strings, where the escape is legal.
     if (c == '<')
       out += "\\u003c";
     else if (c == '>')

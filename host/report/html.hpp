@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-/// Putting foreign text into a page without letting it become markup or script.
+/// Escapes text so that it cannot become markup or script in a page.
 namespace astro::report {
 
 /// For element content and double-quoted attributes.
@@ -16,7 +16,7 @@ std::string escape(std::string_view text);
 std::string script_json(const nlohmann::json& value);
 
 /// Replaces each {{name}} of the template in one pass, so a value is never searched for placeholders.
-/// Throws std::out_of_range for a name without a value: a mistake of ours, not of the user.
+/// Throws std::out_of_range for a name without a value, which is a programming error.
 std::string fill(std::string_view page, const std::map<std::string, std::string, std::less<>>& values);
 
 /// "before" -> "Before".

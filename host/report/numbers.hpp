@@ -2,8 +2,8 @@
 
 #include <string>
 
-/// Numbers as a reader of the report sees them: a real minus sign, an en dash where nothing is known, and no
-/// more digits than the standard error supports.
+/// Numbers for the reader of a report: with a minus sign instead of a hyphen, an en dash for unknown values, and
+/// no more digits than the standard error supports.
 namespace astro::report {
 
 /// "-12.30" -> "−12.30"; NaN -> "–"; never "−0.00".

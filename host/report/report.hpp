@@ -18,8 +18,8 @@ struct ParameterRow {
   double standard_error = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// What the robot carried in a phase. standard_error is NaN where unknown.
-struct CarriedValue {
+/// A factor that was loaded in the robot in a phase. standard_error is NaN where unknown.
+struct LoadedValue {
   double value = 0;
   double standard_error = std::numeric_limits<double>::quiet_NaN();
 };
@@ -33,9 +33,9 @@ struct DescriptionRow {
 struct Phase {
   std::string title;                          // "before", "after", "after repeat 1", ...
   std::vector<recording::Run> runs;           // any kinds, any order
-  calibration::ExperimentSummary squares;     // of cw and ccw; not looked at where one of them is empty
+  calibration::ExperimentSummary squares;     // of cw and ccw; unused if one of them is empty
   std::vector<calibration::EndPose> cw, ccw;  // end errors of the squares in the order of the runs
-  std::vector<CarriedValue> carried{};        // in the order of ReportInput::parameters; may be empty
+  std::vector<LoadedValue> loaded{};          // in the order of ReportInput::parameters; may be empty
 };
 
 struct ReportInput {
@@ -44,7 +44,7 @@ struct ReportInput {
   std::vector<Phase> phases;                // in the order they were driven; the first is the reference
   std::vector<ParameterRow> parameters;
   std::string method;              // how the parameters were found; a blank line starts a new paragraph
-  std::vector<std::string> notes;  // seeds, incidents, anything a reader should know
+  std::vector<std::string> notes;  // anything else a reader should know, such as seeds
 };
 
 /// The whole page. Equal inputs give equal bytes; every text of the input is escaped.

@@ -34,7 +34,7 @@ Section history(const ReportInput& input);
 Section factor_table(const ReportInput& input);
 Section provenance(const ReportInput& input);
 
-/// The phases with squares in both directions, and where each stands in the input.
+/// The phases with squares in both directions, and the index of each in the input.
 struct SquarePhase {
   std::size_t index;
   const Phase* phase;
@@ -42,6 +42,6 @@ struct SquarePhase {
 std::vector<SquarePhase> square_phases(const ReportInput& input);
 
 /// E_max_syst of a phase in mm, with the number of runs of the direction that it comes from.
-Estimate largest_error_mm(const Phase& phase);
+calibration::FigureOfMerit largest_error_mm(const Phase& phase);
 
 }  // namespace astro::report

@@ -9,17 +9,19 @@
 
 namespace astro::report {
 
+using calibration::FigureOfMerit;
+
 namespace {
 
-std::string cell(const CarriedValue& value) {
+std::string cell(const LoadedValue& value) {
   return "<td>" + with_error(value.value, value.standard_error, six_digits(value.value)) + "</td>";
 }
 
 std::string phase_row(const Phase& phase) {
   std::string row = "<tr><th scope=\"row\">" + escape(capitalised(phase.title)) + "</th>";
-  for (const CarriedValue& value : phase.carried) row += cell(value);
+  for (const LoadedValue& value : phase.loaded) row += cell(value);
   if (!has_squares(phase)) return row + "<td>–</td></tr>\n";
-  const Estimate error = largest_error_mm(phase);
+  const FigureOfMerit error = largest_error_mm(phase);
   return row + "<td>" + with_error(error.value, error.standard_error, 1) + "</td></tr>\n";
 }
 
@@ -28,7 +30,7 @@ std::string phase_row(const Phase& phase) {
 Section history(const ReportInput& input) {
   Section out{"history", "History", ""};
   const bool complete = std::all_of(input.phases.begin(), input.phases.end(), [&](const Phase& phase) {
-    return !phase.carried.empty() && phase.carried.size() == input.parameters.size();
+    return !phase.loaded.empty() && phase.loaded.size() == input.parameters.size();
   });
   if (input.phases.size() < 3 || !complete) return out;
   std::string head, rows;

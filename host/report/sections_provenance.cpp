@@ -13,7 +13,7 @@ namespace {
 
 using recording::Run;
 
-/// What the runs of a phase say about themselves; several answers stand side by side.
+/// A description of the runs of a phase; different values are listed side by side.
 struct Fact {
   std::string label;
   std::function<std::string(const Run&)> of;
@@ -100,7 +100,7 @@ std::string paragraphs(std::string_view text) {
 
 constexpr const char* kDefinitions = R"(<h3>How the figures are computed</h3>
 <dl class="formulas">
-<dt>Error of a run</dt><dd>(<var>e<sub>x</sub></var>, <var>e<sub>y</sub></var>, <var>e<sub>θ</sub></var>) = true − believed end pose, in the frame of the run’s start: x forward, y left, θ counter-clockwise; <var>r</var> = √(<var>e<sub>x</sub></var>² + <var>e<sub>y</sub></var>²)</dd>
+<dt>Error of a run</dt><dd>(<var>e<sub>x</sub></var>, <var>e<sub>y</sub></var>, <var>e<sub>θ</sub></var>) = ground truth − odometry at its end, in the frame of the run’s start: x forward, y left, θ counter-clockwise; <var>r</var> = √(<var>e<sub>x</sub></var>² + <var>e<sub>y</sub></var>²)</dd>
 <dt>Centre of gravity</dt><dd><var>x</var><sub>cg</sub>, <var>y</var><sub>cg</sub>: means over the runs of one direction; <var>r</var><sub>cg</sub> = √(<var>x</var><sub>cg</sub>² + <var>y</var><sub>cg</sub>²)</dd>
 <dt>Largest systematic error</dt><dd><var>E</var><sub>max,syst</sub> = max(<var>r</var><sub>cg,cw</sub>, <var>r</var><sub>cg,ccw</sub>) (Borenstein and Feng). As the larger of two uncertain distances it reads somewhat high when it is near its standard error.</dd>
 <dt>RMS</dt><dd>√(Σ<var>e</var>² / <var>n</var>)</dd>

@@ -9,7 +9,7 @@ namespace astro::report {
 
 namespace {
 
-/// The number a run goes by: its own where the recording gave one, else its place.
+/// The number of a run: its index in the recording if there is one, otherwise its position.
 std::string run_number(const RunGroup& group, std::size_t position) {
   for (const auto& runs : group.phases) {
     if (position < runs.size() && runs[position]->info.index > 0)
@@ -50,7 +50,7 @@ std::string error_figure(const RunGroup& group, std::size_t number) {
     return R"(<p class="quiet">No ground truth was recorded along these runs, so there are no errors over time.</p>)";
   }
   return fmt::format(
-      R"(<figure data-figure="errors" data-group="{}"><figcaption>Errors along the way (true minus believed), <span class="chosen">run {}</span></figcaption>
+      R"(<figure data-figure="errors" data-group="{}"><figcaption>Errors along the way (ground truth minus odometry), <span class="chosen">run {}</span></figcaption>
 <div class="plot" role="img" aria-label="{}: x, y and heading error over time, every phase"></div></figure>)",
       number, run_number(group, 0), escape(group.title));
 }
@@ -72,7 +72,7 @@ std::string group_section(const ReportInput& input, const RunGroup& group, std::
 }  // namespace
 
 Section run_figures(const ReportInput& input, const std::vector<RunGroup>& groups) {
-  Section out{"runs", "Runs: believed against true path", ""};
+  Section out{"runs", "Runs: odometry against ground truth", ""};
   for (std::size_t i = 0; i < groups.size(); ++i) out.body += group_section(input, groups[i], i);
   return out;
 }

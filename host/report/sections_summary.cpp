@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "host/calibration/end_poses/sense.hpp"
 #include "host/report/figures.hpp"
 #include "host/report/html.hpp"
 #include "host/report/numbers.hpp"
@@ -9,10 +10,12 @@
 
 namespace astro::report {
 
+using calibration::FigureOfMerit;
+
 namespace {
 
 std::string phase_value(const SquarePhase& square) {
-  const Estimate e = largest_error_mm(*square.phase);
+  const FigureOfMerit e = largest_error_mm(*square.phase);
   return fmt::format(
       R"(<li class="phase-{}"><span class="label">{}</span> <span class="value"><strong>{}</strong>{}</span></li>)",
       square.index % kAccents, escape(capitalised(square.phase->title)),
@@ -23,8 +26,8 @@ std::string phase_value(const SquarePhase& square) {
 }
 
 std::string comparison(const Phase& first, const Phase& last) {
-  const Estimate before = largest_error_mm(first), after = largest_error_mm(last);
-  const Improvement gain = improvement(before, after);
+  const FigureOfMerit before = largest_error_mm(first), after = largest_error_mm(last);
+  const calibration::Improvement gain = calibration::improvement(before, after);
   return fmt::format(
       R"(<p class="gain"><strong>{}</strong> <span class="detail">improvement factor {}</span></p>
 <p class="sentence">{}</p>)",
@@ -37,8 +40,9 @@ std::string direction_text(const char* name, const calibration::ClusterSummary& 
 }
 
 std::string cluster_text(const Phase& phase) {
-  return fmt::format("{}: {}; {}.", phase.title, direction_text("clockwise", phase.squares.cw),
-                     direction_text("counter-clockwise", phase.squares.ccw));
+  return fmt::format("{}: {}; {}.", phase.title,
+                     direction_text(in_words(calibration::Sense::cw), phase.squares.cw),
+                     direction_text(in_words(calibration::Sense::ccw), phase.squares.ccw));
 }
 
 }  // namespace
@@ -51,7 +55,7 @@ std::vector<SquarePhase> square_phases(const ReportInput& input) {
   return out;
 }
 
-Estimate largest_error_mm(const Phase& phase) { return E_max_syst_mm(phase.squares); }
+FigureOfMerit largest_error_mm(const Phase& phase) { return E_max_syst_mm(phase.squares); }
 
 Section headline(const ReportInput& input) {
   Section out{"result", "Result", ""};
@@ -85,7 +89,7 @@ Section scatter(const ReportInput& input) {
         s.index, s.index % kAccents, escape(capitalised(s.phase->title)), escape(cluster_text(*s.phase)));
   }
   if (panels.empty()) return out;
-  out.body = R"(<p>Each mark is one run: true minus believed end pose, in the frame of its start.
+  out.body = R"(<p>Each mark is one run: ground truth minus odometry at its end, in the frame of its start.
 Large marks are the means (centres of gravity) with their standard errors; the circles about zero pass through them
 (radius <var>r</var><sub>cg</sub>), dashed for clockwise and dotted for counter-clockwise.</p>
 <fieldset class="selector" data-scale><legend>Scale</legend>

@@ -3,16 +3,20 @@
 #include <cmath>
 #include <functional>
 
+#include "host/calibration/end_poses/sense.hpp"
 #include "host/report/html.hpp"
 #include "host/report/numbers.hpp"
 #include "host/report/sections.hpp"
 
 namespace astro::report {
 
+using calibration::FigureOfMerit;
+
 namespace {
 
 using calibration::ClusterSummary;
 using calibration::EndPose;
+using calibration::Sense;
 using Ends = std::vector<EndPose>;
 
 std::string cell(const std::string& content) { return "<td>" + content + "</td>"; }
@@ -59,7 +63,7 @@ struct Merit {
   std::string label;
   double shown_per_unit;
   int decimals;
-  std::function<Estimate(const Phase&)> of;
+  std::function<FigureOfMerit(const Phase&)> of;
 };
 
 using Component = double (*)(const EndPose&);
@@ -71,7 +75,7 @@ Merit rms_merit(const char* symbol, const char* direction, const char* unit, End
           angle ? 1.0 : 1e3, angle ? 4 : 1, [=](const Phase& phase) {
             std::vector<double> values;
             for (const EndPose& end : phase.*ends) values.push_back(component(end));
-            return root_mean_square(values);
+            return calibration::root_mean_square(values);
           }};
 }
 
@@ -79,17 +83,17 @@ Merit distance_merit(const char* direction, ClusterSummary calibration::Experime
   return {fmt::format(R"(<var>r</var><sub>cg</sub>, {} <span class="unit">mm</span>)", direction), 1e3, 1,
           [=](const Phase& phase) {
             const ClusterSummary& c = phase.squares.*cluster;
-            return Estimate{c.r_cg_m, c.se_r_m, c.runs};
+            return FigureOfMerit{c.r_cg_m, c.se_r_m, c.runs};
           }};
 }
 
 std::vector<Merit> merits() {
   std::vector<Merit> out{
       {R"(<var>E</var><sub>max,syst</sub> <span class="unit">mm</span>)", 1, 1, largest_error_mm},
-      distance_merit("clockwise", &calibration::ExperimentSummary::cw),
-      distance_merit("counter-clockwise", &calibration::ExperimentSummary::ccw)};
+      distance_merit(in_words(Sense::cw), &calibration::ExperimentSummary::cw),
+      distance_merit(in_words(Sense::ccw), &calibration::ExperimentSummary::ccw)};
   for (const auto& [name, ends] :
-       {std::pair{"clockwise", &Phase::cw}, std::pair{"counter-clockwise", &Phase::ccw}}) {
+       {std::pair{in_words(Sense::cw), &Phase::cw}, std::pair{in_words(Sense::ccw), &Phase::ccw}}) {
     out.push_back(rms_merit("e<sub>x</sub>", name, "mm", ends, [](const EndPose& e) { return e.x_m; }));
     out.push_back(rms_merit("e<sub>y</sub>", name, "mm", ends, [](const EndPose& e) { return e.y_m; }));
     out.push_back(
@@ -102,9 +106,9 @@ std::vector<Merit> merits() {
 
 std::string merit_row(const Merit& merit, const std::vector<SquarePhase>& squares) {
   std::string row = "<tr><th scope=\"row\">" + merit.label + "</th>";
-  const Estimate first = merit.of(*squares.front().phase);
+  const FigureOfMerit first = merit.of(*squares.front().phase);
   for (std::size_t i = 0; i < squares.size(); ++i) {
-    const Estimate e = merit.of(*squares[i].phase);
+    const FigureOfMerit e = merit.of(*squares[i].phase);
     row += cell(
         with_error(e.value * merit.shown_per_unit, e.standard_error * merit.shown_per_unit, merit.decimals));
     if (i > 0) row += cell(describe(improvement(first, e)));
@@ -119,8 +123,9 @@ Section rms_tables(const ReportInput& input) {
   for (const auto& s : square_phases(input)) {
     const std::string title = escape(capitalised(s.phase->title));
     out.body += "<div class=\"tables\">" +
-                error_table(title + ", clockwise", s.phase->cw, s.phase->squares.cw) +
-                error_table(title + ", counter-clockwise", s.phase->ccw, s.phase->squares.ccw) + "</div>\n";
+                error_table(title + ", " + in_words(Sense::cw), s.phase->cw, s.phase->squares.cw) +
+                error_table(title + ", " + in_words(Sense::ccw), s.phase->ccw, s.phase->squares.ccw) +
+                "</div>\n";
   }
   return out;
 }

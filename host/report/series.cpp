@@ -12,10 +12,10 @@ std::vector<SeriesPoint> series_of(const recording::Run& run) {
   std::vector<SeriesPoint> points;
   points.reserve(paths.odometry.size());
   auto error = paths.error.begin();
-  for (const auto& believed : paths.odometry) {
-    points.push_back({believed.time_s, believed.pose, {kNone, kNone, kNone}});
+  for (const auto& sample : paths.odometry) {
+    points.push_back({sample.time_s, sample.pose, {kNone, kNone, kNone}});
     // The errors are a subset of the odometry's times, in the same order and with the same bits.
-    if (error != paths.error.end() && error->time_s == believed.time_s) points.back().error = (error++)->pose;
+    if (error != paths.error.end() && error->time_s == sample.time_s) points.back().error = (error++)->pose;
   }
   return points;
 }

@@ -6,7 +6,7 @@
 #include "host/recording/run/planar_pose.hpp"
 #include "host/recording/run/run.hpp"
 
-/// A run as the figures need it: what the robot believed and how wrong that was, at the same times.
+/// A run for the figures: odometry and its error at the same times.
 namespace astro::report {
 
 /// In the run's start frame, time from its first odometry sample. `error` is truth - odometry, NaN where the
@@ -16,8 +16,7 @@ struct SeriesPoint {
   recording::PlanarPose odometry, error;
 };
 
-/// recording::align_paths at the times of odometry: a silence of the tracker is shown as a gap, never
-/// bridged.
+/// recording::align_paths at the times of odometry: if the tracker is silent, the figure has a gap.
 std::vector<SeriesPoint> series_of(const recording::Run& run);
 
 /// At most `most` points (two or more), evenly spaced by index, the first and the last among them.

@@ -8,8 +8,8 @@
 #include "host/motor/model/step_figures.hpp"
 #include "host/report/report.hpp"
 
-/// The page of `astrolabe tune`: what voltage does to the wheels, the gains that follow, and steps of speed
-/// as predicted and as measured. One HTML file like the calibration's, from the same template.
+/// The report of a tuning: the motor models, the gains designed from them, and the predicted and measured
+/// responses to steps of speed. One HTML file like the calibration's, from the same template.
 namespace astro::report {
 
 struct MotorFigure {
@@ -18,7 +18,7 @@ struct MotorFigure {
   double breakaway_forward_V = 0, breakaway_backward_V = 0;  // NaN: not seen
 };
 
-/// One wheel's answer. Series of equal length; `measured_mps` is empty where only a prediction is shown.
+/// The response of one wheel. Series of equal length; `measured_mps` is empty where only a prediction is shown.
 struct StepLines {
   std::vector<double> time_s, set_point_mps, measured_mps, predicted_mps;
   motor::StepFigures measured, predicted;

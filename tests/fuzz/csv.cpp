@@ -34,7 +34,6 @@ void take(ByteView input) {
       require(row.cells.size() == table.header.cells.size(), "all rows are as wide as the header");
   });
   reading([&] { require(!calibration::read_end_poses(text, "x.csv").empty(), "a table has rows"); });
-  reading([&] { calibration::read_directed_end_poses(text, "x.csv"); });
   static const recording::Run run = standing_for_three_seconds();
   static const InputFile file(truth::truth_file_name(run.info));
   file.holding(input);

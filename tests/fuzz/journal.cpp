@@ -28,7 +28,7 @@ std::vector<Bytes> seeds() {
     experiment::Journal journal;
     journal.plan.truth = "sim";
     if (until) journal.plan.until = experiment::Until{0.001, 5};
-    journal.carried["before"] = {1, 1, 0.29};
+    journal.loaded["before"] = {1, 1, 0.29};
     experiment::write_journal(file.folder(), journal);
     std::ifstream text(file.path(), std::ios::binary);
     all.emplace_back((std::istreambuf_iterator<char>(text)), std::istreambuf_iterator<char>());

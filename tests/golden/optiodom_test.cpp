@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <numbers>
 
-#include "host/calibration/likelihood/maximum_likelihood.hpp"
+#include "host/calibration/end_poses/umbmark.hpp"
 #include "host/calibration/judgement/path_errors.hpp"
 #include "host/calibration/judgement/remarks.hpp"
-#include "host/calibration/end_poses/umbmark.hpp"
+#include "host/calibration/likelihood/maximum_likelihood.hpp"
 
 // A real robot that knew nothing of this project: OptiTrack and ticks of Sousa et al.
 namespace astro::golden {
@@ -112,10 +112,11 @@ TEST_F(Optiodom, CastorsKickAtTheEndOfSpins) {
   const MlEstimate found = estimate_ml(runs, kNominal);
   // Within a second the heading is 25 mrad further than the wheels say, and stays there: seen in a plot of
   // the differences, at the end of the first spin.
-  ASSERT_EQ(found.runs[5].jolts.size(), 1U);
-  EXPECT_NEAR(found.runs[5].jolts[0].since_start_s, 17.5, 0.2);
-  EXPECT_NEAR(found.runs[5].jolts[0].turned_rad, -0.025, 0.005);
-  for (const RunFit& run : estimate_ml(raw(), kNominal).runs) EXPECT_TRUE(run.jolts.empty()) << run.name;
+  ASSERT_EQ(found.runs[5].slip_events.size(), 1U);
+  EXPECT_NEAR(found.runs[5].slip_events[0].since_start_s, 17.5, 0.2);
+  EXPECT_NEAR(found.runs[5].slip_events[0].turned_rad, -0.025, 0.005);
+  for (const RunFit& run : estimate_ml(raw(), kNominal).runs)
+    EXPECT_TRUE(run.slip_events.empty()) << run.name;
 }
 
 TEST_F(Optiodom, TheSlipFoundInOneSetIsWhatAnotherShows) {

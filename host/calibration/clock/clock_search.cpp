@@ -14,11 +14,11 @@ constexpr double kFinestBin_s = 0.05;
 constexpr double kNearby_s = 1;
 constexpr double kGoodEnough = 0.95;
 constexpr double kMostSkew = 0.05;
-// Pairs of bins looked at where every offset has to be tried: a third of a second.
+// Number of pairs of bins to compare if every offset has to be tried. It takes a third of a second.
 constexpr double kMostWork = 4e7;
-// Laps of a drive are longer than this: fine enough to see that it repeats itself.
+// Laps of a drive take longer than this, so a repetition shows with bins of this size.
 constexpr double kLapBin_s = 0.2;
-// Twice a difference of log likelihoods: e^10 to one.
+// Twice a difference of log likelihoods: odds of e^10 to one.
 constexpr double kSurely = 20;
 constexpr std::size_t kMostPeaks = 4;
 
@@ -31,7 +31,7 @@ bool better(const Candidate& a, const Candidate& b) {
   return a.agreement.correlation > b.agreement.correlation;
 }
 
-/// The search in one run, its body at one place.
+/// The search in one run, with the tracked body at one assumed place.
 class Search {
  public:
   explicit Search(const RecordedMotion& motion)
@@ -47,22 +47,22 @@ class Search {
     return polished(match, best, false);
   }
 
-  /// Offsets at which the correlation peaks, with valleys in between, best first.
+  /// Local maxima of the correlation over the offset, separated by valleys; the best first.
   std::vector<Candidate> everywhere(std::optional<double> skew) const {
     const double bin_s = affordable_bin_s(skew.has_value());
     return refined(peaks(scan(bin_s, skew)), bin_s, !skew);
   }
 
-  /// The same for a drive whose laps could be mistaken: coarse, and at one skew.
+  /// The same with coarse bins and one skew, to find laps that could be mistaken for one another.
   std::vector<Candidate> laps(double skew) const {
     const double bin_s = std::max(kLapBin_s, affordable_bin_s(true));
     return refined(peaks(scan(bin_s, skew)), bin_s, false);
   }
 
-  /// By how much the one explains the motion better, as twice a difference of log likelihoods.
+  /// By how much `one` explains the motion better, as twice a difference of log likelihoods.
   double advantage(const Candidate& one, const Candidate& other) const {
     const double samples = one.agreement.overlap_s / motion_.window().support_s();
-    constexpr double kLeast = 1e-12;  // of a perfect match rounding leaves less, or nothing
+    constexpr double kLeast = 1e-12;  // rounding leaves less than this, or nothing, of a perfect match
     return samples * std::log(std::max(kLeast, other.agreement.unexplained) /
                               std::max(kLeast, one.agreement.unexplained));
   }
@@ -78,14 +78,14 @@ class Search {
     return {guess, match.at(guess)};
   }
 
-  /// Moved by `offset_s`; a skew turns about the middle of the shorter recording.
+  /// The guess shifted by `offset_s`. The skew applies about the middle of the shorter recording.
   static Candidate moved(const MotionMatch& match, ClockGuess guess, double offset_s, double skew) {
     guess.robot_s += offset_s;
     guess.skew += skew;
     return tried(match, guess);
   }
 
-  // By how much a skew moves the ends of the shorter recording by two bins.
+  // The skew that moves the ends of the shorter recording by two bins.
   double skew_step(double bin_s) const { return 4 * bin_s / std::max(shorter_s_, 1.0); }
 
   double affordable_bin_s(bool skew_known) const {
@@ -133,7 +133,7 @@ class Search {
     return found;
   }
 
-  /// Halves the bins until they are the finest.
+  /// Refines the candidates with bins of half the size, until the bins are the finest.
   std::vector<Candidate> refined(std::vector<Candidate> found, double bin_s, bool free_skew) const {
     while (true) {
       bin_s = std::max(kFinestBin_s, bin_s / 2);
@@ -153,7 +153,7 @@ class Search {
     return found;
   }
 
-  /// The tops of parabolas through the neighbours.
+  /// Moves the candidate to the maxima of parabolas through its neighbours.
   Candidate polished(const MotionMatch& match, const Candidate& found, bool free_skew) const {
     const auto top = [](double a, double b, double c) {
       const double bend = a - 2 * b + c;
@@ -211,7 +211,7 @@ ClockFit search_everywhere(const Search& search, const Candidate& nearby, std::o
 }  // namespace
 
 ClockFit search_clock(const Trajectory& run, double wheelbase_m, std::optional<double> skew) {
-  // Where the body is does not matter much to one whose turning is seen.
+  // With headings the place of the body matters little, because they show the turning.
   std::vector<double> levers_m{0};
   if (!mostly_headings(run.truth)) levers_m.insert(levers_m.end(), {wheelbase_m / 2, 2 * wheelbase_m});
   std::vector<RecordedMotion> motions;

@@ -7,7 +7,7 @@
 namespace astro::calibration {
 namespace {
 
-// In variances of the noise: truth that moves by less does not agree with anything.
+// In variances of the noise: a motion of truth below this is not distinguishable from noise.
 constexpr double kLeastMotion = 3;
 
 double part(double some, double all) { return all > 0 ? std::clamp(some / all, 0.0, 1.0) : 0; }
@@ -18,7 +18,7 @@ double cosine(double both, double wheels, double truth) {
 
 }  // namespace
 
-/// Takes the means off.
+/// Subtracts the means from the profile and returns them.
 MotionMatch::Whole MotionMatch::centred(MotionProfile& profile) {
   Whole whole;
   for (std::size_t i = 0; i < profile.known.size(); ++i) {
@@ -40,7 +40,7 @@ MotionMatch::Whole MotionMatch::centred(MotionProfile& profile) {
 
 struct MotionMatch::Sums {
   double count = 0;
-  double wheel[2] = {}, truth[2] = {};                  // of the rates, the means taken off
+  double wheel[2] = {}, truth[2] = {};                  // of the rates, their means subtracted
   double wheel_square = 0, truth_square = 0, both = 0;  // of both channels together
 };
 

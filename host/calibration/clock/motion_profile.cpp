@@ -65,7 +65,7 @@ BodyPath::BodyPath(std::span<const BodySample> samples, bool headings) : heading
     if (!std::isfinite(sample.x_m) || !std::isfinite(sample.y_m)) continue;
     if (headings && !std::isfinite(sample.theta_rad)) continue;
     if (!first) first = sample;
-    // From the first one on, for an integral of large numbers has few digits left.
+    // Values relative to the first one, because an integral of large numbers loses digits.
     position_m_.add(sample.time_s, {sample.x_m - first->x_m, sample.y_m - first->y_m});
     if (!headings) continue;
     heading_rad += std::remainder(sample.theta_rad - first->theta_rad - heading_rad, turn);

@@ -7,32 +7,32 @@
 
 #include "host/calibration/motion/trajectory.hpp"
 
-/// How fast something moves, which is what two recordings of one drive have in common before their frames and
+/// Speeds and turn rates over time: what two recordings of one drive have in common before their frames and
 /// clocks are known.
 namespace astro::calibration {
 
-/// Over what time a speed is taken. Plain: between two moments 2 half_s apart. Averaged: between the means
-/// over two neighbouring times of 2 half_s each, which lets noise of n samples in each count by 1 / sqrt(n).
+/// The time window over which a speed is computed. Plain: from two moments 2 half_s apart. Averaged: from the
+/// means over two adjacent windows of 2 half_s each, which reduces the noise of n samples by 1 / sqrt(n).
 struct Window {
   double half_s = 0.1;
   bool averaged = false;
 
-  /// The time that one speed is made from.
+  /// The time span whose samples make one speed.
   double support_s() const { return averaged ? 4 * half_s : 2 * half_s; }
 };
 
-/// Speed of a body and turn rate, both in m/s: the turn rate is that of a wheel about the centre. Signs are
-/// left out, so that mirrored axes and exchanged wheels look alike.
+/// Speed of a body and turn rate, both in m/s: the turn rate as the speed of a wheel about the centre. Both
+/// without sign, so that mirrored axes and exchanged wheels make no difference.
 struct Rate {
   double speed_mps = 0, turn_mps = 0;
 };
 
-/// A quantity between its samples, on a line, with its integral.
+/// A quantity interpolated linearly between its samples, with its integral.
 template <class Value>
 class Stream {
  public:
   void add(double time_s, Value value);
-  /// Change per second about a moment. Nothing near the ends and beside a gap of more than a second.
+  /// Change per second about a moment. Nothing near the ends and next to a gap of more than a second.
   std::optional<Value> rate(double time_s, const Window& window) const;
 
  private:
@@ -46,12 +46,12 @@ class Stream {
   std::vector<int> gaps_;  // before each sample
 };
 
-/// A body's way through the plane. Without headings its turn rate is zero.
+/// A body's path in the plane. Without headings its turn rate is zero.
 class BodyPath {
  public:
   BodyPath(std::span<const BodySample> samples, bool headings);
 
-  /// Nothing where it is not known. `radius_m`: what makes a turn a speed.
+  /// Nothing where it is not known. `radius_m` converts the turn rate into a speed.
   std::optional<Rate> rate(double time_s, const Window& window, double radius_m) const;
 
  private:
@@ -60,15 +60,15 @@ class BodyPath {
   Stream<double> heading_rad_;
 };
 
-/// A point `lever_m` ahead of a nominal robot's centre, by its wheels alone; beyond their ends it stands
-/// still, for so long as `beyond_s`. Cost  40 poses for each second.
+/// The path of a point `lever_m` ahead of a nominal robot's centre, from its wheels alone. Before and after
+/// their samples it stands still for `beyond_s`. Cost  40 poses for each second.
 BodyPath wheel_body(std::span<const WheelSample> wheels, double wheelbase_m, double lever_m, double beyond_s);
 
 /// Rates at equal steps of time, one column each.
 struct MotionProfile {
   double first_s = 0, bin_s = 0;
   std::vector<double> speed_mps, turn_mps;
-  std::vector<char> known;  // whether; not a vector of bits, for it is asked a million times
+  std::vector<char> known;  // bool in a char: it is read a million times, and a vector of bits is slower
 };
 MotionProfile profile_of(const BodyPath& path, double from_s, double to_s, double bin_s, const Window& window,
                          double radius_m);

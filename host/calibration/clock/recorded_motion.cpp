@@ -8,11 +8,12 @@
 namespace astro::calibration {
 namespace {
 
-// Of how the wheels' speed varies: noise that hides nothing of it.
+// Noise relative to the variation of the wheels' speed that hides nothing of it.
 constexpr double kWantedNoise = 0.2;
 constexpr double kLongestHalfWindow_s = 0.5;
-constexpr double kBeyond_s = 5;  // of the wheels' ends, where they stand still: more than any window
-// Fine enough for the wheels' variation, and for nothing else.
+constexpr double kBeyond_s =
+    5;  // of standing still before and after the wheels' samples: longer than any window
+// Bins fine enough for the variation of the wheels' speed.
 constexpr double kGlance_s = 0.1;
 
 double standard_deviation_mps(const MotionProfile& profile) {

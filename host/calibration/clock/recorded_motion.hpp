@@ -4,19 +4,19 @@
 #include "host/calibration/clock/motion_profile.hpp"
 #include "host/calibration/motion/trajectory.hpp"
 
-/// Both streams of one run as motions, told over as long as the tracker's noise asks for.
+/// Both streams of one run as speeds, averaged over a window long enough to suppress the tracker's noise.
 namespace astro::calibration {
 
 class RecordedMotion {
  public:
-  /// `lever_m`: how far ahead of the centre the tracked body is thought to be. `run` must outlive this.
+  /// `lever_m`: assumed distance of the tracked body ahead of the centre. `run` must outlive this.
   RecordedMotion(const Trajectory& run, double wheelbase_m, double lever_m);
 
-  /// Time over which one speed is taken: a fifth of a second, or more where the tracker's noise would
-  /// otherwise be more than a fifth of how the wheels' speed varies: 0.9 s for 5 cm at 60 Hz.
+  /// The window of one speed: a fifth of a second, or longer if the tracker's noise would otherwise exceed a
+  /// fifth of the variation of the wheels' speed: 0.9 s for 5 cm at 60 Hz.
   const Window& window() const { return window_; }
 
-  /// Bins much coarser than the window see motions told over a bin.
+  /// Bins much coarser than the window use speeds averaged over a bin.
   MotionMatch match(double bin_s) const;
 
   double wheel_middle_s() const { return (run_.wheels.front().time_s + run_.wheels.back().time_s) / 2; }
@@ -31,7 +31,7 @@ class RecordedMotion {
 
   const Trajectory& run_;
   bool headings_;
-  double radius_m_;  // of a wheel about the centre; 0 without headings: then turning is no motion
+  double radius_m_;  // of a wheel about the centre; 0 without headings, so that turning does not count
   BodyPath wheels_, truth_;
   double sigma_m_ = 0, truth_rate_hz_ = 0;
   Window window_;

@@ -2,14 +2,16 @@
 
 #include "host/calibration/end_poses/end_pose.hpp"
 
-/// The closed formulas from mean end poses to E_d and E_b, without a word about runs, scatter or files.
+/// The closed formulas from mean end poses to E_d and E_b. Runs, scatter and files are not their business.
 ///
-/// alpha: turn error of one spin (odometry's quarter turn minus the true one); beta: what one leg turns too
-/// far to the left. Both in radians. E_d = D_R / D_L, E_b = b_actual / b_believed. Errors  none; side_m and
-/// b_m are positive and finite. A nonsense mean gives a nonsense ratio, not a trap.
+/// alpha: turn error of one spin (the odometry's quarter turn minus the true one); beta: how far one leg
+/// turns to the left. Both in radians. E_d = D_R / D_L, E_b = b_actual / b_odometry.
+///
+/// Precondition: side_m and b_m are positive and finite.
+/// Errors  none. A mean that no robot has gives a ratio that no robot has.
 namespace astro::calibration {
 
-/// Centres of gravity of the two directions.
+/// Mean end poses (centres of gravity) of the two directions.
 struct MeanErrors {
   EndPose cw, ccw;
 };
@@ -38,7 +40,7 @@ SquareAngles angles_from_positions(const MeanErrors& mean, double side_m, AngleS
 /// Jung & Chung: four spins and four legs add up to the end heading; exact for any size of the angles.
 SquareAngles angles_from_headings(const MeanErrors& mean);
 
-/// UMBmark as printed: curvature = 2 sin(beta / 2) / L, E_d with the believed wheelbase.
+/// UMBmark as printed: curvature = 2 sin(beta / 2) / L, E_d with the wheelbase of the odometry.
 Ratios umbmark_ratios(const MeanErrors& mean, double side_m, double b_m, AngleSource source);
 
 /// Extended UMBmark. exact: curvature = beta / L (L is an arc length) and no alpha_Ed.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/base/error.hpp"
+#include "host/calibration/end_poses/sense.hpp"
 
 namespace astro::calibration {
 namespace {
@@ -30,7 +31,7 @@ struct MeanAndSquares {
   int count = 0;
 };
 
-/// Of one coordinate over the runs in which it was measured; NaN where there is none.
+/// Statistics of one coordinate over the runs in which it was measured; NaN if there is none.
 MeanAndSquares moments_of(std::span<const EndPose> runs, double EndPose::*value) {
   std::vector<double> measured;
   for (const EndPose& run : runs)
@@ -77,8 +78,8 @@ ClusterSummary summarize(std::span<const EndPose> runs) { return summarize_set(r
 
 ExperimentSummary summarize(std::span<const EndPose> cw, std::span<const EndPose> ccw) {
   ExperimentSummary out;
-  out.cw = summarize_set(cw, "clockwise ");
-  out.ccw = summarize_set(ccw, "counter-clockwise ");
+  out.cw = summarize_set(cw, std::string(in_words(Sense::cw)) + ' ');
+  out.ccw = summarize_set(ccw, std::string(in_words(Sense::ccw)) + ' ');
   const ClusterSummary& worse = out.cw.r_cg_m > out.ccw.r_cg_m ? out.cw : out.ccw;
   out.E_max_syst_m = worse.r_cg_m;
   out.se_E_max_syst_m = worse.se_r_m;

@@ -15,8 +15,8 @@ struct EndPose {
 /// The figures of the thesis's tables for one direction, with the standard errors of the means.
 ///
 /// se_r is hypot(se_x, se_y), the rms distance of the measured centre from the true one. The first-order
-/// error along the direction of the centre would be smaller, and wrong where it matters: after a calibration
-/// the centre lies within its own scatter and has no direction worth the name. All are NaN for one run.
+/// error along the direction of the centre would be smaller, and wrong after a calibration: then
+/// the centre lies within its own scatter and has no defined direction. All are NaN for one run.
 struct ClusterSummary {
   int runs = 0;
   double x_cg_m = 0, y_cg_m = 0, theta_cg_rad = 0;  // centre of gravity: mean over the runs
@@ -33,7 +33,7 @@ struct ExperimentSummary {
 };
 
 /// Throws astro::Error if a set is empty or holds a value that is not finite.
-/// A missing heading (NaN) is no error: the figures of theta are those of the runs that have one.
+/// A missing heading (NaN) is no error: the figures of theta are those of the runs with a heading.
 ClusterSummary summarize(std::span<const EndPose> runs);
 ExperimentSummary summarize(std::span<const EndPose> cw, std::span<const EndPose> ccw);
 

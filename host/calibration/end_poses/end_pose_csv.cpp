@@ -61,7 +61,7 @@ std::optional<double> factor_of(const std::string& title, const Quantity& quanti
   return std::nullopt;
 }
 
-/// A title that means the quantity but does not say in which unit: "ex", "ex_inch", "ex [mm]".
+/// Whether a title names the quantity without a known unit: "ex", "ex_inch", "ex [mm]".
 bool lacks_unit(const std::string& title, const Quantity& quantity) {
   for (const std::string_view name : {quantity.name, quantity.alias}) {
     if (!title.starts_with(name)) continue;
@@ -107,8 +107,8 @@ double number(const CsvRow& row, const Column& column, std::string_view name) {
   if (cell.empty())
     refuse(name, row.line, where + "the cell is empty: write the number or leave the run out");
   const char* const end = cell.data() + cell.size();
-  // from_chars takes no plus sign, a spreadsheet may write one; and it does not depend on the locale, as
-  // strtod does.
+  // from_chars, because unlike strtod it does not depend on the locale. It accepts no plus sign, which a
+  // spreadsheet may write.
   const char* const begin = cell.data() + (cell[0] == '+' && cell.size() > 1 && cell[1] != '-' ? 1 : 0);
   double value = 0;
   const auto [stop, error] = std::from_chars(begin, end, value);
@@ -170,18 +170,6 @@ std::vector<EndPose> read_end_poses(std::string_view text, std::string_view name
              "column direction: the file mixes cw and ccw runs where one direction is wanted: split it");
     }
     out.push_back(pose(row, columns, name));
-  }
-  return out;
-}
-
-DirectedEndPoses read_directed_end_poses(std::string_view text, std::string_view name) {
-  const CsvTable table = split_csv(text, name);
-  const Columns columns = find_columns(table, name);
-  if (!columns.direction)
-    refuse(name, table.header.line, "there is no column direction: add it, with cw or ccw per run");
-  DirectedEndPoses out;
-  for (const CsvRow& row : table.rows) {
-    (is_clockwise(row, *columns.direction, name) ? out.cw : out.ccw).push_back(pose(row, columns, name));
   }
   return out;
 }

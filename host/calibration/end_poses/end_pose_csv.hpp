@@ -5,19 +5,20 @@
 
 #include "host/calibration/end_poses/end_pose.hpp"
 
-/// End poses from comma separated text, as a spreadsheet or a hand writes it.
+/// End poses from comma separated text that a spreadsheet or a person wrote.
 ///
 /// The first line names the columns, each with its unit, in any order and case:
 ///
 ///   ex_mm   | ex_cm ... | x_err_m ...              error in x, required
 ///   ey_mm   | ey_cm ... | y_err_m ...              error in y, required
 ///   etheta_rad | etheta_deg | heading_err_deg ...  error of the heading; no column or an empty cell: not
-///   measured direction                                      cw or ccw, for read_directed_end_poses
+///                                                  measured
+///   direction                                      cw or ccw, the same in all rows
 ///
 /// Other columns (run, euclid_mm, ...) are ignored. A byte order mark, CRLF or CR line ends, blank lines,
 /// spaces round a cell and quoted cells are accepted. Numbers have a decimal point, whatever the locale.
 ///
-/// `name` (the file's) opens every message. Throws astro::Error with the line and the column for
+/// Every message begins with `name`, the name of the file. Throws astro::Error with the line and the column for
 ///   a column that is missing, doubled, or without a known unit; no header; no data rows
 ///   a row with too few or too many cells; an open quote; semicolons; text that is not UTF-8
 ///   a cell that is empty, not a number, not finite, or not a direction
@@ -25,13 +26,5 @@ namespace astro::calibration {
 
 /// The rows in file order. Refuses a file whose `direction` column mixes both directions.
 std::vector<EndPose> read_end_poses(std::string_view text, std::string_view name);
-
-struct DirectedEndPoses {
-  std::vector<EndPose> cw, ccw;
-};
-
-/// The tape-measure form `run,direction,x_err_m,y_err_m,heading_err_deg`: both directions in one file. A
-/// direction that does not occur gives an empty list.
-DirectedEndPoses read_directed_end_poses(std::string_view text, std::string_view name);
 
 }  // namespace astro::calibration

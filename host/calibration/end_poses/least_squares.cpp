@@ -11,27 +11,27 @@
 namespace astro::calibration {
 namespace {
 
-using Parameters = Eigen::Vector2d;  // ln E_d, ln E_b: a step can never make a ratio negative
+using Parameters = Eigen::Vector2d;  // ln E_d, ln E_b, so that no step makes a ratio negative
 using Residuals = Eigen::Vector4d;
 using Jacobian = Eigen::Matrix<double, 4, 2>;
 
 struct Problem {
   const MeanErrors& mean;
   double side_m;
-  const WheelFactors& carried;
+  const WheelFactors& loaded;
   double weight_cw, weight_ccw;
 
   Residuals operator()(const Parameters& p) const {
-    const WheelFactors truth = compose(carried, std::exp(p(0)), std::exp(p(1)));
-    const EndPose cw = replay_square(side_m, Sense::cw, carried, truth);
-    const EndPose ccw = replay_square(side_m, Sense::ccw, carried, truth);
+    const WheelFactors truth = compose(loaded, std::exp(p(0)), std::exp(p(1)));
+    const EndPose cw = replay_square(side_m, Sense::cw, loaded, truth);
+    const EndPose ccw = replay_square(side_m, Sense::ccw, loaded, truth);
     return {weight_cw * (cw.x_m - mean.cw.x_m), weight_cw * (cw.y_m - mean.cw.y_m),
             weight_ccw * (ccw.x_m - mean.ccw.x_m), weight_ccw * (ccw.y_m - mean.ccw.y_m)};
   }
 
   Jacobian derivative(const Parameters& p) const {
     constexpr double kStep =
-        1e-5;  // rounding 1e-11 and curvature 1e-10, both relative: far from the fit's own error
+        1e-5;  // errors of 1e-11 by rounding and 1e-10 by curvature, far below the fit's own error
     Jacobian out;
     for (int column = 0; column < 2; ++column) {
       const Parameters step = kStep * Parameters::Unit(column);
@@ -64,14 +64,14 @@ Parameters solve(const Problem& problem, Parameters p) {
 
 }  // namespace
 
-Ratios fit_end_positions(const MeanErrors& mean, RunCounts runs, double side_m, const WheelFactors& carried) {
-  const Problem problem{mean, side_m, carried, std::sqrt(runs.cw), std::sqrt(runs.ccw)};
-  const Parameters p = solve(problem, start(mean, side_m, carried.b_m));
+Ratios fit_end_positions(const MeanErrors& mean, RunCounts runs, double side_m, const WheelFactors& loaded) {
+  const Problem problem{mean, side_m, loaded, std::sqrt(runs.cw), std::sqrt(runs.ccw)};
+  const Parameters p = solve(problem, start(mean, side_m, loaded.b_m));
 
   Ratios out{.E_d = std::exp(p(0)), .E_b = std::exp(p(1))};
-  const WheelFactors truth = compose(carried, out.E_d, out.E_b);
-  const double right = truth.c_r / carried.c_r;
-  const double left = truth.c_l / carried.c_l;
+  const WheelFactors truth = compose(loaded, out.E_d, out.E_b);
+  const double right = truth.c_r / loaded.c_r;
+  const double left = truth.c_l / loaded.c_l;
   out.alpha_rad = std::numbers::pi / 2 * (1 - (right + left) / 2 / out.E_b);
   out.beta_rad = side_m * (right - left) / truth.b_m;
   out.curvature_per_m = (right - left) / truth.b_m / ((right + left) / 2);

@@ -21,7 +21,7 @@ constexpr std::array kCoordinates{Coordinate{"x", &EndPose::x_m}, Coordinate{"y"
                                   Coordinate{"theta", &EndPose::theta_rad}};
 
 struct Others {
-  double median = 0, reach = 0;  // reach: of the farthest from the median
+  double median = 0, reach = 0;  // reach: largest distance from the median
 };
 
 std::optional<Others> others_than(std::span<const EndPose> runs, std::size_t index, double EndPose::*value) {
@@ -34,7 +34,7 @@ std::optional<Others> others_than(std::span<const EndPose> runs, std::size_t ind
   return others;
 }
 
-/// Whether it would be among the others with its decimal point elsewhere: nearer to them by five times.
+/// Whether it would be five times closer to the others with its decimal point moved.
 bool is_shifted(double value, const Others& others) {
   for (const double shift : {1e-3, 1e-2, 1e-1, 1e1, 1e2, 1e3})
     if (std::abs(shift * value - others.median) * kFar < std::abs(value - others.median)) return true;
@@ -51,8 +51,7 @@ std::optional<OddRun> mistyped_run(std::span<const EndPose> runs, double side_m)
       const double value = runs[i].*coordinate.value;
       const auto others = others_than(runs, i, coordinate.value);
       if (!std::isfinite(value) || !others || !is_shifted(value, *others)) continue;
-      // Anything is nearer to 0 with its decimal point moved, which says little if the others scatter about
-      // 0.
+      // If the others scatter about 0, every number comes closer to them with its decimal point moved.
       const bool scatter = std::abs(others->median) <= 2 * others->reach;
       const double least =
           (scatter ? 2 : 1) *

@@ -17,8 +17,8 @@ struct OddRun {
   double value = 0, others = 0;  // metres or radians; others: their median
 };
 
-/// The oddest of runs that were driven alike, or none. Needs at least three runs, because of two nobody can
-/// tell which is wrong; `side_m` is that of their square. Far means five times as far from the median of the
+/// The run that stands out most among runs that were driven alike, or none. Needs at least three runs, because
+/// with two it is undecided which is wrong. `side_m` is the side of their square. Far means five times as far from the median of the
 /// others as the farthest of these, and at least by 2.5 % of the side (1.5 degrees for a heading), twice that
 /// if the others scatter about 0: runs of one robot scatter by less (Borenstein & Feng: 1 % of a side of 4
 /// m).

@@ -7,11 +7,11 @@
 #include "host/calibration/motion/arc.hpp"
 
 namespace astro::calibration {
-EndPose replay_square(double side_m, Sense sense, const WheelFactors& believed, const WheelFactors& truth) {
-  const double right = truth.c_r / believed.c_r;
-  const double left = truth.c_l / believed.c_l;
+EndPose replay_square(double side_m, Sense sense, const WheelFactors& odometry, const WheelFactors& truth) {
+  const double right = truth.c_r / odometry.c_r;
+  const double left = truth.c_l / odometry.c_l;
   const double sign = sense == Sense::ccw ? 1 : -1;
-  const double spin_m = sign * believed.b_m * std::numbers::pi / 4;
+  const double spin_m = sign * odometry.b_m * std::numbers::pi / 4;
   EndPose pose;
   for (int leg = 0; leg < 4; ++leg) {
     advance(pose, side_m * right, side_m * left, truth.b_m);
@@ -21,9 +21,9 @@ EndPose replay_square(double side_m, Sense sense, const WheelFactors& believed, 
   return pose;
 }
 
-double replay_E_max_syst_m(double side_m, const WheelFactors& believed, const WheelFactors& truth) {
+double replay_E_max_syst_m(double side_m, const WheelFactors& odometry, const WheelFactors& truth) {
   const auto r_m = [&](Sense sense) {
-    const EndPose error = replay_square(side_m, sense, believed, truth);
+    const EndPose error = replay_square(side_m, sense, odometry, truth);
     return std::hypot(error.x_m, error.y_m);
   };
   return std::max(r_m(Sense::cw), r_m(Sense::ccw));

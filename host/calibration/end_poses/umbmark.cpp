@@ -9,6 +9,7 @@
 #include "host/base/error.hpp"
 #include "host/calibration/end_poses/compose.hpp"
 #include "host/calibration/end_poses/least_squares.hpp"
+#include "host/calibration/end_poses/sense.hpp"
 
 namespace astro::calibration {
 namespace {
@@ -19,7 +20,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 struct Experiment {
   double side_m;
-  const WheelFactors& carried;
+  const WheelFactors& loaded;
   const Options& options;
   RunCounts runs;
 
@@ -27,36 +28,36 @@ struct Experiment {
     const MeanErrors mean{{m(0), m(1), m(2)}, {m(3), m(4), m(5)}};
     switch (options.method) {
       case Method::extended:
-        return extended_ratios(mean, side_m, carried.b_m, options.formula);
+        return extended_ratios(mean, side_m, loaded.b_m, options.formula);
       case Method::least_squares:
-        return fit_end_positions(mean, runs, side_m, carried);
+        return fit_end_positions(mean, runs, side_m, loaded);
       case Method::umbmark:
         break;
     }
-    return umbmark_ratios(mean, side_m, carried.b_m, options.angles);
+    return umbmark_ratios(mean, side_m, loaded.b_m, options.angles);
   }
 
   Vector5 results(const Vector6& m) const {
     const Ratios r = ratios(m);
-    const WheelFactors f = compose(carried, r.E_d, r.E_b);
+    const WheelFactors f = compose(loaded, r.E_d, r.E_b);
     return (Vector5() << r.E_d, r.E_b, f.c_r, f.c_l, f.b_m).finished();
   }
 };
 
 void require_inputs(std::span<const EndPose> cw, std::span<const EndPose> ccw, double side_m,
-                    const WheelFactors& carried) {
+                    const WheelFactors& loaded) {
   if (!std::isfinite(side_m) || side_m <= 0) {
     throw Error("the side of the square is " + std::to_string(side_m) +
                 " m: give the length of one leg in metres, such as 3");
   }
-  require_usable(carried);
+  require_usable(loaded);
   if (cw.empty() && ccw.empty()) {
     throw Error(
         "there are no runs at all: drive the square at least once clockwise and once counter-clockwise");
   }
   if (cw.empty() || ccw.empty()) {
     throw Error(
-        std::string("there are no ") + (cw.empty() ? "clockwise" : "counter-clockwise") +
+        std::string("there are no ") + in_words(cw.empty() ? Sense::cw : Sense::ccw) +
         " runs, and one direction alone cannot separate the error of the wheel diameters from that of the "
         "wheelbase: drive the square in both directions");
   }
@@ -95,7 +96,7 @@ Vector6 means_of(const ExperimentSummary& s) {
       .finished();
 }
 
-/// Of the mean of one direction. A heading that was not measured is held at zero, without variance.
+/// Covariance of the mean of one direction. A heading that was not measured is zero without variance.
 Eigen::Matrix3d covariance_of_mean(std::span<const EndPose> runs) {
   Eigen::Matrix3Xd deviations(3, static_cast<Eigen::Index>(runs.size()));
   for (Eigen::Index i = 0; i < deviations.cols(); ++i) {
@@ -107,8 +108,8 @@ Eigen::Matrix3d covariance_of_mean(std::span<const EndPose> runs) {
   return deviations * deviations.transpose() / (n * (n - 1));  // 0 / 0 = NaN for one run, as promised
 }
 
-/// Delta method: J C J^T with a central difference for J. The step leaves 1e-9 of J to rounding and less to
-/// curvature.
+/// Delta method: J C J^T with a central difference for J. The step makes J wrong by 1e-9 through rounding and
+/// by less through curvature.
 StandardErrors standard_errors(const Experiment& experiment, const Vector6& mean, const Matrix6& covariance) {
   constexpr double kStep = 1e-5;  // of the side, or radians
   Eigen::Matrix<double, 5, 6> jacobian;
@@ -124,19 +125,19 @@ StandardErrors standard_errors(const Experiment& experiment, const Vector6& mean
 }  // namespace
 
 Estimate estimate_factors(std::span<const EndPose> cw, std::span<const EndPose> ccw, double side_m,
-                          const WheelFactors& carried, const Options& options) {
-  require_inputs(cw, ccw, side_m, carried);
+                          const WheelFactors& loaded, const Options& options) {
+  require_inputs(cw, ccw, side_m, loaded);
   Estimate out;
   out.options = options;
   out.side_m = side_m;
-  out.carried = carried;
+  out.loaded = loaded;
   out.summary = summarize(cw, ccw);
   if (options.method == Method::extended) {
-    require_headings(cw, "clockwise");
-    require_headings(ccw, "counter-clockwise");
+    require_headings(cw, in_words(Sense::cw));
+    require_headings(ccw, in_words(Sense::ccw));
   }
 
-  const Experiment experiment{side_m, carried, options, {out.summary.cw.runs, out.summary.ccw.runs}};
+  const Experiment experiment{side_m, loaded, options, {out.summary.cw.runs, out.summary.ccw.runs}};
   const Vector6 mean = means_of(out.summary);
   const Ratios ratios = experiment.ratios(mean);
   require_plausible(ratios);
@@ -146,7 +147,7 @@ Estimate estimate_factors(std::span<const EndPose> cw, std::span<const EndPose> 
   out.radius_m = 1 / ratios.curvature_per_m;
   out.E_d = ratios.E_d;
   out.E_b = ratios.E_b;
-  out.factors = compose(carried, ratios.E_d, ratios.E_b);
+  out.factors = compose(loaded, ratios.E_d, ratios.E_b);
 
   Matrix6 covariance = Matrix6::Zero();
   covariance.topLeftCorner<3, 3>() = covariance_of_mean(cw);

@@ -23,8 +23,8 @@ struct Options {
 };
 
 /// Standard errors from the scatter of the runs within each direction, to first order. All NaN with fewer
-/// than two runs in a direction: one run shows no scatter. They hold no bias of the method, no error of the
-/// side length, and nothing of the uncertainty of what the robot carried.
+/// than two runs in a direction: one run shows no scatter. They do not include the bias of the method, the
+/// error of the side length, or the uncertainty of the loaded factors.
 struct StandardErrors {
   double E_d = 0, E_b = 0, c_r = 0, c_l = 0, b_m = 0;
 };
@@ -32,26 +32,26 @@ struct StandardErrors {
 struct Estimate {
   Options options;
   double side_m = 0;
-  WheelFactors carried;  // what the robot believed while it drove
+  WheelFactors loaded;  // the factors of the odometry during the runs
 
   double alpha_rad = 0, beta_rad = 0, alpha_Ed_rad = 0;  // see closed_form.hpp
   double radius_m = 0;  // of a leg: positive curves to the left, infinite when beta is 0
   double E_d = 1, E_b = 1;
-  WheelFactors factors;  // what to load: E_d and E_b composed with `carried`, see compose.hpp
+  WheelFactors factors;  // what to load: E_d and E_b composed with `loaded`, see compose.hpp
   StandardErrors se;
   ExperimentSummary summary;
 };
 
-/// `side_m` is the leg as the odometry measured it. `carried` are the factors in force during all of the
+/// `side_m` is the leg as the odometry measured it. `loaded` are the factors in force during all of the
 /// runs; for a nominal robot {1, 1, nominal wheelbase}.
 ///
-/// Throws astro::Error, each with its remedy, when
+/// Throws astro::Error with its remedy if
 ///   a direction is missing, a value is not finite, or only some runs of a direction have a heading
 ///   the method is extended and a run has no heading, or one beyond half a turn
-///   the side or a carried factor is not positive and finite
-///   a ratio comes out beyond 0.5..2: wrong units, side or sets, not a robot
+///   the side or a loaded factor is not positive and finite
+///   a ratio is outside 0.5..2, which means wrong units, side or sets
 Estimate estimate_factors(std::span<const EndPose> cw, std::span<const EndPose> ccw, double side_m,
-                          const WheelFactors& carried, const Options& options = {});
+                          const WheelFactors& loaded, const Options& options = {});
 
 /// The names users type and read: "umbmark", "extended", "least-squares"; "x", "y", "thesis", "average";
 /// "exact", "published".

@@ -9,7 +9,7 @@
 namespace astro::calibration {
 namespace {
 
-/// Sums of squares on their way to a root mean square.
+/// Accumulates a root mean square.
 struct SquareSum {
   double sum = 0, count = 0;
   void add(double value) {
@@ -19,7 +19,7 @@ struct SquareSum {
   double rms() const { return std::sqrt(sum / count); }
 };
 
-/// The tracked body where the odometry, which starts at (0, 0, 0), has it.
+/// Pose of the tracked body by an odometry that starts at (0, 0, 0).
 BodySample placed(const BodySample& odometry, const Unknowns& u) {
   const double c = std::cos(u[kStartTheta]), s = std::sin(u[kStartTheta]);
   const double heading = u[kStartTheta] + odometry.theta_rad;

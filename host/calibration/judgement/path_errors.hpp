@@ -7,11 +7,10 @@
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
 
-/// How well given factors dead-reckon given drives: the judgement that a calibration has to stand on drives
-/// that it has not seen.
+/// How well given factors dead-reckon given drives: the test of a calibration on drives that it has not seen.
 namespace astro::calibration {
 
-/// Odometry less truth, in the plane of truth; of one run.
+/// Odometry minus truth of one run, in the frame of truth.
 struct RunErrors {
   std::string name;
   double final_m = 0,
@@ -21,13 +20,13 @@ struct RunErrors {
 
 struct PathErrors {
   std::vector<RunErrors> runs;
-  std::vector<std::string> left_out;                  // runs that cannot be used: why, each
+  std::vector<std::string> left_out;                  // for each run that cannot be used: the reason
   double final_rms_m = 0, final_heading_rms_rad = 0;  // over the runs
   double path_rms_m = 0;                              // over all samples of all runs
 };
 
-/// Dead reckoning by `factors` alone from where each run starts. What is not the robot's is fitted to these
-/// runs with the factors held: lever arm, clocks, and the start poses.
+/// Dead reckoning by `factors` alone from the start of each run. Lever arm, clocks and start poses are fitted
+/// to these runs with the factors fixed.
 ///
 /// Throws astro::Error as estimate_ml does for runs that cannot be used.
 PathErrors path_errors(std::span<const Trajectory> runs, const WheelFactors& factors,

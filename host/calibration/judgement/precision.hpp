@@ -1,7 +1,7 @@
 #pragma once
 
-/// How well a drive can tell the wheel factors, and how long it has to be: design rules, before anything is
-/// driven.
+/// How precisely a drive determines the wheel factors, and how long it has to be: design rules for use before
+/// anything is driven.
 ///
 /// The noise is wheel slip alone, white along the path: each wheel's travel has the variance K * |distance|.
 /// Against a ground truth that follows the whole drive the best unbiased estimator then reaches
@@ -9,11 +9,11 @@
 ///   sd(E_d) = sqrt(2 K / D),   sd(S) = sqrt(K / (2 D)),   sd(b) / b = sqrt(K / (b Theta))
 ///
 /// with D the distance driven and Theta the sum of |rotation| of spins; arcs wider than b / 2 slip along
-/// their own length, too, and tell less. The b of its rule is b / S: what S is off by comes on top. The rules
-/// keep within 4 % of the Cramer-Rao bound of ten 3 m squares. End poses alone do worse: their E_d and b are
-/// tied to each other, and S is invisible to a closed path.
+/// their own length as well and determine less. The b of its rule is b / S; the error of S adds to it. The
+/// rules are within 4 % of the Cramer-Rao bound of ten 3 m squares. End poses alone do worse: their E_d and b
+/// are correlated, and a closed path does not observe S.
 ///
-/// Errors  astro::Error for a length, K, rotation, count or target that is not positive and finite.
+/// Errors  astro::Error for a length, K, rotation or count that is not positive and finite.
 namespace astro::calibration {
 
 /// What a drive, or several together, consist of.
@@ -32,8 +32,5 @@ struct Precision {
 
 /// K_m is the slip variance per metre, m^2 / m; 2.645e-6 m gives the scatter of the thesis's robot.
 Precision reachable_precision(const DriveExtent& extent, double K_m, double b_m);
-
-/// The fewest squares, both directions together, that reach all three targets.
-int squares_needed(const Precision& target, double side_m, double K_m, double b_m);
 
 }  // namespace astro::calibration

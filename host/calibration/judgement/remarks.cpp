@@ -16,11 +16,11 @@ std::string outlier_sentence(const RunFit& run) {
       run.name, run.disagreement, run.disagreement_dof);
 }
 
-std::string jolt_sentence(const RunFit& run) {
+std::string slip_sentence(const RunFit& run) {
   std::vector<std::string> moments;
-  for (const Jolt& jolt : run.jolts)
+  for (const SlipEvent& event : run.slip_events)
     moments.push_back(
-        fmt::format("{:.1f} s after its start by {:.1f}°", jolt.since_start_s, degrees(jolt.turned_rad)));
+        fmt::format("{:.1f} s after its start by {:.1f}°", event.since_start_s, degrees(event.turned_rad)));
   return fmt::format(
       "{}: the ground truth turned and the wheels did not, {}: a castor, a cable, a hand, or markers taken "
       "for "
@@ -45,7 +45,7 @@ std::vector<Remark> remarks(const MlEstimate& estimate) {
   for (const RunFit& run : estimate.runs)
     if (run.outlier) list.push_back({outlier_sentence(run), {Help::leave_out_if_accident}});
   for (const RunFit& run : estimate.runs)
-    if (!run.jolts.empty()) list.push_back({jolt_sentence(run), {Help::leave_out_if_accident}});
+    if (!run.slip_events.empty()) list.push_back({slip_sentence(run), {Help::leave_out_if_accident}});
   const double ratio = estimate.chi_square / estimate.degrees_of_freedom;
   if (ratio < 0.5)
     list.push_back({fmt::format(
@@ -53,14 +53,16 @@ std::vector<Remark> remarks(const MlEstimate& estimate) {
         "so the standard errors are too large: let the noise be estimated",
         std::sqrt(ratio))});
   if (ratio > 1.5)
-    list.push_back({fmt::format("the ground truth is {:.1f} times as far from the wheels as the given noise explains, so "
-                    "the standard errors are too "
-                    "small: let the noise be estimated",
-                    std::sqrt(ratio))});
+    list.push_back({fmt::format(
+        "the ground truth is {:.1f} times as far from the wheels as the given noise explains, so "
+        "the standard errors are too "
+        "small: let the noise be estimated",
+        std::sqrt(ratio))});
   if (estimate.dispersion > 1)
-    list.push_back({fmt::format("the runs differ {:.1f} times as much as the noise within them explains; the standard "
-                    "errors are widened by that",
-                    std::sqrt(estimate.dispersion))});
+    list.push_back(
+        {fmt::format("the runs differ {:.1f} times as much as the noise within them explains; the standard "
+                     "errors are widened by that",
+                     std::sqrt(estimate.dispersion))});
   if (estimate.wheelbase_by_kind && estimate.wheelbase_by_kind->disagrees)
     list.push_back({wheelbase_sentence(*estimate.wheelbase_by_kind)});
   return list;

@@ -7,7 +7,7 @@
 
 namespace astro::calibration {
 
-/// What does not fit about an estimate, in plain words; empty if everything does.
+/// One sentence for each thing that does not fit about an estimate; empty if everything fits.
 std::vector<Remark> remarks(const MlEstimate& estimate);
 
 }  // namespace astro::calibration

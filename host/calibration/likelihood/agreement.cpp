@@ -11,17 +11,17 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// A direction in which leaving the run out widens the covariance by less than this part is one it says
-// nothing about.
+// If leaving the run out widens the covariance by less than this part in some direction, the run does not
+// observe that direction.
 constexpr double kSilent = 1e-4;
 
-Disagreement disagreement(const Reduced& run, const SharedInformation& total, const Held& held) {
-  const SharedInformation all = shared_covariance(total, held);
-  const SharedInformation without = shared_covariance(total - run.information, held);
+Disagreement disagreement(const Reduced& run, const SharedInformation& total, const FixedParameters& fixed) {
+  const SharedInformation all = shared_covariance(total, fixed);
+  const SharedInformation without = shared_covariance(total - run.information, fixed);
   const Matrix3d before = all.topLeftCorner<3, 3>();
   Matrix3d gained = (without - all).topLeftCorner<3, 3>();
   const Vector3d change = -(without * run.gradient).head<3>();
-  // In units of the standard errors of all runs, so that ratios and metres compare.
+  // In units of the standard errors of all runs, so that ratios and metres are comparable.
   const Vector3d unit = before.diagonal().cwiseSqrt().cwiseInverse();
   gained = unit.asDiagonal() * gained * unit.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen((gained + gained.transpose()) / 2);
@@ -39,12 +39,12 @@ Disagreement disagreement(const Reduced& run, const SharedInformation& total, co
 
 }  // namespace
 
-std::vector<Disagreement> disagreements(std::span<const Reduced> runs, const Held& held) {
+std::vector<Disagreement> disagreements(std::span<const Reduced> runs, const FixedParameters& fixed) {
   SharedInformation total = SharedInformation::Zero();
   for (const Reduced& run : runs) total += run.information;
   std::vector<Disagreement> found;
   for (const Reduced& run : runs)
-    found.push_back(runs.size() > 1 ? disagreement(run, total, held) : Disagreement{});
+    found.push_back(runs.size() > 1 ? disagreement(run, total, fixed) : Disagreement{});
   return found;
 }
 
@@ -60,7 +60,7 @@ double dispersion(std::span<const Disagreement> runs) {
     ++compared;
   }
   if (compared < 2) return 1;
-  // Each run is compared with all others, which makes n comparisons of n - 1 independent ones.
+  // Each run is compared with all others: n comparisons, of which n - 1 are independent.
   const double chi_square = sum * (compared - 1) / compared;
   const int independent = freedom - most;
   if (chi_square_tail(chi_square, independent) > kSignificant) return 1;
@@ -74,7 +74,7 @@ double typical_dispersion(std::span<const Disagreement> runs) {
     if (run.degrees_of_freedom > 0)
       ratios.push_back(run.chi_square / kMedian[static_cast<std::size_t>(run.degrees_of_freedom)]);
   if (ratios.empty()) return 1;
-  // Of an even number the lower one: half of four runs must not make the other half look usual.
+  // The lower one of an even number, so that half of the runs cannot make the other half look usual.
   const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>((ratios.size() - 1) / 2);
   std::nth_element(ratios.begin(), middle, ratios.end());
   return std::max(1.0, *middle);

@@ -8,22 +8,22 @@
 /// Whether each run agrees with all others about c_R, c_L and b.
 namespace astro::calibration {
 
-/// d' C^-1 d of the change d that leaving the run out makes, with C its covariance: chi-square of
-/// `degrees_of_freedom` if the run is like the others.
+/// d' C^-1 d for the change d of the factors when the run is left out, with its covariance C. It has a
+/// chi-square distribution with `degrees_of_freedom` if the run is like the others.
 struct Disagreement {
   double chi_square = 0;
-  int degrees_of_freedom = 0;  // 0: nothing to compare, or the others alone would leave a factor open
+  int degrees_of_freedom = 0;  // 0: nothing to compare, or the others alone do not observe a factor
 };
-std::vector<Disagreement> disagreements(std::span<const Reduced> runs, const Held& held);
+std::vector<Disagreement> disagreements(std::span<const Reduced> runs, const FixedParameters& fixed);
 
-/// Birge's ratio of them all: how much more the runs scatter than their noise explains, as a factor on
-/// variances. 1 where they do not do so significantly (1 %). Source  Birge 1932, Phys. Rev. 40, 207.
+/// Birge's ratio of all runs: how much more they scatter than their noise explains, as a factor on variances;
+/// 1 if that is not significant (1 %). Source  Birge 1932, Phys. Rev. 40, 207.
 double dispersion(std::span<const Disagreement> runs);
 
-/// The same ratio of most runs, whatever a few of them did; at least 1.
+/// The same ratio as a median, which a few deviating runs do not change; at least 1.
 double typical_dispersion(std::span<const Disagreement> runs);
 
-/// Probability of a chi-square of `degrees_of_freedom` beyond `value`; 1 for 0. Exact up to 3, Wilson and
+/// Probability that a chi-square variable with `degrees_of_freedom` exceeds `value`; 1 for 0 degrees. Exact up to 3, Wilson and
 /// Hilferty's approximation above.
 double chi_square_tail(double value, int degrees_of_freedom);
 

@@ -8,18 +8,18 @@
 
 /// Huber's loss for a truth sample after wheels that slip.
 ///
-/// An innovation r = slip + tracker's error has two causes, of covariances P and R, and either has bad
-/// moments: a marker taken for another, a castor that kicks, a cable on the floor. So the loss is that of the
-/// likeliest division of r,
+/// An innovation r is the sum of wheel slip and tracker error, with covariances P and R, and either can have
+/// outliers: a marker taken for another, a castor that swings round, a cable on the floor. So the loss is that
+/// of the most likely division of r,
 ///
 ///   min over e of  rho(e' R^-1 e) + rho((r - e)' P^-1 (r - e)),   rho(q) = q up to limit, then
 ///                                                                 2 sqrt(limit q) - limit
 ///   = min over s, t >= 1 of  r' (s P + t R)^-1 r + limit (s - 1) + limit (t - 1).
 ///
-/// Its slope is 2 (s P + t R)^-1 r: exactly what a filter gives a sample for which the wheels slipped s times
-/// and the tracker erred t times as much (in variance) as usual. What outweighs the other is doubted: without
-/// slip t is Huber's sqrt(q / limit) and s is 1; after a stretch without truth it is the other way round.
-/// Where the wheels are believed s stays 1.
+/// Its slope is 2 (s P + t R)^-1 r: the weight that a filter gives a sample if the variance of the slip is s
+/// times and that of the tracker t times the usual one. The larger covariance is inflated: without slip t is
+/// Huber's sqrt(q / limit) and s is 1; after a stretch without truth it is the other way round. With
+/// RobustMode::tracker s stays 1.
 /// Source  Huber 1964, Ann. Math. Stat. 35(1), for the loss; Masreliez & Martin 1977 for such a filter.
 namespace astro::calibration {
 
@@ -34,7 +34,7 @@ namespace huber_detail {
 template <class Array>
 double inflation(const Array& y, const Array& a, const Array& b, double limit) {
   double x = 1;
-  // Convex and falling, so Newton from the left.
+  // The sum is convex and decreasing in x, so Newton's method converges from the left.
   for (int i = 0; i < 100; ++i) {
     const Array total = x * a + b;
     const double excess = (a * (y / total).square()).sum() - limit;
@@ -48,7 +48,7 @@ double inflation(const Array& y, const Array& a, const Array& b, double limit) {
 template <class Array>
 void inflate_both(const Array& y, const Array& l, double limit, double& s, double& t) {
   const Array one = Array::Ones();
-  // Of each: what more of it would change.
+  // Derivatives of the cost by s and by t.
   const auto slope = [&](const Array& by, double slip, double tracker) {
     return limit - (by * (y / (slip * l + tracker)).square()).sum();
   };
@@ -57,7 +57,8 @@ void inflate_both(const Array& y, const Array& l, double limit, double& s, doubl
   s = inflation<Array>(y, l, one, limit);
   t = 1;
   if (slope(one, s, t) >= -kFlat * limit) return;
-  // Neither alone, so both: convex and smooth, Newton with steps that are halved until they lead down.
+  // Neither alone suffices, so both are inflated. The cost is convex and smooth: Newton steps, halved until
+  // the cost falls.
   const auto cost = [&](double slip, double tracker) {
     return (y.square() / (slip * l + tracker)).sum() + limit * (slip + tracker);
   };
@@ -86,21 +87,21 @@ void inflate_both(const Array& y, const Array& l, double limit, double& s, doubl
 
 }  // namespace huber_detail
 
-/// `slip` is P, which may be singular; `tracker` the diagonal of R. `limit` is a square, in standard
-/// deviations. `doubt` says who is doubted, at least the tracker.
-/// Cost  that of the inverse; for bad samples an eigendecomposition more.
+/// `slip` is P, which may be singular; `tracker` the diagonal of R. `limit` is a squared
+/// number of standard deviations. `robust` says whose errors are down-weighted, at least the tracker's.
+/// Cost  one inverse; an eigendecomposition in addition for outliers.
 template <int N>
 HuberLoss huber_loss(const Eigen::Matrix<double, N, 1>& r, const Eigen::Matrix<double, N, N>& slip,
-                     const Eigen::Matrix<double, N, 1>& tracker, double limit, Doubt doubt) {
+                     const Eigen::Matrix<double, N, 1>& tracker, double limit, RobustMode robust) {
   using Square = Eigen::Matrix<double, N, N>;
   using Array = Eigen::Array<double, N, 1>;
   const Square total = slip + Square(tracker.asDiagonal());
   const Eigen::Matrix<double, N, 1> plain = total.inverse() * r;
-  const bool slips = doubt == Doubt::tracker_and_wheels;
+  const bool slips = robust == RobustMode::tracker_and_wheels;
   if (plain.dot(tracker.cwiseProduct(plain)) <= limit && (!slips || plain.dot(slip * plain) <= limit))
     return {r.dot(plain), 1, 1};
 
-  // Where both covariances are diagonal, in units of the tracker.
+  // In the coordinates in which both covariances are diagonal, in units of the tracker's error.
   const Eigen::Matrix<double, N, 1> unit = tracker.cwiseSqrt().cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<Square> eigen(Square(unit.asDiagonal() * slip * unit.asDiagonal()));
   const Array l = eigen.eigenvalues().cwiseMax(0).array(), one = Array::Ones();

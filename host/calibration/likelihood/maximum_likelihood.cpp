@@ -10,25 +10,17 @@
 
 #include "host/base/error.hpp"
 #include "host/calibration/likelihood/agreement.hpp"
-#include "host/calibration/motion/median_period.hpp"
 #include "host/calibration/likelihood/ml_fit.hpp"
 #include "host/calibration/likelihood/start_values.hpp"
+#include "host/calibration/motion/median_period.hpp"
 
 namespace astro::calibration {
 namespace {
 
-// A factor less certain than this is not measured at all.
+// A factor with a larger relative standard error counts as unobserved.
 constexpr double kOpen = 0.05;
 constexpr double kUnlikely = 1e-3;
 constexpr double kEnoughTurning_rad = 6;
-
-FactorCovariance factor_covariance(const SharedInformation& covariance) {
-  FactorCovariance factors{};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t k = 0; k < 3; ++k)
-      factors[i][k] = covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
-  return factors;
-}
 
 void require_observed(const MlErrors& se, const WheelFactors& factors) {
   if (se.scale < kOpen && se.E_d < kOpen && se.b_m < kOpen * factors.b_m) return;
@@ -38,12 +30,12 @@ void require_observed(const MlErrors& se, const WheelFactors& factors) {
       se.c_r, se.c_l, se.b_m));
 }
 
-// A variance that is not positive is what rounding leaves of one that is infinite.
+// Rounding can turn an infinite variance into one that is not positive.
 double root(double variance) {
   return variance > 0 ? std::sqrt(variance) : std::numeric_limits<double>::infinity();
 }
 
-/// Less likely than one in a thousand among as many runs, the others being as they are.
+/// The runs whose disagreement has a probability below one in a thousand among so many runs.
 std::vector<bool> outliers(std::span<const Disagreement> found) {
   const double typical = typical_dispersion(found);
   std::vector<bool> outlier;
@@ -54,33 +46,33 @@ std::vector<bool> outliers(std::span<const Disagreement> found) {
   return outlier;
 }
 
-std::vector<RunFit> judged_runs(const MlFit& fit, std::span<const Disagreement> found,
-                                const std::vector<bool>& outlier, const SharedInformation& covariance) {
-  const std::vector<std::vector<Jolt>> jolted = find_jolts(fit.runs(), fit.unknowns());
-  std::vector<RunFit> judged;
+std::vector<RunFit> summarise_runs(const MlFit& fit, std::span<const Disagreement> found,
+                                   const std::vector<bool>& outlier, const SharedInformation& covariance) {
+  const std::vector<std::vector<SlipEvent>> slip_events = find_slip_events(fit.runs(), fit.unknowns());
+  std::vector<RunFit> summaries;
   for (std::size_t i = 0; i < fit.runs().size(); ++i) {
     const PreparedRun& prepared = fit.runs()[i];
     RunFit run;
     run.name = prepared.source->name;
     run.distance_m = prepared.distance_m;
     run.rotation_rad = prepared.rotation_rad;
-    if (!fit.held().clock) {
+    if (!fit.fixed().clock) {
       run.clock_offset_s = fit.unknowns()[i][kClockOffset];
-      run.clock_offset_se_s = root(clock_offset_variance(fit.sums()[i], covariance, fit.held()));
+      run.clock_offset_se_s = root(clock_offset_variance(fit.sums()[i], covariance, fit.fixed()));
     }
     run.chi_square = fit.sums()[i].chi_square;
     run.degrees_of_freedom = fit.sums()[i].degrees_of_freedom;
     run.disagreement = found[i].chi_square;
     run.disagreement_dof = found[i].degrees_of_freedom;
     run.outlier = outlier[i];
-    run.jolts = jolted[i];
-    judged.push_back(run);
+    run.slip_events = slip_events[i];
+    summaries.push_back(run);
   }
-  return judged;
+  return summaries;
 }
 
-/// Nothing if the robot never moved like that.
-std::optional<KindFit> judged_kind(const MlFit& fit, Motion motion) {
+/// Nothing if the robot never moved in this way.
+std::optional<KindFit> summarise_kind(const MlFit& fit, Motion motion) {
   KindFit kind;
   kind.motion = motion;
   MotionTotals totals;
@@ -105,13 +97,13 @@ std::optional<KindFit> judged_kind(const MlFit& fit, Motion motion) {
   return kind;
 }
 
-std::optional<WheelbaseByKind> judged_wheelbase(const MlFit& fit, std::span<const KindFit> kinds) {
+std::optional<WheelbaseByKind> summarise_wheelbase(const MlFit& fit, std::span<const KindFit> kinds) {
   for (const Motion motion : {Motion::arc, Motion::spin})
     if (std::none_of(kinds.begin(), kinds.end(), [&](const KindFit& kind) {
           return kind.motion == motion && kind.rotation_rad > kEnoughTurning_rad;
         }))
       return {};
-  const OneUnknown arcs = arc_wheelbase(fit.sums(), fit.held());
+  const OneUnknown arcs = arc_wheelbase(fit.sums(), fit.fixed());
   if (!std::isfinite(arcs.standard_error)) return {};
   return WheelbaseByKind{1 + arcs.value, arcs.standard_error,
                          std::abs(arcs.value) > std::max(4 * arcs.standard_error, 1e-3)};
@@ -123,38 +115,38 @@ const PreparedRun& longest(const MlFit& fit) {
       [](const PreparedRun& a, const PreparedRun& b) { return a.truth.size() < b.truth.size(); });
 }
 
-std::vector<Reduced> all_reduced(std::span<const InnovationSums> sums, const Held& held) {
+std::vector<Reduced> all_reduced(std::span<const InnovationSums> sums, const FixedParameters& fixed) {
   std::vector<Reduced> runs;
-  for (const InnovationSums& run : sums) runs.push_back(reduced(run, held, 0));
+  for (const InnovationSums& run : sums) runs.push_back(reduced(run, fixed, 0));
   return runs;
 }
 
-MlEstimate judged(const MlFit& fit) {
-  const std::vector<Reduced> runs = all_reduced(fit.sums(), fit.held());
+MlEstimate summarise(const MlFit& fit) {
+  const std::vector<Reduced> runs = all_reduced(fit.sums(), fit.fixed());
   SharedInformation information = SharedInformation::Zero();
   for (const Reduced& run : runs) information += run.information;
   const std::vector<Disagreement> found =
-      disagreements(all_reduced(fit.sums_with_wheels_believed(), fit.held()), fit.held());
+      disagreements(all_reduced(fit.sums_with_full_slip_weight(), fit.fixed()), fit.fixed());
   const std::vector<bool> outlier = outliers(found);
-  // A run that is named was not allowed to do much to the result; slips that all runs have make it uncertain.
+  // An outlier is down-weighted in the result, so it does not count here. Slips in all runs do.
   std::vector<Disagreement> usual;
   for (std::size_t i = 0; i < found.size(); ++i)
     if (!outlier[i]) usual.push_back(found[i]);
   const double widened = dispersion(usual);
-  const SharedInformation covariance = widened * shared_covariance(information, fit.held());
+  const SharedInformation covariance = widened * shared_covariance(information, fit.fixed());
   const auto se = [&](int unknown) { return root(covariance(unknown, unknown)); };
   const double none = std::numeric_limits<double>::quiet_NaN();
   const Unknowns& u = fit.unknowns().front();
 
   MlEstimate estimate;
   estimate.factors = {u[kCRight], u[kCLeft], u[kB]};
-  estimate.covariance = factor_covariance(covariance);
+  estimate.covariance = covariance.topLeftCorner<3, 3>();
   estimate.se = errors_of(estimate.covariance, estimate.factors);
   require_observed(estimate.se, estimate.factors);
-  const bool yaw = !fit.held().lever_yaw;
+  const bool yaw = !fit.fixed().lever_yaw;
   estimate.lever = {u[kLeverX], u[kLeverY], yaw ? std::remainder(u[kLeverYaw], 2 * std::numbers::pi) : none};
   estimate.lever_se = {se(kLeverX), se(kLeverY), yaw ? se(kLeverYaw) : none};
-  if (!fit.held().clock) {
+  if (!fit.fixed().clock) {
     estimate.clock_skew = u[kSkew];
     estimate.clock_skew_se = se(kSkew);
   }
@@ -162,24 +154,24 @@ MlEstimate judged(const MlFit& fit) {
   if (fit.stride() > 1) estimate.thinned_to_s = fit.stride() * median_period_s(longest(fit).truth);
   estimate.iterations = fit.iterations();
   estimate.dispersion = widened;
-  estimate.runs = judged_runs(fit, found, outlier, covariance);
+  estimate.runs = summarise_runs(fit, found, outlier, covariance);
   for (const RunFit& run : estimate.runs) {
     estimate.chi_square += run.chi_square;
     estimate.degrees_of_freedom += run.degrees_of_freedom;
   }
   for (const Motion motion : {Motion::rest, Motion::line, Motion::arc, Motion::spin})
-    if (const auto kind = judged_kind(fit, motion)) estimate.kinds.push_back(*kind);
-  estimate.wheelbase_by_kind = judged_wheelbase(fit, estimate.kinds);
+    if (const auto kind = summarise_kind(fit, motion)) estimate.kinds.push_back(*kind);
+  estimate.wheelbase_by_kind = summarise_wheelbase(fit, estimate.kinds);
   return estimate;
 }
 
-/// Of runs whose unknowns are known: what they could tell at best.
+/// The covariance of the factors if all unknowns of the runs were at these values: the Cramer-Rao bound.
 FactorCovariance bound_of(const PreparedRuns& prepared, const WheelFactors& factors, const LeverArm& lever,
                           const NoiseModel& noise, bool clock_known) {
-  Held held;
-  held.clock = clock_known;
-  held.lever_yaw = std::none_of(prepared.runs.begin(), prepared.runs.end(),
-                                [](const PreparedRun& run) { return run.has_headings; });
+  FixedParameters fixed;
+  fixed.clock = clock_known;
+  fixed.lever_yaw = std::none_of(prepared.runs.begin(), prepared.runs.end(),
+                                 [](const PreparedRun& run) { return run.has_headings; });
   SharedInformation information = SharedInformation::Zero();
   for (std::size_t i = 0; i < prepared.runs.size(); ++i) {
     Unknowns u = Unknowns::Zero();
@@ -193,30 +185,30 @@ FactorCovariance bound_of(const PreparedRuns& prepared, const WheelFactors& fact
     u[kClockOffset] = prepared.clocks[i].offset_s;
     InnovationSums sums;
     sums.information = expected_information(prepared.runs[i], u, noise);
-    information += reduced(sums, held, 0).information;
+    information += reduced(sums, fixed, 0).information;
   }
-  return factor_covariance(shared_covariance(information, held));
+  return shared_covariance(information, fixed).topLeftCorner<3, 3>();
 }
 
 }  // namespace
 
-MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& carried,
+MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& loaded,
                        const MlOptions& options) {
-  const PreparedRuns prepared = prepare(runs, carried, options.clock_known, Density::independent);
+  const PreparedRuns prepared = prepare(runs, loaded, options.clock_known, Density::independent);
   require_variety(prepared);
-  // With usual noise and before anything is fitted: what the runs leave open runs away in a fit.
-  // (A lever arm that only positions tell of is not known yet, and without one spins look blind.)
+  // Checked with the usual noise before the fit, because factors that the runs do not observe diverge in a
+  // fit. Not checked without headings: the lever arm is not known yet, and without it spins show nothing.
   if (std::any_of(prepared.runs.begin(), prepared.runs.end(),
                   [](const PreparedRun& run) { return run.has_headings; }))
-    require_observed(errors_of(bound_of(prepared, carried, {}, {}, options.clock_known), carried), carried);
-  MlEstimate estimate = judged(MlFit(prepared, carried, options));
+    require_observed(errors_of(bound_of(prepared, loaded, {}, {}, options.clock_known), loaded), loaded);
+  MlEstimate estimate = summarise(MlFit(prepared, loaded, options));
   estimate.left_out = prepared.left_out;
   return estimate;
 }
 
 FactorCovariance cramer_rao_bound(std::span<const Trajectory> runs, const WheelFactors& factors,
                                   const LeverArm& lever, const MlOptions& options) {
-  // What the estimator leaves unused must not make the bound look better than anything that is calibrated.
+  // Samples that the estimator does not use must not improve the bound.
   const PreparedRuns prepared = prepare(runs, factors, options.clock_known, Density::independent);
   const FactorCovariance covariance =
       bound_of(prepared, factors, lever, options.noise.value(), options.clock_known);
@@ -226,11 +218,8 @@ FactorCovariance cramer_rao_bound(std::span<const Trajectory> runs, const WheelF
 
 MlErrors errors_of(const FactorCovariance& covariance, const WheelFactors& factors) {
   const auto propagated = [&](double by_right, double by_left, double by_b) {
-    const double by[3] = {by_right, by_left, by_b};
-    double variance = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t k = 0; k < 3; ++k) variance += by[i] * covariance[i][k] * by[k];
-    return root(variance);
+    const Eigen::Vector3d jacobian(by_right, by_left, by_b);
+    return root(jacobian.dot(covariance * jacobian));
   };
   const double scale = (factors.c_r + factors.c_l) / 2, b_over_scale_m = factors.b_m / scale;
   MlErrors se;

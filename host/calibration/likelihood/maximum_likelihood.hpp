@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <Eigen/Core>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,7 +19,7 @@
 /// bound within a few percent.
 ///
 /// Frames  see trajectory.hpp. Factors are absolute: wheel travel = c * nominal travel, whatever the robot
-///         carried while it drove, so a calibration of a calibrated robot composes by itself.
+///         loaded while it drove, so a calibration of a calibrated robot composes by itself.
 /// Source  Kalman innovations as likelihood: Schweppe 1965; start: Censi et al. 2013 (relative_pose.hpp).
 namespace astro::calibration {
 
@@ -28,35 +28,35 @@ struct MlOptions {
   bool clock_known = false;
   /// A given noise model is used as it stands; without one it is estimated.
   std::optional<NoiseModel> noise;
-  /// Huber's weights for slips and for truth samples. Off: least squares, for comparison.
+  /// Huber's loss for slips and for truth samples. Off: least squares, for comparison.
   bool robust = true;
 };
 
 /// Of c_R, c_L and b in this order; b in metres.
-using FactorCovariance = std::array<std::array<double, 3>, 3>;
+using FactorCovariance = Eigen::Matrix3d;
 
-/// What people ask for: E_d = c_R / c_L, S = (c_R + c_L) / 2, and b.
+/// Standard errors of the factors and of the ratios that people use: E_d = c_R / c_L, S = (c_R + c_L) / 2.
 struct MlErrors {
   double c_r = 0, c_l = 0, b_m = 0;
   double E_d = 0, scale = 0;
-  double b_over_scale_m = 0;  // b / S: all that squares driven by odometry can see of b
+  double b_over_scale_m = 0;  // b / S: what squares driven by odometry determine of b
 };
 
 struct RunFit {
   std::string name;
-  double distance_m = 0, rotation_rad = 0;  // driven, as far as truth covers it; rotation counts both senses
+  double distance_m = 0,
+         rotation_rad = 0;    // driven while truth covers it; the rotation is the sum of its magnitudes
   double clock_offset_s = 0;  // robot's clock less tracker's, in the middle of the run; 0 if known
   double clock_offset_se_s = 0;
   double chi_square = 0;  // of the innovations
   int degrees_of_freedom = 0;
-  /// How far this run, its slips counted in full, is from what all others say about c_R, c_L and b:
-  /// chi-square with `disagreement_dof` degrees of freedom for a run like the others (fewer than 3 where the
-  /// run cannot see all three; 0 if there are no others).
+  /// How far this run, without down-weighting its slips, is from all other runs in c_R, c_L and b: chi-square
+  /// with `disagreement_dof` degrees of freedom for a run like the others (fewer than 3 if the run does not
+  /// observe all three; 0 if there are no other runs).
   double disagreement = 0;
   int disagreement_dof = 0;
-  bool outlier =
-      false;  // less likely than one in a thousand among as many runs, the others being as they are
-  std::vector<Jolt> jolts;
+  bool outlier = false;  // probability below one in a thousand among so many runs
+  std::vector<SlipEvent> slip_events;
 };
 
 /// Innovations while the robot moved in one way.
@@ -68,31 +68,31 @@ struct KindFit {
   double chi_square_per_dof = 0;
 };
 
-/// Whether arcs and spins want the same wheelbase: real tyres turn about another point when they spin.
+/// Whether arcs and spins have the same wheelbase: real tyres turn about another point in a spin.
 struct WheelbaseByKind {
   double arc_over_spin = 1, standard_error = 0;
-  /// More than four standard errors and 0.1 % apart. Not widened by `dispersion`: runs that differ because of
-  /// this would hide it.
+  /// They differ by more than four standard errors and 0.1 %. The error is not widened by `dispersion`,
+  /// because runs that differ for this reason would hide it.
   bool disagrees = false;
 };
 
 struct MlEstimate {
   WheelFactors factors;
-  FactorCovariance covariance{};
+  FactorCovariance covariance = FactorCovariance::Zero();
   MlErrors se;
   LeverArm lever, lever_se;  // yaw NaN where no heading was measured
   double clock_skew = 0,
          clock_skew_se = 0;  // the robot's clock runs (1 + skew) times as fast as the tracker's
-  NoiseModel noise;          // K: its upper limit of 95 % where the data do not tell it to a third
-  /// Time between the truth samples of the longest run of which the likelihood is made, where closer ones
-  /// share errors that slip and tracker do not explain (whiteness.hpp); 0 where none do and all were taken.
+  NoiseModel noise;          // K: its upper 95 % limit if the data do not determine it to a third
+  /// Time between the truth samples that the likelihood uses, in the longest run, if closer samples have
+  /// correlated errors that slip and tracker do not explain (whiteness.hpp); 0 if all samples are used.
   double thinned_to_s = 0;
   std::vector<RunFit> runs;
-  std::vector<std::string> left_out;                 // runs that cannot be used and harm nobody: why, each
-  std::vector<KindFit> kinds;                        // those that occur, in the order of Motion
+  std::vector<std::string> left_out;                 // for each run that could not be used: the reason
+  std::vector<KindFit> kinds;                        // only those that occur, in the order of Motion
   std::optional<WheelbaseByKind> wheelbase_by_kind;  // only with enough of both
-  /// How much more the runs that are no outliers scatter than their noise explains; the covariance and all
-  /// standard errors of factors are already widened by it. 1 where they do not.
+  /// How much more the runs that are no outliers scatter than their noise explains, as a factor on variances.
+  /// The covariance and all standard errors of factors include it. 1 if they do not scatter more.
   double dispersion = 1;
   double chi_square = 0;
   int degrees_of_freedom = 0;
@@ -102,32 +102,32 @@ struct MlEstimate {
   double scale() const { return (factors.c_r + factors.c_l) / 2; }
 };
 
-/// `carried` tells the nominal geometry (only b is used, as a scale for what is plausible) and where to start
-/// when the truth has no headings.
+/// `loaded` are the factors in the robot. Only b is used, as a scale for what is plausible, and the factors as
+/// start values if the truth has no headings.
 ///
 /// Throws astro::Error in one sentence with its remedy for
 ///   no runs; a run too short, without truth, or whose two streams do not overlap (named)
 ///   headings of truth that never change although the wheels turn the robot
 ///   truth that turns the other way: mirrored axes or exchanged wheels
-///   runs that never turn, never go straight, or otherwise leave one of the three open
-///   factors beyond half or twice of what is plausible: wrong units or counts
+///   runs that never turn, never go straight, or otherwise do not observe one of the three factors
+///   factors below half or above twice what is plausible: wrong units or counts
 /// Cost    linear in the samples; ten 3 m squares of 60 Hz take about 0.2 s.
-MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& carried,
+MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& loaded,
                        const MlOptions& options = {});
 
-/// The covariance of c_R, c_L, b (b in m) that no unbiased estimator can beat: the inverse of the Fisher
-/// information of these runs for a robot of which everything is known but what `options` has estimated.
-/// `options.noise` must be given. The path comes from the wheels and `factors`; of truth the times matter,
-/// and what the search for the clocks and the checks of usable runs need. As for the estimate, no two samples
-/// of truth closer than two of the wheels count (prepared_run.hpp): with all of them, trackers of centimetres
-/// over counts at 20 Hz would seem up to 1.6 times as good as they are; at 100 Hz over 60 Hz nothing changes.
+/// The smallest covariance of c_R, c_L, b (b in m) that an unbiased estimator can have (Cramer-Rao bound): the
+/// inverse of the Fisher information of these runs. `options.noise` must be given. The path comes from the
+/// wheels and `factors`; of truth only the times matter, apart from the search for the clocks and the checks
+/// of usable runs. As in the estimate, truth samples closer than two samples of the wheels do not count
+/// (preparation.hpp): with all of them, a tracker with centimetres of noise over counts at 20 Hz would seem up
+/// to 1.6 times as good as it is; at 100 Hz over 60 Hz nothing changes.
 ///
-/// Throws astro::Error as estimate_ml does for runs that cannot be used, and if the runs leave one of the
-/// three open.
+/// Throws astro::Error as estimate_ml does for runs that cannot be used, and if the runs do not observe one of
+/// the three.
 FactorCovariance cramer_rao_bound(std::span<const Trajectory> runs, const WheelFactors& factors,
                                   const LeverArm& lever, const MlOptions& options);
 
-/// Standard deviations that a covariance stands for.
+/// The standard errors of a covariance.
 MlErrors errors_of(const FactorCovariance& covariance, const WheelFactors& factors);
 
 }  // namespace astro::calibration

@@ -15,12 +15,12 @@ namespace astro::calibration {
 namespace {
 
 constexpr int kMostSteps = 30, kMostRounds = 6, kMostScorings = 20;
-// A cost that falls by less has parameters that move by less than a twentieth of their standard errors.
+// If the cost falls by less, the parameters move by less than a twentieth of their standard errors.
 constexpr double kSettled = 1e-3;
 constexpr double kNoiseSettled = 0.01;  // of the logarithms of the variances
 constexpr double kLargestNoiseStep = 2;
 constexpr double kLargestK_m = 1e-2;
-constexpr int kFewestLooks = 20;  // of a run
+constexpr int kFewestSamples = 20;  // of a run
 constexpr int kMostPhases = 4;
 
 double cost_of(std::span<const InnovationSums> sums) {
@@ -29,7 +29,8 @@ double cost_of(std::span<const InnovationSums> sums) {
   return cost;
 }
 
-/// Moves the logarithm of a variance, kept as its `power`-th root, and tells by how much it really did.
+/// Changes the logarithm of a variance, which is stored as its `power`-th root, within limits. Returns the size
+/// of the actual change.
 double scale_variance(double& value, int power, double change, double least, double most) {
   const double step = std::clamp(change, -kLargestNoiseStep, kLargestNoiseStep);
   const double before = value;
@@ -39,34 +40,34 @@ double scale_variance(double& value, int power, double change, double least, dou
 
 }  // namespace
 
-MlFit::MlFit(const PreparedRuns& prepared, const WheelFactors& carried, const MlOptions& options,
-             bool factors_held)
+MlFit::MlFit(const PreparedRuns& prepared, const WheelFactors& loaded, const MlOptions& options,
+             bool factors_fixed)
     : runs_(prepared.runs),
-      carried_(carried),
-      unknowns_(start_values(prepared, carried)),
+      loaded_(loaded),
+      unknowns_(start_values(prepared, loaded)),
       noise_(options.noise ? *options.noise : start_noise(prepared)) {
-  held_.factors = factors_held;
-  held_.clock = options.clock_known;
-  held_.lever_yaw =
+  fixed_.factors = factors_fixed;
+  fixed_.clock = options.clock_known;
+  fixed_.lever_yaw =
       std::none_of(runs_.begin(), runs_.end(), [](const PreparedRun& run) { return run.has_headings; });
   for (Unknowns& u : unknowns_) {
-    if (held_.clock) u[kSkew] = u[kClockOffset] = 0;
-    if (held_.factors) u.head<3>() << carried.c_r, carried.c_l, carried.b_m;
+    if (fixed_.clock) u[kSkew] = u[kClockOffset] = 0;
+    if (fixed_.factors) u.head<3>() << loaded.c_r, loaded.c_l, loaded.b_m;
   }
-  // A first guess is judged by least squares: what seems an outlier to it may be the truth.
+  // The first fit is least squares, because a sample that looks like an outlier to a first guess may be right.
   maximise();
   require_plausible();
-  if (options.robust) looks_.doubt = Doubt::tracker_and_wheels;
+  if (options.robust) robust_ = RobustMode::tracker_and_wheels;
   if (options.noise) {
     if (options.robust) maximise();
   } else {
     fit_with_noise();
     while (!innovations_are_independent()) {
-      looks_.stride *= 2;
+      stride_ *= 2;
       fit_with_noise();
     }
-    if (looks_.stride > 1) {
-      phases_ = std::min(looks_.stride, kMostPhases);
+    if (stride_ > 1) {
+      phases_ = std::min(stride_, kMostPhases);
       fit_with_noise();
     }
     widen_uncertain_slip();
@@ -85,64 +86,61 @@ void MlFit::fit_with_noise() {
 bool MlFit::innovations_are_independent() const {
   std::vector<std::vector<Eigen::Vector3d>> all;
   for (std::size_t i = 0; i < runs_.size(); ++i)
-    all.push_back(standard_innovations(runs_[i], unknowns_[i], noise_, looks_at(runs_[i], 0)));
+    all.push_back(standardised_innovations(runs_[i], unknowns_[i], noise_, robust_, samples_of(runs_[i], 0)));
   return are_independent(all, kShared + kOwn * static_cast<int>(runs_.size()));
 }
 
-std::vector<InnovationSums> MlFit::pass(std::span<const Unknowns> unknowns, Doubt doubt) const {
+std::vector<InnovationSums> MlFit::pass(std::span<const Unknowns> unknowns, RobustMode robust) const {
   std::vector<InnovationSums> sums;
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     std::vector<InnovationSums> passes;
     for (int phase = 0; phase < phases_; ++phase) {
-      Looks looks = looks_at(runs_[i], phase);
-      looks.doubt = doubt;
-      passes.push_back(innovations(runs_[i], unknowns[i], noise_, looks));
+      passes.push_back(innovations(runs_[i], unknowns[i], noise_, robust, samples_of(runs_[i], phase)));
     }
     sums.push_back(mean_of(passes));
   }
   return sums;
 }
 
-std::vector<InnovationSums> MlFit::sums_with_wheels_believed() const {
-  return pass(unknowns_, std::min(looks_.doubt, Doubt::tracker));
+std::vector<InnovationSums> MlFit::sums_with_full_slip_weight() const {
+  return pass(unknowns_, std::min(robust_, RobustMode::tracker));
 }
 
 NoiseSlope MlFit::noise_slopes() const {
   NoiseSlope sum;
   for (std::size_t i = 0; i < runs_.size(); ++i)
     for (int phase = 0; phase < phases_; ++phase) {
-      const NoiseSlope part = noise_slope(runs_[i], unknowns_[i], noise_, looks_at(runs_[i], phase));
+      const NoiseSlope part =
+          noise_slope(runs_[i], unknowns_[i], noise_, robust_, samples_of(runs_[i], phase));
       sum.gradient += part.gradient / phases_;
       sum.curvature += part.curvature / phases_;
     }
-  // Without headings their noise is told by nothing and stays.
+  // Without headings nothing determines their noise. This keeps it where it is.
   sum.curvature.diagonal().array() += 1e-9;
   return sum;
 }
 
-/// Thinned truth begins at several samples, so that the result does not hang on one of them. Their
-/// likelihoods are averaged, not added: what they tell about slip is the same. A short run keeps enough to
-/// tell something.
-Looks MlFit::looks_at(const PreparedRun& run, int phase) const {
-  Looks looks = looks_;
-  looks.stride = std::clamp(static_cast<int>(run.truth.size()) / kFewestLooks, 1, looks_.stride);
-  looks.first = phase * looks.stride / phases_;
-  return looks;
+/// Thinned truth begins at several samples (phases), so that the result does not depend on one of them. Their
+/// likelihoods are averaged, not added, because all of them contain the same slip. A short run is thinned
+/// less.
+SampleSelection MlFit::samples_of(const PreparedRun& run, int phase) const {
+  const int stride = std::clamp(static_cast<int>(run.truth.size()) / kFewestSamples, 1, stride_);
+  return {stride, phase * stride / phases_};
 }
 
 void MlFit::maximise() {
   double damping = 0;
-  sums_ = pass(unknowns_, looks_.doubt);
+  sums_ = pass(unknowns_, robust_);
   for (int step = 0; step < kMostSteps; ++step) {
     ++iterations_;
-    const std::vector<Unknowns> steps = gauss_newton_step(sums_, held_, damping);
+    const std::vector<Unknowns> steps = gauss_newton_step(sums_, fixed_, damping);
     double expected = 0;
     std::vector<Unknowns> next = unknowns_;
     for (std::size_t i = 0; i < next.size(); ++i) {
       next[i] += steps[i];
       expected += steps[i].dot(sums_[i].gradient);
     }
-    std::vector<InnovationSums> sums = pass(next, looks_.doubt);
+    std::vector<InnovationSums> sums = pass(next, robust_);
     const double fall = cost_of(sums_) - cost_of(sums);
     if (fall > -kSettled) {
       unknowns_ = std::move(next);
@@ -152,12 +150,12 @@ void MlFit::maximise() {
       damping = std::max(10 * damping, 1e-3);
       if (damping > 1e6) return;
     }
-    // A damped step is small for being damped.
+    // A damped step is small because of the damping, so it does not show convergence.
     if (damping == 0 && (expected < kSettled || std::abs(fall) < kSettled)) return;
   }
 }
 
-/// Fisher's scoring in the logarithms; true if hardly anything changed.
+/// Fisher's scoring in the logarithms of the variances; true if they hardly changed.
 bool MlFit::fit_noise() {
   double first = 0;
   for (int step = 0; step < kMostScorings; ++step) {
@@ -172,18 +170,18 @@ bool MlFit::fit_noise() {
   return first < kNoiseSettled;
 }
 
-/// A covariance takes K for certain. Where the data hardly tell it (good tyres, a short drive: it may come
-/// out as zero) that would claim far too much, so K is doubled until -2 log likelihood has risen by 2.7: its
-/// upper limit of 95 %.
+/// The covariance of the factors treats K as known. If the data hardly determine K (good tyres, a short drive;
+/// it may come out as zero), the covariance would be far too small. So K is doubled until -2 log likelihood has
+/// risen by 2.7, which is its upper 95 % limit.
 void MlFit::widen_uncertain_slip() {
-  constexpr double kSurelyKnown = 0.1;  // variance of log K: within a third of itself
+  constexpr double kSurelyKnown = 0.1;  // variance of log K: K is known to a third
   constexpr double kRise = 2.7;
   if (2 * noise_slopes().curvature.inverse()(0, 0) < kSurelyKnown) return;
   double least = std::numeric_limits<double>::infinity();
   while (true) {
-    const double cost = cost_of(sums_) + log_determinant(sums_, held_);
+    const double cost = cost_of(sums_) + log_determinant(sums_, fixed_);
     least = std::min(least, cost);
-    // Put so that what is no number ends it, too.
+    // Written with !(x <= limit) so that a NaN also ends the loop.
     if (!(cost <= least + kRise && noise_.K_m < kLargestK_m)) return;
     noise_.K_m *= 2;
     maximise();
@@ -193,12 +191,12 @@ void MlFit::widen_uncertain_slip() {
 void MlFit::require_plausible() const {
   const Unknowns& u = unknowns_.front();
   const auto outside = [](double ratio) { return !(ratio > 0.5 && ratio < 2); };
-  if (outside(u[kCRight]) || outside(u[kCLeft]) || outside(u[kB] / carried_.b_m))
+  if (outside(u[kCRight]) || outside(u[kCLeft]) || outside(u[kB] / loaded_.b_m))
     throw Error(
         fmt::format("c_R = {:.3g}, c_L = {:.3g} and b = {:.3g} m came out, which no robot of {:.3g} m "
                     "wheelbase has: check the unit "
                     "of the ground truth, the wheel diameter and the counts of a turn",
-                    u[kCRight], u[kCLeft], u[kB], carried_.b_m));
+                    u[kCRight], u[kCLeft], u[kB], loaded_.b_m));
 }
 
 }  // namespace astro::calibration

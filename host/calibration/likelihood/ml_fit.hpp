@@ -4,38 +4,40 @@
 #include <vector>
 
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
+#include "host/calibration/likelihood/noise_slope.hpp"
 #include "host/calibration/likelihood/normal_equations.hpp"
+#include "host/calibration/likelihood/sample_selection.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
 #include "host/calibration/preparation/preparation.hpp"
 
-/// The search for the likeliest unknowns.
+/// The search for the most likely unknowns.
 namespace astro::calibration {
 
-/// Gauss-Newton, damped where it has to be, in turns with the noise where that is not given. Then truth is
-/// also thinned until its innovations are independent (whiteness.hpp).
+/// Gauss-Newton, damped if necessary. If the noise is not given, it is fitted in alternation with the unknowns,
+/// and truth is thinned until the innovations are independent (whiteness.hpp).
 ///
-/// Throws astro::Error if factors come out that no robot has, and what start_values throws.
+/// Throws astro::Error for factors that no robot has, and what start_values throws.
 class MlFit {
  public:
-  /// `prepared` must outlive it. With `factors_held` c_R, c_L and b stay as `carried`, and only the nuisances
-  /// give way.
-  MlFit(const PreparedRuns& prepared, const WheelFactors& carried, const MlOptions& options,
-        bool factors_held = false);
+  /// `prepared` must outlive it. With `factors_fixed` c_R, c_L and b stay as `loaded`, and only the nuisance
+  /// parameters are fitted.
+  MlFit(const PreparedRuns& prepared, const WheelFactors& loaded, const MlOptions& options,
+        bool factors_fixed = false);
 
   const std::vector<PreparedRun>& runs() const { return runs_; }
   const std::vector<Unknowns>& unknowns() const { return unknowns_; }  // of each run, their shared part equal
   const std::vector<InnovationSums>& sums() const { return sums_; }
-  /// At the same unknowns, with slips counted in full, however unlikely they are: what each run has to say.
-  std::vector<InnovationSums> sums_with_wheels_believed() const;
+  /// At the same unknowns, but without down-weighting slips, however unlikely they are.
+  std::vector<InnovationSums> sums_with_full_slip_weight() const;
   const NoiseModel& noise() const { return noise_; }
-  const Held& held() const { return held_; }
-  /// Truth is looked at every so many-th prepared sample; of short runs more often.
-  int stride() const { return looks_.stride; }
+  const FixedParameters& fixed() const { return fixed_; }
+  /// The filter uses every so many-th truth sample; of short runs more.
+  int stride() const { return stride_; }
   int iterations() const { return iterations_; }
 
  private:
-  Looks looks_at(const PreparedRun& run, int phase) const;
-  std::vector<InnovationSums> pass(std::span<const Unknowns> unknowns, Doubt doubt) const;
+  SampleSelection samples_of(const PreparedRun& run, int phase) const;
+  std::vector<InnovationSums> pass(std::span<const Unknowns> unknowns, RobustMode robust) const;
   NoiseSlope noise_slopes() const;
   void maximise();
   bool fit_noise();
@@ -45,12 +47,13 @@ class MlFit {
   void require_plausible() const;
 
   const std::vector<PreparedRun>& runs_;
-  WheelFactors carried_;
+  WheelFactors loaded_;
   std::vector<Unknowns> unknowns_;
-  Held held_;
+  FixedParameters fixed_;
   NoiseModel noise_;
-  Looks looks_;
-  int phases_ = 1;  // passes along each run, beginning at different samples
+  RobustMode robust_ = RobustMode::none;
+  int stride_ = 1;
+  int phases_ = 1;  // passes along each run, each beginning at another sample
   std::vector<InnovationSums> sums_;
   int iterations_ = 0;
 };

@@ -1,53 +1,59 @@
-#include <Eigen/LU>
-#include <cmath>
-#include <numbers>
+#include "host/calibration/likelihood/noise_slope.hpp"
 
-#include "host/calibration/likelihood/filter_steps.hpp"
-#include "host/calibration/likelihood/huber.hpp"
-#include "host/calibration/likelihood/innovation.hpp"
+#include <cmath>
+
+#include "host/calibration/likelihood/kalman_filter.hpp"
 
 namespace astro::calibration {
 namespace {
 
-using namespace filter;
 using Eigen::Matrix3d;
-using Eigen::Vector3d;
 
 constexpr int kNoises = NoiseSlope::kNoises;
+// Mean of min(d^2, limit) over the mean of d^2 for a normal distribution with 2 and 3 components: how much of
+// a variance is left if no sample counts for more than Huber's threshold (his proposal 2). Without the
+// threshold, a few samples far out would decide the variance.
+template <int N>
+constexpr double kBoundedVariance = N == 3 ? 0.99287 : 0.99;
 
-/// The filter without derivatives by parameters, but with those of its state and covariance by the noise.
-/// Leaving out that the innovations themselves change with the gain would do no harm for the right model, and
-/// find the wrong noise for every other one.
-class NoiseFilter {
+/// Propagates the derivatives of state and covariance by the noise. Those of the innovations by the gain are
+/// part of it: without them the slope would be right for the true model alone and lead to the wrong noise
+/// from every other one.
+class NoiseDerivatives {
  public:
-  NoiseFilter(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise, Doubt doubt)
-      : u_(unknowns),
-        noise_(noise),
-        doubt_(doubt),
-        headings_(run.has_headings),
-        state_(unknowns.segment<3>(kStartX)) {
-    for (Matrix3d& d : by_) d.setZero();
+  NoiseDerivatives(const NoiseModel& noise, RobustMode robust) : noise_(noise), robust_(robust) {
+    for (Matrix3d& derivative : covariance_) derivative.setZero();
   }
 
-  void move(const Moment&, const WheelState& at, const Moment&, const WheelState& then, Motion) {
-    const double left_m = then.left_m - at.left_m, right_m = then.right_m - at.right_m;
-    if (left_m == 0 && right_m == 0) return;
-    const Arc arc = arc_of(state_[2], u_[kCLeft] * left_m, u_[kCRight] * right_m, u_[kB]);
-    state_ += Vector3d(arc.dx_m, arc.dy_m, arc.turn_rad);
-    const Matrix3d f = transition(arc);
-    const Matrix3d slip = noise_.K_m * slip_per_K(arc, left_m, right_m);
-    covariance_ = f * covariance_ * f.transpose() + slip;
-    for (Matrix3d& d : by_) d = f * d * f.transpose();
-    by_[0] += slip;
-    state_by_.row(0) += f(0, 2) * state_by_.row(2);
-    state_by_.row(1) += f(1, 2) * state_by_.row(2);
+  void predict(const Prediction& step) {
+    for (Matrix3d& derivative : covariance_)
+      derivative = step.transition * derivative * step.transition.transpose();
+    covariance_[0] += step.slip_covariance;
+    state_.row(0) += step.transition(0, 2) * state_.row(2);
+    state_.row(1) += step.transition(1, 2) * state_.row(2);
   }
 
-  void look(const BodySample& sample, Motion) {
-    if (headings_) {
-      look_at<3>(sample);
-    } else {
-      look_at<2>(sample);
+  template <int N>
+  void update(const Update<N>& step, const BodySample&, Motion) {
+    using Square = typename Update<N>::Square;
+    const auto& h = step.jacobian_state;
+    const Eigen::Matrix<double, N, kNoises> innovation = -h * state_;
+    Square tracker[kNoises] = {Square::Zero(), xy_covariance<N>(), theta_covariance<N>()};
+    Square slopes[kNoises];
+    for (int i = 0; i < kNoises; ++i) slopes[i] = h * covariance_[i] * h.transpose() + tracker[i];
+    add(step, slopes, innovation);
+    if (step.is_outlier)  // the factors of Huber's loss are held
+      for (int i = 0; i < kNoises; ++i) {
+        tracker[i] *= step.loss.tracker;
+        covariance_[i] *= step.loss.slip;
+      }
+    const Matrix3d keep = Matrix3d::Identity() - step.gain * h;
+    const typename Update<N>::Vector weighted = step.weight * step.innovation;
+    for (int i = 0; i < kNoises; ++i) {
+      state_.col(i) += (keep * covariance_[i] * h.transpose() - step.gain * tracker[i]) * weighted +
+                       step.gain * innovation.col(i);
+      covariance_[i] =
+          keep * covariance_[i] * keep.transpose() + step.gain * tracker[i] * step.gain.transpose();
     }
   }
 
@@ -55,87 +61,53 @@ class NoiseFilter {
 
  private:
   template <int N>
-  void look_at(const BodySample& sample) {
-    using Square = Eigen::Matrix<double, N, N>;
-    const Expected expected = expected_body(state_, u_);
-    const Eigen::Matrix<double, N, 3> h = expected.by_state.topRows<N>();
-    Eigen::Matrix<double, N, 1> r;
-    r[0] = sample.x_m - expected.body[0];
-    r[1] = sample.y_m - expected.body[1];
-    if constexpr (N == 3) r[2] = std::remainder(sample.theta_rad - expected.body[2], 2 * std::numbers::pi);
-    Square by_xy = Square::Zero(), by_theta = Square::Zero();
-    by_xy(0, 0) = by_xy(1, 1) = noise_.sigma_xy_m * noise_.sigma_xy_m;
-    if constexpr (N == 3) by_theta(2, 2) = noise_.sigma_theta_rad * noise_.sigma_theta_rad;
-
-    Eigen::Matrix<double, 3, N> ph = covariance_ * h.transpose();
-    Square s = h * ph + by_xy + by_theta;
-    Square weight = s.inverse();
-    const Square slopes[kNoises] = {h * by_[0] * h.transpose(), h * by_[1] * h.transpose() + by_xy,
-                                    h * by_[2] * h.transpose() + by_theta};
-    const Eigen::Matrix<double, N, kNoises> r_by = -h * state_by_;
-    const double squared = r.dot(weight * r);
-    constexpr double kLimit = N == 3 ? kHuber3 : kHuber2;
-    const bool bounded = doubt_ != Doubt::nobody, outside = bounded && squared > kLimit;
-    const double trust = outside ? std::sqrt(kLimit / squared) : 1;
-    add(slopes, weight, r, r_by, trust * trust, !bounded ? 1 : N == 3 ? kKept3 : kKept2);
-    if (outside) {
-      // As the other filter does it, s and t held.
-      const Square tracker = by_xy + by_theta;
-      const Square slip = s - tracker;
-      const HuberLoss loss = huber_loss<N>(r, slip, tracker.diagonal(), kLimit, doubt_);
-      s = loss.slip * slip + loss.tracker * tracker;
-      by_xy *= loss.tracker;
-      by_theta *= loss.tracker;
-      covariance_ *= loss.slip;
-      ph *= loss.slip;
-      for (Matrix3d& d : by_) d *= loss.slip;
-      weight = s.inverse();
-    }
-
-    const Eigen::Matrix<double, 3, N> gain = ph * weight;
-    const Matrix3d keep = Matrix3d::Identity() - gain * h;
-    const Square tracker_by[kNoises] = {Square::Zero(), by_xy, by_theta};
-    const Eigen::Matrix<double, N, 1> wr = weight * r;
-    for (int i = 0; i < kNoises; ++i)
-      state_by_.col(i) += (keep * by_[i] * h.transpose() - gain * tracker_by[i]) * wr + gain * r_by.col(i);
-    state_ += gain * r;
-    covariance_ = keep * covariance_;
-    covariance_ = (covariance_ + covariance_.transpose().eval()) / 2;
-    for (int i = 0; i < kNoises; ++i)
-      by_[i] = keep * by_[i] * keep.transpose() + gain * tracker_by[i] * gain.transpose();
+  typename Update<N>::Square xy_covariance() const {
+    typename Update<N>::Square covariance = Update<N>::Square::Zero();
+    covariance(0, 0) = covariance(1, 1) = noise_.sigma_xy_m * noise_.sigma_xy_m;
+    return covariance;
   }
 
-  template <class Square, class Innovation, class Slopes>
-  void add(const Square (&slopes)[kNoises], const Square& weight, const Innovation& r, const Slopes& r_by,
-           double trust, double kept) {
-    const Innovation wr = weight * r;
-    Square ws[kNoises];
+  template <int N>
+  typename Update<N>::Square theta_covariance() const {
+    typename Update<N>::Square covariance = Update<N>::Square::Zero();
+    if constexpr (N == 3) covariance(2, 2) = noise_.sigma_theta_rad * noise_.sigma_theta_rad;
+    return covariance;
+  }
+
+  /// `slopes`: derivatives of the innovation's covariance; `innovation`: of the innovation itself.
+  template <int N>
+  void add(const Update<N>& step, const typename Update<N>::Square (&slopes)[kNoises],
+           const Eigen::Matrix<double, N, kNoises>& innovation) {
+    const auto& weight = step.expected_weight;
+    const double trust = step.is_outlier ? kHuberLimit<N> / step.expected_chi_square : 1;
+    const double bounded = robust_ == RobustMode::none ? 1 : kBoundedVariance<N>;
+    const typename Update<N>::Vector weighted = weight * step.innovation;
+    typename Update<N>::Square weighted_slopes[kNoises];
     for (int i = 0; i < kNoises; ++i) {
-      ws[i] = weight * slopes[i];
-      slope.gradient[i] += kept * ws[i].trace() + trust * (2 * wr.dot(r_by.col(i)) - wr.dot(slopes[i] * wr));
+      weighted_slopes[i] = weight * slopes[i];
+      slope.gradient[i] += bounded * weighted_slopes[i].trace() +
+                           trust * (2 * weighted.dot(innovation.col(i)) - weighted.dot(slopes[i] * weighted));
     }
     for (int i = 0; i < kNoises; ++i)
-      for (int k = 0; k < kNoises; ++k) slope.curvature(i, k) += kept * (ws[i] * ws[k]).trace();
-    slope.curvature += 2 * trust * r_by.transpose() * weight * r_by;
+      for (int k = 0; k < kNoises; ++k)
+        slope.curvature(i, k) += bounded * (weighted_slopes[i] * weighted_slopes[k]).trace();
+    slope.curvature += 2 * trust * innovation.transpose() * weight * innovation;
   }
 
-  const Unknowns& u_;
   const NoiseModel& noise_;
-  const Doubt doubt_;
-  const bool headings_;
-  Vector3d state_;
-  Matrix3d covariance_ = Matrix3d::Zero();
-  Eigen::Matrix<double, 3, kNoises> state_by_ = Eigen::Matrix<double, 3, kNoises>::Zero();
-  Matrix3d by_[kNoises];  // of the covariance, in the order of NoiseSlope
+  const RobustMode robust_;
+  Eigen::Matrix<double, 3, kNoises> state_ = Eigen::Matrix<double, 3, kNoises>::Zero();
+  Matrix3d covariance_[kNoises];
 };
 
 }  // namespace
 
 NoiseSlope noise_slope(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise,
-                       const Looks& looks) {
-  NoiseFilter filter(run, unknowns, noise, looks.doubt);
-  follow(run, unknowns, looks, filter);
-  return filter.slope;
+                       RobustMode robust, const SampleSelection& samples) {
+  NoiseDerivatives derivatives(noise, robust);
+  KalmanFilter filter(run, unknowns, noise, robust, TruthUse::values, derivatives);
+  filter_run(run, unknowns, samples, filter);
+  return derivatives.slope;
 }
 
 }  // namespace astro::calibration

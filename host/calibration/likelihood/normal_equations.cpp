@@ -11,10 +11,10 @@ using Own = Eigen::Matrix<double, kOwn, kOwn>;
 using OwnVector = Eigen::Matrix<double, kOwn, 1>;
 using Mixed = Eigen::Matrix<double, kShared, kOwn>;
 
-// One over the squares of what nuisances could at most be: 1 m, a turn, 10 %, 10 s.
+// Inverse squares of the largest plausible values: lever arm 1 m, yaw one turn, skew 10 %, offset 10 s.
 constexpr double kLeverPrior = 1, kYawPrior = 0.03, kSkewPrior = 100, kOffsetPrior = 0.01;
 
-/// Information of one run in its parts, with the held unknowns cut out and the weak priors in.
+/// Information of one run in its blocks, without the fixed unknowns and with the weak priors.
 struct Parts {
   SharedInformation shared;
   Mixed mixed;
@@ -23,7 +23,7 @@ struct Parts {
   OwnVector own_gradient;
 };
 
-Parts parts_of(const InnovationSums& sums, const Held& held, double damping) {
+Parts parts_of(const InnovationSums& sums, const FixedParameters& fixed, double damping) {
   Information a = sums.information;
   Unknowns g = sums.gradient;
   a.diagonal() *= 1 + damping;
@@ -34,23 +34,23 @@ Parts parts_of(const InnovationSums& sums, const Held& held, double damping) {
     a(unknown, unknown) = unknown < kShared ? 0 : 1;
     g[unknown] = 0;
   };
-  if (held.factors)
+  if (fixed.factors)
     for (const int unknown : {kCRight, kCLeft, kB}) hold(unknown);
-  if (held.clock) {
+  if (fixed.clock) {
     hold(kSkew);
     hold(kClockOffset);
   }
-  if (held.lever_yaw) hold(kLeverYaw);
+  if (fixed.lever_yaw) hold(kLeverYaw);
   return {a.topLeftCorner<kShared, kShared>(), a.block<kShared, kOwn>(0, kShared),
           a.block<kOwn, kOwn>(kShared, kShared), g.head<kShared>(), g.segment<kOwn>(kShared)};
 }
 
-SharedInformation with_priors(SharedInformation information, const Held& held) {
-  if (held.factors) information.diagonal().head<3>().setOnes();
+SharedInformation with_priors(SharedInformation information, const FixedParameters& fixed) {
+  if (fixed.factors) information.diagonal().head<3>().setOnes();
   information(kLeverX, kLeverX) += kLeverPrior;
   information(kLeverY, kLeverY) += kLeverPrior;
-  information(kLeverYaw, kLeverYaw) += held.lever_yaw ? 1 : kYawPrior;
-  information(kSkew, kSkew) += held.clock ? 1 : kSkewPrior;
+  information(kLeverYaw, kLeverYaw) += fixed.lever_yaw ? 1 : kYawPrior;
+  information(kSkew, kSkew) += fixed.clock ? 1 : kSkewPrior;
   return information;
 }
 
@@ -62,22 +62,22 @@ Reduced reduced(const Parts& parts) {
 
 }  // namespace
 
-Reduced reduced(const InnovationSums& sums, const Held& held, double damping) {
-  return reduced(parts_of(sums, held, damping));
+Reduced reduced(const InnovationSums& sums, const FixedParameters& fixed, double damping) {
+  return reduced(parts_of(sums, fixed, damping));
 }
 
-std::vector<Unknowns> gauss_newton_step(std::span<const InnovationSums> sums, const Held& held,
+std::vector<Unknowns> gauss_newton_step(std::span<const InnovationSums> sums, const FixedParameters& fixed,
                                         double damping) {
   SharedInformation information = SharedInformation::Zero();
   SharedVector gradient = SharedVector::Zero();
   std::vector<Parts> parts;
   for (const InnovationSums& run : sums) {
-    parts.push_back(parts_of(run, held, damping));
+    parts.push_back(parts_of(run, fixed, damping));
     const Reduced r = reduced(parts.back());
     information += r.information;
     gradient += r.gradient;
   }
-  const SharedVector shared = with_priors(information, held).ldlt().solve(gradient);
+  const SharedVector shared = with_priors(information, fixed).ldlt().solve(gradient);
   std::vector<Unknowns> steps;
   for (const Parts& run : parts) {
     Unknowns step = Unknowns::Zero();
@@ -88,48 +88,48 @@ std::vector<Unknowns> gauss_newton_step(std::span<const InnovationSums> sums, co
   return steps;
 }
 
-SharedInformation shared_covariance(const SharedInformation& information, const Held& held) {
-  return with_priors(information, held).ldlt().solve(SharedInformation::Identity());
+SharedInformation shared_covariance(const SharedInformation& information, const FixedParameters& fixed) {
+  return with_priors(information, fixed).ldlt().solve(SharedInformation::Identity());
 }
 
-double log_determinant(std::span<const InnovationSums> sums, const Held& held) {
+double log_determinant(std::span<const InnovationSums> sums, const FixedParameters& fixed) {
   SharedInformation information = SharedInformation::Zero();
   double sum = 0;
   for (const InnovationSums& run : sums) {
-    const Parts parts = parts_of(run, held, 0);
+    const Parts parts = parts_of(run, fixed, 0);
     sum += Eigen::LDLT<Own>(parts.own).vectorD().array().abs().log().sum();
     information += reduced(parts).information;
   }
-  return sum + with_priors(information, held).ldlt().vectorD().array().abs().log().sum();
+  return sum + with_priors(information, fixed).ldlt().vectorD().array().abs().log().sum();
 }
 
-OneUnknown arc_wheelbase(std::span<const InnovationSums> sums, const Held& held) {
+OneUnknown arc_wheelbase(std::span<const InnovationSums> sums, const FixedParameters& fixed) {
   SharedInformation information = SharedInformation::Zero();
   SharedVector mixed = SharedVector::Zero(), gradient = SharedVector::Zero();
   double own_information = 0, own_gradient = 0;
   for (const InnovationSums& run : sums) {
-    const Parts parts = parts_of(run, held, 0);
+    const Parts parts = parts_of(run, fixed, 0);
     const Eigen::LDLT<Own> own(parts.own);
     const Reduced r = reduced(parts);
     SharedVector with_shared = run.information.col(kArcWheelbase).head<kShared>();
     OwnVector with_own = run.information.col(kArcWheelbase).segment<kOwn>(kShared);
-    if (held.clock) with_shared[kSkew] = with_own[kOwn - 1] = 0;
-    if (held.lever_yaw) with_shared[kLeverYaw] = 0;
+    if (fixed.clock) with_shared[kSkew] = with_own[kOwn - 1] = 0;
+    if (fixed.lever_yaw) with_shared[kLeverYaw] = 0;
     information += r.information;
     gradient += r.gradient;
     mixed += with_shared - parts.mixed * own.solve(with_own);
     own_information += run.information(kArcWheelbase, kArcWheelbase) - with_own.dot(own.solve(with_own));
     own_gradient += run.gradient[kArcWheelbase] - with_own.dot(own.solve(parts.own_gradient));
   }
-  const SharedInformation covariance = shared_covariance(information, held);
+  const SharedInformation covariance = shared_covariance(information, fixed);
   const double left = own_information - mixed.dot(covariance * mixed);
   if (!(left > 0)) return {0, std::numeric_limits<double>::infinity()};
   return {(own_gradient - mixed.dot(covariance * gradient)) / left, 1 / std::sqrt(left)};
 }
 
 double clock_offset_variance(const InnovationSums& sums, const SharedInformation& covariance,
-                             const Held& held) {
-  const Parts parts = parts_of(sums, held, 0);
+                             const FixedParameters& fixed) {
+  const Parts parts = parts_of(sums, fixed, 0);
   const Own own = parts.own.ldlt().solve(Own::Identity());
   const Own total = own + own * parts.mixed.transpose() * covariance * parts.mixed * own;
   return total(kOwn - 1, kOwn - 1);

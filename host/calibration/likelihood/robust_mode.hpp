@@ -2,7 +2,7 @@
 
 namespace astro::calibration {
 
-/// Whose errors count less where they are beyond the 99 % quantile (huber.hpp).
-enum class Doubt { nobody, tracker, tracker_and_wheels };
+/// Whose errors Huber's loss down-weights where they are beyond the 99 % quantile (huber.hpp).
+enum class RobustMode { none, tracker, tracker_and_wheels };
 
 }  // namespace astro::calibration

@@ -15,11 +15,11 @@ namespace astro::calibration {
 namespace {
 
 constexpr double kWindow_s = 0.5;
-constexpr std::size_t kFewestSamples = 8;  // fewer, and their median follows one that is wrong
-constexpr double kReach = 2;               // windows in which its samples must lie
-constexpr double kStepsPerWindow = 10;     // moments that are looked at
-constexpr double kLasting = 3;             // windows on either side over which a jolt lasts
-constexpr double kFar = 8;                 // in standard deviations of all moments
+constexpr std::size_t kFewestSamples = 8;  // with fewer, the median follows a single wrong one
+constexpr double kReach = 2;               // windows within which the samples of one median must lie
+constexpr double kStepsPerWindow = 10;     // moments that are examined
+constexpr double kLasting = 3;  // windows on either side after which an event must still be visible
+constexpr double kFar = 8;      // in standard deviations of all moments
 constexpr double kLeast_rad = 0.02;
 constexpr std::size_t kMost = 3;
 
@@ -29,7 +29,7 @@ struct Parting {
   double turned_rad = 0, moved_m = 0;
 };
 
-/// Compares what truth says before and after the moments of a run.
+/// Compares truth before and after each moment of a run, carried to that moment by the wheels.
 class Moments {
  public:
   Moments(const PreparedRun& run, const Unknowns& u)
@@ -48,17 +48,17 @@ class Moments {
 
   double window_s() const { return window_s_; }
 
-  /// What a window says that begins `gap` windows after a sample, less what one says that ends as long
-  /// before. Nothing if truth is lost there.
+  /// The pose by a window that begins `gap` windows after a sample, minus the pose by a window that ends as
+  /// long before it. Nothing if truth is missing there.
   std::optional<Parting> parting(std::size_t at, double gap) const {
     const double time_s = run_.truth[at].time_s, near_s = gap * window_s_;
     const double far_s = near_s + kReach * window_s_;
     std::vector<Eigen::Vector3d> before, after;
     for (std::size_t k = at; k-- > 0 && run_.truth[k].time_s > time_s - far_s && before.size() < most();)
-      if (run_.truth[k].time_s < time_s - near_s) before.push_back(told(k, at));
+      if (run_.truth[k].time_s < time_s - near_s) before.push_back(carried_pose(k, at));
     for (std::size_t k = at;
          k < run_.truth.size() && run_.truth[k].time_s < time_s + far_s && after.size() < most(); ++k)
-      if (run_.truth[k].time_s >= time_s + near_s) after.push_back(told(k, at));
+      if (run_.truth[k].time_s >= time_s + near_s) after.push_back(carried_pose(k, at));
     if (std::min(before.size(), after.size()) < kFewestSamples) return {};
     const Eigen::Vector3d was = middle(before), is = middle(after);
     return Parting{time_s, at, std::remainder(is[2] - was[2], 2 * std::numbers::pi),
@@ -82,8 +82,8 @@ class Moments {
     return static_cast<std::size_t>(std::clamp(samples, static_cast<double>(kFewestSamples), 1e3));
   }
 
-  /// Where the robot is at sample `to` if it was where truth had it at sample `from`.
-  Eigen::Vector3d told(std::size_t from, std::size_t to) const {
+  /// The robot's pose at sample `to` by the wheels, starting from its true pose at sample `from`.
+  Eigen::Vector3d carried_pose(std::size_t from, std::size_t to) const {
     const BodySample &was = odometry_[from], &is = odometry_[to];
     const Placed& robot = robot_[from];
     const double dx = is.x_m - was.x_m, dy = is.y_m - was.y_m;
@@ -103,7 +103,7 @@ class Moments {
     return pose;
   }
 
-  /// The robot where truth has it, and how the plane of odometry lies there.
+  /// The robot's true pose, and the rotation from odometry to truth there.
   struct Placed {
     double x_m, y_m, turn_rad, cosine, sine;
   };
@@ -114,9 +114,9 @@ class Moments {
   double period_s_, window_s_;
 };
 
-/// Of several moments of one jolt the one at which it is largest.
-std::vector<Jolt> lasting(const Moments& moments, double start_s, std::vector<Parting> candidates) {
-  std::vector<Jolt> found;
+/// Keeps, of the moments of one event, the one with the largest rotation.
+std::vector<SlipEvent> lasting(const Moments& moments, double start_s, std::vector<Parting> candidates) {
+  std::vector<SlipEvent> found;
   const auto size = [](const Parting& parting) { return std::abs(parting.turned_rad); };
   while (!candidates.empty() && found.size() < kMost) {
     const Parting here = *std::max_element(candidates.begin(), candidates.end(),
@@ -128,14 +128,15 @@ std::vector<Jolt> lasting(const Moments& moments, double start_s, std::vector<Pa
       return std::abs(other.time_s - here.time_s) < 2 * moments.window_s();
     });
   }
-  std::sort(found.begin(), found.end(), [](const Jolt& a, const Jolt& b) { return a.time_s < b.time_s; });
+  std::sort(found.begin(), found.end(),
+            [](const SlipEvent& a, const SlipEvent& b) { return a.time_s < b.time_s; });
   return found;
 }
 
 }  // namespace
 
-std::vector<std::vector<Jolt>> find_jolts(std::span<const PreparedRun> runs,
-                                          std::span<const Unknowns> unknowns) {
+std::vector<std::vector<SlipEvent>> find_slip_events(std::span<const PreparedRun> runs,
+                                                     std::span<const Unknowns> unknowns) {
   std::vector<std::optional<Moments>> moments(runs.size());
   std::vector<std::vector<Parting>> partings(runs.size());
   std::vector<double> turned_rad;
@@ -144,7 +145,7 @@ std::vector<std::vector<Jolt>> find_jolts(std::span<const PreparedRun> runs,
     partings[i] = moments[i].emplace(runs[i], unknowns[i]).all();
     for (const Parting& parting : partings[i]) turned_rad.push_back(parting.turned_rad);
   }
-  std::vector<std::vector<Jolt>> found(runs.size());
+  std::vector<std::vector<SlipEvent>> found(runs.size());
   if (turned_rad.empty()) return found;
   const double far_rad = std::max(kLeast_rad, kFar * deviation_of(turned_rad));
   for (std::size_t i = 0; i < runs.size(); ++i) {

@@ -6,25 +6,26 @@
 #include "host/calibration/likelihood/innovation.hpp"
 #include "host/calibration/preparation/preparation.hpp"
 
-/// Moments at which truth turns and the wheels do not: a castor that kicks, a cable underfoot, a hand, a
-/// marker taken for another. The factors suffer little from them (huber.hpp); a person wants to know when to
-/// look.
+/// Slip events: rotations in truth that the wheels did not see, from a castor that swings round, a cable under a
+/// wheel, a hand, or a marker taken for another. Huber's loss (huber.hpp) keeps their influence on the factors
+/// small; a person wants to know when they happened.
 namespace astro::calibration {
 
-struct Jolt {
+struct SlipEvent {
   double time_s = 0;         // on the tracker's clock
   double since_start_s = 0;  // of the run's truth
-  double turned_rad = 0;     // by truth less wheels; counter-clockwise
-  double moved_m = 0;        // in the same moment
+  double turned_rad = 0;     // rotation of truth minus that of the wheels; counter-clockwise positive
+  double moved_m = 0;        // displacement at the same moment
 };
 
-/// Of each run, in order of time, at most three; none where truth has no headings. At a jolt half a second of
-/// truth (eight samples where that is longer) is turned against the half second before eight times as far as
-/// at other moments and by at least 20 mrad, and still is two seconds later: clocks that do not fit turn them
-/// apart for the time of a spin alone. Neither the first and last two seconds are judged nor a robot that
-/// stands; truth may be lost in the moment itself for up to a second. `unknowns` are those of each run,
-/// fitted. Cost  linear in the samples.
-std::vector<std::vector<Jolt>> find_jolts(std::span<const PreparedRun> runs,
-                                          std::span<const Unknowns> unknowns);
+/// At most three per run, in order of time; none for truth without headings. Half a second of truth (eight
+/// samples if that is longer) after a moment is compared with the half second before it, which the wheels carry
+/// along. At an event the rotation between them is eight times the usual one and at least 20 mrad, and it is
+/// still there two seconds later (a clock error causes one only during a spin). The first and last two seconds
+/// and a standing robot are not examined; truth may be missing for up to a second at the event itself.
+/// `unknowns` are the fitted ones of each run.
+/// Cost  linear in the samples.
+std::vector<std::vector<SlipEvent>> find_slip_events(std::span<const PreparedRun> runs,
+                                                     std::span<const Unknowns> unknowns);
 
 }  // namespace astro::calibration

@@ -8,16 +8,16 @@
 #include <span>
 
 #include "host/base/error.hpp"
+#include "host/calibration/motion/tracker_noise.hpp"
+#include "host/calibration/motion/wheel_path.hpp"
 #include "host/calibration/preparation/path_alignment.hpp"
 #include "host/calibration/preparation/position_lever.hpp"
 #include "host/calibration/preparation/relative_pose.hpp"
-#include "host/calibration/motion/tracker_noise.hpp"
-#include "host/calibration/motion/wheel_path.hpp"
 
 namespace astro::calibration {
 namespace {
 
-// A piece is long enough to stand out of the tracker's noise, short enough to be many.
+// A piece is long enough to exceed the tracker's noise, and short enough that there are many pieces.
 constexpr double kPiece_m = 0.3, kPiece_rad = 0.5;
 constexpr double kStretch_m = 1;
 constexpr double kLeastTurn_rad = 1;
@@ -46,7 +46,7 @@ void add_pieces(const PreparedRun& run, const ClockFit& clock, double wheelbase_
       }
     before_s = now_s;
     if (std::abs(travelled_m) < kPiece_m && std::abs(turned_rad) < kPiece_rad) continue;
-    // Over a gap of the tracker the robot may have turned further than headings can tell.
+    // During a gap of the tracker the robot may have turned by more than half a turn.
     if (std::abs(turned_rad) < 2.5)
       pieces.push_back(closed_piece(run.truth[from], run.truth[i], std::move(steps)));
     steps.clear();
@@ -55,10 +55,10 @@ void add_pieces(const PreparedRun& run, const ClockFit& clock, double wheelbase_
   }
 }
 
-std::optional<RelativePoseFit> closed_form(const PreparedRuns& runs, const WheelFactors& carried) {
+std::optional<RelativePoseFit> closed_form(const PreparedRuns& runs, const WheelFactors& loaded) {
   std::vector<RelativePose> pieces;
   for (std::size_t i = 0; i < runs.runs.size(); ++i)
-    if (runs.runs[i].has_headings) add_pieces(runs.runs[i], runs.clocks[i], carried.b_m, pieces);
+    if (runs.runs[i].has_headings) add_pieces(runs.runs[i], runs.clocks[i], loaded.b_m, pieces);
   return fit_relative_poses_trimmed(pieces, 2, 0.02);
 }
 
@@ -66,11 +66,13 @@ void require_forward(const RelativePoseFit& fit) {
   for (const auto& [wheel, radius] : {std::pair{"left", fit.r_left}, std::pair{"right", fit.r_right}})
     if (!(radius > 0))
       throw Error(
-          fmt::format("the {} wheel comes out turning backwards: its encoder or its motor is reversed", wheel),
+          fmt::format("the {} wheel comes out turning backwards: its encoder or its motor is reversed",
+                      wheel),
           {Help::check_wiring});
 }
 
-/// Where the tracked body of a dead-reckoned robot goes, as far as wrong factors do not bend its way much.
+/// The path of the tracked body by dead reckoning over a first stretch, which is so short that wrong factors
+/// hardly bend it.
 std::vector<BodySample> first_stretch(std::vector<BodySample> robot, const Unknowns& u) {
   double travelled_m = 0;
   for (std::size_t i = 0; i < robot.size(); ++i) {
@@ -118,14 +120,14 @@ void require_variety(const PreparedRuns& runs) {
         "squares as well");
 }
 
-std::vector<Unknowns> start_values(const PreparedRuns& runs, const WheelFactors& carried) {
+std::vector<Unknowns> start_values(const PreparedRuns& runs, const WheelFactors& loaded) {
   Unknowns shared = Unknowns::Zero();
-  shared[kCRight] = carried.c_r;
-  shared[kCLeft] = carried.c_l;
-  shared[kB] = carried.b_m;
+  shared[kCRight] = loaded.c_r;
+  shared[kCLeft] = loaded.c_l;
+  shared[kB] = loaded.b_m;
   for (const ClockFit& clock : runs.clocks)
     shared[kSkew] += clock.skew / static_cast<double>(runs.clocks.size());
-  if (const auto fit = closed_form(runs, carried)) {
+  if (const auto fit = closed_form(runs, loaded)) {
     require_forward(*fit);
     shared[kCRight] = fit->r_right;
     shared[kCLeft] = fit->r_left;
@@ -133,7 +135,7 @@ std::vector<Unknowns> start_values(const PreparedRuns& runs, const WheelFactors&
     shared[kLeverX] = fit->sensor.x_m;
     shared[kLeverY] = fit->sensor.y_m;
     shared[kLeverYaw] = fit->sensor.yaw_rad;
-  } else if (const auto lever = lever_of_positions(runs, carried)) {
+  } else if (const auto lever = lever_of_positions(runs, loaded)) {
     shared[kLeverX] = lever->x_m;
     shared[kLeverY] = lever->y_m;
   }

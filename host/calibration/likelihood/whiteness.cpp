@@ -7,14 +7,15 @@
 namespace astro::calibration {
 namespace {
 
-// Of some forty sums one in a hundred drives is so far off by chance, and every second sample of it suffices,
-// too.
+// With some forty sums, one drive in a hundred exceeds this by chance. It is then thinned to every second
+// sample, which does little harm.
 constexpr double kUnlikely = 1e-4;
-constexpr double kMatters = 1.2;      // of a variance: a tenth of a standard error
-constexpr int kBlocksPerUnknown = 2;  // else what was fitted is most of what sums could tell
+constexpr double kMatters = 1.2;      // ratio of variances: a tenth of a standard error
+constexpr int kBlocksPerUnknown = 2;  // with fewer, the fitted unknowns take most of what the sums could show
 
 struct BlockSums {
-  Eigen::Vector3d mean_square = Eigen::Vector3d::Zero();  // of the sums over `length`, by their length
+  Eigen::Vector3d mean_square =
+      Eigen::Vector3d::Zero();  // of the sums over `length` innovations, divided by `length`
   int blocks = 0;
 };
 
@@ -31,7 +32,7 @@ BlockSums sums_over(std::span<const std::vector<Eigen::Vector3d>> runs, std::siz
   return sums;
 }
 
-/// Of a mean of `count` squares that is 1 or, if the fit took part of it, as little as `left`.
+/// For a mean of `count` squares whose expectation is 1 or, because of the fit, as little as `left`.
 bool is_far(double mean_square, double left, int count) {
   if (mean_square > kMatters) return chi_square_tail(mean_square * count, count) < kUnlikely;
   const double at_least = mean_square / left;
@@ -49,7 +50,7 @@ bool are_independent(std::span<const std::vector<Eigen::Vector3d>> runs, int fit
     const int count = components * sums.blocks;
     const double left = 1 - static_cast<double>(fitted) / count;
     if (is_far(sums.mean_square.sum() / single.sum(), left, count)) return false;
-    // What was fitted may all have been told by one of them.
+    // One component may have determined all that was fitted.
     if (sums.blocks < 2 * kBlocksPerUnknown * fitted) continue;
     for (int i = 0; i < 3; ++i)
       if (single[i] > 0 && is_far(sums.mean_square[i] / single[i], left, sums.blocks)) return false;

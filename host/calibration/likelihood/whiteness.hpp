@@ -4,19 +4,18 @@
 #include <span>
 #include <vector>
 
-/// Whether innovations are independent of one another, as the likelihood takes for granted.
+/// Whether innovations are independent of one another, as the likelihood assumes.
 namespace astro::calibration {
 
-/// Real wheels are a little out of round, tyres and gears give and come back, times jitter: over a second the
-/// robot strays from what its wheels tell by more than slip would explain, and returns. A random walk fitted
-/// to that has far too much slip in it, and claims too large errors for long drives; a robot that slips on
-/// for seconds is taken for too good. Either shows in sums over neighbours: of independent innovations they
-/// have a mean square equal to their number, of errors that come back less, of errors that go on more.
+/// Real wheels are a little out of round, tyres and gears are elastic, times jitter. So over a second the robot
+/// deviates from its wheels by more than slip explains, and comes back. A random walk fitted to such errors has
+/// far too much slip and gives too large errors for long drives. Errors that persist for seconds have the
+/// opposite effect. Both show in sums over neighbouring innovations: if these are independent, the mean square of
+/// a sum is the number of its terms; if errors come back it is smaller, if they persist it is larger.
 ///
-/// `runs`: innovations of each run, of variance 1 (standard_innovations). `fitted`: how many unknowns were
-/// fitted to them, which takes as much from the sums. Tells false only if some sum is significantly (one
-/// in ten thousand, on either side) and by more than a fifth away; of too few innovations nothing can be
-/// told, and it is true.
+/// `runs`: innovations of each run, of variance 1 (standardised_innovations). `fitted`: the number of unknowns
+/// fitted to them, which reduces the sums. Returns false only if some sum differs significantly (one in ten
+/// thousand, on either side) and by more than a fifth. With too few innovations it returns true.
 ///
 /// Source  the variance ratio of Lo & MacKinlay 1988, Review of Financial Studies 1(1).
 bool are_independent(std::span<const std::vector<Eigen::Vector3d>> runs, int fitted);

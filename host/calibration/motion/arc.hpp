@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-/// The arc of constant twist, by which everything here moves a robot.
+/// The arc of constant twist: the motion of a robot between two samples of its wheels.
 namespace astro::calibration {
 
-/// An arc stands for no more than this of a drive, also where truth was lost for long.
+/// The longest time that one arc covers, also in gaps of truth.
 inline constexpr double kLongestStep_s = 0.06;
 
 /// sin(a) / a, without the division where it would lose digits.

@@ -7,7 +7,7 @@
 
 namespace astro::calibration {
 
-/// Of samples with a `time_s`, at least two: the median of the times between neighbours, s.
+/// Median time between neighbouring samples, in s. Precondition: at least two samples with a `time_s`.
 template <class Sample>
 double median_period_s(const std::vector<Sample>& samples) {
   std::vector<double> periods;

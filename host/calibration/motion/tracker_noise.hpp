@@ -5,14 +5,14 @@
 
 #include "host/calibration/motion/trajectory.hpp"
 
-/// What a tracker's samples tell about its noise before anything else is known.
+/// An estimate of a tracker's noise from its samples alone.
 namespace astro::calibration {
 
-/// White noise from second differences of neighbouring samples, which a motion hardly has: their median, so
-/// that jumps do not count. What a robot accelerates by within two samples is taken for noise, too: 2 mm at
-/// 10 Hz. Noise that neighbours share (a tracker that smooths) is not seen.
+/// White noise from second differences of neighbouring samples, to which a motion contributes little. Their
+/// median is used, so that jumps do not count. Acceleration within two samples counts as noise as well: 2 mm at
+/// 10 Hz. Noise that neighbours share (from a tracker that smooths) is not detected.
 ///
-/// Samples that are no numbers are passed over. Cost  linear.
+/// Samples that are not finite are skipped. Cost  linear.
 class SecondDifferences {
  public:
   /// One stream; call again for more of the same tracker.
@@ -26,7 +26,7 @@ class SecondDifferences {
   std::vector<double> position_m_, heading_rad_;
 };
 
-/// More than half of the samples have headings: then the others are not used, else no heading is.
+/// Whether more than half of the samples have headings. If so, only those samples are used, otherwise no heading.
 bool mostly_headings(std::span<const BodySample> truth);
 
 }  // namespace astro::calibration

@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-/// A whole drive as the estimator sees it: how far the wheels believe they went and where the tracked body
-/// was.
+/// A whole drive as the estimator uses it: the travel of the wheels and the poses of the tracked body.
 namespace astro::calibration {
 
 /// Travel of each wheel since any start, in metres of a nominal wheel (c_R = c_L = 1): counts times pi times
@@ -22,7 +21,7 @@ struct BodySample {
   double x_m = 0, y_m = 0, theta_rad = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// One drive. Both streams in order of time; `truth` holds valid samples only, gaps are welcome.
+/// One drive. Both streams in order of time; `truth` holds valid samples only and may have gaps.
 struct Trajectory {
   std::string name;  // how messages call it: "run square cw 3 (before)"
   std::vector<WheelSample> wheels;
@@ -34,7 +33,7 @@ struct LeverArm {
   double x_m = 0, y_m = 0, yaw_rad = 0;
 };
 
-/// What the estimator takes for noise. A wheel that travels d is off by a normal error of variance K * |d|,
+/// The noise model of the estimator. A wheel that travels d is off by a normal error of variance K * |d|,
 /// white along the path; the tracker's errors are white and normal per coordinate.
 struct NoiseModel {
   double K_m = 2.645e-6;  // gives the scatter of the thesis's robot
@@ -42,7 +41,7 @@ struct NoiseModel {
   double sigma_theta_rad = 2.6e-3;
 };
 
-/// What a robot does at a moment, told from its wheels.
+/// How a robot moves at a moment, by its wheels.
 enum class Motion { rest, line, arc, spin };
 
 }  // namespace astro::calibration

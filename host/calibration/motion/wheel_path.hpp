@@ -15,8 +15,8 @@ struct WheelState {
 };
 
 /// A cubic through the samples with a continuous rate (Catmull-Rom): at 20 Hz a straight line between them
-/// would miss 0.2 mm of an acceleration of 0.5 m/s^2, and its rate would jump, which the search for the
-/// clock's offset feels.
+/// would miss 0.2 mm of an acceleration of 0.5 m/s^2, and its rate would jump, which disturbs the search for
+/// the clock offset.
 ///
 /// Times   must not decrease in the samples; before the first and after the last one the wheels stand still.
 /// Cost    constant for neighbouring times, logarithmic for others.
@@ -31,7 +31,7 @@ class WheelPath {
   std::size_t interval_of(double time_s) const;
 
   std::span<const WheelSample> samples_;
-  mutable std::size_t last_ = 0;  // where the last question was: the next one is near
+  mutable std::size_t last_ = 0;  // interval of the last call; the next call is usually close to it
 };
 
 }  // namespace astro::calibration

@@ -12,13 +12,13 @@
 namespace astro::calibration {
 namespace {
 
-// Steps that stand out of the noise and are far below half a turn.
+// Steps of heading that exceed the noise and are far below half a turn.
 constexpr double kStep_s = 0.2, kLargestStep_rad = 2.5;
-// Of the wheels' turning: what a body that turns with the robot cannot fall below, even with a wheel twice
-// its size.
+// Relative to the turning of the wheels: a body on the robot turns by more, even if a wheel is twice its
+// nominal size.
 constexpr double kLeastSlope = 0.2;
 
-/// Turning of truth per turning of the wheels, by least squares; noise of headings averages out.
+/// Rotation of truth per rotation by the wheels, by least squares, which averages the noise of headings.
 double heading_slope(const PreparedRun& run, const std::vector<BodySample>& odometry) {
   double product = 0, square = 0;
   for (std::size_t i = 0, from = 0; i < run.truth.size(); ++i) {
@@ -36,8 +36,8 @@ double heading_slope(const PreparedRun& run, const std::vector<BodySample>& odom
 
 enum class Positions { agree, oppose, silent };
 
-Positions sense_of_positions(const PreparedRun& run, const std::vector<BodySample>& odometry) {
-  // A line is its own mirror image, and so is nearly a spin on the spot.
+Positions handedness_of_positions(const PreparedRun& run, const std::vector<BodySample>& odometry) {
+  // A line is its own mirror image, and a spin on the spot nearly so: they do not decide.
   if (run.distance_m < 1) return Positions::silent;
   const double straight_m = fit_rigid(odometry, run.truth, false).rms_m;
   const double mirrored_m = fit_rigid(odometry, run.truth, true).rms_m;
@@ -51,28 +51,29 @@ Positions sense_of_positions(const PreparedRun& run, const std::vector<BodySampl
                 ": the headings of the ground truth turn right where its positions and the wheels turn left: "
                 "they are clockwise; negate them");
   throw Error(
-      name +
-      fmt::format(": the ground truth turns right where the wheels say left: its axes are mirrored (a Y-up "
-                  "export has x = Z, y = X), {}or the left and right wheels are exchanged",
-                  positions == Positions::silent ? "its headings are clockwise, " : ""),
+      name + fmt::format(
+                 ": the ground truth turns right where the wheels say left: its axes are mirrored (a Y-up "
+                 "export has x = Z, y = X), {}or the left and right wheels are exchanged",
+                 positions == Positions::silent ? "its headings are clockwise, " : ""),
       {Help::check_wiring});
 }
 
 }  // namespace
 
-void require_senses(const PreparedRun& run, const ClockFit& clock, const WheelFactors& carried) {
+void require_handedness(const PreparedRun& run, const ClockFit& clock, const WheelFactors& loaded) {
   if (run.rotation_rad < 1) return;
-  const std::vector<BodySample> odometry = dead_reckoned(run, clock, carried);
-  const Positions positions = sense_of_positions(run, odometry);
+  const std::vector<BodySample> odometry = dead_reckoned(run, clock, loaded);
+  const Positions positions = handedness_of_positions(run, odometry);
   if (run.has_headings) {
     const double slope = heading_slope(run, odometry);
     if (slope < -kLeastSlope) refuse_opposite_turn(run.source->name, positions);
     if (slope < kLeastSlope)
       throw Error(
-          fmt::format("{}: the wheels turned the robot by {:.0f} degrees and the heading of the ground truth "
-                      "stayed: export the orientation of the body, too; and if it did not turn, an encoder or "
-                      "a motor is reversed",
-                      run.source->name, degrees(run.rotation_rad)),
+          fmt::format(
+              "{}: the wheels turned the robot by {:.0f} degrees and the heading of the ground truth "
+              "stayed: export the orientation of the body, too; and if it did not turn, an encoder or "
+              "a motor is reversed",
+              run.source->name, degrees(run.rotation_rad)),
           {Help::check_wiring});
   }
   if (positions == Positions::oppose) refuse_opposite_turn(run.source->name, positions);

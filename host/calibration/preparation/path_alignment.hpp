@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "host/calibration/motion/wheel_factors.hpp"
+#include "host/calibration/motion/wheel_path.hpp"
 #include "host/calibration/preparation/preparation.hpp"
 #include "host/calibration/preparation/relative_pose.hpp"
-#include "host/calibration/motion/wheel_path.hpp"
 
-/// Paths laid over one another.
+/// Dead-reckoned paths, and their rigid alignment with truth.
 namespace astro::calibration {
 
 /// Travel of the wheels from one robot's time to another, in steps short enough to be arcs of constant twist.
@@ -18,7 +18,7 @@ std::vector<WheelStep> wheel_steps(const WheelPath& path, double from_s, double 
 std::vector<BodySample> dead_reckoned(const PreparedRun& run, const ClockFit& clock,
                                       const WheelFactors& factors);
 
-/// The rigid motion, or its mirror image, that carries one path closest to another.
+/// The rigid motion, with or without reflection, that brings one path closest to another.
 struct RigidFit {
   double rotation_rad = 0, x_m = 0,
          y_m = 0;  // to = R(rotation) * from + (x, y), y of `from` negated if mirrored

@@ -11,12 +11,12 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Enough of a turn to part the lever from the way, too little for wrong factors to bend it.
+// Enough rotation to separate the lever arm from the path, and too little for wrong factors to bend the path.
 constexpr double kPiece_rad = 4;
-// Square of the part, of a wheelbase and of the lever, that must be left of a piece once the other is
-// eliminated. Less, and its lines or turns are missing.
+// Squares of the parts of wheelbase and lever arm that a piece must still determine once the other unknowns are
+// eliminated. With less, the piece lacks lines or turns.
 constexpr double kLeastTold = 1e-3;
-// As an estimate of 1: how many times as long the truth of a piece is as its way.
+// Plausible range of the scale |r|, the length of truth over that of the dead-reckoned path, ideally 1.
 constexpr double kLeastScale = 0.5, kMostScale = 2;
 
 /// Least squares of one piece.
@@ -35,12 +35,12 @@ class Piece {
 
   double turned_rad() const { return turned_rad_; }
 
-  /// Adds what this piece tells, and how much.
+  /// Adds the lever arm by this piece with its weight.
   void finish(double wheelbase_m, Complex& lever_m, double& weight) const {
     const Eigen::FullPivLU<Eigen::Matrix3cd> lu(normal_);
     if (!lu.isInvertible()) return;
     const Eigen::Matrix3cd inverse = lu.inverse();
-    // What way and lever tell once the others are eliminated, of what they would tell alone.
+    // Information about path and lever arm after elimination of the others, relative to that before.
     const double way = 1 / inverse(1, 1).real(), lever = 1 / inverse(2, 2).real();
     if (!(way > kLeastTold * wheelbase_m * wheelbase_m * count_) || !(lever > kLeastTold * count_)) return;
     const Eigen::Vector3cd found = inverse * right_side_;

@@ -5,15 +5,15 @@
 #include "host/calibration/motion/wheel_factors.hpp"
 #include "host/calibration/preparation/preparation.hpp"
 
-/// Where on the robot a body sits whose positions alone are known.
+/// The lever arm of a tracked body of which only positions are known.
 namespace astro::calibration {
 
 /// With the robot dead-reckoned by `factors` to q, heading phi, the body is at z = t + r (q + l exp(i phi))
 /// in the complex plane: linear in t, r and r l, so each piece of a drive of some radians gives l by least
-/// squares, and the mean over pieces counts each by what it tells. No start value, no iteration.
+/// squares, and the pieces are averaged with their information as weights. No start value, no iteration.
 ///
-/// Yaw is zero, for positions do not tell it. Nothing where no piece has lines as well as turns (a circle has
-/// neither): spins alone leave the direction of l open, lines all of it.
+/// Yaw is zero, because positions do not determine it. Nothing if no piece has both lines and turns (a circle has
+/// neither): spins alone do not determine the direction of l, and lines determine nothing of it.
 /// Cost  linear.
 std::optional<LeverArm> lever_of_positions(const PreparedRuns& runs, const WheelFactors& factors);
 

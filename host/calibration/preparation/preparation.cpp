@@ -9,25 +9,25 @@
 #include "host/base/degrees.hpp"
 #include "host/base/error.hpp"
 #include "host/calibration/motion/median_period.hpp"
-#include "host/calibration/preparation/handedness.hpp"
 #include "host/calibration/motion/tracker_noise.hpp"
 #include "host/calibration/motion/wheel_path.hpp"
+#include "host/calibration/preparation/handedness.hpp"
 
 namespace astro::calibration {
 namespace {
 
 constexpr int kFewestSamples = 20;
 constexpr double kLongestPause_s = 3600;
-// Over less a cubic follows what a robot can do; a robot that stands may be silent.
+// A cubic follows a moving robot over shorter gaps of odometry. A standing robot may have longer ones.
 constexpr double kLongestWheelGap_s = 0.3, kWheelGapMotion_m = 0.01;
-// Less than either is a robot that was pushed, not driven.
+// A drive with less than both was a push, not a drive.
 constexpr double kShortestDrive_m = 0.2, kSmallestTurn_rad = 0.5;
 constexpr double kLeastCorrelation = 0.5, kLeastLikeness = 0.9, kSurelyRight = 0.9;
-// Truth beyond the wheels' ends would be taken for standing still; half a clock's error is kept away from
-// them.
+// Truth beyond the ends of the odometry would count as standing still, so truth within the error of the clock
+// offset from these ends is not used.
 constexpr double kMargin_s = 0.02;
-constexpr double kWindow_s = 0.1;  // half of the time over which a motion is told
-// Likewise for lines against arcs: a robot that is held on a line sways about it.
+constexpr double kWindow_s = 0.1;  // half of the window in which a motion is classified
+// The window that separates lines from arcs, because a robot that is controlled along a line sways about it.
 constexpr double kLongWindow_s = 0.5;
 constexpr double kSlowest_mps = 0.002;
 
@@ -72,15 +72,14 @@ void require_samples(const Trajectory& run) {
     return std::isfinite(sample.x_m) && std::isfinite(sample.y_m);
   });
   if (finite < kFewestSamples)
-    throw Error(
-        fmt::format("{} has {} samples of ground truth, and maximum likelihood needs the whole drive", run.name,
-                    finite),
-        {Help::use_end_poses});
+    throw Error(fmt::format("{} has {} samples of ground truth, and maximum likelihood needs the whole drive",
+                            run.name, finite),
+                {Help::use_end_poses});
   require_wheels(run);
   require_times(run.name, "ground truth", run.truth);
 }
 
-/// What the centre travelled and how far the robot turned, by roughly right factors.
+/// Travel of the centre and rotation between two moments, by roughly right factors.
 MotionExtent extent_between(const WheelState& a, const WheelState& b, const WheelFactors& factors) {
   const double left = factors.c_l * (b.left_m - a.left_m), right = factors.c_r * (b.right_m - a.right_m);
   return {std::abs(left + right) / 2, std::abs(right - left) / factors.b_m};
@@ -106,13 +105,13 @@ PreparedRun cropped(const Trajectory& run, const ClockFit& clock, Density densit
   prepared.source = &run;
   prepared.has_headings = mostly_headings(run.truth);
   prepared.clock_middle_s = (run.wheels.front().time_s + run.wheels.back().time_s) / 2 - clock.offset_s;
-  // A hair less, so that a multiple of the tracker's period is not missed by its jitter.
+  // Slightly less, so that jitter does not make a multiple of the tracker's period miss it.
   const double spacing_s = density == Density::all ? 0 : 0.9 * median_period_s(run.wheels);
   double last_s = -std::numeric_limits<double>::infinity();
   for (const BodySample& sample : run.truth) {
     if (!std::isfinite(sample.x_m) || !std::isfinite(sample.y_m)) continue;
     if (prepared.has_headings && !std::isfinite(sample.theta_rad)) continue;
-    // Before the clock has its say: which samples are taken must not hang on where a search found it.
+    // In the tracker's own time: the selection of samples must not depend on the estimated clock offset.
     if (sample.time_s - last_s < spacing_s) continue;
     last_s = sample.time_s;
     const double u = clock.robot_time_s(sample.time_s, prepared.clock_middle_s);
@@ -122,7 +121,7 @@ PreparedRun cropped(const Trajectory& run, const ClockFit& clock, Density densit
   return prepared;
 }
 
-/// Turning of whatever radius, but not counts that flicker on a line: what is left of each second.
+/// Sum of the net rotation of each second: includes arcs of any radius, excludes counts that flicker on a line.
 double net_rotation_rad(const PreparedRun& run, const WheelPath& path, const ClockFit& clock,
                         const WheelFactors& factors) {
   double sum_rad = 0;
@@ -138,7 +137,7 @@ double net_rotation_rad(const PreparedRun& run, const WheelPath& path, const Clo
   return sum_rad;
 }
 
-void tell_motion(PreparedRun& run, const ClockFit& clock, const WheelFactors& factors) {
+void classify_motion(PreparedRun& run, const ClockFit& clock, const WheelFactors& factors) {
   const WheelPath path(run.source->wheels);
   WheelState before;
   for (std::size_t i = 0; i < run.truth.size(); ++i) {
@@ -170,10 +169,10 @@ void require_motion(const PreparedRun& run) {
                     run.source->name, run.distance_m, degrees(run.rotation_rad)));
 }
 
-ClockFit clock_of(const Trajectory& run, const WheelFactors& carried, std::optional<double> skew) {
-  const ClockFit clock = search_clock(run, carried.b_m, skew);
+ClockFit clock_of(const Trajectory& run, const WheelFactors& loaded, std::optional<double> skew) {
+  const ClockFit clock = search_clock(run, loaded.b_m, skew);
   if (!skew || clock.correlation >= kSurelyRight) return clock;
-  const ClockFit anew = search_clock(run, carried.b_m, {});
+  const ClockFit anew = search_clock(run, loaded.b_m, {});
   return anew.correlation > clock.correlation ? anew : clock;
 }
 
@@ -181,7 +180,7 @@ bool in_common(const ClockFit& clock) {
   return clock.correlation >= kLeastCorrelation || clock.likeness >= kLeastLikeness;
 }
 
-/// Positions of a body on the axis of a spin stand still.
+/// A spin during which the positions of the body stand still, because it sits on the axis.
 bool is_blind_spin(const Trajectory& run, const ClockFit& clock, double wheelbase_m) {
   if (mostly_headings(run.truth) || in_common(clock)) return false;
   double distance_m = 0, turned_m = 0;
@@ -203,7 +202,8 @@ std::string blind_sentence(const Trajectory& run) {
 void require_clock(const Trajectory& run, const ClockFit& clock) {
   if (!in_common(clock))
     throw Error(
-        run.name + ": the motions of wheels and ground truth have nothing in common at any offset of their clocks",
+        run.name +
+            ": the motions of wheels and ground truth have nothing in common at any offset of their clocks",
         {Help::check_run_and_wiring});
   if (clock.rival_offset_s && clock.correlation >= kLeastCorrelation)
     throw Error(fmt::format("{} repeats itself, so that its clocks may be {:.1f} s apart as well as {:.1f} s",
@@ -213,7 +213,7 @@ void require_clock(const Trajectory& run, const ClockFit& clock) {
 
 }  // namespace
 
-PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& carried, bool clock_known,
+PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& loaded, bool clock_known,
                      Density density) {
   if (runs.empty()) throw Error("there are no runs to calibrate from");
   PreparedRuns prepared;
@@ -222,8 +222,8 @@ PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& carri
     require_samples(run);
     ClockFit clock;
     if (!clock_known) {
-      clock = clock_of(run, carried, skew);
-      if (is_blind_spin(run, clock, carried.b_m)) {
+      clock = clock_of(run, loaded, skew);
+      if (is_blind_spin(run, clock, loaded.b_m)) {
         prepared.left_out.push_back(blind_sentence(run));
         continue;
       }
@@ -231,9 +231,9 @@ PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& carri
       skew = clock.skew;
     }
     PreparedRun ready = cropped(run, clock, density);
-    tell_motion(ready, clock, carried);
+    classify_motion(ready, clock, loaded);
     require_motion(ready);
-    require_senses(ready, clock, carried);
+    require_handedness(ready, clock, loaded);
     prepared.runs.push_back(std::move(ready));
     prepared.clocks.push_back(clock);
   }

@@ -5,39 +5,40 @@
 #include <vector>
 
 #include "host/calibration/clock/clock_search.hpp"
-#include "host/calibration/preparation/prepared_run.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
+#include "host/calibration/preparation/prepared_run.hpp"
 
-/// From what was recorded to what the filter can follow, or the sentence why not.
+/// Prepares recorded runs for the filter, or says in one sentence why a run cannot be used.
 namespace astro::calibration {
 
 /// Which samples of truth are used.
 enum class Density {
   all,
-  /// No two closer than two samples of the wheels are: what the wheels did between these is a guess that all
-  /// truth in between shares, and would count for more than it tells. Rejected: means over as long, for they
-  /// smooth the slip, too (K comes out 13 % too small).
+  /// No two samples closer than two samples of the wheels. In between, the travel of the wheels is interpolated,
+  /// so the errors of all truth samples there would be correlated and count too much. Rejected: averaging them,
+  /// because that smooths the slip as well (K comes out 13 % too small).
   independent
 };
 
-/// What of `runs` the estimator uses, and where the clocks stand. `carried` need only be roughly right.
+/// The samples of `runs` that the estimator uses, and the offsets of their clocks. `loaded` need only be roughly
+/// right.
 ///
 /// Throws astro::Error naming the run for
 ///   no odometry or hardly any truth; odometry lost while the robot moved; a robot that did not move
 ///   times that run backwards or jump by an hour; values that are no numbers
 ///   streams that do not overlap, or whose motions have nothing in common
-///   a drive that repeats itself, recorded so that nothing tells which lap is which
-///   no run but such as are left out
+///   a drive that repeats itself, recorded so that nothing shows which lap is which
+///   no usable run
 ///   headings of truth that never change although the wheels turn the robot
-///   truth that turns against the wheels: headings clockwise, axes mirrored, or wheels exchanged
+///   truth that turns the other way than the wheels: headings clockwise, axes mirrored, or wheels exchanged
 struct PreparedRuns {
   std::vector<PreparedRun> runs;
   std::vector<ClockFit> clocks;  // of each run; zero if the clocks are known
-  /// Why a run that spoils nothing is not among them, with the remedy: a spin of unknown clock under
-  /// positions that stand still.
+  /// For each run that was left out without harm: the reason and the remedy. Such a run is a spin with unknown
+  /// clock under positions that stand still.
   std::vector<std::string> left_out;
 };
-PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& carried, bool clock_known,
+PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& loaded, bool clock_known,
                      Density density);
 
 }  // namespace astro::calibration

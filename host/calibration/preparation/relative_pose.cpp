@@ -37,7 +37,7 @@ std::optional<TurnRates> fit_headings(std::span<const RelativePose> pieces) {
     normal += travel * travel.transpose();
     right_side += travel * piece.theta_rad;
   }
-  // Straight pieces alone leave the sum of both open, spins alone the difference.
+  // Straight pieces alone do not determine the sum of both, spins alone not the difference.
   if (!(normal.determinant() > 1e-9 * normal.trace() * normal.trace())) return {};
   const Eigen::Vector2d rates = normal.ldlt().solve(right_side);
   return TurnRates{rates[0], rates[1]};

@@ -15,14 +15,14 @@ struct WheelStep {
   double left = 0, right = 0;  // in any unit of wheel travel: metres of a nominal wheel, or radians
 };
 
-/// What the wheels and a sensor on the robot tell about the same piece of a drive.
+/// The same piece of a drive by the wheels and by a sensor on the robot.
 struct RelativePose {
   std::vector<WheelStep> steps;            // in order
   double x_m = 0, y_m = 0, theta_rad = 0;  // sensor's pose at the end, seen from its pose at the start
 };
 
 /// Metres per unit of wheel travel (wheel radii, if the unit is a radian), wheelbase, and pose of the sensor
-/// on the robot. Radii are negative where a wheel turns against what is believed.
+/// on the robot. A radius is negative if the wheel turns the other way than assumed.
 struct RelativePoseFit {
   double r_left = 0, r_right = 0, b_m = 0;
   LeverArm sensor;
@@ -32,18 +32,18 @@ struct RelativePoseFit {
 /// the lever arm and in the sine and cosine of its yaw, then give the rest as the eigenvector of the smaller
 /// eigenvalue of a 2x2 matrix. Of the two signs the one with b > 0 is returned.
 ///
-/// Nothing where the pieces leave an unknown open: fewer than three, no turning, no displacement.
+/// Nothing if the pieces do not determine every unknown: fewer than three, no turning, no displacement.
 /// Source  Censi, Franchi, Marchionni, Oriolo: Simultaneous calibration of odometry and sensor parameters for
 ///         mobile robots, IEEE T-RO 29(2), 2013, section V; here with the wheel path inside a piece, not its
 ///         mean speeds.
 std::optional<RelativePoseFit> fit_relative_poses(std::span<const RelativePose> pieces);
 
-/// The same after `rounds` of leaving out the worst: in each, pieces are dropped whose error in position or
-/// in heading is beyond the (1 - fraction) quantile.
+/// The same with `rounds` of trimming: each round drops the pieces whose error in position or in heading exceeds
+/// the (1 - fraction) quantile.
 std::optional<RelativePoseFit> fit_relative_poses_trimmed(std::span<const RelativePose> pieces, int rounds,
                                                           double fraction);
 
-/// What a sensor on a robot of these measures should have seen.
+/// The relative pose that the sensor should have measured on a robot with these values.
 RelativePose predicted(const RelativePose& piece, const RelativePoseFit& fit);
 
 }  // namespace astro::calibration

@@ -48,9 +48,9 @@ void warn_of_other_robots(const std::vector<experiment::NamedFactors>& factors,
 
 /// The factors that were loaded in all drives; throws if they differ.
 calibration::WheelFactors carried_by_all(const CheckOptions& options, const experiment::RunSet& set) {
-  const calibration::WheelFactors first = experiment::carried_factors(set.runs.front().info);
+  const calibration::WheelFactors first = experiment::loaded_factors(set.runs.front().info);
   for (std::size_t i = 1; i < set.runs.size(); ++i) {
-    const calibration::WheelFactors one = experiment::carried_factors(set.runs[i].info);
+    const calibration::WheelFactors one = experiment::loaded_factors(set.runs[i].info);
     if (one.c_r != first.c_r || one.c_l != first.c_l || one.b_m != first.b_m)
       throw Error(
           fmt::format("the robot had other factors loaded in {} than in {}: check the folders in '{}' "

@@ -87,7 +87,7 @@ void add_calibrate_end_poses(console::Command calibrate) {
     squares.cw = end_poses(options->cw, options->side_m);
     squares.ccw = end_poses(options->ccw, options->side_m);
     squares.side_m = options->side_m;
-    squares.carried = {options->c_r, options->c_l, options->wheelbase_m};
+    squares.loaded = {options->c_r, options->c_l, options->wheelbase_m};
     put_out(experiment::calibrate(squares, method), options->output);
   });
 }

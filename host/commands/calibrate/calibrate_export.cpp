@@ -35,7 +35,7 @@ std::string format_of(const ExportOptions& options) {
 std::optional<experiment::DiffDrive> sizes_if_known(const experiment::ParameterFile& file,
                                                     const experiment::NominalSizes& nominal) {
   if (!file.wheel && !nominal.wheel_radius_m) return std::nullopt;
-  if (!file.carried.contains("b") && !nominal.wheel_separation_m) return std::nullopt;
+  if (!file.loaded.contains("b") && !nominal.wheel_separation_m) return std::nullopt;
   return experiment::diff_drive(file, nominal);
 }
 

@@ -49,7 +49,7 @@ std::string squares_text(const calibration::ExperimentSummary& squares) {
 /// The factors, and how they differ from those that were loaded.
 std::string factors_text(const Calibration& found) {
   const experiment::FactorErrors& se = found.se;
-  const calibration::WheelFactors &now = found.factors, &old = found.carried;
+  const calibration::WheelFactors &now = found.factors, &old = found.loaded;
   return console::table({{"", "", "against carried"},
                          {"c_R", with_error(now.c_r, se.c_r, 8), percent(now.c_r / old.c_r)},
                          {"c_L", with_error(now.c_l, se.c_l, 8), percent(now.c_l / old.c_l)},

@@ -18,7 +18,7 @@ experiment::Results read_results_of(const std::vector<std::filesystem::path>& fo
     return folders.size() == 1 ? experiment::read_results(folders.front(), damage)
                                : experiment::read_folders(folders, damage);
   });
-  for (const experiment::PhaseResult& phase : results.phases) warn_of_recordings(phase.runs);
+  for (const experiment::PhaseResult& phase : results.phases) warn_of_recordings(phase.runs());
   if (const std::string other = results.other_robot(); !other.empty()) console::say("warning: " + other);
   return results;
 }

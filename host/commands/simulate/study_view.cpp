@@ -67,9 +67,9 @@ std::string ml_text(const Summary& summary) {
     text += fmt::format("ml over the bound: E_d {:.3f} ± {:.3f}, b/S {:.3f} ± {:.3f}, S {:.3f} ± {:.3f}\n",
                         ratios[0].value, ratios[0].se, ratios[1].value, ratios[1].se, ratios[2].value,
                         ratios[2].se);
-  if (const auto& honesty = summary.ml_covariance)
+  if (const auto& consistency = summary.ml_covariance)
     text += fmt::format("chi-square of ml's errors by its own covariance: {:.3f} ± {:.3f}, honest is 3\n",
-                        honesty->mean, honesty->se);
+                        consistency->mean, consistency->se);
   return text;
 }
 
@@ -115,9 +115,9 @@ json study_json(const Summary& summary) {
   for (std::size_t i = 0; i < summary.ml_over_bound.size(); ++i)
     result["ml_over_bound"][kColumns[i].key] = {{"value", summary.ml_over_bound[i].value},
                                                 {"se", summary.ml_over_bound[i].se}};
-  if (const auto& honesty = summary.ml_covariance)
+  if (const auto& consistency = summary.ml_covariance)
     result["ml_covariance"] = {
-        {"trials", honesty->trials}, {"mean", honesty->mean}, {"se", honesty->se}, {"expected", 3}};
+        {"trials", consistency->trials}, {"mean", consistency->mean}, {"se", consistency->se}, {"expected", 3}};
   return result;
 }
 

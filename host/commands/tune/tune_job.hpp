@@ -1,16 +1,13 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "host/commands/shared/connection.hpp"
 #include "host/experiment/drive/change_guard.hpp"
-#include "host/motor/model/design.hpp"
-#include "host/motor/bench/identify.hpp"
-#include "host/motor/bench/step_response.hpp"
+#include "host/motor/bench/tuning.hpp"
+#include "host/motor/bench/tuning_steps.hpp"
 
 /// `astrolabe tune` from an agreed question to measured results.
 namespace astro::commands {
@@ -26,7 +23,8 @@ struct TuneOptions {
   double bandwidth_radps() const;  // 0: chosen
 };
 
-/// A step of both wheels, and what the model says of it.
+/// A step of both wheels and the model's prediction of it. Without `was_measured`, `measured` holds the set
+/// points alone.
 struct TunedStep {
   std::string title;
   motor::StepCourses measured, predicted;
@@ -35,21 +33,19 @@ struct TunedStep {
 
 struct TuneResult {
   bool on_stand = false;
-  motor::RobotFacts before;  // what the robot carried
-  motor::Identity identity;
-  motor::MotorModel mean;  // of both wheels: what the gains are for
-  motor::Design design;
-  motor::Margins margins_before;   // of the gains that were carried, on the measured motors
-  experiment::ParameterValues values;       // proposed
-  std::vector<experiment::Change> changes;  // those of them that change something
+  motor::RobotFacts before;  // the robot as it was found
+  motor::IdentifiedMotors motors;
+  motor::GainDesign gains;
+  motor::ControlParameters proposed;
+  std::vector<experiment::Change> changes;  // the proposed parameters that differ from the robot's
   std::vector<TunedStep> steps;
   double period_s = 0, supply_V = 0;
   bool uploaded = false;
 };
 
-/// Measures the wheels, designs, measures a step with the gains that the robot carries and predicts it with
-/// the new ones. The robot is disarmed at the end, however that comes. Throws astro::Error before anything
-/// turns if the bandwidth cannot be meant.
+/// Measures the wheels, designs the gains, measures a step with the gains that the robot has and predicts it
+/// with the new ones. The robot is disarmed at the end in every case. Throws astro::Error before anything
+/// turns if the bandwidth is far beyond what the robot allows.
 TuneResult measure(robot::Client& client, const TuneOptions& options);
 
 /// Loads the proposed values and measures the step again. Throws astro::Error for a measurement that is too

@@ -33,7 +33,7 @@ std::string motor_table(const TuneResult& result) {
   std::vector<std::vector<std::string>> rows{
       {"wheel", "kS [V]", "kV [Vs/m]", "kA [Vs^2/m]", "time constant", "breaks away", "residual"}};
   for (const Side side : kSides) {
-    const auto& [fit, forward_V, backward_V] = result.identity.wheels[at(side)];
+    const auto& [fit, forward_V, backward_V] = result.motors.wheels[at(side)];
     rows.push_back({name(side), with_error(fit.model.kS, fit.standard_error.kS),
                     with_error(fit.model.kV, fit.standard_error.kV),
                     with_error(fit.model.kA, fit.standard_error.kA),
@@ -65,7 +65,7 @@ Json to_json(const Margins& margins) {
           {"sensitivity", margins.sensitivity}};
 }
 
-Json to_json(const motor::WheelIdentity& wheel) {
+Json to_json(const motor::IdentifiedMotor& wheel) {
   const auto& [model, error, residual_V, r_squared, windows] = wheel.fit;
   const auto pair = [](double value, double se) { return Json{{"value", value}, {"standard_error", se}}; };
   const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
@@ -107,7 +107,7 @@ report::StepLines lines(const TunedStep& step, Side side) {
 
 double error_of(const TuneResult& result, const std::string& parameter) {
   for (const Side side : kSides) {
-    const auto& error = result.identity.wheels[at(side)].fit.standard_error;
+    const auto& error = result.motors.wheels[at(side)].fit.standard_error;
     if (parameter == std::string("kS_") + name(side)) return error.kS;
     if (parameter == std::string("kV_") + name(side)) return error.kV;
     if (parameter == std::string("kA_") + name(side)) return error.kA;
@@ -120,18 +120,15 @@ const char* stand_note() {
          "'astrolabe tune --on-ground' finds the others";
 }
 
-// What gains cannot answer for.
+// What gains cannot correct.
 std::vector<std::string> notes(const TuneResult& result) {
-  constexpr double kOther = 1.6;
   std::vector<std::string> list;
   if (result.on_stand) list.emplace_back(stand_note());
-  const double carried = (result.before.feed_forward[0].kV + result.before.feed_forward[1].kV) / 2;
-  const double ratio = carried > 0 ? result.mean.kV / carried : 1;
-  if (ratio > kOther || ratio < 1 / kOther)
+  if (const auto ratio = motor::unlikely_kV_ratio(result.gains.mean, result.before))
     list.push_back(
         fmt::format("kV is {:.2g} times what the robot carried: other motors or wheels, or a wrong "
                     "counts_per_motor_rev; 'astrolabe check-wiring --roll' tells",
-                    ratio));
+                    *ratio));
   return list;
 }
 
@@ -153,11 +150,6 @@ std::string steps_in_words(std::span<const TunedStep> steps) {
   return console::table(rows, "lllrrrr");
 }
 
-// Of the wheel that follows its set point worse.
-double rms_error_mps(const motor::StepCourses& courses) {
-  return std::max(figures(courses[0]).rms_error_mps, figures(courses[1]).rms_error_mps);
-}
-
 }  // namespace
 
 std::string step_after_in_words(const TuneResult& result) {
@@ -165,31 +157,27 @@ std::string step_after_in_words(const TuneResult& result) {
 }
 
 std::string verdict(const TuneResult& result) {
-  constexpr double kSame = 0.1,
-                   kSame_mps = 5e-4;    // a repeated step differs by that, and encoders resolve no less
-  constexpr double kUnexplained = 2.0;  // what the model left out is then as large as what it tells
-  const TunedStep &first = result.steps[0], &next = result.steps[1];
-  const double before = rms_error_mps(first.measured), predicted = rms_error_mps(next.predicted);
-  const double now = next.was_measured ? rms_error_mps(next.measured) : predicted;
-  const double same_mps = std::max(kSame * before, kSame_mps);
-  const bool is_better = now<before - same_mps, is_worse = now> before + same_mps;
+  using Change = motor::StepVerdict::Change;
+  const TunedStep& next = result.steps[1];
+  const motor::StepVerdict judged =
+      judge_step(result.steps[0].measured, next.predicted, next.was_measured ? &next.measured : nullptr);
   std::string text = fmt::format(
       "Verdict: with the new values the wheels {} their set point {} before: rms error {:.1f} mm/s, before "
       "{:.1f}",
-      next.was_measured ? "follow" : "should follow",
-      is_better  ? "better than"
-      : is_worse ? "worse than"
-                 : "about as well as",
-      1e3 * now, 1e3 * before);
-  text +=
-      next.was_measured ? fmt::format(", predicted {:.1f};", 1e3 * predicted) : " (predicted, not measured);";
-  text +=
-      fmt::format(" phase margin {:.0f} deg, before {:.0f}.", degrees(result.design.margins.phase_margin_rad),
-                  degrees(result.margins_before.phase_margin_rad));
-  if (!next.was_measured) return text;
-  if (is_worse)
+      judged.was_measured ? "follow" : "should follow",
+      judged.change == Change::better  ? "better than"
+      : judged.change == Change::worse ? "worse than"
+                                       : "about as well as",
+      1e3 * judged.now_mps, 1e3 * judged.before_mps);
+  text += judged.was_measured ? fmt::format(", predicted {:.1f};", 1e3 * judged.predicted_mps)
+                              : " (predicted, not measured);";
+  text += fmt::format(" phase margin {:.0f} deg, before {:.0f}.",
+                      degrees(result.gains.design.margins.phase_margin_rad),
+                      degrees(result.gains.margins_before.phase_margin_rad));
+  if (!judged.was_measured) return text;
+  if (judged.change == Change::worse)
     text += " The old values are in the table of changes above; 'astrolabe params set' puts them back.";
-  else if (now > kUnexplained * predicted + kSame_mps)
+  else if (judged.unexplained)
     text += " The model explains less than half of it: look for slip, play or a weak supply.";
   return text;
 }
@@ -199,9 +187,9 @@ std::string in_words(const TuneResult& result) {
   text += fmt::format(
       "\ncarried   kp {:.4g}, ki {:.4g}: {}\ndesigned  kp {:.4g}, ki {:.4g}: {}\n          at most "
       "{:.1f} Hz with this observer_bandwidth; encoder noise {:.0f} mV on the motors\n\n",
-      result.before.kp, result.before.ki, margins_in_words(result.margins_before), result.design.kp,
-      result.design.ki, margins_in_words(result.design.margins), hertz(result.design.largest_bandwidth_radps),
-      1e3 * result.design.noise_V);
+      result.before.kp, result.before.ki, margins_in_words(result.gains.margins_before),
+      result.gains.design.kp, result.gains.design.ki, margins_in_words(result.gains.design.margins),
+      hertz(result.gains.design.largest_bandwidth_radps), 1e3 * result.gains.design.noise_V);
   text += steps_in_words(result.steps);
   for (const std::string& note : notes(result)) text += fmt::format("\n{}\n", note);
   return text;
@@ -214,22 +202,24 @@ Json to_json(const TuneResult& result) {
                        {"unit", change.unit},
                        {"before", std::get<double>(change.before)},
                        {"after", std::get<double>(change.after)}});
-  return {{"on_stand", result.on_stand},
-          {"wheels",
-           {{"left", to_json(result.identity.wheels[0])}, {"right", to_json(result.identity.wheels[1])}}},
-          {"carried",
-           {{"kp", result.before.kp}, {"ki", result.before.ki}, {"margins", to_json(result.margins_before)}}},
-          {"designed",
-           {{"kp", result.design.kp},
-            {"ki", result.design.ki},
-            {"margins", to_json(result.design.margins)},
-            {"noise_V", result.design.noise_V},
-            {"largest_bandwidth_radps", result.design.largest_bandwidth_radps}}},
-          {"changes", changes},
-          {"steps", steps_json(result)},
-          {"notes", notes(result)},
-          {"verdict", verdict(result)},
-          {"uploaded", result.uploaded}};
+  return {
+      {"on_stand", result.on_stand},
+      {"wheels", {{"left", to_json(result.motors.wheels[0])}, {"right", to_json(result.motors.wheels[1])}}},
+      {"carried",
+       {{"kp", result.before.kp},
+        {"ki", result.before.ki},
+        {"margins", to_json(result.gains.margins_before)}}},
+      {"designed",
+       {{"kp", result.gains.design.kp},
+        {"ki", result.gains.design.ki},
+        {"margins", to_json(result.gains.design.margins)},
+        {"noise_V", result.gains.design.noise_V},
+        {"largest_bandwidth_radps", result.gains.design.largest_bandwidth_radps}}},
+      {"changes", changes},
+      {"steps", steps_json(result)},
+      {"notes", notes(result)},
+      {"verdict", verdict(result)},
+      {"uploaded", result.uploaded}};
 }
 
 report::TuningInput report_input(const TuneResult& result, const robot::Client& client) {
@@ -237,28 +227,28 @@ report::TuningInput report_input(const TuneResult& result, const robot::Client& 
   report::TuningInput input;
   input.title = fmt::format("Tuning of {}", client.robot().robot_name.view());
   for (const Side side : kSides) {
-    const auto& [fit, forward_V, backward_V] = result.identity.wheels[at(side)];
+    const auto& [fit, forward_V, backward_V] = result.motors.wheels[at(side)];
     input.motors[at(side)] = {name(side), fit, forward_V.value_or(nan), backward_V.value_or(nan)};
   }
   for (const experiment::Change& change : result.changes)
     input.parameters.push_back({change.name, change.unit, std::get<double>(change.before),
                                 std::get<double>(change.after), error_of(result, change.name)});
   input.loop = {
-      {"Designed", fmt::format("kp {:.4g} V s/m, ki {:.4g} V/m: {}", result.design.kp, result.design.ki,
-                               margins_in_words(result.design.margins))},
-      {"Carried before", margins_in_words(result.margins_before)},
+      {"Designed", fmt::format("kp {:.4g} V s/m, ki {:.4g} V/m: {}", result.gains.design.kp,
+                               result.gains.design.ki, margins_in_words(result.gains.design.margins))},
+      {"Carried before", margins_in_words(result.gains.margins_before)},
       {"Observer", fmt::format("{:.0f} rad/s; carries at most {:.1f} Hz", result.before.observer_radps,
-                               hertz(result.design.largest_bandwidth_radps))}};
+                               hertz(result.gains.design.largest_bandwidth_radps))}};
   for (const TunedStep& step : result.steps)
     input.steps.push_back({step.title, {lines(step, Side::left), lines(step, Side::right)}});
-  input.description = {{"Robot", std::string(client.robot().robot_name.view())},
-                       {"Robot id", hex_id(client.robot())},
-                       {"Firmware", firmware_version(client.robot())},
-                       {"Measured", fmt::format("{:%Y-%m-%d %H:%M} UTC, {}", fmt::gmtime(std::time(nullptr)),
-                                                result.on_stand ? "wheels off the ground" : "on the ground")},
-                       {"Samples", fmt::format("every {:.0f} ms for {:.0f} s", 1e3 * result.period_s,
-                                               result.identity.seconds)},
-                       {"New values", result.uploaded ? "loaded into the robot" : "not loaded"}};
+  input.description = {
+      {"Robot", std::string(client.robot().robot_name.view())},
+      {"Robot id", hex_id(client.robot())},
+      {"Firmware", firmware_version(client.robot())},
+      {"Measured", fmt::format("{:%Y-%m-%d %H:%M} UTC, {}", fmt::gmtime(std::time(nullptr)),
+                               result.on_stand ? "wheels off the ground" : "on the ground")},
+      {"Samples", fmt::format("every {:.0f} ms for {:.0f} s", 1e3 * result.period_s, result.motors.seconds)},
+      {"New values", result.uploaded ? "loaded into the robot" : "not loaded"}};
   input.notes = notes(result);
   return input;
 }

@@ -21,30 +21,88 @@ calibration::Options options_for(const Squares& squares, const MethodChoice& met
   return options;
 }
 
-bool uses_ml(std::span<const recording::Run> runs, const MethodChoice& method) {
-  return method.family == Family::ml ||
-         (method.family == Family::automatic &&
-          std::all_of(runs.begin(), runs.end(), [](const auto& run) { return has_moving_truth(run.info); }));
+using Phases = std::span<const std::shared_ptr<const Recordings>>;
+
+bool has_moving_truth_throughout(const Recordings& recordings) {
+  return std::all_of(recordings.runs().begin(), recordings.runs().end(),
+                     [](const auto& run) { return has_moving_truth(run.info); });
 }
 
-Calibration by_ml(const RunSet& set, const MlChoice& choice) {
-  const std::vector<calibration::Trajectory> runs = trajectories_of(set);
+bool uses_ml(Phases phases, const MethodChoice& method) {
+  return method.family == Family::ml || (method.family == Family::automatic &&
+                                         std::all_of(phases.begin(), phases.end(), [](const auto& phase) {
+                                           return has_moving_truth_throughout(*phase);
+                                         }));
+}
+
+/// Not an error if there are no squares, or not in both directions, or not all alike: maximum likelihood needs
+/// none and only shows them.
+std::optional<calibration::ExperimentSummary> summary_of_squares(const Recordings& recordings) {
+  try {
+    const Squares& squares = recordings.squares();
+    if (!squares.cw.empty() && !squares.ccw.empty()) return calibration::summarize(squares.cw, squares.ccw);
+  } catch (const Error&) {
+  }
+  return std::nullopt;
+}
+
+/// The trajectories of all phases. Those of each phase are comparable already.
+std::vector<calibration::Trajectory> all_trajectories(Phases phases) {
+  std::vector<calibration::Trajectory> all;
+  const Recordings& first = *phases.front();
+  for (const auto& phase : phases) {
+    const std::vector<calibration::Trajectory>& runs = phase->trajectories();
+    require_comparable(first.runs().front().info, first.names().front(), phase->runs().front().info,
+                       phase->names().front());
+    all.insert(all.end(), runs.begin(), runs.end());
+  }
+  return all;
+}
+
+/// Start times are in whole seconds. Of equal ones, the later run in order counts.
+calibration::WheelFactors last_loaded(Phases phases) {
+  const recording::RunInfo* last = &phases.front()->runs().front().info;
+  for (const auto& phase : phases)
+    for (const recording::Run& run : phase->runs())
+      if (run.info.started_at >= last->started_at) last = &run.info;
+  return loaded_factors(*last);
+}
+
+Calibration by_ml(Phases phases, const MlChoice& choice) {
+  const std::vector<calibration::Trajectory> runs = all_trajectories(phases);
+  const Recordings& first = *phases.front();
   Calibration result;
-  result.carried = last_carried(set);
+  result.loaded = last_loaded(phases);
   MlResult ml;
-  ml.options.clock_known = clock_known(set, choice.clock);
+  ml.options.clock_known = std::all_of(phases.begin(), phases.end(), [&](const auto& phase) {
+    return clock_known(phase->set(), choice.clock);
+  });
   ml.options.noise = choice.noise;
-  ml.estimate = calibration::estimate_ml(runs, result.carried, ml.options);
+  ml.estimate = calibration::estimate_ml(runs, result.loaded, ml.options);
   result.factors = ml.estimate.factors;
   const calibration::MlErrors& se = ml.estimate.se;
   result.se = {
-      se.c_r,  se.c_l, se.b_m, se.E_d * result.carried.c_l / result.carried.c_r, se.b_m / result.carried.b_m,
+      se.c_r,  se.c_l, se.b_m, se.E_d * result.loaded.c_l / result.loaded.c_r, se.b_m / result.loaded.b_m,
       se.scale};
-  result.robot = identity_of(set.runs.front().info);
-  result.wheel = nominal_wheel(set.runs.front().info, set.names.front());
-  result.squares = summary_of_squares(set.runs);
+  result.robot = identity_of(first.runs().front().info);
+  result.wheel = nominal_wheel(first.runs().front().info, first.names().front());
+  result.squares = summary_of_squares(*phases.back());
   result.detail = std::move(ml);
   return result;
+}
+
+Calibration by_end_poses(const Recordings& recordings, const MethodChoice& method) {
+  Calibration result = calibrate(recordings.squares(), method);
+  const recording::RunInfo& info = recordings.runs().front().info;
+  result.robot = identity_of(info);
+  // Recordings of other origin may lack the wheel. The ratios that end poses give do not need it.
+  if (info.parameters.contains("wheel_diameter"))
+    result.wheel = nominal_wheel(info, recordings.names().front());
+  return result;
+}
+
+Calibration calibrate_phases(Phases phases, const MethodChoice& method, const MlChoice& ml) {
+  return uses_ml(phases, method) ? by_ml(phases, ml) : by_end_poses(*phases.back(), method);
 }
 
 }  // namespace
@@ -55,14 +113,6 @@ bool clock_known(const RunSet& set, MlChoice::Clock clock) {
                      [](const recording::Run& run) { return run.info.truth_clock == "robot"; });
 }
 
-// Times are in whole seconds: of equal ones the later in order.
-calibration::WheelFactors last_carried(const RunSet& set) {
-  const recording::RunInfo* last = &set.runs.front().info;
-  for (const recording::Run& run : set.runs)
-    if (run.info.started_at >= last->started_at) last = &run.info;
-  return carried_factors(*last);
-}
-
 std::string_view Calibration::method() const {
   const calibration::Estimate* estimate = end_poses();
   return estimate == nullptr ? kMlName : calibration::name_of(estimate->options.method);
@@ -70,25 +120,24 @@ std::string_view Calibration::method() const {
 
 double Calibration::E_d() const {
   if (const calibration::Estimate* estimate = end_poses()) return estimate->E_d;
-  return factors.c_r / factors.c_l / (carried.c_r / carried.c_l);
+  return factors.c_r / factors.c_l / (loaded.c_r / loaded.c_l);
 }
 
 double Calibration::E_b() const {
   if (const calibration::Estimate* estimate = end_poses()) return estimate->E_b;
-  return factors.b_m / carried.b_m;
+  return factors.b_m / loaded.b_m;
 }
 
-double Calibration::scale_change() const { return 2 * scale() / (carried.c_r + carried.c_l); }
+double Calibration::scale_change() const { return 2 * scale() / (loaded.c_r + loaded.c_l); }
 
 Calibration calibrate(const Squares& squares, const MethodChoice& method) {
   if (method.family == Family::ml)
-    throw Error(
-        "maximum likelihood needs whole drives with ground truth, and end poses are all there is",
-        {Help::use_end_poses});
+    throw Error("maximum likelihood needs whole drives with ground truth, and end poses are all there is",
+                {Help::use_end_poses});
   const calibration::Estimate estimate = calibration::estimate_factors(
-      squares.cw, squares.ccw, squares.side_m, squares.carried, options_for(squares, method));
+      squares.cw, squares.ccw, squares.side_m, squares.loaded, options_for(squares, method));
   Calibration result;
-  result.carried = estimate.carried;
+  result.loaded = estimate.loaded;
   result.factors = estimate.factors;
   result.se = {estimate.se.c_r, estimate.se.c_l, estimate.se.b_m,
                estimate.se.E_d, estimate.se.E_b, FactorErrors::kUnknown};
@@ -97,26 +146,15 @@ Calibration calibrate(const Squares& squares, const MethodChoice& method) {
   return result;
 }
 
-Calibration calibrate(const RunSet& set, const MethodChoice& method, const MlChoice& ml) {
-  if (uses_ml(set.runs, method)) return by_ml(set, ml);
-  Calibration result = calibrate(squares_of(set.runs), method);
-  result.robot = identity_of(set.runs.front().info);
-  // Recordings of other origin may do without: the ratios that end poses give need no wheel.
-  if (const recording::RunInfo& info = set.runs.front().info; info.parameters.contains("wheel_diameter"))
-    result.wheel = nominal_wheel(info, set.names.front());
-  return result;
+Calibration calibrate(const Recordings& recordings, const MethodChoice& method, const MlChoice& ml) {
+  // The caller keeps the recordings.
+  const std::shared_ptr<const Recordings> phase(std::shared_ptr<void>(), &recordings);
+  return calibrate_phases({&phase, 1}, method, ml);
 }
 
-Calibration calibrate_after(std::span<const RunSet> phases, const MethodChoice& method) {
-  RunSet all;
-  for (const RunSet& phase : phases) {
-    all.names.insert(all.names.end(), phase.names.begin(), phase.names.end());
-    all.runs.insert(all.runs.end(), phase.runs.begin(), phase.runs.end());
-  }
-  if (!uses_ml(all.runs, method)) return calibrate(phases.back(), method);
-  Calibration result = by_ml(all, {});
-  result.squares = summary_of_squares(phases.back().runs);
-  return result;
+Calibration calibrate_after(std::span<const std::shared_ptr<const Recordings>> phases,
+                            const MethodChoice& method) {
+  return calibrate_phases(uses_ml(phases, method) ? phases : phases.last(1), method, {});
 }
 
 }  // namespace astro::experiment

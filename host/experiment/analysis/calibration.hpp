@@ -1,45 +1,47 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <variant>
 
-#include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "host/calibration/end_poses/umbmark.hpp"
+#include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
+#include "host/experiment/analysis/recordings.hpp"
+#include "host/experiment/analysis/squares.hpp"
+#include "host/experiment/analysis/trajectories.hpp"
 #include "host/experiment/files/plan.hpp"
 #include "host/experiment/files/robot_identity.hpp"
 #include "host/experiment/files/run_set.hpp"
-#include "host/experiment/analysis/squares.hpp"
-#include "host/experiment/analysis/trajectories.hpp"
 
 /// From recordings to wheel factors, whatever the method.
 namespace astro::experiment {
 
-/// Standard errors; NaN where the method or the data cannot tell. E_d, E_b and scale are ratios.
+/// Standard errors; NaN if the method or the data do not determine them. E_d, E_b and scale are ratios.
 struct FactorErrors {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   double c_r = kUnknown, c_l = kUnknown, b_m = kUnknown;
   double E_d = kUnknown, E_b = kUnknown, scale = kUnknown;
 };
 
-/// Maximum likelihood and what it was told.
+/// The result of maximum likelihood with its options.
 struct MlResult {
   calibration::MlOptions options;
   calibration::MlEstimate estimate;
 };
 
 struct Calibration {
-  /// What the robot believed while it drove. Where runs of several sets are calibrated together: of the one
-  /// that was driven last.
-  calibration::WheelFactors carried;
+  /// The factors of the robot's odometry while it drove. If runs of several sets are calibrated together: in the
+  /// run that was driven last.
+  calibration::WheelFactors loaded;
   calibration::WheelFactors factors;  // what to load
   FactorErrors se;
-  RobotIdentity robot;                // empty where no recording told it
-  std::optional<NominalWheel> wheel;  // to which c_R and c_L refer, where a recording told it
-  /// End errors of the squares among the runs; none unless both directions were driven, alike.
+  RobotIdentity robot;                // empty if no recording names it
+  std::optional<NominalWheel> wheel;  // to which c_R and c_L refer, if a recording names it
+  /// End errors of the squares among the runs, if squares of one kind were driven in both directions.
   std::optional<calibration::ExperimentSummary> squares;
   std::variant<calibration::Estimate, MlResult> detail;
 
@@ -48,19 +50,19 @@ struct Calibration {
   /// "ml", "umbmark", "extended", "least-squares".
   std::string_view method() const;
 
-  /// How the factors differ from those carried: wheel ratio and wheelbase, new over carried.
+  /// How the factors differ from the loaded ones: wheel ratio and wheelbase, new over loaded.
   double E_d() const;
   double E_b() const;
-  /// (c_R + c_L) / 2. The methods of end poses keep what was carried.
+  /// (c_R + c_L) / 2. The methods of end poses keep the loaded one.
   double scale() const { return (factors.c_r + factors.c_l) / 2; }
-  double scale_change() const;  // new over carried
+  double scale_change() const;  // new over loaded
 
-  /// Whether the factors hold on top of anything that the robot may carry by now: those of maximum likelihood
-  /// refer to the nominal wheel, those of end poses are composed with `carried`.
+  /// Whether the factors hold on top of anything that may be loaded in the robot by now: those of maximum likelihood
+  /// refer to the nominal wheel, those of end poses are composed with `loaded`.
   bool absolute() const { return ml() != nullptr; }
 };
 
-/// What maximum likelihood is told beyond the runs.
+/// Settings of maximum likelihood beyond the runs.
 struct MlChoice {
   /// automatic: known if all truth was recorded on the robot's own clock, as in the simulator.
   enum class Clock { automatic, known, estimated };
@@ -71,20 +73,18 @@ struct MlChoice {
 /// Whether all truth is on the robot's own clock: as `clock` says or, automatic, as the recordings do.
 bool clock_known(const RunSet& set, MlChoice::Clock clock);
 
-/// What the robot carried in the run that was driven last.
-calibration::WheelFactors last_carried(const RunSet& set);
-
 /// automatic: maximum likelihood where all runs have moving truth; what calibrate(Squares) takes where not.
 /// Maximum likelihood takes runs of every kind, the methods of end poses take the squares among them.
 ///
 /// Throws astro::Error: see trajectories_of, calibration::estimate_ml, squares_of and
 /// calibration::estimate_factors.
-Calibration calibrate(const RunSet& set, const MethodChoice& method, const MlChoice& ml = {});
+Calibration calibrate(const Recordings& recordings, const MethodChoice& method, const MlChoice& ml = {});
 
 /// After the phases of an experiment, at least one: maximum likelihood takes all runs so far, as its factors
-/// do not depend on what the robot carried, so each round adds to the rounds before; the methods of end poses
+/// do not depend on what was loaded in the robot, so each round adds to the rounds before; the methods of end poses
 /// take the last phase alone. `squares` are those of the last phase. Throws as above.
-Calibration calibrate_after(std::span<const RunSet> phases, const MethodChoice& method);
+Calibration calibrate_after(std::span<const std::shared_ptr<const Recordings>> phases,
+                            const MethodChoice& method);
 
 /// From end poses alone; automatic: extended where every run has an end heading, UMBmark where not. Throws
 /// astro::Error if the method is maximum likelihood, which needs more; and what

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Calibrations and parameters take the place of their like, not of what somebody measured or of a journal.
+/// A calibration or a parameter file may replace another one, but not a recording or a journal.
 void require_own_kind(const fs::path& path) {
   if (fs::exists(path) && !fs::is_directory(path) && path.extension() != ".toml")
     throw Error(fmt::format("'{}' exists and is no .toml, as what would replace it is: name another file",
@@ -43,8 +43,9 @@ std::string end_pose_lines(const calibration::Estimate& estimate) {
 
 std::string covariance_lines(const calibration::FactorCovariance& covariance) {
   std::string text = "# Rows and columns c_R, c_L, b (m).\n[covariance]\nmatrix = [\n";
-  for (const auto& row : covariance)
-    text += fmt::format("  [{}, {}, {}],\n", real_text(row[0]), real_text(row[1]), real_text(row[2]));
+  for (int i = 0; i < 3; ++i)
+    text += fmt::format("  [{}, {}, {}],\n", real_text(covariance(i, 0)), real_text(covariance(i, 1)),
+                        real_text(covariance(i, 2)));
   return text + "]\n\n";
 }
 
@@ -92,7 +93,7 @@ std::map<std::string, double> numbers_in(toml::node_view<const toml::node> secti
   return numbers;
 }
 
-/// An experiment's folder has its calibrations beside the recordings.
+/// People name an experiment's folder instead of a calibration in it, so the error names one.
 [[noreturn]] void fail_for_folder(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder))
     if (const fs::path& file = entry.path(); file.extension() == ".toml")
@@ -113,12 +114,14 @@ NominalWheel wheel_of(const toml::table& file, const fs::path& path) {
 
 calibration::FactorCovariance covariance_of(const toml::table& file, const fs::path& path) {
   calibration::FactorCovariance covariance;
-  for (std::size_t row = 0; row < 3; ++row)
-    for (std::size_t column = 0; column < 3; ++column) {
-      const auto entry = file["covariance"]["matrix"][row][column].value<double>();
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column) {
+      const auto entry =
+          file["covariance"]["matrix"][static_cast<std::size_t>(row)][static_cast<std::size_t>(column)]
+              .value<double>();
       if (!entry)
         throw Error("'" + path.string() + "': [covariance] needs a matrix of three rows of three numbers");
-      covariance[row][column] = *entry;
+      covariance(row, column) = *entry;
     }
   return covariance;
 }
@@ -126,7 +129,7 @@ calibration::FactorCovariance covariance_of(const toml::table& file, const fs::p
 }  // namespace
 
 void write_calibration(const fs::path& path, const Calibration& calibration) {
-  const calibration::WheelFactors &factors = calibration.factors, &carried = calibration.carried;
+  const calibration::WheelFactors &factors = calibration.factors, &loaded = calibration.loaded;
   std::string text = "# Found by Astrolabe, to be uploaded to the robot that drove.\n\n";
   text += "[parameters]\n" + factor_lines(factors.c_r, factors.c_l, factors.b_m);
   text += "[standard_errors]\n" + factor_lines(calibration.se.c_r, calibration.se.c_l, calibration.se.b_m);
@@ -134,7 +137,7 @@ void write_calibration(const fs::path& path, const Calibration& calibration) {
   if (calibration.wheel) text += nominal_lines(*calibration.wheel);
   if (!calibration.robot.id.empty()) text += robot_lines(calibration.robot);
   text += "# What the robot believed while it drove.\n[carried]\n" +
-          factor_lines(carried.c_r, carried.c_l, carried.b_m);
+          factor_lines(loaded.c_r, loaded.c_l, loaded.b_m);
   save(path, text + calibration_lines(calibration));
 }
 
@@ -165,7 +168,7 @@ ParameterFile read_parameter_file(const fs::path& path) {
     const std::string name(key.str());
     result.parameters[name] = value_of(node, "'" + path.string() + "': [parameters] " + name);
   }
-  result.carried = numbers_in(file["carried"]);
+  result.loaded = numbers_in(file["carried"]);
   result.standard_errors = numbers_in(file["standard_errors"]);
   result.robot = {file["robot"]["name"].value_or(std::string()), file["robot"]["id"].value_or(std::string())};
   result.method = file["calibration"]["method"].value_or(std::string());

@@ -15,7 +15,7 @@ namespace astro::experiment {
 using ParameterValues = std::map<std::string, robot::Value>;
 
 /// Writes [parameters] c_R, c_L, b; [standard_errors] and, from maximum likelihood, [covariance]; [nominal],
-/// the wheel that c_R and c_L refer to, and [robot], where they are known; [carried]; [calibration] with how
+/// the wheel that c_R and c_L refer to, and [robot], where they are known; [loaded]; [calibration] with how
 /// it was found.
 void write_calibration(const std::filesystem::path& path, const Calibration& calibration);
 
@@ -24,12 +24,12 @@ void write_parameters(const std::filesystem::path& path, const ParameterValues& 
 
 struct ParameterFile {
   ParameterValues parameters;
-  /// What the robot carried when the calibration was driven; empty in a file without [carried].
-  std::map<std::string, double> carried;
+  /// The factors loaded in the robot when the calibration was driven; empty in a file without [loaded].
+  std::map<std::string, double> loaded;
   /// Of c_R, c_L and b ; NaN where the method or the data could not tell, empty in a file that no calibration
   /// wrote.
   std::map<std::string, double> standard_errors;
-  /// The parameters hold whatever the robot carries by now (Calibration::absolute).
+  /// The parameters hold whatever is loaded in the robot by now (Calibration::absolute).
   bool absolute = false;
   std::optional<NominalWheel> wheel;  // [nominal]
   /// Of c_R, c_L and b; none in a file without [covariance].

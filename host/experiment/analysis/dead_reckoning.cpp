@@ -4,15 +4,16 @@
 
 #include "host/base/error.hpp"
 #include "host/experiment/analysis/calibration_file.hpp"
+#include "host/experiment/files/number_named.hpp"
 
 namespace astro::experiment {
 namespace {
 
 double factor(const ParameterFile& file, const std::filesystem::path& path, const char* name) {
-  const auto found = file.parameters.find(name);
-  const double* value = found == file.parameters.end() ? nullptr : std::get_if<double>(&found->second);
-  if (value == nullptr)
-    throw Error(fmt::format("{} has no {} under [parameters]", path.string(), name), {Help::name_calibration});
+  const std::optional<double> value = number_named(file.parameters, name);
+  if (!value)
+    throw Error(fmt::format("{} has no {} under [parameters]", path.string(), name),
+                {Help::name_calibration});
   return *value;
 }
 

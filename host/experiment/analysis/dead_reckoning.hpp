@@ -10,14 +10,14 @@
 #include "host/experiment/analysis/calibration.hpp"
 #include "host/experiment/files/run_set.hpp"
 
-/// How well factors dead-reckon recorded drives, which need not be squares: what a calibration is worth on
-/// drives that it has not seen, without driving again.
+/// How well factors dead-reckon recorded drives of any kind: tests a calibration on drives that it has not seen,
+/// without driving again.
 namespace astro::experiment {
 
 struct NamedFactors {
   std::string name;  // "carried", or the file's path
   calibration::WheelFactors factors;
-  RobotIdentity robot{};  // that they were found for; empty where the file does not tell
+  RobotIdentity robot{};  // for which they were found; empty if the file does not name it
 };
 
 /// Those of calib.toml. `wheel`: the nominal wheel of the drives, to which c_R and c_L refer.

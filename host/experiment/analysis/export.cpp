@@ -9,6 +9,7 @@
 
 #include "common/params/table.hpp"
 #include "host/base/error.hpp"
+#include "host/experiment/files/number_named.hpp"
 #include "host/experiment/files/toml_file.hpp"
 
 namespace astro::experiment {
@@ -21,8 +22,8 @@ double in_unit(const ParamRow& row, std::int32_t raw) {
                                                : std::ldexp(raw, row.exponent);
 }
 
-/// What no robot of ours would take is no calibration of any robot. Names that this table does not have
-/// belong to another firmware, which will judge them.
+/// A value outside the limits of the parameter table is not a calibration of any robot. Names that the table
+/// lacks belong to another firmware version, which checks them itself.
 void require_possible(const std::string& name, double value) {
   const ParamRow* row = find_param(name);
   if (row == nullptr || row->kind == ParamKind::text) return;
@@ -35,17 +36,11 @@ void require_possible(const std::string& name, double value) {
 }
 
 double factor(const ParameterFile& file, const std::string& name) {
-  const auto found = file.parameters.find(name);
-  const double* value = found == file.parameters.end() ? nullptr : std::get_if<double>(&found->second);
-  if (value == nullptr || !std::isfinite(*value) || *value <= 0)
+  const std::optional<double> value = number_named(file.parameters, name);
+  if (!value || !std::isfinite(*value) || *value <= 0)
     throw Error("the file has no " + name + " under [parameters]", {Help::name_calibration});
   require_possible(name, *value);
   return *value;
-}
-
-std::optional<double> carried_base(const ParameterFile& file) {
-  const auto found = file.carried.find("b");
-  return found == file.carried.end() ? std::nullopt : std::optional(found->second);
 }
 
 toml::table extended(const fs::path& path, const std::optional<DiffDrive>& parameters) {
@@ -102,13 +97,14 @@ void require_loadable(const ParameterFile& file) {
 DiffDrive diff_drive(const ParameterFile& file, const NominalSizes& nominal) {
   const double c_r = factor(file, "c_R"), c_l = factor(file, "c_L"), b_m = factor(file, "b");
   const std::optional<double> separation_m =
-      nominal.wheel_separation_m ? nominal.wheel_separation_m : carried_base(file);
+      nominal.wheel_separation_m ? nominal.wheel_separation_m : number_named(file.loaded, "b");
   if (!separation_m)
     throw Error("the file does not tell the wheelbase that the robot believed in",
                 {Help::give_wheel_separation});
   if (!file.wheel && !nominal.wheel_radius_m)
-    throw Error("the file does not tell the nominal wheel that c_R and c_L refer to", {Help::give_wheel_radius});
-  // What the factors refer to: with a file that does not say, the nominal wheel is the receiver's.
+    throw Error("the file does not tell the nominal wheel that c_R and c_L refer to",
+                {Help::give_wheel_radius});
+  // The factors refer to the nominal wheel of the file or, if it names none, to that of the receiver.
   const double our_radius_m = file.wheel ? file.wheel->diameter_m / 2 : *nominal.wheel_radius_m;
   DiffDrive result;
   result.wheel_radius_m = nominal.wheel_radius_m.value_or(our_radius_m);
@@ -156,7 +152,7 @@ std::string toml_text(const fs::path& path, const std::optional<DiffDrive>& para
   std::string text = "# Found by Astrolabe, to be uploaded to the robot that drove.\n";
   for (const auto& [section, node] : extended(path, parameters)) {
     const toml::table* table = node.as_table();
-    if (table == nullptr) continue;  // calibrations are tables of values, and nothing else is read
+    if (table == nullptr) continue;  // only tables of values are exported
     text += fmt::format("\n[{}]\n", section.str());
     for (const auto& [key, value] : *table) text += fmt::format("{} = {}\n", key.str(), value_text(value));
   }

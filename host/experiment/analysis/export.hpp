@@ -7,10 +7,10 @@
 
 #include "host/experiment/analysis/calibration_file.hpp"
 
-/// A calibration for programs of others.
+/// Exports a calibration for other programs.
 namespace astro::experiment {
 
-/// The parameters of ROS 2's diff_drive_controller that a calibration decides. That controller moves a wheel
+/// The parameters of ROS 2's diff_drive_controller that a calibration determines. That controller moves a wheel
 /// that turns by an angle phi by phi * wheel_radius * (its multiplier), and turns the robot by the difference
 /// of both over wheel_separation * wheel_separation_multiplier.
 ///
@@ -21,18 +21,18 @@ struct DiffDrive {
   double wheel_separation_multiplier = 1;
 };
 
-/// The nominal sizes that the receiver has.
+/// The nominal sizes in the receiving program.
 struct NominalSizes {
   std::optional<double> wheel_radius_m;      // otherwise half of the file's wheel diameter
-  std::optional<double> wheel_separation_m;  // otherwise the b that the robot carried
+  std::optional<double> wheel_separation_m;  // otherwise the b that was loaded in the robot
 };
 
 /// Throws astro::Error for a parameter that a robot would refuse because of its limits, naming value, unit
-/// and limits. Those that this version's table does not have are left to the robot.
+/// and limits. Parameters that this version's table lacks are not checked.
 void require_loadable(const ParameterFile& file);
 
 /// Throws astro::Error if the file has no c_R, c_L or b or one that a robot would refuse, or if neither it
-/// nor `nominal` tells a size, naming the option that does.
+/// nor `nominal` gives a size.
 DiffDrive diff_drive(const ParameterFile& file, const NominalSizes& nominal);
 
 /// Whether ROS 2 takes it for a node in a file of parameters: "controller", "/left_robot/controller".
@@ -43,7 +43,7 @@ bool is_ros2_node(std::string_view name);
 /// A file for `--params-file` of a controller node called `node`.
 std::string ros2_yaml(const ParameterFile& file, const DiffDrive& parameters, const std::string& node);
 
-/// All that calib.toml at `path` holds, and, where it is given, [diff_drive_controller].
+/// The content of calib.toml at `path` and, if given, [diff_drive_controller].
 std::string toml_text(const std::filesystem::path& path, const std::optional<DiffDrive>& parameters);
 
 /// The same as JSON; numbers that do not exist are null.

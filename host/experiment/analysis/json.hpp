@@ -11,7 +11,7 @@ namespace astro::experiment {
 nlohmann::json to_json(const calibration::ExperimentSummary& summary);
 nlohmann::json to_json(const calibration::ClusterSummary& cluster);
 
-/// The same keys for all methods (factors, their errors, what was carried, squares); and those of the method.
+/// The keys that all methods share (factors, their errors, the loaded factors, squares), and those of the method.
 nlohmann::json to_json(const Calibration& calibration);
 
 /// The keys of maximum likelihood alone: covariance, lever arm, clock, noise, runs, motions, remarks.

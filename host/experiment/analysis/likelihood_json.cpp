@@ -5,13 +5,13 @@
 namespace astro::experiment {
 namespace {
 
-nlohmann::json jolts_json(const std::vector<calibration::Jolt>& jolts) {
+nlohmann::json slip_events_json(const std::vector<calibration::SlipEvent>& slip_events) {
   nlohmann::json json = nlohmann::json::array();
-  for (const calibration::Jolt& jolt : jolts)
-    json.push_back({{"time_s", jolt.time_s},
-                    {"since_start_s", jolt.since_start_s},
-                    {"turned_rad", jolt.turned_rad},
-                    {"moved_m", jolt.moved_m}});
+  for (const calibration::SlipEvent& event : slip_events)
+    json.push_back({{"time_s", event.time_s},
+                    {"since_start_s", event.since_start_s},
+                    {"turned_rad", event.turned_rad},
+                    {"moved_m", event.moved_m}});
   return json;
 }
 
@@ -32,7 +32,7 @@ nlohmann::json run_json(const calibration::RunFit& run) {
           {"disagreement", number(run.disagreement)},
           {"disagreement_dof", run.disagreement_dof},
           {"outlier", run.outlier},
-          {"jolts", jolts_json(run.jolts)}};
+          {"jolts", slip_events_json(run.slip_events)}};
 }
 
 nlohmann::json kind_json(const calibration::KindFit& kind) {
@@ -49,6 +49,12 @@ nlohmann::json lever_json(const calibration::LeverArm& lever) {
   return {{"x_m", number(lever.x_m)}, {"y_m", number(lever.y_m)}, {"yaw_rad", number(lever.yaw_rad)}};
 }
 
+nlohmann::json matrix_json(const calibration::FactorCovariance& covariance) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (int i = 0; i < 3; ++i) rows.push_back({covariance(i, 0), covariance(i, 1), covariance(i, 2)});
+  return rows;
+}
+
 nlohmann::json agreement_json(const std::optional<calibration::WheelbaseByKind>& wheelbase) {
   if (!wheelbase) return {};
   return {{"arc_over_spin", number(wheelbase->arc_over_spin)},
@@ -60,27 +66,28 @@ nlohmann::json agreement_json(const std::optional<calibration::WheelbaseByKind>&
 
 nlohmann::json to_json(const MlResult& ml) {
   const calibration::MlEstimate& estimate = ml.estimate;
-  nlohmann::json json = {{"covariance", {{"of", {"c_R", "c_L", "b_m"}}, {"matrix", estimate.covariance}}},
-                         {"b_over_scale_m", estimate.factors.b_m / estimate.scale()},
-                         {"b_over_scale_se_m", number(estimate.se.b_over_scale_m)},
-                         {"lever_arm", lever_json(estimate.lever)},
-                         {"lever_arm_se", lever_json(estimate.lever_se)},
-                         {"clock",
-                          {{"known", ml.options.clock_known},
-                           {"skew", number(estimate.clock_skew)},
-                           {"skew_se", number(estimate.clock_skew_se)}}},
-                         {"noise",
-                          {{"given", ml.options.noise.has_value()},
-                           {"K_m", estimate.noise.K_m},
-                           {"sigma_xy_m", estimate.noise.sigma_xy_m},
-                           {"sigma_theta_rad", number(estimate.noise.sigma_theta_rad)}}},
-                         {"thinned_to_s", estimate.thinned_to_s},
-                         {"chi_square", number(estimate.chi_square)},
-                         {"degrees_of_freedom", estimate.degrees_of_freedom},
-                         {"dispersion", number(estimate.dispersion)},
-                         {"iterations", estimate.iterations},
-                         {"wheelbase_by_motion", agreement_json(estimate.wheelbase_by_kind)},
-                         {"remarks", remark_facts(estimate)}};
+  nlohmann::json json = {
+      {"covariance", {{"of", {"c_R", "c_L", "b_m"}}, {"matrix", matrix_json(estimate.covariance)}}},
+      {"b_over_scale_m", estimate.factors.b_m / estimate.scale()},
+      {"b_over_scale_se_m", number(estimate.se.b_over_scale_m)},
+      {"lever_arm", lever_json(estimate.lever)},
+      {"lever_arm_se", lever_json(estimate.lever_se)},
+      {"clock",
+       {{"known", ml.options.clock_known},
+        {"skew", number(estimate.clock_skew)},
+        {"skew_se", number(estimate.clock_skew_se)}}},
+      {"noise",
+       {{"given", ml.options.noise.has_value()},
+        {"K_m", estimate.noise.K_m},
+        {"sigma_xy_m", estimate.noise.sigma_xy_m},
+        {"sigma_theta_rad", number(estimate.noise.sigma_theta_rad)}}},
+      {"thinned_to_s", estimate.thinned_to_s},
+      {"chi_square", number(estimate.chi_square)},
+      {"degrees_of_freedom", estimate.degrees_of_freedom},
+      {"dispersion", number(estimate.dispersion)},
+      {"iterations", estimate.iterations},
+      {"wheelbase_by_motion", agreement_json(estimate.wheelbase_by_kind)},
+      {"remarks", remark_facts(estimate)}};
   json["runs"] = nlohmann::json::array();
   for (const calibration::RunFit& run : estimate.runs) json["runs"].push_back(run_json(run));
   json["motions"] = nlohmann::json::array();

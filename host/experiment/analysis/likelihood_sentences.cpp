@@ -6,14 +6,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/calibration/judgement/remarks.hpp"
 #include "host/base/degrees.hpp"
 #include "host/base/shown.hpp"
+#include "host/calibration/judgement/remarks.hpp"
 
 namespace astro::experiment {
 namespace {
 
-/// A remark with a capital and a full stop, unless it begins with the name of a run, which stays as it is.
+/// A remark with a capital letter, unless it begins with the name of a run, which stays as it is.
 std::string capitalised(std::string remark, const std::vector<calibration::RunFit>& runs) {
   const bool named = std::any_of(runs.begin(), runs.end(),
                                  [&](const auto& run) { return remark.starts_with(run.name + ' '); });

@@ -6,23 +6,22 @@
 #include "host/base/remedy.hpp"
 #include "host/experiment/analysis/calibration.hpp"
 
-/// What maximum likelihood found beside the factors, in sentences for a person: terminal and report say the
-/// same.
+/// What maximum likelihood found beside the factors, in sentences that the terminal and the report share.
 namespace astro::experiment {
 
-/// Runs, distance and turning that it was found from.
+/// The number of runs, their distance and their rotation.
 std::string extent_sentence(const MlResult& ml);
 
-/// Where the tracked body sits on the robot.
+/// The lever arm of the tracked body.
 std::string lever_sentence(const MlResult& ml);
 
-/// Whose clock the truth has, and what was found about it.
+/// The clock of the truth: known, or its skew.
 std::string clock_sentence(const MlResult& ml);
 
-/// What was taken for noise, given or estimated, and how well it explains the runs.
+/// The noise, given or estimated, and how well it explains the runs.
 std::string noise_sentence(const MlResult& ml);
 
-/// What does not fit, or the one sentence that everything does. Without the final stops.
+/// What does not fit, or one sentence that everything fits. Without final full stops.
 std::vector<Remark> verdict(const MlResult& ml);
 
 /// "1.23 ± 0.45": two digits of the error, `decimals` where it is not known.

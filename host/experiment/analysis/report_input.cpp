@@ -36,13 +36,13 @@ std::vector<Row> description_of(const Results& results) {
   return rows;
 }
 
-/// What phase `i` carried, with the errors of the calibration that it comes from.
-std::vector<report::CarriedValue> carried_of(const Results& results, std::size_t i) {
-  const calibration::WheelFactors& carried = results.phases[i].squares.carried;
+/// The factors loaded in phase `i`, with the errors of the calibration that it comes from.
+std::vector<report::LoadedValue> loaded_of(const Results& results, std::size_t i) {
+  const calibration::WheelFactors& loaded = results.phases[i].squares().loaded;
   const FactorErrors unknown;
   const bool found = i > 0 && results.phases[i - 1].calibration.has_value();
   const FactorErrors& se = found ? results.phases[i - 1].calibration->se : unknown;
-  return {{carried.c_r, se.c_r}, {carried.c_l, se.c_l}, {carried.b_m, se.b_m}};
+  return {{loaded.c_r, se.c_r}, {loaded.c_l, se.c_l}, {loaded.b_m, se.b_m}};
 }
 
 std::string ml_text(const MlResult& ml) {
@@ -80,11 +80,11 @@ report::ReportInput report_input(const Results& results) {
   input.description = description_of(results);
   for (std::size_t i = 0; i < results.phases.size(); ++i) {
     const PhaseResult& phase = results.phases[i];
-    input.phases.push_back(
-        {phase.name, phase.runs, phase.summary, phase.squares.cw, phase.squares.ccw, carried_of(results, i)});
+    input.phases.push_back({phase.name, phase.runs(), phase.summary, phase.squares().cw, phase.squares().ccw,
+                            loaded_of(results, i)});
   }
-  const calibration::WheelFactors& old = results.before().squares.carried;
-  const calibration::WheelFactors& now = results.after().squares.carried;
+  const calibration::WheelFactors& old = results.before().squares().loaded;
+  const calibration::WheelFactors& now = results.after().squares().loaded;
   const Calibration* last = results.last_calibration();
   const FactorErrors se = last != nullptr ? last->se : FactorErrors{};
   input.parameters = {{"c_R", "", old.c_r, now.c_r, se.c_r},

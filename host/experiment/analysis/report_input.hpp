@@ -5,7 +5,7 @@
 
 namespace astro::experiment {
 
-/// What the report of an experiment says.
+/// The content of an experiment's report.
 report::ReportInput report_input(const Results& results);
 
 }  // namespace astro::experiment

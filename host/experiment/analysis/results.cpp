@@ -5,10 +5,11 @@
 #include <cmath>
 
 #include "host/base/error.hpp"
-#include "host/experiment/files/experiment_folder.hpp"
 #include "host/experiment/analysis/json.hpp"
+#include "host/experiment/files/experiment_folder.hpp"
 #include "host/experiment/files/robot_identity.hpp"
 #include "host/recording/files/run_folder.hpp"
+#include "host/report/comparison.hpp"
 
 namespace astro::experiment {
 namespace {
@@ -20,6 +21,14 @@ RunSet read_phase(const fs::path& folder, const Plan& plan, std::size_t phase, r
   for (const RunSpec& spec : specs)
     if (!fs::exists(file_of(folder, spec))) return {};
   return read_specs(folder, specs, damage);
+}
+
+PhaseResult phase_of(const std::string& name, std::shared_ptr<const Recordings> recordings) {
+  PhaseResult phase;
+  phase.name = name;
+  phase.recordings = std::move(recordings);
+  phase.summary = calibration::summarize(phase.squares().cw, phase.squares().ccw);
+  return phase;
 }
 
 std::string millimetres(double metres, double error) {
@@ -42,15 +51,16 @@ const Calibration* Results::last_calibration() const {
   return last ? &*last : nullptr;
 }
 
-report::Improvement Results::gain() const {
-  return report::improvement(report::E_max_syst_mm(before().summary), report::E_max_syst_mm(after().summary));
+calibration::Improvement Results::gain() const {
+  return calibration::improvement(calibration::E_max_syst_mm(before().summary),
+                                  calibration::E_max_syst_mm(after().summary));
 }
 
 std::string Results::other_robot() const {
   for (const PhaseResult& phase : phases)
-    for (const recording::Run& run : phase.runs)
+    for (const recording::Run& run : phase.runs())
       if (const std::string sentence =
-              different_robots("'" + before().name + "'", identity_of(before().runs.front().info),
+              different_robots("'" + before().name + "'", identity_of(before().runs().front().info),
                                "'" + phase.name + "'", identity_of(run.info));
           !sentence.empty())
         return sentence + ": what is compared may be the robots";
@@ -60,8 +70,8 @@ std::string Results::other_robot() const {
 std::string Results::verdict() const {
   return fmt::format("E_max_syst is {}: improvement factor {}. {}", report::claim(gain()),
                      report::describe(gain()),
-                     report::verdict_sentence(report::E_max_syst_mm(before().summary),
-                                              report::E_max_syst_mm(after().summary)));
+                     report::verdict_sentence(calibration::E_max_syst_mm(before().summary),
+                                              calibration::E_max_syst_mm(after().summary)));
 }
 
 Results read_results(const fs::path& folder, recording::Damage damage) {
@@ -69,36 +79,42 @@ Results read_results(const fs::path& folder, recording::Damage damage) {
   results.journal = read_journal(folder);
   const Plan& plan = results.journal.plan;
   const std::vector<std::string> names = phase_names(plan);
-  std::vector<RunSet> sets;
+  std::vector<std::shared_ptr<const Recordings>> driven;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    PhaseResult phase;
-    phase.name = names[i];
-    sets.push_back(read_phase(folder, plan, i, damage));
-    if (sets.back().runs.empty()) break;
-    phase.runs = sets.back().runs;
-    phase.squares = squares_of(phase.runs);
-    phase.summary = calibration::summarize(phase.squares.cw, phase.squares.ccw);
-    if (i + 1 < names.size()) phase.calibration = calibrate_after(sets, plan.method);
-    results.phases.push_back(std::move(phase));
+    RunSet set = read_phase(folder, plan, i, damage);
+    if (set.runs.empty()) break;
+    driven.push_back(std::make_shared<const Recordings>(std::move(set)));
+    results.phases.push_back(phase_of(names[i], driven.back()));
+    if (i + 1 < names.size()) results.phases.back().calibration = calibrate_after(driven, plan.method);
   }
   if (results.phases.empty())
-    throw Error("the experiment in '" + folder.string() +
-                    "' has not driven its first phase to the end",
+    throw Error("the experiment in '" + folder.string() + "' has not driven its first phase to the end",
                 {Help::resume_experiment, folder.string()});
+  return results;
+}
+
+Results results_of(Journal journal, std::span<const std::shared_ptr<const Recordings>> phases,
+                   std::span<const Calibration> calibrations) {
+  Results results;
+  results.journal = std::move(journal);
+  const std::vector<std::string> names = phase_names(results.journal.plan);
+  for (std::size_t i = 0; i < phases.size(); ++i) {
+    results.phases.push_back(phase_of(names[i], phases[i]));
+    if (i < calibrations.size()) results.phases.back().calibration = calibrations[i];
+  }
   return results;
 }
 
 Results read_folders(const std::vector<fs::path>& folders, recording::Damage damage) {
   Results results;
   for (const fs::path& folder : folders) {
-    PhaseResult phase;
-    phase.name = fs::absolute(folder).lexically_normal().filename().string();
-    phase.runs = recording::read_runs(folder, damage);
-    phase.squares = squares_of(phase.runs);
-    phase.summary = calibration::summarize(phase.squares.cw, phase.squares.ccw);
-    results.phases.push_back(std::move(phase));
+    RunSet set;
+    set.runs = recording::read_runs(folder, damage);
+    set.names.resize(set.runs.size());
+    const std::string name = fs::absolute(folder).lexically_normal().filename().string();
+    results.phases.push_back(phase_of(name, std::make_shared<const Recordings>(std::move(set))));
   }
-  const recording::RunInfo& info = results.before().runs.front().info;
+  const recording::RunInfo& info = results.before().runs().front().info;
   Journal& journal = results.journal;
   journal.robot_id = info.robot_id;
   journal.robot_name = info.robot_name;
@@ -106,7 +122,7 @@ Results read_folders(const std::vector<fs::path>& folders, recording::Damage dam
   journal.firmware = info.firmware;
   journal.started_at = info.started_at;
   journal.plan.truth = info.truth_source;
-  journal.plan.side_m = results.before().squares.side_m;
+  journal.plan.side_m = results.before().squares().side_m;
   journal.plan.speed_mps = info.speed_mps;
   journal.plan.runs = results.before().summary.cw.runs;
   return results;
@@ -122,14 +138,14 @@ nlohmann::json to_json(const Results& results) {
     json["improvement_95"] = {number(results.gain().low), number(results.gain().high)};
   json["phases"] = nlohmann::json::array();
   for (const PhaseResult& phase : results.phases) {
-    nlohmann::json entry = {{"name", phase.name}, {"carried", to_json(phase.squares.carried)}};
+    nlohmann::json entry = {{"name", phase.name}, {"carried", to_json(phase.squares().loaded)}};
     entry["squares"] = to_json(phase.summary);
     entry["estimate"] = phase.calibration ? to_json(*phase.calibration) : nlohmann::json();
     json["phases"].push_back(entry);
   }
-  json["parameters"] = {{"old", to_json(results.before().squares.carried)}, {"new", nullptr}};
+  json["parameters"] = {{"old", to_json(results.before().squares().loaded)}, {"new", nullptr}};
   if (const Calibration* last = results.last_calibration()) {
-    json["parameters"]["new"] = to_json(results.after().squares.carried);
+    json["parameters"]["new"] = to_json(results.after().squares().loaded);
     json["parameters"]["standard_errors"] = {
         {"c_R", number(last->se.c_r)}, {"c_L", number(last->se.c_l)}, {"b_m", number(last->se.b_m)}};
   }
@@ -158,13 +174,13 @@ std::vector<std::vector<std::string>> before_after_table(const Results& results)
   cluster("cw", &calibration::ExperimentSummary::cw);
   cluster("ccw", &calibration::ExperimentSummary::ccw);
   rows.push_back(row(results, "c_R", "", [](const PhaseResult& phase) {
-    return fmt::format("{:.7f}", phase.squares.carried.c_r);
+    return fmt::format("{:.7f}", phase.squares().loaded.c_r);
   }));
   rows.push_back(row(results, "c_L", "", [](const PhaseResult& phase) {
-    return fmt::format("{:.7f}", phase.squares.carried.c_l);
+    return fmt::format("{:.7f}", phase.squares().loaded.c_l);
   }));
   rows.push_back(row(results, "b", "mm", [](const PhaseResult& phase) {
-    return fmt::format("{:.4f}", 1000 * phase.squares.carried.b_m);
+    return fmt::format("{:.4f}", 1000 * phase.squares().loaded.b_m);
   }));
   return rows;
 }

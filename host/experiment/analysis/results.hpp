@@ -1,27 +1,32 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "host/calibration/judgement/before_after.hpp"
 #include "host/experiment/analysis/calibration.hpp"
-#include "host/experiment/files/journal.hpp"
+#include "host/experiment/analysis/recordings.hpp"
 #include "host/experiment/analysis/squares.hpp"
-#include "host/recording/run/run.hpp"
+#include "host/experiment/files/journal.hpp"
 #include "host/recording/files/run_file.hpp"
-#include "host/report/comparison.hpp"
+#include "host/recording/run/run.hpp"
 
-/// What came out of an experiment, worked out from its folder alone.
+/// The results of an experiment, computed from the recordings in its folder.
 namespace astro::experiment {
 
 struct PhaseResult {
   std::string name;
-  std::vector<recording::Run> runs;
-  Squares squares;
+  std::shared_ptr<const Recordings> recordings;
   calibration::ExperimentSummary summary;
   std::optional<Calibration> calibration;  // none after the last phase
+
+  const std::vector<recording::Run>& runs() const { return recordings->runs(); }
+  const Squares& squares() const { return recordings->squares(); }
 };
 
 struct Results {
@@ -30,22 +35,27 @@ struct Results {
 
   const PhaseResult& before() const { return phases.front(); }
   const PhaseResult& after() const { return phases.back(); }
-  /// The one whose factors the last phase carried; none if nothing was uploaded yet.
+  /// The calibration whose factors were loaded in the last phase; none if nothing was uploaded yet.
   const Calibration* last_calibration() const;
   /// E_max_syst before over after.
   double improvement() const { return gain().factor; }
   /// The same with its 95 % interval.
-  report::Improvement gain() const;
+  calibration::Improvement gain() const;
   /// The sentence that a phase was driven with another robot than the first one, or "".
   std::string other_robot() const;
-  /// What the report says of it, for people: one paragraph.
+  /// The verdict of the report in one paragraph.
   std::string verdict() const;
 };
 
-/// Reads the phases that are complete; one that is driven until a precision is reached is, from its fewest
-/// squares on. Throws astro::Error if the first one is not.
+/// Reads the complete phases. A phase that is driven until a precision is reached counts as complete from its
+/// smallest number of squares on. Throws astro::Error if the first phase is not complete.
 Results read_results(const std::filesystem::path& folder,
                      recording::Damage damage = recording::Damage::refused);
+
+/// The same from phases that were read before, at least one, and the calibrations after them: after all of
+/// them or all but the last.
+Results results_of(Journal journal, std::span<const std::shared_ptr<const Recordings>> phases,
+                   std::span<const Calibration> calibrations);
 
 /// The same from folders of recordings that no experiment made: one phase each, named after its folder. The
 /// first is the reference.
@@ -55,7 +65,7 @@ Results read_folders(const std::vector<std::filesystem::path>& folders,
 /// The one object that `umbmark --json` prints.
 nlohmann::json to_json(const Results& results);
 
-/// The table that a person reads.
+/// Before and after as a table for people.
 std::vector<std::vector<std::string>> before_after_table(const Results& results);
 
 }  // namespace astro::experiment

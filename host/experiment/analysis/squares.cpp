@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "host/base/error.hpp"
+#include "host/experiment/files/number_named.hpp"
 #include "host/experiment/files/plan.hpp"
+#include "host/experiment/files/same_number.hpp"
 #include "host/recording/run/end_error.hpp"
 
 namespace astro::experiment {
@@ -14,21 +16,21 @@ namespace {
 using recording::Direction;
 
 double parameter(const recording::RunInfo& info, const char* name) {
-  const auto found = info.parameters.find(name);
-  if (found == info.parameters.end())
+  const std::optional<double> value = number_named(info.parameters, name);
+  if (!value)
     throw Error(fmt::format(
         "the recording of {} {} {} does not say what {} the robot carried: it cannot be calibrated",
         info.kind, name_of(info.direction), info.index, name));
-  return found->second;
+  return *value;
 }
 
 void accept(Squares& squares, const recording::Run& run, bool first) {
-  const calibration::WheelFactors carried = carried_factors(run.info);
+  const calibration::WheelFactors loaded = loaded_factors(run.info);
   if (first) {
-    squares.carried = carried;
+    squares.loaded = loaded;
     squares.side_m = run.info.size_m;
   }
-  if (!same_factors(carried, squares.carried))
+  if (!same_factors(loaded, squares.loaded))
     throw Error(
         "the squares were driven with different c_R, c_L or b: calibrate each phase for itself (name its "
         "folder)");
@@ -44,13 +46,10 @@ void accept(Squares& squares, const recording::Run& run, bool first) {
 }  // namespace
 
 bool same_factors(const calibration::WheelFactors& a, const calibration::WheelFactors& b) {
-  // Half a step of the wire format is far below this, a calibration far above.
-  constexpr double kSame = 1e-8;
-  return std::abs(a.c_r - b.c_r) < kSame && std::abs(a.c_l - b.c_l) < kSame &&
-         std::abs(a.b_m - b.b_m) < kSame;
+  return same_number(a.c_r, b.c_r) && same_number(a.c_l, b.c_l) && same_number(a.b_m, b.b_m);
 }
 
-calibration::WheelFactors carried_factors(const recording::RunInfo& info) {
+calibration::WheelFactors loaded_factors(const recording::RunInfo& info) {
   return {parameter(info, "c_R"), parameter(info, "c_L"), parameter(info, "b")};
 }
 
@@ -62,15 +61,6 @@ Squares squares_of(std::span<const recording::Run> runs) {
   if (squares.cw.empty() && squares.ccw.empty())
     throw Error("none of the recordings is a square", {Help::drive_squares});
   return squares;
-}
-
-std::optional<calibration::ExperimentSummary> summary_of_squares(std::span<const recording::Run> runs) {
-  try {
-    const Squares squares = squares_of(runs);
-    if (!squares.cw.empty() && !squares.ccw.empty()) return calibration::summarize(squares.cw, squares.ccw);
-  } catch (const Error&) {
-  }
-  return std::nullopt;
 }
 
 }  // namespace astro::experiment

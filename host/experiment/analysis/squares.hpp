@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,21 +14,17 @@ namespace astro::experiment {
 struct Squares {
   std::vector<calibration::EndPose> cw, ccw;
   double side_m = 0;
-  calibration::WheelFactors carried;
+  calibration::WheelFactors loaded;
 };
 
-/// Picks the squares out of `runs`. Throws astro::Error if there are none, or if they differ in side or in
-/// the parameters that the robot carried: such runs cannot be averaged.
+/// The squares among `runs`. Throws astro::Error if there are none, or if they differ in side or in
+/// the parameters that were loaded in the robot: such runs must not be averaged.
 Squares squares_of(std::span<const recording::Run> runs);
 
-/// Their end errors, if both directions were driven and all alike; none otherwise, which is no error: for
-/// what is found without squares and only shown with them.
-std::optional<calibration::ExperimentSummary> summary_of_squares(std::span<const recording::Run> runs);
-
-/// Whether a robot that carries `a` carries `b`: within what the wire format rounds off.
+/// Whether a robot cannot tell `a` from `b`: they differ by less than the wire format resolves.
 bool same_factors(const calibration::WheelFactors& a, const calibration::WheelFactors& b);
 
-/// The factors that a run's robot carried; throws astro::Error where the recording does not say.
-calibration::WheelFactors carried_factors(const recording::RunInfo& info);
+/// The factors that were loaded in a run's robot; throws astro::Error where the recording does not say.
+calibration::WheelFactors loaded_factors(const recording::RunInfo& info);
 
 }  // namespace astro::experiment

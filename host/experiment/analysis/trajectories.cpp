@@ -7,16 +7,18 @@
 #include <numbers>
 
 #include "host/base/error.hpp"
+#include "host/experiment/files/number_named.hpp"
+#include "host/experiment/files/same_number.hpp"
 
 namespace astro::experiment {
 namespace {
 
 double parameter(const recording::RunInfo& info, const char* parameter, const std::string& name) {
-  const auto found = info.parameters.find(parameter);
-  if (found == info.parameters.end() || !std::isfinite(found->second) || found->second <= 0)
+  const std::optional<double> value = number_named(info.parameters, parameter);
+  if (!value || !std::isfinite(*value) || *value <= 0)
     throw Error(fmt::format("the recording '{}' does not say what {} the robot carried", name, parameter),
                 {Help::leave_run_out, name});
-  return found->second;
+  return *value;
 }
 
 /// Distance since the first sample of a counter that wraps at 2^32.
@@ -36,7 +38,7 @@ class Travel {
   std::int64_t total_ = 0;
 };
 
-/// Keeps the first of several samples with one time; a step back is somebody's restart.
+/// Keeps the first of several samples with the same time. Refuses a step back in time, which is a restart.
 class Clock {
  public:
   Clock(std::int64_t origin_us, const std::string& run, const char* stream)
@@ -66,8 +68,7 @@ class Clock {
 double NominalWheel::metres_per_count() const { return std::numbers::pi * diameter_m / counts_per_turn; }
 
 bool NominalWheel::measures_like(const NominalWheel& other) const {
-  constexpr double kSame = 1e-8;  // above a step of the wire format, far below a calibration
-  return std::abs(metres_per_count() / other.metres_per_count() - 1) < kSame;
+  return same_number(metres_per_count() / other.metres_per_count(), 1);
 }
 
 NominalWheel nominal_wheel(const recording::RunInfo& info, const std::string& name) {
@@ -84,7 +85,8 @@ bool has_moving_truth(const recording::RunInfo& info) {
 calibration::Trajectory trajectory_of(const recording::Run& run, const std::string& name) {
   if (!has_moving_truth(run.info))
     throw Error(
-        fmt::format("nothing followed the robot while '{}' was recorded, and maximum likelihood needs that", name),
+        fmt::format("nothing followed the robot while '{}' was recorded, and maximum likelihood needs that",
+                    name),
         {Help::leave_run_out_or_use_end_poses, name});
   if (run.odometry.empty())
     throw Error(fmt::format("the recording '{}' holds no odometry", name), {Help::leave_run_out, name});
@@ -108,17 +110,21 @@ std::vector<calibration::Trajectory> trajectories_of(const RunSet& set) {
   std::vector<calibration::Trajectory> trajectories;
   for (std::size_t i = 0; i < set.runs.size(); ++i) {
     trajectories.push_back(trajectory_of(set.runs[i], set.names[i]));
-    const recording::RunInfo &first = set.runs.front().info, &info = set.runs[i].info;
-    if (info.robot_id != first.robot_id)
-      throw Error(fmt::format("'{}' and '{}' were driven by different robots: calibrate each for itself",
-                              set.names.front(), set.names[i]));
-    if (nominal_wheel(info, set.names[i]) != nominal_wheel(first, set.names.front()))
-      throw Error(
-          fmt::format("'{}' and '{}' were driven with different wheel diameters, gears or encoders in the "
-                      "parameters, to which c_R and c_L refer: calibrate each for itself",
-                      set.names.front(), set.names[i]));
+    require_comparable(set.runs.front().info, set.names.front(), set.runs[i].info, set.names[i]);
   }
   return trajectories;
+}
+
+void require_comparable(const recording::RunInfo& a, const std::string& a_name, const recording::RunInfo& b,
+                        const std::string& b_name) {
+  if (a.robot_id != b.robot_id)
+    throw Error(fmt::format("'{}' and '{}' were driven by different robots: calibrate each for itself",
+                            a_name, b_name));
+  if (nominal_wheel(a, a_name) != nominal_wheel(b, b_name))
+    throw Error(
+        fmt::format("'{}' and '{}' were driven with different wheel diameters, gears or encoders in the "
+                    "parameters, to which c_R and c_L refer: calibrate each for itself",
+                    a_name, b_name));
 }
 
 }  // namespace astro::experiment

@@ -7,7 +7,7 @@
 #include "host/experiment/files/run_set.hpp"
 #include "host/recording/run/run.hpp"
 
-/// From recordings to what maximum likelihood is given.
+/// From recordings to the trajectories that maximum likelihood takes.
 namespace astro::experiment {
 
 /// The wheels as the robot's parameters describe them, without c_R and c_L.
@@ -18,15 +18,15 @@ struct NominalWheel {
 
   /// Travel of a wheel with c = 1.
   double metres_per_count() const;
-  /// A count means the same: c_R and c_L of one are those of the other.
+  /// Whether one count is the same travel for both, so that c_R and c_L of one are right for the other.
   bool measures_like(const NominalWheel& other) const;
 };
 
-/// Throws astro::Error, calling the run `name`, where the recording does not say.
+/// Throws astro::Error, calling the run `name`, if the recording does not name it.
 NominalWheel nominal_wheel(const recording::RunInfo& info, const std::string& name);
 
-/// Whether truth was seen while the robot moved, and with its times: cameras, in contrast to a tape measure
-/// and to files of which only both ends count.
+/// Whether truth was measured with its times while the robot moved: by cameras, in contrast to a tape measure
+/// and to files that give only both ends.
 bool has_moving_truth(const recording::RunInfo& info);
 
 /// A run of any kind. Times are seconds since its first odometry sample on both clocks; wheel travel comes
@@ -34,11 +34,15 @@ bool has_moving_truth(const recording::RunInfo& info);
 /// that are not valid are left out.
 ///
 /// Throws astro::Error, calling the run `name`: no moving truth, no odometry, times that run backwards (the
-/// robot restarted), a recording that does not tell the nominal wheel.
+/// robot restarted), a recording that does not name the nominal wheel.
 calibration::Trajectory trajectory_of(const recording::Run& run, const std::string& name);
 
-/// All of them. Throws astro::Error also if they are of different robots or nominal wheels: factors mean
-/// nothing then.
+/// All of them. Throws astro::Error also as require_comparable does.
 std::vector<calibration::Trajectory> trajectories_of(const RunSet& set);
+
+/// Throws astro::Error unless both recordings are of the same robot with the same nominal wheels: common
+/// factors would mean nothing otherwise.
+void require_comparable(const recording::RunInfo& a, const std::string& a_name, const recording::RunInfo& b,
+                        const std::string& b_name);
 
 }  // namespace astro::experiment

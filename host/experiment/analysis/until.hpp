@@ -5,10 +5,10 @@
 #include "host/calibration/judgement/precision.hpp"
 #include "host/experiment/analysis/calibration.hpp"
 
-/// Driving until it is enough: how precise a calibration is.
+/// The precision of a calibration, for driving until it is sufficient.
 namespace astro::experiment {
 
-/// Standard errors over values; NaN where the method cannot tell.
+/// Standard errors over values; NaN if the method does not determine them.
 calibration::Precision precision_of(const Calibration& calibration);
 
 /// All three are known and at most `target`.

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "host/experiment/files/same_number.hpp"
+
 namespace astro::experiment {
 namespace {
 
@@ -38,11 +40,11 @@ std::string times(double ratio) {
   return ratio > 1 ? fmt::format("{:.3g} times as much", ratio) : fmt::format("1/{:.3g} of it", 1 / ratio);
 }
 
-/// Empty if it is not far.
+/// Empty if the change is not far.
 std::string far_change(const robot::ParameterRow& row, const Change& change) {
   const double *before = std::get_if<double>(&change.before), *after = std::get_if<double>(&change.after);
   if (before == nullptr || after == nullptr || row.name == "telemetry_period")
-    return {};  // not read any more
+    return {};  // this parameter has no effect any more
   const std::string step =
       fmt::format("{} would go from {} to {}", row.name, describe(row, *before), describe(row, *after));
   if (*after == 0) return step;
@@ -50,13 +52,13 @@ std::string far_change(const robot::ParameterRow& row, const Change& change) {
   if (usual == 0) return {};
   const double ratio = *after / usual, most = far_factor(row.name);
   if (ratio < 0) return step + ", another sign";
-  constexpr double kRounding = 1e-6;  // a tenth more is held as slightly more than a tenth
+  constexpr double kRounding =
+      1e-6;  // stored values are rounded, so a change of a tenth may be stored as slightly more
   if (ratio < most * (1 + kRounding) && ratio > 1 / most * (1 - kRounding)) return {};
   return fmt::format("{}, {}{}", step, times(ratio), *before != 0 ? "" : " (compared with the default)");
 }
 
-/// A percentage says how much of a quantity there is more or less. From -1 to 1, as a polarity changes, it
-/// would be -200 %; words say what that means.
+/// The change in percent, or in words if the sign changes: a polarity that goes from -1 to 1 would be -200 %.
 std::string change_in_words(const Change& change) {
   const double* before = std::get_if<double>(&change.before);
   const double* after = std::get_if<double>(&change.after);
@@ -99,15 +101,14 @@ std::string suspicion(const std::vector<Change>& changes) {
 }
 
 std::string wrong_basis(const robot::RemoteParameters& robot, const ParameterFile& file) {
-  constexpr double kSame = 1e-8;  // above a step of the wire format, far below a calibration
   const auto on_robot = [&](const char* name) { return std::get<double>(robot.value(name)); };
   if (!file.absolute)
-    for (const auto& [name, carried] : file.carried)
-      if (const double now = on_robot(name.c_str()); std::abs(now - carried) > kSame)
+    for (const auto& [name, loaded] : file.loaded)
+      if (const double now = on_robot(name.c_str()); !same_number(now, loaded))
         return fmt::format(
             "the calibration was driven with {} = {:.9g}, and the robot now carries {:.9g}: load the old "
             "value or drive again",
-            name, carried, now);
+            name, loaded, now);
   if (!file.wheel) return {};
   const NominalWheel now{
       on_robot("wheel_diameter"),

@@ -21,13 +21,13 @@ struct Change {
 /// out. Throws astro::Error for a name that the robot does not have or a value that its table does not allow.
 std::vector<Change> changes(const robot::RemoteParameters& robot, const ParameterValues& values);
 
-/// Wheel factors that move by more than a tenth are a mistake (units, sides, another robot) before they are a
-/// calibration: the sentence that says so, or "" if there is none. Looks at c_R, c_L and b only.
+/// A wheel factor that changes by more than a tenth is more likely a mistake (units, sides, another robot) than a
+/// calibration: the sentence that says so, or "" if there is none. Checks c_R, c_L and b only.
 std::string suspicion(const std::vector<Change>& changes);
 
-/// Why factors that were found like this would be wrong on top of what the robot now carries: the sentence,
+/// Why factors that were found like this would be wrong on top of what is loaded in the robot now: the sentence,
 /// or
-/// "" if they are right. Factors that are not absolute need what was carried when they were measured; all
+/// "" if they are right. Factors that are not absolute need the factors that were loaded when they were measured; all
 /// need the nominal wheel (diameter, gear, encoder) that they refer to, as far as the file tells it.
 std::string wrong_basis(const robot::RemoteParameters& robot, const ParameterFile& file);
 
@@ -36,18 +36,19 @@ std::string wrong_basis(const robot::RemoteParameters& robot, const ParameterFil
 std::optional<Remark> objection(const robot::RemoteParameters& robot, const ParameterFile& file,
                                 const std::vector<Change>& changes);
 
-/// The sentence that no factor changes by more than twice its standard error, or "": nothing speaks against
-/// such an upload, and little for it. `standard_errors` by name; NaN and those that are missing are unknown.
+/// The sentence that no factor changes by more than twice its standard error, or "". Such an upload is harmless
+/// and of little use. `standard_errors` by name; NaN and those that are missing are unknown.
 std::string insignificance(const std::vector<Change>& changes,
                            const std::map<std::string, double>& standard_errors);
 
-/// Values so far from those on the robot that they are a slip of the finger or a wrong unit before they are
-/// meant: a clause for each, with both values and the unit. A wheel factor is far if it moves by more than a
+/// Values so far from those on the robot that they are probably a typing error or a wrong unit: a clause for
+/// each, with both values and the unit. A wheel factor is far if it moves by more than a
 /// tenth, a nominal size by more than a quarter, a limit or a supply voltage if it is halved or doubled, and
 /// any other number if it is three times as much or as little; a changed sign always is, and so is 0 where
 /// there was none, which switches some of them off. A value that comes in place of 0 is compared with the
 /// default.
-std::vector<std::string> far_changes(const robot::RemoteParameters& robot, const std::vector<Change>& changes);
+std::vector<std::string> far_changes(const robot::RemoteParameters& robot,
+                                     const std::vector<Change>& changes);
 
 /// Old and new side by side, for people.
 std::vector<std::vector<std::string>> side_by_side(const std::vector<Change>& changes);

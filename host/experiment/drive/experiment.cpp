@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -37,9 +38,10 @@ class Session {
     const std::vector<std::string> phases = phase_names(journal_.plan);
     for (std::size_t i = 0; i < phases.size(); ++i) {
       drive_phase(i);
+      read_phase(i);
       if (i + 1 < phases.size()) calibrate(i);
     }
-    return read_results(folder_);
+    return results_of(read_journal(folder_), finished_, found_);
   }
 
  private:
@@ -81,7 +83,8 @@ class Session {
 
   void drive_until_enough(std::size_t phase, const Until& until) {
     const Plan& plan = journal_.plan;
-    if (journal_.carried.contains(phase_names(plan)[phase + 1])) return;  // an earlier session had enough
+    if (journal_.loaded.contains(phase_names(plan)[phase + 1]))
+      return;  // an earlier session reached the precision
     for (int squares = squares_in_phase(folder_, plan, phase);; ++squares) {
       const std::vector<RunSpec> specs = squares_of_phase(plan, phase, squares);
       drive_missing(specs);
@@ -138,7 +141,7 @@ class Session {
     }
   }
 
-  /// On the disk before somebody is asked for its truth, who may err, walk away or press Ctrl-C.
+  /// Saves a drive before a person is asked for its truth, because they may leave or press Ctrl-C.
   void keep(const RunSpec& spec, recording::Run& run) {
     const fs::path driven = file_without_truth(folder_, spec);
     if (truth_.comes_afterwards()) {
@@ -157,7 +160,7 @@ class Session {
     fs::remove(driven);
   }
 
-  /// Its ground truth, asked for again as long as it looks mistyped and nobody says that it is right.
+  /// Asks for the ground truth of a run, again if it looks mistyped and nobody confirms it.
   void complete_plausibly(const RunSpec& spec, recording::Run& run) {
     while (true) {
       recording::Run whole = run;
@@ -172,10 +175,10 @@ class Session {
     }
   }
 
-  /// A phase is driven with one set of parameters, also when it is resumed.
+  /// Checks that a phase is driven with one set of parameters, also if it is resumed.
   void begin_phase(const std::string& phase, const calibration::WheelFactors& factors) {
-    const auto known = journal_.carried.find(phase);
-    if (known != journal_.carried.end()) {
+    const auto known = journal_.loaded.find(phase);
+    if (known != journal_.loaded.end()) {
       if (!same_factors(known->second, factors))
         throw Error(
             fmt::format("the robot carries c_R {:.9f}, c_L {:.9f}, b {:.9f} m, but phase '{}' of this "
@@ -185,7 +188,7 @@ class Session {
             {Help::load_factors_or_choose_other_folder});
       return;
     }
-    journal_.carried[phase] = factors;
+    journal_.loaded[phase] = factors;
     write_journal(folder_, journal_);
   }
 
@@ -212,28 +215,33 @@ class Session {
     }
   }
 
-  Calibration calibrate_with(const RunSet& current) const {
-    std::vector<RunSet> phases = finished_;
-    phases.push_back(current);
+  Calibration calibrate_with(RunSet current) const {
+    std::vector<std::shared_ptr<const Recordings>> phases = finished_;
+    phases.push_back(std::make_shared<const Recordings>(std::move(current)));
     return calibrate_after(phases, journal_.plan.method);
   }
 
-  void calibrate(std::size_t phase) {
+  /// The recordings as they are on disk: what is calibrated and reported is what was kept.
+  void read_phase(std::size_t phase) {
     const Plan& plan = journal_.plan;
-    const std::vector<RunSpec> specs = runs_of_phase(plan, phase, squares_in_phase(folder_, plan, phase));
-    RunSet set = read_specs(folder_, specs);
-    const Calibration found = calibrate_with(set);
-    finished_.push_back(std::move(set));
-    const fs::path file = folder_ / fmt::format("calib-{}.toml", specs.front().phase);
+    const auto specs = runs_of_phase(plan, phase, squares_in_phase(folder_, plan, phase));
+    finished_.push_back(std::make_shared<const Recordings>(read_specs(folder_, specs)));
+  }
+
+  void calibrate(std::size_t phase) {
+    const std::vector<std::string> names = phase_names(journal_.plan);
+    const Calibration found = calibrate_after(finished_, journal_.plan.method);
+    const fs::path file = folder_ / fmt::format("calib-{}.toml", names[phase]);
     write_calibration(file, found);
-    if (!journal_.carried.contains(phase_names(plan)[phase + 1])) upload(found, file);
+    if (!journal_.loaded.contains(names[phase + 1])) upload(found, file);
+    found_.push_back(found);
   }
 
   void upload(const Calibration& found, const fs::path& file) {
     const ParameterFile calibration = read_parameter_file(file);
     const robot::RemoteParameters robot = robot::RemoteParameters::fetch(client_);
     const std::vector<Change> list = changes(robot, calibration.parameters);
-    if (list.empty()) return;  // an earlier session got this far
+    if (list.empty()) return;  // an earlier session uploaded them already
     if (const auto why = objection(robot, calibration, list); why && !hooks_.force) throw Error(*why);
     if (!hooks_.agree(found, list))
       throw Error("the new parameters were not uploaded", {Help::resume_experiment, folder_.string()});
@@ -248,9 +256,10 @@ class Session {
   FolderLock lock_;  // two sessions would record and calibrate each other's runs
   const ExperimentHooks& hooks_;
   Journal journal_;
-  std::vector<RunSet> finished_;  // phases before the one under way
-  std::set<fs::path> warned_of_;  // recordings that look mistyped
-  bool announced_ = false;        // what of this phase was recorded before
+  std::vector<std::shared_ptr<const Recordings>> finished_;  // phases that are driven
+  std::vector<Calibration> found_;                           // after each of them but the last
+  std::set<fs::path> warned_of_;                             // recordings that look mistyped
+  bool announced_ = false;  // whether the number of recorded runs of this phase was announced
 };
 
 }  // namespace

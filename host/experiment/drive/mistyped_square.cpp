@@ -7,15 +7,15 @@
 #include "host/base/error.hpp"
 #include "host/calibration/end_poses/odd_run.hpp"
 #include "host/experiment/files/experiment_folder.hpp"
-#include "host/recording/run/end_error.hpp"
 #include "host/recording/files/run_file.hpp"
+#include "host/recording/run/end_error.hpp"
 
 namespace astro::experiment {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// How a run ended; NaN where that cannot be told, which the calibration will say in its place.
+/// The end error of a run; NaN if it cannot be computed. Then the calibration reports why.
 calibration::EndPose end_of(const recording::Run& run) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   try {

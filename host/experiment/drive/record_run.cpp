@@ -17,7 +17,7 @@ namespace {
 using namespace std::chrono_literals;
 using protocol::Telemetry;
 
-constexpr auto kRest = 700ms;  // at each end; host/recording/run/rest.hpp wants more than 200 ms
+constexpr auto kRest = 700ms;  // at each end; host/recording/run/rest.hpp needs more than 200 ms
 constexpr std::uint32_t kFields = Telemetry::kPose | Telemetry::kCounts | Telemetry::kTwist;
 constexpr int kSamplesPerLook = 5;  // at the truth
 
@@ -25,8 +25,7 @@ constexpr robot::Sense sense_of(recording::Direction direction) {
   return direction == recording::Direction::cw ? robot::Sense::cw : robot::Sense::ccw;
 }
 
-/// Hands both streams on for as long as it lives: truth between the first and the newest odometry, as it
-/// comes.
+/// Passes both streams on during its lifetime: the truth samples between the first and the newest odometry.
 class Collector {
  public:
   using Moved = std::function<void(const recording::OdometrySample&)>;
@@ -41,12 +40,12 @@ class Collector {
           take(to_sample(telemetry));
           if (++count_.odometry % kSamplesPerLook == 0) look();
         })) {
-    truth_.poll();  // what was seen before is not of this run
+    truth_.poll();  // discards samples from before this run
     client_.request(protocol::SetTelemetry{kTelemetryPeriod_ms, kFields});
   }
 
-  /// Records for so long, or until `interrupted`, by the robot's clock: a simulator in fast motion would
-  /// stand for minutes in a second of ours.
+  /// Records for `duration` on the robot's clock, or until `interrupted`. The robot's clock counts, because a
+  /// simulator may run much faster than real time.
   void stand(std::chrono::microseconds duration, const std::function<bool()>& interrupted) {
     const std::size_t before = count_.odometry;
     stand_from_us_.reset();
@@ -58,7 +57,7 @@ class Collector {
       throw Error("the robot's telemetry has dried up while it stood: is the link good?");
   }
 
-  /// Stops the stream. The truth may arrive a little later than the robot's word: waits until it is there.
+  /// Stops the stream. Waits for the last truth samples, which may arrive a little later than the odometry.
   void finish() {
     client_.request(protocol::SetTelemetry{0, 0});
     look();
@@ -172,7 +171,7 @@ void complete(recording::Run& run, truth::Source& truth) {
 
 Recorded record_until(robot::Client& client, truth::Source& truth, const SampleSink& sink,
                       const std::function<bool()>& done) {
-  // What the sink throws is about the recording, and must not be taken for a link that is lost.
+  // An exception of the sink concerns the recording and must not be reported as a lost link.
   std::exception_ptr failure;
   const auto guarded = [&](const auto& take) {
     return [&failure, take](const auto& sample) {

@@ -4,9 +4,9 @@
 #include <functional>
 
 #include "host/experiment/files/plan.hpp"
+#include "host/recording/run/run.hpp"
 #include "host/robot/motion/drive.hpp"
 #include "host/robot/motion/paths.hpp"
-#include "host/recording/run/run.hpp"
 #include "host/truth/source/source.hpp"
 
 namespace astro::experiment {
@@ -14,34 +14,34 @@ namespace astro::experiment {
 /// Between samples of odometry in a recording.
 inline constexpr std::uint16_t kTelemetryPeriod_ms = 10;
 
-/// What somebody in front of the program wants to know, and to say, while a robot drives.
+/// Callbacks for progress, notices and interruption while a robot drives.
 struct RunHooks {
-  /// The samples as they are recorded, and each segment as it ends: what a progress bar is made from.
+  /// Called for each recorded sample and for each segment that ends, for a progress bar.
   std::function<void(const recording::OdometrySample&)> moved = [](const auto&) {};
   std::function<void(std::uint16_t tag)> segment_done = [](std::uint16_t) {};
   std::function<void(const std::string&)> notice = [](const std::string&) {};
   std::function<bool()> interrupted = [] { return false; };
 };
 
-/// The path that a spec stands for.
+/// The path of a run.
 robot::Path path_of(const Plan& plan, const RunSpec& spec);
 
-/// Size, speed and names of a run before it is driven; robot and parameters are the caller's to add.
+/// Size, speed and names of a run before it is driven; the caller adds robot and parameters.
 recording::RunInfo info_of(const Plan& plan, const RunSpec& spec);
 
-/// Drives one run from rest to rest, starting at odometry pose 0, and records what the robot believed and
-/// what the truth saw. The robot stands still for more than half a second at both ends, so that the poses
-/// there can be averaged. Truth that comes afterwards is left to complete().
+/// Drives one run from rest to rest, starting at odometry pose 0, and records odometry
+/// and truth. The robot stands still for more than half a second at both ends, so that the poses
+/// there can be averaged. Truth that is measured afterwards is added by complete().
 ///
 /// Throws what robot::DriveSession throws (the robot stands then), and astro::Error if the truth ends.
 recording::Run record_run(robot::Client& client, truth::Source& truth, const robot::Path& path,
                           const recording::RunInfo& info, const RunHooks& hooks);
 
-/// Adds the truth that comes only after a run: people and files are asked for it. Throws what they do; `run`
-/// is as it was then.
+/// Adds the truth that is available only after a run, from a person or a file. Throws what the source throws;
+/// `run` is unchanged then.
 void complete(recording::Run& run, truth::Source& truth);
 
-/// Where samples go as they come, each stream in the order of its times.
+/// Receives the samples, each stream in order of time.
 struct SampleSink {
   std::function<void(const recording::OdometrySample&)> odometry;
   std::function<void(const recording::TruthSample&)> truth;
@@ -49,14 +49,12 @@ struct SampleSink {
 
 struct Recorded {
   std::uint64_t odometry = 0, truth = 0;  // samples
-  std::string warning;                    // "" or why it ended before it was to
+  std::string warning;                    // "" or why the recording ended early
 };
 
-/// As above without driving: hands on whatever the robot does until `done` says so; asked after each message,
-/// at least every 50 ms.
-/// Holds no more than the last moments, however long it takes. A link or a truth that is lost on the way ends
-/// it, and `warning` says so: nobody can drive the same again. What the sink throws ends it, too, and is
-/// thrown.
+/// Records without driving, until `done` returns true; it is called after each message, at least every 50 ms.
+/// Memory does not grow with time. If the link or the truth is lost, the recording ends with a `warning` and
+/// not with an error, because the drive cannot be repeated. An exception of the sink ends it and is passed on.
 Recorded record_until(robot::Client& client, truth::Source& truth, const SampleSink& sink,
                       const std::function<bool()>& done);
 

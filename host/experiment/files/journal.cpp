@@ -24,8 +24,7 @@ std::filesystem::path file_in(const std::filesystem::path& folder) { return fold
   throw Error(fmt::format("'{}' {}", folder.string(), why), {Help::name_experiment});
 }
 
-/// A plan that nobody could have given was not written by this program; its counts say how much memory is
-/// taken.
+/// Refuses a plan that this program cannot have written, because its counts decide how much memory is used.
 void require_drivable(const Plan& plan, const std::string& damaged) {
   try {
     plan.check();
@@ -62,8 +61,8 @@ Journal read_journal(const std::filesystem::path& folder) {
     robot.at("board").get_to(journal.board);
     robot.at("firmware").get_to(journal.firmware);
     json.at("started_at").get_to(journal.started_at);
-    for (const auto& [phase, carried] : json.at("carried").items())
-      journal.carried[phase] = {carried.at("c_R"), carried.at("c_L"), carried.at("b_m")};
+    for (const auto& [phase, loaded] : json.at("carried").items())
+      journal.loaded[phase] = {loaded.at("c_R"), loaded.at("c_L"), loaded.at("b_m")};
     return journal;
   } catch (const nlohmann::json::exception&) {
     throw Error(damaged, {Help::calibrate_recordings});
@@ -71,9 +70,9 @@ Journal read_journal(const std::filesystem::path& folder) {
 }
 
 void write_journal(const std::filesystem::path& folder, const Journal& journal) {
-  nlohmann::json carried = nlohmann::json::object();
-  for (const auto& [phase, factors] : journal.carried)
-    carried[phase] = {{"c_R", factors.c_r}, {"c_L", factors.c_l}, {"b_m", factors.b_m}};
+  nlohmann::json loaded = nlohmann::json::object();
+  for (const auto& [phase, factors] : journal.loaded)
+    loaded[phase] = {{"c_R", factors.c_r}, {"c_L", factors.c_l}, {"b_m", factors.b_m}};
   const nlohmann::json json = {{"format", kFormat},
                                {"started_at", journal.started_at},
                                {"plan", journal.plan},
@@ -82,8 +81,8 @@ void write_journal(const std::filesystem::path& folder, const Journal& journal) 
                                  {"name", journal.robot_name},
                                  {"board", journal.board},
                                  {"firmware", journal.firmware}}},
-                               {"carried", carried}};
-  // A robot's texts may be no UTF-8.
+                               {"carried", loaded}};
+  // Texts of a robot may not be valid UTF-8.
   const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   PartFile file(file_in(folder));
   file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});

@@ -14,8 +14,8 @@ namespace astro::experiment {
 struct Journal {
   Plan plan;
   std::string robot_id, robot_name, board, firmware, started_at;
-  /// What the robot carried when a phase began, by phase.
-  std::map<std::string, calibration::WheelFactors> carried;
+  /// The factors loaded in the robot when a phase began, by phase.
+  std::map<std::string, calibration::WheelFactors> loaded;
 };
 
 bool has_journal(const std::filesystem::path& folder);

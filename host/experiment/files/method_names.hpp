@@ -6,7 +6,7 @@
 #include "host/calibration/motion/trajectory.hpp"
 #include "host/experiment/files/plan.hpp"
 
-/// From the words that people type to the choices that they mean.
+/// The names of methods and orders that people type.
 namespace astro::experiment {
 
 inline constexpr std::string_view kAutomaticName = "auto";
@@ -16,7 +16,7 @@ inline constexpr std::string_view kMlName = "ml";
 /// Throws astro::Error naming the word and what it may be.
 MethodChoice method_named(const std::string& method, const std::string& angles, const std::string& formula);
 
-/// What method_named takes.
+/// The name that method_named takes.
 std::string_view name_of(const MethodChoice& method);
 
 /// "rest", "line", "arc", "spin".

@@ -22,7 +22,7 @@ void need(bool condition, const std::string& sentence, const Remedy& remedy = {}
   if (!condition) throw Error(sentence, remedy);
 }
 
-/// The library makes some number of anything: 1e300, true and 2^32 + 5. What is no count is none here.
+/// A count from JSON. The library would convert 1e300, true and 2^32 + 5 to some number; these are refused.
 int count_in(const nlohmann::json& json) {
   const auto number = json.get<double>();
   return json.is_number() && number == std::trunc(number) && within(number, 0, kMostCounted)
@@ -37,15 +37,16 @@ void check_until(const Plan& plan) {
   need(
       plan.until->most >= kFewestPairs && plan.until->most <= 1000,
       fmt::format("at most {} squares in each direction: choose {} to 1000", plan.until->most, kFewestPairs));
-  need(plan.order == Order::alternating,
-       "squares driven until a precision is reached alternate", {Help::keep_order});
+  need(plan.order == Order::alternating, "squares driven until a precision is reached alternate",
+       {Help::keep_order});
   need(plan.method.family != MethodChoice::Family::end_poses,
        "only maximum likelihood knows its precision as it goes",
        {Help::drop_precision_or_method, std::string(name_of(plan.method))});
   need(plan.truth != "manual" && plan.truth != "file",
-       fmt::format("a precision can only be driven for with ground truth along the whole drive, which the source "
-                   "'{}' has not",
-                   plan.truth),
+       fmt::format(
+           "a precision can only be driven for with ground truth along the whole drive, which the source "
+           "'{}' has not",
+           plan.truth),
        {Help::count_runs});
 }
 

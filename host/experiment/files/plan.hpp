@@ -9,11 +9,11 @@
 #include "host/calibration/end_poses/umbmark.hpp"
 #include "host/recording/run/run.hpp"
 
-/// What an experiment drives, in which order, and where each run is kept.
+/// What an experiment drives, in which order, and the name of each run.
 namespace astro::experiment {
 
-/// How the factors are found. automatic: maximum likelihood where all runs were recorded with moving ground
-/// truth; where not, extended UMBmark, exact, if every square has an end heading, or else UMBmark with
+/// How the factors are found. automatic: maximum likelihood if all runs were recorded with ground truth along the
+/// way; otherwise extended UMBmark, exact, if every square has an end heading, or UMBmark with
 /// averaged angles.
 struct MethodChoice {
   enum class Family { automatic, ml, end_poses };
@@ -23,7 +23,7 @@ struct MethodChoice {
 
 enum class Order { alternating, cw_first, ccw_first };
 
-/// Drive on until the standard errors of E_d, S and b / b are all below `target` (a ratio: 0.0005 for 0.05
+/// Drive until the standard errors of E_d, S and b / b are all below `target` (a ratio: 0.0005 for 0.05
 /// %), but no more than `most` squares in each direction.
 struct Until {
   double target = 0;
@@ -32,13 +32,13 @@ struct Until {
 
 struct Plan {
   int runs = 5;  // squares in each direction and phase
-  /// Where a calibration follows, its precision says how many squares there are; the last phase has `runs`.
+  /// The precision that decides the number of squares in each phase that is calibrated; the last phase has `runs`.
   std::optional<Until> until;
   double side_m = 3;
   double speed_mps = 0.3;
   double yaw_rate_radps = 1.0;
   Order order = Order::alternating;
-  int rounds = 1;  // calibrate, upload and drive again so often
+  int rounds = 1;  // how often to calibrate, upload and drive again
   double line_m = 3;
   double circle_radius_m = 0.75;
   bool extras = true;  // line and circles in the first and the last phase
@@ -64,10 +64,10 @@ struct RunSpec {
 /// "before", "after" for one round; "before", "after-1", ..., "after-N" for N rounds.
 std::vector<std::string> phase_names(const Plan& plan);
 
-/// Whether the squares of a phase are driven until they are enough.
+/// Whether the squares of a phase are driven until a precision is reached.
 bool open_ended(const Plan& plan, std::size_t phase);
 
-/// At least so many squares in each direction before the precision is asked for.
+/// The number of squares in each direction before the precision is computed first.
 inline constexpr int kFewestPairs = 2;
 
 /// The runs of one phase in the order of driving, with so many squares in each direction.

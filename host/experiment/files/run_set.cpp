@@ -17,7 +17,7 @@ std::string run_name(const fs::path& file, const fs::path& folder) {
   return file.lexically_relative(folder).replace_extension().generic_string();
 }
 
-/// The first few, and how many more there are.
+/// The first names and the number of the others.
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t kShown = 8;
   const auto end = names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), kShown));
@@ -39,7 +39,7 @@ std::string matched(const std::string& wanted, const std::vector<std::string>& n
   return matches.front();
 }
 
-/// Copies would count as more evidence than there is.
+/// Refuses copies of a recording, because they would make the standard errors too small.
 void require_no_copies(const RunSet& set) {
   const auto is_copy = [](const recording::Run& a, const recording::Run& b) {
     return a.info.started_at == b.info.started_at && a.odometry.size() == b.odometry.size() &&

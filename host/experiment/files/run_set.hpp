@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "host/recording/run/run.hpp"
 #include "host/recording/files/run_file.hpp"
+#include "host/recording/run/run.hpp"
 
 namespace astro::experiment {
 
-/// Recordings that are calibrated together and what people call them: names[i] is that of runs[i].
+/// Recordings that are calibrated together: names[i] is the name of runs[i].
 struct RunSet {
   std::vector<std::string> names;
   std::vector<recording::Run> runs;

@@ -30,7 +30,7 @@ Bench::Bench(robot::Client& client, const RobotFacts& facts)
 Bench::~Bench() {
   try {
     client_.request(SetTelemetry{0, 0});
-  } catch (const std::exception&) {  // a robot that is gone streams nothing
+  } catch (const std::exception&) {  // a robot that is gone sends no telemetry anyway
   }
 }
 
@@ -77,7 +77,7 @@ const Moment& Bench::fresh() {
   return moments_.back();
 }
 
-// Returns at the first sample that is late enough: what else has come is read by the next request.
+// Returns at the first sample that is late enough. Later samples are read by the next request.
 void Bench::wait_step() {
   const std::uint64_t next_us = newest_us_ + kStep_us;
   client_.pump_until([&] { return newest_us_ >= next_us; }, kStepAtMost);

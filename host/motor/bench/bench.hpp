@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "host/robot/motion/drive.hpp"
 #include "host/motor/bench/robot_facts.hpp"
+#include "host/robot/motion/drive.hpp"
 
 namespace astro::motor {
 
@@ -17,23 +17,23 @@ struct Moment {
   double supply_V = 0;
 };
 
-/// A robot whose wheels are moved and watched: keeps every telemetry sample for as long as it lives, and
-/// gives voltages and velocities in steps of 20 ms on the robot's clock, well within its command time-out.
+/// Drives a robot's wheels and records them: keeps every telemetry sample of its lifetime, and sends voltages
+/// and velocities in steps of 20 ms on the robot's clock, well within the robot's command time-out.
 ///
 /// Errors  as DriveSession; LinkLost if the robot sends no telemetry.
 class Bench {
  public:
-  /// Asks for telemetry as often as the link carries it whole: 1, 2, 5 or 10 ms.
+  /// Requests telemetry at the highest rate that the link transmits without loss: every 1, 2, 5 or 10 ms.
   Bench(robot::Client& client, const RobotFacts& facts);
   ~Bench();
   Bench(const Bench&) = delete;
   Bench& operator=(const Bench&) = delete;
 
-  /// One step.
+  /// One step of 20 ms.
   void apply(robot::DriveSession& session, double left_V, double right_V);
   void velocity(robot::DriveSession& session, double v_mps);
 
-  /// The same until this much time has passed on the robot's clock.
+  /// Repeats the step until `seconds` have passed on the robot's clock.
   void hold(robot::DriveSession& session, double left_V, double right_V, double seconds);
 
   const RobotFacts& facts() const { return facts_; }

@@ -14,11 +14,12 @@ using motor::kSides;
 using motor::Sample;
 using motor::Side;
 
-constexpr double kSlope_Vps = 1.0;       // slow against any time constant
-constexpr double kStands = 0.7;          // of the voltage: a wheel that stands there will not turn
-constexpr double kMostStanding_V = 4.5;  // the firmware calls it a stall soon after
-constexpr double kFeeble_V = 3;          // a motor in order may need that much
-constexpr double kTurnRound = 0.4;       // of the distance; what is left is for braking
+constexpr double kSlope_Vps = 1.0;  // slow compared with any motor's time constant
+constexpr double kStands =
+    0.7;  // of the allowed voltage: a wheel that stands still at this voltage will not turn
+constexpr double kMostStanding_V = 4.5;  // above this the firmware soon reports a stall
+constexpr double kFeeble_V = 3;          // a healthy motor may need this much
+constexpr double kTurnRound = 0.4;       // of the allowed distance; the rest is for braking
 constexpr double kStepAtMost_s = 0.6, kRest_s = 0.4;
 constexpr double kBackward_m = 0.015;
 constexpr int kRepeats = 2;
@@ -30,7 +31,7 @@ class Course {
          const std::function<void(double)>& progress)
       : bench_(bench), session_(session), bounds_(bounds), progress_(progress), origin_(bench.fresh()) {}
 
-  Identity run();
+  IdentifiedMotors run();
 
  private:
   double moved_m(Side side, const Moment& from) const {
@@ -46,14 +47,14 @@ class Course {
   void step(double voltage_V);
   void done(double seconds);
   std::vector<Sample> samples(Side side, std::size_t begin, std::size_t end) const;
-  WheelIdentity identity(Side side) const;
+  IdentifiedMotor identity(Side side) const;
 
   Bench& bench_;
   robot::DriveSession& session_;
   const Bounds& bounds_;
   const std::function<void(double)>& progress_;
   Moment origin_;
-  std::array<std::size_t, 2> rise_begin_{}, rise_end_{};  // of the moments; forward, backward
+  std::array<std::size_t, 2> rise_begin_{}, rise_end_{};  // indices of moments; forward, backward
 };
 
 void Course::apply(double voltage_V) {
@@ -66,29 +67,28 @@ void Course::apply(double voltage_V) {
 void Course::check_room() const {
   for (const Side side : kSides)
     if (std::abs(moved_m(side, origin_)) > bounds_.distance_m)
-      throw Error(
-          fmt::format("stopped: the {} wheel got further than {:g} m from its start", name(side),
-                      bounds_.distance_m),
-          {Help::give_more_room});
+      throw Error(fmt::format("stopped: the {} wheel got further than {:g} m from its start", name(side),
+                              bounds_.distance_m),
+                  {Help::give_more_room});
 }
 
-// A robot that turns on the spot, or whose wheel does not turn, is not to be driven on.
+// Ends the measurement if the robot turns on the spot or a wheel does not turn.
 void Course::check_sense(double voltage_V, const Moment& from) const {
   const double stands_V = std::min(kStands * bounds_.voltage_V, kMostStanding_V);
   for (const Side side : kSides) {
     const double forward_m = moved_m(side, from) * std::copysign(1.0, voltage_V);
     if (forward_m < -kBackward_m)
-      throw Error(
-          fmt::format("stopped: the {} wheel counts backward under forward voltage", name(side)),
-          {Help::check_wiring});
+      throw Error(fmt::format("stopped: the {} wheel counts backward under forward voltage", name(side)),
+                  {Help::check_wiring});
     if (std::abs(voltage_V) >= stands_V && std::abs(forward_m) < 10 * bench_.facts().count_m[at(side)])
-      throw Error(fmt::format("stopped: the {} wheel does not turn, or does not count, at {:.1f} V", name(side),
-                              std::abs(voltage_V)),
+      throw Error(fmt::format("stopped: the {} wheel does not turn, or does not count, at {:.1f} V",
+                              name(side), std::abs(voltage_V)),
                   {stands_V < kFeeble_V ? Help::check_wiring_or_raise_voltage : Help::check_wiring});
   }
 }
 
-// Up until the voltage or the room is used up, down again. Returns the moment at which the rise ended.
+// Raises the voltage until voltage or distance reach their bounds, then lowers it. Returns the index of the
+// moment at which the rise ended.
 std::size_t Course::sweep(double sense) {
   const Moment start = bench_.now();
   double top_V = 0;
@@ -115,7 +115,7 @@ void Course::step(double voltage_V) {
   done(kRest_s);
 }
 
-// Zero volts is a short across the motor: a brake.
+// At zero volts the bridge shorts the motor, which brakes it.
 void Course::done(double seconds) {
   const double end_s = bench_.now().time_s + seconds;
   while (bench_.now().time_s < end_s) apply(0);
@@ -131,14 +131,14 @@ std::vector<Sample> Course::samples(Side side, std::size_t begin, std::size_t en
   return list;
 }
 
-WheelIdentity Course::identity(Side side) const {
+IdentifiedMotor Course::identity(Side side) const {
   const double count_m = bench_.facts().count_m[at(side)];
   const auto broke = [&](std::size_t way) {
     auto volts = breakaway_V(samples(side, rise_begin_[way], rise_end_[way]), count_m);
     if (volts) volts = std::abs(*volts);
     return volts;
   };
-  WheelIdentity wheel;
+  IdentifiedMotor wheel;
   wheel.breakaway_forward_V = broke(0);
   wheel.breakaway_backward_V = broke(1);
   try {
@@ -149,7 +149,7 @@ WheelIdentity Course::identity(Side side) const {
   return wheel;
 }
 
-Identity Course::run() {
+IdentifiedMotors Course::run() {
   for (const std::size_t way : {0U, 1U}) {
     rise_begin_[way] = bench_.moments().size();
     rise_end_[way] = sweep(way == 0 ? 1.0 : -1.0);
@@ -163,14 +163,14 @@ Identity Course::run() {
 
 }  // namespace
 
-double WheelIdentity::breakaway_V() const {
+double IdentifiedMotor::breakaway_V() const {
   const double forward_V = breakaway_forward_V.value_or(fit.model.kS);
   const double backward_V = breakaway_backward_V.value_or(forward_V);
   return std::max((forward_V + backward_V) / 2, fit.model.kS);
 }
 
-Identity identify(Bench& bench, robot::DriveSession& session, const Bounds& bounds,
-                  const std::function<void(double)>& progress) {
+IdentifiedMotors identify(Bench& bench, robot::DriveSession& session, const Bounds& bounds,
+                          const std::function<void(double)>& progress) {
   return Course(bench, session, bounds, progress).run();
 }
 

@@ -5,18 +5,18 @@
 #include <limits>
 #include <optional>
 
-#include "host/motor/model/motor_model.hpp"
 #include "host/motor/bench/bench.hpp"
+#include "host/motor/model/motor_model.hpp"
 
-/// Turns both wheels and finds out what voltage does to them.
+/// Identifies both motors: drives the wheels and fits a motor model to each.
 ///
 /// Course   voltage up and down slowly, forward and then backward (dead zone, gain); then steps of three
 ///          fifths and of the whole voltage, each forward and backward, twice (time constant). Both wheels
 ///          get the same voltage, so a robot on the ground drives straight on and comes back.
-/// Limits   never more than `voltage_V`. On the ground each move turns round before it is `distance_m` long;
-///          a wheel that gets further from the start than that ends it with an Error. A wheel that stands at
-///          seven tenths of the voltage, or turns backward, ends it too: before the firmware's own stall
-///          fault.
+/// Limits   never more than `voltage_V`. On the ground each move reverses before it is `distance_m` long; a
+///          wheel that gets further from the start ends the measurement with an Error. A wheel that stands
+///          still at seven tenths of the voltage, or turns backward, also ends it, before the firmware's own
+///          stall fault.
 namespace astro::motor {
 
 struct Bounds {
@@ -24,22 +24,22 @@ struct Bounds {
   double distance_m = std::numeric_limits<double>::infinity();  // from the start, to either side
 };
 
-struct WheelIdentity {
+struct IdentifiedMotor {
   motor::MotorFit fit;
   std::optional<double> breakaway_forward_V, breakaway_backward_V;  // magnitudes
 
-  /// The mean of those that were seen; at least kS.
+  /// The mean of the observed ones; at least kS.
   double breakaway_V() const;
 };
 
-struct Identity {
-  std::array<WheelIdentity, 2> wheels;
+struct IdentifiedMotors {
+  std::array<IdentifiedMotor, 2> wheels;
   double seconds = 0;
 };
 
-/// `progress` hears of the part that is done. Throws astro::Error with one sentence that names the wheel, and
+/// `progress` is called with the fraction that is done. Throws astro::Error with one sentence that names the wheel, and
 /// as DriveSession does. The wheels stand when it returns.
-Identity identify(Bench& bench, robot::DriveSession& session, const Bounds& bounds,
-                  const std::function<void(double)>& progress);
+IdentifiedMotors identify(Bench& bench, robot::DriveSession& session, const Bounds& bounds,
+                          const std::function<void(double)>& progress);
 
 }  // namespace astro::motor

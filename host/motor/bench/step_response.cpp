@@ -8,8 +8,8 @@ namespace {
 
 constexpr double kTick_s = 1e-3;
 
-// Telemetry may be sparser than ticks: straight lines between its samples, which is what shaped set points
-// are nearly made of.
+// One set point for each tick. Telemetry may be sparser, so it is interpolated linearly: shaped set points are
+// nearly piecewise linear.
 std::vector<double> every_tick(const StepCourse& course) {
   std::vector<double> set_points;
   std::size_t i = 0;

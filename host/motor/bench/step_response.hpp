@@ -3,16 +3,16 @@
 #include <array>
 #include <vector>
 
+#include "host/motor/bench/bench.hpp"
 #include "host/motor/model/prediction.hpp"
 #include "host/motor/model/step_figures.hpp"
-#include "host/motor/bench/bench.hpp"
 
-/// A step of the commanded speed, as the robot answers it and as the model says it will.
+/// The response to a step of the commanded speed, measured and predicted.
 ///
-/// The command jumps; what the wheels are to follow is that command behind the robot's own limits and
-/// shaping. Those are left as they are: a robot with its acceleration limit lifted would be measured as it
-/// never drives, and one whose host died then would keep a wrong limit in its flash. So the prediction takes
-/// the set points that the robot reports, tick by tick, and holds for any shaping.
+/// The command jumps; the set points of the wheels are that command after the robot's own limits and shaping.
+/// These stay as they are: without its acceleration limit the robot would be measured as it never drives, and
+/// if the host died meanwhile, the robot would keep a wrong limit in its flash. So the prediction takes the set
+/// points that the robot reports, tick by tick, and is right for any shaping.
 namespace astro::motor {
 
 struct StepCourse {
@@ -21,13 +21,13 @@ struct StepCourse {
 };
 using StepCourses = std::array<StepCourse, 2>;  // left, right
 
-/// Forward for `hold_s` at this speed, to rest, and as far back. Returns the way forward until the ramp down.
+/// Drives forward for `hold_s` at this speed, stops, and drives back. Returns the forward part up to the stop.
 StepCourses measure_step(Bench& bench, robot::DriveSession& session, double speed_mps, double hold_s);
 
-/// The set points of a jump behind nothing but an acceleration limit, one a tick.
+/// The set points of a jump with only an acceleration limit, one per tick.
 StepCourse ramp(double speed_mps, double acceleration_mps2, double hold_s);
 
-/// What `loop` makes of the set points of a course, at its times.
+/// The predicted response of `loop` to the set points of a course, at the times of the course.
 StepCourse predicted(const StepCourse& course, const motor::WheelLoop& loop);
 
 motor::StepFigures figures(const StepCourse& course);

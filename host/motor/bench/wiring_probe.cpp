@@ -11,8 +11,8 @@ using motor::EncoderTrace;
 using motor::Side;
 
 constexpr double kRise_Vps = 2.0, kBeyond_V = 0.5;
-constexpr double kAtMost_s = 4.0;    // for a turn that is slow to come
-constexpr double kAtTheTop_s = 0.5;  // without counts; a stall fault takes longer
+constexpr double kAtMost_s = 4.0;    // in total
+constexpr double kAtTheTop_s = 0.5;  // at the highest voltage without counts; a stall fault takes longer
 constexpr double kAfterwards_s = 0.4;
 constexpr long kMoves_counts = 24;
 

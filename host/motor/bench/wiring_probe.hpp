@@ -1,17 +1,16 @@
 #pragma once
 
-#include "host/motor/wiring/wiring.hpp"
 #include "host/motor/bench/bench.hpp"
+#include "host/motor/wiring/wiring.hpp"
 
 namespace astro::motor {
 
-/// Drives one motor, forward as the robot believes, until an encoder has seen a quarter turn of a wheel, and
-/// brakes: the voltage rises by 2 V/s to where something moves, and by at most half a volt from there.
-/// Without an encoder that counts it goes up to `most_V`, stays there for a moment, and ends: a person can
-/// see the wheel turn all the same.
+/// Drives one motor, forward by the robot's parameters, until an encoder has counted a quarter turn of a wheel,
+/// and brakes. The voltage rises by 2 V/s until something moves, and by at most half a volt beyond. If no
+/// encoder counts, the voltage rises to `most_V` and stays there for half a second: a person can see the wheel
+/// turn nevertheless.
 ///
 /// Throws as DriveSession does. Nothing moves when it returns.
-motor::Probe probe_motor(Bench& bench, robot::DriveSession& session, motor::Side motor,
-                                  double most_V);
+motor::Probe probe_motor(Bench& bench, robot::DriveSession& session, motor::Side motor, double most_V);
 
 }  // namespace astro::motor

@@ -32,7 +32,7 @@ Attempt at_crossover(const DesignTask& task, double crossover_radps) {
   const std::complex<double> plant = plant_at(loop, crossover_radps);
   double phase = std::arg(plant);
   if (phase > 0) phase -= 2 * pi;
-  // What the PI may lag behind by, and the least it has to.
+  // The phase lag that the PI may have, held within its limits.
   const double room = pi + phase - kPhaseMargin_rad;
   const double lag = std::clamp(room, std::atan(kLeastIntegral), std::atan(kMostIntegral));
   // kp + ki T / (z - 1) with 1 / (z - 1) = -1/2 - j / (2 tan(w T / 2))
@@ -63,7 +63,7 @@ struct Largest {
   Limit because = Limit::none;
 };
 
-// Up to it phase and noise allow every crossover: both only get worse.
+// Phase and noise allow every crossover up to this one, because both only get worse with frequency.
 Largest largest_crossover(const DesignTask& task) {
   double low = kLeastCrossover_radps, high = 0.5 * pi / task.tick_s;
   Limit because = at_crossover(task, low).limit;
@@ -77,7 +77,7 @@ Largest largest_crossover(const DesignTask& task) {
   return {low, because};
 }
 
-// The observer that would carry the bandwidth, to whole tens; nullopt: none does.
+// The slowest observer bandwidth, in whole tens, that allows the wanted bandwidth; nullopt if none does.
 std::optional<double> observer_for(DesignTask task) {
   for (double observer = 10 * std::ceil(task.observer_radps / 10 + 1e-9); observer <= kMostObserver_radps;
        observer += 10) {
@@ -109,7 +109,7 @@ double crossover_for(const DesignTask& task, double largest_radps) {
   return std::sqrt(low * high);
 }
 
-// The one with the largest integral gain: what a load displaces the wheel by is its force over ki.
+// The crossover with the largest integral gain: a load displaces the wheel by its force over ki.
 double stiffest_crossover(const DesignTask& task, double largest_radps) {
   constexpr int kTrials = 60;
   double best_radps = largest_radps, most = 0;
@@ -132,7 +132,7 @@ Design design_gains(const DesignTask& wanted) {
   const Largest largest = largest_crossover(task);
   if (largest.crossover_radps == 0)
     throw Error("the encoder is too coarse for any speed loop with this observer: lower observer_bandwidth");
-  // Floored, so that the figure in the refusal is itself accepted.
+  // Rounded down, so that the figure in the refusal is itself accepted.
   const double most_radps = bandwidth_at(task, largest.crossover_radps);
   if (task.bandwidth_radps == 0) {
     Design design = finished(task, stiffest_crossover(task, largest.crossover_radps));

@@ -4,14 +4,14 @@
 
 /// PI gains for a wanted bandwidth of the speed loop.
 ///
-/// Law      The feed-forward follows the set point; the loop is there for what the motor model does not know.
+/// Law      The feed-forward follows the set point; the loop corrects what the motor model does not describe.
 ///          So at each crossover the integral gain is the largest that leaves 60 degrees of phase margin
 ///          (least integral of the error after a load), held between a tenth of kp times the crossover
-///          (slower it would not be an integral any more) and kp times the crossover. kp then follows from
+///          (below that it would hardly act as an integral) and kp times the crossover. kp then follows from
 ///          the gain of 1, and the crossover is chosen so that the closed loop is 3 dB down at the wanted
 ///          bandwidth.
-/// Refused  what the lag of the observer and the tick leave no phase for, and what would turn the steps of
-///          the encoder into more than 0.2 V rms on the motors.
+/// Refused  bandwidths for which the lag of observer and tick leaves too little phase, or at which the encoder's
+///          steps would cause more than 0.2 V rms on the motors.
 namespace astro::motor {
 
 struct DesignTask {
@@ -29,8 +29,8 @@ struct Design {
   double largest_bandwidth_radps = 0;
 };
 
-/// Throws astro::Error, naming the largest bandwidth and what would allow more, if the wanted one cannot be
-/// carried; also for a motor model that is none (kV or kA not positive).
+/// Throws astro::Error, naming the largest bandwidth and what would allow more, if the wanted one is not
+/// possible; also for a motor model whose kV or kA is not positive.
 Design design_gains(const DesignTask& task);
 
 }  // namespace astro::motor

@@ -15,7 +15,7 @@ Complex delay_at(const SpeedLoop& loop, double omega_radps) {
   return std::polar(1.0, -omega_radps * loop.tick_s);
 }
 
-// The phase of the open loop, unwound from the -90 or -180 degrees of an integrator: it only falls.
+// The phase of the open loop without jumps: it begins at -90 or -180 degrees (an integrator) and only falls.
 double unwound(double phase) { return phase > pi / 4 ? phase - 2 * pi : phase; }
 
 struct Point {

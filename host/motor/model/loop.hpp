@@ -13,7 +13,7 @@
 ///   PI        u(z) / e(z) = kp + ki T z^-1 / (1 - z^-1)        (integrates after it acts)
 ///
 /// At low frequency the observer is a lag of 2 / w: 10 ms at its default of 200 rad/s, far more than the
-/// tick. Friction is not in here; it is the feed-forward's, and what that misses is the integral's.
+/// tick. Friction is not part of this model: the feed-forward compensates it, and the integral the rest.
 namespace astro::motor {
 
 struct SpeedLoop {
@@ -23,7 +23,7 @@ struct SpeedLoop {
   double tick_s = 1e-3;
 };
 
-/// Volts to observed speed, and the PI, at a frequency below pi / tick_s.
+/// Transfer functions from voltage to observed speed and of the PI, at a frequency below pi / tick_s.
 std::complex<double> plant_at(const SpeedLoop& loop, double omega_radps);
 std::complex<double> controller_at(const SpeedLoop& loop, double omega_radps);
 
@@ -35,7 +35,7 @@ struct Margins {
   double sensitivity = 0;       // peak of |1 / (1 + L)|
 };
 
-/// By scanning 600 frequencies a decade of which the crossings are refined. All 0 for a loop without gain.
+/// Scans 600 frequencies per decade and interpolates the crossings. All 0 for a loop without gain.
 Margins margins(const SpeedLoop& loop);
 
 /// Rms of the observed speed while a wheel turns evenly, from the steps of the encoder alone: as if each were

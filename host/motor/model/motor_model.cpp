@@ -28,7 +28,7 @@ double period_s(std::span<const Sample> samples) {
   return steps[steps.size() / 2];
 }
 
-// +1 or -1 if every slice saw the wheel turn that way, else 0. A loss of samples is no motion that was seen.
+// +1 or -1 if the wheel turned that way in every slice, otherwise 0. Missing samples do not count as motion.
 double sense_of(std::span<const Sample> window, double count_m) {
   double sense = 0;
   for (std::size_t slice = 0; slice < kSlices; ++slice) {
@@ -60,7 +60,7 @@ Window weigh(std::span<const Sample> samples, double sense) {
   return sum;
 }
 
-/// A window as it was seen, and as a wheel that obeys a model would show it: the instrument.
+/// A measured window, and the same window of a simulated wheel that obeys the model: the instrument.
 struct Pair {
   Window seen, model;
 };
@@ -88,7 +88,7 @@ Equations equations_of(const std::vector<Pair>& windows) {
   return equations;
 }
 
-// The sandwich of Newey and West: neighbours overlap by half, and what the model leaves out is alike in them.
+// The estimator of Newey and West, because neighbouring windows overlap by half and have similar model errors.
 Eigen::Vector3d standard_errors(const Equations& equations, const Eigen::VectorXd& residual,
                                 const Eigen::Matrix3d& inverse) {
   Eigen::Matrix3d meat = Eigen::Matrix3d::Zero();
@@ -116,9 +116,8 @@ Solution solve(const std::vector<Pair>& windows) {
   return {{k[0], k[1], k[2]}, standard_errors(equations, residual, inverse), residual};
 }
 
-// The position of a wheel that obeys the model under the voltages that were applied: it knows nothing of the
-// encoder's steps.
-std::vector<Sample> obedient(const MotorModel& model, std::span<const Sample> samples) {
+// The position of a simulated wheel that obeys the model under the applied voltages. It has no encoder steps.
+std::vector<Sample> simulated(const MotorModel& model, std::span<const Sample> samples) {
   std::vector<Sample> course(samples.begin(), samples.end());
   double speed = 0, position = 0;
   for (std::size_t i = 0; i < course.size(); ++i) {
@@ -169,8 +168,8 @@ std::vector<Window> weighed(std::span<const Sample> samples, const std::vector<R
   return windows;
 }
 
-// kS + kA a is what the motor gives beside its back-EMF. Below half of kS it soon brakes. Judged by the
-// model, not by the noisy window, which would prefer the windows that err to one side.
+// kS + kA a is the motor's voltage minus its back-EMF. Below half of kS the motor soon brakes. The model's
+// acceleration decides, because the measured one is noisy and would select windows that err to one side.
 std::vector<Pair> driving(const std::vector<Window>& seen, const std::vector<Window>& model,
                           double slowest_mps2) {
   std::vector<Pair> windows;
@@ -187,8 +186,7 @@ double r_squared(const std::vector<Pair>& windows, const Eigen::VectorXd& residu
 }
 
 void check(const MotorModel& model) {
-  if (!(model.kV > 0) || !(model.kA > 0))
-    throw Error("does not follow its voltage", {Help::check_wiring});
+  if (!(model.kV > 0) || !(model.kA > 0)) throw Error("does not follow its voltage", {Help::check_wiring});
 }
 
 }  // namespace
@@ -200,7 +198,7 @@ MotorFit fit_motor(std::span<const Sample> samples, double count_m) {
   Solution solution = solve(windows);
   for (int pass = 0; pass < kPasses; ++pass) {
     check(solution.model);
-    const std::vector<Sample> course = obedient(solution.model, samples);
+    const std::vector<Sample> course = simulated(solution.model, samples);
     const double slowest_mps2 = -0.5 * std::max(0.0, solution.model.kS) / solution.model.kA;
     windows = driving(seen, weighed(course, ranges, count_m), slowest_mps2);
     solution = solve(windows);
@@ -215,7 +213,7 @@ MotorFit fit_motor(std::span<const Sample> samples, double count_m) {
 }
 
 std::optional<double> breakaway_V(std::span<const Sample> rise, double count_m) {
-  constexpr double kSure_counts = 6;  // more than hands or a settling gear do
+  constexpr double kSure_counts = 6;  // more than a touch or a settling gear causes
   if (rise.empty()) return std::nullopt;
   const double start_m = rise.front().position_m;
   const auto moved = [&](const Sample& sample) { return (sample.position_m - start_m) / count_m; };

@@ -6,7 +6,7 @@
 
 #include "host/motor/model/sample.hpp"
 
-/// What voltage does to a wheel, from samples of both:
+/// The motor model of a wheel, from samples of its voltage and its position:
 ///
 ///   V = kS sign(v) + kV v + kA dv/dt
 ///
@@ -17,9 +17,9 @@
 ///
 ///              [phi V] = kS [phi sign(v)] - kV [phi' x] + kA [phi'' x],   [.] the integral over the window
 ///
-///            so the position enters as it was counted, and a constant offset of it (the half count that a
-///            floor loses) not at all.
-/// Unbiased   The encoder's steps are noise in the regressors, which shortens kA in least squares (with
+///            so the position enters as it was counted, and a constant offset of it (the half count that
+///            rounding down loses) has no effect.
+/// Unbiased   The encoder's steps are noise in the regressors, which biases kA low in least squares (with
 ///            windows of 60 ms by 2 % for ASTRO, by 16 % with an eighth of its counts). The voltage is known
 ///            without noise, so a wheel that obeys the model under the same voltages gives instruments: five
 ///            rounds, each with the model of the round before.
@@ -37,7 +37,7 @@ struct MotorModel {
   double time_constant_s() const { return kA / kV; }
 };
 
-/// One window, divided by [phi]: means weighted with the bump.
+/// One window: means weighted with the bump function phi.
 struct Window {
   double voltage_V = 0, sense = 0, speed_mps = 0, acceleration_mps2 = 0;
 };
@@ -46,14 +46,14 @@ struct MotorFit {
   MotorModel model, standard_error;
   double residual_V = 0;  // rms
   double r_squared = 0;
-  std::vector<Window> windows;  // those that the fit rests on
+  std::vector<Window> windows;  // the windows that were fitted
 };
 
 /// `count_m`: travel of one count. Samples in order of time, at any rate that gives the wheel's time constant
 /// ten samples; may hold several drives.
 ///
-/// Standard errors allow for windows that are alike because they are neighbours (Newey and West).
-/// Throws astro::Error, one clause without a subject ("turned too little ..."), where the data do not hold a
+/// Standard errors allow for correlation between neighbouring windows (Newey and West).
+/// Throws astro::Error, one clause without a subject ("turned too little ..."), if the data do not determine a
 /// model.
 MotorFit fit_motor(std::span<const Sample> samples, double count_m);
 

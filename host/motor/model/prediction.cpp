@@ -17,7 +17,7 @@ class Wheel {
     const double end_mps = (voltage_V - std::copysign(loop_.motor.kS, sense)) / loop_.motor.kV;
     const double before_mps = speed_mps_;
     speed_mps_ = end_mps + (before_mps - end_mps) * decay_;
-    if (speed_mps_ * sense < 0) speed_mps_ = 0;  // friction holds what it has stopped
+    if (speed_mps_ * sense < 0) speed_mps_ = 0;  // friction holds a wheel that has stopped
     position_m_ += (before_mps + speed_mps_) / 2 * loop_.tick_s;
   }
   double speed_mps() const { return speed_mps_; }
@@ -32,10 +32,10 @@ class Observer {
  public:
   Observer(double bandwidth_radps, double tick_s) : a_(bandwidth_radps * tick_s) {}
 
-  /// `expected`: by how much the speed was to change, counts per tick.
+  /// `expected`: the commanded change of speed, in counts per tick.
   void advance(double counts, double expected) {
-    constexpr double kBelieved = 0.25;
-    speed_ += std::clamp(expected, -kBelieved, kBelieved);
+    constexpr double kLargestExpected = 0.25;
+    speed_ += std::clamp(expected, -kLargestExpected, kLargestExpected);
     error_ += counts - speed_;
     speed_ += a_ * a_ * error_;
     error_ -= (2 * a_ - a_ * a_) * error_;
@@ -51,8 +51,9 @@ class Controller {
   explicit Controller(const WheelLoop& loop) : loop_(loop) {}
 
   double advance(double wanted_mps, double acceleration_mps2, double observed_mps) {
-    constexpr double kFadeIn_mps = 8.192e-3;    // of kS, as in the firmware
-    constexpr double kShare_ps = 65e3 / 65536;  // by which set points shrink at the end of the supply
+    constexpr double kFadeIn_mps = 8.192e-3;  // of kS, as in the firmware
+    constexpr double kShare_ps =
+        65e3 / 65536;  // rate at which set points shrink if the voltage reaches its limit
     const MotorModel& forward = loop_.feed_forward;
     const double set_point_mps = share_ * wanted_mps;
     const double error = set_point_mps - observed_mps;

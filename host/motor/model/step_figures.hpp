@@ -4,9 +4,9 @@
 
 namespace astro::motor {
 
-/// What people look at in a step response.
+/// The usual figures of a step response.
 struct StepFigures {
-  double rise_s = 0;           // from 10 % to 90 % of the final set point; NaN if it never gets there
+  double rise_s = 0;           // from 10 % to 90 % of the final set point; NaN if it is never reached
   double overshoot = 0;        // peak over final set point, minus one; not below 0
   double worst_error_mps = 0;  // of speed against set point, at any time
   double rms_error_mps = 0;

@@ -12,7 +12,8 @@ namespace astro::motor {
 namespace {
 
 constexpr double kSame = 0.03, kAlike = 0.05;
-constexpr double kMostOff = 5;  // of a gear or a wheel that was entered wrongly; beyond, the length was
+constexpr double kMostOff =
+    5;  // largest plausible error of an entered gear or wheel; beyond it, the length was wrong
 
 double turns_of(const Roll& roll) {
   return roll.turns ? *roll.turns : *roll.distance_m / (std::numbers::pi * roll.wheel_diameter_m);

@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-/// Counts per revolution, from rolling the robot by hand along a tape measure.
+/// Counts per revolution from rolling the robot by hand along a tape measure.
 namespace astro::motor {
 
-/// What the robot believes, and what it saw.
+/// The counts of a roll, and the robot's parameters.
 struct Roll {
   std::array<double, 2> counts{};  // left, right; signs do not matter
   double counts_per_motor_rev = 0, gear_ratio = 0, wheel_diameter_m = 0;
@@ -18,15 +18,15 @@ struct Roll {
 
 struct RollVerdict {
   std::array<double, 2> ratio{};  // counts that were seen over counts that the parameters lead to expect
-  std::string sentence;           // what that means and the remedy
+  std::string sentence;           // the finding and its remedy
   bool agrees = false;            // within what a tape measure and an eye can tell
   std::map<std::string, double> parameters;  // to change, by name
 };
 
-/// A ratio within 5 % of 1/8, 1/4, 1/2, 2, 4 or 8 is a decoder that counts other edges than was thought, or
-/// another encoder: counts_per_motor_rev. Another ratio is another gear, if turns were counted, and otherwise
-/// a wheel of another diameter. Wheels that disagree by more than 5 % change nothing. Within 3 % nothing is
-/// changed: calibrate and umbmark measure that better.
+/// A ratio within 5 % of 1/8, 1/4, 1/2, 2, 4 or 8 means that the decoder counts other edges than assumed, or
+/// another encoder: it changes counts_per_motor_rev. Any other ratio changes the gear if turns were counted, and
+/// otherwise the wheel diameter. Wheels that disagree by more than 5 % change nothing. Within 3 % nothing is
+/// changed, because a calibration measures that better.
 /// Throws astro::Error if the wheels turned less than half a turn, counted next to nothing, or counted five
 /// times as much or as little as the length explains and no decoding does.
 RollVerdict judge_roll(const Roll& roll);

@@ -9,14 +9,14 @@ namespace {
 
 constexpr long kMoved_counts = 24, kToggles = 12;
 
-/// The encoder that answered a probe, and how.
+/// The encoder that counted during a probe, and its motion.
 struct Answer {
   std::optional<Side> encoder;
   Motion motion = Motion::none;
 };
 
-// The encoder that went furthest; a toggling one only if none went anywhere. On the ground the other wheel
-// may be dragged along a little.
+// The encoder with the most counts; a toggling one only if none moved. On the ground the other wheel may be
+// dragged along a little.
 Answer answer_to(const Probe& probe) {
   Answer answer;
   long most = 0;
@@ -109,7 +109,7 @@ void Judge::place_encoders() {
             "the encoders are swapped: exchange the plugs of the left and the right encoder");
 }
 
-// Signs belong to the wheel: they hold once motor and encoder of that wheel are in their own places.
+// The polarities belong to the wheel: they are right once its motor and encoder are connected to it.
 void Judge::orient(Side channel) {
   const Sighting& seen = *probes_[at(channel)].seen;
   if (!seen.wheel) {

@@ -8,15 +8,15 @@
 
 #include "host/motor/model/sample.hpp"
 
-/// What is wrong with the wires of a robot, from turning one motor after the other.
+/// Finds wiring faults of a robot from driving one motor after the other.
 ///
 /// Counts alone say little: a reversed motor and a reversed encoder look alike, so do swapped motors and
 /// swapped encoders, and two faults can cancel (a robot whose motors and encoders are both swapped turns left
-/// for right and counts as it should). Who looks at the wheels knows. With that, every motor and encoder is
-/// placed and oriented on its own, whatever combination of faults there is.
+/// for right and counts as it should). A person who looks at the wheels can tell. With that observation, each
+/// motor and each encoder is located and oriented on its own, for any combination of faults.
 namespace astro::motor {
 
-/// What one encoder did while a motor was driven, forward positive as the robot's parameters have it.
+/// The counts of one encoder while a motor was driven; forward positive by the robot's parameters.
 struct EncoderTrace {
   long counts = 0;   // from the first sample to the last
   long range = 0;    // most minus least
@@ -25,7 +25,7 @@ struct EncoderTrace {
 
 enum class Motion { none, forward, backward, toggles };
 
-/// A wheel that turned. `toggles`: up and down by one for ever, as with one channel of two.
+/// How the encoder moved. `toggles`: up and down by one, as if one of its two channels were missing.
 Motion motion_of(const EncoderTrace& trace);
 
 /// What a person saw; `wheel` is nullopt if none turned.
@@ -34,7 +34,7 @@ struct Sighting {
   bool forward = true;
 };
 
-/// One motor, driven forward as the robot believes.
+/// The result of driving one motor forward by the robot's parameters.
 struct Probe {
   std::array<EncoderTrace, 2> encoders;  // left, right
   double voltage_V = 0;                  // the most that was put on it
@@ -54,8 +54,8 @@ struct Finding {
 struct WiringVerdict {
   std::vector<Finding> findings;             // empty: nothing is wrong
   std::map<std::string, double> parameters;  // those to change, by name; they hold once wires are right
-  bool needs_hands = false;                  // wires have to be changed: parameters alone do not do
-  bool needs_eyes = false;                   // somebody has to say what turned
+  bool needs_hands = false;                  // wires have to be changed; parameters alone are not enough
+  bool needs_eyes = false;                   // a person has to say which wheel turned
 };
 
 /// `probes`: of the left and of the right motor, as the robot names them.

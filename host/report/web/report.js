@@ -99,16 +99,16 @@
       const across = line ? 1e3 : 1;
       const trueX = (run) => run.x.map((x, i) => (run.ex[i] === null ? null : x + run.ex[i] / 1e3));
       const trueY = (run) => run.y.map((y, i) => (run.ey[i] === null ? null : (y + run.ey[i] / 1e3) * across));
-      const believedY = (run) => run.y.map((y) => y * across);
+      const odometryY = (run) => run.y.map((y) => y * across);
       const runs = group.phases.flat();
       const spanX = padded(extent(runs.flatMap((run) => [...run.x, ...trueX(run)])), 0.05);
-      const spanY = padded(extent(runs.flatMap((run) => [...believedY(run), ...trueY(run)])), line ? 5 : 0.05);
+      const spanY = padded(extent(runs.flatMap((run) => [...odometryY(run), ...trueY(run)])), line ? 5 : 0.05);
       const half = Math.max(spanX[1] - spanX[0], spanY[1] - spanY[0]) / 2;
       const square = ([lo, hi]) => [(lo + hi) / 2 - half, (lo + hi) / 2 + half];
       const where = `x %{x:.3f} m, y %{y:.${line ? 1 : 3}f} ${line ? 'mm' : 'm'}`;
       const traces = chosen(group, phase).flatMap(({ run, first, many }) => {
         const shared = { type: 'scatter', showlegend: first, hovertemplate: where };
-        const believed = { ...shared, name: 'Odometry', mode: 'lines', legendgroup: 'o', x: run.x, y: believedY(run), line: { color: phaseColour(phase), width: many ? 1 : 2, dash: '7px,3px' } };
+        const believed = { ...shared, name: 'Odometry', mode: 'lines', legendgroup: 'o', x: run.x, y: odometryY(run), line: { color: phaseColour(phase), width: many ? 1 : 2, dash: '7px,3px' } };
         if (!run.tracked) return [believed];
         const [tx, ty] = [trueX(run), trueY(run)];
         const last = tx.findLastIndex((x) => x !== null);

@@ -43,8 +43,8 @@ struct Programme {
 
 struct Forecast {
   Programme programme;
-  // For a robot without errors: c_R = c_L = S = E_d = 1.
-  calibration::FactorCovariance covariance{};
+  // Of a robot without errors: c_R = c_L = S = E_d = 1.
+  calibration::FactorCovariance covariance = calibration::FactorCovariance::Zero();
   calibration::MlErrors se;
   calibration::DriveExtent extent;  // distance of the robot's centre, and the sum of |rotation|
   double driving_time_s = 0;  // with a second of rest at each end of a run, without the way between runs

@@ -31,15 +31,7 @@ double excess(const Precision& reached, const Precision& target) {
   return std::max({reached.E_d / target.E_d, reached.scale / target.scale, reached.b / target.b});
 }
 
-Matrix3d information_of(const Forecast& forecast) {
-  Matrix3d covariance;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      covariance(i, j) = forecast.covariance[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-  return covariance.inverse();
-}
-
-/// The smallest addition to a programme: a line, or a pair of turning runs.
+/// What can be added to a programme at a time: a line, or a pair of turning runs.
 struct Unit {
   Kind kind = kSquares;
   int runs = 1;
@@ -64,7 +56,7 @@ std::vector<Unit> units_of(const std::vector<Kind>& kinds, const Programme& size
     const Forecast more = forecast(sizes.with(counts_of(units, numbers)));
     numbers[i] = 1;
     units[i].time_s = more.driving_time_s - base.driving_time_s;
-    units[i].information = information_of(more) - information_of(base);
+    units[i].information = more.covariance.inverse() - base.covariance.inverse();
   }
   return units;
 }
@@ -99,11 +91,7 @@ class Search {
     }
     const Matrix3d covariance = information.inverse();
     if (!covariance.allFinite() || !(covariance.diagonal().minCoeff() > 0)) return kTargetMissed;
-    calibration::FactorCovariance table{};
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        table[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = covariance(i, j);
-    const calibration::MlErrors se = errors_of(table, nominal_);
+    const calibration::MlErrors se = errors_of(covariance, nominal_);
     const bool met = excess({se.E_d, se.scale, se.b_m / nominal_.b_m}, target_) <= 1;
     return met ? time_s : kTargetMissed;
   }

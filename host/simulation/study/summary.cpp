@@ -31,11 +31,7 @@ Mean mean_of(std::size_t count, Read read) {
 }
 
 std::vector<Errors> draws_from(const FactorCovariance& covariance, const TrialSetup& setup) {
-  Eigen::Matrix3d matrix;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      matrix(i, j) = covariance[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-  const Eigen::Matrix3d root = matrix.llt().matrixL();
+  const Eigen::Matrix3d root = covariance.llt().matrixL();
   const WheelFactors actual = setup.actual();
   std::mt19937_64 random(derived_seed(setup.seed, kDrawSeed));
   std::normal_distribution<double> normal;
@@ -71,16 +67,16 @@ std::string failure_of(std::size_t method, const std::vector<Trial>& trials) {
          " trials" + example;
 }
 
-std::optional<Honesty> honesty_of(const std::vector<Trial>& trials) {
+std::optional<CovarianceConsistency> covariance_consistency(const std::vector<Trial>& trials) {
   std::vector<double> values;
   for (const Trial& trial : trials)
     if (trial.ml_chi_square) values.push_back(*trial.ml_chi_square);
   if (values.empty()) return std::nullopt;
   const Mean mean = mean_of(values.size(), [&](std::size_t i) { return values[i]; });
-  // The scatter of a chi-square with 3 degrees of freedom; estimated from few trials it would often be too
-  // small.
-  return Honesty{static_cast<int>(values.size()), mean.value,
-                 std::sqrt(6 / static_cast<double>(values.size()))};
+  // The standard error of a mean of chi-squares with 3 degrees of freedom, because a few trials often show too
+  // little scatter.
+  return CovarianceConsistency{static_cast<int>(values.size()), mean.value,
+                               std::sqrt(6 / static_cast<double>(values.size()))};
 }
 
 }  // namespace
@@ -130,7 +126,7 @@ Summary summarize(const TrialSetup& setup, const DriveSource& source, const std:
           {last.rms[figure] / summary.bound.rms[figure],
            last.rms[figure] / summary.bound.rms[figure] / std::sqrt(2.0 * last.trials)});
   }
-  summary.ml_covariance = honesty_of(trials);
+  summary.ml_covariance = covariance_consistency(trials);
   return summary;
 }
 

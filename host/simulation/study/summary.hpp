@@ -25,8 +25,8 @@ struct Ratio {
   double value = 0, se = 0;
 };
 
-/// Mean of e' C^-1 e over trials: 3 for a covariance that is true. More: it claims too much.
-struct Honesty {
+/// Mean of e' C^-1 e over trials: 3 if the covariance is consistent with the errors, more if it is too small.
+struct CovarianceConsistency {
   int trials = 0;
   double mean = 0, se = 0;
 };
@@ -37,7 +37,7 @@ struct Summary {
   Row bound;
   /// Of E_d, b / S and S; empty without an answer of maximum likelihood.
   std::vector<Ratio> ml_over_bound;
-  std::optional<Honesty> ml_covariance;
+  std::optional<CovarianceConsistency> ml_covariance;
   std::vector<std::string> failures;  // a sentence for each method that failed
 };
 

@@ -51,11 +51,7 @@ WheelFactors by_end_poses(const TrialSetup& setup, const EndErrors& ends,
 double normalised_square(const calibration::MlEstimate& estimate, const WheelFactors& actual) {
   const Eigen::Vector3d error(estimate.factors.c_r - actual.c_r, estimate.factors.c_l - actual.c_l,
                               estimate.factors.b_m - actual.b_m);
-  Eigen::Matrix3d covariance;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      covariance(i, j) = estimate.covariance[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-  return error.dot(covariance.ldlt().solve(error));
+  return error.dot(estimate.covariance.ldlt().solve(error));
 }
 
 }  // namespace

@@ -16,10 +16,6 @@ std::string refusal(std::string_view text) {
   return error_of([&] { (void)read_end_poses(text, "cw.csv"); });
 }
 
-std::string directed_refusal(std::string_view text) {
-  return error_of([&] { (void)read_directed_end_poses(text, "tape.csv"); });
-}
-
 TEST(EndPoseCsv, ReadsTheFormOfTheThesisTables) {
   const auto runs = read_end_poses(
       "run,ex_mm,ey_mm,euclid_mm_printed,etheta_rad\n1,-271.98,-385.85,472.07,0.1874\n2,-189.93,-156.64,246."
@@ -134,25 +130,20 @@ TEST(EndPoseCsv, AFileThatMixesDirectionsIsRefusedWhereOneIsWanted) {
             "split it");
 }
 
-TEST(TapeMeasureCsv, SplitsTheDirections) {
-  const auto runs = read_directed_end_poses(
-      "run,direction,x_err_m,y_err_m,heading_err_deg\n1,cw,-0.2,-0.3,9\n1,CCW,0.3,-0.25,\n2,cw,-0.1,-0.2,8\n",
-      "tape.csv");
-  ASSERT_EQ(runs.cw.size(), 2U);
-  ASSERT_EQ(runs.ccw.size(), 1U);
-  EXPECT_DOUBLE_EQ(runs.cw[0].theta_rad, std::numbers::pi / 20);
-  EXPECT_DOUBLE_EQ(runs.cw[1].y_m, -0.2);
-  EXPECT_DOUBLE_EQ(runs.ccw[0].x_m, 0.3);
-  EXPECT_TRUE(std::isnan(runs.ccw[0].theta_rad));
+TEST(EndPoseCsv, ADirectionThatIsNoneIsRefused) {
+  EXPECT_EQ(refusal("direction,x_err_m,y_err_m\nleft,1,2\n"),
+            "cw.csv, line 2: column direction: \"left\" is not a direction: write cw or ccw");
 }
 
-TEST(TapeMeasureCsv, ADirectionThatIsNoneIsRefused) {
-  EXPECT_EQ(directed_refusal("direction,x_err_m,y_err_m\nleft,1,2\n"),
-            "tape.csv, line 2: column direction: \"left\" is not a direction: write cw or ccw");
-  EXPECT_EQ(directed_refusal("x_err_m,y_err_m\n1,2\n"),
-            "tape.csv, line 1: there is no column direction: add it, with cw or ccw per run");
-  EXPECT_EQ(directed_refusal("direction,x_err,y_err_m\ncw,1,2\n"),
-            "tape.csv, line 1: column x_err does not say its unit: name it ex_mm or ex_cm or ex_m");
+TEST(EndPoseCsv, ATapeMeasureTableIsRead) {
+  const auto runs = read_end_poses(
+      "run,direction,x_err_m,y_err_m,heading_err_deg\n1,cw,-0.2,-0.3,9\n2,CW,-0.1,-0.2,\n", "tape.csv");
+  ASSERT_EQ(runs.size(), 2U);
+  EXPECT_DOUBLE_EQ(runs[0].theta_rad, std::numbers::pi / 20);
+  EXPECT_DOUBLE_EQ(runs[1].y_m, -0.2);
+  EXPECT_TRUE(std::isnan(runs[1].theta_rad));
+  EXPECT_EQ(refusal("direction,x_err,y_err_m\ncw,1,2\n"),
+            "cw.csv, line 1: column x_err does not say its unit: name it ex_mm or ex_cm or ex_m");
 }
 
 }  // namespace

@@ -21,9 +21,9 @@ constexpr Options kExtended{Method::extended};
 constexpr Options kFit{Method::least_squares};
 
 std::string error_for(const std::vector<EndPose>& cw, const std::vector<EndPose>& ccw,
-                      double side_m = kSide_m, const WheelFactors& carried = kNominal,
+                      double side_m = kSide_m, const WheelFactors& loaded = kNominal,
                       const Options& options = {}) {
-  return error_of([&] { (void)estimate_factors(cw, ccw, side_m, carried, options); });
+  return error_of([&] { (void)estimate_factors(cw, ccw, side_m, loaded, options); });
 }
 
 TEST(HostileInput, NoRunsAtAll) {
@@ -61,9 +61,9 @@ TEST(HostileInput, CarriedFactorsMustBePositive) {
     EXPECT_NE(message.find("give the distance between the wheels in metres, such as 0.29"),
               std::string::npos);
   }
-  for (const WheelFactors& carried :
+  for (const WheelFactors& loaded :
        {WheelFactors{0, 1, 0.29}, WheelFactors{1, -1, 0.29}, WheelFactors{kNaN, 1, 0.29}}) {
-    const std::string message = error_for(kCw, kCcw, kSide_m, carried);
+    const std::string message = error_for(kCw, kCcw, kSide_m, loaded);
     EXPECT_EQ(message.find("the wheel factors that the robot carried are c_R = "), 0U);
     EXPECT_NE(message.find("give positive ratios, 1 for a nominal wheel"), std::string::npos);
   }

@@ -25,19 +25,19 @@ Matrix random_covariance(std::mt19937_64& random, double size) {
   return a * a.transpose();
 }
 
-constexpr Doubt kBoth[] = {Doubt::tracker, Doubt::tracker_and_wheels};
+constexpr RobustMode kBoth[] = {RobustMode::tracker, RobustMode::tracker_and_wheels};
 
 TEST(Huber, CostFallsAsTheWeightSaysWhateverOutweighsWhat) {
   std::printf("seed %u\n", kSeed);
   std::mt19937_64 random(kSeed);
   std::normal_distribution<double> normal;
   const Vector tracker(1, 1, 4);
-  for (const Doubt doubt : kBoth)
+  for (const RobustMode robust : kBoth)
     for (const double slip_size : {1e-6, 0.1, 1.0, 10.0, 1e4})
       for (const double far : {1.0, 5.0, 50.0, 1000.0}) {
         const Matrix slip = random_covariance(random, slip_size);
         const Vector r = far * Vector(normal(random), normal(random), normal(random));
-        const HuberLoss loss = huber_loss<3>(r, slip, tracker, kLimit, doubt);
+        const HuberLoss loss = huber_loss<3>(r, slip, tracker, kLimit, robust);
         const Matrix s = loss.slip * slip + loss.tracker * Matrix(tracker.asDiagonal());
         const Vector slope = 2 * s.inverse() * r;
         for (int i = 0; i < 3; ++i) {
@@ -45,8 +45,8 @@ TEST(Huber, CostFallsAsTheWeightSaysWhateverOutweighsWhat) {
           Vector up = r, down = r;
           up[i] += step;
           down[i] -= step;
-          const double measured = (huber_loss<3>(up, slip, tracker, kLimit, doubt).cost -
-                                   huber_loss<3>(down, slip, tracker, kLimit, doubt).cost) /
+          const double measured = (huber_loss<3>(up, slip, tracker, kLimit, robust).cost -
+                                   huber_loss<3>(down, slip, tracker, kLimit, robust).cost) /
                                   (2 * step);
           EXPECT_NEAR(measured, slope[i], 1e-5 * (1 + slope.norm())) << slip_size << ' ' << far;
         }
@@ -82,15 +82,15 @@ TEST(Huber, FindsTheLeastCostAlsoWhereSlipAndTrackerAreMuchAlike) {
         const Matrix slip = alike * Matrix(tracker.asDiagonal()) + random_covariance(random, mixed);
         const Vector r = far * Vector(normal(random), normal(random), normal(random));
         const double expected = least_cost(slip, tracker, r);
-        const double found = huber_loss<3>(r, slip, tracker, kLimit, Doubt::tracker_and_wheels).cost;
+        const double found = huber_loss<3>(r, slip, tracker, kLimit, RobustMode::tracker_and_wheels).cost;
         EXPECT_NEAR(found, expected, 1e-6 * (1 + expected)) << alike << ' ' << mixed << ' ' << far;
       }
 }
 
 TEST(Huber, IsTheUsualOneWithoutSlip) {
   const Vector r(30, 0, 0), tracker(1, 1, 1);
-  for (const Doubt doubt : kBoth) {
-    const HuberLoss loss = huber_loss<3>(r, Matrix::Zero(), tracker, kLimit, doubt);
+  for (const RobustMode robust : kBoth) {
+    const HuberLoss loss = huber_loss<3>(r, Matrix::Zero(), tracker, kLimit, robust);
     EXPECT_NEAR(loss.cost, 2 * std::sqrt(kLimit) * 30 - kLimit, 1e-9);
     EXPECT_NEAR(loss.tracker, 30 / std::sqrt(kLimit), 1e-9);
     EXPECT_EQ(loss.slip, 1);
@@ -99,30 +99,30 @@ TEST(Huber, IsTheUsualOneWithoutSlip) {
 
 TEST(Huber, IsLeastSquaresWhereSlipExplainsTheMiss) {
   const Vector r(30, 0, 0), tracker(1, 1, 1);
-  for (const Doubt doubt : kBoth) {
-    const HuberLoss loss = huber_loss<3>(r, 100 * Matrix::Identity(), tracker, kLimit, doubt);
+  for (const RobustMode robust : kBoth) {
+    const HuberLoss loss = huber_loss<3>(r, 100 * Matrix::Identity(), tracker, kLimit, robust);
     EXPECT_EQ(loss.tracker, 1);
     EXPECT_EQ(loss.slip, 1);
     EXPECT_NEAR(loss.cost, 900.0 / 101, 1e-12);
   }
 }
 
-TEST(Huber, DoubtsTheWheelsWhereTheirSlipOutweighsTheTracker) {
+TEST(Huber, DownWeightsTheWheelsWhereTheirSlipOutweighsTheTracker) {
   const Vector r(300, 0, 0), tracker(1, 1, 1);
   const HuberLoss loss =
-      huber_loss<3>(r, 100 * Matrix::Identity(), tracker, kLimit, Doubt::tracker_and_wheels);
+      huber_loss<3>(r, 100 * Matrix::Identity(), tracker, kLimit, RobustMode::tracker_and_wheels);
   // w = r / (100 s + 1) with 100 w^2 at the limit.
   EXPECT_NEAR(loss.slip, (300 * std::sqrt(100 / kLimit) - 1) / 100, 1e-9);
   EXPECT_EQ(loss.tracker, 1);
   // Wheels that are believed explain it all.
-  EXPECT_EQ(huber_loss<3>(r, 100 * Matrix::Identity(), tracker, kLimit, Doubt::tracker).slip, 1);
+  EXPECT_EQ(huber_loss<3>(r, 100 * Matrix::Identity(), tracker, kLimit, RobustMode::tracker).slip, 1);
 }
 
 TEST(Huber, GrowsNoFasterThanTheDistance) {
   const Vector tracker(1, 1, 1);
   const Matrix slip = 4 * Matrix::Identity();
   const auto cost = [&](double far) {
-    return huber_loss<3>({far, 0, 0}, slip, tracker, kLimit, Doubt::tracker_and_wheels).cost;
+    return huber_loss<3>({far, 0, 0}, slip, tracker, kLimit, RobustMode::tracker_and_wheels).cost;
   };
   // The wheels are doubted, which slip by 2 where the tracker errs by 1.
   EXPECT_NEAR((cost(2e4) - cost(1e4)) / 1e4, 2 * std::sqrt(kLimit / 4), 1e-6);
@@ -143,15 +143,15 @@ TEST(Huber, MakesTheCostOfADriveFallByItsGradient) {
     for (const bool headings : {true, false}) {
       run.has_headings = headings;
       const NoiseModel noise{K_m, 1e-3, 3e-3};
-      const Looks looks{.doubt = Doubt::tracker_and_wheels};
-      const InnovationSums sums = innovations(run, u, noise, looks);
+      constexpr RobustMode kRobust = RobustMode::tracker_and_wheels;
+      const InnovationSums sums = innovations(run, u, noise, kRobust);
       for (const int unknown : {kStartX, kStartY}) {
         constexpr double kStep_m = 1e-6;
         Unknowns up = u, down = u;
         up[unknown] += kStep_m;
         down[unknown] -= kStep_m;
         const double slope =
-            (innovations(run, up, noise, looks).cost - innovations(run, down, noise, looks).cost) /
+            (innovations(run, up, noise, kRobust).cost - innovations(run, down, noise, kRobust).cost) /
             (2 * kStep_m);
         // Before the first look nothing is uncertain, so no gain hides behind the derivative.
         EXPECT_NEAR(slope, -2 * sums.gradient[unknown], 1e-4 * (1 + std::abs(slope)))

@@ -1,4 +1,6 @@
 #include "host/calibration/likelihood/innovation.hpp"
+#include "host/calibration/likelihood/noise_slope.hpp"
+#include "host/calibration/motion/wheel_path.hpp"
 
 #include <gtest/gtest.h>
 
@@ -29,7 +31,8 @@ Scene scene(bool headings) {
   simulation::study::DriveModel model = astro_drive();
   model.truth_rate_hz = 20;
   model.headings = headings;
-  const simulation::study::Course course{{simulation::study::Leg::Kind::turn, 0.3, 0.7, 0}, {simulation::study::Leg::Kind::turn, 0, -0.8, 0}};
+  const simulation::study::Course course{{simulation::study::Leg::Kind::turn, 0.3, 0.7, 0},
+                                         {simulation::study::Leg::Kind::turn, 0, -0.8, 0}};
   scene.trajectory = simulation::study::synthetic_drive(course, model, "run", kSeed);
   scene.run = prepare(std::vector{scene.trajectory}, model.carried, true, Density::all).runs.front();
   scene.run.source = &scene.trajectory;

@@ -60,11 +60,7 @@ TEST(MaximumLikelihood, ReachesTheCramerRaoBoundAndKnowsHowFarItIsOff) {
         model.carried);
     const Eigen::Vector3d error(found.factors.c_r - model.actual.c_r, found.factors.c_l - model.actual.c_l,
                                 found.factors.b_m - model.actual.b_m);
-    Eigen::Matrix3d covariance;
-    for (int i = 0; i < 3; ++i)
-      for (int k = 0; k < 3; ++k)
-        covariance(i, k) = found.covariance[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)];
-    chi_square += error.dot(covariance.ldlt().solve(error)) / kTrials;
+    chi_square += error.dot(found.covariance.ldlt().solve(error)) / kTrials;
     const double S = (model.actual.c_r + model.actual.c_l) / 2;
     E_d += std::pow((found.E_d() - 1.00416) / bound.E_d, 2) / kTrials;
     scale += std::pow((found.scale() - S) / bound.scale, 2) / kTrials;
@@ -265,14 +261,14 @@ TEST(MaximumLikelihood, SaysWhenWhichRunWasKicked) {
   runs[1].truth[1000].theta_rad += 1;  // one sample that is wrong is no kick
   const MlEstimate found = estimate_ml(runs, model.carried);
   for (const RunFit& run : found.runs)
-    EXPECT_THAT(run.jolts, testing::SizeIs(run.name == "run 3" ? 2 : 0)) << run.name;
-  const std::vector<Jolt>& jolts = found.runs[2].jolts;
+    EXPECT_THAT(run.slip_events, testing::SizeIs(run.name == "run 3" ? 2 : 0)) << run.name;
+  const std::vector<SlipEvent>& slip_events = found.runs[2].slip_events;
   // Half a second of truth tells a heading to 0.6 mrad, and slip adds as much; moments are a tenth of it
   // apart.
-  EXPECT_NEAR(jolts[0].since_start_s, 20, 0.1);
-  EXPECT_NEAR(jolts[0].turned_rad, 0.06, 5e-3);
-  EXPECT_NEAR(jolts[1].since_start_s, 31, 0.1);
-  EXPECT_NEAR(jolts[1].turned_rad, -0.04, 5e-3);
+  EXPECT_NEAR(slip_events[0].since_start_s, 20, 0.1);
+  EXPECT_NEAR(slip_events[0].turned_rad, 0.06, 5e-3);
+  EXPECT_NEAR(slip_events[1].since_start_s, 31, 0.1);
+  EXPECT_NEAR(slip_events[1].turned_rad, -0.04, 5e-3);
   EXPECT_THAT(support::sentences_of(remarks(found)),
               testing::Contains(AllOf(HasSubstr("run 3"), HasSubstr("s after its start by 3."))));
 }

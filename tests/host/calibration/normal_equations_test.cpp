@@ -86,15 +86,15 @@ TEST(NormalEquations, StepLessFarWhenDamped) {
 
 TEST(NormalEquations, LeaveWhatIsHeldWhereItIs) {
   const std::vector<InnovationSums> sums = random_sums();
-  Held held;
-  held.factors = true;
+  FixedParameters fixed;
+  fixed.factors = true;
   Dense some = held_out(dense(sums), {kCRight, kCLeft, kB});
-  expect_steps(gauss_newton_step(sums, held, 0), some.information.ldlt().solve(some.gradient));
-  held = {};
-  held.clock = held.lever_yaw = true;
+  expect_steps(gauss_newton_step(sums, fixed, 0), some.information.ldlt().solve(some.gradient));
+  fixed = {};
+  fixed.clock = fixed.lever_yaw = true;
   some = held_out(dense(sums),
                   {kLeverYaw, kSkew, place(0, kClockOffset), place(1, kClockOffset), place(2, kClockOffset)});
-  expect_steps(gauss_newton_step(sums, held, 0), some.information.ldlt().solve(some.gradient));
+  expect_steps(gauss_newton_step(sums, fixed, 0), some.information.ldlt().solve(some.gradient));
 }
 
 TEST(NormalEquations, ReduceARunToItsSchurComplement) {

@@ -35,27 +35,6 @@ TEST(Precision, ASquareIsFourLegsAndOneTurn) {
   EXPECT_DOUBLE_EQ(e.rotation_rad, 6 * std::numbers::pi);
 }
 
-TEST(Precision, TheRunsNeededAreEnoughAndOneLessIsNot) {
-  const auto meets = [](int runs, const Precision& target) {
-    const Precision p = reachable_precision(squares_extent(runs, 3), kSlip_m, kWheelbase_m);
-    return p.E_d <= target.E_d && p.scale <= target.scale && p.b <= target.b;
-  };
-  for (const Precision& target :
-       {Precision{1e-4, 1, 1}, Precision{1, 2e-5, 1}, Precision{1, 1, 3e-4}, Precision{2e-4, 2e-4, 2e-4}}) {
-    const int runs = squares_needed(target, 3, kSlip_m, kWheelbase_m);
-    EXPECT_TRUE(meets(runs, target));
-    EXPECT_FALSE(meets(runs - 1, target));
-  }
-}
-
-TEST(Precision, ATargetThatIsMetExactlyNeedsNoFurtherRun) {
-  for (int runs = 1; runs <= 100; ++runs) {
-    const Precision p = reachable_precision(squares_extent(runs, 3), kSlip_m, kWheelbase_m);
-    EXPECT_EQ(squares_needed(p, 3, kSlip_m, kWheelbase_m), runs);
-  }
-  EXPECT_EQ(squares_needed({1, 1, 1}, 3, kSlip_m, kWheelbase_m), 1);
-}
-
 TEST(Precision, RefusesWhatIsNoDrive) {
   const auto message = [](auto call) { return test::error_of([&] { (void)call(); }); };
   EXPECT_EQ(message([] { return squares_extent(0, 3); }),
@@ -66,15 +45,6 @@ TEST(Precision, RefusesWhatIsNoDrive) {
               return reachable_precision({10, 0}, kSlip_m, kWheelbase_m);
             }),
             "the rotation in radians is 0.000000: give a positive number");
-  EXPECT_EQ(message([] {
-              return squares_needed({0, 1, 1}, 3, kSlip_m, kWheelbase_m);
-            }),
-            "the precision wanted of E_d is 0.000000: give a positive number");
-  EXPECT_EQ(message([] {
-              return squares_needed({1e-9, 1, 1}, 3, kSlip_m, kWheelbase_m);
-            }),
-            "no number of squares reaches a precision this fine: ask for less, or drive where the wheels "
-            "slip less");
 }
 
 }  // namespace

@@ -32,9 +32,9 @@ inline Runs drive(double side_m, const WheelFactors& believed, const WheelFactor
           {replay_square(side_m, Sense::ccw, believed, truth)}};
 }
 
-inline Estimate calibrate(const Runs& runs, const WheelFactors& carried, const Options& options,
+inline Estimate calibrate(const Runs& runs, const WheelFactors& loaded, const Options& options,
                           double side_m = kSide_m) {
-  return estimate_factors(runs.cw, runs.ccw, side_m, carried, options);
+  return estimate_factors(runs.cw, runs.ccw, side_m, loaded, options);
 }
 
 /// The message of the astro::Error that `call` throws; fails the test if it throws none.

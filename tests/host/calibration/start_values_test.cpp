@@ -42,8 +42,7 @@ INSTANTIATE_TEST_SUITE_P(InAllQuadrants, LeverYaw, testing::Values(0.4, 1.9, 3.1
 
 TEST(StartValues, FindTheLeverFromPositionsAloneOnAnySideOfTheRobot) {
   DriveModel model = quiet_drive();
-  model.actual =
-      model.carried;  // without headings factors start as carried; what these are off bends the way
+  model.actual = model.carried;  // without headings factors start as loaded; what these are off bends the way
   model.headings = false;
   for (const double x_m : {-0.3, 0.0, 0.3})
     for (const double y_m : {-0.3, 0.0, 0.3}) {
@@ -82,7 +81,8 @@ TEST(StartValues, KnowTheHeadingOfASpinByTheLeverThatOtherRunsTell) {
   model.headings = false;
   model.lever = {-0.2, -0.1, 0};
   std::vector<Trajectory> runs = squares(model, 1, 1.7);
-  runs.push_back(simulation::study::synthetic_drive(simulation::study::spin_course(6 * kPi), model, "spin", kSeed));
+  runs.push_back(
+      simulation::study::synthetic_drive(simulation::study::spin_course(6 * kPi), model, "spin", kSeed));
   EXPECT_NEAR(std::remainder(starts(runs, model).back()[kStartTheta], 2 * kPi), 0, 1e-4);
 }
 
@@ -90,7 +90,8 @@ TEST(StartValues, FindNoLeverWherePositionsTellNone) {
   DriveModel model = astro_drive();
   model.headings = false;
   for (const simulation::study::Course& course :
-       {simulation::study::line_course(3), simulation::study::spin_course(6 * kPi), simulation::study::circle_course(0.7, 4 * kPi)}) {
+       {simulation::study::line_course(3), simulation::study::spin_course(6 * kPi),
+        simulation::study::circle_course(0.7, 4 * kPi)}) {
     const std::vector<Trajectory> runs{simulation::study::synthetic_drive(course, model, "run", kSeed)};
     for (const Unknowns& u : starts(runs, model)) {
       EXPECT_LT(std::hypot(u[kLeverX], u[kLeverY]), 0.2);

@@ -36,8 +36,8 @@ TEST(Compose, ANominalRobotGetsThePairWhoseRatioIsEd) {
 }
 
 TEST(Compose, RatiosMultiplyAndTheSumStays) {
-  const WheelFactors carried{1.013, 1.007, 0.285};
-  const WheelFactors f = compose(carried, 0.998, 1.003);
+  const WheelFactors loaded{1.013, 1.007, 0.285};
+  const WheelFactors f = compose(loaded, 0.998, 1.003);
   EXPECT_NEAR(f.c_r / f.c_l, 0.998 * 1.013 / 1.007, 1e-15);
   EXPECT_NEAR(f.c_r + f.c_l, 2.020, 1e-15);
   EXPECT_NEAR(f.b_m, 1.003 * 0.285, 1e-15);
@@ -64,14 +64,14 @@ TEST(Extended, OnARobotThatCarriesFactorsEdIsExactAndTheWheelbaseToSecondOrder) 
   std::mt19937_64 random(kSeed);
   std::printf("seed %u\n", kSeed);
   for (int i = 0; i < 1000; ++i) {
-    const WheelFactors carried{uniform(random, 0.98, 1.02), uniform(random, 0.98, 1.02),
-                               uniform(random, 0.2, 0.4)};
+    const WheelFactors loaded{uniform(random, 0.98, 1.02), uniform(random, 0.98, 1.02),
+                              uniform(random, 0.2, 0.4)};
     const double E_d = uniform(random, 0.99, 1.01), E_b = uniform(random, 0.95, 1.05);
-    const WheelFactors truth = compose(carried, E_d, E_b);
-    const Estimate e = calibrate(drive(kSide_m, carried, truth), carried, kExact);
+    const WheelFactors truth = compose(loaded, E_d, E_b);
+    const Estimate e = calibrate(drive(kSide_m, loaded, truth), loaded, kExact);
     EXPECT_NEAR(e.E_d, E_d, 1e-9) << "run " << i;
-    // The sum c_R + c_L is kept, and with unequal carried wheels the mean of their two changes is not 1.
-    const double mean_change = (truth.c_r / carried.c_r + truth.c_l / carried.c_l) / 2;
+    // The sum c_R + c_L is kept, and with unequal loaded factors the mean of their two changes is not 1.
+    const double mean_change = (truth.c_r / loaded.c_r + truth.c_l / loaded.c_l) / 2;
     EXPECT_NEAR(e.E_b, E_b / mean_change, 1e-9) << "run " << i;
     EXPECT_NEAR(mean_change, 1, 0.02 * 0.01) << "run " << i;  // |c_R - c_L| / 2 times |E_d - 1|, at most
   }
@@ -90,11 +90,11 @@ TEST(LeastSquares, GivesNoiseFreeRobotsBackFromPositionsAlone) {
   std::printf("seed %u\n", kSeed);
   for (int i = 0; i < 300; ++i) {
     const double E_d = uniform(random, 0.99, 1.01), E_b = uniform(random, 0.95, 1.05);
-    const WheelFactors carried{uniform(random, 0.98, 1.02), uniform(random, 0.98, 1.02),
-                               uniform(random, 0.2, 0.4)};
-    Runs runs = drive(kSide_m, carried, compose(carried, E_d, E_b));
+    const WheelFactors loaded{uniform(random, 0.98, 1.02), uniform(random, 0.98, 1.02),
+                              uniform(random, 0.2, 0.4)};
+    Runs runs = drive(kSide_m, loaded, compose(loaded, E_d, E_b));
     runs.cw[0].theta_rad = runs.ccw[0].theta_rad = std::nan("");
-    const Estimate e = calibrate(runs, carried, kFit);
+    const Estimate e = calibrate(runs, loaded, kFit);
     EXPECT_NEAR(e.E_d, E_d, 1e-9) << "run " << i;
     EXPECT_NEAR(e.E_b, E_b, 1e-9) << "run " << i;
   }
@@ -125,11 +125,11 @@ TEST(Umbmark, ASecondRoundComposesAndLeavesLessThan0Point7Millimetres) {
   for (const AngleSource angles :
        {AngleSource::x, AngleSource::y, AngleSource::thesis, AngleSource::average}) {
     SCOPED_TRACE(name_of(angles));
-    WheelFactors carried = kNominal;
-    double left_m = replay_E_max_syst_m(kSide_m, carried, kThesisRobot);
+    WheelFactors loaded = kNominal;
+    double left_m = replay_E_max_syst_m(kSide_m, loaded, kThesisRobot);
     for (int round = 1; round <= 2; ++round) {
-      carried = calibrate(drive(kSide_m, carried, kThesisRobot), carried, umbmark(angles)).factors;
-      const double now_m = replay_E_max_syst_m(kSide_m, carried, kThesisRobot);
+      loaded = calibrate(drive(kSide_m, loaded, kThesisRobot), loaded, umbmark(angles)).factors;
+      const double now_m = replay_E_max_syst_m(kSide_m, loaded, kThesisRobot);
       EXPECT_LT(now_m, left_m / 5);
       left_m = now_m;
     }
@@ -203,7 +203,7 @@ TEST(EveryMethod, IsReproducedInTheEstimate) {
   EXPECT_EQ(e.options.method, Method::extended);
   EXPECT_EQ(e.options.formula, Formula::published);
   EXPECT_EQ(e.side_m, kSide_m);
-  EXPECT_EQ(e.carried.b_m, kNominal.b_m);
+  EXPECT_EQ(e.loaded.b_m, kNominal.b_m);
   EXPECT_EQ(e.summary.cw.runs, 1);
   EXPECT_NEAR(e.summary.E_max_syst_m, 0.419, 0.0005);
 }

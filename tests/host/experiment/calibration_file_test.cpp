@@ -30,7 +30,7 @@ class CalibrationFile : public testing::Test {
 Calibration example() {
   Calibration found;
   found.factors = {1.0020770312345678, 0.9979229687654322, 0.2886110512345678};
-  found.carried = {1, 1, 0.29};
+  found.loaded = {1, 1, 0.29};
   return found;
 }
 
@@ -42,7 +42,7 @@ TEST_F(CalibrationFile, KeepsAnEstimateFromEndPosesToTheLastBit) {
   EXPECT_EQ(std::get<double>(read.parameters.at("c_R")), found.factors.c_r);
   EXPECT_EQ(std::get<double>(read.parameters.at("c_L")), found.factors.c_l);
   EXPECT_EQ(std::get<double>(read.parameters.at("b")), found.factors.b_m);
-  EXPECT_EQ(read.carried.at("b"), 0.29);
+  EXPECT_EQ(read.loaded.at("b"), 0.29);
   EXPECT_FALSE(read.absolute);
   EXPECT_FALSE(read.wheel.has_value());
   EXPECT_FALSE(read.covariance.has_value());
@@ -51,8 +51,8 @@ TEST_F(CalibrationFile, KeepsAnEstimateFromEndPosesToTheLastBit) {
 TEST_F(CalibrationFile, KeepsCovarianceAndNominalWheelOfMaximumLikelihood) {
   Calibration found = example();
   MlResult ml;
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) ml.estimate.covariance[i][j] = 1e-9 / static_cast<double>(1 + i + j);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) ml.estimate.covariance(i, j) = 1e-9 / (1 + i + j);
   found.detail = ml;
   found.wheel = NominalWheel{0.072, 2803.2};
   const std::filesystem::path path = folder_.path() / "calib.toml";
@@ -144,11 +144,11 @@ TEST_F(ChangeGuard, DoubtsWheelFactorsThatMoveByMoreThanATenth) {
 
 TEST_F(ChangeGuard, FactorsFromEndPosesNeedWhatWasCarriedAndAbsoluteOnesDoNot) {
   ParameterFile file;
-  file.carried = {{"c_R", 1.001}};
+  file.loaded = {{"c_R", 1.001}};
   EXPECT_THAT(wrong_basis(robot_, file), HasSubstr("driven with c_R = 1.001"));
-  file.carried = {{"c_R", 1.0}};
+  file.loaded = {{"c_R", 1.0}};
   EXPECT_EQ(wrong_basis(robot_, file), "");
-  file.carried = {{"c_R", 1.001}};
+  file.loaded = {{"c_R", 1.001}};
   file.absolute = true;
   EXPECT_EQ(wrong_basis(robot_, file), "");
 }
@@ -177,7 +177,7 @@ TEST_F(ChangeGuard, ObjectsInOneSentenceThatNamesTheOption) {
   EXPECT_FALSE(objection(robot_, file, changes(robot_, {{"b", 0.31}})));
   EXPECT_THAT(commands::in_words(*objection(robot_, file, changes(robot_, {{"b", 0.32}}))),
               AllOf(HasSubstr("+10.3 %"), HasSubstr("--force")));
-  file.carried = {{"c_R", 1.001}};
+  file.loaded = {{"c_R", 1.001}};
   EXPECT_THAT(commands::in_words(*objection(robot_, file, changes(robot_, {{"b", 0.31}}))),
               AllOf(HasSubstr("driven with"), HasSubstr("--force")));
 }

@@ -38,7 +38,7 @@ class DeadReckonings : public testing::Test {
 TEST_F(DeadReckonings, OfDrivesNotSeenAreBetterByTheCalibration) {
   const RunSet unseen = phase("after");
   const NominalWheel wheel = nominal_wheel(unseen.runs.front().info, unseen.names.front());
-  const NamedFactors before{"before", last_carried(phase("before"))};
+  const NamedFactors before{"before", loaded_factors(phase("before").runs.front().info)};
   const NamedFactors found = factors_of_file(folder_.path() / "calib-before.toml", wheel);
   const auto judged = dead_reckon(unseen, std::vector{before, found});
   ASSERT_EQ(judged.size(), 2U);

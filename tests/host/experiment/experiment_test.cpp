@@ -90,7 +90,7 @@ TEST(Experiment, WithoutSlipUmbmarkConvergesWithOneRepeat) {
 TEST(Experiment, FindsTheTrueGeometryWithoutSlip) {
   const sim::Config config = thesis_robot(0, 1);
   const Results results = calibrate(config, squares_only(3, 2));
-  const calibration::WheelFactors& factors = results.after().squares.carried;
+  const calibration::WheelFactors& factors = results.after().squares().loaded;
   // The cameras' noise of 1 mrad in a heading, averaged over some 30 samples and 6 runs, is 1e-4 rad in 2 pi.
   EXPECT_NEAR(factors.c_r / factors.c_l, config.true_ed, 1e-4);
   EXPECT_NEAR(factors.b_m, config.true_wheelbase_m, 1e-4 * config.true_wheelbase_m);
@@ -103,7 +103,7 @@ TEST(Experiment, ExtendedUmbmarkComposesWithWhatTheRobotCarries) {
   Plan plan = squares_only(3, 2);
   plan.method = method_named("extended", "average", "exact");
   const Results results = calibrate(desk, plan);
-  const calibration::WheelFactors& factors = results.after().squares.carried;
+  const calibration::WheelFactors& factors = results.after().squares().loaded;
   EXPECT_NEAR(factors.c_r / factors.c_l, config.true_ed, 1e-4);
   EXPECT_NEAR(factors.b_m, config.true_wheelbase_m, 1e-4 * config.true_wheelbase_m);
   EXPECT_NEAR(factors.c_r + factors.c_l, 2, 1e-8) << "a closed square is blind to the scale";
@@ -168,7 +168,7 @@ TEST(Experiment, UploadsWhatIsObjectedToOnlyIfToldTo) {
               support::ThrowsSentence(AllOf(HasSubstr("b would change by"), HasSubstr("--force"))));
   ExperimentHooks hooks;
   hooks.force = true;
-  EXPECT_NEAR(experiment(hooks).after().squares.carried.b_m, 0.33, 0.001);
+  EXPECT_NEAR(experiment(hooks).after().squares().loaded.b_m, 0.33, 0.001);
 }
 
 }  // namespace

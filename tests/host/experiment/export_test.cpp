@@ -38,7 +38,7 @@ constexpr double kDiameter_m = 0.072, kCountsPerTurn = 2803.2;
 ParameterFile calibrated() {
   ParameterFile file;
   file.parameters = {{"c_R", 1.00207703}, {"c_L", 0.99792297}, {"b", 0.28861105}};
-  file.carried = {{"c_R", 1.0}, {"c_L", 1.0}, {"b", 0.29}};
+  file.loaded = {{"c_R", 1.0}, {"c_L", 1.0}, {"b", 0.29}};
   file.wheel = NominalWheel{kDiameter_m, kCountsPerTurn};
   file.method = "ml";
   return file;
@@ -101,7 +101,7 @@ TEST(Export, TakesAGivenRadiusForTheNominalWheelOfAFileThatTellsNone) {
 
 TEST(Export, NamesWhatTheFileDoesNotTell) {
   ParameterFile file = calibrated();
-  file.carried.clear();
+  file.loaded.clear();
   EXPECT_THAT([&] { diff_drive(file, {}); }, support::ThrowsSentence(HasSubstr("--wheel-separation")));
   file.parameters.erase("c_L");
   EXPECT_THAT([&] { diff_drive(file, {}); }, ThrowsMessage<Error>(HasSubstr("no c_L")));
@@ -144,11 +144,11 @@ class ExportedFiles : public testing::Test {
   ExportedFiles() {
     Calibration found;
     found.factors = {1.00207703, 0.99792297, 0.28861105};
-    found.carried = {1, 1, 0.29};
+    found.loaded = {1, 1, 0.29};
     found.wheel = NominalWheel{kDiameter_m, kCountsPerTurn};
     MlResult ml;
     ml.estimate.factors = found.factors;
-    ml.estimate.covariance = {{{1e-10, 2e-11, 0}, {2e-11, 1e-10, 0}, {0, 0, 3e-10}}};
+    ml.estimate.covariance << 1e-10, 2e-11, 0, 2e-11, 1e-10, 0, 0, 0, 3e-10;
     found.detail = ml;
     write_calibration(file_, found);
   }
@@ -161,7 +161,7 @@ TEST_F(ExportedFiles, AsTomlCanBeReadLikeTheCalibrationItself) {
   std::ofstream(copy) << toml_text(file_, diff_drive(read_parameter_file(file_), {}));
   const ParameterFile before = read_parameter_file(file_), after = read_parameter_file(copy);
   EXPECT_EQ(after.parameters, before.parameters);
-  EXPECT_EQ(after.carried, before.carried);
+  EXPECT_EQ(after.loaded, before.loaded);
   EXPECT_EQ(after.covariance, before.covariance);
   EXPECT_EQ(after.wheel, before.wheel);
   EXPECT_TRUE(after.absolute);

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "host/experiment/analysis/json.hpp"
+#include "host/experiment/analysis/until.hpp"
 #include "host/experiment/drive/experiment.hpp"
 #include "host/experiment/files/experiment_folder.hpp"
-#include "host/experiment/analysis/json.hpp"
 #include "host/experiment/files/method_names.hpp"
-#include "host/experiment/analysis/until.hpp"
 #include "host/robot/parameters/upload.hpp"
 #include "tests/support/desk.hpp"
 
@@ -95,8 +95,8 @@ TEST_F(MlExperiment, ASecondRoundAddsToTheFirstAndChangesLittle) {
   ASSERT_EQ(results.phases.size(), 3U);
   const Calibration &first = *results.phases[0].calibration, &second = *results.phases[1].calibration;
   // The second round drives with what the first found...
-  EXPECT_NEAR(results.phases[1].squares.carried.b_m, first.factors.b_m, 1e-8);
-  EXPECT_NEAR(second.carried.c_r, first.factors.c_r, 1e-8);
+  EXPECT_NEAR(results.phases[1].squares().loaded.b_m, first.factors.b_m, 1e-8);
+  EXPECT_NEAR(second.loaded.c_r, first.factors.c_r, 1e-8);
   // ... and its runs are added to those of the first. What they change is as uncertain as the first was.
   EXPECT_EQ(second.ml()->estimate.runs.size(), 12U);
   EXPECT_NEAR(second.factors.c_r, first.factors.c_r, 4 * first.se.c_r);

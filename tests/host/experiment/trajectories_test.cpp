@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "host/base/error.hpp"
+#include "host/experiment/analysis/recordings.hpp"
 #include "host/experiment/files/run_set.hpp"
 #include "host/recording/files/run_file.hpp"
 #include "tests/support/desk.hpp"
@@ -104,6 +105,15 @@ TEST(Trajectories, NameTheRecordingThatCannotBeUsed) {
   run.info.parameters.erase("wheel_diameter");
   EXPECT_THAT([&] { trajectory_of(run, "a/b"); },
               ThrowsMessage<Error>(AllOf(HasSubstr("'a/b'"), HasSubstr("wheel_diameter"))));
+}
+
+TEST(Recordings, ConvertTheirCountsOnceAndKeepWhatTheyGave) {
+  recording::Run run = followed_run();
+  add_odometry(run, 0, 0, 0);
+  const Recordings recordings(RunSet{{"one", "two"}, {run, run}});
+  EXPECT_EQ(recordings.trajectories().size(), 2U);
+  EXPECT_EQ(recordings.trajectories().data(), recordings.trajectories().data());
+  EXPECT_THROW((void)recordings.squares(), Error) << "none of them is a square";
 }
 
 TEST(Trajectories, RefuseRunsWhoseFactorsWouldReferToDifferentThings) {

@@ -16,7 +16,7 @@ using motor::Side;
 using testing::HasSubstr;
 
 struct Measured {
-  Identity identity;
+  IdentifiedMotors identity;
   double furthest_m = 0;  // from the start, in truth
   double end_m = 0;
 };
@@ -33,7 +33,7 @@ Measured measure(const sim::Config& config, const Bounds& bounds) {
   return measured;
 }
 
-void expect_found(const Identity& identity, double mismatch, bool on_stand, double part) {
+void expect_found(const IdentifiedMotors& identity, double mismatch, bool on_stand, double part) {
   for (const Side side : kSides) {
     const MotorModel truth = from_data_sheet(1 + (side == Side::left ? -0.5 : 0.5) * mismatch, on_stand);
     const auto& [fit, forward_V, backward_V] = identity.wheels[at(side)];

@@ -70,13 +70,13 @@ TEST(Report, ShowsParametersWithTheirErrorAndRelativeChange) {
 
 TEST(Report, ShowsTheHistoryOfSeveralRounds) {
   ReportInput input = thesis_input(1);
-  input.phases[0].carried = {{1}, {1}, {0.29}};
-  input.phases[1].carried = {{1.0020770, 0.00012}, {0.997923, 0.00012}, {0.28861, 0.0011}};
+  input.phases[0].loaded = {{1}, {1}, {0.29}};
+  input.phases[1].loaded = {{1.0020770, 0.00012}, {0.997923, 0.00012}, {0.28861, 0.0011}};
   EXPECT_THAT(our_part(render_html(input)), Not(HasSubstr("id=\"history\"")))
       << "two phases are the parameter table";
   input.phases.push_back(input.phases[1]);
   input.phases[2].title = "after-2";
-  input.phases[2].carried[0] = {1.0021, std::nan("")};
+  input.phases[2].loaded[0] = {1.0021, std::nan("")};
   const std::string html = our_part(render_html(input));
   using Row = std::vector<std::string>;
   const std::string caption = "What the robot carried";

@@ -1,0 +1,77 @@
+#include "host/calibration/judgement/before_after.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace astro::calibration {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+double square(double x) { return x * x; }
+
+double quantile(const FigureOfMerit& before, const FigureOfMerit& after) {
+  return student_t_975(std::min(before.runs, after.runs) - 1);
+}
+
+bool errors_known(const FigureOfMerit& before, const FigureOfMerit& after) {
+  return std::isfinite(before.standard_error) && std::isfinite(after.standard_error) && before.runs > 1 &&
+         after.runs > 1;
+}
+
+}  // namespace
+
+double student_t_975(int degrees_of_freedom) {
+  constexpr std::array table{12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228};
+  if (degrees_of_freedom < 1) return kInfinity;
+  if (degrees_of_freedom <= 10) return table[static_cast<std::size_t>(degrees_of_freedom - 1)];
+  // Cornish-Fisher expansion about the normal quantile, good to 0.001 from ten degrees of freedom on.
+  const double z = 1.959964, n = degrees_of_freedom;
+  return z + (z * z * z + z) / (4 * n) + (5 * std::pow(z, 5) + 16 * z * z * z + 3 * z) / (96 * n * n);
+}
+
+FigureOfMerit E_max_syst_mm(const ExperimentSummary& squares) {
+  const int runs = squares.cw.r_cg_m > squares.ccw.r_cg_m ? squares.cw.runs : squares.ccw.runs;
+  return {squares.E_max_syst_m * 1e3, squares.se_E_max_syst_m * 1e3, runs};
+}
+
+Improvement improvement(const FigureOfMerit& before, const FigureOfMerit& after) {
+  const double a = before.value, b = after.value;
+  Improvement out{a / b, kUnknown, kUnknown, kUnknown};
+  if (!errors_known(before, after)) return out;
+  if (b == 0) return {a > 0 ? kInfinity : kUnknown, kUnknown, kUnknown, kUnknown};
+  out.standard_error = out.factor * std::hypot(before.standard_error / a, after.standard_error / b);
+
+  // The f with (a - f b)^2 <= k^2 (sa^2 + f^2 sb^2), that is A f^2 - 2 B f + C <= 0.
+  const double k2 = square(quantile(before, after));
+  const double A = b * b - k2 * square(after.standard_error), B = a * b;
+  const double C = a * a - k2 * square(before.standard_error);
+  const double root = std::sqrt(std::max(0.0, B * B - A * C));
+  out.low = std::max(0.0, C / (B + root));
+  out.high = A > 0 ? (B + root) / A : kInfinity;
+  return out;
+}
+
+Verdict judge(const FigureOfMerit& before, const FigureOfMerit& after) {
+  if (!errors_known(before, after)) return Verdict::unknown;
+  const double difference = before.value - after.value;
+  const double error = std::hypot(before.standard_error, after.standard_error);
+  if (std::abs(difference) <= quantile(before, after) * error) return Verdict::undecided;
+  return difference > 0 ? Verdict::better : Verdict::worse;
+}
+
+FigureOfMerit root_mean_square(std::span<const double> values) {
+  const double n = static_cast<double>(values.size());
+  double mean = 0, spread = 0;
+  for (const double v : values) mean += square(v) / n;
+  for (const double v : values) spread += square(square(v) - mean);
+  const double rms = std::sqrt(mean);
+  if (n < 2) return {rms, kUnknown, static_cast<int>(n)};
+  const double error_of_mean = std::sqrt(spread / (n - 1) / n);
+  return {rms, rms > 0 ? error_of_mean / (2 * rms) : 0, static_cast<int>(n)};
+}
+
+}  // namespace astro::calibration

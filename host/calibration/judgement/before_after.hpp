@@ -1,0 +1,45 @@
+#pragma once
+
+#include <span>
+
+#include "host/calibration/end_poses/end_pose.hpp"
+
+/// Whether a calibration helped, by how much, and how certain that is: statistics of the drives before and
+/// after it.
+namespace astro::calibration {
+
+/// A quantity of which smaller is better, from `runs` runs. standard_error is NaN where unknown.
+struct FigureOfMerit {
+  double value = 0;
+  double standard_error = 0;
+  int runs = 0;
+};
+
+/// E_max_syst of an experiment in millimetres, with the runs of the direction that is the maximum.
+FigureOfMerit E_max_syst_mm(const ExperimentSummary& squares);
+
+/// Root mean square of one component over the runs of one direction, with its standard error by the delta
+/// method.
+FigureOfMerit root_mean_square(std::span<const double> values);
+
+/// How many times smaller `after` is than `before`.
+struct Improvement {
+  double factor = 0;          // before / after; infinite where after is exactly 0
+  double standard_error = 0;  // to first order; NaN where unknown
+  double low = 0, high = 0;   // 95 % interval; high is infinite where `after` may be 0
+};
+
+/// Source  Fieller's theorem for a ratio of independent normal estimates, with Student's t for the smaller of
+///         the two numbers of runs less one: no symmetric error describes a ratio of few noisy runs.
+Improvement improvement(const FigureOfMerit& before, const FigureOfMerit& after);
+
+enum class Verdict { better, worse, undecided, unknown };
+
+/// better or worse where the difference is significant at the 5 % level, two-sided; unknown without standard
+/// errors.
+Verdict judge(const FigureOfMerit& before, const FigureOfMerit& after);
+
+/// Two-sided 5 % quantile of Student's t; infinite for less than one degree of freedom.
+double student_t_975(int degrees_of_freedom);
+
+}  // namespace astro::calibration

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/calibration/motion/trajectory.hpp"
+#include "host/experiment/analysis/squares.hpp"
+#include "host/experiment/files/run_set.hpp"
+#include "host/recording/run/run.hpp"
+
+namespace astro::experiment {
+
+/// Recordings that were read once, with what calibrations, tables and reports derive from them. Each result
+/// is computed when it is asked for first and kept, so that no count is converted twice.
+///
+/// Not safe for use by several threads at once.
+class Recordings {
+ public:
+  Recordings(RunSet set) : set_(std::move(set)) {}  // NOLINT(google-explicit-constructor): the same runs
+
+  const RunSet& set() const { return set_; }
+  const std::vector<std::string>& names() const { return set_.names; }
+  const std::vector<recording::Run>& runs() const { return set_.runs; }
+
+  /// What trajectories_of returns; throws as it does.
+  const std::vector<calibration::Trajectory>& trajectories() const;
+
+  /// What squares_of returns; throws as it does.
+  const Squares& squares() const;
+
+ private:
+  RunSet set_;
+  mutable std::optional<std::vector<calibration::Trajectory>> trajectories_;
+  mutable std::optional<Squares> squares_;
+};
+
+}  // namespace astro::experiment

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "host/motor/bench/bench.hpp"
+#include "host/motor/wiring/roll.hpp"
+
+/// Records what the wheels count while a person rolls the robot by hand, with its bridges open.
+namespace astro::motor {
+
+/// Waits until the wheels have turned and then stood still for two seconds. `idle` is called at least every
+/// 50 ms; an exception of it ends the wait. Throws astro::Error if nobody rolls the robot for a minute.
+void wait_for_roll(Bench& bench, const Moment& start, const std::function<void()>& idle);
+
+/// The counts since `start` with the robot's parameters. One of `distance_m` and `turns` was measured.
+Roll roll_since(Bench& bench, const Moment& start, std::optional<double> distance_m,
+                std::optional<double> turns);
+
+}  // namespace astro::motor
