@@ -8,24 +8,39 @@
 
 namespace astro {
 
-/// NOR flash in sectors: erase makes every byte of one sector 0xFF, program clears bits in whole units of
-/// kProgramBytes within one sector, a power cut leaves any mixture of old and new bits in the bytes under
-/// way. Both return false if the flash does not read back what it should; nobody has to believe them.
+/// NOR flash: `kSectors` sectors of `kSectorBytes`.
+///
+///   erase(sector)            every byte of the sector becomes 0xFF
+///   program(offset, bytes)   clears bits: the result is old AND new. `offset` and the size are multiples of
+///                            kProgramBytes, and all bytes lie in one sector.
+///   read(offset, into)       copies bytes; always allowed
+///
+/// Erase and program return false if a read-back differs; code that needs to be sure reads back itself. A
+/// power cut leaves any mixture of old and new bits in the bytes that are being written, and changes no
+/// others.
 template <class T>
 concept NorFlash = requires(T& flash, std::uint32_t at, std::span<std::uint8_t> into,
                             std::span<const std::uint8_t> bytes) {
   { T::kSectors } -> std::convertible_to<std::uint32_t>;
   { T::kSectorBytes } -> std::convertible_to<std::uint32_t>;
   { T::kProgramBytes } -> std::convertible_to<std::uint32_t>;
-  { flash.erase(at) } -> std::same_as<bool>;
-  { flash.program(at, bytes) } -> std::same_as<bool>;
-  { flash.read(at, into) } -> std::same_as<void>;
+  { flash.erase(at) }
+  noexcept->std::same_as<bool>;
+  { flash.program(at, bytes) }
+  noexcept->std::same_as<bool>;
+  { flash.read(at, into) }
+  noexcept->std::same_as<void>;
 };
 
-/// `Count` sectors of a flash, from sector `First` on, as a flash of their own: nobody who is given one
-/// reaches another's sectors.
+/// Every byte reads as if erased.
+constexpr bool is_blank(std::span<const std::uint8_t> bytes) {
+  return std::ranges::all_of(bytes, [](std::uint8_t byte) { return byte == 0xFF; });
+}
+
+/// `Count` sectors of a flash, from sector `First` on, as a flash of their own: whoever gets one cannot reach
+/// the sectors of another.
 ///
-/// Misuse (outside the region) changes nothing and returns false; reads give 0xFF there.
+/// Erasing or programming outside the region changes nothing and returns false; reading gives 0xFF there.
 template <NorFlash Flash, std::uint32_t First, std::uint32_t Count>
 class FlashRegion {
  public:

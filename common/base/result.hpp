@@ -1,6 +1,6 @@
 #pragma once
 
-/// Result<T, E>: a value or a named error, for code without exceptions.
+/// Result<T, E>: a value or an error, for code without exceptions.
 ///
 /// Cost    one T, one E and a flag; no heap. T and E are small, default-constructible values.
 namespace astro {
@@ -14,12 +14,12 @@ class [[nodiscard]] Result {
   constexpr bool ok() const { return ok_; }
   constexpr explicit operator bool() const { return ok_; }
 
-  /// Only when ok().
+  /// Precondition: ok().
   constexpr const T& value() const { return value_; }
   constexpr const T& operator*() const { return value_; }
   constexpr const T* operator->() const { return &value_; }
 
-  /// Only when not ok().
+  /// Precondition: not ok().
   constexpr const E& error() const { return error_; }
 
  private:
@@ -28,7 +28,7 @@ class [[nodiscard]] Result {
   bool ok_;
 };
 
-/// Success without a value, or a named error.
+/// Success without a value, or an error.
 template <class E>
 class [[nodiscard]] Result<void, E> {
  public:

@@ -7,8 +7,8 @@
 
 namespace astro {
 
-/// Text of at most N bytes in N bytes: no heap, no terminator, unused bytes are NUL. A value type; two equal
-/// texts have equal bytes, so it can be stored, sent and compared as it stands.
+/// Text of at most N bytes in N bytes, without heap or terminator; unused bytes are NUL. A value type. Equal
+/// texts have equal bytes, so a text can be stored, sent and compared as it is.
 ///
 /// Encoding  UTF-8 by convention, not checked. A NUL ends the text.
 template <std::size_t N>
@@ -18,12 +18,12 @@ class Text {
 
   constexpr Text() = default;
 
-  /// From a literal that fits.
+  /// From a literal; one that is too long does not compile.
   template <std::size_t M>
   requires(M <= N + 1) consteval Text(const char (&literal)[M])  // NOLINT(google-explicit-constructor)
       : Text(std::string_view(literal, M - 1)) {}
 
-  /// Keeps the first N bytes; ask fits() first where losing the rest would matter.
+  /// Keeps the first N bytes. Ask fits() first where losing the rest would matter.
   constexpr explicit Text(std::string_view text) {
     text = text.substr(0, std::min({N, text.size(), text.find('\0')}));
     std::copy(text.begin(), text.end(), characters_.begin());

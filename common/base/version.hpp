@@ -4,7 +4,7 @@
 
 namespace astro {
 
-/// Of firmware and host tools, which are released together. Hello tells it to hosts.
+/// The version of firmware and host tools, which are released together. HelloReply carries it.
 struct Version {
   std::uint8_t major = 0, minor = 1, patch = 0;
 };

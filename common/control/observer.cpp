@@ -14,7 +14,7 @@ SpeedObserver::Gains::Gains(std::int32_t bandwidth_16) {
 
 void SpeedObserver::advance(std::int32_t counts, std::int32_t expected) {
   speed_40_ += std::int64_t{saturate_to<kExpectedBits>(expected)} << kSpeedBits;
-  // Counts alone cannot bring it there, but an expectation that never comes true could.
+  // Counts alone cannot make the speed so large, but a commanded acceleration that never happens could.
   if (exceeds(static_cast<std::int32_t>(speed_40_ >> 32), kMost_8))
     speed_40_ = std::int64_t{speed_40_ < 0 ? -kMost_8 : kMost_8} << 32;
   const std::int32_t seen = saturate_to<kCountBits>(counts) * (1 << kSpeedBits);

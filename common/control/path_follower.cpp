@@ -18,7 +18,7 @@ constexpr std::int32_t to_uradps(std::int64_t turn_52) {
   return saturate32(((turn_52 >> 20) * kTwoPi_9 + (std::int64_t{1} << 31)) >> 32);
 }
 
-// The robot never corrects more than this much at once: far behind, it hurries, it does not leap.
+// The errors are limited, so that a robot that is far behind hurries but does not jump.
 constexpr int kErrorBits = 29;  // of 2^-30 m: 0.25 m
 constexpr int kTurnBits = 29;   // of 2^-32 turn: 1/16 turn
 

@@ -10,15 +10,14 @@
 
 namespace astro {
 
-/// Follows segments: a reference pose moves along the path exactly as planned, and what the odometry lags
-/// behind it is added to the set point.
+/// Follows segments: a reference pose moves along the path exactly as planned, and the odometry's error to it
+/// corrects the set point.
 ///
 ///   v = v_ref + k_along e_along
 ///   omega = omega_ref + k_heading e_theta + k_cross v_ref e_cross
 ///
-/// with the errors taken in the reference's frame. Segments that run without a rest between them are one
-/// path: the next starts where the reference, not the robot, has arrived, so errors do not add up around a
-/// square.
+/// The errors are taken in the reference's frame. Segments that follow one another are one path: the next
+/// begins where the reference has arrived, not where the robot is, so errors do not add up around a square.
 ///
 /// Cost    constant, two sines and cosines, no division; callable from the control tick.
 /// Source  Kanayama et al., ICRA 1990, linearised.
@@ -31,12 +30,12 @@ class PathFollower {
 
   void set_gains(const ParameterSet& set);
 
-  /// The robot stands at `pose` and a path begins there.
+  /// Begins a path at `pose`, where the robot stands.
   void begin_path(const Pose& pose);
-  /// The next segment of the path.
+  /// Begins the next segment of the path.
   void begin(const Trapezoid& profile) { profile_ = profile; }
 
-  /// Comes to rest on the path, on the way to pausing there.
+  /// Makes the reference come to rest on the path, for a pause.
   void cut_short() { profile_.cut_short(); }
   const Trapezoid& profile() const { return profile_; }
 
@@ -46,8 +45,8 @@ class PathFollower {
   bool arrived() const { return profile_.done(); }
   /// At the last advance the robot was within half a millimetre and a milliradian of the reference.
   bool close() const { return close_; }
-  /// At the last advance: how far the reference was to the left of the robot, 1e-6 m, and by how much its
-  /// heading was more, 1e-6 rad.
+  /// At the last advance: the distance of the reference to the left of the robot, 1e-6 m, and the reference's
+  /// heading minus the robot's, 1e-6 rad.
   std::int32_t cross_track_um() const { return cross_um_; }
   std::int32_t heading_error_urad() const { return heading_urad_; }
   const Pose& reference() const { return reference_.pose(); }

@@ -1,11 +1,11 @@
 #include "common/control/trapezoid.hpp"
 
+#include "common/fixed/saturate.hpp"
 #include "common/fixed/wide.hpp"
 
 namespace astro {
 namespace {
 
-constexpr std::int64_t magnitude(std::int64_t value) { return value < 0 ? -value : value; }
 constexpr std::int64_t larger(std::int64_t a, std::int64_t b) { return a > b ? a : b; }
 
 constexpr std::int32_t tighter(std::int32_t wanted, std::int32_t limit) {
@@ -14,7 +14,7 @@ constexpr std::int32_t tighter(std::int32_t wanted, std::int32_t limit) {
 
 constexpr std::int64_t ceil_divide(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }
 
-// One of the two motions of a segment. Distances and ticks are rounded up, so that no limit is exceeded.
+// Length or angle of a segment. Distances and ticks are rounded up, so that no limit is exceeded.
 struct Motion {
   std::int64_t distance;      // 1e-6 m or 1e-6 rad
   std::int64_t rate;          // per second
@@ -119,7 +119,7 @@ Trapezoid::Step Trapezoid::advance() {
 }
 
 void Trapezoid::cut_short() {
-  if (cut_ || tick_ >= ramp_ + level_) return;  // it comes to rest anyway
+  if (cut_ || tick_ >= ramp_ + level_) return;  // it is coming to rest already
   cut_ = true;
   if (tick_ < ramp_) {
     ramp_ = tick_;
@@ -131,7 +131,7 @@ void Trapezoid::cut_short() {
 
 Segment Trapezoid::rest() const {
   const std::int64_t travel = total_.travel - given_.travel;
-  // Whole metres and the rest of one, so that no product leaves 64 bits.
+  // Whole metres and the fraction separately, so that no product exceeds 64 bits.
   constexpr int kBits = 50, kFineBits = 30;
   constexpr std::int64_t kNanometresPerMetre = 1'000'000'000;
   const std::int64_t whole = travel >> kBits;

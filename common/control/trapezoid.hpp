@@ -6,10 +6,10 @@
 
 namespace astro {
 
-/// Trapezoidal speed profile of one segment, in whole ticks: up for `ramp` ticks, level for `level`, down for
-/// `ramp`. Length and angle advance together, so an arc keeps its curvature. The steps are integers whose sum
-/// is the segment exactly; no rounding is left at the end. Ticks are rounded up, so that no limit is
-/// exceeded.
+/// Trapezoidal speed profile of one segment, in whole ticks: the speed goes up for `ramp` ticks, stays level
+/// for `level` ticks, and goes down for `ramp` ticks. Length and angle advance together, so an arc keeps its
+/// curvature. The steps are integers whose sum is exactly the segment. The numbers of ticks are rounded up,
+/// so no limit is exceeded.
 ///
 /// Units   travel 2^-50 m, turn 2^-52 turn (of a step and in total).
 /// Cost    plan: two square roots and some divisions, for the start of a segment (main loop).
@@ -33,12 +33,12 @@ class Trapezoid {
 
   std::int64_t ticks() const { return 2 * ramp_ + level_; }
 
-  /// Down to rest from now on, as steeply as it would have come down at the end. What is left of the segment
-  /// then is rest().
+  /// Goes down to rest from now on, as steeply as at the planned end. The part of the segment that is then
+  /// left is rest().
   void cut_short();
-  /// The part of the segment that no step has given yet.
+  /// The part of the segment that the steps so far have not covered.
   Segment rest() const;
-  /// The part that was given, 2^-16 of the whole.
+  /// The part that they have covered, in 2^-16 of the whole.
   std::uint32_t progress_16() const;
 
  private:
@@ -46,11 +46,11 @@ class Trapezoid {
   std::int32_t tick_ = 0;
   std::int32_t dwell_ = 0;
   bool cut_ = false;
-  // Fine enough that what the last step makes up is less than one share, for any segment and any valid
+  // Fine enough that the correction in the last step is less than one share, for any segment and valid
   // limits.
   static constexpr int kUnitBits = 17;
-  Step unit_;   // what one of the profile's 2 ramp (ramp + level) equal shares is worth, kUnitBits finer
-  Step rest_;   // kUnitBits finer: what the steps so far have rounded away
+  Step unit_;   // one of the profile's 2 ramp (ramp + level) equal shares, kUnitBits finer
+  Step rest_;   // what the steps so far have rounded away, kUnitBits finer
   Step total_;  // the whole segment
   Step given_;  // sum of the steps so far
 };

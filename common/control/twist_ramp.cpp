@@ -5,7 +5,6 @@
 namespace astro {
 namespace {
 
-constexpr std::int64_t magnitude(std::int64_t value) { return value < 0 ? -value : value; }
 constexpr std::int64_t at_least_one(std::int64_t value) { return value < 1 ? 1 : value; }
 
 }  // namespace
@@ -29,7 +28,7 @@ void TwistRamp::Axis::set(std::int32_t value) {
   rate_ = 0;
 }
 
-// Falling by one jerk a tick, this rate and those after it cover rate (rate + jerk) / (2 jerk).
+// If the rate falls by one jerk per tick, it still covers rate (rate + jerk) / (2 jerk).
 bool TwistRamp::Axis::stops_within(std::int64_t rate, std::int64_t gap) const {
   return rate <= 0 || gap >= far_ || rate * (rate + jerk_) <= 2 * jerk_ * gap;
 }
@@ -67,11 +66,6 @@ TwistRamp::Rates::Rates(const MotionLimits& limits)
     : v(per_tick(limits.acceleration_umps2, limits.jerk_mmps3)),
       omega(per_tick(limits.yaw_acceleration_uradps2, limits.yaw_jerk_mradps3)) {}
 
-void TwistRamp::set_limits(const MotionLimits& limits) {
-  rates_ = Rates(limits);
-  plan();
-}
-
 void TwistRamp::set(const BodyTwist& value) {
   v_.set(value.v_umps);
   omega_.set(value.omega_uradps);
@@ -90,12 +84,12 @@ void TwistRamp::take_target(const TwistRamp& planned) {
   omega_.take_target(planned.omega_);
 }
 
-// The one that would take longer goes as fast as its limits allow, and the other in proportion.
+// The component that would take longer goes as fast as its limits allow, and the other in proportion to it.
 void TwistRamp::plan() {
   const std::int64_t v_way = magnitude(v_.gap_to(target_.v_umps)) >> kBits;
   const std::int64_t omega_way = magnitude(omega_.gap_to(target_.omega_uradps)) >> kBits;
   Limits v = rates_.v, omega = rates_.omega;
-  // What is already changing must be able to stop changing: a share of its jerk would not do.
+  // A component that is already changing needs its full jerk to stop changing.
   if (v_way != 0 && omega_way != 0 && v_.steady() && omega_.steady()) {
     const bool v_leads = v_way * omega.acceleration >= omega_way * v.acceleration;
     if (v_leads) {
@@ -108,7 +102,7 @@ void TwistRamp::plan() {
   omega_.set_target(target_.omega_uradps, omega.acceleration, omega.jerk);
 }
 
-// The leader gives way where the follower's jerk would be too steep.
+// The leader's jerk is reduced if the follower's would exceed its limit.
 void TwistRamp::follow(Limits& follower, Limits& leader, std::int64_t way, std::int64_t leaders_way) {
   follower.acceleration = at_least_one(leader.acceleration * way / leaders_way);
   const std::int64_t jerk = leader.jerk * way / leaders_way;

@@ -7,48 +7,46 @@
 
 namespace astro {
 
-/// A velocity that follows a target within limits of acceleration and jerk, and then sits on it exactly.
-/// Speed and yaw rate take the same time: from rest, and from any steady velocity, their ratio changes
-/// evenly, so a robot that starts into a curve is on that curve from the first millimetre. A new target in
-/// the middle of a ramp is reached by each as fast as its own limits allow. No value lies beyond all of the
-/// start and the targets so far.
+/// A velocity that approaches a target within limits of acceleration and jerk, and then equals it exactly.
+/// From rest or a steady velocity, speed and yaw rate take the same time and their ratio changes evenly, so a
+/// robot that starts into a curve is on that curve from the first millimetre. If the target changes during a
+/// ramp, each of the two approaches it as fast as its own limits allow. The velocity never leaves the range
+/// between the start and the targets so far.
 ///
 /// Units   1e-6 m/s, 1e-6 rad/s; one advance() a tick (1 ms).
 /// Cost    set_target: some divisions. advance: constant, four 64-bit multiplies; callable from the tick.
 class TwistRamp {
  public:
-  /// One component's, per tick.
+  /// Limits of one component, per tick.
   struct Limits {
     std::int64_t acceleration = 1, jerk = 1;
   };
-  /// What the limits are in a tick. Takes divisions: made outside the tick.
+  /// The limits of both components. They take divisions, so they are computed outside the tick.
   struct Rates {
     Rates() = default;
     explicit Rates(const MotionLimits& limits);
     Limits v, omega;
   };
 
-  /// From here on; a ramp under way goes on within them.
-  void set_limits(const MotionLimits& limits);
-  /// The same without a division: from the next target on.
+  /// Valid from the next target on.
   void set_rates(const Rates& rates) { rates_ = rates; }
 
-  /// Where to go from here. The same target again changes nothing.
+  /// Sets the target. The same target again changes nothing.
   void set_target(const BodyTwist& target);
-  /// Goes from where it is to the target of `planned`, a copy that was given its target outside the tick.
+  /// Takes over the target of `planned`, a copy that got its target outside the tick.
   void take_target(const TwistRamp& planned);
-  /// Stands at a steady velocity; the target is the same.
+  /// Sets a steady velocity, which also becomes the target.
   void set(const BodyTwist& value);
 
   void advance();
 
   BodyTwist value() const { return {v_.value(), omega_.value()}; }
-  /// By how much the value changes in a second at the present rate, 1e-6 per second squared.
+  /// The present rate of change, 1e-6 m/s^2 and 1e-6 rad/s^2.
   BodyTwist acceleration() const { return {v_.acceleration(), omega_.acceleration()}; }
   bool arrived() const { return v_.arrived() && omega_.arrived(); }
 
  private:
-  /// One component. All in 2^-12 of its unit, rates per tick.
+  /// One component, in 2^-12 of its unit; rates are per tick.
   class Axis {
    public:
     void set_target(std::int32_t target, std::int64_t acceleration, std::int64_t jerk);
@@ -70,10 +68,10 @@ class TwistRamp {
     std::int64_t value_ = 0, target_ = 0;
     std::int64_t rate_ = 0;
     std::int64_t most_ = 1, jerk_ = 1;
-    std::int64_t far_ = 1;  // a gap that is no reason yet to slow down
+    std::int64_t far_ = 1;  // with a larger gap it is too early to slow down
   };
   static constexpr int kBits = 12;
-  // However small the jerk, the acceleration is there after half a second, and gone.
+  // However small the jerk limit is, the acceleration rises and falls within half a second each.
   static constexpr std::int64_t kSlowestRise_ticks = 500;
 
   void plan();

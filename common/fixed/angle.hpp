@@ -4,7 +4,7 @@
 
 namespace astro {
 
-/// Binary angle: 2^64 is one turn, so that adding wraps for free and turning never rounds.
+/// Binary angle: 2^64 is one turn, so sums wrap by themselves and are never rounded.
 class Angle {
  public:
   constexpr Angle() = default;
@@ -19,7 +19,7 @@ class Angle {
   friend constexpr Angle operator+(Angle a, std::int64_t turn) {
     return from_raw(a.raw_ + static_cast<std::uint64_t>(turn));
   }
-  /// The short way round from b to a, 2^-64 turn, in [-1/2, 1/2) turn.
+  /// The shorter turn from b to a, in 2^-64 turn, in [-1/2, 1/2) turn.
   friend constexpr std::int64_t operator-(Angle a, Angle b) {
     return static_cast<std::int64_t>(a.raw_ - b.raw_);
   }

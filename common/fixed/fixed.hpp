@@ -40,7 +40,7 @@ class Fixed {
   friend constexpr Fixed operator*(Fixed a, Fixed b) { return from_raw(saturate32(a.scale(b.raw_))); }
   friend constexpr auto operator<=>(Fixed, Fixed) = default;
 
-  /// round(this * n) for a plain integer n of any unit: what a gain does to a signal. Ties upward.
+  /// round(this * n) for an integer n of any unit, as a gain scales a signal. Ties upward.
   constexpr std::int64_t scale(std::int32_t n) const {
     if constexpr (F == 0) return std::int64_t{raw_} * n;
     return (std::int64_t{raw_} * n + (std::int64_t{1} << F >> 1)) >> F;

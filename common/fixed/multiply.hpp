@@ -3,9 +3,10 @@
 #include <cstdint>
 #include <type_traits>
 
-/// 32-bit products in one instruction each. The compiler for the Cortex-M7 turns a widened product that it
-/// uses twice into a 64 x 64 bit one, six instructions; naming the instruction keeps it at one. Elsewhere,
-/// and at compile time, the same value is computed in plain C++ (tests/target proves the two equal).
+/// 32-bit products in one instruction each. The compiler for the Cortex-M7 turns a widened product that is
+/// used twice into a 64 x 64 bit product of six instructions; inline assembly keeps it at one. Other
+/// processors, and the compiler, compute the same value in plain C++ (tests/target shows that both are
+/// equal).
 namespace astro {
 
 #if defined(__ARM_FEATURE_DSP)

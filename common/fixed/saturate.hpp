@@ -13,7 +13,7 @@ constexpr std::int32_t saturate32(std::int64_t value) {
   return static_cast<std::int32_t>(value);
 }
 
-/// a + b and a - b, held within 32 bits: one instruction on the Cortex-M7.
+/// a + b and a - b, limited to 32 bits: one instruction on the Cortex-M7.
 constexpr std::int32_t add_saturated(std::int32_t a, std::int32_t b) {
 #if ASTRO_ON_CORTEX_M7
   if (!std::is_constant_evaluated()) {
@@ -36,14 +36,16 @@ constexpr std::int32_t subtract_saturated(std::int32_t a, std::int32_t b) {
   return saturate32(std::int64_t{a} - b);
 }
 
+constexpr std::int64_t magnitude(std::int64_t value) { return value < 0 ? -value : value; }
+
 /// |value| > limit, for limit >= 0: one comparison.
 constexpr bool exceeds(std::int32_t value, std::int32_t limit) {
   return static_cast<std::uint32_t>(value) + static_cast<std::uint32_t>(limit) >
          2 * static_cast<std::uint32_t>(limit);
 }
 
-/// `value` * 2^Shift, which must fit, held within the range of a signed integer of so many bits: one
-/// instruction on the Cortex-M7.
+/// `value` * 2^Shift, which must fit into 32 bits, limited to the range of a signed integer of `Bits` bits:
+/// one instruction on the Cortex-M7.
 template <int Bits, int Shift = 0>
 constexpr std::int32_t saturate_to(std::int32_t value) {
   static_assert(Bits >= 2 && Bits <= 32 && Shift >= 0 && Shift < 32);
@@ -59,7 +61,7 @@ constexpr std::int32_t saturate_to(std::int32_t value) {
   return shifted > kMost ? kMost : shifted < -kMost - 1 ? -kMost - 1 : shifted;
 }
 
-/// `value` held within [-limit, limit]; limit >= 0.
+/// `value` limited to [-limit, limit]; limit >= 0.
 template <class Int>
 constexpr Int clamp_abs(Int value, Int limit) {
   if (value > limit) return limit;

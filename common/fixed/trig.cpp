@@ -3,8 +3,8 @@
 namespace astro::trig {
 namespace {
 
-// Computed in double, whose rounding is the same on every compiler that builds us: the table, and so
-// odometry, has the same bits on the host and on the MCU. (long double differs between the two.)
+// Computed in double, which every compiler rounds in the same way, so that the table and the odometry have
+// the same bits on the host and on the MCU. (long double differs between the two.)
 consteval double sine(double x) {
   double term = x;
   double sum = x;

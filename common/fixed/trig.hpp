@@ -21,8 +21,8 @@ namespace trig {
 inline constexpr std::size_t kSteps = 256;  // per turn
 inline constexpr std::size_t kQuarter = kSteps / 4;
 
-/// The sine of every step, for a turn and a quarter: the cosine is the sine a quarter further on. With half a
-/// unit of 30 fraction bits on top, so that cutting an entry there is rounding it.
+/// The sine of every step, for a turn and a quarter, because the cosine is the sine a quarter turn later.
+/// Half a unit of the 30th fraction bit is added, so that truncating an entry to 30 bits rounds it.
 inline constexpr std::int64_t kHalfOf30 = 1 << 12;
 extern const std::array<std::int64_t, kSteps + kQuarter> kWave;
 
@@ -35,13 +35,13 @@ inline constexpr auto kFourth_40 = static_cast<std::int32_t>(kRho * kRho * kRho 
 
 }  // namespace trig
 
-/// sin and cos of a binary angle, absolute error below 2^-35 (tests/common/fixed sweeps it); exact at
-/// multiples of a quarter turn. Finer than the 2^-30 that a single step needs, because on a straight line the
-/// same error is added in every tick: half an hour at 1 m/s must stay within a micrometre.
+/// Sine and cosine of a binary angle. The absolute error is below 2^-35 (tests/common/fixed sweeps it);
+/// multiples of a quarter turn are exact. One step would need only 2^-30, but on a straight line the same
+/// error adds up in every tick, and half an hour at 1 m/s must stay within a micrometre.
 ///
-/// Method  table of 64 steps per quarter turn, then Taylor to the fourth power of the rest (at most 0.0123
-/// rad).
-/// Cost    constant, about 50 instructions, no division; callable from the control tick.
+/// Method  a table of 64 steps per quarter turn, then a Taylor series to the fourth power of the rest, which
+///         is at most 0.0123 rad
+/// Cost    constant, about 50 instructions, no division; callable from the control tick
 inline SinCos sin_cos(Angle angle) {
   const std::uint64_t nearest = angle.raw() + (std::uint64_t{1} << 55);
   const auto step = static_cast<std::size_t>(nearest >> 56);
@@ -50,7 +50,7 @@ inline SinCos sin_cos(Angle angle) {
   const auto sine_30 = static_cast<std::int32_t>(sine >> 13);
   const auto cosine_30 = static_cast<std::int32_t>(cosine >> 13);
 
-  // What is left to the angle, as a part of half a step: x in [-1, 1).
+  // The rest of the angle, in units of half a step: x in [-1, 1).
   const auto x_31 = static_cast<std::int32_t>(static_cast<std::uint32_t>(nearest >> 24) ^ 0x8000'0000U);
   const std::int32_t square_30 = mul_high(x_31, x_31);
   const std::int32_t sin_rho_36 = mul_high(x_31, trig::kLinear_37 - mul_high(square_30, trig::kCubic_39));

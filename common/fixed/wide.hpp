@@ -4,7 +4,7 @@
 
 #include "common/fixed/multiply.hpp"
 
-/// Wide integer arithmetic without __int128, which the MCU's compiler does not have.
+/// Wide integer arithmetic. The MCU's compiler has no __int128.
 namespace astro {
 
 /// round(a * b / 2^32), ties upward. |a| < 2^62.
@@ -14,12 +14,12 @@ constexpr std::int64_t mul_high(std::int64_t a, std::int32_t b) {
   return mul_add(mul_add(std::int64_t{1} << 31, low, b) >> 32, high, b);
 }
 
-/// (sum, rest) += a * b, in 96 bits of which `rest` holds the lowest 32: a long sum of products loses
+/// (sum, rest) += a * b in 96 bits, of which `rest` holds the lowest 32, so that a long sum of products loses
 /// nothing. |a| < 2^62.
 ///
 /// Cost    seven instructions on the Cortex-M7; callable from the control tick.
 constexpr void accumulate(std::int64_t& sum, std::uint32_t& rest, std::int64_t a, std::int32_t b) {
-  // a = high * 2^32 + low, with low taken as signed: both products are of one instruction then.
+  // a = high * 2^32 + low with a signed low: then both products take one instruction.
   const auto low = static_cast<std::int32_t>(static_cast<std::uint32_t>(a));
   const auto high = static_cast<std::int32_t>((a >> 32) + (low < 0 ? 1 : 0));
 #if ASTRO_ON_CORTEX_M7
@@ -42,7 +42,7 @@ constexpr void accumulate(std::int64_t& sum, std::uint32_t& rest, std::int64_t a
   sum += mul_add(lower >> 32, high, b);
 }
 
-/// (high, low) += step, in 96 bits of which `high` holds the highest 32, signed.
+/// (high, low) += step in 96 bits, of which `high` holds the highest 32, signed.
 constexpr void accumulate(std::int32_t& high, std::uint64_t& low, std::int64_t step) {
 #if ASTRO_ON_CORTEX_M7
   if (!std::is_constant_evaluated()) {
@@ -59,7 +59,7 @@ constexpr void accumulate(std::int32_t& high, std::uint64_t& low, std::int64_t s
   high += (step < 0 ? -1 : 0) + (low < static_cast<std::uint64_t>(step) ? 1 : 0);
 }
 
-/// Largest r with r * r <= n.
+/// The largest r with r * r <= n.
 ///
 /// Cost    32 rounds; for planning, not for the tick.
 constexpr std::uint32_t isqrt(std::uint64_t n) {
@@ -76,7 +76,7 @@ constexpr std::uint32_t isqrt(std::uint64_t n) {
 }
 
 /// A 256-bit natural number for formulas that run once per parameter change: exact products of many factors,
-/// then exact division. Overflow of 256 bits is the caller's to rule out (tests/common/fixed sweeps the
+/// then exact division. The caller must rule out an overflow of 256 bits (tests/common/fixed sweeps the
 /// extremes).
 class Natural {
  public:
@@ -115,7 +115,7 @@ class Natural {
     return (limbs_[1] >> 31) == 0;
   }
 
-  /// Half of the number, rounded to nearest; saturates at 2^63 - 1. Compute with one bit too many, then call
+  /// Half of the number, rounded to nearest; saturates at 2^63 - 1. Compute with one extra bit, then call
   /// this.
   constexpr std::int64_t half_rounded() const {
     Natural rounded = *this;

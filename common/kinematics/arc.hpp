@@ -9,23 +9,23 @@
 
 namespace astro {
 
-/// Moves a pose along exact arcs, T <- T * exp(travel, 0, turn): a steady turn gives the same pose at any
-/// rate.
+/// Moves a pose along exact arcs, T <- T * exp(travel, 0, turn), so that a steady turn gives the same pose at
+/// any rate.
 ///
-/// Domain  |travel| < 4 m and |turn| <= 1/8 turn a step; the robot refuses encoder steps beyond.
-/// Errors  heading none, ever: it is an integer sum. Position: what the Q43 sine and the 32-bit chord leave,
-///         below 2e-10 of the way. Nothing is rounded per step: travel below the 2^-29 m that a product can
-///         hold and position below 2^-40 m are carried to the next step.
-/// Cost    constant, one sine and cosine, no division; callable from the control tick.
+/// Domain  |travel| < 4 m and |turn| <= 1/8 turn per step; the robot refuses larger encoder steps.
+/// Errors  Heading: none, because it is an integer sum. Position: the errors of the Q43 sine and the 32-bit
+///         chord, less than 2e-10 of the travel. Nothing is rounded per step: travel below 2^-29 m, which a
+///         product cannot hold, and position below 2^-40 m are carried to the next step.
+/// Cost    constant, one sine and cosine, no division; callable from the control tick
 /// Source  Sola, Deray, Atchuthan, arXiv:1812.01537v9, eqs. 156-158: the chord of an arc of length s and
-///         angle a is s * sin(a/2) / (a/2), and points along the mean of both headings.
+///         angle a is s * sin(a/2) / (a/2), and points along the mean of the headings at both ends
 class ArcIntegrator {
  public:
-  /// travel in 2^-61 m, turn in 2^-64 turn. Always inlined: it has two callers, both of them in the tick.
+  /// `travel` in 2^-61 m, `turn` in 2^-64 turn. Always inlined, because both callers are in the tick.
   [[gnu::always_inline]] void advance(std::int64_t travel, std::int64_t turn);
 
   const Pose& pose() const { return pose_; }
-  /// Goes on from here; nothing of the past remains.
+  /// Continues from `pose`; carried remainders are dropped.
   void set_pose(const Pose& pose) {
     *this = ArcIntegrator{};
     pose_ = pose;
@@ -39,12 +39,12 @@ class ArcIntegrator {
   std::uint32_t x_rest_ = 0, y_rest_ = 0;  // 2^-72 m, less than 2^-40 m: position not yet in the pose
 };
 
-// 1 - sin(h)/h for h = turn / 2, 32 fraction bits. |turn| <= 1/8 turn, so that h^2 < 0.16 and the first term
-// left out, h^8 / 9!, is below 2e-9 there and below 1e-26 at 1 kHz.
+// 1 - sin(h)/h for h = turn / 2, 32 fraction bits. With |turn| <= 1/8 turn, h^2 < 0.16, and the first omitted
+// term h^8 / 9! is below 2e-9; at 1 kHz it is below 1e-26.
 inline std::int32_t ArcIntegrator::chord_deficit(std::int64_t turn) {
   const auto turn_33 = static_cast<std::int32_t>(turn >> 31);
   const std::int32_t square_34 = mul_high(turn_33, turn_33);
-  // h = pi turn, and each product with a square of 34 fraction bits gains two.
+  // h = pi turn. Each product with the square, which has 34 fraction bits, gains two bits.
   constexpr double kPi2 = 9.869604401089358;
   constexpr auto k1_30 = static_cast<std::int32_t>(kPi2 / 6 * 0x1p30 + 0.5);
   constexpr auto k2_28 = static_cast<std::int32_t>(kPi2 * kPi2 / 120 * 0x1p28 + 0.5);

@@ -5,7 +5,7 @@
 namespace astro {
 namespace {
 
-// c * D * gear_denominator, with c in 2^-30 and D in nm; what remains is to divide by gear_numerator * n.
+// c * D * gear_denominator, with c in 2^-30 and D in nm, still to be divided by gear_numerator * n.
 Natural scaled_diameter(const ParameterSet& set, Param factor) {
   Natural product(static_cast<std::uint64_t>(set.get(factor)));
   product *= static_cast<std::uint32_t>(set.get(Param::wheel_diameter));
@@ -18,8 +18,8 @@ void divide_by_counts(Natural& value, const ParameterSet& set) {
   value /= static_cast<std::uint32_t>(set.get(Param::counts_per_motor_rev));
 }
 
-// pi = 21053343141 / 6701487259, a convergent of its continued fraction that is good to 9e-23, in factors
-// that fit a limb.
+// pi = 21053343141 / 6701487259, a convergent of its continued fraction with an error of 9e-23, as factors
+// that fit into 32 bits.
 Natural times_pi(Natural value) {
   value *= 14'007'547;
   value *= 1'503;

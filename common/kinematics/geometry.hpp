@@ -6,9 +6,8 @@
 
 namespace astro {
 
-/// What the parameters c_R, c_L, b, wheel diameter, counts per revolution and gear ratio mean for one encoder
-/// count, in the units that the tick works in. Computed once per parameter change, exactly, then rounded
-/// once.
+/// The effect of one encoder count, from the parameters c_R, c_L, b, wheel diameter, counts per revolution
+/// and gear ratio, in the units of the tick. Computed exactly once per parameter change, then rounded once.
 ///
 ///   travel of a wheel per count     c * pi * D / (n * gear)                 metres
 ///   turn of the robot per count     travel / (2 pi b) = c * D / (2 n gear b)   turns
@@ -16,7 +15,7 @@ namespace astro {
 /// Source  thesis (5)-(9) with c_R, c_L of Borenstein & Feng.
 struct Geometry {
   struct Wheel {
-    std::int64_t half_travel = 0;  // 2^-61 m per count: what one count adds to the path of the robot's centre
+    std::int64_t half_travel = 0;  // 2^-61 m per count: the robot's centre moves half as far as the wheel
     std::int64_t turn = 0;         // 2^-64 turn per count; positive for both wheels
     std::int64_t speed = 0;        // (2^-12 um/s) per (count per tick)
   };
@@ -27,7 +26,7 @@ struct Geometry {
 
 inline constexpr std::int32_t kTickHz = 1000;
 
-/// `set` must be valid (common/params): every result then fits with room for 2^9 counts per tick.
+/// Precondition: `set` is valid (common/params). Every result then fits, for up to 2^9 counts per tick.
 [[gnu::cold]] Geometry make_geometry(const ParameterSet& set);
 
 }  // namespace astro

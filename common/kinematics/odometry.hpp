@@ -9,10 +9,10 @@ namespace astro {
 
 /// Dead reckoning from wheel counts.
 ///
-/// The heading is an exact integer-linear function of the counts since the last set_pose or set_geometry: it
-/// holds no rounding at all beyond the one of the two increments (2^-65 turn per count).
+/// The heading is an exact integer-linear function of the counts since the last set_pose or set_geometry. Its
+/// only rounding is that of the two increments (2^-65 turn per count).
 ///
-/// Errors  none. Steps beyond ArcIntegrator's domain are the caller's to refuse.
+/// Errors  none. The caller must refuse steps outside ArcIntegrator's domain.
 class Odometry {
  public:
   explicit Odometry(const Geometry& geometry) : geometry_(geometry) {}

@@ -9,7 +9,7 @@ namespace astro {
 /// Pose of the base frame in the odom frame: x forward and y left where the robot stood at (0, 0, 0), theta
 /// counter-clockwise.
 struct Pose {
-  static constexpr int kPositionBits = 40;  // x, y in 2^-40 m: a step is a picometre, the range 8000 km
+  static constexpr int kPositionBits = 40;  // x, y in 2^-40 m, about a picometre; the range is 8000 km
   std::int64_t x = 0;
   std::int64_t y = 0;
   Angle theta;

@@ -7,7 +7,7 @@
 
 namespace astro {
 
-/// Speeds in 1e-6 m/s and 1e-6 rad/s: what people type, exactly (0.1 m/s is no binary fraction).
+/// Speeds in 1e-6 m/s and 1e-6 rad/s, which hold the decimal numbers that people type exactly.
 struct WheelSpeeds {
   std::int32_t left_umps = 0;
   std::int32_t right_umps = 0;
@@ -20,7 +20,7 @@ struct BodyTwist {
   friend constexpr bool operator==(const BodyTwist&, const BodyTwist&) = default;
 };
 
-/// v -+ omega b / 2. With the calibrated b: a commanded spin turns by what was commanded.
+/// v -+ omega b / 2, with the calibrated b, so that a commanded spin turns by the commanded angle.
 constexpr WheelSpeeds to_wheels(const Geometry& geometry, const BodyTwist& twist) {
   // b is at most 2 m, so that half of it times omega is no more than omega.
   const auto half = static_cast<std::int32_t>(

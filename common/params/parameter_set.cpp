@@ -26,8 +26,8 @@ bool row_is_good(const ParamRow& row, const ParameterSet& set) {
   return raw >= row.minimum_raw && raw <= row.maximum_raw;
 }
 
-/// Wheel travel per count rounded down to whole nanometres. Within the limits of the rows the largest product
-/// is 355 * 1.5e9 nm * 1e6 < 2^63; 355 / 113 is pi to 1e-7 and above it.
+/// Wheel travel per count, rounded down to whole nanometres. Within the limits of the rows the largest
+/// product is 355 * 1.5e9 nm * 1e6 < 2^63. 355 / 113 is pi plus less than 3e-7.
 std::int64_t count_travel_nm(const ParameterSet& set, Param correction) {
   const std::int64_t diameter_nm =
       (std::int64_t{set.get(Param::wheel_diameter)} * set.get(correction) + (1 << 29)) >> 30;
@@ -52,7 +52,7 @@ Result<void, Param> check_geometry(const ParameterSet& set) {
   const std::int64_t left_nm = count_travel_nm(set, Param::c_L);
   const auto [shortest_nm, longest_nm] = std::minmax(right_nm, left_nm);
   if (longest_nm >= kLongestCountNm || shortest_nm < kShortestCountNm) return Param::counts_per_motor_rev;
-  // Turn per count is travel / b radians and has to stay below 2 pi / 16.
+  // The turn per count is travel / b radians and must be less than 2 pi / 16.
   if ((longest_nm + 1) * 8 * 113 >= std::int64_t{set.get(Param::b)} * 355) return Param::b;
   return {};
 }

@@ -22,14 +22,14 @@ constexpr std::size_t count_texts(std::size_t rows) {
 
 }  // namespace set_detail
 
-/// One value for every row of the table. A value type: stage a copy, validate it, commit it, swap it in.
+/// One value for every row of the table. A value type: copies are staged, validated and committed.
 ///
-/// Units   raw integers; the row's kind and exponent say what one step is worth.
-/// Errors  none here: a set may hold anything, validate() judges it as a whole.
+/// Units   raw integers; the row's kind and exponent say what one unit of them is worth.
+/// Errors  none here: a set may hold any value; validate() checks it as a whole.
 /// Cost    4 bytes per row and 24 per text; get and set of a number are one array access.
 class ParameterSet {
  public:
-  /// Factory defaults: a set is never without values.
+  /// Factory defaults.
   constexpr ParameterSet() {
     for (const ParamRow& row : kParamTable) {
       if (row.kind == ParamKind::text) {
@@ -58,20 +58,19 @@ class ParameterSet {
   std::array<ParamText, set_detail::count_texts(kParamCount)> texts_{};
 };
 
-/// The two sets differ in nothing but gains: what may change while the wheels are driven.
+/// The two sets differ in gains only, which may change while the wheels are driven.
 bool only_gains_differ(const ParameterSet& a, const ParameterSet& b);
 
-/// Refuses a set that the robot could not run with and names the row to change:
+/// Refuses a set that the robot cannot run with, and names the row to change:
 ///   any row                a value outside its limits; a text too short, too long or not printable ASCII
 ///   a polarity             0
 ///   battery_high           not above battery_low, while neither is 0
 ///   over_speed             not above speed_limit: full speed would be a fault
-///   counts_per_motor_rev   one count moves a wheel by 2^-3 m or more, or by less than 1 nm, so that it does
-///   not
-///                          fit the fixed point of the odometry
-///   b                      one count turns the robot by a sixteenth of a turn or more, so that heading
-///   aliases
-/// The rows come first, in table order. Integers only; called when parameters change, not in the tick.
+///   counts_per_motor_rev   one count moves a wheel by 2^-3 m or more, or by less than 1 nm: it does not fit
+///                          the odometry's fixed point
+///   b                      one count turns the robot by a sixteenth of a turn or more: the heading is
+///                          ambiguous
+/// The rows are checked first, in table order. Integers only. Called when parameters change, not in the tick.
 Result<void, Param> validate(const ParameterSet& set);
 
 }  // namespace astro

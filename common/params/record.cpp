@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "common/base/crc32.hpp"
+#include "common/base/little_endian.hpp"
 
 namespace astro {
 namespace {
@@ -25,32 +26,19 @@ constexpr std::size_t kOwnRowsBytes = [] {
   return bytes;
 }();
 static_assert(Record::kHeaderBytes + kOwnRowsBytes + Record::kCrcBytes <= Record::kMaxBytes / 2,
-              "half the record is for the rows of firmware to come");
+              "half the record is reserved for rows of later firmware");
 
-std::uint32_t load_le(Bytes bytes) {
-  std::uint32_t value = 0;
-  for (std::size_t i = bytes.size(); i-- > 0;) value = (value << 8) | bytes[i];
-  return value;
-}
-
-void store_le(std::span<std::uint8_t> bytes, std::uint32_t value) {
-  for (std::uint8_t& byte : bytes) {
-    byte = static_cast<std::uint8_t>(value);
-    value >>= 8;
-  }
-}
-
-/// A row as it lies in a payload.
+/// A row in a payload.
 struct StoredRow {
   const ParamRow* known;  // nullptr: an id that the table does not have
   Bytes whole;
   Bytes value;
 };
 
-/// Only for payloads that rows_are_readable() accepts.
+/// Precondition: rows_are_readable().
 StoredRow first_row(Bytes rows) {
   const std::size_t size = rows[2];
-  return {find_param(static_cast<std::uint16_t>(load_le(rows.first(2)))), rows.first(kRowHeaderBytes + size),
+  return {find_param(load_little_endian<std::uint16_t>(&rows[0])), rows.first(kRowHeaderBytes + size),
           rows.subspan(kRowHeaderBytes, size)};
 }
 
@@ -73,14 +61,14 @@ ParamText text_of(Bytes value) {
 
 void put_row(std::span<std::uint8_t> room, const ParamRow& row, const ParameterSet& set) {
   const std::size_t size = value_bytes(row);
-  store_le(room.first(2), static_cast<std::uint16_t>(row.id));
+  store_little_endian(&room[0], static_cast<std::uint16_t>(row.id));
   room[2] = static_cast<std::uint8_t>(size);
   const auto value = room.subspan(kRowHeaderBytes, size);
   if (row.kind == ParamKind::text) {
     std::ranges::transform(set.text(row.id).characters(), value.begin(),
                            [](char c) { return static_cast<std::uint8_t>(c); });
   } else {
-    store_le(value, static_cast<std::uint32_t>(set.get(row.id)));
+    store_little_endian(&value[0], static_cast<std::uint32_t>(set.get(row.id)));
   }
 }
 
@@ -90,11 +78,13 @@ bool Record::has_magic(Bytes bytes) { return std::ranges::equal(bytes.first(kMag
 
 std::size_t Record::announced_bytes(Bytes header) {
   if (!has_magic(header) || header[4] != kFormatVersion) return 0;
-  const std::size_t size = kHeaderBytes + load_le(header.subspan(6, 2)) + kCrcBytes;
+  const std::size_t size = kHeaderBytes + load_little_endian<std::uint16_t>(&header[6]) + kCrcBytes;
   return size <= kMaxBytes ? size : 0;
 }
 
-std::uint32_t Record::announced_sequence(Bytes header) { return load_le(header.subspan(8, 4)); }
+std::uint32_t Record::announced_sequence(Bytes header) {
+  return load_little_endian<std::uint32_t>(&header[8]);
+}
 
 std::span<std::uint8_t> Record::room(std::size_t size) {
   size_ = std::min(size, kMaxBytes);
@@ -108,7 +98,7 @@ Bytes Record::payload() const {
 bool Record::intact() const {
   if (size_ < kHeaderBytes + kCrcBytes || announced_bytes(bytes_) != size_) return false;
   const Bytes covered = Bytes(bytes_).first(size_ - kCrcBytes);
-  if (crc32(covered) != load_le(Bytes(bytes_).subspan(covered.size(), kCrcBytes))) return false;
+  if (crc32(covered) != load_little_endian<std::uint32_t>(&bytes_[covered.size()])) return false;
   return rows_are_readable(payload());
 }
 
@@ -123,7 +113,7 @@ ParameterSet Record::set() const {
     if (row.known->kind == ParamKind::text) {
       set.set_text(row.known->id, text_of(row.value));
     } else {
-      set.set(row.known->id, static_cast<std::int32_t>(load_le(row.value)));
+      set.set(row.known->id, static_cast<std::int32_t>(load_little_endian<std::uint32_t>(&row.value[0])));
     }
   }
   return set;
@@ -155,16 +145,16 @@ bool Record::rewrite(const ParameterSet& set, std::uint32_t sequence) {
   return true;
 }
 
-/// Writes what stands around the payload.
+/// Writes header and CRC around the payload.
 void Record::close(std::size_t payload_bytes, std::uint32_t sequence) {
   const std::span<std::uint8_t> bytes(bytes_);
   std::ranges::copy(kMagic, bytes.begin());
   bytes[4] = kFormatVersion;
   bytes[5] = 0;
-  store_le(bytes.subspan(6, 2), static_cast<std::uint32_t>(payload_bytes));
-  store_le(bytes.subspan(8, 4), sequence);
+  store_little_endian(&bytes[6], static_cast<std::uint16_t>(payload_bytes));
+  store_little_endian(&bytes[8], sequence);
   const std::size_t covered = kHeaderBytes + payload_bytes;
-  store_le(bytes.subspan(covered, kCrcBytes), crc32(bytes.first(covered)));
+  store_little_endian(&bytes[covered], crc32(bytes.first(covered)));
   size_ = covered + kCrcBytes;
   std::ranges::fill(bytes.subspan(size_), std::uint8_t{0xFF});
 }

@@ -9,19 +9,19 @@
 
 namespace astro {
 
-/// One parameter set as it lies in flash. All numbers little-endian:
+/// One parameter set as it is stored in flash. All numbers are little-endian:
 ///
 ///   0   4   magic "ASTP"
 ///   4   1   format version, 1
 ///   5   1   0
 ///   6   2   payload bytes
-///   8   4   sequence number, one more than the record before, wraps at 2^32
+///   8   4   sequence number, larger than the previous record's; wraps at 2^32
 ///   12  n   payload: rows of {id, 2 bytes; size, 1 byte; value, `size` bytes}, in any order
 ///   ..  4   CRC-32 of everything before it
 ///
-/// A number is a 4-byte raw value, a text 24 bytes padded with NUL. Rows describe themselves, so firmware
-/// reads the records of older and newer firmware: rows that are missing take their defaults, rows with
-/// unknown ids are kept as they are when the set is rewritten.
+/// A number is a 4-byte raw value, a text is 24 bytes padded with NUL. Rows describe themselves, so firmware
+/// can read the records of older and newer firmware: missing rows get their defaults; rows with unknown ids
+/// are kept unchanged when the set is rewritten.
 ///
 /// Cost    the buffer, 1 KiB; no heap.
 class Record {
@@ -30,30 +30,30 @@ class Record {
   static constexpr std::size_t kHeaderBytes = 12;
   static constexpr std::size_t kCrcBytes = 4;
 
-  /// Size of the record that these bytes begin, or 0 if none begins here. Needs kHeaderBytes.
+  /// The size of the record that begins with these bytes, or 0 if none does. Needs kHeaderBytes.
   static std::size_t announced_bytes(std::span<const std::uint8_t> header);
   static bool has_magic(std::span<const std::uint8_t> bytes);
-  /// What it says of its age, if has_magic(): a damaged one may lie. Needs kHeaderBytes.
+  /// The sequence number that the header claims; wrong if the record is damaged. Needs kHeaderBytes.
+  /// Precondition: has_magic().
   static std::uint32_t announced_sequence(std::span<const std::uint8_t> header);
 
-  /// Forgets what it held and gives room for the `size` <= kMaxBytes bytes of a record, to be filled by the
-  /// caller.
+  /// Drops the present content and returns room for `size` bytes, at most kMaxBytes, which the caller fills.
   std::span<std::uint8_t> room(std::size_t size);
 
-  /// The bytes in room() are one whole record, undamaged and with rows that can be read.
+  /// The bytes in room() are a whole, undamaged record whose rows can be read.
   bool intact() const;
 
-  /// Only when intact().
+  /// Precondition: intact().
   std::uint32_t sequence() const;
   ParameterSet set() const;
 
-  /// Becomes the record of `set`. Keeps the unknown rows of an intact record, none of any other.
-  /// False, and no record any more, if the unknown rows leave too little room.
+  /// Becomes the record of `set`. If the present content is intact, its unknown rows are kept. False if they
+  /// leave too little room; the content is then no record.
   bool rewrite(const ParameterSet& set, std::uint32_t sequence);
 
   std::size_t size() const { return size_; }
 
-  /// The record and the 0xFF after it, `padded_size` >= size() bytes of at most kMaxBytes.
+  /// The record, padded with 0xFF to `padded_size` bytes: size() to kMaxBytes.
   std::span<const std::uint8_t> bytes(std::size_t padded_size) const {
     return std::span(bytes_).first(padded_size);
   }

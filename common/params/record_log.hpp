@@ -6,14 +6,15 @@
 #include <span>
 
 #include "common/base/nor_flash.hpp"
+#include "common/base/serial_number.hpp"
 #include "common/params/record.hpp"
 
 namespace astro {
 
-/// Records in flash, found again whatever lies between them: torn writes, cut erases, rotten bits. A record
-/// starts at a multiple of kUnit, so behind any damage the search goes on at the next unit.
+/// Records in flash. They are found whatever damage lies between them: interrupted writes and erases, rotten
+/// bits. A record starts at a multiple of kUnit, so after damage the search continues at the next unit.
 ///
-/// Holds no state: what the flash says is all there is.
+/// Holds no state: everything is read from the flash.
 template <NorFlash Flash>
 class RecordLog {
  public:
@@ -27,23 +28,21 @@ class RecordLog {
     bool found = false;
     std::uint32_t at = 0;
     std::uint32_t sequence = 0;
-    bool found_outside = false;   // also in another sector
-    std::uint32_t outside = 0;    // the newest there: what is left if the newest's sector is lost
-    std::uint32_t skipped = 0;    // damaged places met on the way
-    std::uint32_t claimed = 0;    // by the damaged record that says it is the newest of them
-    bool damaged_record = false;  // there is one
+    bool found_outside = false;   // another sector has a record, too
+    std::uint32_t outside = 0;    // the newest there: what remains if the sector of the newest is lost
+    std::uint32_t skipped = 0;    // damaged places
+    std::uint32_t claimed = 0;    // the newest sequence number that a damaged record claims
+    bool damaged_record = false;  // there is a damaged record
 
-    /// A record that says it is newer is damaged: it rotted, or its commit was cut short.
-    bool outrun() const {
-      return damaged_record && (!found || static_cast<std::int32_t>(claimed - sequence) > 0);
-    }
+    /// A damaged record claims to be newer: its bits rotted, or the power failed during its commit.
+    bool outrun() const { return damaged_record && (!found || is_newer(claimed, sequence)); }
 
     std::uint32_t sector() const { return at / kSectorBytes; }
   };
 
   explicit RecordLog(Flash& flash) : flash_(flash) {}
 
-  /// Reads all sectors once and leaves the newest intact record in `record`, an empty one if there is none.
+  /// Reads all sectors once. Leaves the newest intact record in `record`, or an empty one if there is none.
   Newest newest(Record& record) const {
     Newest newest;
     for (std::uint32_t sector = 0; sector < kSectors; ++sector) {
@@ -57,17 +56,18 @@ class RecordLog {
     return newest;
   }
 
-  /// Writes behind everything that is in the sector. False if there is no room, or none that reads back.
+  /// Writes after everything that is in the sector. False if no room is left that reads back as written.
   bool append(std::uint32_t sector, const Record& record) {
     const std::uint32_t start = sector * kSectorBytes;
-    // Behind the last byte that is not blank: a torn record has no length to trust.
+    // After the last byte that is not blank: the length in an interrupted record cannot be trusted.
     std::uint32_t at = start + kSectorBytes;
-    while (at > start && blank(read_unit(at - kUnit))) at -= kUnit;
+    while (at > start && is_blank(read_unit(at - kUnit))) at -= kUnit;
     return write_from(at, start + kSectorBytes, record);
   }
 
-  /// Erases the sector, though it may look blank after a cut erase, and writes at its start. What erase()
-  /// says does not matter: a cell that did not erase spoils the record that lies on it and no other.
+  /// Erases the sector and writes at its start. Erases it even if it looks blank, because cells that an
+  /// interrupted erase has left may just read as 1. The result of erase() does not matter: a cell that did
+  /// not erase damages the record that lies on it and no other.
   bool restart(std::uint32_t sector, const Record& record) {
     static_cast<void>(flash_.erase(sector));
     return write_from(sector * kSectorBytes, (sector + 1) * kSectorBytes, record);
@@ -78,9 +78,6 @@ class RecordLog {
 
   static constexpr std::uint32_t padded(std::size_t bytes) {
     return (static_cast<std::uint32_t>(bytes) + kUnit - 1) / kUnit * kUnit;
-  }
-  static bool blank(const Unit& unit) {
-    return std::ranges::all_of(unit, [](std::uint8_t byte) { return byte == 0xFF; });
   }
 
   Unit read_unit(std::uint32_t at) const {
@@ -107,7 +104,7 @@ class RecordLog {
         continue;
       }
       const Unit unit = read_unit(at);
-      const bool damaged = !blank(unit);
+      const bool damaged = !is_blank(unit);
       if (damaged && (!in_damage || Record::has_magic(unit))) ++newest.skipped;
       if (Record::has_magic(unit)) note_damaged(Record::announced_sequence(unit), newest);
       in_damage = damaged;
@@ -115,13 +112,11 @@ class RecordLog {
     }
   }
 
-  /// `here` has gone on from `newest` through one more sector, of which alone it holds the newest record.
+  /// `here` continues `newest` through one more sector, and holds the newest record of that sector only.
   static void merge(Newest here, Newest& newest) {
-    const bool wins =
-        here.found && (!newest.found || static_cast<std::int32_t>(here.sequence - newest.sequence) > 0);
+    const bool wins = here.found && (!newest.found || is_newer(here.sequence, newest.sequence));
     const Newest& left = wins ? newest : here;  // the one that is not the newest
-    if (left.found &&
-        (!newest.found_outside || static_cast<std::int32_t>(left.sequence - newest.outside) > 0)) {
+    if (left.found && (!newest.found_outside || is_newer(left.sequence, newest.outside))) {
       here.found_outside = newest.found_outside = true;
       here.outside = newest.outside = left.sequence;
     }
@@ -133,28 +128,28 @@ class RecordLog {
     newest = here;
   }
 
-  /// Sequence numbers are serial numbers (RFC 1982): the records in flash lie far less than 2^31 apart.
   static void note(std::uint32_t at, std::uint32_t sequence, Newest& newest) {
-    if (newest.found && static_cast<std::int32_t>(sequence - newest.sequence) <= 0) return;
+    if (newest.found && !is_newer(sequence, newest.sequence)) return;
     newest.found = true;
     newest.at = at;
     newest.sequence = sequence;
   }
 
   static void note_damaged(std::uint32_t sequence, Newest& newest) {
-    if (newest.damaged_record && static_cast<std::int32_t>(sequence - newest.claimed) <= 0) return;
+    if (newest.damaged_record && !is_newer(sequence, newest.claimed)) return;
     newest.damaged_record = true;
     newest.claimed = sequence;
   }
 
-  /// Where a cell is stuck the record does not read back, and is tried again behind it.
+  /// If a stuck cell keeps the record from reading back as written, the next place is tried.
   bool write_from(std::uint32_t at, std::uint32_t end, const Record& record) {
     for (; end - at >= padded(record.size()); at += padded(record.size()))
       if (write(at, record)) return true;
     return false;
   }
 
-  /// The record's own bytes decide, not what program() says: they alone make the next search find it or not.
+  /// Reads the record back; the result of program() does not matter, because the next search goes by the
+  /// bytes.
   bool write(std::uint32_t at, const Record& record) {
     static_cast<void>(flash_.program(at, record.bytes(padded(record.size()))));
     const auto wanted = record.bytes(record.size());

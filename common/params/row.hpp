@@ -4,22 +4,21 @@
 #include <cstdint>
 #include <string_view>
 
-/// What the table says about one parameter, and the consteval makers that the table is written with.
+/// The description of one parameter, and the consteval functions that the table is written with.
 ///
-/// Defaults and limits are written as real numbers in the row's unit; the makers turn them into raw integers
-/// when the code is compiled, so no floating point reaches the robot. A number that its scale cannot hold
-/// does not compile.
+/// Defaults and limits are written as real numbers in the row's unit. The compiler turns them into raw
+/// integers, so no floating point reaches the robot. A number that does not fit its scale does not compile.
 namespace astro {
 
 enum class Param : std::uint16_t;
 
-/// How a raw value is to be read. Part of the wire protocol: append only.
+/// How to read a raw value. The numbers are those of protocol::ParameterKind, which also has 3 for a flag: no
+/// row has been one so far.
 enum class ParamKind : std::uint8_t {
-  binary_scaled,   // value = raw * 2^exponent
-  decimal_scaled,  // value = raw * 10^exponent
-  integer,         // value = raw
-  flag,            // raw is 0 or 1
-  text,            // the limits bound the number of characters
+  binary_scaled = 0,   // value = raw * 2^exponent
+  decimal_scaled = 1,  // value = raw * 10^exponent
+  integer = 2,         // value = raw
+  text = 4,            // the limits bound the number of characters
 };
 
 inline constexpr std::size_t kParamNameMax = 23;
@@ -52,7 +51,7 @@ void this_number_does_not_fit_its_scale();  // never defined: naming it stops a 
 
 consteval std::int32_t raw(double value, double steps_per_unit) {
   const double scaled = value * steps_per_unit;
-  const double nearest = scaled < 0 ? scaled - 0.5 : scaled + 0.5;  // the conversion cuts towards zero
+  const double nearest = scaled < 0 ? scaled - 0.5 : scaled + 0.5;  // the conversion rounds towards zero
   constexpr double kEnd = 2147483648.0;
   if (!(nearest < kEnd) || !(nearest > -kEnd - 1)) this_number_does_not_fit_its_scale();
   return static_cast<std::int32_t>(nearest);

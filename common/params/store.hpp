@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "common/base/result.hpp"
+#include "common/base/serial_number.hpp"
 #include "common/params/parameter_set.hpp"
 #include "common/params/record_log.hpp"
 
@@ -11,19 +12,19 @@ namespace astro {
 
 enum class LoadStatus : std::uint8_t {
   loaded,     // the newest set that was committed
-  no_record,  // fresh or wholly damaged flash: factory defaults
+  no_record,  // the flash is new or wholly damaged: factory defaults
   refused,    // this firmware's validate() refuses the newest set: factory defaults
 };
 
 struct Load {
   ParameterSet set;
   LoadStatus status = LoadStatus::no_record;
-  Param refused = Param::none;  // what validate() named
+  Param refused = Param::none;  // the row that validate() named
   std::uint32_t sequence = 0;   // of the newest record; 0 without one
-  std::uint32_t skipped = 0;    // damaged places: bit rot, torn writes, a sector whose erase was cut
+  std::uint32_t skipped = 0;    // damaged places: rotten bits, interrupted writes and erases
   bool two_sectors = false;     // an older record lies in another sector than the newest ...
   std::uint32_t outside = 0;    // ... and this is the newest there
-  bool outrun = false;  // one of them says it is newer than `set`: it rotted, or its commit was cut short
+  bool outrun = false;          // a damaged record claims to be newer than `set` (RecordLog)
 };
 
 enum class CommitError : std::uint8_t {
@@ -33,19 +34,19 @@ enum class CommitError : std::uint8_t {
   flash_failed,  // no sector takes the record
 };
 
-/// Keeps parameter sets in flash as a log of records that runs through the sectors in turn, so wear is even.
-/// The sector that holds the newest record is never erased: whenever the power goes, the next load() finds
-/// either the old set or the new one.
+/// Keeps parameter sets in flash as a log of records that uses the sectors in turn, so that wear is even. The
+/// sector of the newest record is never erased: whenever the power fails, the next load() finds either the
+/// old set or the new one.
 ///
-/// Flash: at least two sectors of at least one record. Used only while the robot is at rest.
-/// Cost: load and commit read all sectors once; commit programs one record, and erases a sector each time one
-/// is full. RAM: one Record, no heap.
+/// Flash  at least two sectors of at least one record; used only while the robot is at rest
+/// Cost   load and commit read all sectors once; commit programs one record, and erases a sector whenever one
+///        is full. RAM: one Record; no heap
 template <NorFlash Flash>
 class Store {
  public:
   explicit Store(Flash& flash) : log_(flash) {}
 
-  /// The newest intact set, whatever lies around it.
+  /// Returns the newest intact set, whatever damage lies around it.
   Load load() {
     const auto newest = log_.newest(record_);
     Load load{.set = {},
@@ -66,14 +67,14 @@ class Store {
     return load;
   }
 
-  /// Makes `set` the one that load() finds, and proves it by reading back. Rows that only newer firmware
-  /// knows stay as they are. After any error load() finds what it found before. `beyond` is a sequence number
-  /// that was reached already, by records that may be lost.
+  /// Writes `set`, so that load() finds it, and reads it back. Rows that only newer firmware knows stay as
+  /// they are. After an error load() finds what it found before. `beyond` is a sequence number that was
+  /// already used, perhaps by records that are lost now.
   Result<void, CommitError> commit(const ParameterSet& set, std::optional<std::uint32_t> beyond = {}) {
     if (!validate(set)) return CommitError::refused;
     const auto newest = log_.newest(record_);
     std::uint32_t sequence = next_sequence(newest);
-    if (beyond && static_cast<std::int32_t>(*beyond + 1 - sequence) > 0) sequence = *beyond + 1;
+    if (beyond && is_newer(*beyond + 1, sequence)) sequence = *beyond + 1;
     if (!record_.rewrite(set, sequence)) return CommitError::no_room;
     const bool written = newest.found ? write_after(newest.sector()) : write_first();
     if (!written) return CommitError::flash_failed;
@@ -84,14 +85,14 @@ class Store {
   static constexpr std::uint32_t kSectors = RecordLog<Flash>::kSectors;
   static_assert(kSectors >= 2, "one sector is erased while another holds the set");
 
-  /// Past whatever a damaged record can claim: a bit that was torn half way may read well again one day, and
-  /// must not make an older set the newest.
+  /// Larger than any number that a damaged record can claim. A bit that was written halfway may read
+  /// correctly one day, and must not make an older set the newest.
   static std::uint32_t next_sequence(const typename RecordLog<Flash>::Newest& newest) {
     return newest.found || newest.skipped != 0 ? newest.sequence + newest.skipped + 1 : 0;
   }
 
-  /// Behind the newest record or at the start of the next sector, which is the oldest; of any other if that
-  /// one is worn out.
+  /// Writes after the newest record, or at the start of the next sector, which is the oldest. If that one is
+  /// worn out, tries the others.
   bool write_after(std::uint32_t sector) {
     if (log_.append(sector, record_)) return true;
     for (std::uint32_t step = 1; step < kSectors; ++step) {

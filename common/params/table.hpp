@@ -9,8 +9,7 @@
 
 namespace astro {
 
-/// Every parameter of the robot. The numbers are stored in flash and sent on the wire: append only, never
-/// reuse.
+/// Every parameter of the robot. The numbers are stored and sent, so they are append only and never reused.
 enum class Param : std::uint16_t {
   none = 0,  // no parameter; names nothing
   c_R,
@@ -136,11 +135,11 @@ inline constexpr auto kParamTable = std::to_array<ParamRow>({
 
 inline constexpr std::size_t kParamCount = kParamTable.size();
 
-/// Where the row of `id` stands; only for ids that the table has.
+/// Index of the row of `id`. Precondition: the table has it.
 constexpr std::size_t param_index(Param id) { return static_cast<std::size_t>(id) - 1; }
 constexpr const ParamRow& param_row(Param id) { return kParamTable[param_index(id)]; }
 
-/// The row with this id or name, or nullptr: ids and names come from flash and from hosts.
+/// The row with this id or name, or nullptr: ids and names come from flash and hosts and may be unknown.
 constexpr const ParamRow* find_param(std::uint16_t id) {
   return id >= 1 && id <= kParamCount ? &kParamTable[id - 1U] : nullptr;
 }

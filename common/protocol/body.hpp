@@ -5,31 +5,32 @@
 #include <span>
 #include <string_view>
 
+#include "common/base/little_endian.hpp"
 #include "common/base/result.hpp"
 
-/// What a frame carries: a header, then the fields of one message.
+/// The content of a frame: a header, then the fields of one message.
 namespace astro::protocol {
 
 inline constexpr std::size_t kHeaderSize = 3;
 inline constexpr std::size_t kMaxBody = 256;
 
-/// `request_id` is the host's choice, and the reply repeats it; 0 marks an event.
+/// The host chooses `request_id`, and the reply repeats it; 0 marks an event.
 struct Header {
   std::uint8_t message_id = 0;
   std::uint16_t request_id = 0;
   constexpr bool operator==(const Header&) const = default;
 };
 
-/// Request ids with this bit come from an onlooker: a program that shares the port with the driver, behind
-/// the program that has it open. They are no sign of life of the driver.
+/// Request ids with this bit come from an onlooker: a program that shares the port with the program that has
+/// it open. They are no sign of life of the host that drives.
 inline constexpr std::uint16_t kOnlookerBit = 0x8000;
 constexpr bool from_onlooker(const Header& header) { return (header.request_id & kOnlookerBit) != 0; }
 
 enum class DecodeError : std::uint8_t {
   too_short,  // the body ends before the message does
-  too_long,   // bytes are left over: a peer of another version
+  too_long,   // bytes are left over: the peer has another version
   wrong_id,   // the body holds another message
-  bad_value,  // an enumeration, a text's padding or a group mask that this version does not know
+  bad_value,  // an unknown enumeration value or group bit, or text after a NUL
 };
 
 constexpr std::string_view name(DecodeError error) {
@@ -37,10 +38,10 @@ constexpr std::string_view name(DecodeError error) {
   return kNames[static_cast<std::size_t>(error)];
 }
 
-/// The header alone, to choose what to decode. Errors: too_short.
+/// Reads only the header, which says what to decode. Errors: too_short.
 constexpr Result<Header, DecodeError> peek(std::span<const std::uint8_t> body) {
   if (body.size() < kHeaderSize) return DecodeError::too_short;
-  return Header{body[0], static_cast<std::uint16_t>(body[1] | (body[2] << 8))};
+  return Header{body[0], load_little_endian<std::uint16_t>(&body[1])};
 }
 
 }  // namespace astro::protocol

@@ -7,18 +7,19 @@
 
 #include "common/base/result.hpp"
 
-/// Consistent overhead byte stuffing: rewrites any bytes without zeros, so that a zero can end a frame. Each
-/// block is a code byte n and n - 1 data bytes; n < 255 stands for a zero after them, except at the very end.
+/// Consistent overhead byte stuffing: encodes any bytes without zeros, so that a zero can end a frame. Each
+/// block is a code byte n and n - 1 data bytes; n < 255 means that a zero follows them, except at the end of
+/// the data.
 ///
 /// Source  Cheshire and Baker, "Consistent Overhead Byte Stuffing", IEEE/ACM Transactions on Networking 7(2),
-/// 1999.
+///         1999
 namespace astro::cobs {
 
 enum class Error : std::uint8_t {
   no_room,      // `out` is too small; decode may have filled it
   empty,        // an encoding has at least one byte
   zero_inside,  // an encoding contains no zero
-  cut_short,    // the last block promises more bytes than there are
+  cut_short,    // the last block announces more bytes than there are
 };
 
 constexpr std::string_view name(Error error) {
@@ -26,11 +27,11 @@ constexpr std::string_view name(Error error) {
   return kNames[static_cast<std::size_t>(error)];
 }
 
-/// Bytes that the encoding of `size` bytes has at most; the ending zero is not counted.
+/// The largest size of the encoding of `size` bytes, without the zero at its end.
 constexpr std::size_t max_encoded_size(std::size_t size) { return size == 0 ? 1 : size + (size + 253) / 254; }
 
-/// Encodes `data` into `out`, which has room for max_encoded_size(data.size()), and returns the number of
-/// bytes written, at least 1. Never writes a zero. The spans do not overlap.
+/// Encodes `data` into `out`, which needs room for max_encoded_size(data.size()), and returns the number of
+/// bytes written, at least 1. Never writes a zero. The spans must not overlap.
 constexpr Result<std::size_t, Error> encode(std::span<const std::uint8_t> data, std::span<std::uint8_t> out) {
   if (out.size() < max_encoded_size(data.size())) return Error::no_room;
   std::size_t code_at = 0;
@@ -48,9 +49,9 @@ constexpr Result<std::size_t, Error> encode(std::span<const std::uint8_t> data, 
   return end;
 }
 
-/// Decodes a whole encoding (without its ending zero) into `out` and returns the number of bytes written,
-/// less than code.size(). `out` may begin where `code` begins. Also takes the form with a superfluous last
-/// block 0x01 after a full one, which some encoders write.
+/// Decodes a whole encoding (without the zero at its end) into `out` and returns the number of bytes written,
+/// which is less than code.size(). `out` may begin where `code` begins. Also accepts a superfluous last block
+/// 0x01 after a full one, which some encoders write.
 constexpr Result<std::size_t, Error> decode(std::span<const std::uint8_t> code, std::span<std::uint8_t> out) {
   if (code.empty()) return Error::empty;
   std::size_t end = 0;

@@ -10,10 +10,10 @@
 #include "common/protocol/body.hpp"
 #include "common/protocol/value_codec.hpp"
 
-/// Messages to bodies and back, from the schema alone.
+/// Encodes messages to bodies and decodes them; everything follows from the schema.
 ///
 /// Cost    encode and decode check the length once, then move words; no table, no branch per integer. Main
-/// loop.
+///         loop.
 namespace astro::protocol {
 
 namespace detail {
@@ -59,12 +59,12 @@ constexpr std::size_t size_of_groups(const M& message) {
 
 }  // namespace detail
 
-/// Size of the largest body of M, header included. All bodies of a message without groups have this size.
+/// The size of the largest body of M, with its header. All bodies of a message without groups have this size.
 template <Message M>
 inline constexpr std::size_t kBodySize = kHeaderSize + detail::Wire<M>::kSize;
 
-/// Writes the body of `message` to `out` and returns its size. Cannot fail: every message fits. A message
-/// with groups names only its own groups in `fields`: the receiver refuses a bit that it does not know.
+/// Writes the body of `message` to `out` and returns its size. Cannot fail: every message fits. In `fields` a
+/// message with groups may only name groups that it has, because the receiver refuses other bits.
 template <Message M>
 constexpr std::size_t encode(const M& message, std::uint16_t request_id,
                              std::span<std::uint8_t, kMaxBody> out) {
@@ -80,8 +80,8 @@ constexpr std::size_t encode(const M& message, std::uint16_t request_id,
   return static_cast<std::size_t>(at - out.data());
 }
 
-/// Reads a body that peek() found to hold an M. Groups that are not on the wire keep their default. Errors:
-/// all of DecodeError; the length must be exact in every version.
+/// Reads the body of an M. Groups that are not on the wire keep their default values. Errors: all of
+/// DecodeError; the length must be exact.
 template <Message M>
 constexpr Result<M, DecodeError> decode(std::span<const std::uint8_t> body) {
   constexpr std::size_t kFixed = detail::fixed_size<M>();

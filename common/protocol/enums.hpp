@@ -11,13 +11,13 @@
 /// Enumerations on the wire: one byte each, values append only.
 namespace astro::protocol {
 
-/// What the robot is doing. Disarmed, fault and boot leave the bridges open; `wheels` is open-loop voltage.
+/// What the robot is doing. In disarmed, fault and boot the bridges are open; `wheels` is open-loop voltage.
 enum class Mode : std::uint8_t { disarmed, idle, velocity, segment, stopping, fault, boot, wheels, paused };
 inline constexpr std::array<std::string_view, 9> kModeNames{
     "disarmed", "idle", "velocity", "segment", "stopping", "fault", "boot", "wheels", "paused"};
 constexpr std::span<const std::string_view> names(Mode) { return kModeNames; }
 
-/// The motors drive the wheels. In all other modes they brake or are off, and the robot may roll on.
+/// The motors drive the wheels. In all other modes they brake or are off, and the robot may still roll.
 constexpr bool gives_power(Mode mode) {
   return mode == Mode::velocity || mode == Mode::segment || mode == Mode::stopping || mode == Mode::wheels;
 }
@@ -30,21 +30,21 @@ enum class SegmentOutcome : std::uint8_t { completed, aborted };
 inline constexpr std::array<std::string_view, 2> kSegmentOutcomeNames{"completed", "aborted"};
 constexpr std::span<const std::string_view> names(SegmentOutcome) { return kSegmentOutcomeNames; }
 
-/// How a parameter's raw integer becomes a value: raw * 2^exponent, raw * 10^exponent, raw itself, 0 or 1; a
-/// text has no raw value.
+/// How a parameter's raw integer becomes a value: raw * 2^exponent, raw * 10^exponent, raw itself, 0 or 1. A
+/// text has no raw value. No parameter has been a flag so far; the number stays reserved for it.
 enum class ParameterKind : std::uint8_t { binary_scaled, decimal_scaled, integer, flag, text };
 inline constexpr std::array<std::string_view, 5> kParameterKindNames{"binary_scaled", "decimal_scaled",
                                                                      "integer", "flag", "text"};
 constexpr std::span<const std::string_view> names(ParameterKind) { return kParameterKindNames; }
 
-/// Why the processor last started; the same values as the board's own reset cause.
+/// Why the processor last started. The values are those of hal::ResetCause.
 enum class ResetCause : std::uint8_t { power_on, software, watchdog, fault, pin, unknown };
 inline constexpr std::array<std::string_view, 6> kResetCauseNames{"power_on", "software", "watchdog",
                                                                   "fault",    "pin",      "unknown"};
 constexpr std::span<const std::string_view> names(ResetCause) { return kResetCauseNames; }
 
-/// Why a request was refused; a refused request has changed nothing. ErrorReply's detail is 0 where the
-/// meaning below names none.
+/// Why a request was refused; a refused request has changed nothing. ErrorReply's detail is 0 unless the
+/// meaning below says otherwise.
 enum class ErrorCode : std::uint8_t {
   unknown_message,
   malformed,
@@ -93,7 +93,7 @@ inline constexpr std::array<std::string_view, 14> kErrorCodeMeanings{
 };
 constexpr std::span<const std::string_view> names(ErrorCode) { return kErrorCodeNames; }
 
-/// One clause for people.
+/// The meaning in words.
 constexpr std::string_view meaning(ErrorCode code) {
   return known(code) ? kErrorCodeMeanings[static_cast<std::size_t>(code)]
                      : "an error of another protocol version";

@@ -6,8 +6,8 @@
 #include <span>
 #include <string_view>
 
-/// The parts of a message's description. A message is a plain struct with kId, kName, kDoc and kFields: a
-/// tuple of Field and Group in wire order. Codec, tests and README.md all walk that one tuple.
+/// The parts of a message's description. A message is a plain struct with kId, kName, kDoc and kFields, a
+/// tuple of Field and Group in wire order. Codec, tests and README.md all follow from that tuple.
 namespace astro::protocol {
 
 /// One value. `unit` is unit and scale for people ("1e-6 m/s"), empty where there is none.
@@ -40,19 +40,19 @@ inline constexpr bool kIsGroup = false;
 template <class M, class T>
 inline constexpr bool kIsGroup<Group<M, T>> = true;
 
-/// An enumeration whose values count from 0 without gaps, each with a name: names(E{}) lists them.
+/// An enumeration whose values count from 0 without gaps and have names: names(E{}) lists them.
 template <class E>
 concept Named = requires(E value) {
   { names(value) } -> std::convertible_to<std::span<const std::string_view>>;
 };
 
-/// False for a value that only another version can have sent.
+/// False for a value that only another version of the protocol knows.
 template <Named E>
 constexpr bool known(E value) {
   return static_cast<std::size_t>(value) < names(value).size();
 }
 
-/// For people and logs; "?" for a value that this version does not know.
+/// The value's name; "?" for a value that this version does not know.
 template <Named E>
 constexpr std::string_view name(E value) {
   return known(value) ? names(value)[static_cast<std::size_t>(value)] : "?";
@@ -66,7 +66,7 @@ concept Message = requires {
   T::kFields;
 };
 
-/// Requests say by whom they are answered: their own reply, or Ack. ErrorReply is always possible instead.
+/// A request names its reply: one of its own, or Ack. An ErrorReply can always come instead.
 template <class T>
 concept Request = Message<T> && requires {
   typename T::Reply;

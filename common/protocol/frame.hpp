@@ -10,7 +10,7 @@
 
 namespace astro::protocol {
 
-/// A message ready to be sent: all bytes of its frame, the ending 0x00 included. Fits on the stack.
+/// All bytes of a message's frame, with the 0x00 at its end. Small enough for the stack.
 class Frame {
  public:
   template <Message M>

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "common/base/crc32.hpp"
-#include "common/protocol/value_codec.hpp"
+#include "common/base/little_endian.hpp"
 
 namespace astro::protocol {
 
@@ -12,7 +12,7 @@ std::size_t encode_frame(std::span<const std::uint8_t> body,
   if (body.size() < kHeaderSize || body.size() > kMaxBody) return 0;
   std::array<std::uint8_t, kMaxBody + kCrcSize> plain;
   auto* const end = std::copy(body.begin(), body.end(), plain.data());
-  detail::Wire<std::uint32_t>::put(end, crc32(body));
+  store_little_endian(end, crc32(body));
   const auto code = cobs::encode(std::span(plain).first(body.size() + kCrcSize), out);
   out[*code] = 0;
   return *code + 1;
@@ -33,9 +33,7 @@ std::optional<std::span<const std::uint8_t>> Framer::finish() noexcept {
   const std::size_t body_size = *plain - kCrcSize;
   if (body_size > kMaxBody) return drop(counts_.oversize);
   const auto body = std::span<const std::uint8_t>(code_).first(body_size);
-  std::uint32_t sent = 0;
-  bool good = true;
-  detail::Wire<std::uint32_t>::get(code_.data() + body_size, sent, good);
+  const auto sent = load_little_endian<std::uint32_t>(code_.data() + body_size);
   if (sent != crc32(body)) return drop(counts_.bad_crc);
   ++counts_.good;
   return body;

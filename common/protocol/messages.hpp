@@ -16,18 +16,19 @@
 #include "common/protocol/telemetry.hpp"
 
 /// THE schema: every message of the protocol. Wire order and layout follow from the kFields tuples; README.md
-/// beside this file is written from them.
+/// in this folder is generated from them.
 ///
-/// Ids     0x01-0x3F requests, 0x80 | request its own reply, 0x7E and 0x7F the general replies, 0xC0-0xFF
-///         events. Append only: an id that was once used keeps its meaning or is left unused.
+/// Ids     0x01-0x3F   requests
+///         0x80 | id   the reply of the request with that id
+///         0x7E, 0x7F  the general replies
+///         0xC0-0xFF   events
+///         Append only: an id that was once used keeps its meaning or is left unused.
 namespace astro::protocol {
 
 /// A list of message types. `visit` calls `f.template operator()<M>()` for each, in order.
 template <Message... M>
 struct MessageList {
   static constexpr std::size_t kSize = sizeof...(M);
-  static constexpr std::array<std::uint8_t, kSize> kIds{M::kId...};
-  static constexpr std::array<std::string_view, kSize> kNames{M::kName...};
 
   template <class F>
   static constexpr void visit(F&& f) {
@@ -44,26 +45,14 @@ using Replies = MessageList<Ack, ErrorReply, HelloReply, Pong, Status, Parameter
                             FaultReport, FaultLogEntry>;
 using Events = MessageList<Telemetry, SegmentDone, FaultRaised, Booted, SegmentStarted, EventsMissed>;
 
-/// Bytes of the largest frame that carries one of these messages, its 0x00 included.
+/// The size of the largest frame of these messages, with its 0x00.
 template <Message... M>
 consteval std::size_t largest_frame(MessageList<M...>) {
   return largest_frame_of(std::max({kBodySize<M>...}));
 }
 inline constexpr std::size_t kMaxReplyFrame = largest_frame(Replies{});
-/// The same of the events that are not Telemetry.
+/// The same for the events other than Telemetry.
 inline constexpr std::size_t kMaxEventFrame =
     largest_frame(MessageList<SegmentDone, FaultRaised, Booted, SegmentStarted, EventsMissed>{});
-
-/// For people and logs; "?" for an id that this version does not know.
-constexpr std::string_view message_name(std::uint8_t id) {
-  std::string_view found = "?";
-  const auto look = [&]<Message M>() {
-    if (M::kId == id) found = M::kName;
-  };
-  Requests::visit(look);
-  Replies::visit(look);
-  Events::visit(look);
-  return found;
-}
 
 }  // namespace astro::protocol

@@ -42,7 +42,7 @@ struct EmergencyStop {
   using Reply = Ack;
   static constexpr std::uint8_t kId = 0x07;
   static constexpr std::string_view kName = "EmergencyStop";
-  static constexpr std::string_view kDoc = "Latches the emergency_stop fault: zero duty at once.";
+  static constexpr std::string_view kDoc = "Latches the fault emergency_stop: zero duty at once.";
   static constexpr std::tuple<> kFields{};
   bool operator==(const EmergencyStop&) const = default;
 };
@@ -71,7 +71,7 @@ struct WheelVoltage {
   static constexpr std::uint8_t kId = 0x16;
   static constexpr std::string_view kName = "WheelVoltage";
   static constexpr std::string_view kDoc =
-      "Puts voltages on the motors, open loop, until the next motion request or the command timeout.";
+      "Puts voltages on the motors in open loop, until the next motion request or the command timeout.";
   static constexpr std::tuple kFields{
       Field{&WheelVoltage::left_mv, "left_mv", "mV", "left motor, forward positive; limited by the supply"},
       Field{&WheelVoltage::right_mv, "right_mv", "mV",
@@ -96,14 +96,14 @@ struct AddSegment {
       "Appends a motion from rest to rest to the queue; SegmentDone reports its end under the same tag.";
   static constexpr std::tuple kFields{
       Field{&AddSegment::kind, "kind", "", "shape"},
-      Field{&AddSegment::tag, "tag", "", "the host's own name for it"},
+      Field{&AddSegment::tag, "tag", "", "the host's own number for it"},
       Field{&AddSegment::length_nm, "length_nm", "1e-9 m",
             "signed path length of the robot centre; 0 for a spin or a stop"},
       Field{&AddSegment::angle, "angle", "2^-32 turn", "signed change of heading; 0 for a line or a stop"},
       Field{&AddSegment::speed_umps, "speed_umps", "1e-6 m/s", "greatest speed; 0: the robot's limit"},
       Field{&AddSegment::yaw_rate_uradps, "yaw_rate_uradps", "1e-6 rad/s",
             "greatest yaw rate; 0: the robot's limit"},
-      Field{&AddSegment::dwell_ms, "dwell_ms", "ms", "time to stand, of a stop; 0 for all others"},
+      Field{&AddSegment::dwell_ms, "dwell_ms", "ms", "time to wait, for a stop; 0 for all others"},
   };
   bool operator==(const AddSegment&) const = default;
 };
@@ -113,7 +113,7 @@ struct Pause {
   static constexpr std::uint8_t kId = 0x17;
   static constexpr std::string_view kName = "Pause";
   static constexpr std::string_view kDoc =
-      "Comes to rest on the path; the rest of the segment and the queue wait for Resume.";
+      "Stops on the path; the rest of the segment and the queue wait for Resume.";
   static constexpr std::tuple<> kFields{};
   bool operator==(const Pause&) const = default;
 };
@@ -122,7 +122,7 @@ struct Resume {
   using Reply = Ack;
   static constexpr std::uint8_t kId = 0x18;
   static constexpr std::string_view kName = "Resume";
-  static constexpr std::string_view kDoc = "Goes on with the path after a Pause.";
+  static constexpr std::string_view kDoc = "Continues the path after a Pause.";
   static constexpr std::tuple<> kFields{};
   bool operator==(const Resume&) const = default;
 };
@@ -136,7 +136,7 @@ struct SetPose {
   static constexpr std::uint8_t kId = 0x0A;
   static constexpr std::string_view kName = "SetPose";
   static constexpr std::string_view kDoc =
-      "The odometry goes on from this pose of the base in the odom frame.";
+      "The odometry continues from this pose of the base in the odom frame.";
   static constexpr std::tuple kFields{
       Field{&SetPose::x, "x", "2^-40 m", ""},
       Field{&SetPose::y, "y", "2^-40 m", ""},
@@ -167,7 +167,7 @@ struct SegmentStarted {
 
   static constexpr std::uint8_t kId = 0xC4;
   static constexpr std::string_view kName = "SegmentStarted";
-  static constexpr std::string_view kDoc = "A segment is under way; after a Pause, once more.";
+  static constexpr std::string_view kDoc = "A segment has begun, or continues after a Pause.";
   static constexpr std::tuple kFields{
       Field{&SegmentStarted::tag, "tag", "", "as in AddSegment"},
       Field{&SegmentStarted::device_time_us, "device_time_us", "us", "when"},

@@ -13,9 +13,9 @@
 /// one set.
 ///
 /// The staging area belongs to one session. RevertParameters and DefaultParameters open it for the port that
-/// asks and take it from any other; a Hello at its owner's port closes it. StageParameter, CommitParameters
-/// and ApplyParameters of anybody else are refused (staging_lost), so a set is never a mixture of two
-/// programs' values.
+/// asks and take it from any other port; a Hello at its owner's port closes it. StageParameter,
+/// CommitParameters and ApplyParameters from another port are refused (staging_lost), so a set never mixes
+/// the values of two programs.
 namespace astro::protocol {
 
 struct ParameterInfo {
@@ -32,13 +32,13 @@ struct ParameterInfo {
   static constexpr std::uint8_t kId = 0x8B;
   static constexpr std::string_view kName = "ParameterInfo";
   static constexpr std::string_view kDoc =
-      "All that a host must know to show and set a parameter it has never seen.";
+      "Everything that a host must know to show and set a parameter it has never seen.";
   static constexpr std::tuple kFields{
       Field{&ParameterInfo::id, "id", "",
             "the parameter's name on the wire, the same in all firmware versions"},
       Field{&ParameterInfo::name, "name", "", "the parameter's name for people"},
-      Field{&ParameterInfo::unit, "unit", "", "of raw * scale"},
-      Field{&ParameterInfo::kind, "kind", "", "how raw becomes a value"},
+      Field{&ParameterInfo::unit, "unit", "", "of the scaled value"},
+      Field{&ParameterInfo::kind, "kind", "", "how a raw number becomes a value"},
       Field{&ParameterInfo::scale_exponent, "scale_exponent", "",
             "value = raw * 2^exponent or raw * 10^exponent"},
       Field{&ParameterInfo::minimum, "minimum", "raw", "least allowed"},
@@ -72,14 +72,15 @@ struct ParameterValue {
   static constexpr std::uint8_t kId = 0x8C;
   static constexpr std::string_view kName = "ParameterValue";
   static constexpr std::string_view kDoc =
-      "A parameter's value: in force, and as this session has staged it.";
+      "A parameter's value: the one in force and the one that this session has staged.";
   static constexpr std::tuple kFields{
       Field{&ParameterValue::id, "id", "", "as in ParameterInfo"},
       Field{&ParameterValue::active, "active", "raw", "in force; 0 for a text"},
-      Field{&ParameterValue::staged, "staged", "raw", "staged by this session, else as active; 0 for a text"},
+      Field{&ParameterValue::staged, "staged", "raw",
+            "staged by this session, otherwise as active; 0 for a text"},
       Field{&ParameterValue::active_text, "active_text", "", "in force; empty unless kind is text"},
       Field{&ParameterValue::staged_text, "staged_text", "",
-            "staged by this session, else as active; empty unless kind is text"},
+            "staged by this session, otherwise as active; empty unless kind is text"},
   };
   bool operator==(const ParameterValue&) const = default;
 };
@@ -120,9 +121,8 @@ struct CommitParameters {
   static constexpr std::uint8_t kId = 0x0E;
   static constexpr std::string_view kName = "CommitParameters";
   static constexpr std::string_view kDoc =
-      "Checks the staged set as a whole, puts it in force, and writes to flash what was staged since the "
-      "area was opened; "
-      "all of it or nothing.";
+      "Validates the staged set as a whole and puts it in force. Writes the values that were staged in this "
+      "area to flash: all of them or none.";
   static constexpr std::tuple<> kFields{};
   bool operator==(const CommitParameters&) const = default;
 };
@@ -132,7 +132,7 @@ struct RevertParameters {
   static constexpr std::uint8_t kId = 0x0F;
   static constexpr std::string_view kName = "RevertParameters";
   static constexpr std::string_view kDoc =
-      "Opens the staging area for this session: the staged set is the one in force.";
+      "Opens the staging area for this session, with the values in force.";
   static constexpr std::tuple<> kFields{};
   bool operator==(const RevertParameters&) const = default;
 };
@@ -142,7 +142,7 @@ struct DefaultParameters {
   static constexpr std::uint8_t kId = 0x10;
   static constexpr std::string_view kName = "DefaultParameters";
   static constexpr std::string_view kDoc =
-      "Opens the staging area for this session: the staged set is the factory defaults.";
+      "Opens the staging area for this session, with the factory defaults.";
   static constexpr std::tuple<> kFields{};
   bool operator==(const DefaultParameters&) const = default;
 };
@@ -152,9 +152,8 @@ struct ApplyParameters {
   static constexpr std::uint8_t kId = 0x1A;
   static constexpr std::string_view kName = "ApplyParameters";
   static constexpr std::string_view kDoc =
-      "The staged set comes in force until the next restart, and is no part of the next commit; while "
-      "driving, if nothing "
-      "but gains differs.";
+      "Puts the staged set in force until the next restart, without making it part of the next commit. While "
+      "the robot drives only gains may differ.";
   static constexpr std::tuple<> kFields{};
   bool operator==(const ApplyParameters&) const = default;
 };

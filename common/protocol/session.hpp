@@ -5,15 +5,16 @@
 #include <string_view>
 #include <tuple>
 
+#include "common/base/result.hpp"
 #include "common/base/text.hpp"
 #include "common/protocol/enums.hpp"
 #include "common/protocol/field.hpp"
 
-/// Who is there, and the two general replies.
+/// Identification, and the two general replies.
 namespace astro::protocol {
 
-/// Counts every change of the schema, new enumeration values included. Hello, HelloReply and ErrorReply keep
-/// their layout in all versions, so that peers that differ can say so.
+/// Increases with every change of the schema, including new enumeration values. Hello, HelloReply and
+/// ErrorReply keep their layout in all versions, so that peers of different versions can say so.
 inline constexpr std::uint16_t kProtocolVersion = 3;
 
 struct Ack {
@@ -33,10 +34,14 @@ struct ErrorReply {
   static constexpr std::string_view kDoc = "The request was refused and has changed nothing. Layout frozen.";
   static constexpr std::tuple kFields{
       Field{&ErrorReply::code, "code", "", "why"},
-      Field{&ErrorReply::detail, "detail", "", "as the code's meaning says, else 0"},
+      Field{&ErrorReply::detail, "detail", "", "as the code's meaning says, otherwise 0"},
   };
   bool operator==(const ErrorReply&) const = default;
 };
+
+/// What a request gets: its reply, or the reason why it was refused.
+template <class Reply>
+using Answer = Result<Reply, ErrorReply>;
 
 struct HelloReply {
   std::uint16_t protocol_version = kProtocolVersion;
@@ -51,16 +56,18 @@ struct HelloReply {
 
   static constexpr std::uint8_t kId = 0x81;
   static constexpr std::string_view kName = "HelloReply";
-  static constexpr std::string_view kDoc = "Who the robot is. Layout frozen.";
+  static constexpr std::string_view kDoc = "Identifies the robot. Layout frozen.";
   static constexpr std::tuple kFields{
-      Field{&HelloReply::protocol_version, "protocol_version", "", "what the robot speaks"},
+      Field{&HelloReply::protocol_version, "protocol_version", "", "the robot's version"},
       Field{&HelloReply::fw_major, "fw_major", "", "firmware version"},
       Field{&HelloReply::fw_minor, "fw_minor", "", "firmware version"},
       Field{&HelloReply::fw_patch, "fw_patch", "", "firmware version"},
-      Field{&HelloReply::unique_id, "unique_id", "", "no other robot has it; the same at every start"},
-      Field{&HelloReply::board, "board", "", "which port of the firmware this is"},
-      Field{&HelloReply::robot_name, "robot_name", "", "the parameter of that name"},
-      Field{&HelloReply::parameter_count, "parameter_count", "", "indices of GetParameterInfo end before it"},
+      Field{&HelloReply::unique_id, "unique_id", "",
+            "differs from every other robot's; the same at every start"},
+      Field{&HelloReply::board, "board", "", "name of the board that the firmware was built for"},
+      Field{&HelloReply::robot_name, "robot_name", "", "the parameter robot_name"},
+      Field{&HelloReply::parameter_count, "parameter_count", "",
+            "the indices of GetParameterInfo are less than this"},
       Field{&HelloReply::tick_hz, "tick_hz", "Hz", "rate of the control tick"},
   };
   bool operator==(const HelloReply&) const = default;
@@ -72,9 +79,10 @@ struct Hello {
   using Reply = HelloReply;
   static constexpr std::uint8_t kId = 0x01;
   static constexpr std::string_view kName = "Hello";
-  static constexpr std::string_view kDoc = "Asks who is there; answered whatever the version. Layout frozen.";
+  static constexpr std::string_view kDoc =
+      "Asks the robot to identify itself; answered whatever the version. Layout frozen.";
   static constexpr std::tuple kFields{
-      Field{&Hello::protocol_version, "protocol_version", "", "what the host speaks"},
+      Field{&Hello::protocol_version, "protocol_version", "", "the host's version"},
   };
   bool operator==(const Hello&) const = default;
 };
@@ -104,7 +112,7 @@ struct Reboot {
   using Reply = Ack;
   static constexpr std::uint8_t kId = 0x14;
   static constexpr std::string_view kName = "Reboot";
-  static constexpr std::string_view kDoc = "Coasts, acknowledges, restarts.";
+  static constexpr std::string_view kDoc = "Opens the bridges, acknowledges, and restarts.";
   static constexpr std::tuple<> kFields{};
   bool operator==(const Reboot&) const = default;
 };
@@ -113,7 +121,7 @@ struct EnterBootloader {
   using Reply = Ack;
   static constexpr std::uint8_t kId = 0x15;
   static constexpr std::string_view kName = "EnterBootloader";
-  static constexpr std::string_view kDoc = "Coasts, acknowledges, waits for new firmware; or unsupported.";
+  static constexpr std::string_view kDoc = "Opens the bridges, acknowledges, and waits for new firmware.";
   static constexpr std::tuple<> kFields{};
   bool operator==(const EnterBootloader&) const = default;
 };

@@ -9,7 +9,7 @@
 #include "common/protocol/session.hpp"
 #include "common/safety/fault.hpp"
 
-/// How the robot is: status, faults, start.
+/// The robot's state: status, faults, start.
 namespace astro::protocol {
 
 struct Status {
@@ -27,18 +27,18 @@ struct Status {
 
   static constexpr std::uint8_t kId = 0x83;
   static constexpr std::string_view kName = "Status";
-  static constexpr std::string_view kDoc = "How the robot is.";
+  static constexpr std::string_view kDoc = "The robot's state.";
   static constexpr std::tuple kFields{
       Field{&Status::device_time_us, "device_time_us", "us", "since power-on"},
       Field{&Status::mode, "mode", "", "what it is doing"},
       Field{&Status::latched_faults, "latched_faults", "bit mask", "bit n is Fault n"},
-      Field{&Status::queued_segments, "queued_segments", "", "waiting, the running one not counted"},
+      Field{&Status::queued_segments, "queued_segments", "", "segments that wait, without the running one"},
       Field{&Status::running_tag, "running_tag", "", "tag of the running segment, 0 if none runs"},
       Field{&Status::battery_mv, "battery_mv", "mV", "motor supply, filtered"},
       Field{&Status::tick_count, "tick_count", "ticks", "control ticks since start, wraps"},
-      Field{&Status::tick_overruns, "tick_overruns", "ticks", "ticks that did not come in time"},
+      Field{&Status::tick_overruns, "tick_overruns", "ticks", "ticks that did not come on time"},
       Field{&Status::tick_longest_us, "tick_longest_us", "us", "longest time between two ticks since start"},
-      Field{&Status::rx_bad_frames, "rx_bad_frames", "frames", "received on all ports and dropped"},
+      Field{&Status::rx_bad_frames, "rx_bad_frames", "frames", "damaged frames at all ports"},
       Field{&Status::reset_cause, "reset_cause", "", "why the processor last started"},
   };
   bool operator==(const Status&) const = default;
@@ -48,7 +48,7 @@ struct GetStatus {
   using Reply = Status;
   static constexpr std::uint8_t kId = 0x03;
   static constexpr std::string_view kName = "GetStatus";
-  static constexpr std::string_view kDoc = "Asks how the robot is.";
+  static constexpr std::string_view kDoc = "Asks for the robot's state.";
   static constexpr std::tuple<> kFields{};
   bool operator==(const GetStatus&) const = default;
 };
@@ -61,10 +61,10 @@ struct FaultReport {
 
   static constexpr std::uint8_t kId = 0x92;
   static constexpr std::string_view kName = "FaultReport";
-  static constexpr std::string_view kDoc = "What is latched and what came first.";
+  static constexpr std::string_view kDoc = "The latched faults and the first one.";
   static constexpr std::tuple kFields{
       Field{&FaultReport::latched, "latched", "bit mask", "bit n is Fault n"},
-      Field{&FaultReport::first, "first", "", "the first one since the last clear"},
+      Field{&FaultReport::first, "first", "", "the first one since faults were last cleared"},
       Field{&FaultReport::first_time_us, "first_time_us", "us", "device time of the first one"},
       Field{&FaultReport::raised_count, "raised_count", "", "faults raised since start"},
   };
@@ -95,7 +95,7 @@ struct FaultRaised {
 
   static constexpr std::uint8_t kId = 0xC2;
   static constexpr std::string_view kName = "FaultRaised";
-  static constexpr std::string_view kDoc = "A fault was latched: the drives have zero duty.";
+  static constexpr std::string_view kDoc = "A fault was latched.";
   static constexpr std::tuple kFields{
       Field{&FaultRaised::fault, "fault", "", "which"},
       Field{&FaultRaised::device_time_us, "device_time_us", "us", "when"},
@@ -108,7 +108,7 @@ struct Booted {
 
   static constexpr std::uint8_t kId = 0xC3;
   static constexpr std::string_view kName = "Booted";
-  static constexpr std::string_view kDoc = "The firmware has started; earlier requests are lost.";
+  static constexpr std::string_view kDoc = "The firmware has started; earlier requests are forgotten.";
   static constexpr std::tuple kFields{
       Field{&Booted::reset_cause, "reset_cause", "", "why"},
   };
@@ -121,9 +121,10 @@ struct EventsMissed {
   static constexpr std::uint8_t kId = 0xC5;
   static constexpr std::string_view kName = "EventsMissed";
   static constexpr std::string_view kDoc =
-      "Events before the next one were dropped, because this port did not take them in time.";
+      "Events before the next one were dropped because this port did not take them in time.";
   static constexpr std::tuple kFields{
-      Field{&EventsMissed::count, "count", "", "how many since the last time; 65535: that many or more"},
+      Field{&EventsMissed::count, "count", "",
+            "how many since the last EventsMissed; 65535: that many or more"},
   };
   bool operator==(const EventsMissed&) const = default;
 };

@@ -8,8 +8,8 @@
 #include "common/protocol/field.hpp"
 #include "common/protocol/session.hpp"
 
-/// The stream of measurements. The host chooses groups by a bit mask; one Telemetry carries the chosen groups
-/// in bit order, all taken at the same tick.
+/// The stream of measurements. The host chooses groups by a bit mask; a Telemetry carries the chosen groups
+/// in bit order, all from the same tick.
 namespace astro::protocol {
 
 struct PoseGroup {
@@ -21,7 +21,8 @@ struct PoseGroup {
       Field{&PoseGroup::x, "x", "2^-40 m", "base in the odom frame"},
       Field{&PoseGroup::y, "y", "2^-40 m", "base in the odom frame"},
       Field{&PoseGroup::theta, "theta", "2^-64 turn", "heading"},
-      Field{&PoseGroup::turns, "turns", "turns", "whole turns to add to theta: the heading without wraps"},
+      Field{&PoseGroup::turns, "turns", "turns",
+            "whole turns; with theta they are the heading without wraps"},
   };
   bool operator==(const PoseGroup&) const = default;
 };
@@ -92,10 +93,10 @@ struct PathGroup {
   std::int32_t heading_error_urad = 0;
   static constexpr std::tuple kFields{
       Field{&PathGroup::tag, "tag", "", "of the running segment, 0 if none runs"},
-      Field{&PathGroup::progress, "progress", "2^-15", "how much of it has been driven"},
+      Field{&PathGroup::progress, "progress", "2^-15", "part of the segment that has been driven"},
       Field{&PathGroup::queued, "queued", "", "segments that wait"},
       Field{&PathGroup::cross_track_um, "cross_track_um", "1e-6 m",
-            "how far the path is to the robot's left"},
+            "distance of the path to the robot's left"},
       Field{&PathGroup::heading_error_urad, "heading_error_urad", "1e-6 rad",
             "the path's heading minus the robot's"},
   };
@@ -129,9 +130,9 @@ struct Telemetry {
   static constexpr std::uint8_t kId = 0xC0;
   static constexpr std::string_view kName = "Telemetry";
   static constexpr std::string_view kDoc =
-      "One sample; groups whose bit is not set in `fields` are not on the wire.";
+      "One sample. Groups whose bit is not set in `fields` are not on the wire.";
   static constexpr std::tuple kFields{
-      Field{&Telemetry::device_time_us, "device_time_us", "us", "of the tick that all groups belong to"},
+      Field{&Telemetry::device_time_us, "device_time_us", "us", "time of the tick that all groups belong to"},
       Field{&Telemetry::fields, "fields", "bit mask", "which groups follow"},
       Group{&Telemetry::pose, 0, "pose", "odometry"},
       Group{&Telemetry::counts, 1, "counts", "encoder counts since start"},
@@ -153,7 +154,8 @@ struct SetTelemetry {
   using Reply = Ack;
   static constexpr std::uint8_t kId = 0x11;
   static constexpr std::string_view kName = "SetTelemetry";
-  static constexpr std::string_view kDoc = "Chooses what Telemetry carries to this port and how often.";
+  static constexpr std::string_view kDoc =
+      "Chooses the groups of Telemetry for this port and how often it comes.";
   static constexpr std::tuple kFields{
       Field{&SetTelemetry::period_ms, "period_ms", "ms", "0: off"},
       Field{&SetTelemetry::fields, "fields", "bit mask", "as in Telemetry"},

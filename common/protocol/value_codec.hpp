@@ -8,14 +8,13 @@
 #include <string_view>
 #include <tuple>
 #include <type_traits>
-#include <utility>
 
+#include "common/base/little_endian.hpp"
 #include "common/base/text.hpp"
 #include "common/protocol/field.hpp"
 
-/// How each supported type looks on the wire: little-endian, packed. `put` and `get` move one value and
-/// return the position after it; they do not check room, which the message codec has done for the whole
-/// message.
+/// How each supported type is encoded: little-endian, packed. `put` and `get` move one value and return the
+/// position after it. They do not check for room; the message codec has done that for the whole message.
 namespace astro::protocol::detail {
 
 template <class T>
@@ -34,21 +33,13 @@ template <WireInteger T>
 struct Wire<T> {
   static constexpr std::size_t kSize = sizeof(T);
   using Bits = std::make_unsigned_t<T>;
-  using Indices = std::make_index_sequence<sizeof(T)>;
 
-  // Unrolled by hand: the compiler merges the byte moves into one word move, which it does not do for a loop.
   static constexpr std::uint8_t* put(std::uint8_t* at, T value) {
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-      ((at[I] = static_cast<std::uint8_t>(static_cast<Bits>(value) >> (8 * I))), ...);
-    }
-    (Indices{});
+    store_little_endian(at, static_cast<Bits>(value));
     return at + kSize;
   }
   static constexpr const std::uint8_t* get(const std::uint8_t* at, T& value, bool&) {
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-      value = static_cast<T>(((static_cast<Bits>(at[I]) << (8 * I)) | ...));
-    }
-    (Indices{});
+    value = static_cast<T>(load_little_endian<Bits>(at));
     return at + kSize;
   }
 };
@@ -88,7 +79,7 @@ struct Wire<Text<N>> {
   static constexpr std::uint8_t* put(std::uint8_t* at, const Text<N>& text) {
     return std::copy(text.characters().begin(), text.characters().end(), at);
   }
-  // Anything behind the first NUL is refused, so that equal texts have equal bytes on the wire as well.
+  // Refuses other bytes after the first NUL, so that equal texts have equal bytes on the wire, too.
   static constexpr const std::uint8_t* get(const std::uint8_t* at, Text<N>& text, bool& good) {
     std::array<char, N> characters{};
     std::copy_n(at, N, characters.begin());

@@ -8,8 +8,8 @@
 
 namespace astro {
 
-/// What can stop the robot by itself. Each is latched until cleared and means zero duty. The values go over
-/// the wire and into logs: append only.
+/// What makes the robot stop by itself. A fault is latched until it is cleared and means zero duty. The
+/// values are sent and stored, so they are append only.
 enum class Fault : std::uint8_t {
   none,
   command_timeout,  // no velocity command for longer than the parameter allows
@@ -19,13 +19,13 @@ enum class Fault : std::uint8_t {
   over_voltage,     // battery above its upper limit
   over_speed,       // a wheel turns faster than the limits allow
   stall,            // duty without motion
-  encoder,          // counts that the motor cannot have produced
-  tick_overrun,     // the control tick did not end in time
+  encoder,          // counts that the motor cannot have made
+  tick_overrun,     // the control tick did not come on time
   parameters,       // the parameters that were committed last are lost or refused
   flash,            // flash did not read back what was written
-  emergency_stop,   // commanded by a host
+  emergency_stop,   // a host demanded it
   runaway,          // a wheel turns against its voltage, or faster than the voltage can turn it
-  watchdog,         // the firmware hung or derailed, and was restarted
+  watchdog,         // the firmware hung or crashed, and was restarted
   stop_timeout,     // the wheels did not come to rest although they were told to
 };
 

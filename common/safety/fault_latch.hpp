@@ -6,8 +6,8 @@
 
 namespace astro {
 
-/// Remembers what went wrong until somebody says that it has been seen: a mask of faults, the first of them,
-/// its time, and how often any was raised since the start.
+/// Remembers faults until they are cleared: a mask of them, the first one and its time; and how many were
+/// raised since the start.
 class FaultLatch {
  public:
   /// True if this fault was not latched yet.

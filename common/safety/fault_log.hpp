@@ -7,26 +7,28 @@
 #include <span>
 
 #include "common/base/nor_flash.hpp"
+#include "common/base/serial_number.hpp"
 #include "common/safety/fault_record.hpp"
 
 namespace astro {
 
-/// The faults of this start and of those before it, in flash: a ring of slots through the sectors, of which
-/// the oldest is erased when all are full. A power cut loses the entry under way and no other; of two sectors
-/// the newest kSlots entries stay, whenever it comes.
+/// The faults of this start and of earlier ones, in flash: a ring of slots through all sectors. If all slots
+/// are full the oldest sector is erased. A power cut loses at most the entry that is being written; with two
+/// sectors the newest kSlots entries always survive.
 ///
-/// A slot that cannot be read is passed over, one that does not take an entry too. When no other sector takes
-/// one, the newest sector itself is erased: the fault of today is worth more than those before it.
+/// A slot that cannot be read or does not take an entry is skipped. If no other sector takes an entry, the
+/// newest sector itself is erased: the present fault is worth more than earlier ones.
 ///
-/// Holds no state: what the flash says is all there is.
+/// Holds no state: everything is read from the flash.
 ///
-/// Flash   at least two sectors. Written only while the robot stands with its outputs off.
+/// Flash   at least two sectors. Written only while the wheels have stopped and the outputs are off.
 /// Cost    each call reads all slots, 128 on the reference robot; append programs one, and erases a sector
 ///         each time one is full. No heap; 64 bytes of stack.
 template <NorFlash Flash>
 class FaultLog {
  public:
-  /// Longer than an entry: a later format may say more, and entries of two formats can lie side by side.
+  /// Longer than an entry, so that a later format can say more and entries of two formats can lie side by
+  /// side.
   static constexpr std::uint32_t kSlotBytes = std::max<std::uint32_t>(64, Flash::kProgramBytes);
   static constexpr std::uint32_t kSlots = Flash::kSectorBytes / kSlotBytes;  // of a sector
   static_assert(Flash::kSectors >= 2, "one sector is erased while another holds the newest entries");
@@ -39,11 +41,11 @@ class FaultLog {
   void walk(More&& more) const {
     const Place newest = this->newest();
     if (!newest.found || !more(newest.entry)) return;
-    // Backwards round the ring. Where an erase did not take something newer may lie: it is not of this round.
+    // Backwards round the ring. A newer entry can only be left over from a failed erase, so it is skipped.
     std::uint32_t last = newest.entry.number;
     for (std::uint32_t back = 1; back < kAll; ++back) {
       const auto older = read((newest.at + kAll - back) % kAll);
-      if (!older || !newer(last, older->number)) continue;
+      if (!older || !is_newer(last, older->number)) continue;
       if (!more(*older)) return;
       last = older->number;
     }
@@ -73,7 +75,8 @@ class FaultLog {
     return false;
   }
 
-  /// Of a slot, what an entry takes. What is left belongs to others: an entry neither reads nor writes it.
+  /// What an entry takes of its slot. The rest of the slot belongs to others: the log never reads or writes
+  /// it.
   static constexpr std::uint32_t kWrittenBytes =
       (kFaultRecordBytes + Flash::kProgramBytes - 1) / Flash::kProgramBytes * Flash::kProgramBytes;
 
@@ -83,12 +86,9 @@ class FaultLog {
 
   struct Place {
     bool found = false;
-    std::uint32_t at = 0;  // slots from the first sector's begin
+    std::uint32_t at = 0;  // slots from the beginning of the first sector
     LoggedFault entry;
   };
-
-  /// Serial numbers (RFC 1982): the entries in flash lie far less than 2^31 apart.
-  static bool newer(std::uint32_t a, std::uint32_t b) { return static_cast<std::int32_t>(a - b) > 0; }
 
   static constexpr std::uint32_t offset(std::uint32_t slot) {
     return slot / kSlots * Flash::kSectorBytes + slot % kSlots * kSlotBytes;
@@ -111,19 +111,19 @@ class FaultLog {
     Place newest;
     for (std::uint32_t slot = 0; slot < kAll; ++slot) {
       const auto entry = read(slot);
-      if (!entry || (newest.found && newer(newest.entry.number, entry->number))) continue;
+      if (!entry || (newest.found && is_newer(newest.entry.number, entry->number))) continue;
       newest = {true, slot, *entry};
     }
     return newest;
   }
 
-  /// Into the first blank slot of the sector, from `slot` on, that keeps it.
+  /// Writes to the first blank slot of the sector, from `slot` on, that reads back as written.
   bool write(std::uint32_t sector, std::uint32_t slot, const Written& bytes) {
     for (; slot < kSlots; ++slot) {
       const std::uint32_t at = offset(sector * kSlots + slot);
       Written held;
       flash_.read(at, held);
-      if (!std::ranges::all_of(held, [](std::uint8_t byte) { return byte == 0xFF; })) continue;
+      if (!is_blank(held)) continue;
       static_cast<void>(flash_.program(at, bytes));
       flash_.read(at, held);
       if (held == bytes) return true;

@@ -10,22 +10,22 @@
 
 namespace astro {
 
-/// What was going on when a fault came.
+/// What the robot was doing when a fault came.
 struct FaultCircumstances {
   std::uint64_t time_us = 0;  // since that start
   std::int32_t battery_mv = 0;
   std::int32_t left_umps = 0, right_umps = 0;  // observed, at the wheels' rims
-  std::uint16_t missed = 0;                    // faults before it that were not logged
-  Fault fault = Fault::none;                   // newer firmware may have left one without a name
-  std::uint8_t mode = 0;                       // number of a protocol::Mode: what the robot was doing
+  std::uint16_t missed = 0;                    // faults before this one that were not logged
+  Fault fault = Fault::none;                   // may be a fault of newer firmware, without a name here
+  std::uint8_t mode = 0;                       // number of a protocol::Mode
 
   bool operator==(const FaultCircumstances&) const = default;
 };
 
 /// An entry of the fault log.
 struct LoggedFault {
-  std::uint32_t number = 0;  // one more than the entry before, through all starts; wraps
-  std::uint32_t start = 0;   // starts of the robot that logged a fault, counted from 1; wraps
+  std::uint32_t number = 0;  // one more than the previous entry's, across all starts; wraps
+  std::uint32_t start = 0;   // counts the starts that logged a fault, from 1 on; wraps
   FaultCircumstances was;
 
   bool operator==(const LoggedFault&) const = default;
@@ -47,7 +47,7 @@ inline constexpr std::size_t kFaultRecordBytes = 40;
 using FaultRecord = std::array<std::uint8_t, kFaultRecordBytes>;
 
 FaultRecord encode(const LoggedFault& entry);
-/// Nothing if the bytes are not one whole entry, undamaged.
+/// Returns nothing if the bytes are not a whole, undamaged entry.
 std::optional<LoggedFault> decode(const FaultRecord& record);
 
 }  // namespace astro

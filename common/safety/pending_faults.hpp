@@ -9,14 +9,14 @@
 
 namespace astro {
 
-/// Faults that wait to be logged until the robot stands, the oldest first: what came first is the cause. What
-/// does not fit is counted in the next entry's `missed`.
+/// Faults that wait to be logged until the robot has stopped, the oldest first, because the first fault is
+/// the cause of the others. Faults that do not fit are counted in `missed` of the next entry.
 ///
-/// A storm must not wear out the flash, nor push older faults out of it. A host that clears a fault again and
-/// again can raise it a thousand times a second; so
-///   * a fault that comes within kSame_us of the same one is not logged again
-///   * of all others kBurst are logged at once and then one per kEvery_us
-/// Two sectors of 64 entries that bear 100,000 erases each then last 24 years of storm.
+/// A storm of faults must neither wear out the flash nor push older faults out of it: a host that clears a
+/// fault again and again can make it come back a thousand times a second. Therefore
+///   * a fault that comes within kSame_us after the same fault is not logged again
+///   * of all others kBurst are logged at once, and then one per kEvery_us
+/// Two sectors of 64 entries that endure 100,000 erases each then last through 24 years of storm.
 ///
 /// Cost    120 bytes on the Teensy.
 class PendingFaults {
@@ -43,7 +43,7 @@ class PendingFaults {
 
   bool empty() const { return count_ == 0; }
 
-  /// Only when not empty().
+  /// Precondition: not empty().
   FaultCircumstances pop() {
     const FaultCircumstances oldest = waiting_[0];
     std::shift_left(waiting_.begin(), waiting_.end(), 1);

@@ -6,10 +6,10 @@
 
 namespace astro {
 
-/// What the robot may do. One table says how it gets from one to the other, and one what its bridges may do
-/// meanwhile.
+/// What the robot may do. One table says which event leads to which state, another what the bridges may do in
+/// each state.
 enum class State : std::uint8_t {
-  boot,      // the tick has not yet proven its rate
+  boot,      // the tick has not shown yet that it comes at 1 kHz
   disarmed,  // nothing moves until somebody arms
   armed,     // at rest, ready to drive
   driving,   // a command or a path moves the wheels
@@ -18,16 +18,16 @@ enum class State : std::uint8_t {
 };
 inline constexpr std::size_t kStates = 6;
 
-/// What takes it from one to the other.
+/// What takes the robot from one state to another.
 enum class Event : std::uint8_t {
   proven,  // ticks have come on time
   arm,     // a host lets the robot drive
-  disarm,  // a host takes that back
+  disarm,  // a host no longer lets it drive
   drive,   // there is something to drive
-  stop,    // to rest, by a ramp
-  rest,    // the wheels stand, or are to stand at once
-  fault,   // off, now
-  clear,   // a person has seen what was latched
+  stop,    // ramp to rest
+  rest,    // the wheels have stopped, or are to stop at once
+  fault,   // outputs off at once
+  clear,   // a person has seen the latched faults
 };
 inline constexpr std::size_t kEvents = 8;
 
@@ -57,7 +57,7 @@ inline constexpr std::array<Permission, kStates> kPermission{Permission::open,  
 
 }  // namespace state_detail
 
-/// False, and no change, if the event means nothing there.
+/// False, and no change, if the state refuses the event.
 constexpr bool advance(State& state, Event event) {
   const State next = state_detail::kNext[static_cast<std::size_t>(state)][static_cast<std::size_t>(event)];
   if (next == state_detail::kNo) return false;

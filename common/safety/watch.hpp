@@ -4,7 +4,7 @@
 
 namespace astro {
 
-/// True once a condition has held for `limit` ticks in a row.
+/// Debounces a condition: advance() returns true once the condition has held `limit` times in a row.
 class Watch {
  public:
   bool advance(bool condition, std::uint32_t limit) {

@@ -7,22 +7,26 @@
 #include <span>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
-/// What a board gives to the firmware. Concepts, not base classes: one board per binary, no indirection in
-/// the control interrupt, and each port ends in `static_assert(hal::Board<Board>)`.
+#include "common/base/nor_flash.hpp"
+
+/// What a board gives to the firmware. These are concepts, not base classes: a binary has one board, so the
+/// control interrupt needs no indirection. Each port ends in `static_assert(hal::Board<Board>)`.
 ///
-/// The words beside each call are the contract; tests/contract holds every port to them.
+/// The comments are the contract; tests/contract checks every port against it.
 namespace astro::hal {
 
 /// Running counts of both quadrature decoders, read at one instant. Each wraps at 2^32, so the difference of
-/// two readings less than 2^31 counts apart is exact. Positive counts are the decoder's own sense: the
-/// polarity parameters, not the board, make forward positive.
+/// two readings is exact if they are less than 2^31 counts apart. The sign is the decoder's own: the polarity
+/// parameters, not the board, make forward positive.
 struct EncoderCounts {
   std::int32_t left = 0;
   std::int32_t right = 0;
 };
 
-/// Duty of both H-bridges as a fraction of the bus voltage, Q15: +-32767 is full drive, sign is direction.
+/// Duty of both H-bridges as a fraction of the bus voltage, Q15: +-32767 is full drive, the sign is the
+/// direction.
 struct Duty {
   std::int16_t left = 0;
   std::int16_t right = 0;
@@ -32,7 +36,7 @@ struct Duty {
 /// Why the processor last started.
 enum class ResetCause : std::uint8_t { power_on, software, watchdog, fault, pin, unknown };
 
-/// Monotonic microseconds since power-on. 64 bits: never wraps. Callable from tick and main loop.
+/// Monotonic microseconds since power-on; 64 bits never wrap. Callable from tick and main loop.
 template <class T>
 concept Clock = requires(const T& clock) {
   { clock.now_us() }
@@ -47,8 +51,8 @@ concept Encoders = requires(T& encoders) {
 
 /// Two H-bridges. At power-on both coast.
 ///   drive(d)   drives both; replaces brake and coast
-///   brake()    shorts both motors: they resist turning
-///   coast()    opens both bridges; always legal, from any context, and the state to fall back to
+///   brake()    shorts both motors, so that they resist turning
+///   coast()    opens both bridges; allowed at any time from any context, so every failure can end in it
 ///   fault()    true while the driver reports over-current or over-temperature
 template <class T>
 concept Motors = requires(T& motors, Duty duty) {
@@ -69,13 +73,12 @@ concept Battery = requires(T& battery) {
   noexcept->std::same_as<std::int32_t>;
 };
 
-/// Byte streams to hosts (USB CDC, UART, pty): `kPorts` of them, all carrying the same protocol. Main loop
-/// only.
-///   read(port, into)    moves what has arrived, at most into.size(); 0 if nothing. Never blocks.
-///   write(port, bytes)  takes as many as there is room for and returns that number. Never blocks; a host
-///   that
-///                       does not read never stops the robot.
-///   room(port)          bytes that write would take now
+/// `kPorts` byte streams to hosts (USB CDC, UART, pty). All carry the same protocol. Main loop only.
+///   read(port, into)    moves the bytes that have arrived, at most into.size(), and returns their number;
+///                       never blocks
+///   write(port, bytes)  takes as many bytes as there is room for and returns their number; never blocks, so
+///                       a host that does not read cannot stop the robot
+///   room(port)          the number of bytes that write would take now
 template <class T>
 concept Ports = requires(T& ports, int port, std::span<std::uint8_t> into,
                          std::span<const std::uint8_t> bytes) {
@@ -88,37 +91,22 @@ concept Ports = requires(T& ports, int port, std::span<std::uint8_t> into,
   noexcept->std::same_as<std::size_t>;
 };
 
-/// NOR flash set aside for parameters and fault log: `kSectors` sectors of `kSectorBytes`, four at least.
-/// Main loop only; erase and program with the robot at rest: the processor may stand still for a whole erase.
-///   erase(sector)            every byte of the sector becomes 0xFF
-///   program(offset, bytes)   clears bits: the result is old AND new. offset and size are multiples of
-///                            kProgramBytes and stay within one sector.
-///   read(offset, into)
-/// erase and program return false if a read-back differs; a power cut leaves any mixture of old and new bits
-/// in the bytes under way, and no others.
+/// The NOR flash that keeps parameters and fault log, as common/base/nor_flash.hpp describes it; four sectors
+/// or more. Main loop only. Erase and program only while the robot is at rest, because the processor may
+/// stand still for a whole erase.
 template <class T>
-concept Flash = requires(T& flash, std::uint32_t at, std::span<std::uint8_t> into,
-                         std::span<const std::uint8_t> bytes) {
-  { T::kSectors } -> std::convertible_to<std::uint32_t>;
-  { T::kSectorBytes } -> std::convertible_to<std::uint32_t>;
-  { T::kProgramBytes } -> std::convertible_to<std::uint32_t>;
-  { flash.erase(at) }
-  noexcept->std::same_as<bool>;
-  { flash.program(at, bytes) }
-  noexcept->std::same_as<bool>;
-  { flash.read(at, into) }
-  noexcept->std::same_as<void>;
-};
+concept Flash = NorFlash<T> && T::kSectors >= 4;
 
 /// The processor itself.
 ///   unique_id()        128 bits that no other robot has; the same at every start
 ///   name()             board name, at most 23 ASCII characters, e.g. "sim", "teensy40"
-///   reset_cause()      why this start happened
-///   reboot()           coasts, then restarts; on hardware does not return
-///   enter_bootloader() coasts, then waits for new firmware; on hardware does not return. False: not
-///                      supported
-///   host_wants_bootloader()  true once after a host asked for new firmware past the protocol, by the means
-///                      that this kind of board has for it (a Teensy: 134 baud); granted only when disarmed
+///   reset_cause()      why the processor last started
+///   reboot()           coasts, then restarts; does not return on hardware
+///   enter_bootloader() coasts, then waits for new firmware; does not return on hardware. False if the board
+///                      cannot do it
+///   host_wants_bootloader()
+///                      true once after a host has asked for the bootloader without the protocol, in the way
+///                      of this kind of board (a Teensy: by setting 134 baud)
 ///   feed_watchdog()    called only when every task has checked in
 template <class T>
 concept System = requires(T& system) {
@@ -138,8 +126,9 @@ concept System = requires(T& system) {
   noexcept->std::same_as<void>;
 };
 
-/// A whole board. `hold_tick()` returns a guard for the main loop: while it lives the control tick does not
-/// run, so that the two share data. Hold it for microseconds, never around I/O.
+/// A whole board. `hold_tick()` returns a guard for the main loop: while the guard lives the control tick
+/// does not run, so the main loop can use what it shares with the tick. Keep it for microseconds, never
+/// during I/O. The guard cannot be copied.
 template <class T>
 concept Board = requires(T& board) {
   requires Clock<std::remove_reference_t<decltype(board.clock())>>;
@@ -151,5 +140,9 @@ concept Board = requires(T& board) {
   requires System<std::remove_reference_t<decltype(board.system())>>;
   board.hold_tick();
 };
+
+/// The guard that `hold_tick()` returns. Code that gets one knows that the control tick does not run.
+template <class Board>
+using TickHold = decltype(std::declval<Board&>().hold_tick());
 
 }  // namespace astro::hal

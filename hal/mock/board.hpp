@@ -10,8 +10,8 @@
 #include "hal/mock/motors.hpp"
 #include "hal/mock/ports.hpp"
 
-/// A board moved by hand: a test sets every input and reads every output. Nothing happens by itself, not even
-/// time.
+/// A board without a world: a test sets every input and reads every output. Nothing happens by itself; even
+/// time passes only when the test sets it.
 namespace astro::mock {
 
 struct Clock {
@@ -37,7 +37,7 @@ struct System {
   std::array<std::uint8_t, 16> id{0x4D, 0x4F, 0x43, 0x4B};
   hal::ResetCause cause = hal::ResetCause::power_on;
   bool has_bootloader = true;
-  bool bootloader_wanted = false;  // set to what a host asks for past the protocol
+  bool bootloader_wanted = false;  // set it to ask for the bootloader without the protocol
   int reboots = 0, bootloader_entries = 0, watchdog_feeds = 0;  // calls so far
 
   std::array<std::uint8_t, 16> unique_id() noexcept { return id; }
@@ -71,7 +71,7 @@ class Board {
   Flash& flash() { return flash_; }
   System& system() { return system_; }
 
-  /// Counts how many guards live, so that a test can tell what ran under one.
+  /// Counts the guards that live, so that a test can see what runs while the tick is held.
   class [[nodiscard]] Hold {
    public:
     explicit Hold(int& depth) : depth_(depth) { ++depth_; }

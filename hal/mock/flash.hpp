@@ -7,17 +7,17 @@
 
 namespace astro::mock {
 
-/// Flash in RAM with NOR rules. Its grain of 8 bytes and its four sectors differ from the
-/// simulator's on purpose: code that assumes either fails on one of the two boards.
+/// NOR flash in RAM. Its program unit of 8 bytes and its four sectors differ from the simulator's on purpose:
+/// code that assumes either fails on one of the two boards.
 ///
-/// Misuse (outside the part, across a sector's end, unaligned) changes nothing and returns false.
+/// Misuse (outside the flash, across a sector's end, unaligned) changes nothing and returns false.
 struct Flash {
   static constexpr std::uint32_t kSectors = 4;
   static constexpr std::uint32_t kSectorBytes = 4096;
   static constexpr std::uint32_t kProgramBytes = 8;
 
   std::array<std::uint8_t, std::size_t{kSectors}* kSectorBytes> content = erased();
-  bool broken = false;           // nothing sticks any more: erase and program change nothing and return false
+  bool broken = false;           // true: erase and program change nothing and return false
   int erases = 0, programs = 0;  // calls so far
 
   bool erase(std::uint32_t sector) noexcept {

@@ -6,10 +6,10 @@ namespace astro::mock {
 
 enum class Bridge : std::uint8_t { coast, brake, drive };
 
-/// H-bridges that drive nothing and remember what they were told.
+/// H-bridges without motors, which remember the calls.
 struct Motors {
   Bridge state = Bridge::coast;
-  hal::Duty duty;  // of the last drive(); stays through brake() and coast()
+  hal::Duty duty;  // of the last drive(); brake() and coast() do not change it
   bool faulted = false;
   int drives = 0, brakes = 0, coasts = 0;  // calls so far
 

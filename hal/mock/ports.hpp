@@ -10,8 +10,8 @@
 
 namespace astro::mock {
 
-/// Serial ports as two piles of bytes each. A test fills `to_robot`, takes from `to_host`, and chooses how
-/// much a lazy host leaves room for.
+/// Serial ports with a queue of bytes in each direction. A test fills `to_robot`, takes from `to_host`, and
+/// chooses the room that a slow host leaves.
 struct Ports {
   static constexpr int kPorts = 2;
 

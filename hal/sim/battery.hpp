@@ -5,7 +5,7 @@
 
 #include "hal/sim/config.hpp"
 
-/// The motor supply: a source with one internal resistance, and the analog input that watches it.
+/// The motor supply: a source with an internal resistance, and the analog input that measures it.
 namespace astro::sim {
 
 class Battery {
@@ -16,12 +16,12 @@ class Battery {
   /// Supply voltage under load through a first-order filter of about 50 Hz.
   std::int32_t millivolts() noexcept { return static_cast<std::int32_t>(std::lround(filtered_V_ * 1000.0)); }
 
-  /// Charge falls, or somebody turns the bench supply's knob.
+  /// As when the charge falls or somebody turns the knob of a bench supply.
   void set_open_circuit_V(double volts) { open_circuit_V_ = volts; }
   double open_circuit_V() const { return open_circuit_V_; }
   double resistance_ohm() const { return resistance_ohm_; }
 
-  /// Once per tick: the bus voltage as it is now.
+  /// Called once per tick with the present bus voltage.
   void observe(double bus_V) { filtered_V_ += kFilter * (bus_V - filtered_V_); }
 
  private:

@@ -12,9 +12,9 @@
 #include "hal/sim/slip.hpp"
 #include "hal/sim/system.hpp"
 
-/// The simulated robot as a board. The owner runs it: after each control tick of the firmware, advance_tick()
-/// moves the world on by 1 ms. Everything is a function of the configuration, the seed and the calls made:
-/// the same ones give the same bytes.
+/// The simulated robot as a board. Its owner runs it: after each control tick of the firmware, advance_tick()
+/// moves the world on by 1 ms. Everything follows from the configuration, the seed and the calls, so the same
+/// calls give the same bytes.
 ///
 /// Cost    advance_tick() about 100 ns while driving, 40 ns at rest; no heap after construction.
 namespace astro::sim {
@@ -51,14 +51,14 @@ class Board {
   /// Moves the world on by one control tick.
   void advance_tick();
 
-  /// The processor starts again: clock, counts, queues and bridges as at power-on; flash and world as they
-  /// are.
+  /// The processor restarts: clock, counts, queues and bridges are as at power-on; flash and world stay as
+  /// they are.
   void restart(hal::ResetCause cause);
 
-  /// Virtual time since construction, through all restarts.
+  /// Virtual time since construction; a restart does not reset it.
   std::uint64_t world_us() const { return world_us_; }
 
-  /// Where the robot really is; starts at the origin. It is of one instant with the encoder counts.
+  /// The robot's true pose, at the same instant as the encoder counts; starts at the origin.
   Pose truth() const { return chassis_.pose(); }
   void place(const Pose& pose) { chassis_.place(pose); }
 

@@ -2,22 +2,22 @@
 
 #include <cmath>
 
-/// Where the robot really is. Each step is the exact arc of constant wheel speeds:
+/// The robot's true pose. Each step is the exact arc of constant wheel speeds:
 ///
-///   d = (dR + dL) / 2,  a = (dR - dL) / b,  p <- p + R(theta) (d sin(a)/a, d (1 - cos a)/a),  theta <- theta
-///   + a
+///   d = (dR + dL) / 2,  a = (dR - dL) / b
+///   p <- p + R(theta) (d sin(a)/a, d (1 - cos a)/a),  theta <- theta + a
 ///
-/// Units   metres; radians, counter-clockwise, continuous (not wrapped).
-/// Cost    no sine or cosine for steps below kSmall_rad: the heading's unit vector turns with it and is kept
-///         at length 1. After an hour at 1 kHz it agrees with cos(theta), sin(theta) to 1e-10.
+/// Units   metres; radians, counter-clockwise, not wrapped
+/// Cost    no sine or cosine for steps below kSmall_rad: the heading's unit vector is rotated with each step
+///         and kept at length 1. After an hour at 1 kHz it agrees with cos(theta), sin(theta) to 1e-10.
 namespace astro::sim {
 
 struct Pose {
   double x_m = 0, y_m = 0, theta_rad = 0;
 };
 
-/// A running sum that carries what rounding takes (Kahan). Equal small steps onto a large total would
-/// otherwise be rounded the same way every time: 1e-8 rad of heading in an hour at 1 kHz.
+/// A compensated sum (Kahan). Without the compensation, equal small steps onto a large total would be rounded
+/// the same way every time: 1e-8 rad of heading in an hour at 1 kHz.
 class Sum {
  public:
   void set(double value) {
@@ -41,7 +41,7 @@ class Chassis {
 
   explicit Chassis(double wheelbase_m) : per_wheelbase_(1.0 / wheelbase_m) {}
 
-  /// Puts the robot down somewhere else.
+  /// Sets the pose, as if somebody had moved the robot.
   void place(const Pose& pose) {
     x_m_.set(pose.x_m);
     y_m_.set(pose.y_m);
@@ -53,7 +53,7 @@ class Chassis {
   void advance(double left_m, double right_m) {
     const double along_m = 0.5 * (left_m + right_m), turn = (right_m - left_m) * per_wheelbase_;
     if (std::abs(turn) < kSmall_rad) {
-      // Taylor series: the first term left out is below 1e-17 relative.
+      // Taylor series: the first omitted term is below 1e-17 relative.
       const double t = turn * turn;
       const double sinc = 1.0 - t / 6.0 * (1.0 - t / 20.0 * (1.0 - t / 42.0 * (1.0 - t / 72.0)));
       const double cosc =

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-/// What one simulated robot is: its geometry as designed and as built, its noise, its wiring, its supply.
+/// A simulated robot: its geometry as designed and as built, its noise, its wiring, its supply.
 namespace astro::sim {
 
 enum class Side : std::uint8_t { left, right };
@@ -13,9 +13,10 @@ enum class Side : std::uint8_t { left, right };
 using Pair = std::array<double, 2>;
 constexpr std::size_t at(Side side) { return static_cast<std::size_t>(side); }
 
-/// Wiring as found on a robot that somebody else built. Reversing a motor turns its leads round (its encoder
-/// stays as it is); reversing an encoder exchanges its two channels; swapped means left for right; dead means
-/// that the cable is off; of an encoder whose channel is lost the decoder sees one of two.
+/// Wiring as found on a robot that somebody else built. A reversed motor has its leads exchanged (its encoder
+/// stays as it is); a reversed encoder has its two channels exchanged; swapped means left and right are
+/// exchanged; dead means that the cable is off; an encoder with a lost channel shows the decoder only the
+/// other one.
 struct Wiring {
   bool left_motor_reversed = false, right_motor_reversed = false, motors_swapped = false;
   bool left_encoder_reversed = false, right_encoder_reversed = false, encoders_swapped = false;
@@ -25,7 +26,7 @@ struct Wiring {
 };
 
 struct Config {
-  // As designed: what an uncalibrated robot believes of itself.
+  // As designed: the parameters of an uncalibrated robot.
   double nominal_diameter_m = 0.072;
   double nominal_wheelbase_m = 0.290;
   double counts_per_motor_rev = 64.0;  // 16 pulses, both channels, both edges
@@ -38,10 +39,10 @@ struct Config {
   double motor_mismatch = 0.0;  // right motor constant over left, minus one
   double body_kg = 4.7;
   double yaw_inertia_kgm2 = 0.0858;  // uniform 0.325 m x 0.337 m plate of 4.7 kg: m (a^2 + b^2) / 12
-  bool on_stand = false;             // wheels off the ground: they drive nothing but themselves
+  bool on_stand = false;             // the wheels are off the ground and only move themselves
   Wiring wiring;
 
-  // Noise. Travel of each wheel has variance slip_m * |distance|; this figure gives the scatter of the
+  // Noise: the travel of each wheel has variance slip_m * |distance|. The default gives the scatter of the
   // thesis.
   double slip_m = 2.645e-6;
   std::uint64_t seed = 1;  // also decides the board's unique id
@@ -50,7 +51,7 @@ struct Config {
   double supply_V = 12.0;
   double supply_ohm = 0.08;
 
-  // Content of the flash at power-on; empty: erased.
+  // Content of the flash at power-on; if empty the flash is erased.
   std::vector<std::uint8_t> flash;
 };
 
@@ -65,7 +66,7 @@ constexpr Geometry true_geometry(const Config& config) {
   return {{left_m, config.true_ed * left_m}, config.true_wheelbase_m};
 }
 
-/// E_b, the other unknown of UMBmark: true over nominal wheelbase.
+/// E_b of UMBmark: true over nominal wheelbase.
 constexpr double true_eb(const Config& config) {
   return config.true_wheelbase_m / config.nominal_wheelbase_m;
 }

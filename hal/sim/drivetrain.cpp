@@ -30,8 +30,8 @@ double Drivetrain::kinetic_energy_J() const {
                     mass_between_ * speed_[0] * speed_[1]);
 }
 
-// An open bridge is either not there or, once back-EMF exceeds the supply, a closed one at full duty: its
-// diodes tie the motor to the supply. Decided once per tick.
+// An open bridge carries no current until back-EMF exceeds the supply; then its diodes connect the motor to
+// the supply, like a closed bridge at full duty. Decided once per tick.
 Drive Drivetrain::conducting(const Drive& drive) const {
   Drive now = drive;
   for (std::size_t k = 0; k < 2; ++k) {
@@ -72,7 +72,8 @@ inline Pair Drivetrain::gained_by(double left_Nm, double right_Nm) const {
   return {gain_[0] * left_Nm + gain_between_ * right_Nm, gain_between_ * left_Nm + gain_[1] * right_Nm};
 }
 
-// With every sense known, friction is linear in the speeds like all the rest, and a step is one affine map.
+// If all directions are known, friction is linear in the speeds like everything else, and a step is an affine
+// map.
 inline Drivetrain::Step Drivetrain::rolling(const Torque& torque, const Pair& motor_Nm) const {
   const double through_left = 1.0 - std::copysign(motor_[0].mesh_loss, motor_Nm[0] * speed_[0]);
   const double through_right = 1.0 - std::copysign(motor_[1].mesh_loss, motor_Nm[1] * speed_[1]);
@@ -87,7 +88,8 @@ inline Drivetrain::Step Drivetrain::rolling(const Torque& torque, const Pair& mo
                     through_right * torque.at_rest[1] + load_[1].torque_Nm - dry_right)};
 }
 
-// The usual tick: both wheels, and both motor torques, keep their sense. False, and nothing done, if not so.
+// The usual tick: both wheels and both motor torques keep their direction. If not, returns false and does
+// nothing.
 bool Drivetrain::roll(const Torque& torque, Pair& turned) {
   if (speed_[0] == 0.0 || speed_[1] == 0.0) return false;
   const Pair before = torque(speed_);
@@ -99,14 +101,14 @@ bool Drivetrain::roll(const Torque& torque, Pair& turned) {
   const bool same_sense = four[0] * speed_[0] > 0.0 && four[1] * speed_[1] > 0.0 &&
                           after[0] * before[0] >= 0.0 && after[1] * before[1] >= 0.0;
   if (!same_sense) return false;
-  // The mean of the speeds before and after each step: so work and kinetic energy balance exactly.
+  // With the mean of the speeds before and after each step, work and kinetic energy balance exactly.
   turned = {kStep_s * (0.5 * (speed_[0] + four[0]) + one[0] + two[0] + three[0]),
             kStep_s * (0.5 * (speed_[1] + four[1]) + one[1] + two[1] + three[1])};
   speed_ = four;
   return true;
 }
 
-// The tick in which something starts, stands, stops or turns round: step by step, every case possible.
+// A tick in which a wheel starts, stops, stays stopped or reverses: step by step, with all cases.
 Pair Drivetrain::creep(const Torque& torque) {
   Pair turned{};
   for (int step = 0; step < kStepsPerTick; ++step) {
@@ -118,7 +120,7 @@ Pair Drivetrain::creep(const Torque& torque) {
     speed_ = settle(push, grip(motor_Nm));
     turned[0] += 0.5 * kStep_s * (before[0] + speed_[0]);
     turned[1] += 0.5 * kStep_s * (before[1] + speed_[1]);
-    if (turned[0] == 0.0 && turned[1] == 0.0) break;  // held: nothing can change before the next tick
+    if (turned[0] == 0.0 && turned[1] == 0.0) break;  // friction holds both: nothing changes in this tick
   }
   return turned;
 }
@@ -133,9 +135,9 @@ Pair Drivetrain::grip(const Pair& torque_Nm) const {
   return most;
 }
 
-// Speeds after a step that starts with the momentum `push` (in torque for one step): the one case in which
-// friction is consistent with the motion. M is positive definite, so exactly one is; kSlack covers rounding
-// between two.
+// Speeds after a step that starts with the momentum `push` (as a torque for one step). Of all cases the one
+// is taken in which friction is consistent with the motion. M is positive definite, so there is exactly one;
+// kSlack covers rounding between two cases.
 Pair Drivetrain::settle(const Pair& push, const Pair& grip) const {
   constexpr double kSlack = 1.0 + 1e-12;
   const bool left_moves = std::abs(push[0]) > grip[0], right_moves = std::abs(push[1]) > grip[1];
@@ -151,7 +153,7 @@ Pair Drivetrain::settle(const Pair& push, const Pair& grip) const {
   return slide(push, grip);
 }
 
-// Both wheels move: friction has the signs of the speeds that it leads to.
+// Both wheels move: friction opposes the speeds that result.
 Pair Drivetrain::slide(const Pair& push, const Pair& grip) const {
   for (const double left : {1.0, -1.0}) {
     for (const double right : {1.0, -1.0}) {

@@ -3,31 +3,31 @@
 #include "hal/sim/config.hpp"
 #include "hal/sim/motor.hpp"
 
-/// Both motors, the wheels and the body as one machine: the two wheels feel each other through the body's
-/// mass and yaw inertia, and through the shared supply.
+/// Both motors, the wheels and the body as one machine: the wheels are coupled by the body's mass and yaw
+/// inertia and by the common supply.
 ///
 ///   M dw/dt = torque - friction,   M = | J + rL^2 (m/4 + I/b^2)   rL rR (m/4 - I/b^2)  |
 ///                                      | rL rR (m/4 - I/b^2)      J + rR^2 (m/4 + I/b^2) |
 ///
-/// The centre of mass lies on the axle, so no velocity products appear. Wheel slip is not in here: it is
-/// noise on the travel of a rolling wheel (slip.hpp), not a loss of grip.
+/// The centre of mass lies on the axle, so there are no velocity products. Wheel slip is modelled elsewhere,
+/// as noise on the travel of a rolling wheel (slip.hpp), not as a loss of grip.
 ///
-/// Friction is an impulse bounded per step, solved for both wheels together: a wheel that friction can stop
-/// within the step stops exactly and stays, a wheel that it cannot hold goes on sliding. So a robot at zero
-/// duty comes to rest with speed 0.0 and does not chatter.
+/// Friction is a bounded impulse per step, solved for both wheels together: a wheel that friction can stop
+/// within the step stops exactly and stays; a wheel that friction cannot hold keeps sliding. So a robot at
+/// zero duty comes to rest with speed 0.0 and does not chatter.
 ///
 /// Units   left, right; rad/s and N m at the wheel, forward positive.
 /// Cost    four steps of 250 us in about 50 ns; 25 ns at rest.
 namespace astro::sim {
 
-/// What hangs on a wheel from outside. `drag_Nm` only resists (a carpet, a hand, a wall: 100 blocks the
-/// wheel); `torque_Nm` also drives (a slope).
+/// An external load on a wheel. `drag_Nm` only resists (a carpet, a hand, a wall; 100 blocks the wheel);
+/// `torque_Nm` can also drive the wheel (a slope).
 struct WheelLoad {
   double torque_Nm = 0;
   double drag_Nm = 0;
 };
 
-/// State of the H-bridges and the supply during one tick, as the wheels see it.
+/// State of the H-bridges and the supply during one tick, by wheel.
 struct Drive {
   Pair duty{};                 // fraction of the supply; 0 is a short, that is, a brake
   std::array<bool, 2> open{};  // open bridge: its diodes conduct once back-EMF exceeds the supply
@@ -62,7 +62,7 @@ class Drivetrain {
               at_rest[1] + between * speed[0] + right * speed[1]};
     }
   };
-  // One step while every sense stays as it is: left' = keep_left left + from_right right + always[0], ...
+  // One step while no direction changes: left' = keep_left left + from_right right + always[0], ...
   struct Step {
     double keep_left, from_right, from_left, keep_right;
     Pair always;

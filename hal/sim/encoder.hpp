@@ -10,7 +10,7 @@
 namespace astro::sim {
 
 /// One quadrature decoder: the running count is the floor of the shaft's angle in counts. The fraction is
-/// carried from call to call, so no movement is too small to be counted in the end.
+/// carried from call to call, so small movements add up.
 class Encoder {
  public:
   /// `counts` is the shaft's movement, in counts, signed.
@@ -28,8 +28,8 @@ class Encoder {
     seen_ = count_ - channel();
   }
 
-  /// The wire of one channel breaks: the edges of the other are a step to and fro for the decoder, whichever
-  /// way the shaft turns.
+  /// The wire of one channel breaks: the decoder takes the edges of the other channel for steps to and fro,
+  /// whichever way the shaft turns.
   void lose_channel() {
     lost_ = true;
     seen_ = count_ - channel();
@@ -73,7 +73,7 @@ class Encoders {
     decoder_[1].preset(value.right);
   }
 
-  /// The cable of one wheel's encoder falls off: its count stands still.
+  /// The cable of one wheel's encoder comes off: its count does not change any more.
   void unplug(Side wheel) { counts_per_rad_[at(wheel)] = 0.0; }
   void plug_in(Side wheel) { counts_per_rad_[at(wheel)] = connected_per_rad_[at(wheel)]; }
 

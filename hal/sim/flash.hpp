@@ -10,10 +10,11 @@
 
 namespace astro::sim {
 
-/// NOR flash with the habits that a store must survive: sectors erase as a whole, programming only clears
-/// bits, power fails after any byte, bits rot, cells stick and sectors fail (flash_faults.hpp).
+/// NOR flash with everything that a store must survive: sectors are erased as a whole, programming only
+/// clears bits, power fails after any byte, bits rot, cells are stuck and sectors fail (flash_faults.hpp).
 ///
-/// Misuse (outside the part, across a sector's end, unaligned) changes nothing, returns false and is counted.
+/// Misuse (outside the flash, across a sector's end, unaligned) changes nothing, returns false and is
+/// counted.
 template <std::uint32_t Sectors, std::uint32_t SectorBytes, std::uint32_t ProgramBytes>
 class NorFlash {
  public:
@@ -22,12 +23,13 @@ class NorFlash {
   static constexpr std::uint32_t kProgramBytes = ProgramBytes;
   static constexpr std::uint32_t kBytes = kSectors * kSectorBytes;
 
-  /// `image` is a content() saved earlier; shorter ones are filled up with erased bytes, longer ones cut.
+  /// `image` is a content() that was saved earlier. A shorter one is padded with erased bytes, a longer one
+  /// is cut.
   explicit NorFlash(std::span<const std::uint8_t> image = {}) : cells_(kBytes, 0xFF) {
     std::copy_n(image.begin(), std::min<std::size_t>(image.size(), kBytes), cells_.begin());
   }
 
-  // As hal::Flash promises. False if power is off, and if a read-back differs.
+  // As NorFlash (common/base) describes; also false if the power is off.
 
   bool erase(std::uint32_t sector) noexcept {
     if (sector >= kSectors) return misuse();
@@ -57,7 +59,7 @@ class NorFlash {
     std::ranges::fill(into.subspan(inside), std::uint8_t{0xFF});
   }
 
-  // What goes wrong. See FlashFaults.
+  // Faults; see FlashFaults.
 
   void cut_power_after(std::uint64_t bytes, Tear tear = Tear::sharp, std::uint64_t seed = 0) {
     faults_.cut_power_after(bytes, tear, seed);
@@ -66,7 +68,7 @@ class NorFlash {
   bool powered() const { return faults_.powered(); }
   std::uint64_t bytes_worked() const { return faults_.bytes_worked(); }
 
-  /// Bit rot: the bits of `mask` in one byte turn over.
+  /// Bit rot: inverts the bits of `mask` in one byte.
   void rot(std::uint32_t at, std::uint8_t mask) {
     cells_[at] = faults_.held(at, static_cast<std::uint8_t>(cells_[at] ^ mask));
   }
@@ -81,11 +83,11 @@ class NorFlash {
   std::span<const std::uint8_t, kBytes> content() const {
     return std::span<const std::uint8_t, kBytes>(cells_.data(), kBytes);
   }
-  /// These bytes as they were when they were saved; counters and faults stay.
+  /// Restores saved bytes; counters and faults stay as they are.
   void put_back(std::uint32_t at, std::span<const std::uint8_t> bytes) {
     std::copy(bytes.begin(), bytes.end(), cells_.begin() + static_cast<std::ptrdiff_t>(at));
   }
-  /// Erase calls so far, those that did not take included: what wears a sector.
+  /// Erase calls so far, including failed ones, because each wears the sector.
   std::uint32_t erases(std::uint32_t sector) const { return erases_[sector]; }
   int misuses() const { return misuses_; }
 
@@ -101,8 +103,8 @@ class NorFlash {
   FlashFaults faults_;
 };
 
-/// The simulated board's. A grain of 4: serial NOR takes single bytes, but its controllers move words, and a
-/// grain above 1 catches a store that leaves padding to chance.
+/// The simulated board's flash. Its program unit is 4 bytes: serial NOR takes single bytes, but its
+/// controllers move words, and a unit above 1 finds a store that does not set its padding.
 using Flash = NorFlash<6, 4096, 4>;
 
 }  // namespace astro::sim

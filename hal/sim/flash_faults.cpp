@@ -36,7 +36,7 @@ std::uint8_t FlashFaults::torn(std::uint32_t at, std::uint8_t old, std::uint8_t 
   return static_cast<std::uint8_t>((old & mask) | (target & ~mask));
 }
 
-// The call goes on after the cut only to tear what was still to do.
+// After the cut the call continues only to tear the bytes that were still to be done.
 template <class Target>
 void FlashFaults::work(FlashWork kind, std::uint32_t at, std::span<std::uint8_t> cells, Target target) {
   if (!powered_) return;

@@ -6,29 +6,29 @@
 
 namespace astro::sim {
 
-/// What a power cut leaves of the bytes that were not finished yet.
+/// What a power cut leaves in the bytes that were not finished.
 ///   sharp   the old content: work stopped between two bytes
-///   byte    a mixture of old and new bits in the byte under way, the old content behind it
+///   byte    a mixture of old and new bits in the byte being written, the old content after it
 ///   torn    a mixture in every byte that the call had still to do: work was going on in all of them
 enum class Tear : std::uint8_t { sharp, byte, torn };
 
 enum class FlashWork : std::uint8_t { erase, program };
 
-/// THE model of what goes wrong in NOR flash, for every simulated part: the owner keeps the cells and hands
-/// over each erase and program call; the faults decide what becomes of the cells.
+/// THE model of faults in NOR flash, for every simulated flash: the owner keeps the cells and passes on each
+/// erase and program call; the faults decide what the cells become.
 ///
 ///   power cut        after any byte of any call; from then on nothing changes until restore_power()
 ///   stuck bits       cells that hold their level whatever is erased or programmed
-///   failing sector   a range in which erasing, or programming, does not take
+///   failing sector   a range in which erasing or programming has no effect
 ///
-/// Bit rot needs nothing here: the owner flips a bit between two calls.
+/// Bit rot needs no support here: the owner flips a bit between two calls.
 ///
-/// Deterministic: torn bits are a hash of seed, place of the cut within the work and address. Time passes
-/// (bytes_worked) for work that does not take as for work that does.
+/// Deterministic: torn bits are a hash of seed, place of the cut and address. Work without effect counts in
+/// bytes_worked like any other.
 class FlashFaults {
  public:
-  /// Power fails when `bytes` more bytes have been erased or programmed, in the call that reaches that
-  /// number.
+  /// The power fails after `bytes` more bytes have been erased or programmed, within the call that reaches
+  /// them.
   void cut_power_after(std::uint64_t bytes, Tear tear = Tear::sharp, std::uint64_t seed = 0);
   void restore_power();
   bool powered() const { return powered_; }
@@ -38,7 +38,7 @@ class FlashFaults {
 
   /// The cells of `mask` in the byte at `at` are stuck at `level` from now on.
   void stick(std::uint32_t at, std::uint8_t mask, bool level) { stuck_.push_back({at, mask, level}); }
-  /// Work of this kind no longer takes in `bytes` bytes from `begin` on.
+  /// Work of this kind has no effect any more on `bytes` bytes from `begin` on.
   void fail(std::uint32_t begin, std::uint32_t bytes, FlashWork kind) {
     failing_.push_back({begin, bytes, kind});
   }
@@ -47,7 +47,7 @@ class FlashFaults {
   void erase(std::uint32_t at, std::span<std::uint8_t> cells);
   void program(std::uint32_t at, std::span<std::uint8_t> cells, std::span<const std::uint8_t> bytes);
 
-  /// What a byte reads as that ought to be `wanted`.
+  /// The value that a byte reads as if it should be `wanted`.
   std::uint8_t held(std::uint32_t at, std::uint8_t wanted) const;
 
  private:

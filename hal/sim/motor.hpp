@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-/// A brushed DC gear motor from the figures of its data sheet. Everything is referred to the output shaft.
+/// A brushed DC gear motor, modelled from its data sheet. All quantities are at the output shaft.
 ///
 /// Electrical   i = (V - Ke w) / R. The winding's inductance is left out: about 1 mH / 1.7 ohm = 0.6 ms is
 ///              less than one control tick and 1/70 of the mechanical time constant.
@@ -17,7 +17,8 @@
 ///   no load:  k I_0 = Tc + B w_0,  Tc = s k I_0
 ///   stall:    k I_stall = T_stall + Tc   =>   k = T_stall / (I_stall - s I_0)
 ///   start:    Ts = k V_start / R
-/// Nothing in the data sheet fixes s. It must leave Tc below Ts; 0.8 says "mostly brushes and bearings".
+/// The data sheet does not give s. Tc must be below Ts; 0.8 means that brushes and bearings cause most of the
+/// loss.
 namespace astro::sim {
 
 /// GB37Y3530-12V-251R.

@@ -12,8 +12,8 @@ namespace astro::sim {
 
 enum class Bridge : std::uint8_t { coast, brake, drive };
 
-/// Both H-bridges, as they are wired. PWM is averaged: the motor sees duty times supply, which is what slow
-/// decay gives at a PWM period far below L / R; a duty of 0 is therefore a brake.
+/// Both H-bridges, with their wiring. PWM is averaged: the motor gets duty times supply, as with slow decay
+/// and a PWM period far below L / R. A duty of 0 therefore brakes.
 class Motors {
  public:
   explicit Motors(const Wiring& wiring)
@@ -37,7 +37,7 @@ class Motors {
   Bridge state() const { return state_; }
   hal::Duty duty() const { return duty_; }  // of the last drive()
 
-  /// What the wheels get.
+  /// The bridges' state by wheel.
   Drive at_wheels(const Battery& battery) const {
     Drive drive{.supply_V = battery.open_circuit_V(), .supply_ohm = battery.resistance_ohm()};
     const bool open = fault_ || state_ == Bridge::coast;

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstdint>
 
-/// Random numbers without a generator: each is a pure function of (seed, stream, index), so that what happens
-/// at the n-th millimetre of a wheel does not depend on what was drawn before it.
+/// Random numbers without a generator: each is a pure function of (seed, stream, index), so the noise at the
+/// n-th millimetre of a wheel does not depend on the numbers that were drawn before.
 ///
 /// Source  mixing: Steele, Lea, Flood, "Fast splittable pseudorandom number generators" (SplitMix64), 2014.
 ///         normal deviate: Wichura, algorithm AS 241 (PPND7), 1988; good to 7 digits, far past what noise

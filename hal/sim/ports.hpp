@@ -8,7 +8,7 @@
 
 namespace astro::sim {
 
-/// Bytes in order, bounded: what does not fit is not taken.
+/// A bounded queue of bytes: bytes that do not fit are not taken.
 class ByteQueue {
  public:
   static constexpr std::size_t kCapacity = 8192;
@@ -37,7 +37,7 @@ class ByteQueue {
   std::size_t read_ = 0, written_ = 0;  // running totals; kCapacity divides 2^64
 };
 
-/// The serial ports: the robot's end for the firmware, the host's end for whoever owns the board.
+/// The serial ports: the robot's end for the firmware, the host's end for the owner of the board.
 class Ports {
  public:
   static constexpr int kPorts = 2;
@@ -55,7 +55,7 @@ class Ports {
   std::size_t host_read(int port, std::span<std::uint8_t> into) { return lane(port).to_host.pop(into); }
   std::size_t host_room(int port) const { return lanes_[static_cast<std::size_t>(port)].to_robot.room(); }
 
-  /// All bytes under way are lost, as when the robot restarts.
+  /// Drops all bytes that have not been read, as when the robot restarts.
   void clear() {
     for (Lane& lane : lanes_) {
       lane.to_robot.clear();

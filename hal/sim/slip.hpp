@@ -5,14 +5,14 @@
 
 #include "hal/sim/noise.hpp"
 
-/// White wheel slip: what a wheel really travels differs from what it rolls by noise of variance K
+/// White wheel slip: a wheel's true travel differs from its rolled distance by noise of variance K
 /// |distance|.
 ///
-/// The noise belongs to the way, not to the time: the wheel's odometer (rolled distance, both senses) is cut
-/// in cells of 1 mm, cell n has one Gaussian g(seed, wheel, n), and within it travel = rolled (1 + g sqrt(K /
-/// cell)). So the result is the same however the way is cut into calls, and rolling back over the same ground
-/// slips anew. Rejected: noise per call with variance K |d|, which would make every run depend on its
-/// schedule.
+/// The noise depends on the distance, not on time. The total rolled distance in either direction is divided
+/// into cells of 1 mm; cell n has one Gaussian g(seed, wheel, n), and within it travel = rolled (1 + g sqrt(K
+/// / cell)). So the result does not depend on how the distance is divided into calls, and rolling back over
+/// the same ground gives new noise. Rejected: noise per call with variance K |d|, which would make every run
+/// depend on its schedule.
 ///
 /// Cost    one Gaussian per millimetre and wheel.
 namespace astro::sim {
@@ -21,7 +21,7 @@ class Slip {
  public:
   static constexpr double kCell_m = 1e-3;
 
-  /// `slip_m` is K; `wheel` tells the streams of one seed apart.
+  /// `slip_m` is K; `wheel` selects the stream of random numbers.
   Slip(std::uint64_t seed, std::uint64_t wheel, double slip_m)
       : seed_(seed), wheel_(wheel), sigma_(std::sqrt(slip_m / kCell_m)) {
     enter(0);

@@ -11,7 +11,7 @@
 
 namespace astro::sim {
 
-/// Virtual time since the firmware was started; moves with the control tick only.
+/// Virtual time since the firmware started; it advances with the control tick only.
 class Clock {
  public:
   std::uint64_t now_us() const noexcept { return now_us_; }
@@ -22,7 +22,7 @@ class Clock {
   std::uint64_t now_us_ = 0;
 };
 
-/// The processor. A simulated one cannot stop running in the middle of a function, so reboot() and
+/// The processor. A simulated processor cannot stop in the middle of a function, so reboot() and
 /// enter_bootloader() coast and leave a request that the owner of the board takes.
 class System {
  public:
@@ -51,7 +51,7 @@ class System {
   bool take_bootloader_request() { return std::exchange(bootloader_requested_, false); }
 
   /// Time since the watchdog was fed, or since the start.
-  std::uint64_t hungry_us() const { return clock_.now_us() - fed_us_; }
+  std::uint64_t since_fed_us() const { return clock_.now_us() - fed_us_; }
 
   void restart(hal::ResetCause cause) {
     cause_ = cause;

@@ -16,7 +16,7 @@ constexpr std::uint32_t kConfiguration = adc::CFG_ADICLK(3) | adc::CFG_MODE(2) |
                                          adc::CFG_AVGS(3);
 
 bool calibrate() {
-  ADC1[adc::GS].write(adc::GS_CALF(1));  // clears what an earlier one left
+  ADC1[adc::GS].write(adc::GS_CALF(1));  // clears the flag of an earlier calibration
   ADC1[adc::GC].write(adc::GC_AVGE(1) | adc::GC_CAL(1));
   return poll(ADC1[adc::GC], adc::GC_CAL, 0, kReads) && ADC1[adc::GS].get(adc::GS_CALF) == 0;
 }

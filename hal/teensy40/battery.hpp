@@ -6,16 +6,16 @@
 
 namespace astro::teensy40 {
 
-/// Voltage of the motor supply at pin A0, behind the divider of arithmetic/supply_voltage.hpp: each
-/// conversion is begun by one tick and read by the next, so that nobody waits.
+/// Voltage of the motor supply at pin A0, behind the divider of arithmetic/supply_voltage.hpp. Each tick
+/// reads the conversion that the tick before has started, so nothing waits.
 ///
-/// Errors  a converter that does not calibrate or convert leaves 0 mV: as good as an empty battery.
+/// Errors  if the converter does not calibrate or convert the reading is 0 mV, like an empty battery.
 class Battery {
  public:
-  /// Calibrates and waits for a first sample: some milliseconds; without an answer it gives up after some 50.
+  /// Calibrates and waits for the first sample: some milliseconds. Gives up after some 50 ms.
   void start();
 
-  /// To be called once in a tick: the filter counts its time in calls.
+  /// Call it once per tick, because the filter counts time in calls.
   std::int32_t millivolts() noexcept;
 
  private:

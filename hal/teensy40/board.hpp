@@ -20,7 +20,7 @@
 ///   Tick::start([] { ... robot.tick(); });
 ///   while (true) robot.poll();
 ///
-/// One in a program.
+/// A program has one of them.
 namespace astro::teensy40 {
 
 class Board {

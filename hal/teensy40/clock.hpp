@@ -7,12 +7,12 @@
 
 namespace astro::teensy40 {
 
-/// Microseconds since start() from the PIT's lifetime timer: channels 0 and 1 as one 64-bit counter of the
-/// 24 MHz crystal. It begins at 0 after every reset, a warm one too: the timer does not outlive it.
+/// Microseconds since start() from the PIT's lifetime timer: channels 0 and 1 as one 64-bit counter of the 24
+/// MHz crystal. It starts at 0 after every reset, including a warm one.
 ///
-/// Errors  the crystal's, some 30 ppm.
-/// Cost    now_us() three reads of the peripheral and about 20 instructions; in one call of 100 million, for
-/// 42 ns more.
+/// Errors  the crystal's, some 30 ppm
+/// Cost    now_us(): three reads of the peripheral and about 20 instructions; one call in 100 million takes
+///         42 ns longer
 class Clock {
  public:
   /// Boot calls it early; needs the PIT on the 24 MHz crystal. Stops all channels, which the ROM leaves
@@ -20,9 +20,9 @@ class Clock {
   static void start();
 
   std::uint64_t now_us() const noexcept {
-    // Reading the upper word holds the lower one still. An interrupt that reads in between holds another one:
-    // seen by the upper word having moved on, or else harmless. While the lower word begins anew, for one
-    // count, the upper word may not have followed yet, and the time would go back by 179 s: then once more.
+    // Reading the upper word latches the lower one. An interrupt that reads in between latches another value:
+    // that shows in a changed upper word, or is harmless. When the lower word wraps, the upper word may
+    // follow one count later, and the time would go back by 179 s; then both are read again.
     constexpr std::uint32_t kBegunAnew = ~0U;
     std::uint32_t upper = PIT[pit::LTMR64H].read(), lower = 0;
     for (bool moved = true; moved;) {

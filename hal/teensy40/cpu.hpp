@@ -2,16 +2,16 @@
 
 #include <cstdint>
 
-/// The instructions that C++ has no words for.
+/// Instructions that C++ cannot express.
 namespace astro::teensy40::cpu {
 
-/// Everything written so far has arrived.
+/// Waits until everything written so far has arrived (dsb).
 inline void synchronize() { asm volatile("dsb" ::: "memory"); }
 
-/// What is executed next is fetched, and decided on, anew.
+/// Discards fetched instructions, so that the next ones are fetched again (isb).
 inline void refetch() { asm volatile("isb" ::: "memory"); }
 
-/// While one lives no interrupt runs; faults still do. They nest.
+/// No interrupt runs while such an object lives; faults still do. The objects nest.
 class [[nodiscard]] InterruptsOff {
  public:
   InterruptsOff() { asm volatile("mrs %0, primask\n cpsid i" : "=r"(before_)::"memory"); }

@@ -40,8 +40,8 @@ void begin(Decoder decoder) {
 
 std::int32_t position(Decoder decoder) {
   while (true) {
-    // Reading the live upper half holds both halves as they are now, though perhaps two bus clocks late:
-    // then the halves are of two instants, and the held upper one differs.
+    // Reading the live upper half latches both halves, but perhaps two bus clocks late. Then the halves are
+    // of two instants, which shows in a different latched upper half.
     const std::uint32_t live = decoder[enc::UPOS].read();
     const std::uint32_t lower = decoder[enc::LPOSH].read();
     const std::uint32_t upper = decoder[enc::UPOSH].read();

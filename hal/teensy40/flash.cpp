@@ -33,8 +33,8 @@ bool wait_idle() {
   return true;
 }
 
-/// The whole area, and not only what has changed: the processor fetches ahead where it likes, and what it has
-/// fetched of another sector while the flash was busy is not that sector's content.
+/// Invalidates the whole area, not only what has changed: the processor may prefetch anything, and what it
+/// has fetched from another sector while the flash was busy is not that sector's content.
 void forget() { commands::end(kBase, Flash::kBytes); }
 
 bool program_page(std::uint32_t offset, std::span<const std::uint8_t> bytes) {

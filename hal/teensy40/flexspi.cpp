@@ -21,14 +21,14 @@ void unlock(bool open) {
 void prepare(FlashCommand command, std::uint32_t offset, std::uint32_t data_bytes) {
   FLEXSPI[flexspi::LUT60].write(command.first);
   FLEXSPI[flexspi::LUT61].write(command.second);
-  // These alone: ones for the queues' flags would move the queues on.
+  // Only these flags: writing ones to the queues' flags would advance the queues.
   FLEXSPI[flexspi::INTR].write(flexspi::INTR_IPCMDDONE(1) | flexspi::INTR_IPCMDGE(1) |
                                flexspi::INTR_IPCMDERR(1));
   FLEXSPI[flexspi::IPCR0].write(offset);
   FLEXSPI[flexspi::IPCR1].write(flexspi::IPCR1_ISEQID(kSequence) | flexspi::IPCR1_IDATSZ(data_bytes));
 }
 
-/// The next 8 bytes, which the controller has said it has room for.
+/// Writes the next 8 bytes, for which the controller has reported room.
 void feed_pair(const std::uint8_t* bytes) {
   const auto word = [bytes](int at) {
     return bytes[at] | std::uint32_t{bytes[at + 1]} << 8 | std::uint32_t{bytes[at + 2]} << 16 |
@@ -39,7 +39,7 @@ void feed_pair(const std::uint8_t* bytes) {
   FLEXSPI[flexspi::INTR].write(flexspi::INTR_IPTXWE(1));  // passes the pair on
 }
 
-/// Triggers what was prepared, feeds it, and waits for its end.
+/// Triggers the prepared command, supplies its data, and waits for its end.
 bool go(std::span<const std::uint8_t> bytes) {
   FLEXSPI[flexspi::IPCMD].write(flexspi::IPCMD_TRG(1));
   for (std::uint32_t reads = kReads; reads != 0; --reads) {
@@ -68,7 +68,7 @@ void end(std::uint32_t offset, std::uint32_t bytes) {
   unlock(false);
   FLEXSPI[flexspi::MCR0].modify(0, flexspi::MCR0_SWRESET(1));  // empties the mapping's buffers
   static_cast<void>(poll(FLEXSPI[flexspi::MCR0], flexspi::MCR0_SWRESET, 0, kReads));
-  // After the work, not before: a line that is fetched meanwhile would stay.
+  // After the command, not before it, because lines may be fetched meanwhile.
   cpu::synchronize();
   const std::uint32_t first = (kFlashBase + offset) & ~(kCacheLine - 1);
   for (std::uint32_t line = first; line < kFlashBase + offset + bytes; line += kCacheLine)

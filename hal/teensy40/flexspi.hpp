@@ -5,18 +5,18 @@
 
 #include "hal/teensy40/arithmetic/lut.hpp"
 
-/// Commands to the program flash, past the mapping that reads it. Sequence 15 of the controller's table is
-/// ours; sequence 0, which maps the flash, stays as the ROM left it.
+/// Commands to the program flash, which is otherwise read through its mapping. They use sequence 15 of the
+/// controller's table; sequence 0, which maps the flash, stays as the ROM has set it.
 ///
-/// While the flash is busy nothing may fetch from it: all code and data that can run live in the tightly
-/// coupled memories, the interrupts' as well. So interrupts go on during the long wait for an erase, and are
-/// held off only while a command is on the wires, for some ten microseconds.
+/// Nothing may be fetched from the flash while it is busy. All code and data, including the interrupts', are
+/// in the tightly coupled memories. So interrupts continue during the long wait for an erase; they are
+/// disabled only while a command is on the wires, for some ten microseconds.
 namespace astro::teensy40::flexspi_commands {
 
 /// Opens the table; waits until the mapping has finished its prefetches.
 bool begin();
 
-/// Closes the table, and drops what the controller and the data cache still believe of `bytes` at `offset`.
+/// Closes the table, and invalidates `bytes` at `offset` in the controller's buffers and the data cache.
 void end(std::uint32_t offset, std::uint32_t bytes);
 
 /// One command, `offset` from the start of the flash. False if the controller reports an error.

@@ -14,11 +14,12 @@ constexpr std::uint32_t kRunning = pwm::MCTRL_RUN(kSubmodule);
 /// Holds the outputs of `mask` low from now on; the other one stays as it is.
 void silence(std::uint32_t mask) {
   PWM2[pwm::MASK].modify(0, mask | pwm::MASK_UPDATE_MASK(kSubmodule));
-  // The direction pins are on a faster bus: read back, or they might turn before this arrives.
+  // Read back, because the direction pins are on a faster bus and might change before this write arrives.
   static_cast<void>(PWM2[pwm::MASK].read());
 }
 
-/// The pins of one motor: as the duty's sign asks; without one as they are, or forward if they coast.
+/// The direction pins of one motor: by the sign of the duty; for a duty of 0 as they are, or forward if they
+/// coast.
 std::uint32_t direction(std::int16_t duty, std::uint32_t now, std::uint32_t forward, std::uint32_t reverse) {
   if (duty > 0) return forward;
   if (duty < 0) return reverse;
@@ -30,7 +31,7 @@ void set_directions(std::uint32_t pins) {
   GPIO7[gpio::DR_SET].write(pins);
 }
 
-/// The counts are taken, both together, when the running period ends.
+/// Both counts take effect together when the running period ends.
 void set_counts(std::uint32_t left, std::uint32_t right) {
   PWM2[pwm::MCTRL].write(kRunning | pwm::MCTRL_CLDOK(kSubmodule));  // unlocks what the last call left waiting
   PWM2[pwm::SM2_VAL3].write(left);
@@ -53,8 +54,8 @@ void ignore_fault_inputs() {
   PWM2[pwm::SM2_DISMAP0].write(0);
 }
 
-/// Two outputs of their own, no dead time, reload in every period. Without DBGEN they fall when a debugger
-/// halts the core.
+/// Two independent outputs without dead time, reloaded in every period. DBGEN stays off, so the outputs go
+/// low when a debugger halts the core.
 void configure_submodule() {
   constexpr std::uint32_t kForceAtReload = 2;  // so that MASK, too, changes when a period ends
   PWM2[pwm::SM2_CTRL2].write(pwm::SM2_CTRL2_INDEP(1) | pwm::SM2_CTRL2_WAITEN(1) |
@@ -85,7 +86,7 @@ void start_pwm() {
   PWM2[pwm::MCTRL].write(pwm::MCTRL_CLDOK(kSubmodule));
   configure_submodule();
   set_period();
-  PWM2[pwm::MCTRL].write(pwm::MCTRL_LDOK(kSubmodule));  // before it runs: it would run on what is there
+  PWM2[pwm::MCTRL].write(pwm::MCTRL_LDOK(kSubmodule));  // before it runs, or it would start with old values
   PWM2[pwm::MCTRL].write(pwm::MCTRL_LDOK(kSubmodule) | kRunning);
   PWM2[pwm::OUTEN].write(pwm::OUTEN_PWMA_EN(kSubmodule) | pwm::OUTEN_PWMB_EN(kSubmodule));
 }

@@ -12,26 +12,27 @@ namespace astro::teensy40 {
 ///   not 0 0  0    short brake: so a duty of 0 brakes, and the motor sees duty times supply
 ///    0   0   -    coast
 ///
-/// Both PWMs come from one counter and change together, at the beginning of a period of 50 us. A motor that
-/// turns round is braked at once and gets its new duty at that beginning: no duty of one direction ever meets
-/// the pins of the other.
+/// Both PWMs come from one counter and change together, at the beginning of a period of 50 us. If a motor's
+/// direction changes it is braked at once and gets its new duty at the next beginning, so a duty is never
+/// applied with the direction pins of the other sign.
 ///
-/// The registers are the state: no call depends on one before. drive() and brake() are for one context at a
-/// time; a coast() that interrupts them for good, as a fault handler's does, has the last word.
+/// The registers are the only state, so no call depends on an earlier one. drive() and brake() may be called
+/// from one context at a time. After a coast() that interrupts them and does not return, as a fault
+/// handler's, the bridges stay open.
 class Motors {
  public:
-  /// Outputs low first, then everything else. Coasts.
+  /// Sets the outputs low first, then the rest. Coasts.
   void start();
 
   void drive(hal::Duty duty) noexcept;
   void brake() noexcept;
 
-  /// Two stores, the first of which opens the bridges. Any context, fault handlers too; before start()
-  /// FlexPWM may be without its clock, and a fault handler then clears the direction pins alone.
+  /// Two stores, of which the first opens the bridges. Callable from any context, including fault handlers.
+  /// Before start() FlexPWM may have no clock; a fault handler then clears only the direction pins.
   static void coast() noexcept;
 
-  /// The chip pulls its outputs LO1 and LO2 low: over-current, over-temperature, or a motor that is not
-  /// connected. What is low for less than a microsecond is noise and not reported.
+  /// The driver chip pulls LO1 or LO2 low: over-current, over-temperature, or no motor connected. A pulse of
+  /// less than a microsecond is taken for noise and not reported.
   ///
   /// Cost    one read if all is well, some microseconds if not.
   bool fault() noexcept;

@@ -5,10 +5,10 @@
 
 #include "hal/teensy40/registers/registers.hpp"
 
-/// THE pin table: what each used pin of the Teensy is inside the chip. README.md has it in words.
+/// THE pin table: the pad and the function of each used pin of the Teensy. README.md explains it.
 namespace astro::teensy40 {
 
-/// Where a pad's registers are in IOMUXC: what it is connected to, what it does electrically.
+/// The registers of a pad in IOMUXC: its function, its electrical settings.
 struct Pad {
   std::uint32_t function, setting;
 };
@@ -25,7 +25,7 @@ struct Pin {
   Source source{};
 };
 
-/// Electrical settings. All pads have 3.3 V, none bears 5 V.
+/// Electrical settings. All pads work at 3.3 V; none tolerates 5 V.
 namespace setting {
 inline constexpr std::uint32_t kOutput = 0x0000'0020;    // drive 4 of 7: enough for 20 kHz, and quiet
 inline constexpr std::uint32_t kPullUp = 0x0001'F038;    // input, 22 kohm up, hysteresis
@@ -77,7 +77,8 @@ inline constexpr std::array<Pin, 1> kBatteryPins{{
 #undef SOURCE
 #undef PAD
 
-/// Makes the pins what the table says: electrically first, so that a function never meets an undecided pad.
+/// Sets up the pins of the table, electrical settings first, so that a function never starts on an undefined
+/// pad.
 template <std::size_t N>
 inline void apply(const std::array<Pin, N>& pins) {
   const auto at = [](std::uint32_t offset) { return Register<std::uint32_t>(IOMUXC.base + offset); };

@@ -6,9 +6,9 @@
 
 namespace astro::teensy40 {
 
-/// Reads until `field` is `value`. False if it is not after `reads` reads: nothing here waits for ever.
+/// Reads until `field` is `value`; returns false after `reads` reads, so that nothing waits for ever.
 ///
-/// Cost    a read of a peripheral takes some 10 ns and more, so `reads` is a time too: at least that.
+/// Cost    a read of a peripheral takes 10 ns or more, so `reads` also is a lower bound of the time.
 template <class W>
 [[nodiscard]] inline bool poll(Register<W> reg, Bits field, std::uint32_t value, std::uint32_t reads) {
   for (; reads != 0; --reads)

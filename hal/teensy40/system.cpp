@@ -12,14 +12,14 @@ namespace {
 constexpr std::uint32_t kResetKey = 0x05FA;
 constexpr std::uint32_t kSignedOnly = 1U << 1;  // in fuse word CFG5
 
-/// The companion chip watches the debug port and takes any `bkpt` for a call. This one is the only one in the
-/// image.
+/// The Teensy's second chip watches the debug port, and any `bkpt` makes it start the boot loader. This is
+/// the only one in the image.
 [[gnu::noinline]] void call_halfkay() { asm volatile("bkpt #251" ::: "memory"); }
 
 }  // namespace
 
 void System::leave_ports() {
-  constexpr std::uint64_t kGone_us = 5'000;  // the host sees the robot go before the boot loader comes
+  constexpr std::uint64_t kGone_us = 5'000;  // so that the host notices the robot's departure first
   usb_.detach();
   uart_.stop();
   const Clock clock;

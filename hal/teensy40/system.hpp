@@ -17,22 +17,22 @@ class System {
  public:
   System(UsbSerial& usb, Uart& uart) : usb_(usb), uart_(uart) {}
 
-  /// Reads the fuses and why the chip started, and forgets the latter in the chip, so that the next start
-  /// tells of itself.
+  /// Reads the fuses and the cause of the start, and clears the cause in the chip, so that the next start
+  /// does not see it.
   void start();
 
   UniqueId unique_id() noexcept { return id_; }
   std::string_view name() noexcept { return "teensy40"; }
   hal::ResetCause reset_cause() noexcept { return cause_; }
 
-  /// Coasts and restarts. Any context.
+  /// Coasts and restarts. Callable from any context.
   [[noreturn]] void reboot() noexcept;
 
-  /// Coasts, leaves both ports, and gives the processor to HalfKay, the Teensy's boot loader; does not
-  /// return. False: the Teensy is locked to signed programs, whose loader is entered in another way.
+  /// Coasts, leaves both ports, and starts HalfKay, the Teensy's boot loader; does not return. False if the
+  /// Teensy is locked to signed programs, because their loader starts in another way.
   bool enter_bootloader() noexcept;
 
-  /// 134 baud on the USB port is how a Teensy is asked.
+  /// A host asks a Teensy for its boot loader by setting 134 baud on the USB port.
   bool host_wants_bootloader() noexcept { return usb_.take_bootloader_request(); }
 
   void feed_watchdog() noexcept { watchdog::feed(); }

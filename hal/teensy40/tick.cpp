@@ -16,7 +16,7 @@ void pit_interrupt() {
   PIT[pit::CHANNEL2_TFLG].write(pit::CHANNEL2_TFLG_TIF(1));
   on_tick();
   if (++ticks % kLedTicks == 0) GPIO7[gpio::DR_TOGGLE].write(gpio7::kLed);
-  // The write must have arrived before the interrupt returns, or it would run again.
+  // The write must arrive before the interrupt returns, or the interrupt would run again.
   static_cast<void>(PIT[pit::CHANNEL2_TFLG].read());
 }
 

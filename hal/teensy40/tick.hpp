@@ -7,7 +7,7 @@
 namespace astro::teensy40 {
 
 /// The control tick: 1 kHz from PIT channel 2, the most urgent interrupt. The LED changes every 512 ticks, so
-/// a Teensy that blinks once a second is one whose tick runs.
+/// it blinks about once a second while the tick runs.
 class Tick {
  public:
   /// Calls `handler` every millisecond from the interrupt. Needs Clock::start().
@@ -15,10 +15,11 @@ class Tick {
   static void stop();
 };
 
-/// While one lives the tick does not run, nor does anything less urgent. They nest.
+/// While such an object lives neither the tick nor any less urgent interrupt runs. The objects nest.
 ///
-/// Why     one register instead of the NVIC's: nothing to remember but the level before, and faults get
-/// through. Cost    four instructions.
+/// Why     BASEPRI instead of the NVIC's registers: only the level before has to be remembered, and faults
+///         still run
+/// Cost    four instructions
 class [[nodiscard]] TickHold {
  public:
   TickHold() {

@@ -14,13 +14,13 @@ static_assert(kDivider.total() * Uart::kBaud == 24'000'000, "exact");
 
 constexpr std::uint32_t kQueue = 4;  // characters in the chip, each way
 
-// Two characters raise an interrupt, so does a line that falls silent after one.
+// Two characters raise an interrupt, and so does an idle line after one character.
 constexpr std::uint32_t kWatermarks = lpuart::WATER_RXWATER(1) | lpuart::WATER_TXWATER(1);
 constexpr std::uint32_t kListening = lpuart::CTRL_TE(1) | lpuart::CTRL_RE(1) | lpuart::CTRL_RIE(1) |
                                      lpuart::CTRL_ILIE(1) | lpuart::CTRL_ORIE(1) | lpuart::CTRL_ILT(1) |
                                      lpuart::CTRL_IDLECFG(1);
 constexpr std::uint32_t kSending = kListening | lpuart::CTRL_TIE(1);
-// Written as ones to clear them; nothing is received while OR is set.
+// Writing ones clears these flags. Nothing is received while OR is set.
 constexpr std::uint32_t kEvents = lpuart::STAT_OR.mask() | lpuart::STAT_IDLE.mask() | lpuart::STAT_NF.mask() |
                                   lpuart::STAT_FE.mask() | lpuart::STAT_PF.mask();
 
@@ -46,7 +46,7 @@ void Uart::stop() noexcept { LPUART6[lpuart::CTRL].write(0); }
 
 std::size_t Uart::write(std::span<const std::uint8_t> bytes) noexcept {
   const std::size_t taken = to_send_.push(bytes);
-  // The interrupt takes the request back when it finds nothing to send, never while there is something.
+  // The interrupt disables itself when there is nothing to send, never while there is something.
   if (taken != 0) LPUART6[lpuart::CTRL].write(kSending);
   return taken;
 }
@@ -55,14 +55,14 @@ void Uart::interrupt() {
   const std::uint32_t status = LPUART6[lpuart::STAT].read();
   active->receive(status);
   active->send();
-  static_cast<void>(LPUART6[lpuart::STAT].read());  // the writes have arrived, or the interrupt comes again
+  static_cast<void>(LPUART6[lpuart::STAT].read());  // so that the writes arrive before the interrupt ends
 }
 
 void Uart::receive(std::uint32_t status) {
   std::array<std::uint8_t, kQueue> bytes{};
-  // Cleared before the queue is counted. A character that comes in between is counted, or else flags the
-  // line's silence anew; if the flag were cleared afterwards, a single one could wait in the queue for the
-  // next.
+  // The idle flag is cleared before the queue is counted. A character that comes in between is counted, or
+  // sets the flag again. If the flag were cleared afterwards, a single character could wait in the queue for
+  // the next one.
   LPUART6[lpuart::STAT].write(status & kEvents);
   std::size_t count = LPUART6[lpuart::WATER].get(lpuart::WATER_RXCOUNT);
   if (count > bytes.size()) count = bytes.size();

@@ -9,23 +9,23 @@
 
 namespace astro::teensy40 {
 
-/// The serial port on pins 0 and 1: LPUART6, 8N1, no flow control, 1 Mbit/s, which 24 MHz and the usual USB
-/// adapters divide to exactly.
+/// The serial port on pins 0 and 1: LPUART6, 8N1, no flow control, 1 Mbit/s, which both 24 MHz and the usual
+/// USB adapters can make exactly.
 ///
-/// Errors  what arrives faster than it is read is dropped; the protocol's CRC finds the hole and counts it.
-///         Damaged characters are passed on, for the same reason.
+/// Errors  bytes that arrive faster than they are read are dropped, and damaged characters are passed on: the
+///         protocol's CRC detects and counts both.
 /// Cost    an interrupt of about a microsecond every other byte.
 class Uart {
  public:
   static constexpr std::uint32_t kBaud = 1'000'000;
 
-  /// One port of this kind in a program: the interrupt finds the object that was started last.
+  /// A program has one such port: the interrupt uses the object that was started last.
   void start();
 
   // Main loop only; none blocks.
   std::size_t read(std::span<std::uint8_t> into) noexcept { return received_.pop(into); }
   std::size_t write(std::span<const std::uint8_t> bytes) noexcept;
-  /// Nothing is received or sent any more.
+  /// Ends receiving and sending.
   void stop() noexcept;
   std::size_t room() const noexcept { return to_send_.room(); }
 
@@ -35,7 +35,7 @@ class Uart {
   void send();
 
   Ring<1024> received_;
-  Ring<1024> to_send_;  // 10 ms of the line: what waits in it delays an answer
+  Ring<1024> to_send_;  // 10 ms on the line; a longer queue would delay answers
 };
 
 }  // namespace astro::teensy40

@@ -16,8 +16,8 @@ constexpr std::uint32_t kStopped =
     rtwdog::CS_UPDATE(1) | rtwdog::CS_CLK(1) | rtwdog::CS_PRES(1) | rtwdog::CS_CMD32EN(1);
 constexpr std::uint32_t kRunning = kStopped | rtwdog::CS_EN(1);
 
-/// The configuration is open for 128 bus clocks after the key: nothing may come between.
-/// So this runs in ITCM, its constants too: a fetch from the flash may take longer than that.
+/// The configuration can be written within 128 bus clocks after the key, without interruption. So this runs
+/// in ITCM with its constants, because a fetch from the flash may take longer than that.
 void configure(std::uint32_t control, std::uint32_t timeout) {
   open_gate(CCM[ccm::CCGR5], ccm::CCGR5_CG2);
   const cpu::InterruptsOff guard;

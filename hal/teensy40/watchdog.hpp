@@ -4,21 +4,21 @@
 
 namespace astro::teensy40::watchdog {
 
-/// Half a second without feeding restarts the chip: longer than the 400 ms that the flash may take to erase a
-/// sector, so that a restart never finds the flash busy.
+/// Half a second without feeding restarts the chip. That is longer than the 400 ms that the flash may take to
+/// erase a sector, so a restart never finds the flash busy.
 ///
-/// Why     WDOG3, the RTWDOG: one store feeds it. What the other two would do to the Teensy's companion chip
-///         through their output pin is not known.
+/// Why     WDOG3, the RTWDOG, is fed by one store. It is not known what the other two do to the Teensy's
+///         second chip through their output pin.
 inline constexpr std::uint32_t kTimeOut_ms = 512;
 
-/// Arms it. Boot has switched it off.
+/// Starts the watchdog, which boot has switched off.
 void start();
 
-/// At boot, since it bites 32 ms after a reset unless the ROM has stopped it; and for the boot loader, which
-/// does not feed.
+/// Switches it off: at boot, because it restarts the chip 32 ms after a reset unless the ROM has stopped it;
+/// and for the boot loader, which does not feed it.
 void stop();
 
-/// A single store: any context.
+/// A single store; callable from any context.
 void feed();
 
 }  // namespace astro::teensy40::watchdog

@@ -44,6 +44,7 @@ enum class Help : std::uint8_t {
   resume_experiment,  // {folder}
   calibrate_recordings,
   count_runs,
+  count_runs_or_change_truth,  // {source}
   keep_order,
   drop_precision_or_method,  // {method}
   // simulations

@@ -25,9 +25,9 @@ std::vector<Trajectory> squares(int count) {
   model.metres_per_count = 8.07e-5;
   std::vector<Trajectory> runs;
   for (int i = 0; i < count; ++i)
-    runs.push_back(simulation::study::synthetic_drive(simulation::study::square_course(3, i % 2 == 0 ? Sense::cw : Sense::ccw), model,
-                                          fmt::format("run {}", i + 1),
-                                          simulation::study::derived_seed(1, static_cast<std::uint64_t>(i))));
+    runs.push_back(simulation::study::synthetic_drive(
+        simulation::study::square_course(3, i % 2 == 0 ? Sense::cw : Sense::ccw), model,
+        fmt::format("run {}", i + 1), simulation::study::derived_seed(1, static_cast<std::uint64_t>(i))));
   return runs;
 }
 

@@ -2,7 +2,7 @@
 
 #include "common/fixed/trig.hpp"
 #include "common/kinematics/odometry.hpp"
-#include "firmware/app/drive.hpp"
+#include "firmware/app/tick/drive.hpp"
 
 // What one control tick costs on this machine, by part. Instructions on the microcontroller are counted
 // elsewhere.

@@ -8,7 +8,7 @@
 #include "firmware/app/robot.hpp"
 #include "hal/mock/board.hpp"
 
-// More to say than the line takes: answers go first, then events, and telemetry has what is left.
+// More bytes than the line can carry: answers go first, then events, and telemetry gets the rest.
 namespace astro {
 namespace {
 
@@ -63,7 +63,7 @@ class CrowdedPort : public testing::Test {
       got.missed += protocol::decode<protocol::EventsMissed>(body)->count;
   }
   void ask_for_everything(int port) { send(protocol::SetTelemetry{1, Telemetry::kAll}, 1, port); }
-  /// An event: a fault that is raised, and released again.
+  /// Causes an event: raises a fault and clears it.
   void raise_a_fault(int port = 0) {
     send(protocol::EmergencyStop{}, next_++, port);
     run_ms(1);
@@ -87,7 +87,7 @@ TEST_F(CrowdedPort, AnswersEveryRequestWhileTelemetryFillsTheLine) {
   for (int ms = 0; ms < 2000; ms += 5) {
     send(protocol::Ping{}, next_++);
     asked += 1;
-    // The largest answer there is, as often as a host that reads the parameter table asks for it.
+    // The largest answer, as often as a host that reads the parameter table requests it.
     if (ms % 20 == 0) {
       send(protocol::GetParameterInfo{2}, next_++);
       asked += 1;
@@ -108,7 +108,7 @@ TEST_F(CrowdedPort, AnswersWithoutLongDelay) {
   for (int i = 0; i < 20; ++i) {
     received_[0].answered.clear();
     send(protocol::Ping{}, next_++);
-    run_ms(8);  // the telemetry that is on the way already, at most half of 1,024 bytes
+    run_ms(8);  // for the telemetry that is already in the queue, at most half of 1,024 bytes
     EXPECT_EQ(received_[0].answered.size(), 1U);
   }
 }
@@ -127,7 +127,7 @@ TEST_F(CrowdedPort, KeepsEventsForAHostThatReadsLate) {
   ask_for_everything(0);
   run_ms(100);
   received_[0] = {};
-  read_[0] = false;  // the line stands still, and 1,024 bytes are soon full
+  read_[0] = false;  // nobody reads, and the queue of 1,024 bytes is soon full
   for (int i = 0; i < 40; ++i) raise_a_fault(1);
   read_[0] = true;
   run_ms(100);

@@ -20,7 +20,7 @@ class Driving : public support::RobotOnBench {
       ask(segment);
     }
   }
-  /// Keeps the robot alive until it rests; false after a minute.
+  /// Keeps the robot alive until it has come to rest; false after a minute.
   bool until_rest() {
     return client_.pump_until([&] { return mode() == Mode::idle && drive().queued() == 0; },
                               std::chrono::minutes(1));
@@ -198,7 +198,7 @@ TEST_F(Driving, SetPoseMovesTheOdometryAndNothingElse) {
   EXPECT_NEAR(theta_rad(), std::numbers::pi / 2, 1e-12);
 }
 
-/// Left motor and encoder the other way round, and parameters that say so.
+/// Left motor and encoder reversed, and parameters that say so.
 TEST(Wiring, PolarityParametersMakeForwardForward) {
   sim::Config config;
   config.slip_m = 0;
@@ -229,7 +229,7 @@ TEST_F(Driving, WheelVoltagesReachTheMotorsWhateverTheSupplyIs) {
     }
     EXPECT_EQ(mode(), Mode::wheels);
     const double bus_V = board().drivetrain().bus_V();
-    // One step of the duty is 0.4 mV; the reading of the supply is good to 1 mV of 12 V.
+    // One step of the duty is 0.4 mV; the reading of the supply has an error of 1 mV in 12 V.
     EXPECT_NEAR(board().motors().duty().left * bus_V / 32767, 3.0, 0.002);
     EXPECT_NEAR(board().motors().duty().right * bus_V / 32767, -4.5, 0.002);
   }
@@ -347,7 +347,7 @@ TEST_F(Driving, ARobotThatIsCarriedAwayWhilePausedDoesNotRaceBack) {
 }
 
 TEST_F(Driving, APoseThatIsSetWhilePausedIsWhereThePathGoesOnHoweverNearItIs) {
-  // 30 mm are within what the robot would otherwise take for its own error, and correct.
+  // 30 mm are within the range that the robot would otherwise take for its own error and correct.
   arm();
   add(robot::line(1));
   run_ms(500);

@@ -1,4 +1,4 @@
-#include "firmware/app/event_log.hpp"
+#include "firmware/app/hosts/event_log.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,10 +3,11 @@
 #include <cstdio>
 
 #include "common/params/store.hpp"
-#include "firmware/app/flash_layout.hpp"
+#include "firmware/app/flash/flash_layout.hpp"
 #include "tests/support/bench_robot.hpp"
 
-// What stopped the robot is still known after a restart: which fault, when, and what was going on.
+// After a restart the log still tells what stopped the robot: which fault, when, and what the robot was
+// doing.
 namespace astro {
 namespace {
 
@@ -117,7 +118,7 @@ TEST_F(FaultLogOfARobot, SurvivesARestartAndCountsOn) {
 }
 
 TEST_F(FaultLogOfARobot, AStormOfFaultsDoesNotWearTheFlashOut) {
-  for (int i = 0; i < 500; ++i) {  // ten seconds of a host that clears whatever comes
+  for (int i = 0; i < 500; ++i) {  // for ten seconds a host clears every fault
     ask(protocol::EmergencyStop{});
     run_ms(10);
     ask(protocol::ClearFaults{});
@@ -157,7 +158,7 @@ TEST_F(FaultLogOfARobot, ParametersAndFaultsLeaveEachOthersSectorsAlone) {
   EXPECT_EQ(entries().size(), 1U);
 }
 
-/// Flash whose newest parameter set `damage` has been at.
+/// Flash whose newest parameter set was changed by `damage`.
 template <class Damage>
 sim::Config with_stored_set(const ParameterSet& set, Damage damage) {
   sim::Flash flash;

@@ -4,8 +4,8 @@
 
 #include "tests/support/bench_robot.hpp"
 
-// Whatever goes wrong: outputs off within the stated time, latched under its name, and nothing re-arms by
-// itself.
+// After every fault the outputs are off within the stated time, the fault is latched under its name, and
+// nothing re-arms by itself.
 namespace astro {
 namespace {
 
@@ -34,9 +34,9 @@ class Faults : public support::RobotOnBench {
 
 TEST_F(Faults, ASegmentStopsWhenTheHostFallsSilent) {
   drive_line();
-  silence_ms(210);  // 200 ms is the default command_timeout, and it is looked at every 8 ms
+  silence_ms(210);  // 200 ms is the default command_timeout, which is checked every 8 ms
   EXPECT_EQ(mode(), Mode::stopping);
-  silence_ms(1500);  // from 0.5 m/s at 0.5 m/s^2, and until it stands
+  silence_ms(1500);  // from 0.5 m/s at 0.5 m/s^2, until the wheels have stopped
   expect_latched(Fault::link_lost);
 }
 

@@ -2,11 +2,11 @@
 
 #include <cstdio>
 
-#include "firmware/app/flash_layout.hpp"
+#include "firmware/app/flash/flash_layout.hpp"
 #include "tests/support/bench_robot.hpp"
 
-// Parameters that were committed and are no longer there: the robot says so before anybody drives with older
-// ones, and raises no alarm otherwise, whenever the power goes.
+// If committed parameters are lost the robot reports it before anybody drives with older ones. Otherwise it
+// raises no alarm, whenever the power fails.
 namespace astro {
 namespace {
 
@@ -74,7 +74,7 @@ TEST_F(LostParameters, AllSectorsGoneIsAFaultThatSaysSoUntilSomebodyCommitsAgain
     EXPECT_EQ(refused.detail(), static_cast<int>(Fault::parameters));
   }
   ask(protocol::ClearFaults{});
-  ask(protocol::Arm{});  // somebody has seen it
+  ask(protocol::Arm{});  // allowed once the fault is cleared
   ask(protocol::Disarm{});
   commit();
   power_cycle();
@@ -134,7 +134,7 @@ TEST_F(LostParameters, APowerCutAnywhereInACommitRaisesNoAlarmAndHidesNoLoss) {
         !std::equal(after.begin() + std::ptrdiff_t{kParameterSectors} * Flash::kSectorBytes, after.end(),
                     before.begin() + std::ptrdiff_t{kParameterSectors} * Flash::kSectorBytes);
     if (!marks && commits != 3) continue;
-    // The last bytes one by one: the end of the record, and the marks. Before that, now and then.
+    // Every cut within the last bytes, which are the end of the record and the marks; some cuts before them.
     for (std::uint64_t cut = 0; cut <= whole; cut += cut + 60 < whole ? 97 : 1) {
       board().flash().put_back(0, before);
       power_cycle();

@@ -116,7 +116,7 @@ TEST_F(Parameters, ACommitKeepsWhatItsSessionStagedAndNothingThatWasOnlyTried) {
 }
 
 TEST_F(Parameters, ACommitThatWouldNotFitWhatIsInTheFlashIsRefused) {
-  // Tried: over_speed far up. Then a speed limit that only fits that one.
+  // First a large over_speed is only tried. Then comes a speed limit that is valid only with it.
   open_staging();
   stage(Param::over_speed, 3'000'000);
   ask(protocol::ApplyParameters{});

@@ -6,7 +6,7 @@
 
 #include "tests/support/hand_fed_drive.hpp"
 
-// What a request changes, and what one that is refused does not.
+// What a request changes, and that a refused request changes nothing.
 namespace astro {
 namespace {
 
@@ -46,7 +46,7 @@ TEST(Requests, WhateverOpensTheBridgesEmptiesTheQueueAndSaysSoOfEachSegment) {
     rig.drive().arm();
     rig.ticks(100);
     EXPECT_TRUE(aborted_tags(rig.drive()).empty());
-    EXPECT_TRUE(rig.drive().at_rest()) << "nothing is left to drive";
+    EXPECT_FALSE(rig.drive().gives_power()) << "nothing is left to drive";
   }
 }
 
@@ -135,7 +135,7 @@ TEST(Requests, APlanThatComesLateIsOfASegmentThatIsGone) {
   std::uint8_t ticket = 0;
   ASSERT_TRUE(rig.drive().wants_plan(segment, ticket));
   Trapezoid old;
-  ASSERT_TRUE(Trapezoid::plan(segment, rig.drive().limits(), old));
+  ASSERT_TRUE(Trapezoid::plan(segment, make_limits({}), old));
   rig.drive().stop();
   ASSERT_TRUE(rig.drive().add_segment({.dwell_ms = 500}, 2));
   rig.drive().take_plan(old, ticket);
@@ -175,8 +175,8 @@ TEST(Requests, WhatAPauseLeavesOfASegmentKeepsItsOwnSpeed) {
 }
 
 TEST(Requests, TheSpeedOfEachWheelFollowsAnAccelerationThatItsOwnCountsShow) {
-  // The observer is told of the acceleration in counts of each wheel: wheels of very unlike counts show a
-  // mix-up.
+  // The observer gets the acceleration in counts of each wheel. With very different counts a mix-up of the
+  // wheels shows.
   for (const bool left_is_small : {false, true}) {
     ParameterSet set = without_feedback();
     set.set(Param::counts_per_motor_rev, 2048);
@@ -196,8 +196,8 @@ TEST(Requests, TheSpeedOfEachWheelFollowsAnAccelerationThatItsOwnCountsShow) {
       rig.tick(static_cast<int>(std::floor(left) - left_before),
                static_cast<int>(std::floor(right) - right_before));
       if (i < 300) continue;  // the jerk, and the observer
-      // Told of the other wheel's counts, it would be off by 3 mm/s and by 10; not told at all, by 2 a / w =
-      // 5 mm/s. What it is off by is the count, 3.8 mm/s in a tick, before it is smoothed.
+      // With the other wheel's counts the error would be 3 mm/s and 10 mm/s, without any 2 a / w = 5 mm/s.
+      // The allowed error is one count, 3.8 mm/s in a tick before smoothing.
       ASSERT_NEAR(rig.drive().wheels().speeds().left_umps, wanted.left_umps, 2'500) << i;
       ASSERT_NEAR(rig.drive().wheels().speeds().right_umps, wanted.right_umps, 2'500) << i;
     }

@@ -4,8 +4,7 @@
 #include "common/protocol/framer.hpp"
 #include "tests/support/bench_robot.hpp"
 
-// What the robot does with frames themselves: repeated, malformed, of other versions, on two ports, to
-// nobody.
+// What the robot does with frames: repeated, malformed, of other versions, on two ports, without a reader.
 namespace astro {
 namespace {
 
@@ -261,7 +260,7 @@ TEST_F(Frames, WhoPausesAndResumesAtAnotherPortLeavesTheDriveToItsDriver) {
   send(protocol::Pause{}, 1);
   run_ms(1000);
   ASSERT_EQ(mode(), protocol::Mode::paused);
-  send(protocol::Resume{}, 2);  // and then port 1 says nothing more
+  send(protocol::Resume{}, 2);  // and then port 1 is silent
   run_ms(3000);
   EXPECT_EQ(drive().faults().mask(), 0U);
   EXPECT_NEAR(board().truth().x_m, 0.5, 0.005);
@@ -276,7 +275,7 @@ TEST_F(Frames, APathThatIsResumedAfterItsDriverHasGoneEndsByTheTimeout) {
   silence_ms(1000);  // the driver has gone
   const double paused_at_m = board().truth().x_m;
   for (int i = 0; i < 30; ++i) {
-    send(protocol::Resume{}, static_cast<std::uint16_t>(1 + i));  // however often somebody says so
+    send(protocol::Resume{}, static_cast<std::uint16_t>(1 + i));  // repeating it does not help
     silence_ms(100);
   }
   EXPECT_EQ(drive().faults().first(), Fault::link_lost);

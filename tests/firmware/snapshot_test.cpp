@@ -1,10 +1,10 @@
-#include "firmware/app/snapshot.hpp"
+#include "firmware/app/hosts/snapshot.hpp"
 
 #include <gtest/gtest.h>
 
 #include "tests/support/hand_fed_drive.hpp"
 
-// Telemetry of a robot whose two wheels do different things: what is said of the left one is the left one's.
+// Telemetry of a robot whose wheels do different things, so that a mix-up of left and right shows.
 namespace astro {
 namespace {
 

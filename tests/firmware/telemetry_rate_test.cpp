@@ -7,7 +7,7 @@
 #include "firmware/app/robot.hpp"
 #include "hal/mock/board.hpp"
 
-// How often telemetry comes from a main loop that is not always in time.
+// The rate of telemetry from a main loop that is sometimes late.
 namespace astro {
 namespace {
 
@@ -53,7 +53,7 @@ class TelemetryRate : public testing::Test {
 
 TEST_F(TelemetryRate, IsKeptInTheMeanByAMainLoopThatComesLate) {
   ask_for_every(10);
-  run(7000, 7);  // due every 10 ms, looked at every 7 ms
+  run(7000, 7);  // due every 10 ms, checked every 7 ms
   EXPECT_NEAR(frames(), 700, 2);
 }
 

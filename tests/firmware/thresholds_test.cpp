@@ -5,8 +5,8 @@
 
 #include "tests/support/hand_fed_drive.hpp"
 
-// Where the robot's judgement changes: each threshold of drive and wheels from just inside and just outside.
-// The numbers stand here literally, so that a changed constant is noticed.
+// Each threshold of drive and wheels, tested just inside and just outside. The numbers are repeated here, so
+// that a changed constant is noticed.
 namespace astro {
 namespace {
 
@@ -20,7 +20,7 @@ struct Sides {
   int left, right;
 };
 
-// ---- what counts as standing: 3 mm/s
+// ---- when a wheel counts as stopped: 3 mm/s
 
 TEST(Standing, IsSlowerThanThreeMillimetresASecondOnEachWheel) {
   static_assert(38 * kFineCount_umps < 3'000 && 39 * kFineCount_umps > 3'000);
@@ -28,9 +28,10 @@ TEST(Standing, IsSlowerThanThreeMillimetresASecondOnEachWheel) {
        {Sides{"left", 1, 0}, {"right", 0, 1}, {"left back", -1, 0}, {"right back", 0, -1}}) {
     HandFedDrive rig(fine_encoders());
     rig.ticks(300, 38 * side.left, 38 * side.right);
-    EXPECT_TRUE(rig.drive().stands()) << side.name;
+    EXPECT_TRUE(rig.drive().stopped_without_power()) << side.name;
     rig.ticks(300, 39 * side.left, 39 * side.right);
-    EXPECT_FALSE(rig.drive().stands()) << side.name << ": the robot turns about the other wheel";
+    EXPECT_FALSE(rig.drive().stopped_without_power())
+        << side.name << ": the robot turns about the other wheel";
   }
 }
 
@@ -56,19 +57,19 @@ TEST(Standing, AVelocityBeginsFromRestOnlyIfBothWheelsStand) {
     rig.ticks(300, counts, 0);
     rig.drive().drive_velocity({1, 0});
     rig.tick(counts, 0);
-    // From what the wheels do, or from nothing.
+    // The ramp begins at the wheels' speed, or at zero.
     EXPECT_EQ(rig.drive().wheels().set_points().left_umps > 1'000, counts == 39) << counts;
   }
 }
 
-// ---- what ends a segment: it stands close for 50 ms, or 700 ms are over
+// ---- what ends a segment: stopped and close for 50 ms, or 700 ms are over
 
 class Dwelling : public testing::Test {
  protected:
   static constexpr int kDwell_ms = 100;
 
-  /// Ticks from the end of the profile until the segment is done, with so many counts in each; 0: not in two
-  /// seconds.
+  /// Ticks from the end of the profile to the end of the segment, with so many counts in each; 0 if it does
+  /// not end within two seconds.
   static int settling_ticks(HandFedDrive& rig, std::int32_t left, std::int32_t right) {
     EXPECT_TRUE(rig.drive().add_segment({.dwell_ms = kDwell_ms}, 7));
     rig.tick();                // its profile is made
@@ -85,7 +86,7 @@ class Dwelling : public testing::Test {
 TEST_F(Dwelling, IsSettledAfterFiftyTicksOfStanding) {
   HandFedDrive rig(fine_encoders());
   rig.arm();
-  EXPECT_NEAR(settling_ticks(rig, 0, 0), 50, 2);  // 2: from which tick on one counts
+  EXPECT_NEAR(settling_ticks(rig, 0, 0), 50, 2);  // 2 for the ticks at both ends
 }
 
 TEST_F(Dwelling, IsOverAfterSevenTenthsOfASecondWhateverTheWheelsDo) {
@@ -98,12 +99,12 @@ TEST_F(Dwelling, IsOverAfterSevenTenthsOfASecondWhateverTheWheelsDo) {
   }
 }
 
-// ---- what counts as carried away: 50 mm to any side, or 1/64 turn
+// ---- when a robot counts as carried away: 50 mm to any side, or 1/64 turn
 
 class CarriedWhilePaused : public testing::Test {
  protected:
-  /// Pauses where it stands, is carried by so much along its heading (of a quarter of a turn each) and
-  /// turned, and goes on. True if it hurries back to where its path was.
+  /// The robot pauses, is carried along its heading and turned, and resumes. True if it drives back to its
+  /// path. The heading is `quarters` quarter turns.
   static bool hurries_back(int quarters, double ahead_mm, double turned_rad) {
     HandFedDrive rig;
     rig.drive().set_pose({1000, -1000, Angle::from_raw(static_cast<std::uint64_t>(quarters) << 62), 0});
@@ -181,7 +182,7 @@ TEST(Supply, IsTheMostThatTheMotorsGetUnlessTheyStandLess) {
 
 // ---- what an encoder may count in one tick
 
-/// Whether so many counts in one tick are believed of each wheel, in both senses.
+/// Whether the robot accepts so many counts in one tick, of each wheel and in both directions.
 bool believed(const ParameterSet& set, std::int32_t counts, bool on_time) {
   int taken = 0;
   for (const Sides& side : {Sides{"left", 1, 0}, {"right", 0, 1}, {"left", -1, 0}, {"right", 0, -1}}) {

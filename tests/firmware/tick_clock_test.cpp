@@ -1,4 +1,4 @@
-#include "firmware/app/tick_clock.hpp"
+#include "firmware/app/tick/tick_clock.hpp"
 
 #include <gtest/gtest.h>
 

@@ -27,7 +27,10 @@ FLAGS = "-std=c++20 -I. -isystem /usr/include/eigen3 -g0 -w -D_GLIBCXX_ASSERTION
 
 
 def order_for(file):
-    return ORDER.get(str(Path(file).parent), ["safety", "params", "kinematics", "control", "tick", "robot"])
+    for folder in Path(file).parents:  # rooms of firmware/app have no line of their own
+        if str(folder) in ORDER:
+            return ORDER[str(folder)]
+    return PROGRAMS
 
 
 def needs_the_simulator(source):
@@ -51,7 +54,7 @@ def sources(folder):
                  [folder / "tests/scenario" / name for name in SCENARIOS],
     }
     core = sorted((folder / "common").glob("*/*.cpp")) + sorted((folder / "hal/sim").glob("*.cpp"))
-    firmware_sources = sorted((folder / "firmware/app").glob("*.cpp"))
+    firmware_sources = sorted((folder / "firmware/app").glob("**/*.cpp"))
     host = [folder / "host" / name for name in HOST]
     linked = {name: list(core) for name in PROGRAMS}
     linked["tick"] += firmware_sources

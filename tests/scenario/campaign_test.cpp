@@ -8,9 +8,10 @@
 #include "host/robot/client/client.hpp"
 #include "host/simulation/robot/virtual_robot.hpp"
 #include "tests/common/fixed/seeded.hpp"
+#include "tests/support/drive_of.hpp"
 
 // Long random lives of a robot: commands, faults, silence, noise on the line, power cuts and restarts in any
-// order, and after every millisecond the things that must hold whatever happens.
+// order. After every millisecond the invariants are checked.
 namespace astro {
 namespace {
 
@@ -19,7 +20,7 @@ using simulation::VirtualRobot;
 
 constexpr int kSteps = 50'000;
 
-/// Looks at the robot after every tick.
+/// Checks the robot after every tick.
 class Witness {
  public:
   explicit Witness(VirtualRobot& robot) : robot_(robot) {}
@@ -28,7 +29,7 @@ class Witness {
   bool pose_may_jump = false;
 
   void look() {
-    const Drive& drive = robot_.robot().drive();
+    const Drive& drive = support::drive_of(robot_);
     const bool powered = robot_.board().motors().state() == sim::Bridge::drive;
     ASSERT_TRUE(!powered || drive.armed()) << "output while " << protocol::name(drive.mode());
     ASSERT_TRUE(was_armed_ || !drive.armed() || arm_asked) << "armed by itself";
@@ -44,15 +45,14 @@ class Witness {
     const double x_m = std::ldexp(static_cast<double>(drive.pose().x), -40);
     const double y_m = std::ldexp(static_cast<double>(drive.pose().y), -40);
     ASSERT_TRUE(std::isfinite(x_m) && std::isfinite(y_m));
-    // More than four times over_speed at one wheel is not believed: 4.8 mm in a tick, half of it at the
-    // centre.
+    // More than four times over_speed at one wheel is refused: 4.8 mm in a tick, half of it at the centre.
     ASSERT_TRUE(pose_may_jump || std::hypot(x_m - x_m_, y_m - y_m_) < 0.0026) << "the pose jumped";
     pose_may_jump = false;
     x_m_ = x_m;
     y_m_ = y_m;
   }
 
-  /// A path goes on or ends; a queue that may start starts.
+  /// A path continues or ends, and a queue that can start starts.
   void look_at_queue(const Drive& drive) {
     const bool waits = drive.mode() == Mode::idle && drive.queued() != 0;
     const std::uint32_t progress = drive.follower().profile().progress_16();
@@ -212,7 +212,7 @@ class Campaign {
     committed_ = under_way_;
   }
   void cut_power_in_a_commit() {
-    if (robot_.robot().drive().driving()) return;
+    if (support::drive_of(robot_).gives_power()) return;
     robot_.board().flash().cut_power_after(static_cast<std::uint64_t>(random_.between(0, 1500)),
                                            sim::Tear::torn);
     try {
@@ -225,7 +225,7 @@ class Campaign {
   void reboot() {
     client_.request(protocol::Reboot{});
     for (int ms = 0; ms < 60; ++ms) {
-      witness_.pose_may_jump = true;  // the odometry begins anew
+      witness_.pose_may_jump = true;  // the odometry starts again
       transport_.step();
     }
     come_back();
@@ -239,12 +239,13 @@ class Campaign {
     witness_.pose_may_jump = true;
     transport_.step();
     come_back();
-    EXPECT_EQ(robot_.robot().drive().faults().first() == Fault::watchdog, cause == hal::ResetCause::watchdog);
+    EXPECT_EQ(support::drive_of(robot_).faults().first() == Fault::watchdog,
+              cause == hal::ResetCause::watchdog);
   }
   void come_back() {
     ++restarts_;
     client_.connect();
-    ASSERT_FALSE(robot_.robot().drive().armed());
+    ASSERT_FALSE(support::drive_of(robot_).armed());
     const ParameterSet& now = robot_.robot().parameters();
     ASSERT_TRUE(now == committed_ || now == under_way_) << "neither the old set nor the new";
     committed_ = under_way_ = now;

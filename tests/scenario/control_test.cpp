@@ -7,8 +7,8 @@
 
 #include "tests/support/drive_rig.hpp"
 
-// How well the base drives: data-sheet motors, one of them 10 % stronger, friction, the slip of the thesis,
-// and the parameters that the firmware comes with unless a test says otherwise.
+// The quality of control: data-sheet motors, one of them 10 % stronger, friction, the slip of the thesis, and
+// default parameters unless a test changes them.
 namespace astro {
 namespace {
 
@@ -22,7 +22,7 @@ void set(ParameterSet& parameters, Param id, double value) {
   parameters.set(id, static_cast<std::int32_t>(std::lround(value * steps)));
 }
 
-/// Limits that leave it to motors and battery how fast the robot gets going.
+/// Limits so large that motors and battery decide how fast the robot accelerates.
 ParameterSet brisk() {
   ParameterSet parameters;
   set(parameters, Param::acceleration_limit, 4);
@@ -197,7 +197,7 @@ void load_left_wheel(DriveRig& rig, const char* what) {
 
 sim::Config without_slip() {
   sim::Config config = support::mismatched_robot();
-  config.slip_m = 0;  // it turns the robot by itself, and no control sees that
+  config.slip_m = 0;  // slip turns the robot, and no control can measure that
   return config;
 }
 

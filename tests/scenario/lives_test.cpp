@@ -10,7 +10,7 @@
 namespace astro {
 namespace {
 
-/// ASTROLABE_LIVES=COUNT and ASTROLABE_LIVES_SEED=FIRST ask for others than those of every test run.
+/// ASTROLABE_LIVES=COUNT and ASTROLABE_LIVES_SEED=FIRST choose other lives than the default.
 std::uint64_t number(const char* variable, std::uint64_t otherwise) {
   const char* text = std::getenv(variable);
   return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
@@ -36,7 +36,7 @@ TEST(Lives, AfterThreeSecondsOfSilenceTheBridgesAreOpenWhateverTheRobotIs) {
       count, first, static_cast<double>(ticks) / 3.6e6, static_cast<double>(powered) / 3.6e6, silences,
       with_power);
   if (count < 150) return;
-  // A campaign in which nothing happens would prove nothing.
+  // Lives in which nothing happens would show nothing.
   EXPECT_GT(with_power, static_cast<int>(count) / 10);
   for (const Fault fault : {Fault::command_timeout, Fault::link_lost, Fault::under_voltage,
                             Fault::over_voltage, Fault::over_speed, Fault::stall, Fault::encoder,

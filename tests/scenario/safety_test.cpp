@@ -7,7 +7,7 @@
 #include "host/robot/motion/paths.hpp"
 #include "tests/support/desk.hpp"
 
-// A robot that is left alone or told to stop, in virtual time to the millisecond.
+// A robot whose host falls silent or tells it to stop, in virtual time to the millisecond.
 namespace astro {
 namespace {
 
@@ -35,7 +35,7 @@ class LeftAlone : public testing::Test {
     ASSERT_NEAR(speed_mps(), 0.5, 0.02);
   }
 
-  /// Steps of a millisecond without a word from the host, until the robot really stands; at most 5 s.
+  /// Steps of a millisecond without the host, until the robot has really stopped; at most 5 s.
   double seconds_to_rest() {
     int ms = 0;
     while (ms < 5000 && speed_mps() > 0.001) ++ms;
@@ -49,7 +49,7 @@ TEST_F(LeftAlone, OnAPathTheRobotStopsItselfWithAFault) {
   get_moving();
   const double seconds = seconds_to_rest();
   EXPECT_NEAR(seconds, kTimeout_s + kRamp_s, 0.15);     // it waits for its time-out, then ramps to rest
-  for (int ms = 0; ms < 200; ++ms) desk.robot->step();  // until it has measured that it stands
+  for (int ms = 0; ms < 200; ++ms) desk.robot->step();  // until it has measured that it has stopped
   EXPECT_EQ(status().mode, Mode::fault);
   EXPECT_EQ(status().latched_faults, bit(Fault::link_lost));
 }

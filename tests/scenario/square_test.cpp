@@ -4,13 +4,13 @@
 #include <numbers>
 
 #include "host/experiment/drive/record_run.hpp"
+#include "host/recording/run/planar_pose.hpp"
 #include "host/robot/motion/drive.hpp"
 #include "host/robot/motion/paths.hpp"
-#include "host/recording/run/planar_pose.hpp"
 #include "tests/support/desk.hpp"
 
-// What calibration lives on: a robot drives a square that closes in its own odometry, and really ends where
-// its geometry takes it. In process, in virtual time.
+// The basis of calibration: a robot drives a square that closes in its own odometry, and really ends where
+// its true geometry takes it. In process, in virtual time.
 namespace astro {
 namespace {
 

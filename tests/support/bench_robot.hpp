@@ -8,8 +8,9 @@
 #include "host/robot/client/client.hpp"
 #include "host/robot/motion/paths.hpp"
 #include "host/simulation/robot/in_process.hpp"
+#include "tests/support/drive_of.hpp"
 
-/// The firmware on the simulated board with a host's client, in virtual time, for claims about what the robot
+/// The firmware on the simulated board and a host's client, in virtual time, for tests of what the robot
 /// does.
 namespace astro::support {
 
@@ -34,7 +35,7 @@ class RobotOnBench : public testing::Test {
   typename Message::Reply ask(const Message& message) {
     return client_.request(message);
   }
-  /// The code that the robot refuses with; fails the test if it does not refuse.
+  /// The robot's refusal of a request; fails the test if the robot does not refuse.
   template <class Message>
   robot::RobotRefused refusal(const Message& message) {
     try {
@@ -46,15 +47,15 @@ class RobotOnBench : public testing::Test {
     return {"", protocol::ErrorCode::unsupported, 0};
   }
 
-  /// Time passes and no host says anything.
+  /// Time passes while the host is silent.
   void silence_ms(int ms) {
     for (int i = 0; i < ms; ++i) robot_->step();
   }
-  /// Time passes and the host keeps the robot alive.
+  /// Time passes while the host keeps the drive alive.
   void run_ms(int ms) { client_.pump(std::chrono::milliseconds(ms)); }
 
-  protocol::Mode mode() { return robot_->robot().drive().mode(); }
-  const Drive& drive() { return robot_->robot().drive(); }
+  protocol::Mode mode() { return drive().mode(); }
+  const Drive& drive() { return drive_of(*robot_); }
   sim::Board& board() { return robot_->board(); }
   bool powered() { return board().motors().state() == Bridge::drive; }
   bool open() { return board().motors().state() == Bridge::coast; }

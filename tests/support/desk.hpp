@@ -10,7 +10,7 @@
 /// A simulated robot on a desk, in process and in virtual time: what scenario and experiment tests drive.
 namespace astro::support {
 
-/// The robot that the thesis found: wheels that differ, a wheelbase that is not what it believes.
+/// The robot of the thesis: its wheels differ, and its wheelbase is not the nominal one.
 inline sim::Config thesis_robot(double slip_m, std::uint64_t seed) {
   sim::Config config;
   config.true_ed = 1.00416;
@@ -24,7 +24,8 @@ inline constexpr double kThesisSlip_m = 2.645e-6;
 
 struct Desk {
   explicit Desk(const sim::Config& config)
-      : robot(std::make_shared<simulation::VirtualRobot>(config, simulation::MocapConfig{.seed = config.seed})),
+      : robot(
+            std::make_shared<simulation::VirtualRobot>(config, simulation::MocapConfig{.seed = config.seed})),
         client(std::make_unique<simulation::InProcessTransport>(robot)),
         truth(robot) {
     client.connect();

@@ -4,15 +4,15 @@
 #include <cstdint>
 #include <numbers>
 
-#include "firmware/app/drive.hpp"
+#include "firmware/app/tick/drive.hpp"
 #include "hal/sim/board.hpp"
 #include "tests/support/desk.hpp"
 
-/// The control tick on the simulated robot without a link: for claims about motion that look at every
-/// millisecond.
+/// The control tick on the simulated robot, without a link, for tests of motion in every millisecond.
 namespace astro::support {
 
-/// What the issue asks of control: data-sheet motors of which one is 10 % stronger, friction, thesis slip.
+/// The robot of the control tests: data-sheet motors, one of them 10 % stronger, friction, the slip of the
+/// thesis.
 inline sim::Config mismatched_robot() {
   sim::Config config;
   config.motor_mismatch = 0.1;
@@ -32,7 +32,7 @@ class DriveRig {
     drive_.arm();
   }
 
-  /// One tick of a host that is alive, and of the world.
+  /// One tick of the firmware and of the world; the host is alive.
   void step() {
     if (!silent) drive_.host_seen();
     if (!silent && hold_ == Hold::velocity) drive_.drive_velocity(velocity_);
@@ -50,7 +50,7 @@ class DriveRig {
     for (int i = 0; i < ms; ++i) step();
   }
 
-  /// A host that repeats this velocity from now on.
+  /// From now on the host repeats this velocity.
   void hold_velocity(double v_mps, double omega_radps) {
     velocity_ = {micro(v_mps), micro(omega_radps)};
     hold_ = Hold::velocity;
@@ -61,9 +61,9 @@ class DriveRig {
   }
   void release() { hold_ = Hold::nothing; }
 
-  // What goes wrong.
-  bool silent = false;  // the host says nothing more
-  int late_ticks = 0;   // so many do not keep the rate
+  // Faults.
+  bool silent = false;  // true: the host is silent from now on
+  int late_ticks = 0;   // so many of the next ticks are not on time
   void reverse_left_encoder() {
     turned_at_ = board_.encoders().read().left;
     reversed_ = true;
@@ -74,7 +74,7 @@ class DriveRig {
     release();
     step();
   }
-  /// All that a test can have broken.
+  /// Repairs everything that a test can break.
   void repair() {
     silent = false;
     board_.motors().set_fault(false);
@@ -91,7 +91,7 @@ class DriveRig {
   Drive& drive() { return drive_; }
   sim::Board& board() { return board_; }
 
-  // The truth.
+  // Ground truth.
   double left_mps() const { return wheel_mps(sim::Side::left); }
   double right_mps() const { return wheel_mps(sim::Side::right); }
   double v_mps() const { return (left_mps() + right_mps()) / 2; }

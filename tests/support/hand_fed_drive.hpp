@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <optional>
 
-#include "firmware/app/drive.hpp"
+#include "firmware/app/tick/drive.hpp"
 
-/// The control tick without a world: a test says what the encoders count and what the supply shows. For
-/// thresholds, which a simulated robot passes without stopping there.
+/// The control tick without a world: a test sets the encoders' counts and the supply. For thresholds, which a
+/// simulated robot would not hit exactly.
 namespace astro::support {
 
 class HandFedDrive {
@@ -14,13 +14,13 @@ class HandFedDrive {
   explicit HandFedDrive(const ParameterSet& set = {}, const hal::EncoderCounts& start = {})
       : counts_(start), drive_(set) {}
 
-  // What every tick shows until it is set to something else.
+  // The input of every tick until it is changed.
   std::int32_t battery_mv = 12'000;
   bool on_time = true;
-  std::optional<BodyTwist> velocity;      // a host that repeats it
-  std::optional<WheelVoltages> voltages;  // or this
+  std::optional<BodyTwist> velocity;      // the host repeats it
+  std::optional<WheelVoltages> voltages;  // or these
 
-  /// One tick of a host that is alive, in which the wheels turn by so many counts.
+  /// One tick in which the wheels turn by so many counts; the host is alive.
   Drive::Output tick(std::int32_t left = 0, std::int32_t right = 0) {
     counts_ = {sum(counts_.left, left), sum(counts_.right, right)};
     now_us_ += 1000;
@@ -34,7 +34,7 @@ class HandFedDrive {
   void ticks(int count, std::int32_t left = 0, std::int32_t right = 0) {
     for (int i = 0; i < count; ++i) tick(left, right);
   }
-  /// Through boot, at rest.
+  /// Arms the robot after boot, at rest.
   void arm() {
     ticks(50);
     drive_.arm();
@@ -66,7 +66,7 @@ inline ParameterSet fine_encoders() {
 }
 inline constexpr double kFineCount_umps = 78.8;  // pi * 72 mm / (65536 * 43.8) in a millisecond
 
-/// A robot that does not fight what a test feeds its encoders: no gain acts on what they count.
+/// A robot that does not react to the counts that a test feeds it: all feedback gains are 0.
 inline ParameterSet without_feedback(ParameterSet set = {}) {
   for (const Param gain :
        {Param::kp, Param::ki, Param::k_sync, Param::path_k_along, Param::path_k_cross, Param::path_k_heading})

@@ -8,6 +8,7 @@
 #include "common/protocol/frame.hpp"
 #include "common/protocol/messages.hpp"
 #include "host/simulation/robot/virtual_robot.hpp"
+#include "tests/support/drive_of.hpp"
 
 namespace astro::support {
 namespace {
@@ -32,7 +33,7 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-// ---- the robot as somebody has built it
+// ---- the robot's construction
 
 sim::Wiring random_wiring(Random& random) {
   sim::Wiring wiring;
@@ -59,7 +60,7 @@ sim::Config random_robot(Random& random, std::uint64_t seed) {
   return config;
 }
 
-// ---- the parameters that somebody has entered
+// ---- its parameters
 
 std::int32_t random_value(Random& random, const ParamRow& row) {
   switch (random.between(0, 5)) {
@@ -73,7 +74,7 @@ std::int32_t random_value(Random& random, const ParamRow& row) {
           std::exp(random.uniform(std::log(low), std::log(std::max(low, double(row.maximum_raw)))));
       return static_cast<std::int32_t>(std::clamp<double>(value, row.minimum_raw, row.maximum_raw));
     }
-    case 3: {  // a factor that somebody has got wrong
+    case 3: {  // wrong by a factor
       const double value = row.default_raw * random.uniform(0.02, 50);
       return static_cast<std::int32_t>(std::clamp<double>(value, row.minimum_raw, row.maximum_raw));
     }
@@ -89,16 +90,16 @@ ParameterSet random_set(Random& random) {
     if (row.kind == ParamKind::text || !random.chance(changed)) continue;
     set.set(row.id, random_value(random, row));
   }
-  // Half of the robots keep the time-out that most have; it decides what may be claimed of them.
+  // Half of the robots keep the default time-out, which decides what must hold for them.
   if (random.chance(0.5)) set.set(Param::command_timeout, kUsualTimeout_ms);
-  if (random.chance(0.3)) {  // gains too weak to hold anything
+  if (random.chance(0.3)) {  // gains that are too small to hold a load
     set.set(Param::kp, static_cast<std::int32_t>(random.between(0, 20 << 16)));
     set.set(Param::ki, 0);
   }
   for (const Param polarity : {Param::motor_polarity_left, Param::motor_polarity_right,
                                Param::encoder_polarity_left, Param::encoder_polarity_right})
     set.set(polarity, random.chance(0.1) ? -1 : 1);
-  // A set that the robot would refuse becomes one that it takes, parameter by parameter.
+  // Changes a set that the robot would refuse, parameter by parameter, until the robot accepts it.
   for (auto verdict = validate(set); !verdict; verdict = validate(set)) {
     const Param bad = verdict.error();
     if (set.get(bad) == ParameterSet::defaults().get(bad)) return ParameterSet::defaults();
@@ -157,7 +158,7 @@ class Life {
     send(protocol::Arm{}, port_);
   }
 
-  /// A host that drives by velocities, for as long as it likes.
+  /// A host that drives by velocities for a random time.
   void velocities() {
     const auto v = static_cast<std::int32_t>(random_.between(-2'000'000, 2'000'000));
     const auto omega = static_cast<std::int32_t>(random_.between(-5'000'000, 5'000'000));
@@ -196,7 +197,7 @@ class Life {
     }
   }
 
-  /// A host that only says that it is there.
+  /// A host that only sends pings.
   void stay(int ms) {
     for (int passed = 0; passed < ms; passed += 50) {
       send(protocol::Ping{}, port_);
@@ -259,14 +260,14 @@ class Life {
       case 3:
       case 4:
       case 5:
-        if (!robot_.robot().drive().armed()) arm();
+        if (!drive_of(robot_).armed()) arm();
         return velocities();
       case 6:
       case 7:
-        if (!robot_.robot().drive().armed()) arm();
+        if (!drive_of(robot_).armed()) arm();
         return segments();
       case 8:
-        if (!robot_.robot().drive().armed()) arm();
+        if (!drive_of(robot_).armed()) arm();
         return voltages();
       case 9:
       case 10:
@@ -319,12 +320,12 @@ class Life {
     }
     ++report_.ticks;
     report_.powered_ticks += powered() ? 1 : 0;
-    report_.faults_seen |= robot_.robot().drive().faults().mask();
+    report_.faults_seen |= drive_of(robot_).faults().mask();
     look();
   }
 
   void look() {
-    const Drive& drive = robot_.robot().drive();
+    const Drive& drive = drive_of(robot_);
     const Mode mode = drive.mode();
     ++silent_ms_;
     stopping_silent_ms_ = mode == Mode::stopping ? std::min(stopping_silent_ms_ + 1, silent_ms_) : 0;
@@ -335,7 +336,7 @@ class Life {
     if (stopping_silent_ms_ > kSilence_ms) return violate("three seconds of silence in a ramp, and power");
 
     const int timeout_ms = robot_.robot().parameters().get(Param::command_timeout);
-    if (timeout_ms == 0) return;  // may drive, or wait armed, for ever
+    if (timeout_ms == 0) return;  // the robot may drive, or stay armed, without end
     const int longer_ms = std::max(0, timeout_ms - kUsualTimeout_ms);
     if (silent_ms_ > kSilence_ms + longer_ms && powered()) return violate("silence, and power");
     if (silent_ms_ > kSilence_ms + longer_ms && robot_.board().motors().state() != sim::Bridge::coast)
@@ -343,7 +344,7 @@ class Life {
   }
 
   void violate(const char* what) {
-    const Drive& drive = robot_.robot().drive();
+    const Drive& drive = drive_of(robot_);
     report_.violation = std::string(what) + ": mode " + std::string(protocol::name(drive.mode())) + ", " +
                         std::to_string(silent_ms_) + " ms after the last byte, faults " +
                         std::to_string(drive.faults().mask()) + ", tick " + std::to_string(report_.ticks);

@@ -7,9 +7,9 @@ namespace astro::teensy40 {
 /// One PWM period: 20 kHz from the 150 MHz bus clock. Above hearing, and slow enough for the driver chip.
 inline constexpr std::uint32_t kPwmPeriod_counts = 7500;
 
-/// Time high in a PWM period for a duty in Q15, to the nearest count; the sign is the direction pins'
-/// business. Full drive, +-32767, is the whole period: the output never falls. -32768, which is no duty, is
-/// full drive.
+/// The high time in a PWM period for a duty in Q15, to the nearest count; the direction pins take care of the
+/// sign. Full drive, +-32767, is the whole period, so the output never goes low. -32768, which is not a valid
+/// duty, is full drive.
 constexpr std::uint32_t duty_counts(std::int16_t duty) {
   constexpr std::uint32_t kFull = 32767;
   const std::uint32_t magnitude =

@@ -7,16 +7,17 @@
 
 namespace astro::teensy40 {
 
-/// What the firmware leaves in SRC_GPR5, which outlives a warm reset, before it restarts the chip. The reset
-/// controller sees a wanted restart, a fault's and the core's own lock-up as the same.
+/// The firmware writes one of these to SRC_GPR5, which a warm reset does not change, before it restarts the
+/// chip: the reset controller cannot distinguish an intended restart, a fault's restart and a lock-up of the
+/// core.
 namespace marker {
 inline constexpr std::uint32_t kNone = 0;
 inline constexpr std::uint32_t kReboot = 0xA57B'0001;
 inline constexpr std::uint32_t kFault = 0xA57B'0002;
 }  // namespace marker
 
-/// Why the chip started, from SRC_SRSR as it was and the marker. The bits are sticky: whoever reads them
-/// clears them, or the next start tells of this one.
+/// Why the chip started, from SRC_SRSR and the marker. The bits are sticky: clear them after reading, or the
+/// next start sees them, too.
 constexpr hal::ResetCause reset_cause(std::uint32_t srsr, std::uint32_t left_marker) {
   if (src::SRSR_IPP_RESET_B.of(srsr) != 0) return hal::ResetCause::power_on;  // no marker outlives that
   if (src::SRSR_WDOG3_RST_B.of(srsr) != 0 || src::SRSR_WDOG_RST_B.of(srsr) != 0)

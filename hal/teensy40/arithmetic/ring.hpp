@@ -9,8 +9,8 @@
 
 namespace astro::teensy40 {
 
-/// Bytes in order between one writer and one reader that may interrupt one another; what does not fit is not
-/// taken. kSize is a power of two.
+/// A queue of bytes between one writer and one reader, which may interrupt each other. Bytes that do not fit
+/// are not taken. kSize is a power of two.
 template <std::size_t kSize>
 class Ring {
   static_assert(kSize != 0 && (kSize & (kSize - 1)) == 0 && kSize <= 1U << 16);
@@ -37,7 +37,7 @@ class Ring {
     return count;
   }
 
-  /// From the reader's side, or while the reader waits.
+  /// Call it as the reader, or while the reader cannot run.
   void clear() { read_.store(load(written_), std::memory_order_release); }
 
  private:

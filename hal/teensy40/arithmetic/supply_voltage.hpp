@@ -7,8 +7,8 @@ namespace astro::teensy40 {
 /// The motor supply behind its divider, 82 kohm above 10 kohm (1 %), at a converter of 12 bits with a full
 /// scale of 3.3 V.
 ///
-/// Why     25 V, a 6S pack, becomes 2.7 V; the pin bears 3.3 V, which is 30.4 V of supply. The pin sees
-///         8.9 kohm, below the 10 kohm that the converter asks for.
+/// Why     25 V, a 6S pack, becomes 2.7 V at the pin, which tolerates 3.3 V, or 30.4 V of supply. The source
+///         resistance is 8.9 kohm, below the converter's limit of 10 kohm.
 inline constexpr std::uint32_t kDividerUpper_ohm = 82'000, kDividerLower_ohm = 10'000;
 inline constexpr std::uint32_t kAdcFullScale_mV = 3'300, kAdcFullScale = 4'095;
 inline constexpr std::uint32_t kSupplyFullScale_mV =
@@ -18,7 +18,7 @@ static_assert(kSupplyFullScale_mV == 30'360);
 /// First-order low pass over samples 1 ms apart, -3 dB at 46 Hz, in sixteenths of a converter step.
 class SupplyVoltage {
  public:
-  /// Begins at `sample`, so that the first reading is not a climb from zero.
+  /// Starts at `sample`, so that the first readings do not rise from zero.
   constexpr void prime(std::uint32_t sample) { level_ = static_cast<std::int32_t>(sample << kFraction); }
 
   constexpr void add(std::uint32_t sample) {

@@ -54,9 +54,8 @@ void join() {
   wait_while(ccm::CDHIPR_PERIPH_CLK_SEL_BUSY);
 }
 
-/// A core that waits for an interrupt stops alone. As reset leaves it, the chip would go into its wait mode,
-/// in which the watchdog stands still, and the memories of a sleeping core would be closed to
-/// all other masters of the bus.
+/// Makes `wfi` stop only the core. With the settings after reset the chip would enter its wait mode, in which
+/// the watchdog stops and the other bus masters cannot reach the memories of the sleeping core.
 void sleep_lightly() {
   CCM[ccm::CLPCR].modify(ccm::CLPCR_LPM.mask(), 0);
   IOMUXC_GPR[iomuxc_gpr::GPR1].modify(0, iomuxc_gpr::GPR1_CM7_FORCE_HCLK_EN(1));

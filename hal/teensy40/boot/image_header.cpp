@@ -4,8 +4,8 @@
 #include "common/base/version.hpp"
 #include "hal/teensy40/boot/start.hpp"
 
-/// What the boot ROM reads before it runs anything: how to talk to the flash, and where the program is. The
-/// linker script puts each at its place.
+/// The data that the boot ROM reads before it runs the program: how to access the flash, and where the
+/// program is. The linker script puts each block at its place.
 namespace astro::teensy40 {
 namespace {
 
@@ -20,8 +20,8 @@ struct FlashConfiguration {
   std::array<std::uint32_t, 2> reserved_48{};
   std::uint32_t size_bytes = 0x0020'0000;
   std::array<std::uint32_t, 11> reserved_54{};
-  // Read 0xEB: address and mode 0xFF on four lines, so that the flash never stays in continuous read and a
-  // warm reset finds it listening; 4 clocks; data on four lines.
+  // Read 0xEB: address and mode 0xFF on four lines, 4 clocks, data on four lines. The mode keeps the flash
+  // out of continuous read, so that it accepts commands after a warm reset.
   std::array<std::uint32_t, 3> read_sequence{0x0A18'04EB, 0x3204'1EFF, 0x0000'2601};
   std::array<std::uint32_t, 77> reserved_8c{};
   std::uint32_t page_bytes = 256;
@@ -65,7 +65,7 @@ extern const std::uint8_t image_start, image_length;
 [[gnu::section(".flash_configuration")]] extern const FlashConfiguration flash_configuration;
 [[gnu::used]] const FlashConfiguration flash_configuration{};
 
-/// The true length: the newer boot loaders of the Teensy erase by it.
+/// The true length, because newer boot loaders of the Teensy erase by it.
 [[gnu::section(".boot_data")]] extern const BootData boot_data;
 [[gnu::used]] const BootData boot_data{&image_start, &image_length, 0};
 
@@ -74,7 +74,7 @@ extern const std::uint8_t image_start, image_length;
 [[gnu::used]] const VectorTable image_vector_table{0x4320'00D1,         reset, 0, 0, &boot_data,
                                                    &image_vector_table, 0,     0};
 
-/// Who it is, for programs that flash it (host/base/firmware_image).
+/// Identifies the image to programs that flash it (host/base/firmware_image).
 [[gnu::section(".image_info")]] extern const ImageInfo image_info;
 [[gnu::used]] const ImageInfo image_info{};
 

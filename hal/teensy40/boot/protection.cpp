@@ -22,9 +22,9 @@ struct Region {
   std::uint32_t attributes;
 };
 
-/// A later one wins where two overlap.
+/// Where two regions overlap the later one applies.
 constexpr std::array<Region, 8> kRegions{{
-    {0x0000'0000, 32, kNoAccess | kNoCode},          // what is not named below, also for speculation
+    {0x0000'0000, 32, kNoAccess | kNoCode},          // everything else, also for speculative reads
     {0x0000'0000, 17, kReadOnly | kNoCache},         // ITCM: code and constants
     {0x0000'0000, 5, kNoAccess | kNoCode},           // null
     {0x0020'0000, 17, kReadOnly | kWriteThrough},    // boot ROM
@@ -40,14 +40,14 @@ void set(std::uint32_t number, const Region& region) {
                        mpu::RASR_ENABLE(1));
 }
 
-/// The MPU has 16 regions. A higher one wins, so that one that the ROM has left would overrule ours.
+/// The MPU has 16 regions, and a higher one takes precedence: one that the ROM has left would override ours.
 void clear(std::uint32_t number) {
   MPU[mpu::RNR].write(number);
   MPU[mpu::RASR].write(0);
 }
 
-/// Which lines are valid is undefined after power-on, and a restart keeps those of the program before: 4 ways
-/// of 256 lines of 32 bytes are dropped.
+/// Invalidates 4 ways of 256 lines of 32 bytes: after power-on their state is undefined, and a restart keeps
+/// the lines of the program before.
 void forget_data_cache() {
   for (std::uint32_t way = 0; way < 4; ++way)
     for (std::uint32_t line = 0; line < 256; ++line) SCB[scb::DCISW].write(way << 30 | line << 5);
@@ -56,7 +56,7 @@ void forget_data_cache() {
 
 }  // namespace
 
-/// The MPU is off: reset() switches it off, because a region must not change while it is in force.
+/// Precondition: the MPU is off (reset() does that), because regions must not change while they are in force.
 void start() {
   constexpr std::uint32_t kAllRegions = 16;
   for (std::uint32_t number = 0; number < kAllRegions; ++number) clear(number);

@@ -9,8 +9,8 @@
 #include "hal/teensy40/pins.hpp"
 #include "hal/teensy40/watchdog.hpp"
 
-// What stays in the flash and runs there, before RAM holds the rest. No constant of it may lie elsewhere, and
-// the compiler must not turn a loop of it into a call of memcpy, which is not there yet.
+// This code runs in the flash, before the rest has been copied to RAM. Its constants must be in the flash,
+// too, and the compiler must not turn a loop into a call of memcpy, which is not in RAM yet.
 #define IN_FLASH [[gnu::section(".boot"), gnu::noinline, gnu::optimize("no-tree-loop-distribute-patterns")]]
 
 extern "C" {
@@ -26,8 +26,8 @@ int main();
 namespace astro::teensy40 {
 namespace {
 
-/// The other two watchdogs pull a pin 16 s after a reset. Their clocks run then unless the ROM has stopped
-/// them.
+/// The other two watchdogs would pull a pin 16 s after a reset, because their clocks run unless the ROM has
+/// stopped them.
 void stop_power_down_counters() {
   open_gate(CCM[ccm::CCGR3], ccm::CCGR3_CG8);
   open_gate(CCM[ccm::CCGR5], ccm::CCGR5_CG5);
@@ -78,10 +78,10 @@ extern "C" IN_FLASH void start_from_flash() {
   run();
 }
 
-/// First what the ROM may have left behind: interrupts, the process stack, the MPU with regions that forbid
-/// what follows, and masks that would keep every interrupt away for ever. Then 4 banks of 32 KB for code, 12
-/// for data; no stack and no data before that is done. GPR16's upper bits are where the core finds its
-/// vectors after a reset: they stay with the ROM.
+/// First clears what the ROM may have left: interrupts, the process stack, MPU regions that would forbid the
+/// following code, and masks that would block all interrupts. Then assigns 4 banks of 32 KB to code and 12 to
+/// data; until that is done there is no stack and no data. GPR16's upper bits say where the core finds its
+/// vectors after a reset and stay as they are.
 extern "C" [[gnu::naked, gnu::section(".boot")]] void reset() {
   asm volatile(
       "cpsid i\n"

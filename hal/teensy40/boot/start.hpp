@@ -2,9 +2,9 @@
 
 namespace astro::teensy40 {
 
-/// Where the boot ROM jumps to: memories, outputs low, the program copied from the flash into RAM; then
-/// watchdogs off, vectors, protection, caches, 600 MHz, constructors and main(). Nothing runs from the flash
-/// after that.
+/// The boot ROM jumps here. Sets up the memories, sets the outputs low and copies the program from the flash
+/// into RAM; then switches the watchdogs off, sets up vectors, protection, caches and 600 MHz, and calls
+/// constructors and main(). After that nothing runs from the flash.
 extern "C" [[noreturn]] void reset();
 
 }  // namespace astro::teensy40

@@ -16,7 +16,7 @@ constexpr std::size_t kEntries = 16 + 160;
 
 [[gnu::section(".vectors")]] std::array<std::uintptr_t, kEntries> table;
 
-/// What the ROM may have left running would find no handler and restart the chip for ever.
+/// An interrupt that the ROM has left pending would find no handler and restart the chip again and again.
 void silence_interrupts() {
   constexpr std::uint32_t kBanks = 160 / 32;
   constexpr std::uint32_t kDropSysTick = 1U << 25, kDropPendSv = 1U << 27;  // ICSR: PENDSTCLR, PENDSVCLR
@@ -28,11 +28,11 @@ void silence_interrupts() {
   }
 }
 
-/// Bits of CFSR. Each says that the registers did not get onto the stack, or not back from it, so that what
-/// lies there is something else: MUNSTKERR, MSTKERR, MLSPERR, UNSTKERR, STKERR, LSPERR.
+/// Bits of CFSR that mean that saving the registers on the stack, or restoring them, has failed, so the stack
+/// does not hold them: MUNSTKERR, MSTKERR, MLSPERR, UNSTKERR, STKERR, LSPERR.
 constexpr std::uint32_t kNoFrame = 1U << 3 | 1U << 4 | 1U << 5 | 1U << 11 | 1U << 12 | 1U << 13;
 
-/// The program counter that the core put on the stack, if it could and there still is one.
+/// The program counter that the core has saved on the stack; 0 if that failed.
 std::uint32_t where(std::uint32_t frame, std::uint32_t fault_status) {
   if ((fault_status & kNoFrame) != 0) return 0;
   constexpr std::uint32_t kBytes = 32, kProgramCounter = 24;
@@ -58,7 +58,7 @@ extern "C" [[noreturn, gnu::used]] void end_by_fault(std::uint32_t exception, st
   }
 }
 
-/// The stack may be what has failed: it begins anew, and what was on it is given up.
+/// The stack itself may have failed, so it is reset and its content is lost.
 extern "C" [[gnu::naked]] void fault_handler() {
   asm volatile(
       "cpsid i\n"
@@ -72,7 +72,7 @@ extern "C" [[gnu::naked]] void fault_handler() {
 
 void start() {
   silence_interrupts();
-  SCB[scb::CFSR].write(~0U);  // a fault in the ROM is none of this program's
+  SCB[scb::CFSR].write(~0U);  // faults in the ROM must not count as this program's
   const auto handler = reinterpret_cast<std::uintptr_t>(fault_handler);
   table.fill(handler);
   table[0] = reinterpret_cast<std::uintptr_t>(&stack_top);

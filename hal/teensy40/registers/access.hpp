@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <type_traits>
 
-/// What a register is, and how the processor reaches one.
+/// Registers and fields, and how the processor accesses them.
 namespace astro::teensy40 {
 
 template <int Width>

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/base/little_endian.hpp"
+
 namespace astro::teensy40::usb_device {
 namespace {
 
@@ -36,15 +38,15 @@ bool Control::exists(std::uint8_t endpoint) {
 
 std::uint8_t Control::bit(std::uint8_t endpoint) { return static_cast<std::uint8_t>(1U << (endpoint & 7)); }
 
-// A reply that is shorter than what the host asked for and ends with a full packet would need an empty one
-// behind it. None does: nothing that we send whole is a multiple of a packet.
+// A reply that is shorter than the host has asked for and ends with a full packet would need an empty packet
+// after it. No reply does, because the size of none is a multiple of a packet.
 constexpr bool ends_by_itself(std::size_t bytes) { return bytes % kControlPacket != 0; }
 static_assert(ends_by_itself(kDevice.size()) && ends_by_itself(kQualifier.size()) &&
               ends_by_itself(kConfigurationBytes) && ends_by_itself(kLanguages.size()) &&
               ends_by_itself(StringDescriptor(kManufacturer).size) &&
               ends_by_itself(StringDescriptor(kProduct).size) && ends_by_itself(kStringBytes));
 
-/// From a buffer of our own: constants lie with the code, where the controller does not reach.
+/// Sends from a buffer in data memory: constants are in code memory, which the controller cannot read.
 Response Control::send(std::span<const std::uint8_t> all, const Setup& setup) {
   if (all.data() != reply_.data()) std::copy(all.begin(), all.end(), reply_.begin());
   const std::size_t size = std::min<std::size_t>(all.size(), setup.length);
@@ -136,7 +138,7 @@ Response Control::of_class(const Setup& setup) {
   if (setup.request == request::kSetLineCoding && !setup.to_host() && setup.length == kLineCodingBytes)
     return {.kind = Response::Kind::receive, .length = kLineCodingBytes};
   if (setup.request == request::kGetLineCoding && setup.to_host()) {
-    for (std::size_t i = 0; i < 4; ++i) reply_[i] = static_cast<std::uint8_t>(coding_.baud >> (8 * i));
+    store_little_endian(&reply_[0], coding_.baud);
     reply_[4] = coding_.stop_bits;
     reply_[5] = coding_.parity;
     reply_[6] = coding_.data_bits;
@@ -154,8 +156,7 @@ Response Control::of_class(const Setup& setup) {
 
 void Control::on_data(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < kLineCodingBytes) return;
-  coding_.baud = 0;
-  for (std::size_t i = 0; i < 4; ++i) coding_.baud |= std::uint32_t{bytes[i]} << (8 * i);
+  coding_.baud = load_little_endian<std::uint32_t>(&bytes[0]);
   coding_.stop_bits = bytes[4];
   coding_.parity = bytes[5];
   coding_.data_bits = bytes[6];

@@ -29,24 +29,24 @@ struct LineCoding {
   std::uint8_t stop_bits = 0, parity = 0, data_bits = 8;
 };
 
-/// Endpoint 0 without hardware: the state that requests read and change. The controller carries out what the
-/// answers and `changes` say.
+/// Endpoint 0 without hardware: the state that requests read and change. The controller's driver carries out
+/// the responses and the changes.
 class Control {
  public:
-  /// What a request has changed, once: the controller's to carry out.
+  /// What a request has changed and the driver has to carry out once.
   struct Changes {
     bool address = false;
-    bool endpoints = false;     // all but endpoint 0 begin anew, or go
+    bool endpoints = false;     // all endpoints but 0 are set up again, or removed
     bool closed = false;        // the last program has closed the port
-    std::uint8_t unhalted = 0;  // endpoint address whose toggle begins anew; 0: none
+    std::uint8_t unhalted = 0;  // endpoint address whose data toggle is reset; 0: none
     std::uint8_t halted = 0;    // endpoint address that stalls from now on
   };
 
-  /// `serial_number` outlives the object.
+  /// `serial_number` must outlive the object.
   void start(std::string_view serial_number) { serial_number_ = serial_number; }
   void on_reset();
   Response on_setup(const Setup& setup, Speed speed);
-  /// The bytes of a `receive` have come.
+  /// The bytes of a `receive` have arrived.
   void on_data(std::span<const std::uint8_t> bytes);
   Changes take_changes();
 

@@ -51,7 +51,7 @@ void reset_heads() {
   heads[kControlIn.index()].capabilities = head_capabilities(kControlPacket, kNoEmptyPacket);
 }
 
-/// A packet that is on its way keeps its transfer through a flush: then once more.
+/// A packet in progress keeps its transfer despite a flush; then the flush is repeated.
 void flush(std::uint32_t bits) {
   constexpr int kPackets = 4;
   for (int tries = 0; tries < kPackets; ++tries) {
@@ -70,7 +70,7 @@ Register<std::uint32_t> endpoint_control(std::uint32_t endpoint) {
   return Register<std::uint32_t>(USB1[usb::ENDPTCTRL0].address() + 4 * endpoint);
 }
 
-// Types of an endpoint; a direction without use must not stay "control".
+// Types of an endpoint; an unused direction must not stay of type "control".
 constexpr std::uint32_t kBulk = 2, kInterruptType = 3;
 constexpr std::uint32_t kReceive =
     usb::ENDPTCTRL1_RXE(1) | usb::ENDPTCTRL1_RXR(1) | usb::ENDPTCTRL1_RXT(kBulk) | usb::ENDPTCTRL1_TXT(kBulk);
@@ -182,7 +182,7 @@ bool take_setup(Setup& setup) {
     if (USB1[usb::USBCMD].get(usb::USBCMD_SUTW) != 0) break;
   }
   USB1[usb::USBCMD].modify(usb::USBCMD_SUTW(1), 0);
-  // The end of an earlier request's last stage must not be taken for one of this request's.
+  // The end of the last stage of an earlier request must not be taken for this request's.
   drop(kControlOut.bit() | kControlIn.bit());
   return true;
 }

@@ -18,10 +18,10 @@ inline constexpr std::size_t kHeads = 10;
 void start();
 /// Leaves the bus.
 void detach();
-/// The same whatever state the controller is in: what ran before this program may have left it attached.
+/// Leaves the bus in any state of the controller: the program before may have left it attached.
 void power_down();
 
-/// Events that wait, which this takes.
+/// Returns the pending events and clears them.
 struct Events {
   bool reset;      // the bus is in reset
   bool suspended;  // or the cable is out
@@ -30,29 +30,28 @@ struct Events {
 };
 Events take_events();
 
-/// After a bus reset: everything under way is dropped. False if the reset is over already, which is too late.
+/// Call it on a bus reset: drops all transfers. False if the reset is already over, which is too late.
 bool clean_up_after_reset();
 Speed speed();
-/// The controller answers to this address once the next packet to the host has been taken: to be called
-/// before.
+/// The controller uses this address after the next packet to the host, so call it before that packet.
 void set_address(std::uint8_t address);
-/// The robot's three endpoints, with the packets of this speed; or none of them. Drops what is under way.
+/// Sets up the robot's three endpoints for this speed, or removes them. Drops their transfers.
 void open_endpoints(Speed speed);
 void close_endpoints();
 void stall(Pipe pipe);
 void unstall(Pipe pipe);
 void stall_control();
 
-/// True if a SETUP packet has come; what was under way at endpoint 0 is dropped then.
+/// True if a SETUP packet has arrived; transfers at endpoint 0 are then dropped.
 bool take_setup(Setup& setup);
 
-/// A SETUP packet waits, and nothing may be started at endpoint 0 before it has been taken.
+/// A SETUP packet waits; no transfer may be started at endpoint 0 before it has been taken.
 bool setup_waits();
 
-/// Starts a transfer. The bytes stay where they are until it is over. To the host, a multiple of full packets
-/// of the bulk endpoint is followed by an empty one, without which the host would wait for more.
+/// Starts a transfer. The bytes must stay in place until it is over. If the bulk endpoint sends a multiple of
+/// full packets to the host, an empty packet follows, because the host would otherwise wait for more.
 void begin(Pipe pipe, std::span<std::uint8_t> bytes);
-/// Drops what is under way at a pipe, also that it has just ended.
+/// Drops the transfer of a pipe, even if it has just ended.
 void cancel(Pipe pipe);
 /// Pipes whose transfers have ended since the last call, a bit each.
 std::uint32_t take_completed();

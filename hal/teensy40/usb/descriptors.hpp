@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string_view>
 
-/// What the robot says of itself when it is plugged in: a serial port by the class for communication devices
-/// (CDC-ACM), at high and at full speed.
+/// The USB descriptors of the robot: a serial port of the class for communication devices (CDC-ACM), at high
+/// and at full speed.
 ///
 /// Source  USB 2.0, chapter 9; CDC 1.2 and its PSTN subclass; the descriptor of associated interfaces (IAD).
 namespace astro::teensy40::usb_device {

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-/// What the controller reads and writes in memory: a queue head for each direction of an endpoint, and
-/// descriptors of transfers. Everything of it lies in DTCM, which nobody caches.
+/// The data that the controller reads and writes in memory: a queue head for each direction of an endpoint,
+/// and descriptors of transfers. All of it is in DTCM, which is not cached.
 ///
 /// Source  the EHCI-like device controller of the i.MX RT family.
 namespace astro::teensy40::usb_device {
@@ -28,7 +28,7 @@ struct alignas(64) QueueHead {
 };
 static_assert(sizeof(QueueHead) == 64);
 
-/// A transfer that is a whole number of packets is ended by an empty one unless this says no.
+/// Without this bit an empty packet ends a transfer of a whole number of packets.
 inline constexpr std::uint32_t kNoEmptyPacket = 1U << 29, kInterruptOnSetup = 1U << 15;
 constexpr std::uint32_t head_capabilities(std::uint32_t packet, std::uint32_t flags) {
   return packet << 16 | flags;

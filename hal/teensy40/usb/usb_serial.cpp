@@ -40,9 +40,9 @@ void UsbSerial::stay_away() {
 }
 
 void UsbSerial::come_back_in_time() {
-  // A hub tells its host of a change when it is asked, every 255 ms at full speed and every 256 ms at high
-  // speed (USB 2.0, 11.23.1: bInterval of its status endpoint, 0xFF and 0x0C). A device that is back sooner
-  // may never have been gone as far as the host knows.
+  // A host asks a hub for changes every 255 ms at full speed and every 256 ms at high speed (USB 2.0,
+  // 11.23.1: bInterval of the status endpoint, 0xFF and 0x0C). It may not notice the absence of a device that
+  // is back sooner.
   constexpr std::uint64_t kNoticed_us = 300'000;
   if (!away_ || Clock().now_us() - left_at_us_ < kNoticed_us) return;
   away_ = false;
@@ -76,12 +76,12 @@ void UsbSerial::reset() {
   received_taken_ = 0;
   bootloader_requested_ = false;
   if (in_time) return;
-  // The host goes on already, with a device that has forgotten its address.
+  // The host continues already, but this device has lost its address.
   controller::detach();
   stay_away();
 }
 
-/// What has not gone out never will: it is not for the next program, nor for later.
+/// Drops the bytes that have not been sent: the next program must not get them.
 void UsbSerial::drop_output() {
   controller::cancel(kIn);
   to_send_.clear();
@@ -121,7 +121,7 @@ void UsbSerial::carry_out(const usb_device::Control::Changes& changes) {
 void UsbSerial::listen() {
   received_size_ = 0;
   received_taken_ = 0;
-  // A packet at a time: a host may end its bytes with a full one and send nothing behind it.
+  // One packet at a time, because a host may end its bytes with a full packet and send nothing after it.
   controller::begin(kOut, std::span(received_).first(usb_device::bulk_packet(controller::speed())));
 }
 
@@ -142,7 +142,7 @@ void UsbSerial::complete(std::uint32_t pipes) {
   }
 }
 
-/// From the interrupt, or while it is held off.
+/// Called from the interrupt, or while the interrupt is disabled.
 void UsbSerial::send_next() {
   if (busy_ || !control_.configured()) return;
   const std::size_t count = to_send_.pop(sending_);
@@ -154,7 +154,7 @@ void UsbSerial::send_next() {
 std::size_t UsbSerial::read(std::span<std::uint8_t> into) noexcept {
   come_back_in_time();
   if (received_size_ == 0) return 0;
-  const InterruptOff guard(irq::kUsb1);  // a bus reset in between would take the bytes away
+  const InterruptOff guard(irq::kUsb1);  // a bus reset in between would drop the bytes
   const std::size_t count = std::min(into.size(), received_size_ - received_taken_);
   std::copy_n(received_.begin() + static_cast<std::ptrdiff_t>(received_taken_), count, into.begin());
   received_taken_ += count;

@@ -14,24 +14,24 @@ namespace astro::teensy40 {
 
 /// The robot as a serial port on USB.
 ///
-/// What is written while no program has the port open is dropped: the next one must not get it, and nobody
-/// waits for it. The same while the bus sleeps or the cable is out. What a host sends is taken when there is
-/// room; until then the host waits.
+/// Bytes that are written while no program has the port open are dropped, because the next program must not
+/// get them; so are bytes that are written while the bus is suspended or the cable is out. Bytes from a host
+/// are taken when there is room; until then the host waits.
 ///
 /// Cost    an interrupt of some microseconds for each packet; 2 KB.
 class UsbSerial {
  public:
-  /// One in a program. `serial_number` outlives it. Stays off the bus for 0.3 s, whatever the reason of the
-  /// start: the program before, the boot loader or the ROM may have been attached, and the host must forget
-  /// it. Comes back in read().
+  /// A program has one of them. `serial_number` must outlive it. Stays off the bus for 0.3 s after every
+  /// start, so that the host notices that the program before, the boot loader or the ROM has left. read()
+  /// attaches it again.
   void start(std::string_view serial_number);
 
-  // Main loop only, which reads every now and then; none blocks.
+  // Main loop only, which must call read() regularly; none blocks.
   std::size_t read(std::span<std::uint8_t> into) noexcept;
   std::size_t write(std::span<const std::uint8_t> bytes) noexcept;
   std::size_t room() const noexcept;
 
-  /// True once for each time that a host sets 134 baud: a Teensy is asked for its boot loader that way.
+  /// True once for each time that a host sets 134 baud, which asks a Teensy for its boot loader.
   bool take_bootloader_request() noexcept;
   /// Leaves the bus for good.
   void detach() noexcept;
@@ -58,7 +58,7 @@ class UsbSerial {
   std::size_t received_taken_ = 0;
   bool status_stage_ = true;
   volatile bool asleep_ = false, bootloader_requested_ = false;
-  volatile bool away_ = false;  // left the bus, so that the host forgets what it knew
+  volatile bool away_ = false;  // has left the bus, so that the host forgets the device
   std::uint64_t left_at_us_ = 0;
 };
 

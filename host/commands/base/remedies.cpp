@@ -51,6 +51,8 @@ constexpr Sentence kSentences[] = {
     {Help::calibrate_recordings,
      ": the recordings beside it can still be calibrated with 'astrolabe calibrate runs'"},
     {Help::count_runs, ": give --runs in place of --until"},
+    {Help::count_runs_or_change_truth,
+     ": give --runs in place of --until, or another source than --truth {}"},
     {Help::keep_order, ": leave out --order"},
     {Help::drop_precision_or_method, ": leave out --until or --method {}"},
     {Help::stop_simulator_or_choose_other_path, ": stop it or choose another --pty"},

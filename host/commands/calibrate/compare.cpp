@@ -2,9 +2,9 @@
 
 #include "host/base/error.hpp"
 #include "host/commands/calibrate/commands.hpp"
-#include "host/console/console.hpp"
 #include "host/commands/shared/damaged_option.hpp"
 #include "host/commands/shared/robot_view.hpp"
+#include "host/console/console.hpp"
 #include "host/experiment/analysis/results.hpp"
 
 #include <nlohmann/json.hpp>

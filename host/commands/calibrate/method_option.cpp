@@ -8,7 +8,8 @@
 namespace astro::commands {
 namespace {
 
-void require_method(const MethodOption& given, console::Option variant, const char* name, const char* method) {
+void require_method(const MethodOption& given, console::Option variant, const char* name,
+                    const char* method) {
   if (variant.count() == 0 || given.method == method) return;
   throw console::WrongUsage(
       fmt::format("{0} is of --method {1}, and this is --method {2}: leave {0} out or give --method {1}",

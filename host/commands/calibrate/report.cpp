@@ -2,9 +2,9 @@
 
 #include "host/base/error.hpp"
 #include "host/commands/calibrate/commands.hpp"
-#include "host/console/console.hpp"
 #include "host/commands/shared/damaged_option.hpp"
 #include "host/commands/shared/robot_view.hpp"
+#include "host/console/console.hpp"
 #include "host/experiment/analysis/report_input.hpp"
 #include "host/report/report.hpp"
 
@@ -17,7 +17,8 @@ void add_report(console::Command app) {
     bool damaged = false;
   };
   const auto options = std::make_shared<Options>();
-  const console::Command command = app.add_subcommand("report", "write the before/after report as one HTML file");
+  const console::Command command =
+      app.add_subcommand("report", "write the before/after report as one HTML file");
   command
       .add_option("folders", options->folders, "an experiment's folder, or two or more folders of recordings")
       .required();

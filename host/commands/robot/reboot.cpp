@@ -4,9 +4,9 @@
 
 #include "host/commands/robot/commands.hpp"
 #include "host/commands/shared/connection.hpp"
+#include "host/commands/shared/restart.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
-#include "host/commands/shared/restart.hpp"
 
 namespace astro::commands {
 namespace {
@@ -20,13 +20,14 @@ void run(RebootOptions& options) {
   const auto client = connect(options.connection);
   if (options.bootloader) {
     request_restart<protocol::EnterBootloader>(*client);
-    return console::say("the robot is on its way into its boot loader, where it waits for 'astrolabe flash --button'");
+    return console::say(
+        "the robot is on its way into its boot loader, where it waits for 'astrolabe flash --button'");
   }
   request_restart<protocol::Reboot>(*client);
   client->reconnect(std::chrono::seconds(10));
   const protocol::Status status = client->request(protocol::GetStatus{});
   console::say(fmt::format("the robot is back ({}), {}", protocol::name(status.reset_cause),
-                  protocol::name(status.mode)));
+                           protocol::name(status.mode)));
 }
 
 }  // namespace

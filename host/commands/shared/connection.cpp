@@ -48,8 +48,8 @@ void add_connection(console::Command command, ConnectionOptions& options) {
 
 std::unique_ptr<robot::Client> connect(ConnectionOptions& options) {
   if (options.port.empty()) options.port = only_robot(options.baud);
-  auto client = std::make_unique<robot::Client>(
-      robot::open_shared_port(options.port, options.baud, [](const std::string& sentence) { console::say(sentence); }));
+  auto client = std::make_unique<robot::Client>(robot::open_shared_port(
+      options.port, options.baud, [](const std::string& sentence) { console::say(sentence); }));
   client->connect();
   return client;
 }

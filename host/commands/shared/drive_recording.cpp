@@ -1,5 +1,5 @@
-#include "host/commands/base/remedies.hpp"
 #include "host/commands/shared/drive_recording.hpp"
+#include "host/commands/base/remedies.hpp"
 
 #include <fmt/format.h>
 

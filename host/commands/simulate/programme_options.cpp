@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "host/console/options.hpp"
 #include "host/commands/simulate/study_options.hpp"
+#include "host/console/options.hpp"
 
 namespace astro::commands {
 namespace {
@@ -21,19 +21,21 @@ void add_rate_of(console::Command command, const char* name, double& value, cons
 }  // namespace
 
 bool ProgrammeOptions::named() const {
-  return std::any_of(counts.begin(), counts.end(), [](const console::Option& option) { return option.count() > 0; });
+  return std::any_of(counts.begin(), counts.end(),
+                     [](const console::Option& option) { return option.count() > 0; });
 }
 
 ProgrammeOptions add_programme(console::Command command, simulation::study::Programme& programme) {
   ProgrammeOptions options;
-  const std::array<const char*, simulation::study::kKinds> what = {"squares, half of them each way", "straight lines",
-                                                       "spins on the spot, half each way",
-                                                       "circles of one turn, half each way"};
+  const std::array<const char*, simulation::study::kKinds> what = {
+      "squares, half of them each way", "straight lines", "spins on the spot, half each way",
+      "circles of one turn, half each way"};
   for (std::size_t kind = 0; kind < simulation::study::kKinds; ++kind)
-    options.counts[kind] =
-        command.add_option("--" + std::string(simulation::study::kKindNames[kind]), programme.counts[kind], what[kind])
-            .type_name("N")
-            .check(console::whole(0, simulation::study::kMostRuns));
+    options.counts[kind] = command
+                               .add_option("--" + std::string(simulation::study::kKindNames[kind]),
+                                           programme.counts[kind], what[kind])
+                               .type_name("N")
+                               .check(console::whole(0, simulation::study::kMostRuns));
   add_size(command, "--side", programme.side_m, "side of a square, m");
   add_size(command, "--length", programme.line_m, "of a line, m");
   command.add_option("--turns", programme.turns, "of a spin")
@@ -57,10 +59,14 @@ std::string options_for(const simulation::study::Programme& programme) {
   };
   for (std::size_t kind = 0; kind < simulation::study::kKinds; ++kind)
     if (programme.counts[kind] > 0) add(simulation::study::kKindNames[kind], programme.counts[kind]);
-  if (programme.counts[simulation::study::kSquares] > 0) add_unless_usual("side", programme.side_m, usual.side_m);
-  if (programme.counts[simulation::study::kLines] > 0) add_unless_usual("length", programme.line_m, usual.line_m);
-  if (programme.counts[simulation::study::kSpins] > 0) add_unless_usual("turns", programme.turns, usual.turns);
-  if (programme.counts[simulation::study::kCircles] > 0) add_unless_usual("radius", programme.radius_m, usual.radius_m);
+  if (programme.counts[simulation::study::kSquares] > 0)
+    add_unless_usual("side", programme.side_m, usual.side_m);
+  if (programme.counts[simulation::study::kLines] > 0)
+    add_unless_usual("length", programme.line_m, usual.line_m);
+  if (programme.counts[simulation::study::kSpins] > 0)
+    add_unless_usual("turns", programme.turns, usual.turns);
+  if (programme.counts[simulation::study::kCircles] > 0)
+    add_unless_usual("radius", programme.radius_m, usual.radius_m);
   add_unless_usual("speed", programme.speed_mps, usual.speed_mps);
   add_unless_usual("yaw-rate", programme.yaw_rate_radps, usual.yaw_rate_radps);
   return text;

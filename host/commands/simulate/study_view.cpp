@@ -24,12 +24,13 @@ struct Column {
   double per_unit;
 };
 
-constexpr std::array<Column, simulation::study::kFigures> kColumns = {{{"E_d", "E_d", "x1e-4", 1e4},
-                                                           {"b_over_S", "b/S", "x1e-4", 1e4},
-                                                           {"scale", "scale S", "x1e-4", 1e4},
-                                                           {"E_max_m", "E_max", "mm", 1e3},
-                                                           {"theta_rad", "theta", "mrad", 1e3},
-                                                           {"line_10m_m", "10 m line", "mm", 1e3}}};
+constexpr std::array<Column, simulation::study::kFigures> kColumns = {
+    {{"E_d", "E_d", "x1e-4", 1e4},
+     {"b_over_S", "b/S", "x1e-4", 1e4},
+     {"scale", "scale S", "x1e-4", 1e4},
+     {"E_max_m", "E_max", "mm", 1e3},
+     {"theta_rad", "theta", "mrad", 1e3},
+     {"line_10m_m", "10 m line", "mm", 1e3}}};
 
 std::string setup_text(const TrialSetup& setup) {
   const double degrees = setup.noise.sigma_theta_rad * 180 / std::numbers::pi;
@@ -42,7 +43,7 @@ std::string setup_text(const TrialSetup& setup) {
       setup.truth_rate_hz, setup.noise.sigma_xy_m * 1000, degrees, setup.count_rate_hz,
       setup.clock_known ? "known" : "estimated", setup.noise_known ? "known" : "estimated",
       setup.model == simulation::study::Model::simulator ? "simulated robot: firmware, motors, encoders"
-                                             : "kinematic robot: wheels and noise alone");
+                                                         : "kinematic robot: wheels and noise alone");
 }
 
 std::vector<std::string> cells(const Row& row) {
@@ -116,8 +117,10 @@ json study_json(const Summary& summary) {
     result["ml_over_bound"][kColumns[i].key] = {{"value", summary.ml_over_bound[i].value},
                                                 {"se", summary.ml_over_bound[i].se}};
   if (const auto& consistency = summary.ml_covariance)
-    result["ml_covariance"] = {
-        {"trials", consistency->trials}, {"mean", consistency->mean}, {"se", consistency->se}, {"expected", 3}};
+    result["ml_covariance"] = {{"trials", consistency->trials},
+                               {"mean", consistency->mean},
+                               {"se", consistency->se},
+                               {"expected", 3}};
   return result;
 }
 

@@ -7,9 +7,9 @@
 #include "host/base/error.hpp"
 #include "host/commands/base/flags.hpp"
 #include "host/commands/tune/commands.hpp"
+#include "host/commands/tune/tune_view.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
-#include "host/commands/tune/tune_view.hpp"
 #include "host/console/wrong_usage.hpp"
 
 namespace astro::commands {
@@ -29,7 +29,8 @@ console::Check a_bandwidth() {
 void add_options(console::Command command, TuneOptions& options) {
   add_connection(command, options.connection);
   const console::Option stand = command.add_flag("--on-stand", options.on_stand, "the wheels hang free");
-  const console::Option ground = command.add_flag("--on-ground", options.on_ground, "the robot drives to and fro");
+  const console::Option ground =
+      command.add_flag("--on-ground", options.on_ground, "the robot drives to and fro");
   stand.excludes(ground);
   command
       .add_option("--bandwidth", options.bandwidth,
@@ -57,7 +58,8 @@ void find_out_where(TuneOptions& options) {
   if (options.yes || isatty(STDIN_FILENO) != 1)
     throw console::WrongUsage(
         "say where the robot is: --on-stand (wheels hang free) or --on-ground (it drives by itself)");
-  const std::string answer = console::ask("Do the wheels hang free, or is the robot on the ground? [free/ground] ");
+  const std::string answer =
+      console::ask("Do the wheels hang free, or is the robot on the ground? [free/ground] ");
   options.on_stand = answer == "free" || answer == "f";
   options.on_ground = answer == "ground" || answer == "g";
   if (!options.on_stand && !options.on_ground) throw Error("nothing was measured: answer 'free' or 'ground'");
@@ -102,7 +104,8 @@ void write_report(const TuneOptions& options, const TuneResult& result, const ro
 void conclude(const TuneOptions& options, const TuneResult& result) {
   const std::string path = std::filesystem::absolute(options.out).string();
   if (!options.json)
-    return print(fmt::format("{}\n{}{}\nReport: {}", step_after_in_words(result), console::wrapped(verdict(result)),
+    return print(fmt::format("{}\n{}{}\nReport: {}", step_after_in_words(result),
+                             console::wrapped(verdict(result)),
                              result.uploaded ? "The new values are loaded." : "Nothing was loaded.", path));
   Json json = to_json(result);
   json["report"] = path;
@@ -131,9 +134,9 @@ void add_tune(console::Command app) {
   const console::Command command =
       app.add_subcommand("tune", "measure the motors, compute feed-forward and gains, show and load them");
   add_options(command, *options);
-  console::examples(command,
-           {"astrolabe tune --on-ground --max-distance 1.5", "astrolabe tune --on-stand --bandwidth 6",
-            "astrolabe tune --on-ground --yes --upload --json --out tune.html"});
+  console::examples(
+      command, {"astrolabe tune --on-ground --max-distance 1.5", "astrolabe tune --on-stand --bandwidth 6",
+                "astrolabe tune --on-ground --yes --upload --json --out tune.html"});
   command.callback([options] { run(*options); });
 }
 

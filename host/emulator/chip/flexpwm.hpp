@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "host/emulator/chip/pins.hpp"
+#include "host/emulator/chip/iomuxc.hpp"
 
 namespace astro::emulator {
 

@@ -1,6 +1,6 @@
-#include <fmt/format.h>
+#include "host/emulator/chip/gpio.hpp"
 
-#include "host/emulator/chip/pins.hpp"
+#include <fmt/format.h>
 
 namespace astro::emulator {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "host/emulator/chip/clocks.hpp"
-#include "host/emulator/chip/pins.hpp"
+#include "host/emulator/chip/iomuxc.hpp"
 
 namespace astro::emulator {
 

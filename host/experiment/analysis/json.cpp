@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "host/base/degrees.hpp"
+#include "host/experiment/analysis/likelihood_json.hpp"
 
 namespace astro::experiment {
 namespace {

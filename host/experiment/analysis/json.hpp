@@ -14,9 +14,6 @@ nlohmann::json to_json(const calibration::ClusterSummary& cluster);
 /// The keys that all methods share (factors, their errors, the loaded factors, squares), and those of the method.
 nlohmann::json to_json(const Calibration& calibration);
 
-/// The keys of maximum likelihood alone: covariance, lever arm, clock, noise, runs, motions, remarks.
-nlohmann::json to_json(const MlResult& ml);
-
 /// {"c_R", "c_L", "b_m"}
 nlohmann::json to_json(const calibration::WheelFactors& factors);
 

@@ -1,3 +1,5 @@
+#include "host/experiment/analysis/likelihood_json.hpp"
+
 #include "host/calibration/judgement/remarks.hpp"
 #include "host/experiment/analysis/json.hpp"
 #include "host/experiment/files/method_names.hpp"

@@ -43,11 +43,8 @@ void check_until(const Plan& plan) {
        "only maximum likelihood knows its precision as it goes",
        {Help::drop_precision_or_method, std::string(name_of(plan.method))});
   need(plan.truth != "manual" && plan.truth != "file",
-       fmt::format(
-           "a precision can only be driven for with ground truth along the whole drive, which the source "
-           "'{}' has not",
-           plan.truth),
-       {Help::count_runs});
+       "a precision can only be driven for with ground truth along the whole drive",
+       {Help::count_runs_or_change_truth, plan.truth});
 }
 
 }  // namespace

@@ -5,11 +5,11 @@
 
 #include "host/base/error.hpp"
 #include "host/commands/base/remedies.hpp"
+#include "host/commands/serving/served_robot_options.hpp"
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
 #include "host/console/options.hpp"
 #include "host/console/program.hpp"
-#include "host/commands/serving/served_robot_options.hpp"
 #include "host/programs/emulator/served_teensy.hpp"
 
 namespace {
@@ -36,8 +36,9 @@ void run(const fs::path& hex, commands::SimOptions& options) {
 }
 
 int run(int argc, char** argv) {
-  console::Program program("astrolabe-emulator",
-                       "Runs a robot's firmware image on an emulated Teensy 4.0 behind a pseudo terminal.");
+  console::Program program(
+      "astrolabe-emulator",
+      "Runs a robot's firmware image on an emulated Teensy 4.0 behind a pseudo terminal.");
   const console::Command app = program.command();
   fs::path hex;
   commands::SimOptions options;

@@ -10,6 +10,7 @@
 
 #include "host/base/error.hpp"
 #include "host/robot/port/serial_port.hpp"
+#include "host/robot/port/terminal_user.hpp"
 
 namespace astro::robot {
 

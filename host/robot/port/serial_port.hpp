@@ -30,8 +30,4 @@ std::string port_key_of(int descriptor);
 /// flock's: it ends with the process, however that ends.
 int open_serial_port(const std::string& path, unsigned baud);
 
-/// Name of a process whose controlling terminal this device is. A pty's number is reused when its simulator
-/// has ended: without this check the link of a dead simulator can lead into somebody's shell.
-std::optional<std::string> terminal_user(dev_t device);
-
 }  // namespace astro::robot

@@ -1,11 +1,11 @@
+#include "host/robot/port/terminal_user.hpp"
+
 #include <sys/sysmacros.h>
 
 #include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-
-#include "host/robot/port/serial_port.hpp"
 
 namespace astro::robot {
 

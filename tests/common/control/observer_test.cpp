@@ -15,7 +15,7 @@ constexpr double kCount = 1 << SpeedObserver::kSpeedBits;
 
 SpeedObserver observer(std::int32_t bandwidth_16 = kBandwidth_16) {
   SpeedObserver made;
-  made.set_bandwidth(bandwidth_16);
+  made.set_gains(SpeedObserver::Gains(bandwidth_16));
   return made;
 }
 
@@ -111,7 +111,7 @@ TEST(SpeedObserver, ForgetsAnAccelerationThatDidNotCome) {
 }
 
 TEST(SpeedObserver, NoCountsOverflowIt) {
-  // Bounded input, bounded speed: whatever comes counts as at most 1024 a tick, and nothing overshoots.
+  // Bounded input, bounded speed: counts are limited to 1024 a tick, and nothing overshoots.
   tests::Seeded random(2);
   constexpr std::int32_t kMost = 1025 << SpeedObserver::kSpeedBits;
   for (const int bandwidth : {1, 100, 500}) {
@@ -126,7 +126,7 @@ TEST(SpeedObserver, NoCountsOverflowIt) {
 }
 
 TEST(SpeedObserver, NoExpectationOverflowsIt) {
-  // The slowest loop believes it longest.
+  // The slowest loop recovers last.
   SpeedObserver seen = observer(1 << 16);
   for (int i = 0; i < 200'000; ++i) {
     seen.advance(INT32_MAX, INT32_MAX);
@@ -139,7 +139,7 @@ TEST(SpeedObserver, ChangingTheBandwidthKeepsTheEstimate) {
   SpeedObserver seen = observer();
   for (int i = 0; i < 1000; ++i) seen.advance(7);
   const double before = speed(seen);
-  seen.set_bandwidth(300 << 16);
+  seen.set_gains(SpeedObserver::Gains(300 << 16));
   EXPECT_EQ(speed(seen), before);
   for (int i = 0; i < 100; ++i) {
     seen.advance(7);

@@ -22,7 +22,7 @@ Trapezoid planned(const Segment& segment) {
   return profile;
 }
 
-/// Gains of the test's own: what they do is tested here, not how they are tuned.
+/// The test has its own gains, because it tests what they do, not their tuning.
 ParameterSet gains() {
   ParameterSet set;
   set.set(Param::path_k_along, 2 << 16);
@@ -38,7 +38,7 @@ PathFollower follower_at(const Pose& pose) {
   return made;
 }
 
-/// A robot that does what it is told, at once and exactly.
+/// A robot that follows its command at once and exactly.
 class Unicycle {
  public:
   explicit Unicycle(const Pose& pose) { integrator_.set_pose(pose); }
@@ -72,7 +72,7 @@ Errors errors(const Pose& reference, const Pose& actual) {
           2 * tests::kPi * std::ldexp(static_cast<Real>(reference.theta - actual.theta), -64)};
 }
 
-/// Where the reference ends when the robot is wherever the reference is.
+/// The end of the reference if the robot always is where the reference is.
 Pose end_of(const Segment& segment, const Pose& start) {
   PathFollower follower = follower_at(start);
   follower.begin(planned(segment));

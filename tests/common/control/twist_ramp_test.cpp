@@ -20,7 +20,7 @@ constexpr MotionLimits kLimits{.speed_umps = 750'000,
 
 TwistRamp ramp_with(const MotionLimits& limits) {
   TwistRamp ramp;
-  ramp.set_limits(limits);
+  ramp.set_rates(TwistRamp::Rates(limits));
   return ramp;
 }
 
@@ -70,7 +70,7 @@ TEST(TwistRamp, SpeedAndYawRateKeepTheirRatioFromRestToTheTarget) {
   }
 }
 
-/// Whatever is asked for, and whenever: never steeper than the limits, and it arrives.
+/// For any targets at any time, the ramp is never steeper than the limits, and arrives.
 TEST(TwistRamp, NeverExceedsItsLimitsWhateverIsAskedOfIt) {
   tests::Seeded random(1);
   for (int trial = 0; trial < 300; ++trial) {
@@ -88,7 +88,7 @@ TEST(TwistRamp, NeverExceedsItsLimitsWhateverIsAskedOfIt) {
         const BodyTwist now = ramp.value();
         const BodyTwist rate{now.v_umps - last.v_umps, now.omega_uradps - last.omega_uradps};
         // One unit for the cut of each value, and one jerk for the step onto the target.
-        // However small the jerk, the acceleration builds up in half a second.
+        // However small the jerk limit is, the acceleration rises within half a second.
         const double v_jerk = std::max(limits.jerk_mmps3 * 1e-3, limits.acceleration_umps2 * 1e-3 / 500 + 1);
         const double omega_jerk =
             std::max(limits.yaw_jerk_mradps3 * 1e-3, limits.yaw_acceleration_uradps2 * 1e-3 / 500 + 1);

@@ -36,7 +36,7 @@ TEST(WheelController, EachWheelHasAFeedForwardOfItsOwn) {
   EXPECT_EQ(right_gains(set).kA.raw(), set.get(Param::kA_right));
 }
 
-/// A controller that is told set point and measured speed.
+/// A controller with set point and measured speed as inputs.
 class Loop {
  public:
   explicit Loop(const Gains& gains) { set_gains(set_of(gains)); }
@@ -44,7 +44,7 @@ class Loop {
   std::int32_t advance(std::int32_t set_point, std::int32_t acceleration, std::int32_t measured,
                        std::int32_t limit) {
     limited = false;
-    return wheel_.advance(set_point, acceleration, subtract_saturated(set_point, measured), limit, limited);
+    return wheel_.advance({set_point, acceleration, subtract_saturated(set_point, measured)}, limit, limited);
   }
   void reset() { wheel_.reset(); }
 
@@ -105,7 +105,7 @@ TEST(WheelController, OutputNeverExceedsTheLimit) {
 TEST(WheelController, LeavesTheLimitInTheTickInWhichTheErrorTurns) {
   for (const int sign : {1, -1}) {
     Loop wheel = controller({.kp = 20, .ki = 60});
-    // Slowly into the limit (the integral does it), then ten seconds there.
+    // The integral slowly reaches the limit; then ten seconds at the limit.
     for (int tick = 0; tick < 20'000; ++tick) wheel.advance(sign * 500'000, 0, sign * 450'000, kLimit_uv);
     ASSERT_EQ(wheel.advance(sign * 500'000, 0, sign * 450'000, kLimit_uv), sign * kLimit_uv);
     EXPECT_LT(sign * wheel.advance(sign * 500'000, 0, sign * 550'000, kLimit_uv), kLimit_uv);
@@ -116,7 +116,7 @@ TEST(WheelController, UnreachableSetPointDoesNotWindUp) {
   Loop wound = controller({.kp = 20, .ki = 60, .kV = 12}), fresh = wound;
   for (int tick = 0; tick < 10'000; ++tick)
     ASSERT_EQ(wound.advance(2'000'000, 0, 900'000, kLimit_uv), kLimit_uv);
-  // Back to what can be reached: as if the ten seconds had not been.
+  // Back to a speed that can be reached: as if the ten seconds had not happened.
   EXPECT_EQ(wound.advance(500'000, 0, 520'000, kLimit_uv), fresh.advance(500'000, 0, 520'000, kLimit_uv));
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::int32_t kSupply_uv = 12'000'000;
 
-/// Both wheels as the feed-forward believes them to be: V = kV v + kA dv/dt + load, in 1 ms steps.
+/// Both wheels as the feed-forward models them: V = kV v + kA dv/dt + load, in 1 ms steps.
 class Wheels {
  public:
   double left_load_V = 0;
@@ -39,8 +39,8 @@ ParameterSet without_friction() {
 
 class Pair : public testing::Test {
  protected:
-  void run(const WheelSpeeds& wish, int ticks) {
-    for (int i = 0; i < ticks; ++i) wheels.advance(pair.advance(wish, {}, wheels.speeds(), kSupply_uv));
+  void run(const WheelSpeeds& set_points, int ticks) {
+    for (int i = 0; i < ticks; ++i) wheels.advance(pair.advance(set_points, {}, wheels.speeds(), kSupply_uv));
   }
   void use(const ParameterSet& set) { pair.set_gains(set); }
 
@@ -106,7 +106,7 @@ TEST_F(Pair, NewGainsUnderWayDoNotBumpTheWheels) {
   other.set(Param::kV_left, 10 << 16);
   other.set(Param::kA_right, 2 << 16);
   other.set(Param::k_sync, 1 << 16);
-  // The last advance moved both integrals; the gains change where they now are.
+  // The last advance has changed both integrals; the gains change at the present ones.
   WheelPair unchanged = pair;
   changed.set_gains(other, set_points, accelerations, measured);
   const WheelVoltages before = unchanged.advance(set_points, accelerations, measured, kSupply_uv);

@@ -6,7 +6,7 @@
 
 namespace astro::tests {
 
-/// Random numbers from a fixed seed, which is printed: a failure can be repeated by hand.
+/// Random numbers from a fixed seed, which is printed, so that a failure can be repeated.
 class Seeded {
  public:
   explicit Seeded(std::uint64_t seed) : engine_(seed) {

@@ -42,6 +42,9 @@ struct Board {
     void feed_watchdog() noexcept {}
   };
   struct Hold {
+    Hold() = default;
+    Hold(const Hold&) = delete;
+    Hold& operator=(const Hold&) = delete;
     ~Hold() {}  // NOLINT(modernize-use-equals-default): a guard that is only declared must not warn
   };
 

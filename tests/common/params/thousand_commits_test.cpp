@@ -6,18 +6,17 @@
 
 #include "tests/common/params/store_on.hpp"
 
-/// The power goes after every byte of each of 1,000 random commits on sectors like the reference robot's.
+/// The power fails after every byte of each of 1,000 random commits on sectors like the reference robot's.
 ///
 /// More than a million cuts, each of them tried: what they share is done once, and nothing is sampled.
-///   * A commit's calls are recorded once and repeated up to each cut. Until the cut it reads what it read
-///   without
-///     one, so it makes the same calls; after it the flash takes nothing.
-///   * A commit works on one sector only (asserted). load() is the newest over all sectors and looks at each
-///   by
-///     itself, so the other sectors are searched once for all cuts of a commit.
+///   * A commit's calls are recorded once and repeated up to each cut. Before the cut the commit reads the
+///   same
+///     as without one, so it makes the same calls; after the cut the flash does not change.
+///   * A commit works on one sector only (asserted). load() returns the newest over all sectors and searches
+///   each
+///     separately, so the other sectors are searched once for all cuts of a commit.
 ///   * A cut that leaves the same bytes as the one before has the same outcome.
-/// Every 4,999th cut the whole commit is run and cut, and the whole flash loaded, which must come to the
-/// same.
+/// At every 4,999th cut the whole commit is run and cut, and the whole flash loaded, with the same result.
 namespace astro {
 namespace {
 
@@ -26,7 +25,7 @@ using support::random_valid_set;
 using Flash = sim::NorFlash<4, 4096, 8>;
 constexpr std::uint32_t kSectorBytes = Flash::kSectorBytes;
 
-/// A flash that remembers what it was told to do.
+/// A flash that records the calls.
 struct Recorder {
   static constexpr std::uint32_t kSectors = Flash::kSectors, kSectorBytes = Flash::kSectorBytes,
                                  kProgramBytes = Flash::kProgramBytes;
@@ -37,15 +36,15 @@ struct Recorder {
   Flash& flash;
   std::vector<Call> calls{};
 
-  bool erase(std::uint32_t sector) {
+  bool erase(std::uint32_t sector) noexcept {
     calls.push_back({sector, 0, {}});
     return flash.erase(sector);
   }
-  bool program(std::uint32_t at, std::span<const std::uint8_t> bytes) {
+  bool program(std::uint32_t at, std::span<const std::uint8_t> bytes) noexcept {
     calls.push_back({at / kSectorBytes, at, {bytes.begin(), bytes.end()}});
     return flash.program(at, bytes);
   }
-  void read(std::uint32_t at, std::span<std::uint8_t> into) { flash.read(at, into); }
+  void read(std::uint32_t at, std::span<std::uint8_t> into) noexcept { flash.read(at, into); }
 };
 
 /// One sector of a flash, by itself.
@@ -55,9 +54,11 @@ struct OneSector {
   Flash& flash;
   std::uint32_t sector;
 
-  bool erase(std::uint32_t) { return false; }
-  bool program(std::uint32_t, std::span<const std::uint8_t>) { return false; }
-  void read(std::uint32_t at, std::span<std::uint8_t> into) { flash.read(sector * kSectorBytes + at, into); }
+  bool erase(std::uint32_t) noexcept { return false; }
+  bool program(std::uint32_t, std::span<const std::uint8_t>) noexcept { return false; }
+  void read(std::uint32_t at, std::span<std::uint8_t> into) noexcept {
+    flash.read(sector * kSectorBytes + at, into);
+  }
 };
 
 struct Found {
@@ -66,7 +67,7 @@ struct Found {
   ParameterSet set;
 };
 
-/// The newer of what was found so far and what the sector holds.
+/// The newer of the set found so far and the sector's set.
 void look(Flash& flash, std::uint32_t sector, Found& found) {
   OneSector view{flash, sector};
   Record record;

@@ -5,8 +5,8 @@
 
 #include "tests/common/safety/fault_log_on.hpp"
 
-/// The power goes after every byte, bits rot and stick, sectors fail: what was logged stays, but for the
-/// entry under way and what the ring gives up.
+/// The power fails after every byte, bits rot and stick, sectors fail: logged entries survive, except the one
+/// that is being written and those that the ring erases.
 namespace astro {
 namespace {
 

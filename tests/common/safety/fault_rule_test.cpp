@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-// The tables of safety once more, written by hand: a row that somebody changes or removes must be changed
-// here as well.
+// The tables of safety once more, written by hand: whoever changes or removes a row must change it here, too.
 namespace astro {
 namespace {
 
@@ -27,7 +26,10 @@ const std::vector<State> kArmedOrMoving{armed, driving, stopping};
 
 const std::vector<Row> kRows{
     {Check::command_timeout, Fault::command_timeout, Reaction::ramp, {driving}, 0},
-    {Check::link_lost, Fault::link_lost, Reaction::ramp, kArmedOrMoving, 0},
+    {Check::open_loop_timeout, Fault::command_timeout, Reaction::off, {driving}, 0},
+    {Check::path_host_lost, Fault::link_lost, Reaction::ramp, {driving}, 0},
+    {Check::stopping_host_lost, Fault::link_lost, Reaction::off, {stopping}, 2496},
+    {Check::armed_host_lost, Fault::link_lost, Reaction::off, {armed}, 2496},
     {Check::driver, Fault::driver, Reaction::off, kArmedOrMoving, 0},
     {Check::under_voltage, Fault::under_voltage, Reaction::off, kWithPower, 100},
     {Check::over_voltage, Fault::over_voltage, Reaction::off, kEverywhere, 24},
@@ -85,7 +87,7 @@ TEST(StateMask, HoldsTheStatesThatItWasMadeOfAndNoOther) {
   EXPECT_FALSE(within(State::fault, 0b01'1111));
 }
 
-// Event by event where each state leads; `no` is a refusal, which changes nothing.
+// For each state, where each event leads; `no` is a refusal, which changes nothing.
 TEST(StateTable, EveryTransitionIsAsWrittenHere) {
   constexpr auto no = static_cast<State>(0xFF);
   struct Transitions {

@@ -96,9 +96,9 @@ TEST(Board, RequestsAreTakenOnce) {
 TEST(Board, WatchdogHungerGrowsUntilFed) {
   Board board(Config{});
   run_ms(board, 30);
-  EXPECT_EQ(board.system().hungry_us(), 30'000U);
+  EXPECT_EQ(board.system().since_fed_us(), 30'000U);
   board.system().feed_watchdog();
-  EXPECT_EQ(board.system().hungry_us(), 0U);
+  EXPECT_EQ(board.system().since_fed_us(), 0U);
 }
 
 TEST(Board, PlacedRobotDrivesOnFromThere) {

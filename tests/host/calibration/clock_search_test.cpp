@@ -18,7 +18,8 @@ Trajectory drive(double offset_s, double skew, bool headings = true) {
   model.clock_offset_s = offset_s;
   model.clock_skew = skew;
   model.headings = headings;
-  return simulation::study::synthetic_drive(simulation::study::square_course(1.7, Sense::cw), model, "run", kSeed);
+  return simulation::study::synthetic_drive(simulation::study::square_course(1.7, Sense::cw), model, "run",
+                                            kSeed);
 }
 
 // A start for the likelihood, which pulls in from a few tenths of a second: a bin of the search will do.
@@ -54,7 +55,8 @@ TEST(ClockSearch, DoesNotMindAMirroredTruth) {
 TEST(ClockSearch, IsAsFastForALongSteadyDriveAndKnowsItAgain) {
   // Ten minutes of one spin: nothing varies but its ends, and the square of its samples would take seconds.
   simulation::study::DriveModel model = astro_drive();
-  const Trajectory run = simulation::study::synthetic_drive(simulation::study::spin_course(600), model, "run", kSeed);
+  const Trajectory run =
+      simulation::study::synthetic_drive(simulation::study::spin_course(600), model, "run", kSeed);
   const ClockFit fit = search_clock(run, 0.29, {});
   EXPECT_NEAR(fit.offset_s, 0, 0.1);
   EXPECT_GT(fit.likeness, 0.95);
@@ -63,9 +65,9 @@ TEST(ClockSearch, IsAsFastForALongSteadyDriveAndKnowsItAgain) {
 TEST(ClockSearch, FindsNothingInCommonWithAnotherDrive) {
   Trajectory run = drive(0, 0);
   run.truth = simulation::study::synthetic_drive({{simulation::study::Leg::Kind::rest, 0, 0, 11},
-                                      {simulation::study::Leg::Kind::straight, 0.7, 0, 0},
-                                      {simulation::study::Leg::Kind::rest, 0, 0, 16}},
-                                     astro_drive(), "other", kSeed)
+                                                  {simulation::study::Leg::Kind::straight, 0.7, 0, 0},
+                                                  {simulation::study::Leg::Kind::rest, 0, 0, 16}},
+                                                 astro_drive(), "other", kSeed)
                   .truth;
   const ClockFit fit = search_clock(run, 0.29, {});
   EXPECT_LT(fit.correlation, 0.5);
@@ -80,7 +82,8 @@ Trajectory noisy_drive(double offset_s, double skew, double truth_rate_hz, std::
   model.truth_rate_hz = truth_rate_hz;
   model.clock_offset_s = offset_s;
   model.clock_skew = skew;
-  return simulation::study::synthetic_drive(simulation::study::square_course(1.7, Sense::cw), model, "run", seed);
+  return simulation::study::synthetic_drive(simulation::study::square_course(1.7, Sense::cw), model, "run",
+                                            seed);
 }
 
 // Speeds told over a second have a peak as wide; the likelihood pulls in from there.
@@ -108,7 +111,8 @@ TEST(ClockSearch, SeesASpinByWhereTheBodyGoesRound) {
   simulation::study::DriveModel model = astro_drive();
   model.headings = false;
   model.clock_offset_s = 482.3;
-  const Trajectory run = simulation::study::synthetic_drive(simulation::study::spin_course(19), model, "spin", kSeed);
+  const Trajectory run =
+      simulation::study::synthetic_drive(simulation::study::spin_course(19), model, "spin", kSeed);
   EXPECT_NEAR(search_clock(run, 0.29, {}).offset_s, 482.3, kBin_s);
 }
 

@@ -28,14 +28,14 @@ inline simulation::study::DriveModel quiet_drive() {
   return model;
 }
 
-inline std::vector<Trajectory> squares(const simulation::study::DriveModel& model, int count, double side_m = 3,
-                                       std::uint64_t seed = kSeed) {
+inline std::vector<Trajectory> squares(const simulation::study::DriveModel& model, int count,
+                                       double side_m = 3, std::uint64_t seed = kSeed) {
   std::vector<Trajectory> runs;
   for (int i = 0; i < count; ++i) {
     const Sense sense = i % 2 == 0 ? Sense::cw : Sense::ccw;
-    runs.push_back(simulation::study::synthetic_drive(simulation::study::square_course(side_m, sense), model,
-                                          "run " + std::to_string(i + 1),
-                                          simulation::study::derived_seed(seed, static_cast<std::uint64_t>(i))));
+    runs.push_back(simulation::study::synthetic_drive(
+        simulation::study::square_course(side_m, sense), model, "run " + std::to_string(i + 1),
+        simulation::study::derived_seed(seed, static_cast<std::uint64_t>(i))));
   }
   return runs;
 }

@@ -28,7 +28,8 @@ std::string refusal(const std::vector<Trajectory>& runs) {
   return "accepted";
 }
 
-std::vector<Trajectory> one(const simulation::study::Course& course, const DriveModel& model = astro_drive()) {
+std::vector<Trajectory> one(const simulation::study::Course& course,
+                            const DriveModel& model = astro_drive()) {
   return {simulation::study::synthetic_drive(course, model, "run 7", kSeed)};
 }
 
@@ -47,7 +48,8 @@ TEST(MlRefuses, ARunWithoutOdometry) {
 }
 
 TEST(MlRefuses, ARunTooShort) {
-  EXPECT_THAT(refusal(one(simulation::study::line_course(0.1))), AllOf(HasSubstr("run 7"), HasSubstr("too short")));
+  EXPECT_THAT(refusal(one(simulation::study::line_course(0.1))),
+              AllOf(HasSubstr("run 7"), HasSubstr("too short")));
 }
 
 TEST(MlRefuses, TimesThatRunBackwards) {
@@ -164,11 +166,13 @@ TEST(MlRefuses, HeadingsCountedClockwise) {
 }
 
 TEST(MlRefuses, ARobotThatNeverTurned) {
-  EXPECT_THAT(refusal(one(simulation::study::line_course(4))), AllOf(HasSubstr("never turned"), HasSubstr("drive")));
+  EXPECT_THAT(refusal(one(simulation::study::line_course(4))),
+              AllOf(HasSubstr("never turned"), HasSubstr("drive")));
 }
 
 TEST(MlRefuses, ARobotThatOnlySpun) {
-  EXPECT_THAT(refusal(one(simulation::study::spin_course(6 * kPi))), AllOf(HasSubstr("on the spot"), HasSubstr("lines")));
+  EXPECT_THAT(refusal(one(simulation::study::spin_course(6 * kPi))),
+              AllOf(HasSubstr("on the spot"), HasSubstr("lines")));
 }
 
 TEST(MlRefuses, OneCircleAlone) {

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
-#include "host/commands/simulate/programme_options.hpp"
 #include "host/commands/calibrate/record_programme.hpp"
+#include "host/commands/simulate/programme_options.hpp"
 
 namespace astro::commands {
 namespace {

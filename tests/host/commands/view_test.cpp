@@ -15,10 +15,10 @@
 namespace astro::commands {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
 using console::Key;
 using console::SteeringWheel;
+using testing::HasSubstr;
+using testing::Not;
 
 std::size_t width(const std::string& line) {
   return static_cast<std::size_t>(

@@ -186,7 +186,8 @@ TEST_F(ChangeGuard, ObjectsToFactorsThatAreNotAllThere) {
   ParameterFile file;
   file.method = "ml";
   file.parameters = {{"c_R", 1.001}, {"c_L", 0.999}};
-  EXPECT_THAT(commands::in_words(*objection(robot_, file, {})), AllOf(HasSubstr("has no b"), HasSubstr("--force")));
+  EXPECT_THAT(commands::in_words(*objection(robot_, file, {})),
+              AllOf(HasSubstr("has no b"), HasSubstr("--force")));
   file.parameters["b"] = 0.29;
   EXPECT_FALSE(objection(robot_, file, {}));
   file = {};

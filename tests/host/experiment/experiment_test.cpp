@@ -141,7 +141,7 @@ TEST(Experiment, DrivesLineAndCirclesBeforeAndAfter) {
   const Results results = calibrate(thesis_robot(kThesisSlip_m, 1), plan);
   for (const PhaseResult* phase : {&results.before(), &results.after()}) {
     std::vector<std::string> kinds;
-    for (const recording::Run& run : phase->runs) kinds.push_back(run.info.kind);
+    for (const recording::Run& run : phase->runs()) kinds.push_back(run.info.kind);
     EXPECT_EQ(kinds, (std::vector<std::string>{"square", "square", "line", "circle", "circle"}))
         << phase->name;
   }

@@ -97,7 +97,7 @@ TEST(Plan, RefusesAPrecisionThatCannotBeDrivenFor) {
   refused([](Plan& plan) { plan.order = Order::cw_first; }, "--order");
   refused([](Plan& plan) { plan.method = method_named("extended", "average", "exact"); },
           "--method extended");
-  refused([](Plan& plan) { plan.truth = "manual"; }, "source 'manual' has not: give --runs");
+  refused([](Plan& plan) { plan.truth = "manual"; }, "--truth manual");
 }
 
 TEST(MethodNames, ComeBackAsTheyWere) {

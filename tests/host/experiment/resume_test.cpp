@@ -3,8 +3,8 @@
 
 #include <fstream>
 
-#include "host/robot/parameters/upload.hpp"
 #include "host/recording/files/run_file.hpp"
+#include "host/robot/parameters/upload.hpp"
 #include "host/truth/manual/manual_source.hpp"
 #include "tests/support/desk.hpp"
 #include "tests/support/sentences.hpp"

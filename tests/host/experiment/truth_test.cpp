@@ -63,7 +63,7 @@ TEST(ManualTruth, AsksAgainForWhatIsNoNumberAndTakesAnEmptyHeading) {
   truth::ManualSource source(std::ref(person));
   const recording::EndError error = recording::end_error(drive_line(desk, source));
   EXPECT_EQ(person.asked.size(), 4U);
-  EXPECT_THAT(person.asked[1], HasSubstr("'0,6' is no number"));
+  EXPECT_THAT(person.asked[1], HasSubstr("'0,6' is not a number"));
   EXPECT_TRUE(std::isnan(error.theta_rad));
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "hal/sim/motor.hpp"
-#include "host/robot/parameters/upload.hpp"
 #include "host/motor/bench/identify.hpp"
+#include "host/robot/parameters/upload.hpp"
 #include "tests/support/desk.hpp"
 
 /// A simulated robot and what its motors' data sheet says that a measurement must find.

@@ -157,8 +157,7 @@ TEST(Roll, CountsPerRevolutionComeFromBeingPushedAlongATape) {
       desk.client.pump(std::chrono::milliseconds(10));
     }
     const Moment end = bench.fresh();
-    motor::Roll roll{{}, facts.counts_per_motor_rev, facts.gear_ratio, facts.wheel_diameter_m, {},
-                              {}};
+    motor::Roll roll{{}, facts.counts_per_motor_rev, facts.gear_ratio, facts.wheel_diameter_m, {}, {}};
     for (const Side side : kSides)
       roll.counts[at(side)] = static_cast<double>(end.counts[at(side)] - start.counts[at(side)]);
     roll.distance_m = board.truth().x_m;

@@ -98,7 +98,7 @@ TEST_F(CutShort, StopDoesNotCallARobotAtRestThatAFaultLetsRollOn) {
   EXPECT_THAT(stop.err, HasSubstr("emergency_stop"));
   EXPECT_THAT(stop.err, testing::Not(HasSubstr("the robot is at rest and disarmed")));
   if (stop.code == 0) {
-    EXPECT_THAT(stop.err, HasSubstr("the robot stands"));
+    EXPECT_THAT(stop.err, HasSubstr("the robot has stopped"));
     EXPECT_LT(seconds_to_rest(now_us()), 0.1);
   }
   program.wait();

@@ -67,7 +67,7 @@ TEST(RunFolder, ComplaintsNameTheFolderAndTheRemedy) {
   const TempFolder folder;
   EXPECT_THAT(complaint([&] { list_runs(folder / "none"); }),
               AllOf(HasSubstr("none does not exist"), HasSubstr("name a folder")));
-  EXPECT_THAT(support::sentence_of([&] { read_runs(folder.path()); }),
+  EXPECT_THAT(astro::support::sentence_of([&] { read_runs(folder.path()); }),
               AllOf(HasSubstr(folder.path().string()), HasSubstr("record some")));
   support::spill(folder / "x/bad.mcap", as_bytes("nonsense"));
   EXPECT_THAT(complaint([&] { read_run_infos(folder.path()); }), HasSubstr("bad.mcap"));

@@ -110,7 +110,8 @@ TEST_F(Request, RefusalCarriesCodeAndDetailAndAnExplanation) {
     FAIL();
   } catch (const RobotRefused& refused) {
     EXPECT_EQ(refused.detail(), static_cast<std::uint16_t>(Fault::under_voltage));
-    EXPECT_THAT(commands::in_words(refused), HasSubstr("a fault is latched: under_voltage; remove its cause"));
+    EXPECT_THAT(commands::in_words(refused),
+                HasSubstr("a fault is latched: under_voltage; remove its cause"));
   }
 }
 

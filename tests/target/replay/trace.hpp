@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "firmware/app/drive.hpp"
+#include "firmware/app/tick/drive.hpp"
 
 namespace astro::target {
 

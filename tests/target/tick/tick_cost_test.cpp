@@ -27,7 +27,8 @@ TEST_F(TickCost, OfControlOdometryAndSafetyIsWithin350InstructionsAroundASquare)
   client_.connect();
   TickProfile profile(robot_->teensy(), kElf);
   robot::DriveSession session(client_);
-  for (const robot::Sense sense : {robot::Sense::cw, robot::Sense::ccw}) session.run(robot::square(0.5, sense));
+  for (const robot::Sense sense : {robot::Sense::cw, robot::Sense::ccw})
+    session.run(robot::square(0.5, sense));
   session.hold_velocity(0.4, 1.0, 1s);
   profile.print();
   EXPECT_GT(profile.ticks(), 10'000U);

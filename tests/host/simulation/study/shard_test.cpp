@@ -105,7 +105,8 @@ TEST(ShardFile, ThatIsNoneIsNamed) {
   std::string cut = to_text(of_trials(10), some_trials(0, 5));
   cut.resize(cut.size() / 2);
   EXPECT_EQ(support::sentence_of([&] { read_shard_file(cut, "x.json"); }), none);
-  EXPECT_EQ(support::sentence_of([&] { read_shard_file(R"({"format": "astrolabe study 0", "methods": []})", "x.json"); }),
+  EXPECT_EQ(support::sentence_of(
+                [&] { read_shard_file(R"({"format": "astrolabe study 0", "methods": []})", "x.json"); }),
             "'x.json' was written by another version of the study: run its shard of 'astrolabe study' again");
 }
 

@@ -1,0 +1,178 @@
+#pragma once
+
+#include <cstdint>
+
+#include "common/control/path_follower.hpp"
+#include "common/control/twist_ramp.hpp"
+#include "common/kinematics/odometry.hpp"
+#include "common/params/parameter_set.hpp"
+#include "common/protocol/enums.hpp"
+#include "common/safety/watch.hpp"
+#include "firmware/app/tick/segment_queue.hpp"
+#include "firmware/app/tick/supervisor.hpp"
+#include "firmware/app/tick/wheels.hpp"
+#include "hal/interface/board.hpp"
+
+namespace astro {
+
+/// The robot's behaviour without a board: once a tick it takes counts, supply voltage and time and returns
+/// the duty. Drive decides what moves the wheels; the Supervisor decides whether they may move.
+///
+/// Concurrency  none of its own: tick and main loop share it through Shared.
+class Drive {
+ public:
+  using Mode = protocol::Mode;
+
+  struct Output {
+    Permission bridge = Permission::open;
+    hal::Duty duty;
+  };
+
+  /// What a parameter set means for the tick. It takes long divisions, so it is computed outside the tick and
+  /// only handed over while the tick is held.
+  struct Configuration {
+    [[gnu::cold]] explicit Configuration(const ParameterSet& set);
+
+    Wheels::Configuration wheels;
+    MotionLimits limits;
+    TwistRamp::Rates rates;
+    Supervisor::Thresholds thresholds;
+    ParameterSet set;  // for the gains, which need no conversion
+  };
+
+  explicit Drive(const ParameterSet& set) { configure(set); }
+
+  /// Replaces the parameters; the pose stays as it is. Precondition while the wheels are driven: only gains
+  /// differ. The motor voltages then do not jump.
+  void configure(const Configuration& configuration);
+  void configure(const ParameterSet& set) { configure(Configuration(set)); }
+
+  /// One tick.
+  Output advance(const TickInput& input);
+
+  // Requests. Those that return bool return false if they are refused; a refused request changes nothing.
+  bool arm() { return supervisor_.request(Event::arm); }
+  void disarm();  // opens the bridges at once, empties the queue
+  void stop();    // ramps to rest, empties the queue, stays armed
+  bool pause();   // stops on the path and keeps the queue; refused while something else moves the wheels
+  void resume() { paused_ = false; }
+  void emergency_stop() { raise(Fault::emergency_stop); }
+  bool drive_velocity(const BodyTwist& twist);                  // refused unless armed
+  bool drive_wheels(const WheelVoltages& voltages);             // open loop; refused unless armed
+  bool add_segment(const Segment& segment, std::uint16_t tag);  // refused unless armed and with room
+  void set_pose(const Pose& pose) {                             // precondition: stopped_without_power()
+    odometry_.set_pose(pose);
+    path_open_ = false;
+  }
+  void raise(Fault fault);
+  bool clear_faults() { return supervisor_.clear(); }  // refused while the wheels are driven
+
+  /// A good frame came from the host that drives.
+  void host_seen() { supervisor_.host_seen(); }
+
+  // The ramp to a new velocity takes divisions, too. These three steps replace drive_velocity(twist); the
+  // second one needs no hold of the tick.
+
+  /// The ramp as it would begin now.
+  TwistRamp ramp_from_here() const;
+  /// Sets the ramp's target to `twist`, reduced to the limits.
+  static void aim(TwistRamp& ramp, const BodyTwist& twist, const MotionLimits& limits);
+  bool drive_velocity(const TwistRamp& planned);
+  /// Does the longest part of drive_velocity() beforehand, so that each hold is short: ends the segments that
+  /// wait in the queue, unless drive_velocity() would be refused.
+  void drop_waiting();
+
+  // The profile of the next segment takes divisions and roots, so it is computed outside the tick.
+
+  /// The segment that needs a profile, and the ticket that take_plan() asks for; false if none needs one.
+  bool wants_plan(Segment& segment, std::uint8_t& ticket) const;
+  /// Ignores the profile if the queue has changed since the ticket was given.
+  void take_plan(const Trapezoid& profile, std::uint8_t ticket);
+  /// Does both, for owners whose tick cannot interrupt them.
+  void plan();
+
+  State state() const { return supervisor_.state(); }
+  bool armed() const { return within(state(), states(State::armed, State::driving, State::stopping)); }
+  /// The motors drive the wheels: a command, a segment or a ramp to rest is under way. The wheels of a robot
+  /// without power may still roll.
+  bool gives_power() const { return supervisor_.permission() == Permission::drive; }
+  bool stopped_without_power() const { return !gives_power() && wheels_.stopped(); }
+  /// Also true while there is no room for the event that another segment's end would need.
+  bool queue_full() const {
+    return queue_.size() >= kQueueLength || queue_.size() + events_.size() + 2 > kEventsLength;
+  }
+  Mode mode() const;
+  const Pose& pose() const { return odometry_.pose(); }
+  const Wheels& wheels() const { return wheels_; }
+  const PathFollower& follower() const { return follower_; }
+  BodyTwist twist() const { return to_body(geometry_, wheels_.speeds()); }
+  const FaultLatch& faults() const { return supervisor_.faults(); }
+  std::uint16_t running_tag() const { return on_path() ? running_.tag : std::uint16_t{0}; }
+  std::size_t queued() const { return queue_.size(); }
+  SegmentEvents& events() { return events_; }
+  /// True once after the supervisor has checked a tick.
+  bool take_supervised() { return supervisor_.take_checked(); }
+
+ private:
+  using Steering = Supervisor::Steering;
+  struct SetPoint {
+    BodyTwist twist;
+    BodyTwist acceleration;
+  };
+
+  bool on_path() const { return steering_ == Steering::path && state() == State::driving; }
+  void follow_state();
+  void state_is_followed() { seen_ = state(); }
+  void begin_ramp();
+  void end_segments();
+  void end_waiting();
+  void start_path();
+  void start_segment();
+  void end_segment();
+  void put_back(Segment rest);
+  void report(SegmentEvent::Kind kind, std::uint16_t tag);
+  SetPoint set_point();
+  SetPoint set_point_of_ramp();
+  SetPoint set_point_of_path();
+  bool begins_ramp() const;
+  Output output(const SetPoint& set_point, const TickInput& input);
+
+  Geometry geometry_;
+  MotionLimits limits_;
+
+  Odometry odometry_{Geometry{}};
+  Wheels wheels_;
+  PathFollower follower_;
+  TwistRamp ramp_;
+  Supervisor supervisor_;
+  State seen_ = State::boot;  // the state that everything else here has been adapted to
+  Steering steering_ = Steering::none;
+  WheelVoltages voltages_;
+
+  SegmentQueue queue_;
+  SegmentEvents events_;
+  QueuedSegment running_;
+  Trapezoid next_;  // profile of the front of the queue
+  bool planned_ = false;
+  bool paused_ = false;
+  bool path_open_ = false;   // the next segment continues the path of the last one
+  std::uint8_t ticket_ = 0;  // changes whenever the front of the queue does
+  std::uint32_t settling_ticks_ = 0;
+  Watch settled_;
+  std::uint64_t now_us_ = 0;
+};
+
+/// Sets a board's bridges as a tick has decided.
+template <hal::Motors Motors>
+void apply(const Drive::Output& output, Motors& motors) {
+  switch (output.bridge) {
+    case Permission::drive:
+      return motors.drive(output.duty);
+    case Permission::brake:
+      return motors.brake();
+    case Permission::open:
+      return motors.coast();
+  }
+}
+
+}  // namespace astro
