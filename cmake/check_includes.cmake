@@ -1,6 +1,10 @@
 # Holds every #include "..." below ROOT to the layer table, and keeps float, heap and the operating system out
-# of the code that runs on the robot.   cmake -DROOT=<tree> -P cmake/check_includes.cmake
+# of the code that runs on the robot.
+#   cmake -DROOT=<tree> [-DALSO=<further lines of the table>] -P cmake/check_includes.cmake
+cmake_minimum_required(VERSION 3.21)
 include(${CMAKE_CURRENT_LIST_DIR}/layers.cmake)
+list(APPEND ASTRO_LAYERS ${ALSO})
+astro_require_no_circle()
 set(bad 0)
 file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/common/*.[ch]pp ${ROOT}/hal/*.[ch]pp
   ${ROOT}/firmware/*.[ch]pp ${ROOT}/host/*.[ch]pp)
@@ -42,6 +46,9 @@ foreach(file IN LISTS files)
   endforeach()
 endforeach()
 list(LENGTH files count)
+if(count EQUAL 0)
+  message(FATAL_ERROR "there is nothing to check in ${ROOT}: give the tree's absolute path")
+endif()
 if(bad GREATER 0)
   message(FATAL_ERROR "${bad} include lines break cmake/layers.cmake")
 endif()

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "host/base/error.hpp"
+#include "host/base/numbers.hpp"
 
 namespace astro::calibration {
 
@@ -15,12 +16,12 @@ WheelFactors compose(const WheelFactors& loaded, double E_d, double E_b) {
 void require_usable(const WheelFactors& loaded) {
   const auto usable = [](double value) { return std::isfinite(value) && value > 0; };
   if (!usable(loaded.b_m)) {
-    throw Error("the wheelbase that the robot carried is " + std::to_string(loaded.b_m) +
+    throw Error("the wheelbase that the robot carried is " + to_text(loaded.b_m) +
                 " m: give the distance between the wheels in metres, such as 0.29");
   }
   if (!usable(loaded.c_r) || !usable(loaded.c_l)) {
-    throw Error("the wheel factors that the robot carried are c_R = " + std::to_string(loaded.c_r) +
-                " and c_L = " + std::to_string(loaded.c_l) + ": give positive ratios, 1 for a nominal wheel");
+    throw Error("the wheel factors that the robot carried are c_R = " + to_text(loaded.c_r) +
+                " and c_L = " + to_text(loaded.c_l) + ": give positive ratios, 1 for a nominal wheel");
   }
 }
 

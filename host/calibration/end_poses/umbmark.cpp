@@ -7,6 +7,7 @@
 #include <string>
 
 #include "host/base/error.hpp"
+#include "host/base/numbers.hpp"
 #include "host/calibration/end_poses/compose.hpp"
 #include "host/calibration/end_poses/least_squares.hpp"
 #include "host/calibration/end_poses/sense.hpp"
@@ -47,7 +48,7 @@ struct Experiment {
 void require_inputs(std::span<const EndPose> cw, std::span<const EndPose> ccw, double side_m,
                     const WheelFactors& loaded) {
   if (!std::isfinite(side_m) || side_m <= 0) {
-    throw Error("the side of the square is " + std::to_string(side_m) +
+    throw Error("the side of the square is " + to_text(side_m) +
                 " m: give the length of one leg in metres, such as 3");
   }
   require_usable(loaded);

@@ -5,13 +5,14 @@
 #include <string>
 
 #include "host/base/error.hpp"
+#include "host/base/numbers.hpp"
 
 namespace astro::calibration {
 namespace {
 
 void require_positive(double value, const std::string& what) {
   if (std::isfinite(value) && value > 0) return;
-  throw Error(what + " is " + std::to_string(value) + ": give a positive number");
+  throw Error(what + " is " + to_text(value) + ": give a positive number");
 }
 
 }  // namespace

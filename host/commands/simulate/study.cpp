@@ -113,9 +113,9 @@ void add_work(console::Command command, StudyOptions& options) {
 }
 
 void print_summary(const simulation::study::TrialSetup& setup,
-                   const std::vector<simulation::study::Trial>& trials, bool json) {
+                   const std::vector<simulation::study::Trial>& trials, bool as_json) {
   const simulation::study::Summary summary = summarize(setup, robot_of(setup.model), trials);
-  json ? print_json(study_json(summary)) : write(study_text(summary));
+  as_json ? print_json(study_json(summary)) : write(study_text(summary));
 }
 
 std::vector<simulation::study::Trial> drive(const StudyOptions& options) {

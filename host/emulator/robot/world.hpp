@@ -10,6 +10,8 @@
 #include "host/emulator/chip/adc.hpp"
 #include "host/emulator/chip/decoders.hpp"
 #include "host/emulator/chip/flexpwm.hpp"
+#include "host/emulator/chip/gpio.hpp"
+#include "host/emulator/chip/iomuxc.hpp"
 
 namespace astro::emulator {
 

@@ -70,7 +70,7 @@ std::string warning_of(const std::string& file, const McapReport& report, Damage
   return "";
 }
 
-RunFile parse(ByteView bytes, const std::string& file, bool with_data, Damage damage) {
+RunFile parse(ByteView bytes, const std::string& file, Damage damage) {
   RunFile out;
   out.streams.file = file;
   out.streams.most = kFreeSamples + bytes.size() / kLeastBytesPerSample;
@@ -80,10 +80,8 @@ RunFile parse(ByteView bytes, const std::string& file, bool with_data, Damage da
   handlers.metadata = [&](const mcap::Metadata& metadata) {
     if (metadata.name == kRunRecordName) entries = metadata.entries;
   };
-  if (with_data) {
-    handlers.message = [&](const mcap::Channel& channel, const mcap::Schema* schema,
-                           const mcap::Message& message) { out.streams.take(channel, schema, message); };
-  }
+  handlers.message = [&](const mcap::Channel& channel, const mcap::Schema* schema,
+                         const mcap::Message& message) { out.streams.take(channel, schema, message); };
   out.warning = warning_of(file, read_mcap(bytes, handlers), damage);
   if (!entries) {
     throw Error(file + " is not a recording of a run (it has no record " + std::string(kRunRecordName) +
@@ -156,7 +154,7 @@ void write_run(const std::filesystem::path& path, const Run& run) {
 }
 
 Run run_from_bytes(ByteView bytes, const std::string& name, Damage damage) {
-  RunFile file = parse(bytes, name, true, damage);
+  RunFile file = parse(bytes, name, damage);
   if (damage == Damage::accepted && !file.warning.empty()) drop_singles(file.streams);
   pair_counts(name, !file.warning.empty(), file.streams);
   unwrap(file.streams.odometry, file.record.first_odometry_heading_rad);
@@ -168,10 +166,6 @@ Run run_from_bytes(ByteView bytes, const std::string& name, Damage damage) {
 
 Run read_run(const std::filesystem::path& path, Damage damage) {
   return run_from_bytes(load_file(path), path.string(), damage);
-}
-
-RunInfo read_run_info(const std::filesystem::path& path) {
-  return parse(load_file(path), path.string(), false, Damage::refused).record.info;
 }
 
 }  // namespace astro::recording

@@ -36,8 +36,4 @@ Run read_run(const std::filesystem::path& path, Damage damage = Damage::refused)
 /// The same for a file in memory; `name` is its name in messages.
 Run run_from_bytes(ByteView file, const std::string& name, Damage damage = Damage::refused);
 
-/// Reads the info alone, without expanding the data: for lists. Throws as read_run, but does not notice
-/// damage in the data that the checksums of the file do not cover.
-RunInfo read_run_info(const std::filesystem::path& path);
-
 }  // namespace astro::recording

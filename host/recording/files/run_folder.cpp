@@ -65,12 +65,6 @@ std::vector<fs::path> list_runs(const fs::path& folder) {
   return paths;
 }
 
-std::vector<RunEntry> read_run_infos(const fs::path& folder) {
-  std::vector<RunEntry> entries;
-  for (const fs::path& path : list_runs(folder)) entries.push_back({path, read_run_info(path)});
-  return entries;
-}
-
 std::vector<Run> read_runs(const fs::path& folder, Damage damage) {
   std::vector<Run> runs;
   for (const fs::path& path : list_runs(folder)) runs.push_back(read_run(path, damage));

@@ -9,18 +9,12 @@
 /// The runs of an experiment: all *.mcap below one folder.
 namespace astro::recording {
 
-struct RunEntry {
-  std::filesystem::path path;
-  RunInfo info;
-};
-
 /// The recordings below `folder`, in natural order of their paths ("cw-2" before "cw-10"), whatever order the
 /// file system gives. Throws astro::Error naming the folder if it does not exist, cannot be read or holds no
 /// recording.
 std::vector<std::filesystem::path> list_runs(const std::filesystem::path& folder);
 
-/// The infos or the runs themselves, in that order. Throw astro::Error naming a file that is no run.
-std::vector<RunEntry> read_run_infos(const std::filesystem::path& folder);
+/// The runs themselves, in that order. Throws astro::Error naming a file that is no run.
 std::vector<Run> read_runs(const std::filesystem::path& folder, Damage damage = Damage::refused);
 
 /// Whether `a` comes before `b` when the digits in them are read as numbers.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/base/numbers.hpp"
 #include "host/robot/client/restore.hpp"
 #include "host/robot/motion/rest.hpp"
 #include "host/robot/sharing/port_socket.hpp"
@@ -20,13 +21,12 @@ constexpr microseconds kRestPoll = milliseconds(50);
 constexpr microseconds kAsk = milliseconds(50);  // period at which the hooks are asked
 constexpr microseconds kTimeToNotice =
     milliseconds(4000);  // an armed robot waits 2.5 s for its host; one that drives ramps to rest
-constexpr microseconds kVelocityPeriod = milliseconds(50);
 constexpr std::size_t kMostSegments = 0xFFFF;
 
 std::int32_t micro(double value, const char* what) {
   const double steps = std::round(value * 1e6);
   if (!(std::abs(steps) <= 0x7FFFFFFF))
-    throw Error(std::string(what) + " of " + std::to_string(value) + " is not possible");
+    throw Error(std::string(what) + " of " + to_text(value) + " is not possible");
   return static_cast<std::int32_t>(steps);
 }
 
@@ -186,20 +186,6 @@ void DriveSession::set_wheel_voltages(double left_V, double right_V) {
   check();
   const auto milli = [](double volts) { return static_cast<std::int32_t>(std::lround(1e3 * volts)); };
   command(WheelVoltage{milli(left_V), milli(right_V)});
-}
-
-void DriveSession::hold_velocity(double v_mps, double omega_radps, microseconds duration) {
-  const std::uint64_t start = client_.request(Ping{}).device_time_us;
-  while (true) {
-    set_velocity(v_mps, omega_radps);
-    const std::uint64_t now = client_.request(Ping{}).device_time_us;
-    const auto left = duration - microseconds(static_cast<std::int64_t>(now - start));
-    if (left <= microseconds::zero()) break;
-    const microseconds period = std::min(kVelocityPeriod, left);
-    const std::uint64_t next = now + static_cast<std::uint64_t>(period.count());
-    client_.pump_until([&] { return client_.device_time_us() >= next || fault_ || booted_; }, period);
-  }
-  stop();
 }
 
 void DriveSession::pump(microseconds duration) {

@@ -67,9 +67,6 @@ class DriveSession {
   /// time-out. Only from rest, or after other voltages.
   void set_wheel_voltages(double left_V, double right_V);
 
-  /// Holds a velocity for this long on the robot's clock, then ramps to rest.
-  void hold_velocity(double v_mps, double omega_radps, microseconds duration);
-
   /// As Client::pump, and throws as run() does.
   void pump(microseconds duration);
 

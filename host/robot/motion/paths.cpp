@@ -6,6 +6,7 @@
 #include <string>
 
 #include "host/base/error.hpp"
+#include "host/base/numbers.hpp"
 
 namespace astro::robot {
 
@@ -17,7 +18,7 @@ T scaled(double value, double scale, const char* what) {
   const double steps = std::round(value * scale);
   // 2^63 is a double, 2^63 - 1 is not: compare from below.
   if (!(std::abs(steps) < std::ldexp(1.0, std::numeric_limits<T>::digits))) {
-    throw Error(std::string(what) + " of " + std::to_string(value) + " is not possible");
+    throw Error(std::string(what) + " of " + to_text(value) + " is not possible");
   }
   return static_cast<T>(steps);
 }

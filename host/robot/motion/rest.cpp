@@ -1,8 +1,8 @@
 #include "host/robot/motion/rest.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 
+#include "common/safety/wheel_stopped.hpp"
 #include "host/robot/parameters/parameters.hpp"
 
 namespace astro::robot {
@@ -10,7 +10,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr microseconds kPoll = milliseconds(50);
+constexpr microseconds kStopPoll = milliseconds(50);
 constexpr microseconds kUsualRamp = milliseconds(5000);
 
 /// Longest ramp from the greatest allowed speed to rest, plus one second each for the jerk limit, for the
@@ -32,7 +32,7 @@ microseconds longest_ramp(Client& client) {
 bool stops_before(Client& client, microseconds deadline) {
   while (protocol::gives_power(client.request(protocol::GetStatus{}).mode)) {
     if (client.now() >= deadline) return false;
-    client.pump(kPoll);
+    client.pump(kStopPoll);
   }
   return true;
 }
@@ -41,13 +41,11 @@ bool stops_before(Client& client, microseconds deadline) {
 
 bool wait_until_wheels_stopped(Client& client) {
   constexpr std::uint16_t kPeriod_ms = 20;
-  constexpr std::int32_t kStopped_umps = 3'000;  // as the robot itself judges it
   constexpr microseconds kRollsOn = milliseconds(2000), kNextSample = milliseconds(500);
   bool came = false, stopped = false;
   const auto watching = client.on<protocol::Telemetry>([&](const protocol::Telemetry& sample) {
     came = true;
-    stopped = std::abs(sample.wheel_speed.left_umps) <= kStopped_umps &&
-              std::abs(sample.wheel_speed.right_umps) <= kStopped_umps;
+    stopped = wheel_stopped(sample.wheel_speed.left_umps) && wheel_stopped(sample.wheel_speed.right_umps);
   });
   client.request(protocol::SetTelemetry{kPeriod_ms, protocol::Telemetry::kWheelSpeed});
   if (!client.pump_until([&] { return came; }, kNextSample))

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "host/base/error.hpp"
+#include "host/base/numbers.hpp"
 #include "host/simulation/study/limits.hpp"
 #include "host/simulation/study/synthetic_drive.hpp"
 
@@ -23,7 +24,7 @@ using calibration::Sense;
 constexpr std::uint64_t kClocks = 1'000'000;
 
 void demand(bool holds, double value, const std::string& what, const std::string& remedy) {
-  if (!holds) throw Error(what + " is " + std::to_string(value) + ": give " + remedy);
+  if (!holds) throw Error(what + " is " + to_text(value) + ": give " + remedy);
 }
 
 // Far more than anybody needs; larger numbers from a damaged file or a typing error would exhaust the memory.

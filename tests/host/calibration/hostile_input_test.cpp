@@ -48,7 +48,7 @@ TEST(HostileInput, ARunThatIsNotFiniteIsNamed) {
 
 TEST(HostileInput, SideOfTheSquareMustBeALength) {
   EXPECT_EQ(error_for(kCw, kCcw, 0),
-            "the side of the square is 0.000000 m: give the length of one leg in metres, such as 3");
+            "the side of the square is 0 m: give the length of one leg in metres, such as 3");
   for (const double side_m : {-3.0, kNaN, double{INFINITY}}) {
     EXPECT_EQ(error_for(kCw, kCcw, side_m).find("the side of the square is "), 0U);
   }

@@ -104,7 +104,6 @@ TEST(RunFile, WhatIsReadIsWhatWasWritten) {
     EXPECT_EQ(back.warning, "");
     expect_same_info(back.info, run.info);
     expect_same_data(run, back);
-    expect_same_info(read_run_info(folder / "run.mcap"), run.info);
   }
 }
 
@@ -157,7 +156,7 @@ TEST(RunWriter, CarriesTheFinalNameOnlyAfterClose) {
   writer.add(OdometrySample{});
   writer.close(full_info());
   EXPECT_EQ(read_run(path).odometry.size(), 1U);
-  expect_same_info(read_run_info(path), full_info());
+  expect_same_info(read_run(path).info, full_info());
   EXPECT_FALSE(std::filesystem::exists(folder / "deep/er/run.mcap.part"));
 }
 
@@ -243,8 +242,7 @@ TEST(RunFile, AForeignMcapFileIsToldApart) {
   McapWriter writer([&](ByteView bytes) { append(file, bytes); }, {"ros2", "other"});
   writer.close();
   support::spill(folder / "other.mcap", file);
-  EXPECT_THAT(complaint([&] { read_run(folder / "other.mcap"); }), HasSubstr("not a recording of a run"));
-  EXPECT_THAT(complaint([&] { read_run_info(folder / "other.mcap"); }), HasSubstr("other.mcap"));
+  EXPECT_THAT(complaint([&] { read_run(folder / "other.mcap"); }), HasSubstr("other.mcap is not a recording of a run"));
 }
 
 TEST(RunRecord, NonsenseAndNewerFormatsAreRefusedByName) {

@@ -62,6 +62,20 @@ class Drive : public testing::Test {
   void SetUp() override { client.connect(); }
 };
 
+TEST_F(Drive, WhatIsTooLargeIsToldInAFewDigits) {
+  const auto why = [](const auto& work) {
+    try {
+      work();
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(why([] { line(1e308); }), testing::EndsWith(" of 1e+308 is not possible"));
+  DriveSession session(client);
+  EXPECT_EQ(why([&] { session.set_velocity(1e308, 0); }), "a speed in m/s of 1e+308 is not possible");
+}
+
 TEST_F(Drive, RunsAPathLongerThanTheQueueInOrderAndDisarmsAtTheEnd) {
   Path path = square(1, Sense::ccw);
   const Path again = path;

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <netinet/in.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -54,6 +55,7 @@ class SharedPortOfTheSystem : public testing::Test {
     if (::pipe(ready) != 0) throw std::runtime_error("no pipe");
     const pid_t child = ::fork();
     if (child == 0) {
+      ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that fails leaves nobody behind
       const auto transport = open_shared_port(pty.path());
       const char byte = 1;
       if (::write(ready[1], &byte, 1) == 1) ::pause();
@@ -171,12 +173,12 @@ TEST_F(SharedPortOfTheSystem, AnExclusiveHolderIsSaidToUseThePort) {
 }
 
 TEST_F(SharedPortOfTheSystem, ALostLineIsALostLinkForEverybody) {
-  std::optional<ServedRobot> robot(std::in_place, pty.master());
+  ServedRobot robot(pty.master());
   Client first(open_shared_port(pty.path()));
   first.connect();
   Client second(open_shared_port(pty.path()));
   second.connect();
-  robot.reset();
+  robot.end();
   pty.hang_up();
   for (Client* client : {&first, &second}) {
     try {
@@ -277,14 +279,13 @@ TEST_F(SharedPortOfTheSystem, ALoopbackAddressIsSharedLikeAPort) {
   ASSERT_EQ(::getsockname(listener, any, &size), 0);
   const std::string name = ":" + std::to_string(ntohs(address.sin_port));
   {
+    ServedRobot robot = ServedRobot::accepting(listener);
     Client first(open_shared_port("tcp:localhost" + name));
-    const int connection = ::accept(listener, nullptr, nullptr);
-    const ServedRobot robot(connection);
     first.connect();
     Client second(open_shared_port("tcp:127.0.0.1" + name));  // another name of the same
     EXPECT_EQ(second.connect().robot_name.view(), "astro");
     EXPECT_EQ(second.request(protocol::GetParameterInfo{2}).name.view(), "b");
-    ::shutdown(connection, SHUT_RDWR);
+    robot.end();
     EXPECT_THROW(second.pump(seconds(5)), LinkLost);
   }
   ::close(listener);

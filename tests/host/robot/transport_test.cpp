@@ -179,17 +179,17 @@ TEST(SerialTransport, ReconnectsToARobotThatComesBackUnderTheSameName) {
   const auto link = folder.path() / "robot.pty";
   std::optional<Pty> pty(std::in_place);
   std::filesystem::create_symlink(pty->path(), link);
-  std::optional<ServedRobot> robot(std::in_place, pty->master());
+  ServedRobot robot(pty->master());
   Client client(open_transport(link));
   client.connect();
-  robot.reset();
+  robot.end();
   pty.reset();
   EXPECT_THROW(client.pump(seconds(5)), LinkLost);
 
   pty.emplace();
   std::filesystem::remove(link);
   std::filesystem::create_symlink(pty->path(), link);
-  robot.emplace(pty->master());
+  const ServedRobot again(pty->master());
   client.reconnect(seconds(5));
   EXPECT_EQ(client.request(protocol::GetStatus{}).mode, protocol::Mode::disarmed);
 }

@@ -29,7 +29,11 @@ TEST_F(TickCost, OfControlOdometryAndSafetyIsWithin350InstructionsAroundASquare)
   robot::DriveSession session(client_);
   for (const robot::Sense sense : {robot::Sense::cw, robot::Sense::ccw})
     session.run(robot::square(0.5, sense));
-  session.hold_velocity(0.4, 1.0, 1s);
+  for (int i = 0; i < 20; ++i) {
+    session.set_velocity(0.4, 1.0);
+    session.pump(50ms);
+  }
+  session.stop();
   profile.print();
   EXPECT_GT(profile.ticks(), 10'000U);
   EXPECT_GT(profile.part(TickProfile::odometry).mean, 50) << "the odometry was not found in the image";

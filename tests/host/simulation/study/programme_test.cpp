@@ -99,7 +99,7 @@ TEST(Forecast, RefusesProgrammesThatLeaveAFactorOpen) {
   EXPECT_EQ(error_of([&] {
               (void)forecast(flat.with({2, 0, 0, 0}));
             }),
-            "the side of the squares in metres is 0.000000: give a positive number");
+            "the side of the squares in metres is 0: give a positive number");
 }
 
 TEST(ShortestProgramme, MeetsTheTargetAndTakesNoRunTooMany) {
@@ -164,7 +164,7 @@ TEST(ShortestProgramme, RefusesWhatCannotBeReached) {
   EXPECT_EQ(message(1e-7, {kSquares}),
             "a precision this fine takes more than 1000 runs: drive longer ones, ask for less, or lessen the "
             "slip");
-  EXPECT_EQ(message(0, {kSquares}), "the precision wanted of E_d is 0.000000: give a positive number");
+  EXPECT_EQ(message(0, {kSquares}), "the precision wanted of E_d is 0: give a positive number");
 }
 
 }  // namespace

@@ -116,7 +116,7 @@ TEST(SimulatedSource, RefusesWhatTheRobotCannotDriveOrRecord) {
   EXPECT_EQ(refusal(setup), "a square of side 0.05 m cannot be driven: choose 0.2 m to 100 m");
   setup = small_setup();
   setup.trials = 0;
-  EXPECT_EQ(refusal(setup), "the number of trials is 0.000000: give 1 to 10 million");
+  EXPECT_EQ(refusal(setup), "the number of trials is 0: give 1 to 10 million");
   setup = small_setup();
   setup.model = simulation::study::Model::kinematic;
   EXPECT_EQ(refusal(setup),

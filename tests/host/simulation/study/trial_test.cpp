@@ -48,9 +48,9 @@ TEST(StudySetup, RefusesWhatCannotBeDriven) {
     return calibration::test::error_of([&] { setup.check(); });
   };
   EXPECT_EQ(message([](TrialSetup& s) { s.side_m = 0; }),
-            "the side of the square in metres is 0.000000: give a positive number");
+            "the side of the square in metres is 0: give a positive number");
   EXPECT_EQ(message([](TrialSetup& s) { s.trials = 0; }),
-            "the number of trials is 0.000000: give 1 to 10 million");
+            "the number of trials is 0: give 1 to 10 million");
   EXPECT_EQ(message([](TrialSetup& s) { s.noise.K_m = std::nan(""); }),
             "the wheel slip K in metres is nan: give a positive number");
   EXPECT_EQ(message([](TrialSetup& s) {
