@@ -9,6 +9,7 @@ set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O2 -g1")
 option(ASTROLABE_SANITIZE "AddressSanitizer and UBSan, any finding ends the program" OFF)
 option(ASTROLABE_FUZZ "libFuzzer targets instead of tests; needs clang" OFF)
 option(ASTROLABE_COVERAGE "gcov instrumentation" OFF)
+set(ASTROLABE_UNITY 8 CACHE STRING "how many source files of a host build are compiled at a time; 1: each alone")
 
 add_library(astro_compile INTERFACE)
 target_include_directories(astro_compile INTERFACE ${CMAKE_SOURCE_DIR})
@@ -32,10 +33,11 @@ if(ASTROLABE_SANITIZE)
   target_compile_options(astro_compile INTERFACE
     -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -O1 -g1)
   target_link_options(astro_compile INTERFACE -fsanitize=address,undefined)
-  # This build is made from nothing and run once; nobody waits for one file of it. So files are compiled eight at a time,
-  # and what they all include once. That each file can be compiled alone is what the host build shows.
+endif()
+if(ASTROLABE_TARGET STREQUAL host AND ASTROLABE_UNITY GREATER 1)
+  # Most of what a file costs to compile is what its neighbours include and instantiate, too.
   set(CMAKE_UNITY_BUILD ON)
-  set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+  set(CMAKE_UNITY_BUILD_BATCH_SIZE ${ASTROLABE_UNITY})
 endif()
 if(ASTROLABE_FUZZ)
   # GCC's warnings are the ones that count; clang has others. Coverage counters in everything, libFuzzer's main in the targets only.

@@ -1,5 +1,6 @@
 # astro_test(common.kinematics SOURCES odometry_test.cpp DEPENDS common.kinematics)
-#   one GoogleTest program named <name>.test; each TEST becomes a ctest of its own name. OPTIMISED names those of its
+#   one GoogleTest program named <name>.test; each TEST becomes a ctest of its own name, except under the sanitizers,
+#   where a program is one ctest, or four if it is LONG. OPTIMISED names those of its
 #   SOURCES that run longer than they compile; LONG says that some of its tests take many seconds: they are started
 #   first, so that no processor waits for the last one. STATISTICAL names tests, by GoogleTest's patterns, that repeat
 #   until chance has spoken what others do once: the sanitizers would see nothing new in them for minutes.
@@ -32,11 +33,6 @@ function(astro_test name)
   add_executable(${name}.test ${arg_SOURCES})
   target_link_libraries(${name}.test PRIVATE astro_compile ${arg_DEPENDS} ${arg_LIBRARIES}
     GTest::gmock GTest::gtest_main Threads::Threads astro_test_compile)
-  # Most of what compiling a test costs is what its neighbours include and instantiate, too. By four where somebody may
-  # be waiting for one of them.
-  if(NOT ASTROLABE_SANITIZE)
-    set_target_properties(${name}.test PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 4)
-  endif()
   target_precompile_headers(${name}.test REUSE_FROM astro_test_headers)
   set_target_properties(${name}.test PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   # The precompiled headers are not optimised, and GCC refuses to mix. -O1: more finds warnings that are none in checks.
@@ -50,11 +46,26 @@ function(astro_test name)
     set(cost 1)
   endif()
   set(filter "*")
-  if(ASTROLABE_SANITIZE AND arg_STATISTICAL)
+  if(arg_STATISTICAL)
     list(JOIN arg_STATISTICAL ":" statistical)
     set(filter "-${statistical}")
   endif()
-  gtest_discover_tests(${name}.test TEST_PREFIX "${name}: " TEST_FILTER "${filter}" DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT 300 COST ${cost}
-      ENVIRONMENT "RC_PARAMS=seed=20240711")  # RapidCheck: the same cases each time
+  # RapidCheck: the same cases each time.
+  set(environment "RC_PARAMS=seed=20240711")
+  if(ASTROLABE_SANITIZE)
+    # Many tests in one process: to start a program costs more under the sanitizers than most tests.
+    set(shards 1)
+    if(arg_LONG)
+      set(shards 4)
+    endif()
+    foreach(shard RANGE 1 ${shards})
+      math(EXPR index "${shard} - 1")
+      add_test(NAME "${name}: ${shard} of ${shards}" COMMAND ${name}.test --gtest_brief=1 "--gtest_filter=${filter}")
+      set_tests_properties("${name}: ${shard} of ${shards}" PROPERTIES TIMEOUT 900 COST ${cost}
+        ENVIRONMENT "${environment};GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${index}")
+    endforeach()
+  else()
+    gtest_discover_tests(${name}.test TEST_PREFIX "${name}: " DISCOVERY_TIMEOUT 60
+      PROPERTIES TIMEOUT 300 COST ${cost} ENVIRONMENT "${environment}")
+  endif()
 endfunction()

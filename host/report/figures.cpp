@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/report/series.hpp"
+#include "host/report/squares.hpp"
 
 namespace astro::report {
 
@@ -55,8 +56,6 @@ json run_data(const recording::Run& run, std::size_t position) {
 }
 
 }  // namespace
-
-bool has_squares(const Phase& phase) { return !phase.cw.empty() && !phase.ccw.empty(); }
 
 json figure_data(const std::vector<Phase>& phases, const std::vector<RunGroup>& groups) {
   json out = {{"phases", json::array()}, {"clusters", json::array()}, {"groups", json::array()}};

@@ -14,7 +14,4 @@ namespace astro::report {
 /// points a run.
 nlohmann::json figure_data(const std::vector<Phase>& phases, const std::vector<RunGroup>& groups);
 
-/// True if both directions of the square were driven, which E_max_syst needs.
-bool has_squares(const Phase& phase);
-
 }  // namespace astro::report

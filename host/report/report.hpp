@@ -51,10 +51,7 @@ struct ReportInput {
 /// Size: the plotting library (1.2 MB) and at most about 80 kB for each run.
 std::string render_html(const ReportInput& input);
 
-/// render_html to a file.
+/// render_html to a file, as write_page does it.
 void write_report(const std::filesystem::path& path, const ReportInput& input);
-
-/// `path` never holds half a report. Throws what PartFile throws.
-void write_page(const std::filesystem::path& path, const std::string& html);
 
 }  // namespace astro::report

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "host/report/assets.hpp"
 #include "host/report/html.hpp"
 #include "host/report/numbers.hpp"
-#include "host/report/sections.hpp"
+#include "host/report/page.hpp"
+#include "host/report/tables.hpp"
 
 namespace astro::report {
 namespace {

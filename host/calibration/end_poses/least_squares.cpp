@@ -1,6 +1,6 @@
 #include "host/calibration/end_poses/least_squares.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 
@@ -51,7 +51,12 @@ Parameters solve(const Problem& problem, Parameters p) {
   constexpr int kMostSteps = 50;
   constexpr double kSettled = 1e-13;
   for (int i = 0; i < kMostSteps; ++i) {
-    const Parameters step = problem.derivative(p).colPivHouseholderQr().solve(-problem(p));
+    // The normal equations give a step that is only nearly the least-squares one; where the steps end is the
+    // same, and two unknowns need no decomposition.
+    const Jacobian jacobian = problem.derivative(p);
+    const Parameters slope = jacobian.transpose() * problem(p);
+    const Eigen::Matrix2d curvature = jacobian.transpose() * jacobian;
+    const Parameters step = -curvature.inverse() * slope;
     p += step;
     if (step.norm() < kSettled) return p;
     if (!p.allFinite() || p.norm() > 1) break;

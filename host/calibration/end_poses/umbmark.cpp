@@ -76,7 +76,7 @@ void require_headings(std::span<const EndPose> runs, const std::string& directio
     }
     if (std::abs(runs[i].theta_rad) > std::numbers::pi) {
       throw Error(direction + " run " + std::to_string(i + 1) + " has a heading error of " +
-                  std::to_string(runs[i].theta_rad) +
+                  to_text(runs[i].theta_rad) +
                   " rad, more than half a turn: check the units, and write it between -180 and 180 degrees");
     }
   }

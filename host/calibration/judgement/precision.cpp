@@ -4,18 +4,9 @@
 #include <numbers>
 #include <string>
 
-#include "host/base/error.hpp"
-#include "host/base/numbers.hpp"
+#include "host/base/require_positive.hpp"
 
 namespace astro::calibration {
-namespace {
-
-void require_positive(double value, const std::string& what) {
-  if (std::isfinite(value) && value > 0) return;
-  throw Error(what + " is " + to_text(value) + ": give a positive number");
-}
-
-}  // namespace
 
 DriveExtent squares_extent(int runs, double side_m) {
   require_positive(runs, "the number of squares");

@@ -12,14 +12,14 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 /// Propagates the Jacobian of the state by the unknowns and sums up what the innovations say about them.
-class ParameterDerivatives {
+class ParameterDerivatives final : public Accumulator {
  public:
   explicit ParameterDerivatives(const Unknowns& unknowns) : u_(unknowns) {
     jacobian_.setZero();
     jacobian_.block<3, 3>(0, kStartX).setIdentity();
   }
 
-  void predict(const Prediction& step) {
+  void predict(const Prediction& step) override {
     const Arc& arc = step.arc;
     jacobian_.row(0) += step.transition(0, 2) * jacobian_.row(2);
     jacobian_.row(1) += step.transition(1, 2) * jacobian_.row(2);
@@ -33,14 +33,13 @@ class ParameterDerivatives {
     jacobian_.col(kSkew) += step.to.jacobian_skew_s * to - step.from.jacobian_skew_s * from;
   }
 
-  template <int N>
-  void update(const Update<N>& step, const BodySample&, Motion motion) {
-    Eigen::Matrix<double, N, kUnknowns> jacobian = step.jacobian_state * jacobian_;
-    jacobian.template block<N, 3>(0, kLeverX) += step.jacobian_lever;
+  void update(const Update& step, Motion motion) override {
+    Eigen::Matrix<double, 3, kUnknowns> jacobian = step.jacobian_state * jacobian_;
+    jacobian.block<3, 3>(0, kLeverX) += step.jacobian_lever;
     sums.cost += std::log(step.expected_covariance.determinant());
     sums.cost += step.loss.cost;
     count(step, motion);
-    const Eigen::Matrix<double, kUnknowns, N> weighted = jacobian.transpose() * step.weight;
+    const Eigen::Matrix<double, kUnknowns, 3> weighted = jacobian.transpose() * step.weight;
     sums.information.noalias() += weighted * jacobian;
     sums.gradient.noalias() += weighted * step.innovation;
     jacobian_.noalias() -= step.gain * jacobian;
@@ -55,15 +54,14 @@ class ParameterDerivatives {
            u_[kCRight] * wheels.right_mps * arc.jacobian_right;
   }
 
-  template <int N>
-  void count(const Update<N>& step, Motion motion) {
+  void count(const Update& step, Motion motion) {
     const auto& r = step.innovation;
     sums.chi_square += step.chi_square;
-    sums.degrees_of_freedom += N;
+    sums.degrees_of_freedom += step.components();
     MotionTotals& totals = sums.motion[static_cast<std::size_t>(motion)];
     ++totals.samples;
     totals.sum_xy_m2 += r[0] * r[0] + r[1] * r[1];
-    if constexpr (N == 3) totals.sum_theta_rad2 += r[2] * r[2];
+    totals.sum_theta_rad2 += r[2] * r[2];
     totals.chi_square += step.chi_square;
   }
 
@@ -72,19 +70,15 @@ class ParameterDerivatives {
 };
 
 /// Keeps each innovation in the robot's frame, divided by the Cholesky factor of its covariance.
-class Standardiser {
+class Standardiser final : public Accumulator {
  public:
-  void predict(const Prediction&) {}
-
-  template <int N>
-  void update(const Update<N>& step, const BodySample&, Motion) {
-    typename Update<N>::Square to_robot = Update<N>::Square::Identity();
+  void predict(const Prediction&) override {}
+  void update(const Update& step, Motion) override {
     const double c = std::cos(step.heading_rad), s = std::sin(step.heading_rad);
-    to_robot.template topLeftCorner<2, 2>() << c, s, -s, c;
-    const typename Update<N>::Square turned = to_robot * step.covariance * to_robot.transpose();
-    Vector3d standard = Vector3d::Zero();
-    standard.head<N>() = turned.llt().matrixL().solve(to_robot * step.innovation);
-    innovations.push_back(standard);
+    Matrix3d to_robot;
+    to_robot << c, s, 0, -s, c, 0, 0, 0, 1;
+    const Matrix3d turned = to_robot * step.covariance * to_robot.transpose();
+    innovations.push_back(turned.llt().matrixL().solve(to_robot * step.innovation));
   }
 
   std::vector<Vector3d> innovations;
@@ -119,8 +113,7 @@ InnovationSums mean_of(std::span<const InnovationSums> passes) {
 InnovationSums innovations(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise,
                            RobustMode robust, const SampleSelection& samples) {
   ParameterDerivatives derivatives(unknowns);
-  KalmanFilter filter(run, unknowns, noise, robust, TruthUse::values, derivatives);
-  filter_run(run, unknowns, samples, filter);
+  filter_run(run, unknowns, noise, robust, TruthUse::values, samples, derivatives);
   return derivatives.sums;
 }
 
@@ -128,15 +121,13 @@ std::vector<Vector3d> standardised_innovations(const PreparedRun& run, const Unk
                                                const NoiseModel& noise, RobustMode robust,
                                                const SampleSelection& samples) {
   Standardiser standardiser;
-  KalmanFilter filter(run, unknowns, noise, robust, TruthUse::values, standardiser);
-  filter_run(run, unknowns, samples, filter);
+  filter_run(run, unknowns, noise, robust, TruthUse::values, samples, standardiser);
   return std::move(standardiser.innovations);
 }
 
 Information expected_information(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise) {
   ParameterDerivatives derivatives(unknowns);
-  KalmanFilter filter(run, unknowns, noise, RobustMode::none, TruthUse::times, derivatives);
-  filter_run(run, unknowns, {}, filter);
+  filter_run(run, unknowns, noise, RobustMode::none, TruthUse::times, {}, derivatives);
   return derivatives.sums.information;
 }
 

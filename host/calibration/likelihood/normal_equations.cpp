@@ -10,6 +10,17 @@ namespace {
 using Own = Eigen::Matrix<double, kOwn, kOwn>;
 using OwnVector = Eigen::Matrix<double, kOwn, 1>;
 using Mixed = Eigen::Matrix<double, kShared, kOwn>;
+using Matrix = Eigen::MatrixXd;
+
+/// Of one size at run time, because a decomposition for each size, and for each kind of right side, is most of
+/// what this file would cost to compile.
+Matrix solved(const Matrix& information, const Matrix& right_side) {
+  return information.ldlt().solve(right_side);
+}
+
+double log_determinant_of(const Matrix& information) {
+  return information.ldlt().vectorD().array().abs().log().sum();
+}
 
 // Inverse squares of the largest plausible values: lever arm 1 m, yaw one turn, skew 10 %, offset 10 s.
 constexpr double kLeverPrior = 1, kYawPrior = 0.03, kSkewPrior = 100, kOffsetPrior = 0.01;
@@ -55,9 +66,9 @@ SharedInformation with_priors(SharedInformation information, const FixedParamete
 }
 
 Reduced reduced(const Parts& parts) {
-  const Eigen::LDLT<Own> own(parts.own);
-  return {parts.shared - parts.mixed * own.solve(parts.mixed.transpose()),
-          parts.shared_gradient - parts.mixed * own.solve(parts.own_gradient)};
+  const Mixed weighted = solved(parts.own, parts.mixed.transpose()).transpose();
+  return {parts.shared - weighted * parts.mixed.transpose(),
+          parts.shared_gradient - weighted * parts.own_gradient};
 }
 
 }  // namespace
@@ -77,19 +88,19 @@ std::vector<Unknowns> gauss_newton_step(std::span<const InnovationSums> sums, co
     information += r.information;
     gradient += r.gradient;
   }
-  const SharedVector shared = with_priors(information, fixed).ldlt().solve(gradient);
+  const SharedVector shared = solved(with_priors(information, fixed), gradient);
   std::vector<Unknowns> steps;
   for (const Parts& run : parts) {
     Unknowns step = Unknowns::Zero();
     step.head<kShared>() = shared;
-    step.segment<kOwn>(kShared) = run.own.ldlt().solve(run.own_gradient - run.mixed.transpose() * shared);
+    step.segment<kOwn>(kShared) = solved(run.own, run.own_gradient - run.mixed.transpose() * shared);
     steps.push_back(step);
   }
   return steps;
 }
 
 SharedInformation shared_covariance(const SharedInformation& information, const FixedParameters& fixed) {
-  return with_priors(information, fixed).ldlt().solve(SharedInformation::Identity());
+  return solved(with_priors(information, fixed), SharedInformation::Identity());
 }
 
 double log_determinant(std::span<const InnovationSums> sums, const FixedParameters& fixed) {
@@ -97,10 +108,10 @@ double log_determinant(std::span<const InnovationSums> sums, const FixedParamete
   double sum = 0;
   for (const InnovationSums& run : sums) {
     const Parts parts = parts_of(run, fixed, 0);
-    sum += Eigen::LDLT<Own>(parts.own).vectorD().array().abs().log().sum();
+    sum += log_determinant_of(parts.own);
     information += reduced(parts).information;
   }
-  return sum + with_priors(information, fixed).ldlt().vectorD().array().abs().log().sum();
+  return sum + log_determinant_of(with_priors(information, fixed));
 }
 
 OneUnknown arc_wheelbase(std::span<const InnovationSums> sums, const FixedParameters& fixed) {
@@ -109,7 +120,6 @@ OneUnknown arc_wheelbase(std::span<const InnovationSums> sums, const FixedParame
   double own_information = 0, own_gradient = 0;
   for (const InnovationSums& run : sums) {
     const Parts parts = parts_of(run, fixed, 0);
-    const Eigen::LDLT<Own> own(parts.own);
     const Reduced r = reduced(parts);
     SharedVector with_shared = run.information.col(kArcWheelbase).head<kShared>();
     OwnVector with_own = run.information.col(kArcWheelbase).segment<kOwn>(kShared);
@@ -117,9 +127,10 @@ OneUnknown arc_wheelbase(std::span<const InnovationSums> sums, const FixedParame
     if (fixed.lever_yaw) with_shared[kLeverYaw] = 0;
     information += r.information;
     gradient += r.gradient;
-    mixed += with_shared - parts.mixed * own.solve(with_own);
-    own_information += run.information(kArcWheelbase, kArcWheelbase) - with_own.dot(own.solve(with_own));
-    own_gradient += run.gradient[kArcWheelbase] - with_own.dot(own.solve(parts.own_gradient));
+    const OwnVector weighted = solved(parts.own, with_own);
+    mixed += with_shared - parts.mixed * weighted;
+    own_information += run.information(kArcWheelbase, kArcWheelbase) - with_own.dot(weighted);
+    own_gradient += run.gradient[kArcWheelbase] - weighted.dot(parts.own_gradient);
   }
   const SharedInformation covariance = shared_covariance(information, fixed);
   const double left = own_information - mixed.dot(covariance * mixed);
@@ -130,9 +141,10 @@ OneUnknown arc_wheelbase(std::span<const InnovationSums> sums, const FixedParame
 double clock_offset_variance(const InnovationSums& sums, const SharedInformation& covariance,
                              const FixedParameters& fixed) {
   const Parts parts = parts_of(sums, fixed, 0);
-  const Own own = parts.own.ldlt().solve(Own::Identity());
-  const Own total = own + own * parts.mixed.transpose() * covariance * parts.mixed * own;
-  return total(kOwn - 1, kOwn - 1);
+  // Its row of the inverse, and what the shared unknowns add to it.
+  const OwnVector own = solved(parts.own, OwnVector::Unit(kOwn - 1));
+  const SharedVector by_shared = parts.mixed * own;
+  return own[kOwn - 1] + by_shared.dot(covariance * by_shared);
 }
 
 }  // namespace astro::calibration

@@ -1,6 +1,6 @@
 #include "host/calibration/preparation/relative_pose.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -39,7 +39,7 @@ std::optional<TurnRates> fit_headings(std::span<const RelativePose> pieces) {
   }
   // Straight pieces alone do not determine the sum of both, spins alone not the difference.
   if (!(normal.determinant() > 1e-9 * normal.trace() * normal.trace())) return {};
-  const Eigen::Vector2d rates = normal.ldlt().solve(right_side);
+  const Eigen::Vector2d rates = normal.inverse() * right_side;
   return TurnRates{rates[0], rates[1]};
 }
 
@@ -56,6 +56,15 @@ Eigen::Matrix<double, 5, 5> displacement_normal(std::span<const RelativePose> pi
     normal += rows.transpose() * rows;
   }
   return normal;
+}
+
+/// The largest sum of a column's magnitudes.
+double norm(const Eigen::Matrix3d& matrix) { return matrix.cwiseAbs().colwise().sum().maxCoeff(); }
+
+/// Of a symmetric matrix, for its smaller eigenvalue.
+Eigen::Vector2d least_eigenvector(const Eigen::Matrix2d& a) {
+  const double largest_rad = std::atan2(a(0, 1) + a(1, 0), a(0, 0) - a(1, 1)) / 2;
+  return {-std::sin(largest_rad), std::cos(largest_rad)};
 }
 
 double quantile(std::vector<double> values, double fraction) {
@@ -89,13 +98,13 @@ std::optional<RelativePoseFit> fit_relative_poses(std::span<const RelativePose> 
   if (!rates) return {};
   const Eigen::Matrix<double, 5, 5> normal = displacement_normal(pieces, *rates);
   const Eigen::Matrix3d free = normal.topLeftCorner<3, 3>();
-  const Eigen::FullPivLU<Eigen::Matrix3d> lu(free);
-  if (lu.rcond() < 1e-12) return {};
+  const Eigen::Matrix3d inverse = free.inverse();
+  if (!(norm(free) * norm(inverse) < 1e12)) return {};
   const Eigen::Matrix<double, 3, 2> mixed = normal.topRightCorner<3, 2>();
-  const Eigen::Matrix2d reduced = normal.bottomRightCorner<2, 2>() - mixed.transpose() * lu.solve(mixed);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen((reduced + reduced.transpose()) / 2);
-  Eigen::Vector2d yaw = eigen.eigenvectors().col(0);
-  Eigen::Vector3d rest = -lu.solve(mixed * yaw);
+  const Eigen::Matrix<double, 3, 2> solved = inverse * mixed;
+  const Eigen::Matrix2d reduced = normal.bottomRightCorner<2, 2>() - mixed.transpose() * solved;
+  Eigen::Vector2d yaw = least_eigenvector(reduced);
+  Eigen::Vector3d rest = -solved * yaw;
   if (rest[0] < 0) {
     rest = -rest;
     yaw = -yaw;

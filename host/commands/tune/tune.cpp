@@ -11,6 +11,7 @@
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
 #include "host/console/wrong_usage.hpp"
+#include "host/report/page.hpp"
 
 namespace astro::commands {
 namespace {

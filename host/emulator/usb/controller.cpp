@@ -13,7 +13,7 @@ namespace {
 using namespace teensy40;
 
 constexpr int kUsbIrq = 113;
-constexpr std::uint32_t kDevice = 2, kControlType = 0;
+constexpr std::uint32_t kDevice = 2;
 
 bool writable(std::uint32_t offset) {
   static constexpr std::array kWritable{
@@ -21,6 +21,10 @@ bool writable(std::uint32_t offset) {
       usb::ENDPTLISTADDR.value, usb::USBMODE.value,      usb::ENDPTSETUPSTAT.value, usb::ENDPTPRIME.value,
       usb::ENDPTFLUSH.value,    usb::ENDPTCOMPLETE.value};
   return offset >= usb::ENDPTCTRL0.value || std::ranges::find(kWritable, offset) != kWritable.end();
+}
+
+std::size_t endpoint_at(std::uint32_t offset) {
+  return (offset - usb::ENDPTCTRL0.value) / 4 % Endpoints::kCount;
 }
 
 /// A host asks a hub for changes every 255 ms at full speed, every 256 ms at high speed (USB 2.0, 11.23.1).
@@ -51,9 +55,7 @@ void UsbController::reset() {
   command_ = 0x0008'0000;
   status_ = enable_ = address_ = next_address_ = list_ = mode_ = setup_waiting_ = complete_ = 0;
   address_due_ = resetting_ = suspended_ = missed_reset_ = false;
-  endpoint_ = {};
-  endpoint_[0] = 0x0080'0080;
-  queues_ = {};
+  endpoints_ = {};
 }
 
 bool UsbController::attached() const {
@@ -78,7 +80,7 @@ void UsbController::begin_reset() {
 void UsbController::end_reset(bool high_speed) {
   resetting_ = false;
   high_speed_ = high_speed;
-  for (const Queue& queue : queues_) missed_reset_ |= queue.primed;
+  missed_reset_ = missed_reset_ || endpoints_.primed() != 0;
   raise(usb::USBSTS_PCI(1));
 }
 
@@ -97,10 +99,75 @@ void UsbController::unplug() {
   raise(usb::USBSTS_PCI(1) | usb::USBSTS_SLI(1));
 }
 
-void UsbController::flush(std::uint32_t bits) {
-  for (int endpoint = 0; endpoint < static_cast<int>(kEndpoints); ++endpoint)
-    for (const bool in : {false, true})
-      if ((bits & bit_of(endpoint, in)) != 0) queue(endpoint, in).primed = false;
+QueueHead UsbController::head(int endpoint, bool in) {
+  return {machine_, list_ + QueueHead::kBytes * static_cast<std::uint32_t>(2 * endpoint + (in ? 1 : 0))};
+}
+
+bool UsbController::answers(std::uint8_t address) const {
+  return attached() && !resetting_ && !missed_reset_ && address == address_;
+}
+
+Handshake UsbController::setup(std::uint8_t address, const std::array<std::uint8_t, 8>& bytes) {
+  if (!answers(address)) return Handshake::nothing;
+  QueueHead queue_head = head(0, false);
+  if (!queue_head.exists()) return Handshake::nothing;
+  queue_head.store_setup(bytes);
+  // Primed transfers stay primed, but move no data until the firmware has flushed them.
+  endpoints_.take_setup();
+  command_ &= ~usb::USBCMD_SUTW.mask();
+  setup_waiting_ |= 1;
+  if (queue_head.interrupts_on_setup()) raise(usb::USBSTS_UI(1));
+  return Handshake::ack;
+}
+
+Packet UsbController::in(std::uint8_t address, int endpoint) {
+  if (!answers(address) || !endpoints_.enabled(endpoint, true)) return {};
+  if (endpoints_.stalled(endpoint, true)) return {Handshake::stall, {}, false};
+  if (!endpoints_.pipe(endpoint, true).primed() || setup_waiting_ != 0) return {Handshake::nak, {}, false};
+  const Packet packet = endpoints_.pipe(endpoint, true).in(head(endpoint, true));
+  note_complete(endpoint, true);
+  if (endpoint == 0 && address_due_) {
+    address_ = next_address_;
+    address_due_ = false;
+  }
+  return packet;
+}
+
+Handshake UsbController::out(std::uint8_t address, int endpoint, std::span<const std::uint8_t> bytes,
+                             bool data1) {
+  if (!answers(address) || !endpoints_.enabled(endpoint, false)) return Handshake::nothing;
+  if (endpoints_.stalled(endpoint, false)) return Handshake::stall;
+  if (!endpoints_.pipe(endpoint, false).primed() || setup_waiting_ != 0) return Handshake::nak;
+  if (!endpoints_.pipe(endpoint, false).expects(data1)) return Handshake::ack;
+  const QueueHead queue_head = head(endpoint, false);
+  if (bytes.size() > queue_head.bytes_left()) {
+    machine_.fail(fmt::format("USB1: endpoint {} receives more than its transfer takes", endpoint));
+    return Handshake::stall;
+  }
+  endpoints_.pipe(endpoint, false).out(queue_head, bytes);
+  note_complete(endpoint, false);
+  return Handshake::ack;
+}
+
+/// After a packet: if it was the last of its transfer, the firmware is told so.
+void UsbController::note_complete(int endpoint, bool in) {
+  if (endpoints_.pipe(endpoint, in).primed()) return;
+  complete_ |= Endpoints::bit_of(endpoint, in);
+  raise(usb::USBSTS_UI(1));
+}
+
+void UsbController::prime(int endpoint, bool in) {
+  if (missed_reset_)
+    return machine_.fail(
+        "USB1 ENDPTPRIME: a bus reset ended with transfers primed, and the controller was not reset");
+  if (endpoints_.pipe(endpoint, in).primed())
+    return machine_.fail(fmt::format("USB1 ENDPTPRIME: endpoint {} has a transfer under way", endpoint));
+  if (endpoint == 0 && setup_waiting_ != 0)
+    return machine_.fail("USB1 ENDPTPRIME: endpoint 0 is primed while a SETUP packet waits");
+  if (!endpoints_.enabled(endpoint, in))
+    return machine_.fail(fmt::format("USB1 ENDPTPRIME: endpoint {} is not enabled", endpoint));
+  const QueueHead queue_head = head(endpoint, in);
+  if (queue_head.exists()) endpoints_.pipe(endpoint, in).prime(queue_head);
 }
 
 std::uint32_t UsbController::read(std::uint32_t offset) {
@@ -115,14 +182,8 @@ std::uint32_t UsbController::read(std::uint32_t offset) {
            usb::PORTSC1_SUSP(suspended_);
   if (offset == usb::ENDPTSETUPSTAT.value) return setup_waiting_;
   if (offset == usb::ENDPTCOMPLETE.value) return complete_;
-  if (offset == usb::ENDPTSTAT.value) {
-    std::uint32_t primed = 0;
-    for (int endpoint = 0; endpoint < static_cast<int>(kEndpoints); ++endpoint)
-      for (const bool in : {false, true})
-        if (queue(endpoint, in).primed) primed |= bit_of(endpoint, in);
-    return primed;
-  }
-  if (offset >= usb::ENDPTCTRL0.value) return endpoint_[(offset - usb::ENDPTCTRL0.value) / 4 % kEndpoints];
+  if (offset == usb::ENDPTSTAT.value) return endpoints_.primed();
+  if (offset >= usb::ENDPTCTRL0.value) return endpoints_.control(endpoint_at(offset));
   if (offset != usb::ENDPTPRIME.value && offset != usb::ENDPTFLUSH.value) refuse(offset);
   return 0;  // both are over at once
 }
@@ -139,23 +200,6 @@ void UsbController::write_command(std::uint32_t value) {
   if (usb::USBCMD_RS.of(value) == 0) leave_bus();
   if (usb::USBCMD_RS.of(value) != 0 && usb::USBCMD_RS.of(command_) == 0) attach();
   command_ = value;
-}
-
-void UsbController::write_endpoint(int endpoint, std::uint32_t value) {
-  if (endpoint != 0) {
-    const bool in = usb::ENDPTCTRL1_TXE.of(value) != 0, out = usb::ENDPTCTRL1_RXE.of(value) != 0;
-    if ((!in && queue(endpoint, true).primed) || (!out && queue(endpoint, false).primed))
-      machine_.fail(
-          fmt::format("USB1 ENDPTCTRL{}: switched off with a transfer under way: flush it first", endpoint));
-    if ((in && usb::ENDPTCTRL1_RXT.of(value) == kControlType) ||
-        (out && usb::ENDPTCTRL1_TXT.of(value) == kControlType))
-      machine_.fail(
-          fmt::format("USB1 ENDPTCTRL{}: the direction without use is left as a control endpoint", endpoint));
-    if (usb::ENDPTCTRL1_TXR.of(value) != 0) queue(endpoint, true).data1 = false;
-    if (usb::ENDPTCTRL1_RXR.of(value) != 0) queue(endpoint, false).data1 = false;
-  }
-  control(endpoint) = value & ~(usb::ENDPTCTRL1_TXR.mask() | usb::ENDPTCTRL1_RXR.mask());
-  if (endpoint == 0) control(0) |= 0x0080'0080;
 }
 
 void UsbController::write(std::uint32_t offset, std::uint32_t value) {
@@ -175,16 +219,15 @@ void UsbController::write(std::uint32_t offset, std::uint32_t value) {
   }
   if (offset == usb::ENDPTSETUPSTAT.value) setup_waiting_ &= ~value;
   if (offset == usb::ENDPTCOMPLETE.value) complete_ &= ~value;
-  if (offset == usb::ENDPTFLUSH.value) flush(value);
+  if (offset == usb::ENDPTFLUSH.value) endpoints_.flush(value);
   if (offset == usb::ENDPTPRIME.value) {
     if (usb::USBMODE_CM.of(mode_) != kDevice)
       machine_.fail("USB1 ENDPTPRIME: primed before USBMODE makes it a device");
-    for (int endpoint = 0; endpoint < static_cast<int>(kEndpoints); ++endpoint)
+    for (int endpoint = 0; endpoint < static_cast<int>(Endpoints::kCount); ++endpoint)
       for (const bool in : {false, true})
-        if ((value & bit_of(endpoint, in)) != 0) prime(endpoint, in);
+        if ((value & Endpoints::bit_of(endpoint, in)) != 0) prime(endpoint, in);
   }
-  if (offset >= usb::ENDPTCTRL0.value)
-    write_endpoint(static_cast<int>((offset - usb::ENDPTCTRL0.value) / 4), value);
+  if (offset >= usb::ENDPTCTRL0.value) endpoints_.write_control(endpoint_at(offset), value, machine_);
   update();
 }
 

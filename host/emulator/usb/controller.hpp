@@ -4,24 +4,15 @@
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <vector>
 
 #include "host/emulator/core/machine.hpp"
+#include "host/emulator/usb/endpoints.hpp"
 
 namespace astro::emulator {
 
-/// How the device answers a transaction. `nothing`: it is not attached, or has another address.
-enum class Handshake : std::uint8_t { ack, nak, stall, nothing };
-
-struct Packet {
-  Handshake handshake = Handshake::nothing;
-  std::vector<std::uint8_t> bytes;
-  bool data1 = false;
-};
-
-/// The device controller USB1: its registers towards the firmware, and the bus towards a host. Walks the
-/// queue heads and transfer descriptors in memory as the chip's bus master does. Before a known device
-/// attaches again, it must be detached long enough for any host to notice.
+/// The device controller USB1: its registers towards the firmware, and the bus towards a host. Packets go
+/// through the pipes of its endpoints, whose transfers are in memory (endpoints.hpp, pipe.hpp, queue_head.hpp).
+/// Before a known device attaches again, it must be detached long enough for any host to notice.
 ///
 /// Not modelled  isochronous transfers, lists of more than one descriptor, descriptors without IOC, timers.
 class UsbController : public Model {
@@ -50,25 +41,11 @@ class UsbController : public Model {
   Handshake out(std::uint8_t address, int endpoint, std::span<const std::uint8_t> bytes, bool data1);
 
  private:
-  struct Queue {  // of a direction of an endpoint
-    bool primed = false, data1 = false, empty_packet_due = false;
-  };
-  static constexpr std::size_t kEndpoints = 8;
-
-  static constexpr std::uint32_t bit_of(int endpoint, bool in) { return 1U << (endpoint + (in ? 16 : 0)); }
-
-  std::span<std::uint8_t> head(int endpoint, bool in);
-  std::uint32_t& control(int endpoint) { return endpoint_[static_cast<std::size_t>(endpoint)]; }
-  Queue& queue(int endpoint, bool in) {
-    return queues_[static_cast<std::size_t>(2 * endpoint + (in ? 1 : 0))];
-  }
-  bool stalled(int endpoint, bool in);
-  bool enabled(int endpoint, bool in);
-  std::uint32_t packet_size(int endpoint, bool in);
+  QueueHead head(int endpoint, bool in);
+  /// A packet with this address reaches the device.
+  bool answers(std::uint8_t address) const;
   void prime(int endpoint, bool in);
-  void flush(std::uint32_t bits);
-  void retire(int endpoint, bool in, std::uint32_t left);
-  void write_endpoint(int endpoint, std::uint32_t value);
+  void note_complete(int endpoint, bool in);
   void write_command(std::uint32_t value);
   void attach();
   void leave_bus();
@@ -86,8 +63,7 @@ class UsbController : public Model {
   bool on_bus_ = false,
        known_ = false;  // attached by the firmware or by the program before it; known to a host
   Cycles left_at_ = 0;
-  std::array<std::uint32_t, kEndpoints> endpoint_{};
-  std::array<Queue, 2 * kEndpoints> queues_{};
+  Endpoints endpoints_;
 };
 
 }  // namespace astro::emulator

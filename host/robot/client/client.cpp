@@ -1,7 +1,9 @@
 #include "host/robot/client/client.hpp"
 
 #include <algorithm>
+#include <utility>
 
+#include "host/robot/client/handshake.hpp"
 #include "host/robot/client/restore.hpp"
 #include "host/robot/sharing/relay_messages.hpp"
 
@@ -22,6 +24,49 @@ constexpr std::uint8_t kLastRequest = 0x3F;
 
 Client::Client(std::unique_ptr<Transport> transport) : owned_(std::move(transport)), transport_(*owned_) {}
 Client::Client(Transport& transport) : transport_(transport) {}
+
+const protocol::HelloReply& Client::connect(RetryPolicy policy) {
+  forget();
+  counts_ = {};
+  echo_ = false;
+  receiver_.drain(transport_);
+  constexpr std::uint8_t kEndOfWhateverCameBefore = 0;
+  transport_.write({&kEndOfWhateverCameBefore, 1});
+
+  const std::uint16_t id = next_id();
+  const Restore connecting(connecting_, true);
+  const auto body = ask(protocol::Frame(protocol::Hello{}, id).bytes(), id, policy);
+  if (!body)
+    throw no_robot(name(), {transport_.why_silent(), echo_, receiver_.bytes(), receiver_.frames().good});
+  if (body->front() == protocol::ErrorReply::kId) {
+    const auto error = understand<protocol::ErrorReply>(*body, "Hello");
+    if (error.code == protocol::ErrorCode::wrong_version) require_version(name(), error.detail);
+    throw RobotRefused("Hello", error.code, error.detail);
+  }
+  robot_ = understand<protocol::HelloReply>(*body, "Hello");
+  require_version(name(), robot_.protocol_version);
+  return robot_;
+}
+
+void Client::reconnect(microseconds timeout) {
+  const protocol::HelloReply known = robot_;
+  const microseconds deadline = now() + timeout;
+  // A failed try usually takes time. In virtual time a transport may fail without letting time pass; the
+  // number of tries ends that case.
+  for (auto tries = timeout / std::chrono::milliseconds(10); true; --tries) {
+    try {
+      transport_.reopen(std::max(deadline - now(), microseconds::zero()));
+      connect();
+      break;
+    } catch (const Error& error) {
+      if (now() >= deadline || tries <= 0)
+        throw LinkLost(std::string("the link did not come back: ") + error.what());
+    }
+  }
+  const protocol::HelloReply answers = std::exchange(robot_, known);
+  require_same_robot(name(), known, answers);
+  robot_ = answers;
+}
 
 void Client::send(Body frame) {
   last_sent_ = now();
@@ -52,6 +97,12 @@ Client::Body Client::exchange(Body frame, std::uint16_t id, std::string_view req
   if (body->front() != protocol::ErrorReply::kId) return *body;
   const auto error = understand<protocol::ErrorReply>(*body, request);
   throw RobotRefused(request, error.code, error.detail);
+}
+
+void Client::not_understood(std::string_view request) const {
+  throw Error(
+      "the answer of " + name() + " to " + std::string(request) +
+      " cannot be understood although its check sum is right: firmware and this program differ, update both");
 }
 
 std::string Client::why_silent() {

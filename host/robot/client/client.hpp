@@ -111,9 +111,7 @@ class Client {
   void note_answer();
   void forget();
   [[noreturn]] void not_understood(std::string_view request) const;
-  [[noreturn]] void no_robot();
   std::string why_silent();
-  void check_version(std::uint16_t theirs) const;
 
   std::unique_ptr<Transport> owned_;
   Transport& transport_;

@@ -11,6 +11,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "common/protocol/codec.hpp"
+#include "common/protocol/framer.hpp"
 #include "host/base/error.hpp"
 #include "host/robot/sharing/relay_messages.hpp"
 

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "host/robot/arbitration/port_users.hpp"
 #include "host/robot/port/descriptor.hpp"
 #include "host/robot/port/transport.hpp"
-#include "host/robot/sharing/relay_session.hpp"
 
 /// The socket by which programs find the one that holds a port: an abstract one of Linux, named by the port's
 /// key. It ends with the program that listens, and it does not depend on environment variables: an emergency

@@ -1,28 +1,24 @@
 #include "host/robot/sharing/relay.hpp"
-#include "common/protocol/messages.hpp"
 
 #include <algorithm>
+#include <array>
+
+#include "common/protocol/frame.hpp"
+#include "common/protocol/messages.hpp"
+#include "host/robot/arbitration/request_rules.hpp"
 
 namespace astro::robot {
 
+using protocol::Header;
+
 namespace {
 
-constexpr SessionId kSelf = 0;
 // The most programs that do more than ask or stop; the most connections, some of which may be of hanging
 // programs.
 constexpr std::ptrdiff_t kMostSlots = 32;
 constexpr std::size_t kMostSessions = 96;
-// A program that computes or waits at a prompt for a while still gets the answers and events of that time,
-// but of telemetry only as much as a serial port would buffer.
-constexpr std::size_t kTelemetryLimit_bytes = 1U << 16;
-constexpr std::size_t kQueueLimit_bytes = 1U << 18;
 
 }  // namespace
-
-Relay::Relay() {
-  sessions_.emplace_back();
-  sessions_.front().id = kSelf;
-}
 
 RelaySession* Relay::find(SessionId id) {
   const auto found =
@@ -34,19 +30,17 @@ const RelaySession* Relay::find(SessionId id) const { return const_cast<Relay*>(
 
 SessionId Relay::join(PortUser user, bool greets) {
   RelaySession& session = sessions_.emplace_back();
-  session.id = next_session_++;
-  session.user = std::move(user);
+  session.id = ++last_session_;
   session.greets = greets;
+  requests_.join(session.id, std::move(user));
   if (greets) session.out.push(protocol::Frame(Welcome{}, 0).bytes());
-  if (sessions_.size() > kMostSessions + 1) make_room(session);
+  if (sessions_.size() > kMostSessions) make_room(session);
   return session.id;
 }
 
-/// A program that has never sent anything is disconnected first: programs that hang must not keep out an
-/// emergency stop.
 void Relay::make_room(RelaySession& newcomer) {
-  const auto silent = std::find_if(sessions_.begin(), sessions_.end(), [&](const RelaySession& s) {
-    return s.greets && !s.closing && s.framer.counts().good == 0;
+  const auto silent = std::find_if(sessions_.begin(), sessions_.end(), [](const RelaySession& s) {
+    return s.greets && !s.closing && s.is_silent();
   });
   close(silent != sessions_.end() ? *silent : newcomer, FarewellReason::too_many);
 }
@@ -62,10 +56,7 @@ bool Relay::give_slot(RelaySession& session) {
 }
 
 void Relay::leave(SessionId id) {
-  RelaySession* session = find(id);
-  if (session == nullptr) return;
-  release(*session);
-  sessions_.remove_if([&](const RelaySession& s) { return s.id == id; });
+  if (sessions_.remove_if([&](const RelaySession& s) { return s.id == id; }) > 0) requests_.leave(id);
 }
 
 FrameQueue& Relay::to_session(SessionId id) { return find(id)->out; }
@@ -77,50 +68,26 @@ std::optional<FarewellReason> Relay::closing(SessionId id) const {
 }
 
 void Relay::close_all(FarewellReason reason) {
-  for (RelaySession& session : sessions_)
-    if (session.id != kSelf) close(session, reason);
+  for (RelaySession& session : sessions_) close(session, reason);
 }
 
 void Relay::close(RelaySession& session, FarewellReason reason) {
   if (session.closing) return;
-  release(session);
-  session.closing = Farewell{reason};
-  if (reason == FarewellReason::reads_too_slowly) session.out.drop_waiting();
-  if (session.greets) session.out.push(protocol::Frame(*session.closing, 0).bytes());
+  requests_.release(session.id);
+  session.close(reason);
 }
 
-/// Drops everything that the session requested. The robot's own time-out ends its drive.
-void Relay::release(RelaySession& session) {
-  session.forget();
-  if (driver_ == session.id) driver_.reset();
-  if (staging_.owner == session.id) staging_.owner.reset();
-  if (under_way_ == session.id) under_way_.reset();
-  std::erase(waiting_, session.id);
-  if (session.telemetry.any()) telemetry_changed_ = true;
-  session.telemetry = {};
+void Relay::push(RelaySession& session, ByteView frame) {
+  if (session.closing) return;
+  if (!session.push(frame)) close(session, FarewellReason::reads_too_slowly);
 }
 
-void Relay::push(RelaySession& session, Body frame) {
-  if (session.closing || session.id == kSelf) return;
-  if (session.out.bytes() + frame.size() > kQueueLimit_bytes)
-    return close(session, FarewellReason::reads_too_slowly);
-  session.out.push(frame);
+void Relay::deliver_replies() {
+  for (const Reply& reply : requests_.take_replies())
+    if (RelaySession* session = find(reply.to)) push(*session, reply.frame);
 }
 
-void Relay::distribute(Body body) {
-  const auto sample = protocol::decode<protocol::Telemetry>(body);
-  if (!sample.ok()) return;
-  for (RelaySession& session : sessions_) {
-    if (session.closing || !session.telemetry.is_due(sample->device_time_us, stream_.period_ms)) continue;
-    if (session.out.bytes() > kTelemetryLimit_bytes) {
-      ++session.dropped;
-      continue;
-    }
-    push(session, protocol::Frame(session.telemetry.filter(*sample), 0).bytes());
-  }
-}
-
-void Relay::from_session(SessionId id, Body bytes, microseconds now) {
+void Relay::from_session(SessionId id, ByteView bytes, microseconds now) {
   RelaySession* session = find(id);
   if (session == nullptr || session->closing) return;
   for (const std::uint8_t byte : bytes) {
@@ -129,15 +96,55 @@ void Relay::from_session(SessionId id, Body bytes, microseconds now) {
   tick(now);
 }
 
-void Relay::from_robot(Body bytes, microseconds now) {
+void Relay::take(RelaySession& session, ByteView body, microseconds now) {
+  const Header header = *protocol::peek(body);  // a framer's body always has a header
+  if (header.request_id == 0 || session.closing) return;
+  if (request_rules::needs_slot(header.message_id) && !give_slot(session)) return;
+  // Only frames are passed on. These bytes tell a program that sends Hello that the device sends something
+  // else.
+  constexpr std::array<std::uint8_t, 2> kNoFrame{0x55, 0};
+  if (noise_ && header.message_id == protocol::Hello::kId && requests_.repeats(session.id, header))
+    push(session, kNoFrame);
+  if (session.closing) return;
+  requests_.take(session.id, body, now);
+  deliver_replies();
+}
+
+void Relay::from_robot(ByteView bytes, microseconds now) {
   for (const std::uint8_t byte : bytes) {
     const auto body = framer_.push(byte);
     if (!body) continue;
-    const protocol::Header header = *protocol::peek(*body);  // a framer's body always has a header
-    header.request_id == 0 ? take_event(*body) : take_answer(header, *body, now);
+    if (protocol::peek(*body)->request_id == 0) {
+      take_event(*body);
+    } else {
+      requests_.take_answer(*body, now);
+      deliver_replies();
+    }
   }
   noise_ = !bytes.empty() && framer_.counts().good == 0;
   tick(now);
+}
+
+void Relay::take_event(ByteView body) {
+  if (body.front() == protocol::Telemetry::kId) {
+    if (const auto sample = protocol::decode<protocol::Telemetry>(body); sample.ok()) distribute(*sample);
+    return;
+  }
+  requests_.take_event(body);
+  const Bytes frame = frame_of(body);
+  for (RelaySession& session : sessions_) push(session, frame);
+}
+
+void Relay::distribute(const protocol::Telemetry& sample) {
+  for (RelaySession& session : sessions_) {
+    const auto part = requests_.telemetry_for(session.id, sample);
+    if (part && session.takes_telemetry()) push(session, protocol::Frame(*part, 0).bytes());
+  }
+}
+
+void Relay::tick(microseconds now) {
+  requests_.tick(now);
+  deliver_replies();
 }
 
 }  // namespace astro::robot

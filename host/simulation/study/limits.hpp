@@ -4,15 +4,10 @@
 #include <string>
 
 #include "host/base/error.hpp"
+#include "host/base/require_positive.hpp"
 
 /// Limits that set-ups and programmes have to keep.
 namespace astro::simulation::study {
-
-/// `what` is named with its unit: "the side of the square in metres".
-inline void require_positive(double value, const std::string& what) {
-  if (std::isfinite(value) && value > 0) return;
-  throw Error(what + " is " + std::to_string(value) + ": give a positive number");
-}
 
 /// Drives are held in memory as a whole; 20 million samples of counts and ground truth are about 1 GB.
 inline void require_fits_memory(double driving_time_s, double truth_rate_hz, double count_rate_hz) {

@@ -109,7 +109,7 @@ TEST(HostileInput, MillimetresTakenForMetresAreNoRobot) {
 
 TEST(HostileInput, AHeadingBeyondHalfATurnIsNamed) {
   EXPECT_EQ(error_for({{0, 0, 0.03}, {0, 0, 6.25}}, kCcw, kSide_m, kNominal, kExtended),
-            "clockwise run 2 has a heading error of 6.250000 rad, more than half a turn: check the units, "
+            "clockwise run 2 has a heading error of 6.25 rad, more than half a turn: check the units, "
             "and write it "
             "between -180 and 180 degrees");
 }

@@ -37,7 +37,7 @@ TEST(Huber, CostFallsAsTheWeightSaysWhateverOutweighsWhat) {
       for (const double far : {1.0, 5.0, 50.0, 1000.0}) {
         const Matrix slip = random_covariance(random, slip_size);
         const Vector r = far * Vector(normal(random), normal(random), normal(random));
-        const HuberLoss loss = huber_loss<3>(r, slip, tracker, kLimit, robust);
+        const HuberLoss loss = huber_loss(r, slip, tracker, kLimit, robust);
         const Matrix s = loss.slip * slip + loss.tracker * Matrix(tracker.asDiagonal());
         const Vector slope = 2 * s.inverse() * r;
         for (int i = 0; i < 3; ++i) {
@@ -45,8 +45,8 @@ TEST(Huber, CostFallsAsTheWeightSaysWhateverOutweighsWhat) {
           Vector up = r, down = r;
           up[i] += step;
           down[i] -= step;
-          const double measured = (huber_loss<3>(up, slip, tracker, kLimit, robust).cost -
-                                   huber_loss<3>(down, slip, tracker, kLimit, robust).cost) /
+          const double measured = (huber_loss(up, slip, tracker, kLimit, robust).cost -
+                                   huber_loss(down, slip, tracker, kLimit, robust).cost) /
                                   (2 * step);
           EXPECT_NEAR(measured, slope[i], 1e-5 * (1 + slope.norm())) << slip_size << ' ' << far;
         }
@@ -82,7 +82,7 @@ TEST(Huber, FindsTheLeastCostAlsoWhereSlipAndTrackerAreMuchAlike) {
         const Matrix slip = alike * Matrix(tracker.asDiagonal()) + random_covariance(random, mixed);
         const Vector r = far * Vector(normal(random), normal(random), normal(random));
         const double expected = least_cost(slip, tracker, r);
-        const double found = huber_loss<3>(r, slip, tracker, kLimit, RobustMode::tracker_and_wheels).cost;
+        const double found = huber_loss(r, slip, tracker, kLimit, RobustMode::tracker_and_wheels).cost;
         EXPECT_NEAR(found, expected, 1e-6 * (1 + expected)) << alike << ' ' << mixed << ' ' << far;
       }
 }
@@ -90,7 +90,7 @@ TEST(Huber, FindsTheLeastCostAlsoWhereSlipAndTrackerAreMuchAlike) {
 TEST(Huber, IsTheUsualOneWithoutSlip) {
   const Vector r(30, 0, 0), tracker(1, 1, 1);
   for (const RobustMode robust : kBoth) {
-    const HuberLoss loss = huber_loss<3>(r, Matrix::Zero(), tracker, kLimit, robust);
+    const HuberLoss loss = huber_loss(r, Matrix::Zero(), tracker, kLimit, robust);
     EXPECT_NEAR(loss.cost, 2 * std::sqrt(kLimit) * 30 - kLimit, 1e-9);
     EXPECT_NEAR(loss.tracker, 30 / std::sqrt(kLimit), 1e-9);
     EXPECT_EQ(loss.slip, 1);
@@ -100,7 +100,7 @@ TEST(Huber, IsTheUsualOneWithoutSlip) {
 TEST(Huber, IsLeastSquaresWhereSlipExplainsTheMiss) {
   const Vector r(30, 0, 0), tracker(1, 1, 1);
   for (const RobustMode robust : kBoth) {
-    const HuberLoss loss = huber_loss<3>(r, 100 * Matrix::Identity(), tracker, kLimit, robust);
+    const HuberLoss loss = huber_loss(r, 100 * Matrix::Identity(), tracker, kLimit, robust);
     EXPECT_EQ(loss.tracker, 1);
     EXPECT_EQ(loss.slip, 1);
     EXPECT_NEAR(loss.cost, 900.0 / 101, 1e-12);
@@ -110,19 +110,19 @@ TEST(Huber, IsLeastSquaresWhereSlipExplainsTheMiss) {
 TEST(Huber, DownWeightsTheWheelsWhereTheirSlipOutweighsTheTracker) {
   const Vector r(300, 0, 0), tracker(1, 1, 1);
   const HuberLoss loss =
-      huber_loss<3>(r, 100 * Matrix::Identity(), tracker, kLimit, RobustMode::tracker_and_wheels);
+      huber_loss(r, 100 * Matrix::Identity(), tracker, kLimit, RobustMode::tracker_and_wheels);
   // w = r / (100 s + 1) with 100 w^2 at the limit.
   EXPECT_NEAR(loss.slip, (300 * std::sqrt(100 / kLimit) - 1) / 100, 1e-9);
   EXPECT_EQ(loss.tracker, 1);
   // Wheels that are believed explain it all.
-  EXPECT_EQ(huber_loss<3>(r, 100 * Matrix::Identity(), tracker, kLimit, RobustMode::tracker).slip, 1);
+  EXPECT_EQ(huber_loss(r, 100 * Matrix::Identity(), tracker, kLimit, RobustMode::tracker).slip, 1);
 }
 
 TEST(Huber, GrowsNoFasterThanTheDistance) {
   const Vector tracker(1, 1, 1);
   const Matrix slip = 4 * Matrix::Identity();
   const auto cost = [&](double far) {
-    return huber_loss<3>({far, 0, 0}, slip, tracker, kLimit, RobustMode::tracker_and_wheels).cost;
+    return huber_loss({far, 0, 0}, slip, tracker, kLimit, RobustMode::tracker_and_wheels).cost;
   };
   // The wheels are doubted, which slip by 2 where the tracker errs by 1.
   EXPECT_NEAR((cost(2e4) - cost(1e4)) / 1e4, 2 * std::sqrt(kLimit / 4), 1e-6);

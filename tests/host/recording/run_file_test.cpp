@@ -242,7 +242,8 @@ TEST(RunFile, AForeignMcapFileIsToldApart) {
   McapWriter writer([&](ByteView bytes) { append(file, bytes); }, {"ros2", "other"});
   writer.close();
   support::spill(folder / "other.mcap", file);
-  EXPECT_THAT(complaint([&] { read_run(folder / "other.mcap"); }), HasSubstr("other.mcap is not a recording of a run"));
+  EXPECT_THAT(complaint([&] { read_run(folder / "other.mcap"); }),
+              HasSubstr("other.mcap is not a recording of a run"));
 }
 
 TEST(RunRecord, NonsenseAndNewerFormatsAreRefusedByName) {

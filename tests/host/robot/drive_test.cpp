@@ -293,16 +293,5 @@ TEST_F(Drive, EndsQuietlyWhenTheLinkIsGone) {
   EXPECT_EQ(link.robot.mode, Mode::idle) << "nobody could tell it";
 }
 
-TEST_F(Drive, HoldsAVelocityOnTheRobotsClock) {
-  link.rate = 3;
-  DriveSession session(client);
-  const std::uint64_t start = link.robot.device_us;
-  session.hold_velocity(0.1, -0.2, seconds(3));
-  EXPECT_NEAR(static_cast<double>(link.robot.device_us - start), 3e6,
-              0.1e6);  // two round trips, ramp and poll
-  EXPECT_EQ(link.robot.mode, Mode::idle);
-  EXPECT_THROW(session.set_velocity(1e9, 0), Error);
-}
-
 }  // namespace
 }  // namespace astro::robot

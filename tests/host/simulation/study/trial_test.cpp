@@ -49,8 +49,7 @@ TEST(StudySetup, RefusesWhatCannotBeDriven) {
   };
   EXPECT_EQ(message([](TrialSetup& s) { s.side_m = 0; }),
             "the side of the square in metres is 0: give a positive number");
-  EXPECT_EQ(message([](TrialSetup& s) { s.trials = 0; }),
-            "the number of trials is 0: give 1 to 10 million");
+  EXPECT_EQ(message([](TrialSetup& s) { s.trials = 0; }), "the number of trials is 0: give 1 to 10 million");
   EXPECT_EQ(message([](TrialSetup& s) { s.noise.K_m = std::nan(""); }),
             "the wheel slip K in metres is nan: give a positive number");
   EXPECT_EQ(message([](TrialSetup& s) {

@@ -1,3 +1,5 @@
+#include "host/report/provenance.hpp"
+
 #include <fmt/core.h>
 
 #include <functional>
@@ -5,7 +7,6 @@
 
 #include "host/report/html.hpp"
 #include "host/report/numbers.hpp"
-#include "host/report/sections.hpp"
 
 namespace astro::report {
 

@@ -8,7 +8,7 @@
 #include "common/protocol/messages.hpp"
 
 /// What a request means for the other programs at a port, by its message id.
-namespace astro::robot::relay_rules {
+namespace astro::robot::request_rules {
 
 using namespace protocol;  // NOLINT(google-build-using-namespace): this file is all messages
 
@@ -38,4 +38,4 @@ constexpr bool needs_slot(std::uint8_t message) {
          needs_staging(message);
 }
 
-}  // namespace astro::robot::relay_rules
+}  // namespace astro::robot::request_rules

@@ -1,12 +1,15 @@
+#include "host/report/tables.hpp"
+
 #include <fmt/core.h>
 
 #include <cmath>
 #include <functional>
 
 #include "host/calibration/end_poses/sense.hpp"
+#include "host/report/comparison.hpp"
 #include "host/report/html.hpp"
 #include "host/report/numbers.hpp"
-#include "host/report/sections.hpp"
+#include "host/report/squares.hpp"
 
 namespace astro::report {
 

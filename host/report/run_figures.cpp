@@ -1,9 +1,10 @@
+#include "host/report/run_figures.hpp"
+
 #include <fmt/core.h>
 
 #include <algorithm>
 
 #include "host/report/html.hpp"
-#include "host/report/sections.hpp"
 
 namespace astro::report {
 

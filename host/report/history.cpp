@@ -1,11 +1,12 @@
+#include "host/report/history.hpp"
+
 #include <fmt/core.h>
 
 #include <algorithm>
 
-#include "host/report/figures.hpp"
 #include "host/report/html.hpp"
 #include "host/report/numbers.hpp"
-#include "host/report/sections.hpp"
+#include "host/report/squares.hpp"
 
 namespace astro::report {
 

@@ -1,12 +1,14 @@
+#include "host/report/summary.hpp"
+
 #include <fmt/core.h>
 
 #include <cmath>
 
 #include "host/calibration/end_poses/sense.hpp"
-#include "host/report/figures.hpp"
+#include "host/report/comparison.hpp"
 #include "host/report/html.hpp"
 #include "host/report/numbers.hpp"
-#include "host/report/sections.hpp"
+#include "host/report/squares.hpp"
 
 namespace astro::report {
 
@@ -46,16 +48,6 @@ std::string cluster_text(const Phase& phase) {
 }
 
 }  // namespace
-
-std::vector<SquarePhase> square_phases(const ReportInput& input) {
-  std::vector<SquarePhase> out;
-  for (std::size_t i = 0; i < input.phases.size(); ++i) {
-    if (has_squares(input.phases[i])) out.push_back({i, &input.phases[i]});
-  }
-  return out;
-}
-
-FigureOfMerit largest_error_mm(const Phase& phase) { return E_max_syst_mm(phase.squares); }
 
 Section headline(const ReportInput& input) {
   Section out{"result", "Result", ""};

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include "host/base/error.hpp"
+#include "host/base/numbers.hpp"
+
+namespace astro {
+
+/// Refuses what is not a finite number above zero. `what` is named with its unit: "the side of the square in
+/// metres".
+inline void require_positive(double value, const std::string& what) {
+  if (std::isfinite(value) && value > 0) return;
+  throw Error(what + " is " + to_text(value) + ": give a positive number");
+}
+
+}  // namespace astro

@@ -1,0 +1,230 @@
+#include "host/robot/arbitration/requests.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/protocol/messages.hpp"
+#include "host/robot/arbitration/request_rules.hpp"
+
+namespace astro::robot {
+
+using namespace protocol;  // NOLINT(google-build-using-namespace): this file is all messages
+using std::chrono::milliseconds;
+
+namespace {
+
+constexpr SessionId kSelf = 0;
+constexpr microseconds kRepeat = milliseconds(60);  // of the relay's own request
+
+/// After this time the program itself has given up: a Client tries for one second, and for four at a commit.
+constexpr microseconds longest_turn(std::uint8_t message) {
+  return message == CommitParameters::kId ? milliseconds(4500) : milliseconds(1000);
+}
+
+}  // namespace
+
+Requests::Requests() { join(kSelf, {}); }
+
+void Requests::join(SessionId id, PortUser user) { askers_.try_emplace(id, id, std::move(user)); }
+
+void Requests::release(SessionId id) {
+  askers_.at(id).forget();
+  driver_.release(id);
+  staging_.release(id);
+  turns_.end(id);
+  telemetry_.release(id);
+}
+
+void Requests::leave(SessionId id) {
+  release(id);
+  driver_.remove(id);
+  askers_.erase(id);
+}
+
+/// `body` has the request id that the program used.
+void Requests::reply(Asker& asker, const Header& request, ByteView body) {
+  const Bytes frame = frame_of(body);
+  asker.remember_answer(request, frame);
+  replies_.push_back({asker.id(), frame});
+}
+
+template <Message M>
+void Requests::reply_with(Asker& asker, const Header& request, const M& message) {
+  reply(asker, request, body_of(message, request.request_id));
+}
+
+bool Requests::repeats(SessionId id, const Header& request) const {
+  return askers_.at(id).has_under_way(request);
+}
+
+void Requests::take(SessionId id, ByteView body, microseconds now) {
+  Asker& asker = askers_.at(id);
+  const Header header = *peek(body);  // a framer's body always has a header
+  if (header.message_id == Ping::kId) return send(asker, asker.ping(header, body), now);
+  if (asker.has_answered(header)) return replies_.push_back({id, asker.answer()});
+  if (answer_here(asker, header, body)) return;
+  if (const auto refused = driver_.refusal(id, header.message_id)) return reply_with(asker, header, *refused);
+  if (request_rules::stops(header.message_id)) driver_.note_stop(id, asker.user());
+  if (asker.has_under_way(header)) return repeat(asker, now);
+  begin(asker, Exchange(header, body), now);
+}
+
+/// Answers requests that do not need the robot; returns false for all others.
+bool Requests::answer_here(Asker& asker, const Header& header, ByteView body) {
+  if (header.message_id == GetPortUsers::kId) {
+    reply_with(asker, header, users_for(asker.id()));
+    return true;
+  }
+  if (header.message_id == SetTelemetry::kId) {
+    take_telemetry(asker, header, body);
+    return true;
+  }
+  return false;
+}
+
+PortUsers Requests::users_for(SessionId asker) const {
+  PortUsers users;
+  if (const auto driver = driver_.confirmed_driver()) {
+    users.driver_pid = askers_.at(*driver).user().pid;
+    users.driver_command = CommandLine(askers_.at(*driver).user().command);
+  }
+  if (const PortUser* stopper = driver_.stopper_of(asker)) {
+    users.stopper_pid = stopper->pid;
+    users.stopper_command = CommandLine(stopper->command);
+  }
+  return users;
+}
+
+void Requests::take_telemetry(Asker& asker, const Header& header, ByteView body) {
+  const auto request = decode<SetTelemetry>(body);
+  if (!request.ok()) return reply_with(asker, header, ErrorReply{ErrorCode::malformed, 0});
+  if ((request->fields & ~Telemetry::kAll) != 0)
+    return reply_with(asker, header, ErrorReply{ErrorCode::out_of_range, 0});
+  telemetry_.request(asker.id(), *request);
+  reply_with(asker, header, Ack{});
+}
+
+void Requests::send(const Asker& asker, Exchange& exchange, microseconds now) {
+  to_robot_.send(exchange, driver_.drives(asker.id()), now);
+}
+
+void Requests::begin(Asker& asker, Exchange exchange, microseconds now) {
+  turns_.end(asker.id());  // the program has given up its last request
+  const std::uint8_t message = exchange.header.message_id;
+  if (message == Hello::kId) return take_hello(asker, std::move(exchange), now);
+  driver_.note_request(asker.id(), message);
+  asker.current = std::move(exchange);
+  const bool at_once = driver_.drives(asker.id()) || request_rules::stops(message);
+  if (!at_once) return turns_.wait(asker.id());
+  if (staging_allows(asker)) send(asker, *asker.current, now);
+}
+
+/// The first Hello goes to the robot, where it ends the session of an earlier program; so does one after
+/// which the robot's answer may differ. All others are answered here, because they would end the driver's
+/// session.
+void Requests::take_hello(Asker& asker, Exchange exchange, microseconds now) {
+  const auto hello = decode<Hello>(exchange.body);
+  const Header header = exchange.header;
+  if (!hello.ok()) return reply_with(asker, header, ErrorReply{ErrorCode::malformed, 0});
+  release(asker.id());
+  if (!hello_) {
+    asker.current = std::move(exchange);
+    if (driver_.driver()) return turns_.wait(asker.id());
+    to_robot_.send(*asker.current, true, now);  // with a driver's id, which shows that nobody drives
+  } else if (hello->protocol_version != hello_->protocol_version) {
+    reply_with(asker, header, ErrorReply{ErrorCode::wrong_version, hello_->protocol_version});
+  } else {
+    reply_with(asker, header, *hello_);
+  }
+}
+
+void Requests::repeat(Asker& asker, microseconds now) {
+  Exchange& exchange = *asker.current;
+  const std::uint8_t message = exchange.header.message_id;
+  // Another program has sent Hello or drives by now, and a Hello with a driver's id would end its session.
+  const bool drivers = exchange.is_sent() && !exchange.has_onlookers_id();
+  if (message == Hello::kId && (hello_ || (driver_.driver() && drivers)))
+    return take_hello(asker, Exchange(exchange.header, Bytes(exchange.body)), now);
+  if (!exchange.is_sent()) return;
+  const bool takes_turns = exchange.has_onlookers_id() && !request_rules::stops(message);
+  if (!takes_turns || turns_.has(asker.id())) return send(asker, exchange, now);
+  exchange.state = Exchange::State::waits;  // its turn ended before the answer came
+  turns_.wait(asker.id());
+}
+
+/// Returns false if the current request was refused.
+bool Requests::staging_allows(Asker& asker) {
+  const Header header = asker.current->header;
+  if (staging_.allows(asker.id(), header.message_id)) return true;
+  reply_with(asker, header, ErrorReply{ErrorCode::staging_lost, 0});
+  return false;
+}
+
+void Requests::next_onlooker(microseconds now) {
+  while (const auto id = turns_.next(now)) {
+    Asker& asker = askers_.at(*id);
+    if (!asker.current || asker.current->is_sent() || !staging_allows(asker)) continue;
+    turns_.begin(*id, now + longest_turn(asker.current->header.message_id));
+    send(asker, *asker.current, now);
+  }
+}
+
+void Requests::take_answer(ByteView body, microseconds now) {
+  const Header header = *peek(body);
+  for (auto& [id, asker] : askers_) {
+    if (const auto ping = asker.take_pong(header, now))
+      return reply(asker, *ping, with_request_id(body, ping->request_id));
+    if (!asker.current || !asker.current->is_answered_by(header, now)) continue;
+    const Header asked = asker.current->header;
+    turns_.end(id);
+    note_answer(asker, asked.message_id, body);
+    asker.current.reset();
+    const Bytes answer = with_request_id(body, asked.request_id);
+    reply(asker, asked, staging_.hides_from(id) ? without_staged(answer) : answer);
+    return next_onlooker(now);
+  }
+}
+
+void Requests::note_answer(const Asker& asker, std::uint8_t request, ByteView body) {
+  const bool accepted = body.front() != ErrorReply::kId;
+  driver_.note_answer(asker.id(), request, accepted);
+  if (request == CommitParameters::kId && accepted) hello_.reset();  // the robot's name may have changed
+  if (request != Hello::kId) return;
+  const auto hello = decode<HelloReply>(body);
+  if (!hello.ok()) return;
+  hello_ = *hello;
+  telemetry_.renew();  // a Hello ends the telemetry of its port
+}
+
+void Requests::take_event(ByteView body) {
+  if (body.front() == FaultRaised::kId) driver_.end_drive();
+  if (body.front() == Booted::kId) note_restart();
+}
+
+/// After a restart the robot has forgotten all of this.
+void Requests::note_restart() {
+  hello_.reset();
+  driver_.clear();
+  staging_.clear();
+  telemetry_.clear();
+  turns_.clear();
+  for (auto& [id, asker] : askers_) asker.forget();
+}
+
+void Requests::tick(microseconds now) {
+  Asker& self = askers_.at(kSelf);
+  if (auto request = telemetry_.next_request())
+    begin(self, std::move(*request), now);
+  else if (self.current && self.current->is_sent() && now >= self.current->sent_at + kRepeat)
+    repeat(self, now);
+  next_onlooker(now);
+}
+
+std::optional<microseconds> Requests::next_tick() const {
+  std::optional<microseconds> next = turns_.deadline();
+  const auto& own = askers_.at(kSelf).current;
+  if (own && own->is_sent()) next = std::min(next.value_or(microseconds::max()), own->sent_at + kRepeat);
+  return next;
+}
+
+}  // namespace astro::robot

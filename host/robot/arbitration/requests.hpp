@@ -1,0 +1,93 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "host/robot/arbitration/asker.hpp"
+#include "host/robot/arbitration/driver_rule.hpp"
+#include "host/robot/arbitration/robot_queue.hpp"
+#include "host/robot/arbitration/staging_area.hpp"
+#include "host/robot/arbitration/telemetry_stream.hpp"
+#include "host/robot/arbitration/turns.hpp"
+
+namespace astro::robot {
+
+/// A frame for a program: the answer to a request.
+struct Reply {
+  SessionId to = 0;
+  Bytes frame;
+};
+
+/// The requests of all programs to the one robot: which go to it, when, and what answers the others.
+///
+/// Ids        each program's request ids are replaced by new ones, so that an answer returns only to the
+///            program that asked (exchange.hpp, robot_queue.hpp).
+/// Driver     one program at a time drives; the others are refused as busy (driver_rule.hpp). Requests of
+///            programs that do not drive take turns (turns.hpp); Stop, EmergencyStop and Disarm never wait.
+/// Hello      answered from the robot's last HelloReply, because a Hello ends a session at the robot.
+/// Telemetry  the robot sends one stream that serves all (telemetry_stream.hpp). Its setting is the only
+///            request of the relay itself, and the only one that it repeats until the robot answers.
+/// Parameters if two programs change them at the same time, the one whose staged values are gone is refused as
+///            staging_lost (staging_area.hpp).
+class Requests {
+ public:
+  Requests();
+
+  void join(SessionId id, PortUser user);
+  /// Drops everything that the program requested. The robot's own time-out ends its drive.
+  void release(SessionId id);
+  void leave(SessionId id);
+
+  /// The program sends again the request that is under way.
+  bool repeats(SessionId id, const protocol::Header& request) const;
+  /// A request of a program that has joined, with a request id other than 0.
+  void take(SessionId id, ByteView body, microseconds now);
+  /// An answer of the robot.
+  void take_answer(ByteView body, microseconds now);
+  /// An event of the robot, which may end a drive or mean that the robot has forgotten everything.
+  void take_event(ByteView body);
+  /// Must be called at next_tick(); may be called at any time.
+  void tick(microseconds now);
+  std::optional<microseconds> next_tick() const;
+
+  /// The replies since the last call.
+  std::vector<Reply> take_replies() { return std::exchange(replies_, {}); }
+  /// What this program gets of a sample of the robot's telemetry; nothing if it did not ask for that.
+  std::optional<protocol::Telemetry> telemetry_for(SessionId id, const protocol::Telemetry& sample) {
+    return telemetry_.part_for(id, sample);
+  }
+  /// Frames that wait to be written.
+  FrameQueue& to_robot() { return to_robot_.frames(); }
+  std::optional<SessionId> driver() const { return driver_.driver(); }
+
+ private:
+  using Header = protocol::Header;
+
+  void reply(Asker& asker, const Header& request, ByteView body);
+  template <protocol::Message M>
+  void reply_with(Asker& asker, const Header& request, const M& message);
+  bool answer_here(Asker& asker, const Header& header, ByteView body);
+  PortUsers users_for(SessionId asker) const;
+  void take_telemetry(Asker& asker, const Header& header, ByteView body);
+  void take_hello(Asker& asker, Exchange exchange, microseconds now);
+  void begin(Asker& asker, Exchange exchange, microseconds now);
+  void repeat(Asker& asker, microseconds now);
+  void send(const Asker& asker, Exchange& exchange, microseconds now);
+  bool staging_allows(Asker& asker);
+  void next_onlooker(microseconds now);
+  void note_answer(const Asker& asker, std::uint8_t request, ByteView body);
+  void note_restart();
+
+  std::map<SessionId, Asker> askers_;  // the first is the relay itself, which asks for telemetry
+  std::vector<Reply> replies_;
+  std::optional<protocol::HelloReply> hello_;
+  RobotQueue to_robot_;
+  DriverRule driver_;
+  Turns turns_;
+  TelemetryStream telemetry_;
+  StagingArea staging_;
+};
+
+}  // namespace astro::robot

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "common/protocol/messages.hpp"
+#include "host/base/error.hpp"
+
+/// Who answers at a port: whether it is a robot, of which protocol version, and the same one as before.
+namespace astro::robot {
+
+/// What came back from a port at which no robot answered.
+struct NoAnswer {
+  std::string why_silent;  // what the transport knows; "": nothing
+  bool echo = false;       // the line sends back what we send
+  std::uint64_t bytes = 0, good_frames = 0;
+};
+
+/// The most likely reason, as a sentence about the port `name`.
+Error no_robot(const std::string& name, const NoAnswer& came);
+
+/// Throws Error if the robot speaks another protocol version than this program.
+void require_version(const std::string& name, std::uint16_t theirs);
+
+/// Throws Error if the robot that answers is not the known one (unique_id).
+void require_same_robot(const std::string& name, const protocol::HelloReply& known,
+                        const protocol::HelloReply& answers);
+
+}  // namespace astro::robot

@@ -1,0 +1,6 @@
+#pragma once
+
+class Good {
+  void begin();
+  void end();
+};
