@@ -296,6 +296,13 @@ TEST(Relay, ARepeatedFirstHelloLeavesADriverAloneThatCameMeanwhile) {
   EXPECT_FALSE(relay.to_session(monitor).empty());
 }
 
+TEST_F(SharedPort, AStopIsCarriedOutEachTimeEvenIfItsIdHasComeBefore) {
+  for (const int times : {1, 2}) {
+    second.send(EmergencyStop{}, 800);
+    EXPECT_EQ(rig.count(EmergencyStop::kId), times) << "the program's ids have wrapped meanwhile";
+  }
+}
+
 TEST_F(SharedPort, ARepeatedRequestHasTheSameIdAndIsCarriedOutOnce) {
   first.client.request(Arm{});
   int lost = 2;
