@@ -6,7 +6,10 @@ file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/host/*.[ch]pp ${ROOT}/common/*.
 list(FILTER files EXCLUDE REGEX "^host/(commands|programs)/")
 foreach(file IN LISTS files)
   math(EXPR count "${count} + 1")
-  file(STRINGS ${ROOT}/${file} lines)
+  # A bracket that is not closed, or a semicolon, would make one list item of several lines.
+  file(READ ${ROOT}/${file} text)
+  string(REGEX REPLACE "[][;]" " " text "${text}")
+  string(REPLACE "\n" ";" lines "${text}")
   foreach(line IN LISTS lines)
     if(line MATCHES "^[ \t]*//")
       continue()
