@@ -45,7 +45,7 @@ if(ASTROLABE_FUZZ)
     -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -O1 -g1)
   target_link_options(astro_compile INTERFACE -fsanitize=address,undefined)
 endif()
-# astro_alone(files...): they give a name of their own to something else than a neighbour does.
+# astro_alone(files...): compiled each alone, because a name in them means something else in another file of the target.
 function(astro_alone)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()

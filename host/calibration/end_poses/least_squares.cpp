@@ -51,8 +51,8 @@ Parameters solve(const Problem& problem, Parameters p) {
   constexpr int kMostSteps = 50;
   constexpr double kSettled = 1e-13;
   for (int i = 0; i < kMostSteps; ++i) {
-    // The normal equations give a step that is only nearly the least-squares one; where the steps end is the
-    // same, and two unknowns need no decomposition.
+    // The normal equations round the step more than a decomposition would. That costs at most another step: the
+    // steps end where the slope vanishes, however they came there.
     const Jacobian jacobian = problem.derivative(p);
     const Parameters slope = jacobian.transpose() * problem(p);
     const Eigen::Matrix2d curvature = jacobian.transpose() * jacobian;
