@@ -63,8 +63,7 @@ Parameters solve(const Problem& problem, Parameters p) {
   }
   throw Error(
       "no pair of wheel and wheelbase ratios explains these end positions: check the units, the side length "
-      "and "
-      "that the clockwise and counter-clockwise runs are not exchanged");
+      "and that the clockwise and counter-clockwise runs are not exchanged");
 }
 
 }  // namespace

@@ -72,8 +72,9 @@ class KalmanFilter {
   }
 
   Eigen::Matrix3d tracker_covariance() const {
+    constexpr double kOfTheConstant = 1;  // stands for the heading where there is none; see Update
     const double xy = noise_.sigma_xy_m * noise_.sigma_xy_m;
-    const double theta = has_headings_ ? noise_.sigma_theta_rad * noise_.sigma_theta_rad : 1;
+    const double theta = has_headings_ ? noise_.sigma_theta_rad * noise_.sigma_theta_rad : kOfTheConstant;
     return Eigen::Vector3d(xy, xy, theta).asDiagonal();
   }
 

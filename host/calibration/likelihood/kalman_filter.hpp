@@ -17,7 +17,7 @@
 /// The state is the robot's pose in the tracker's frame. What else is computed along the way, the derivatives
 /// above all, is the work of an Accumulator.
 ///
-/// Cost  linear in the samples; nothing is allocated.
+/// Cost  linear in the samples; the filter itself allocates nothing.
 namespace astro::calibration {
 
 /// A moment on the robot's clock, and its derivative by the skew of the clocks.

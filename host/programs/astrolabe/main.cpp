@@ -24,9 +24,8 @@
 
 namespace {
 
-// This file is all commands.
-using namespace astro::commands;  // NOLINT(google-build-using-namespace)
-using namespace astro::console;   // NOLINT(google-build-using-namespace)
+using namespace astro::commands;  // NOLINT(google-build-using-namespace): this file is all commands
+using namespace astro::console;   // NOLINT(google-build-using-namespace): and how they meet the terminal
 
 constexpr int kFailed = 1, kWrongUsage = 2, kInterrupted = 130;
 

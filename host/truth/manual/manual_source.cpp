@@ -19,7 +19,7 @@ std::string trimmed(const std::string& text) {
 }
 
 /// Two NaNs count as the same.
-bool same_number(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+bool same_reading(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
 }  // namespace
 
@@ -48,8 +48,8 @@ std::vector<recording::TruthSample> ManualSource::complete(const recording::Run&
     if (why.empty()) break;
     const recording::TruthSample again = measured(recording::run_name(run.info) + ": " + why +
                                                   " Enter it again, the same values to keep them.\n");
-    const bool same = same_number(again.x_m, end.x_m) && same_number(again.y_m, end.y_m) &&
-                      same_number(again.theta_rad, end.theta_rad);
+    const bool same = same_reading(again.x_m, end.x_m) && same_reading(again.y_m, end.y_m) &&
+                      same_reading(again.theta_rad, end.theta_rad);
     end = again;
     if (same) break;
   }

@@ -12,7 +12,7 @@
 namespace astro::robot {
 namespace {
 
-using namespace protocol;  // NOLINT(google-build-using-namespace)
+using namespace protocol;  // NOLINT(google-build-using-namespace): this file is all messages
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
