@@ -51,8 +51,9 @@ Parameters solve(const Problem& problem, Parameters p) {
   constexpr int kMostSteps = 50;
   constexpr double kSettled = 1e-13;
   for (int i = 0; i < kMostSteps; ++i) {
-    // The normal equations round the step more than a decomposition would. That costs at most another step: the
-    // steps end where the slope vanishes, however they came there.
+    // The normal equations square the condition number, so their step is rounded more than that of an orthogonal
+    // decomposition. That costs at most another step: the iteration ends where the slope vanishes. Where the
+    // curvature is singular, the step is not finite, and the loop ends below.
     const Jacobian jacobian = problem.derivative(p);
     const Parameters slope = jacobian.transpose() * problem(p);
     const Eigen::Matrix2d curvature = jacobian.transpose() * jacobian;

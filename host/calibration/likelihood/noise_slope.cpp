@@ -10,7 +10,8 @@ namespace {
 using Eigen::Matrix3d;
 
 constexpr int kNoises = NoiseSlope::kNoises;
-static_assert(kNoises == 3);  // so that what has a column for each is a Matrix3d
+using PerNoise = Eigen::Matrix<double, 3, kNoises>;  // a column for each noise
+
 // Mean of min(d^2, limit) over the mean of d^2 for a normal distribution with 2 and 3 components: how much of
 // a variance is left if no sample counts for more than Huber's threshold (his proposal 2). Without the
 // threshold, a few samples far out would decide the variance.
@@ -35,7 +36,7 @@ class NoiseDerivatives final : public Accumulator {
 
   void update(const Update& step, Motion) override {
     const Matrix3d& h = step.jacobian_state;
-    const Matrix3d innovation = -h * state_;
+    const PerNoise innovation = -h * state_;
     Matrix3d tracker[kNoises] = {Matrix3d::Zero(), xy_covariance(), theta_covariance(step)};
     Matrix3d slopes[kNoises];
     for (int i = 0; i < kNoises; ++i) slopes[i] = h * covariance_[i] * h.transpose() + tracker[i];
@@ -69,7 +70,7 @@ class NoiseDerivatives final : public Accumulator {
   }
 
   /// `slopes`: derivatives of the innovation's covariance; `innovation`: of the innovation itself.
-  void add(const Update& step, const Matrix3d (&slopes)[kNoises], const Matrix3d& innovation) {
+  void add(const Update& step, const Matrix3d (&slopes)[kNoises], const PerNoise& innovation) {
     const auto& weight = step.expected_weight;
     const double trust = step.is_outlier ? huber_limit(step) / step.expected_chi_square : 1;
     const double bounded = robust_ == RobustMode::none ? 1 : bounded_variance(step);
@@ -88,7 +89,7 @@ class NoiseDerivatives final : public Accumulator {
 
   const NoiseModel& noise_;
   const RobustMode robust_;
-  Matrix3d state_ = Matrix3d::Zero();  // a column for each noise
+  PerNoise state_ = PerNoise::Zero();
   Matrix3d covariance_[kNoises];
 };
 

@@ -12,8 +12,8 @@ using OwnVector = Eigen::Matrix<double, kOwn, 1>;
 using Mixed = Eigen::Matrix<double, kShared, kOwn>;
 using Matrix = Eigen::MatrixXd;
 
-/// Of one size at run time, because a decomposition for each size, and for each kind of right side, is most of
-/// what this file would cost to compile.
+/// The sizes are known at run time only. With sizes known at compile time, each would get a decomposition of its own, and
+/// compiling those would take longer than the rest of this file.
 Matrix solved(const Matrix& information, const Matrix& right_side) {
   return information.ldlt().solve(right_side);
 }
@@ -141,7 +141,7 @@ OneUnknown arc_wheelbase(std::span<const InnovationSums> sums, const FixedParame
 double clock_offset_variance(const InnovationSums& sums, const SharedInformation& covariance,
                              const FixedParameters& fixed) {
   const Parts parts = parts_of(sums, fixed, 0);
-  // Its row of the inverse, and what the shared unknowns add to it.
+  // The clock offset's row of the inverse for this run alone, and what the uncertainty of the shared unknowns adds.
   const OwnVector own = solved(parts.own, OwnVector::Unit(kOwn - 1));
   const SharedVector by_shared = parts.mixed * own;
   return own[kOwn - 1] + by_shared.dot(covariance * by_shared);

@@ -99,7 +99,9 @@ std::optional<RelativePoseFit> fit_relative_poses(std::span<const RelativePose> 
   const Eigen::Matrix<double, 5, 5> normal = displacement_normal(pieces, *rates);
   const Eigen::Matrix3d free = normal.topLeftCorner<3, 3>();
   const Eigen::Matrix3d inverse = free.inverse();
-  if (!(norm(free) * norm(inverse) < 1e12)) return {};
+  // An inverse by cofactors loses as many digits as the condition number has. Half of them are left at this one.
+  constexpr double kWorstCondition = 1e8;
+  if (!(norm(free) * norm(inverse) < kWorstCondition)) return {};
   const Eigen::Matrix<double, 3, 2> mixed = normal.topRightCorner<3, 2>();
   const Eigen::Matrix<double, 3, 2> solved = inverse * mixed;
   const Eigen::Matrix2d reduced = normal.bottomRightCorner<2, 2>() - mixed.transpose() * solved;

@@ -99,6 +99,12 @@ TEST(HostileInput, PositionsAreEnoughForTheOtherMethods) {
   }
 }
 
+TEST(HostileInput, ASquareTooSmallToSayAnythingIsNoRobotEither) {
+  // The squares of what a square of this side changes are below the smallest double: nothing is left to divide by.
+  EXPECT_NE(error_for(kCw, kCcw, 1e-200, kNominal, kFit).find("no pair of wheel and wheelbase ratios"),
+            std::string::npos);
+}
+
 TEST(HostileInput, MillimetresTakenForMetresAreNoRobot) {
   const std::vector<EndPose> cw{{-223, -260, 8.7}}, ccw{{314, -256, 10}};  // and degrees for radians
   for (const Options& options : {Options{}, kExtended, kFit}) {

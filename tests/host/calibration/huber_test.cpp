@@ -128,6 +128,27 @@ TEST(Huber, GrowsNoFasterThanTheDistance) {
   EXPECT_NEAR((cost(2e4) - cost(1e4)) / 1e4, 2 * std::sqrt(kLimit / 4), 1e-6);
 }
 
+// What the filter relies on where there are no headings: see Update in kalman_filter.hpp.
+TEST(Huber, AConstantThatNothingDependsOnChangesNothing) {
+  std::printf("seed %u\n", kSeed);
+  std::mt19937_64 random(kSeed);
+  std::normal_distribution<double> normal;
+  for (const RobustMode robust : kBoth)
+    for (const double far : {1.0, 5.0, 50.0, 1000.0}) {
+      Matrix slip = Matrix::Zero();
+      slip.topLeftCorner<2, 2>() = random_covariance(random, 10).topLeftCorner<2, 2>();
+      const Vector r(far * normal(random), far * normal(random), 0);
+      const HuberLoss unit = huber_loss(r, slip, {1, 1, 1}, kLimit, robust);
+      for (const double variance : {1e-6, 1e3}) {
+        const HuberLoss other = huber_loss(r, slip, {1, 1, variance}, kLimit, robust);
+        // Newton's method ends where a step changes the factors by less than 1e-9 of them.
+        EXPECT_NEAR(other.cost, unit.cost, 1e-8 * unit.cost) << far << ' ' << variance;
+        EXPECT_NEAR(other.slip, unit.slip, 1e-6 * unit.slip) << far << ' ' << variance;
+        EXPECT_NEAR(other.tracker, unit.tracker, 1e-6 * unit.tracker) << far << ' ' << variance;
+      }
+    }
+}
+
 /// A second of a line between two looks, the second of which is far out.
 TEST(Huber, MakesTheCostOfADriveFallByItsGradient) {
   Trajectory line{"line", {}, {}};

@@ -156,6 +156,15 @@ TEST_P(Innovations, HaveTheLikelihoodOfTheWholeDriveAtOnce) {
   EXPECT_NEAR(sums.chi_square, chi_square, 0.05);
 }
 
+TEST_P(Innovations, HaveAThirdComponentWhereThereAreHeadingsAndAnExactZeroElsewhere) {
+  const Scene scene = astro::calibration::scene(GetParam());
+  double sum = 0;
+  for (const Eigen::Vector3d& e :
+       standardised_innovations(scene.run, scene.unknowns, scene.noise, RobustMode::tracker_and_wheels, {}))
+    sum += std::abs(e[2]);
+  EXPECT_EQ(sum > 0, GetParam());
+}
+
 TEST_P(Innovations, FallWithTheNoiseAsTheSlopeSays) {
   const Scene scene = astro::calibration::scene(GetParam());
   // Away from the truth, where leaving out that the innovations change with the gain would show.
