@@ -1,17 +1,29 @@
 # astro_test(common.kinematics SOURCES odometry_test.cpp DEPENDS common.kinematics)
-#   one GoogleTest program named <name>.test; each TEST becomes a ctest of its own name, except under the sanitizers,
-#   where a program is one ctest, or four if it is LONG. OPTIMISED names those of its
-#   SOURCES that run longer than they compile; LONG says that some of its tests take many seconds: they are started
-#   first, so that no processor waits for the last one. STATISTICAL names tests, by GoogleTest's patterns, that repeat
-#   until chance has spoken what others do once: the sanitizers would see nothing new in them for minutes.
+#   one GoogleTest program named <name>.test. In a build without sanitizers each TEST becomes a ctest of its own name; under
+#   the sanitizers a program is one ctest, or four if it is LONG.
+#   OPTIMISED   sources that take longer to run than to compile
+#   LONG        some of the program's tests take many seconds: it is started first, so that no processor waits for it in
+#               the end
+#   PLAIN       a program that the sanitizers leave out: whole experiments, the emulated chip. What it walks through,
+#               shorter programs walk through under them
+#   REPEATING   tests, by GoogleTest's patterns, that the sanitizers leave out because they do a hundred times what others
+#               do once
+# What the sanitizers leave out has the label `plain`: `./dev check` runs each test once, those with the label without
+# sanitizers. The target plain_tests builds what they need.
 find_package(GTest REQUIRED)
 find_package(Threads REQUIRED)
 include(GoogleTest)
 
-# How the tests' own code is compiled. Linked last, so that it has the last word over astro_compile: most of what a
-# test costs is compiling it, once, and what it calls is optimised as ever.
+# How the tests' own code is compiled: not optimised, because most of what a test costs is compiling it. What it calls is
+# optimised as ever. Linked last, so that it overrides astro_compile.
 add_library(astro_test_compile INTERFACE)
-target_compile_options(astro_test_compile INTERFACE -O0 -fpch-preprocess)
+target_compile_options(astro_test_compile INTERFACE -O0)
+# So that ccache can keep what includes a precompiled header.
+if(CMAKE_CXX_COMPILER_ID STREQUAL Clang)
+  target_compile_options(astro_test_compile INTERFACE "SHELL:-Xclang -fno-pch-timestamp")
+else()
+  target_compile_options(astro_test_compile INTERFACE -fpch-preprocess)
+endif()
 if(ASTROLABE_SANITIZE)
   # What is checked is the code under test. The checks named here cost the most time to compile, and in the
   # tests' own code AddressSanitizer catches what they would.
@@ -29,7 +41,7 @@ target_precompile_headers(astro_test_headers PRIVATE
   <functional> <map> <memory> <numbers> <optional> <random> <span> <sstream> <string> <string_view> <vector>)
 
 function(astro_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "LONG" "" "SOURCES;OPTIMISED;STATISTICAL;DEPENDS;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "LONG;PLAIN" "" "SOURCES;OPTIMISED;REPEATING;DEPENDS;LIBRARIES")
   add_executable(${name}.test ${arg_SOURCES})
   target_link_libraries(${name}.test PRIVATE astro_compile ${arg_DEPENDS} ${arg_LIBRARIES}
     GTest::gmock GTest::gtest_main Threads::Threads astro_test_compile)
@@ -41,18 +53,21 @@ function(astro_test name)
   # Real data lives beside a developer's checkout only; tests that use it skip where it is absent.
   target_compile_definitions(${name}.test PRIVATE
     ASTRO_SOURCE_DIR="${CMAKE_SOURCE_DIR}" ASTRO_SHARED_DATA="${CMAKE_SOURCE_DIR}/../shared/data")
+  if(arg_PLAIN OR arg_REPEATING)
+    set_property(GLOBAL APPEND PROPERTY ASTRO_PLAIN_TESTS ${name}.test)
+  endif()
   set(cost 0)
   if(arg_LONG)
     set(cost 1)
   endif()
-  set(filter "*")
-  if(arg_STATISTICAL)
-    list(JOIN arg_STATISTICAL ":" statistical)
-    set(filter "-${statistical}")
-  endif()
+  list(JOIN arg_REPEATING ":" repeating)
   # RapidCheck: the same cases each time.
   set(environment "RC_PARAMS=seed=20240711")
   if(ASTROLABE_SANITIZE)
+    if(arg_PLAIN)
+      set_target_properties(${name}.test PROPERTIES EXCLUDE_FROM_ALL TRUE)
+      return()
+    endif()
     # Many tests in one process: to start a program costs more under the sanitizers than most tests.
     set(shards 1)
     if(arg_LONG)
@@ -60,12 +75,22 @@ function(astro_test name)
     endif()
     foreach(shard RANGE 1 ${shards})
       math(EXPR index "${shard} - 1")
-      add_test(NAME "${name}: ${shard} of ${shards}" COMMAND ${name}.test --gtest_brief=1 "--gtest_filter=${filter}")
+      add_test(NAME "${name}: ${shard} of ${shards}" COMMAND ${name}.test --gtest_brief=1 "--gtest_filter=-${repeating}")
       set_tests_properties("${name}: ${shard} of ${shards}" PROPERTIES TIMEOUT 900 COST ${cost}
         ENVIRONMENT "${environment};GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${index}")
     endforeach()
+  elseif(arg_PLAIN)
+    astro_discover(${name} all "*" LABELS plain COST ${cost} ENVIRONMENT "${environment}")
   else()
-    gtest_discover_tests(${name}.test TEST_PREFIX "${name}: " DISCOVERY_TIMEOUT 60
-      PROPERTIES TIMEOUT 300 COST ${cost} ENVIRONMENT "${environment}")
+    astro_discover(${name} others "-${repeating}" COST ${cost} ENVIRONMENT "${environment}")
+    if(arg_REPEATING)
+      astro_discover(${name} repeating "${repeating}" LABELS plain COST ${cost} ENVIRONMENT "${environment}")
+    endif()
   endif()
+endfunction()
+
+# astro_discover(name list filter properties...): a ctest for each TEST of the program <name>.test that the filter selects.
+function(astro_discover name list filter)
+  gtest_discover_tests(${name}.test TEST_PREFIX "${name}: " TEST_LIST ${name}.${list} TEST_FILTER "${filter}"
+    DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 ${ARGN})
 endfunction()

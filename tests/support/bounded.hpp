@@ -14,7 +14,7 @@
 /// What a piece of work takes at most, measured in a child process of its own.
 namespace astro::support {
 
-#if defined(__SANITIZE_ADDRESS__)
+#ifdef ASTRO_SANITIZE
 inline constexpr bool kMeasuresMemory =
     false;  // the sanitizer's own memory would count, and it reserves terabytes
 #else

@@ -98,7 +98,7 @@ TYPED_TEST(StoreOn, RowsOfNewerFirmwareOutliveManyCommits) {
   RecordLog<TypeParam>(this->flash).newest(found);
   const auto bytes = found.bytes(found.size());
   const std::vector<std::uint8_t> row{0x88, 0x13, 5, 0xDE, 0xAD, 0xBE, 0xEF, 0x42};
-  EXPECT_FALSE(std::ranges::search(bytes, row).empty());
+  EXPECT_NE(std::search(bytes.begin(), bytes.end(), row.begin(), row.end()), bytes.end());
 }
 
 /// `record` without its row number `row`, as firmware wrote it that did not have it yet.
