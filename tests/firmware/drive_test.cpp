@@ -106,7 +106,7 @@ TEST_F(Driving, ALineEndsWhereItShould) {
 
 TEST_F(Driving, ASquareClosesInItsOwnOdometry) {
   arm();
-  add(robot::square(3, robot::Sense::ccw, {0.3, 1.0}));
+  add(robot::square(3, Sense::ccw, {0.3, 1.0}));
   ASSERT_TRUE(until_rest());
   std::printf("3 m square: closes to %.2f mm, %.2f mrad\n", 1000 * std::hypot(x_m(), y_m()),
               1000 * theta_rad());
@@ -130,7 +130,7 @@ TEST_F(Driving, SegmentsEndInOrderUnderTheirTags) {
     tags.push_back(done.tag);
   });
   arm();
-  add(robot::square(0.2, robot::Sense::cw), 11);
+  add(robot::square(0.2, Sense::cw), 11);
   ASSERT_TRUE(until_rest());
   run_ms(20);
   EXPECT_EQ(tags, (std::vector<int>{11, 12, 13, 14, 15, 16, 17, 18}));
@@ -142,7 +142,7 @@ TEST_F(Driving, StopAbortsTheQueueAndSaysSo) {
     aborted += done.outcome == protocol::SegmentOutcome::aborted ? 1 : 0;
   });
   arm();
-  add(robot::square(1, robot::Sense::cw));
+  add(robot::square(1, Sense::cw));
   run_ms(500);
   ask(protocol::Stop{});
   ASSERT_TRUE(until_rest());
@@ -310,7 +310,7 @@ TEST_F(Driving, PausedAgainAndAgainALineStillEndsToTheMillimetre) {
 TEST_F(Driving, WhilePausedTheQueueFillsAndNothingMoves) {
   arm();
   ask(protocol::Pause{});
-  add(robot::square(0.2, robot::Sense::cw));
+  add(robot::square(0.2, Sense::cw));
   run_ms(2000);
   EXPECT_EQ(mode(), Mode::paused);
   EXPECT_EQ(drive().queued(), 8U);

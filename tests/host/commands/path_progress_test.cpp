@@ -38,7 +38,7 @@ TEST(PathProgress, CountsBackwardsWayAndTurnsOnTheSpot) {
 }
 
 TEST(PathProgress, IsNeverAheadOfASegmentThatIsNotDone) {
-  PathProgress way(robot::square(1, robot::Sense::ccw));
+  PathProgress way(robot::square(1, Sense::ccw));
   way.moved_to(at(0, 0, 0));
   way.moved_to(at(5, 0, 0));  // the odometry is far away
   const double at_corner = way.fraction();
@@ -49,7 +49,7 @@ TEST(PathProgress, IsNeverAheadOfASegmentThatIsNotDone) {
 }
 
 TEST(PathProgress, IsAllOnceTheLastSegmentIsDoneHoweverTheOdometryDrifted) {
-  PathProgress way(robot::square(1, robot::Sense::ccw));
+  PathProgress way(robot::square(1, Sense::ccw));
   way.moved_to(at(0, 0, 0));
   for (std::uint16_t tag = 1; tag <= 8; ++tag) way.segment_done(tag);
   EXPECT_EQ(way.fraction(), 1);

@@ -1,4 +1,5 @@
 #include "host/recording/files/run_file.hpp"
+#include "host/base/sense.hpp"
 
 #include <gmock/gmock.h>
 
@@ -25,7 +26,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 RunInfo full_info() {
   RunInfo info;
   info.kind = "square";
-  info.direction = Direction::ccw;
+  info.direction = Sense::ccw;
   info.phase = "after";
   info.index = 4;
   info.size_m = 3.000000000000001;

@@ -35,7 +35,7 @@ std::vector<std::uint8_t> bytes_of_a_drive(std::uint64_t seed) {
   client.connect();
   client.request(protocol::SetTelemetry{10, protocol::Telemetry::kAll});
   robot::DriveSession drive(client);
-  drive.run(robot::square(0.3, robot::Sense::cw));
+  drive.run(robot::square(0.3, Sense::cw));
   return transport.bytes;
 }
 
