@@ -8,7 +8,7 @@
 #include "host/recording/run/planar_pose.hpp"
 #include "host/robot/motion/drive.hpp"
 #include "host/robot/motion/paths.hpp"
-#include "tests/support/desk.hpp"
+#include "tests/support/robots/desk.hpp"
 
 // The basis of calibration: a robot drives a square that closes in its own odometry, and really ends where
 // its true geometry takes it. In process, in virtual time.
