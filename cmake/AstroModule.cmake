@@ -2,23 +2,54 @@
 #   a library named like its folder; a module without SOURCES is header-only.
 # astro_program(astrolabe SOURCES ... DEPENDS ... LIBRARIES ...)
 #   an executable in build/<preset>/bin.
-# DEPENDS names modules of this project and is held to cmake/layers.cmake; LIBRARIES names what Debian provides.
+# DEPENDS names modules of this project; LIBRARIES names what Debian provides. At the end of the configure step all that
+# modules and programs link, by whatever call, is held to cmake/layers.cmake.
 # astro_subdirectories(): all folders below that have a CMakeLists.txt.
 # astro_family(host.robot)
 #   the same, and a target of that name which links all modules below: for tests, which may use everything. A module
 #   names the rooms that it uses.
+include_guard(GLOBAL)
 include(layers)
 set_property(GLOBAL PROPERTY ASTRO_MODULES "")
+set_property(GLOBAL PROPERTY ASTRO_PROGRAMS "")
 
-function(astro_check_edges name folder)
-  foreach(dependency IN LISTS ARGN)
-    string(REPLACE "." "/" to "${dependency}")
-    astro_may_use("${folder}" "${to}" allowed)
-    if(NOT allowed)
-      message(FATAL_ERROR "${name} (in ${folder}/) may not depend on ${dependency}: see cmake/layers.cmake")
-    endif()
+function(astro_check_edge name folder dependency)
+  string(REPLACE "." "/" to "${dependency}")
+  astro_may_use("${folder}" "${to}" allowed)
+  if(NOT allowed)
+    message(FATAL_ERROR "${name} (in ${folder}/) may not depend on ${dependency}: see cmake/layers.cmake")
+  endif()
+endfunction()
+
+# Targets of this project are told by the dot in their names; its helpers of compilation begin with astro_. What is linked
+# by file or by generator expression could be anything, so a module may not.
+function(astro_check_links)
+  get_property(modules GLOBAL PROPERTY ASTRO_MODULES)
+  get_property(programs GLOBAL PROPERTY ASTRO_PROGRAMS)
+  foreach(target IN LISTS modules programs)
+    get_target_property(folder ${target} SOURCE_DIR)
+    file(RELATIVE_PATH folder ${CMAKE_SOURCE_DIR} ${folder})
+    set(links "")
+    foreach(property LINK_LIBRARIES INTERFACE_LINK_LIBRARIES)
+      get_target_property(value ${target} ${property})
+      if(value)
+        list(APPEND links ${value})
+      endif()
+    endforeach()
+    list(REMOVE_DUPLICATES links)
+    foreach(link IN LISTS links)
+      string(REGEX REPLACE "^\\$<LINK_ONLY:(.*)>$" "\\1" link "${link}")  # how CMake notes a PRIVATE edge
+      if(link MATCHES "^::@")  # how CMake notes the folder from which target_link_libraries was called
+        continue()
+      elseif(link MATCHES "[$/]|\\.(a|o|so)$")
+        message(FATAL_ERROR "${target} (in ${folder}/) may not link ${link}: a module links targets")
+      elseif(link MATCHES "\\.")
+        astro_check_edge(${target} ${folder} ${link})
+      endif()
+    endforeach()
   endforeach()
 endfunction()
+cmake_language(DEFER DIRECTORY ${CMAKE_SOURCE_DIR} CALL astro_check_links)
 
 function(astro_module name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;SOURCES;DEPENDS;LIBRARIES")
@@ -26,7 +57,9 @@ function(astro_module name)
     message(FATAL_ERROR "astro_module(${name}): do not know ${arg_UNPARSED_ARGUMENTS}")
   endif()
   string(REPLACE "." "/" folder "${name}")
-  astro_check_edges(${name} ${folder} ${arg_DEPENDS})
+  if(NOT CMAKE_CURRENT_SOURCE_DIR STREQUAL "${CMAKE_SOURCE_DIR}/${folder}")
+    message(FATAL_ERROR "astro_module(${name}): is not in ${folder}/")
+  endif()
   if(arg_SOURCES)
     add_library(${name} STATIC ${arg_SOURCES} ${arg_HEADERS})
     target_link_libraries(${name} PUBLIC astro_compile ${arg_DEPENDS} ${arg_LIBRARIES})
@@ -39,10 +72,9 @@ endfunction()
 
 function(astro_program name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS;LIBRARIES")
-  file(RELATIVE_PATH folder ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
-  astro_check_edges(${name} ${folder} ${arg_DEPENDS})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE astro_compile ${arg_DEPENDS} ${arg_LIBRARIES})
+  set_property(GLOBAL APPEND PROPERTY ASTRO_PROGRAMS ${name})
 endfunction()
 
 macro(astro_subdirectories)

@@ -7,9 +7,17 @@ file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/common/*.cpp ${ROOT}/hal/*.cpp 
 foreach(file IN LISTS files)
   math(EXPR count "${count} + 1")
   if(file MATCHES "/main\\.cpp$|^firmware/main/"  # a program: nobody calls it
-     OR file MATCHES "^host/commands/"            # a subcommand: declared in the list of its folder
      OR file STREQUAL "hal/teensy40/boot/image_header.cpp")  # data for the boot ROM, placed by the linker script
     continue()
+  endif()
+  # A subcommand: declared in the list of its folder.
+  get_filename_component(folder ${file} DIRECTORY)
+  get_filename_component(name ${file} NAME_WE)
+  if(EXISTS ${ROOT}/${folder}/commands.hpp)
+    file(STRINGS ${ROOT}/${folder}/commands.hpp declared REGEX "^void add_${name}\\(")
+    if(declared)
+      continue()
+    endif()
   endif()
   string(REGEX REPLACE "\\.cpp$" ".hpp" header "${file}")
   if(NOT EXISTS ${ROOT}/${header})

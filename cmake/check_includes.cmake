@@ -1,5 +1,5 @@
-# Holds every #include "..." below ROOT to the layer table, and keeps float, heap and the operating system out
-# of the code that runs on the robot.
+# Holds every #include "..." below ROOT to the layer table and every #include <...> below ROOT/host to the table of what may
+# come from outside, and keeps float, heap and the operating system out of the code that runs on the robot.
 #   cmake -DROOT=<tree> [-DALSO=<further lines of the table>] -P cmake/check_includes.cmake
 cmake_minimum_required(VERSION 3.21)
 include(${CMAKE_CURRENT_LIST_DIR}/layers.cmake)
@@ -33,6 +33,13 @@ foreach(file IN LISTS files)
       endif()
     elseif(line MATCHES "include[ \t]*<([^>]+)>")
       set(target "${CMAKE_MATCH_1}")
+      if("${folder}/" MATCHES "^host/")
+        astro_may_use_outside("${folder}" "${target}" allowed)
+        if(NOT allowed)
+          message("${file}: ${folder} may not include <${target}>: see ASTRO_OUTSIDE")
+          math(EXPR bad "${bad} + 1")
+        endif()
+      endif()
       foreach(on_robot IN LISTS ASTRO_ON_ROBOT)
         if("${folder}/" MATCHES "^${on_robot}/")
           list(FIND ASTRO_ON_ROBOT_FORBIDDEN "${target}" found)

@@ -1,8 +1,8 @@
 # THE layer table: which part of the tree may use which. A line reads
 #   layer : layers it may use besides itself
-# A folder belongs to the longest layer that is a prefix of its path. The configure step checks every link dependency
-# against this table (AstroModule.cmake), the test "layers: every include keeps to the table" every #include line
-# (check_includes.cmake).
+# A folder belongs to the longest layer that is a prefix of its path. The end of the configure step checks every link
+# dependency against this table (AstroModule.cmake), the test "layers: every include keeps to the table" every #include
+# line (check_includes.cmake).
 set(ASTRO_LAYERS
   "common                       :"
   "hal/interface                : common"
@@ -65,6 +65,59 @@ set(ASTRO_ON_ROBOT common hal/interface hal/teensy40 firmware)
 set(ASTRO_ON_ROBOT_FORBIDDEN
   cmath math.h complex random iostream fstream sstream cstdio stdio.h string vector map set list deque
   unordered_map unordered_set memory functional thread mutex future chrono filesystem new stdexcept)
+
+# What rooms of host/ may include from outside the project. A line reads
+#   headers : folders that may include them
+# A header that ends with / stands for all in that folder. A header of the standard library that has no line here computes
+# with values and is free for all; any other header needs a line. So what a room can do beyond values in, values out is
+# read off here: host/calibration, host/motor/model and host/robot/arbitration are on no line but those of Eigen and fmt.
+set(ASTRO_OUTSIDE
+  "CLI/                     : host/console"
+  "Eigen/                   : host/calibration host/motor/model host/simulation/study"
+  "boost/                   : host/robot/port host/robot/sharing"
+  "fmt/                     : host"
+  "lz4frame.h zlib.h zstd.h : host/recording/mcap"
+  "nlohmann/                : host/commands host/experiment host/report host/simulation/study"
+  "toml++/                  : host/experiment"
+  "unicorn/ elf.h cxxabi.h  : host/emulator/core"
+
+  # The operating system.
+  "asm/ sys/ fcntl.h poll.h signal.h spawn.h termios.h time.h unistd.h : host/base host/commands host/console host/programs host/recording/files host/robot/port host/robot/sharing host/simulation/server host/truth/live"
+  "csignal                  : host/console"
+  "chrono ctime             : host/base host/commands host/console host/emulator/robot host/experiment host/recording/files host/robot host/simulation host/truth"
+  "atomic condition_variable future mutex shared_mutex stop_token thread : host/commands host/console host/robot/client host/robot/port host/robot/sharing host/simulation/server host/simulation/study"
+
+  # Files, and what is printed.
+  "filesystem               : host/base host/commands host/console host/emulator host/experiment host/programs host/recording/files host/report host/robot/port host/simulation/server host/truth/files host/truth/live"
+  "fstream                  : host/base host/emulator/core host/robot/port host/robot/sharing host/simulation/server"
+  "iostream                 : host/commands"
+  "cstdio                   : host/commands host/console host/programs"
+)
+
+# Sets `out` to TRUE if a file in folder `from` below host/ may include <header>.
+function(astro_may_use_outside from header out)
+  set(${out} TRUE PARENT_SCOPE)
+  if(header MATCHES "[/.]")
+    set(${out} FALSE PARENT_SCOPE)
+  endif()
+  foreach(line IN LISTS ASTRO_OUTSIDE)
+    string(REGEX MATCH "^(.*[^ ]) *: *(.*)$" parsed "${line}")
+    string(REPLACE " " ";" headers "${CMAKE_MATCH_1}")
+    string(REPLACE " " ";" folders "${CMAKE_MATCH_2}")
+    foreach(item IN LISTS headers)
+      string(FIND "${header}" "${item}" at)
+      if(header STREQUAL item OR (item MATCHES "/$" AND at EQUAL 0))
+        set(${out} FALSE PARENT_SCOPE)
+        foreach(folder IN LISTS folders)
+          if("${from}/" MATCHES "^${folder}/")
+            set(${out} TRUE PARENT_SCOPE)
+          endif()
+        endforeach()
+        return()
+      endif()
+    endforeach()
+  endforeach()
+endfunction()
 
 # Sets `out` to the layer that `path` (a folder or file below the root) belongs to, or to "".
 function(astro_layer_of path out)

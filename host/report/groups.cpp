@@ -7,14 +7,13 @@
 #include <map>
 #include <tuple>
 
-#include "host/calibration/end_poses/sense.hpp"
+#include "host/base/sense.hpp"
 #include "host/report/html.hpp"
 
 namespace astro::report {
 
 namespace {
 
-using recording::Direction;
 using recording::RunInfo;
 
 struct Key {
@@ -31,7 +30,7 @@ struct Key {
 Key key_of(const RunInfo& info) {
   constexpr std::array known{"square", "circle", "line"};
   const auto found = std::find(known.begin(), known.end(), info.kind);
-  const int direction = info.direction == Direction::cw ? 0 : info.direction == Direction::ccw ? 1 : 2;
+  const int direction = info.direction == Sense::cw ? 0 : info.direction == Sense::ccw ? 1 : 2;
   return {static_cast<int>(found - known.begin()), info.kind, direction,
           static_cast<long>(info.size_m * 1000 + 0.5)};
 }
@@ -58,10 +57,7 @@ std::size_t RunGroup::most_runs() const {
   return most;
 }
 
-std::string direction_name(Direction direction) {
-  if (direction == Direction::none) return "";
-  return in_words(direction == Direction::cw ? calibration::Sense::cw : calibration::Sense::ccw);
-}
+std::string direction_name(std::optional<Sense> direction) { return direction ? in_words(*direction) : ""; }
 
 std::vector<RunGroup> group_runs(const std::vector<Phase>& phases) {
   std::map<Key, RunGroup> groups;

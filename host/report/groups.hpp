@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "host/base/sense.hpp"
 #include "host/report/report.hpp"
 
 /// The runs grouped for comparison: runs that were driven the same way, phase beside phase.
@@ -20,6 +22,6 @@ struct RunGroup {
 std::vector<RunGroup> group_runs(const std::vector<Phase>& phases);
 
 /// "clockwise", "counter-clockwise", "".
-std::string direction_name(recording::Direction direction);
+std::string direction_name(std::optional<Sense> direction);
 
 }  // namespace astro::report

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "host/calibration/end_poses/sense.hpp"
+#include "host/base/sense.hpp"
 #include "host/report/comparison.hpp"
 #include "host/report/html.hpp"
 #include "host/report/numbers.hpp"
@@ -42,9 +42,8 @@ std::string direction_text(const char* name, const calibration::ClusterSummary& 
 }
 
 std::string cluster_text(const Phase& phase) {
-  return fmt::format("{}: {}; {}.", phase.title,
-                     direction_text(in_words(calibration::Sense::cw), phase.squares.cw),
-                     direction_text(in_words(calibration::Sense::ccw), phase.squares.ccw));
+  return fmt::format("{}: {}; {}.", phase.title, direction_text(in_words(Sense::cw), phase.squares.cw),
+                     direction_text(in_words(Sense::ccw), phase.squares.ccw));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "host/calibration/end_poses/sense.hpp"
+#include "host/base/sense.hpp"
 #include "host/report/comparison.hpp"
 #include "host/report/html.hpp"
 #include "host/report/numbers.hpp"
@@ -19,7 +19,7 @@ namespace {
 
 using calibration::ClusterSummary;
 using calibration::EndPose;
-using calibration::Sense;
+
 using Ends = std::vector<EndPose>;
 
 std::string cell(const std::string& content) { return "<td>" + content + "</td>"; }

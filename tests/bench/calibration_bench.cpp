@@ -13,7 +13,7 @@
 namespace {
 
 using namespace astro;
-using calibration::Sense;
+
 using calibration::Trajectory;
 
 double cpu_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }

@@ -34,7 +34,7 @@ double speed_against_real_time() {
   client.pump(std::chrono::milliseconds(50));  // through boot
   client.request(protocol::Arm{});
   client.request(protocol::SetTelemetry{10, protocol::Telemetry::kPose | protocol::Telemetry::kCounts});
-  for (const auto& segment : robot::square(3, robot::Sense::ccw, {0.3, 1.0})) client.request(segment);
+  for (const auto& segment : robot::square(3, Sense::ccw, {0.3, 1.0})) client.request(segment);
   const std::uint64_t from_us = robot->now_us();
   const double start_s = cpu_s();
   client.pump(std::chrono::seconds(50));

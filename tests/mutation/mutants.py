@@ -39,7 +39,7 @@ def sources_in(paths):
         if full.is_file():
             files.append(path)
         elif full.is_dir():
-            files += sorted(str(f.relative_to(ROOT)) for f in full.iterdir() if f.suffix in (".cpp", ".hpp"))
+            files += sorted(str(f.relative_to(ROOT)) for f in full.rglob("*") if f.suffix in (".cpp", ".hpp"))
         else:
             sys.exit(f"./dev mutants: there is no {path}")
     return files

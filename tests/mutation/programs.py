@@ -14,8 +14,8 @@ ORDER = {
 TOO_LONG = {"fault_log_faults_test.cpp", "power_cut_test.cpp", "thousand_commits_test.cpp", "wear_test.cpp"}
 SCENARIOS = ["fault_matrix_test.cpp", "stopping_test.cpp", "lives_test.cpp"]
 # The simulated robot with a client in process: what its tests link of the host's tools.
-HOST = ["base/numbers.cpp", "base/plain_text.cpp", "robot/client/client.cpp", "robot/client/client_connect.cpp",
-        "robot/client/clock_map.cpp", "robot/client/refusal.cpp", "robot/motion/drive.cpp", "robot/motion/paths.cpp",
+HOST = ["base/numbers.cpp", "base/plain_text.cpp", "robot/client/client.cpp", "robot/client/clock_map.cpp",
+        "robot/client/handshake.cpp", "robot/client/refusal.cpp", "robot/motion/drive.cpp", "robot/motion/paths.cpp",
         "robot/motion/rest.cpp", "robot/parameters/parameter_row.cpp", "robot/parameters/parameter_rules.cpp",
         "robot/parameters/parameters.cpp", "robot/port/ports.cpp", "robot/port/terminal_user.cpp",
         "robot/sharing/port_socket.cpp", "simulation/robot/in_process.cpp", "simulation/robot/virtual_mocap.cpp",
@@ -42,7 +42,7 @@ def sources(folder):
     def in_folder(name):
         return sorted(p for p in (folder / name).glob("*.cpp") if p.name not in TOO_LONG)
 
-    firmware = in_folder("tests/firmware")
+    firmware = [p for room in ("flash", "hosts", "tick") for p in in_folder(f"tests/firmware/{room}")]
     seed = [folder / "tests/common/protocol/fixed_seed.cpp"]
     tests = {
         "safety": in_folder("tests/common/safety"),
@@ -58,7 +58,7 @@ def sources(folder):
     host = [folder / "host" / name for name in HOST]
     linked = {name: list(core) for name in PROGRAMS}
     linked["tick"] += firmware_sources
-    linked["robot"] += firmware_sources + host + [folder / "tests/support/robot_life.cpp"]
+    linked["robot"] += firmware_sources + host + [folder / "tests/support/robots/robot_life.cpp"]
     return tests, linked
 
 

@@ -8,7 +8,7 @@
 #include "host/robot/client/client.hpp"
 #include "host/simulation/robot/virtual_robot.hpp"
 #include "tests/common/fixed/seeded.hpp"
-#include "tests/support/drive_of.hpp"
+#include "tests/support/robots/drive_of.hpp"
 
 // Long random lives of a robot: commands, faults, silence, noise on the line, power cuts and restarts in any
 // order. After every millisecond the invariants are checked.

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "tests/support/drive_rig.hpp"
+#include "tests/support/robots/drive_rig.hpp"
 
 // The quality of control: data-sheet motors, one of them 10 % stronger, friction, the slip of the thesis, and
 // default parameters unless a test changes them.

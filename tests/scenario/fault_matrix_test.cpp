@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "tests/support/drive_rig.hpp"
+#include "tests/support/robots/drive_rig.hpp"
 
 // Every fault that the robot checks for, provoked in every state: the bridges are open within the time that
 // is given here, and nothing moves again by itself.

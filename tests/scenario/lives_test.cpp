@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "common/safety/fault.hpp"
-#include "tests/support/robot_life.hpp"
+#include "tests/support/robots/robot_life.hpp"
 
 // Random lives of random robots; `./dev fuzz` runs ten thousand.
 namespace astro {

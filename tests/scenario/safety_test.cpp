@@ -5,7 +5,7 @@
 
 #include "host/robot/motion/drive.hpp"
 #include "host/robot/motion/paths.hpp"
-#include "tests/support/desk.hpp"
+#include "tests/support/robots/desk.hpp"
 
 // A robot whose host falls silent or tells it to stop, in virtual time to the millisecond.
 namespace astro {

@@ -3,11 +3,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/base/sense.hpp"
 #include "host/experiment/drive/record_run.hpp"
 #include "host/recording/run/planar_pose.hpp"
 #include "host/robot/motion/drive.hpp"
 #include "host/robot/motion/paths.hpp"
-#include "tests/support/desk.hpp"
+#include "tests/support/robots/desk.hpp"
 
 // The basis of calibration: a robot drives a square that closes in its own odometry, and really ends where
 // its true geometry takes it. In process, in virtual time.
@@ -39,7 +40,7 @@ struct Ends {
   PlanarPose odometry, truth;  // each seen from its own start
 };
 
-Ends drive_square(const sim::Config& config, robot::Sense sense) {
+Ends drive_square(const sim::Config& config, Sense sense) {
   Desk desk(config);
   const PlanarPose start = true_pose(desk);
   {
@@ -58,7 +59,7 @@ PlanarPose after_arc(const PlanarPose& from, double length_m, double angle_rad) 
 
 /// Where a perfect square of the nominal robot takes the true one: each wheel rolls too far by its own
 /// diameter, and the same difference of travel turns a shorter wheelbase further.
-PlanarPose replay(const sim::Config& config, robot::Sense sense) {
+PlanarPose replay(const sim::Config& config, Sense sense) {
   const sim::Geometry built = sim::true_geometry(config);
   const double left = built.diameter_m[at(sim::Side::left)] / config.nominal_diameter_m;
   const double right = built.diameter_m[at(sim::Side::right)] / config.nominal_diameter_m;
@@ -66,7 +67,7 @@ PlanarPose replay(const sim::Config& config, robot::Sense sense) {
     return after_arc(from, (right * right_m + left * left_m) / 2,
                      (right * right_m - left * left_m) / built.wheelbase_m);
   };
-  const double quarter_m = (sense == robot::Sense::ccw ? 1 : -1) * pi / 4 * config.nominal_wheelbase_m;
+  const double quarter_m = sign_of(sense) * pi / 4 * config.nominal_wheelbase_m;
   PlanarPose pose;
   for (int corner = 0; corner < 4; ++corner) {
     pose = move(pose, kSquare_m, kSquare_m);
@@ -75,11 +76,11 @@ PlanarPose replay(const sim::Config& config, robot::Sense sense) {
   return pose;
 }
 
-constexpr double whole_turn(robot::Sense sense) { return sense == robot::Sense::ccw ? 2 * pi : -2 * pi; }
+constexpr double whole_turn(Sense sense) { return sign_of(sense) * 2 * pi; }
 
-class Square : public testing::TestWithParam<robot::Sense> {};
-INSTANTIATE_TEST_SUITE_P(BothWays, Square, testing::Values(robot::Sense::cw, robot::Sense::ccw),
-                         [](const auto& way) { return way.param == robot::Sense::cw ? "cw" : "ccw"; });
+class Square : public testing::TestWithParam<Sense> {};
+INSTANTIATE_TEST_SUITE_P(BothWays, Square, testing::Values(Sense::cw, Sense::ccw),
+                         [](const auto& way) { return std::string(name_of(way.param)); });
 
 TEST_P(Square, ClosesInItsOwnOdometry) {
   const Ends ends = drive_square(support::thesis_robot(support::kThesisSlip_m, 1), GetParam());
@@ -102,7 +103,7 @@ TEST_P(Square, ReallyEndsWhereTheGeometryTakesIt) {
 TEST(Squares, OfTheThesissRobotAreOffBy42CentimetresInTheWorseDirection) {
   const sim::Config config = support::thesis_robot(0, 1);
   double worse_m = 0;
-  for (const robot::Sense sense : {robot::Sense::cw, robot::Sense::ccw}) {
+  for (const Sense sense : {Sense::cw, Sense::ccw}) {
     const PlanarPose end = drive_square(config, sense).truth;
     worse_m = std::max(worse_m, std::hypot(end.x_m, end.y_m));
   }

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "tests/support/drive_rig.hpp"
+#include "tests/support/robots/drive_rig.hpp"
 
 // Every ramp to rest ends, whatever the robot is wired like, carries, or stands on, and whether or not a host
 // is there: either the wheels come to rest, or the bridges open with a fault that says why.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "host/base/error.hpp"
-#include "host/calibration/end_poses/sense.hpp"
+#include "host/base/sense.hpp"
 
 namespace astro::calibration {
 namespace {

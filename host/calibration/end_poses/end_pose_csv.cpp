@@ -12,6 +12,7 @@
 
 #include "host/base/csv_table.hpp"
 #include "host/base/error.hpp"
+#include "host/base/sense.hpp"
 
 namespace astro::calibration {
 namespace {
@@ -148,13 +149,13 @@ EndPose pose(const CsvRow& row, const Columns& columns, std::string_view name) {
   return out;
 }
 
-bool is_clockwise(const CsvRow& row, std::size_t direction, std::string_view name) {
-  const std::string cell = lower_case(row.cells[direction]);
-  if (cell != "cw" && cell != "ccw") {
+Sense sense_of(const CsvRow& row, std::size_t direction, std::string_view name) {
+  const std::optional<Sense> sense = sense_named(lower_case(row.cells[direction]));
+  if (!sense) {
     refuse(name, row.line,
            "column direction: \"" + row.cells[direction] + "\" is not a direction: write cw or ccw");
   }
-  return cell == "cw";
+  return *sense;
 }
 
 }  // namespace
@@ -165,7 +166,7 @@ std::vector<EndPose> read_end_poses(std::string_view text, std::string_view name
   std::vector<EndPose> out;
   for (const CsvRow& row : table.rows) {
     const auto direction = columns.direction;
-    if (direction && is_clockwise(row, *direction, name) != is_clockwise(table.rows[0], *direction, name)) {
+    if (direction && sense_of(row, *direction, name) != sense_of(table.rows[0], *direction, name)) {
       refuse(name, row.line,
              "column direction: the file mixes cw and ccw runs where one direction is wanted: split it");
     }

@@ -1,8 +1,9 @@
 #include "host/calibration/end_poses/odd_run.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 #include "host/base/degrees.hpp"
@@ -68,11 +69,8 @@ std::string described(const OddRun& odd) {
   const bool angle = std::string_view(odd.coordinate) == "theta";
   const auto shown = [&](double value) { return angle ? degrees(value) : value; };
   const char* unit = angle ? "degrees" : "m";
-  std::array<char, 160> text{};
-  std::snprintf(text.data(), text.size(),
-                "%s = %.4g %s, and %.4g %s in the others: is its decimal point right?", odd.coordinate,
-                shown(odd.value), unit, shown(odd.others), unit);
-  return text.data();
+  return fmt::format("{} = {:.4g} {}, and {:.4g} {} in the others: is its decimal point right?",
+                     odd.coordinate, shown(odd.value), unit, shown(odd.others), unit);
 }
 
 }  // namespace astro::calibration

@@ -10,7 +10,7 @@ namespace astro::calibration {
 EndPose replay_square(double side_m, Sense sense, const WheelFactors& odometry, const WheelFactors& truth) {
   const double right = truth.c_r / odometry.c_r;
   const double left = truth.c_l / odometry.c_l;
-  const double sign = sense == Sense::ccw ? 1 : -1;
+  const double sign = sign_of(sense);
   const double spin_m = sign * odometry.b_m * std::numbers::pi / 4;
   EndPose pose;
   for (int leg = 0; leg < 4; ++leg) {

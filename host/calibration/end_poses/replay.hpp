@@ -1,7 +1,7 @@
 #pragma once
 
+#include "host/base/sense.hpp"
 #include "host/calibration/end_poses/end_pose.hpp"
-#include "host/calibration/end_poses/sense.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
 
 /// Exact-arc replay of a square: where a robot really ends if its odometry says that it is back at the start.

@@ -8,9 +8,9 @@
 
 #include "host/base/error.hpp"
 #include "host/base/numbers.hpp"
+#include "host/base/sense.hpp"
 #include "host/calibration/end_poses/compose.hpp"
 #include "host/calibration/end_poses/least_squares.hpp"
-#include "host/calibration/end_poses/sense.hpp"
 
 namespace astro::calibration {
 namespace {

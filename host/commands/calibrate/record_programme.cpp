@@ -6,6 +6,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/folder_lock.hpp"
+#include "host/base/sense.hpp"
 #include "host/commands/shared/limit_notes.hpp"
 #include "host/commands/shared/path_progress.hpp"
 #include "host/console/console.hpp"
@@ -17,10 +18,9 @@ namespace astro::commands {
 namespace {
 
 namespace fs = std::filesystem;
-using recording::Direction;
 using simulation::study::Programme;
 
-robot::Path path_of(const Programme& programme, std::size_t kind, robot::Sense sense) {
+robot::Path path_of(const Programme& programme, std::size_t kind, Sense sense) {
   const robot::PathLimits limits{programme.speed_mps, programme.yaw_rate_radps};
   switch (kind) {
     case simulation::study::kSquares:
@@ -28,7 +28,7 @@ robot::Path path_of(const Programme& programme, std::size_t kind, robot::Sense s
     case simulation::study::kLines:
       return robot::line(programme.line_m, limits);
     case simulation::study::kSpins:
-      return robot::spin(sense == robot::Sense::cw ? -programme.turns : programme.turns, limits);
+      return robot::spin(sense == Sense::cw ? -programme.turns : programme.turns, limits);
     default:
       return robot::circle(programme.radius_m, 1, sense, limits);
   }
@@ -50,11 +50,11 @@ double size_of(const Programme& programme, std::size_t kind) {
 ProgrammeRun run_of(const Programme& programme, std::size_t kind, int number) {
   std::string name(simulation::study::kKindNames[kind]);
   name.pop_back();
-  const bool turns = kind != simulation::study::kLines, cw = number % 2 == 0;
-  const Direction direction = !turns ? Direction::none : cw ? Direction::cw : Direction::ccw;
-  return {{"", name, direction, turns ? number / 2 + 1 : number + 1},
+  const bool turns = kind != simulation::study::kLines;
+  const Sense sense = number % 2 == 0 ? Sense::cw : Sense::ccw;
+  return {{"", name, turns ? std::optional(sense) : std::nullopt, turns ? number / 2 + 1 : number + 1},
           size_of(programme, kind),
-          path_of(programme, kind, cw ? robot::Sense::cw : robot::Sense::ccw)};
+          path_of(programme, kind, sense)};
 }
 
 std::vector<ProgrammeRun> missing_of(const std::vector<ProgrammeRun>& runs, const fs::path& folder) {

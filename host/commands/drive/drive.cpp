@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "host/base/error.hpp"
+#include "host/base/sense.hpp"
 #include "host/commands/drive/commands.hpp"
 #include "host/commands/drive/drive_job.hpp"
 #include "host/commands/drive/drive_teleop.hpp"
@@ -28,7 +29,7 @@ struct PathOptions {
   double length_m = 0, angle_deg = 0, radius_m = 0, turns = 1;
   bool cw = false, ccw = false;
 
-  robot::Sense sense() const { return cw ? robot::Sense::cw : robot::Sense::ccw; }
+  Sense sense() const { return cw ? Sense::cw : Sense::ccw; }
 };
 
 struct VelocityOptions {

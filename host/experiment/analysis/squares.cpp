@@ -5,22 +5,22 @@
 #include <cmath>
 
 #include "host/base/error.hpp"
+#include "host/base/sense.hpp"
 #include "host/experiment/files/number_named.hpp"
 #include "host/experiment/files/plan.hpp"
 #include "host/experiment/files/same_number.hpp"
 #include "host/recording/run/end_error.hpp"
+#include "host/recording/run/run_metadata.hpp"
 
 namespace astro::experiment {
 namespace {
 
-using recording::Direction;
-
 double parameter(const recording::RunInfo& info, const char* name) {
   const std::optional<double> value = number_named(info.parameters, name);
   if (!value)
-    throw Error(fmt::format(
-        "the recording of {} {} {} does not say what {} the robot carried: it cannot be calibrated",
-        info.kind, name_of(info.direction), info.index, name));
+    throw Error(
+        fmt::format("the recording of {} does not say what {} the robot carried: it cannot be calibrated",
+                    recording::run_name(info), name));
   return *value;
 }
 
@@ -39,7 +39,7 @@ void accept(Squares& squares, const recording::Run& run, bool first) {
         fmt::format("the squares have different sides ({} m and {} m): keep each size in a folder of its own",
                     squares.side_m, run.info.size_m));
   const recording::EndError error = recording::end_error(run);
-  (run.info.direction == Direction::cw ? squares.cw : squares.ccw)
+  (run.info.direction == Sense::cw ? squares.cw : squares.ccw)
       .push_back({error.x_m, error.y_m, error.theta_rad});
 }
 
@@ -56,7 +56,7 @@ calibration::WheelFactors loaded_factors(const recording::RunInfo& info) {
 Squares squares_of(std::span<const recording::Run> runs) {
   Squares squares;
   for (const recording::Run& run : runs)
-    if (run.info.kind == "square" && run.info.direction != Direction::none)
+    if (run.info.kind == "square" && run.info.direction)
       accept(squares, run, squares.cw.empty() && squares.ccw.empty());
   if (squares.cw.empty() && squares.ccw.empty())
     throw Error("none of the recordings is a square", {Help::drive_squares});

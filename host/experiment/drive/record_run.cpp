@@ -21,10 +21,6 @@ constexpr auto kRest = 700ms;  // at each end; host/recording/run/rest.hpp needs
 constexpr std::uint32_t kFields = Telemetry::kPose | Telemetry::kCounts | Telemetry::kTwist;
 constexpr int kSamplesPerLook = 5;  // at the truth
 
-constexpr robot::Sense sense_of(recording::Direction direction) {
-  return direction == recording::Direction::cw ? robot::Sense::cw : robot::Sense::ccw;
-}
-
 /// Passes both streams on during its lifetime: the truth samples between the first and the newest odometry.
 class Collector {
  public:
@@ -119,8 +115,8 @@ recording::OdometrySample to_sample(const Telemetry& telemetry) {
 
 robot::Path path_of(const Plan& plan, const RunSpec& spec) {
   const robot::PathLimits limits{plan.speed_mps, plan.yaw_rate_radps};
-  if (spec.kind == "square") return robot::square(plan.side_m, sense_of(spec.direction), limits);
-  if (spec.kind == "circle") return robot::circle(plan.circle_radius_m, 1, sense_of(spec.direction), limits);
+  if (spec.kind == "square") return robot::square(plan.side_m, spec.direction.value(), limits);
+  if (spec.kind == "circle") return robot::circle(plan.circle_radius_m, 1, spec.direction.value(), limits);
   return robot::line(plan.line_m, limits);
 }
 

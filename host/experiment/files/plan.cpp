@@ -12,8 +12,6 @@
 namespace astro::experiment {
 namespace {
 
-using recording::Direction;
-
 constexpr int kMostCounted = 1'000'000;  // of runs and rounds, in a file
 
 bool within(double value, double least, double most) { return value >= least && value <= most; }
@@ -66,17 +64,6 @@ void Plan::check() const {
        fmt::format("a circle of radius {} m cannot be driven: choose 0.1 m to 50 m", circle_radius_m));
 }
 
-std::string_view name_of(Direction direction) {
-  switch (direction) {
-    case Direction::cw:
-      return "cw";
-    case Direction::ccw:
-      return "ccw";
-    default:
-      return "";
-  }
-}
-
 std::string_view name_of(Order order) {
   switch (order) {
     case Order::cw_first:
@@ -89,14 +76,14 @@ std::string_view name_of(Order order) {
 }
 
 std::string RunSpec::file_name() const {
-  if (direction == Direction::none) return fmt::format("{}-{}.mcap", kind, index);
-  return fmt::format("{}-{}-{}.mcap", kind, name_of(direction), index);
+  if (!direction) return fmt::format("{}-{}.mcap", kind, index);
+  return fmt::format("{}-{}-{}.mcap", kind, name_of(*direction), index);
 }
 
 std::string RunSpec::title() const {
   const std::string start = phase.empty() ? kind : phase + ": " + kind;
-  if (direction == Direction::none) return fmt::format("{} {}", start, index);
-  return fmt::format("{} {} {}", start, name_of(direction), index);
+  if (!direction) return fmt::format("{} {}", start, index);
+  return fmt::format("{} {} {}", start, name_of(*direction), index);
 }
 
 std::vector<std::string> phase_names(const Plan& plan) {
@@ -112,8 +99,8 @@ bool open_ended(const Plan& plan, std::size_t phase) {
 
 std::vector<RunSpec> squares_of_phase(const Plan& plan, std::size_t phase, int squares) {
   const std::string name = phase_names(plan).at(phase);
-  const Direction first = plan.order == Order::ccw_first ? Direction::ccw : Direction::cw;
-  const Direction second = first == Direction::cw ? Direction::ccw : Direction::cw;
+  const Sense first = plan.order == Order::ccw_first ? Sense::ccw : Sense::cw;
+  const Sense second = opposite(first);
   std::vector<RunSpec> specs;
   for (int i = 1; i <= squares; ++i) {
     specs.push_back({name, "square", first, i});
@@ -129,9 +116,9 @@ std::vector<RunSpec> runs_of_phase(const Plan& plan, std::size_t phase, int squa
   const std::string name = phase_names(plan).at(phase);
   const bool last = phase + 1 == phase_names(plan).size();
   if (plan.extras && (phase == 0 || last)) {
-    specs.push_back({name, "line", Direction::none, 1});
-    specs.push_back({name, "circle", Direction::cw, 1});
-    specs.push_back({name, "circle", Direction::ccw, 1});
+    specs.push_back({name, "line", {}, 1});
+    specs.push_back({name, "circle", Sense::cw, 1});
+    specs.push_back({name, "circle", Sense::ccw, 1});
   }
   return specs;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "host/base/sense.hpp"
 #include "host/calibration/end_poses/umbmark.hpp"
 #include "host/recording/run/run.hpp"
 
@@ -52,7 +53,7 @@ struct Plan {
 /// One drive of a plan.
 struct RunSpec {
   std::string phase, kind;
-  recording::Direction direction = recording::Direction::none;
+  std::optional<Sense> direction;  // of squares and circles
   int index = 1;
 
   /// "square-cw-3.mcap"
@@ -77,7 +78,6 @@ std::vector<RunSpec> squares_of_phase(const Plan& plan, std::size_t phase, int s
 void to_json(nlohmann::json& json, const Plan& plan);
 void from_json(const nlohmann::json& json, Plan& plan);
 
-std::string_view name_of(recording::Direction direction);
 std::string_view name_of(Order order);
 
 }  // namespace astro::experiment

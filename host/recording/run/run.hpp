@@ -2,8 +2,11 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "host/base/sense.hpp"
 
 /// One drive as it was recorded: odometry and ground truth.
 ///
@@ -26,15 +29,12 @@ struct TruthSample {
   bool valid = true;                       // false: the tracker had lost the body, and the pose means nothing
 };
 
-/// Direction of a closed path; none for other paths.
-enum class Direction { none, cw, ccw };
-
 struct RunInfo {
-  std::string kind;  // "square", "line", "spin", "circle", "free"
-  Direction direction = Direction::none;
-  std::string phase;  // "before", "after", "repeat-1", ... or "" for a free recording
-  int index = 0;      // 1, 2, ... within its kind, direction and phase
-  double size_m = 0;  // square: side; circle: radius; line: length; spin: 0
+  std::string kind;                // "square", "line", "spin", "circle", "free"
+  std::optional<Sense> direction;  // none: of a path that does not turn one way
+  std::string phase;               // "before", "after", "repeat-1", ... or "" for a free recording
+  int index = 0;                   // 1, 2, ... within its kind, direction and phase
+  double size_m = 0;               // square: side; circle: radius; line: length; spin: 0
   double speed_mps = 0;
   std::string robot_name, robot_id, board, firmware;
   std::string started_at;    // ISO 8601, UTC

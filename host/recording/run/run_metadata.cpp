@@ -5,6 +5,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/numbers.hpp"
+#include "host/base/sense.hpp"
 
 namespace astro::recording {
 namespace {
@@ -63,34 +64,31 @@ class Entries {
   const std::string& file_;
 };
 
-Direction direction_in(const Entries& entries) {
+constexpr std::string_view kNoDirection = "none";
+
+std::optional<Sense> direction_in(const Entries& entries) {
   const std::string* text = entries.find("direction");
-  if (text == nullptr) return Direction::none;
-  for (const Direction direction : {Direction::none, Direction::cw, Direction::ccw}) {
-    if (*text == direction_text(direction)) return direction;
-  }
-  entries.bad("direction", *text);
+  if (text == nullptr || *text == kNoDirection) return {};
+  const std::optional<Sense> direction = sense_named(*text);
+  if (!direction) entries.bad("direction", *text);
+  return direction;
 }
 
 }  // namespace
 
-std::string_view direction_text(Direction direction) {
-  if (direction == Direction::cw) return "cw";
-  return direction == Direction::ccw ? "ccw" : "none";
-}
-
 std::string run_name(const RunInfo& info) {
   std::string name = "run";
   if (!info.kind.empty()) name += " " + info.kind;
-  if (info.direction != Direction::none) name += " " + std::string(direction_text(info.direction));
+  if (info.direction) name += " " + std::string(name_of(*info.direction));
   if (info.index != 0) name += " " + std::to_string(info.index);
   return info.phase.empty() ? name : name + " (" + info.phase + ")";
 }
 
 mcap::Map to_map(const RunRecord& record) {
-  mcap::Map map{{"format", std::to_string(kFormat)},
-                {"direction", std::string(direction_text(record.info.direction))},
-                {"index", std::to_string(record.info.index)}};
+  mcap::Map map{
+      {"format", std::to_string(kFormat)},
+      {"direction", std::string(record.info.direction ? name_of(*record.info.direction) : kNoDirection)},
+      {"index", std::to_string(record.info.index)}};
   for (const auto& [key, member] : kTexts) map[std::string(key)] = record.info.*member;
   for (const auto& [key, member] : kNumbers) map[std::string(key)] = to_text(record.info.*member);
   for (const auto& [key, member] : kHeadings) {

@@ -26,9 +26,6 @@ mcap::Map to_map(const RunRecord& record);
 /// value does not have the type of its key or the recording has a newer format.
 RunRecord run_record(const mcap::Map& map, const std::string& file);
 
-/// "cw", "ccw", "none".
-std::string_view direction_text(Direction direction);
-
 /// The name of a run in messages: "run square cw 3 (before)", without the parts that it lacks.
 std::string run_name(const RunInfo& info);
 

@@ -33,8 +33,6 @@ protocol::AddSegment segment(protocol::SegmentKind kind, double length_m, double
           .yaw_rate_uradps = scaled<std::int32_t>(limits.yaw_rate_radps, 1e6, "a yaw rate in rad/s")};
 }
 
-double sign(Sense sense) { return sense == Sense::ccw ? 1 : -1; }
-
 }  // namespace
 
 Path line(double length_m, PathLimits limits) {
@@ -51,7 +49,7 @@ Path arc(double length_m, double turns, PathLimits limits) {
 
 Path circle(double radius_m, double turns, Sense sense, PathLimits limits) {
   if (!(radius_m > 0) || !(turns > 0)) throw Error("a circle needs a positive radius and number of turns");
-  return arc(2 * std::numbers::pi * radius_m * turns, sign(sense) * turns, limits);
+  return arc(2 * std::numbers::pi * radius_m * turns, sign_of(sense) * turns, limits);
 }
 
 Path square(double side_m, Sense sense, PathLimits limits) {
@@ -59,7 +57,7 @@ Path square(double side_m, Sense sense, PathLimits limits) {
   Path path;
   for (int corner = 0; corner < 4; ++corner) {
     path.push_back(segment(protocol::SegmentKind::line, side_m, 0, limits));
-    path.push_back(segment(protocol::SegmentKind::spin, 0, sign(sense) / 4, limits));
+    path.push_back(segment(protocol::SegmentKind::spin, 0, sign_of(sense) / 4, limits));
   }
   return path;
 }

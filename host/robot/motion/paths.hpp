@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "common/protocol/motion.hpp"
+#include "host/base/sense.hpp"
 
 /// Paths as segments for the robot's queue. Angles that are dyadic fractions of a turn are exact (a
 /// quarter turn is 2^30), lengths are rounded to 1 nm. Left and counter-clockwise are positive.
@@ -17,8 +18,6 @@ struct PathLimits {
   double speed_mps = 0;
   double yaw_rate_radps = 0;
 };
-
-enum class Sense { cw, ccw };
 
 constexpr double turns_from_degrees(double degrees) { return degrees / 360; }
 

@@ -1,9 +1,10 @@
 #include "host/robot/parameters/parameter_rules.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
+
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <optional>
 #include <string_view>
@@ -43,11 +44,7 @@ class Staged {
   std::span<const ParameterRow> rows_;
 };
 
-std::string digits(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", value);
-  return text.data();
-}
+std::string digits(double value) { return fmt::format("{:.3g}", value); }
 
 std::string geometry_rule(const Staged& staged, std::string_view name) {
   const auto travel_m = staged.travel_per_count_m();

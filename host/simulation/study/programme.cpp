@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "host/base/error.hpp"
+#include "host/base/sense.hpp"
 #include "host/simulation/study/limits.hpp"
 #include "host/simulation/study/synthetic_drive.hpp"
 
 namespace astro::simulation::study {
 namespace {
 
-using calibration::Sense;
 using calibration::Trajectory;
 
 std::string plain(double value) {
@@ -52,7 +52,7 @@ void require_runs(const Counts& counts) {
 }
 
 Course course_of(const Programme& programme, std::size_t kind, Sense sense) {
-  const double sign = sense == Sense::cw ? -1 : 1, turn = sign * 2 * std::numbers::pi;
+  const double sign = sign_of(sense), turn = sign * 2 * std::numbers::pi;
   switch (kind) {
     case kSquares:
       return square_course(programme.side_m, sense);

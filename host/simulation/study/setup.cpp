@@ -18,8 +18,6 @@
 namespace astro::simulation::study {
 namespace {
 
-using calibration::Sense;
-
 // Different from the seeds of the drives, which count from 0.
 constexpr std::uint64_t kClocks = 1'000'000;
 
@@ -156,7 +154,7 @@ TrialSetup setup_from(const nlohmann::json& json) {
 Sense sense_of(int run) { return run % 2 == 0 ? Sense::cw : Sense::ccw; }
 
 std::string name_of(int run) {
-  return std::string("square ") + (sense_of(run) == Sense::cw ? "cw " : "ccw ") + std::to_string(run / 2 + 1);
+  return "square " + std::string(astro::name_of(sense_of(run))) + ' ' + std::to_string(run / 2 + 1);
 }
 
 std::uint64_t seed_of(const TrialSetup& setup, int trial) {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "host/base/sense.hpp"
 #include "host/calibration/end_poses/replay.hpp"
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "host/calibration/motion/trajectory.hpp"
@@ -62,7 +63,7 @@ int count_from(const nlohmann::json& json);
 
 /// The runs of a trial are numbered from 0, alternating clockwise and counter-clockwise. "square ccw 1" is
 /// run 1.
-calibration::Sense sense_of(int run);
+Sense sense_of(int run);
 std::string name_of(int run);
 
 /// The seed of all noise of a trial; it depends on (seed, trial) alone.

@@ -50,10 +50,7 @@ experiment::Plan plan_of(const TrialSetup& setup) {
   return plan;
 }
 
-experiment::RunSpec spec_of(int run) {
-  const bool cw = simulation::study::sense_of(run) == calibration::Sense::cw;
-  return {"", "square", cw ? recording::Direction::cw : recording::Direction::ccw, run / 2 + 1};
-}
+experiment::RunSpec spec_of(int run) { return {"", "square", simulation::study::sense_of(run), run / 2 + 1}; }
 
 /// A robot that is switched on, with the parameters of the set-up loaded.
 class SimulatedRobot {

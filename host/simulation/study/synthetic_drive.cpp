@@ -165,8 +165,8 @@ Pose dead_reckoned(const std::vector<WheelSample>& wheels, const WheelFactors& c
 
 }  // namespace
 
-Course square_course(double side_m, calibration::Sense sense, double rest_s) {
-  const double quarter = (sense == calibration::Sense::ccw ? 1 : -1) * std::numbers::pi / 2;
+Course square_course(double side_m, Sense sense, double rest_s) {
+  const double quarter = sign_of(sense) * std::numbers::pi / 2;
   Course path;
   for (int corner = 0; corner < 4; ++corner) {
     path.push_back({Leg::Kind::straight, side_m, 0, 0});

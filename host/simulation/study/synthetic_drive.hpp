@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host/base/sense.hpp"
 #include "host/calibration/end_poses/end_pose.hpp"
 #include "host/calibration/end_poses/replay.hpp"
 #include "host/calibration/motion/trajectory.hpp"
@@ -26,7 +27,7 @@ struct Leg {
 using Course = std::vector<Leg>;
 
 /// Rest, then the path, then rest again; each rest of `rest_s`. Distances in metres, angles in radians.
-Course square_course(double side_m, calibration::Sense sense, double rest_s = 1);
+Course square_course(double side_m, Sense sense, double rest_s = 1);
 Course line_course(double length_m, double rest_s = 1);
 Course spin_course(double angle_rad, double rest_s = 1);
 Course circle_course(double radius_m, double angle_rad, double rest_s = 1);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "host/base/error.hpp"
+#include "host/base/sense.hpp"
 #include "host/calibration/end_poses/replay.hpp"
 #include "host/calibration/end_poses/umbmark.hpp"
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
@@ -14,7 +15,7 @@ namespace astro::simulation::study {
 namespace {
 
 using calibration::EndPose;
-using calibration::Sense;
+
 using calibration::WheelFactors;
 
 constexpr double kLineLength_m = 10;

@@ -148,8 +148,7 @@ std::vector<recording::TruthSample> placed(const recording::Run& run, const Pose
 
 std::string truth_file_name(const recording::RunInfo& info) {
   std::string name = info.phase.empty() ? info.kind : info.phase + "-" + info.kind;
-  if (info.direction == recording::Direction::cw) name += "-cw";
-  if (info.direction == recording::Direction::ccw) name += "-ccw";
+  if (info.direction) name += "-" + std::string(name_of(*info.direction));
   return name + "-" + std::to_string(info.index) + ".csv";
 }
 

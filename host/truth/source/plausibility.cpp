@@ -1,8 +1,8 @@
 #include "host/truth/source/plausibility.hpp"
 
-#include <array>
+#include <fmt/format.h>
+
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "host/base/degrees.hpp"
@@ -27,13 +27,6 @@ double length_m(const recording::Run& run) {
   return length;
 }
 
-template <class... Numbers>
-std::string sentence(const char* format, Numbers... numbers) {
-  std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(), format, numbers...);
-  return text.data();
-}
-
 }  // namespace
 
 std::string implausible_end(const recording::Run& run, const recording::TruthSample& start,
@@ -46,12 +39,13 @@ std::string implausible_end(const recording::Run& run, const recording::TruthSam
   const double driven_m = length_m(run);
   const double off_m = std::hypot(measured.x_m - odometry.x_m, measured.y_m - odometry.y_m);
   if (!(off_m <= std::max(kLeast_m, kMostOfDistance * driven_m)))
-    return sentence("this end is %.4g m from where odometry ends, after a run of %.4g m: is it in metres?",
-                    off_m, driven_m);
+    return fmt::format(
+        "this end is {:.4g} m from where odometry ends, after a run of {:.4g} m: is it in metres?", off_m,
+        driven_m);
   const double turned_rad = recording::wrapped_rad(measured.theta_rad - odometry.theta_rad);
   if (std::abs(turned_rad) > kMost_rad)
-    return sentence(
-        "this heading is %.0f degrees from that of odometry: is it in degrees, counter-clockwise?",
+    return fmt::format(
+        "this heading is {:.0f} degrees from that of odometry: is it in degrees, counter-clockwise?",
         degrees(std::abs(turned_rad)));
   return "";
 }

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "tests/support/bounded.hpp"
+#include "tests/support/base/bounded.hpp"
 
 // Implausible tables are refused with the line number, without holding the whole table in memory.
 namespace astro {

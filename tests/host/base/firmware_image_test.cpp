@@ -6,8 +6,8 @@
 #include <fstream>
 
 #include "host/base/error.hpp"
-#include "tests/support/bounded.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/base/bounded.hpp"
+#include "tests/support/base/temporary_folder.hpp"
 
 namespace astro {
 namespace {

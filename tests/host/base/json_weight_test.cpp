@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "tests/support/bounded.hpp"
+#include "tests/support/base/bounded.hpp"
 
 namespace astro {
 namespace {

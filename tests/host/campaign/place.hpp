@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/program.hpp"
-#include "tests/support/traced_program.hpp"
+#include "tests/support/programs/program.hpp"
+#include "tests/support/programs/traced_program.hpp"
 
 /// Where a command is disturbed, and what must be true of it afterwards.
 namespace astro::campaign {

@@ -7,7 +7,7 @@
 
 #include "host/emulator/core/stopped.hpp"
 #include "host/emulator/robot/teensy.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/base/temporary_folder.hpp"
 
 namespace astro::emulator {
 

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 
-#include "tests/support/json.hpp"
-#include "tests/support/program.hpp"
-#include "tests/support/terminal_program.hpp"
+#include "tests/support/base/json.hpp"
+#include "tests/support/programs/program.hpp"
+#include "tests/support/programs/terminal_program.hpp"
 
 // `astrolabe check-wiring` against simulators with wiring faults. The answers say what a person beside such a
 // robot would have seen.

@@ -2,8 +2,8 @@
 
 #include <numbers>
 
-#include "tests/support/json.hpp"
-#include "tests/support/program.hpp"
+#include "tests/support/base/json.hpp"
+#include "tests/support/programs/program.hpp"
 
 // Drives that end by themselves, against a simulator in fast motion.
 namespace astro {

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
-#include "tests/support/json.hpp"
-#include "tests/support/program.hpp"
+#include "tests/support/base/json.hpp"
+#include "tests/support/programs/program.hpp"
 
 // astrolabe faults --log: what stopped the robot, through restarts.
 namespace astro {

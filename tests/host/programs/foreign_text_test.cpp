@@ -8,9 +8,9 @@
 #include "common/protocol/frame.hpp"
 #include "common/protocol/framer.hpp"
 #include "common/protocol/session.hpp"
-#include "tests/support/json.hpp"
-#include "tests/support/program.hpp"
-#include "tests/support/pty_peer.hpp"
+#include "tests/support/base/json.hpp"
+#include "tests/support/links/pty_peer.hpp"
+#include "tests/support/programs/program.hpp"
 
 // Text of a robot or a file with control sequences, or that is no UTF-8, is never printed unchanged.
 namespace astro {

@@ -2,9 +2,9 @@
 #include <stdlib.h>
 
 #include "common/protocol/session.hpp"
-#include "tests/support/json.hpp"
-#include "tests/support/program.hpp"
-#include "tests/support/pty.hpp"
+#include "tests/support/base/json.hpp"
+#include "tests/support/links/pty.hpp"
+#include "tests/support/programs/program.hpp"
 
 // What the program reports about a robot: info, ports, monitor, faults; and where the simulator puts its
 // links.

@@ -2,8 +2,8 @@
 
 #include <fstream>
 
-#include "tests/support/json.hpp"
-#include "tests/support/program.hpp"
+#include "tests/support/base/json.hpp"
+#include "tests/support/programs/program.hpp"
 
 namespace astro {
 namespace {

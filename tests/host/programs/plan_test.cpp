@@ -2,8 +2,8 @@
 
 #include <sstream>
 
-#include "tests/support/json.hpp"
-#include "tests/support/program.hpp"
+#include "tests/support/base/json.hpp"
+#include "tests/support/programs/program.hpp"
 
 // `astrolabe plan`.
 namespace astro {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host/commands/base/remedies.hpp"
-#include "tests/support/program.hpp"
+#include "tests/support/programs/program.hpp"
 
 /// What a remedy tells a person to do can be done: its commands and options exist.
 namespace astro {

@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "host/recording/files/run_file.hpp"
-#include "tests/support/watched_drive.hpp"
+#include "tests/support/robots/watched_drive.hpp"
 
 // Several programs at one port, as people run them. Bounds on the robot's motion are on its own clock.
 namespace astro {

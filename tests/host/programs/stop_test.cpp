@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tests/support/watched_drive.hpp"
+#include "tests/support/robots/watched_drive.hpp"
 
 // Drives that are cut short, against a simulator in real time; the virtual cameras show what the robot really
 // does. All bounds are on the robot's clock, so a busy machine does not move them.

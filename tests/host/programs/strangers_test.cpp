@@ -8,8 +8,8 @@
 #include "common/protocol/frame.hpp"
 #include "common/protocol/framer.hpp"
 #include "common/protocol/session.hpp"
-#include "tests/support/program.hpp"
-#include "tests/support/pty_peer.hpp"
+#include "tests/support/links/pty_peer.hpp"
+#include "tests/support/programs/program.hpp"
 
 // Ports without a robot, or of another user: one sentence that names the port and the reason.
 namespace astro {

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "tests/support/json.hpp"
-#include "tests/support/program.hpp"
+#include "tests/support/base/json.hpp"
+#include "tests/support/programs/program.hpp"
 
 // `astrolabe study` and `study merge`, on squares small enough for a test.
 namespace astro {

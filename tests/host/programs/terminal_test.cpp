@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 
-#include "tests/support/json.hpp"
-#include "tests/support/program.hpp"
-#include "tests/support/terminal_program.hpp"
+#include "tests/support/base/json.hpp"
+#include "tests/support/programs/program.hpp"
+#include "tests/support/programs/terminal_program.hpp"
 
 // What a person sees in a terminal, and that a pipe gets none of it.
 namespace astro {

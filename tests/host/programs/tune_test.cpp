@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tests/support/json.hpp"
-#include "tests/support/program.hpp"
-#include "tests/support/terminal_program.hpp"
+#include "tests/support/base/json.hpp"
+#include "tests/support/programs/program.hpp"
+#include "tests/support/programs/terminal_program.hpp"
 
 // `astrolabe tune` against a simulator in fast motion.
 namespace astro {
@@ -20,7 +20,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using Words = std::vector<std::string>;
 
-// What the motors' data sheet leads to at the wheel; tests/host/motor/identify_test.cpp derives it.
+// What the motors' data sheet leads to at the wheel; tests/host/motor/bench/identify_test.cpp derives it.
 constexpr double kS_V = 0.48, kV_Vspm = 12.175, kA_ground = 1.077, kA_stand = 0.5235;
 
 Words with(Words words, const Words& more) {

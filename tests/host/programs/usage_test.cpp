@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "tests/support/program.hpp"
+#include "tests/support/programs/program.hpp"
 
 // What the program says about itself, and about words that it does not know.
 namespace astro {

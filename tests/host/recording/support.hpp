@@ -10,6 +10,7 @@
 #include <string>
 
 #include "host/base/bytes.hpp"
+#include "host/base/sense.hpp"
 #include "host/recording/run/planar_pose.hpp"
 #include "host/recording/run/run.hpp"
 
@@ -77,7 +78,7 @@ struct Drive {
     std::normal_distribution<double> normal;
     Run out;
     out.info.kind = "square";
-    out.info.direction = Direction::cw;
+    out.info.direction = Sense::cw;
     out.info.index = 3;
     out.info.phase = "before";
     for (int i = 0; i <= 300; ++i) {

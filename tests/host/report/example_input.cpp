@@ -9,7 +9,6 @@ namespace astro::report {
 namespace {
 
 using calibration::EndPose;
-using recording::Direction;
 
 constexpr double kWheelbase_m = 0.29, kStep_s = 0.02, kSpeed_mps = 0.25, kStanding_s = 0.5;
 constexpr double kCounts_per_m = 12'393;  // ASTRO's wheels and encoders
@@ -59,17 +58,17 @@ void advance(double& x, double& y, double& theta, Motion m) {
 }
 
 void add_drives(Phase& phase, int squares, double wheel_error, unsigned seed) {
-  for (const Direction direction : {Direction::cw, Direction::ccw}) {
+  for (const Sense direction : {Sense::cw, Sense::ccw}) {
     for (int i = 1; i <= squares; ++i)
       phase.runs.push_back(example_run("square", direction, i, 57, wheel_error, ++seed));
     phase.runs.push_back(example_run("circle", direction, 1, 30, wheel_error, ++seed));
   }
-  phase.runs.push_back(example_run("line", Direction::none, 1, 12, wheel_error, ++seed));
+  phase.runs.push_back(example_run("line", {}, 1, 12, wheel_error, ++seed));
   for (auto& run : phase.runs) run.info.phase = phase.title;
   phase.squares = calibration::summarize(phase.cw, phase.ccw);
 }
 
-recording::RunInfo info_of(const std::string& kind, Direction direction, int index) {
+recording::RunInfo info_of(const std::string& kind, std::optional<Sense> direction, int index) {
   return {.kind = kind,
           .direction = direction,
           .phase = "",
@@ -88,14 +87,14 @@ recording::RunInfo info_of(const std::string& kind, Direction direction, int ind
 
 }  // namespace
 
-recording::Run example_run(const std::string& kind, Direction direction, int index, double seconds,
+recording::Run example_run(const std::string& kind, std::optional<Sense> direction, int index, double seconds,
                            double wheel_error, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> noise;
   recording::Run run;
   run.info = info_of(kind, direction, index);
   double x = 0, y = 0, theta = 0, true_x = 1.5, true_y = -0.7, true_theta = 0.6, ahead = 0, turn = 0;
-  const double sense = direction == Direction::cw ? -1 : 1;
+  const double sense = sign_of(direction.value_or(Sense::ccw));
   for (std::int64_t i = 0; static_cast<double>(i) * kStep_s <= seconds; ++i) {
     const auto time_us = 5'000'000 + i * 20'000;
     const auto counts = [&](double side) {

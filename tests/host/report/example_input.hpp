@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/base/sense.hpp"
 #include "host/report/report.hpp"
 
 /// Inputs for the report: the end errors that the thesis measured (tables 11 to 14) with drives that make
@@ -11,7 +12,7 @@ namespace astro::report {
 ReportInput thesis_input(int squares = 2);
 
 /// One noisy drive of `seconds` at 50 Hz; odometry and truth share nothing but the motion.
-recording::Run example_run(const std::string& kind, recording::Direction direction, int index, double seconds,
+recording::Run example_run(const std::string& kind, std::optional<Sense> direction, int index, double seconds,
                            double wheel_error, unsigned seed);
 
 }  // namespace astro::report

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "host/base/error.hpp"
+#include "host/base/sense.hpp"
 #include "host/report/assets.hpp"
 #include "host/report/html.hpp"
 #include "tests/host/report/example_input.hpp"
@@ -144,8 +145,7 @@ TEST(Report, OfTwentyLongRunsStaysBelowFiveMegabytes) {
   ReportInput input = thesis_input(1);
   for (auto& phase : input.phases) {
     phase.runs.clear();
-    for (int i = 1; i <= 10; ++i)
-      phase.runs.push_back(example_run("square", recording::Direction::cw, i, 600, 4e-3, 1));
+    for (int i = 1; i <= 10; ++i) phase.runs.push_back(example_run("square", Sense::cw, i, 600, 4e-3, 1));
   }
   EXPECT_LT(render_html(input).size(), 5'000'000U);
 }
@@ -153,11 +153,8 @@ TEST(Report, OfTwentyLongRunsStaysBelowFiveMegabytes) {
 TEST(Report, LeavesOutWhatWasNotMeasured) {
   ReportInput input;
   input.title = "Nothing but a line";
-  input.phases = {{.title = "before",
-                   .runs = {example_run("line", recording::Direction::none, 1, 5, 0, 1)},
-                   .squares = {},
-                   .cw = {},
-                   .ccw = {}}};
+  input.phases = {
+      {.title = "before", .runs = {example_run("line", {}, 1, 5, 0, 1)}, .squares = {}, .cw = {}, .ccw = {}}};
   const std::string html = our_part(render_html(input));
   EXPECT_THAT(html, Not(HasSubstr("id=\"result\"")));
   EXPECT_THAT(html, Not(HasSubstr("data-figure=\"scatter\"")));

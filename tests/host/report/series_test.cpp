@@ -10,7 +10,7 @@
 
 namespace astro::report {
 
-recording::Run one_square() { return example_run("square", recording::Direction::ccw, 1, 57, 4e-3, 3); }
+recording::Run one_square() { return example_run("square", Sense::ccw, 1, 57, 4e-3, 3); }
 
 TEST(ReportSeries, HaveAPointForEverySampleOfOdometry) {
   const auto run = one_square();

@@ -7,7 +7,7 @@
 #include "hal/interface/board.hpp"
 #include "host/emulator/robot/teensy.hpp"
 #include "tests/contract/rig.hpp"
-#include "tests/support/elf_symbols.hpp"
+#include "tests/support/programs/elf_symbols.hpp"
 #include "tests/target/images/puppet.hpp"
 
 namespace astro::target {

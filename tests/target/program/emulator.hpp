@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/program.hpp"
+#include "tests/support/programs/program.hpp"
 #include "tests/target/firmware_file.hpp"
 
 namespace astro::target {

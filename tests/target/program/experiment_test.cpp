@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tests/support/json.hpp"
+#include "tests/support/base/json.hpp"
 #include "tests/target/program/emulator.hpp"
 
 namespace astro::target {

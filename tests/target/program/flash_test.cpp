@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "common/base/version.hpp"
-#include "tests/support/json.hpp"
+#include "tests/support/base/json.hpp"
 #include "tests/target/program/emulator.hpp"
 
 // `astrolabe flash` against an emulated robot; a script stands for teensy_loader_cli.

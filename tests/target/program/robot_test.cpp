@@ -4,8 +4,8 @@
 
 #include <fstream>
 
-#include "tests/support/json.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/base/json.hpp"
+#include "tests/support/base/temporary_folder.hpp"
 #include "tests/target/program/emulator.hpp"
 
 // What a person without a Teensy does with the image: the ordinary commands, at either port.

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "host/emulator/robot/teensy.hpp"
-#include "tests/support/elf_symbols.hpp"
+#include "tests/support/programs/elf_symbols.hpp"
 #include "tests/target/replay/trace.hpp"
 
 namespace astro::target {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "host/base/sense.hpp"
 #include "host/emulator/robot/emulated_robot.hpp"
 #include "host/robot/client/client.hpp"
 #include "host/robot/motion/drive.hpp"
@@ -27,8 +28,7 @@ TEST_F(TickCost, OfControlOdometryAndSafetyIsWithin350InstructionsAroundASquare)
   client_.connect();
   TickProfile profile(robot_->teensy(), kElf);
   robot::DriveSession session(client_);
-  for (const robot::Sense sense : {robot::Sense::cw, robot::Sense::ccw})
-    session.run(robot::square(0.5, sense));
+  for (const Sense sense : {Sense::cw, Sense::ccw}) session.run(robot::square(0.5, sense));
   for (int i = 0; i < 20; ++i) {
     session.set_velocity(0.4, 1.0);
     session.pump(50ms);

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/base/temporary_folder.hpp"
 #include "tests/target/image/binutils.hpp"
 
 namespace astro::target {

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "tests/support/program.hpp"
+#include "tests/support/programs/program.hpp"
 
 // Bad input of any kind: one clear sentence that names the thing, a non-zero exit, nothing on stdout.
 namespace astro {

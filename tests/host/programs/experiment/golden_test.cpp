@@ -4,8 +4,8 @@
 
 #include "tests/golden/printed.hpp"
 #include "tests/golden/thesis_tables.hpp"
-#include "tests/support/json.hpp"
-#include "tests/support/program.hpp"
+#include "tests/support/base/json.hpp"
+#include "tests/support/programs/program.hpp"
 
 // Tables 11 and 12 of the thesis through the command line: every variant to the digits of the recomputation.
 namespace astro {

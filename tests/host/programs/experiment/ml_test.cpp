@@ -8,8 +8,8 @@
 #include <numbers>
 #include <sstream>
 
-#include "tests/support/json.hpp"
-#include "tests/support/program.hpp"
+#include "tests/support/base/json.hpp"
+#include "tests/support/programs/program.hpp"
 
 // Maximum likelihood from the command line: what is printed, refused, exported and uploaded.
 namespace astro {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "tests/support/json.hpp"
-#include "tests/support/program.hpp"
+#include "tests/support/base/json.hpp"
+#include "tests/support/programs/program.hpp"
 
 // What `plan` finds, driven by `record`.
 namespace astro {

@@ -3,8 +3,8 @@
 
 #include <fstream>
 
-#include "tests/support/json.hpp"
-#include "tests/support/program.hpp"
+#include "tests/support/base/json.hpp"
+#include "tests/support/programs/program.hpp"
 
 // The whole experiment with the real program over a real pty.
 namespace astro {

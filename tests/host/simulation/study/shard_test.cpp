@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "host/simulation/study/study.hpp"
-#include "tests/host/calibration/square_runs.hpp"
-#include "tests/support/bounded.hpp"
-#include "tests/support/sentences.hpp"
+#include "tests/host/calibration/end_poses/square_runs.hpp"
+#include "tests/support/base/bounded.hpp"
+#include "tests/support/base/sentences.hpp"
 
 namespace astro::simulation::study {
 namespace {

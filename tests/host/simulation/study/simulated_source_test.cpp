@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
-#include "tests/host/calibration/square_runs.hpp"
+#include "tests/host/calibration/end_poses/square_runs.hpp"
 
 namespace astro::simulation {
 namespace {

@@ -8,7 +8,7 @@
 #include "host/simulation/study/kinematic_source.hpp"
 #include "host/simulation/study/shard_file.hpp"
 #include "host/simulation/study/summary.hpp"
-#include "tests/host/calibration/square_runs.hpp"
+#include "tests/host/calibration/end_poses/square_runs.hpp"
 
 namespace astro::simulation::study {
 namespace {

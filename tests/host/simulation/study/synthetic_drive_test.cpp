@@ -11,7 +11,7 @@ namespace {
 
 using calibration::BodySample;
 using calibration::EndPose;
-using calibration::Sense;
+
 using calibration::Trajectory;
 using calibration::WheelFactors;
 using calibration::WheelSample;

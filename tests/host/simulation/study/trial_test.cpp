@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "host/simulation/study/kinematic_source.hpp"
-#include "tests/host/calibration/square_runs.hpp"
+#include "tests/host/calibration/end_poses/square_runs.hpp"
 
 namespace astro::simulation::study {
 namespace {

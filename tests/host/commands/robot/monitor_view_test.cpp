@@ -1,0 +1,76 @@
+#include "host/commands/robot/monitor_view.hpp"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "tests/host/commands/picture.hpp"
+
+namespace astro::commands {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+// Everything as wide as it can get.
+protocol::Telemetry extreme() {
+  protocol::Telemetry telemetry;
+  telemetry.device_time_us = 99ULL * 3600 * 1'000'000;
+  telemetry.pose = {-(std::int64_t{9999} << 40), -(std::int64_t{9999} << 40), 1, -999};
+  telemetry.counts = {std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::min()};
+  telemetry.twist = {-9'999'000, -99'999'000};
+  telemetry.wheel_speed = telemetry.setpoint = {-9'999'000, -9'999'000};
+  telemetry.duty = {-32768, -32768};
+  telemetry.battery.mv = 99'999;
+  telemetry.state = {protocol::Mode::stopping, 65535, 0};
+  return telemetry;
+}
+
+TEST(MonitorPicture, FitsATerminalOf80By24) {
+  LinkFigures figures;
+  figures.round_trip_ms = 999;
+  figures.drift = -0.05;
+  figures.frames.good = 999'999;
+  figures.counts.repeats = figures.counts.lost_pings = 999'999;
+  const std::string picture =
+      monitor_picture("ASTRO   /run/user/1000/astrolabe-1000/astro.pty", extreme(), figures);
+  EXPECT_LE(std::count(picture.begin(), picture.end(), '\n'), 23);  // the cursor needs one
+  for (std::size_t begin = 0, end; (end = picture.find('\n', begin)) != std::string::npos; begin = end + 1)
+    EXPECT_LE(width(picture.substr(begin, end - begin)), 80U) << picture.substr(begin, end - begin);
+}
+
+TEST(MonitorLine, SaysModeFaultsBatteryAndPose) {
+  protocol::Telemetry telemetry;
+  telemetry.battery.mv = 12'040;
+  EXPECT_EQ(monitor_line(telemetry, {}), "disarmed  12.04 V  x   0.000 m  y   0.000 m      0.0 deg");
+  telemetry.state.latched_faults = bit(Fault::stall);
+  EXPECT_THAT(monitor_line(telemetry, {}), HasSubstr("disarmed, stall"));
+  LinkFigures figures;
+  figures.lost = "it was unplugged";
+  EXPECT_THAT(monitor_line(telemetry, figures), HasSubstr("LOST: it was unplugged"));
+}
+
+TEST(MonitorPicture, ShowsNoMinusBeforeZeros) {
+  protocol::Telemetry telemetry;
+  telemetry.pose = {-1, -1, 0, 0};
+  telemetry.twist = {-1, -1};
+  telemetry.wheel_speed = telemetry.setpoint = {-1, -1};
+  telemetry.duty = {-1, -1};
+  EXPECT_THAT(monitor_picture("ASTRO", telemetry, {}), Not(testing::ContainsRegex("-0[.]0+[^0-9]")));
+}
+
+TEST(MonitorPicture, SaysThatTheLinkIsLost) {
+  LinkFigures figures;
+  EXPECT_THAT(monitor_picture("ASTRO", {}, figures), Not(HasSubstr("LOST")));
+  figures.lost = "it was unplugged";
+  EXPECT_THAT(monitor_picture("ASTRO", {}, figures), HasSubstr("LOST: it was unplugged"));
+}
+
+TEST(MonitorPicture, NamesLatchedFaults) {
+  protocol::Telemetry telemetry;
+  telemetry.state.latched_faults = bit(Fault::stall) | bit(Fault::under_voltage);
+  EXPECT_THAT(monitor_picture("ASTRO", telemetry, {}), HasSubstr("under_voltage, stall"));
+}
+
+}  // namespace
+}  // namespace astro::commands

@@ -1,0 +1,223 @@
+#include "host/experiment/analysis/calibration_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "host/experiment/drive/change_guard.hpp"
+#include "tests/support/base/sentences.hpp"
+#include "tests/support/robots/desk.hpp"
+
+namespace astro::experiment {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+class CalibrationFile : public testing::Test {
+ protected:
+  std::filesystem::path file(const std::string& text) const {
+    const std::filesystem::path path = folder_.path() / "calib.toml";
+    std::ofstream(path) << text;
+    return path;
+  }
+  support::TemporaryFolder folder_;
+};
+
+Calibration example() {
+  Calibration found;
+  found.factors = {1.0020770312345678, 0.9979229687654322, 0.2886110512345678};
+  found.loaded = {1, 1, 0.29};
+  return found;
+}
+
+TEST_F(CalibrationFile, KeepsAnEstimateFromEndPosesToTheLastBit) {
+  const Calibration found = example();  // with unknown standard errors
+  const std::filesystem::path path = folder_.path() / "calib.toml";
+  write_calibration(path, found);
+  const ParameterFile read = read_parameter_file(path);
+  EXPECT_EQ(std::get<double>(read.parameters.at("c_R")), found.factors.c_r);
+  EXPECT_EQ(std::get<double>(read.parameters.at("c_L")), found.factors.c_l);
+  EXPECT_EQ(std::get<double>(read.parameters.at("b")), found.factors.b_m);
+  EXPECT_EQ(read.loaded.at("b"), 0.29);
+  EXPECT_FALSE(read.absolute);
+  EXPECT_FALSE(read.wheel.has_value());
+  EXPECT_FALSE(read.covariance.has_value());
+}
+
+TEST_F(CalibrationFile, KeepsCovarianceAndNominalWheelOfMaximumLikelihood) {
+  Calibration found = example();
+  MlResult ml;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) ml.estimate.covariance(i, j) = 1e-9 / (1 + i + j);
+  found.detail = ml;
+  found.wheel = NominalWheel{0.072, 2803.2};
+  const std::filesystem::path path = folder_.path() / "calib.toml";
+  write_calibration(path, found);
+  const ParameterFile read = read_parameter_file(path);
+  EXPECT_EQ(read.covariance, ml.estimate.covariance);
+  EXPECT_EQ(read.wheel, found.wheel);
+  EXPECT_TRUE(read.absolute);
+  EXPECT_EQ(read.method, "ml");
+}
+
+TEST_F(CalibrationFile, SaysWhatIsDamaged) {
+  const auto refuses = [&](const std::string& more, const char* what) {
+    const auto path = file("[parameters]\nc_R = 1.0\n" + more);
+    EXPECT_THAT([&] { read_parameter_file(path); }, ThrowsMessage<Error>(HasSubstr(what)));
+  };
+  refuses("[covariance]\nmatrix = [[1.0, 2.0], [3.0, 4.0]]\n", "[covariance] needs a matrix");
+  refuses("[nominal]\nwheel_diameter = 0.0\ncounts_per_wheel_turn = 1.0\n", "[nominal] needs");
+}
+
+TEST_F(CalibrationFile, KeepsTextAndNumbersOfAnExport) {
+  const ParameterValues values{{"robot_name", std::string("R2 \"D2\"")}, {"kp", 40.0}};
+  const std::filesystem::path path = folder_.path() / "robot.toml";
+  write_parameters(path, values);
+  EXPECT_EQ(read_parameter_file(path).parameters, values);
+}
+
+TEST_F(CalibrationFile, NamesTheFileThatIsNotThere) {
+  EXPECT_THAT([] { read_parameter_file("/nowhere/calib.toml"); },
+              ThrowsMessage<Error>(HasSubstr("/nowhere/calib.toml")));
+}
+
+TEST_F(CalibrationFile, NamesFileAndLineOfWhatIsNotToml) {
+  const auto path = file("[parameters]\nc_R = = 1\n");
+  EXPECT_THAT([&] { read_parameter_file(path); },
+              ThrowsMessage<Error>(AllOf(HasSubstr("calib.toml"), HasSubstr("line 2"))));
+}
+
+TEST_F(CalibrationFile, SaysThatAFileHasNoParameters) {
+  for (const char* text : {"", "a = 1\n", "[parameters]\n", "parameters = 1\n"}) {
+    const auto path = file(text);
+    EXPECT_THAT([&] { read_parameter_file(path); }, ThrowsMessage<Error>(HasSubstr("has no [parameters]")))
+        << text;
+  }
+}
+
+TEST_F(CalibrationFile, NamesTheValueThatIsNeitherNumberNorText) {
+  const auto path = file("[parameters]\nc_R = [1, 2]\n");
+  EXPECT_THAT([&] { read_parameter_file(path); }, ThrowsMessage<Error>(HasSubstr("c_R is neither")));
+}
+
+TEST_F(CalibrationFile, KeepsTheRobotWhateverItsName) {
+  Calibration found = example();
+  const std::filesystem::path path = folder_.path() / "calib.toml";
+  write_calibration(path, found);
+  EXPECT_EQ(read_parameter_file(path).robot, RobotIdentity{});
+  found.robot = {"\"Räder\" \\ 2", "00ff"};
+  write_calibration(path, found);
+  EXPECT_EQ(read_parameter_file(path).robot, found.robot);
+}
+
+TEST(RobotIdentity, IsToldApartByTheIdAlone) {
+  const RobotIdentity one{"ASTRO", "01"}, other{"ASTRO", "02"}, renamed{"ARES", "01"};
+  EXPECT_EQ(different_robots("the file", one, "this", other),
+            "the file is of robot ASTRO (01), and this is ASTRO (02)");
+  EXPECT_EQ(different_robots("the file", one, "this", renamed), "");
+  EXPECT_EQ(different_robots("the file", {}, "this", one), "") << "nobody knows";
+}
+
+class ChangeGuard : public testing::Test {
+ protected:
+  ChangeGuard() : desk_(sim::Config{}), robot_(robot::RemoteParameters::fetch(desk_.client)) {}
+  support::Desk desk_;
+  robot::RemoteParameters robot_;
+};
+
+TEST_F(ChangeGuard, LeavesOutWhatTheRobotHoldsAlready) {
+  const auto list = changes(robot_, {{"c_R", 1.0}, {"c_L", 0.999}});
+  ASSERT_EQ(list.size(), 1U);
+  EXPECT_EQ(list[0].name, "c_L");
+  EXPECT_EQ(std::get<double>(list[0].before), 1.0);
+}
+
+TEST_F(ChangeGuard, DoubtsWheelFactorsThatMoveByMoreThanATenth) {
+  EXPECT_THAT(suspicion(changes(robot_, {{"b", 0.32}})), HasSubstr("b would change by +10.3 %"));
+  EXPECT_EQ(suspicion(changes(robot_, {{"b", 0.31}})), "");
+  EXPECT_EQ(suspicion(changes(robot_, {{"kp", 80.0}})), "") << "a gain may change as it likes";
+}
+
+TEST_F(ChangeGuard, FactorsFromEndPosesNeedWhatWasCarriedAndAbsoluteOnesDoNot) {
+  ParameterFile file;
+  file.loaded = {{"c_R", 1.001}};
+  EXPECT_THAT(wrong_basis(robot_, file), HasSubstr("driven with c_R = 1.001"));
+  file.loaded = {{"c_R", 1.0}};
+  EXPECT_EQ(wrong_basis(robot_, file), "");
+  file.loaded = {{"c_R", 1.001}};
+  file.absolute = true;
+  EXPECT_EQ(wrong_basis(robot_, file), "");
+}
+
+TEST_F(ChangeGuard, AllFactorsNeedTheWheelThatTheyReferTo) {
+  ParameterFile file;
+  file.absolute = true;
+  file.wheel = NominalWheel{0.072, 64 * 43.8};  // what the simulated robot believes in
+  EXPECT_EQ(wrong_basis(robot_, file), "");
+  file.wheel->diameter_m = 0.0721;
+  EXPECT_THAT(wrong_basis(robot_, file), AllOf(HasSubstr("0.0721 m"), HasSubstr("0.072 m")));
+}
+
+TEST_F(ChangeGuard, SaysThatAChangeWithinItsErrorMayBeForNothing) {
+  const auto note = [&](const ParameterValues& values) {
+    return insignificance(changes(robot_, values), {{"c_R", 1e-4}, {"c_L", 1e-4}, {"b", std::nan("")}});
+  };
+  EXPECT_THAT(note({{"c_R", 1.00019}, {"c_L", 0.99981}}), HasSubstr("twice its standard error"));
+  EXPECT_EQ(note({{"c_R", 1.00019}, {"c_L", 0.9997}}), "");
+  EXPECT_EQ(note({{"c_R", 1.00019}, {"b", 0.2901}}), "") << "nobody knows about b";
+  EXPECT_EQ(note({{"kp", 80.0}}), "") << "a gain has no error";
+}
+
+TEST_F(ChangeGuard, ObjectsInOneSentenceThatNamesTheOption) {
+  ParameterFile file;
+  EXPECT_FALSE(objection(robot_, file, changes(robot_, {{"b", 0.31}})));
+  EXPECT_THAT(commands::in_words(*objection(robot_, file, changes(robot_, {{"b", 0.32}}))),
+              AllOf(HasSubstr("+10.3 %"), HasSubstr("--force")));
+  file.loaded = {{"c_R", 1.001}};
+  EXPECT_THAT(commands::in_words(*objection(robot_, file, changes(robot_, {{"b", 0.31}}))),
+              AllOf(HasSubstr("driven with"), HasSubstr("--force")));
+}
+
+TEST_F(ChangeGuard, ObjectsToFactorsThatAreNotAllThere) {
+  ParameterFile file;
+  file.method = "ml";
+  file.parameters = {{"c_R", 1.001}, {"c_L", 0.999}};
+  EXPECT_THAT(commands::in_words(*objection(robot_, file, {})),
+              AllOf(HasSubstr("has no b"), HasSubstr("--force")));
+  file.parameters["b"] = 0.29;
+  EXPECT_FALSE(objection(robot_, file, {}));
+  file = {};
+  file.parameters = {{"c_R", 1.001}};
+  EXPECT_FALSE(objection(robot_, file, {})) << "no calibration, but somebody's own choice";
+}
+
+TEST_F(ChangeGuard, RefusesNamesAndValuesThatTheRobotDoesNotHave) {
+  EXPECT_THAT([&] { changes(robot_, {{"c_X", 1.0}}); }, ThrowsMessage<Error>(HasSubstr("c_X")));
+  EXPECT_THAT([&] { changes(robot_, {{"c_R", 2.5}}); }, ThrowsMessage<Error>(HasSubstr("c_R")));
+  EXPECT_THAT(
+      [&] {
+        changes(robot_, {{"c_R", std::string("much")}});
+      },
+      ThrowsMessage<Error>(HasSubstr("c_R")));
+}
+
+TEST(SideBySide, SaysWhatAChangeMeansAndNeverMinusTwoHundredPercentOfASign) {
+  const auto change = [](double before, double after) {
+    return side_by_side({{"x", "", before, after}}).at(1).back();
+  };
+  EXPECT_EQ(change(1, -1), "reversed");
+  EXPECT_EQ(change(-1, 1), "reversed");
+  EXPECT_EQ(change(2, -1), "other sign");
+  EXPECT_EQ(change(1, 1.00207), "+0.2070 %");
+  EXPECT_EQ(change(60, 0), "-100.0000 %");
+  EXPECT_EQ(change(0, 3), "");
+  EXPECT_EQ(change(1, 1 - 1e-9), "< 0.0001 %");
+  EXPECT_EQ(side_by_side({{"name", "", std::string("a"), std::string("b")}}).at(1).back(), "");
+}
+
+}  // namespace
+}  // namespace astro::experiment

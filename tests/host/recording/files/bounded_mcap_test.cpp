@@ -1,0 +1,95 @@
+#include <gmock/gmock.h>
+
+#include "host/recording/files/run_file.hpp"
+#include "host/recording/mcap/compression.hpp"
+#include "host/recording/mcap/reader.hpp"
+#include "host/ros2/ros_messages.hpp"
+#include "tests/host/recording/support.hpp"
+#include "tests/support/base/bounded.hpp"
+
+// Recordings that claim far more than they hold are refused within the limits of bounded.hpp.
+namespace astro::recording {
+namespace {
+
+using astro::support::measured;
+using astro::support::Taken;
+using testing::HasSubstr;
+
+constexpr std::size_t kMebibyte = std::size_t{1} << 20;
+
+Bytes start_of_file() {
+  Bytes file(std::begin(mcap::kMagic), std::end(mcap::kMagic));
+  mcap::append_record(file, mcap::Op::header, mcap::encode(mcap::Header{"ros2", "test"}));
+  return file;
+}
+
+void append_chunk(Bytes& file, ByteView packed, std::uint64_t claimed) {
+  mcap::append_record(file, mcap::Op::chunk, mcap::encode(mcap::Chunk{0, 0, claimed, 0, "zstd", packed}));
+}
+
+Taken reading(const Bytes& file) {
+  const Taken taken = measured([&] { run_from_bytes(file, "x.mcap"); });
+  EXPECT_BOUNDED(taken, file.size());
+  return taken;
+}
+
+TEST(BoundedMcap, ChunksThatExpandToMegabytesOneAfterTheOtherAreLeftOut) {
+  const Bytes packed = compress_zstd(Bytes(32 * kMebibyte));  // a thousand bytes
+  Bytes file = start_of_file();
+  while (file.size() < kMebibyte) append_chunk(file, packed, 32 * kMebibyte);
+  EXPECT_THAT(reading(file).complaint, HasSubstr("x.mcap is damaged"));
+}
+
+TEST(BoundedMcap, AChunkThatClaimsGigabytesIsLeftOutUnexpanded) {
+  const Bytes packed = compress_zstd(Bytes(256 * kMebibyte));
+  for (const std::uint64_t claimed : {std::uint64_t{256} << 20, std::uint64_t{4} << 30, ~std::uint64_t{0}}) {
+    Bytes file = start_of_file();
+    for (int i = 0; i < 100; ++i) append_chunk(file, packed, claimed);
+    EXPECT_THAT(reading(file).complaint, HasSubstr("more than this reader takes"));
+  }
+}
+
+TEST(BoundedMcap, SchemasAndChannelsThatExpandToMegabytesAreNotKept) {
+  Bytes records;
+  for (std::uint16_t id = 1; id <= 250; ++id) {
+    const mcap::Schema schema{id, "s", "e", std::string(100'000, ' ')};
+    mcap::append_record(records, mcap::Op::schema, mcap::encode(schema));
+  }
+  Bytes file = start_of_file();
+  append_chunk(file, compress_zstd(records), records.size());
+  EXPECT_THAT(reading(file).complaint, HasSubstr("more schemas and channels than this reader takes"));
+}
+
+TEST(BoundedMcap, AMapOfMillionsOfPairsIsRefused) {
+  Bytes pairs;
+  for (int i = 0; i < 1'000'000; ++i) {
+    mcap::append_string(pairs, std::to_string(i));
+    mcap::append_string(pairs, "");
+  }
+  Bytes content;
+  mcap::append_string(content, "astrolabe.run");
+  append(content, static_cast<std::uint32_t>(pairs.size()));
+  append(content, pairs);
+  Bytes file = start_of_file();
+  mcap::append_record(file, mcap::Op::metadata, content);
+  EXPECT_THAT(reading(file).complaint, HasSubstr("bad metadata"));
+}
+
+TEST(BoundedMcap, SamplesThatPackFarBetterThanAnyDriveAreRefused) {
+  Bytes definitions, message, chunk;
+  mcap::append_record(
+      definitions, mcap::Op::schema,
+      mcap::encode(mcap::Schema{1, std::string(ros2::pose_stamped_type().name), "ros2msg", ""}));
+  mcap::append_record(definitions, mcap::Op::channel, mcap::encode(mcap::Channel{1, 1, "/truth", "cdr", {}}));
+  const Bytes pose = ros2::encode_truth({});
+  mcap::append_record(message, mcap::Op::message, mcap::encode(mcap::Message{1, 0, 0, 0, pose}));
+  while (chunk.size() < 12 * kMebibyte) append(chunk, message);  // the same pose a hundred thousand times
+  Bytes file = start_of_file();
+  append_chunk(file, compress_zstd(definitions), definitions.size());
+  const Bytes packed = compress_zstd(chunk);
+  for (int i = 0; i < 5; ++i) append_chunk(file, packed, chunk.size());
+  EXPECT_THAT(reading(file).complaint, HasSubstr("x.mcap holds more samples than"));
+}
+
+}  // namespace
+}  // namespace astro::recording

@@ -1,0 +1,297 @@
+#include "host/robot/motion/drive.hpp"
+
+#include <gmock/gmock.h>
+
+#include <numbers>
+
+#include "host/robot/motion/paths.hpp"
+#include "tests/support/base/sentences.hpp"
+#include "tests/support/links/fake_link.hpp"
+
+namespace astro::robot {
+namespace {
+
+using namespace protocol;  // NOLINT(google-build-using-namespace)
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using test::FakeLink;
+using test::FakeRobot;
+using test::Fate;
+using testing::HasSubstr;
+
+TEST(Paths, SquareIsFourSidesAndFourExactQuarterTurns) {
+  for (const Sense sense : {Sense::cw, Sense::ccw}) {
+    const Path path = square(3, sense, {0.2, 0.5});
+    ASSERT_EQ(path.size(), 8U);
+    for (std::size_t i = 0; i < 8; i += 2) {
+      EXPECT_EQ(path[i].kind, SegmentKind::line);
+      EXPECT_EQ(path[i].length_nm, 3'000'000'000);
+      EXPECT_EQ(path[i].speed_umps, 200'000);
+      EXPECT_EQ(path[i + 1].kind, SegmentKind::spin);
+      EXPECT_EQ(path[i + 1].angle, sense == Sense::cw ? -(std::int64_t{1} << 30) : std::int64_t{1} << 30);
+      EXPECT_EQ(path[i + 1].yaw_rate_uradps, 500'000);
+    }
+  }
+}
+
+TEST(Paths, CircleGoesRoundByWholeTurnsAlongItsCircumference) {
+  const Path path = circle(0.5, 2, Sense::cw);
+  ASSERT_EQ(path.size(), 1U);
+  EXPECT_EQ(path[0].kind, SegmentKind::arc);
+  EXPECT_EQ(path[0].angle, -(std::int64_t{2} << 32));
+  EXPECT_NEAR(static_cast<double>(path[0].length_nm), 2e9 * std::numbers::pi, 0.5);  // rounded to 1 nm
+}
+
+TEST(Paths, DegreesThatAreDyadicTurnsAreExact) {
+  EXPECT_EQ(spin(turns_from_degrees(-45))[0].angle, -(std::int64_t{1} << 29));
+  EXPECT_EQ(line(-0.25)[0].length_nm, -250'000'000);
+}
+
+TEST(Paths, RefusesWhatASegmentCannotHold) {
+  EXPECT_THROW(line(std::nan("")), Error);
+  EXPECT_THROW(line(1e12), Error);
+  EXPECT_THROW(square(-1, Sense::cw), Error);
+  EXPECT_THROW(circle(0, 1, Sense::cw), Error);
+  EXPECT_THROW(line(1, {-1, 0}), Error);
+}
+
+class Drive : public testing::Test {
+ protected:
+  FakeLink link;
+  Client client{link};
+  void SetUp() override { client.connect(); }
+};
+
+TEST_F(Drive, WhatIsTooLargeIsToldInAFewDigits) {
+  const auto why = [](const auto& work) {
+    try {
+      work();
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(why([] { line(1e308); }), testing::EndsWith(" of 1e+308 is not possible"));
+  DriveSession session(client);
+  EXPECT_EQ(why([&] { session.set_velocity(1e308, 0); }), "a speed in m/s of 1e+308 is not possible");
+}
+
+TEST_F(Drive, RunsAPathLongerThanTheQueueInOrderAndDisarmsAtTheEnd) {
+  Path path = square(1, Sense::ccw);
+  const Path again = path;
+  path.insert(path.end(), again.begin(), again.end());
+  std::vector<std::uint16_t> done;
+  {
+    DriveHooks hooks;
+    hooks.segment_done = [&](const SegmentDone& event) { done.push_back(event.tag); };
+    DriveSession session(client, hooks);
+    session.run(path);
+    EXPECT_EQ(link.robot.mode, Mode::idle);
+  }
+  EXPECT_EQ(link.robot.mode, Mode::disarmed);
+  ASSERT_EQ(link.robot.segments.size(), 16U);
+  for (std::size_t i = 0; i < 16; ++i) {
+    EXPECT_EQ(link.robot.segments[i].angle, path[i].angle);
+    EXPECT_EQ(done[i], i + 1);
+  }
+}
+
+TEST_F(Drive, IsNotDelayedByWaitingForRoomInTheQueue) {
+  const auto start = client.now();
+  DriveSession(client).run(Path(20, line(1)[0]));
+  const auto driven = microseconds(20 * FakeRobot::kSegment_us);
+  EXPECT_LT(client.now() - start, driven + milliseconds(100));
+}
+
+TEST_F(Drive, EndsEvenIfAllItsEventsAreLost) {
+  link.robot.mute_events = true;
+  DriveSession session(client);
+  session.run(square(1, Sense::cw));
+  EXPECT_EQ(link.robot.segments.size(), 8U);
+}
+
+TEST_F(Drive, KeepsASimulatorInFastMotionGoing) {
+  link.rate = 300;
+  link.waits_after_us = 100'000;
+  client.request(SetTelemetry{10, 0});
+  const auto start = client.now();
+  DriveSession(client).run(Path(40, line(1)[0]));  // 12 s of the robot's time
+  EXPECT_LT(client.now() - start, milliseconds(200));
+}
+
+TEST_F(Drive, ClearsWhatAKilledProgramLeftBehindAndSaysSo) {
+  link.robot.raise(Fault::command_timeout);
+  link.robot.raise(Fault::link_lost);
+  std::string notice;
+  DriveHooks hooks;
+  hooks.notice = [&](const std::string& sentence) { notice = sentence; };
+  DriveSession(client, hooks).run(line(1));
+  EXPECT_EQ(notice, "cleared command_timeout, link_lost, which an earlier drive left behind");
+}
+
+TEST_F(Drive, DoesNotClearAnyOtherFault) {
+  link.robot.raise(Fault::link_lost);
+  link.robot.raise(Fault::stall);
+  EXPECT_THAT(support::sentence_of([&] { DriveSession session(client); }),
+              HasSubstr("link_lost, stall; remove its cause, then run 'astrolabe faults --clear'"));
+  EXPECT_NE(link.robot.latched, 0U);
+}
+
+TEST_F(Drive, AFaultOnTheWayEndsItByName) {
+  DriveHooks hooks;
+  hooks.segment_done = [&](const SegmentDone&) { link.robot.raise(Fault::over_speed); };
+  DriveSession session(client, hooks);
+  try {
+    session.run(square(1, Sense::cw));
+    FAIL();
+  } catch (const DriveFault& stopped) {
+    EXPECT_EQ(stopped.fault(), Fault::over_speed);
+    EXPECT_THAT(stopped.what(), HasSubstr("the robot stopped by itself: over_speed"));
+  }
+}
+
+TEST_F(Drive, AFaultWhoseEventIsLostIsFoundByAsking) {
+  DriveHooks hooks;
+  hooks.segment_done = [&](const SegmentDone&) {
+    link.robot.mute_events = true;
+    link.robot.raise(Fault::stall);
+  };
+  DriveSession session(client, hooks);
+  EXPECT_THROW(session.run(Path(3, line(1)[0])), DriveFault);
+}
+
+TEST_F(Drive, CtrlCStopsThenDisarms) {
+  bool pressed = false;
+  DriveHooks hooks;
+  hooks.interrupted = [&] { return pressed; };
+  hooks.segment_done = [&](const SegmentDone&) { pressed = true; };
+  {
+    DriveSession session(client, hooks);
+    EXPECT_THROW(session.run(square(1, Sense::cw)), Interrupted);
+  }
+  EXPECT_EQ(link.robot.mode, Mode::disarmed);
+  const auto& seen = link.robot.seen;
+  const auto stop = std::find(seen.begin(), seen.end(), Stop::kId);
+  ASSERT_NE(stop, seen.end());
+  EXPECT_NE(std::find(stop, seen.end(), Disarm::kId), seen.end());
+}
+
+class InterruptedDrive : public Drive {
+ protected:
+  /// Drives until the first segment is done; `then` is called when Ctrl-C is pressed.
+  template <class Then>
+  void drive_until_ctrl_c(Then then) {
+    DriveHooks hooks;
+    hooks.interrupted = [&] { return pressed_; };
+    hooks.segment_done = [&](const SegmentDone&) {
+      if (!std::exchange(pressed_, true)) then();
+    };
+    DriveSession session(client, hooks);
+    session.run(square(1, Sense::cw));
+  }
+
+  bool pressed_ = false;
+};
+
+TEST_F(InterruptedDrive, SaysSoOnlyOnceTheRobotConfirmedThatItIsAtRestAndDisarmed) {
+  try {
+    drive_until_ctrl_c([] {});
+    FAIL();
+  } catch (const Interrupted& stopped) {
+    EXPECT_STREQ(stopped.what(), "stopped: the robot is at rest and disarmed");
+  }
+  EXPECT_EQ(link.robot.mode, Mode::disarmed);
+}
+
+TEST_F(InterruptedDrive, OfARobotThatRefusesToStopDisarmsAndSaysThatTheStopIsNotConfirmed) {
+  try {
+    drive_until_ctrl_c([&] { link.robot.refuse_next = ErrorReply{ErrorCode::busy, 0}; });
+    FAIL();
+  } catch (const NotStopped& error) {
+    EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("did not confirm"), HasSubstr("refused Stop")));
+  }
+  EXPECT_EQ(link.robot.mode, Mode::disarmed);
+}
+
+TEST_F(InterruptedDrive, OfARobotThatNoLongerAnswersSaysThatTheStopIsNotConfirmed) {
+  EXPECT_THROW(drive_until_ctrl_c([&] { link.fate = [](bool, std::uint8_t) { return Fate::lost; }; }),
+               NotStopped);
+}
+
+TEST_F(InterruptedDrive, OfARobotThatIsNotDisarmedSaysThatTheStopIsNotConfirmed) {
+  EXPECT_THROW(drive_until_ctrl_c([&] {
+                 link.fate = [](bool, std::uint8_t id) {
+                   return id == Disarm::kId ? Fate::lost : Fate::arrives;
+                 };
+               }),
+               NotStopped);
+}
+
+TEST_F(InterruptedDrive, EndsWithTheFaultThatWasLatchedOnTheWayToRest) {
+  EXPECT_THROW(drive_until_ctrl_c([&] {
+                 link.fate = [this](bool to_robot, std::uint8_t id) {
+                   if (to_robot && id == Stop::kId) link.robot.raise(Fault::stall);
+                   return Fate::arrives;
+                 };
+               }),
+               DriveFault);
+}
+
+TEST_F(Drive, ThatFailsAndCannotStopTheRobotEitherSaysSoInANotice) {
+  std::string notice;
+  DriveHooks hooks;
+  hooks.notice = [&](const std::string& sentence) { notice = sentence; };
+  try {
+    DriveSession session(client, hooks);
+    link.fate = [](bool, std::uint8_t) { return Fate::lost; };
+    throw Error("the disk is full");
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "the disk is full");
+  }
+  EXPECT_THAT(notice, HasSubstr("did not confirm"));
+}
+
+TEST_F(Drive, ThatIsEndedTellsThatTheRobotDidNotConfirmIt) {
+  DriveSession session(client);
+  session.set_velocity(0.1, 0);
+  link.fate = [](bool, std::uint8_t) { return Fate::lost; };
+  EXPECT_THROW(session.end(), NotStopped);
+}
+
+TEST_F(Drive, SaysThatAnotherProgramStoppedTheRobot) {
+  DriveSession session(client);
+  link.fate = [&, met = false](bool, std::uint8_t id) mutable {
+    if (id == Ping::kId && !std::exchange(met, true)) {
+      link.robot.receive(protocol::Frame(Stop{}, 999).bytes());
+      link.robot.event(SegmentDone{1, SegmentOutcome::aborted, link.robot.device_us});
+    }
+    return Fate::arrives;
+  };
+  EXPECT_THAT(support::sentence_of([&] { session.run(line(1)); }), HasSubstr("segment 1 was aborted"));
+}
+
+TEST_F(Drive, StoppingOneselfIsNoError) {
+  DriveSession session(client);
+  session.set_velocity(0.1, 0);
+  session.stop();
+  session.run(line(1));
+}
+
+TEST_F(Drive, ARestartOnTheWayIsALostLink) {
+  DriveHooks hooks;
+  hooks.segment_done = [&](const SegmentDone&) { link.robot.restart(); };
+  DriveSession session(client, hooks);
+  EXPECT_THROW(session.run(Path(3, line(1)[0])), LinkLost);
+}
+
+TEST_F(Drive, EndsQuietlyWhenTheLinkIsGone) {
+  {
+    DriveSession session(client);
+    link.stays_away = seconds(100);
+    link.drop();
+  }
+  EXPECT_EQ(link.robot.mode, Mode::idle) << "nobody could tell it";
+}
+
+}  // namespace
+}  // namespace astro::robot

@@ -1,0 +1,295 @@
+#include "host/robot/sharing/shared_port.hpp"
+
+#include <arpa/inet.h>
+#include <gmock/gmock.h>
+#include <netinet/in.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <sys/wait.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "host/robot/client/client.hpp"
+#include "host/robot/port/serial_port.hpp"
+#include "host/robot/sharing/port_socket.hpp"
+#include "tests/support/links/pty.hpp"
+#include "tests/support/programs/served_robot.hpp"
+
+// One port and several programs: what only an operating system can show. The other programs are connections
+// of this process, or child processes if a program has to be killed.
+namespace astro::robot {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using test::Pty;
+using test::ServedRobot;
+using testing::HasSubstr;
+
+class SharedPortOfTheSystem : public testing::Test {
+ protected:
+  std::string key() const {
+    struct stat about {};
+    ::stat(pty.path().c_str(), &about);
+    return port_key(about);
+  }
+  bool somebody_listens() const { return static_cast<bool>(connect_to(key(), seconds(1)).connection); }
+
+  std::string why_not() const {
+    try {
+      open_shared_port(pty.path());
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "opened";
+  }
+
+  /// A child process that holds the port, reports it and waits to be ended.
+  pid_t holder_in_a_child() {
+    int ready[2];
+    if (::pipe(ready) != 0) throw std::runtime_error("no pipe");
+    const pid_t child = ::fork();
+    if (child == 0) {
+      ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that fails leaves nobody behind
+      const auto transport = open_shared_port(pty.path());
+      const char byte = 1;
+      if (::write(ready[1], &byte, 1) == 1) ::pause();
+      ::_exit(0);
+    }
+    char byte = 0;
+    if (::read(ready[0], &byte, 1) != 1) throw std::runtime_error("the child does not hold the port");
+    ::close(ready[0]);
+    ::close(ready[1]);
+    return child;
+  }
+
+  Pty pty;
+};
+
+TEST_F(SharedPortOfTheSystem, TheSecondProgramWorksAsIfItHadThePort) {
+  const ServedRobot robot(pty.master());
+  Client first(open_shared_port(pty.path()));
+  first.connect();
+  Client second(open_shared_port(pty.path()));
+  EXPECT_EQ(second.connect().robot_name.view(), "astro");
+  EXPECT_EQ(second.request(protocol::GetParameterInfo{2}).name.view(), "b");
+  EXPECT_EQ(first.request(protocol::GetParameterInfo{0}).name.view(), "c_R");
+  EXPECT_EQ(second.name(), pty.path());
+}
+
+/// The exit code of a program of user 65534.
+int as_another_user(const std::function<int()>& work) {
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(::setgid(65'534) == 0 && ::setuid(65'534) == 0 ? work() : 99);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 98;
+}
+
+TEST_F(SharedPortOfTheSystem, AProgramOfAnotherUserIsNotServed) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root can be somebody else for a moment";
+  const auto port = open_shared_port(pty.path());
+  EXPECT_EQ(as_another_user([&] {
+              const HolderConnection served = connect_to(key(), seconds(1));
+              return served.connection ? 1 : 0;
+            }),
+            0);
+  EXPECT_TRUE(somebody_listens()) << "and its own user's are";
+}
+
+TEST_F(SharedPortOfTheSystem, ANameThatAProgramOfAnotherUserHoldsIsSaidAndNotBelieved) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root can be somebody else for a moment";
+  int ready[2], done[2];
+  ASSERT_EQ(::pipe(ready) + ::pipe(done), 0);
+  const pid_t stranger = ::fork();
+  if (stranger == 0) {
+    char byte = 0;
+    ::close(done[1]);
+    if (::setuid(65'534) != 0) ::_exit(1);
+    const Descriptor listener = listen_at(key());
+    ::_exit(::write(ready[1], "x", 1) == 1 && ::read(done[0], &byte, 1) == 0 ? 0 : 1);
+  }
+  char byte = 0;
+  ASSERT_EQ(::read(ready[0], &byte, 1), 1);
+  std::string said;
+  {
+    const auto port =
+        open_shared_port(pty.path(), kDefaultBaud, [&](const std::string& text) { said = text; });
+    EXPECT_THAT(said, HasSubstr("no other program can stop or watch this robot"));
+  }
+  for (const int end : {ready[0], ready[1], done[0], done[1]}) ::close(end);
+  ::waitpid(stranger, nullptr, 0);
+}
+
+TEST_F(SharedPortOfTheSystem, IsFoundWhateverTheEnvironmentSays) {
+  const ServedRobot robot(pty.master());
+  ::setenv("XDG_RUNTIME_DIR", "/nonexistent", 1);
+  Client first(open_shared_port(pty.path()));
+  first.connect();
+  ::unsetenv("XDG_RUNTIME_DIR");
+  Client second(open_shared_port(pty.path()));
+  EXPECT_EQ(second.connect().robot_name.view(), "astro");
+}
+
+TEST_F(SharedPortOfTheSystem, TheSocketGoesWithTheProgram) {
+  {
+    const auto port = open_shared_port(pty.path());
+    EXPECT_TRUE(somebody_listens());
+  }
+  // The check was a connection, for which a process may be left behind until it notices that it has ended.
+  const auto end = std::chrono::steady_clock::now() + seconds(10);
+  while (somebody_listens() && std::chrono::steady_clock::now() < end) ::usleep(20'000);
+  EXPECT_FALSE(somebody_listens());
+}
+
+TEST_F(SharedPortOfTheSystem, AGuestThatIsTurnedAwayReadsWhyThoughItGoesOnWriting) {
+  const ServedRobot robot(pty.master());
+  Client first(open_shared_port(pty.path()));
+  first.connect();
+  std::vector<std::unique_ptr<Client>> many;
+  for (int i = 0; i < 32; ++i) {
+    many.push_back(std::make_unique<Client>(open_shared_port(pty.path())));
+    many.back()->connect();
+    many.back()->request(protocol::SetTelemetry{1000, protocol::Telemetry::kPose});
+  }
+  Client last(open_shared_port(pty.path()));
+  last.connect();
+  try {
+    last.request(protocol::SetTelemetry{1000, protocol::Telemetry::kPose});
+    ADD_FAILURE() << "there is no place left";
+  } catch (const LinkLost& lost) {
+    EXPECT_THAT(lost.what(), HasSubstr("too many programs"));
+  }
+}
+
+TEST_F(SharedPortOfTheSystem, AnExclusiveHolderIsSaidToUseThePort) {
+  const auto exclusive = open_transport(pty.path());
+  EXPECT_THAT(why_not(), HasSubstr(pty.path() + " is in use by another program"));
+}
+
+TEST_F(SharedPortOfTheSystem, ALostLineIsALostLinkForEverybody) {
+  ServedRobot robot(pty.master());
+  Client first(open_shared_port(pty.path()));
+  first.connect();
+  Client second(open_shared_port(pty.path()));
+  second.connect();
+  robot.end();
+  pty.hang_up();
+  for (Client* client : {&first, &second}) {
+    try {
+      client->pump(seconds(5));
+      FAIL();
+    } catch (const LinkLost& lost) {
+      EXPECT_THAT(lost.what(), HasSubstr("lost " + pty.path() + ": it was unplugged, switched off or ended"));
+    }
+  }
+}
+
+TEST_F(SharedPortOfTheSystem, AKilledHolderIsNamedAndItsPlaceTaken) {
+  const ServedRobot robot(pty.master());
+  const pid_t holder = holder_in_a_child();
+  Client client(open_shared_port(pty.path()));
+  client.connect();
+  ::kill(holder, SIGKILL);
+  ::waitpid(holder, nullptr, 0);
+  try {
+    client.pump(seconds(5));
+    FAIL();
+  } catch (const LinkLost& lost) {
+    EXPECT_THAT(lost.what(),
+                HasSubstr("the program that held the port (process id " + std::to_string(holder)));
+    EXPECT_THAT(lost.what(), HasSubstr("has ended"));
+  }
+  client.reconnect(seconds(5));
+  EXPECT_EQ(client.request(protocol::GetStatus{}).mode, protocol::Mode::disarmed);
+  Client next(open_shared_port(pty.path()));
+  next.connect();
+}
+
+TEST_F(SharedPortOfTheSystem, AStoppedHolderIsNamedWithinBoundedTime) {
+  const ServedRobot robot(pty.master());
+  const pid_t holder = holder_in_a_child();
+  Client client(open_shared_port(pty.path()));
+  client.connect();
+  ::kill(holder, SIGSTOP);
+  ::waitpid(holder, nullptr, WUNTRACED);
+  const std::string named = "the program with process id " + std::to_string(holder);
+  try {
+    client.request(protocol::GetStatus{}, {.timeout = milliseconds(20), .tries = 3});
+    ADD_FAILURE() << "answered";
+  } catch (const LinkLost& lost) {
+    EXPECT_THAT(lost.what(), HasSubstr(named));
+    EXPECT_THAT(lost.what(), HasSubstr("holds the port and does not answer"));
+  }
+  EXPECT_THAT(why_not(), HasSubstr(named)) << "a program that comes later";
+  ::kill(holder, SIGKILL);
+  ::waitpid(holder, nullptr, 0);
+}
+
+TEST_F(SharedPortOfTheSystem, AHolderThatEndsLeavesTheOthersTheirPort) {
+  const ServedRobot robot(pty.master());
+  std::optional<Client> first(open_shared_port(pty.path()));
+  first->connect();
+  Client second(open_shared_port(pty.path()));
+  second.connect();
+  first.reset();
+  EXPECT_EQ(second.request(protocol::GetStatus{}).mode, protocol::Mode::disarmed);
+  Client third(open_shared_port(pty.path()));
+  EXPECT_EQ(third.connect().robot_name.view(), "astro") << "still served";
+}
+
+TEST_F(SharedPortOfTheSystem, WhatServesTheOthersEndsWithTheLastOfThem) {
+  const ServedRobot robot(pty.master());
+  {
+    std::optional<Client> first(open_shared_port(pty.path()));
+    first->connect();
+    Client second(open_shared_port(pty.path()));
+    second.connect();
+    first.reset();
+    second.request(protocol::GetStatus{});
+  }
+  const auto free = [&] {
+    try {
+      open_transport(pty.path());
+    } catch (const Error&) {
+      return false;
+    }
+    return true;
+  };
+  const auto end = std::chrono::steady_clock::now() + seconds(10);
+  while (!free() && std::chrono::steady_clock::now() < end) ::usleep(2000);
+  EXPECT_TRUE(free());
+  EXPECT_FALSE(somebody_listens());
+}
+
+TEST_F(SharedPortOfTheSystem, ALoopbackAddressIsSharedLikeAPort) {
+  const int listener = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  auto* any = reinterpret_cast<sockaddr*>(&address);
+  ASSERT_EQ(::bind(listener, any, size), 0);
+  ASSERT_EQ(::listen(listener, 1), 0);
+  ASSERT_EQ(::getsockname(listener, any, &size), 0);
+  const std::string name = ":" + std::to_string(ntohs(address.sin_port));
+  {
+    ServedRobot robot = ServedRobot::accepting(listener);
+    Client first(open_shared_port("tcp:localhost" + name));
+    first.connect();
+    Client second(open_shared_port("tcp:127.0.0.1" + name));  // another name of the same
+    EXPECT_EQ(second.connect().robot_name.view(), "astro");
+    EXPECT_EQ(second.request(protocol::GetParameterInfo{2}).name.view(), "b");
+    robot.end();
+    EXPECT_THROW(second.pump(seconds(5)), LinkLost);
+  }
+  ::close(listener);
+}
+
+}  // namespace
+}  // namespace astro::robot

@@ -1,0 +1,288 @@
+#include "host/simulation/server/server.hpp"
+
+#include <gmock/gmock.h>
+#include <poll.h>
+
+#include <array>
+#include <atomic>
+#include <fstream>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "common/safety/fault.hpp"
+#include "host/base/error.hpp"
+#include "host/robot/client/client.hpp"
+#include "host/robot/motion/drive.hpp"
+#include "host/robot/motion/paths.hpp"
+#include "host/robot/parameters/parameters.hpp"
+#include "host/robot/port/open_transport.hpp"
+#include "host/simulation/server/pty.hpp"
+#include "host/truth/live/socket_source.hpp"
+#include "tests/support/base/temporary_folder.hpp"
+
+namespace astro::simulation {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using std::chrono::steady_clock;
+
+/// A server on a thread of its own, and a host at its pty.
+class Served {
+ public:
+  explicit Served(bool fast, const std::filesystem::path& flash = {})
+      : server_(sim::Config(), MocapConfig(), {folder_.path() / "robot.pty", flash, fast}),
+        thread_([this] { server_.run([this] { return stop_.load(); }); }) {}
+  ~Served() {
+    stop_ = true;
+    thread_.join();
+  }
+  std::string port() const { return folder_.path() / "robot.pty"; }
+  std::filesystem::path folder() const { return folder_.path(); }
+
+ private:
+  test::TemporaryFolder folder_;
+  std::atomic<bool> stop_ = false;
+  Server server_;
+  std::thread thread_;
+};
+
+struct Host {
+  explicit Host(const Served& served) : client(robot::open_transport(served.port())) { client.connect(); }
+  std::uint64_t device_us() { return client.request(protocol::Ping{}).device_time_us; }
+  robot::Client client;
+};
+
+TEST(Server, InRealTimeNeverRunsAheadOfTheWallClock) {
+  const Served served(false);
+  Host host(served);
+  const auto wall = steady_clock::now();
+  const std::uint64_t start_us = host.device_us();
+  // Without any requests, because each request may cause an early step as its answer.
+  while (steady_clock::now() - wall < milliseconds(400)) ::poll(nullptr, 0, 5);
+  const std::uint64_t passed_us = host.device_us() - start_us;
+  const auto wall_us =
+      std::chrono::duration_cast<std::chrono::microseconds>(steady_clock::now() - wall).count();
+  constexpr std::int64_t kTwoWords_us = 2 * 1000;
+  EXPECT_LE(static_cast<std::int64_t>(passed_us), wall_us + kTwoWords_us);
+  EXPECT_GE(passed_us, 100'000U) << "and it runs, also on a machine with much else to do";
+}
+
+TEST(Server, InRealTimeNeverRunsAheadForAHostThatSpeaksOften) {
+  const Served served(false);
+  Host host(served);
+  const auto wall = steady_clock::now();
+  const std::uint64_t start_us = host.device_us();
+  std::uint64_t now_us = start_us;
+  int words = 0;
+  for (; steady_clock::now() - wall < milliseconds(400); ++words) now_us = host.device_us();
+  const auto wall_us =
+      std::chrono::duration_cast<std::chrono::microseconds>(steady_clock::now() - wall).count();
+  constexpr std::int64_t kTwoSteps_us = 2 * 1000;
+  EXPECT_LE(static_cast<std::int64_t>(now_us - start_us), wall_us + kTwoSteps_us) << words << " words";
+}
+
+/// Stores a byte that it receives in its flash after some time, and then acknowledges it.
+class Keeper : public astro::simulation::ServedRobot {
+ public:
+  void step() override {
+    ++now_ms_;
+    if (now_ms_ != keeps_at_ms_) return;
+    kept_[0] = heard_;
+    answer_ = heard_;
+  }
+  std::uint64_t now_us() override { return now_ms_ * 1000; }
+  std::size_t room(int) override { return 1; }
+  void write(int, std::span<const std::uint8_t> bytes) override {
+    heard_ = bytes[0];
+    keeps_at_ms_ = now_ms_ + 45;
+  }
+  std::size_t read(int, std::span<std::uint8_t> into) override {
+    if (answer_ == 0) return 0;
+    into[0] = std::exchange(answer_, std::uint8_t{0});
+    return 1;
+  }
+  std::vector<recording::TruthSample> take_truth() override { return {}; }
+  std::span<const std::uint8_t> flash() override { return kept_; }
+
+ private:
+  std::uint64_t now_ms_ = 0, keeps_at_ms_ = 0;
+  std::uint8_t heard_ = 0, answer_ = 0;
+  std::array<std::uint8_t, 4096> kept_{};
+};
+
+TEST(Server, HasTheFlashInItsFileBeforeTheHostHearsThatItIsKept) {
+  const test::TemporaryFolder folder;
+  const auto pty = folder.path() / "robot.pty", flash = folder.path() / "flash";
+  Server server(std::make_unique<Keeper>(), {pty, flash});
+  std::atomic<bool> stop = false;
+  std::thread thread([&] { server.run([&] { return stop.load(); }); });
+  const auto host = robot::open_transport(pty);
+  for (const std::uint8_t byte : {std::uint8_t{'a'}, std::uint8_t{'b'}, std::uint8_t{'c'}}) {
+    host->write(std::array{byte});
+    std::array<std::uint8_t, 1> answer{};
+    EXPECT_EQ(host->read(answer, seconds(10)), 1U);
+    EXPECT_EQ(answer[0], byte);
+    std::ifstream file(flash, std::ios::binary);  // at once, because the power may fail now
+    EXPECT_EQ(file.get(), byte);
+  }
+  stop = true;
+  thread.join();
+}
+
+std::string refusal(const std::filesystem::path& flash) {
+  const test::TemporaryFolder folder;
+  try {
+    const Server server(std::make_unique<Keeper>(), {folder.path() / "robot.pty", flash});
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Server, RefusesAFlashFileThatItCannotWriteBeforeAnyRobotRuns) {
+  const test::TemporaryFolder folder;
+  const auto flash = folder.path() / "flash";
+  std::filesystem::create_directory(folder.path() / "flash.part");
+  EXPECT_THAT(refusal(flash), testing::HasSubstr("flash.part"));
+  EXPECT_THAT(refusal("/proc/robot.flash"), testing::HasSubstr("/proc/robot.flash"))
+      << "where nobody makes a file";
+  std::filesystem::remove(folder.path() / "flash.part");
+  EXPECT_EQ(refusal(flash), "");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "flash.part")) << "the trial leaves nothing";
+}
+
+TEST(Server, InFastMotionRunsAheadOfAHostThatKeepsUp) {
+  const Served served(true);
+  Host host(served);
+  host.client.request(protocol::SetTelemetry{10, protocol::Telemetry::kPose});
+  const auto wall = steady_clock::now();
+  robot::DriveSession drive(host.client);
+  const std::uint64_t start_us = host.device_us();
+  drive.run(robot::line(10, {0.5, 0}));  // 21 s of the robot's time
+  const double virtual_s = static_cast<double>(host.device_us() - start_us) / 1e6;
+  const double wall_s = std::chrono::duration<double>(steady_clock::now() - wall).count();
+  EXPECT_GT(virtual_s, 20);
+  EXPECT_GT(virtual_s, 3 * wall_s) << virtual_s << " s in " << wall_s
+                                   << " s";  // by hundreds where nothing else runs
+}
+
+TEST(Server, InFastMotionStillNoticesAHostThatFallsSilent) {
+  const Served served(true);
+  truth::SocketSource cameras(truth::mocap_socket_of(served.port()));
+  {
+    Host host(served);
+    host.client.request(protocol::Arm{});
+    host.client.request(robot::line(100, {0.2, 0}).front());
+  }  // disconnected without Disarm
+  // The robot's own time-out and the ramp after it take 0.6 s of its time: three camera seconds are enough.
+  std::size_t seen = 0;
+  const auto end = steady_clock::now() + seconds(30);
+  while (seen < 180 && steady_clock::now() < end) seen += cameras.poll().size();
+  ASSERT_GE(seen, 180U);
+  Host second(served);
+  EXPECT_EQ(second.client.request(protocol::GetFaults{}).latched, bit(Fault::link_lost));
+}
+
+TEST(Server, TheCamerasSeeTheRobotDrive) {
+  const Served served(true);
+  truth::SocketSource cameras(truth::mocap_socket_of(served.port()));
+  Host host(served);
+  robot::DriveSession drive(host.client);
+  drive.run(robot::line(0.5));
+  drive.pump(milliseconds(20));
+  const auto samples = cameras.poll();
+  ASSERT_GT(samples.size(), 60U);
+  const double gone_m =
+      std::hypot(samples.back().x_m - samples.front().x_m, samples.back().y_m - samples.front().y_m);
+  EXPECT_NEAR(gone_m, 0.5, 0.01);  // wheels of nominal size; slip and camera noise are some millimetres
+}
+
+TEST(Server, KeepsTheFlashInItsFile) {
+  const test::TemporaryFolder folder;
+  const auto flash = folder.path() / "flash";
+  for (const double expected : {0.29, 0.2886}) {
+    const Served served(true, flash);
+    Host host(served);
+    auto parameters = robot::RemoteParameters::fetch(host.client);
+    EXPECT_EQ(std::get<double>(parameters.value("b")), expected);
+    parameters.stage("b", 0.2886);
+    parameters.commit();
+  }
+  EXPECT_EQ(std::filesystem::file_size(flash), sim::Flash::kBytes);
+}
+
+TEST(Server, TakesItsFilesAwayWithIt) {
+  std::filesystem::path folder;
+  {
+    const Served served(true);
+    folder = served.folder();
+    EXPECT_TRUE(std::filesystem::exists(served.port()));
+    EXPECT_TRUE(std::filesystem::exists(served.port() + ".mocap"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "robot.pty"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "robot.pty.mocap"));
+}
+
+TEST(Pty, DoesNotReplaceWhatIsNoSimulators) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.path() / "precious";
+  std::ofstream(path) << "text";
+  EXPECT_THROW(Pty{path}, Error);
+  EXPECT_EQ(std::filesystem::file_size(path), 4U);
+}
+
+TEST(Pty, ReplacesALinkThatLeadsNowhere) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.path() / "robot.pty";
+  std::filesystem::create_symlink("/dev/pts/no-such", path);
+  const Pty pty(path);
+  EXPECT_TRUE(std::filesystem::exists(path));
+}
+
+TEST(Pty, KnowsWhetherAHostIsThere) {
+  const test::TemporaryFolder folder;
+  const Pty pty(folder.path() / "robot.pty");
+  EXPECT_FALSE(pty.connected());
+  std::optional<std::unique_ptr<robot::Transport>> host(robot::open_transport(folder.path() / "robot.pty"));
+  EXPECT_TRUE(pty.connected());
+  host.reset();
+  EXPECT_FALSE(pty.connected());
+}
+
+TEST(RuntimeFolder, IsSweptOfWhatDeadSimulatorsLeft) {
+  namespace fs = std::filesystem;
+  const test::TemporaryFolder runtime, elsewhere;
+  const auto in = [&](const char* name) { return runtime.path() / name; };
+  const Pty here(in("here.pty"));
+  const Pty there(elsewhere.path() / "robot");
+  fs::create_symlink(there.link(), in("there.pty"));
+  fs::create_symlink("/dev/pts/nobody", in("dead.pty"));
+  fs::create_symlink(fs::read_symlink(here.link()),
+                     in("reused.pty"));  // the number of a dead simulator that was reused
+  fs::create_symlink(elsewhere.path() / "gone", in("gone.pty"));
+  fs::create_symlink("/dev/pts/nobody", in("dead.txt"));
+  for (const char* name : {"file.pty", "dead.pty.mocap.txt"}) std::ofstream(in(name)) << "kept";
+  fs::create_symlink(elsewhere.path() / "gone.mocap", in("gone.pty.mocap"));
+  sweep_dead_links(runtime.path());
+  std::vector<std::string> left;
+  for (const auto& entry : fs::directory_iterator(runtime.path())) left.push_back(entry.path().filename());
+  EXPECT_THAT(left, testing::UnorderedElementsAre("here.pty", "there.pty", "dead.txt", "file.pty",
+                                                  "dead.pty.mocap.txt"));
+  sweep_dead_links(elsewhere.path() / "no such folder");
+}
+
+TEST(Flash, ThatIsALinkIsRefusedAndNothingIsWrittenThroughOne) {
+  namespace fs = std::filesystem;
+  const test::TemporaryFolder folder;
+  std::ofstream(folder.path() / "precious") << "kept";
+  fs::create_symlink(folder.path() / "precious", folder.path() / "flash");
+  fs::create_symlink(folder.path() / "nothing", folder.path() / "dangling");
+  for (const char* name : {"flash", "dangling"})
+    EXPECT_THAT([&] { load_flash(folder.path() / name); },
+                testing::ThrowsMessage<Error>(testing::HasSubstr("is a link")));
+}
+
+}  // namespace
+}  // namespace astro::simulation
