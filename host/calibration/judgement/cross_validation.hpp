@@ -1,0 +1,57 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/calibration/judgement/before_after.hpp"
+#include "host/calibration/judgement/path_errors.hpp"
+#include "host/calibration/likelihood/maximum_likelihood.hpp"
+#include "host/calibration/motion/trajectory.hpp"
+#include "host/calibration/motion/wheel_factors.hpp"
+
+/// Whether new factors are better than those in use, judged on drives that they have not seen.
+///
+/// The runs are divided into groups. Factors are estimated from all groups but one, and the drives of that one are
+/// followed with them and with the factors in use. Factors from crude data fit their own drives well and others
+/// badly; here that shows before anybody loads them.
+namespace astro::calibration {
+
+/// One run with the factors in use, and with factors that were found without it.
+struct HeldOutRun {
+  RunErrors in_use, found;  // by dead reckoning
+  /// How much more likely the drive is with the factors that were found: difference of -2 log likelihood. The
+  /// path errors above grow with everything that slipped since the start; this weighs what each moment adds,
+  /// so it tells factors apart whose paths differ by less than the slip.
+  double gain = 0;
+};
+
+struct CrossValidation {
+  std::vector<HeldOutRun> runs;
+  /// For each group of runs that could not be held out, because the others do not determine all factors: why.
+  std::vector<std::string> not_judged;
+  /// unknown: of fewer than two drives.
+  Verdict verdict = Verdict::unknown;
+
+  /// Runs that are more likely with the new factors.
+  int better_on() const;
+};
+
+/// `in_use`: the factors to compare with. `all`: the estimate from all runs; its noise model, spacing of samples and
+/// dispersion are used for each group.
+///
+/// Cost    as many estimates as there are groups: one for each run, but ten at most.
+CrossValidation cross_validate(std::span<const Trajectory> runs, const WheelFactors& in_use,
+                               const MlEstimate& all, const MlOptions& options);
+
+/// better or worse where the mean gain differs from none at the 5 % level, one-sided; unknown for fewer than two.
+///
+/// For normal noise the variance of a gain is four times its mean. That is known before any drive, and counts as
+/// much as four drives would in what the drives themselves say about their scatter. Without it two drives
+/// could hardly show anything, however large the gain: Student's t would ask for gains that are equal within a
+/// sixth of their mean. With it alone a robot whose slip is not normal would be judged too boldly.
+///
+/// Source  Smyth 2004, moderated t statistic.
+Verdict judge_gains(std::span<const double> gains);
+
+}  // namespace astro::calibration

@@ -1,0 +1,134 @@
+#include "host/calibration/judgement/cross_validation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "tests/host/calibration/ml_drives.hpp"
+
+namespace astro::calibration {
+namespace {
+
+using simulation::study::DriveModel;
+
+TEST(Gains, OfOneDriveSayNothing) {
+  EXPECT_EQ(judge_gains({}), Verdict::unknown);
+  EXPECT_EQ(judge_gains(std::vector{1e6}), Verdict::unknown);
+}
+
+TEST(Gains, ThatAreLargeOnBothOfTwoDrivesAreEnough) {
+  EXPECT_EQ(judge_gains(std::vector{20.0, 40.0}), Verdict::better);
+  EXPECT_EQ(judge_gains(std::vector{-20.0, -40.0}), Verdict::worse);
+}
+
+TEST(Gains, ThatContradictEachOtherAreNoVerdictHoweverLargeTheyAre) {
+  EXPECT_EQ(judge_gains(std::vector{5e3, -4e3, 6e3, -3e3}), Verdict::undecided);
+}
+
+TEST(Gains, ThatAreAsSmallAsChanceMakesThemAreNoVerdict) {
+  EXPECT_EQ(judge_gains(std::vector{1.0, 0.5, 0.8, 1.2}), Verdict::undecided);
+}
+
+TEST(Gains, OfNothingAreNoVerdict) { EXPECT_EQ(judge_gains(std::vector{0.0, 0.0}), Verdict::unknown); }
+
+/// A robot whose factors in use are off by `wrong` in one of the ways that matter.
+enum class Wrong { ratio, scale, wheelbase };
+WheelFactors off_by(const WheelFactors& right, Wrong what, double wrong) {
+  switch (what) {
+    case Wrong::ratio:
+      return {right.c_r * (1 + wrong / 2), right.c_l * (1 - wrong / 2), right.b_m};
+    case Wrong::scale:
+      return {right.c_r * (1 + wrong), right.c_l * (1 + wrong), right.b_m};
+    case Wrong::wheelbase:
+      break;
+  }
+  return {right.c_r, right.c_l, right.b_m * (1 + wrong)};
+}
+
+Verdict verdict_on(const DriveModel& model, const WheelFactors& in_use, int runs, std::uint64_t seed) {
+  const MlOptions options{.clock_known = true};
+  const std::vector<Trajectory> drives = squares(model, runs, 3, seed);
+  const MlEstimate all = estimate_ml(drives, in_use, options);
+  return cross_validate(drives, in_use, all, options).verdict;
+}
+
+TEST(CrossValidation, ClaimsNoImprovementOfARobotWhoseFactorsAreRight) {
+  const DriveModel model = astro_drive();
+  std::printf("seeds 1 to 40\n");
+  for (const int runs : {2, 4, 10}) {
+    int claims = 0;
+    for (std::uint64_t seed = 1; seed <= 40; ++seed)
+      claims += verdict_on(model, model.actual, runs, seed) == Verdict::better;
+    std::printf("%2d runs: an improvement that is none is claimed of %d robots of 40\n", runs, claims);
+    EXPECT_LE(claims, 2) << runs << " runs";  // 5 %
+  }
+}
+
+TEST(CrossValidation, RecommendsTheNewFactorsForARobotThatIsOffByThreePerMille) {
+  const DriveModel model = astro_drive();
+  std::printf("seeds 101 to 140\n");
+  for (const Wrong what : {Wrong::ratio, Wrong::scale, Wrong::wheelbase}) {
+    int recommended = 0;
+    for (std::uint64_t seed = 101; seed <= 140; ++seed) {
+      const double wrong = seed % 2 == 0 ? 0.003 : -0.003;
+      recommended += verdict_on(model, off_by(model.actual, what, wrong), 10, seed) == Verdict::better;
+    }
+    std::printf("%s off by 0.3 %%: recommended for %d robots of 40\n",
+                what == Wrong::ratio   ? "wheel ratio"
+                : what == Wrong::scale ? "scale"
+                                       : "wheelbase",
+                recommended);
+    EXPECT_EQ(recommended, 40);
+  }
+}
+
+TEST(CrossValidation, SaysThatFactorsFromOtherRobotsAreWorse) {
+  // The estimate comes from drives whose truth jumped by a degree in every corner of one sense, as of a body that
+  // was moved on the robot: each drive contradicts the others.
+  const DriveModel model = astro_drive();
+  std::vector<Trajectory> drives = squares(model, 4);
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    const double stretch = i < 2 ? 1.02 : 0.98;  // a tracker whose calibration was done anew between the runs
+    for (BodySample& sample : drives[i].truth) {
+      sample.x_m *= stretch;
+      sample.y_m *= stretch;
+    }
+  }
+  const MlOptions options{.clock_known = true};
+  const MlEstimate all = estimate_ml(drives, model.actual, options);
+  EXPECT_NE(cross_validate(drives, model.actual, all, options).verdict, Verdict::better);
+}
+
+TEST(CrossValidation, ShowsTheErrorsOfEachDriveWithFactorsThatHaveNotSeenIt) {
+  const DriveModel model = astro_drive();
+  const MlOptions options{.clock_known = true};
+  const std::vector<Trajectory> drives = squares(model, 4);
+  const MlEstimate all = estimate_ml(drives, model.carried, options);
+  const CrossValidation judged = cross_validate(drives, model.carried, all, options);
+  ASSERT_EQ(judged.runs.size(), 4u);
+  EXPECT_EQ(judged.better_on(), 4);
+  EXPECT_TRUE(judged.not_judged.empty());
+  const PathErrors in_use = path_errors(drives, model.carried, options);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(judged.runs[i].in_use.name, drives[i].name);
+    EXPECT_LT(judged.runs[i].found.path_rms_m, judged.runs[i].in_use.path_rms_m);
+    // With the lever arm of this run alone or of all: a tenth.
+    EXPECT_NEAR(judged.runs[i].in_use.path_rms_m, in_use.runs[i].path_rms_m, 0.1 * in_use.runs[i].path_rms_m);
+  }
+}
+
+TEST(CrossValidation, NamesWhatCannotBeHeldOut) {
+  // A line and a spin: neither alone determines all three factors.
+  const DriveModel model = astro_drive();
+  const std::vector<Trajectory> drives{
+      simulation::study::synthetic_drive(simulation::study::line_course(3), model, "the line", kSeed),
+      simulation::study::synthetic_drive(simulation::study::spin_course(6.28), model, "the spin", kSeed + 1)};
+  const MlOptions options{.clock_known = true};
+  const MlEstimate all = estimate_ml(drives, model.carried, options);
+  const CrossValidation judged = cross_validate(drives, model.carried, all, options);
+  EXPECT_EQ(judged.verdict, Verdict::unknown);
+  EXPECT_EQ(judged.not_judged.size(), 2u);
+}
+
+}  // namespace
+}  // namespace astro::calibration
