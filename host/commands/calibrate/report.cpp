@@ -6,7 +6,7 @@
 #include "host/commands/shared/robot_view.hpp"
 #include "host/console/console.hpp"
 #include "host/experiment/analysis/report_input.hpp"
-#include "host/report/report.hpp"
+#include "host/report/sections/report.hpp"
 
 namespace astro::commands {
 

@@ -21,7 +21,7 @@
 #include "host/experiment/analysis/report_input.hpp"
 #include "host/experiment/drive/experiment.hpp"
 #include "host/experiment/files/method_names.hpp"
-#include "host/report/report.hpp"
+#include "host/report/sections/report.hpp"
 
 namespace astro::commands {
 namespace {

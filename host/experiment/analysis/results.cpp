@@ -9,7 +9,7 @@
 #include "host/experiment/files/experiment_folder.hpp"
 #include "host/experiment/files/robot_identity.hpp"
 #include "host/recording/files/run_folder.hpp"
-#include "host/report/comparison.hpp"
+#include "host/report/sections/comparison.hpp"
 
 namespace astro::experiment {
 namespace {
