@@ -28,7 +28,7 @@ class Asker {
   std::optional<protocol::Header> take_pong(const protocol::Header& answer, microseconds now);
 
   /// The answer to the last request, as the robot remembers it for a port. A request that repeats it gets the
-  /// same answer. Hello, Ping and the requests that stop the robot are not remembered: a stop must never be
+  /// same answer. Hello, Ping and the requests that halt the robot are not remembered: a stop must never be
   /// taken for an old one that had the same id before the program's ids wrapped.
   bool has_answered(const protocol::Header& request) const;
   const Bytes& answer() const { return answer_; }

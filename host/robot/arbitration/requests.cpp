@@ -65,8 +65,21 @@ void Requests::take(SessionId id, ByteView body, microseconds now) {
   if (answer_here(asker, header, body)) return;
   if (const auto refused = driver_.refusal(id, header.message_id)) return reply_with(asker, header, *refused);
   if (request_rules::stops(header.message_id)) driver_.note_stop(id, asker.user());
+  if (request_rules::halts(header.message_id)) cancel_motion(id, header.message_id);
   if (asker.has_under_way(header)) return repeat(asker, now);
   begin(asker, Exchange(header, body), now);
+}
+
+/// An answer of the robot that still comes is dropped, so an Arm that was sent before a Stop does not undo it.
+void Requests::cancel_motion(SessionId by, std::uint8_t halt) {
+  const ErrorCode why = request_rules::stops(halt) ? ErrorCode::not_armed : ErrorCode::busy;
+  for (auto& [id, asker] : askers_) {
+    if (id == by || !asker.current) continue;
+    const Header request = asker.current->header;
+    if (!request_rules::is_cancelled_by(request.message_id, halt)) continue;
+    turns_.end(id);
+    reply_with(asker, request, ErrorReply{why, 0});
+  }
 }
 
 /// Answers requests that do not need the robot; returns false for all others.
@@ -114,7 +127,7 @@ void Requests::begin(Asker& asker, Exchange exchange, microseconds now) {
   if (message == Hello::kId) return take_hello(asker, std::move(exchange), now);
   driver_.note_request(asker.id(), message);
   asker.current = std::move(exchange);
-  const bool at_once = driver_.drives(asker.id()) || request_rules::stops(message);
+  const bool at_once = driver_.drives(asker.id()) || request_rules::halts(message);
   if (!at_once) return turns_.wait(asker.id());
   if (staging_allows(asker)) send(asker, *asker.current, now);
 }
@@ -146,7 +159,7 @@ void Requests::repeat(Asker& asker, microseconds now) {
   if (message == Hello::kId && (hello_ || (driver_.driver() && drivers)))
     return take_hello(asker, Exchange(exchange.header, Bytes(exchange.body)), now);
   if (!exchange.is_sent()) return;
-  const bool takes_turns = exchange.has_onlookers_id() && !request_rules::stops(message);
+  const bool takes_turns = exchange.has_onlookers_id() && !request_rules::halts(message);
   if (!takes_turns || turns_.has(asker.id())) return send(asker, exchange, now);
   exchange.state = Exchange::State::waits;  // its turn ended before the answer came
   turns_.wait(asker.id());

@@ -243,6 +243,20 @@ TEST(RobotQueue, IdsNeverBecomeZeroNorTakeTheOtherBit) {
   }
 }
 
+TEST(RobotQueue, APauseFindsRoomWhereNothingElseDoesAndGoesLast) {
+  RobotQueue queue;
+  for (std::uint16_t i = 1; i <= 1000; ++i) {
+    Exchange exchange = exchange_of(GetStatus{}, i);
+    queue.send(exchange, false, milliseconds(1));
+  }
+  Exchange pause = exchange_of(Pause{}, 1);
+  queue.send(pause, false, milliseconds(1));
+  EXPECT_EQ(queue.frames().frames(), 257U);
+  while (queue.frames().frames() > 1) queue.frames().taken(queue.frames().front().size());
+  const auto last = queue.frames().front();
+  EXPECT_EQ(Bytes(last.begin(), last.end()), pause.frame);
+}
+
 TEST(RobotQueue, AStopFindsRoomWhereNothingElseDoes) {
   RobotQueue queue;
   for (std::uint16_t i = 1; i <= 1000; ++i) {

@@ -241,6 +241,16 @@ TEST_F(SharedPort, AnEmergencyStopWaitsForNobody) {
   EXPECT_TRUE(is_onlookers(rig.at_robot.back()));
 }
 
+TEST_F(SharedPort, APauseOfAnOnlookerWaitsForNobody) {
+  rig.arrives = deaf_line();
+  first.send(CommitParameters{}, 801);  // may take seconds
+  second.send(Pause{}, 800);
+  EXPECT_EQ(rig.count(Pause::kId), 1);
+  EXPECT_TRUE(is_onlookers(rig.at_robot.back()));
+  first.send(CommitParameters{}, 801);
+  EXPECT_EQ(rig.count(CommitParameters::kId), 2) << "its turn has not ended";
+}
+
 /// The requests that wait for the line, in their order; the line takes them.
 std::vector<std::uint8_t> taken_from(Relay& relay) {
   protocol::Framer framer;
@@ -279,6 +289,76 @@ TEST_F(SharedPort, WhatWasToMoveTheRobotAndHasNotGoneToItWhenAStopComesGoesNoMor
     }
 }
 
+TEST(Relay, APauseKeepsItsPlaceOnTheLineSoThatItComesAfterWhatWasSentBeforeIt) {
+  Relay relay;
+  const SessionId driver = relay.join({11, "drive"}), other = relay.join({22, "pause"});
+  relay.from_session(driver, Frame(Arm{}, 1).bytes(), milliseconds(0));
+  relay.from_session(other, Frame(Pause{}, 1).bytes(), milliseconds(0));
+  relay.from_session(driver, Frame(line(1, {}).front(), 2).bytes(), milliseconds(0));
+  EXPECT_THAT(taken_from(relay), testing::ElementsAre(Arm::kId, Pause::kId, AddSegment::kId));
+}
+
+/// Requests after which a Resume that was sent before must not move the robot.
+std::vector<Frame> requests_to_halt(std::uint16_t id) {
+  return {Frame(Stop{}, id), Frame(EmergencyStop{}, id), Frame(Disarm{}, id), Frame(Pause{}, id)};
+}
+
+TEST(Relay, AResumeThatWaitsItsTurnGoesNoMoreOnceSomebodyHaltsTheRobot) {
+  for (const Frame& halt : requests_to_halt(1)) {
+    Relay relay;
+    FakeRobotAt robot(relay);
+    const SessionId asks = relay.join({11, "info"}, false), resumes = relay.join({22, "resume"}, false),
+                    halts = relay.join({33, "stop"}, false);
+    relay.from_session(asks, Frame(GetStatus{}, 1).bytes(), milliseconds(0));
+    relay.from_session(resumes, Frame(Resume{}, 7).bytes(), milliseconds(1));
+    relay.from_session(halts, halt.bytes(), milliseconds(2));
+    EXPECT_THAT(taken_from(relay), testing::Not(testing::Contains(Resume::kId)));
+    relay.from_session(resumes, Frame(Resume{}, 7).bytes(), milliseconds(61));  // its program repeats it
+    relay.tick(seconds(2));  // the turn of the first has ended
+    EXPECT_THAT(taken_from(relay), testing::Not(testing::Contains(Resume::kId)));
+    EXPECT_FALSE(relay.to_session(resumes).empty()) << "its program is told";
+    relay.from_session(resumes, Frame(Resume{}, 8).bytes(), seconds(3));
+    EXPECT_THAT(taken_from(relay), testing::ElementsAre(Resume::kId)) << "one that was sent later goes";
+  }
+}
+
+/// What comes to the robot when a program repeats its request because the answer was lost, and another one
+/// halts the robot in between.
+std::vector<std::uint8_t> repeated_after(const Frame& halt, const Frame& motion) {
+  Relay relay;
+  const SessionId moves = relay.join({22, "moves"}, false), halts = relay.join({33, "halts"}, false);
+  relay.from_session(moves, motion.bytes(), milliseconds(0));
+  taken_from(relay);
+  relay.from_session(halts, halt.bytes(), milliseconds(2));
+  taken_from(relay);
+  relay.from_session(moves, motion.bytes(), milliseconds(60));
+  return taken_from(relay);
+}
+
+TEST(Relay, ARequestForMotionThatWasSentBeforeAHaltIsNotRepeatedAfterIt) {
+  for (const Frame& halt : requests_to_halt(1))
+    EXPECT_THAT(repeated_after(halt, Frame(Resume{}, 7)), testing::IsEmpty());
+  for (const Frame& stop : {Frame(Stop{}, 1), Frame(EmergencyStop{}, 1), Frame(Disarm{}, 1)})
+    EXPECT_THAT(repeated_after(stop, Frame(Arm{}, 7)), testing::IsEmpty());
+  EXPECT_THAT(repeated_after(Frame(Pause{}, 1), Frame(line(1, {}).front(), 7)),
+              testing::ElementsAre(AddSegment::kId))
+      << "a segment waits in the paused robot";
+}
+
+TEST(Relay, TheAnswerToAnArmThatAStopOvertookDoesNotUndoTheStop) {
+  Relay relay;
+  const SessionId driver = relay.join({11, "drive"}, false), other = relay.join({22, "stop"}, false);
+  relay.from_session(driver, Frame(Arm{}, 1).bytes(), milliseconds(0));
+  const auto frame = relay.to_robot().front();
+  const Header arm = RelayRig::header_of({frame.begin(), frame.end()});
+  taken_from(relay);
+  relay.from_session(other, Frame(Stop{}, 1).bytes(), milliseconds(1));
+  taken_from(relay);
+  relay.from_robot(Frame(Ack{}, arm.request_id).bytes(), milliseconds(2));
+  relay.from_session(driver, Frame(Velocity{100'000, 0}, 2).bytes(), milliseconds(3));
+  EXPECT_TRUE(relay.to_robot().empty()) << "the robot stays at rest until it is armed after the stop";
+}
+
 TEST(Relay, ARepeatedFirstHelloLeavesADriverAloneThatCameMeanwhile) {
   Relay relay;
   FakeRobotAt robot(relay);
@@ -300,6 +380,13 @@ TEST_F(SharedPort, AStopIsCarriedOutEachTimeEvenIfItsIdHasComeBefore) {
   for (const int times : {1, 2}) {
     second.send(EmergencyStop{}, 800);
     EXPECT_EQ(rig.count(EmergencyStop::kId), times) << "the program's ids have wrapped meanwhile";
+  }
+}
+
+TEST_F(SharedPort, APauseIsCarriedOutEachTimeEvenIfItsIdHasComeBefore) {
+  for (const int times : {1, 2}) {
+    second.send(Pause{}, 800);
+    EXPECT_EQ(rig.count(Pause::kId), times) << "the program's ids have wrapped meanwhile";
   }
 }
 
