@@ -16,7 +16,8 @@ namespace astro::robot {
 /// Bounds     if a program does not read, its telemetry is dropped first; then it is disconnected. At most 32
 ///            programs drive, change parameters or have telemetry (they have a slot); asking and stopping
 ///            needs no slot. If too many are connected, one that has never sent anything is disconnected
-///            first: programs that hang must not keep out an emergency stop.
+///            first: programs that hang must not keep out an emergency stop. Of a program that is being
+///            disconnected only the requests that halt the robot are passed on.
 class Relay {
  public:
   /// `greets`: the program gets a Welcome when it is served and a Farewell with the reason when it is

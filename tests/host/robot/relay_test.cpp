@@ -518,6 +518,51 @@ TEST_F(SharedPort, AReaderThatLosesEventsIsLetGoWithTheReason) {
   first.client.request(GetStatus{});
 }
 
+/// A relay with a program that it disconnects because it reads too slowly.
+class ASlowReader : public testing::Test {
+ protected:
+  ASlowReader() {
+    relay.from_session(driver, Frame(Arm{}, 1).bytes(), now);
+    taken_from(relay);
+    const Frame event(SegmentDone{1, SegmentOutcome::completed, 5'000'000}, 0);
+    while (!relay.closing(slow)) {
+      relay.from_robot(event.bytes(), now);
+      while (!relay.to_session(driver).empty())
+        relay.to_session(driver).taken(relay.to_session(driver).front().size());
+    }
+  }
+  microseconds now = seconds(1);
+  Relay relay;
+  SessionId driver = relay.join({11, "drive"}), slow = relay.join({22, "slow"});
+};
+
+TEST_F(ASlowReader, IsHeardToTheEndWhenItHaltsTheRobot) {
+  for (const Frame& halt : requests_to_halt(9)) {
+    relay.from_session(slow, halt.bytes(), now);
+    EXPECT_EQ(taken_from(relay).size(), 1U);
+  }
+  relay.from_session(driver, Frame(Velocity{100'000, 0}, 2).bytes(), now);
+  EXPECT_TRUE(relay.to_robot().empty()) << "the driver was stopped by another program";
+}
+
+TEST_F(ASlowReader, IsHeardEvenIfItsLastRequestWasCutInTwo) {
+  const Frame stop(Stop{}, 9);
+  const auto bytes = stop.bytes();
+  relay.from_session(slow, bytes.first(3), now);
+  relay.from_session(slow, bytes.subspan(3), now);
+  EXPECT_THAT(taken_from(relay), testing::ElementsAre(Stop::kId));
+}
+
+TEST_F(ASlowReader, GetsNothingElseToTheRobotAndNoReply) {
+  const std::size_t waiting = relay.to_session(slow).bytes();
+  for (const Frame& request :
+       {Frame(GetStatus{}, 2), Frame(Resume{}, 3), Frame(Ping{}, 4), Frame(ClearFaults{}, 5),
+        Frame(SetTelemetry{10, Telemetry::kPose}, 6), Frame(GetPortUsers{}, 7), Frame(Hello{}, 8)})
+    relay.from_session(slow, request.bytes(), now);
+  EXPECT_THAT(taken_from(relay), testing::IsEmpty());
+  EXPECT_EQ(relay.to_session(slow).bytes(), waiting);
+}
+
 TEST_F(SharedPort, TwoUploadsAtOnceAreNeverMixed) {
   // The second begins to stage just before the first commits; and the other way round.
   for (const bool second_begins : {true, false}) {
