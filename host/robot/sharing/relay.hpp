@@ -3,13 +3,13 @@
 #include <list>
 #include <optional>
 
-#include "host/robot/arbitration/requests.hpp"
+#include "host/robot/arbitration/request_arbiter.hpp"
 #include "host/robot/sharing/relay_session.hpp"
 
 namespace astro::robot {
 
 /// One robot, several programs: passes their frames to the robot and its answers and events back. Which
-/// requests go to the robot, and when, is decided by Requests. The relay does no I/O and has no clock;
+/// requests go to the robot, and when, is decided by RequestArbiter. The relay does no I/O and has no clock;
 /// relay_server.hpp moves the bytes and passes the time.
 ///
 /// Telemetry  each program gets the groups and the rate that it requested; events go to all.
@@ -59,7 +59,7 @@ class Relay {
   SessionId last_session_ = 0;
   protocol::Framer framer_;  // of the robot's bytes
   bool noise_ = false;       // bytes have come, and no good frame yet
-  Requests requests_;
+  RequestArbiter requests_;
 };
 
 }  // namespace astro::robot

@@ -3,7 +3,7 @@
 #include "common/protocol/messages.hpp"
 #include "host/robot/arbitration/asker.hpp"
 #include "host/robot/arbitration/driver_rule.hpp"
-#include "host/robot/arbitration/requests.hpp"
+#include "host/robot/arbitration/request_arbiter.hpp"
 #include "host/robot/arbitration/robot_queue.hpp"
 #include "host/robot/arbitration/staging_area.hpp"
 #include "host/robot/arbitration/telemetry_stream.hpp"
@@ -303,8 +303,8 @@ TEST(Asker, OfFivePingsTheOldestIsForgotten) {
 
 // ---- all together
 
-TEST(Requests, RepliesGoToTheAskerWithItsOwnIdAndAreTakenOnce) {
-  Requests requests;
+TEST(RequestArbiter, RepliesGoToTheAskerWithItsOwnIdAndAreTakenOnce) {
+  RequestArbiter requests;
   requests.join(kDriver, {11, "one"});
   requests.join(kOther, {22, "two"});
   requests.take(kOther, body_of(GetPortUsers{}, 800), milliseconds(1));
@@ -316,8 +316,8 @@ TEST(Requests, RepliesGoToTheAskerWithItsOwnIdAndAreTakenOnce) {
   EXPECT_TRUE(requests.to_robot().empty()) << "the robot is not asked";
 }
 
-TEST(Requests, AreNamedByProgramOnceTheRobotHasAcceptedTheDrive) {
-  Requests requests;
+TEST(RequestArbiter, AreNamedByProgramOnceTheRobotHasAcceptedTheDrive) {
+  RequestArbiter requests;
   requests.join(kDriver, {11, "one"});
   requests.join(kOther, {22, "two"});
   requests.take(kDriver, body_of(Arm{}, 5), milliseconds(1));

@@ -7,6 +7,7 @@
 
 #include "host/robot/arbitration/asker.hpp"
 #include "host/robot/arbitration/driver_rule.hpp"
+#include "host/robot/arbitration/relay_messages.hpp"
 #include "host/robot/arbitration/robot_queue.hpp"
 #include "host/robot/arbitration/staging_area.hpp"
 #include "host/robot/arbitration/telemetry_stream.hpp"
@@ -33,9 +34,9 @@ struct Reply {
 ///            request of the relay itself, and the only one that it repeats until the robot answers.
 /// Parameters if two programs change them at the same time, the one whose staged values are gone is refused as
 ///            staging_lost (staging_area.hpp).
-class Requests {
+class RequestArbiter {
  public:
-  Requests();
+  RequestArbiter();
 
   void join(SessionId id, PortUser user);
   /// Drops everything that the program requested. The robot's own time-out ends its drive.
