@@ -45,8 +45,8 @@ set(ASTRO_LAYERS
   "host/report/page             : host/base"
   "host/report/sections         : host/base host/calibration host/motor/model host/recording/run host/report/page"
   "host/robot/arbitration       : common host/base host/robot/port"
-  "host/robot/client            : common host/base host/robot/port host/robot/sharing"
-  "host/robot/motion            : common host/base host/robot/client host/robot/parameters host/robot/sharing"
+  "host/robot/client            : common host/base host/robot/arbitration host/robot/port host/robot/sharing"
+  "host/robot/motion            : common host/base host/robot/arbitration host/robot/client host/robot/parameters host/robot/sharing"
   "host/robot/parameters        : common host/base host/robot/client"
   "host/robot/port              : host/base"
   "host/robot/sharing           : common host/base host/robot/arbitration host/robot/port"
@@ -55,9 +55,10 @@ set(ASTRO_LAYERS
   "host/simulation/server       : host/base host/recording/run host/simulation/robot"
   "host/simulation/study        : host/base host/calibration host/experiment host/recording/run host/robot/parameters host/simulation/robot"
   "host/truth/files             : host/base host/truth/manual host/truth/source"
-  "host/truth/live              : host/base host/truth/source"
+  "host/truth/live              : host/base host/truth/source host/truth/vrpn"
   "host/truth/manual            : host/base host/recording/run host/truth/source"
   "host/truth/source            : host/base host/recording/run"
+  "host/truth/vrpn              : host/base host/truth/source"
   "tests                        : common hal firmware host"
 )
 

@@ -3,6 +3,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
+
+#include "host/base/error.hpp"
 
 namespace astro {
 namespace {
@@ -34,6 +37,14 @@ std::string seconds_text(std::int64_t time_us) {
 std::optional<double> number_in(std::string_view text) { return whole<double>(text); }
 std::optional<int> integer_in(std::string_view text) { return whole<int>(text); }
 std::optional<std::uint64_t> unsigned_in(std::string_view text) { return whole<std::uint64_t>(text); }
+
+int count_in(std::string_view text, std::string_view name) {
+  constexpr std::size_t kShown = 40;
+  const auto count = integer_in(text);
+  if (count && *count >= 0) return *count;
+  throw Error(std::string(name) + " is " + std::string(text.substr(0, kShown)) +
+              ", not a whole number from 0 to " + std::to_string(std::numeric_limits<int>::max()));
+}
 
 std::optional<double> typed_number(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);

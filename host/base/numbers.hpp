@@ -22,6 +22,10 @@ std::optional<double> number_in(std::string_view text);
 std::optional<int> integer_in(std::string_view text);
 std::optional<std::uint64_t> unsigned_in(std::string_view text);
 
+/// The count that `text` from a file is. Throws astro::Error, which shows the name and the text, for anything
+/// else than a whole number from 0 to the greatest int: conversions would make some number of 1e300 and 2^32 + 5.
+int count_in(std::string_view text, std::string_view name);
+
 /// A number as a person types it: finite, perhaps with a plus sign before it. Nothing if the text is not one.
 std::optional<double> typed_number(std::string_view text);
 

@@ -109,11 +109,11 @@ class HostSessions {
   }
 
   /// Whether a repeated request is carried out again instead of getting the same answer. A Pong must show the
-  /// present time. Hello and the requests that stop the robot may be carried out twice; they must never be
+  /// present time. Hello and the requests that halt the robot may be carried out twice; they must never be
   /// taken for an old request that had the same id before the ids wrapped.
   static constexpr bool is_carried_out_again(std::uint8_t message) {
-    constexpr std::array kAgain{protocol::Ping::kId, protocol::Hello::kId, protocol::Stop::kId,
-                                protocol::EmergencyStop::kId, protocol::Disarm::kId};
+    constexpr std::array kAgain{protocol::Ping::kId,          protocol::Hello::kId,  protocol::Stop::kId,
+                                protocol::EmergencyStop::kId, protocol::Disarm::kId, protocol::Pause::kId};
     return std::find(kAgain.begin(), kAgain.end(), message) != kAgain.end();
   }
 

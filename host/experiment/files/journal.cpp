@@ -25,9 +25,11 @@ std::filesystem::path file_in(const std::filesystem::path& folder) { return fold
 }
 
 /// Refuses a plan that this program cannot have written, because its counts decide how much memory is used.
-void require_drivable(const Plan& plan, const std::string& damaged) {
+Plan drivable_plan(const nlohmann::json& json, const std::string& damaged) {
   try {
+    const Plan plan = json.get<Plan>();
     plan.check();
+    return plan;
   } catch (const Error& error) {
     throw Error(damaged + " (" + error.what() + ")", {Help::calibrate_recordings});
   }
@@ -53,8 +55,7 @@ Journal read_journal(const std::filesystem::path& folder) {
       throw Error("'" + path.string() +
                   "' was written by another version of Astrolabe: use that one to go on with it");
     Journal journal;
-    json.at("plan").get_to(journal.plan);
-    require_drivable(journal.plan, damaged);
+    journal.plan = drivable_plan(json.at("plan"), damaged);
     const auto& robot = json.at("robot");
     robot.at("id").get_to(journal.robot_id);
     robot.at("name").get_to(journal.robot_name);

@@ -3,16 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "host/base/error.hpp"
+#include "host/base/numbers.hpp"
 #include "host/experiment/files/method_names.hpp"
 
 namespace astro::experiment {
 namespace {
 
-constexpr int kMostCounted = 1'000'000;  // of runs and rounds, in a file
 
 bool within(double value, double least, double most) { return value >= least && value <= most; }
 
@@ -20,13 +19,7 @@ void need(bool condition, const std::string& sentence, const Remedy& remedy = {}
   if (!condition) throw Error(sentence, remedy);
 }
 
-/// A count from JSON. The library would convert 1e300, true and 2^32 + 5 to some number; these are refused.
-int count_in(const nlohmann::json& json) {
-  const auto number = json.get<double>();
-  return json.is_number() && number == std::trunc(number) && within(number, 0, kMostCounted)
-             ? static_cast<int>(number)
-             : -1;
-}
+int count_at(const nlohmann::json& json, const char* key) { return count_in(json.at(key).dump(), key); }
 
 void check_until(const Plan& plan) {
   need(within(plan.until->target, 1e-6, 0.1),
@@ -142,12 +135,12 @@ void to_json(nlohmann::json& json, const Plan& plan) {
 }
 
 void from_json(const nlohmann::json& json, Plan& plan) {
-  plan.runs = count_in(json.at("runs"));
+  plan.runs = count_at(json, "runs");
   json.at("side_m").get_to(plan.side_m);
   json.at("speed_mps").get_to(plan.speed_mps);
   json.at("yaw_rate_radps").get_to(plan.yaw_rate_radps);
   plan.order = order_named(json.at("order").get<std::string>());
-  plan.rounds = count_in(json.at("rounds"));
+  plan.rounds = count_at(json, "rounds");
   json.at("line_m").get_to(plan.line_m);
   json.at("circle_radius_m").get_to(plan.circle_radius_m);
   json.at("extras").get_to(plan.extras);
@@ -156,7 +149,7 @@ void from_json(const nlohmann::json& json, Plan& plan) {
   json.at("truth").get_to(plan.truth);
   plan.until.reset();
   if (const auto& until = json.at("until"); !until.is_null())
-    plan.until = Until{until.at("target").get<double>(), count_in(until.at("most"))};
+    plan.until = Until{until.at("target").get<double>(), count_at(until, "most")};
 }
 
 }  // namespace astro::experiment

@@ -76,6 +76,8 @@ std::vector<RunSpec> runs_of_phase(const Plan& plan, std::size_t phase, int squa
 std::vector<RunSpec> squares_of_phase(const Plan& plan, std::size_t phase, int squares);
 
 void to_json(nlohmann::json& json, const Plan& plan);
+/// Throws nlohmann::json::exception for a missing key or a value of another type, and astro::Error for a count
+/// that is none or an unknown name. Call check() for the ranges.
 void from_json(const nlohmann::json& json, Plan& plan);
 
 std::string_view name_of(Order order);

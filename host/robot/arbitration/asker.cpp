@@ -29,14 +29,14 @@ bool Asker::has_answered(const Header& request) const { return !answer_.empty() 
 
 void Asker::remember_answer(const Header& request, const Bytes& frame) {
   if (request.message_id == protocol::Ping::kId || request.message_id == protocol::Hello::kId) return;
-  if (has_under_way(request)) current.reset();
-  if (request_rules::stops(request.message_id)) return;
+  if (has_under_way(request)) end();
+  if (request_rules::halts(request.message_id)) return;
   answered_ = request;
   answer_ = frame;
 }
 
 void Asker::forget() {
-  current.reset();
+  end();
   pings_ = {};
   answer_.clear();
 }

@@ -3,9 +3,10 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 #include "host/robot/arbitration/exchange.hpp"
-#include "host/robot/arbitration/port_users.hpp"
+#include "host/robot/arbitration/port_user.hpp"
 
 namespace astro::robot {
 
@@ -17,9 +18,15 @@ class Asker {
   SessionId id() const { return id_; }
   const PortUser& user() const { return user_; }
 
-  /// The request under way. A new one replaces it, because the program has given it up then.
-  std::optional<Exchange> current;
-  bool has_under_way(const protocol::Header& request) const { return current && current->header == request; }
+  /// The request under way; null if there is none. A new one replaces it, because the program has given it up
+  /// then.
+  Exchange* current() { return current_ ? &*current_ : nullptr; }
+  const Exchange* current() const { return current_ ? &*current_ : nullptr; }
+  Exchange& begin(Exchange request) { return current_.emplace(std::move(request)); }
+  void end() { current_.reset(); }
+  bool has_under_way(const protocol::Header& request) const {
+    return current_ && current_->header == request;
+  }
 
   /// The ping under way with this header: the one that the program repeats, or a new one. Pings change nothing
   /// and the robot does not remember them, so several may be under way; a new one overwrites the oldest.
@@ -28,7 +35,7 @@ class Asker {
   std::optional<protocol::Header> take_pong(const protocol::Header& answer, microseconds now);
 
   /// The answer to the last request, as the robot remembers it for a port. A request that repeats it gets the
-  /// same answer. Hello, Ping and the requests that stop the robot are not remembered: a stop must never be
+  /// same answer. Hello, Ping and the requests that halt the robot are not remembered: a stop must never be
   /// taken for an old one that had the same id before the program's ids wrapped.
   bool has_answered(const protocol::Header& request) const;
   const Bytes& answer() const { return answer_; }
@@ -41,6 +48,7 @@ class Asker {
  private:
   SessionId id_;
   PortUser user_;
+  std::optional<Exchange> current_;
   std::array<Exchange, 4> pings_;
   std::size_t next_ping_ = 0;
   protocol::Header answered_;

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "common/protocol/messages.hpp"
-#include "host/robot/arbitration/port_users.hpp"
+#include "host/robot/arbitration/port_user.hpp"
 
 namespace astro::robot {
 

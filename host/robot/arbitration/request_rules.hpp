@@ -24,8 +24,14 @@ constexpr bool drives(std::uint8_t message) {
 constexpr bool stops(std::uint8_t message) {
   return is_one_of(message, std::array{EmergencyStop::kId, Stop::kId, Disarm::kId});
 }
-/// Requests that must not reach the robot after a Stop that was sent later.
+/// Requests that let the robot come to rest. They never wait for other programs, and they are never answered
+/// from memory.
+constexpr bool halts(std::uint8_t message) { return stops(message) || message == Pause::kId; }
 constexpr bool sets_in_motion(std::uint8_t message) { return drives(message) || message == Resume::kId; }
+/// A request for motion that must not reach the robot after `halt`, if `halt` was sent later.
+constexpr bool is_cancelled_by(std::uint8_t message, std::uint8_t halt) {
+  return stops(halt) ? sets_in_motion(message) : halt == Pause::kId && message == Resume::kId;
+}
 constexpr bool opens_staging(std::uint8_t message) {
   return is_one_of(message, std::array{RevertParameters::kId, DefaultParameters::kId});
 }

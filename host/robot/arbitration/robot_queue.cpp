@@ -26,7 +26,7 @@ void RobotQueue::send(Exchange& exchange, bool drivers, microseconds now) {
   const std::uint8_t message = exchange.header.message_id;
   const bool first = request_rules::stops(message);
   if (first) frames_.withdraw();
-  if (frames_.frames() >= (first ? 2 : 1) * kMostQueuedFrames) return;
+  if (frames_.frames() >= (request_rules::halts(message) ? 2 : 1) * kMostQueuedFrames) return;
   first ? frames_.push_first(exchange.frame)
         : frames_.push(exchange.frame, request_rules::sets_in_motion(message));
 }

@@ -12,9 +12,10 @@ namespace astro::robot {
 /// Ids     a request gets an id when it is first sent, and keeps it when it is sent again. Bit 15 is clear in
 ///         the driver's and set in all others.
 /// Order   Stop, EmergencyStop and Disarm overtake all frames that have not begun, and withdraw the requests
-///         for motion among them.
-/// Bounds  256 frames, beyond which a request is dropped; a stop still finds room up to 512. These are more
-///         than wait when all programs ask at the same time; beyond that the line itself has stopped.
+///         for motion among them. All others keep their order, Pause as well: it must come after the Arm or
+///         Resume that was sent before it.
+/// Bounds  256 frames, beyond which a request is dropped; a stop or a pause still finds room up to 512. These
+///         are more than wait when all programs ask at the same time; beyond that the line itself has stopped.
 class RobotQueue {
  public:
   void send(Exchange& exchange, bool drivers, microseconds now);

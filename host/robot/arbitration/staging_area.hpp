@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "host/base/bytes.hpp"
-#include "host/robot/arbitration/port_users.hpp"
+#include "host/robot/arbitration/port_user.hpp"
 
 namespace astro::robot {
 

@@ -6,7 +6,7 @@
 
 #include "common/protocol/messages.hpp"
 #include "host/robot/arbitration/exchange.hpp"
-#include "host/robot/arbitration/port_users.hpp"
+#include "host/robot/arbitration/port_user.hpp"
 #include "host/robot/arbitration/telemetry_request.hpp"
 
 namespace astro::robot {

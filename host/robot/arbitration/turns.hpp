@@ -3,7 +3,7 @@
 #include <deque>
 #include <optional>
 
-#include "host/robot/arbitration/port_users.hpp"
+#include "host/robot/arbitration/port_user.hpp"
 #include "host/robot/port/transport.hpp"
 
 namespace astro::robot {

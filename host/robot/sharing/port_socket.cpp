@@ -14,7 +14,7 @@
 #include "common/protocol/codec.hpp"
 #include "common/protocol/framer.hpp"
 #include "host/base/error.hpp"
-#include "host/robot/sharing/relay_messages.hpp"
+#include "host/robot/arbitration/relay_messages.hpp"
 
 namespace astro::robot {
 

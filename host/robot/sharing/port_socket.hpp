@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "host/robot/arbitration/port_users.hpp"
+#include "host/robot/arbitration/port_user.hpp"
 #include "host/robot/port/descriptor.hpp"
 #include "host/robot/port/transport.hpp"
 

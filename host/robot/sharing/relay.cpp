@@ -89,7 +89,7 @@ void Relay::deliver_replies() {
 
 void Relay::from_session(SessionId id, ByteView bytes, microseconds now) {
   RelaySession* session = find(id);
-  if (session == nullptr || session->closing) return;
+  if (session == nullptr) return;
   for (const std::uint8_t byte : bytes) {
     if (const auto body = session->framer.push(byte)) take(*session, *body, now);
   }
@@ -98,14 +98,16 @@ void Relay::from_session(SessionId id, ByteView bytes, microseconds now) {
 
 void Relay::take(RelaySession& session, ByteView body, microseconds now) {
   const Header header = *protocol::peek(body);  // a framer's body always has a header
-  if (header.request_id == 0 || session.closing) return;
+  if (header.request_id == 0) return;
+  const auto is_heard = [&] { return !session.closing || request_rules::halts(header.message_id); };
+  if (!is_heard()) return;
   if (request_rules::needs_slot(header.message_id) && !give_slot(session)) return;
   // Only frames are passed on. These bytes tell a program that sends Hello that the device sends something
   // else.
   constexpr std::array<std::uint8_t, 2> kNoFrame{0x55, 0};
   if (noise_ && header.message_id == protocol::Hello::kId && requests_.repeats(session.id, header))
     push(session, kNoFrame);
-  if (session.closing) return;
+  if (!is_heard()) return;
   requests_.take(session.id, body, now);
   deliver_replies();
 }

@@ -3,20 +3,21 @@
 #include <list>
 #include <optional>
 
-#include "host/robot/arbitration/requests.hpp"
+#include "host/robot/arbitration/request_arbiter.hpp"
 #include "host/robot/sharing/relay_session.hpp"
 
 namespace astro::robot {
 
 /// One robot, several programs: passes their frames to the robot and its answers and events back. Which
-/// requests go to the robot, and when, is decided by Requests. The relay does no I/O and has no clock;
+/// requests go to the robot, and when, is decided by RequestArbiter. The relay does no I/O and has no clock;
 /// relay_server.hpp moves the bytes and passes the time.
 ///
 /// Telemetry  each program gets the groups and the rate that it requested; events go to all.
 /// Bounds     if a program does not read, its telemetry is dropped first; then it is disconnected. At most 32
 ///            programs drive, change parameters or have telemetry (they have a slot); asking and stopping
 ///            needs no slot. If too many are connected, one that has never sent anything is disconnected
-///            first: programs that hang must not keep out an emergency stop.
+///            first: programs that hang must not keep out an emergency stop. Of a program that is being
+///            disconnected only the requests that halt the robot are passed on.
 class Relay {
  public:
   /// `greets`: the program gets a Welcome when it is served and a Farewell with the reason when it is
@@ -58,7 +59,7 @@ class Relay {
   SessionId last_session_ = 0;
   protocol::Framer framer_;  // of the robot's bytes
   bool noise_ = false;       // bytes have come, and no good frame yet
-  Requests requests_;
+  RequestArbiter requests_;
 };
 
 }  // namespace astro::robot

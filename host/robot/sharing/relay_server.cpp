@@ -201,8 +201,8 @@ bool RelayServer::write_to(Connection& connection) {
   if (open && !why) return true;
   if (why && !connection.guest) own_end_ = static_cast<int>(*why);
   if (why && !connection.closing_since) connection.closing_since = steady_now();
-  // Whatever it still sends is read and dropped until it disconnects: closing a socket with unread bytes
-  // would discard the Farewell before the program has read it.
+  // It is read until it disconnects: it may still stop the robot, and closing a socket with unread bytes would
+  // discard the Farewell before the program has read it.
   if (open && queue.empty() && !connection.told) {
     connection.told = true;
     ::shutdown(connection.socket.get(), SHUT_WR);

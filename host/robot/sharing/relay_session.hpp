@@ -5,8 +5,8 @@
 #include "common/protocol/framer.hpp"
 #include "host/base/bytes.hpp"
 #include "host/robot/arbitration/frame_queue.hpp"
-#include "host/robot/arbitration/port_users.hpp"
-#include "host/robot/sharing/relay_messages.hpp"
+#include "host/robot/arbitration/port_user.hpp"
+#include "host/robot/arbitration/relay_messages.hpp"
 
 namespace astro::robot {
 

@@ -119,22 +119,15 @@ nlohmann::json to_json(const TrialSetup& setup) {
           {"noise", setup.noise_known ? "known" : "estimated"}};
 }
 
-int count_from(const nlohmann::json& json) {
-  const auto number = json.get<double>();
-  const bool counts =
-      json.is_number() && number == std::trunc(number) && number >= 0 && number <= 2 * kMostTrials;
-  return counts ? static_cast<int>(number) : -1;
-}
-
 TrialSetup setup_from(const nlohmann::json& json) {
   TrialSetup setup;
   const auto name = json.at("model").get<std::string>();
   const std::optional<Model> model = model_named(name);
   if (!model) throw Error("'" + name + "' is not a model of a robot: choose kinematic or simulator");
   setup.model = *model;
-  setup.trials = count_from(json.at("trials"));
+  setup.trials = count_in(json.at("trials").dump(), "trials");
   setup.seed = seed_from(json.at("seed"));
-  setup.runs = count_from(json.at("runs"));
+  setup.runs = count_in(json.at("runs").dump(), "runs");
   json.at("side_m").get_to(setup.side_m);
   json.at("wheelbase_m").get_to(setup.wheelbase_m);
   json.at("E_d").get_to(setup.E_d);

@@ -54,12 +54,9 @@ struct TrialSetup {
 };
 
 /// Keys as in the shard files. `setup_from` throws nlohmann::json::exception for a missing key or a value of
-/// another type, and astro::Error for an unknown model.
+/// another type, and astro::Error for an unknown model or a count that is none.
 nlohmann::json to_json(const TrialSetup& setup);
 TrialSetup setup_from(const nlohmann::json& json);
-
-/// A number of trials or runs; -1 for a number that cannot be one, such as 1e300 or -2.
-int count_from(const nlohmann::json& json);
 
 /// The runs of a trial are numbered from 0, alternating clockwise and counter-clockwise. "square ccw 1" is
 /// run 1.

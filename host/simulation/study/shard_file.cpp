@@ -7,6 +7,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/json_weight.hpp"
+#include "host/base/numbers.hpp"
 
 namespace astro::simulation::study {
 namespace {
@@ -53,7 +54,7 @@ json to_json(const Trial& trial) {
 
 Trial trial_from(const json& value) {
   Trial trial;
-  trial.index = count_from(value.at("trial"));
+  trial.index = count_in(value.at("trial").dump(), "trial");
   value.at("failure").get_to(trial.failure);
   const json& errors = value.at("errors");
   for (std::size_t i = 0; i < trial.errors.size(); ++i)

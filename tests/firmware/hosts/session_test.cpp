@@ -91,6 +91,19 @@ TEST_F(Frames, WhatStopsTheRobotIsCarriedOutEachTimeThoughItsIdHasComeRound) {
   }
 }
 
+TEST_F(Frames, APauseIsCarriedOutEachTimeThoughItsIdHasComeRound) {
+  ask(protocol::Arm{});
+  ask(robot::line(1).front());
+  for (int i = 0; i < 2; ++i) {
+    run_ms(500);
+    ASSERT_EQ(drive().mode(), protocol::Mode::segment);
+    send(protocol::Pause{}, protocol::kOnlookerBit + 7);
+    run_ms(1000);
+    EXPECT_EQ(drive().mode(), protocol::Mode::paused) << i;
+    ask(protocol::Resume{});
+  }
+}
+
 TEST_F(Frames, AFaultThatIsClearedInTheTurnInWhichItCameIsToldAndLogged) {
   received();
   send(protocol::EmergencyStop{}, 1);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "host/base/bytes.hpp"
+#include "host/base/error.hpp"
 
 namespace astro {
 namespace {
@@ -30,6 +31,19 @@ TEST(WholeNumbers, AreRefusedBeyondTheirTypeAndBeforeOtherText) {
   EXPECT_EQ(unsigned_in("18446744073709551615"), 18'446'744'073'709'551'615U);
   for (const char* text : {"18446744073709551616", "-1", "1.0", "7 ", ""})
     EXPECT_EQ(unsigned_in(text), std::nullopt) << text;
+}
+
+TEST(CountsOfAFile, AreWholeNumbersOrRefusedAsTheyAreWritten) {
+  EXPECT_EQ(count_in("0", "runs"), 0);
+  EXPECT_EQ(count_in("2147483647", "runs"), 2'147'483'647);
+  for (const std::string text : {"2147483648", "-1", "1e300", "5.0", "true", "\"5\"", "null", ""}) {
+    try {
+      count_in(text, "runs");
+      ADD_FAILURE() << text;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.what(), "runs is " + text + ", not a whole number from 0 to 2147483647");
+    }
+  }
 }
 
 TEST(StoredNumbers, AreLittleEndianAndReadBack) {

@@ -107,6 +107,10 @@ TEST_F(BoundedFiles, JournalWithCountsThatNobodyDrivesIsDamaged) {
       SCOPED_TRACE(key + " = " + count);
       refuses_journal(journal_with(key, count), "is damaged");
     }
+  refuses_journal(journal_with("runs", "1000000000"), "is damaged (1000000000 runs in each direction");
+  refuses_journal(journal_with("rounds", "2147483647"), "is damaged (2147483647 rounds");
+  refuses_journal(journal_with("most", "1e300"), "is damaged (most is 1e+300, not a whole number");
+  refuses_journal(journal_with("runs", "-1"), "is damaged (runs is -1, not a whole number");
   for (const std::string key : {"side_m", "speed_mps", "yaw_rate_radps", "line_m", "circle_radius_m"})
     refuses_journal(journal_with(key, "1e300"), "is damaged (a ");
 }

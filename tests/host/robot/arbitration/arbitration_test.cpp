@@ -3,7 +3,7 @@
 #include "common/protocol/messages.hpp"
 #include "host/robot/arbitration/asker.hpp"
 #include "host/robot/arbitration/driver_rule.hpp"
-#include "host/robot/arbitration/requests.hpp"
+#include "host/robot/arbitration/request_arbiter.hpp"
 #include "host/robot/arbitration/robot_queue.hpp"
 #include "host/robot/arbitration/staging_area.hpp"
 #include "host/robot/arbitration/telemetry_stream.hpp"
@@ -243,6 +243,20 @@ TEST(RobotQueue, IdsNeverBecomeZeroNorTakeTheOtherBit) {
   }
 }
 
+TEST(RobotQueue, APauseFindsRoomWhereNothingElseDoesAndGoesLast) {
+  RobotQueue queue;
+  for (std::uint16_t i = 1; i <= 1000; ++i) {
+    Exchange exchange = exchange_of(GetStatus{}, i);
+    queue.send(exchange, false, milliseconds(1));
+  }
+  Exchange pause = exchange_of(Pause{}, 1);
+  queue.send(pause, false, milliseconds(1));
+  EXPECT_EQ(queue.frames().frames(), 257U);
+  while (queue.frames().frames() > 1) queue.frames().taken(queue.frames().front().size());
+  const auto last = queue.frames().front();
+  EXPECT_EQ(Bytes(last.begin(), last.end()), pause.frame);
+}
+
 TEST(RobotQueue, AStopFindsRoomWhereNothingElseDoes) {
   RobotQueue queue;
   for (std::uint16_t i = 1; i <= 1000; ++i) {
@@ -289,8 +303,8 @@ TEST(Asker, OfFivePingsTheOldestIsForgotten) {
 
 // ---- all together
 
-TEST(Requests, RepliesGoToTheAskerWithItsOwnIdAndAreTakenOnce) {
-  Requests requests;
+TEST(RequestArbiter, RepliesGoToTheAskerWithItsOwnIdAndAreTakenOnce) {
+  RequestArbiter requests;
   requests.join(kDriver, {11, "one"});
   requests.join(kOther, {22, "two"});
   requests.take(kOther, body_of(GetPortUsers{}, 800), milliseconds(1));
@@ -302,8 +316,8 @@ TEST(Requests, RepliesGoToTheAskerWithItsOwnIdAndAreTakenOnce) {
   EXPECT_TRUE(requests.to_robot().empty()) << "the robot is not asked";
 }
 
-TEST(Requests, AreNamedByProgramOnceTheRobotHasAcceptedTheDrive) {
-  Requests requests;
+TEST(RequestArbiter, AreNamedByProgramOnceTheRobotHasAcceptedTheDrive) {
+  RequestArbiter requests;
   requests.join(kDriver, {11, "one"});
   requests.join(kOther, {22, "two"});
   requests.take(kDriver, body_of(Arm{}, 5), milliseconds(1));

@@ -241,6 +241,16 @@ TEST_F(SharedPort, AnEmergencyStopWaitsForNobody) {
   EXPECT_TRUE(is_onlookers(rig.at_robot.back()));
 }
 
+TEST_F(SharedPort, APauseOfAnOnlookerWaitsForNobody) {
+  rig.arrives = deaf_line();
+  first.send(CommitParameters{}, 801);  // may take seconds
+  second.send(Pause{}, 800);
+  EXPECT_EQ(rig.count(Pause::kId), 1);
+  EXPECT_TRUE(is_onlookers(rig.at_robot.back()));
+  first.send(CommitParameters{}, 801);
+  EXPECT_EQ(rig.count(CommitParameters::kId), 2) << "its turn has not ended";
+}
+
 /// The requests that wait for the line, in their order; the line takes them.
 std::vector<std::uint8_t> taken_from(Relay& relay) {
   protocol::Framer framer;
@@ -279,6 +289,76 @@ TEST_F(SharedPort, WhatWasToMoveTheRobotAndHasNotGoneToItWhenAStopComesGoesNoMor
     }
 }
 
+TEST(Relay, APauseKeepsItsPlaceOnTheLineSoThatItComesAfterWhatWasSentBeforeIt) {
+  Relay relay;
+  const SessionId driver = relay.join({11, "drive"}), other = relay.join({22, "pause"});
+  relay.from_session(driver, Frame(Arm{}, 1).bytes(), milliseconds(0));
+  relay.from_session(other, Frame(Pause{}, 1).bytes(), milliseconds(0));
+  relay.from_session(driver, Frame(line(1, {}).front(), 2).bytes(), milliseconds(0));
+  EXPECT_THAT(taken_from(relay), testing::ElementsAre(Arm::kId, Pause::kId, AddSegment::kId));
+}
+
+/// Requests after which a Resume that was sent before must not move the robot.
+std::vector<Frame> requests_to_halt(std::uint16_t id) {
+  return {Frame(Stop{}, id), Frame(EmergencyStop{}, id), Frame(Disarm{}, id), Frame(Pause{}, id)};
+}
+
+TEST(Relay, AResumeThatWaitsItsTurnGoesNoMoreOnceSomebodyHaltsTheRobot) {
+  for (const Frame& halt : requests_to_halt(1)) {
+    Relay relay;
+    FakeRobotAt robot(relay);
+    const SessionId asks = relay.join({11, "info"}, false), resumes = relay.join({22, "resume"}, false),
+                    halts = relay.join({33, "stop"}, false);
+    relay.from_session(asks, Frame(GetStatus{}, 1).bytes(), milliseconds(0));
+    relay.from_session(resumes, Frame(Resume{}, 7).bytes(), milliseconds(1));
+    relay.from_session(halts, halt.bytes(), milliseconds(2));
+    EXPECT_THAT(taken_from(relay), testing::Not(testing::Contains(Resume::kId)));
+    relay.from_session(resumes, Frame(Resume{}, 7).bytes(), milliseconds(61));  // its program repeats it
+    relay.tick(seconds(2));  // the turn of the first has ended
+    EXPECT_THAT(taken_from(relay), testing::Not(testing::Contains(Resume::kId)));
+    EXPECT_FALSE(relay.to_session(resumes).empty()) << "its program is told";
+    relay.from_session(resumes, Frame(Resume{}, 8).bytes(), seconds(3));
+    EXPECT_THAT(taken_from(relay), testing::ElementsAre(Resume::kId)) << "one that was sent later goes";
+  }
+}
+
+/// What comes to the robot when a program repeats its request because the answer was lost, and another one
+/// halts the robot in between.
+std::vector<std::uint8_t> repeated_after(const Frame& halt, const Frame& motion) {
+  Relay relay;
+  const SessionId moves = relay.join({22, "moves"}, false), halts = relay.join({33, "halts"}, false);
+  relay.from_session(moves, motion.bytes(), milliseconds(0));
+  taken_from(relay);
+  relay.from_session(halts, halt.bytes(), milliseconds(2));
+  taken_from(relay);
+  relay.from_session(moves, motion.bytes(), milliseconds(60));
+  return taken_from(relay);
+}
+
+TEST(Relay, ARequestForMotionThatWasSentBeforeAHaltIsNotRepeatedAfterIt) {
+  for (const Frame& halt : requests_to_halt(1))
+    EXPECT_THAT(repeated_after(halt, Frame(Resume{}, 7)), testing::IsEmpty());
+  for (const Frame& stop : {Frame(Stop{}, 1), Frame(EmergencyStop{}, 1), Frame(Disarm{}, 1)})
+    EXPECT_THAT(repeated_after(stop, Frame(Arm{}, 7)), testing::IsEmpty());
+  EXPECT_THAT(repeated_after(Frame(Pause{}, 1), Frame(line(1, {}).front(), 7)),
+              testing::ElementsAre(AddSegment::kId))
+      << "a segment waits in the paused robot";
+}
+
+TEST(Relay, TheAnswerToAnArmThatAStopOvertookDoesNotUndoTheStop) {
+  Relay relay;
+  const SessionId driver = relay.join({11, "drive"}, false), other = relay.join({22, "stop"}, false);
+  relay.from_session(driver, Frame(Arm{}, 1).bytes(), milliseconds(0));
+  const auto frame = relay.to_robot().front();
+  const Header arm = RelayRig::header_of({frame.begin(), frame.end()});
+  taken_from(relay);
+  relay.from_session(other, Frame(Stop{}, 1).bytes(), milliseconds(1));
+  taken_from(relay);
+  relay.from_robot(Frame(Ack{}, arm.request_id).bytes(), milliseconds(2));
+  relay.from_session(driver, Frame(Velocity{100'000, 0}, 2).bytes(), milliseconds(3));
+  EXPECT_TRUE(relay.to_robot().empty()) << "the robot stays at rest until it is armed after the stop";
+}
+
 TEST(Relay, ARepeatedFirstHelloLeavesADriverAloneThatCameMeanwhile) {
   Relay relay;
   FakeRobotAt robot(relay);
@@ -300,6 +380,13 @@ TEST_F(SharedPort, AStopIsCarriedOutEachTimeEvenIfItsIdHasComeBefore) {
   for (const int times : {1, 2}) {
     second.send(EmergencyStop{}, 800);
     EXPECT_EQ(rig.count(EmergencyStop::kId), times) << "the program's ids have wrapped meanwhile";
+  }
+}
+
+TEST_F(SharedPort, APauseIsCarriedOutEachTimeEvenIfItsIdHasComeBefore) {
+  for (const int times : {1, 2}) {
+    second.send(Pause{}, 800);
+    EXPECT_EQ(rig.count(Pause::kId), times) << "the program's ids have wrapped meanwhile";
   }
 }
 
@@ -429,6 +516,51 @@ TEST_F(SharedPort, AReaderThatLosesEventsIsLetGoWithTheReason) {
   EXPECT_THAT(thrown_by([&] { second.client.pump(seconds(1)); }),
               AllOf(HasSubstr("lost port0"), HasSubstr("did not read what the robot sent")));
   first.client.request(GetStatus{});
+}
+
+/// A relay with a program that it disconnects because it reads too slowly.
+class ASlowReader : public testing::Test {
+ protected:
+  ASlowReader() {
+    relay.from_session(driver, Frame(Arm{}, 1).bytes(), now);
+    taken_from(relay);
+    const Frame event(SegmentDone{1, SegmentOutcome::completed, 5'000'000}, 0);
+    while (!relay.closing(slow)) {
+      relay.from_robot(event.bytes(), now);
+      while (!relay.to_session(driver).empty())
+        relay.to_session(driver).taken(relay.to_session(driver).front().size());
+    }
+  }
+  microseconds now = seconds(1);
+  Relay relay;
+  SessionId driver = relay.join({11, "drive"}), slow = relay.join({22, "slow"});
+};
+
+TEST_F(ASlowReader, IsHeardToTheEndWhenItHaltsTheRobot) {
+  for (const Frame& halt : requests_to_halt(9)) {
+    relay.from_session(slow, halt.bytes(), now);
+    EXPECT_EQ(taken_from(relay).size(), 1U);
+  }
+  relay.from_session(driver, Frame(Velocity{100'000, 0}, 2).bytes(), now);
+  EXPECT_TRUE(relay.to_robot().empty()) << "the driver was stopped by another program";
+}
+
+TEST_F(ASlowReader, IsHeardEvenIfItsLastRequestWasCutInTwo) {
+  const Frame stop(Stop{}, 9);
+  const auto bytes = stop.bytes();
+  relay.from_session(slow, bytes.first(3), now);
+  relay.from_session(slow, bytes.subspan(3), now);
+  EXPECT_THAT(taken_from(relay), testing::ElementsAre(Stop::kId));
+}
+
+TEST_F(ASlowReader, GetsNothingElseToTheRobotAndNoReply) {
+  const std::size_t waiting = relay.to_session(slow).bytes();
+  for (const Frame& request :
+       {Frame(GetStatus{}, 2), Frame(Resume{}, 3), Frame(Ping{}, 4), Frame(ClearFaults{}, 5),
+        Frame(SetTelemetry{10, Telemetry::kPose}, 6), Frame(GetPortUsers{}, 7), Frame(Hello{}, 8)})
+    relay.from_session(slow, request.bytes(), now);
+  EXPECT_THAT(taken_from(relay), testing::IsEmpty());
+  EXPECT_EQ(relay.to_session(slow).bytes(), waiting);
 }
 
 TEST_F(SharedPort, TwoUploadsAtOnceAreNeverMixed) {

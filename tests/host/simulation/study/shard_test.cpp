@@ -1,6 +1,6 @@
 #include "host/simulation/study/shard_file.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <limits>
@@ -131,6 +131,9 @@ TEST(ShardFile, WithACountThatIsNoneIsRefused) {
     EXPECT_NE(with("runs", count), "") << count;
     EXPECT_NE(with("trial", count), "") << count;
   }
+  EXPECT_THAT(with("trials", "1000000000"), testing::HasSubstr("the number of trials is 1e+09"));
+  EXPECT_THAT(with("runs", "4294967306"), testing::HasSubstr("runs is 4294967306, not a whole number"));
+  EXPECT_THAT(with("trial", "-1"), testing::HasSubstr("trial is -1, not a whole number"));
   EXPECT_EQ(with("seed", "1e300"), "the seed of a study is a whole number, not 1e+300");
 }
 

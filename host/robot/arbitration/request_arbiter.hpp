@@ -7,6 +7,7 @@
 
 #include "host/robot/arbitration/asker.hpp"
 #include "host/robot/arbitration/driver_rule.hpp"
+#include "host/robot/arbitration/relay_messages.hpp"
 #include "host/robot/arbitration/robot_queue.hpp"
 #include "host/robot/arbitration/staging_area.hpp"
 #include "host/robot/arbitration/telemetry_stream.hpp"
@@ -25,15 +26,17 @@ struct Reply {
 /// Ids        each program's request ids are replaced by new ones, so that an answer returns only to the
 ///            program that asked (exchange.hpp, robot_queue.hpp).
 /// Driver     one program at a time drives; the others are refused as busy (driver_rule.hpp). Requests of
-///            programs that do not drive take turns (turns.hpp); Stop, EmergencyStop and Disarm never wait.
+///            programs that do not drive take turns (turns.hpp).
+/// Halt       Stop, EmergencyStop, Disarm and Pause never wait. Requests for motion that other programs sent
+///            before, and that wait or have no answer yet, end as refused: the robot does not get them later.
 /// Hello      answered from the robot's last HelloReply, because a Hello ends a session at the robot.
 /// Telemetry  the robot sends one stream that serves all (telemetry_stream.hpp). Its setting is the only
 ///            request of the relay itself, and the only one that it repeats until the robot answers.
 /// Parameters if two programs change them at the same time, the one whose staged values are gone is refused as
 ///            staging_lost (staging_area.hpp).
-class Requests {
+class RequestArbiter {
  public:
-  Requests();
+  RequestArbiter();
 
   void join(SessionId id, PortUser user);
   /// Drops everything that the program requested. The robot's own time-out ends its drive.
@@ -75,6 +78,7 @@ class Requests {
   void begin(Asker& asker, Exchange exchange, microseconds now);
   void repeat(Asker& asker, microseconds now);
   void send(const Asker& asker, Exchange& exchange, microseconds now);
+  void cancel_motion(SessionId by, std::uint8_t halt);
   bool staging_allows(Asker& asker);
   void next_onlooker(microseconds now);
   void note_answer(const Asker& asker, std::uint8_t request, ByteView body);

@@ -7,15 +7,43 @@
 #include <string_view>
 #include <tuple>
 
+#include "common/base/text.hpp"
 #include "common/protocol/enums.hpp"
 #include "common/protocol/field.hpp"
-#include "host/robot/arbitration/port_users.hpp"
 
-/// Messages between programs that share a port, in addition to the robot's protocol: these and GetPortUsers
-/// with its reply. None of them goes to the robot. Their ids lie between its requests and its replies, where
-/// the protocol has none: a robot refuses the request as unknown, and a program that does not know the events
-/// drops them.
+/// Messages between programs that share a port, in addition to the robot's protocol. None of them goes to the
+/// robot. Their ids, 0x40 to 0x43, lie between its requests and its replies, where the protocol has none: a
+/// robot refuses the request as unknown, and a program that does not know the events drops them.
 namespace astro::robot {
+
+/// A program's command line, cut to fit.
+using CommandLine = Text<96>;
+
+/// The reply to GetPortUsers; process id 0: none.
+struct PortUsers {
+  std::uint32_t driver_pid = 0;
+  CommandLine driver_command{};
+  std::uint32_t stopper_pid = 0;
+  CommandLine stopper_command{};
+
+  static constexpr std::uint8_t kId = 0x41;
+  static constexpr std::string_view kName = "PortUsers";
+  static constexpr std::string_view kDoc = "Who drives through this port, and who ended the asker's drive.";
+  static constexpr std::tuple kFields{
+      protocol::Field{&PortUsers::driver_pid, "driver_pid", "", "whose motion requests are taken"},
+      protocol::Field{&PortUsers::driver_command, "driver_command", "", "its command line"},
+      protocol::Field{&PortUsers::stopper_pid, "stopper_pid", "", "who stopped the asker's drive"},
+      protocol::Field{&PortUsers::stopper_command, "stopper_command", "", "its command line"},
+  };
+};
+
+struct GetPortUsers {
+  using Reply = PortUsers;
+  static constexpr std::uint8_t kId = 0x40;
+  static constexpr std::string_view kName = "GetPortUsers";
+  static constexpr std::string_view kDoc = "Asks the program that holds the port who else is there.";
+  static constexpr std::tuple<> kFields{};
+};
 
 /// The first frame on each connection: the program that holds the port is running. An event.
 struct Welcome {

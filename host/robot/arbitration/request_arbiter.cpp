@@ -1,4 +1,4 @@
-#include "host/robot/arbitration/requests.hpp"
+#include "host/robot/arbitration/request_arbiter.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -23,11 +23,11 @@ constexpr microseconds longest_turn(std::uint8_t message) {
 
 }  // namespace
 
-Requests::Requests() { join(kSelf, {}); }
+RequestArbiter::RequestArbiter() { join(kSelf, {}); }
 
-void Requests::join(SessionId id, PortUser user) { askers_.try_emplace(id, id, std::move(user)); }
+void RequestArbiter::join(SessionId id, PortUser user) { askers_.try_emplace(id, id, std::move(user)); }
 
-void Requests::release(SessionId id) {
+void RequestArbiter::release(SessionId id) {
   askers_.at(id).forget();
   driver_.release(id);
   staging_.release(id);
@@ -35,29 +35,29 @@ void Requests::release(SessionId id) {
   telemetry_.release(id);
 }
 
-void Requests::leave(SessionId id) {
+void RequestArbiter::leave(SessionId id) {
   release(id);
   driver_.remove(id);
   askers_.erase(id);
 }
 
 /// `body` has the request id that the program used.
-void Requests::reply(Asker& asker, const Header& request, ByteView body) {
+void RequestArbiter::reply(Asker& asker, const Header& request, ByteView body) {
   const Bytes frame = frame_of(body);
   asker.remember_answer(request, frame);
   replies_.push_back({asker.id(), frame});
 }
 
 template <Message M>
-void Requests::reply_with(Asker& asker, const Header& request, const M& message) {
+void RequestArbiter::reply_with(Asker& asker, const Header& request, const M& message) {
   reply(asker, request, body_of(message, request.request_id));
 }
 
-bool Requests::repeats(SessionId id, const Header& request) const {
+bool RequestArbiter::repeats(SessionId id, const Header& request) const {
   return askers_.at(id).has_under_way(request);
 }
 
-void Requests::take(SessionId id, ByteView body, microseconds now) {
+void RequestArbiter::take(SessionId id, ByteView body, microseconds now) {
   Asker& asker = askers_.at(id);
   const Header header = *peek(body);  // a framer's body always has a header
   if (header.message_id == Ping::kId) return send(asker, asker.ping(header, body), now);
@@ -65,12 +65,25 @@ void Requests::take(SessionId id, ByteView body, microseconds now) {
   if (answer_here(asker, header, body)) return;
   if (const auto refused = driver_.refusal(id, header.message_id)) return reply_with(asker, header, *refused);
   if (request_rules::stops(header.message_id)) driver_.note_stop(id, asker.user());
+  if (request_rules::halts(header.message_id)) cancel_motion(id, header.message_id);
   if (asker.has_under_way(header)) return repeat(asker, now);
   begin(asker, Exchange(header, body), now);
 }
 
+/// An answer of the robot that still comes is dropped, so an Arm that was sent before a Stop does not undo it.
+void RequestArbiter::cancel_motion(SessionId by, std::uint8_t halt) {
+  const ErrorCode why = request_rules::stops(halt) ? ErrorCode::not_armed : ErrorCode::busy;
+  for (auto& [id, asker] : askers_) {
+    if (id == by || asker.current() == nullptr) continue;
+    const Header request = asker.current()->header;
+    if (!request_rules::is_cancelled_by(request.message_id, halt)) continue;
+    turns_.end(id);
+    reply_with(asker, request, ErrorReply{why, 0});
+  }
+}
+
 /// Answers requests that do not need the robot; returns false for all others.
-bool Requests::answer_here(Asker& asker, const Header& header, ByteView body) {
+bool RequestArbiter::answer_here(Asker& asker, const Header& header, ByteView body) {
   if (header.message_id == GetPortUsers::kId) {
     reply_with(asker, header, users_for(asker.id()));
     return true;
@@ -82,7 +95,7 @@ bool Requests::answer_here(Asker& asker, const Header& header, ByteView body) {
   return false;
 }
 
-PortUsers Requests::users_for(SessionId asker) const {
+PortUsers RequestArbiter::users_for(SessionId asker) const {
   PortUsers users;
   if (const auto driver = driver_.confirmed_driver()) {
     users.driver_pid = askers_.at(*driver).user().pid;
@@ -95,7 +108,7 @@ PortUsers Requests::users_for(SessionId asker) const {
   return users;
 }
 
-void Requests::take_telemetry(Asker& asker, const Header& header, ByteView body) {
+void RequestArbiter::take_telemetry(Asker& asker, const Header& header, ByteView body) {
   const auto request = decode<SetTelemetry>(body);
   if (!request.ok()) return reply_with(asker, header, ErrorReply{ErrorCode::malformed, 0});
   if ((request->fields & ~Telemetry::kAll) != 0)
@@ -104,33 +117,33 @@ void Requests::take_telemetry(Asker& asker, const Header& header, ByteView body)
   reply_with(asker, header, Ack{});
 }
 
-void Requests::send(const Asker& asker, Exchange& exchange, microseconds now) {
+void RequestArbiter::send(const Asker& asker, Exchange& exchange, microseconds now) {
   to_robot_.send(exchange, driver_.drives(asker.id()), now);
 }
 
-void Requests::begin(Asker& asker, Exchange exchange, microseconds now) {
+void RequestArbiter::begin(Asker& asker, Exchange exchange, microseconds now) {
   turns_.end(asker.id());  // the program has given up its last request
   const std::uint8_t message = exchange.header.message_id;
   if (message == Hello::kId) return take_hello(asker, std::move(exchange), now);
   driver_.note_request(asker.id(), message);
-  asker.current = std::move(exchange);
-  const bool at_once = driver_.drives(asker.id()) || request_rules::stops(message);
+  Exchange& current = asker.begin(std::move(exchange));
+  const bool at_once = driver_.drives(asker.id()) || request_rules::halts(message);
   if (!at_once) return turns_.wait(asker.id());
-  if (staging_allows(asker)) send(asker, *asker.current, now);
+  if (staging_allows(asker)) send(asker, current, now);
 }
 
 /// The first Hello goes to the robot, where it ends the session of an earlier program; so does one after
 /// which the robot's answer may differ. All others are answered here, because they would end the driver's
 /// session.
-void Requests::take_hello(Asker& asker, Exchange exchange, microseconds now) {
+void RequestArbiter::take_hello(Asker& asker, Exchange exchange, microseconds now) {
   const auto hello = decode<Hello>(exchange.body);
   const Header header = exchange.header;
   if (!hello.ok()) return reply_with(asker, header, ErrorReply{ErrorCode::malformed, 0});
   release(asker.id());
   if (!hello_) {
-    asker.current = std::move(exchange);
+    Exchange& current = asker.begin(std::move(exchange));
     if (driver_.driver()) return turns_.wait(asker.id());
-    to_robot_.send(*asker.current, true, now);  // with a driver's id, which shows that nobody drives
+    to_robot_.send(current, true, now);  // with a driver's id, which shows that nobody drives
   } else if (hello->protocol_version != hello_->protocol_version) {
     reply_with(asker, header, ErrorReply{ErrorCode::wrong_version, hello_->protocol_version});
   } else {
@@ -138,54 +151,55 @@ void Requests::take_hello(Asker& asker, Exchange exchange, microseconds now) {
   }
 }
 
-void Requests::repeat(Asker& asker, microseconds now) {
-  Exchange& exchange = *asker.current;
+void RequestArbiter::repeat(Asker& asker, microseconds now) {
+  Exchange& exchange = *asker.current();
   const std::uint8_t message = exchange.header.message_id;
   // Another program has sent Hello or drives by now, and a Hello with a driver's id would end its session.
   const bool drivers = exchange.is_sent() && !exchange.has_onlookers_id();
   if (message == Hello::kId && (hello_ || (driver_.driver() && drivers)))
     return take_hello(asker, Exchange(exchange.header, Bytes(exchange.body)), now);
   if (!exchange.is_sent()) return;
-  const bool takes_turns = exchange.has_onlookers_id() && !request_rules::stops(message);
+  const bool takes_turns = exchange.has_onlookers_id() && !request_rules::halts(message);
   if (!takes_turns || turns_.has(asker.id())) return send(asker, exchange, now);
   exchange.state = Exchange::State::waits;  // its turn ended before the answer came
   turns_.wait(asker.id());
 }
 
 /// Returns false if the current request was refused.
-bool Requests::staging_allows(Asker& asker) {
-  const Header header = asker.current->header;
+bool RequestArbiter::staging_allows(Asker& asker) {
+  const Header header = asker.current()->header;
   if (staging_.allows(asker.id(), header.message_id)) return true;
   reply_with(asker, header, ErrorReply{ErrorCode::staging_lost, 0});
   return false;
 }
 
-void Requests::next_onlooker(microseconds now) {
+void RequestArbiter::next_onlooker(microseconds now) {
   while (const auto id = turns_.next(now)) {
     Asker& asker = askers_.at(*id);
-    if (!asker.current || asker.current->is_sent() || !staging_allows(asker)) continue;
-    turns_.begin(*id, now + longest_turn(asker.current->header.message_id));
-    send(asker, *asker.current, now);
+    Exchange* current = asker.current();
+    if (current == nullptr || current->is_sent() || !staging_allows(asker)) continue;
+    turns_.begin(*id, now + longest_turn(current->header.message_id));
+    send(asker, *current, now);
   }
 }
 
-void Requests::take_answer(ByteView body, microseconds now) {
+void RequestArbiter::take_answer(ByteView body, microseconds now) {
   const Header header = *peek(body);
   for (auto& [id, asker] : askers_) {
     if (const auto ping = asker.take_pong(header, now))
       return reply(asker, *ping, with_request_id(body, ping->request_id));
-    if (!asker.current || !asker.current->is_answered_by(header, now)) continue;
-    const Header asked = asker.current->header;
+    if (asker.current() == nullptr || !asker.current()->is_answered_by(header, now)) continue;
+    const Header asked = asker.current()->header;
     turns_.end(id);
     note_answer(asker, asked.message_id, body);
-    asker.current.reset();
+    asker.end();
     const Bytes answer = with_request_id(body, asked.request_id);
     reply(asker, asked, staging_.hides_from(id) ? without_staged(answer) : answer);
     return next_onlooker(now);
   }
 }
 
-void Requests::note_answer(const Asker& asker, std::uint8_t request, ByteView body) {
+void RequestArbiter::note_answer(const Asker& asker, std::uint8_t request, ByteView body) {
   const bool accepted = body.front() != ErrorReply::kId;
   driver_.note_answer(asker.id(), request, accepted);
   if (request == CommitParameters::kId && accepted) hello_.reset();  // the robot's name may have changed
@@ -196,13 +210,13 @@ void Requests::note_answer(const Asker& asker, std::uint8_t request, ByteView bo
   telemetry_.renew();  // a Hello ends the telemetry of its port
 }
 
-void Requests::take_event(ByteView body) {
+void RequestArbiter::take_event(ByteView body) {
   if (body.front() == FaultRaised::kId) driver_.end_drive();
   if (body.front() == Booted::kId) note_restart();
 }
 
 /// After a restart the robot has forgotten all of this.
-void Requests::note_restart() {
+void RequestArbiter::note_restart() {
   hello_.reset();
   driver_.clear();
   staging_.clear();
@@ -211,19 +225,21 @@ void Requests::note_restart() {
   for (auto& [id, asker] : askers_) asker.forget();
 }
 
-void Requests::tick(microseconds now) {
+void RequestArbiter::tick(microseconds now) {
   Asker& self = askers_.at(kSelf);
+  const Exchange* own = self.current();
   if (auto request = telemetry_.next_request())
     begin(self, std::move(*request), now);
-  else if (self.current && self.current->is_sent() && now >= self.current->sent_at + kRepeat)
+  else if (own != nullptr && own->is_sent() && now >= own->sent_at + kRepeat)
     repeat(self, now);
   next_onlooker(now);
 }
 
-std::optional<microseconds> Requests::next_tick() const {
+std::optional<microseconds> RequestArbiter::next_tick() const {
   std::optional<microseconds> next = turns_.deadline();
-  const auto& own = askers_.at(kSelf).current;
-  if (own && own->is_sent()) next = std::min(next.value_or(microseconds::max()), own->sent_at + kRepeat);
+  const Exchange* own = askers_.at(kSelf).current();
+  if (own != nullptr && own->is_sent())
+    next = std::min(next.value_or(microseconds::max()), own->sent_at + kRepeat);
   return next;
 }
 
