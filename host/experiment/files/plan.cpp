@@ -12,7 +12,6 @@
 namespace astro::experiment {
 namespace {
 
-
 bool within(double value, double least, double most) { return value >= least && value <= most; }
 
 void need(bool condition, const std::string& sentence, const Remedy& remedy = {}) {

@@ -14,7 +14,7 @@ int main(int count, char** arguments) {
   const std::filesystem::path folder = arguments[1];
   Run run;
   run.info.kind = "circle";
-  run.info.direction = Sense::ccw;
+  run.info.direction = astro::Sense::ccw;
   run.info.parameters = {{"c_R", 1.00207}, {"b", 0.29}};
   for (int i = 0; i < 1000; ++i) {
     const double angle_rad = 0.009 * i;
