@@ -8,7 +8,6 @@
 #include "common/safety/fault.hpp"
 #include "host/base/interrupted.hpp"
 #include "host/robot/client/client.hpp"
-#include "host/robot/sharing/relay_messages.hpp"
 
 namespace astro::robot {
 
@@ -92,7 +91,6 @@ class DriveSession {
   [[noreturn]] void fail(Fault fault);
   [[noreturn]] void fail_ended(const std::string& what, const std::string& done_to_robot);
   [[noreturn]] void fail_busy();
-  PortUsers port_users();
 
   Client& client_;
   DriveHooks hooks_;
