@@ -1,7 +1,7 @@
 #include <memory>
 
 #include "host/commands/calibrate/commands.hpp"
-#include "host/commands/calibrate/results_option.hpp"
+#include "host/commands/shared/results_option.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/console/console.hpp"
 #include "host/experiment/analysis/report_input.hpp"

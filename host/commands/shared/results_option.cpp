@@ -1,4 +1,4 @@
-#include "host/commands/calibrate/results_option.hpp"
+#include "host/commands/shared/results_option.hpp"
 
 #include "host/commands/shared/damaged_option.hpp"
 #include "host/console/console.hpp"
