@@ -105,6 +105,7 @@ inline constexpr auto kParamTable = std::to_array<ParamRow>({
                 "Steepest change of commanded yaw rate"),
     integer_row(Param::command_timeout, "command_timeout", "ms", {200, 0, 60'000},
                 "The robot stops when no command has come for this long; 0 disables"),
+    // The row stays, because ids are append-only and a set that is stored in a robot or in a file may hold it.
     integer_row(Param::telemetry_period, "telemetry_period", "ms", {10, 0, 60'000},
                 "Not read any more: a host says how often when it asks for telemetry"),
     decimal_row(Param::motor_voltage_max, "motor_voltage_max", "V", 3, {12, 1, 50},

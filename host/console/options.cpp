@@ -51,6 +51,14 @@ Check fraction() {
   };
 }
 
+Option add_ranged(Command command, const std::string& names, double& value, const std::string& what,
+                  const std::string& type_name, double least, double greatest, const std::string& unit) {
+  return command.add_option(names, value, what)
+      .type_name(type_name)
+      .check(between(least, greatest, unit))
+      .capture_default_str();
+}
+
 void examples(Command command, std::initializer_list<const char*> lines) {
   std::string footer = "\nExamples:";
   for (const char* line : lines) footer += std::string("\n  ") + line;

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "host/experiment/drive/experiment.hpp"
+#include "host/simulation/robot/camera_truth.hpp"
 #include "host/simulation/robot/in_process.hpp"
 
 namespace {
@@ -47,7 +48,7 @@ double experiment_s(double& virtual_s, double& improvement) {
   auto robot = std::make_shared<simulation::VirtualRobot>(reference_robot(), simulation::MocapConfig{});
   robot::Client client(std::make_unique<simulation::InProcessTransport>(robot));
   client.connect();
-  simulation::InProcessTruth truth(robot);
+  simulation::CameraTruth truth(robot);
   experiment::Plan plan;
   plan.truth = "sim";
   const experiment::Results results = experiment::run_experiment(client, truth, plan, folder, {});

@@ -21,7 +21,7 @@ class Stranger : public robot::Transport {
     for (const std::uint8_t byte : bytes)
       if (const auto body = framer_.push(byte)) answer(protocol::peek(*body)->request_id);
   }
-  std::size_t read(std::span<std::uint8_t> into, robot::microseconds timeout) override {
+  std::size_t read(std::span<std::uint8_t> into, microseconds timeout) override {
     if (out_.empty()) now_ += timeout;
     if (out_.empty() && input_.empty() && ++silences_ > 50) throw robot::LinkLost("the input has ended");
     const std::size_t size = std::min(into.size(), out_.size());
@@ -29,8 +29,8 @@ class Stranger : public robot::Transport {
     out_.erase(out_.begin(), out_.begin() + static_cast<std::ptrdiff_t>(size));
     return size;
   }
-  robot::microseconds now() const override { return now_; }
-  void reopen(robot::microseconds) override {}
+  microseconds now() const override { return now_; }
+  void reopen(microseconds) override {}
   const std::string& name() const override { return name_; }
 
  private:
@@ -52,7 +52,7 @@ class Stranger : public robot::Transport {
   ByteView input_;
   protocol::Framer framer_;
   Bytes out_;
-  robot::microseconds now_{0};
+  microseconds now_{0};
   int silences_ = 0;
   std::string name_ = "stranger";
 };

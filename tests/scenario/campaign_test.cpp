@@ -84,18 +84,18 @@ class WitnessedTransport : public robot::Transport {
       if (!bytes.empty()) step();
     }
   }
-  std::size_t read(std::span<std::uint8_t> into, robot::microseconds timeout) override {
-    const robot::microseconds deadline = now() + timeout;
+  std::size_t read(std::span<std::uint8_t> into, microseconds timeout) override {
+    const microseconds deadline = now() + timeout;
     while (true) {
       const std::size_t count = robot_.board().ports().host_read(0, into);
       if (count != 0 || now() >= deadline) return count;
       step();
     }
   }
-  robot::microseconds now() const override {
-    return robot::microseconds(static_cast<std::int64_t>(robot_.board().world_us()));
+  microseconds now() const override {
+    return microseconds(static_cast<std::int64_t>(robot_.board().world_us()));
   }
-  void reopen(robot::microseconds) override {}
+  void reopen(microseconds) override {}
   const std::string& name() const override { return name_; }
 
   void step() {

@@ -1,18 +1,11 @@
 #include "host/calibration/judgement/precision.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "host/base/require_positive.hpp"
 
 namespace astro::calibration {
-
-DriveExtent squares_extent(int runs, double side_m) {
-  require_positive(runs, "the number of squares");
-  require_positive(side_m, "the side of the square in metres");
-  return {runs * 4 * side_m, runs * 2 * std::numbers::pi};
-}
 
 Precision reachable_precision(const DriveExtent& extent, double K_m, double b_m) {
   require_positive(extent.distance_m, "the distance in metres");

@@ -22,9 +22,6 @@ struct DriveExtent {
   double rotation_rad = 0;  // sum of the magnitudes
 };
 
-/// `runs` squares of four legs and four quarter turns.
-DriveExtent squares_extent(int runs, double side_m);
-
 /// Standard deviations, all relative: E_d and S are ratios near 1, b is divided by b.
 struct Precision {
   double E_d = 0, scale = 0, b = 0;

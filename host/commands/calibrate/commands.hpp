@@ -15,5 +15,6 @@ void add_calibrate(console::Command app);
 void add_umbmark(console::Command app);
 void add_compare(console::Command app);
 void add_report(console::Command app);
+void add_export(console::Command app);
 
 }  // namespace astro::commands

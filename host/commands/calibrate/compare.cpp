@@ -1,8 +1,7 @@
 #include <memory>
 
-#include "host/base/error.hpp"
 #include "host/commands/calibrate/commands.hpp"
-#include "host/commands/shared/damaged_option.hpp"
+#include "host/commands/shared/results_option.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/console/console.hpp"
 #include "host/experiment/analysis/results.hpp"
@@ -13,23 +12,20 @@ namespace astro::commands {
 
 void add_compare(console::Command app) {
   struct Options {
-    std::vector<std::filesystem::path> folders;
-    bool json = false, damaged = false;
+    ResultsOption results;
+    bool json = false;
   };
   const auto options = std::make_shared<Options>();
   const console::Command command =
       app.add_subcommand("compare", "put recorded squares side by side: before, after, ...");
-  command
-      .add_option("folders", options->folders, "an experiment's folder, or two or more folders of recordings")
-      .required();
+  add_results(command, options->results);
   command.add_flag("--json", options->json, "print one JSON object");
-  add_damaged_flag(command, options->damaged);
   command.footer(
       "Examples:\n"
       "  astrolabe compare my-experiment\n"
       "  astrolabe compare monday/before friday/after --json");
   command.callback([options] {
-    const experiment::Results results = read_results_of(options->folders, options->damaged);
+    const experiment::Results results = read_results(options->results);
     if (options->json) {
       print_json(experiment::to_json(results));
       return;

@@ -134,7 +134,7 @@ void drive_velocity(DriveOptions& options, double v_mps, double omega_radps, dou
   job.connected = [&](robot::Client& client) { note_limits(client, v_mps, omega_radps); };
   job.work = [&](robot::Client& client, robot::DriveSession& session) {
     const ProgressBarScope showing(bar);
-    Steering(client, session).hold(v_mps, omega_radps, robot::microseconds(std::llround(seconds * 1e6)));
+    Steering(client, session).hold(v_mps, omega_radps, microseconds(std::llround(seconds * 1e6)));
   };
   job.moved = [&](const recording::OdometrySample& sample) {
     if (!bar) return;

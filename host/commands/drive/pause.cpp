@@ -15,7 +15,7 @@ void pause(ConnectionOptions& options) {
   const auto client = connect(options);
   constexpr auto kTimeToRest = std::chrono::seconds(5);
   client->request(protocol::Pause{});
-  const robot::microseconds deadline = client->now() + kTimeToRest;
+  const microseconds deadline = client->now() + kTimeToRest;
   while (protocol::gives_power(client->request(protocol::GetStatus{}).mode)) {
     if (console::interrupted() || client->now() >= deadline)
       throw Error("the robot has not come to rest: 'astrolabe stop' stops it");

@@ -7,7 +7,7 @@
 namespace astro::commands {
 namespace {
 
-constexpr robot::microseconds kPeriod = std::chrono::milliseconds(50);
+constexpr microseconds kPeriod = std::chrono::milliseconds(50);
 
 }  // namespace
 
@@ -17,7 +17,7 @@ void Steering::step(double v_mps, double omega_radps) {
   client_.pump_until([&] { return client_.device_time_us() >= next_us || console::interrupted(); }, kPeriod);
 }
 
-void Steering::hold(double v_mps, double omega_radps, robot::microseconds duration) {
+void Steering::hold(double v_mps, double omega_radps, microseconds duration) {
   const std::uint64_t end_us =
       client_.request(protocol::Ping{}).device_time_us + static_cast<std::uint64_t>(duration.count());
   while (client_.device_time_us() < end_us) step(v_mps, omega_radps);

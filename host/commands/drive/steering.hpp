@@ -14,7 +14,7 @@ class Steering {
   void step(double v_mps, double omega_radps);
 
   /// Holds the velocity for this duration by the robot's clock, then ramps to rest.
-  void hold(double v_mps, double omega_radps, robot::microseconds duration);
+  void hold(double v_mps, double omega_radps, microseconds duration);
 
  private:
   robot::Client& client_;

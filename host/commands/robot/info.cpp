@@ -18,18 +18,18 @@ struct InfoOptions {
   bool json = false;
 };
 
-robot::microseconds best_round_trip(robot::Client& client) {
+microseconds best_round_trip(robot::Client& client) {
   constexpr int kTrips = 16;
-  robot::microseconds best = robot::microseconds::max();
+  microseconds best = microseconds::max();
   for (int i = 0; i < kTrips; ++i) {
-    const robot::microseconds sent = client.now();
+    const microseconds sent = client.now();
     client.request(protocol::Ping{});
     best = std::min(best, client.now() - sent);
   }
   return best;
 }
 
-Json as_json(const robot::Client& client, const protocol::Status& status, robot::microseconds round_trip) {
+Json as_json(const robot::Client& client, const protocol::Status& status, microseconds round_trip) {
   const protocol::HelloReply& robot = client.robot();
   return {{"port", client.name()},
           {"name", std::string(robot.robot_name.view())},
@@ -50,8 +50,7 @@ Json as_json(const robot::Client& client, const protocol::Status& status, robot:
           {"round_trip_us", round_trip.count()}};
 }
 
-std::string as_text(const robot::Client& client, const protocol::Status& status,
-                    robot::microseconds round_trip) {
+std::string as_text(const robot::Client& client, const protocol::Status& status, microseconds round_trip) {
   const protocol::HelloReply& robot = client.robot();
   std::string text;
   const auto line = [&](std::string_view what, const std::string& value) {
@@ -74,7 +73,7 @@ std::string as_text(const robot::Client& client, const protocol::Status& status,
 
 void run(InfoOptions& options) {
   const auto client = connect(options.connection);
-  const robot::microseconds round_trip = best_round_trip(*client);
+  const microseconds round_trip = best_round_trip(*client);
   const protocol::Status status = client->request(protocol::GetStatus{});
   if (options.json) {
     print_json(as_json(*client, status, round_trip));

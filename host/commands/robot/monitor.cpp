@@ -104,7 +104,7 @@ class Monitor {
   }
 
   void measure() {
-    const robot::microseconds sent = client_.now();
+    const microseconds sent = client_.now();
     client_.request(protocol::Ping{});
     figures_.round_trip_ms = static_cast<double>((client_.now() - sent).count()) * 1e-3;
     measure_at_ = client_.now() + std::chrono::seconds(1);
@@ -142,7 +142,7 @@ class Monitor {
   LinkFigures figures_;
   Telemetry newest_;
   std::uint64_t seen_ = 0;
-  robot::microseconds measure_at_{}, draw_at_{};
+  microseconds measure_at_{}, draw_at_{};
 };
 
 void run(MonitorOptions& options) {

@@ -109,32 +109,20 @@ void add_build_options(console::Command command, sim::Config& robot) {
       .type_name("N")
       .capture_default_str()
       .check(console::between(1, 65536, "counts"));
-  command
-      .add_option("--motor-mismatch", robot.motor_mismatch,
-                  "constant of the right motor over that of the left one, minus one")
-      .type_name("RATIO")
-      .capture_default_str()
-      .check(console::between(-0.5, 0.5, ""));
+  add_ranged(command, "--motor-mismatch", robot.motor_mismatch,
+             "constant of the right motor over that of the left one, minus one", "RATIO", -0.5, 0.5, "");
   command.add_flag("--on-stand", robot.on_stand, "with the wheels off the ground");
 }
 
 void add_robot_options(console::Command command, sim::Config& robot) {
-  command.add_option("--true-wheelbase", robot.true_wheelbase_m, "wheelbase that the robot really has, in m")
-      .type_name("M")
-      .capture_default_str()
-      .check(console::between(0.05, 2, "m"));
-  command.add_option("--true-ed", robot.true_ed, "true ratio of the wheel diameters, right over left")
-      .type_name("RATIO")
-      .capture_default_str()
-      .check(console::between(0.5, 2, ""));
-  command.add_option("--scale", robot.scale, "true mean wheel diameter over the nominal one")
-      .type_name("RATIO")
-      .capture_default_str()
-      .check(console::between(0.5, 2, ""));
-  command.add_option("--slip", robot.slip_m, "wheel slip: variance of the travel per metre, in m; 0: none")
-      .type_name("M")
-      .capture_default_str()
-      .check(console::between(0, 0.01, "m"));
+  add_ranged(command, "--true-wheelbase", robot.true_wheelbase_m, "wheelbase that the robot really has, in m",
+             "M", 0.05, 2, "m");
+  add_ranged(command, "--true-ed", robot.true_ed, "true ratio of the wheel diameters, right over left",
+             "RATIO", 0.5, 2, "");
+  add_ranged(command, "--scale", robot.scale, "true mean wheel diameter over the nominal one", "RATIO", 0.5,
+             2, "");
+  add_ranged(command, "--slip", robot.slip_m, "wheel slip: variance of the travel per metre, in m; 0: none",
+             "M", 0, 0.01, "m");
   command.add_option("--seed", robot.seed, "seed of all noise; also decides the robot's unique id")
       .type_name("N")
       .capture_default_str()

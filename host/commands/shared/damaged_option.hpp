@@ -4,7 +4,6 @@
 
 #include "host/base/error.hpp"
 #include "host/console/command_line.hpp"
-#include "host/experiment/analysis/results.hpp"
 #include "host/recording/files/run_file.hpp"
 
 /// Incomplete recordings, in commands that compute something from recordings.
@@ -25,9 +24,5 @@ auto read_recordings(bool damaged, Read read) {
 
 /// Prints a warning for each incomplete recording.
 void warn_of_recordings(const std::vector<recording::Run>& runs);
-
-/// The results of an experiment's folder, or of several folders of recordings. Prints warnings about
-/// incomplete recordings and about phases of different robots.
-experiment::Results read_results_of(const std::vector<std::filesystem::path>& folders, bool damaged);
 
 }  // namespace astro::commands

@@ -8,18 +8,6 @@
 #include "host/console/options.hpp"
 
 namespace astro::commands {
-namespace {
-
-void add_rate_of(console::Command command, const char* name, double& value, const char* type, double greatest,
-                 const char* unit, const char* what) {
-  command.add_option(name, value, what)
-      .type_name(type)
-      .check(console::between(0.01, greatest, unit))
-      .capture_default_str();
-}
-
-}  // namespace
-
 bool ProgrammeOptions::named() const {
   return std::any_of(counts.begin(), counts.end(),
                      [](const console::Option& option) { return option.count() > 0; });
@@ -38,13 +26,10 @@ ProgrammeOptions add_programme(console::Command command, simulation::study::Prog
                                .check(console::whole(0, simulation::study::kMostRuns));
   add_size(command, "--side", programme.side_m, "side of a square, m");
   add_size(command, "--length", programme.line_m, "of a line, m");
-  command.add_option("--turns", programme.turns, "of a spin")
-      .type_name("N")
-      .check(console::between(0.25, 50, ""))
-      .capture_default_str();
+  add_ranged(command, "--turns", programme.turns, "of a spin", "N", 0.25, 50, "");
   add_size(command, "--radius", programme.radius_m, "of a circle, m");
-  add_rate_of(command, "--speed", programme.speed_mps, "V", 10, "m/s", "m/s");
-  add_rate_of(command, "--yaw-rate", programme.yaw_rate_radps, "W", 100, "rad/s", "of turns, rad/s");
+  add_ranged(command, "--speed", programme.speed_mps, "m/s", "V", 0.01, 10, "m/s");
+  add_ranged(command, "--yaw-rate", programme.yaw_rate_radps, "of turns, rad/s", "W", 0.01, 100, "rad/s");
   return options;
 }
 

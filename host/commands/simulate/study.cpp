@@ -77,10 +77,8 @@ void add_setup(console::Command command, StudyOptions& options) {
       .check(console::whole(0, std::numeric_limits<std::uint64_t>::max()));
   add_count(command, "--runs", setup.runs, 1, 1000, "squares in each direction");
   add_size(command, "--side", setup.side_m, "side of the square, m");
-  command.add_option("--wheelbase", setup.wheelbase_m, "wheelbase parameter of the robot, m")
-      .type_name("M")
-      .check(console::between(0.05, 2, "m"))
-      .capture_default_str();
+  add_ranged(command, "--wheelbase", setup.wheelbase_m, "wheelbase parameter of the robot, m", "M", 0.05, 2,
+             "m");
   add_ratio(command, "--true-ed", setup.E_d, "true ratio of the wheel diameters, right over left");
   add_ratio(command, "--true-eb", setup.E_b, "true over nominal wheelbase, both at equal scale");
   add_ratio(command, "--scale", setup.scale, "common to the true wheels and wheelbase");
@@ -92,10 +90,8 @@ void add_setup(console::Command command, StudyOptions& options) {
                   "which ml has to find")
       .one_of({"known", "estimated"})
       .capture_default_str();
-  command.add_option("--clock-sd", setup.clock_offset_sd_s, "of the offsets of an estimated clock, s")
-      .type_name("S")
-      .check(console::between(0, 1, "s"))
-      .capture_default_str();
+  add_ranged(command, "--clock-sd", setup.clock_offset_sd_s, "of the offsets of an estimated clock, s", "S",
+             0, 1, "s");
   command.add_option("--noise", options.noise, "whether ml gets the true noise or estimates it")
       .one_of({"known", "estimated"})
       .capture_default_str();

@@ -7,6 +7,7 @@
 #include "host/base/error.hpp"
 #include "host/commands/base/flags.hpp"
 #include "host/commands/tune/commands.hpp"
+#include "host/commands/tune/tune_json.hpp"
 #include "host/commands/tune/tune_view.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
@@ -38,14 +39,10 @@ void add_options(console::Command command, TuneOptions& options) {
                   "of the speed loop, as 6, 6Hz or 40rad/s; default: the stiffest against loads")
       .type_name("HZ")
       .check(a_bandwidth());
-  command.add_option("--max-voltage", options.max_voltage_V, "most that is put on a motor, in V")
-      .type_name("V")
-      .capture_default_str()
-      .check(console::between(1, 50, "V"));
-  command.add_option("--max-distance", options.max_distance_m, "on the ground: how far from its start, in m")
-      .type_name("M")
-      .capture_default_str()
-      .check(console::between(0.2, 50, "m"))
+  add_ranged(command, "--max-voltage", options.max_voltage_V, "most that is put on a motor, in V", "V", 1, 50,
+             "V");
+  add_ranged(command, "--max-distance", options.max_distance_m, "on the ground: how far from its start, in m",
+             "M", 0.2, 50, "m")
       .excludes(stand);
   command.add_flag("--upload", options.upload, "load the new values without asking, and measure again");
   command.add_flag("--yes,-y", options.yes,

@@ -62,8 +62,8 @@ void PortTransport::write(std::span<const std::uint8_t> bytes) {
   robot_->send(port_, bytes);
 }
 
-std::size_t PortTransport::read(std::span<std::uint8_t> into, robot::microseconds timeout) {
-  const robot::microseconds deadline = now() + timeout;
+std::size_t PortTransport::read(std::span<std::uint8_t> into, microseconds timeout) {
+  const microseconds deadline = now() + timeout;
   while (true) {
     const std::size_t count = robot_->receive(port_, into);
     if (count != 0 || now() >= deadline) return count;
@@ -72,12 +72,12 @@ std::size_t PortTransport::read(std::span<std::uint8_t> into, robot::microsecond
   }
 }
 
-robot::microseconds PortTransport::now() const {
-  return robot::microseconds(static_cast<std::int64_t>(robot_->teensy().now_us()));
+microseconds PortTransport::now() const {
+  return microseconds(static_cast<std::int64_t>(robot_->teensy().now_us()));
 }
 
-void PortTransport::reopen(robot::microseconds timeout) {
-  const robot::microseconds deadline = now() + timeout;
+void PortTransport::reopen(microseconds timeout) {
+  const microseconds deadline = now() + timeout;
   while (!present()) {
     if (now() >= deadline) throw Error(name_ + " does not come back");
     robot_->step();

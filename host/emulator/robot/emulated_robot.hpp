@@ -8,7 +8,6 @@
 #include "host/emulator/robot/usb_cdc.hpp"
 #include "host/robot/port/transport.hpp"
 #include "host/simulation/robot/virtual_mocap.hpp"
-#include "host/truth/source/source.hpp"
 
 namespace astro::emulator {
 
@@ -55,9 +54,9 @@ class PortTransport : public robot::Transport {
   ~PortTransport() override;
 
   void write(std::span<const std::uint8_t> bytes) override;
-  std::size_t read(std::span<std::uint8_t> into, robot::microseconds timeout) override;
-  robot::microseconds now() const override;
-  void reopen(robot::microseconds timeout) override;
+  std::size_t read(std::span<std::uint8_t> into, microseconds timeout) override;
+  microseconds now() const override;
+  void reopen(microseconds timeout) override;
   const std::string& name() const override { return name_; }
 
  private:
@@ -67,17 +66,6 @@ class PortTransport : public robot::Transport {
   std::shared_ptr<EmulatedRobot> robot_;
   Port port_;
   std::string name_;
-};
-
-class EmulatedTruth : public truth::Source {
- public:
-  explicit EmulatedTruth(std::shared_ptr<EmulatedRobot> robot) : robot_(std::move(robot)) {}
-  std::vector<recording::TruthSample> poll() override { return robot_->take_truth(); }
-  std::string name() const override { return "sim"; }
-  std::string clock() const override { return "robot"; }
-
- private:
-  std::shared_ptr<EmulatedRobot> robot_;
 };
 
 }  // namespace astro::emulator

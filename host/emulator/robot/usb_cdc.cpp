@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/base/little_endian.hpp"
 #include "host/base/error.hpp"
 
 namespace astro::emulator {
@@ -62,7 +63,7 @@ void CdcHost::enumerate() {
     return host_.read({0x80, kGetDescriptor, kConfiguration << 8, 0, bytes}, configuration);
   };
   expect(read(9) == Outcome::done && configuration.size() == 9, "has no configuration");
-  const auto total = static_cast<std::uint16_t>(configuration[2] | configuration[3] << 8);
+  const auto total = load_little_endian<std::uint16_t>(&configuration[2]);
   expect(read(total) == Outcome::done && configuration.size() == total, "cuts its configuration short");
   pipes_ = pipes_of(configuration);
   expect(host_.write({0x00, kSetConfiguration, configuration[5], 0, 0}) == Outcome::done,
@@ -72,13 +73,8 @@ void CdcHost::enumerate() {
 }
 
 void CdcHost::set_line() {
-  const std::array<std::uint8_t, 7> coding{static_cast<std::uint8_t>(baud_),
-                                           static_cast<std::uint8_t>(baud_ >> 8),
-                                           static_cast<std::uint8_t>(baud_ >> 16),
-                                           static_cast<std::uint8_t>(baud_ >> 24),
-                                           0,
-                                           0,
-                                           8};
+  std::array<std::uint8_t, 7> coding{0, 0, 0, 0, 0, 0, 8};  // baud; one stop bit, no parity, eight bits
+  store_little_endian<std::uint32_t>(coding.data(), baud_);
   constexpr std::uint16_t kReadyAndCarrier = 3;
   const std::uint16_t interface = pipes_.control_interface;
   expect(host_.write({kToInterface, kSetLineCoding, 0, interface, 7}, coding) == Outcome::done,

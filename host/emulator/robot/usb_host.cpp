@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "common/base/little_endian.hpp"
+
 namespace astro::emulator {
 namespace {
 
@@ -11,10 +13,11 @@ constexpr auto kMicroframe = 125us;
 constexpr int kNakRetries = 4000;  // one per microframe: half a second, the usual time-out of a host
 
 std::array<std::uint8_t, 8> bytes_of(const UsbHost::Request& r) {
-  const auto low = [](std::uint16_t word) { return static_cast<std::uint8_t>(word); };
-  const auto high = [](std::uint16_t word) { return static_cast<std::uint8_t>(word >> 8); };
-  return {r.type,       r.request,     low(r.value),  high(r.value),
-          low(r.index), high(r.index), low(r.length), high(r.length)};
+  std::array<std::uint8_t, 8> bytes{r.type, r.request};
+  store_little_endian(&bytes[2], r.value);
+  store_little_endian(&bytes[4], r.index);
+  store_little_endian(&bytes[6], r.length);
+  return bytes;
 }
 
 }  // namespace

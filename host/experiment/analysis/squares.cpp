@@ -2,27 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "host/base/error.hpp"
 #include "host/base/sense.hpp"
-#include "host/experiment/files/number_named.hpp"
-#include "host/experiment/files/plan.hpp"
+#include "host/experiment/analysis/loaded_parameter.hpp"
 #include "host/experiment/files/same_number.hpp"
 #include "host/recording/run/end_error.hpp"
-#include "host/recording/run/run_metadata.hpp"
 
 namespace astro::experiment {
 namespace {
-
-double parameter(const recording::RunInfo& info, const char* name) {
-  const std::optional<double> value = number_named(info.parameters, name);
-  if (!value)
-    throw Error(
-        fmt::format("the recording of {} does not say what {} the robot carried: it cannot be calibrated",
-                    recording::run_name(info), name));
-  return *value;
-}
 
 void accept(Squares& squares, const recording::Run& run, bool first) {
   const calibration::WheelFactors loaded = loaded_factors(run.info);
@@ -34,7 +21,7 @@ void accept(Squares& squares, const recording::Run& run, bool first) {
     throw Error(
         "the squares were driven with different c_R, c_L or b: calibrate each phase for itself (name its "
         "folder)");
-  if (std::abs(run.info.size_m - squares.side_m) > 1e-9)
+  if (!same_number(run.info.size_m, squares.side_m))
     throw Error(
         fmt::format("the squares have different sides ({} m and {} m): keep each size in a folder of its own",
                     squares.side_m, run.info.size_m));
@@ -50,7 +37,7 @@ bool same_factors(const calibration::WheelFactors& a, const calibration::WheelFa
 }
 
 calibration::WheelFactors loaded_factors(const recording::RunInfo& info) {
-  return {parameter(info, "c_R"), parameter(info, "c_L"), parameter(info, "b")};
+  return {loaded_parameter(info, "c_R"), loaded_parameter(info, "c_L"), loaded_parameter(info, "b")};
 }
 
 Squares squares_of(std::span<const recording::Run> runs) {

@@ -7,19 +7,11 @@
 #include <numbers>
 
 #include "host/base/error.hpp"
-#include "host/experiment/files/number_named.hpp"
+#include "host/experiment/analysis/loaded_parameter.hpp"
 #include "host/experiment/files/same_number.hpp"
 
 namespace astro::experiment {
 namespace {
-
-double parameter(const recording::RunInfo& info, const char* parameter, const std::string& name) {
-  const std::optional<double> value = number_named(info.parameters, parameter);
-  if (!value || !std::isfinite(*value) || *value <= 0)
-    throw Error(fmt::format("the recording '{}' does not say what {} the robot carried", name, parameter),
-                {Help::leave_run_out, name});
-  return *value;
-}
 
 /// Distance since the first sample of a counter that wraps at 2^32.
 class Travel {
@@ -72,9 +64,9 @@ bool NominalWheel::measures_like(const NominalWheel& other) const {
 }
 
 NominalWheel nominal_wheel(const recording::RunInfo& info, const std::string& name) {
-  return {parameter(info, "wheel_diameter", name), parameter(info, "counts_per_motor_rev", name) *
-                                                       parameter(info, "gear_numerator", name) /
-                                                       parameter(info, "gear_denominator", name)};
+  const auto loaded = [&](const char* parameter) { return loaded_parameter(info, parameter, name); };
+  return {loaded("wheel_diameter"),
+          loaded("counts_per_motor_rev") * loaded("gear_numerator") / loaded("gear_denominator")};
 }
 
 bool has_moving_truth(const recording::RunInfo& info) {

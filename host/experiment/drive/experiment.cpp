@@ -5,15 +5,14 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "host/base/error.hpp"
 #include "host/base/folder_lock.hpp"
 #include "host/experiment/analysis/until.hpp"
 #include "host/experiment/drive/mistyped_square.hpp"
+#include "host/experiment/drive/open_journal.hpp"
 #include "host/experiment/files/experiment_folder.hpp"
-#include "host/experiment/files/robot_identity.hpp"
 #include "host/recording/files/run_file.hpp"
 #include "host/robot/parameters/upload.hpp"
 
@@ -30,9 +29,12 @@ class Session {
  public:
   Session(robot::Client& client, truth::Source& truth, const Plan& plan, fs::path folder,
           const ExperimentHooks& hooks)
-      : client_(client), truth_(truth), folder_(std::move(folder)), lock_(folder_), hooks_(hooks) {
-    open_journal(plan);
-  }
+      : client_(client),
+        truth_(truth),
+        folder_(std::move(folder)),
+        lock_(folder_),
+        hooks_(hooks),
+        journal_(open_journal(folder_, plan, client)) {}
 
   Results run() {
     const std::vector<std::string> phases = phase_names(journal_.plan);
@@ -45,30 +47,6 @@ class Session {
   }
 
  private:
-  void open_journal(const Plan& plan) {
-    const protocol::HelloReply& robot = client_.robot();
-    const RobotIdentity identity = identity_of(robot);
-    if (has_journal(folder_)) {
-      journal_ = read_journal(folder_);
-      if (nlohmann::json(journal_.plan) != nlohmann::json(plan))
-        throw Error("'" + folder_.string() + "' holds an experiment with other settings",
-                    {Help::give_same_settings_or_choose_other_folder});
-      if (const std::string other =
-              different_robots("the experiment in '" + folder_.string() + "'",
-                               {journal_.robot_name, journal_.robot_id}, "this", identity);
-          !other.empty())
-        throw Error(other, {Help::choose_other_folder});
-      return;
-    }
-    journal_.plan = plan;
-    journal_.robot_id = identity.id;
-    journal_.robot_name = identity.name;
-    journal_.board = robot.board.view();
-    journal_.firmware = fmt::format("{}.{}.{}", robot.fw_major, robot.fw_minor, robot.fw_patch);
-    journal_.started_at = utc_now();
-    write_journal(folder_, journal_);
-  }
-
   static calibration::WheelFactors factors_of(const robot::RemoteParameters& robot) {
     return {std::get<double>(robot.value("c_R")), std::get<double>(robot.value("c_L")),
             std::get<double>(robot.value("b"))};
@@ -92,8 +70,7 @@ class Session {
       if (found.ml() == nullptr)
         throw Error(
             "a precision can only be driven for by maximum likelihood, and these runs have no ground truth "
-            "along "
-            "the way",
+            "along the way",
             {Help::count_runs});
       const calibration::Precision reached = precision_of(found);
       hooks_.run.notice(fmt::format("{}: {} + {} squares give {}", specs.front().phase, squares, squares,

@@ -8,7 +8,7 @@ using std::chrono::milliseconds;
 namespace {
 
 constexpr std::uint64_t kStep_us = 20'000;
-constexpr robot::microseconds kStepAtMost = milliseconds(60);
+constexpr microseconds kStepAtMost = milliseconds(60);
 constexpr std::uint32_t kFields = Telemetry::kCounts | Telemetry::kWheelSpeed | Telemetry::kSetpoint |
                                   Telemetry::kDuty | Telemetry::kBattery;
 constexpr double kFullDuty = 32767;

@@ -7,7 +7,7 @@
 #include "common/protocol/codec.hpp"
 #include "common/protocol/framer.hpp"
 #include "host/base/bytes.hpp"
-#include "host/robot/port/transport.hpp"
+#include "host/base/microseconds.hpp"
 
 namespace astro::robot {
 

@@ -3,8 +3,8 @@
 #include <deque>
 #include <optional>
 
+#include "host/base/microseconds.hpp"
 #include "host/robot/arbitration/port_user.hpp"
-#include "host/robot/port/transport.hpp"
 
 namespace astro::robot {
 

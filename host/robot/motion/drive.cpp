@@ -5,8 +5,8 @@
 
 #include "host/base/numbers.hpp"
 #include "host/robot/client/restore.hpp"
+#include "host/robot/motion/other_program.hpp"
 #include "host/robot/motion/rest.hpp"
-#include "host/robot/sharing/port_socket.hpp"
 
 namespace astro::robot {
 
@@ -28,10 +28,6 @@ std::int32_t micro(double value, const char* what) {
   if (!(std::abs(steps) <= 0x7FFFFFFF))
     throw Error(std::string(what) + " of " + to_text(value) + " is not possible");
   return static_cast<std::int32_t>(steps);
-}
-
-std::string in_brackets(std::uint32_t pid, const CommandLine& command) {
-  return pid == 0 ? "" : " (" + in_words(pid, command.view()) + ")";
 }
 
 Fault first_fault(std::uint32_t mask) {
@@ -161,7 +157,7 @@ void DriveSession::ask_for_progress() {
   if (status.latched_faults != 0) fail(first_fault(status.latched_faults));
   if (status.mode == Mode::disarmed) fail_ended("the drive ended early", "disarmed");
   const bool idle = status.mode == Mode::idle && status.queued_segments == 0;
-  if (idle && port_users().stopper_pid != 0) fail_ended("the drive ended early", "stopped");
+  if (idle && port_users(client_).stopper_pid != 0) fail_ended("the drive ended early", "stopped");
   if (idle) done_ = accepted_;
   check();
 }
@@ -218,40 +214,29 @@ void DriveSession::command(const M& motion) {
 void DriveSession::explain(const RobotRefused& refused) {
   if (refused.code() == ErrorCode::faulted) fail(static_cast<Fault>(refused.detail()));
   if (refused.code() == ErrorCode::not_armed) fail_ended("the drive ended early", "stopped");
-  if (refused.code() == ErrorCode::busy && port_users().driver_pid != 0) fail_busy();
-}
-
-/// The other programs at this port; nobody if it is not shared.
-PortUsers DriveSession::port_users() {
-  try {
-    return client_.request(GetPortUsers{}, {.timeout = milliseconds(60), .tries = 3});
-  } catch (const Error&) {
-    return {};
-  }
+  if (refused.code() == ErrorCode::busy && port_users(client_).driver_pid != 0) fail_busy();
 }
 
 void DriveSession::fail_busy() {
-  const PortUsers users = port_users();
-  throw Error(
-      "the robot is driving for another program" + in_brackets(users.driver_pid, users.driver_command),
-      {Help::stop_other_program});
+  const PortUsers users = port_users(client_);
+  throw Error("the robot is driving for " + another_program(users.driver_pid, users.driver_command),
+              {Help::stop_other_program});
 }
 
 /// The reason may arrive after the end: after a fault the robot reports the aborted segment first.
 void DriveSession::fail_ended(const std::string& what, const std::string& done_to_robot) {
   const FaultReport report = client_.request(GetFaults{});
   if (report.latched != 0) fail(report.first != Fault::none ? report.first : first_fault(report.latched));
-  const PortUsers users = port_users();
-  throw Error(what + ": another program" + in_brackets(users.stopper_pid, users.stopper_command) + " " +
-              done_to_robot + " the robot");
+  const PortUsers users = port_users(client_);
+  throw Error(what + ": " + another_program(users.stopper_pid, users.stopper_command) + " " + done_to_robot +
+              " the robot");
 }
 
 void DriveSession::fail(Fault fault) {
   std::string cause = "the robot stopped by itself: ";
   if (fault == Fault::emergency_stop) {
-    const PortUsers users = port_users();
-    cause =
-        "another program" + in_brackets(users.stopper_pid, users.stopper_command) + " stopped the robot: ";
+    const PortUsers users = port_users(client_);
+    cause = another_program(users.stopper_pid, users.stopper_command) + " stopped the robot: ";
   }
   throw DriveFault(cause + std::string(name(fault)), fault);
 }

@@ -92,7 +92,6 @@ class DriveSession {
   [[noreturn]] void fail(Fault fault);
   [[noreturn]] void fail_ended(const std::string& what, const std::string& done_to_robot);
   [[noreturn]] void fail_busy();
-  PortUsers port_users();
 
   Client& client_;
   DriveHooks hooks_;

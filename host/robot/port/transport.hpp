@@ -1,16 +1,14 @@
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
 
 #include "host/base/error.hpp"
+#include "host/base/microseconds.hpp"
 
 namespace astro::robot {
-
-using std::chrono::microseconds;
 
 /// The connection to the robot is lost, or the robot has stopped answering: the request under way may or may
 /// not have been carried out. After every other error of a request the robot's state is known.

@@ -1,12 +1,10 @@
 #include "host/robot/sharing/relay_server.hpp"
 
-#include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
 #include <sys/eventfd.h>
-#include <sys/prctl.h>
 #include <sys/socket.h>
-#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +12,7 @@
 #include <chrono>
 
 #include "host/base/error.hpp"
+#include "host/robot/sharing/background_process.hpp"
 #include "host/robot/sharing/port_socket.hpp"
 
 namespace astro::robot {
@@ -228,23 +227,11 @@ void RelayServer::lose_line() {
   lost_ = true;
 }
 
-/// Forks twice, so that no process has to wait for the one that stays.
+/// If no process can be left behind, the connections of the others end.
 void RelayServer::serve_in_background() {
-  const pid_t child = ::fork();
-  if (child > 0) ::waitpid(child, nullptr, 0);
-  if (child != 0) return;  // the parent, also if fork() failed: then the connections of the others end
-  if (::fork() != 0) ::_exit(0);
-  ::setsid();
-  ::prctl(PR_SET_NAME, "astrolabe-relay");
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_DFL);
-  ::signal(SIGPIPE, SIG_IGN);
-  ::alarm(0);
   std::vector<int> keep{wake_.get(), shared_.line.get(), shared_.listener.get()};
   for (const Connection& connection : connections_) keep.push_back(connection.socket.get());
-  const int most = static_cast<int>(::sysconf(_SC_OPEN_MAX));
-  for (int number = 0; number < std::min(most, 65'536); ++number)
-    if (std::find(keep.begin(), keep.end(), number) == keep.end()) ::close(number);
-  for (int number = 0; number < 3; ++number) ::open("/dev/null", O_RDWR);
+  if (!leave_process_behind("astrolabe-relay", keep)) return;
   constexpr int kBacklog = 16;
   if (shared_.listener)
     ::listen(shared_.listener.get(), kBacklog);  // again, so that SO_PEERCRED names this process

@@ -14,8 +14,8 @@ void InProcessTransport::write(std::span<const std::uint8_t> bytes) {
   }
 }
 
-std::size_t InProcessTransport::read(std::span<std::uint8_t> into, robot::microseconds timeout) {
-  const robot::microseconds deadline = now() + timeout;
+std::size_t InProcessTransport::read(std::span<std::uint8_t> into, microseconds timeout) {
+  const microseconds deadline = now() + timeout;
   while (true) {
     const std::size_t count = robot_->board().ports().host_read(port_, into);
     if (count != 0 || now() >= deadline) return count;
@@ -23,11 +23,11 @@ std::size_t InProcessTransport::read(std::span<std::uint8_t> into, robot::micros
   }
 }
 
-robot::microseconds InProcessTransport::now() const {
-  return robot::microseconds(static_cast<std::int64_t>(robot_->board().world_us()));
+microseconds InProcessTransport::now() const {
+  return microseconds(static_cast<std::int64_t>(robot_->board().world_us()));
 }
 
-void InProcessTransport::reopen(robot::microseconds) {
+void InProcessTransport::reopen(microseconds) {
   std::array<std::uint8_t, 256> stale;
   while (robot_->board().ports().host_read(port_, stale) != 0) {
   }

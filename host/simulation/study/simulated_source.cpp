@@ -11,6 +11,7 @@
 #include "host/experiment/drive/record_run.hpp"
 #include "host/recording/run/end_error.hpp"
 #include "host/robot/parameters/upload.hpp"
+#include "host/simulation/robot/camera_truth.hpp"
 #include "host/simulation/robot/in_process.hpp"
 #include "host/simulation/study/synthetic_drive.hpp"
 
@@ -80,7 +81,7 @@ class SimulatedRobot {
  private:
   std::shared_ptr<simulation::VirtualRobot> robot_;
   robot::Client client_;
-  simulation::InProcessTruth truth_;
+  simulation::CameraTruth truth_;
   experiment::Plan plan_;
   std::map<std::string, double> parameters_;
 };

@@ -18,8 +18,6 @@ enum class Fate { arrives, lost, corrupted, twice, link_drops };
 /// A FakeRobot at the other end of a line in virtual time: reading is what makes time pass.
 class FakeLink : public robot::Transport {
  public:
-  using microseconds = robot::microseconds;
-
   FakeRobot robot;
 
   // What a test may set.

@@ -16,7 +16,6 @@ namespace astro::test {
 /// A FakeRobot, a relay and the programs at it, in one virtual time: whoever reads makes it pass.
 class RelayRig {
  public:
-  using microseconds = robot::microseconds;
   using Bytes = FakeRobot::Bytes;
 
   FakeRobot robot;
@@ -75,8 +74,6 @@ class RelayRig {
 /// A program's way through the relay.
 class RelayedTransport : public robot::Transport {
  public:
-  using microseconds = robot::microseconds;
-
   RelayedTransport(RelayRig& rig, robot::PortUser user, bool greets = true)
       : rig_(rig), id_(rig.relay.join(std::move(user), greets)) {}
 

@@ -23,22 +23,22 @@ class ScriptedTransport : public robot::Transport {
     const Bytes more = answer_(bytes);
     waiting_.insert(waiting_.end(), more.begin(), more.end());
   }
-  std::size_t read(std::span<std::uint8_t> into, robot::microseconds timeout) override {
+  std::size_t read(std::span<std::uint8_t> into, microseconds timeout) override {
     if (waiting_.empty()) now_ += timeout;
     const std::size_t size = std::min(into.size(), waiting_.size());
     std::copy_n(waiting_.begin(), size, into.begin());
     waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(size));
     return size;
   }
-  robot::microseconds now() const override { return now_; }
-  void reopen(robot::microseconds) override { waiting_.clear(); }
+  microseconds now() const override { return now_; }
+  void reopen(microseconds) override { waiting_.clear(); }
   const std::string& name() const override { return name_; }
 
  private:
   Answer answer_;
   Bytes waiting_;
   std::string name_ = "port0";
-  robot::microseconds now_{0};
+  microseconds now_{0};
 };
 
 }  // namespace astro::test

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "host/experiment/drive/experiment.hpp"
+#include "host/simulation/robot/camera_truth.hpp"
 #include "host/simulation/robot/in_process.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 
@@ -34,7 +35,7 @@ struct Desk {
 
   std::shared_ptr<simulation::VirtualRobot> robot;
   robot::Client client;
-  simulation::InProcessTruth truth;
+  simulation::CameraTruth truth;
 };
 
 using test::TemporaryFolder;

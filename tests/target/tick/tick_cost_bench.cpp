@@ -4,6 +4,7 @@
 
 #include "host/emulator/robot/emulated_robot.hpp"
 #include "host/experiment/drive/experiment.hpp"
+#include "host/simulation/robot/camera_truth.hpp"
 #include "tests/support/robots/desk.hpp"
 #include "tests/target/firmware_file.hpp"
 #include "tests/target/tick/tick_profile.hpp"
@@ -18,7 +19,7 @@ using target::kImage;
 experiment::Results run(const std::shared_ptr<emulator::EmulatedRobot>& robot, int runs) {
   const support::TemporaryFolder folder;
   robot::Client client(std::make_unique<emulator::PortTransport>(robot, emulator::Port::serial));
-  emulator::EmulatedTruth truth(robot);
+  simulation::CameraTruth truth(robot);
   client.connect();
   experiment::Plan plan;
   plan.runs = runs;

@@ -14,7 +14,7 @@ constexpr double kSlip_m = 2.645e-6;
 constexpr double kWheelbase_m = 0.290;
 
 TEST(Precision, TenSquaresComeWithinFourPercentOfTheCramerRaoBound) {
-  const Precision p = reachable_precision(squares_extent(10, 3), kSlip_m, kWheelbase_m);
+  const Precision p = reachable_precision({10 * 4 * 3.0, 10 * 2 * std::numbers::pi}, kSlip_m, kWheelbase_m);
   // The bound is printed to three digits: 2.03, 1.05 and 3.92, each times 1e-4.
   EXPECT_NEAR(p.E_d / 2.03e-4, 1, 0.04);
   EXPECT_NEAR(p.scale / 1.05e-4, 1, 0.04);
@@ -29,18 +29,12 @@ TEST(Precision, FourTimesTheDriveHalvesTheError) {
   EXPECT_DOUBLE_EQ(long_drive.b, short_drive.b / 2);
 }
 
-TEST(Precision, ASquareIsFourLegsAndOneTurn) {
-  const DriveExtent e = squares_extent(3, 2.5);
-  EXPECT_DOUBLE_EQ(e.distance_m, 30);
-  EXPECT_DOUBLE_EQ(e.rotation_rad, 6 * std::numbers::pi);
-}
-
 TEST(Precision, RefusesWhatIsNoDrive) {
   const auto message = [](auto call) { return test::error_of([&] { (void)call(); }); };
-  EXPECT_EQ(message([] { return squares_extent(0, 3); }),
-            "the number of squares is 0: give a positive number");
-  EXPECT_EQ(message([] { return squares_extent(5, std::nan("")); }),
-            "the side of the square in metres is nan: give a positive number");
+  EXPECT_EQ(message([] {
+              return reachable_precision({std::nan(""), 10}, kSlip_m, kWheelbase_m);
+            }),
+            "the distance in metres is nan: give a positive number");
   EXPECT_EQ(message([] {
               return reachable_precision({10, 0}, kSlip_m, kWheelbase_m);
             }),

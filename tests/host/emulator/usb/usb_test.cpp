@@ -74,13 +74,13 @@ struct Device : Program {
   }
 };
 
-std::string refusal(const std::string& code) { return Program(kReady + code).stopped_by(); }
+std::string refusal_once_ready(const std::string& code) { return Program(kReady + code).stopped_by(); }
 
 // The host has seen the device; then it detaches.
 constexpr const char* kLeave = "  set USB1_USBCMD, 0\n";
 
 TEST(UsbController, ThatComesBackBeforeAHostHasNoticedEndsTheRun) {
-  EXPECT_THAT(refusal(kLeave + kAttach),
+  EXPECT_THAT(refusal_once_ready(kLeave + kAttach),
               HasSubstr("USB1 USBCMD: attached again less than 256 ms after it left"));
   Program back(kReady + kLeave + "1: get 0x20000000\n cmp r0, #0\n beq 1b\n" + kAttach);
   EXPECT_EQ(back.stopped_by(), "");
@@ -155,43 +155,46 @@ TEST(UsbPriming, NeedsTheDeviceMode) {
 }
 
 TEST(UsbPriming, NeedsAnEnabledEndpoint) {
-  EXPECT_THAT(refusal("  transfer 0\n prime 4, 1"), HasSubstr("USB1 ENDPTPRIME: endpoint 4 is not enabled"));
-  EXPECT_THAT(refusal("  transfer 0\n prime 2, 1"), HasSubstr("USB1 ENDPTPRIME: endpoint 2 is not enabled"))
+  EXPECT_THAT(refusal_once_ready("  transfer 0\n prime 4, 1"),
+              HasSubstr("USB1 ENDPTPRIME: endpoint 4 is not enabled"));
+  EXPECT_THAT(refusal_once_ready("  transfer 0\n prime 2, 1"),
+              HasSubstr("USB1 ENDPTPRIME: endpoint 2 is not enabled"))
       << "the other direction is";
 }
 
 TEST(UsbPriming, NeedsATransferThatIsActiveAndAlone) {
-  EXPECT_THAT(refusal("  transfer 8\n prime 3, 1, 0x20002001"),
+  EXPECT_THAT(refusal_once_ready("  transfer 8\n prime 3, 1, 0x20002001"),
               HasSubstr("USB1 ENDPTPRIME: the queue head names no transfer"));
-  EXPECT_THAT(refusal("  transfer 8\n prime 3, 1, 0x20002010"),
+  EXPECT_THAT(refusal_once_ready("  transfer 8\n prime 3, 1, 0x20002010"),
               HasSubstr("USB1 ENDPTPRIME: a transfer that is not aligned to 32 bytes"));
-  EXPECT_THAT(refusal("  transfer 8\n prime 3, 1, 0x20002000, 0x40"),
+  EXPECT_THAT(refusal_once_ready("  transfer 8\n prime 3, 1, 0x20002000, 0x40"),
               HasSubstr("USB1 ENDPTPRIME: the queue head is halted"));
-  EXPECT_THAT(refusal("  transfer 8, 0x8000\n prime 3, 1"),
+  EXPECT_THAT(refusal_once_ready("  transfer 8, 0x8000\n prime 3, 1"),
               HasSubstr("USB1 ENDPTPRIME: the transfer is not active"));
-  EXPECT_THAT(refusal("  transfer 8\n set 0x20002000, 0x20002020\n prime 3, 1"),
+  EXPECT_THAT(refusal_once_ready("  transfer 8\n set 0x20002000, 0x20002020\n prime 3, 1"),
               HasSubstr("USB1 ENDPTPRIME: lists of transfers are not modelled"));
 }
 
 TEST(UsbPriming, NeedsATransferThatTellsWhenItIsDone) {
-  EXPECT_THAT(refusal("  transfer 8, 0x80\n prime 3, 1"),
+  EXPECT_THAT(refusal_once_ready("  transfer 8, 0x80\n prime 3, 1"),
               HasSubstr("USB1 ENDPTPRIME: a transfer without IOC is not modelled"));
 }
 
 TEST(UsbPriming, NeedsAPointerToEachPageOfTheBuffer) {
   const std::string crossing = "  transfer 0x1001\n set 0x2000200C, 0\n";
-  EXPECT_THAT(refusal(crossing + "  prime 3, 1"),
+  EXPECT_THAT(refusal_once_ready(crossing + "  prime 3, 1"),
               HasSubstr("USB1 ENDPTPRIME: the transfer does not name the pages that follow its first"));
-  EXPECT_EQ(refusal("  transfer 0x1001\n prime 3, 1"), "");
-  EXPECT_EQ(refusal("  transfer 0x1000\n set 0x2000200C, 0\n prime 3, 1"), "") << "one page is enough";
-  EXPECT_THAT(refusal("  transfer 0x5001\n prime 3, 1"), HasSubstr("does not name the pages"))
+  EXPECT_EQ(refusal_once_ready("  transfer 0x1001\n prime 3, 1"), "");
+  EXPECT_EQ(refusal_once_ready("  transfer 0x1000\n set 0x2000200C, 0\n prime 3, 1"), "")
+      << "one page is enough";
+  EXPECT_THAT(refusal_once_ready("  transfer 0x5001\n prime 3, 1"), HasSubstr("does not name the pages"))
       << "five pages";
 }
 
 TEST(UsbPriming, FindsHeadsAndTransfersInRamAlone) {
-  EXPECT_THAT(refusal("  transfer 8\n prime 3, 1, 0x60002000"),
+  EXPECT_THAT(refusal_once_ready("  transfer 8\n prime 3, 1, 0x60002000"),
               HasSubstr("a bus master goes to 0x60002000, which is no RAM"));
-  EXPECT_THAT(refusal("  set USB1_ENDPTLISTADDR, 0x60002000\n transfer 8\n prime 3, 1"),
+  EXPECT_THAT(refusal_once_ready("  set USB1_ENDPTLISTADDR, 0x60002000\n transfer 8\n prime 3, 1"),
               HasSubstr("a bus master goes to 0x600021C0, which is no RAM"));
 }
 
@@ -209,18 +212,19 @@ constexpr const char* kCaches = R"(
 )";
 
 TEST(UsbPriming, FindsStaleDataInMemoryThatTheProcessorCaches) {
-  EXPECT_THAT(refusal(fmt::format(kCaches, "0x03030025")),
+  EXPECT_THAT(refusal_once_ready(fmt::format(kCaches, "0x03030025")),
               HasSubstr("a bus master goes to 0x20200000, which the processor caches"));
-  EXPECT_EQ(refusal(fmt::format(kCaches, "0x03080025")), "");
+  EXPECT_EQ(refusal_once_ready(fmt::format(kCaches, "0x03080025")), "");
 }
 
 TEST(UsbPriming, FindsStaleDataInOcramWithoutARegionToo) {
-  EXPECT_THAT(refusal(fmt::format(kCaches, "0x03080024")), HasSubstr("which the processor caches"))
+  EXPECT_THAT(refusal_once_ready(fmt::format(kCaches, "0x03080024")), HasSubstr("which the processor caches"))
       << "the default map";
 }
 
 TEST(UsbPriming, FindsTheCoupledMemoriesAsTheyAre) {
-  EXPECT_EQ(refusal("  set SCB_CCR, 0x30000\n transfer 8\n prime 3, 1"), "") << "they have no cache";
+  EXPECT_EQ(refusal_once_ready("  set SCB_CCR, 0x30000\n transfer 8\n prime 3, 1"), "")
+      << "they have no cache";
 }
 
 TEST(UsbPriming, IsShownUntilAFlushOrTheEnd) {
@@ -233,9 +237,9 @@ TEST(UsbPriming, IsShownUntilAFlushOrTheEnd) {
 }
 
 TEST(UsbEndpoints, TheDirectionWithoutUseIsNotLeftAsControl) {
-  EXPECT_THAT(refusal("  set USB1_ENDPTCTRL4, 0x00C80000"),
+  EXPECT_THAT(refusal_once_ready("  set USB1_ENDPTCTRL4, 0x00C80000"),
               HasSubstr("USB1 ENDPTCTRL4: the direction without use is left as a control endpoint"));
-  EXPECT_THAT(refusal("  set USB1_ENDPTCTRL5, 0x000000C8"),
+  EXPECT_THAT(refusal_once_ready("  set USB1_ENDPTCTRL5, 0x000000C8"),
               HasSubstr("USB1 ENDPTCTRL5: the direction without use is left as a control endpoint"));
 }
 

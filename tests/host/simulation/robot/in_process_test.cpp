@@ -1,4 +1,5 @@
 #include "host/simulation/robot/in_process.hpp"
+#include "host/simulation/robot/camera_truth.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +19,7 @@ using std::chrono::milliseconds;
 class Recorded : public InProcessTransport {
  public:
   using InProcessTransport::InProcessTransport;
-  std::size_t read(std::span<std::uint8_t> into, robot::microseconds timeout) override {
+  std::size_t read(std::span<std::uint8_t> into, microseconds timeout) override {
     const std::size_t size = InProcessTransport::read(into, timeout);
     bytes.insert(bytes.end(), into.begin(), into.begin() + static_cast<std::ptrdiff_t>(size));
     return size;
@@ -88,7 +89,7 @@ TEST(InProcess, ARebootStartsTheClockAgainAndIsTold) {
 
 TEST(InProcess, TheCamerasGoOnThroughAReboot) {
   Rig rig;
-  InProcessTruth truth(rig.robot);
+  CameraTruth truth(rig.robot);
   robot::Client client(rig.transport);
   client.connect();
   client.request(protocol::Reboot{});

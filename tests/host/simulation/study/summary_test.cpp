@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "host/calibration/judgement/precision.hpp"
 #include "host/simulation/study/kinematic_source.hpp"
@@ -35,8 +36,8 @@ TEST(StudyRow, OfEqualErrorsHasNoScatter) {
 TEST(StudyBound, OfTenSquaresIsThatOfTheDesignRules) {
   const TrialSetup setup;
   const Row bound = bound_of(setup, KinematicSource());
-  const calibration::Precision rule =
-      reachable_precision(calibration::squares_extent(10, setup.side_m), setup.noise.K_m, setup.wheelbase_m);
+  const calibration::Precision rule = calibration::reachable_precision(
+      {10 * 4 * setup.side_m, 10 * 2 * std::numbers::pi}, setup.noise.K_m, setup.wheelbase_m);
   EXPECT_NEAR(bound.rms[kE_d] / rule.E_d, 1, 0.04);  // what precision.hpp promises
   EXPECT_NEAR(bound.rms[kScale] / rule.scale, 1, 0.04);
   EXPECT_NEAR(bound.rms[kB_over_S] / rule.b, 1, 0.04);

@@ -1,0 +1,22 @@
+#include "host/experiment/analysis/loaded_parameter.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "host/base/error.hpp"
+#include "host/experiment/files/number_named.hpp"
+#include "host/recording/run/run_metadata.hpp"
+
+namespace astro::experiment {
+
+double loaded_parameter(const recording::RunInfo& info, const char* parameter, const std::string& file) {
+  const std::optional<double> value = number_named(info.parameters, parameter);
+  if (value && std::isfinite(*value) && *value > 0) return *value;
+  const std::string fact = fmt::format("the recording '{}' does not say what {} the robot carried",
+                                       file.empty() ? run_name(info) : file, parameter);
+  if (file.empty()) throw Error(fact);
+  throw Error(fact, {Help::leave_run_out, file});
+}
+
+}  // namespace astro::experiment

@@ -1,0 +1,68 @@
+#include "host/experiment/analysis/squares.hpp"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "host/base/error.hpp"
+
+namespace astro::experiment {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+recording::Run square() {
+  recording::Run run;
+  run.info.kind = "square";
+  run.info.direction = Sense::cw;
+  run.info.phase = "before";
+  run.info.index = 3;
+  run.info.size_m = 2;
+  run.info.parameters = {{"c_R", 1.01}, {"c_L", 0.99}, {"b", 0.29}};
+  // At rest at both ends, a straight metre and back to the start in between.
+  for (int i = 0; i <= 100; ++i) {
+    const double x_m = i < 25 || i > 75 ? 0 : 1 - std::abs(i - 50) / 25.0;
+    run.odometry.push_back({10'000 * i, x_m, 0, 0, 0, 0, 0, 0});
+    run.truth.push_back({10'000 * i, x_m, 0, 0, true});
+  }
+  return run;
+}
+
+TEST(Squares, RefuseARecordingThatDoesNotSayWhatWasLoaded) {
+  for (const char* name : {"c_R", "c_L", "b"}) {
+    recording::Run run = square();
+    run.info.parameters.erase(name);
+    EXPECT_THAT(
+        [&] {
+          squares_of({&run, 1});
+        },
+        ThrowsMessage<Error>(AllOf(HasSubstr("square cw 3 (before)"), HasSubstr(name))));
+  }
+}
+
+TEST(Squares, RefuseAParameterThatNoRobotCanHave) {
+  for (const double value :
+       {0.0, -0.29, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    recording::Run run = square();
+    run.info.parameters["b"] = value;
+    EXPECT_THAT(
+        [&] {
+          squares_of({&run, 1});
+        },
+        ThrowsMessage<Error>(HasSubstr("does not say what b")))
+        << value;
+  }
+}
+
+TEST(Squares, OfOneSizeMayDifferByRoundingAndNoMore) {
+  std::vector<recording::Run> runs{square(), square()};
+  runs[1].info.size_m += 1e-9;
+  EXPECT_EQ(squares_of(runs).cw.size(), 2U);
+  runs[1].info.size_m += 1e-3;
+  EXPECT_THAT([&] { squares_of(runs); }, ThrowsMessage<Error>(HasSubstr("different sides")));
+}
+
+}  // namespace
+}  // namespace astro::experiment
