@@ -70,8 +70,8 @@ std::string described(const OddRun& odd) {
   const char* unit = angle ? "degrees" : "m";
   std::array<char, 160> text{};
   std::snprintf(text.data(), text.size(),
-                "%s = %.4g %s, and %.4g %s in the others: is its decimal point right?", odd.coordinate,
-                shown(odd.value), unit, shown(odd.others), unit);
+                "%s = %.4g %s, and %.4g %s in the others, as if its decimal point were misplaced",
+                odd.coordinate, shown(odd.value), unit, shown(odd.others), unit);
   return text.data();
 }
 

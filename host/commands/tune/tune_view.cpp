@@ -126,7 +126,7 @@ std::vector<std::string> notes(const TuneResult& result) {
   if (result.on_stand) list.emplace_back(stand_note());
   if (const auto ratio = motor::unlikely_kV_ratio(result.gains.mean, result.before))
     list.push_back(
-        fmt::format("kV is {:.2g} times what the robot carried: other motors or wheels, or a wrong "
+        fmt::format("kV is {:.2g} times the value that was loaded: other motors or wheels, or a wrong "
                     "counts_per_motor_rev; 'astrolabe check-wiring --roll' tells",
                     *ratio));
   return list;
@@ -185,7 +185,7 @@ std::string verdict(const TuneResult& result) {
 std::string in_words(const TuneResult& result) {
   std::string text = motor_table(result);
   text += fmt::format(
-      "\ncarried   kp {:.4g}, ki {:.4g}: {}\ndesigned  kp {:.4g}, ki {:.4g}: {}\n          at most "
+      "\nloaded    kp {:.4g}, ki {:.4g}: {}\ndesigned  kp {:.4g}, ki {:.4g}: {}\n          at most "
       "{:.1f} Hz with this observer_bandwidth; encoder noise {:.0f} mV on the motors\n\n",
       result.before.kp, result.before.ki, margins_in_words(result.gains.margins_before),
       result.gains.design.kp, result.gains.design.ki, margins_in_words(result.gains.design.margins),
@@ -236,8 +236,8 @@ report::TuningInput report_input(const TuneResult& result, const robot::Client& 
   input.loop = {
       {"Designed", fmt::format("kp {:.4g} V s/m, ki {:.4g} V/m: {}", result.gains.design.kp,
                                result.gains.design.ki, margins_in_words(result.gains.design.margins))},
-      {"Carried before", margins_in_words(result.gains.margins_before)},
-      {"Observer", fmt::format("{:.0f} rad/s; carries at most {:.1f} Hz", result.before.observer_radps,
+      {"Loaded before", margins_in_words(result.gains.margins_before)},
+      {"Observer", fmt::format("{:.0f} rad/s; allows at most {:.1f} Hz", result.before.observer_radps,
                                hertz(result.gains.design.largest_bandwidth_radps))}};
   for (const TunedStep& step : result.steps)
     input.steps.push_back({step.title, {lines(step, Side::left), lines(step, Side::right)}});

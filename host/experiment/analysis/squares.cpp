@@ -19,7 +19,7 @@ double parameter(const recording::RunInfo& info, const char* name) {
   const std::optional<double> value = number_named(info.parameters, name);
   if (!value)
     throw Error(fmt::format(
-        "the recording of {} {} {} does not say what {} the robot carried: it cannot be calibrated",
+        "the recording of {} {} {} does not say which {} was loaded in the robot: it cannot be calibrated",
         info.kind, name_of(info.direction), info.index, name));
   return *value;
 }
@@ -31,13 +31,11 @@ void accept(Squares& squares, const recording::Run& run, bool first) {
     squares.side_m = run.info.size_m;
   }
   if (!same_factors(loaded, squares.loaded))
-    throw Error(
-        "the squares were driven with different c_R, c_L or b: calibrate each phase for itself (name its "
-        "folder)");
+    throw Error("the squares were driven with different c_R, c_L or b", {Help::calibrate_each_phase});
   if (std::abs(run.info.size_m - squares.side_m) > 1e-9)
     throw Error(
-        fmt::format("the squares have different sides ({} m and {} m): keep each size in a folder of its own",
-                    squares.side_m, run.info.size_m));
+        fmt::format("the squares have different sides ({} m and {} m)", squares.side_m, run.info.size_m),
+        {Help::separate_sizes});
   const recording::EndError error = recording::end_error(run);
   (run.info.direction == Direction::cw ? squares.cw : squares.ccw)
       .push_back({error.x_m, error.y_m, error.theta_rad});

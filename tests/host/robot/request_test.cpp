@@ -2,7 +2,7 @@
 
 #include "host/robot/client/client.hpp"
 #include "tests/support/fake_link.hpp"
-#include "tests/support/sentences.hpp"
+#include "tests/support/remarks.hpp"
 
 namespace astro::robot {
 namespace {
@@ -110,8 +110,8 @@ TEST_F(Request, RefusalCarriesCodeAndDetailAndAnExplanation) {
     FAIL();
   } catch (const RobotRefused& refused) {
     EXPECT_EQ(refused.detail(), static_cast<std::uint16_t>(Fault::under_voltage));
-    EXPECT_THAT(commands::in_words(refused),
-                HasSubstr("a fault is latched: under_voltage; remove its cause"));
+    EXPECT_THAT(support::remark_of(refused),
+                support::Tells(HasSubstr("a fault is latched: under_voltage"), Help::clear_faults));
   }
 }
 
