@@ -79,27 +79,27 @@ bool is_blank(const CsvRow& row) {
 void require_width(const CsvTable& table, const CsvRow& row, std::string_view name) {
   const std::size_t expected = table.header.cells.size();
   if (row.cells.size() == expected) return;
-  refuse(name, row.line,
-         "the row has " + std::to_string(row.cells.size()) + " cells and the header " +
-             std::to_string(expected) + ": give every column a cell, and write numbers with a decimal point");
+  refuse(
+      name, row.line,
+      "the row has " + std::to_string(row.cells.size()) + " cells and the header " + std::to_string(expected),
+      {Help::fill_each_cell});
 }
 
 void require_commas(const CsvRow& header, std::string_view name) {
   if (header.cells.size() > 1 || header.cells[0].find(';') == std::string::npos) return;
-  refuse(name, header.line,
-         "the cells are separated by semicolons: use commas, and decimal points in the numbers");
+  refuse(name, header.line, "the cells are separated by semicolons", {Help::separate_by_commas});
 }
 
 }  // namespace
 
-void refuse(std::string_view name, int line, const std::string& what) {
-  throw Error(std::string(name) + ", line " + std::to_string(line) + ": " + what);
+void refuse(std::string_view name, int line, const std::string& what, const Remedy& remedy) {
+  throw Error(std::string(name) + ", line " + std::to_string(line) + ": " + what, remedy);
 }
 
 CsvTable split_csv(std::string_view text, std::string_view name) {
   if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
   if (text.find('\0') != std::string_view::npos) {
-    throw Error(std::string(name) + " is not plain text: save the table as comma separated UTF-8");
+    throw Error(std::string(name) + " is not plain text", {Help::save_as_csv});
   }
   CsvTable out;
   std::size_t memory = 0;
@@ -113,7 +113,7 @@ CsvTable split_csv(std::string_view text, std::string_view name) {
     } else {
       require_width(out, row, name);
       if ((memory += memory_of(row)) > most)
-        refuse(name, line, "the table has more cells than can be held: split it into one file for each run");
+        refuse(name, line, "the table has more cells than can be held", {Help::split_into_files});
       out.rows.push_back(std::move(row));
     }
   }

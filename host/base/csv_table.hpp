@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "host/base/remedy.hpp"
+
 namespace astro {
 
 struct CsvRow {
@@ -22,7 +24,7 @@ struct CsvTable {
 /// it, more than 1000 columns, a table that would take more memory than 48 MiB plus twice its text.
 CsvTable split_csv(std::string_view text, std::string_view name);
 
-/// Throws astro::Error("NAME, line N: WHAT").
-[[noreturn]] void refuse(std::string_view name, int line, const std::string& what);
+/// Throws astro::Error("NAME, line N: WHAT", remedy).
+[[noreturn]] void refuse(std::string_view name, int line, const std::string& what, const Remedy& remedy = {});
 
 }  // namespace astro

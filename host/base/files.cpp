@@ -29,11 +29,12 @@ bool is_recording(const fs::path& path) {
   return file.read(start, sizeof start) && std::equal(std::begin(start), std::end(start), kMagic);
 }
 
-std::string too_large(const fs::path& path, std::uintmax_t size, std::uintmax_t most_bytes) {
-  if (most_bytes == kMaxFileBytes) return path.string() + " is larger than 4 GiB: split it into shorter runs";
-  return path.string() + " has " + std::to_string(size >> 20U) +
-         " MiB, and no file of its kind has more than " + std::to_string(most_bytes >> 20U) +
-         ": name the right file";
+Error too_large(const fs::path& path, std::uintmax_t size, std::uintmax_t most_bytes) {
+  if (most_bytes == kMaxFileBytes)
+    return Error(path.string() + " is larger than 4 GiB", {Help::split_into_shorter_runs});
+  return Error(path.string() + " has " + std::to_string(size >> 20U) +
+                   " MiB, and no file of its kind has more than " + std::to_string(most_bytes >> 20U),
+               {Help::name_right_file});
 }
 
 /// Syncs the folder, so that the new name survives a power cut, too. Some file systems cannot do that; the
@@ -53,22 +54,23 @@ Bytes load_file(const fs::path& path, std::uintmax_t most_bytes) {
   if (!fs::status_known(status)) throw Error("cannot read " + path.string() + ": " + error.message());
   if (!fs::exists(status)) {
     if (fs::exists(part_of(path), error)) {
-      throw Error(path.string() + " was never finished: what was recorded of it is in " +
-                  part_of(path).string() + "; rename that file to use it, or record the run again");
+      throw Error(
+          path.string() + " was never finished: what was recorded of it is in " + part_of(path).string(),
+          {Help::use_part_file_or_record_again});
     }
-    throw Error(path.string() + " does not exist: check the path");
+    throw Error(path.string() + " does not exist", {Help::check_path});
   }
-  if (fs::is_directory(status)) throw Error(path.string() + " is a folder: name a file in it");
-  if (!fs::is_regular_file(status)) throw Error(path.string() + " is a device or a pipe: name a file");
+  if (fs::is_directory(status)) throw Error(path.string() + " is a folder", {Help::name_file_in_it});
+  if (!fs::is_regular_file(status)) throw Error(path.string() + " is a device or a pipe", {Help::name_file});
   const std::uintmax_t size = fs::file_size(path, error);
   if (error) throw Error("cannot read " + path.string() + ": " + error.message());
-  if (size > most_bytes) throw Error(too_large(path, size, most_bytes));
+  if (size > most_bytes) throw too_large(path, size, most_bytes);
 
   Bytes bytes(static_cast<std::size_t>(size));
   std::ifstream file(path, std::ios::binary);
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   if (!file.is_open() || file.bad()) {
-    throw Error("cannot read " + path.string() + ": check its permissions and the disk");
+    throw Error("cannot read " + path.string(), {Help::check_permissions_and_disk});
   }
   bytes.resize(static_cast<std::size_t>(file.gcount()));  // a file that shrank meanwhile
   return bytes;
@@ -77,12 +79,12 @@ Bytes load_file(const fs::path& path, std::uintmax_t most_bytes) {
 PartFile::PartFile(fs::path path, Replaces replaces) : path_(std::move(path)), part_(part_of(path_)) {
   std::error_code ignored, error;
   if (fs::is_directory(path_, ignored))
-    throw Error("'" + path_.string() + "' is a folder: name a file in it");
+    throw Error("'" + path_.string() + "' is a folder", {Help::name_file_in_it});
   if (fs::exists(path_, ignored) && !fs::is_regular_file(path_, ignored))
-    throw Error("'" + path_.string() + "' is a device or a pipe: name a file");
+    throw Error("'" + path_.string() + "' is a device or a pipe", {Help::name_file});
   const auto is_kept = [&] { return replaces != Replaces::recordings_too && is_recording(path_); };
-  const std::string kept =
-      "'" + path_.string() + "' is a recording, and nothing replaces one: name another file";
+  const Remark kept{"'" + path_.string() + "' is a recording, and nothing replaces one",
+                    {Help::name_other_file}};
   if (is_kept()) throw Error(kept);
   if (path_.has_parent_path()) fs::create_directories(path_.parent_path(), error);
   if (error) {
@@ -104,22 +106,22 @@ void PartFile::open_part() {
     struct stat opened {
     }, named{};
     if (::fstat(descriptor_, &opened) == 0 && !S_ISREG(opened.st_mode))
-      give_up(part_.string() +
-              " is no file, so nothing can be recorded there: remove it or name another file");
+      give_up({part_.string() + " is no file, so nothing can be recorded there",
+               {Help::remove_or_name_other_file}});
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-      give_up(part_.string() + " is being written by another program: wait for it or name another file");
+      give_up({part_.string() + " is being written by another program", {Help::wait_or_name_other_file}});
     // Another program may have given the file its name between open and flock: it is no longer ours to empty.
     if (::lstat(part_.c_str(), &named) == 0 && named.st_ino == opened.st_ino && named.st_dev == opened.st_dev)
       break;
-    if (tries == kTries) give_up(part_.string() + " changes again and again: choose another folder");
+    if (tries == kTries) give_up({part_.string() + " changes again and again", {Help::use_other_folder}});
     ::close(descriptor_);
   }
   if (::ftruncate(descriptor_, 0) != 0) give_up(why_not("empty"));
 }
 
-void PartFile::give_up(const std::string& sentence) {
+void PartFile::give_up(const Remark& why) {
   ::close(std::exchange(descriptor_, -1));
-  throw Error(sentence);
+  throw Error(why);
 }
 
 PartFile::~PartFile() {
@@ -128,11 +130,12 @@ PartFile::~PartFile() {
   ::close(descriptor_);
 }
 
-std::string PartFile::why_not(const std::string& what) const {
+Remark PartFile::why_not(const std::string& what) const {
   if (errno == ELOOP)
-    return part_.string() + " is a link, and nothing is written through one: remove it or name another file";
-  return "cannot " + what + " " + part_.string() + ": " + reason(errno) +
-         "; check the disk or choose another folder";
+    return {part_.string() + " is a link, and nothing is written through one",
+            {Help::remove_or_name_other_file}};
+  return {"cannot " + what + " " + part_.string() + ": " + reason(errno),
+          {Help::check_disk_or_use_other_folder}};
 }
 
 void PartFile::fail(const std::string& what) const { throw Error(why_not(what)); }

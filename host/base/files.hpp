@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "host/base/bytes.hpp"
+#include "host/base/remedy.hpp"
 
 namespace astro {
 
@@ -37,9 +38,9 @@ class PartFile {
 
  private:
   void open_part();
-  std::string why_not(const std::string& what) const;  // by errno
+  Remark why_not(const std::string& what) const;  // by errno
   [[noreturn]] void fail(const std::string& what) const;
-  [[noreturn]] void give_up(const std::string& sentence);
+  [[noreturn]] void give_up(const Remark& why);
 
   std::filesystem::path path_, part_;
   int descriptor_ = -1;

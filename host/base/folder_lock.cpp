@@ -21,7 +21,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
     throw Error("cannot open the folder " + folder.string() + ": " + std::generic_category().message(errno));
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   ::close(descriptor_);
-  throw Error("another program records into '" + folder.string() + "': wait for it or name another folder");
+  throw Error("another program records into '" + folder.string() + "'", {Help::wait_or_name_other_folder});
 }
 
 FolderLock::~FolderLock() { ::close(descriptor_); }

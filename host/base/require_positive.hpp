@@ -12,7 +12,7 @@ namespace astro {
 /// metres".
 inline void require_positive(double value, const std::string& what) {
   if (std::isfinite(value) && value > 0) return;
-  throw Error(what + " is " + to_text(value) + ": give a positive number");
+  throw Error(what + " is " + to_text(value) + ", and has to be a positive number");
 }
 
 }  // namespace astro

@@ -46,6 +46,8 @@ void to_stderr(std::string_view text) {
 
 constexpr std::size_t kLongestAnswer = 65536;
 
+const char* program_name = "";
+
 // "study: 12 %, trial 60 of 500".
 std::string progress_line(const std::string& what, double fraction, std::string_view note) {
   // For work without a known end there is no fraction, and only the note is shown.
@@ -85,9 +87,11 @@ bool stderr_is_terminal() { return isatty(STDERR_FILENO) == 1; }
 
 void say(std::string_view line) { to_stderr(plain_text(line) + '\n'); }
 
+void set_program_name(const char* name) { program_name = name; }
+
 void complain(std::string_view sentence) {
   const bool colour = obeys_escapes(STDERR_FILENO);
-  to_stderr(fmt::format("{}astrolabe:{} {}\n", colour ? "\033[31m" : "", colour ? "\033[0m" : "",
+  to_stderr(fmt::format("{}{}:{} {}\n", colour ? "\033[31m" : "", program_name, colour ? "\033[0m" : "",
                         one_line(sentence)));
 }
 
@@ -95,8 +99,8 @@ std::string in_words(const std::filesystem::filesystem_error& error) {
   return fmt::format("cannot use '{}': {}", error.path1().string(), error.code().message());
 }
 
-void complain_of_memory() {
-  std::fputs("astrolabe: there is not enough memory: end other programs, or do less at a time\n", stderr);
+void complain_without_memory(const char* sentence) {
+  for (const char* part : {program_name, ": ", sentence, "\n"}) std::fputs(part, stderr);
 }
 
 std::string ask(const std::string& prompt) {
@@ -107,13 +111,11 @@ std::string ask(const std::string& prompt) {
     if (!await_input(read_ahead)) {
       if (read_ahead.empty()) {
         to_stderr("\n");  // ends the line of the question, which is on the screen already
-        throw Error(
-            "the input ended where an answer was expected: answer at a terminal, or pipe all answers in");
+        throw Error("the input ended where an answer was expected", {Help::answer_at_terminal});
       }
       return std::exchange(read_ahead, {});
     } else if (read_ahead.size() > kLongestAnswer) {
-      throw Error(
-          "the input has no end of a line where an answer was expected: give one answer in each line");
+      throw Error("the input has no end of a line where an answer was expected", {Help::answer_in_lines});
     }
   const std::string line = read_ahead.substr(0, end);
   read_ahead.erase(0, end + 1);

@@ -21,14 +21,17 @@ bool stderr_is_terminal();
 /// One line to stderr.
 void say(std::string_view line);
 
-/// "astrolabe: sentence" to stderr, the first word in red on a terminal.
+/// The name with which complain() begins. `name` has to live as long as the program. Program sets it.
+void set_program_name(const char* name);
+
+/// "NAME: sentence" to stderr, the first word in red on a terminal.
 void complain(std::string_view sentence);
 
 /// "cannot use 'PATH': what the system said", for errors that have no sentence of their own.
 std::string in_words(const std::filesystem::filesystem_error& error);
 
-/// Prints that memory has run out, without allocating any.
-void complain_of_memory();
+/// The same without allocating memory, for when there is none; `sentence` is printed as it stands.
+void complain_without_memory(const char* sentence);
 
 /// Asks on stderr, reads a line from stdin. Throws astro::Error with Help::agree_beforehand if stdin is no
 /// terminal.

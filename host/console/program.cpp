@@ -142,8 +142,9 @@ constexpr int kWrongUsage = 2;
 
 }  // namespace
 
-Program::Program(const std::string& name, const std::string& what)
-    : app_(std::make_unique<CLI::App>(what, name)) {}
+Program::Program(const char* name, const std::string& what) : app_(std::make_unique<CLI::App>(what, name)) {
+  set_program_name(name);
+}
 
 Program::~Program() = default;
 

@@ -11,7 +11,8 @@ namespace astro::console {
 /// wrong usage into one sentence that names the wrong word and the help that explains it.
 class Program {
  public:
-  Program(const std::string& name, const std::string& what);
+  /// From here on the program complains under this name, which has to live as long as the process.
+  Program(const char* name, const std::string& what);
   ~Program();
 
   /// The command to which options and subcommands are added.

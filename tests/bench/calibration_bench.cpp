@@ -20,7 +20,7 @@ double cpu_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 std::vector<Trajectory> squares(int count) {
   simulation::study::DriveModel model;
-  model.carried = {1, 1, 0.29};
+  model.loaded = {1, 1, 0.29};
   model.actual = {1.0071, 1.0029, 0.29005};
   model.metres_per_count = 8.07e-5;
   std::vector<Trajectory> runs;

@@ -1,4 +1,4 @@
-// How fast the desk is: the simulated robot against real time, and the whole calibration experiment in
+// How fast the simulation is: the simulated robot against real time, and the whole calibration experiment in
 // process. Prints both beside their bars and fails if one is missed.
 
 #include <fmt/format.h>

@@ -37,7 +37,9 @@ void take(ByteView input) {
   static const recording::Run run = standing_for_three_seconds();
   static const InputFile file(truth::truth_file_name(run.info));
   file.holding(input);
-  truth::FileSource source(file.folder(), [](const std::string& why) -> std::string { throw Error(why); });
+  truth::FileSource source(file.folder(), [](const truth::Question& question) -> std::string {
+    throw Error(question.occasion.fact + question.text);
+  });
   reading([&] {
     for (const recording::TruthSample& sample : source.complete(run))
       require(sample.time_us >= 0 && sample.time_us <= 2'900'000, "truth lies within its run");

@@ -16,12 +16,12 @@ WheelFactors compose(const WheelFactors& loaded, double E_d, double E_b) {
 void require_usable(const WheelFactors& loaded) {
   const auto usable = [](double value) { return std::isfinite(value) && value > 0; };
   if (!usable(loaded.b_m)) {
-    throw Error("the wheelbase that the robot carried is " + to_text(loaded.b_m) +
-                " m: give the distance between the wheels in metres, such as 0.29");
+    throw Error("the loaded wheelbase is " + to_text(loaded.b_m) +
+                " m, and has to be the distance between the wheels in metres, such as 0.29");
   }
   if (!usable(loaded.c_r) || !usable(loaded.c_l)) {
-    throw Error("the wheel factors that the robot carried are c_R = " + to_text(loaded.c_r) +
-                " and c_L = " + to_text(loaded.c_l) + ": give positive ratios, 1 for a nominal wheel");
+    throw Error("the loaded wheel factors are c_R = " + to_text(loaded.c_r) + " and c_L = " +
+                to_text(loaded.c_l) + ", and have to be positive ratios, 1 for a nominal wheel");
   }
 }
 

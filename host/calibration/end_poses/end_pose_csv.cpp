@@ -82,8 +82,8 @@ std::optional<Column> find_column(const CsvTable& table, const Quantity& quantit
     if (const auto to_si = factor_of(lower_case(title), quantity)) {
       if (found) {
         refuse(name, table.header.line,
-               "columns " + found->title + " and " + title + " both give " + std::string(quantity.name) +
-                   ": keep one of them");
+               "columns " + found->title + " and " + title + " both give " + std::string(quantity.name),
+               {Help::keep_one_column});
       }
       found = Column{i, title, *to_si};
     } else if (lacks_unit(lower_case(title), quantity)) {
@@ -92,7 +92,7 @@ std::optional<Column> find_column(const CsvTable& table, const Quantity& quantit
   }
   if (!found && !unitless.empty()) {
     refuse(name, table.header.line,
-           "column " + unitless + " does not say its unit: name it " + spellings(quantity));
+           "column " + unitless + " does not say its unit, as " + spellings(quantity) + " does");
   }
   return found;
 }
@@ -105,8 +105,7 @@ Column require_column(const CsvTable& table, const Quantity& quantity, std::stri
 double number(const CsvRow& row, const Column& column, std::string_view name) {
   const std::string& cell = row.cells[column.index];
   const std::string where = "column " + column.title + ": ";
-  if (cell.empty())
-    refuse(name, row.line, where + "the cell is empty: write the number or leave the run out");
+  if (cell.empty()) refuse(name, row.line, where + "the cell is empty", {Help::fill_cell_or_leave_out});
   const char* const end = cell.data() + cell.size();
   // from_chars, because unlike strtod it does not depend on the locale. It accepts no plus sign, which a
   // spreadsheet may write.
@@ -114,11 +113,11 @@ double number(const CsvRow& row, const Column& column, std::string_view name) {
   double value = 0;
   const auto [stop, error] = std::from_chars(begin, end, value);
   if (error == std::errc::invalid_argument || stop != end) {
-    refuse(name, row.line, where + "\"" + cell + "\" is not a number: write it like -12.5");
+    refuse(name, row.line, where + "\"" + cell + "\" is not a number such as -12.5");
   }
   if (error != std::errc{} || !std::isfinite(value)) {
-    refuse(name, row.line,
-           where + "\"" + cell + "\" is not a finite number: measure again or leave the run out");
+    refuse(name, row.line, where + "\"" + cell + "\" is not a finite number",
+           {Help::measure_again_or_leave_out});
   }
   return value * column.to_si;
 }
@@ -136,7 +135,7 @@ Columns find_columns(const CsvTable& table, std::string_view name) {
     if (lower_case(table.header.cells[i]) == "direction") out.direction = i;
   }
   if (table.rows.empty()) {
-    throw Error(std::string(name) + " has a header and no data rows: write one row per run below it");
+    throw Error(std::string(name) + " has a header and no data rows: it needs one per run below it");
   }
   return out;
 }
@@ -153,7 +152,7 @@ Sense sense_of(const CsvRow& row, std::size_t direction, std::string_view name) 
   const std::optional<Sense> sense = sense_named(lower_case(row.cells[direction]));
   if (!sense) {
     refuse(name, row.line,
-           "column direction: \"" + row.cells[direction] + "\" is not a direction: write cw or ccw");
+           "column direction: \"" + row.cells[direction] + "\" is not a direction, which is cw or ccw");
   }
   return *sense;
 }
@@ -167,8 +166,8 @@ std::vector<EndPose> read_end_poses(std::string_view text, std::string_view name
   for (const CsvRow& row : table.rows) {
     const auto direction = columns.direction;
     if (direction && sense_of(row, *direction, name) != sense_of(table.rows[0], *direction, name)) {
-      refuse(name, row.line,
-             "column direction: the file mixes cw and ccw runs where one direction is wanted: split it");
+      refuse(name, row.line, "column direction: the file mixes cw and ccw runs where one direction is wanted",
+             {Help::split_by_direction});
     }
     out.push_back(pose(row, columns, name));
   }

@@ -63,9 +63,8 @@ Parameters solve(const Problem& problem, Parameters p) {
     if (step.norm() < kSettled) return p;
     if (!p.allFinite() || p.norm() > 1) break;
   }
-  throw Error(
-      "no pair of wheel and wheelbase ratios explains these end positions: check the units, the side length "
-      "and that the clockwise and counter-clockwise runs are not exchanged");
+  throw Error("no pair of wheel and wheelbase ratios explains these end positions",
+              {Help::check_units_and_directions});
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ std::string described(const OddRun& odd) {
   const bool angle = std::string_view(odd.coordinate) == "theta";
   const auto shown = [&](double value) { return angle ? degrees(value) : value; };
   const char* unit = angle ? "degrees" : "m";
-  return fmt::format("{} = {:.4g} {}, and {:.4g} {} in the others: is its decimal point right?",
+  return fmt::format("{} = {:.4g} {}, and {:.4g} {} in the others, as if its decimal point were misplaced",
                      odd.coordinate, shown(odd.value), unit, shown(odd.others), unit);
 }
 

@@ -24,7 +24,7 @@ struct OddRun {
 /// m).
 std::optional<OddRun> mistyped_run(std::span<const EndPose> runs, double side_m);
 
-/// "x = 3.1 m, and 0.31 m in the others: is its decimal point right?"
+/// "x = 3.1 m, and 0.31 m in the others, as if its decimal point were misplaced"
 std::string described(const OddRun& odd);
 
 }  // namespace astro::calibration

@@ -49,18 +49,18 @@ void require_inputs(std::span<const EndPose> cw, std::span<const EndPose> ccw, d
                     const WheelFactors& loaded) {
   if (!std::isfinite(side_m) || side_m <= 0) {
     throw Error("the side of the square is " + to_text(side_m) +
-                " m: give the length of one leg in metres, such as 3");
+                " m, and has to be the length of one leg in metres, such as 3");
   }
   require_usable(loaded);
   if (cw.empty() && ccw.empty()) {
-    throw Error(
-        "there are no runs at all: drive the square at least once clockwise and once counter-clockwise");
+    throw Error("there are no runs at all", {Help::drive_both_directions});
   }
   if (cw.empty() || ccw.empty()) {
-    throw Error(
-        std::string("there are no ") + in_words(cw.empty() ? Sense::cw : Sense::ccw) +
-        " runs, and one direction alone cannot separate the error of the wheel diameters from that of the "
-        "wheelbase: drive the square in both directions");
+    throw Error(std::string("there are no ") + in_words(cw.empty() ? Sense::cw : Sense::ccw) +
+                    " runs, and one direction alone cannot separate the error of the wheel diameters from "
+                    "that of the "
+                    "wheelbase",
+                {Help::drive_both_directions});
   }
 }
 
@@ -71,13 +71,14 @@ void require_headings(std::span<const EndPose> runs, const std::string& directio
     if (lacks(runs[i])) {
       throw Error(
           (none ? "the " + direction + " runs have" : direction + " run " + std::to_string(i + 1) + " has") +
-          " no heading error, which the extended method calibrates from: measure the end headings "
-          "(etheta_rad or etheta_deg), or use the method umbmark");
+              " no heading error, which the extended method calibrates from",
+          {Help::measure_end_headings});
     }
     if (std::abs(runs[i].theta_rad) > std::numbers::pi) {
       throw Error(direction + " run " + std::to_string(i + 1) + " has a heading error of " +
-                  to_text(runs[i].theta_rad) +
-                  " rad, more than half a turn: check the units, and write it between -180 and 180 degrees");
+                      to_text(runs[i].theta_rad) +
+                      " rad, more than half a turn, outside the range of -180 to 180 degrees",
+                  {Help::check_units});
     }
   }
 }
@@ -85,10 +86,9 @@ void require_headings(std::span<const EndPose> runs, const std::string& directio
 void require_plausible(const Ratios& r) {
   const auto plausible = [](double ratio) { return ratio > 0.5 && ratio < 2; };
   if (plausible(r.E_d) && plausible(r.E_b)) return;
-  throw Error(
-      "the end poses ask for E_d = " + std::to_string(r.E_d) + " and E_b = " + std::to_string(r.E_b) +
-      ", which is no robot that drives a square: check the units, the side length and that the clockwise "
-      "and counter-clockwise runs are not exchanged");
+  throw Error("the end poses give E_d = " + std::to_string(r.E_d) + " and E_b = " + std::to_string(r.E_b) +
+                  ", and a robot that drives a square has both between 0.5 and 2",
+              {Help::check_units_and_directions});
 }
 
 Vector6 means_of(const ExperimentSummary& s) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "host/base/remedy.hpp"
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
 
@@ -20,7 +21,7 @@ struct RunErrors {
 
 struct PathErrors {
   std::vector<RunErrors> runs;
-  std::vector<std::string> left_out;                  // for each run that cannot be used: the reason
+  std::vector<Remark> left_out;                       // for each run that cannot be used: the reason
   double final_rms_m = 0, final_heading_rms_rad = 0;  // over the runs
   double path_rms_m = 0;                              // over all samples of all runs
 };

@@ -29,42 +29,38 @@ std::string slip_sentence(const RunFit& run) {
 }
 
 std::string wheelbase_sentence(const WheelbaseByKind& kind) {
-  return fmt::format(
-      "arcs want a wheelbase {:.2f} ± {:.2f} % {} than spins: this b lies between; calibrate with the motion "
-      "that the "
-      "robot will use most",
-      100 * std::abs(kind.arc_over_spin - 1), 100 * kind.standard_error,
-      kind.arc_over_spin > 1 ? "larger" : "smaller");
+  return fmt::format("arcs give a wheelbase {:.2f} ± {:.2f} % {} than spins, and this b lies between",
+                     100 * std::abs(kind.arc_over_spin - 1), 100 * kind.standard_error,
+                     kind.arc_over_spin > 1 ? "larger" : "smaller");
 }
 
 }  // namespace
 
 std::vector<Remark> remarks(const MlEstimate& estimate) {
   std::vector<Remark> list;
-  for (const std::string& why : estimate.left_out) list.push_back({why + "; it was left out"});
+  for (const Remark& why : estimate.left_out) list.push_back({why.fact + "; it was left out", why.remedy});
   for (const RunFit& run : estimate.runs)
     if (run.outlier) list.push_back({outlier_sentence(run), {Help::leave_out_if_accident}});
   for (const RunFit& run : estimate.runs)
     if (!run.slip_events.empty()) list.push_back({slip_sentence(run), {Help::leave_out_if_accident}});
   const double ratio = estimate.chi_square / estimate.degrees_of_freedom;
   if (ratio < 0.5)
-    list.push_back({fmt::format(
-        "the ground truth is only {:.2g} times as far from the wheels as the given noise explains, "
-        "so the standard errors are too large: let the noise be estimated",
-        std::sqrt(ratio))});
+    list.push_back({fmt::format("the ground truth is only {:.2g} times as far from the wheels as the given "
+                                "noise explains, so the standard errors are too large",
+                                std::sqrt(ratio)),
+                    {Help::estimate_noise}});
   if (ratio > 1.5)
-    list.push_back({fmt::format(
-        "the ground truth is {:.1f} times as far from the wheels as the given noise explains, so "
-        "the standard errors are too "
-        "small: let the noise be estimated",
-        std::sqrt(ratio))});
+    list.push_back({fmt::format("the ground truth is {:.1f} times as far from the wheels as the given noise "
+                                "explains, so the standard errors are too small",
+                                std::sqrt(ratio)),
+                    {Help::estimate_noise}});
   if (estimate.dispersion > 1)
     list.push_back(
         {fmt::format("the runs differ {:.1f} times as much as the noise within them explains; the standard "
                      "errors are widened by that",
                      std::sqrt(estimate.dispersion))});
   if (estimate.wheelbase_by_kind && estimate.wheelbase_by_kind->disagrees)
-    list.push_back({wheelbase_sentence(*estimate.wheelbase_by_kind)});
+    list.push_back({wheelbase_sentence(*estimate.wheelbase_by_kind), {Help::calibrate_with_usual_motion}});
   return list;
 }
 

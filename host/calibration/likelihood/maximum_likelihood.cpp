@@ -24,10 +24,11 @@ constexpr double kEnoughTurning_rad = 6;
 
 void require_observed(const MlErrors& se, const WheelFactors& factors) {
   if (se.scale < kOpen && se.E_d < kOpen && se.b_m < kOpen * factors.b_m) return;
-  throw Error(fmt::format(
-      "the runs leave c_R, c_L and b open against each other (standard errors {:.2g}, {:.2g} and {:.2g} m), "
-      "because all of them move alike: drive both ways round, and lines as well as turns",
-      se.c_r, se.c_l, se.b_m));
+  throw Error(fmt::format("the runs do not separate c_R, c_L and b (standard errors {:.2g}, {:.2g} and "
+                          "{:.2g} m), because all "
+                          "of them move alike",
+                          se.c_r, se.c_l, se.b_m),
+              {Help::drive_lines_and_turns});
 }
 
 // Rounding can turn an infinite variance into one that is not positive.

@@ -111,13 +111,11 @@ void require_variety(const PreparedRuns& runs) {
     rotation_rad += run.rotation_rad;
   }
   if (rotation_rad < kLeastTurn_rad)
-    throw Error(
-        "the robot never turned, so nothing tells its wheelbase: drive squares, circles or spins as well");
+    throw Error("the robot never turned, so its wheelbase cannot be determined", {Help::drive_turns});
   if (distance_m < 0.02 * rotation_rad)
     throw Error(
-        "the robot only turned on the spot, which tells the ratio of wheels and wheelbase but no size: drive "
-        "lines or "
-        "squares as well");
+        "the robot only turned on the spot, which determines the ratio of wheels and wheelbase but no size",
+        {Help::drive_lines});
 }
 
 std::vector<Unknowns> start_values(const PreparedRuns& runs, const WheelFactors& loaded) {

@@ -47,9 +47,11 @@ Positions handedness_of_positions(const PreparedRun& run, const std::vector<Body
 
 [[noreturn]] void refuse_opposite_turn(const std::string& name, Positions positions) {
   if (positions == Positions::agree)
-    throw Error(name +
-                ": the headings of the ground truth turn right where its positions and the wheels turn left: "
-                "they are clockwise; negate them");
+    throw Error(
+        name +
+            ": the headings of the ground truth turn right where its positions and the wheels turn left: "
+            "they are clockwise",
+        {Help::negate_headings});
   throw Error(
       name + fmt::format(
                  ": the ground truth turns right where the wheels say left: its axes are mirrored (a Y-up "
@@ -71,10 +73,10 @@ void require_handedness(const PreparedRun& run, const ClockFit& clock, const Whe
       throw Error(
           fmt::format(
               "{}: the wheels turned the robot by {:.0f} degrees and the heading of the ground truth "
-              "stayed: export the orientation of the body, too; and if it did not turn, an encoder or "
-              "a motor is reversed",
+              "stayed: it has no orientation of the body, or the robot did not turn and an encoder or a "
+              "motor is reversed",
               run.source->name, degrees(run.rotation_rad)),
-          {Help::check_wiring});
+          {Help::export_orientation_or_check_wiring});
   }
   if (positions == Positions::oppose) refuse_opposite_turn(run.source->name, positions);
 }

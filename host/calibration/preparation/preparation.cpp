@@ -36,38 +36,41 @@ template <class Sample>
 void require_times(const std::string& name, const char* stream, const std::vector<Sample>& samples) {
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (!std::isfinite(samples[i].time_s))
-      throw Error(fmt::format("{} has {} without a time: record it again", name, stream));
+      throw Error(fmt::format("{} has {} without a time", name, stream), {Help::record_again});
     const double step_s = i > 0 ? samples[i].time_s - samples[i - 1].time_s : 0;
     if (step_s < 0)
-      throw Error(fmt::format("{} has {} whose times run backwards: record it again", name, stream));
+      throw Error(fmt::format("{} has {} whose times run backwards", name, stream), {Help::record_again});
     if (step_s > kLongestPause_s)
-      throw Error(fmt::format(
-          "{} has {} that jumps by {:.0f} s: two recordings in one, or a clock that was set; cut it there",
-          name, stream, step_s));
+      throw Error(
+          fmt::format("{} has {} that jumps by {:.0f} s: two recordings in one, or a clock that was set",
+                      name, stream, step_s),
+          {Help::cut_recording});
   }
 }
 
 void require_wheels(const Trajectory& run) {
-  if (run.wheels.size() < kFewestSamples) throw Error(run.name + " has hardly any odometry: record it again");
+  if (run.wheels.size() < kFewestSamples)
+    throw Error(run.name + " has hardly any odometry", {Help::record_again});
   require_times(run.name, "odometry", run.wheels);
   for (std::size_t i = 0; i < run.wheels.size(); ++i) {
     const WheelSample& now = run.wheels[i];
     if (!std::isfinite(now.left_m) || !std::isfinite(now.right_m))
-      throw Error(run.name + " has odometry that is no number: record it again");
+      throw Error(run.name + " has odometry that is no number", {Help::record_again});
     if (i == 0) continue;
     const WheelSample& before = run.wheels[i - 1];
     const double moved_m =
         std::max(std::abs(now.left_m - before.left_m), std::abs(now.right_m - before.right_m));
     if (now.time_s - before.time_s > kLongestWheelGap_s && moved_m > kWheelGapMotion_m)
-      throw Error(fmt::format(
-          "{} lost its odometry for {:.1f} s while the robot moved by {:.2f} m, and nobody knows how: leave "
-          "it out, or record it again",
-          run.name, now.time_s - before.time_s, moved_m));
+      throw Error(
+          fmt::format(
+              "{} lost its odometry for {:.1f} s while the robot moved by {:.2f} m on an unknown path",
+              run.name, now.time_s - before.time_s, moved_m),
+          {Help::leave_out_or_record_again});
   }
 }
 
 void require_samples(const Trajectory& run) {
-  if (run.wheels.size() < 2) throw Error(run.name + " has no odometry: record it again");
+  if (run.wheels.size() < 2) throw Error(run.name + " has no odometry", {Help::record_again});
   const auto finite = std::count_if(run.truth.begin(), run.truth.end(), [](const BodySample& sample) {
     return std::isfinite(sample.x_m) && std::isfinite(sample.y_m);
   });
@@ -158,15 +161,13 @@ void classify_motion(PreparedRun& run, const ClockFit& clock, const WheelFactors
 
 void require_motion(const PreparedRun& run) {
   if (run.truth.size() < kFewestSamples)
-    throw Error(
-        fmt::format("{}: only {} samples of ground truth fall into the time of the drive: check that both "
-                    "were recorded together",
-                    run.source->name, run.truth.size()));
+    throw Error(fmt::format("{}: only {} samples of ground truth fall into the time of the drive",
+                            run.source->name, run.truth.size()),
+                {Help::check_recorded_together});
   if (run.distance_m < kShortestDrive_m && run.rotation_rad < kSmallestTurn_rad)
-    throw Error(
-        fmt::format("{} is too short: {:.2f} m and {:.0f} degrees under ground truth; drive at least a metre "
-                    "or a turn, or leave it out",
-                    run.source->name, run.distance_m, degrees(run.rotation_rad)));
+    throw Error(fmt::format("{} is too short: {:.2f} m and {:.0f} degrees under ground truth",
+                            run.source->name, run.distance_m, degrees(run.rotation_rad)),
+                {Help::leave_out_or_drive_more});
 }
 
 ClockFit clock_of(const Trajectory& run, const WheelFactors& loaded, std::optional<double> skew) {
@@ -193,10 +194,11 @@ bool is_blind_spin(const Trajectory& run, const ClockFit& clock, double wheelbas
   return turned_m > kSmallestTurn_rad * wheelbase_m / 2 && distance_m < turned_m / 4;
 }
 
-std::string blind_sentence(const Trajectory& run) {
-  return run.name +
-         " turned on the spot under positions that stand still, which tell neither its clock nor how far it "
-         "turned: export the orientation of the body, too, or mount it away from the axis";
+Remark why_blind(const Trajectory& run) {
+  return {run.name +
+              " turned on the spot under positions that stand still, which determine neither its clock "
+              "nor how far it turned",
+          {Help::export_orientation_or_mount_off_axis}};
 }
 
 void require_clock(const Trajectory& run, const ClockFit& clock) {
@@ -224,7 +226,7 @@ PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& loade
     if (!clock_known) {
       clock = clock_of(run, loaded, skew);
       if (is_blind_spin(run, clock, loaded.b_m)) {
-        prepared.left_out.push_back(blind_sentence(run));
+        prepared.left_out.push_back(why_blind(run));
         continue;
       }
       require_clock(run, clock);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "host/base/remedy.hpp"
 #include "host/calibration/clock/clock_search.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
 #include "host/calibration/preparation/prepared_run.hpp"
@@ -36,7 +37,7 @@ struct PreparedRuns {
   std::vector<ClockFit> clocks;  // of each run; zero if the clocks are known
   /// For each run that was left out without harm: the reason and the remedy. Such a run is a spin with unknown
   /// clock under positions that stand still.
-  std::vector<std::string> left_out;
+  std::vector<Remark> left_out;
 };
 PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& loaded, bool clock_known,
                      Density density);

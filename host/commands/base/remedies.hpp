@@ -17,4 +17,8 @@ std::string in_words(const Error& error);
 /// The same of a remark.
 std::string in_words(const Remark& remark);
 
+/// The sentence for std::bad_alloc. A constant, because there is no memory to make one.
+inline constexpr const char* kNoMemory =
+    "there is not enough memory: end other programs, or do less at a time";
+
 }  // namespace astro::commands

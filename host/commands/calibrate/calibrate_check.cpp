@@ -47,7 +47,7 @@ void warn_of_other_robots(const std::vector<experiment::NamedFactors>& factors,
 }
 
 /// The factors that were loaded in all drives; throws if they differ.
-calibration::WheelFactors carried_by_all(const CheckOptions& options, const experiment::RunSet& set) {
+calibration::WheelFactors loaded_in_all(const CheckOptions& options, const experiment::RunSet& set) {
   const calibration::WheelFactors first = experiment::loaded_factors(set.runs.front().info);
   for (std::size_t i = 1; i < set.runs.size(); ++i) {
     const calibration::WheelFactors one = experiment::loaded_factors(set.runs[i].info);
@@ -66,7 +66,7 @@ std::vector<DeadReckoning> evaluated(const CheckOptions& options) {
   });
   warn_of_recordings(set.runs);
   const auto wheel = experiment::nominal_wheel(set.runs.front().info, set.names.front());
-  std::vector<experiment::NamedFactors> factors{{"carried", carried_by_all(options, set)}};
+  std::vector<experiment::NamedFactors> factors{{"carried", loaded_in_all(options, set)}};
   for (const fs::path& file : options.with) factors.push_back(experiment::factors_of_file(file, wheel));
   warn_of_other_robots(factors, set);
   return experiment::dead_reckon(set, factors, clock_of(options));
@@ -151,7 +151,7 @@ void add_calibrate_check(console::Command calibrate) {
       "  astrolabe calibrate check friday --with ml.toml --with umbmark.toml --runs");
   command.callback([options] {
     const std::vector<DeadReckoning> all = evaluated(*options);
-    for (const std::string& why : all.front().errors.left_out) console::say(why + "; it was left out");
+    for (const Remark& why : all.front().errors.left_out) console::say(in_words(why) + "; it was left out");
     if (options->json) {
       print_json(json_of(all));
     } else {

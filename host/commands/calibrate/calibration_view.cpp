@@ -50,7 +50,7 @@ std::string squares_text(const calibration::ExperimentSummary& squares) {
 std::string factors_text(const Calibration& found) {
   const experiment::FactorErrors& se = found.se;
   const calibration::WheelFactors &now = found.factors, &old = found.loaded;
-  return console::table({{"", "", "against carried"},
+  return console::table({{"", "", "against loaded"},
                          {"c_R", with_error(now.c_r, se.c_r, 8), percent(now.c_r / old.c_r)},
                          {"c_L", with_error(now.c_l, se.c_l, 8), percent(now.c_l / old.c_l)},
                          {"b mm", with_error(1000 * now.b_m, 1000 * se.b_m, 4), percent(now.b_m / old.b_m)},

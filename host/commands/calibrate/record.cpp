@@ -150,8 +150,9 @@ void listen(RecordOptions& options) {
   progress.clear();
   streamed.close();
   console::say(fmt::format("{} odometry and {} truth samples", recorded.odometry, recorded.truth));
-  if (!recorded.warning.empty())
-    throw Error(fmt::format("{}; what came before is in '{}'", recorded.warning, options.out.string()));
+  if (recorded.warning)
+    throw Error(fmt::format("{}; what came before is in '{}'", recorded.warning->fact, options.out.string()),
+                recorded.warning->remedy);
   print_path(fs::absolute(options.out));
 }
 

@@ -1,4 +1,5 @@
 #include "host/commands/calibrate/record_programme.hpp"
+#include "host/commands/base/remedies.hpp"
 
 #include <fmt/format.h>
 
@@ -87,9 +88,9 @@ void record_programme(robot::Client& client, truth::Source& truth, const std::ve
   console::Progress progress("driving");
   experiment::RunHooks hooks;
   hooks.interrupted = console::interrupted;
-  hooks.notice = [&](const std::string& text) {
+  hooks.notice = [&](const Remark& remark) {
     progress.clear();
-    console::say(text);
+    console::say(in_words(remark));
   };
   double before = 0;
   const std::vector<ProgrammeRun> missing = missing_of(runs, folder);

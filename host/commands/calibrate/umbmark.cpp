@@ -6,6 +6,7 @@
 
 #include "host/base/error.hpp"
 #include "host/commands/base/flags.hpp"
+#include "host/commands/base/remedies.hpp"
 #include "host/commands/calibrate/calibration_view.hpp"
 #include "host/commands/calibrate/commands.hpp"
 #include "host/commands/calibrate/method_option.hpp"
@@ -93,9 +94,9 @@ experiment::ExperimentHooks hooks_for(const UmbmarkOptions& options, console::Pr
   experiment::ExperimentHooks hooks;
   const auto way = std::make_shared<PhaseProgress>();
   hooks.run.interrupted = console::interrupted;
-  hooks.run.notice = [&progress](const std::string& text) {
+  hooks.run.notice = [&progress](const Remark& remark) {
     progress.clear();
-    console::say(text);
+    console::say(in_words(remark));
   };
   hooks.run_started = [way, &plan = options.plan, &progress](const experiment::RunSpec& spec, int number,
                                                              int total) {
@@ -133,7 +134,7 @@ experiment::ExperimentHooks hooks_for(const UmbmarkOptions& options, console::Pr
     return options.yes || console::confirm("Load these into the robot?");
   };
   hooks.force = options.force;
-  hooks.uploaded = [](const std::string& sentence) { console::say(sentence + "\n"); };
+  hooks.uploaded = [](const Remark& remark) { console::say(in_words(remark) + "\n"); };
   return hooks;
 }
 
@@ -159,9 +160,9 @@ void run(UmbmarkOptions& options) {
   }
   note_limits(*client, all);
   console::Progress progress("driving");
-  const auto truth = open_truth(options.truth, options.connection.port, [&](const std::string& prompt) {
+  const auto truth = open_truth(options.truth, options.connection.port, [&](const truth::Question& question) {
     progress.clear();
-    return console::ask(prompt);
+    return ask_person(question);
   });
   const experiment::Results results =
       run_experiment(*client, *truth, options.plan, options.out, hooks_for(options, progress));

@@ -7,6 +7,7 @@
 
 #include "host/base/error.hpp"
 #include "host/commands/base/flags.hpp"
+#include "host/commands/base/remedies.hpp"
 #include "host/commands/robot/commands.hpp"
 #include "host/commands/shared/connection.hpp"
 #include "host/commands/shared/parameter_load.hpp"
@@ -82,8 +83,8 @@ void load(robot::Client& client, const ParamsOptions& options, RemoteParameters&
   }
   if (!agreed(robot, changes, options.yes)) throw Error("nothing was changed");
   const robot::UploadReport done = robot::upload(client, values);
-  if (done.active != robot::ActiveSet::new_set) throw Error(done.sentence());
-  console::say(done.sentence());
+  if (done.active != robot::ActiveSet::new_set) throw Error(done.remark());
+  console::say(in_words(done.remark()));
   report(options, changes, true);
 }
 
@@ -144,8 +145,8 @@ void import_from_file(robot::Client& client, const ParamsOptions& options, const
   const LoadResult loaded = load_parameters(client, robot, experiment::read_parameter_file(options.file),
                                             {options.yes, options.force});
   if (loaded.report && loaded.report->active != robot::ActiveSet::new_set)
-    throw Error(loaded.report->sentence());
-  if (loaded.report) console::say(loaded.report->sentence());
+    throw Error(loaded.report->remark());
+  if (loaded.report) console::say(in_words(loaded.report->remark()));
   report(options, loaded.changes, true);
 }
 

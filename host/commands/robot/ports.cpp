@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "host/commands/base/flags.hpp"
+#include "host/commands/base/remedies.hpp"
 #include "host/commands/robot/commands.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/console/console.hpp"
@@ -28,7 +29,7 @@ Json as_json(const std::vector<robot::FoundPort>& found) {
                         {"board", std::string(at.robot->board.view())},
                         {"firmware", firmware_version(*at.robot)}};
     } else {
-      entry["reason"] = at.reason;
+      entry["reason"] = in_words(at.reason);
     }
     list.push_back(std::move(entry));
   }
@@ -44,7 +45,7 @@ void show(const std::vector<robot::FoundPort>& found) {
   if (rows.size() > 1) write(console::table(rows, "llll"));
   if (rows.size() == 1) console::say("no robot was found; 'astrolabe sim' starts a simulated one");
   for (const robot::FoundPort& at : found)
-    if (!at.robot) console::say("no robot: " + at.reason);
+    if (!at.robot) console::say("no robot: " + in_words(at.reason));
 }
 
 void run(const PortsOptions& options) {

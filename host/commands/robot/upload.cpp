@@ -3,6 +3,7 @@
 
 #include "host/base/error.hpp"
 #include "host/commands/base/flags.hpp"
+#include "host/commands/base/remedies.hpp"
 #include "host/commands/robot/commands.hpp"
 #include "host/commands/shared/connection.hpp"
 #include "host/commands/shared/parameter_load.hpp"
@@ -23,7 +24,7 @@ struct UploadOptions {
 
 void print_report(const robot::UploadReport& report, bool json) {
   if (!json) {
-    print(report.sentence());
+    print(in_words(report.remark()));
     return;
   }
   nlohmann::json object = {{"active", report.active == robot::ActiveSet::new_set ? "new" : "old"},

@@ -1,4 +1,5 @@
 #include "host/commands/serving/served_robot_options.hpp"
+#include "host/commands/base/remedies.hpp"
 
 #include <fmt/format.h>
 
@@ -53,7 +54,7 @@ std::optional<simulation::RuntimeLink> link_in_runtime_folder(const fs::path& pt
   try {
     return std::optional<simulation::RuntimeLink>(std::in_place, robot::make_runtime_folder(), pty);
   } catch (const Error& error) {
-    console::say(fmt::format("'astrolabe ports' will not find this robot: {}", error.what()));
+    console::say(fmt::format("'astrolabe ports' will not find this robot: {}", in_words(error)));
     return std::nullopt;
   }
 }

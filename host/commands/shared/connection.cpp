@@ -1,4 +1,5 @@
 #include "host/commands/shared/connection.hpp"
+#include "host/commands/base/remedies.hpp"
 
 #include <fmt/format.h>
 
@@ -22,7 +23,7 @@ std::string only_robot(unsigned baud) {
                             found.robot->robot_name.view());
       last = found.port.address;
     } else {
-      reasons += (reasons.empty() ? "" : "; ") + found.reason;
+      reasons += (reasons.empty() ? "" : "; ") + in_words(found.reason);
     }
   }
   if (count == 1) return last;
@@ -49,7 +50,7 @@ void add_connection(console::Command command, ConnectionOptions& options) {
 std::unique_ptr<robot::Client> connect(ConnectionOptions& options) {
   if (options.port.empty()) options.port = only_robot(options.baud);
   auto client = std::make_unique<robot::Client>(robot::open_shared_port(
-      options.port, options.baud, [](const std::string& sentence) { console::say(sentence); }));
+      options.port, options.baud, [](const Remark& remark) { console::say(in_words(remark)); }));
   client->connect();
   return client;
 }
@@ -57,7 +58,7 @@ std::unique_ptr<robot::Client> connect(ConnectionOptions& options) {
 robot::DriveHooks drive_hooks() {
   robot::DriveHooks hooks;
   hooks.interrupted = console::interrupted;
-  hooks.notice = [](const std::string& text) { console::say(text); };
+  hooks.notice = [](const Remark& remark) { console::say(in_words(remark)); };
   return hooks;
 }
 

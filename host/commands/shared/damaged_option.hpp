@@ -3,6 +3,7 @@
 #include <string>
 
 #include "host/base/error.hpp"
+#include "host/commands/base/remedies.hpp"
 #include "host/console/command_line.hpp"
 #include "host/recording/files/run_file.hpp"
 
@@ -18,7 +19,7 @@ auto read_recordings(bool damaged, Read read) {
   try {
     return read(damaged ? recording::Damage::accepted : recording::Damage::refused);
   } catch (const recording::DamagedRecording& error) {
-    throw Error(std::string(error.what()) + "; --damaged uses what can be read of it", error.remedy());
+    throw Error(in_words(error) + "; --damaged uses what can be read of it");
   }
 }
 

@@ -1,11 +1,17 @@
 #include "host/commands/shared/truth_option.hpp"
 
 #include "host/base/error.hpp"
+#include "host/commands/base/remedies.hpp"
+#include "host/console/console.hpp"
 #include "host/truth/files/file_source.hpp"
 #include "host/truth/live/socket_source.hpp"
 #include "host/truth/source/no_source.hpp"
 
 namespace astro::commands {
+
+std::string ask_person(const truth::Question& question) {
+  return console::ask(in_words(question.occasion) + question.text);
+}
 
 std::unique_ptr<truth::Source> open_truth(const TruthOption& option, const std::string& port,
                                           const truth::Ask& asking) {

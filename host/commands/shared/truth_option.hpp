@@ -4,7 +4,6 @@
 #include <memory>
 #include <string>
 
-#include "host/console/console.hpp"
 #include "host/truth/manual/manual_source.hpp"
 #include "host/truth/source/source.hpp"
 
@@ -20,8 +19,11 @@ struct TruthOption {
   std::filesystem::path folder;  // file: where the CSV files appear
 };
 
+/// Asks at the terminal.
+std::string ask_person(const truth::Question& question);
+
 /// `asking`: how a person is asked, if one is. Throws astro::Error if the source cannot be opened.
 std::unique_ptr<truth::Source> open_truth(const TruthOption& option, const std::string& port,
-                                          const truth::Ask& asking = console::ask);
+                                          const truth::Ask& asking = ask_person);
 
 }  // namespace astro::commands

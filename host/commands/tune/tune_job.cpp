@@ -1,4 +1,5 @@
 #include "host/commands/tune/tune_job.hpp"
+#include "host/commands/base/remedies.hpp"
 
 #include <fmt/format.h>
 
@@ -40,7 +41,7 @@ TunedStep drive_step(robot::Client& client, const TuneResult& result, const moto
   return step;
 }
 
-/// The step before, the same with the new values as predicted, and what the new gains do alone.
+/// Three step responses: measured with the old values, predicted for the new ones, and predicted for the new gains alone.
 std::vector<TunedStep> steps_before_upload(robot::Client& client, const TuneResult& result,
                                            const motor::Bounds& bounds) {
   const TunedStep before = drive_step(client, result, result.before,
@@ -87,8 +88,8 @@ TuneResult measure(robot::Client& client, const TuneOptions& options) {
 void load_and_measure_again(robot::Client& client, TuneResult& result) {
   require_good_fit(result.motors);
   const robot::UploadReport done = robot::upload(client, values_of(result.proposed));
-  if (done.active != robot::ActiveSet::new_set) throw Error(done.sentence());
-  console::say(done.sentence());
+  if (done.active != robot::ActiveSet::new_set) throw Error(done.remark());
+  console::say(in_words(done.remark()));
   result.uploaded = true;
   const auto facts = motor::facts_of(robot::RemoteParameters::fetch(client));
   result.steps[1] = drive_step(client, result, facts, plan_of(result.steps[0].measured), "after");

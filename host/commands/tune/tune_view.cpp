@@ -141,7 +141,7 @@ std::string verdict(const TuneResult& result) {
 std::string in_words(const TuneResult& result) {
   std::string text = motor_table(result);
   text += fmt::format(
-      "\ncarried   kp {:.4g}, ki {:.4g}: {}\ndesigned  kp {:.4g}, ki {:.4g}: {}\n          at most "
+      "\nloaded    kp {:.4g}, ki {:.4g}: {}\ndesigned  kp {:.4g}, ki {:.4g}: {}\n          at most "
       "{:.1f} Hz with this observer_bandwidth; encoder noise {:.0f} mV on the motors\n\n",
       result.before.kp, result.before.ki, margins_in_words(result.gains.margins_before),
       result.gains.design.kp, result.gains.design.ki, margins_in_words(result.gains.design.margins),
@@ -165,8 +165,8 @@ report::TuningInput report_input(const TuneResult& result, const robot::Client& 
   input.loop = {
       {"Designed", fmt::format("kp {:.4g} V s/m, ki {:.4g} V/m: {}", result.gains.design.kp,
                                result.gains.design.ki, margins_in_words(result.gains.design.margins))},
-      {"Carried before", margins_in_words(result.gains.margins_before)},
-      {"Observer", fmt::format("{:.0f} rad/s; carries at most {:.1f} Hz", result.before.observer_radps,
+      {"Loaded before", margins_in_words(result.gains.margins_before)},
+      {"Observer", fmt::format("{:.0f} rad/s; allows at most {:.1f} Hz", result.before.observer_radps,
                                hertz(result.gains.design.largest_bandwidth_radps))}};
   for (const TunedStep& step : result.steps)
     input.steps.push_back({step.title, {lines(step, Side::left), lines(step, Side::right)}});

@@ -1,4 +1,5 @@
 #include "host/commands/tune/wiring_dialogue.hpp"
+#include "host/commands/base/remedies.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -76,13 +77,13 @@ void show(const WiringVerdict& verdict) {
               ? "each motor turns its own encoder forward; whether the right wheels turned the right "
                 "way, only who looks can say"
               : "motors and encoders are wired as the parameters say");
-  for (const auto& [fault, sentence] : verdict.findings) print(sentence);
+  for (const auto& [fault, remark] : verdict.findings) print(in_words(remark));
 }
 
 Json to_json(const WiringVerdict& verdict) {
   Json findings = Json::array();
-  for (const auto& [fault, sentence] : verdict.findings)
-    findings.push_back({{"fault", fault}, {"sentence", sentence}});
+  for (const auto& [fault, remark] : verdict.findings)
+    findings.push_back({{"fault", fault}, {"sentence", in_words(remark)}});
   return {{"findings", findings},
           {"parameters", verdict.parameters},
           {"needs_hands", verdict.needs_hands},
@@ -99,8 +100,8 @@ bool offer(robot::Client& client, const std::map<std::string, double>& parameter
   if (!options.upload && !(somebody_is_there() && console::confirm("Load these into the robot?")))
     return false;
   const robot::UploadReport done = robot::upload(client, values);
-  if (done.active != robot::ActiveSet::new_set) throw Error(done.sentence());
-  console::say(done.sentence());
+  if (done.active != robot::ActiveSet::new_set) throw Error(done.remark());
+  console::say(in_words(done.remark()));
   return true;
 }
 
@@ -162,9 +163,9 @@ void check_wiring(WiringOptions& options) {
     json["roll"] = {{"left", rolled.ratio[0]},
                     {"right", rolled.ratio[1]},
                     {"agrees", rolled.agrees},
-                    {"sentence", rolled.sentence},
+                    {"sentence", in_words(rolled.finding)},
                     {"parameters", rolled.parameters}};
-    if (!options.json) print(rolled.sentence);
+    if (!options.json) print(in_words(rolled.finding));
     loaded = offer(*client, rolled.parameters, options) && loaded;
   }
   json["loaded"] = loaded && !(verdict.parameters.empty() && !json.contains("roll"));

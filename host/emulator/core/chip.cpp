@@ -44,7 +44,7 @@ Chip::Chip(HandOver hand_over)
                      [this](std::uint32_t address, std::uint32_t value, int bytes) {
                        if (address < kPrivatePeripherals) return bus_.write(address, value, bytes);
                        if (find_register(address) == nullptr || bytes != 4)
-                         fail(name_of(address) + ": write of a register that is not modelled");
+                         fail(name_of(address) + ": a write of a register that is not modelled");
                        control_.write(address, value);
                      },
                      [this](std::uint32_t number) {

@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 /// A calibration or a parameter file may replace another one, but not a recording or a journal.
 void require_own_kind(const fs::path& path) {
   if (fs::exists(path) && !fs::is_directory(path) && path.extension() != ".toml")
-    throw Error(fmt::format("'{}' exists and is no .toml, as what would replace it is: name another file",
-                            path.string()));
+    throw Error(fmt::format("'{}' exists and is no .toml, as what would replace it is", path.string()),
+                {Help::name_other_file});
 }
 
 void save(const fs::path& path, const std::string& text) {
@@ -66,7 +66,7 @@ std::string calibration_lines(const Calibration& calibration) {
   std::string text = fmt::format("[calibration]\nmethod = \"{}\"\n", calibration.method());
   text += fmt::format(
       "absolute = {} # {}\n", calibration.absolute(),
-      calibration.absolute() ? "true whatever the robot carries by now" : "only on top of [carried]");
+      calibration.absolute() ? "true whatever is loaded in the robot by now" : "only on top of [carried]");
   if (const calibration::Estimate* estimate = calibration.end_poses()) text += end_pose_lines(*estimate);
   if (const MlResult* ml = calibration.ml()) text += fmt::format("runs = {}\n", ml->estimate.runs.size());
   text += fmt::format("E_d = {}\nE_b = {}\nscale = {}\n", real_text(calibration.E_d()),
@@ -97,8 +97,8 @@ std::map<std::string, double> numbers_in(toml::node_view<const toml::node> secti
 [[noreturn]] void fail_for_folder(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder))
     if (const fs::path& file = entry.path(); file.extension() == ".toml")
-      throw Error(fmt::format("'{}' is a folder: name a calibration in it, such as '{}'", folder.string(),
-                              file.string()));
+      throw Error(fmt::format("'{}' is a folder", folder.string()),
+                  {Help::name_calibration_in_folder, file.string()});
   throw Error(fmt::format("'{}' is a folder that holds no calibration", folder.string()),
               {Help::name_calibration});
 }
@@ -136,7 +136,7 @@ void write_calibration(const fs::path& path, const Calibration& calibration) {
   if (const MlResult* ml = calibration.ml()) text += covariance_lines(ml->estimate.covariance);
   if (calibration.wheel) text += nominal_lines(*calibration.wheel);
   if (!calibration.robot.id.empty()) text += robot_lines(calibration.robot);
-  text += "# What the robot believed while it drove.\n[carried]\n" +
+  text += "# The factors that were loaded in the robot while it drove.\n[carried]\n" +
           factor_lines(loaded.c_r, loaded.c_l, loaded.b_m);
   save(path, text + calibration_lines(calibration));
 }

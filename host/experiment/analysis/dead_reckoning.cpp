@@ -31,13 +31,13 @@ NamedFactors factors_of_file(const std::filesystem::path& path, const NominalWhe
                            {factor(file, path, "c_R"), factor(file, path, "c_L"), factor(file, path, "b")},
                            file.robot};
   if (!(found.factors.b_m > 0.01 && found.factors.b_m < 10))
-    throw Error(fmt::format("{} has b = {:.4g} m, which no robot has: correct or replace it", path.string(),
-                            found.factors.b_m));
+    throw Error(fmt::format("{} has b = {:.4g} m, which no robot has", path.string(), found.factors.b_m),
+                {Help::correct_or_replace_file});
   for (const double ratio : {found.factors.c_r, found.factors.c_l})
     if (!(ratio > 0.5 && ratio < 2))
-      throw Error(
-          fmt::format("{} has c_R = {:.4g} and c_L = {:.4g}, which no wheel has: correct or replace it",
-                      path.string(), found.factors.c_r, found.factors.c_l));
+      throw Error(fmt::format("{} has c_R = {:.4g} and c_L = {:.4g}, which no wheel has", path.string(),
+                              found.factors.c_r, found.factors.c_l),
+                  {Help::correct_or_replace_file});
   return found;
 }
 

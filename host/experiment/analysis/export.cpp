@@ -30,9 +30,9 @@ void require_possible(const std::string& name, double value) {
   const double least = in_unit(*row, row->minimum_raw), most = in_unit(*row, row->maximum_raw);
   if (value >= least && value <= most) return;
   const std::string unit = row->unit == "1" ? "" : " " + std::string(row->unit);
-  throw Error(fmt::format(
-      "{} = {:.9g}{} is out of range: {:g}{} to {:g}{}, so that a robot would refuse it; calibrate again",
-      name, value, unit, least, unit, most, unit));
+  throw Error(fmt::format("{} = {:.9g}{} is out of range: {:g}{} to {:g}{}, so that a robot would refuse it",
+                          name, value, unit, least, unit, most, unit),
+              {Help::calibrate_again});
 }
 
 double factor(const ParameterFile& file, const std::string& name) {
@@ -99,7 +99,7 @@ DiffDrive diff_drive(const ParameterFile& file, const NominalSizes& nominal) {
   const std::optional<double> separation_m =
       nominal.wheel_separation_m ? nominal.wheel_separation_m : number_named(file.loaded, "b");
   if (!separation_m)
-    throw Error("the file does not tell the wheelbase that the robot believed in",
+    throw Error("the file does not tell the wheelbase that was loaded in the robot",
                 {Help::give_wheel_separation});
   if (!file.wheel && !nominal.wheel_radius_m)
     throw Error("the file does not tell the nominal wheel that c_R and c_L refer to",

@@ -80,6 +80,7 @@ nlohmann::json to_json(const Calibration& calibration) {
   json["scale"] = calibration.scale();
   json["standard_errors"] = {{"E_b", number(se.E_b)}, {"E_d", number(se.E_d)}, {"scale", number(se.scale)},
                              {"c_R", number(se.c_r)}, {"c_L", number(se.c_l)}, {"b_m", number(se.b_m)}};
+  // "carried" is the name of the loaded factors in the files of this format; a new name would be a new format.
   json["carried"] = to_json(calibration.loaded);
   if (calibration.squares) add_squares(json, *calibration.squares);
   if (const calibration::Estimate* estimate = calibration.end_poses()) add_end_poses(json, *estimate);

@@ -34,6 +34,7 @@ nlohmann::json run_json(const calibration::RunFit& run) {
           {"disagreement", number(run.disagreement)},
           {"disagreement_dof", run.disagreement_dof},
           {"outlier", run.outlier},
+          // "jolts" is the name of slip events in the files of this format.
           {"jolts", slip_events_json(run.slip_events)}};
 }
 

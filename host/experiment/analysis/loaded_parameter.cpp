@@ -13,7 +13,7 @@ namespace astro::experiment {
 double loaded_parameter(const recording::RunInfo& info, const char* parameter, const std::string& file) {
   const std::optional<double> value = number_named(info.parameters, parameter);
   if (value && std::isfinite(*value) && *value > 0) return *value;
-  const std::string fact = fmt::format("the recording '{}' does not say what {} the robot carried",
+  const std::string fact = fmt::format("the recording '{}' does not say which {} was loaded in the robot",
                                        file.empty() ? run_name(info) : file, parameter);
   if (file.empty()) throw Error(fact);
   throw Error(fact, {Help::leave_run_out, file});

@@ -49,7 +49,7 @@ std::string ml_text(const MlResult& ml) {
   std::string text =
       extent_sentence(ml) +
       " All recordings up to then count, not only the squares. The factors are absolute: they refer to "
-      "the nominal wheel, whatever the robot carried while it drove.\n\n" +
+      "the nominal wheel, whatever was loaded in the robot while it drove.\n\n" +
       lever_sentence(ml) + ' ' + clock_sentence(ml) + "\n\n" + noise_sentence(ml) + "\n\n";
   for (const Remark& remark : verdict(ml)) text += remark.fact + ". ";
   return text;
@@ -62,7 +62,8 @@ std::string end_pose_text(const calibration::Estimate& estimate) {
   if (estimate.options.method == calibration::Method::extended)
     text += fmt::format(" Formula: {}.", calibration::name_of(estimate.options.formula));
   return text +
-         "\n\nThe estimate is composed with the factors that the robot carried while it drove. A closed "
+         "\n\nThe estimate is composed with the factors that were loaded in the robot while it drove. A "
+         "closed "
          "square is blind to the common scale of both wheels, so c_R + c_L is left as it was.";
 }
 

@@ -138,6 +138,7 @@ nlohmann::json to_json(const Results& results) {
     json["improvement_95"] = {number(results.gain().low), number(results.gain().high)};
   json["phases"] = nlohmann::json::array();
   for (const PhaseResult& phase : results.phases) {
+    // "carried": the loaded factors, as in json.cpp.
     nlohmann::json entry = {{"name", phase.name}, {"carried", to_json(phase.squares().loaded)}};
     entry["squares"] = to_json(phase.summary);
     entry["estimate"] = phase.calibration ? to_json(*phase.calibration) : nlohmann::json();

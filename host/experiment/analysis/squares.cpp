@@ -18,13 +18,11 @@ void accept(Squares& squares, const recording::Run& run, bool first) {
     squares.side_m = run.info.size_m;
   }
   if (!same_factors(loaded, squares.loaded))
-    throw Error(
-        "the squares were driven with different c_R, c_L or b: calibrate each phase for itself (name its "
-        "folder)");
+    throw Error("the squares were driven with different c_R, c_L or b", {Help::calibrate_each_phase});
   if (!same_number(run.info.size_m, squares.side_m))
     throw Error(
-        fmt::format("the squares have different sides ({} m and {} m): keep each size in a folder of its own",
-                    squares.side_m, run.info.size_m));
+        fmt::format("the squares have different sides ({} m and {} m)", squares.side_m, run.info.size_m),
+        {Help::separate_sizes});
   const recording::EndError error = recording::end_error(run);
   (run.info.direction == Sense::cw ? squares.cw : squares.ccw)
       .push_back({error.x_m, error.y_m, error.theta_rad});

@@ -110,13 +110,14 @@ std::vector<calibration::Trajectory> trajectories_of(const RunSet& set) {
 void require_comparable(const recording::RunInfo& a, const std::string& a_name, const recording::RunInfo& b,
                         const std::string& b_name) {
   if (a.robot_id != b.robot_id)
-    throw Error(fmt::format("'{}' and '{}' were driven by different robots: calibrate each for itself",
-                            a_name, b_name));
+    throw Error(fmt::format("'{}' and '{}' were driven by different robots", a_name, b_name),
+                {Help::calibrate_each_robot});
   if (nominal_wheel(a, a_name) != nominal_wheel(b, b_name))
     throw Error(
         fmt::format("'{}' and '{}' were driven with different wheel diameters, gears or encoders in the "
-                    "parameters, to which c_R and c_L refer: calibrate each for itself",
-                    a_name, b_name));
+                    "parameters, to which c_R and c_L refer",
+                    a_name, b_name),
+        {Help::calibrate_each_robot});
 }
 
 }  // namespace astro::experiment

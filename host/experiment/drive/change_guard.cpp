@@ -93,10 +93,8 @@ std::vector<Change> changes(const robot::RemoteParameters& robot, const Paramete
 std::string suspicion(const std::vector<Change>& changes) {
   for (const Change& change : changes)
     if (is_factor(change.name) && std::abs(relative(change)) > kMostChange)
-      return fmt::format(
-          "{} would change by {:+.1f} %, and a calibration moves it by a few at most: check units, side "
-          "and robot",
-          change.name, 100 * relative(change));
+      return fmt::format("{} would change by {:+.1f} %, and a calibration moves it by a few at most",
+                         change.name, 100 * relative(change));
   return {};
 }
 
@@ -105,19 +103,16 @@ std::string wrong_basis(const robot::RemoteParameters& robot, const ParameterFil
   if (!file.absolute)
     for (const auto& [name, loaded] : file.loaded)
       if (const double now = on_robot(name.c_str()); !same_number(now, loaded))
-        return fmt::format(
-            "the calibration was driven with {} = {:.9g}, and the robot now carries {:.9g}: load the old "
-            "value or drive again",
-            name, loaded, now);
+        return fmt::format("the calibration was driven with {} = {:.9g}, and the robot now holds {:.9g}",
+                           name, loaded, now);
   if (!file.wheel) return {};
   const NominalWheel now{
       on_robot("wheel_diameter"),
       on_robot("counts_per_motor_rev") * on_robot("gear_numerator") / on_robot("gear_denominator")};
   if (now.measures_like(*file.wheel)) return {};
   return fmt::format(
-      "the calibration refers to a wheel of {:.6g} m with {:.6g} counts a turn, and the robot now believes "
-      "in "
-      "{:.6g} m and {:.6g}: load the old values or drive again",
+      "the calibration refers to a wheel of {:.6g} m with {:.6g} counts a turn, and the robot's parameters "
+      "now give {:.6g} m and {:.6g}",
       file.wheel->diameter_m, file.wheel->counts_per_turn, now.diameter_m, now.counts_per_turn);
 }
 
@@ -125,17 +120,18 @@ std::string incomplete(const ParameterFile& file) {
   const auto has = [&](const char* name) { return file.parameters.contains(name); };
   if (file.method.empty() || (has("c_R") && has("c_L") && has("b"))) return {};
   const char* missing = !has("c_R") ? "c_R" : !has("c_L") ? "c_L" : "b";
-  return fmt::format("the calibration has no {}, and c_R, c_L and b were found together: calibrate again",
-                     missing);
+  return fmt::format("the calibration has no {}, and c_R, c_L and b were found together", missing);
 }
 
 std::optional<Remark> objection(const robot::RemoteParameters& robot, const ParameterFile& file,
                                 const std::vector<Change>& changes) {
-  std::string why = incomplete(file);
-  if (why.empty()) why = wrong_basis(robot, file);
-  if (why.empty()) why = suspicion(changes);
-  if (why.empty()) return std::nullopt;
-  return Remark{why, {Help::override_guard}};
+  if (const std::string why = incomplete(file); !why.empty())
+    return Remark{why, {Help::calibrate_again_or_override}};
+  if (const std::string why = wrong_basis(robot, file); !why.empty())
+    return Remark{why, {Help::load_old_values_or_override}};
+  if (const std::string why = suspicion(changes); !why.empty())
+    return Remark{why, {Help::check_units_or_override}};
+  return std::nullopt;
 }
 
 std::string insignificance(const std::vector<Change>& changes,
@@ -149,7 +145,7 @@ std::string insignificance(const std::vector<Change>& changes,
       return {};
     any = true;
   }
-  return any ? "no factor changes by more than twice its standard error: what the robot carries may be as "
+  return any ? "no factor changes by more than twice its standard error: what is loaded may be as "
                "good"
              : "";
 }

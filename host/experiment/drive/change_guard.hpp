@@ -22,17 +22,16 @@ struct Change {
 std::vector<Change> changes(const robot::RemoteParameters& robot, const ParameterValues& values);
 
 /// A wheel factor that changes by more than a tenth is more likely a mistake (units, sides, another robot) than a
-/// calibration: the sentence that says so, or "" if there is none. Checks c_R, c_L and b only.
+/// calibration: states which one, or "" if there is none. Checks c_R, c_L and b only.
 std::string suspicion(const std::vector<Change>& changes);
 
-/// Why factors that were found like this would be wrong on top of what is loaded in the robot now: the sentence,
-/// or
-/// "" if they are right. Factors that are not absolute need the factors that were loaded when they were measured; all
-/// need the nominal wheel (diameter, gear, encoder) that they refer to, as far as the file tells it.
+/// Why factors that were found like this would be wrong on top of what is loaded in the robot now, or "" if they
+/// are right. Factors that are not absolute need the factors that were loaded when they were measured; all need
+/// the nominal wheel (diameter, gear, encoder) that they refer to, as far as the file tells it.
 std::string wrong_basis(const robot::RemoteParameters& robot, const ParameterFile& file);
 
-/// Why these changes are not uploaded unless somebody insists, from the two above; none if nothing is against
-/// it.
+/// Why these changes are uploaded only on request: c_R, c_L and b are not complete, or what the two checks above
+/// find. Nothing if all are in order.
 std::optional<Remark> objection(const robot::RemoteParameters& robot, const ParameterFile& file,
                                 const std::vector<Change>& changes);
 

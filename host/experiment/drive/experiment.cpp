@@ -73,14 +73,14 @@ class Session {
             "along the way",
             {Help::count_runs});
       const calibration::Precision reached = precision_of(found);
-      hooks_.run.notice(fmt::format("{}: {} + {} squares give {}", specs.front().phase, squares, squares,
-                                    described(reached)));
+      hooks_.run.notice({fmt::format("{}: {} + {} squares give {}", specs.front().phase, squares, squares,
+                                     described(reached))});
       if (reaches(reached, until.target)) return;
       if (squares >= until.most) {
         hooks_.run.notice(
-            fmt::format("{}: that is not the {:.3g} % asked for, but {} squares in each "
-                        "direction are the most: going on with it",
-                        specs.front().phase, 100 * until.target, until.most));
+            {fmt::format("{}: that is not the {:.3g} % asked for, but {} squares in each "
+                         "direction are the most: going on with it",
+                         specs.front().phase, 100 * until.target, until.most)});
         return;
       }
     }
@@ -95,8 +95,8 @@ class Session {
     const robot::RemoteParameters parameters = robot::RemoteParameters::fetch(client_);
     begin_phase(specs.front().phase, factors_of(parameters));
     if (missing.size() < specs.size() && !announced_)
-      hooks_.run.notice(fmt::format("{}: {} of {} runs are recorded already", specs.front().phase,
-                                    specs.size() - missing.size(), specs.size()));
+      hooks_.run.notice({fmt::format("{}: {} of {} runs are recorded already", specs.front().phase,
+                                     specs.size() - missing.size(), specs.size())});
     announced_ = true;
     const auto total = static_cast<int>(specs.size());
     int number = total - static_cast<int>(missing.size());
@@ -104,9 +104,8 @@ class Session {
       ++number;
       recording::Run run;
       if (const fs::path driven = file_without_truth(folder_, spec); fs::exists(driven)) {
-        hooks_.run.notice(
-            fmt::format("{} is driven, but its ground truth is missing (remove '{}' to drive again)",
-                        spec.title(), driven.string()));
+        hooks_.run.notice({spec.title() + " is driven, but its ground truth is missing",
+                           {Help::drive_run_again, driven.string()}});
         run = recording::read_run(driven);
       } else {
         hooks_.ready(spec);
@@ -128,9 +127,7 @@ class Session {
       } catch (const Interrupted&) {
         throw;
       } catch (const Error& error) {
-        throw Error(std::string(error.what()) +
-                        "; the drive is kept, and the same command goes on with its ground truth",
-                    error.remedy());
+        throw Error(std::string(error.what()) + "; the drive is kept", {Help::resume_for_truth});
       }
     }
     recording::write_run(file_of(folder_, spec), run);
@@ -146,8 +143,7 @@ class Session {
       if (odd && odd->file.empty() && !hooks_.keep(odd->why)) continue;
       run = std::move(whole);
       if (odd && !odd->file.empty() && warned_of_.insert(odd->file).second)
-        hooks_.run.notice(
-            fmt::format("warning: {} To drive it again, remove '{}'", odd->why, odd->file.string()));
+        hooks_.run.notice({"warning: " + odd->why, {Help::drive_run_again, odd->file.string()}});
       return;
     }
   }
@@ -157,12 +153,11 @@ class Session {
     const auto known = journal_.loaded.find(phase);
     if (known != journal_.loaded.end()) {
       if (!same_factors(known->second, factors))
-        throw Error(
-            fmt::format("the robot carries c_R {:.9f}, c_L {:.9f}, b {:.9f} m, but phase '{}' of this "
-                        "experiment began with {:.9f}, {:.9f}, {:.9f} m",
-                        factors.c_r, factors.c_l, factors.b_m, phase, known->second.c_r, known->second.c_l,
-                        known->second.b_m),
-            {Help::load_factors_or_choose_other_folder});
+        throw Error(fmt::format("the robot holds c_R {:.9f}, c_L {:.9f}, b {:.9f} m, but phase '{}' of this "
+                                "experiment began with {:.9f}, {:.9f}, {:.9f} m",
+                                factors.c_r, factors.c_l, factors.b_m, phase, known->second.c_r,
+                                known->second.c_l, known->second.b_m),
+                    {Help::load_factors_or_choose_other_folder});
       return;
     }
     journal_.loaded[phase] = factors;
@@ -185,7 +180,7 @@ class Session {
         return record_run(client_, truth_, path, info, hooks_.run);
       } catch (const robot::LinkLost& lost) {
         if (attempt == kTriesPerRun || hooks_.run.interrupted()) throw;
-        hooks_.run.notice(fmt::format("{}; this run starts again", lost.what()));
+        hooks_.run.notice({fmt::format("{}; this run starts again", lost.what()), lost.remedy()});
         client_.reconnect(kReconnectPatience);
         hooks_.ready(spec);
       }
@@ -223,8 +218,8 @@ class Session {
     if (!hooks_.agree(found, list))
       throw Error("the new parameters were not uploaded", {Help::resume_experiment, folder_.string()});
     const robot::UploadReport report = robot::upload(client_, calibration.parameters);
-    if (report.active != robot::ActiveSet::new_set) throw Error(report.sentence());
-    hooks_.uploaded(report.sentence());
+    if (report.active != robot::ActiveSet::new_set) throw Error(report.remark());
+    hooks_.uploaded(report.remark());
   }
 
   robot::Client& client_;

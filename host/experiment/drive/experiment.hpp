@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "host/base/remedy.hpp"
 #include "host/experiment/analysis/results.hpp"
 #include "host/experiment/drive/change_guard.hpp"
 #include "host/experiment/drive/record_run.hpp"
@@ -24,7 +25,7 @@ struct ExperimentHooks {
   std::function<bool(const Calibration&, const std::vector<Change>&)> agree =
       [](const Calibration&, const std::vector<Change>&) { return true; };
   bool force = false;  // upload in spite of an objection
-  std::function<void(const std::string&)> uploaded = [](const std::string&) {};
+  std::function<void(const Remark&)> uploaded = [](const Remark&) {};
 };
 
 /// The whole experiment with one robot: squares, calibration, upload, squares again. Runs that are recorded in

@@ -50,7 +50,7 @@ class Collector {
       return interrupted() || (stand_from_us_ && newest_us_ - *stand_from_us_ >= duration.count());
     };
     if (!client_.pump_until(done, 10 * duration))
-      throw Error("the robot's telemetry has dried up while it stood: is the link good?");
+      throw Error("the robot's telemetry has dried up while it stood", {Help::check_link});
   }
 
   /// Stops the stream. Waits for the last truth samples, which may arrive a little later than the odometry.
@@ -180,14 +180,14 @@ Recorded record_until(robot::Client& client, truth::Source& truth, const SampleS
   };
   const SampleSink guard{guarded(sink.odometry), guarded(sink.truth)};
   Collector collector(client, truth, guard);
-  std::string warning;
+  std::optional<Remark> warning;
   try {
     while (!client.pump_until([&] { return failure || done(); }, 50ms)) {
     }
     collector.finish();
   } catch (const Error& error) {
     if (!failure && collector.count().odometry == 0) throw;
-    warning = error.what();
+    warning = Remark{error.what(), error.remedy()};
   }
   if (failure) std::rethrow_exception(failure);
   Recorded recorded = collector.count();

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 
+#include "host/base/remedy.hpp"
 #include "host/experiment/files/plan.hpp"
 #include "host/recording/run/run.hpp"
 #include "host/robot/motion/drive.hpp"
@@ -19,7 +21,7 @@ struct RunHooks {
   /// Called for each recorded sample and for each segment that ends, for a progress bar.
   std::function<void(const recording::OdometrySample&)> moved = [](const auto&) {};
   std::function<void(std::uint16_t tag)> segment_done = [](std::uint16_t) {};
-  std::function<void(const std::string&)> notice = [](const std::string&) {};
+  std::function<void(const Remark&)> notice = [](const Remark&) {};
   std::function<bool()> interrupted = [] { return false; };
 };
 
@@ -49,7 +51,7 @@ struct SampleSink {
 
 struct Recorded {
   std::uint64_t odometry = 0, truth = 0;  // samples
-  std::string warning;                    // "" or why the recording ended early
+  std::optional<Remark> warning;          // why the recording ended early
 };
 
 /// Records without driving, until `done` returns true; it is called after each message, at least every 50 ms.

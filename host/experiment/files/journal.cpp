@@ -52,8 +52,8 @@ Journal read_journal(const std::filesystem::path& folder) {
   try {
     const auto json = nlohmann::json::parse(bytes.begin(), bytes.end());
     if (json.at("format") != kFormat)
-      throw Error("'" + path.string() +
-                  "' was written by another version of Astrolabe: use that one to go on with it");
+      throw Error("'" + path.string() + "' was written by another version of Astrolabe",
+                  {Help::use_same_version});
     Journal journal;
     journal.plan = drivable_plan(json.at("plan"), damaged);
     const auto& robot = json.at("robot");
@@ -62,6 +62,7 @@ Journal read_journal(const std::filesystem::path& folder) {
     robot.at("board").get_to(journal.board);
     robot.at("firmware").get_to(journal.firmware);
     json.at("started_at").get_to(journal.started_at);
+    // "carried" is the name of the loaded factors in the files of this format.
     for (const auto& [phase, loaded] : json.at("carried").items())
       journal.loaded[phase] = {loaded.at("c_R"), loaded.at("c_L"), loaded.at("b_m")};
     return journal;

@@ -22,7 +22,7 @@ Enum find(const std::string& word, const char* what, const std::vector<Enum>& va
     names.emplace_back(name_of(value));
     if (names.back() == word) return value;
   }
-  throw Error(fmt::format("'{}' is no {}: choose {}{}", word, what, others, fmt::join(names, ", ")));
+  throw Error(fmt::format("'{}' is no {}: there are {}{}", word, what, others, fmt::join(names, ", ")));
 }
 
 }  // namespace

@@ -22,11 +22,11 @@ int count_at(const nlohmann::json& json, const char* key) { return count_in(json
 
 void check_until(const Plan& plan) {
   need(within(plan.until->target, 1e-6, 0.1),
-       fmt::format("a precision of {:g} % cannot be driven for: choose 0.0001 % to 10 %",
+       fmt::format("a precision of {:g} % cannot be driven for: 0.0001 % to 10 % are possible",
                    100 * plan.until->target));
-  need(
-      plan.until->most >= kFewestPairs && plan.until->most <= 1000,
-      fmt::format("at most {} squares in each direction: choose {} to 1000", plan.until->most, kFewestPairs));
+  need(plan.until->most >= kFewestPairs && plan.until->most <= 1000,
+       fmt::format("at most {} squares in each direction cannot be driven: {} to 1000 are possible",
+                   plan.until->most, kFewestPairs));
   need(plan.order == Order::alternating, "squares driven until a precision is reached alternate",
        {Help::keep_order});
   need(plan.method.family != MethodChoice::Family::end_poses,
@@ -41,19 +41,19 @@ void check_until(const Plan& plan) {
 
 void Plan::check() const {
   need(runs >= 1 && runs <= 1000,
-       fmt::format("{} runs in each direction cannot be driven: choose 1 to 1000", runs));
+       fmt::format("{} runs in each direction cannot be driven: 1 to 1000 are possible", runs));
   if (until) check_until(*this);
-  need(rounds >= 1 && rounds <= 20, fmt::format("{} rounds cannot be driven: choose 1 to 20", rounds));
+  need(rounds >= 1 && rounds <= 20, fmt::format("{} rounds cannot be driven: 1 to 20 are possible", rounds));
   need(within(side_m, 0.2, 100),
-       fmt::format("a square of side {} m cannot be driven: choose 0.2 m to 100 m", side_m));
+       fmt::format("a square of side {} m cannot be driven: 0.2 m to 100 m are possible", side_m));
   need(within(speed_mps, 0.01, 5),
-       fmt::format("a speed of {} m/s cannot be driven: choose 0.01 to 5 m/s", speed_mps));
+       fmt::format("a speed of {} m/s cannot be driven: 0.01 to 5 m/s are possible", speed_mps));
   need(within(yaw_rate_radps, 0.05, 20),
-       fmt::format("a yaw rate of {} rad/s cannot be driven: choose 0.05 to 20 rad/s", yaw_rate_radps));
+       fmt::format("a yaw rate of {} rad/s cannot be driven: 0.05 to 20 rad/s are possible", yaw_rate_radps));
   need(within(line_m, 0.1, 100),
-       fmt::format("a line of {} m cannot be driven: choose 0.1 m to 100 m", line_m));
+       fmt::format("a line of {} m cannot be driven: 0.1 m to 100 m are possible", line_m));
   need(within(circle_radius_m, 0.1, 50),
-       fmt::format("a circle of radius {} m cannot be driven: choose 0.1 m to 50 m", circle_radius_m));
+       fmt::format("a circle of radius {} m cannot be driven: 0.1 m to 50 m are possible", circle_radius_m));
 }
 
 std::string_view name_of(Order order) {

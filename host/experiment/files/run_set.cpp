@@ -35,7 +35,8 @@ std::string matched(const std::string& wanted, const std::vector<std::string>& n
     throw Error(fmt::format("there is no recording '{}' in {} to leave out: it holds {}", wanted,
                             folder.string(), listed(names)));
   if (matches.size() > 1)
-    throw Error(fmt::format("'{}' may be {}: name the one to leave out", wanted, fmt::join(matches, " or ")));
+    throw Error(fmt::format("'{}' may be {}", wanted, fmt::join(matches, " or ")),
+                {Help::name_run_to_leave_out});
   return matches.front();
 }
 
@@ -69,7 +70,7 @@ RunSet read_run_set(const fs::path& folder, std::span<const std::string> without
     set.runs.push_back(recording::read_run(files[i], damage));
   }
   if (set.runs.empty())
-    throw Error("every recording in " + folder.string() + " is left out: keep some to calibrate from");
+    throw Error("every recording in " + folder.string() + " is left out", {Help::keep_some_runs});
   require_no_copies(set);
   return set;
 }

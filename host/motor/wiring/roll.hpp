@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "host/base/remedy.hpp"
+
 /// Counts per revolution from rolling the robot by hand along a tape measure.
 namespace astro::motor {
 
@@ -18,8 +20,8 @@ struct Roll {
 
 struct RollVerdict {
   std::array<double, 2> ratio{};  // counts that were seen over counts that the parameters lead to expect
-  std::string sentence;           // the finding and its remedy
-  bool agrees = false;            // within what a tape measure and an eye can tell
+  Remark finding;
+  bool agrees = false;                       // within what a tape measure and an eye can tell
   std::map<std::string, double> parameters;  // to change, by name
 };
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "host/base/remedy.hpp"
 #include "host/motor/model/sample.hpp"
 
 /// Finds wiring faults of a robot from driving one motor after the other.
@@ -46,9 +47,10 @@ struct Polarities {
   std::array<int, 2> motor{1, 1}, encoder{1, 1};
 };
 
-/// One thing that is wrong, in a sentence with its remedy. `fault`: a word for scripts.
+/// One thing that is wrong. `fault`: a word for scripts.
 struct Finding {
-  std::string fault, sentence;
+  std::string fault;
+  Remark remark;
 };
 
 struct WiringVerdict {

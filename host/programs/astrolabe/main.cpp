@@ -58,7 +58,7 @@ int run(int argc, char** argv) {
     if (const std::exception_ptr why = std::current_exception()) std::rethrow_exception(why);
     std::fputs("astrolabe: this should not have happened, please report it: it ended itself\n", stderr);
   } catch (const std::bad_alloc&) {
-    complain_of_memory();
+    complain_without_memory(kNoMemory);
   } catch (const std::exception& error) {
     complain(std::string("this should not have happened, please report it: ") + error.what());
   } catch (...) {
@@ -88,7 +88,7 @@ int main(int argc, char** argv) {
     complain(in_words(error));
     return kFailed;
   } catch (const std::bad_alloc&) {
-    complain_of_memory();
+    complain_without_memory(kNoMemory);
     return kFailed;
   } catch (const std::exception& error) {
     complain(std::string("this should not have happened, please report it: ") + error.what());

@@ -1,6 +1,7 @@
 #include <exception>
 #include <filesystem>
 #include <memory>
+#include <new>
 #include <string>
 
 #include "host/base/error.hpp"
@@ -69,6 +70,9 @@ int main(int argc, char** argv) {
     return 1;
   } catch (const astro::Error& error) {
     console::complain(astro::commands::in_words(error));
+    return 1;
+  } catch (const std::bad_alloc&) {
+    console::complain_without_memory(astro::commands::kNoMemory);
     return 1;
   } catch (const std::exception& error) {
     console::complain(error.what());

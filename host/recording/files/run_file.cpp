@@ -60,11 +60,11 @@ struct RunFile {
 
 /// The warning for a file that is not complete; "" if it is.
 std::string warning_of(const std::string& file, const McapReport& report, Damage damage) {
-  if (!report.is_mcap) throw Error(file + " is not an MCAP file: name a recording made by astrolabe");
+  if (!report.is_mcap) throw Error(file + " is not an MCAP file", {Help::name_recording});
   const std::string damaged =
       file + " is damaged (" + (report.warnings.empty() ? std::string() : report.warnings.front()) + ")";
   if (report.damaged && damage == Damage::refused)
-    throw DamagedRecording(damaged + ": copy it again from where it was recorded, or record the run again");
+    throw DamagedRecording(damaged, {Help::copy_or_record_again});
   if (report.damaged) return damaged + ": some of the run is missing, and results from it may be wrong";
   if (report.truncated) return file + " was cut off while it was recorded: what was driven last is missing";
   return "";
@@ -84,8 +84,8 @@ RunFile parse(ByteView bytes, const std::string& file, Damage damage) {
                          const mcap::Message& message) { out.streams.take(channel, schema, message); };
   out.warning = warning_of(file, read_mcap(bytes, handlers), damage);
   if (!entries) {
-    throw Error(file + " is not a recording of a run (it has no record " + std::string(kRunRecordName) +
-                "): name one made by astrolabe");
+    throw Error(file + " is not a recording of a run (it has no record " + std::string(kRunRecordName) + ")",
+                {Help::name_recording});
   }
   out.record = run_record(*entries, file);
   return out;
@@ -111,7 +111,8 @@ void pair_counts(const std::string& file, bool cut_off, Streams& streams) {
   }
   if (!good) {
     throw Error(file + " holds messages that do not belong to a run (the poses of /odom do not match the " +
-                "counts of /wheel_counts): the file was edited, use the original");
+                    "counts of /wheel_counts): the file was edited",
+                {Help::use_original});
   }
   streams.odometry.resize(pairs);
 }

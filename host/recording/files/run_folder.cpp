@@ -46,10 +46,9 @@ std::vector<fs::path> list_runs(const fs::path& folder) {
   const fs::file_status status = fs::status(folder, error);
   if (!fs::status_known(status))
     throw Error("cannot list the folder " + folder.string() + ": " + error.message());
-  if (!fs::exists(status))
-    throw Error(folder.string() + " does not exist: name a folder that holds recorded runs");
+  if (!fs::exists(status)) throw Error(folder.string() + " does not exist", {Help::name_folder_of_runs});
   if (!fs::is_directory(folder, error))
-    throw Error(folder.string() + " is a file: name a folder that holds recorded runs");
+    throw Error(folder.string() + " is a file", {Help::name_folder_of_runs});
   std::vector<fs::path> paths;
   for (auto it = fs::recursive_directory_iterator(folder, error);
        !error && it != fs::recursive_directory_iterator(); it.increment(error)) {

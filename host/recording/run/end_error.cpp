@@ -9,12 +9,11 @@ namespace {
 
 Rest required(const std::optional<Rest>& rest, const Run& run, const std::string& end) {
   if (!rest) {
-    throw Error(run_name(run.info) + " does not stand still at its " + end +
-                ": record at least 0.2 s of standstill there");
+    throw Error(run_name(run.info) + " does not stand still for 0.2 s at its " + end, {Help::stand_still});
   }
   if (!rest->truth) {
-    throw Error(run_name(run.info) + " has no valid ground truth while it stands at its " + end +
-                ": check that the tracker sees the robot there");
+    throw Error(run_name(run.info) + " has no valid ground truth while it stands at its " + end,
+                {Help::check_tracker});
   }
   return *rest;
 }
@@ -22,7 +21,7 @@ Rest required(const std::optional<Rest>& rest, const Run& run, const std::string
 }  // namespace
 
 EndError end_error(const Run& run) {
-  if (run.odometry.empty()) throw Error(run_name(run.info) + " holds no odometry: record it again");
+  if (run.odometry.empty()) throw Error(run_name(run.info) + " holds no odometry", {Help::record_again});
   const Rest start = required(rest_at_start(run), run, "start");
   const Rest end = required(rest_at_end(run), run, "end");
   if (start.to_us >= end.from_us) {

@@ -40,7 +40,7 @@ Section history(const ReportInput& input) {
             (p.unit.empty() ? "" : R"( <span class="unit">)" + escape(p.unit) + "</span>") + "</th>";
   for (const Phase& phase : input.phases) rows += phase_row(phase);
   out.body = fmt::format(
-      R"(<div class="scroll"><table class="wide"><caption>What the robot carried in each phase, with the standard errors of the calibration that found it, and what was left of the square’s error.</caption>
+      R"(<div class="scroll"><table class="wide"><caption>What was loaded in the robot in each phase, with the standard errors of the calibration that found it, and what was left of the square’s error.</caption>
 <thead><tr><th scope="col">Phase</th>{}<th scope="col"><var>E</var><sub>max,syst</sub> <span class="unit">mm</span></th></tr></thead><tbody>{}</tbody></table></div>)",
       head, rows);
   return out;

@@ -41,7 +41,7 @@ std::vector<Fact> facts_of(const ReportInput& input) {
                              return run.info.speed_mps > 0 ? fmt::format("{:g} m/s", run.info.speed_mps) : "";
                            }}};
   for (const auto& p : input.parameters) {
-    facts.push_back({"Carried " + p.name, [name = p.name](const Run& run) {
+    facts.push_back({"Loaded " + p.name, [name = p.name](const Run& run) {
                        const auto found = run.info.parameters.find(name);
                        return found == run.info.parameters.end()
                                   ? ""

@@ -10,6 +10,8 @@
 #include "common/base/text.hpp"
 #include "common/protocol/enums.hpp"
 #include "common/protocol/field.hpp"
+#include "host/base/remedy.hpp"
+#include "host/robot/arbitration/port_user.hpp"
 
 /// Messages between programs that share a port, in addition to the robot's protocol. None of them goes to the
 /// robot. Their ids, 0x40 to 0x43, lie between its requests and its replies, where the protocol has none: a
@@ -59,7 +61,7 @@ inline constexpr std::array<std::string_view, 3> kFarewellReasonNames{"line_lost
 constexpr std::span<const std::string_view> names(FarewellReason) { return kFarewellReasonNames; }
 
 /// The clause after "lost PORT: ".
-constexpr std::string_view sentence(FarewellReason reason) {
+constexpr std::string_view fact(FarewellReason reason) {
   switch (reason) {
     case FarewellReason::line_lost:
       return "it was unplugged, switched off or ended";
@@ -67,9 +69,13 @@ constexpr std::string_view sentence(FarewellReason reason) {
       return "this program did not read what the robot sent, so the program that holds the port has "
              "disconnected it";
     case FarewellReason::too_many:
-      return "too many programs use it at once: end some of them";
+      return "too many programs use it at once";
   }
   return "the program that holds the port has disconnected this one";
+}
+
+constexpr Help help(FarewellReason reason) {
+  return reason == FarewellReason::too_many ? Help::end_some_programs : Help::none;
 }
 
 /// The last frame on a connection that the holder ends. An event.

@@ -60,7 +60,7 @@ void Client::reconnect(microseconds timeout) {
       break;
     } catch (const Error& error) {
       if (now() >= deadline || tries <= 0)
-        throw LinkLost(std::string("the link did not come back: ") + error.what());
+        throw LinkLost(std::string("the link did not come back: ") + error.what(), error.remedy());
     }
   }
   const protocol::HelloReply answers = std::exchange(robot_, known);
@@ -91,8 +91,7 @@ std::optional<Client::Body> Client::ask(Body frame, std::uint16_t id, RetryPolic
 Client::Body Client::exchange(Body frame, std::uint16_t id, std::string_view request, RetryPolicy policy) {
   const auto body = ask(frame, id, policy);
   if (!body) {
-    throw LinkLost(name() + " does not answer any more (" + std::string(request) + ", " +
-                   std::to_string(policy.tries) + " tries): " + why_silent());
+    fail_silent("(" + std::string(request) + ", " + std::to_string(policy.tries) + " tries)");
   }
   if (body->front() != protocol::ErrorReply::kId) return *body;
   const auto error = understand<protocol::ErrorReply>(*body, request);
@@ -100,14 +99,16 @@ Client::Body Client::exchange(Body frame, std::uint16_t id, std::string_view req
 }
 
 void Client::not_understood(std::string_view request) const {
-  throw Error(
-      "the answer of " + name() + " to " + std::string(request) +
-      " cannot be understood although its check sum is right: firmware and this program differ, update both");
+  throw Error("the answer of " + name() + " to " + std::string(request) +
+                  " cannot be understood although its check sum is right: firmware and this program differ",
+              {Help::update_both});
 }
 
-std::string Client::why_silent() {
-  const std::string why = transport_.why_silent();
-  return why.empty() ? "is the robot still on and connected?" : why;
+void Client::fail_silent(const std::string& when) {
+  const Remark why = transport_.why_silent();
+  const std::string silent = name() + " does not answer any more" + (when.empty() ? "" : " " + when);
+  if (why.fact.empty()) throw LinkLost(silent, {Help::check_robot_is_on});
+  throw LinkLost(silent + ": " + why.fact, why.remedy);
 }
 
 bool Client::step(microseconds deadline) {
@@ -142,7 +143,7 @@ void Client::dispatch_event(Body body) {
   if (const auto missed = protocol::decode<protocol::EventsMissed>(body); missed.ok())
     counts_.missed_events += missed->count;
   if (const auto farewell = protocol::decode<Farewell>(body); farewell.ok())
-    throw LinkLost("lost " + name() + ": " + std::string(sentence(farewell->reason)));
+    throw LinkLost("lost " + name() + ": " + std::string(fact(farewell->reason)), {help(farewell->reason)});
   std::apply([&](auto&... listeners) { (deliver(listeners), ...); }, listeners_);
   const bool booted = body.front() == protocol::Booted::kId;
   if (booted && waiting_for_ != 0 && !connecting_) {
@@ -185,7 +186,7 @@ void Client::keep_alive() {
     ++counts_.lost_pings;
     if (++lost_pings_ == kLostPings) {
       lost_pings_ = 0;
-      throw LinkLost(name() + " does not answer any more: " + why_silent());
+      fail_silent();
     }
   } else if (ping_ ||
              (now() < next_ping() && device_us_ - answered_device_us_ < std::uint64_t{kKeepAlive.count()})) {

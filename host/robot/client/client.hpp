@@ -111,7 +111,7 @@ class Client {
   void note_answer();
   void forget();
   [[noreturn]] void not_understood(std::string_view request) const;
-  std::string why_silent();
+  [[noreturn]] void fail_silent(const std::string& when = {});
 
   std::unique_ptr<Transport> owned_;
   Transport& transport_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/protocol/session.hpp"
+#include "host/base/remedy.hpp"
 #include "host/robot/port/open_transport.hpp"
 #include "host/robot/port/ports.hpp"
 
@@ -13,7 +14,7 @@ namespace astro::robot {
 struct FoundPort {
   Port port;
   std::optional<protocol::HelloReply> robot;
-  std::string reason;  // one sentence, where there is no robot
+  Remark reason;  // why there is no robot
 };
 
 /// Sends Hello to all ports at the same time; takes at most about `timeout` in all. The answers are in the

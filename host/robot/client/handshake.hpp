@@ -11,8 +11,8 @@ namespace astro::robot {
 
 /// What came back from a port at which no robot answered.
 struct NoAnswer {
-  std::string why_silent;  // what the transport knows; "": nothing
-  bool echo = false;       // the line sends back what we send
+  Remark why_silent;  // what the transport knows; without a fact: nothing
+  bool echo = false;  // the line sends back what we send
   std::uint64_t bytes = 0, good_frames = 0;
 };
 

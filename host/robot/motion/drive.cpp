@@ -59,7 +59,7 @@ DriveSession::~DriveSession() {
     end();
   } catch (const NotStopped& error) {
     try {
-      hooks_.notice(error.what());
+      hooks_.notice({error.what(), error.remedy()});
     } catch (const std::exception&) {  // nobody can be notified
     }
   } catch (const std::exception&) {  // a fault, by which the robot has switched its motors off
@@ -113,7 +113,7 @@ void DriveSession::arm() {
   if (report.latched != 0) {
     wait_for_rest();  // if its host died a moment ago, it is still ramping down
     client_.request(ClearFaults{});
-    hooks_.notice("cleared " + fault_names(report.latched) + ", which an earlier drive left behind");
+    hooks_.notice({"cleared " + fault_names(report.latched) + ", which an earlier drive left behind"});
   }
   fault_.reset();
   command(Arm{});

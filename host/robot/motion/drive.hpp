@@ -7,6 +7,7 @@
 
 #include "common/safety/fault.hpp"
 #include "host/base/interrupted.hpp"
+#include "host/base/remedy.hpp"
 #include "host/robot/arbitration/relay_messages.hpp"
 #include "host/robot/client/client.hpp"
 
@@ -34,7 +35,7 @@ struct DriveHooks {
   /// itself.
   std::function<bool()> interrupted = [] { return false; };
   /// Sentences worth showing that are not errors.
-  std::function<void(const std::string&)> notice = [](const std::string&) {};
+  std::function<void(const Remark&)> notice = [](const Remark&) {};
   /// Each segment that ended; tags count from 1 in the order of the run.
   std::function<void(const protocol::SegmentDone&)> segment_done = [](const protocol::SegmentDone&) {};
 };

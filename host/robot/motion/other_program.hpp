@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "host/robot/client/client.hpp"
 #include "host/robot/arbitration/relay_messages.hpp"
+#include "host/robot/client/client.hpp"
 
 /// Who else uses the robot's port, for sentences about what another program did to a drive.
 namespace astro::robot {

@@ -53,9 +53,9 @@ std::string geometry_rule(const Staged& staged, std::string_view name) {
   if (name == "b")
     return "one count turns the robot by " + digits(*travel_m / *b_m / std::numbers::pi * 180) +
            " degrees, and has to turn it by less than " + digits(360 * kMostTurnPerCount) +
-           " degrees: check " + staged.shown("b") + ", the wheel, the gear and the encoder";
+           " degrees; that follows from " + staged.shown("b") + ", the wheel, the gear and the encoder";
   return "one count moves a wheel by " + digits(*travel_m) + " m, and that has to be from " +
-         digits(kShortestCount_m) + " m to " + digits(kLongestCount_m) + " m: check " +
+         digits(kShortestCount_m) + " m to " + digits(kLongestCount_m) + " m; that follows from " +
          staged.shown("counts_per_motor_rev") + ", " + staged.shown("gear_numerator") + ", " +
          staged.shown("gear_denominator") + " and " + staged.shown("wheel_diameter");
 }

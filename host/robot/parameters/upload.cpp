@@ -41,17 +41,17 @@ class Upload {
 
   void find_again() {
     constexpr int kDrops = 5;
-    if (++drops_ > kDrops)
-      throw LinkLost(unknown("the link to " + client_.name() + " drops again and again"));
+    if (++drops_ > kDrops) fail_unknown("the link to " + client_.name() + " drops again and again");
     try {
       client_.reconnect(reconnect_timeout_);
     } catch (const LinkLost& lost) {
-      throw LinkLost(unknown(lost.what()));
+      fail_unknown(lost.what());
     }
   }
 
-  static std::string unknown(const std::string& why) {
-    return why + "; the robot holds the old set or the new one, whole: upload again once it answers";
+  [[noreturn]] static void fail_unknown(const std::string& why) {
+    throw LinkLost(why + "; the robot holds the old set or the new one, whole",
+                   {Help::upload_again_when_it_answers});
   }
 
   void change(RemoteParameters& parameters) {
@@ -94,10 +94,10 @@ class Upload {
 
 }  // namespace
 
-std::string UploadReport::sentence() const {
+Remark UploadReport::remark() const {
   const std::string drop = link_dropped ? "the link dropped on the way; " : "";
-  return drop + (active == ActiveSet::new_set ? "the robot holds the new set, read back and compared"
-                                              : "the robot holds the old set, unchanged: upload again");
+  if (active == ActiveSet::new_set) return {drop + "the robot holds the new set, read back and compared"};
+  return {drop + "the robot holds the old set, unchanged", {Help::upload_again}};
 }
 
 UploadReport upload(Client& client, const std::map<std::string, Value>& values,

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "host/base/remedy.hpp"
 #include "host/robot/parameters/parameters.hpp"
 
 namespace astro::robot {
@@ -21,8 +22,8 @@ struct UploadReport {
   bool link_dropped = false;  // during the upload; the robot was found again and asked
   std::vector<UploadedValue> values;
 
-  /// A sentence: what happened and what the robot holds now.
-  std::string sentence() const;
+  /// What happened, and what the robot holds now.
+  Remark remark() const;
 };
 
 /// Puts new values in force as one set: checks all of them, opens the robot's staging area, stages, commits,

@@ -42,9 +42,9 @@ Stream& StreamTransport<Stream>::stream() {
 }
 
 template <class Stream>
-void StreamTransport<Stream>::lose(const std::string& why) {
+void StreamTransport<Stream>::lose(const Remark& why) {
   stream_.reset();
-  throw LinkLost("lost " + name_ + ": " + why);
+  throw LinkLost("lost " + name_ + ": " + why.fact, why.remedy);
 }
 
 template <class Stream>
@@ -69,7 +69,7 @@ void StreamTransport<Stream>::write(std::span<const std::uint8_t> bytes) {
     const std::size_t written = stream().write_some(asio::buffer(bytes.data(), bytes.size()), error);
     bytes = bytes.subspan(written);
     if (error == asio::error::would_block) {
-      if (!wait_for(Stream::wait_write, kWriteTimeout)) lose("it takes no more bytes");
+      if (!wait_for(Stream::wait_write, kWriteTimeout)) lose({"it takes no more bytes"});
     } else if (error) {
       lose(sentences_.lost());
     }
@@ -115,7 +115,8 @@ template class StreamTransport<asio::local::stream_protocol::socket>;  // shared
 namespace {
 
 asio::ip::tcp::endpoint parse_tcp(const std::string& address) {
-  const Error bad("'" + address + "' is not an address: write tcp:HOST:PORT, for example tcp:localhost:5555");
+  const Error bad("'" + address +
+                  "' is not an address of the form tcp:HOST:PORT, such as tcp:localhost:5555");
   const std::string rest = address.substr(4);
   const auto colon = rest.rfind(':');
   if (colon == std::string::npos) throw bad;
@@ -139,7 +140,7 @@ asio::ip::tcp::socket connect_tcp(asio::io_context& context, const std::string& 
   error_code error;
   socket.connect(endpoint, error);
   if (error)
-    throw Error("nobody listens at " + address + " (" + error.message() + "): is the simulator running?");
+    throw Error("nothing listens at " + address + " (" + error.message() + ")", {Help::start_simulator});
   socket.set_option(asio::ip::tcp::no_delay(true));
   socket.non_blocking(true);
   return socket;

@@ -55,13 +55,14 @@ fs::path runtime_folder() {
 fs::path make_runtime_folder() {
   const fs::path folder = runtime_folder();
   if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
-    throw Error("the folder '" + folder.string() + "' cannot be made: " + std::strerror(errno) +
-                "; set XDG_RUNTIME_DIR to a folder that belongs to you");
+    throw Error("the folder '" + folder.string() + "' cannot be made: " + std::strerror(errno),
+                {Help::set_runtime_folder});
   struct stat about {};
   if (::lstat(folder.c_str(), &about) != 0 || !S_ISDIR(about.st_mode) || about.st_uid != ::geteuid())
-    throw Error("'" + folder.string() + "' is not a folder that belongs to you: set XDG_RUNTIME_DIR to one");
+    throw Error("'" + folder.string() + "' is not a folder of this user", {Help::set_runtime_folder});
   if ((about.st_mode & 077) != 0 && ::chmod(folder.c_str(), 0700) != 0)
-    throw Error("'" + folder.string() + "' is open to others and cannot be closed: set XDG_RUNTIME_DIR");
+    throw Error("'" + folder.string() + "' is open to others and cannot be closed",
+                {Help::set_runtime_folder});
   return folder;
 }
 

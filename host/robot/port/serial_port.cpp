@@ -28,27 +28,24 @@ std::string ports_here() {
   return list.empty() ? "no serial port and no simulator is here" : "here are " + list;
 }
 
-std::string why_not_open(const std::string& path, int error) {
+Remark why_not_open(const std::string& path, int error) {
   switch (error) {
     case ENOENT:
     case ENOTDIR:
-      return "there is no port " + path + "; " + ports_here();
+      return {"there is no port " + path + "; " + ports_here()};
     case EACCES:
     case EPERM:
-      return "no permission to open " + path +
-             ": add yourself to its group (sudo usermod -aG dialout $USER), then log in again";
-    case EBUSY:
-      return path + " is in use by another program, which does not share it: end that program first";
+      return {"no permission to open " + path, {Help::join_serial_group}};
     case ELOOP:
-      return path + " is a link that leads back to itself: name the port, " + ports_here();
+      return {path + " is a link that leads back to itself; " + ports_here(), {Help::name_port}};
     case EISDIR:
-      return path + " is a folder, not a serial port";
+      return {path + " is a folder, not a serial port"};
     case EIO:
     case ENXIO:
     case ENODEV:
-      return path + " has nothing behind it: the device was unplugged or its simulator has ended";
+      return {path + " has nothing behind it: the device was unplugged or its simulator has ended"};
     default:
-      return "cannot open " + path + ": " + std::strerror(error);
+      return {"cannot open " + path + ": " + std::strerror(error)};
   }
 }
 
@@ -94,7 +91,7 @@ int open_serial_port(const std::string& path, unsigned baud) {
     }
   }
   if (::flock(port.get(), LOCK_EX | LOCK_NB) != 0)
-    throw PortInUse(why_not_open(path, EBUSY), port_key(about));
+    throw PortInUse(path + " is in use by another program, which does not share it", port_key(about));
   make_raw(mode, baud);
   if (::ioctl(port.get(), TCSETS2, &mode) != 0) {
     if (errno == EIO) throw Error(why_not_open(path, EIO));

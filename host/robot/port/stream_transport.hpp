@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "host/base/remedy.hpp"
 #include "host/robot/port/transport.hpp"
 
 /// Transport over an Asio stream (posix::stream_descriptor, ip::tcp::socket). Internal to this room.
@@ -19,8 +20,8 @@ class StreamTransport final : public Transport {
 
   /// Clauses of messages that depend on what is at the other end.
   struct Sentences {
-    std::function<std::string()> lost = [] { return std::string("it was unplugged, switched off or ended"); };
-    std::function<std::string()> silent = [] { return std::string(); };
+    std::function<Remark()> lost = [] { return Remark{"it was unplugged, switched off or ended"}; };
+    std::function<Remark()> silent = [] { return Remark{}; };
   };
 
   StreamTransport(std::string name, Opener open) : StreamTransport(std::move(name), std::move(open), {}) {}
@@ -30,14 +31,14 @@ class StreamTransport final : public Transport {
   std::size_t read(std::span<std::uint8_t> into, microseconds timeout) override;
   microseconds now() const override;
   void reopen(microseconds timeout) override;
-  std::string why_silent() override { return sentences_.silent(); }
+  Remark why_silent() override { return sentences_.silent(); }
   const std::string& name() const override { return name_; }
 
  private:
   template <class Wait>
   bool wait_for(Wait what, microseconds timeout);
   Stream& stream();
-  [[noreturn]] void lose(const std::string& why);
+  [[noreturn]] void lose(const Remark& why);
   void pause(microseconds duration);
 
   std::string name_;

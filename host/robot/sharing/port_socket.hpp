@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "host/base/remedy.hpp"
 #include "host/robot/arbitration/port_user.hpp"
 #include "host/robot/port/descriptor.hpp"
 #include "host/robot/port/transport.hpp"
@@ -40,7 +41,7 @@ struct HolderConnection {
 /// Waits up to `timeout` for the greeting. Both members are empty if no program of this user listens there.
 HolderConnection connect_to(const std::string& port_key, microseconds timeout);
 
-/// The sentence for HolderConnection::busy.
-std::string holder_hangs(const PortUser& holder);
+/// What is said of HolderConnection::busy.
+Remark holder_hangs(const PortUser& holder);
 
 }  // namespace astro::robot

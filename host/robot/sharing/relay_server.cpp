@@ -89,9 +89,10 @@ Descriptor RelayServer::connect_self() {
   return ours;
 }
 
-std::string RelayServer::why_ended() const {
-  const int reason = own_end_;
-  return std::string(sentence(reason < 0 ? FarewellReason::line_lost : static_cast<FarewellReason>(reason)));
+Remark RelayServer::why_ended() const {
+  const int end = own_end_;
+  const auto reason = end < 0 ? FarewellReason::line_lost : static_cast<FarewellReason>(end);
+  return {std::string(fact(reason)), {help(reason)}};
 }
 
 void RelayServer::run() {

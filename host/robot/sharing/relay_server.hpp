@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "host/base/remedy.hpp"
 #include "host/robot/port/descriptor.hpp"
 #include "host/robot/sharing/relay.hpp"
 
@@ -39,7 +40,7 @@ class RelayServer {
   /// Other programs are connected.
   bool has_guests() const { return guests_ > 0; }
   /// Why connect_self()'s connection has ended.
-  std::string why_ended() const;
+  Remark why_ended() const;
 
  private:
   struct Connection {

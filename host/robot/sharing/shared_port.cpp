@@ -45,16 +45,16 @@ class SharedPort {
     }
   }
 
-  std::string why_lost() const {
+  Remark why_lost() const {
     if (server_) return server_->why_ended();
-    return "the program that held the port" +
-           (holder_ ? " (" + in_words(holder_->pid, holder_->command) + ")" : std::string()) + " has ended";
+    return {"the program that held the port" +
+            (holder_ ? " (" + in_words(holder_->pid, holder_->command) + ")" : std::string()) + " has ended"};
   }
 
-  std::string why_silent() const {
+  Remark why_silent() const {
     if (server_ || key_.empty()) return {};
     const HolderConnection probe = connect_to(key_, kGreeting / 2);
-    return probe.busy ? holder_hangs(*probe.busy) : std::string();
+    return probe.busy ? holder_hangs(*probe.busy) : Remark{};
   }
 
  private:
@@ -70,7 +70,8 @@ class SharedPort {
       try {
         shared.listener = listen_at(port_key_of(shared.line.get()));
       } catch (const Error& error) {  // this program can use the port anyway
-        notice_(address_ + ": no other program can stop or watch this robot meanwhile; " + error.what());
+        notice_({address_ + ": no other program can stop or watch this robot meanwhile; " + error.what(),
+                 error.remedy()});
       }
     }
     server_ = std::make_unique<RelayServer>(std::move(shared));
@@ -83,17 +84,18 @@ class SharedPort {
     try {
       return listen_at(key);
     } catch (const Error& error) {
-      throw PortInUse(address_ +
-                          " is in use by another program, which does not share it: end that program first (" +
-                          error.what() + ")",
-                      key);
+      throw PortInUse(
+          address_ + " is in use by another program, which does not share it (" + error.what() + ")", key);
     }
   }
 
   /// Empty if the holder does not share the port, or has just ended.
   Descriptor join(const std::string& key) {
     HolderConnection served = connect_to(key, kGreeting);
-    if (served.busy) throw Error(address_ + ": " + holder_hangs(*served.busy));
+    if (served.busy) {
+      const Remark why = holder_hangs(*served.busy);
+      throw Error(address_ + ": " + why.fact, why.remedy);
+    }
     if (served.connection) {
       key_ = key;
       holder_ = peer_of(served.connection);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "host/base/remedy.hpp"
 #include "host/robot/port/open_transport.hpp"
 
 namespace astro::robot {
@@ -17,8 +18,8 @@ namespace astro::robot {
 /// Throws Error as open_transport() does; a port counts as in use only if its holder does not share it.
 ///
 /// `notice` gets a sentence if this program holds the port and other programs cannot connect.
-using Notice = std::function<void(const std::string&)>;
+using Notice = std::function<void(const Remark&)>;
 std::unique_ptr<Transport> open_shared_port(
-    const std::string& address, unsigned baud = kDefaultBaud, Notice notice = [](const std::string&) {});
+    const std::string& address, unsigned baud = kDefaultBaud, Notice notice = [](const Remark&) {});
 
 }  // namespace astro::robot

@@ -59,8 +59,8 @@ std::vector<std::uint8_t> load_flash(const fs::path& path) {
   if (path.empty()) return {};
   const fs::file_status status = fs::symlink_status(path);
   if (fs::is_symlink(status))
-    throw Error("'" + path.string() +
-                "' is a link, and saving the robot's flash would replace the link: name the file itself");
+    throw Error("'" + path.string() + "' is a link, and saving the robot's flash would replace the link",
+                {Help::name_target_of_link});
   return fs::exists(status) ? load_file(path, kMostFlashBytes) : std::vector<std::uint8_t>{};
 }
 

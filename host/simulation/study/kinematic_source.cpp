@@ -9,7 +9,7 @@ using calibration::Trajectory;
 
 DriveModel model_of(const TrialSetup& setup) {
   DriveModel model;
-  model.carried = setup.carried();
+  model.loaded = setup.loaded();
   model.actual = setup.actual();
   model.noise = setup.noise;
   model.count_rate_hz = setup.count_rate_hz;
@@ -36,7 +36,7 @@ Drives KinematicSource::of_trial(const TrialSetup& setup, int trial) const {
   for (int run = 0; run < 2 * setup.runs; ++run) {
     model.clock_offset_s = offsets_s[static_cast<std::size_t>(run)];
     drives.runs.push_back(square(setup, run, model, derived_seed(seed, static_cast<std::uint64_t>(run))));
-    drives.end_errors.push_back(end_error(drives.runs.back(), setup.carried()));
+    drives.end_errors.push_back(end_error(drives.runs.back(), setup.loaded()));
   }
   return drives;
 }

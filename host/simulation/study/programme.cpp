@@ -43,12 +43,12 @@ void require_runs(const Counts& counts) {
   for (std::size_t kind = 0; kind < kKinds; ++kind)
     if (counts[kind] < 0 || counts[kind] > kMostRuns)
       throw Error("the number of " + std::string(kKindNames[kind]) + " is " + std::to_string(counts[kind]) +
-                  ": give 0 to " + std::to_string(kMostRuns));
+                  ": it has to be 0 to " + std::to_string(kMostRuns));
   if (const int runs = total(counts); runs > kMostRuns)
     throw Error("the programme has " + std::to_string(runs) + " runs and " + std::to_string(kMostRuns) +
-                " are the most: drive longer ones");
-  if (const std::string_view sentence = why_undetermined(counts); !sentence.empty())
-    throw Error(std::string(sentence));
+                    " are the most",
+                {Help::drive_longer_runs});
+  if (const auto why = why_undetermined(counts)) throw Error(*why);
 }
 
 Course course_of(const Programme& programme, std::size_t kind, Sense sense) {
@@ -91,7 +91,7 @@ calibration::DriveExtent extent_of(const Programme& programme) {
 
 DriveModel model_of(const Programme& programme) {
   DriveModel model;
-  model.carried = model.actual = {1, 1, programme.wheelbase_m};
+  model.loaded = model.actual = {1, 1, programme.wheelbase_m};
   model.noise = {0, 0, 0};
   model.count_rate_hz = programme.count_rate_hz;
   model.truth_rate_hz = programme.truth_rate_hz;
@@ -102,16 +102,17 @@ DriveModel model_of(const Programme& programme) {
 
 }  // namespace
 
-std::string_view why_undetermined(const Counts& counts) {
+std::optional<Remark> why_undetermined(const Counts& counts) {
   const int runs = total(counts);
-  if (runs == 0) return "the programme is empty: say how many squares, lines, spins or circles";
+  if (runs == 0) return Remark{"the programme is empty", {Help::give_runs}};
   if (counts[kLines] == runs)
-    return "lines never turn, so they do not determine the wheelbase: add squares, spins or circles";
+    return Remark{"lines never turn, so they do not determine the wheelbase", {Help::add_turns}};
   if (counts[kSpins] == runs)
-    return "spins determine the ratio of wheels and wheelbase but no size: add squares, lines or circles";
+    return Remark{"spins determine the ratio of wheels and wheelbase but no size", {Help::add_lines}};
   if (counts[kCircles] == 1 && runs == 1)
-    return "one circle turns in one direction only, which does not separate wheels and wheelbase: drive two";
-  return {};
+    return Remark{"one circle turns in one direction only, which does not separate wheels and wheelbase",
+                  {Help::drive_two_circles}};
+  return std::nullopt;
 }
 
 Programme Programme::with(const Counts& other) const {

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "host/base/remedy.hpp"
 #include "host/calibration/judgement/precision.hpp"
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "host/calibration/motion/trajectory.hpp"
@@ -22,8 +24,8 @@ inline constexpr std::array<std::string_view, kKinds> kKindNames = {"squares", "
 /// forwards.
 using Counts = std::array<int, kKinds>;
 
-/// A sentence why these runs, of any size, cannot determine all three factors; empty if they can.
-std::string_view why_undetermined(const Counts& counts);
+/// Why these runs, of any size, cannot determine all three factors; nothing if they can.
+std::optional<Remark> why_undetermined(const Counts& counts);
 
 /// Sizes of the runs, how they are driven and what is measured. The clock offset counts as unknown, as in the
 /// estimator.

@@ -21,8 +21,8 @@ namespace {
 // Different from the seeds of the drives, which count from 0.
 constexpr std::uint64_t kClocks = 1'000'000;
 
-void demand(bool holds, double value, const std::string& what, const std::string& remedy) {
-  if (!holds) throw Error(what + " is " + to_text(value) + ": give " + remedy);
+void demand(bool holds, double value, const std::string& what, const std::string& permitted) {
+  if (!holds) throw Error(what + " is " + to_text(value) + ": it has to be " + permitted);
 }
 
 // Far more than anybody needs; larger numbers from a damaged file or a typing error would exhaust the memory.
@@ -34,11 +34,11 @@ void require_square(const TrialSetup& setup) {
   for (const Sense sense : {Sense::cw, Sense::ccw})
     error_rad = std::max(
         error_rad,
-        std::abs(calibration::replay_square(setup.side_m, sense, setup.carried(), setup.actual()).theta_rad));
+        std::abs(calibration::replay_square(setup.side_m, sense, setup.loaded(), setup.actual()).theta_rad));
   if (error_rad < std::numbers::pi) return;
   throw Error(fmt::format(
       "a square of {:g} m turns a robot with these errors {:.0f} degrees away from its heading, and an end "
-      "pose can show at most 180: give a side of at most some {:.2g} m, or smaller errors",
+      "pose can show at most 180: with these errors the side can be at most some {:.2g} m",
       setup.side_m, error_rad * 180 / std::numbers::pi, setup.side_m * std::numbers::pi / error_rad));
 }
 
@@ -75,7 +75,8 @@ calibration::MlOptions TrialSetup::ml_options() const {
 void TrialSetup::require(Model driven) const {
   if (model != driven)
     throw Error("this is a study of the " + std::string(name_of(model)) + " model, not of the " +
-                std::string(name_of(driven)) + " model: give it its own robot");
+                    std::string(name_of(driven)) + " model",
+                {Help::use_own_robot});
 }
 
 void TrialSetup::check() const {
@@ -123,7 +124,7 @@ TrialSetup setup_from(const nlohmann::json& json) {
   TrialSetup setup;
   const auto name = json.at("model").get<std::string>();
   const std::optional<Model> model = model_named(name);
-  if (!model) throw Error("'" + name + "' is not a model of a robot: choose kinematic or simulator");
+  if (!model) throw Error("'" + name + "' is not a model of a robot: the models are kinematic and simulator");
   setup.model = *model;
   setup.trials = count_in(json.at("trials").dump(), "trials");
   setup.seed = seed_from(json.at("seed"));

@@ -40,7 +40,7 @@ struct TrialSetup {
   double clock_offset_sd_s = 0.03;  // between runs; only if the clock is not known
   bool noise_known = false;         // whether maximum likelihood gets the true noise
 
-  calibration::WheelFactors carried() const { return {1, 1, wheelbase_m}; }
+  calibration::WheelFactors loaded() const { return {1, 1, wheelbase_m}; }
   calibration::WheelFactors actual() const;
   /// The options for maximum likelihood.
   calibration::MlOptions ml_options() const;

@@ -69,7 +69,8 @@ void require_same(const ShardFile& first, const ShardFile& other) {
   for (const auto& [key, value] : a.items())
     if (b.at(key) != value)
       throw Error("'" + first.name + "' was made with " + key + " " + value.dump() + " and '" + other.name +
-                  "' with " + b.at(key).dump() + ": merge shards of one study only");
+                      "' with " + b.at(key).dump(),
+                  {Help::merge_one_study});
 }
 
 struct SourcedTrial {
@@ -94,8 +95,7 @@ std::vector<SourcedTrial> sorted_by_index(const std::vector<ShardFile>& parts) {
 [[noreturn]] void refuse_gap(int count, int begin, int end) {
   const std::string which =
       end - begin == 1 ? std::to_string(begin) : std::to_string(begin) + " to " + std::to_string(end - 1);
-  throw Error("of " + std::to_string(count) + " trials " + which +
-              " are missing: run their shard, or name its file, too");
+  throw Error("of " + std::to_string(count) + " trials " + which + " are missing", {Help::run_or_name_shard});
 }
 
 }  // namespace
@@ -124,18 +124,20 @@ ShardFile read_shard_file(const std::string& text, const std::string& name) {
 }
 
 std::vector<Trial> merge(const std::vector<ShardFile>& parts) {
-  if (parts.empty()) throw Error("there is nothing to merge: name the files of all shards");
+  if (parts.empty()) throw Error("there is nothing to merge", {Help::name_all_shards});
   const int count = parts.front().setup.trials;
   const std::vector<SourcedTrial> held = sorted_by_index(parts);
   int next = 0;
   for (const SourcedTrial& trial : held) {
     if (trial.index() < 0 || trial.index() >= count)
       throw Error("'" + trial.part->name + "' holds trial " + std::to_string(trial.index()) +
-                  " of a study of " + std::to_string(count) + ": it is damaged, run its shard again");
+                      " of a study of " + std::to_string(count) + "; it is damaged",
+                  {Help::run_shard_again});
     if (trial.index() < next)
       throw Error("trial " + std::to_string(trial.index()) + " is in '" +
-                  held[static_cast<std::size_t>(next) - 1].part->name + "' and in '" + trial.part->name +
-                  "': name each shard once");
+                      held[static_cast<std::size_t>(next) - 1].part->name + "' and in '" + trial.part->name +
+                      "'",
+                  {Help::name_shard_once});
     if (trial.index() > next) refuse_gap(count, next, trial.index());
     ++next;
   }

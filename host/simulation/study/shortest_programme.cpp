@@ -22,8 +22,8 @@ constexpr int kMostRounds = 20;
 constexpr double kTargetMissed = std::numeric_limits<double>::infinity();
 
 [[noreturn]] void refuse_too_fine() {
-  throw Error("a precision this fine takes more than " + std::to_string(kMostRuns) +
-              " runs: drive longer ones, ask for less, or lessen the slip");
+  throw Error("a precision this fine takes more than " + std::to_string(kMostRuns) + " runs",
+              {Help::drive_longer_runs_or_ask_less});
 }
 
 /// 1 if the target is just met, more if it is missed.
@@ -82,7 +82,7 @@ class Search {
   double time_of(const std::vector<int>& numbers) const {
     // A line adds a little information about b only beside turning runs, through the parameters that runs
     // share.
-    if (!why_undetermined(counts_of(units_, numbers)).empty()) return kTargetMissed;
+    if (why_undetermined(counts_of(units_, numbers))) return kTargetMissed;
     double time_s = 0;
     Matrix3d information = Matrix3d::Zero();
     for (std::size_t i = 0; i < units_.size(); ++i) {
@@ -143,7 +143,7 @@ Forecast shortest_programme(const Precision& target, const std::vector<Kind>& ki
     if (missed <= 1) return found;
     factor *= std::max(missed, 1.0001);
   }
-  throw Error("no programme of these runs was found: give other sizes");
+  throw Error("no programme of these runs was found", {Help::give_other_sizes});
 }
 
 }  // namespace astro::simulation::study

@@ -65,8 +65,8 @@ class SimulatedRobot {
     client_.pump(50ms);  // through boot
     const double loaded_m = std::get<double>(robot::RemoteParameters::fetch(client_).value("b"));
     if (std::abs(loaded_m - setup.wheelbase_m) > 1e-9) robot::upload(client_, {{"b", setup.wheelbase_m}});
-    const robot::RemoteParameters carried = robot::RemoteParameters::fetch(client_);
-    for (const robot::ParameterRow& row : carried.rows())
+    const robot::RemoteParameters active = robot::RemoteParameters::fetch(client_);
+    for (const robot::ParameterRow& row : active.rows())
       if (row.kind != protocol::ParameterKind::text)
         parameters_[row.name] = robot::to_real(row, row.active.raw);
   }
@@ -106,8 +106,9 @@ void SimulatedSource::check(const TrialSetup& setup) const {
   setup.check();
   plan_of(setup).check();
   if (setup.count_rate_hz != kCountRate_hz)
-    throw Error("the simulated robot's counts are recorded at " + std::to_string(std::lround(kCountRate_hz)) +
-                " Hz: leave the rate of the counts at that, or take the kinematic model");
+    throw Error(
+        "the simulated robot's counts are recorded at " + std::to_string(std::lround(kCountRate_hz)) + " Hz",
+        {Help::keep_count_rate_or_use_kinematic});
 }
 
 simulation::study::Drives SimulatedSource::of_trial(const TrialSetup& setup, int trial) const {

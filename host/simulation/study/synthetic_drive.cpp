@@ -58,12 +58,12 @@ class Drive {
                                  angle > 0 ? model_.yaw_rate_radps / angle : 1e9);
     const double acceleration = std::min(length > 0 ? model_.acceleration_mps2 / length : 1e9,
                                          angle > 0 ? model_.yaw_acceleration_radps2 / angle : 1e9);
-    const double half_track_m = leg.angle_rad * model_.carried.b_m / 2;
+    const double half_track_m = leg.angle_rad * model_.loaded.b_m / 2;
     double before = 0;
     for (double t = kStep_s; before < 1; t += kStep_s) {
       const double now = covered(t, rate, acceleration);
-      advance((leg.length_m - half_track_m) * (now - before) / model_.carried.c_l,
-              (leg.length_m + half_track_m) * (now - before) / model_.carried.c_r);
+      advance((leg.length_m - half_track_m) * (now - before) / model_.loaded.c_l,
+              (leg.length_m + half_track_m) * (now - before) / model_.loaded.c_r);
       before = now;
     }
   }
@@ -155,11 +155,11 @@ Pose mean_truth(const std::vector<BodySample>& truth, double from_s, double to_s
   return {sum.x_m / count, sum.y_m / count, std::atan2(s, c)};
 }
 
-Pose dead_reckoned(const std::vector<WheelSample>& wheels, const WheelFactors& carried) {
+Pose dead_reckoned(const std::vector<WheelSample>& wheels, const WheelFactors& loaded) {
   Pose pose;
   for (std::size_t i = 1; i < wheels.size(); ++i)
-    calibration::advance(pose, carried.c_r * (wheels[i].right_m - wheels[i - 1].right_m),
-                         carried.c_l * (wheels[i].left_m - wheels[i - 1].left_m), carried.b_m);
+    calibration::advance(pose, loaded.c_r * (wheels[i].right_m - wheels[i - 1].right_m),
+                         loaded.c_l * (wheels[i].left_m - wheels[i - 1].left_m), loaded.b_m);
   return pose;
 }
 
@@ -216,11 +216,11 @@ Trajectory synthetic_drive(const Course& course, const DriveModel& model, const 
   return run;
 }
 
-calibration::EndPose end_error(const Trajectory& run, const WheelFactors& carried, double rest_s) {
+calibration::EndPose end_error(const Trajectory& run, const WheelFactors& loaded, double rest_s) {
   const double end_s = run.truth.back().time_s, start_s = run.truth.front().time_s;
   const Pose from = mean_truth(run.truth, start_s, start_s + 0.9 * rest_s);
   const Pose to = mean_truth(run.truth, end_s - 0.9 * rest_s, end_s);
-  const Pose odometry = dead_reckoned(run.wheels, carried);
+  const Pose odometry = dead_reckoned(run.wheels, loaded);
   const double dx = to.x_m - from.x_m, dy = to.y_m - from.y_m;
   const double c = std::cos(from.theta_rad), s = std::sin(from.theta_rad);
   return {c * dx + s * dy - odometry.x_m, c * dy - s * dx - odometry.y_m,

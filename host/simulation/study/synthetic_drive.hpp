@@ -34,8 +34,8 @@ Course circle_course(double radius_m, double angle_rad, double rest_s = 1);
 
 /// How the course is driven and observed.
 struct DriveModel {
-  calibration::WheelFactors carried;  // loaded in the robot: by these it follows the course
-  calibration::WheelFactors actual;   // the true ones
+  calibration::WheelFactors loaded;  // loaded in the robot: by these it follows the course
+  calibration::WheelFactors actual;  // the true ones
   calibration::NoiseModel noise;
   calibration::LeverArm lever;
   double speed_mps = 0.3, acceleration_mps2 = 0.5;
@@ -53,9 +53,9 @@ struct DriveModel {
 calibration::Trajectory synthetic_drive(const Course& course, const DriveModel& model,
                                         const std::string& name, std::uint64_t seed);
 
-/// The end pose error for UMBmark: truth minus odometry by `carried`, both averaged over the rests at the
+/// The end pose error for UMBmark: truth minus odometry by `loaded`, both averaged over the rests at the
 /// ends. For a body without lever arm, and with headings.
-calibration::EndPose end_error(const calibration::Trajectory& run, const calibration::WheelFactors& carried,
+calibration::EndPose end_error(const calibration::Trajectory& run, const calibration::WheelFactors& loaded,
                                double rest_s = 1);
 
 /// A seed for part `index` of something seeded with `seed`: independent streams for neighbouring numbers.

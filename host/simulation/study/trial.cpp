@@ -20,15 +20,14 @@ using calibration::WheelFactors;
 
 constexpr double kLineLength_m = 10;
 
-double line_miss_m(const WheelFactors& believed, const WheelFactors& actual) {
+double line_miss_m(const WheelFactors& loaded, const WheelFactors& actual) {
   EndPose end;
-  advance(end, kLineLength_m * actual.c_r / believed.c_r, kLineLength_m * actual.c_l / believed.c_l,
-          actual.b_m);
+  advance(end, kLineLength_m * actual.c_r / loaded.c_r, kLineLength_m * actual.c_l / loaded.c_l, actual.b_m);
   return std::hypot(end.x_m - kLineLength_m, end.y_m);
 }
 
-double heading_rms_rad(double side_m, const WheelFactors& believed, const WheelFactors& actual) {
-  const auto turn = [&](Sense sense) { return replay_square(side_m, sense, believed, actual).theta_rad; };
+double heading_rms_rad(double side_m, const WheelFactors& loaded, const WheelFactors& actual) {
+  const auto turn = [&](Sense sense) { return replay_square(side_m, sense, loaded, actual).theta_rad; };
   return std::hypot(turn(Sense::cw), turn(Sense::ccw)) / std::numbers::sqrt2;
 }
 
@@ -46,7 +45,7 @@ EndErrors by_sense(const std::vector<EndPose>& errors) {
 
 WheelFactors by_end_poses(const TrialSetup& setup, const EndErrors& ends,
                           const calibration::Options& options) {
-  return estimate_factors(ends.cw, ends.ccw, setup.side_m, setup.carried(), options).factors;
+  return estimate_factors(ends.cw, ends.ccw, setup.side_m, setup.loaded(), options).factors;
 }
 
 double normalised_square(const calibration::MlEstimate& estimate, const WheelFactors& actual) {
@@ -91,14 +90,14 @@ Trial run_trial(const TrialSetup& setup, const DriveSource& source, int index) {
     }
     ++method;
   };
-  attempt([&] { return setup.carried(); });
+  attempt([&] { return setup.loaded(); });
   for (const calibration::Options& options : {calibration::Options{Method::umbmark, AngleSource::thesis, {}},
                                               calibration::Options{Method::umbmark, AngleSource::average, {}},
                                               calibration::Options{Method::extended, {}, Formula::published},
                                               calibration::Options{Method::extended, {}, Formula::exact}})
     attempt([&] { return by_end_poses(setup, ends, options); });
   attempt([&] {
-    const calibration::MlEstimate estimate = estimate_ml(drives.runs, setup.carried(), setup.ml_options());
+    const calibration::MlEstimate estimate = estimate_ml(drives.runs, setup.loaded(), setup.ml_options());
     trial.ml_chi_square = normalised_square(estimate, setup.actual());
     return estimate.factors;
   });

@@ -70,9 +70,8 @@ std::vector<double> parts_of(const CsvTable& table, const std::string& name) {
   for (const CsvRow& row : table.rows) {
     times.push_back(time ? value(row, *time, name) : static_cast<double>(times.size()));
     if (times.size() > 1 && !(times.back() > times[times.size() - 2]))
-      refuse(name, row.line,
-             "column " + table.header.cells[time->index] +
-                 ": the time does not increase; sort the rows, or leave the column out");
+      refuse(name, row.line, "column " + table.header.cells[time->index] + ": the time does not increase",
+             {Help::sort_rows});
   }
   const double first = times.front(), last = times.back();
   for (double& one : times) one = (one - first) / (last - first);
@@ -112,16 +111,16 @@ std::string missing(const fs::path& file) {
 /// Asks until there is a readable file.
 Poses poses_from(const fs::path& file, const Ask& ask) {
   if (!fs::exists(file))
-    ask("save the ground truth of this run as '" + file.string() + "' (" + missing(file) +
-        "), then press Enter: ");
+    ask({"the ground truth of this run belongs into '" + file.string() + "' (" + missing(file) +
+         "); press Enter once it is there: "});
   while (true) {
-    std::string why = missing(file) + " for the ground truth of this run; save it there, then press Enter: ";
+    Question again{missing(file) + " for the ground truth of this run; press Enter once it is there: "};
     if (fs::exists(file)) try {
         return read_poses(file);
       } catch (const Error& error) {
-        why = std::string(error.what()) + "; correct the file, then press Enter: ";
+        again = {"; press Enter once the file is corrected: ", {error.what(), error.remedy()}};
       }
-    ask(why);
+    ask(again);
   }
 }
 
@@ -158,7 +157,8 @@ std::vector<recording::TruthSample> FileSource::complete(const recording::Run& r
   while (true) {
     const std::string why = implausible_end(run, poses.rows.front(), poses.rows.back());
     if (why.empty()) break;
-    ask_("'" + file.string() + "': " + why + " Correct the file, or leave it as it is, then press Enter: ");
+    ask_({"'" + file.string() + "': " + why +
+          " Press Enter once the file is corrected, or to keep it as it is: "});
     Poses again = poses_from(file, ask_);
     const bool same = again == poses;
     poses = std::move(again);

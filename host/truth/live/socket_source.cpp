@@ -58,8 +58,8 @@ std::vector<recording::TruthSample> SocketSource::poll() {
   while (pending_.size() < kMostPending && (count = recv(fd_, bytes.data(), bytes.size(), MSG_DONTWAIT)) > 0)
     pending_.append(bytes.data(), static_cast<std::size_t>(count));
   if (count == 0)
-    throw Error("the simulator's cameras at '" + path_.string() +
-                "' have disconnected: is it still running?");
+    throw Error("the simulator's cameras at '" + path_.string() + "' have disconnected",
+                {Help::check_simulator_runs});
 
   std::vector<recording::TruthSample> samples;
   std::size_t start = 0;

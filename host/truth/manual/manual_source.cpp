@@ -23,12 +23,13 @@ bool same_reading(double a, double b) { return a == b || (std::isnan(a) && std::
 
 }  // namespace
 
-double ManualSource::number(const std::string& prompt, bool may_be_empty, std::string hint) {
+double ManualSource::number(const std::string& prompt, bool may_be_empty, const std::string& hint) {
+  Question question{hint + prompt};
   while (true) {
-    const std::string answer = trimmed(ask_(hint + prompt));
+    const std::string answer = trimmed(ask_(question));
     if (answer.empty() && may_be_empty) return std::numeric_limits<double>::quiet_NaN();
     if (const auto value = typed_number(answer)) return *value;
-    hint = "'" + answer + "' is not a number; write it with a decimal point. ";
+    question = {". " + prompt, {"'" + answer + "' is not a number", {Help::write_decimal_point}}};
   }
 }
 
@@ -47,7 +48,7 @@ std::vector<recording::TruthSample> ManualSource::complete(const recording::Run&
     const std::string why = implausible_end(run, {}, end);
     if (why.empty()) break;
     const recording::TruthSample again = measured(recording::run_name(run.info) + ": " + why +
-                                                  " Enter it again, the same values to keep them.\n");
+                                                  " It is asked for again; the same values keep them.\n");
     const bool same = same_reading(again.x_m, end.x_m) && same_reading(again.y_m, end.y_m) &&
                       same_reading(again.theta_rad, end.theta_rad);
     end = again;

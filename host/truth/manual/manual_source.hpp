@@ -2,12 +2,19 @@
 
 #include <functional>
 
+#include "host/base/remedy.hpp"
 #include "host/truth/source/source.hpp"
 
 namespace astro::truth {
 
-/// Prints the question, returns the answer.
-using Ask = std::function<std::string(const std::string& prompt)>;
+/// What a person is asked. `occasion`, if it has a fact: why, and what would help; it goes before the text.
+struct Question {
+  std::string text;
+  Remark occasion = {};
+};
+
+/// Puts the question, returns the answer.
+using Ask = std::function<std::string(const Question&)>;
 
 /// A person with a tape measure, who is asked after each run for the end pose in the run's start frame: x
 /// forward and y left of the start mark in metres, heading counter-clockwise in degrees, empty if it was not
@@ -26,7 +33,7 @@ class ManualSource : public Source {
   std::string clock() const override { return "robot"; }
 
  private:
-  double number(const std::string& prompt, bool may_be_empty, std::string hint = {});
+  double number(const std::string& prompt, bool may_be_empty, const std::string& hint = {});
   recording::TruthSample measured(const std::string& hint);
 
   Ask ask_;

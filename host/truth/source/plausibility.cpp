@@ -40,12 +40,14 @@ std::string implausible_end(const recording::Run& run, const recording::TruthSam
   const double off_m = std::hypot(measured.x_m - odometry.x_m, measured.y_m - odometry.y_m);
   if (!(off_m <= std::max(kLeast_m, kMostOfDistance * driven_m)))
     return fmt::format(
-        "this end is {:.4g} m from where odometry ends, after a run of {:.4g} m: is it in metres?", off_m,
-        driven_m);
+        "this end is {:.4g} m from where odometry ends, after a run of {:.4g} m, as if it were not in "
+        "metres.",
+        off_m, driven_m);
   const double turned_rad = recording::wrapped_rad(measured.theta_rad - odometry.theta_rad);
   if (std::abs(turned_rad) > kMost_rad)
     return fmt::format(
-        "this heading is {:.0f} degrees from that of odometry: is it in degrees, counter-clockwise?",
+        "this heading is {:.0f} degrees from that of odometry, as if it were not in degrees or not "
+        "counter-clockwise.",
         degrees(std::abs(turned_rad)));
   return "";
 }

@@ -67,7 +67,7 @@ TEST(SinCos, IsExactAtQuarterTurns) {
 }
 
 TEST(SinCos, QuarterTurnRotatesByExactlyAQuarter) {
-  // Table and rest are the same in every quadrant, so only the signs move and floors may differ by one unit.
+  // The table and the remainder are the same in every quadrant: only signs differ, and rounding down by one unit.
   tests::Seeded random(3);
   for (int i = 0; i < 100'000; ++i) {
     const std::uint64_t raw = random.bits();

@@ -6,6 +6,7 @@
 #include "host/base/folder_lock.hpp"
 #include "host/recording/files/run_folder.hpp"
 #include "tests/host/recording/support.hpp"
+#include "tests/support/base/remarks.hpp"
 
 namespace astro::recording {
 namespace {
@@ -26,8 +27,8 @@ TEST(PartFile, LeavesWhatWasWrittenButNothingThatIsEmpty) {
 
 TEST(PartFile, RefusesTheNameOfAFolderBeforeAnythingIsWritten) {
   const TempFolder folder;
-  EXPECT_THAT(complaint([&] { PartFile(folder.path()).commit(); }),
-              HasSubstr("is a folder: name a file in it"));
+  EXPECT_THAT(astro::support::told_by([&] { PartFile(folder.path()).commit(); }),
+              astro::support::Tells(HasSubstr("is a folder"), Help::name_file_in_it));
   EXPECT_FALSE(std::filesystem::exists(folder.path().string() + ".part"));
 }
 

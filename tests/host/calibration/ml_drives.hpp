@@ -14,7 +14,7 @@ inline constexpr std::uint64_t kSeed = 20240917;
 inline simulation::study::DriveModel astro_drive() {
   constexpr double kEd = 1.00416, kScale = 1.005;
   simulation::study::DriveModel model;
-  model.carried = {1, 1, 0.29};
+  model.loaded = {1, 1, 0.29};
   model.actual = {kScale * 2 * kEd / (1 + kEd), kScale * 2 / (1 + kEd), 0.29 * 0.99521 * kScale};
   model.noise = {2.645e-6, 5e-4, 2.618e-3};
   model.lever = {0.03, -0.02, 0.4};

@@ -23,7 +23,7 @@ unsigned number_in(const char* variable, unsigned otherwise) {
 
 unsigned kill_seed() { return number_in("ASTRO_SEED", 20261122); }
 
-/// Of each command; at each of its calls where they are fewer.
+/// How often each command is killed; one that makes fewer calls is killed at each of them.
 std::size_t kills_each() { return number_in("ASTRO_KILLS", 2); }
 
 class Killed : public testing::TestWithParam<std::string> {

@@ -60,6 +60,12 @@ TEST(Version, IsOneLine) {
   EXPECT_TRUE(outcome.out.starts_with("astrolabe ")) << outcome.out;
 }
 
+TEST(Usage, AnErrorBeginsWithTheNameOfTheProgram) {
+  const Outcome outcome = astrolabe({"upload", "/nonexistent.toml"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_EQ(outcome.err, "astrolabe: /nonexistent.toml does not exist: check the path\n");
+}
+
 struct Mistake {
   Words arguments;
   Words named;

@@ -171,7 +171,7 @@ TEST_P(PowerCut, LeavesTheOldSetOrTheNewOne) {
   EXPECT_GT(old_sets, 0);
 }
 
-// Without an erase: at every word.
+// If nothing is erased, the power is cut at every word.
 INSTANTIATE_TEST_SUITE_P(Append, PowerCut, testing::Values(Share{false, 0, 2}, Share{false, 1, 2}));
 INSTANTIATE_TEST_SUITE_P(Erase, PowerCut,
                          testing::Values(Share{true, 0, 3}, Share{true, 1, 3}, Share{true, 2, 3}));

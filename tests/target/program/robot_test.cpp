@@ -150,10 +150,12 @@ TEST(EmulatorProgram, SaysWhatIsWrongInOneSentence) {
     EXPECT_NE(program.wait(), 0);
     const std::string text = program.err();
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+    EXPECT_TRUE(text.starts_with("astrolabe-emulator: ")) << "it complains under its own name: " << text;
     return text;
   };
   EXPECT_THAT(complaint({}), HasSubstr("firmware"));
-  EXPECT_THAT(complaint({"/nonexistent.hex"}), HasSubstr("cannot read '/nonexistent.hex'"));
+  EXPECT_THAT(complaint({"/nonexistent.hex"}),
+              HasSubstr("cannot read '/nonexistent.hex': build one with './dev firmware'"));
   const test::TemporaryFolder folder;
   const std::string text = folder.path() / "notes.txt";
   std::ofstream(text) << "no image\n";

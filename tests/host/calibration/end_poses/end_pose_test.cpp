@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/host/calibration/end_poses/square_runs.hpp"
+#include "tests/support/base/remarks.hpp"
 
 namespace astro::calibration {
 namespace {
@@ -57,15 +58,15 @@ TEST(Summary, MaximumIsTheWorseDirectionWithItsStandardError) {
 }
 
 TEST(Summary, RefusesWhatIsNoMeasurement) {
-  const auto message = [](std::vector<EndPose> runs) {
-    return test::error_of([&] { (void)summarize(runs); });
+  const auto told = [](std::vector<EndPose> runs) {
+    return support::told_by([&] { (void)summarize(runs); });
   };
-  EXPECT_EQ(message({}), "there is no run: record at least one, better five");
-  const std::string not_finite =
-      "run 2 has an end pose that is not finite: measure it again or leave the run out";
-  EXPECT_EQ(message({{0, 0, 0}, {kNaN, 0, 0}}), not_finite);
-  EXPECT_EQ(message({{0, 0, 0}, {0, INFINITY, 0}}), not_finite);
-  EXPECT_EQ(message({{0, 0, 0}, {0, 0, -INFINITY}}), not_finite);
+  EXPECT_THAT(told({}), support::Tells("there is no run", Help::drive_some_squares));
+  const auto not_finite =
+      support::Tells("run 2 has an end pose that is not finite", Help::measure_again_or_leave_out);
+  EXPECT_THAT(told({{0, 0, 0}, {kNaN, 0, 0}}), not_finite);
+  EXPECT_THAT(told({{0, 0, 0}, {0, INFINITY, 0}}), not_finite);
+  EXPECT_THAT(told({{0, 0, 0}, {0, 0, -INFINITY}}), not_finite);
 }
 
 TEST(Summary, OfHeadingsThatSomeRunsLackIsThatOfTheOthers) {

@@ -36,7 +36,7 @@ TEST(MistypedRun, IsToldWithItsNumberAndThatOfTheOthers) {
   runs[2].x_m = 3.2;
   runs[2].theta_rad = kNotMeasured;
   EXPECT_EQ(described(*mistyped_run(runs, kSide_m)),
-            "x = 3.2 m, and 0.305 m in the others: is its decimal point right?");
+            "x = 3.2 m, and 0.305 m in the others, as if its decimal point were misplaced");
 }
 
 TEST(MistypedRun, IsNoneAmongRunsThatOnlySlipped) {

@@ -27,9 +27,9 @@ struct Runs {
 };
 
 /// One run each way.
-inline Runs drive(double side_m, const WheelFactors& believed, const WheelFactors& truth) {
-  return {{replay_square(side_m, Sense::cw, believed, truth)},
-          {replay_square(side_m, Sense::ccw, believed, truth)}};
+inline Runs drive(double side_m, const WheelFactors& loaded, const WheelFactors& truth) {
+  return {{replay_square(side_m, Sense::cw, loaded, truth)},
+          {replay_square(side_m, Sense::ccw, loaded, truth)}};
 }
 
 inline Estimate calibrate(const Runs& runs, const WheelFactors& loaded, const Options& options,

@@ -28,8 +28,8 @@ TEST(PathErrors, DoNotBlameTheRobotForTruthThatWasLost) {
 TEST(PathErrors, AreTheReplayForTheFactorsThatTheRobotDroveBy) {
   DriveModel model = quiet_drive();
   model.lever = {};
-  const PathErrors errors = path_errors(squares(model, 2), model.carried);
-  const EndPose cw = replay_square(3, Sense::cw, model.carried, model.actual);
+  const PathErrors errors = path_errors(squares(model, 2), model.loaded);
+  const EndPose cw = replay_square(3, Sense::cw, model.loaded, model.actual);
   ASSERT_EQ(errors.runs.size(), 2u);
   // The start pose is fitted to the first centimetres and gives way a little to the wrong factors.
   EXPECT_NEAR(errors.runs[0].final_m, std::hypot(cw.x_m, cw.y_m), 0.02 * errors.runs[0].final_m);
@@ -39,9 +39,9 @@ TEST(PathErrors, AreTheReplayForTheFactorsThatTheRobotDroveBy) {
 
 TEST(PathErrors, ShrinkWithACalibrationFromOtherDrives) {
   const DriveModel model = astro_drive();
-  const MlEstimate learned = estimate_ml(squares(model, 6, 3, 1), model.carried);
+  const MlEstimate learned = estimate_ml(squares(model, 6, 3, 1), model.loaded);
   const std::vector<Trajectory> others = squares(model, 4, 3, 2);
-  const PathErrors before = path_errors(others, model.carried), after = path_errors(others, learned.factors);
+  const PathErrors before = path_errors(others, model.loaded), after = path_errors(others, learned.factors);
   std::printf("end %.1f -> %.1f mm, heading %.1f -> %.1f mrad, path %.1f -> %.1f mm\n",
               1e3 * before.final_rms_m, 1e3 * after.final_rms_m, 1e3 * before.final_heading_rms_rad,
               1e3 * after.final_heading_rms_rad, 1e3 * before.path_rms_m, 1e3 * after.path_rms_m);

@@ -34,7 +34,7 @@ Scene scene(bool headings) {
   const simulation::study::Course course{{simulation::study::Leg::Kind::turn, 0.3, 0.7, 0},
                                          {simulation::study::Leg::Kind::turn, 0, -0.8, 0}};
   scene.trajectory = simulation::study::synthetic_drive(course, model, "run", kSeed);
-  scene.run = prepare(std::vector{scene.trajectory}, model.carried, true, Density::all).runs.front();
+  scene.run = prepare(std::vector{scene.trajectory}, model.loaded, true, Density::all).runs.front();
   scene.run.source = &scene.trajectory;
   scene.unknowns << model.actual.c_r, model.actual.c_l, model.actual.b_m, 0.03, -0.02, 0.4, 0.001, 0.1, 0.2,
       0.3, 0.002, 0;

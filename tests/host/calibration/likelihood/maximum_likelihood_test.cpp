@@ -10,7 +10,7 @@
 #include "host/calibration/judgement/remarks.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
 #include "tests/host/calibration/ml_drives.hpp"
-#include "tests/support/base/sentences.hpp"
+#include "tests/support/base/remarks.hpp"
 
 namespace astro::calibration {
 namespace {
@@ -36,7 +36,7 @@ void expect_true(const MlEstimate& estimate, const WheelFactors& actual) {
 
 TEST(MaximumLikelihood, FindsTheTruthWhereThereIsNoNoise) {
   const DriveModel model = quiet_drive();
-  const MlEstimate found = estimate_ml(squares(model, 2), model.carried);
+  const MlEstimate found = estimate_ml(squares(model, 2), model.loaded);
   // What is left: truth between the fine steps of the synthetic drive, and wheels between their samples.
   EXPECT_NEAR(found.factors.c_r, model.actual.c_r, 2e-6);
   EXPECT_NEAR(found.factors.c_l, model.actual.c_l, 2e-6);
@@ -57,7 +57,7 @@ TEST(MaximumLikelihood, ReachesTheCramerRaoBoundAndKnowsHowFarItIsOff) {
   for (int trial = 0; trial < kTrials; ++trial) {
     const MlEstimate found = estimate_ml(
         squares(model, 4, 2, simulation::study::derived_seed(kSeed, static_cast<std::uint64_t>(trial))),
-        model.carried);
+        model.loaded);
     const Eigen::Vector3d error(found.factors.c_r - model.actual.c_r, found.factors.c_l - model.actual.c_l,
                                 found.factors.b_m - model.actual.b_m);
     chi_square += error.dot(found.covariance.ldlt().solve(error)) / kTrials;
@@ -85,7 +85,7 @@ TEST(MaximumLikelihood, DoesNotClaimMoreThanItKnowsOfARobotThatHardlySlips) {
   for (int trial = 0; trial < kTrials; ++trial) {
     const MlEstimate found = estimate_ml(
         squares(model, 2, 1, simulation::study::derived_seed(kSeed, static_cast<std::uint64_t>(trial))),
-        model.carried);
+        model.loaded);
     for (const double miss : misses(found, model.actual)) chi_square += miss * miss / kTrials;
   }
   std::printf("squares of the errors, in standard errors: %.2f of 3\n", chi_square);
@@ -115,7 +115,7 @@ TEST(MaximumLikelihood, TakesWheelsOutOfRoundNeitherForSlipNorForAnotherWheelbas
         out_of_round(
             squares(model, 4, 2, simulation::study::derived_seed(kSeed, static_cast<std::uint64_t>(trial))),
             1e-3),
-        model.carried);
+        model.loaded);
     EXPECT_GT(found.thinned_to_s, 0.1);
     K_m += found.noise.K_m / kTrials;
     for (const double miss : misses(found, model.actual)) chi_square += miss * miss / kTrials;
@@ -134,19 +134,19 @@ TEST(MaximumLikelihood, AShortRunAmongThemKeepsNobodyFromSeeingThat) {
   std::vector<Trajectory> runs = squares(model, 4, 2);
   runs.push_back(
       simulation::study::synthetic_drive(simulation::study::line_course(0.25, 0.2), model, "short", kSeed));
-  const MlEstimate found = estimate_ml(out_of_round(std::move(runs), 1e-3), model.carried);
+  const MlEstimate found = estimate_ml(out_of_round(std::move(runs), 1e-3), model.loaded);
   EXPECT_GT(found.thinned_to_s, 0.1);
   EXPECT_LT(found.noise.K_m, 3 * model.noise.K_m);
 }
 
 TEST(MaximumLikelihood, TakesAllTruthOfARobotThatOnlySlips) {
   const DriveModel model = astro_drive();
-  EXPECT_EQ(estimate_ml(squares(model, 4, 2), model.carried).thinned_to_s, 0);
+  EXPECT_EQ(estimate_ml(squares(model, 4, 2), model.loaded).thinned_to_s, 0);
 }
 
 TEST(MaximumLikelihood, EstimatesTheNoiseItself) {
   const DriveModel model = astro_drive();
-  const MlEstimate found = estimate_ml(squares(model, 6), model.carried);
+  const MlEstimate found = estimate_ml(squares(model, 6), model.loaded);
   // 20,000 samples tell the tracker's noise to a percent; the slip hides below it, and K is known to about a
   // fifth.
   EXPECT_NEAR(found.noise.sigma_xy_m, model.noise.sigma_xy_m, 0.03 * model.noise.sigma_xy_m);
@@ -161,10 +161,10 @@ TEST_P(Lag, OfTheClocksMovesNothing) {
   DriveModel model = astro_drive();
   model.noise.K_m /= 10;  // the sharper the data, the more a lag would hurt
   std::vector<Trajectory> runs = squares(model, 4);
-  const MlEstimate without = estimate_ml(runs, model.carried);
+  const MlEstimate without = estimate_ml(runs, model.loaded);
   for (Trajectory& run : runs)
     for (BodySample& sample : run.truth) sample.time_s -= GetParam();
-  const MlEstimate with = estimate_ml(runs, model.carried);
+  const MlEstimate with = estimate_ml(runs, model.loaded);
   const double moved[3] = {(with.factors.c_r - without.factors.c_r) / without.se.c_r,
                            (with.factors.c_l - without.factors.c_l) / without.se.c_l,
                            (with.factors.b_m - without.factors.b_m) / without.se.b_m};
@@ -173,7 +173,7 @@ TEST_P(Lag, OfTheClocksMovesNothing) {
     EXPECT_LT(std::abs(run.clock_offset_s - GetParam()), kFourSigma * run.clock_offset_se_s);
   MlOptions known;
   known.clock_known = true;
-  const MlEstimate blind = estimate_ml(runs, model.carried, known);
+  const MlEstimate blind = estimate_ml(runs, model.loaded, known);
   std::printf("%.0f ms: c_R %.3f, c_L %.3f, b %.3f of a standard error (%.1f of b if taken for no lag)\n",
               1000 * GetParam(), moved[0], moved[1], moved[2],
               (blind.factors.b_m - without.factors.b_m) / without.se.b_m);
@@ -185,7 +185,7 @@ TEST(MaximumLikelihood, FindsASlowClock) {
   DriveModel model = astro_drive();
   model.clock_offset_s = 33;
   model.clock_skew = -0.0235;
-  const MlEstimate found = estimate_ml(squares(model, 4), model.carried);
+  const MlEstimate found = estimate_ml(squares(model, 4), model.loaded);
   EXPECT_LT(std::abs(found.clock_skew - model.clock_skew), kFourSigma * found.clock_skew_se);
   expect_true(found, model.actual);
 }
@@ -193,7 +193,7 @@ TEST(MaximumLikelihood, FindsASlowClock) {
 TEST(MaximumLikelihood, WorksWithPositionsAlone) {
   DriveModel model = astro_drive();
   model.headings = false;
-  const MlEstimate found = estimate_ml(squares(model, 4), model.carried);
+  const MlEstimate found = estimate_ml(squares(model, 4), model.loaded);
   expect_true(found, model.actual);
   EXPECT_TRUE(std::isnan(found.lever.yaw_rad));
   EXPECT_LT(std::abs(found.lever.x_m - model.lever.x_m), kFourSigma * found.lever_se.x_m);
@@ -204,15 +204,15 @@ TEST(MaximumLikelihood, TakesABodyMountedAnyWayRound) {
   for (const double yaw : {-3.1, -1.957, 1.5, 3.14}) {
     DriveModel model = astro_drive();
     model.lever = {-0.33, 0.12, yaw};
-    expect_true(estimate_ml(squares(model, 2), model.carried), model.actual);
+    expect_true(estimate_ml(squares(model, 2), model.loaded), model.actual);
   }
 }
 
 TEST(MaximumLikelihood, IsAbsoluteWhateverTheRobotCarried) {
   // A robot that carries the right factors drives another path; what comes out is the same robot.
   DriveModel model = quiet_drive();
-  model.carried = model.actual;
-  const MlEstimate found = estimate_ml(squares(model, 2), model.carried);
+  model.loaded = model.actual;
+  const MlEstimate found = estimate_ml(squares(model, 2), model.loaded);
   EXPECT_NEAR(found.factors.c_r, model.actual.c_r, 2e-6);
   EXPECT_NEAR(found.factors.b_m, model.actual.b_m, 2e-6);
 }
@@ -227,14 +227,14 @@ TEST(MaximumLikelihood, IsNotMovedByASampleInAHundredThatIsWrong) {
       run.truth[i].x_m += off(random);
       run.truth[i].theta_rad += off(random);
     }
-  const MlEstimate clean = estimate_ml(squares(model, 4), model.carried);
-  const MlEstimate found = estimate_ml(runs, model.carried);
+  const MlEstimate clean = estimate_ml(squares(model, 4), model.loaded);
+  const MlEstimate found = estimate_ml(runs, model.loaded);
   EXPECT_LT(std::abs(found.factors.b_m - clean.factors.b_m), clean.se.b_m);
   EXPECT_LT(std::abs(found.factors.c_r - clean.factors.c_r), clean.se.c_r);
   EXPECT_NEAR(found.noise.sigma_xy_m, model.noise.sigma_xy_m, 0.2 * model.noise.sigma_xy_m);
   MlOptions plain;
   plain.robust = false;
-  EXPECT_GT(estimate_ml(runs, model.carried, plain).noise.sigma_xy_m, 5 * model.noise.sigma_xy_m);
+  EXPECT_GT(estimate_ml(runs, model.loaded, plain).noise.sigma_xy_m, 5 * model.noise.sigma_xy_m);
 }
 
 /// At `time_s` something turns the robot on the spot, and the wheels do not notice.
@@ -259,7 +259,7 @@ TEST(MaximumLikelihood, SaysWhenWhichRunWasKicked) {
   kick(runs[2], start_s + 20, 0.06);
   kick(runs[2], start_s + 31, -0.04);
   runs[1].truth[1000].theta_rad += 1;  // one sample that is wrong is no kick
-  const MlEstimate found = estimate_ml(runs, model.carried);
+  const MlEstimate found = estimate_ml(runs, model.loaded);
   for (const RunFit& run : found.runs)
     EXPECT_THAT(run.slip_events, testing::SizeIs(run.name == "run 3" ? 2 : 0)) << run.name;
   const std::vector<SlipEvent>& slip_events = found.runs[2].slip_events;
@@ -269,8 +269,9 @@ TEST(MaximumLikelihood, SaysWhenWhichRunWasKicked) {
   EXPECT_NEAR(slip_events[0].turned_rad, 0.06, 5e-3);
   EXPECT_NEAR(slip_events[1].since_start_s, 31, 0.1);
   EXPECT_NEAR(slip_events[1].turned_rad, -0.04, 5e-3);
-  EXPECT_THAT(support::sentences_of(remarks(found)),
-              testing::Contains(AllOf(HasSubstr("run 3"), HasSubstr("s after its start by 3."))));
+  EXPECT_THAT(remarks(found), testing::Contains(support::Tells(
+                                  AllOf(HasSubstr("run 3"), HasSubstr("s after its start by 3.")),
+                                  Help::leave_out_if_accident)));
 }
 
 TEST(MaximumLikelihood, IsMovedLessByAKickOfTheCastor) {
@@ -281,8 +282,8 @@ TEST(MaximumLikelihood, IsMovedLessByAKickOfTheCastor) {
   for (Trajectory& run : kicked) kick(run, run.truth.front().time_s + 3, 0.06);  // always to the left
   MlOptions plain;
   plain.robust = false;
-  const MlEstimate reference = estimate_ml(clean, model.carried), robust = estimate_ml(kicked, model.carried);
-  const MlEstimate moved = estimate_ml(kicked, model.carried, plain);
+  const MlEstimate reference = estimate_ml(clean, model.loaded), robust = estimate_ml(kicked, model.loaded);
+  const MlEstimate moved = estimate_ml(kicked, model.loaded, plain);
   const auto shift = [&](const MlEstimate& found) {
     return std::abs(found.E_d() - reference.E_d()) / reference.se.E_d;
   };
@@ -298,14 +299,14 @@ TEST(MaximumLikelihood, GetsAlongWithGapsInTheTruth) {
   std::vector<Trajectory> runs = squares(model, 4);
   for (Trajectory& run : runs)
     std::erase_if(run.truth, [](const BodySample& s) { return std::fmod(s.time_s, 7) > 5.5; });
-  expect_true(estimate_ml(runs, model.carried), model.actual);
+  expect_true(estimate_ml(runs, model.loaded), model.actual);
 }
 
 TEST(MaximumLikelihood, NamesTheRunThatSlipped) {
   const DriveModel model = astro_drive();
   std::vector<Trajectory> runs = squares(model, 8);
-  EXPECT_THAT(remarks(estimate_ml(runs, model.carried)), IsEmpty());
-  const MlEstimate clean = estimate_ml(runs, model.carried);
+  EXPECT_THAT(remarks(estimate_ml(runs, model.loaded)), IsEmpty());
+  const MlEstimate clean = estimate_ml(runs, model.loaded);
   // The third run ends somewhere else than its wheels went: 5 degrees about the tracker's origin.
   for (BodySample& sample : runs[2].truth) {
     if (sample.time_s < 20) continue;
@@ -315,13 +316,13 @@ TEST(MaximumLikelihood, NamesTheRunThatSlipped) {
     sample.y_m = std::sin(kKick_rad) * x + std::cos(kKick_rad) * y;
     sample.theta_rad += kKick_rad;
   }
-  const MlEstimate found = estimate_ml(runs, model.carried);
+  const MlEstimate found = estimate_ml(runs, model.loaded);
   for (const RunFit& run : found.runs)
     EXPECT_EQ(run.outlier, run.name == "run 3") << run.name << ' ' << run.disagreement;
   // The others say what they said before.
   EXPECT_LT(std::abs(found.E_d() - clean.E_d()), clean.se.E_d);
   EXPECT_LT(found.se.E_d, 1.3 * clean.se.E_d);
-  EXPECT_THAT(commands::in_words(remarks(found).front()), AllOf(HasSubstr("run 3"), HasSubstr("--without")));
+  EXPECT_THAT(remarks(found).front(), support::Tells(HasSubstr("run 3"), Help::leave_out_if_accident));
 }
 
 TEST(MaximumLikelihood, SaysSoWhenArcsAndSpinsWantDifferentWheelbases) {
@@ -334,12 +335,13 @@ TEST(MaximumLikelihood, SaysSoWhenArcsAndSpinsWantDifferentWheelbases) {
         simulation::study::circle_course(0.75, (i % 2 == 0 ? 4 : -4) * std::numbers::pi), arcs,
         "circle " + std::to_string(i),
         simulation::study::derived_seed(kSeed, 90 + static_cast<std::uint64_t>(i))));
-  const MlEstimate found = estimate_ml(runs, spins.carried);
+  const MlEstimate found = estimate_ml(runs, spins.loaded);
   ASSERT_TRUE(found.wheelbase_by_kind);
   EXPECT_TRUE(found.wheelbase_by_kind->disagrees);
   EXPECT_NEAR(found.wheelbase_by_kind->arc_over_spin, 1.01,
               kFourSigma * found.wheelbase_by_kind->standard_error);
-  EXPECT_THAT(support::sentences_of(remarks(found)), testing::Contains(HasSubstr("than spins")));
+  EXPECT_THAT(remarks(found),
+              testing::Contains(support::Tells(HasSubstr("than spins"), Help::calibrate_with_usual_motion)));
 }
 
 TEST(MaximumLikelihood, TakesRunsWithAndWithoutHeadingsTogether) {
@@ -347,7 +349,7 @@ TEST(MaximumLikelihood, TakesRunsWithAndWithoutHeadingsTogether) {
   std::vector<Trajectory> runs = squares(model, 2);
   model.headings = false;
   for (Trajectory& run : squares(model, 2, 3, kSeed + 1)) runs.push_back(std::move(run));
-  expect_true(estimate_ml(runs, model.carried), model.actual);
+  expect_true(estimate_ml(runs, model.loaded), model.actual);
 }
 
 TEST(MaximumLikelihood, TakesRunsWithOtherClocksEach) {
@@ -360,7 +362,7 @@ TEST(MaximumLikelihood, TakesRunsWithOtherClocksEach) {
     model.clock_offset_s = offset_s;
     runs.push_back(squares(model, 1, 3, kSeed + runs.size()).front());
   }
-  const MlEstimate found = estimate_ml(runs, model.carried);
+  const MlEstimate found = estimate_ml(runs, model.loaded);
   expect_true(found, model.actual);
   EXPECT_LT(std::abs(found.clock_skew - 0.01), kFourSigma * found.clock_skew_se);
 }
@@ -372,7 +374,7 @@ TEST(MaximumLikelihood, FindsTheClockOfATrackerThatIsOffByCentimetres) {
   for (const auto& [offset_s, skew] : {std::pair{0.5, 0.0}, {482.3, -0.0235}}) {
     model.clock_offset_s = offset_s;
     model.clock_skew = skew;
-    const MlEstimate found = estimate_ml(squares(model, 4), model.carried);
+    const MlEstimate found = estimate_ml(squares(model, 4), model.loaded);
     expect_true(found, model.actual);
     EXPECT_LT(std::abs(found.clock_skew - skew), kFourSigma * found.clock_skew_se);
     for (const RunFit& run : found.runs)
@@ -390,7 +392,7 @@ TEST(MaximumLikelihood, UsesSpinsOfPositionsAloneWithABodyOffTheAxis) {
     std::vector<Trajectory> runs = squares(model, 2, 1.7);
     runs.push_back(
         simulation::study::synthetic_drive(simulation::study::spin_course(19), model, "spin", kSeed));
-    const MlEstimate found = estimate_ml(runs, model.carried);
+    const MlEstimate found = estimate_ml(runs, model.loaded);
     expect_true(found, model.actual);
     EXPECT_EQ(found.runs.size(), 3u);
     EXPECT_LT(std::abs(found.lever.x_m - lever.x_m), kFourSigma * found.lever_se.x_m);
@@ -405,11 +407,12 @@ TEST(MaximumLikelihood, DoesWithoutASpinThatPositionsCannotSee) {
   std::vector<Trajectory> runs = squares(model, 4);
   runs.insert(runs.begin() + 1,
               simulation::study::synthetic_drive(simulation::study::spin_course(19), model, "spin", kSeed));
-  const MlEstimate found = estimate_ml(runs, model.carried);
+  const MlEstimate found = estimate_ml(runs, model.loaded);
   expect_true(found, model.actual);
   EXPECT_EQ(found.runs.size(), 4u);
-  EXPECT_THAT(support::sentences_of(remarks(found)),
-              testing::Contains(AllOf(HasSubstr("spin"), HasSubstr("stand still"), HasSubstr("left out"))));
+  EXPECT_THAT(remarks(found), testing::Contains(support::Tells(
+                                  AllOf(HasSubstr("spin"), HasSubstr("stand still"), HasSubstr("left out")),
+                                  Help::export_orientation_or_mount_off_axis)));
 }
 
 TEST(MaximumLikelihood, CallsAWideCircleATurn) {
@@ -419,15 +422,15 @@ TEST(MaximumLikelihood, CallsAWideCircleATurn) {
     runs.push_back(simulation::study::synthetic_drive(
         simulation::study::circle_course(4, turn * 2 * std::numbers::pi), model, "circle", kSeed));
   runs.push_back(simulation::study::synthetic_drive(simulation::study::line_course(3), model, "line", kSeed));
-  expect_true(estimate_ml(runs, model.carried), model.actual);
+  expect_true(estimate_ml(runs, model.loaded), model.actual);
 }
 
 TEST(MaximumLikelihood, SaysSoWhenTheGivenNoiseIsTooSmall) {
   const DriveModel model = astro_drive();
   MlOptions options;
   options.noise = NoiseModel{model.noise.K_m, model.noise.sigma_xy_m / 5, model.noise.sigma_theta_rad / 5};
-  EXPECT_THAT(support::sentences_of(remarks(estimate_ml(squares(model, 2), model.carried, options))),
-              testing::Contains(HasSubstr("given noise")));
+  EXPECT_THAT(remarks(estimate_ml(squares(model, 2), model.loaded, options)),
+              testing::Contains(support::Tells(HasSubstr("given noise"), Help::estimate_noise)));
 }
 
 TEST(MaximumLikelihood, TellsTheMotionsApart) {
@@ -435,7 +438,7 @@ TEST(MaximumLikelihood, TellsTheMotionsApart) {
   std::vector<Trajectory> runs = squares(model, 2);
   runs.push_back(simulation::study::synthetic_drive(
       simulation::study::circle_course(0.75, 2 * std::numbers::pi), model, "circle", kSeed));
-  const MlEstimate found = estimate_ml(runs, model.carried);
+  const MlEstimate found = estimate_ml(runs, model.loaded);
   ASSERT_EQ(found.kinds.size(), 4u);
   EXPECT_EQ(found.kinds[0].motion, Motion::rest);
   EXPECT_NEAR(found.kinds[1].distance_m, 24, 0.5);                      // lines of two squares

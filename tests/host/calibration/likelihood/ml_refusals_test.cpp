@@ -7,26 +7,24 @@
 #include "host/base/error.hpp"
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "tests/host/calibration/ml_drives.hpp"
-#include "tests/support/base/sentences.hpp"
+#include "tests/support/base/remarks.hpp"
 
 // What cannot be calibrated is said in one sentence that names it and the remedy.
 namespace astro::calibration {
 namespace {
 
 using simulation::study::DriveModel;
+using support::Tells;
 using testing::AllOf;
 using testing::HasSubstr;
 
 constexpr double kPi = std::numbers::pi;
 
-std::string refusal(const std::vector<Trajectory>& runs) {
-  try {
-    estimate_ml(runs, astro_drive().carried);
-  } catch (const Error& error) {
-    return commands::in_words(error);
-  }
-  return "accepted";
+Remark told(const std::vector<Trajectory>& runs) {
+  return support::told_by([&] { estimate_ml(runs, astro_drive().loaded); });
 }
+
+std::string refusal(const std::vector<Trajectory>& runs) { return told(runs).fact; }
 
 std::vector<Trajectory> one(const simulation::study::Course& course,
                             const DriveModel& model = astro_drive()) {
@@ -38,7 +36,7 @@ TEST(MlRefuses, NoRuns) { EXPECT_THAT(refusal({}), HasSubstr("no runs")); }
 TEST(MlRefuses, ARunWithoutGroundTruth) {
   std::vector<Trajectory> runs = squares(astro_drive(), 1);
   runs[0].truth.resize(2);
-  EXPECT_THAT(refusal(runs), AllOf(HasSubstr("run 1"), HasSubstr("2 samples"), HasSubstr("umbmark")));
+  EXPECT_THAT(told(runs), Tells(AllOf(HasSubstr("run 1"), HasSubstr("2 samples")), Help::use_end_poses));
 }
 
 TEST(MlRefuses, ARunWithoutOdometry) {
@@ -76,15 +74,15 @@ TEST(MlRefuses, NumbersThatAreNone) {
 TEST(MlRefuses, OdometryThatWasLostOnTheWay) {
   std::vector<Trajectory> runs = squares(astro_drive(), 1);
   std::erase_if(runs[0].wheels, [](const WheelSample& s) { return s.time_s > 10 && s.time_s < 13; });
-  EXPECT_THAT(refusal(runs),
-              AllOf(HasSubstr("run 1"), HasSubstr("lost its odometry"), HasSubstr("leave it out")));
+  EXPECT_THAT(told(runs), Tells(AllOf(HasSubstr("run 1"), HasSubstr("lost its odometry")),
+                                Help::leave_out_or_record_again));
 }
 
 TEST(MlRefuses, AReversedEncoder) {
   std::vector<Trajectory> runs = squares(astro_drive(), 2);
   for (Trajectory& run : runs)
     for (WheelSample& sample : run.wheels) sample.left_m = -sample.left_m;
-  EXPECT_THAT(refusal(runs), HasSubstr("check-wiring"));
+  EXPECT_EQ(told(runs).remedy.help, Help::check_run_and_wiring);
 }
 
 TEST(MlRefuses, ASpinOfExchangedWheelsWithAllItsCauses) {
@@ -99,7 +97,7 @@ TEST(MlRefuses, TruthOfAnotherDrive) {
                        {simulation::study::Leg::Kind::straight, 0.7, 0, 0},
                        {simulation::study::Leg::Kind::rest, 0, 0, 40}})[0]
                       .truth;
-  EXPECT_THAT(refusal(runs), AllOf(HasSubstr("run 1"), HasSubstr("same drive")));
+  EXPECT_THAT(told(runs), Tells(HasSubstr("run 1"), Help::check_run_and_wiring));
 }
 
 TEST(MlRefuses, ADriveWhoseLapsCannotBeTold) {
@@ -112,8 +110,7 @@ TEST(MlRefuses, ADriveWhoseLapsCannotBeTold) {
   model.clock_offset_s = 300;
   std::vector<Trajectory> runs = one(course, model);
   std::erase_if(runs[0].wheels, [](const WheelSample& s) { return s.time_s < 40 || s.time_s > 80; });
-  EXPECT_THAT(refusal(runs),
-              AllOf(HasSubstr("run 7"), HasSubstr("repeats itself"), HasSubstr("--clock known")));
+  EXPECT_THAT(told(runs), Tells(AllOf(HasSubstr("run 7"), HasSubstr("repeats itself")), Help::settle_clock));
 }
 
 TEST(MlRefuses, SpinsUnderPositionsThatStandStill) {
@@ -121,15 +118,16 @@ TEST(MlRefuses, SpinsUnderPositionsThatStandStill) {
   model.headings = false;
   model.lever = {};
   model.clock_offset_s = 7;
-  EXPECT_THAT(refusal(one(simulation::study::spin_course(6 * kPi), model)),
-              AllOf(HasSubstr("run 7"), HasSubstr("stand still"), HasSubstr("export the orientation")));
+  EXPECT_THAT(
+      told(one(simulation::study::spin_course(6 * kPi), model)),
+      Tells(AllOf(HasSubstr("run 7"), HasSubstr("stand still")), Help::export_orientation_or_mount_off_axis));
 }
 
 TEST(MlRefuses, HeadingsThatNeverChange) {
   std::vector<Trajectory> runs = squares(astro_drive(), 1);
   for (BodySample& sample : runs[0].truth) sample.theta_rad = 0.3;
-  EXPECT_THAT(refusal(runs),
-              AllOf(HasSubstr("run 1"), HasSubstr("heading"), HasSubstr("export the orientation")));
+  EXPECT_THAT(told(runs), Tells(AllOf(HasSubstr("run 1"), HasSubstr("heading")),
+                                Help::export_orientation_or_check_wiring));
 }
 
 TEST(MlRefuses, MirroredAxes) {
@@ -155,24 +153,24 @@ TEST(MlRefuses, ExchangedWheels) {
   std::vector<Trajectory> runs = squares(astro_drive(), 2);
   for (Trajectory& run : runs)
     for (WheelSample& sample : run.wheels) std::swap(sample.left_m, sample.right_m);
-  EXPECT_THAT(refusal(runs), AllOf(HasSubstr("exchanged"), HasSubstr("check-wiring")));
+  EXPECT_THAT(told(runs), Tells(HasSubstr("exchanged"), Help::check_wiring));
 }
 
 TEST(MlRefuses, HeadingsCountedClockwise) {
   std::vector<Trajectory> runs = squares(astro_drive(), 2);
   for (Trajectory& run : runs)
     for (BodySample& sample : run.truth) sample.theta_rad = -sample.theta_rad;
-  EXPECT_THAT(refusal(runs), AllOf(HasSubstr("clockwise"), HasSubstr("negate")));
+  EXPECT_THAT(told(runs), Tells(HasSubstr("clockwise"), Help::negate_headings));
 }
 
 TEST(MlRefuses, ARobotThatNeverTurned) {
-  EXPECT_THAT(refusal(one(simulation::study::line_course(4))),
-              AllOf(HasSubstr("never turned"), HasSubstr("drive")));
+  EXPECT_THAT(told(one(simulation::study::line_course(4))),
+              Tells(HasSubstr("never turned"), Help::drive_turns));
 }
 
 TEST(MlRefuses, ARobotThatOnlySpun) {
-  EXPECT_THAT(refusal(one(simulation::study::spin_course(6 * kPi))),
-              AllOf(HasSubstr("on the spot"), HasSubstr("lines")));
+  EXPECT_THAT(told(one(simulation::study::spin_course(6 * kPi))),
+              Tells(HasSubstr("on the spot"), Help::drive_lines));
 }
 
 TEST(MlRefuses, OneCircleAlone) {
@@ -191,7 +189,7 @@ TEST(MlRefuses, TruthInMillimetres) {
     sample.x_m *= 1000;
     sample.y_m *= 1000;
   }
-  EXPECT_THAT(refusal(runs), HasSubstr("unit of the ground truth"));
+  EXPECT_THAT(told(runs), Tells(HasSubstr("came out, which no robot"), Help::check_units_and_wheels));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ using simulation::study::DriveModel;
 constexpr double kPi = std::numbers::pi;
 
 std::vector<Unknowns> starts(const std::vector<Trajectory>& runs, const DriveModel& model) {
-  return start_values(prepare(runs, model.carried, true, Density::independent), model.carried);
+  return start_values(prepare(runs, model.loaded, true, Density::independent), model.loaded);
 }
 
 class LeverYaw : public testing::TestWithParam<double> {};
@@ -42,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(InAllQuadrants, LeverYaw, testing::Values(0.4, 1.9, 3.1
 
 TEST(StartValues, FindTheLeverFromPositionsAloneOnAnySideOfTheRobot) {
   DriveModel model = quiet_drive();
-  model.actual = model.carried;  // without headings factors start as loaded; what these are off bends the way
+  model.actual = model.loaded;  // without headings factors start as loaded; what these are off bends the way
   model.headings = false;
   for (const double x_m : {-0.3, 0.0, 0.3})
     for (const double y_m : {-0.3, 0.0, 0.3}) {
@@ -60,8 +60,8 @@ TEST(StartValues, FindTheLeverFromPositionsAloneOnAnySideOfTheRobot) {
 TEST(StartValues, FindTheLeverOfASmallRobotAsThatOfALargeOne) {
   for (const double size : {0.05, 1.0, 20.0}) {
     DriveModel model = quiet_drive();
-    model.carried.b_m *= size;
-    model.actual = model.carried;
+    model.loaded.b_m *= size;
+    model.actual = model.loaded;
     model.headings = false;
     model.lever = {-0.2 * size, -0.1 * size, 0};
     model.speed_mps *= size;
@@ -77,7 +77,7 @@ TEST(StartValues, FindTheLeverOfASmallRobotAsThatOfALargeOne) {
 
 TEST(StartValues, KnowTheHeadingOfASpinByTheLeverThatOtherRunsTell) {
   DriveModel model = quiet_drive();
-  model.actual = model.carried;
+  model.actual = model.loaded;
   model.headings = false;
   model.lever = {-0.2, -0.1, 0};
   std::vector<Trajectory> runs = squares(model, 1, 1.7);
@@ -106,7 +106,7 @@ TEST(StartNoise, IsThatOfTheTrackerWhateverTheMotion) {
     model.noise.sigma_xy_m = 5e-4 * times;
     model.noise.sigma_theta_rad = 2.6e-3 * times;
     const std::vector<Trajectory> runs = squares(model, 2);
-    const NoiseModel found = start_noise(prepare(runs, model.carried, true, Density::independent));
+    const NoiseModel found = start_noise(prepare(runs, model.loaded, true, Density::independent));
     // A median of 10,000 differences that share samples is good to 2 %; 60 Hz of driving add little.
     EXPECT_NEAR(found.sigma_xy_m, model.noise.sigma_xy_m, 0.06 * model.noise.sigma_xy_m);
     EXPECT_NEAR(found.sigma_theta_rad, model.noise.sigma_theta_rad, 0.06 * model.noise.sigma_theta_rad);

@@ -26,7 +26,7 @@ TEST(Control, TheVectorTableIsAlignedToItsSize) {
 TEST(Control, ARegisterOfTheCoreThatIsNotModelledEndsTheRun) {
   EXPECT_THAT(refusal("get 0xE000EF34"), HasSubstr("0xE000EF34: read of a register that is not modelled"));
   EXPECT_THAT(refusal("set 0xE000EF34, 1"),
-              HasSubstr("0xE000EF34: write of a register that is not modelled"));
+              HasSubstr("0xE000EF34: a write of a register that is not modelled"));
 }
 
 std::string region(const std::string& base, const std::string& attributes) {

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "host/experiment/drive/change_guard.hpp"
-#include "tests/support/base/sentences.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/robots/desk.hpp"
 
 namespace astro::experiment {
@@ -172,22 +172,22 @@ TEST_F(ChangeGuard, SaysThatAChangeWithinItsErrorMayBeForNothing) {
   EXPECT_EQ(note({{"kp", 80.0}}), "") << "a gain has no error";
 }
 
-TEST_F(ChangeGuard, ObjectsInOneSentenceThatNamesTheOption) {
+TEST_F(ChangeGuard, ObjectsInOneSentenceThatCanBeOverridden) {
   ParameterFile file;
   EXPECT_FALSE(objection(robot_, file, changes(robot_, {{"b", 0.31}})));
-  EXPECT_THAT(commands::in_words(*objection(robot_, file, changes(robot_, {{"b", 0.32}}))),
-              AllOf(HasSubstr("+10.3 %"), HasSubstr("--force")));
+  EXPECT_THAT(*objection(robot_, file, changes(robot_, {{"b", 0.32}})),
+              support::Tells(HasSubstr("+10.3 %"), Help::check_units_or_override));
   file.loaded = {{"c_R", 1.001}};
-  EXPECT_THAT(commands::in_words(*objection(robot_, file, changes(robot_, {{"b", 0.31}}))),
-              AllOf(HasSubstr("driven with"), HasSubstr("--force")));
+  EXPECT_THAT(*objection(robot_, file, changes(robot_, {{"b", 0.31}})),
+              support::Tells(HasSubstr("driven with"), Help::load_old_values_or_override));
 }
 
 TEST_F(ChangeGuard, ObjectsToFactorsThatAreNotAllThere) {
   ParameterFile file;
   file.method = "ml";
   file.parameters = {{"c_R", 1.001}, {"c_L", 0.999}};
-  EXPECT_THAT(commands::in_words(*objection(robot_, file, {})),
-              AllOf(HasSubstr("has no b"), HasSubstr("--force")));
+  EXPECT_THAT(*objection(robot_, file, {}),
+              support::Tells(HasSubstr("has no b"), Help::calibrate_again_or_override));
   file.parameters["b"] = 0.29;
   EXPECT_FALSE(objection(robot_, file, {}));
   file = {};

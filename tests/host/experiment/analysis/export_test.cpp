@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "host/base/error.hpp"
-#include "tests/support/base/sentences.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 
 namespace astro::experiment {
@@ -93,7 +93,7 @@ TEST(Export, MovesItLikeOursAlsoWhenItsNominalSizesAreOthers) {
 TEST(Export, TakesAGivenRadiusForTheNominalWheelOfAFileThatTellsNone) {
   ParameterFile file = calibrated();
   file.wheel.reset();
-  EXPECT_THAT([&] { diff_drive(file, {}); }, support::ThrowsSentence(HasSubstr("--wheel-radius")));
+  EXPECT_THAT([&] { diff_drive(file, {}); }, support::ThrowsTelling(testing::_, Help::give_wheel_radius));
   const DiffDrive ros = diff_drive(file, {kDiameter_m / 2, std::nullopt});
   EXPECT_EQ(ros.left_wheel_radius_multiplier, 0.99792297);
   expect_same_motion(file, ros);
@@ -102,7 +102,7 @@ TEST(Export, TakesAGivenRadiusForTheNominalWheelOfAFileThatTellsNone) {
 TEST(Export, NamesWhatTheFileDoesNotTell) {
   ParameterFile file = calibrated();
   file.loaded.clear();
-  EXPECT_THAT([&] { diff_drive(file, {}); }, support::ThrowsSentence(HasSubstr("--wheel-separation")));
+  EXPECT_THAT([&] { diff_drive(file, {}); }, support::ThrowsTelling(testing::_, Help::give_wheel_separation));
   file.parameters.erase("c_L");
   EXPECT_THAT([&] { diff_drive(file, {}); }, ThrowsMessage<Error>(HasSubstr("no c_L")));
 }

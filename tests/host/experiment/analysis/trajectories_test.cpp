@@ -11,7 +11,7 @@
 #include "host/experiment/analysis/recordings.hpp"
 #include "host/experiment/files/run_set.hpp"
 #include "host/recording/files/run_file.hpp"
-#include "tests/support/base/sentences.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/robots/desk.hpp"
 
 namespace astro::experiment {
@@ -91,7 +91,7 @@ TEST(Trajectories, ATapeMeasureAndAFileOfEndPosesFollowNobody) {
     EXPECT_FALSE(has_moving_truth(run.info)) << source;
   }
   EXPECT_THAT([&] { trajectory_of(run, "line-1"); },
-              support::ThrowsSentence(AllOf(HasSubstr("'line-1'"), HasSubstr("--without line-1"))));
+              support::ThrowsTelling(HasSubstr("'line-1'"), Help::leave_run_out_or_use_end_poses, "line-1"));
 }
 
 TEST(Trajectories, NameTheRecordingThatCannotBeUsed) {

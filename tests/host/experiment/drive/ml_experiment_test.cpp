@@ -39,7 +39,7 @@ Plan small_plan(int runs, int rounds = 1) {
 class MlExperiment : public testing::Test {
  protected:
   MlExperiment() : config_(scaled_robot()), desk_(config_) {
-    hooks_.run.notice = [this](const std::string& text) { notices_ += text + '\n'; };
+    hooks_.run.notice = [this](const Remark& remark) { notices_ += remark.fact + '\n'; };
     hooks_.run_started = [this](const RunSpec& spec, int, int) { driven_.push_back(spec.title()); };
   }
 

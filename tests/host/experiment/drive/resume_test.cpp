@@ -6,7 +6,7 @@
 #include "host/recording/files/run_file.hpp"
 #include "host/robot/parameters/upload.hpp"
 #include "host/truth/manual/manual_source.hpp"
-#include "tests/support/base/sentences.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/robots/desk.hpp"
 
 namespace astro::experiment {
@@ -79,7 +79,7 @@ TEST_F(Resume, GoesOnAfterTheUpload) {
   int started = 0;
   ExperimentHooks hooks;
   hooks.run_started = [&](const RunSpec&, int, int) { ++started; };
-  hooks.uploaded = [](const std::string&) { FAIL() << "the robot holds the calibration already"; };
+  hooks.uploaded = [](const Remark&) { FAIL() << "the robot holds the calibration already"; };
   run(small_plan(), hooks);
   EXPECT_EQ(started, 2);
 }
@@ -90,13 +90,13 @@ TEST_F(Resume, ADriveOutlivesAPersonWhoWalksAwayFromTheTapeMeasure) {
   int driven = 0;
   ExperimentHooks hooks;
   hooks.run_started = [&](const RunSpec&, int, int) { ++driven; };
-  truth::ManualSource nobody([](const std::string&) -> std::string { throw Error("nobody is there"); });
+  truth::ManualSource nobody([](const truth::Question&) -> std::string { throw Error("nobody is there"); });
   for (int session = 0; session < 2; ++session)
     EXPECT_THAT([&] { run_experiment(desk_.client, nobody, plan, folder_.path(), hooks); },
-                ThrowsMessage<Error>(HasSubstr("nobody is there; the drive is kept")));
+                support::ThrowsTelling("nobody is there; the drive is kept", Help::resume_for_truth));
   EXPECT_EQ(driven, 1);
 
-  truth::ManualSource person([](const std::string&) { return "0.01"; });
+  truth::ManualSource person([](const truth::Question&) { return "0.01"; });
   EXPECT_EQ(run_experiment(desk_.client, person, plan, folder_.path(), hooks).phases.size(), 2U);
   EXPECT_EQ(driven, 4);
   const recording::Run run = recording::read_run(folder_.path() / "before" / "square-cw-1.mcap");
@@ -108,8 +108,8 @@ TEST_F(Resume, ADriveOutlivesAPersonWhoWalksAwayFromTheTapeMeasure) {
 class ATypingPerson {
  public:
   explicit ATypingPerson(int mistyped) : mistyped_(mistyped) {}
-  std::string operator()(const std::string& prompt) {
-    if (prompt.find("end x") == std::string::npos) return "0";
+  std::string operator()(const truth::Question& question) {
+    if (question.text.find("end x") == std::string::npos) return "0";
     ++measured;
     return measured == mistyped_ ? "0.6" : std::to_string(0.06 + 0.001 * (measured % 3));
   }
@@ -129,12 +129,13 @@ class MistypedTruth : public Resume {
     plan.order = Order::cw_first;
     ExperimentHooks hooks;
     hooks.keep = [&](const std::string& why) { return asked.push_back(why), keep; };
-    hooks.run.notice = [&](const std::string& text) { noticed.push_back(text); };
+    hooks.run.notice = [&](const Remark& remark) { noticed.push_back(remark); };
     hooks.agree = [](const auto&, const auto&) { return false; };
     truth::ManualSource source(std::ref(person));
     EXPECT_THROW(run_experiment(desk_.client, source, plan, folder_.path(), hooks), Error);
   }
-  std::vector<std::string> asked, noticed;
+  std::vector<std::string> asked;
+  std::vector<Remark> noticed;
 };
 
 TEST_F(MistypedTruth, OfTheThirdSquareIsAskedForAgainAndNamesTheRun) {
@@ -159,7 +160,9 @@ TEST_F(MistypedTruth, OfAnEarlierSquareIsToldOnceWithItsRecording) {
   EXPECT_TRUE(asked.empty());
   ASSERT_EQ(noticed.size(), 1U);
   EXPECT_THAT(noticed[0],
-              testing::AllOf(HasSubstr("before: square cw 1: x = "), HasSubstr("square-cw-1.mcap'")));
+              testing::AllOf(support::Tells(HasSubstr("before: square cw 1: x = "), Help::drive_run_again),
+                             testing::Field(&Remark::remedy,
+                                            testing::Field(&Remedy::value, HasSubstr("square-cw-1.mcap")))));
 }
 
 TEST_F(Resume, AFinishedExperimentDrivesNothing) {
@@ -180,7 +183,7 @@ TEST_F(Resume, RefusesAnotherRobot) {
   interrupt_in_run(2);
   Desk other(thesis_robot(0, 2));
   EXPECT_THAT([&] { run_experiment(other.client, other.truth, small_plan(), folder_.path(), {}); },
-              support::ThrowsSentence(HasSubstr("choose another --out")));
+              support::ThrowsTelling(HasSubstr("is of robot"), Help::choose_other_folder));
 }
 
 TEST_F(Resume, RefusesARobotWhoseParametersChangedInTheMiddleOfAPhase) {

@@ -32,8 +32,8 @@ recording::Run drive_line(Desk& desk, truth::Source& source) {
 class Person {
  public:
   explicit Person(std::deque<std::string> answers) : answers_(std::move(answers)) {}
-  std::string operator()(const std::string& prompt) {
-    asked.push_back(prompt);
+  std::string operator()(const truth::Question& question) {
+    asked.push_back(question.occasion.fact + question.text);
     const std::string answer = answers_.front();
     answers_.pop_front();
     return answer;
@@ -77,7 +77,7 @@ TEST(ManualTruth, AsksAgainForAnEndThatIsHardlyThatOfTheRunAndNamesIt) {
   ASSERT_EQ(person.asked.size(), 9U);
   EXPECT_THAT(person.asked[3],
               testing::AllOf(HasSubstr("line 1"), HasSubstr("499.5 m from where odometry ends"),
-                             HasSubstr("after a run of 0.5 m"), HasSubstr("Enter it again")));
+                             HasSubstr("after a run of 0.5 m"), HasSubstr("the same values keep them")));
   EXPECT_THAT(person.asked[6], HasSubstr("170 degrees from that of odometry"));
 }
 
@@ -93,7 +93,7 @@ class FileTruth : public testing::Test {
  protected:
   recording::EndError error_with(const std::string& text) {
     std::ofstream(folder_.path() / "before-line-1.csv") << text;
-    truth::FileSource source(folder_.path(), [](const std::string&) -> std::string {
+    truth::FileSource source(folder_.path(), [](const truth::Question&) -> std::string {
       ADD_FAILURE() << "the file is there: nobody is to be asked";
       return "";
     });
@@ -118,8 +118,8 @@ TEST_F(FileTruth, AsksAgainForAFileThatCannotBeReadNamingWhatIsWrongWithIt) {
   const std::vector<std::string> texts{"", "x,y\n0,0\n1,1\n", "x_m,y_m\n0,0\n", "x_m,y_m\n0,0\nnan,0\n",
                                        "x_m,y_m\n0,0\n0.5,0\n"};
   std::vector<std::string> asked;
-  truth::FileSource source(folder_.path(), [&](const std::string& prompt) -> std::string {
-    asked.push_back(prompt);
+  truth::FileSource source(folder_.path(), [&](const truth::Question& question) -> std::string {
+    asked.push_back(question.occasion.fact + question.text);
     std::ofstream(file) << texts.at(asked.size());
     return "";
   });
@@ -127,9 +127,9 @@ TEST_F(FileTruth, AsksAgainForAFileThatCannotBeReadNamingWhatIsWrongWithIt) {
   EXPECT_NEAR(recording::end_error(run_).x_m, 0.5 - run_.odometry.back().x_m, 1e-6)
       << "without headings the frame is that of the start";
   ASSERT_EQ(asked.size(), 4U);
-  EXPECT_THAT(asked[0], testing::StartsWith("save the ground truth of this run as '" + file.string()));
+  EXPECT_THAT(asked[0], testing::StartsWith("the ground truth of this run belongs into '" + file.string()));
   EXPECT_THAT(asked[1], testing::AllOf(HasSubstr("before-line-1.csv"), HasSubstr("x_m or x_mm"),
-                                       HasSubstr("correct the file")));
+                                       HasSubstr("once the file is corrected")));
   EXPECT_THAT(asked[2], HasSubstr("fewer than two poses"));
   EXPECT_THAT(asked[3], HasSubstr("line 3"));
 }
@@ -159,8 +159,8 @@ TEST_F(FileTruth, RefusesTimesThatAreNoneAndAnEndThatIsHardlyThatOfTheRun) {
                                        "x_m,y_m\n0,0\n0.5,0\n"};
   std::ofstream(file) << texts[0];
   std::vector<std::string> asked;
-  truth::FileSource source(folder_.path(), [&](const std::string& prompt) -> std::string {
-    asked.push_back(prompt);
+  truth::FileSource source(folder_.path(), [&](const truth::Question& question) -> std::string {
+    asked.push_back(question.occasion.fact + question.text);
     std::ofstream(file) << texts.at(asked.size());
     return "";
   });
@@ -176,7 +176,8 @@ TEST_F(FileTruth, RefusesTimesThatAreNoneAndAnEndThatIsHardlyThatOfTheRun) {
 TEST_F(FileTruth, KeepsAnImplausibleEndOfAFileThatIsLeftAsItIs) {
   std::ofstream(folder_.path() / "before-line-1.csv") << "x_m,y_m\n0,0\n2.5,0\n";
   int asked = 0;
-  truth::FileSource source(folder_.path(), [&](const std::string&) -> std::string { return ++asked, ""; });
+  truth::FileSource source(folder_.path(),
+                           [&](const truth::Question&) -> std::string { return ++asked, ""; });
   run_ = drive_line(desk_, source);
   EXPECT_EQ(asked, 1);
   EXPECT_NEAR(recording::end_error(run_).x_m, 2.5 - run_.odometry.back().x_m, 1e-6);
@@ -185,8 +186,8 @@ TEST_F(FileTruth, KeepsAnImplausibleEndOfAFileThatIsLeftAsItIs) {
 TEST_F(FileTruth, ThatIsMissingIsToldWithItsFolderOrItsName) {
   const std::filesystem::path folder = folder_.path() / "truth", file = folder / "before-line-1.csv";
   std::vector<std::string> asked;
-  truth::FileSource source(folder, [&](const std::string& prompt) -> std::string {
-    asked.push_back(prompt);
+  truth::FileSource source(folder, [&](const truth::Question& question) -> std::string {
+    asked.push_back(question.occasion.fact + question.text);
     if (asked.size() == 2) std::filesystem::create_directory(folder);
     if (asked.size() == 3) std::ofstream(file) << "x_m,y_m\n0,0\n0.5,0\n";
     return "";

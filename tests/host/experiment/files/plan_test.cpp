@@ -7,7 +7,7 @@
 
 #include "host/base/error.hpp"
 #include "host/experiment/files/method_names.hpp"
-#include "tests/support/base/sentences.hpp"
+#include "tests/support/base/remarks.hpp"
 
 namespace astro::experiment {
 namespace {
@@ -84,20 +84,21 @@ TEST(Plan, IsOpenEndedWhereACalibrationFollowsAndAPrecisionIsWanted) {
 }
 
 TEST(Plan, RefusesAPrecisionThatCannotBeDrivenFor) {
-  const auto refused = [](auto change, const char* what) {
+  const auto refused = [](auto change, const char* fact, Help help, const std::string& value) {
     Plan plan;
     plan.truth = "sim";
     plan.until = Until{5e-4, 10};
     EXPECT_NO_THROW(plan.check());
     change(plan);
-    EXPECT_THAT([&] { plan.check(); }, support::ThrowsSentence(HasSubstr(what)));
+    EXPECT_THAT([&] { plan.check(); }, support::ThrowsTelling(HasSubstr(fact), help, value));
   };
-  refused([](Plan& plan) { plan.until->target = 0; }, "precision of 0 %");
-  refused([](Plan& plan) { plan.until->most = 1; }, "at most 1 squares");
-  refused([](Plan& plan) { plan.order = Order::cw_first; }, "--order");
+  refused([](Plan& plan) { plan.until->target = 0; }, "precision of 0 %", Help::none, "");
+  refused([](Plan& plan) { plan.until->most = 1; }, "at most 1 squares", Help::none, "");
+  refused([](Plan& plan) { plan.order = Order::cw_first; }, "alternate", Help::keep_order, "");
   refused([](Plan& plan) { plan.method = method_named("extended", "average", "exact"); },
-          "--method extended");
-  refused([](Plan& plan) { plan.truth = "manual"; }, "--truth manual");
+          "only maximum likelihood", Help::drop_precision_or_method, "extended");
+  refused([](Plan& plan) { plan.truth = "manual"; }, "along the whole drive",
+          Help::count_runs_or_change_truth, "manual");
 }
 
 TEST(MethodNames, ComeBackAsTheyWere) {
@@ -108,7 +109,7 @@ TEST(MethodNames, ComeBackAsTheyWere) {
 TEST(MethodNames, NameTheWordThatIsNone) {
   EXPECT_THAT([] { method_named("magic", "average", "exact"); },
               ThrowsMessage<Error>(
-                  HasSubstr("'magic' is no method: choose auto, ml, umbmark, extended, least-squares")));
+                  HasSubstr("'magic' is no method: there are auto, ml, umbmark, extended, least-squares")));
   EXPECT_THAT([] { order_named("sideways"); }, ThrowsMessage<Error>(HasSubstr("'sideways'")));
 }
 

@@ -6,7 +6,7 @@
 
 #include "host/base/error.hpp"
 #include "tests/host/motor/bench/rig.hpp"
-#include "tests/support/base/sentences.hpp"
+#include "tests/support/base/remarks.hpp"
 
 namespace astro::motor {
 namespace {
@@ -90,7 +90,7 @@ std::string refusal(const sim::Config& config, const Bounds& bounds) {
     robot::DriveSession session(desk.client);
     identify(bench, session, bounds, [](double) {});
   } catch (const Error& error) {
-    sentence = commands::in_words(error);
+    sentence = error.what();
   }
   const protocol::Status status = desk.client.request(protocol::GetStatus{});
   EXPECT_EQ(status.mode, protocol::Mode::disarmed);

@@ -13,6 +13,7 @@
 #include "host/recording/mcap/writer.hpp"
 #include "host/recording/run/run_metadata.hpp"
 #include "tests/host/recording/support.hpp"
+#include "tests/support/base/remarks.hpp"
 
 namespace astro::recording {
 namespace {
@@ -230,9 +231,11 @@ TEST(RunFile, ComplaintsNameTheFile) {
   support::spill(folder / "empty.mcap", {});
   EXPECT_THAT(says("empty.mcap"), ::testing::AllOf(HasSubstr("empty.mcap"), HasSubstr("not an MCAP file")));
   support::spill(folder / "text.mcap", as_bytes("__time,x_m\n0,1\n"));
-  EXPECT_THAT(says("text.mcap"), HasSubstr("not an MCAP file"));
+  EXPECT_THAT(astro::support::told_by([&] { read_run(folder / "text.mcap"); }),
+              astro::support::Tells(HasSubstr("not an MCAP file"), Help::name_recording));
   std::filesystem::create_directory(folder / "folder.mcap");
-  EXPECT_THAT(says("folder.mcap"), HasSubstr("is a folder: name a file in it"));
+  EXPECT_THAT(astro::support::told_by([&] { read_run(folder / "folder.mcap"); }),
+              astro::support::Tells(HasSubstr("is a folder"), Help::name_file_in_it));
   support::spill(folder / "blocker", as_bytes("x"));
   EXPECT_THAT(complaint([&] { write_run(folder / "blocker/run.mcap", {}); }), HasSubstr("blocker"));
 }

@@ -5,7 +5,7 @@
 #include "host/base/error.hpp"
 #include "host/recording/files/run_file.hpp"
 #include "tests/host/recording/support.hpp"
-#include "tests/support/base/sentences.hpp"
+#include "tests/support/base/remarks.hpp"
 
 namespace astro::recording {
 namespace {
@@ -65,10 +65,10 @@ TEST(RunFolder, NaturalOrderIsAStrictOrder) {
 
 TEST(RunFolder, ComplaintsNameTheFolderAndTheRemedy) {
   const TempFolder folder;
-  EXPECT_THAT(complaint([&] { list_runs(folder / "none"); }),
-              AllOf(HasSubstr("none does not exist"), HasSubstr("name a folder")));
-  EXPECT_THAT(astro::support::sentence_of([&] { read_runs(folder.path()); }),
-              AllOf(HasSubstr(folder.path().string()), HasSubstr("record some")));
+  EXPECT_THAT(astro::support::told_by([&] { list_runs(folder / "none"); }),
+              astro::support::Tells(HasSubstr("none does not exist"), Help::name_folder_of_runs));
+  EXPECT_THAT(astro::support::told_by([&] { read_runs(folder.path()); }),
+              astro::support::Tells(HasSubstr(folder.path().string()), Help::record_runs));
   support::spill(folder / "x/bad.mcap", as_bytes("nonsense"));
   EXPECT_THAT(complaint([&] { read_runs(folder.path()); }), HasSubstr("bad.mcap"));
 }

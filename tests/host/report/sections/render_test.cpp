@@ -80,7 +80,7 @@ TEST(Report, ShowsTheHistoryOfSeveralRounds) {
   input.phases[2].loaded[0] = {1.0021, std::nan("")};
   const std::string html = our_part(render_html(input));
   using Row = std::vector<std::string>;
-  const std::string caption = "What the robot carried";
+  const std::string caption = "What was loaded in the robot";
   EXPECT_EQ(row_of(html, caption, "Before"), (Row{"1.00000", "1.00000", "0.290000", "405 ± 31"}));
   EXPECT_EQ(row_of(html, caption, "After"),
             (Row{"1.00208 ± 0.00012", "0.99792 ± 0.00012", "0.2886 ± 0.0011", "90 ± 18"}));

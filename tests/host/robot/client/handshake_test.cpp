@@ -1,26 +1,28 @@
 #include <gmock/gmock.h>
 
 #include "host/robot/client/client.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/links/fake_link.hpp"
 #include "tests/support/links/scripted_transport.hpp"
 
 namespace astro::robot {
 namespace {
 
+using support::Tells;
 using test::FakeLink;
 using test::Fate;
 using test::ScriptedTransport;
 using testing::HasSubstr;
 using Bytes = std::vector<std::uint8_t>;
 
-std::string why_not(Transport& transport) {
+Remark refusal(Transport& transport) {
   Client client(transport);
-  try {
-    client.connect();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "connected";
+  return support::told_by([&] { client.connect(); });
+}
+
+std::string why_not(Transport& transport) {
+  const std::string fact = refusal(transport).fact;
+  return fact.empty() ? "connected" : fact;
 }
 
 template <protocol::Message M>
@@ -55,7 +57,7 @@ TEST(Handshake, ForgetsBytesOfAnEarlierProgramBeforeItAsks) {
 
 TEST(Handshake, SaysThatNothingAnswers) {
   ScriptedTransport silent([](auto) { return Bytes{}; });
-  EXPECT_THAT(why_not(silent), HasSubstr("port0 does not answer: is it a robot running Astrolabe"));
+  EXPECT_THAT(refusal(silent), Tells("port0 does not answer", Help::check_robot_and_baud));
   EXPECT_LT(silent.now(), std::chrono::seconds(2)) << "somebody waits in front of the screen";
 }
 
@@ -74,28 +76,29 @@ TEST(Handshake, SaysThatALineIsLoopedBack) {
 
 TEST(Handshake, SaysThatARobotSendsButDoesNotHear) {
   ScriptedTransport deaf([](auto) { return frame_of(protocol::Telemetry{}, 0); });
-  EXPECT_THAT(why_not(deaf), HasSubstr("does not answer: is the line to the robot connected"));
+  EXPECT_THAT(refusal(deaf), Tells(HasSubstr("does not answer"), Help::check_line));
 }
 
 std::string versions(int robots) {
   return "speaks protocol " + std::to_string(robots) + ", this program speaks " +
-         std::to_string(protocol::kProtocolVersion) + ": ";
+         std::to_string(protocol::kProtocolVersion);
 }
 
 TEST(Handshake, NamesBothVersionsAndWhatToUpdate) {
   FakeLink newer;
   newer.robot.identity.protocol_version = protocol::kProtocolVersion + 1;
-  EXPECT_THAT(why_not(newer), HasSubstr(versions(protocol::kProtocolVersion + 1) + "update this program"));
+  EXPECT_THAT(refusal(newer),
+              Tells(HasSubstr(versions(protocol::kProtocolVersion + 1)), Help::update_program));
   FakeLink older;
   older.robot.identity.protocol_version = protocol::kProtocolVersion - 1;
-  EXPECT_THAT(why_not(older),
-              HasSubstr(versions(protocol::kProtocolVersion - 1) + "update the robot's firmware"));
+  EXPECT_THAT(refusal(older),
+              Tells(HasSubstr(versions(protocol::kProtocolVersion - 1)), Help::update_firmware));
 }
 
 TEST(Handshake, UnderstandsARobotThatRefusesTheVersion) {
   FakeLink link;
   link.robot.refuse_next = protocol::ErrorReply{protocol::ErrorCode::wrong_version, 9};
-  EXPECT_THAT(why_not(link), HasSubstr(versions(9) + "update this program"));
+  EXPECT_THAT(refusal(link), Tells(HasSubstr(versions(9)), Help::update_program));
 }
 
 TEST(Handshake, SurvivesLostFramesAndARestartOfTheRobot) {

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "host/robot/client/client.hpp"
-#include "tests/support/base/sentences.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/links/fake_link.hpp"
 
 namespace astro::robot {
@@ -110,8 +110,8 @@ TEST_F(Request, RefusalCarriesCodeAndDetailAndAnExplanation) {
     FAIL();
   } catch (const RobotRefused& refused) {
     EXPECT_EQ(refused.detail(), static_cast<std::uint16_t>(Fault::under_voltage));
-    EXPECT_THAT(commands::in_words(refused),
-                HasSubstr("a fault is latched: under_voltage; remove its cause"));
+    EXPECT_THAT(support::remark_of(refused),
+                support::Tells(HasSubstr("a fault is latched: under_voltage"), Help::clear_faults));
   }
 }
 

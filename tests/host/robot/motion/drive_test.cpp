@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "host/robot/motion/paths.hpp"
-#include "tests/support/base/sentences.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/links/fake_link.hpp"
 
 namespace astro::robot {
@@ -124,7 +124,7 @@ TEST_F(Drive, ClearsWhatAKilledProgramLeftBehindAndSaysSo) {
   link.robot.raise(Fault::link_lost);
   std::string notice;
   DriveHooks hooks;
-  hooks.notice = [&](const std::string& sentence) { notice = sentence; };
+  hooks.notice = [&](const Remark& remark) { notice = remark.fact; };
   DriveSession(client, hooks).run(line(1));
   EXPECT_EQ(notice, "cleared command_timeout, link_lost, which an earlier drive left behind");
 }
@@ -132,8 +132,8 @@ TEST_F(Drive, ClearsWhatAKilledProgramLeftBehindAndSaysSo) {
 TEST_F(Drive, DoesNotClearAnyOtherFault) {
   link.robot.raise(Fault::link_lost);
   link.robot.raise(Fault::stall);
-  EXPECT_THAT(support::sentence_of([&] { DriveSession session(client); }),
-              HasSubstr("link_lost, stall; remove its cause, then run 'astrolabe faults --clear'"));
+  EXPECT_THAT(support::told_by([&] { DriveSession session(client); }),
+              support::Tells(HasSubstr("link_lost, stall"), Help::clear_faults));
   EXPECT_NE(link.robot.latched, 0U);
 }
 
@@ -240,7 +240,7 @@ TEST_F(InterruptedDrive, EndsWithTheFaultThatWasLatchedOnTheWayToRest) {
 TEST_F(Drive, ThatFailsAndCannotStopTheRobotEitherSaysSoInANotice) {
   std::string notice;
   DriveHooks hooks;
-  hooks.notice = [&](const std::string& sentence) { notice = sentence; };
+  hooks.notice = [&](const Remark& remark) { notice = remark.fact; };
   try {
     DriveSession session(client, hooks);
     link.fate = [](bool, std::uint8_t) { return Fate::lost; };
@@ -267,7 +267,7 @@ TEST_F(Drive, SaysThatAnotherProgramStoppedTheRobot) {
     }
     return Fate::arrives;
   };
-  EXPECT_THAT(support::sentence_of([&] { session.run(line(1)); }), HasSubstr("segment 1 was aborted"));
+  EXPECT_THAT(support::told_by([&] { session.run(line(1)); }).fact, HasSubstr("segment 1 was aborted"));
 }
 
 TEST_F(Drive, StoppingOneselfIsNoError) {

@@ -12,6 +12,7 @@
 #include "host/robot/client/client.hpp"
 #include "host/robot/port/open_transport.hpp"
 #include "host/robot/port/serial_port.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 #include "tests/support/links/pty.hpp"
 #include "tests/support/programs/served_robot.hpp"
@@ -27,13 +28,13 @@ using test::TemporaryFolder;
 using testing::HasSubstr;
 using Bytes = std::vector<std::uint8_t>;
 
+Remark refusal(const std::string& address) {
+  return support::told_by([&] { open_transport(address); });
+}
+
 std::string why_not(const std::string& address) {
-  try {
-    open_transport(address);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "opened";
+  const std::string fact = refusal(address).fact;
+  return fact.empty() ? "opened" : fact;
 }
 
 /// Reads `size` bytes, or fewer if they do not arrive within 2 s.
@@ -116,7 +117,8 @@ TEST(SerialTransport, IsSharedWithNobodyAndFreeAgainAtTheEnd) {
   const Pty pty;
   {
     const auto first = open_transport(pty.path());
-    EXPECT_THAT(why_not(pty.path()), HasSubstr(pty.path() + " is in use by another program"));
+    EXPECT_THAT(refusal(pty.path()),
+                support::Tells(HasSubstr(pty.path() + " is in use by another program"), Help::end_program));
   }
   EXPECT_EQ(why_not(pty.path()), "opened");
 }
@@ -142,7 +144,7 @@ TEST(SerialTransport, SaysWhatIsWrongWithAnAddress) {
   EXPECT_THAT(why_not(""), HasSubstr("no port is named"));
   if (::geteuid() == 0) return;  // root may open anything
   std::filesystem::permissions(file, std::filesystem::perms::none);
-  EXPECT_THAT(why_not(file), HasSubstr("usermod -aG dialout"));
+  EXPECT_THAT(refusal(file), support::Tells(HasSubstr("no permission to open"), Help::join_serial_group));
 }
 
 TEST(SerialTransport, LeavesTheTerminalOfAShellAlone) {
@@ -242,7 +244,7 @@ TEST(TcpTransport, SaysWhatIsWrongWithAnAddress) {
   Listener listener;
   const std::string dead = listener.address("127.0.0.1");
   listener.close();
-  EXPECT_THAT(why_not(dead), HasSubstr("nobody listens at " + dead));
+  EXPECT_THAT(refusal(dead), support::Tells(HasSubstr("nothing listens at " + dead), Help::start_simulator));
   EXPECT_THAT(why_not("tcp:192.0.2.1:5555"), HasSubstr("is not on this machine"));
   EXPECT_THAT(why_not("tcp:robot.example:5555"), HasSubstr("is not on this machine"));
   for (const std::string bad : {"tcp:", "tcp:5555", "tcp:localhost:", "tcp:localhost:x",

@@ -84,7 +84,7 @@ TEST(Forecast, RefusesProgrammesThatLeaveAFactorOpen) {
   EXPECT_EQ(
       message({0, 0, 0, 1}),
       "one circle turns in one direction only, which does not separate wheels and wheelbase: drive two");
-  EXPECT_EQ(message({-1, 0, 0, 0}), "the number of squares is -1: give 0 to 1000");
+  EXPECT_EQ(message({-1, 0, 0, 0}), "the number of squares is -1: it has to be 0 to 1000");
   EXPECT_EQ(message({600, 600, 0, 0}),
             "the programme has 1200 runs and 1000 are the most: drive longer ones");
   Programme vast;
@@ -99,7 +99,7 @@ TEST(Forecast, RefusesProgrammesThatLeaveAFactorOpen) {
   EXPECT_EQ(error_of([&] {
               (void)forecast(flat.with({2, 0, 0, 0}));
             }),
-            "the side of the squares in metres is 0: give a positive number");
+            "the side of the squares in metres is 0, and has to be a positive number");
 }
 
 TEST(ShortestProgramme, MeetsTheTargetAndTakesNoRunTooMany) {
@@ -164,7 +164,7 @@ TEST(ShortestProgramme, RefusesWhatCannotBeReached) {
   EXPECT_EQ(message(1e-7, {kSquares}),
             "a precision this fine takes more than 1000 runs: drive longer ones, ask for less, or lessen the "
             "slip");
-  EXPECT_EQ(message(0, {kSquares}), "the precision wanted of E_d is 0: give a positive number");
+  EXPECT_EQ(message(0, {kSquares}), "the precision wanted of E_d is 0, and has to be a positive number");
 }
 
 }  // namespace

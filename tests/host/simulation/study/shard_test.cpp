@@ -8,10 +8,12 @@
 #include "host/simulation/study/study.hpp"
 #include "tests/host/calibration/end_poses/square_runs.hpp"
 #include "tests/support/base/bounded.hpp"
-#include "tests/support/base/sentences.hpp"
+#include "tests/support/base/remarks.hpp"
 
 namespace astro::simulation::study {
 namespace {
+
+using support::Tells;
 
 using calibration::test::error_of;
 
@@ -77,7 +79,7 @@ TEST(ShardFile, SaysWhichRobotDrove) {
   std::string other = to_text(setup, some_trials(2, 6));
   other.replace(other.find("simulator"), 9, "emulator?");
   EXPECT_EQ(error_of([&] { read_shard_file(other, "a.json"); }),
-            "'emulator?' is not a model of a robot: choose kinematic or simulator");
+            "'emulator?' is not a model of a robot: the models are kinematic and simulator");
 }
 
 TEST(ShardFile, GivesBackWhatIsNoNumberAsThatAndNotAsNoAnswer) {
@@ -99,15 +101,15 @@ TEST(ShardFile, GivesBackWhatIsNoNumberAsThatAndNotAsNoAnswer) {
 }
 
 TEST(ShardFile, ThatIsNoneIsNamed) {
-  const std::string none = "'x.json' is not a shard of a study: give what 'astrolabe study --out' wrote";
+  const auto none = support::Tells("'x.json' is not a shard of a study", Help::name_shard);
   for (const std::string text : {"", "{}", "[1, 2", "{\"format\": 3", "name,x\n1,2\n"})
-    EXPECT_EQ(support::sentence_of([&] { read_shard_file(text, "x.json"); }), none) << text;
+    EXPECT_THAT(support::told_by([&] { read_shard_file(text, "x.json"); }), none) << text;
   std::string cut = to_text(of_trials(10), some_trials(0, 5));
   cut.resize(cut.size() / 2);
-  EXPECT_EQ(support::sentence_of([&] { read_shard_file(cut, "x.json"); }), none);
-  EXPECT_EQ(support::sentence_of(
-                [&] { read_shard_file(R"({"format": "astrolabe study 0", "methods": []})", "x.json"); }),
-            "'x.json' was written by another version of the study: run its shard of 'astrolabe study' again");
+  EXPECT_THAT(support::told_by([&] { read_shard_file(cut, "x.json"); }), none);
+  EXPECT_THAT(support::told_by(
+                  [&] { read_shard_file(R"({"format": "astrolabe study 0", "methods": []})", "x.json"); }),
+              support::Tells("'x.json' was written by another version of the study", Help::run_shard_again));
 }
 
 TEST(ShardFile, OfShortValuesThatWouldTakeManyTimesItsSizeIsRefusedUnread) {
@@ -141,8 +143,7 @@ TEST(Merge, OfFewTrialsTakesMemoryForThoseAloneWhateverCountIsClaimed) {
   const std::vector<ShardFile> parts{part("a", 0, 4, of_trials(10'000'000))};
   const support::Taken taken = support::measured([&] { merge(parts); });
   EXPECT_BOUNDED(taken, 0);
-  EXPECT_EQ(taken.complaint,
-            "of 10000000 trials 4 to 9999999 are missing: run their shard, or name its file, too");
+  EXPECT_EQ(taken.complaint, "of 10000000 trials 4 to 9999999 are missing");
 }
 
 TEST(Merge, PutsTheTrialsInOrderWhateverTheOrderOfTheFiles) {
@@ -152,25 +153,26 @@ TEST(Merge, PutsTheTrialsInOrderWhateverTheOrderOfTheFiles) {
 }
 
 TEST(Merge, RefusesWhatIsNotOneWholeStudy) {
-  const auto message = [](const std::vector<ShardFile>& parts) { return error_of([&] { merge(parts); }); };
-  EXPECT_EQ(message({}), "there is nothing to merge: name the files of all shards");
-  EXPECT_EQ(message({part("a", 0, 4), part("b", 3, 10)}),
-            "trial 3 is in 'a' and in 'b': name each shard once");
-  EXPECT_EQ(message({part("a", 0, 4), part("b", 6, 10)}),
-            "of 10 trials 4 to 5 are missing: run their shard, or name its file, too");
-  EXPECT_EQ(message({part("a", 1, 10)}),
-            "of 10 trials 0 are missing: run their shard, or name its file, too");
+  const auto told = [](const std::vector<ShardFile>& parts) {
+    return support::told_by([&] { merge(parts); });
+  };
+  EXPECT_THAT(told({}), Tells("there is nothing to merge", Help::name_all_shards));
+  EXPECT_THAT(told({part("a", 0, 4), part("b", 3, 10)}),
+              Tells("trial 3 is in 'a' and in 'b'", Help::name_shard_once));
+  EXPECT_THAT(told({part("a", 0, 4), part("b", 6, 10)}),
+              Tells("of 10 trials 4 to 5 are missing", Help::run_or_name_shard));
+  EXPECT_THAT(told({part("a", 1, 10)}), Tells("of 10 trials 0 are missing", Help::run_or_name_shard));
   TrialSetup other = of_trials(10);
   other.side_m = 2;
-  EXPECT_EQ(message({part("a", 0, 4), part("b", 4, 10, other)}),
-            "'a' was made with side_m 3.0 and 'b' with 2.0: merge shards of one study only");
+  EXPECT_THAT(told({part("a", 0, 4), part("b", 4, 10, other)}),
+              Tells("'a' was made with side_m 3.0 and 'b' with 2.0", Help::merge_one_study));
   other = of_trials(10);
   other.model = Model::simulator;
-  EXPECT_EQ(
-      message({part("a", 0, 4), part("b", 4, 10, other)}),
-      "'a' was made with model \"kinematic\" and 'b' with \"simulator\": merge shards of one study only");
-  EXPECT_EQ(message({part("a", 0, 12)}),
-            "'a' holds trial 10 of a study of 10: it is damaged, run its shard again");
+  EXPECT_THAT(
+      told({part("a", 0, 4), part("b", 4, 10, other)}),
+      Tells("'a' was made with model \"kinematic\" and 'b' with \"simulator\"", Help::merge_one_study));
+  EXPECT_THAT(told({part("a", 0, 12)}),
+              Tells("'a' holds trial 10 of a study of 10; it is damaged", Help::run_shard_again));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "tests/host/calibration/end_poses/square_runs.hpp"
+#include "tests/support/base/remarks.hpp"
 
 namespace astro::simulation {
 namespace {
@@ -25,8 +26,8 @@ TrialSetup small_setup() {
   return setup;
 }
 
-std::string refusal(const TrialSetup& setup) {
-  return calibration::test::error_of([&] { SimulatedSource().check(setup); });
+Remark refusal(const TrialSetup& setup) {
+  return support::told_by([&] { SimulatedSource().check(setup); });
 }
 
 bool same(const Trajectory& a, const Trajectory& b) {
@@ -45,7 +46,7 @@ constexpr double kCount_m = std::numbers::pi * 0.072 / (64 * 43.8);
 void expect_true_factors(const TrialSetup& setup) {
   calibration::MlOptions options = setup.ml_options();
   options.noise = setup.noise;  // there is none to estimate
-  const MlEstimate found = estimate_ml(SimulatedSource().without_noise(setup), setup.carried(), options);
+  const MlEstimate found = estimate_ml(SimulatedSource().without_noise(setup), setup.loaded(), options);
   const double E_d = found.E_d() - setup.E_d, scale = found.scale() - setup.scale,
                b = found.factors.b_m / setup.actual().b_m - 1;
   fmt::print("errors of E_d {:.1e}, S {:.1e}, b {:.1e}\n", E_d, scale, b);
@@ -107,20 +108,19 @@ TEST(SimulatedSource, RefusesWhatTheRobotCannotDriveOrRecord) {
   TrialSetup setup = small_setup();
   EXPECT_NO_THROW(SimulatedSource().check(setup));
   setup.count_rate_hz = 50;
-  EXPECT_EQ(
-      refusal(setup),
-      "the simulated robot's counts are recorded at 100 Hz: leave the rate of the counts at that, or take "
-      "the kinematic model");
+  EXPECT_THAT(refusal(setup), support::Tells("the simulated robot's counts are recorded at 100 Hz",
+                                             Help::keep_count_rate_or_use_kinematic));
   setup = small_setup();
   setup.side_m = 0.05;
-  EXPECT_EQ(refusal(setup), "a square of side 0.05 m cannot be driven: choose 0.2 m to 100 m");
+  EXPECT_EQ(refusal(setup).fact, "a square of side 0.05 m cannot be driven: 0.2 m to 100 m are possible");
   setup = small_setup();
   setup.trials = 0;
-  EXPECT_EQ(refusal(setup), "the number of trials is 0: give 1 to 10 million");
+  EXPECT_EQ(refusal(setup).fact, "the number of trials is 0: it has to be 1 to 10 million");
   setup = small_setup();
   setup.model = simulation::study::Model::kinematic;
-  EXPECT_EQ(refusal(setup),
-            "this is a study of the kinematic model, not of the simulator model: give it its own robot");
+  EXPECT_THAT(refusal(setup),
+              support::Tells("this is a study of the kinematic model, not of the simulator model",
+                             Help::use_own_robot));
   setup = small_setup();
   setup.wheelbase_m = 3;
   EXPECT_EQ(calibration::test::error_of([&] { SimulatedSource().of_trial(setup, 0); }),

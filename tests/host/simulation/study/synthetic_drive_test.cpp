@@ -22,7 +22,7 @@ const WheelFactors kOther{1.007, 1.003, 0.287};
 
 DriveModel without_noise(const WheelFactors& carried, const WheelFactors& actual) {
   DriveModel model;
-  model.carried = carried;
+  model.loaded = carried;
   model.actual = actual;
   model.noise = {0, 0, 0};
   return model;
@@ -101,7 +101,7 @@ TEST(SyntheticDrive, TruthScattersAsItsNoiseModelSays) {
 
 TEST(SyntheticDrive, IsTheSameForEqualSeedsAndAnotherForOthers) {
   DriveModel model;
-  model.carried = model.actual = kBelieved;
+  model.loaded = model.actual = kBelieved;
   const auto drive = [&](std::uint64_t seed) {
     return synthetic_drive(square_course(1, Sense::cw), model, "run", seed);
   };

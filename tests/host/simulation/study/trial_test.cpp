@@ -19,7 +19,7 @@ TEST(StudyErrors, OfTheTruthAreNone) {
 
 TEST(StudyErrors, OfTheUncalibratedRobotAreThoseOfThePublishedTable) {
   const TrialSetup setup;
-  const Errors errors = errors_of(setup.carried(), setup);
+  const Errors errors = errors_of(setup.loaded(), setup);
   // Half of the last printed digit.
   EXPECT_NEAR(std::abs(errors[kE_d]), 41.6e-4, 0.05e-4);
   EXPECT_NEAR(std::abs(errors[kB_over_S]), 47.9e-4, 0.05e-4);
@@ -49,7 +49,8 @@ TEST(StudySetup, RefusesWhatCannotBeDriven) {
   };
   EXPECT_EQ(message([](TrialSetup& s) { s.side_m = 0; }),
             "the side of the square in metres is 0: give a positive number");
-  EXPECT_EQ(message([](TrialSetup& s) { s.trials = 0; }), "the number of trials is 0: give 1 to 10 million");
+  EXPECT_EQ(message([](TrialSetup& s) { s.trials = 0; }),
+            "the number of trials is 0: it has to be 1 to 10 million");
   EXPECT_EQ(message([](TrialSetup& s) { s.noise.K_m = std::nan(""); }),
             "the wheel slip K in metres is nan: give a positive number");
   EXPECT_EQ(message([](TrialSetup& s) {

@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "host/base/error.hpp"
-#include "tests/support/base/sentences.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 
 namespace astro::truth {
@@ -128,7 +128,7 @@ TEST(NoSocket, SaysThatASimulatorIsNeeded) {
     SocketSource source("/no/such.mocap");
     FAIL() << "there is nothing to connect to";
   } catch (const Error& error) {
-    EXPECT_THAT(commands::in_words(error), HasSubstr("astrolabe sim"));
+    EXPECT_EQ(error.remedy().help, Help::use_simulated_robot);
   }
 }
 

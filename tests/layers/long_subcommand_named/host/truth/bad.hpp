@@ -1,0 +1,5 @@
+#pragma once
+
+const char* const kHint =
+    "it was found by calibrate "
+    "runs, not by hand";

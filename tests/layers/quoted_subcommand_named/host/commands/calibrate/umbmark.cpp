@@ -1,0 +1,1 @@
+const char* const kHint = "'umbmark' has driven these";

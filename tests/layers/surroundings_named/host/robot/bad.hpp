@@ -1,0 +1,3 @@
+#pragma once
+
+const char* const kHint = "no permission (sudo usermod -aG dialout)";
