@@ -102,7 +102,7 @@ std::vector<std::string> notes(const TuneResult& result) {
   if (result.on_stand) list.emplace_back(stand_note());
   if (const auto ratio = motor::unlikely_kV_ratio(result.gains.mean, result.before))
     list.push_back(
-        fmt::format("kV is {:.2g} times what the robot carried: other motors or wheels, or a wrong "
+        fmt::format("kV is {:.2g} times the value that was loaded: other motors or wheels, or a wrong "
                     "counts_per_motor_rev; 'astrolabe check-wiring --roll' tells",
                     *ratio));
   return list;
