@@ -38,13 +38,13 @@ TEST(Precision, ASquareIsFourLegsAndOneTurn) {
 TEST(Precision, RefusesWhatIsNoDrive) {
   const auto message = [](auto call) { return test::error_of([&] { (void)call(); }); };
   EXPECT_EQ(message([] { return squares_extent(0, 3); }),
-            "the number of squares is 0: give a positive number");
+            "the number of squares is 0, and has to be a positive number");
   EXPECT_EQ(message([] { return squares_extent(5, std::nan("")); }),
-            "the side of the square in metres is nan: give a positive number");
+            "the side of the square in metres is nan, and has to be a positive number");
   EXPECT_EQ(message([] {
               return reachable_precision({10, 0}, kSlip_m, kWheelbase_m);
             }),
-            "the rotation in radians is 0: give a positive number");
+            "the rotation in radians is 0, and has to be a positive number");
 }
 
 }  // namespace
