@@ -103,12 +103,12 @@ TEST(CrossValidation, ShowsTheErrorsOfEachDriveWithFactorsThatHaveNotSeenIt) {
   const DriveModel model = astro_drive();
   const MlOptions options{.clock_known = true};
   const std::vector<Trajectory> drives = squares(model, 4);
-  const MlEstimate all = estimate_ml(drives, model.carried, options);
-  const CrossValidation judged = cross_validate(drives, model.carried, all, options);
+  const MlEstimate all = estimate_ml(drives, model.loaded, options);
+  const CrossValidation judged = cross_validate(drives, model.loaded, all, options);
   ASSERT_EQ(judged.runs.size(), 4u);
   EXPECT_EQ(judged.better_on(), 4);
   EXPECT_TRUE(judged.not_judged.empty());
-  const PathErrors in_use = path_errors(drives, model.carried, options);
+  const PathErrors in_use = path_errors(drives, model.loaded, options);
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(judged.runs[i].in_use.name, drives[i].name);
     EXPECT_LT(judged.runs[i].found.path_rms_m, judged.runs[i].in_use.path_rms_m);
@@ -124,8 +124,8 @@ TEST(CrossValidation, NamesWhatCannotBeHeldOut) {
       simulation::study::synthetic_drive(simulation::study::line_course(3), model, "the line", kSeed),
       simulation::study::synthetic_drive(simulation::study::spin_course(6.28), model, "the spin", kSeed + 1)};
   const MlOptions options{.clock_known = true};
-  const MlEstimate all = estimate_ml(drives, model.carried, options);
-  const CrossValidation judged = cross_validate(drives, model.carried, all, options);
+  const MlEstimate all = estimate_ml(drives, model.loaded, options);
+  const CrossValidation judged = cross_validate(drives, model.loaded, all, options);
   EXPECT_EQ(judged.verdict, Verdict::unknown);
   EXPECT_EQ(judged.not_judged.size(), 2u);
 }

@@ -7,13 +7,19 @@
 #include "host/simulation/study/kinematic_source.hpp"
 #include "host/simulation/study/shortest_programme.hpp"
 #include "host/simulation/study/summary.hpp"
+<<<<<<< HEAD
 #include "tests/host/calibration/end_poses/square_runs.hpp"
+=======
+#include "tests/host/calibration/square_runs.hpp"
+#include "tests/support/remarks.hpp"
+>>>>>>> words
 
 namespace astro::simulation::study {
 namespace {
 
 using calibration::Precision;
 using calibration::test::error_of;
+using support::Tells;
 
 Forecast of(const Counts& counts) { return forecast(Programme{}.with(counts)); }
 
@@ -75,25 +81,24 @@ TEST(Forecast, WorseGroundTruthAndMoreSlipTakePrecision) {
 }
 
 TEST(Forecast, RefusesProgrammesThatLeaveAFactorOpen) {
-  const auto message = [](const Counts& counts) { return error_of([&] { (void)of(counts); }); };
-  EXPECT_EQ(message({0, 0, 0, 0}), "the programme is empty: say how many squares, lines, spins or circles");
-  EXPECT_EQ(message({0, 7, 0, 0}),
-            "lines never turn, so they do not determine the wheelbase: add squares, spins or circles");
-  EXPECT_EQ(message({0, 0, 7, 0}),
-            "spins determine the ratio of wheels and wheelbase but no size: add squares, lines or circles");
-  EXPECT_EQ(
-      message({0, 0, 0, 1}),
-      "one circle turns in one direction only, which does not separate wheels and wheelbase: drive two");
-  EXPECT_EQ(message({-1, 0, 0, 0}), "the number of squares is -1: it has to be 0 to 1000");
-  EXPECT_EQ(message({600, 600, 0, 0}),
-            "the programme has 1200 runs and 1000 are the most: drive longer ones");
+  const auto told = [](const Counts& counts) { return support::told_by([&] { (void)of(counts); }); };
+  EXPECT_THAT(told({0, 0, 0, 0}), Tells("the programme is empty", Help::give_runs));
+  EXPECT_THAT(told({0, 7, 0, 0}),
+              Tells("lines never turn, so they do not determine the wheelbase", Help::add_turns));
+  EXPECT_THAT(told({0, 0, 7, 0}),
+              Tells("spins determine the ratio of wheels and wheelbase but no size", Help::add_lines));
+  EXPECT_THAT(told({0, 0, 0, 1}),
+              Tells("one circle turns in one direction only, which does not separate wheels and wheelbase",
+                    Help::drive_two_circles));
+  EXPECT_THAT(told({-1, 0, 0, 0}), Tells("the number of squares is -1: it has to be 0 to 1000", Help::none));
+  EXPECT_THAT(told({600, 600, 0, 0}),
+              Tells("the programme has 1200 runs and 1000 are the most", Help::drive_longer_runs));
   Programme vast;
   vast.side_m = 1000;
-  EXPECT_EQ(error_of([&] {
-              (void)forecast(vast.with({1000, 0, 0, 0}));
-            }),
-            "some 3705 hours of driving are more than fit into memory: take fewer or shorter runs, or lower "
-            "rates");
+  EXPECT_THAT(support::told_by([&] {
+                (void)forecast(vast.with({1000, 0, 0, 0}));
+              }),
+              Tells("some 3705 hours of driving are more than fit into memory", Help::take_fewer_runs));
   Programme flat;
   flat.side_m = 0;
   EXPECT_EQ(error_of([&] {
@@ -156,15 +161,14 @@ TEST(ShortestProgramme, LooksAtEachOfTheThreeTargets) {
 }
 
 TEST(ShortestProgramme, RefusesWhatCannotBeReached) {
-  const auto message = [](double target, const std::vector<Kind>& kinds) {
-    return error_of([&] { (void)shortest_programme({target, target, target}, kinds, Programme{}); });
+  const auto told = [](double target, const std::vector<Kind>& kinds) {
+    return support::told_by([&] { (void)shortest_programme({target, target, target}, kinds, Programme{}); });
   };
-  EXPECT_EQ(message(5e-4, {kLines}),
-            "lines never turn, so they do not determine the wheelbase: add squares, spins or circles");
-  EXPECT_EQ(message(1e-7, {kSquares}),
-            "a precision this fine takes more than 1000 runs: drive longer ones, ask for less, or lessen the "
-            "slip");
-  EXPECT_EQ(message(0, {kSquares}), "the precision wanted of E_d is 0, and has to be a positive number");
+  EXPECT_THAT(told(5e-4, {kLines}),
+              Tells("lines never turn, so they do not determine the wheelbase", Help::add_turns));
+  EXPECT_THAT(told(1e-7, {kSquares}),
+              Tells("a precision this fine takes more than 1000 runs", Help::drive_longer_runs_or_ask_less));
+  EXPECT_EQ(told(0, {kSquares}).fact, "the precision wanted of E_d is 0, and has to be a positive number");
 }
 
 }  // namespace

@@ -8,7 +8,12 @@
 #include "host/simulation/study/kinematic_source.hpp"
 #include "host/simulation/study/shard_file.hpp"
 #include "host/simulation/study/summary.hpp"
+<<<<<<< HEAD
 #include "tests/host/calibration/end_poses/square_runs.hpp"
+=======
+#include "tests/host/calibration/square_runs.hpp"
+#include "tests/support/remarks.hpp"
+>>>>>>> words
 
 namespace astro::simulation::study {
 namespace {
@@ -55,10 +60,10 @@ TEST(Study, WhoeverWatchesCanEndIt) {
 }
 
 TEST(Study, AnEmptyShardIsRefused) {
-  EXPECT_EQ(calibration::test::error_of([] {
-              run_study(small_setup(3), kRobot, {1, 4}, 1, kSilent);
-            }),
-            "shard 1/4 of 3 trials is empty: make fewer shards or more trials");
+  EXPECT_THAT(support::told_by([] {
+                run_study(small_setup(3), kRobot, {1, 4}, 1, kSilent);
+              }),
+              support::Tells("shard 1/4 of 3 trials is empty", Help::make_fewer_shards));
 }
 
 // `astrolabe study` checks the full claims over hundreds of trials of ten squares; here are enough trials to
