@@ -31,17 +31,10 @@ TEST(Precision, FourTimesTheDriveHalvesTheError) {
 
 TEST(Precision, RefusesWhatIsNoDrive) {
   const auto message = [](auto call) { return test::error_of([&] { (void)call(); }); };
-<<<<<<< HEAD:tests/host/calibration/judgement/precision_test.cpp
   EXPECT_EQ(message([] {
               return reachable_precision({std::nan(""), 10}, kSlip_m, kWheelbase_m);
             }),
-            "the distance in metres is nan: give a positive number");
-=======
-  EXPECT_EQ(message([] { return squares_extent(0, 3); }),
-            "the number of squares is 0, and has to be a positive number");
-  EXPECT_EQ(message([] { return squares_extent(5, std::nan("")); }),
-            "the side of the square in metres is nan, and has to be a positive number");
->>>>>>> words:tests/host/calibration/precision_test.cpp
+            "the distance in metres is nan, and has to be a positive number");
   EXPECT_EQ(message([] {
               return reachable_precision({10, 0}, kSlip_m, kWheelbase_m);
             }),

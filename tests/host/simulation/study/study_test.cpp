@@ -8,12 +8,8 @@
 #include "host/simulation/study/kinematic_source.hpp"
 #include "host/simulation/study/shard_file.hpp"
 #include "host/simulation/study/summary.hpp"
-<<<<<<< HEAD
 #include "tests/host/calibration/end_poses/square_runs.hpp"
-=======
-#include "tests/host/calibration/square_runs.hpp"
-#include "tests/support/remarks.hpp"
->>>>>>> words
+#include "tests/support/base/remarks.hpp"
 
 namespace astro::simulation::study {
 namespace {
