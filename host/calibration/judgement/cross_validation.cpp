@@ -58,14 +58,18 @@ std::vector<Trajectory> thinned(std::span<const Trajectory> runs, double period_
   return out;
 }
 
-/// -2 log likelihood of each run with these factors. Start poses, lever arm and clocks are fitted to the runs.
-std::vector<double> costs(std::span<const Trajectory> runs, const WheelFactors& factors,
-                          const MlOptions& options) {
+/// How drives are followed with given factors; start poses, lever arm and clocks are fitted to the drives.
+struct Followed {
+  std::vector<RunErrors> errors;
+  std::vector<double> cost;  // -2 log likelihood of each run
+};
+
+Followed followed(std::span<const Trajectory> runs, const WheelFactors& factors, const MlOptions& options) {
   const PreparedRuns prepared = prepare(runs, factors, options.clock_known, Density::independent);
   const MlFit fit(prepared, factors, options, true);
-  std::vector<double> costs;
-  for (const InnovationSums& sums : fit.sums()) costs.push_back(sums.cost);
-  return costs;
+  Followed out{path_errors(fit, factors).runs, {}};
+  for (const InnovationSums& sums : fit.sums()) out.cost.push_back(sums.cost);
+  return out;
 }
 
 }  // namespace
@@ -99,16 +103,14 @@ CrossValidation cross_validate(std::span<const Trajectory> runs, const WheelFact
     const Split parts = split(runs, group(i, groups, runs.size()));
     try {
       const std::vector<Trajectory> others = thinned(parts.others, all.thinned_to_s);
-      const WheelFactors found = estimate_ml(others, in_use, with_noise).factors;
-      // Which runs cannot be used does not depend on the factors, so all four lists are of the same runs.
-      const PathErrors errors_in_use = path_errors(parts.held_out, in_use, options);
-      const PathErrors errors_found = path_errors(parts.held_out, found, options);
       const std::vector<Trajectory> held_out = thinned(parts.held_out, all.thinned_to_s);
-      const std::vector<double> costs_in_use = costs(held_out, in_use, with_noise);
-      const std::vector<double> costs_found = costs(held_out, found, with_noise);
-      for (std::size_t k = 0; k < costs_found.size(); ++k)
-        out.runs.push_back({errors_in_use.runs.at(k), errors_found.runs.at(k),
-                            (costs_in_use[k] - costs_found[k]) / all.dispersion});
+      const WheelFactors found = estimate_ml(others, in_use, with_noise).factors;
+      // Which runs cannot be used does not depend on the factors, so both are of the same runs.
+      const Followed by_in_use = followed(held_out, in_use, with_noise);
+      const Followed by_found = followed(held_out, found, with_noise);
+      for (std::size_t k = 0; k < by_found.errors.size(); ++k)
+        out.runs.push_back({by_in_use.errors.at(k), by_found.errors[k],
+                            (by_in_use.cost.at(k) - by_found.cost[k]) / all.dispersion});
     } catch (const Error& error) {
       out.not_judged.push_back(error.what());
     }

@@ -32,12 +32,8 @@ BodySample placed(const BodySample& odometry, const Unknowns& u) {
 
 }  // namespace
 
-PathErrors path_errors(std::span<const Trajectory> runs, const WheelFactors& factors,
-                       const MlOptions& options) {
-  const PreparedRuns prepared = prepare(runs, factors, options.clock_known, Density::all);
-  const MlFit fit(prepared, factors, options, true);
+PathErrors path_errors(const MlFit& fit, const WheelFactors& factors) {
   PathErrors errors;
-  errors.left_out = prepared.left_out;
   SquareSum final_m, heading_rad, path_m;
   for (std::size_t i = 0; i < fit.runs().size(); ++i) {
     const PreparedRun& run = fit.runs()[i];
@@ -64,6 +60,14 @@ PathErrors path_errors(std::span<const Trajectory> runs, const WheelFactors& fac
   errors.final_rms_m = final_m.rms();
   errors.final_heading_rms_rad = heading_rad.rms();
   errors.path_rms_m = path_m.rms();
+  return errors;
+}
+
+PathErrors path_errors(std::span<const Trajectory> runs, const WheelFactors& factors,
+                       const MlOptions& options) {
+  const PreparedRuns prepared = prepare(runs, factors, options.clock_known, Density::all);
+  PathErrors errors = path_errors(MlFit(prepared, factors, options, true), factors);
+  errors.left_out = prepared.left_out;
   return errors;
 }
 

@@ -6,6 +6,7 @@
 
 #include "host/base/remedy.hpp"
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
+#include "host/calibration/likelihood/ml_fit.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
 
 /// How well given factors dead-reckon given drives: the test of a calibration on drives that it has not seen.
@@ -32,5 +33,8 @@ struct PathErrors {
 /// Throws astro::Error as estimate_ml does for runs that cannot be used.
 PathErrors path_errors(std::span<const Trajectory> runs, const WheelFactors& factors,
                        const MlOptions& options = {});
+
+/// The same with nuisance parameters that were fitted already, while `factors` were fixed.
+PathErrors path_errors(const MlFit& fit, const WheelFactors& factors);
 
 }  // namespace astro::calibration

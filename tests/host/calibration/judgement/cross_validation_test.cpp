@@ -11,6 +11,12 @@ namespace {
 
 using simulation::study::DriveModel;
 
+MlOptions known_clock() {
+  MlOptions options;
+  options.clock_known = true;
+  return options;
+}
+
 TEST(Gains, OfOneDriveSayNothing) {
   EXPECT_EQ(judge_gains({}), Verdict::unknown);
   EXPECT_EQ(judge_gains(std::vector{1e6}), Verdict::unknown);
@@ -46,7 +52,7 @@ WheelFactors off_by(const WheelFactors& right, Wrong what, double wrong) {
 }
 
 Verdict verdict_on(const DriveModel& model, const WheelFactors& in_use, int runs, std::uint64_t seed) {
-  const MlOptions options{.clock_known = true};
+  const MlOptions options = known_clock();
   const std::vector<Trajectory> drives = squares(model, runs, 3, seed);
   const MlEstimate all = estimate_ml(drives, in_use, options);
   return cross_validate(drives, in_use, all, options).verdict;
@@ -94,14 +100,14 @@ TEST(CrossValidation, SaysThatFactorsFromOtherRobotsAreWorse) {
       sample.y_m *= stretch;
     }
   }
-  const MlOptions options{.clock_known = true};
+  const MlOptions options = known_clock();
   const MlEstimate all = estimate_ml(drives, model.actual, options);
   EXPECT_NE(cross_validate(drives, model.actual, all, options).verdict, Verdict::better);
 }
 
 TEST(CrossValidation, ShowsTheErrorsOfEachDriveWithFactorsThatHaveNotSeenIt) {
   const DriveModel model = astro_drive();
-  const MlOptions options{.clock_known = true};
+  const MlOptions options = known_clock();
   const std::vector<Trajectory> drives = squares(model, 4);
   const MlEstimate all = estimate_ml(drives, model.loaded, options);
   const CrossValidation judged = cross_validate(drives, model.loaded, all, options);
@@ -123,7 +129,7 @@ TEST(CrossValidation, NamesWhatCannotBeHeldOut) {
   const std::vector<Trajectory> drives{
       simulation::study::synthetic_drive(simulation::study::line_course(3), model, "the line", kSeed),
       simulation::study::synthetic_drive(simulation::study::spin_course(6.28), model, "the spin", kSeed + 1)};
-  const MlOptions options{.clock_known = true};
+  const MlOptions options = known_clock();
   const MlEstimate all = estimate_ml(drives, model.loaded, options);
   const CrossValidation judged = cross_validate(drives, model.loaded, all, options);
   EXPECT_EQ(judged.verdict, Verdict::unknown);
