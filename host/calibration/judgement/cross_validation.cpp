@@ -14,10 +14,10 @@ namespace {
 constexpr std::size_t kMostGroups = 10;
 constexpr int kPriorRuns = 4;
 
-/// One-sided 5 % quantile of Student's t for at least kPriorRuns degrees of freedom.
-double student_t_95(int degrees_of_freedom) {
+/// One-sided 10 % quantile of Student's t for at least kPriorRuns degrees of freedom.
+double student_t_90(int degrees_of_freedom) {
   // Cornish-Fisher expansion about the normal quantile, good to 0.003 from four degrees of freedom on.
-  const double z = 1.644854, n = degrees_of_freedom;
+  const double z = 1.281552, n = degrees_of_freedom;
   const double z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z;
   return z + (z3 + z) / (4 * n) + (5 * z5 + 16 * z3 + 3 * z) / (96 * n * n) +
          (3 * z7 + 19 * z5 + 17 * z3 - 15 * z) / (384 * n * n * n);
@@ -89,7 +89,7 @@ Verdict judge_gains(std::span<const double> gains) {
   const double variance = (squares + kPriorRuns * 4 * std::abs(mean)) / freedom;
   const double t = mean / std::sqrt(variance / n);
   if (std::isnan(t)) return Verdict::unknown;
-  if (std::abs(t) <= student_t_95(freedom)) return Verdict::undecided;
+  if (std::abs(t) <= student_t_90(freedom)) return Verdict::undecided;
   return t > 0 ? Verdict::better : Verdict::worse;
 }
 
