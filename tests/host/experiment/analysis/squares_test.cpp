@@ -24,7 +24,8 @@ recording::Run square() {
   // At rest at both ends, a straight metre and back to the start in between.
   for (int i = 0; i <= 100; ++i) {
     const double x_m = i < 25 || i > 75 ? 0 : 1 - std::abs(i - 50) / 25.0;
-    run.odometry.push_back({10'000 * i, x_m, 0, 0, 0, 0, 0, 0});
+    const int counts = static_cast<int>(1000 * x_m);
+    run.odometry.push_back({10'000 * i, x_m, 0, 0, 0, 0, counts, counts});
     run.truth.push_back({10'000 * i, x_m, 0, 0, true});
   }
   return run;
@@ -51,7 +52,7 @@ TEST(Squares, RefuseAParameterThatNoRobotCanHave) {
         [&] {
           squares_of({&run, 1});
         },
-        ThrowsMessage<Error>(HasSubstr("does not say what b")))
+        ThrowsMessage<Error>(HasSubstr("does not say which b")))
         << value;
   }
 }
