@@ -13,6 +13,7 @@ namespace {
 
 using motor::kSides;
 using motor::Side;
+using support::Tells;
 using testing::HasSubstr;
 
 struct Measured {
@@ -82,21 +83,21 @@ TEST(Identify, AMotorThatIsTenPercentStrongerIsFoundWheelByWheel) {
   }
 }
 
-std::string refusal(const sim::Config& config, const Bounds& bounds) {
+Remark refusal(const sim::Config& config, const Bounds& bounds) {
   support::Desk desk(config);
-  std::string sentence;
+  Remark told;
   try {
     Bench bench(desk.client, facts_on(desk));
     robot::DriveSession session(desk.client);
     identify(bench, session, bounds, [](double) {});
   } catch (const Error& error) {
-    sentence = error.what();
+    told = support::remark_of(error);
   }
   const protocol::Status status = desk.client.request(protocol::GetStatus{});
   EXPECT_EQ(status.mode, protocol::Mode::disarmed);
   EXPECT_EQ(status.latched_faults, 0U) << "stopped before the firmware has to";
-  std::printf("%s\n", sentence.c_str());
-  return sentence;
+  std::printf("%s\n", told.fact.c_str());
+  return told;
 }
 
 TEST(Identify, AWheelThatDoesNotAnswerIsNamedAndNothingIsLatched) {
@@ -104,14 +105,17 @@ TEST(Identify, AWheelThatDoesNotAnswerIsNamedAndNothingIsLatched) {
   dead.wiring.left_motor_dead = true;
   blind.wiring.right_encoder_dead = true;
   reversed.wiring.right_encoder_reversed = true;
-  EXPECT_THAT(refusal(dead, {}), HasSubstr("the left wheel does not turn"));
-  EXPECT_THAT(refusal(blind, {}), HasSubstr("the right wheel does not turn, or does not count"));
-  EXPECT_THAT(refusal(reversed, {}), HasSubstr("the right wheel counts backward"));
+  EXPECT_THAT(refusal(dead, {}), Tells(HasSubstr("the left wheel does not turn"), Help::check_wiring));
+  EXPECT_THAT(refusal(blind, {}),
+              Tells(HasSubstr("the right wheel does not turn, or does not count"), Help::check_wiring));
+  EXPECT_THAT(refusal(reversed, {}), Tells(HasSubstr("the right wheel counts backward"), Help::check_wiring));
 }
 
 TEST(Identify, TooLittleRoomOrVoltageIsSaid) {
-  EXPECT_THAT(refusal(quiet_robot(false), {5, 0.02}), HasSubstr("--max-distance"));
-  EXPECT_THAT(refusal(quiet_robot(true), {1.2}), HasSubstr("--max-voltage"));
+  EXPECT_THAT(refusal(quiet_robot(false), {5, 0.02}),
+              Tells(HasSubstr("got further than 0.02 m"), Help::give_more_room));
+  EXPECT_THAT(refusal(quiet_robot(true), {1.2}),
+              Tells(HasSubstr("does not turn"), Help::check_wiring_or_raise_voltage));
 }
 
 TEST(Identify, AnInterruptLeavesTheRobotStoppedAndDisarmed) {
