@@ -1,11 +1,44 @@
 #include "host/commands/shared/truth_option.hpp"
 
+#include <algorithm>
+
 #include "host/base/error.hpp"
 #include "host/truth/files/file_source.hpp"
+#include "host/truth/live/live_source.hpp"
 #include "host/truth/live/socket_source.hpp"
 #include "host/truth/source/no_source.hpp"
 
 namespace astro::commands {
+namespace {
+
+std::unique_ptr<truth::Source> open_tracker(const std::string& address) {
+  auto source = std::make_unique<truth::LiveSource>(truth::tracker_url_in(address));
+  console::say("ground truth: " + source->description());
+  return source;
+}
+
+/// "sim, manual or vrpn://HOST/BODY"
+std::string choice_of(const std::vector<std::string>& words) {
+  std::string choice;
+  for (const std::string& word : words) choice += word + ", ";
+  return choice.substr(0, choice.size() - 2) + " or vrpn://HOST/BODY";
+}
+
+}  // namespace
+
+console::Check truth_source(std::vector<std::string> words) {
+  return [words = std::move(words)](const std::string& word) -> std::string {
+    if (std::find(words.begin(), words.end(), word) != words.end()) return "";
+    if (!truth::is_tracker_url(word))
+      return "'" + word + "' is not a source of ground truth: choose " + choice_of(words);
+    try {
+      truth::tracker_url_in(word);
+      return "";
+    } catch (const Error& error) {
+      return error.what();
+    }
+  };
+}
 
 std::unique_ptr<truth::Source> open_truth(const TruthOption& option, const std::string& port,
                                           const truth::Ask& asking) {
@@ -13,6 +46,7 @@ std::unique_ptr<truth::Source> open_truth(const TruthOption& option, const std::
   if (option.source == "manual") return std::make_unique<truth::ManualSource>(asking);
   if (option.source == "file") return std::make_unique<truth::FileSource>(option.folder, asking);
   if (option.source == "none") return std::make_unique<truth::NoSource>();
+  if (truth::is_tracker_url(option.source)) return open_tracker(option.source);
   throw Error("'" + option.source + "' is not a source of ground truth: choose sim, manual, file or none");
 }
 
