@@ -8,6 +8,7 @@ namespace astro::truth {
 namespace {
 
 constexpr std::int64_t kMostAhead_us = 100'000;      // of a sender's time after it arrived
+constexpr double kUsualJitter_s = 1e-3;              // of stamps in whole milliseconds
 constexpr std::int64_t kMostBehind_us = 10'000'000;  // of a network that holds samples back
 
 std::vector<double> intervals_of(std::span<const std::int64_t> times_us) {
@@ -68,7 +69,8 @@ TrackerClock::TrackerClock(std::span<const Stamp> first) {
   }
   sender_ = regularity_of(sent);
   arrival_ = regularity_of(arrived);
-  senders_ = counts_seconds(sender_, arrival_) && sender_.jitter_s <= arrival_.jitter_s;
+  const double most_s = std::max(kUsualJitter_s, 2 * arrival_.jitter_s);
+  senders_ = counts_seconds(sender_, arrival_) && sender_.jitter_s <= most_s;
 }
 
 std::int64_t TrackerClock::host_time_us(const Stamp& stamp) {

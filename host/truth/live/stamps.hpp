@@ -24,7 +24,9 @@ struct Regularity {
 /// in bursts do: an interval has at least one period.
 Regularity regularity_of(std::span<const std::int64_t> times_us);
 
-/// Puts samples onto this computer's steady clock, by the more regular one of their two times.
+/// Puts samples onto this computer's steady clock: by the sender's times, unless those of arrival are far more
+/// regular, as where a server stamps by a coarse clock. In doubt the sender's: the arrival may be regular in
+/// the moment of choosing and be late once the network or this computer is busy.
 ///
 /// A sender's clock is mapped by a constant: the smallest delay among the first samples counts as none. What
 /// is left of the network's shortest delay, and the drift between two quartz clocks, are found with the

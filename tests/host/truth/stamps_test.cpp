@@ -84,6 +84,14 @@ TEST(TrackerClock, TheArrivalIsUsedIfTheSenderStampsByAPolledClock) {
   EXPECT_EQ(clock.host_time_us(stamps[9]), stamps[9].arrival_us);
 }
 
+TEST(TrackerClock, ASendersClockOfWholeMillisecondsIsUsedEvenIfTheFirstPosesArriveMoreEvenly) {
+  std::vector<Stamp> stamps;
+  for (std::int64_t i = 0; i < 50; ++i) stamps.push_back({(16'667 * i + 999) / 1'000 * 1'000, 16'667 * i});
+  TrackerClock clock(stamps);
+  EXPECT_GT(clock.sender().jitter_s, 10 * clock.arrival().jitter_s);
+  EXPECT_TRUE(clock.is_senders());
+}
+
 TEST(TrackerClock, StampsThatCountSomethingElseThanMicrosecondsAreNotUsed) {
   for (const std::int64_t unit_us : {0, 1, 1'000'000}) {
     std::vector<Stamp> stamps = sent_evenly(50);
