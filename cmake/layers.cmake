@@ -58,6 +58,7 @@ set(ASTRO_LAYERS
   "host/truth/files             : host/base host/truth/manual host/truth/source"
   "host/truth/live              : host/base host/truth/source host/truth/vrpn"
   "host/truth/manual            : host/base host/recording/run host/truth/source"
+  "host/truth/natnet            : host/base host/truth/source"
   "host/truth/source            : host/base host/recording/run"
   "host/truth/vrpn              : host/base host/truth/source"
   "tests                        : common hal firmware host"
