@@ -12,25 +12,25 @@ namespace {
 
 using namespace truth;  // NOLINT(google-build-using-namespace): this file is all truth
 
-/// Number and complaint of what the stream gives if it arrives in pieces.
+/// Number of poses, and the complaint, of a stream that arrives in pieces.
 std::pair<std::size_t, std::string> read(ByteView input, std::size_t piece) {
   VrpnStream stream("ASTRO");
   FloorTrack track(UpAxis::z);
   std::size_t count = 0;
+  std::string complaint;
   try {
-    for (std::size_t at = 0; at < input.size(); at += piece) {
+    for (std::size_t at = 0; at < input.size(); at += piece)
       stream.push(input.subspan(at, std::min(piece, input.size() - at)), 0);
-      for (const Sighting& sighting : stream.take()) {
-        ++count;
-        const recording::TruthSample sample = track.take(sighting.stamp.sender_us, sighting.pose);
-        require(!sample.valid || sample.x_m * sample.x_m < 1e9, "a valid sample is at a possible place");
-      }
-    }
   } catch (const Error& error) {
-    return {count, error.what()};
+    complaint = error.what();
+  }
+  for (const Sighting& sighting : stream.take()) {
+    ++count;
+    const recording::TruthSample sample = track.take(sighting.stamp.sender_us, sighting.pose);
+    require(!sample.valid || sample.x_m * sample.x_m < 1e9, "a valid sample is at a possible place");
   }
   require(count == 0 || stream.why_silent().empty(), "a body that was seen is not silent");
-  return {count, ""};
+  return {count, complaint};
 }
 
 }  // namespace
