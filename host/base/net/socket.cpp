@@ -19,16 +19,23 @@
 namespace astro::net {
 namespace {
 
+timespec limit_of(microseconds timeout) {
+  constexpr std::int64_t kMicro = 1'000'000;
+  return {timeout.count() / kMicro, timeout.count() % kMicro * 1000};
+}
+
 bool poll_for(const Socket& socket, short events, microseconds timeout) {
   pollfd ready{socket.descriptor(), events, 0};
-  const auto left = std::chrono::duration_cast<std::chrono::nanoseconds>(timeout);
-  const timespec limit{static_cast<time_t>(left.count() / 1'000'000'000),
-                       static_cast<long>(left.count() % 1'000'000'000)};
+  const timespec limit = limit_of(timeout);
   return ::ppoll(&ready, 1, &limit, nullptr) > 0;
 }
 
 Socket open_socket(int family, int type) {
-  return Socket(::socket(family, type | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  Socket socket(::socket(family, type | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  const int kept_bytes = 1 << 20;  // of datagrams that come while nobody reads
+  if (type == SOCK_DGRAM)
+    ::setsockopt(socket.descriptor(), SOL_SOCKET, SO_RCVBUF, &kept_bytes, sizeof kept_bytes);
+  return socket;
 }
 
 /// Poses are small and must not wait for one another. A peer whose computer was switched off says nothing:
@@ -135,6 +142,12 @@ Socket begin_tcp(const Address& to) {
   return socket;
 }
 
+bool wait_to_read(const Socket& one, const Socket& other, microseconds timeout) {
+  std::array<pollfd, 2> ready{pollfd{one.descriptor(), POLLIN, 0}, pollfd{other.descriptor(), POLLIN, 0}};
+  const timespec limit = limit_of(timeout);
+  return ::ppoll(ready.data(), ready.size(), &limit, nullptr) > 0;
+}
+
 bool wait_to_connect(const Socket& socket, microseconds timeout) {
   return poll_for(socket, POLLOUT, timeout);
 }
@@ -154,6 +167,24 @@ Socket listen_tcp(const Address& local) {
 }
 
 Socket bind_udp(const Address& local) { return open_bound(local, SOCK_DGRAM); }
+
+/// Bound to the group itself, so that nothing else comes in.
+Socket join_multicast(const std::array<std::uint8_t, 4>& group, std::uint16_t port, const Address& local) {
+  in_addr_t host = 0;
+  for (const std::uint8_t byte : group) host = host << 8U | byte;
+  Socket socket = open_socket(AF_INET, SOCK_DGRAM);
+  const int shared = 1;
+  ::setsockopt(socket.descriptor(), SOL_SOCKET, SO_REUSEADDR, &shared, sizeof shared);
+  const Address at = ip4(host, port);
+  ip_mreq membership{};
+  membership.imr_multiaddr.s_addr = htonl(host);
+  membership.imr_interface = reinterpret_cast<const sockaddr_in*>(&local.storage)->sin_addr;
+  if (!socket || local.storage.ss_family != AF_INET || ::bind(socket.descriptor(), at.get(), at.size) != 0 ||
+      ::setsockopt(socket.descriptor(), IPPROTO_IP, IP_ADD_MEMBERSHIP, &membership, sizeof membership) != 0)
+    throw Error("the multicast group " + at.host() + " cannot be joined at " + local.host() + ": " +
+                std::strerror(errno));
+  return socket;
+}
 
 std::optional<Accepted> accept_tcp(const Socket& listener) {
   Accepted accepted;

@@ -2,6 +2,7 @@
 
 #include <sys/socket.h>
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -54,6 +55,8 @@ struct Address {
 
 /// True if there is something to read, or the other side has gone.
 bool wait_to_read(const Socket& socket, microseconds timeout);
+/// Of either of two; the second may be empty.
+bool wait_to_read(const Socket& one, const Socket& other, microseconds timeout);
 
 /// True if a connection that was begun has come to something.
 bool wait_to_connect(const Socket& socket, microseconds timeout);
@@ -67,6 +70,10 @@ Connecting connecting(const Socket& socket);
 /// Port 0: any that is free. Throw astro::Error if the port is in use or the address is not this computer's.
 Socket listen_tcp(const Address& local);
 Socket bind_udp(const Address& local);
+
+/// What is sent to a group of IPv4, taken in at the network of a local address. Others on this computer may
+/// listen to the same. Throws astro::Error.
+Socket join_multicast(const std::array<std::uint8_t, 4>& group, std::uint16_t port, const Address& local);
 
 /// A connection that waits, and where it comes from; empty if none does.
 struct Accepted {

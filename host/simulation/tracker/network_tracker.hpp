@@ -6,14 +6,17 @@
 #include <vector>
 
 #include "host/recording/run/run.hpp"
+#include "host/simulation/tracker/natnet_server.hpp"
 #include "host/simulation/tracker/virtual_tracker.hpp"
 #include "host/simulation/tracker/vrpn_server.hpp"
 
 namespace astro::simulation {
 
 struct NetworkTrackerConfig {
-  std::optional<std::uint16_t> vrpn_port;  // 0: any that is free; nothing: no VRPN
-  bool everywhere = false;                 // also other computers may connect
+  std::optional<std::uint16_t> vrpn_port;    // 0: any that is free; nothing: no VRPN
+  std::optional<std::uint16_t> natnet_port;  // the same for NatNet
+  truth::natnet::Version natnet_version{4, 1};
+  bool everywhere = false;  // also other computers may connect
   std::string body = "ASTRO";
   TrackingFaults faults;
 };
@@ -30,12 +33,14 @@ class NetworkTracker {
   /// Serves the clients; call often.
   void work();
 
-  /// Empty if it serves no VRPN.
+  /// Empty if it does not serve that.
   const std::optional<VrpnServer>& vrpn() const { return vrpn_; }
+  const std::optional<NatNetServer>& natnet() const { return natnet_; }
 
  private:
   VirtualTracker tracker_;
   std::optional<VrpnServer> vrpn_;
+  std::optional<NatNetServer> natnet_;
   std::int64_t now_us_;
 };
 

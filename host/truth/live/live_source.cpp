@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "host/base/error.hpp"
+#include "host/truth/live/natnet_link.hpp"
 #include "host/truth/live/vrpn_link.hpp"
 
 namespace astro::truth {
@@ -28,7 +29,10 @@ constexpr int kMostRounds = 64;
 
 }  // namespace
 
-std::unique_ptr<TrackerLink> open_link(const TrackerUrl& url) { return std::make_unique<VrpnLink>(url); }
+std::unique_ptr<TrackerLink> open_link(const TrackerUrl& url) {
+  if (url.scheme == "natnet") return std::make_unique<NatNetLink>(url);
+  return std::make_unique<VrpnLink>(url);
+}
 
 microseconds LiveSource::steady_now() {
   return std::chrono::duration_cast<microseconds>(std::chrono::steady_clock::now().time_since_epoch());

@@ -89,6 +89,12 @@ class Parser {
 
 }  // namespace
 
+TrackerUrl TrackerUrl::with_usual_port(std::uint16_t usual) const {
+  TrackerUrl url = *this;
+  if (url.port == 0) url.port = usual;
+  return url;
+}
+
 std::string TrackerUrl::place() const {
   const std::string name = host.find(':') == std::string::npos ? host : "[" + host + "]";
   return port == 0 ? name : name + ":" + std::to_string(port);

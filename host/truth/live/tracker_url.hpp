@@ -21,6 +21,8 @@ struct TrackerUrl {
   std::string body;        // "": the only one
   UpAxis up = UpAxis::z;
 
+  /// The same, with the protocol's own port where none is named.
+  TrackerUrl with_usual_port(std::uint16_t usual) const;
   /// "lab-pc:3883"
   std::string place() const;
 };

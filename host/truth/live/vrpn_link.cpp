@@ -20,15 +20,12 @@ constexpr microseconds kRetry = seconds(1);
 // The most that one call reads, so that a server that sends faster than we read cannot keep us.
 constexpr int kMostReads = 16;
 
-TrackerUrl with_port(TrackerUrl url) {
-  if (url.port == 0) url.port = vrpn::kPort;
-  return url;
-}
-
 }  // namespace
 
 VrpnLink::VrpnLink(const TrackerUrl& url)
-    : url_(with_port(url)), server_(net::Address::of(url_.host, url_.port)), stream_(url_.body) {}
+    : url_(url.with_usual_port(vrpn::kPort)),
+      server_(net::Address::of(url_.host, url_.port)),
+      stream_(url_.body) {}
 
 void VrpnLink::work(microseconds now) {
   switch (state_) {

@@ -8,6 +8,7 @@
 
 #include "host/base/error.hpp"
 #include "host/truth/live/live_source.hpp"
+#include "host/truth/live/natnet_link.hpp"
 #include "host/truth/live/vrpn_link.hpp"
 #include "host/truth/vrpn/tracker.hpp"
 
@@ -86,22 +87,22 @@ struct Lab {
 /// Time passes at the tracker while its client waits.
 class LabLink : public truth::TrackerLink {
  public:
-  LabLink(Lab& lab, const truth::TrackerUrl& url) : lab_(lab), link_(url) {}
-  void work(microseconds now) override { link_.work(now); }
+  LabLink(Lab& lab, const truth::TrackerUrl& url) : lab_(lab), link_(truth::open_link(url)) {}
+  void work(microseconds now) override { link_->work(now); }
   void wait(microseconds timeout) override {
     lab_.pass(timeout);
-    link_.wait(microseconds::zero());
+    link_->wait(microseconds::zero());
   }
-  std::vector<truth::Sighting> take() override { return link_.take(); }
-  std::string why_silent() const override { return link_.why_silent(); }
-  std::vector<std::string> bodies() const override { return link_.bodies(); }
-  const std::string& body() const override { return link_.body(); }
-  std::string way() const override { return link_.way(); }
-  int connections() const override { return link_.connections(); }
+  std::vector<truth::Sighting> take() override { return link_->take(); }
+  std::string why_silent() const override { return link_->why_silent(); }
+  std::vector<std::string> bodies() const override { return link_->bodies(); }
+  const std::string& body() const override { return link_->body(); }
+  std::string way() const override { return link_->way(); }
+  int connections() const override { return link_->connections(); }
 
  private:
   Lab& lab_;
-  truth::VrpnLink link_;
+  std::unique_ptr<truth::TrackerLink> link_;
 };
 
 NetworkTrackerConfig with_vrpn(double latency_s = 0.008, double dropped = 0) {
@@ -315,6 +316,106 @@ TEST(NetworkTracker, APortInUseIsNamed) {
     EXPECT_THAT(error.what(),
                 HasSubstr("port " + std::to_string(lab.tracker.vrpn()->port()) + " of 127.0.0.1"));
   }
+}
+
+// ---- NatNet
+
+NetworkTrackerConfig with_natnet(truth::natnet::Version version = {4, 1}) {
+  NetworkTrackerConfig config;
+  config.natnet_port = 0;
+  config.natnet_version = version;
+  config.faults = {0.03, 0.1, 3};
+  return config;
+}
+
+truth::TrackerUrl natnet_url_of(const Lab& lab, const std::string& body = "/ASTRO") {
+  return truth::tracker_url_in("natnet://127.0.0.1:" + std::to_string(lab.tracker.natnet()->port()) + body);
+}
+
+TEST(NetworkTracker, ItsPosesComeToANatNetClientOfEachVersionWithTheTimeOfTheExposure) {
+  for (const truth::natnet::Version version : {truth::natnet::Version{3, 0}, {3, 1}, {4, 0}, {4, 1}}) {
+    Lab lab(with_natnet(version));
+    const auto source = open(lab, natnet_url_of(lab));
+    EXPECT_THAT(source->description(),
+                HasSubstr("by UDP, 100.0 poses per second, times by the tracker's clock"));
+    source->poll();
+    std::vector<recording::TruthSample> samples;
+    for (int i = 0; i < 100; ++i) {
+      lab.pass(milliseconds(20));
+      for (const auto& sample : source->poll()) samples.push_back(sample);
+    }
+    EXPECT_NEAR(static_cast<double>(samples.size()), 180, 4 * std::sqrt(200 * 0.1 * 0.9));
+    double least_late_us = 1e9, most_late_us = 0;
+    for (const auto& sample : samples) {
+      EXPECT_TRUE(sample.valid);
+      EXPECT_NEAR(sample.theta_rad, 0.5, 1e-6) << "NatNet has single precision";
+      const double late_us = static_cast<double>(sample.time_us) - 1e6 * sample.x_m;
+      least_late_us = std::min(least_late_us, late_us);
+      most_late_us = std::max(most_late_us, late_us);
+    }
+    EXPECT_NEAR(most_late_us, least_late_us, 1.5) << "positions of some metres are good to 0.2 um";
+  }
+}
+
+TEST(NetworkTracker, ANatNetClientKeepsItselfKnownAndFindsTheServerAgain) {
+  auto lab = std::make_unique<Lab>(with_natnet());
+  const truth::TrackerUrl url = natnet_url_of(*lab);
+  const std::uint16_t port = lab->tracker.natnet()->port();
+  truth::NatNetLink link(url);
+  microseconds now{0};
+  const auto run = [&](microseconds time) {
+    std::size_t came = 0;
+    for (const microseconds end = now + time; now < end; now += milliseconds(10)) {
+      if (lab) lab->pass(milliseconds(10));
+      link.work(now);
+      came += link.take().size();
+    }
+    return came;
+  };
+  EXPECT_GT(run(std::chrono::seconds(20)), 1'600U) << "of 2000, a tenth of which is lost";
+  lab.reset();
+  EXPECT_LT(run(std::chrono::seconds(5)), 5U);
+  EXPECT_EQ(link.why_silent(), "nothing answers there as a NatNet server");
+  NetworkTrackerConfig again = with_natnet();
+  again.natnet_port = port;
+  lab = std::make_unique<Lab>(again);
+  EXPECT_GT(run(std::chrono::seconds(5)), 250U);
+  EXPECT_EQ(link.connections(), 2);
+}
+
+TEST(NetworkTracker, ANatNetClientThatFallsSilentIsDropped) {
+  Lab lab(with_natnet());
+  {
+    truth::NatNetLink link(natnet_url_of(lab));
+    link.work(microseconds(0));
+    lab.pass(milliseconds(10));
+    EXPECT_EQ(lab.tracker.natnet()->clients(), 1U);
+  }
+  lab.pass(std::chrono::seconds(6));
+  EXPECT_EQ(lab.tracker.natnet()->clients(), 0U);
+}
+
+TEST(NetworkTracker, ANatNetBodyThatItDoesNotKnowIsNamedWithThoseThatItDoes) {
+  Lab lab(with_natnet());
+  try {
+    open(lab, natnet_url_of(lab, "/ROBOT"));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::EndsWith(": it knows no 'ROBOT'; it tracks 'ASTRO'"));
+  }
+  EXPECT_THAT(open(lab, natnet_url_of(lab, ""))->description(), HasSubstr("'ASTRO'")) << "the only one";
+}
+
+TEST(NetworkTracker, ANatNetServerIgnoresWhoeverHasNotConnectedAndWhatIsNone) {
+  Lab lab(with_natnet());
+  const net::Socket stranger = net::connect_udp(lab.tracker.natnet()->address());
+  for (const Bytes& datagram :
+       {Bytes{}, Bytes{1}, Bytes(200, 0xFF), truth::natnet::datagram_of(truth::natnet::Id::request_models),
+        truth::natnet::datagram_of(truth::natnet::Id::keep_alive)})
+    net::send(stranger, datagram);
+  lab.pass(milliseconds(50));
+  EXPECT_EQ(lab.tracker.natnet()->clients(), 0U);
+  EXPECT_FALSE(net::wait_to_read(stranger, milliseconds(0)));
 }
 
 }  // namespace
