@@ -43,7 +43,7 @@ void add_options(console::Command command, UmbmarkOptions& options) {
   add_connection(command, options.connection);
   command
       .add_option("--truth", options.truth.source,
-                  "sim, manual (tape measure), file, or a tracker: vrpn://HOST/BODY")
+                  "sim, manual (tape measure), file, or a tracker:\nvrpn://HOST/BODY, natnet://HOST/BODY")
       .type_name("SOURCE")
       .check(truth_source({"sim", "manual", "file"}))
       .required();

@@ -156,16 +156,28 @@ void add_tracker_options(console::Command command, simulation::NetworkTrackerCon
       .type_name("PORT")
       .check(console::whole(0, 65'535));
   command
+      .add_option_function(
+          "--natnet-port",
+          [&tracker](const std::vector<std::string>& words) {
+            tracker.natnet_port = static_cast<std::uint16_t>(*integer_in(words.front()));
+          },
+          "the same by NatNet; usual: 1510")
+      .type_name("PORT")
+      .check(console::whole(0, 65'535));
+  command
       .add_option("--tracker-latency", tracker.faults.latency_s,
-                  "VRPN: from the exposure until a pose leaves, s")
+                  "--vrpn-port, --natnet-port: from the exposure until a pose leaves, s")
       .type_name("S")
       .capture_default_str()
       .check(console::between(0, 1, "s"));
-  command.add_option("--tracker-drops", tracker.faults.dropped, "VRPN: share of the poses that are lost")
+  command
+      .add_option("--tracker-drops", tracker.faults.dropped,
+                  "--vrpn-port, --natnet-port: share of the poses that are lost")
       .type_name("SHARE")
       .capture_default_str()
       .check(console::between(0, 1, ""));
-  command.add_flag("--tracker-for-all", tracker.everywhere, "VRPN: also for other computers of the network");
+  command.add_flag("--tracker-for-all", tracker.everywhere,
+                   "--vrpn-port, --natnet-port: also for other computers");
 }
 
 }  // namespace
@@ -193,9 +205,13 @@ void serve(simulation::Server& server, const std::string& what) {
   const fs::path& pty = server.config().pty;
   const auto link = link_in_runtime_folder(pty);
   console::say(fmt::format("{} is at {}", what, pty.string()));
-  if (const auto& vrpn = server.tracker().vrpn())
-    console::say(fmt::format("its pose is at vrpn://{}:{}/{}", vrpn->address().host(), vrpn->port(),
-                             server.config().tracker.body));
+  const auto say_address = [&](const char* protocol, const auto& tracker) {
+    if (!tracker) return;
+    console::say(fmt::format("its pose is at {}://{}:{}/{}", protocol, tracker->address().host(),
+                             tracker->port(), server.config().tracker.body));
+  };
+  say_address("vrpn", server.tracker().vrpn());
+  say_address("natnet", server.tracker().natnet());
   console::say(fmt::format("next: astrolabe info --port {}   (Ctrl-C here ends it)", pty.string()));
   server.run(console::interrupted);
 }

@@ -17,11 +17,11 @@ std::unique_ptr<truth::Source> open_tracker(const std::string& address) {
   return source;
 }
 
-/// "sim, manual or vrpn://HOST/BODY"
+/// "sim, manual, vrpn://HOST/BODY or natnet://HOST/BODY"
 std::string choice_of(const std::vector<std::string>& words) {
   std::string choice;
   for (const std::string& word : words) choice += word + ", ";
-  return choice.substr(0, choice.size() - 2) + " or vrpn://HOST/BODY";
+  return choice + "vrpn://HOST/BODY or natnet://HOST/BODY";
 }
 
 }  // namespace

@@ -81,7 +81,8 @@ void add_truth_watch(console::Command truth) {
   const console::Command command =
       truth.add_subcommand("watch", "show each second what a tracker sent in the last three");
   command
-      .add_option("address", options->address, "vrpn://HOST[:PORT]/BODY, with ?up=y if its y axis points up")
+      .add_option("address", options->address,
+                  "vrpn://HOST[:PORT]/BODY or natnet://HOST[:PORT]/BODY,\nwith ?up=y if its y axis points up")
       .type_name("URL")
       .required();
   command.add_option("--seconds", options->seconds, "end after this time (default: at Ctrl-C)")

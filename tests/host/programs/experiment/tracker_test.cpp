@@ -17,9 +17,9 @@ using support::Simulator;
 using testing::HasSubstr;
 
 /// "vrpn://127.0.0.1:PORT/ASTRO", as the simulator said it.
-std::string address_of(Simulator& simulator) {
+std::string address_of(Simulator& simulator, const std::string& protocol = "vrpn") {
   const std::string said = simulator.program().err();
-  const std::size_t at = said.find("vrpn://");
+  const std::size_t at = said.find(protocol + "://");
   return at == std::string::npos ? "" : said.substr(at, said.find('\n', at) - at);
 }
 
@@ -45,21 +45,26 @@ struct Recorder {
 };
 
 TEST(TrackerOnTheNetwork, GivesTheFactorsThatTheSimulatorsOwnTruthGives) {
-  Simulator simulator({"--vrpn-port", "0", "--tracker-latency", "0.03", "--tracker-drops", "0.1", "--slip",
-                       "2.645e-6", "--true-ed", "1.00416", "--seed", "5"});
-  ASSERT_TRUE(support::eventually([&] { return !address_of(simulator).empty(); }));
-  Recorder tracked(simulator, address_of(simulator), "vrpn"), own(simulator, "sim", "sim");
+  Simulator simulator({"--vrpn-port", "0", "--natnet-port", "0", "--tracker-latency", "0.03",
+                       "--tracker-drops", "0.1", "--slip", "2.645e-6", "--true-ed", "1.00416", "--seed",
+                       "5"});
+  ASSERT_TRUE(support::eventually([&] { return !address_of(simulator, "natnet").empty(); }));
+  Recorder tracked(simulator, address_of(simulator), "vrpn"), own(simulator, "sim", "sim"),
+      optitrack(simulator, address_of(simulator, "natnet"), "natnet");
   ASSERT_EQ(astrolabe({"drive", "square", "0.4", "--ccw", "--port", simulator.port()}).code, 0);
-  const nlohmann::json vrpn = tracked.calibration(), sim = own.calibration();
+  const nlohmann::json vrpn = tracked.calibration(), sim = own.calibration(),
+                       natnet = optitrack.calibration();
   EXPECT_THAT(tracked.program.err(), HasSubstr("'ASTRO' from 127.0.0.1:"));
   EXPECT_THAT(tracked.program.err(), HasSubstr("60.0 poses per second, times by the tracker's clock"));
   // Both saw the same drive with the same noise, so wheel slip, the greatest part of the error, is common. What
   // differs is 10 % of the poses, and the offset of the clocks, which only one of them had to find.
   for (const char* factor : {"c_R", "c_L", "b_m"}) {
-    const double error = sim["standard_errors"][factor],
-                 off = vrpn[factor].get<double>() - sim[factor].get<double>();
-    std::printf("  %s: %.2f standard errors apart\n", factor, std::abs(off) / error);
-    EXPECT_LE(std::abs(off), 0.5 * error) << factor;
+    const double error = sim["standard_errors"][factor], own_value = sim[factor];
+    const double by_vrpn = vrpn[factor].get<double>() - own_value,
+                 by_natnet = natnet[factor].get<double>() - own_value;
+    std::printf("  %s: %.2f and %.2f standard errors apart\n", factor, by_vrpn / error, by_natnet / error);
+    EXPECT_LE(std::abs(by_vrpn), 0.5 * error) << factor;
+    EXPECT_LE(std::abs(by_natnet), 0.5 * error) << factor;
   }
 }
 
