@@ -143,6 +143,24 @@ void add_robot_options(console::Command command, sim::Config& robot) {
       .check(console::whole(0, std::numeric_limits<std::uint64_t>::max()));
 }
 
+/// Cameras that see the robot, for this computer's programs and for the network.
+void add_camera_options(console::Command command, simulation::MocapConfig& mocap) {
+  command.add_option("--tracker-rate", mocap.rate_hz, "poses per second of the virtual cameras")
+      .type_name("HZ")
+      .capture_default_str()
+      .check(console::between(1, 1000, "Hz"));
+  command
+      .add_option("--tracker-ahead", mocap.ahead_m,
+                  "where the tracked body sits on the robot, m before its centre")
+      .type_name("M")
+      .capture_default_str()
+      .check(console::between(-1, 1, "m"));
+  command.add_option("--tracker-left", mocap.left_m, "the same, m to the left")
+      .type_name("M")
+      .capture_default_str()
+      .check(console::between(-1, 1, "m"));
+}
+
 /// The tracking software beside the robot, for clients of real ones.
 void add_tracker_options(console::Command command, simulation::NetworkTrackerConfig& tracker) {
   command
@@ -193,7 +211,7 @@ sim::Config reference_robot() {
 void prepare(SimOptions& options, std::size_t flash_bytes) {
   if (options.server.pty.empty()) options.server.pty = robot::make_runtime_folder() / "astro.pty";
   simulation::sweep_dead_links(robot::runtime_folder());
-  options.server.tracker.faults.seed = options.robot.seed;
+  options.mocap.seed = options.server.tracker.faults.seed = options.robot.seed;
   check_folder("--pty", options.server.pty);
   check_folder("--usb-pty", options.server.second_pty);
   check_flash(options.server.flash, flash_bytes);
@@ -224,6 +242,7 @@ void add_sim_options(console::Command command, SimOptions& options) {
   command.add_flag("--fast", options.server.fast, "let virtual time run ahead while a host keeps up with it");
   command.add_option("--flash", options.server.flash, "file that keeps the parameters between starts")
       .type_name("FILE");
+  add_camera_options(command, options.mocap);
   add_tracker_options(command, options.server.tracker);
 }
 

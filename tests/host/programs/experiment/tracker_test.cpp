@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <csignal>
+#include <utility>
 
 #include "tests/support/json.hpp"
 #include "tests/support/program.hpp"
@@ -46,8 +47,8 @@ struct Recorder {
 
 TEST(TrackerOnTheNetwork, GivesTheFactorsThatTheSimulatorsOwnTruthGives) {
   Simulator simulator({"--vrpn-port", "0", "--natnet-port", "0", "--tracker-latency", "0.03",
-                       "--tracker-drops", "0.1", "--slip", "2.645e-6", "--true-ed", "1.00416", "--seed",
-                       "5"});
+                       "--tracker-ahead", "0.08", "--tracker-left", "-0.03", "--tracker-drops", "0.1",
+                       "--slip", "2.645e-6", "--true-ed", "1.00416", "--seed", "5"});
   ASSERT_TRUE(support::eventually([&] { return !address_of(simulator, "natnet").empty(); }));
   Recorder tracked(simulator, address_of(simulator), "vrpn"), own(simulator, "sim", "sim"),
       optitrack(simulator, address_of(simulator, "natnet"), "natnet");
@@ -66,6 +67,9 @@ TEST(TrackerOnTheNetwork, GivesTheFactorsThatTheSimulatorsOwnTruthGives) {
     EXPECT_LE(std::abs(by_vrpn), 0.5 * error) << factor;
     EXPECT_LE(std::abs(by_natnet), 0.5 * error) << factor;
   }
+  for (const auto& [axis, true_m] : {std::pair{"x_m", 0.08}, {"y_m", -0.03}})
+    EXPECT_NEAR(vrpn["lever_arm"][axis].get<double>(), true_m, 4 * vrpn["lever_arm_se"][axis].get<double>())
+        << axis;
 }
 
 TEST(TrackerOnTheNetwork, ABodyThatItDoesNotKnowIsAnErrorThatListsThoseThatItDoes) {
