@@ -35,7 +35,7 @@ Bytes datagram_of(Id id, ByteView payload) {
 /// by unicast servers only.
 Bytes connect_request() {
   Bytes payload;
-  append_padded(payload, "astrolabe", kNameBytes);
+  append_padded(payload, "NatNet client", kNameBytes);
   append(payload, Bytes{1, 0, 0, 0});
   append(payload, Bytes{3, 0, 0, 0});
   return datagram_of(Id::connect, payload);
