@@ -164,8 +164,11 @@ void add_record(console::Command app) {
       app.add_subcommand("record", "drive runs and record them, or record while another program drives");
   command.add_option("--out", options->out, "the MCAP file to write, or the folder for the runs").required();
   add_connection(command, options->connection);
-  command.add_option("--truth", options->truth.source, "sim or none")
-      .one_of({"sim", "none"})
+  command
+      .add_option("--truth", options->truth.source,
+                  "sim, none, or a tracker: vrpn://HOST/BODY,\nnatnet://HOST/BODY")
+      .type_name("SOURCE")
+      .check(truth_source({"sim", "none"}))
       .capture_default_str();
   options->seconds_option = command
                                 .add_option("--seconds", options->seconds,

@@ -42,8 +42,11 @@ struct UmbmarkOptions {
 void add_options(console::Command command, UmbmarkOptions& options) {
   experiment::Plan& plan = options.plan;
   add_connection(command, options.connection);
-  command.add_option("--truth", options.truth.source, "sim, manual (tape measure) or file")
-      .one_of({"sim", "manual", "file"})
+  command
+      .add_option("--truth", options.truth.source,
+                  "sim, manual (tape measure), file, or a tracker:\nvrpn://HOST/BODY, natnet://HOST/BODY")
+      .type_name("SOURCE")
+      .check(truth_source({"sim", "manual", "file"}))
       .required();
   options.truth_folder = command.add_option("--truth-folder", options.truth.folder,
                                             "--truth file: where the CSV of each run appears;\n"
@@ -196,6 +199,7 @@ void add_umbmark(console::Command app) {
       "  1.012,1.987,91.5\n"
       "Examples:\n"
       "  astrolabe umbmark --truth sim --out my-experiment\n"
+      "  astrolabe umbmark --port /dev/ttyACM0 --truth vrpn://lab-pc:3883/ASTRO --out my-experiment\n"
       "  astrolabe umbmark --port /dev/ttyACM0 --truth manual --runs 5 --side 3 --out my-experiment\n"
       "  astrolabe umbmark --truth sim --until 0.05% --out my-experiment\n"
       "  astrolabe umbmark --port P --truth sim --runs 5 --side 3 --out DIR --yes --json");

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "host/base/error.hpp"
+#include "host/base/numbers.hpp"
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
 #include "host/console/options.hpp"
@@ -130,6 +132,61 @@ void add_robot_options(console::Command command, sim::Config& robot) {
       .check(console::whole(0, std::numeric_limits<std::uint64_t>::max()));
 }
 
+/// Cameras that see the robot, for this computer's programs and for the network.
+void add_camera_options(console::Command command, simulation::MocapConfig& mocap) {
+  command.add_option("--tracker-rate", mocap.rate_hz, "poses per second of the virtual cameras")
+      .type_name("HZ")
+      .capture_default_str()
+      .check(console::between(1, 1000, "Hz"));
+  command
+      .add_option("--tracker-ahead", mocap.ahead_m,
+                  "where the tracked body sits on the robot, m before its centre")
+      .type_name("M")
+      .capture_default_str()
+      .check(console::between(-1, 1, "m"));
+  command.add_option("--tracker-left", mocap.left_m, "the same, m to the left")
+      .type_name("M")
+      .capture_default_str()
+      .check(console::between(-1, 1, "m"));
+}
+
+/// The tracking software beside the robot, for clients of real ones.
+void add_tracker_options(console::Command command, simulation::NetworkTrackerConfig& tracker) {
+  command
+      .add_option_function(
+          "--vrpn-port",
+          [&tracker](const std::vector<std::string>& words) {
+            tracker.vrpn_port = static_cast<std::uint16_t>(*integer_in(words.front()));
+          },
+          fmt::format("also send the robot's pose by VRPN, as '{}'; usual: 3883; 0: any that is free",
+                      tracker.body))
+      .type_name("PORT")
+      .check(console::whole(0, 65'535));
+  command
+      .add_option_function(
+          "--natnet-port",
+          [&tracker](const std::vector<std::string>& words) {
+            tracker.natnet_port = static_cast<std::uint16_t>(*integer_in(words.front()));
+          },
+          "the same by NatNet; usual: 1510")
+      .type_name("PORT")
+      .check(console::whole(0, 65'535));
+  command
+      .add_option("--tracker-latency", tracker.faults.latency_s,
+                  "--vrpn-port, --natnet-port: from the exposure until a pose leaves, s")
+      .type_name("S")
+      .capture_default_str()
+      .check(console::between(0, 1, "s"));
+  command
+      .add_option("--tracker-drops", tracker.faults.dropped,
+                  "--vrpn-port, --natnet-port: share of the poses that are lost")
+      .type_name("SHARE")
+      .capture_default_str()
+      .check(console::between(0, 1, ""));
+  command.add_flag("--tracker-for-all", tracker.everywhere,
+                   "--vrpn-port, --natnet-port: also for other computers");
+}
+
 }  // namespace
 
 // Wheels and wheelbase have the errors of the robot of the reference measurements.
@@ -143,6 +200,7 @@ sim::Config reference_robot() {
 void prepare(SimOptions& options, std::size_t flash_bytes) {
   if (options.server.pty.empty()) options.server.pty = robot::make_runtime_folder() / "astro.pty";
   simulation::sweep_dead_links(robot::runtime_folder());
+  options.mocap.seed = options.server.tracker.faults.seed = options.robot.seed;
   check_folder("--pty", options.server.pty);
   check_folder("--usb-pty", options.server.second_pty);
   check_flash(options.server.flash, flash_bytes);
@@ -154,6 +212,13 @@ void serve(simulation::Server& server, const std::string& what) {
   const fs::path& pty = server.config().pty;
   const auto link = link_in_runtime_folder(pty);
   console::say(fmt::format("{} is at {}", what, pty.string()));
+  const auto say_address = [&](const char* protocol, const auto& tracker) {
+    if (!tracker) return;
+    console::say(fmt::format("its pose is at {}://{}:{}/{}", protocol, tracker->address().host(),
+                             tracker->port(), server.config().tracker.body));
+  };
+  say_address("vrpn", server.tracker().vrpn());
+  say_address("natnet", server.tracker().natnet());
   console::say(fmt::format("next: astrolabe info --port {}   (Ctrl-C here ends it)", pty.string()));
   server.run(console::interrupted);
 }
@@ -166,6 +231,8 @@ void add_sim_options(console::Command command, SimOptions& options) {
   command.add_flag("--fast", options.server.fast, "let virtual time run ahead while a host keeps up with it");
   command.add_option("--flash", options.server.flash, "file that keeps the parameters between starts")
       .type_name("FILE");
+  add_camera_options(command, options.mocap);
+  add_tracker_options(command, options.server.tracker);
 }
 
 }  // namespace astro::commands

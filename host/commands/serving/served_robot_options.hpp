@@ -15,6 +15,7 @@ sim::Config reference_robot();
 struct SimOptions {
   simulation::ServerConfig server;
   sim::Config robot = reference_robot();
+  simulation::MocapConfig mocap;
 };
 
 void add_sim_options(console::Command command, SimOptions& options);

@@ -1,13 +1,46 @@
 #include "host/commands/shared/truth_option.hpp"
 
+#include <algorithm>
+
 #include "host/base/error.hpp"
 #include "host/commands/base/remedies.hpp"
 #include "host/console/console.hpp"
 #include "host/truth/files/file_source.hpp"
+#include "host/truth/live/live_source.hpp"
 #include "host/truth/live/socket_source.hpp"
 #include "host/truth/source/no_source.hpp"
 
 namespace astro::commands {
+namespace {
+
+std::unique_ptr<truth::Source> open_tracker(const std::string& address) {
+  auto source = std::make_unique<truth::LiveSource>(truth::tracker_url_in(address));
+  console::say("ground truth: " + source->description());
+  return source;
+}
+
+/// "sim, manual, vrpn://HOST/BODY or natnet://HOST/BODY"
+std::string choice_of(const std::vector<std::string>& words) {
+  std::string choice;
+  for (const std::string& word : words) choice += word + ", ";
+  return choice + "vrpn://HOST/BODY or natnet://HOST/BODY";
+}
+
+}  // namespace
+
+console::Check truth_source(std::vector<std::string> words) {
+  return [words = std::move(words)](const std::string& word) -> std::string {
+    if (std::find(words.begin(), words.end(), word) != words.end()) return "";
+    if (!truth::is_tracker_url(word))
+      return "'" + word + "' is not a source of ground truth: choose " + choice_of(words);
+    try {
+      truth::tracker_url_in(word);
+      return "";
+    } catch (const Error& error) {
+      return in_words(error);
+    }
+  };
+}
 
 std::string ask_person(const truth::Question& question) {
   return console::ask(in_words(question.occasion) + question.text);
@@ -19,6 +52,7 @@ std::unique_ptr<truth::Source> open_truth(const TruthOption& option, const std::
   if (option.source == "manual") return std::make_unique<truth::ManualSource>(asking);
   if (option.source == "file") return std::make_unique<truth::FileSource>(option.folder, asking);
   if (option.source == "none") return std::make_unique<truth::NoSource>();
+  if (truth::is_tracker_url(option.source)) return open_tracker(option.source);
   throw Error("'" + option.source + "' is not a source of ground truth: choose sim, manual, file or none");
 }
 

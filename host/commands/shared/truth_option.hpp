@@ -3,13 +3,16 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "host/console/command_line.hpp"
 #include "host/truth/manual/manual_source.hpp"
 #include "host/truth/source/source.hpp"
 
 namespace astro::commands {
 
-/// --truth: where ground truth comes from.
+/// --truth: where ground truth comes from. Besides these words the address of a tracker on the network
+/// (host/truth/live/tracker_url.hpp).
 ///   sim     the virtual cameras beside the port of an 'astrolabe sim'
 ///   manual  a person with a tape measure is asked after each run
 ///   file    each run's ground truth is read from a CSV that another program wrote
@@ -19,10 +22,14 @@ struct TruthOption {
   std::filesystem::path folder;  // file: where the CSV files appear
 };
 
+/// Accepts these words and the addresses of trackers.
+console::Check truth_source(std::vector<std::string> words);
+
 /// Asks at the terminal.
 std::string ask_person(const truth::Question& question);
 
-/// `asking`: how a person is asked, if one is. Throws astro::Error if the source cannot be opened.
+/// Says what a source on the network turned out to be. `asking`: how a person is asked, if one is. Throws astro::Error if
+/// the source cannot be opened.
 std::unique_ptr<truth::Source> open_truth(const TruthOption& option, const std::string& port,
                                           const truth::Ask& asking = ask_person);
 

@@ -10,9 +10,7 @@ namespace {
 void run(const SimOptions& wanted) {
   SimOptions options = wanted;
   prepare(options, sim::Flash::kBytes);
-  simulation::MocapConfig mocap;
-  mocap.seed = options.robot.seed;
-  simulation::Server server(options.robot, mocap, options.server);
+  simulation::Server server(options.robot, options.mocap, options.server);
   serve(server, "a simulated robot");
 }
 

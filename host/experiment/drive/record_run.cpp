@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "host/base/error.hpp"
 
@@ -21,6 +22,30 @@ constexpr auto kRest = 700ms;  // at each end; host/recording/run/rest.hpp needs
 constexpr std::uint32_t kFields = Telemetry::kPose | Telemetry::kCounts | Telemetry::kTwist;
 constexpr int kSamplesPerLook = 5;  // at the truth
 
+/// Puts ground truth that is on this computer's clock onto the robot's, by an offset that does not change
+/// during a recording: a map that follows every round trip would bend the time, and look like a motion. The
+/// calibration finds what is left of the offset, and the skew.
+class TruthTime {
+ public:
+  TruthTime(robot::Client& client, const truth::Source& truth)
+      : client_(client), on_host_(truth.clock() == "host") {}
+
+  /// Returns false as long as no round trip has shown the robot's clock.
+  bool known() {
+    if (on_host_ && !offset_us_) {
+      const std::int64_t now_us = client_.now().count();
+      if (const auto device_us = client_.clock().to_device(now_us)) offset_us_ = *device_us - now_us;
+    }
+    return !on_host_ || offset_us_;
+  }
+  std::int64_t on_robot_us(std::int64_t time_us) const { return time_us + offset_us_.value_or(0); }
+
+ private:
+  robot::Client& client_;
+  bool on_host_;
+  std::optional<std::int64_t> offset_us_;
+};
+
 /// Passes both streams on during its lifetime: the truth samples between the first and the newest odometry.
 class Collector {
  public:
@@ -30,6 +55,7 @@ class Collector {
       robot::Client& client, truth::Source& truth, const SampleSink& sink, Moved moved = [](const auto&) {})
       : client_(client),
         truth_(truth),
+        truth_time_(client, truth),
         sink_(sink),
         moved_(std::move(moved)),
         subscription_(client.on<Telemetry>([this](const Telemetry& telemetry) {
@@ -73,7 +99,10 @@ class Collector {
     moved_(sample);
   }
   void look() {
-    for (const recording::TruthSample& sample : truth_.poll()) {
+    std::vector<recording::TruthSample> samples = truth_.poll();
+    if (!truth_time_.known()) return;
+    for (recording::TruthSample& sample : samples) {
+      sample.time_us = truth_time_.on_robot_us(sample.time_us);
       newest_truth_us_ = sample.time_us;
       early_.push_back(sample);
     }
@@ -86,6 +115,7 @@ class Collector {
 
   robot::Client& client_;
   truth::Source& truth_;
+  TruthTime truth_time_;
   const SampleSink& sink_;
   Moved moved_;
   Recorded count_;

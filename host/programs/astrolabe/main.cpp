@@ -16,6 +16,7 @@
 #include "host/commands/robot/commands.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/commands/simulate/commands.hpp"
+#include "host/commands/truth/commands.hpp"
 #include "host/commands/tune/commands.hpp"
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
@@ -33,7 +34,7 @@ void add_commands(Command app) {
   for (const auto add : {add_umbmark,      add_calibrate, add_upload, add_record, add_compare, add_report,
                          add_sim,          add_ports,     add_info,   add_params, add_drive,   add_stop,
                          add_pause,        add_resume,    add_faults, add_reboot, add_flash,   add_monitor,
-                         add_check_wiring, add_tune,      add_plan,   add_study,  add_export})
+                         add_check_wiring, add_tune,      add_plan,   add_study,  add_export,  add_truth})
     add(app);
 }
 

@@ -39,7 +39,7 @@ struct RunInfo {
   std::string robot_name, robot_id, board, firmware;
   std::string started_at;    // ISO 8601, UTC
   std::string truth_source;  // "sim", "manual", "file", "" if none
-  std::string truth_clock;   // "robot" or how the times were mapped
+  std::string truth_clock;   // "robot"; "host": mapped from the recording computer's
   /// The parameters that were loaded in the robot while it drove, SI values by table name: c_R, c_L, b, ...
   std::map<std::string, double> parameters;
 };

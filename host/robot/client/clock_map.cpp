@@ -83,6 +83,15 @@ std::optional<HostTime> ClockMap::to_host(std::uint64_t device_us) const {
   return HostTime{origin.sent_us + std::llround(line.host + line.slope * t), bound};
 }
 
+std::optional<std::int64_t> ClockMap::to_device(std::int64_t host_us) const {
+  const std::vector<RoundTrip> trips = used();
+  if (trips.empty()) return std::nullopt;
+  const Fit line = fit(trips);
+  const RoundTrip& origin = trips.back();
+  const double t = (static_cast<double>(host_us - origin.sent_us) - line.host) / line.slope;
+  return static_cast<std::int64_t>(origin.device_us) + std::llround(line.device + t);
+}
+
 std::optional<double> ClockMap::drift() const {
   const std::vector<RoundTrip> trips = used();
   if (trips.empty()) return std::nullopt;

@@ -44,6 +44,9 @@ class ClockMap {
   /// Nothing before the first add().
   std::optional<HostTime> to_host(std::uint64_t device_us) const;
 
+  /// The robot's time at a moment of the host's clock, by the same fit. Nothing before the first add().
+  std::optional<std::int64_t> to_device(std::int64_t host_us) const;
+
   /// Device seconds per host second, minus 1: +0.024 for a robot whose clock runs 2.4 % fast. Nothing while
   /// the slope is assumed, not measured.
   std::optional<double> drift() const;

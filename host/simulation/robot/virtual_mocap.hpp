@@ -16,6 +16,8 @@ struct MocapConfig {
   std::uint64_t seed = 1;
   // The tracker's frame as seen from the simulated world's: an uncalibrated origin, as in any lab.
   double origin_x_m = 1.25, origin_y_m = -0.75, origin_theta_rad = 0.4;
+  // Where the tracked body sits on the robot: ahead and to the left of the point between the wheels.
+  double ahead_m = 0, left_m = 0;
 };
 
 /// Eight cameras that see a simulated robot: the true pose at a fixed rate, in the tracker's own frame, with

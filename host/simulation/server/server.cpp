@@ -68,7 +68,7 @@ Server::Server(const sim::Config& robot, const MocapConfig& mocap, const ServerC
     : Server(std::make_unique<ServedVirtualRobot>(with_flash(robot, config.flash), mocap), config) {}
 
 Server::Server(std::unique_ptr<ServedRobot> robot, const ServerConfig& config)
-    : config_(config), robot_(std::move(robot)), pace_(Clock::now()) {
+    : config_(config), robot_(std::move(robot)), tracker_(config.tracker), pace_(Clock::now()) {
   channels_.emplace_back(*robot_, 0, config.pty);
   if (!config.second_pty.empty()) channels_.emplace_back(*robot_, 1, config.second_pty);
   truth_.emplace(beside(config.pty, ".mocap"));
@@ -104,6 +104,7 @@ void Server::run(const std::function<bool()>& stop) {
 
 void Server::receive() {
   truth_->accept_clients();
+  tracker_.work();
   bool heard = false;
   for (Channel& channel : channels_) {
     heard |= channel.receive();  // first, so that bytes sent before the port was closed arrive
@@ -150,7 +151,9 @@ bool Server::runs_ahead(bool host_is_behind) {
 
 void Server::step() {
   robot_->step();
-  for (const recording::TruthSample& sample : robot_->take_truth()) truth_->send(sample);
+  const std::vector<recording::TruthSample> seen = robot_->take_truth();
+  for (const recording::TruthSample& sample : seen) truth_->send(sample);
+  tracker_.step(seen);
   if (robot_->now_us() < last_heard_us_) last_heard_us_ = 0;  // the robot restarted
 }
 

@@ -13,6 +13,7 @@
 #include "host/simulation/server/pace.hpp"
 #include "host/simulation/server/served_robot.hpp"
 #include "host/simulation/server/truth_server.hpp"
+#include "host/simulation/tracker/network_tracker.hpp"
 
 namespace astro::simulation {
 
@@ -25,6 +26,7 @@ struct ServerConfig {
   std::filesystem::path flash{};
   bool fast = false;
   std::filesystem::path second_pty{};  // to port 1; empty: none
+  NetworkTrackerConfig tracker{};      // by which protocols trackers of the network send the robot's pose
 };
 
 /// The content of a flash file; empty if there is none. Throws astro::Error if it cannot be read.
@@ -38,7 +40,7 @@ std::vector<std::uint8_t> load_flash(const std::filesystem::path& path);
 /// dies.
 class Server {
  public:
-  /// A VirtualRobot. Throws astro::Error if a pty or the file of the flash cannot be used.
+  /// A VirtualRobot. Throws astro::Error if a pty, the file of the flash or a port cannot be used.
   Server(const sim::Config& robot, const MocapConfig& mocap, const ServerConfig& config);
   /// Another robot, whose flash holds load_flash(config.flash) already. Throws the same.
   Server(std::unique_ptr<ServedRobot> robot, const ServerConfig& config);
@@ -48,6 +50,7 @@ class Server {
   void run(const std::function<bool()>& stop);
 
   const ServerConfig& config() const { return config_; }
+  const NetworkTracker& tracker() const { return tracker_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -65,6 +68,7 @@ class Server {
   ServerConfig config_;
   std::unique_ptr<ServedRobot> robot_;
   std::deque<Channel> channels_;
+  NetworkTracker tracker_;
   std::optional<TruthServer> truth_;  // after the ptys, whose links show that the paths are free
   std::uint64_t last_heard_us_ = 0;   // virtual
   Clock::time_point heard_at_{};      // the same in real time

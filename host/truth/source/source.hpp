@@ -18,8 +18,8 @@ class Source {
   Source& operator=(const Source&) = delete;
   virtual ~Source() = default;
 
-  /// All samples that arrived since the last call, oldest first; never waits. Times are on the robot's clock
-  /// if clock() is "robot". Throws astro::Error if the tracker is gone.
+  /// All samples that arrived since the last call, oldest first; never waits. Times are on the clock that
+  /// clock() names. Throws astro::Error if the tracker is gone.
   virtual std::vector<recording::TruthSample> poll() = 0;
 
   /// Whether truth comes from complete(), that is from people or files. Then the drive is saved before they
@@ -33,8 +33,12 @@ class Source {
     return {};
   }
 
+  /// What a person should know about the source now that it is open: one clause, or "".
+  virtual std::string description() const { return ""; }
+
   /// "sim", "vrpn", ...: the name in recordings.
   virtual std::string name() const = 0;
+  /// "robot", "host" (this computer's steady clock, in microseconds), or what else the times mean.
   virtual std::string clock() const = 0;
 };
 

@@ -330,6 +330,16 @@ TEST(UsbOut, TheToggleBeginsAnewOnCommand) {
   EXPECT_EQ(device.buffer(128)[64], 8);
 }
 
+TEST(UsbOut, APacketForABufferThatNoBusMasterReachesIsDroppedAndEndsTheRun) {
+  for (const char* buffer : {"0x60003000", "0x10003000"}) {  // flash; nothing
+    Device device(std::string("  transfer 512\n set 0x20002008, ") + buffer + "\n prime 2, 0");
+    device.usb().out(0, 2, Bytes(64, 7), false);
+    EXPECT_THAT(device.stopped_by(),
+                HasSubstr(std::string("a bus master goes to ") + buffer + ", which is no RAM"));
+    EXPECT_EQ(device.buffer(64), Bytes(64, 0));
+  }
+}
+
 TEST(UsbOut, MoreThanTheTransferTakesEndsTheRun) {
   Device device("  transfer 8\n prime 2, 0");
   device.usb().out(0, 2, Bytes(9), false);

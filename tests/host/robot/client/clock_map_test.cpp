@@ -99,6 +99,21 @@ TEST(ClockMap, MeasuresADriftOf24PerMille) {
   EXPECT_NEAR(*map.drift(), 0.024, 5.6e-5);
 }
 
+TEST(ClockMap, MapsBothWaysAlike) {
+  ClockMap map;
+  EXPECT_EQ(map.to_device(0), std::nullopt);
+  constexpr std::int64_t kHost_us = 7'000'000'000;  // the host's clock when the robot's shows 0
+  for (std::int64_t i = 0; i < 400; ++i) {
+    const std::int64_t at_us = kHost_us + 50'000 * i;
+    map.add({at_us,
+             static_cast<std::uint64_t>(std::llround(1.02 * static_cast<double>(at_us + 200 - kHost_us))),
+             at_us + 400});
+    const std::int64_t device_us = *map.to_device(at_us);
+    EXPECT_NEAR(static_cast<double>(map.to_host(static_cast<std::uint64_t>(device_us))->us - at_us), 0, 2)
+        << i;
+  }
+}
+
 TEST(ClockMap, BecomesMuchBetterThanASingleRoundTrip) {
   World world;
   world.drift = 0.024;

@@ -668,6 +668,23 @@ TEST(Relay, ADeviceThatSendsNoFramesIsToldFromASilentOne) {
   }
 }
 
+TEST(Relay, AProgramThatRepeatsItsHelloOnANoisyLineAndDoesNotReadIsLetGoAndNotAskedForAgain) {
+  Relay relay;
+  const SessionId id = relay.join({11, "astrolabe info"}, false);
+  const std::vector<std::uint8_t> text{'l', 'o', 'g', 'i', 'n', ':'};
+  relay.from_robot(text, milliseconds(0));
+  const Frame hello(Hello{}, 1);
+  std::size_t most = 0;
+  for (int i = 0; i < 200'000 && !relay.closing(id); ++i) {
+    relay.from_session(id, hello.bytes(), milliseconds(i));  // each time it is told that the line is noisy
+    most = std::max(most, relay.to_session(id).bytes());
+    if (!relay.closing(id)) taken_from(relay);
+  }
+  EXPECT_EQ(relay.closing(id), FarewellReason::reads_too_slowly);
+  EXPECT_NEAR(static_cast<double>(most), 1 << 18, 2) << "the bound of what waits for a program";
+  EXPECT_TRUE(relay.to_robot().empty()) << "the Hello of a program that has been let go begins no session";
+}
+
 TEST_F(SharedPort, AFaultIsReportedAsThatFaultThoughTheAbortedSegmentArrivesFirst) {
   DriveSession session(first.client);
   rig.arrives = [&](bool to_robot, const Header&) {

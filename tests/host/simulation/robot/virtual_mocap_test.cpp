@@ -44,6 +44,22 @@ TEST(VirtualMocap, SeesThePoseInItsOwnFrame) {
   EXPECT_TRUE(sample->valid);
 }
 
+TEST(VirtualMocap, SeesTheBodyWhereItSitsOnTheRobot) {
+  MocapConfig config = without_noise();
+  config.origin_x_m = config.origin_y_m = config.origin_theta_rad = 0;
+  config.ahead_m = 0.1;
+  config.left_m = 0.02;
+  for (const double theta_rad : {0.0, 1.0, 4.0}) {
+    VirtualMocap mocap(config);
+    const auto sample = mocap.advance(0, {3, 0.5, theta_rad});
+    ASSERT_TRUE(sample);
+    EXPECT_NEAR(std::hypot(sample->x_m - 3, sample->y_m - 0.5), std::hypot(0.1, 0.02), 1e-12);
+    const double bearing_rad = std::atan2(sample->y_m - 0.5, sample->x_m - 3) - theta_rad;
+    EXPECT_NEAR(std::remainder(bearing_rad, 2 * std::acos(-1.0)), std::atan2(0.02, 0.1), 1e-12)
+        << "to the left";
+  }
+}
+
 TEST(VirtualMocap, HasWhiteNoiseOfTheStatedSize) {
   MocapConfig config;
   config.origin_x_m = config.origin_y_m = config.origin_theta_rad = 0;

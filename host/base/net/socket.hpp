@@ -1,0 +1,106 @@
+#pragma once
+
+#include <sys/socket.h>
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "host/base/bytes.hpp"
+
+/// TCP and UDP without waiting: all sockets are non-blocking, and only the functions with a time-out wait.
+namespace astro::net {
+
+using std::chrono::microseconds;
+
+/// Owns a descriptor.
+class Socket {
+ public:
+  Socket() = default;
+  explicit Socket(int descriptor) : descriptor_(descriptor) {}
+  Socket(Socket&& other) noexcept;
+  Socket& operator=(Socket&& other) noexcept;
+  ~Socket();
+
+  explicit operator bool() const { return descriptor_ >= 0; }
+  int descriptor() const { return descriptor_; }
+
+ private:
+  int descriptor_ = -1;
+};
+
+/// An address on the network, of either family.
+struct Address {
+  sockaddr_storage storage{};
+  socklen_t size = sizeof storage;
+
+  /// The first address of a host. Throws astro::Error if its name has none.
+  static Address of(const std::string& host, std::uint16_t port);
+  /// This computer itself, which no other one reaches; or all of its networks.
+  static Address loopback(std::uint16_t port);
+  static Address everywhere(std::uint16_t port);
+  /// This computer's end of a socket.
+  static Address local(const Socket& socket);
+
+  const sockaddr* get() const { return reinterpret_cast<const sockaddr*>(&storage); }
+  sockaddr* get() { return reinterpret_cast<sockaddr*>(&storage); }
+  std::string host() const;  // in digits
+  std::uint16_t port() const;
+  Address with_port(std::uint16_t port) const;
+};
+
+/// True if there is something to read, or the other side has gone.
+bool wait_to_read(const Socket& socket, microseconds timeout);
+/// Of either of two; the second may be empty.
+bool wait_to_read(const Socket& one, const Socket& other, microseconds timeout);
+
+/// True if a connection that was begun has come to something.
+bool wait_to_connect(const Socket& socket, microseconds timeout);
+
+/// Begins to connect; connecting() tells when that is done. Empty if it failed at once.
+Socket begin_tcp(const Address& to);
+enum class Connecting : std::uint8_t { pending, connected, failed };
+/// Tells of a failure once.
+Connecting connecting(const Socket& socket);
+
+/// Port 0: any that is free. Throw astro::Error if the port is in use or the address is not this computer's.
+Socket listen_tcp(const Address& local);
+Socket bind_udp(const Address& local);
+
+/// What is sent to a group of IPv4, taken in at the network of a local address. Others on this computer may
+/// listen to the same. Throws astro::Error.
+Socket join_multicast(const std::array<std::uint8_t, 4>& group, std::uint16_t port, const Address& local);
+
+/// A connection that waits, and where it comes from; empty if none does.
+struct Accepted {
+  Socket socket;
+  Address from;
+};
+std::optional<Accepted> accept_tcp(const Socket& listener);
+
+/// A socket whose datagrams come from and go to this address alone. Throws astro::Error.
+Socket connect_udp(const Address& to);
+
+/// The number of bytes that were taken, maybe 0; nothing if the connection has ended.
+std::optional<std::size_t> send(const Socket& socket, ByteView bytes);
+/// One datagram, which is lost if it cannot be sent now.
+void send_datagram(const Socket& socket, ByteView bytes, const Address& to);
+
+/// The system keeps at most about this many bytes that the other side has not taken; otherwise megabytes.
+void bound_sending(const Socket& socket, int bytes);
+
+/// What has arrived by a connection, in `buffer`; empty if nothing has. Nothing at all if the connection has
+/// ended.
+std::optional<ByteView> receive(const Socket& socket, std::span<std::uint8_t> buffer);
+/// The next datagram, in `buffer` and cut to its size, and where it comes from; nothing if none waits.
+struct Datagram {
+  ByteView bytes;
+  Address from;
+};
+std::optional<Datagram> receive_datagram(const Socket& socket, std::span<std::uint8_t> buffer);
+
+}  // namespace astro::net

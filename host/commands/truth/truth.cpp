@@ -1,0 +1,14 @@
+#include "host/commands/truth/commands.hpp"
+#include "host/commands/truth/truth_watch.hpp"
+#include "host/console/options.hpp"
+
+namespace astro::commands {
+
+void add_truth(console::Command app) {
+  const console::Command command = app.add_subcommand("truth", "look at sources of ground truth");
+  command.require_subcommand(1, 1);
+  add_truth_watch(command);
+  console::examples(command, {"astrolabe truth watch vrpn://lab-pc:3883/ASTRO"});
+}
+
+}  // namespace astro::commands

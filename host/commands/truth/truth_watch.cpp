@@ -1,0 +1,102 @@
+#include "host/commands/truth/truth_watch.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "host/base/error.hpp"
+#include "host/commands/base/flags.hpp"
+#include "host/commands/shared/robot_view.hpp"
+#include "host/commands/truth/truth_watch_view.hpp"
+#include "host/console/console.hpp"
+#include "host/console/interrupt.hpp"
+#include "host/console/options.hpp"
+#include "host/truth/live/live_source.hpp"
+
+namespace astro::commands {
+namespace {
+
+using std::chrono::microseconds;
+using std::chrono::seconds;
+
+struct WatchOptions {
+  std::string address;
+  double seconds = 0;  // 0: until Ctrl-C
+  bool json = false;
+};
+
+/// The link without a source around it: a tracker that sends nothing is worth looking at, too.
+class Watch {
+ public:
+  explicit Watch(const truth::TrackerUrl& url) : link_(truth::open_link(url)), watch_(url.up) {}
+
+  void listen_until(microseconds end) {
+    for (microseconds now = truth::LiveSource::steady_now(); now < end;
+         now = truth::LiveSource::steady_now()) {
+      console::check_interrupt();
+      link_->work(now);
+      for (const truth::Sighting& sighting : link_->take()) watch_.take(sighting);
+      link_->wait(std::chrono::milliseconds(20));
+    }
+  }
+  truth::TrackerReport report() { return watch_.report(truth::LiveSource::steady_now().count()); }
+  /// What is being watched, once something has come.
+  std::string about() const { return fmt::format("'{}' {}", link_->body(), link_->way()); }
+  std::string why_silent() const { return link_->why_silent(); }
+
+ private:
+  std::unique_ptr<truth::TrackerLink> link_;
+  truth::TrackerWatch watch_;
+};
+
+void run(const WatchOptions& options) {
+  const truth::TrackerUrl url = truth::tracker_url_in(options.address);
+  Watch watch(url);
+  const microseconds begin = truth::LiveSource::steady_now();
+  const auto passed = [&] {
+    return 1e-6 * static_cast<double>((truth::LiveSource::steady_now() - begin).count());
+  };
+  bool seen = false;
+  for (int second = 1; options.seconds == 0 || passed() < options.seconds; ++second) {
+    watch.listen_until(begin + second * seconds(1));
+    const truth::TrackerReport report = watch.report();
+    if (report.poses == 0) {
+      console::say(fmt::format("nothing comes from {}: {}", url.place(), watch.why_silent()));
+      continue;
+    }
+    if (!std::exchange(seen, true)) console::say(watch.about());
+    print(options.json ? to_json(report).dump() : line_of(report));
+  }
+  if (!seen) throw Error(fmt::format("no ground truth came from {}: {}", url.place(), watch.why_silent()));
+}
+
+}  // namespace
+
+void add_truth_watch(console::Command truth) {
+  const auto options = std::make_shared<WatchOptions>();
+  const console::Command command =
+      truth.add_subcommand("watch", "show each second what a tracker sent in the last three");
+  command
+      .add_option("address", options->address,
+                  "vrpn://HOST[:PORT]/BODY or natnet://HOST[:PORT]/BODY,\nwith ?up=y if its y axis points up")
+      .type_name("URL")
+      .required();
+  command.add_option("--seconds", options->seconds, "end after this time (default: at Ctrl-C)")
+      .type_name("S")
+      .check(console::positive("s"));
+  add_json_flag(command, options->json);
+  command.footer(
+      "Hz: frames per second. jitter: of the tracker's own times / of their arrival. gap: the longest\n"
+      "without the body. missing: frames that did not come. lost: frames without the body. noise:\n"
+      "standard deviation of the position and the heading while the body stands.\n"
+      "Examples:\n"
+      "  astrolabe truth watch vrpn://lab-pc:3883/ASTRO\n"
+      "  astrolabe truth watch 'vrpn://lab-pc/ASTRO?up=y' --seconds 10 --json");
+  command.callback([options] { run(*options); });
+}
+
+}  // namespace astro::commands

@@ -1,0 +1,96 @@
+#include "host/truth/live/natnet_link.hpp"
+
+#include <array>
+#include <optional>
+
+#include "host/base/error.hpp"
+
+namespace astro::truth {
+
+using std::chrono::microseconds;
+using std::chrono::seconds;
+
+namespace {
+
+constexpr microseconds kCommandPeriod =
+    seconds(1);  // a server drops a client that it has not heard for some seconds
+constexpr microseconds kSilence = seconds(3);  // without any datagram
+constexpr int kMostDatagrams = 256;            // of one call, so that a server cannot keep us
+
+/// At the address by which this computer reaches the server.
+net::Socket command_socket(const net::Address& server) {
+  return net::bind_udp(net::Address::local(net::connect_udp(server)).with_port(0));
+}
+
+}  // namespace
+
+NatNetLink::NatNetLink(const TrackerUrl& url)
+    : url_(url.with_usual_port(natnet::kCommandPort)),
+      server_(net::Address::of(url_.host, url_.port)),
+      command_(command_socket(server_)),
+      stream_(url_.body) {}
+
+void NatNetLink::work(microseconds now) {
+  read(command_, now);
+  if (data_) read(data_, now);
+  if (!answered_ && stream_.server()) {
+    answered_ = true;
+    ++connections_;
+    open_data();
+    ask_at_ = now;  // for the names, at once
+  }
+  if (answered_ && now - heard_at_ > kSilence) {
+    answered_ = false;
+    data_ = {};
+    stream_ = NatNetStream(url_.body.empty() ? stream_.body() : url_.body);
+  }
+  if (now >= ask_at_) ask(now);
+}
+
+void NatNetLink::wait(microseconds timeout) { net::wait_to_read(command_, data_, timeout); }
+
+void NatNetLink::read(const net::Socket& socket, microseconds now) {
+  std::array<std::uint8_t, 65'536>
+      buffer;  // NOLINT(cppcoreguidelines-pro-type-member-init): receive fills it
+  for (int i = 0; i < kMostDatagrams; ++i) {
+    const auto datagram = net::receive_datagram(socket, buffer);
+    if (!datagram) return;
+    if (datagram->from.host() != server_.host()) continue;
+    heard_at_ = now;
+    stream_.push(datagram->bytes, now.count());
+  }
+}
+
+/// Without its own socket for data there may still be frames at the other one.
+void NatNetLink::open_data() {
+  const natnet::ServerInfo& info = *stream_.server();
+  multicast_ = info.multicast;
+  try {
+    const net::Address local = net::Address::local(command_);
+    data_ = multicast_ ? net::join_multicast(info.group, info.data_port, local)
+                       : net::bind_udp(local.with_port(info.data_port));
+    why_no_data_.clear();
+  } catch (const Error& error) {
+    data_ = {};
+    why_no_data_ = error.what();
+  }
+}
+
+void NatNetLink::ask(microseconds now) {
+  const auto send = [this](const Bytes& datagram) { net::send_datagram(command_, datagram, server_); };
+  if (!answered_) {
+    send(natnet::connect_request());
+  } else {
+    if (stream_.needs_names()) send(natnet::datagram_of(natnet::Id::request_models));
+    send(natnet::datagram_of(natnet::Id::keep_alive));
+  }
+  ask_at_ = now + kCommandPeriod;
+}
+
+std::string NatNetLink::why_silent() const {
+  if (!answered_) return "nothing answers there as a NatNet server";
+  const std::string why = stream_.why_silent();
+  return why.empty() || why_no_data_.empty() ? why : why + " (" + why_no_data_ + ")";
+}
+
+}  // namespace astro::truth

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "host/base/net/socket.hpp"
+#include "host/truth/live/natnet_stream.hpp"
+#include "host/truth/live/tracker_link.hpp"
+#include "host/truth/live/tracker_url.hpp"
+
+namespace astro::truth {
+
+/// A NatNet server, by UDP. It is asked until it answers, tells then whether it sends to this computer alone
+/// or to a multicast group, and is told each second that somebody listens. Clients disagree to which of our
+/// two sockets a server sends its frames to this computer alone, so both are read.
+class NatNetLink : public TrackerLink {
+ public:
+  /// Throws astro::Error if the host's name is unknown or no socket can be made.
+  explicit NatNetLink(const TrackerUrl& url);
+
+  void work(std::chrono::microseconds now) override;
+  void wait(std::chrono::microseconds timeout) override;
+  std::vector<Sighting> take() override { return stream_.take(); }
+  std::string why_silent() const override;
+  std::vector<std::string> bodies() const override { return stream_.bodies(); }
+  const std::string& body() const override { return stream_.body(); }
+  std::string way() const override { return multicast_ ? "by multicast" : "by UDP"; }
+  int connections() const override { return connections_; }
+
+ private:
+  using microseconds = std::chrono::microseconds;
+
+  void read(const net::Socket& socket, microseconds now);
+  void open_data();
+  void ask(microseconds now);
+
+  TrackerUrl url_;
+  net::Address server_;
+  net::Socket command_, data_;
+  NatNetStream stream_;
+  microseconds ask_at_{}, heard_at_{};
+  int connections_ = 0;
+  bool answered_ = false, multicast_ = false;
+  std::string why_no_data_;
+};
+
+}  // namespace astro::truth

@@ -1,0 +1,84 @@
+#include "host/truth/live/stamps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace astro::truth {
+namespace {
+
+constexpr std::int64_t kMostAhead_us = 100'000;      // of a sender's time after it arrived
+constexpr double kUsualJitter_s = 1e-3;              // of stamps in whole milliseconds
+constexpr std::int64_t kMostBehind_us = 10'000'000;  // of a network that holds samples back
+
+std::vector<double> intervals_of(std::span<const std::int64_t> times_us) {
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < times_us.size(); ++i)
+    intervals.push_back(static_cast<double>(times_us[i] - times_us[i - 1]));
+  return intervals;
+}
+
+double median_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double periods_in(double interval, double period) { return std::max(1.0, std::round(interval / period)); }
+
+/// The mean, if frames come in bursts. Otherwise missing frames would make the mean longer, so the periods are
+/// counted by the median.
+double period_of(const std::vector<double>& intervals, double span) {
+  const double mean = span / static_cast<double>(intervals.size()), median = median_of(intervals);
+  if (median < mean / 2) return mean;
+  double periods = 0;
+  for (const double interval : intervals) periods += periods_in(interval, median);
+  return span / periods;
+}
+
+/// Whether the sender's stamps pass at about the rate of time: they may be frame numbers, or in other units.
+bool counts_seconds(const Regularity& sender, const Regularity& arrival) {
+  constexpr double kMostRatio = 1.5;
+  return sender.period_s > 0 && sender.period_s < kMostRatio * arrival.period_s &&
+         arrival.period_s < kMostRatio * sender.period_s;
+}
+
+}  // namespace
+
+Regularity regularity_of(std::span<const std::int64_t> times_us) {
+  constexpr double kMicro = 1e-6;
+  const std::vector<double> intervals = intervals_of(times_us);
+  const double span = times_us.empty() ? 0 : static_cast<double>(times_us.back() - times_us.front());
+  if (!(span > 0)) return {};
+  const double period = period_of(intervals, span);
+  double square = 0;
+  for (const double interval : intervals) {
+    const double off = interval - periods_in(interval, period) * period;
+    square += off * off;
+  }
+  return {kMicro * period, kMicro * std::sqrt(square / static_cast<double>(intervals.size()))};
+}
+
+TrackerClock::TrackerClock(std::span<const Stamp> first) {
+  std::vector<std::int64_t> sent, arrived;
+  delay_us_ = first.front().arrival_us - first.front().sender_us;
+  for (const Stamp& stamp : first) {
+    sent.push_back(stamp.sender_us);
+    arrived.push_back(stamp.arrival_us);
+    delay_us_ = std::min(*delay_us_, stamp.arrival_us - stamp.sender_us);
+  }
+  sender_ = regularity_of(sent);
+  arrival_ = regularity_of(arrived);
+  const double most_s = std::max(kUsualJitter_s, 2 * arrival_.jitter_s);
+  senders_ = counts_seconds(sender_, arrival_) && sender_.jitter_s <= most_s;
+}
+
+std::int64_t TrackerClock::host_time_us(const Stamp& stamp) {
+  if (!senders_) return stamp.arrival_us;
+  const std::int64_t delay_us = stamp.arrival_us - stamp.sender_us,
+                     late_us = delay_us - delay_us_.value_or(delay_us);
+  if (!delay_us_ || late_us < -kMostAhead_us || late_us > kMostBehind_us) delay_us_ = delay_us;
+  return stamp.sender_us + *delay_us_;
+}
+
+}  // namespace astro::truth

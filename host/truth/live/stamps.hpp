@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+/// When a tracker's samples were taken: by its own clock, or by when they arrived.
+namespace astro::truth {
+
+/// One sample's two times. The sender's clock may begin anywhere; the arrival is on this computer's steady
+/// clock.
+struct Stamp {
+  std::int64_t sender_us = 0, arrival_us = 0;
+};
+
+/// How evenly times follow each other.
+struct Regularity {
+  double period_s = 0;  // 0: time does not pass
+  double jitter_s = 0;  // RMS of how far intervals are from whole numbers of periods, at least one
+};
+
+/// Frames that are missing do not count as jitter: an interval may be several periods long. Frames that come
+/// in bursts do: an interval has at least one period.
+Regularity regularity_of(std::span<const std::int64_t> times_us);
+
+/// Puts samples onto this computer's steady clock: by the sender's times, unless those of arrival are far more
+/// regular, as where a server stamps by a coarse clock. In doubt the sender's: the arrival may be regular in
+/// the moment of choosing and be late once the network or this computer is busy.
+///
+/// A sender's clock is mapped by a constant: the smallest delay among the first samples counts as none. What
+/// is left of the network's shortest delay, and the drift between two quartz clocks, are found with the
+/// offset and the skew of each run by the calibration. A sender's clock that jumps is mapped anew.
+class TrackerClock {
+ public:
+  /// Precondition: at least one stamp.
+  explicit TrackerClock(std::span<const Stamp> first);
+
+  bool is_senders() const { return senders_; }
+  const Regularity& sender() const { return sender_; }
+  const Regularity& arrival() const { return arrival_; }
+
+  std::int64_t host_time_us(const Stamp& stamp);
+  /// The sender's clock may be another one from the next stamp on.
+  void restart() { delay_us_.reset(); }
+
+ private:
+  Regularity sender_, arrival_;
+  bool senders_ = false;
+  std::optional<std::int64_t> delay_us_;  // arrival minus sender of the fastest sample
+};
+
+}  // namespace astro::truth

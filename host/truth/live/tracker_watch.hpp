@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "host/truth/live/sighting.hpp"
+
+namespace astro::truth {
+
+/// Scatter of a body that stands still.
+struct RestNoise {
+  double position_m = 0;  // standard deviation per coordinate
+  double heading_rad = 0;
+};
+
+/// What the last seconds of a tracker's poses were like.
+struct TrackerReport {
+  std::size_t poses = 0, lost = 0;  // received; of these without the body
+  double rate_hz = 0;               // of the frames, missing ones included
+  std::size_t missing = 0;          // frames that did not come, by the more regular clock
+  double longest_gap_s = 0;         // between two poses with the body
+  Regularity sender, arrival;       // the two clocks by which samples can be stamped
+  std::optional<FloorPose> pose;    // the last one with the body
+  std::optional<RestNoise> rest;    // nothing while the body moves
+};
+
+/// Keeps the last few seconds of a tracker's poses and sums them up.
+class TrackerWatch {
+ public:
+  /// `span_us`: of the arrivals that count.
+  explicit TrackerWatch(UpAxis up, std::int64_t span_us = 3'000'000) : up_(up), span_us_(span_us) {}
+
+  void take(const Sighting& sighting);
+  /// `now_us`: on the clock of the arrivals. What is older than the span is forgotten.
+  TrackerReport report(std::int64_t now_us);
+
+ private:
+  struct Seen {
+    Stamp stamp;
+    std::optional<FloorPose> pose;  // nothing: lost
+  };
+  std::optional<RestNoise> rest() const;
+
+  UpAxis up_;
+  std::int64_t span_us_;
+  std::deque<Seen> seen_;
+  std::optional<Pose3> last_;
+};
+
+}  // namespace astro::truth

@@ -1,0 +1,55 @@
+#include "host/truth/live/vrpn_stream.hpp"
+
+#include <algorithm>
+
+#include "host/truth/vrpn/tracker.hpp"
+
+namespace astro::truth {
+namespace {
+
+std::string list_of(const std::vector<std::string>& names) {
+  constexpr std::size_t kMostShown = 20;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), kMostShown); ++i)
+    list += (i == 0 ? "'" : ", '") + names[i] + "'";
+  if (names.size() > kMostShown) list += " and " + std::to_string(names.size() - kMostShown) + " more";
+  return list;
+}
+
+}  // namespace
+
+void VrpnStream::push(ByteView bytes, std::int64_t arrival_us) {
+  reader_.push(bytes);
+  while (const auto message = reader_.next())
+    if (!directory_.take(*message)) take_pose(*message, arrival_us);
+}
+
+void VrpnStream::take_pose(const vrpn::Message& message, std::int64_t arrival_us) {
+  if (directory_.type(message.type) != vrpn::kPoseType) return;
+  const std::string_view sender = directory_.sender(message.sender);
+  const auto pose = vrpn::pose_in(message.payload);
+  if (sender.empty() || !pose || pose->sensor != 0) return;
+  if (body_.empty()) body_ = sender;
+  ++poses_.try_emplace(std::string(sender)).first->second;
+  if (sender == body_) sightings_.push_back({{message.time_us, arrival_us}, pose->pose});
+}
+
+std::vector<std::string> VrpnStream::senders() const {
+  std::vector<std::string> names;
+  for (const auto& [name, count] : poses_) names.push_back(name);
+  return names;
+}
+
+std::string VrpnStream::why_silent() const {
+  if (poses_.contains(body_)) return "";
+  if (!reader_.greeted()) return "it has not answered as a VRPN server";
+  const std::vector<std::string> bodies = directory_.bodies();
+  if (bodies.empty()) return "it has described no body";
+  if (body_.empty()) return "it has described " + list_of(bodies) + " and sent no pose";
+  const bool known = std::find(bodies.begin(), bodies.end(), body_) != bodies.end();
+  if (!known) return "it knows no '" + body_ + "'; it has described " + list_of(bodies);
+  return "it knows '" + body_ + "' but sends no pose of it" +
+         (poses_.empty() ? "" : "; it sends poses of " + list_of(senders()));
+}
+
+}  // namespace astro::truth

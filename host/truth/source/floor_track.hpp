@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "host/recording/run/run.hpp"
+#include "host/truth/source/pose3.hpp"
+
+namespace astro::truth {
+
+/// A body's poses in space as samples on the floor: with headings that go on beyond half a turn, and marked
+/// as invalid where the tracker has lost the body.
+///
+/// Lost  trackers show it in different ways: an impossible pose, or the last one again and again. Noise
+///       changes a measured pose from frame to frame, so one that is equal to the last digit is not measured.
+class FloorTrack {
+ public:
+  explicit FloorTrack(UpAxis up) : up_(up) {}
+
+  /// `tracked`: the tracker itself says whether it sees the body.
+  recording::TruthSample take(std::int64_t time_us, const Pose3& pose, bool tracked = true);
+
+ private:
+  UpAxis up_;
+  std::optional<Pose3> last_;
+  double theta_rad_ = 0;  // of the last valid sample
+};
+
+}  // namespace astro::truth

@@ -1,0 +1,79 @@
+#include "host/truth/live/tracker_url.hpp"
+
+#include <gmock/gmock.h>
+
+#include "host/base/error.hpp"
+
+namespace astro::truth {
+namespace {
+
+using testing::HasSubstr;
+
+std::string complaint_about(std::string_view text) {
+  try {
+    tracker_url_in(text);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(TrackerUrl, NamesHostPortBodyAndUpAxis) {
+  const TrackerUrl url = tracker_url_in("vrpn://lab-pc:3884/ASTRO?up=y");
+  EXPECT_EQ(url.scheme, "vrpn");
+  EXPECT_EQ(url.host, "lab-pc");
+  EXPECT_EQ(url.port, 3884);
+  EXPECT_EQ(url.body, "ASTRO");
+  EXPECT_EQ(url.up, UpAxis::y);
+  EXPECT_EQ(url.place(), "lab-pc:3884");
+}
+
+TEST(TrackerUrl, LeavesPortBodyAndUpAxisToTheUsual) {
+  for (const char* text : {"natnet://10.0.0.5", "natnet://10.0.0.5/"}) {
+    const TrackerUrl url = tracker_url_in(text);
+    EXPECT_EQ(url.scheme, "natnet");
+    EXPECT_EQ(url.host, "10.0.0.5");
+    EXPECT_EQ(url.port, 0);
+    EXPECT_EQ(url.body, "");
+    EXPECT_EQ(url.up, UpAxis::z);
+  }
+}
+
+TEST(TrackerUrl, ABodysNameMayHaveAnyCharacters) {
+  EXPECT_EQ(tracker_url_in("vrpn://h/my robot").body, "my robot");
+  EXPECT_EQ(tracker_url_in("vrpn://h/a%3Fb%2fc").body, "a?b/c");
+  EXPECT_EQ(tracker_url_in("vrpn://h/a:b").body, "a:b");
+}
+
+TEST(TrackerUrl, AnAddressOfVersion6StandsInBrackets) {
+  const TrackerUrl url = tracker_url_in("vrpn://[::1]:3883/ASTRO");
+  EXPECT_EQ(url.host, "::1");
+  EXPECT_EQ(url.port, 3883);
+  EXPECT_EQ(url.place(), "[::1]:3883");
+}
+
+TEST(TrackerUrl, WhatIsWrongIsNamed) {
+  EXPECT_THAT(complaint_about("vrpn://"),
+              HasSubstr("'vrpn://' is not the address of a tracker: it has no host"));
+  EXPECT_THAT(complaint_about("vrpn:///ASTRO"), HasSubstr("it has no host"));
+  for (const char* port : {"", "0", "65536", "-1", "38x3", "99999999999999999999999"})
+    EXPECT_THAT(complaint_about(std::string("vrpn://h:") + port + "/A"),
+                HasSubstr("'" + std::string(port) + "' is not a port from 1 to 65535"));
+  EXPECT_THAT(complaint_about("vrpn://h/A?up=x"), HasSubstr("'up=x' is neither up=y nor up=z"));
+  EXPECT_THAT(complaint_about("vrpn://h/A?down=y"), HasSubstr("'down=y' is neither"));
+  EXPECT_THAT(complaint_about("vrpn://h/A?up=y&up=z"), HasSubstr("'&up=z' is left over"));
+  EXPECT_THAT(complaint_about("vrpn://[::1/A"), HasSubstr("bracket"));
+  for (const char* body : {"%", "%4", "%zz", "a%"})
+    EXPECT_THAT(complaint_about(std::string("vrpn://h/") + body), HasSubstr("hexadecimal")) << body;
+  EXPECT_THAT(complaint_about("http://h/A"), HasSubstr("neither vrpn:// nor natnet://"));
+}
+
+TEST(TrackerUrl, IsToldFromTheNamesOfOtherSources) {
+  EXPECT_TRUE(is_tracker_url("vrpn://h"));
+  EXPECT_TRUE(is_tracker_url("natnet://h"));
+  for (const char* text : {"sim", "manual", "vrpn", "vrpn:/h", "/home/vrpn://"})
+    EXPECT_FALSE(is_tracker_url(text)) << text;
+}
+
+}  // namespace
+}  // namespace astro::truth
