@@ -21,15 +21,15 @@ std::string listed(const std::vector<BodyName>& bodies) {
 }  // namespace
 
 std::size_t choose_body(const std::vector<BodyName>& bodies, std::string_view wanted, std::string_view file) {
-  if (wanted.empty()) {
-    if (bodies.size() == 1) return 0;
-    throw UnknownBody("'" + std::string(file) + "' holds several bodies: " + listed(bodies), bodies);
-  }
+  if (wanted.empty() && bodies.size() == 1) return 0;
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (bodies[i].name == wanted || bodies[i].id == wanted) found.push_back(i);
+    const bool by_id = !wanted.empty() && bodies[i].id == wanted;
+    if (bodies[i].name == wanted || by_id) found.push_back(i);
   }
   if (found.size() == 1) return found.front();
+  if (wanted.empty())
+    throw UnknownBody("'" + std::string(file) + "' holds several bodies: " + listed(bodies), bodies);
   const std::string how = found.empty() ? "no body" : "several bodies";
   throw UnknownBody("'" + std::string(file) + "' holds " + how + " of the name '" + std::string(wanted) +
                         "', but " + listed(bodies),

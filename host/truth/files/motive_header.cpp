@@ -1,9 +1,7 @@
 #include "host/truth/files/motive_header.hpp"
 
 #include <algorithm>
-#include <cctype>
 
-#include "host/base/csv_table.hpp"
 #include "host/base/error.hpp"
 
 namespace astro::truth {

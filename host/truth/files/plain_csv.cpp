@@ -4,7 +4,7 @@
 #include <cctype>
 #include <iterator>
 
-#include "host/base/csv_table.hpp"
+#include "host/base/error.hpp"
 #include "host/truth/files/pose_columns.hpp"
 #include "host/truth/files/rotations.hpp"
 
@@ -17,8 +17,23 @@ bool is_unit(std::string_view text) { return metres_per(text) || radians_per(tex
 struct ColumnName {
   std::string stem;  // lower case, without the unit: "pose.position.x"
   std::string last;  // behind the last separator: "x"
+  std::string body;  // what is before that and before words such as pose and position
   std::string unit;  // "" if there is none
 };
+
+/// "/mocap/pose/position/" -> "/mocap"
+std::string body_before(std::string stem) {
+  static constexpr std::string_view kWords[] = {"pose",      "position",   "pos",  "translation",
+                                                "transform", "p",          "q",    "rotation",
+                                                "rot",       "quaternion", "quat", "orientation"};
+  while (true) {
+    while (!stem.empty() && std::string_view("./_ ").find(stem.back()) != std::string_view::npos)
+      stem.pop_back();
+    const std::string_view word = std::string_view(stem).substr(stem.find_last_of("./_ ") + 1);
+    if (std::find(std::begin(kWords), std::end(kWords), word) == std::end(kWords)) return stem;
+    stem.resize(stem.size() - word.size());
+  }
+}
 
 ColumnName taken_apart(std::string_view cell) {
   ColumnName out;
@@ -35,17 +50,26 @@ ColumnName taken_apart(std::string_view cell) {
     out.stem.resize(at);
   }
   out.last = out.stem.substr(out.stem.find_last_of("./_ ") + 1);
+  out.body = body_before(out.stem.substr(0, out.stem.size() - out.last.size()));
   return out;
 }
 
-bool holds(const std::string& text, std::initializer_list<const char*> words) {
-  return std::any_of(words.begin(), words.end(),
-                     [&](const char* word) { return text.find(word) != text.npos; });
+/// Whether one of the words in `text` begins with one of `beginnings`.
+bool has_word(const std::string& text, std::initializer_list<std::string_view> beginnings) {
+  for (std::size_t at = 0; at < text.size();
+       at = text.find_first_of("./_ ", at), at += at != text.npos ? 1 : 0) {
+    const std::string_view rest = std::string_view(text).substr(at);
+    for (const std::string_view beginning : beginnings) {
+      if (rest.substr(0, beginning.size()) == beginning) return true;
+    }
+  }
+  return false;
 }
 
 /// What a column holds by its name; nothing if it is of no use here.
 std::optional<Slot> slot_named(const ColumnName& name) {
-  if (holds(name.stem, {"vel", "twist", "linear", "angular", "acc", "cov", "std", "sigma", "rate", "bias"}))
+  if (has_word(name.stem,
+               {"vel", "twist", "linear", "angular", "acc", "cov", "std", "sigma", "rate", "bias"}))
     return std::nullopt;
   static constexpr std::pair<std::string_view, Slot> kNames[] = {
       {"x", Slot::x},           {"y", Slot::y},           {"z", Slot::z},         {"tx", Slot::x},
@@ -54,7 +78,7 @@ std::optional<Slot> slot_named(const ColumnName& name) {
       {"qw", Slot::rw},         {"theta", Slot::heading}, {"yaw", Slot::heading}, {"heading", Slot::heading},
       {"psi", Slot::heading},   {"t", Slot::time},        {"time", Slot::time},   {"stamp", Slot::time},
       {"timestamp", Slot::time}};
-  const bool turns = holds(name.stem, {"orient", "quat", "rot"});
+  const bool turns = has_word(name.stem, {"orient", "quat", "rot", "q_", "q."});
   const auto* const found = std::find_if(std::begin(kNames), std::end(kNames),
                                          [&](const auto& entry) { return entry.first == name.last; });
   if (turns && name.last == "w") return Slot::rw;
@@ -66,6 +90,7 @@ std::optional<Slot> slot_named(const ColumnName& name) {
 }
 
 struct PlainHeader {
+  std::string body;
   PoseColumns columns;
   std::string length_unit, angle_unit, time_unit;
 };
@@ -85,21 +110,22 @@ void take_unit(const Rows& rows, Slot slot, int column, const std::string& unit,
   known = unit;
 }
 
-bool has_position(const PoseColumns& columns) {
-  return columns[Slot::x] >= 0 && columns[Slot::y] >= 0 && columns[Slot::time] >= 0;
+/// The columns of the body of this name, which is added if it is new.
+PlainHeader& header_of(std::vector<PlainHeader>& headers, const std::string& body) {
+  const auto found = std::find_if(headers.begin(), headers.end(), [&](auto& h) { return h.body == body; });
+  if (found != headers.end()) return *found;
+  headers.emplace_back();
+  headers.back().body = body;
+  return headers.back();
 }
 
-PlainHeader plain_header(const Rows& rows) {
-  PlainHeader out;
-  PoseColumns& columns = out.columns;
-  columns.dialect = dialect_of(rows.text());
-  const auto cells = split_header(rows, columns.dialect.separator);
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const ColumnName name = taken_apart(cells[i]);
-    const auto slot = slot_named(name);
-    if (!slot || columns[*slot] >= 0) continue;
-    columns[*slot] = static_cast<int>(i);
-    if (*slot < Slot::rx || *slot > Slot::rw) take_unit(rows, *slot, static_cast<int>(i), name.unit, out);
+/// Takes four columns of a quaternion, else a heading, else none.
+void settle_columns(PlainHeader& header, const PlainHeader& time, Dialect dialect) {
+  PoseColumns& columns = header.columns;
+  columns.dialect = dialect;
+  if (columns[Slot::time] < 0) {
+    columns[Slot::time] = time.columns[Slot::time];
+    header.time_unit = time.time_unit;
   }
   const Slot parts[] = {Slot::rx, Slot::ry, Slot::rz, Slot::rw};
   const bool turns = std::all_of(std::begin(parts), std::end(parts), [&](Slot s) { return columns[s] >= 0; });
@@ -108,9 +134,49 @@ PlainHeader plain_header(const Rows& rows) {
   columns.rotation = turns                         ? RotationKind::quaternion
                      : columns[Slot::heading] >= 0 ? RotationKind::heading
                                                    : RotationKind::none;
-  columns.metres = out.length_unit.empty() ? 1 : *metres_per(out.length_unit);
-  columns.radians = out.angle_unit.empty() ? 1 : *radians_per(out.angle_unit);
-  return out;
+  columns.metres = header.length_unit.empty() ? 1 : *metres_per(header.length_unit);
+  columns.radians = header.angle_unit.empty() ? 1 : *radians_per(header.angle_unit);
+}
+
+/// The bodies that have a time and a position, each by what its columns' names begin with.
+std::vector<PlainHeader> plain_headers(const Rows& rows) {
+  constexpr std::size_t kMostBodies = 200;
+  const Dialect dialect = dialect_of(rows.text());
+  const auto cells = split_header(rows, dialect.separator);
+  std::vector<PlainHeader> headers;
+  PlainHeader time;  // of all bodies that have none of their own
+  for (std::size_t i = 0; i < cells.size() && headers.size() < kMostBodies; ++i) {
+    const ColumnName name = taken_apart(cells[i]);
+    const auto slot = slot_named(name);
+    if (!slot) continue;
+    PlainHeader* header = &header_of(headers, name.body);
+    if (*slot == Slot::time && time.columns[Slot::time] < 0) header = &time;
+    if (header->columns[*slot] >= 0) continue;
+    header->columns[*slot] = static_cast<int>(i);
+    if (*slot < Slot::rx || *slot > Slot::rw) take_unit(rows, *slot, static_cast<int>(i), name.unit, *header);
+  }
+  for (PlainHeader& header : headers) settle_columns(header, time, dialect);
+  const auto incomplete = [](const PlainHeader& header) {
+    const PoseColumns& columns = header.columns;
+    return columns[Slot::x] < 0 || columns[Slot::y] < 0 || columns[Slot::time] < 0;
+  };
+  headers.erase(std::remove_if(headers.begin(), headers.end(), incomplete), headers.end());
+  return headers;
+}
+
+std::vector<BodyName> names_of(const std::vector<PlainHeader>& headers) {
+  std::vector<BodyName> names;
+  for (const PlainHeader& header : headers) names.push_back({header.body, ""});
+  return names;
+}
+
+/// The headers of a table; refused if no body is complete.
+std::vector<PlainHeader> required_headers(Rows& rows) {
+  if (!rows.next_filled()) throw Error("'" + std::string(rows.file()) + "' is empty");
+  std::vector<PlainHeader> headers = plain_headers(rows);
+  if (headers.empty())
+    rows.refuse("columns for the time and for x and y are needed, such as time_s, x_m and y_m");
+  return headers;
 }
 
 /// The unit of times without one: the one that makes them an epoch time between 2001 and 2600, else seconds.
@@ -139,19 +205,23 @@ bool is_plain_header(std::string_view line) {
   Rows rows(line, "");
   if (!rows.next()) return false;
   try {
-    return has_position(plain_header(rows).columns);
+    return !plain_headers(rows).empty();
   } catch (const Error&) {
     return true;  // the reader says what is wrong with it
   }
 }
 
-BodyTrack read_plain(std::string_view text, std::string_view file) {
+std::vector<BodyName> bodies_in_plain(std::string_view text, std::string_view file) {
   Rows rows(text, file);
-  if (!rows.next_filled()) throw Error("'" + std::string(file) + "' is empty");
-  PlainHeader header = plain_header(rows);
-  if (!has_position(header.columns))
-    rows.refuse("columns for the time and for x and y are needed, such as time_s, x_m and y_m");
+  return names_of(required_headers(rows));
+}
+
+BodyTrack read_plain(std::string_view text, std::string_view file, std::string_view body) {
+  Rows rows(text, file);
+  const std::vector<PlainHeader> headers = required_headers(rows);
+  PlainHeader header = headers[choose_body(names_of(headers), body, file)];
   BodyTrack track;
+  track.name = header.body;
   describe_plain(header, track.facts);
   PoseRow row(header.columns);
   TrackBuilder builder(track, text);
@@ -170,8 +240,8 @@ BodyTrack read_plain(std::string_view text, std::string_view file) {
     builder.add(sample, rows);
   }
   if (builder.repeated_times() > 0)
-    track.facts.remarks.push_back({std::to_string(builder.repeated_times()) +
-                                   " rows have the time of the row before them and were left out"});
+    track.facts.remarks.push_back({"rows left out because they have the time of the row before: " +
+                                   std::to_string(builder.repeated_times())});
   return track;
 }
 

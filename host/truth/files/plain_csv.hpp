@@ -1,11 +1,15 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
+#include "host/truth/files/body_choice.hpp"
 #include "host/truth/files/body_track.hpp"
 
-/// A table of one body whose first row names the columns.
+/// A table whose first row names the columns.
 ///
+/// Bodies    what the names of a body's columns begin with: /mocap/pose/position/x belongs to "/mocap", robot_x_m to
+///           "robot", x_m to "". Without a time of its own a body has the first one of the table.
 /// Position  x, y and perhaps z: x_m, "x (mm)", "x [cm]", tx, position.x, /pose/position/x
 /// Rotation  qx, qy, qz, qw (also orientation.x ...), or theta, yaw or heading about z; without either the
 ///           track has positions only
@@ -17,8 +21,11 @@
 /// names are passed over.
 namespace astro::truth {
 
-/// Throws astro::Error with file, line and column.
-BodyTrack read_plain(std::string_view text, std::string_view file);
+/// The bodies that have a time and a position. Throws astro::Error if there is none.
+std::vector<BodyName> bodies_in_plain(std::string_view text, std::string_view file);
+
+/// The track of one body (choose_body). Throws astro::Error with file, line and column.
+BodyTrack read_plain(std::string_view text, std::string_view file, std::string_view body = {});
 
 /// Whether a header such as this has a time and a position.
 bool is_plain_header(std::string_view line);

@@ -63,9 +63,10 @@ std::vector<BodyName> bodies_in(std::string_view text, std::string_view file) {
       return bodies_in_motive(text, file);
     case FileKind::vicon:
       return bodies_in_vicon(text, file);
+    case FileKind::plain:
+      return bodies_in_plain(text, file);
     case FileKind::tum:
     case FileKind::euroc:
-    case FileKind::plain:
       return {BodyName{}};
     case FileKind::motive_rows:
     case FileKind::unknown:
@@ -78,9 +79,10 @@ BodyTrack read_track(std::string_view text, std::string_view file, std::string_v
   const FileKind kind = recognise(text);
   if (kind == FileKind::motive) return read_motive(text, file, body);
   if (kind == FileKind::vicon) return read_vicon(text, file, body);
+  if (kind == FileKind::plain) return read_plain(text, file, body);
   if (kind == FileKind::motive_rows || kind == FileKind::unknown) refuse_kind(kind, text, file);
   if (!body.empty()) choose_body({BodyName{}}, body, file);
-  return kind == FileKind::plain ? read_plain(text, file) : read_tum(text, file);
+  return read_tum(text, file);
 }
 
 }  // namespace astro::truth

@@ -72,8 +72,8 @@ BodyTrack read_tum(std::string_view text, std::string_view file) {
     builder.add(sample, rows);
   } while (rows.next_filled());
   if (builder.repeated_times() > 0)
-    facts.remarks.push_back({std::to_string(builder.repeated_times()) +
-                             " rows have the time of the row before them and were left out"});
+    facts.remarks.push_back({"rows left out because they have the time of the row before: " +
+                             std::to_string(builder.repeated_times())});
   return track;
 }
 

@@ -59,6 +59,16 @@ void take_units(const Rows& rows, const std::vector<std::string_view>& units, Vi
   }
 }
 
+/// A body whose columns go from `begin` to before `end`.
+ViconBody body_at(const std::vector<std::string_view>& axes, std::size_t begin, std::size_t end) {
+  ViconBody body;
+  body.columns[Slot::frame] = 0;
+  body.columns[Slot::time] = axes.size() > 1 && axes[1] == "Sub Frame" ? 1 : -1;
+  for (std::size_t i = begin; i < std::min(end, axes.size()); ++i)
+    set_vicon_column(body.columns, axes[i], static_cast<int>(i));
+  return body;
+}
+
 /// Reads the header of a section behind its title, and adds the bodies that have a position.
 void read_section_header(Rows& rows, Dialect dialect, std::vector<ViconBody>& bodies) {
   const int section_line = rows.line();
@@ -75,19 +85,16 @@ void read_section_header(Rows& rows, Dialect dialect, std::vector<ViconBody>& bo
   const auto units = header_row();
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i].empty()) continue;
-    ViconBody body;
-    body.name.name = subject_of(without_prefix(names[i]));
-    body.name.id = without_prefix(names[i]);
-    body.columns.dialect = dialect;
-    body.columns[Slot::frame] = 0;
-    body.columns[Slot::time] = axes.size() > 1 && axes[1] == "Sub Frame" ? 1 : -1;
-    body.rate_hz = *rate;
-    body.section_line = section_line;
-    for (std::size_t k = i; k < axes.size() && (k == i || k >= names.size() || names[k].empty()); ++k)
-      set_vicon_column(body.columns, axes[k], static_cast<int>(k));
+    std::size_t end = i + 1;
+    while (end < axes.size() && (end >= names.size() || names[end].empty())) ++end;
+    ViconBody body = body_at(axes, i, end);
     const PoseColumns& columns = body.columns;
     if (columns[Slot::x] < 0 || columns[Slot::y] < 0 || columns[Slot::z] < 0) continue;
     if (bodies.size() >= kMostViconBodies) rows.refuse("the file has more than 10000 bodies");
+    body.name = {subject_of(without_prefix(names[i])), std::string(without_prefix(names[i]))};
+    body.columns.dialect = dialect;
+    body.rate_hz = *rate;
+    body.section_line = section_line;
     take_units(rows, units, body);
     const auto same = [&](const ViconBody& other) { return other.name == body.name; };
     if (std::none_of(bodies.begin(), bodies.end(), same)) bodies.push_back(std::move(body));

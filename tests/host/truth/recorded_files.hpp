@@ -6,9 +6,6 @@
 #include <filesystem>
 #include <string>
 
-#include "host/base/bytes.hpp"
-#include "host/base/files.hpp"
-
 /// Recordings of real trackers, which lie beside a developer's checkout only.
 namespace astro::test {
 

@@ -131,7 +131,7 @@ TEST(Tum, EurocHasNanosecondsAndTheScalarFirst) {
 TEST(Tum, RepeatedTimesAreLeftOutAndSaid) {
   const BodyTrack track = read_track("1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n", "t.txt");
   EXPECT_EQ(track.samples.size(), 2U);
-  EXPECT_EQ(track.facts.remarks.at(0).fact, "1 rows have the time of the row before them and were left out");
+  EXPECT_EQ(track.facts.remarks.at(0).fact, "rows left out because they have the time of the row before: 1");
   EXPECT_EQ(sentence_of("2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n"), "file, line 2: the time does not increase");
 }
 
@@ -169,6 +169,31 @@ TEST(PlainCsv, NamesOfOtherProgramsAreUnderstood) {
   EXPECT_EQ(german.samples.at(0).time_ns, 1'700'000'000'123'456'789);
   EXPECT_DOUBLE_EQ(german.samples[0].pose.x_m, 0.015);
   EXPECT_EQ(german.facts.rotation_kind, RotationKind::none);
+}
+
+TEST(PlainCsv, SeveralBodiesAreToldApartByWhatTheirNamesBeginWith) {
+  const std::string text =
+      "__time,/odom/pose/x,/odom/pose/y,/mocap/pose/position/x,/mocap/pose/position/y,/odom/twist/linear/x,"
+      "/mocap/stamp\n"
+      "1,10,20,30,40,50,7\n";
+  EXPECT_EQ(bodies_in(text, "p.csv"), (std::vector<BodyName>{{"/odom", ""}, {"/mocap", ""}}));
+  EXPECT_EQ(sentence_of(text), "'file' holds several bodies: '/odom', '/mocap'");
+  EXPECT_EQ(read_track(text, "p.csv", "/odom").samples.at(0).pose.x_m, 10);
+  EXPECT_EQ(read_track(text, "p.csv", "/odom").samples.at(0).time_ns, 1'000'000'000);
+  EXPECT_EQ(read_track(text, "p.csv", "/mocap").samples.at(0).pose.y_m, 40);
+  EXPECT_EQ(read_track(text, "p.csv", "/mocap").samples.at(0).time_ns, 7'000'000'000) << "its own stamp";
+  const BodyTrack own =
+      read_track("t,ref_x_m,ref_y_m,x_mm,y_mm,q_x,q_y,q_z,q_w\n1,1,2,3,4,0,0,0,1\n", "p.csv");
+  EXPECT_DOUBLE_EQ(own.samples.at(0).pose.x_m, 0.003) << "the one without a name";
+  EXPECT_EQ(own.facts.rotation_kind, RotationKind::quaternion);
+}
+
+TEST(ViconCsv, ASpreadsheetMayHaveSavedItAgain) {
+  std::string saved = kVicon;
+  for (char& c : saved) c = c == ',' ? ';' : c == '.' ? ',' : c;
+  saved.replace(saved.find("Objects"), 7, "Objects;;;");
+  EXPECT_EQ(recognise(saved), FileKind::vicon);
+  EXPECT_NEAR(turn_about_z(read_track(saved, "v.csv", "astro").samples.at(1).pose), 3.3, 1e-12);
 }
 
 TEST(PlainCsv, UnitsThatDoNotFitAreRefused) {
