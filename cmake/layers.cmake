@@ -57,6 +57,7 @@ set(ASTRO_LAYERS
   "host/simulation/study        : host/base host/calibration host/experiment host/recording/run host/robot/parameters host/simulation/robot"
   "host/simulation/tracker      : host/base host/recording/run host/truth/natnet host/truth/source host/truth/vrpn"
   "host/truth/files             : host/base host/truth/manual host/truth/source"
+  "host/truth/floor             : host/base host/calibration/clock host/calibration/motion host/recording/run host/truth/files host/truth/source"
   "host/truth/live              : host/base host/truth/natnet host/truth/source host/truth/vrpn"
   "host/truth/manual            : host/base host/recording/run host/truth/source"
   "host/truth/natnet            : host/base host/truth/source"
@@ -78,7 +79,7 @@ set(ASTRO_ON_ROBOT_FORBIDDEN
 # read off here: host/calibration, host/motor/model and host/robot/arbitration are on no line but those of Eigen and fmt.
 set(ASTRO_OUTSIDE
   "CLI/                     : host/console"
-  "Eigen/                   : host/calibration host/motor/model host/simulation/study"
+  "Eigen/                   : host/calibration host/motor/model host/simulation/study host/truth/floor"
   "boost/                   : host/robot/port host/robot/sharing"
   "fmt/                     : host"
   "lz4frame.h zlib.h zstd.h : host/recording/mcap"

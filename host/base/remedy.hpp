@@ -110,6 +110,12 @@ enum class Help : std::uint8_t {
   use_simulated_robot,
   write_decimal_point,
   sort_rows,
+  // recordings of trackers
+  name_body,
+  export_with_header,
+  export_rigid_bodies,
+  export_as_table,
+  export_in_one_frame,
   // calibrations
   name_calibration,
   name_calibration_in_folder,  // {file}

@@ -1,0 +1,24 @@
+#include "host/truth/files/frame_numbers.hpp"
+
+#include <cmath>
+
+namespace astro::truth {
+
+std::int64_t FrameNumbers::take(std::string_view cell, const Rows& rows) {
+  constexpr double kMostFrames = 1e12;
+  const auto number = cell_number(cell, decimal_comma_);
+  if (!number || *number != std::floor(*number) || std::abs(*number) > kMostFrames)
+    rows.refuse(1, shown_cell(cell) + " is no frame number");
+  const auto frame = static_cast<std::int64_t>(*number);
+  if (last_ && frame > *last_) dropped_ += frame - *last_ - 1;
+  last_ = frame;
+  return frame;
+}
+
+std::int64_t frame_time_ns(std::int64_t frame, double rate_hz, const Rows& rows) {
+  const double time_s = static_cast<double>(frame) / rate_hz;
+  if (!(std::abs(time_s) < 2e9)) rows.refuse(1, "the frame number is too large for a recording");
+  return std::llround(time_s * 1e9);
+}
+
+}  // namespace astro::truth

@@ -1,0 +1,115 @@
+#include "host/truth/files/pose_columns.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/base/csv_table.hpp"
+#include "host/truth/files/rotations.hpp"
+
+namespace astro::truth {
+namespace {
+
+/// Memory limit of the samples: this much plus twice the size of the text, which is in memory as well.
+constexpr std::size_t kFreeSampleBytes = std::size_t{40} << 20;
+
+bool is_text(std::size_t slot) { return slot <= static_cast<std::size_t>(Slot::time); }
+
+std::uint32_t bit(Slot slot) { return 1U << static_cast<unsigned>(slot); }
+
+std::uint32_t bits_needed(const PoseColumns& columns) {
+  std::uint32_t bits = 0;
+  for (std::size_t i = 2; i < kSlots; ++i) bits |= columns.column[i] >= 0 ? 1U << i : 0;
+  return bits;
+}
+
+}  // namespace
+
+PoseRow::PoseRow(const PoseColumns& columns) : columns_(columns), needed_(bits_needed(columns)) {
+  for (std::size_t i = 0; i < kSlots; ++i) {
+    if (columns.column[i] < 0) continue;
+    const auto at = static_cast<std::size_t>(columns.column[i]);
+    if (slot_of_.size() <= at) slot_of_.resize(at + 1, kSlots);
+    slot_of_[at] = static_cast<std::uint8_t>(i);
+  }
+}
+
+void PoseRow::read(const Rows& rows) {
+  present_ = 0;
+  text_ = {};
+  std::optional<std::string_view> rest = rows.text();
+  const Dialect dialect = columns_.dialect;
+  std::string_view cell;
+  for (std::size_t i = 0; i < slot_of_.size() && take_cell(rest, dialect.separator, cell); ++i) {
+    const std::size_t slot = slot_of_[i];
+    if (slot == kSlots || cell.empty()) continue;
+    if (is_text(slot)) {
+      text_[slot] = cell;
+      continue;
+    }
+    const auto value = cell_number(cell, dialect.decimal_comma());
+    if (value) {
+      number_[slot] = *value;
+      present_ |= 1U << slot;
+    } else if (cell != "nan" && cell != "NaN" && cell != "-nan") {
+      rows.refuse(static_cast<int>(i) + 1, shown_cell(cell) + " is not a number");
+    }
+  }
+}
+
+TrackedPose PoseRow::pose() const {
+  TrackedPose out;
+  out.valid = complete();
+  if (!out.valid) return out;
+  Pose3& p = out.pose;
+  p.x_m = at(Slot::x) * columns_.metres;
+  p.y_m = at(Slot::y) * columns_.metres;
+  p.z_m = (present_ & bit(Slot::z)) != 0 ? at(Slot::z) * columns_.metres : 0;
+  const double r = columns_.radians;
+  switch (columns_.rotation) {
+    case RotationKind::none:
+      break;
+    case RotationKind::quaternion:
+      set_rotation(p, {at(Slot::rx), at(Slot::ry), at(Slot::rz), at(Slot::rw)});
+      break;
+    case RotationKind::euler:
+      set_rotation(p,
+                   from_euler(columns_.euler_order, {r * at(Slot::rx), r * at(Slot::ry), r * at(Slot::rz)}));
+      break;
+    case RotationKind::heading:
+      set_rotation(p, from_euler("Z", {0, 0, r * at(Slot::heading)}));
+      break;
+    case RotationKind::rotation_vector:
+      break;
+  }
+  out.valid = is_possible(p);
+  if (out.valid && columns_.rotation == RotationKind::quaternion) normalise(p);
+  if (columns_.rotation == RotationKind::rotation_vector) {
+    set_rotation(p, {r * at(Slot::rx), r * at(Slot::ry), r * at(Slot::rz), 0});
+    out.valid = out.valid && std::abs(p.qx) + std::abs(p.qy) + std::abs(p.qz) < 1e4;
+  }
+  return out;
+}
+
+TrackBuilder::TrackBuilder(BodyTrack& track, std::string_view text) : track_(track) {
+  most_ = (kFreeSampleBytes + 2 * text.size()) / sizeof(TrackedPose);
+  const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+  track_.samples.reserve(std::min(most_, lines + 1));
+}
+
+void TrackBuilder::add(const TrackedPose& sample, const Rows& rows) {
+  if (!track_.samples.empty()) {
+    const std::int64_t before = track_.samples.back().time_ns;
+    if (sample.time_ns == before) {
+      ++repeated_times_;
+      return;
+    }
+    if (sample.time_ns < before)
+      astro::refuse(rows.file(), rows.line(), "the time does not increase", {Help::sort_rows});
+  }
+  if (track_.samples.size() >= most_)
+    astro::refuse(rows.file(), rows.line(), "the file has more rows than can be held",
+                  {Help::split_into_files});
+  track_.samples.push_back(sample);
+}
+
+}  // namespace astro::truth

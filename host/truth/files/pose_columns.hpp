@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "host/truth/files/body_track.hpp"
+#include "host/truth/files/rows.hpp"
+
+/// From the cells of a row to a pose: which column holds what, in which unit.
+namespace astro::truth {
+
+/// What a column can hold. The first two are kept as text, the others are numbers.
+enum class Slot : std::uint8_t { frame, time, x, y, z, rx, ry, rz, rw, heading };
+inline constexpr std::size_t kSlots = 10;
+
+struct PoseColumns {
+  /// The column of each slot, from 0; -1 if the table has none.
+  std::array<int, kSlots> column;
+  Dialect dialect;
+  RotationKind rotation = RotationKind::none;
+  std::string_view euler_order = "XYZ";
+  double metres = 1;   // of the file's unit of length
+  double radians = 1;  // of the file's unit of angle
+
+  PoseColumns() { column.fill(-1); }
+  int& operator[](Slot slot) { return column[static_cast<std::size_t>(slot)]; }
+  int operator[](Slot slot) const { return column[static_cast<std::size_t>(slot)]; }
+};
+
+/// Reads rows by a fixed assignment of columns. Cells behind the last one that is needed are not looked at.
+class PoseRow {
+ public:
+  explicit PoseRow(const PoseColumns& columns);
+
+  /// Takes the cells of the current row. A missing or empty cell is no error.
+  /// Throws astro::Error with file, line and column if a cell that must be a number is none.
+  void read(const Rows& rows);
+
+  std::string_view frame() const { return text_[0]; }
+  std::string_view time() const { return text_[1]; }
+
+  /// The pose in SI units with a quaternion of length 1, or an invalid one if a cell is empty or no body can
+  /// have this pose (zeros for a lost body). A rotation vector stays as it is in qx, qy and qz, with qw = 0,
+  /// because only the whole recording shows whether the file does not mean Euler angles.
+  TrackedPose pose() const;
+
+ private:
+  double at(Slot slot) const { return number_[static_cast<std::size_t>(slot)]; }
+  bool complete() const { return (present_ & needed_) == needed_; }
+
+  PoseColumns columns_;
+  std::vector<std::uint8_t> slot_of_;  // for each column up to the last needed one; kSlots: not needed
+  std::array<std::string_view, 2> text_;
+  std::array<double, kSlots> number_{};
+  std::uint32_t present_ = 0, needed_ = 0;
+};
+
+/// Collects samples, and keeps the memory that a hostile file can take within bounds.
+class TrackBuilder {
+ public:
+  TrackBuilder(BodyTrack& track, std::string_view text);
+
+  /// Throws astro::Error with file and line if the time does not increase (a repeated time is dropped and
+  /// counted), or if there are more samples than can be held.
+  void add(const TrackedPose& sample, const Rows& rows);
+  std::int64_t repeated_times() const { return repeated_times_; }
+
+ private:
+  BodyTrack& track_;
+  std::size_t most_;
+  std::int64_t repeated_times_ = 0;
+};
+
+}  // namespace astro::truth

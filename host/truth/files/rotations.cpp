@@ -1,0 +1,117 @@
+#include "host/truth/files/rotations.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace astro::truth {
+namespace {
+
+/// The value of the first entry with this name.
+template <class Value, std::size_t N>
+std::optional<Value> looked_up(const std::pair<std::string_view, Value> (&table)[N], std::string_view name) {
+  std::string lower(name.substr(0, 16));
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const auto& [key, value] : table) {
+    if (key == lower) return value;
+  }
+  return std::nullopt;
+}
+
+Quaternion turn_about(char axis, double angle_rad) {
+  const double s = std::sin(angle_rad / 2), c = std::cos(angle_rad / 2);
+  return {axis == 'X' ? s : 0, axis == 'Y' ? s : 0, axis == 'Z' ? s : 0, c};
+}
+
+}  // namespace
+
+Quaternion operator*(const Quaternion& a, const Quaternion& b) {
+  return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+          a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+}
+
+Quaternion conjugate(const Quaternion& q) { return {-q.x, -q.y, -q.z, q.w}; }
+
+Quaternion rotation_of(const Pose3& pose) { return {pose.qx, pose.qy, pose.qz, pose.qw}; }
+
+void set_rotation(Pose3& pose, const Quaternion& q) {
+  pose.qx = q.x;
+  pose.qy = q.y;
+  pose.qz = q.z;
+  pose.qw = q.w;
+}
+
+void normalise(Pose3& pose) {
+  const double length =
+      std::sqrt(pose.qx * pose.qx + pose.qy * pose.qy + pose.qz * pose.qz + pose.qw * pose.qw);
+  set_rotation(pose, {pose.qx / length, pose.qy / length, pose.qz / length, pose.qw / length});
+}
+
+Quaternion from_euler(std::string_view order, const std::array<double, 3>& angles_rad) {
+  Quaternion q;
+  for (const char axis : order) q = q * turn_about(axis, angles_rad[static_cast<std::size_t>(axis - 'X')]);
+  return q;
+}
+
+bool is_euler_order(std::string_view text) {
+  std::string sorted(text.substr(0, 4));
+  std::sort(sorted.begin(), sorted.end());
+  return sorted == "XYZ";
+}
+
+Quaternion from_rotation_vector(const std::array<double, 3>& v) {
+  const double angle = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  const double scale = angle > 1e-12 ? std::sin(angle / 2) / angle : 0.5;
+  return {scale * v[0], scale * v[1], scale * v[2], std::cos(angle / 2)};
+}
+
+double tilt_rad(const Quaternion& q, int axis) {
+  const double about = axis == 0 ? q.x : axis == 1 ? q.y : q.z;
+  return 2 * std::acos(std::min(1.0, std::hypot(about, q.w)));
+}
+
+std::optional<double> metres_per(std::string_view unit) {
+  static constexpr std::pair<std::string_view, double> kUnits[] = {{"m", 1},
+                                                                   {"meter", 1},
+                                                                   {"meters", 1},
+                                                                   {"metre", 1},
+                                                                   {"metres", 1},
+                                                                   {"mm", 1e-3},
+                                                                   {"millimeter", 1e-3},
+                                                                   {"millimeters", 1e-3},
+                                                                   {"millimetres", 1e-3},
+                                                                   {"cm", 1e-2},
+                                                                   {"centimeter", 1e-2},
+                                                                   {"centimeters", 1e-2},
+                                                                   {"centimetres", 1e-2},
+                                                                   {"dm", 0.1},
+                                                                   {"decimeters", 0.1},
+                                                                   {"um", 1e-6},
+                                                                   {"in", 0.0254},
+                                                                   {"inch", 0.0254},
+                                                                   {"inches", 0.0254},
+                                                                   {"ft", 0.3048},
+                                                                   {"foot", 0.3048},
+                                                                   {"feet", 0.3048},
+                                                                   {"km", 1e3}};
+  return looked_up(kUnits, unit);
+}
+
+std::optional<double> radians_per(std::string_view unit) {
+  constexpr double kDegree = std::numbers::pi / 180;
+  static constexpr std::pair<std::string_view, double> kUnits[] = {
+      {"rad", 1}, {"radians", 1}, {"deg", kDegree}, {"degrees", kDegree}, {"\xC2\xB0", kDegree}};
+  return looked_up(kUnits, unit);
+}
+
+std::optional<int> ns_power(std::string_view unit) {
+  static constexpr std::pair<std::string_view, int> kUnits[] = {
+      {"s", 9},  {"sec", 9}, {"secs", 9}, {"second", 9},       {"seconds", 9},
+      {"ms", 6}, {"us", 3},  {"ns", 0},   {"milliseconds", 6}, {"nsec", 0}};
+  return looked_up(kUnits, unit);
+}
+
+}  // namespace astro::truth

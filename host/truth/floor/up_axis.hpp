@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "host/truth/files/body_track.hpp"
+
+/// Which way is up in a tracker's frame, as a drive on a floor shows it. No format states it.
+namespace astro::truth {
+
+using Direction3 = std::array<double, 3>;  // of length 1
+
+struct UpAxisEvidence {
+  /// Normal of the plane in which the positions lie; nothing if they lie on a line or at a point.
+  std::optional<Direction3> by_positions;
+  double plane_rms_m = 0;  // distance of the positions from their plane
+
+  /// The axis about which the body turned; nothing if it hardly did, or if there are no rotations.
+  std::optional<Direction3> by_rotations;
+
+  double disagreement_rad = 0;  // between the two, if there are both; 0 to pi / 2
+};
+
+/// Both axes point to where their largest component is positive: whether that is up or down, positions and
+/// rotations cannot show. Uses valid samples only.
+UpAxisEvidence find_up_axis(const BodyTrack& track);
+
+/// More than this is no measurement error: positions and orientations are in different frames.
+inline constexpr double kLargestDisagreement_rad = 0.09;  // 5 degrees
+
+}  // namespace astro::truth

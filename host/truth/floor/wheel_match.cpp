@@ -1,0 +1,126 @@
+#include "host/truth/floor/wheel_match.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/calibration/clock/clock_search.hpp"
+
+namespace astro::truth {
+namespace {
+
+/// The angle at a time; nothing outside of the samples or within a gap.
+class AngleAt {
+ public:
+  explicit AngleAt(const Turning& turning) : turning_(turning) {}
+
+  std::optional<double> operator()(double time_s) {
+    while (next_ < turning_.size() && turning_[next_].time_s < time_s) ++next_;
+    while (next_ > 0 && next_ <= turning_.size() && turning_[next_ - 1].time_s >= time_s) --next_;
+    if (next_ == 0 || next_ >= turning_.size() || !turning_[next_].joined) return std::nullopt;
+    const TurningSample &a = turning_[next_ - 1], &b = turning_[next_];
+    return a.angle_rad + (b.angle_rad - a.angle_rad) * (time_s - a.time_s) / (b.time_s - a.time_s);
+  }
+
+ private:
+  const Turning& turning_;
+  std::size_t next_ = 0;
+};
+
+/// Left and right travel for a wheelbase that need only be roughly right.
+constexpr double kWheelbase_m = 0.2;
+
+std::vector<calibration::WheelSample> travel_of(std::span<const WheelMotion> wheels) {
+  std::vector<calibration::WheelSample> out;
+  double path_m = 0, turn_rad = 0;
+  for (std::size_t i = 0; i < wheels.size(); ++i) {
+    if (i > 0) {
+      const double dt = wheels[i].time_s - wheels[i - 1].time_s;
+      path_m += dt * (wheels[i].speed_mps + wheels[i - 1].speed_mps) / 2;
+      turn_rad += dt * (wheels[i].yaw_rate_radps + wheels[i - 1].yaw_rate_radps) / 2;
+    }
+    out.push_back(
+        {wheels[i].time_s, path_m - turn_rad * kWheelbase_m / 2, path_m + turn_rad * kWheelbase_m / 2});
+  }
+  return out;
+}
+
+/// The offset near `match` at which the turning agrees best.
+double refined_offset(const ClockMatch& match, const Turning& own, const Turning& wheels) {
+  constexpr double kStep_s = 0.01;
+  constexpr int kSteps = 20;
+  constexpr double kTurns = 0.8;  // less: the drive hardly turned
+  const auto at = [&](int step) {
+    return std::abs(
+        turning_correlation(own, wheels, match.offset_s + step * kStep_s, match.skew, match.middle_s));
+  };
+  int best = 0;
+  double most = at(0);
+  for (int step = -kSteps; step <= kSteps; ++step) {
+    const double value = at(step);
+    if (value > most) {
+      most = value;
+      best = step;
+    }
+  }
+  if (most < kTurns || std::abs(best) == kSteps) return match.offset_s;
+  const double before = at(best - 1), after = at(best + 1), bend = before - 2 * most + after;
+  const double part = bend < 0 ? (before - after) / (2 * bend) : 0;  // the top of the parabola through three
+  return match.offset_s + kStep_s * (best + std::clamp(part, -0.5, 0.5));
+}
+
+}  // namespace
+
+double turning_correlation(const Turning& a, const Turning& b, double shift_s, double skew, double middle_s) {
+  AngleAt other(b);
+  std::optional<double> before;
+  double products = 0, squares_a = 0, squares_b = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const auto now = other(a[i].time_s + shift_s + skew * (a[i].time_s - middle_s));
+    if (i > 0 && now && before && a[i].joined) {
+      const double change_a = a[i].angle_rad - a[i - 1].angle_rad, change_b = *now - *before;
+      products += change_a * change_b;
+      squares_a += change_a * change_a;
+      squares_b += change_b * change_b;
+    }
+    before = now;
+  }
+  return squares_a > 0 && squares_b > 0 ? products / std::sqrt(squares_a * squares_b) : 0;
+}
+
+Turning turning_of(std::span<const WheelMotion> wheels) {
+  Turning out;
+  double angle_rad = 0;
+  for (std::size_t i = 0; i < wheels.size(); ++i) {
+    if (i > 0)
+      angle_rad += (wheels[i].time_s - wheels[i - 1].time_s) *
+                   (wheels[i].yaw_rate_radps + wheels[i - 1].yaw_rate_radps) / 2;
+    out.push_back({wheels[i].time_s, angle_rad});
+  }
+  return out;
+}
+
+double path_length(std::span<const WheelMotion> wheels) {
+  double length = 0;
+  for (std::size_t i = 1; i < wheels.size(); ++i)
+    length += (wheels[i].time_s - wheels[i - 1].time_s) *
+              (std::abs(wheels[i].speed_mps) + std::abs(wheels[i - 1].speed_mps)) / 2;
+  return length;
+}
+
+std::optional<ClockMatch> match_clocks(std::span<const FloorPoint> points,
+                                       std::span<const WheelMotion> wheels) {
+  if (points.size() < 10 || wheels.size() < 10) return std::nullopt;
+  calibration::Trajectory run;
+  run.wheels = travel_of(wheels);
+  for (const FloorPoint& point : points)
+    run.truth.push_back({point.time_s, point.x_m, point.y_m, point.theta_rad});
+  const calibration::ClockFit fit = calibration::search_clock(run, kWheelbase_m, std::nullopt);
+  if (fit.correlation < 0.5 && fit.likeness < 0.5) return std::nullopt;
+  const double middle_s = (points.front().time_s + points.back().time_s) / 2;
+  ClockMatch match{fit.offset_s, fit.skew, middle_s, fit.correlation};
+  if (!std::isnan(points.front().theta_rad))
+    match.offset_s = refined_offset(match, heading_turning(points), turning_of(wheels));
+  return match;
+}
+
+}  // namespace astro::truth

@@ -1,0 +1,248 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "host/base/error.hpp"
+#include "host/truth/files/plain_csv.hpp"
+#include "host/truth/files/rotations.hpp"
+#include "host/truth/files/rows.hpp"
+#include "host/truth/files/tracker_file.hpp"
+#include "host/truth/files/tum.hpp"
+#include "host/truth/files/vicon_csv.hpp"
+#include "tests/host/truth/files/own_recordings.hpp"
+#include "tests/host/truth/recorded_files.hpp"
+
+namespace astro::truth {
+namespace {
+
+using namespace test;
+
+double turn_about_z(const Pose3& p) { return 2 * std::atan2(p.qz, p.qw); }
+
+std::string sentence_of(const std::string& text, const std::string& body = "") {
+  try {
+    read_track(text, "file", body);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ViconCsv, RotationVectorsRunOnBeyondHalfATurn) {
+  const BodyTrack track = read_vicon(kVicon, "v.csv", "astro");
+  ASSERT_EQ(track.samples.size(), 4U);
+  EXPECT_NEAR(turn_about_z(track.samples[0].pose), 3.0, 1e-12);
+  EXPECT_NEAR(std::remainder(turn_about_z(track.samples[3].pose) - 6.1, 2 * std::numbers::pi), 0, 1e-12);
+  EXPECT_EQ(track.facts.rotation, "rotation vector in rad");
+  EXPECT_DOUBLE_EQ(track.samples[1].pose.x_m, 1.001);
+}
+
+TEST(ViconCsv, FramesAreTimesFromTheFirstAndEmptyCellsALostBody) {
+  const BodyTrack track = read_vicon(kVicon, "v.csv", "astro:astro");
+  EXPECT_EQ(track.samples[0].time_ns, 0);
+  EXPECT_EQ(track.samples[3].time_ns, 40'000'000);
+  EXPECT_FALSE(track.samples[2].valid);
+  EXPECT_EQ(track.facts.dropped_frames, 1);
+}
+
+TEST(ViconCsv, EachBodyHasItsOwnUnits) {
+  const BodyTrack wand = read_vicon(kVicon, "v.csv", "wand");
+  EXPECT_NEAR(turn_about_z(wand.samples[1].pose), 20 * std::numbers::pi / 180, 1e-12);
+  EXPECT_FALSE(wand.samples[3].valid);  // the row ends before
+  EXPECT_EQ(sentence_of(kVicon), "'file' holds several bodies: 'astro', 'wand'");
+}
+
+TEST(ViconCsv, AnglesWhoseVectorsWouldTiltAreEulerAngles) {
+  // About a body that stands on its side, a turn about z is a constant angle about x and a running one about z: as
+  // rotation vectors, these would tumble.
+  std::string text =
+      "Segments\n100\n,,cart:base,,,,,\nFrame,Sub Frame,RX,RY,RZ,TX,TY,TZ\n,,deg,deg,deg,mm,mm,mm\n";
+  for (int i = 0; i <= 180; i += 5) {
+    const Quaternion q = from_euler("Z", {0, 0, i * std::numbers::pi / 180}) * from_euler("X", {1.2, 0, 0});
+    const double ry = std::asin(2 * (q.x * q.z + q.w * q.y));
+    const double rx = std::atan2(-2 * (q.y * q.z - q.w * q.x), 1 - 2 * (q.x * q.x + q.y * q.y));
+    const double rz = std::atan2(-2 * (q.x * q.y - q.w * q.z), 1 - 2 * (q.y * q.y + q.z * q.z));
+    const auto deg = [](double r) { return std::to_string(r * 180 / std::numbers::pi); };
+    text += std::to_string(i) + ",0," + deg(rx) + "," + deg(ry) + "," + deg(rz) + ",1,2,3\n";
+  }
+  const BodyTrack track = read_vicon(text, "v.csv");
+  EXPECT_EQ(track.facts.rotation, "Euler angles XYZ in deg");
+  EXPECT_EQ(track.name, "cart:base");
+  const Quaternion turn = rotation_of(track.samples[9].pose) * conjugate(rotation_of(track.samples[0].pose));
+  EXPECT_NEAR(2 * std::atan2(turn.z, turn.w), std::numbers::pi / 4, 1e-6);
+  EXPECT_NEAR(tilt_rad(turn, 2), 0, 1e-4);
+}
+
+TEST(ViconCsv, AQuaternionHasFourColumnsWithoutUnits) {
+  const BodyTrack track = read_vicon(
+      "Objects\n250\n,,Global Angle (Quaternion) my robot:my robot,,,,,,\nFrame,Sub "
+      "Frame,RX,RY,RZ,RW,TX,TY,TZ\n"
+      ",,,,,,mm,mm,mm\n1,0,0,0,0.6,0.8,1,2,3\n",
+      "v.csv");
+  EXPECT_EQ(track.name, "my robot");
+  EXPECT_NEAR(track.samples[0].pose.qz, 0.6, 1e-15);
+  EXPECT_EQ(track.facts.rotation_kind, RotationKind::quaternion);
+}
+
+TEST(ViconCsv, ErrorsNameLineAndColumn) {
+  std::string bad = kVicon;
+  bad.replace(bad.find("1001"), 4, "10x1");
+  EXPECT_EQ(sentence_of(bad, "astro"), "file, line 7, column 6: '10x1' is not a number");
+  bad = kVicon;
+  bad.replace(bad.find("rad,rad,rad"), 11, "rad,rad,gon");
+  EXPECT_EQ(sentence_of(bad, "astro"), "file, line 5, column 5: 'gon' is no unit of angle");
+}
+
+TEST(ViconCsv, ReadsTheRealStadiumRun) {
+  const std::string path = shared_file("samples/vicon_csv/QBii_Stadium_1m_ccw.csv");
+  SKIP_WITHOUT(path);
+  const BodyTrack track = read_vicon(text_of_file(path), path);
+  EXPECT_EQ(track.name, "QBii");
+  EXPECT_EQ(track.samples.size(), 2932U);
+  EXPECT_DOUBLE_EQ(track.samples[0].pose.x_m, 0.843523804);
+  // As a rotation vector the robot tilts by less than 1.7 degrees, although RX reaches 6 rad.
+  for (const TrackedPose& sample : track.samples)
+    ASSERT_LT(tilt_rad(rotation_of(sample.pose), 2), 1.7 * std::numbers::pi / 180);
+}
+
+TEST(Tum, TimesKeepEveryNanosecond) {
+  const BodyTrack track = read_tum(kTum, "t.txt");
+  ASSERT_EQ(track.samples.size(), 3U);
+  EXPECT_EQ(track.samples[0].time_ns, 1'700'000'000'123'456'789);
+  EXPECT_EQ(track.samples[1].time_ns, 1'700'000'000'223'456'789);
+  EXPECT_DOUBLE_EQ(track.samples[0].pose.qz, std::sqrt(0.5));  // four digits in the file
+  EXPECT_FALSE(track.samples[2].valid);                        // a quaternion of zeros
+}
+
+TEST(Tum, CommasSeparateAsWellAsBlanks) {
+  const BodyTrack track = read_track("1.5, 1, 2, 3, 0, 0, 0, 1\n2.5, 1, 2, 3, 0, 0, 0, -1\n", "t.txt");
+  EXPECT_EQ(track.facts.format, "TUM");
+  EXPECT_EQ(track.samples[1].time_ns, 2'500'000'000);
+}
+
+TEST(Tum, EurocHasNanosecondsAndTheScalarFirst) {
+  const BodyTrack track = read_track(kEuroc, "e.csv");
+  EXPECT_EQ(track.facts.format, "EuRoC");
+  EXPECT_EQ(track.samples[1].time_ns, 1'403'715'529'117'143'517);
+  EXPECT_NEAR(track.samples[0].pose.qw, 0.9 / std::sqrt(0.95), 1e-15);
+}
+
+TEST(Tum, RepeatedTimesAreLeftOutAndSaid) {
+  const BodyTrack track = read_track("1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n", "t.txt");
+  EXPECT_EQ(track.samples.size(), 2U);
+  EXPECT_EQ(track.facts.remarks.at(0).fact, "rows left out because they have the time of the row before: 1");
+  EXPECT_EQ(sentence_of("2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n"), "file, line 2: the time does not increase");
+}
+
+TEST(Tum, ReadsTheBenchmarksFile) {
+  const std::string path = shared_file("samples/tum/freiburg1_xyz-groundtruth.txt");
+  SKIP_WITHOUT(path);
+  const BodyTrack track = read_track(text_of_file(path), path);
+  EXPECT_EQ(track.facts.kind, FileKind::tum);
+  EXPECT_EQ(track.samples.size(), 3000U);
+  EXPECT_EQ(track.samples[0].time_ns, 1'305'031'098'665'900'000);
+}
+
+TEST(PlainCsv, TakesUnitsFromTheHeader) {
+  const BodyTrack track = read_track(kPlain, "p.csv");
+  ASSERT_EQ(track.samples.size(), 3U);
+  EXPECT_EQ(track.samples[1].time_ns, 1'010'500'000);
+  EXPECT_DOUBLE_EQ(track.samples[1].pose.x_m, 0.11);
+  EXPECT_NEAR(turn_about_z(track.samples[0].pose), std::numbers::pi / 2, 1e-12);
+  EXPECT_FALSE(track.samples[2].valid);
+  EXPECT_EQ(track.facts.length_unit, "mm");
+  EXPECT_TRUE(track.facts.remarks.empty());
+}
+
+TEST(PlainCsv, NamesOfOtherProgramsAreUnderstood) {
+  const BodyTrack plot = read_track(
+      "__time,/mocap/pose/position/x,/mocap/pose/position/y,/mocap/pose/position/z,/mocap/pose/orientation/x,"
+      "/mocap/pose/orientation/y,/mocap/pose/orientation/z,/mocap/pose/orientation/"
+      "w\n1700000000.5,1,2,3,0,0,1,0\n",
+      "p.csv");
+  EXPECT_EQ(plot.facts.rotation_kind, RotationKind::quaternion);
+  EXPECT_EQ(plot.samples.at(0).pose, (Pose3{1, 2, 3, 0, 0, 1, 0}));
+  ASSERT_EQ(plot.facts.remarks.size(), 2U);
+  EXPECT_EQ(plot.facts.remarks[0].fact, "the unit of length is not stated: metres are assumed");
+  const BodyTrack german = read_track("stamp;x (cm);y (cm)\n1700000000123456789;1,5;2\n", "p.csv");
+  EXPECT_EQ(german.samples.at(0).time_ns, 1'700'000'000'123'456'789);
+  EXPECT_DOUBLE_EQ(german.samples[0].pose.x_m, 0.015);
+  EXPECT_EQ(german.facts.rotation_kind, RotationKind::none);
+}
+
+TEST(PlainCsv, SeveralBodiesAreToldApartByWhatTheirNamesBeginWith) {
+  const std::string text =
+      "__time,/odom/pose/x,/odom/pose/y,/mocap/pose/position/x,/mocap/pose/position/y,/odom/twist/linear/x,"
+      "/mocap/stamp\n"
+      "1,10,20,30,40,50,7\n";
+  EXPECT_EQ(bodies_in(text, "p.csv"), (std::vector<BodyName>{{"/odom", ""}, {"/mocap", ""}}));
+  EXPECT_EQ(sentence_of(text), "'file' holds several bodies: '/odom', '/mocap'");
+  EXPECT_EQ(read_track(text, "p.csv", "/odom").samples.at(0).pose.x_m, 10);
+  EXPECT_EQ(read_track(text, "p.csv", "/odom").samples.at(0).time_ns, 1'000'000'000);
+  EXPECT_EQ(read_track(text, "p.csv", "/mocap").samples.at(0).pose.y_m, 40);
+  EXPECT_EQ(read_track(text, "p.csv", "/mocap").samples.at(0).time_ns, 7'000'000'000) << "its own stamp";
+  const BodyTrack own =
+      read_track("t,ref_x_m,ref_y_m,x_mm,y_mm,q_x,q_y,q_z,q_w\n1,1,2,3,4,0,0,0,1\n", "p.csv");
+  EXPECT_DOUBLE_EQ(own.samples.at(0).pose.x_m, 0.003) << "the one without a name";
+  EXPECT_EQ(own.facts.rotation_kind, RotationKind::quaternion);
+}
+
+TEST(ViconCsv, ASpreadsheetMayHaveSavedItAgain) {
+  std::string saved = kVicon;
+  for (char& c : saved) c = c == ',' ? ';' : c == '.' ? ',' : c;
+  saved.replace(saved.find("Objects"), 7, "Objects;;;");
+  EXPECT_EQ(recognise(saved), FileKind::vicon);
+  EXPECT_NEAR(turn_about_z(read_track(saved, "v.csv", "astro").samples.at(1).pose), 3.3, 1e-12);
+}
+
+TEST(PlainCsv, UnitsThatDoNotFitAreRefused) {
+  EXPECT_EQ(sentence_of("time_s,x_deg,y_m\n"),
+            "file, line 1, column 2: the unit 'deg' does not fit the column");
+  EXPECT_EQ(sentence_of("time_s,x_m,y_mm\n"),
+            "file, line 1, column 3: the positions have different units, 'm' and 'mm'");
+  EXPECT_EQ(sentence_of("time_s,x_m,y_m\n1,2,3\nsoon,2,3\n"), "file, line 3, column 1: 'soon' is no time");
+}
+
+TEST(TrackerFile, RecognisesEachFormatByItsContent) {
+  EXPECT_EQ(recognise(kMotive), FileKind::motive);
+  EXPECT_EQ(recognise(kVicon), FileKind::vicon);
+  EXPECT_EQ(recognise("\r\n\r\nSegments\r\n100\r\n"), FileKind::vicon);
+  EXPECT_EQ(recognise(kTum), FileKind::tum);
+  EXPECT_EQ(recognise(kEuroc), FileKind::euroc);
+  EXPECT_EQ(recognise(kPlain), FileKind::plain);
+  EXPECT_EQ(recognise("comment,\"OptiTrack Export Data\"\r\n"), FileKind::motive_rows);
+  for (const char* other : {"", "\n\n", "{}", "a,b,c\n1,2,3\n", "Objects of desire\n"})
+    EXPECT_EQ(recognise(other), FileKind::unknown) << other;
+  EXPECT_EQ(recognise(std::string_view("t\0x", 3)), FileKind::unknown);
+}
+
+TEST(TrackerFile, EveryRealRecordingIsRecognised) {
+  if (!std::filesystem::exists(shared_file("samples"))) GTEST_SKIP() << "there are no samples";
+  const std::map<std::string, FileKind> kinds = {
+      {"motive_csv/v1.21_hmv_rigidbody_plus_markers.csv", FileKind::motive},
+      {"motive_csv/v1.23_aolab_excel_resaved.csv", FileKind::motive},
+      {"motive_csv/v1.0_olin_trackable_first300.csv", FileKind::motive_rows},
+      {"motive_csv/v1.1_olin_row_tagged.csv", FileKind::motive_rows},
+      {"vicon_csv/QBii_Stadium_1m_ccw.csv", FileKind::vicon},
+      {"vicon_csv/QBii_Stadium_1m_ccw.odometry.csv", FileKind::plain},
+      {"tum/freiburg1_xyz-groundtruth.txt", FileKind::tum},
+      {"tum/freiburg1_xyz-rgbdslam.txt", FileKind::tum}};
+  for (const auto& [name, kind] : kinds)
+    EXPECT_EQ(recognise(text_of_file(shared_file("samples/" + name))), kind) << name;
+}
+
+TEST(TextFormats, TimesAreExact) {
+  EXPECT_EQ(exact_ns("1700000000.123456789", 9, false), 1'700'000'000'123'456'789);
+  EXPECT_EQ(exact_ns("1.403715529112143517e+09", 9, false), 1'403'715'529'112'143'517);
+  EXPECT_EQ(exact_ns("-0.0000000015", 9, false), -2);
+  EXPECT_EQ(exact_ns("12,5", 6, true), 12'500'000);
+  EXPECT_EQ(exact_ns("1e3", 0, false), 1000);
+  EXPECT_EQ(exact_ns("0.00000000000000000000000000001", 9, false), 0);
+  for (const char* bad :
+       {"", ".", "e5", "1e", "1e99", "nan", "0x10", "1.2.3", "99999999999", "1e-99999999999"})
+    EXPECT_EQ(exact_ns(bad, 9, false), std::nullopt) << bad;
+}
+
+}  // namespace
+}  // namespace astro::truth

@@ -1,0 +1,73 @@
+#include "host/truth/floor/inspection.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/host/truth/files/own_recordings.hpp"
+#include "tests/host/truth/recorded_files.hpp"
+
+namespace astro::truth {
+namespace {
+
+TEST(Inspection, ListsEveryBodyWithItsGaps) {
+  const Inspection found = inspect(test::kVicon, "v.csv");
+  EXPECT_EQ(found.kind, FileKind::vicon);
+  ASSERT_EQ(found.bodies.size(), 2U);
+  const BodyInspection& astro = found.bodies[0];
+  EXPECT_EQ(astro.name.name, "astro");
+  EXPECT_EQ(astro.samples, 4U);
+  EXPECT_EQ(astro.lost.absent, 1U);
+  EXPECT_DOUBLE_EQ(astro.duration_s, 0.04);
+  EXPECT_DOUBLE_EQ(astro.median_period_s, 0.01);
+  EXPECT_EQ(astro.gaps, 1U);
+  EXPECT_DOUBLE_EQ(astro.longest_gap_s, 0.03);
+  EXPECT_FALSE(astro.noise.has_value());
+}
+
+TEST(Inspection, NoiseIsThatOfTheRestsAndNotOfTheDrive) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal(0, 1);
+  BodyTrack track;
+  track.facts.rotation_kind = RotationKind::quaternion;
+  for (int i = 0; i < 3000; ++i) {
+    const double x = 0.003 * std::clamp(i - 1000, 0, 1000);
+    const double angle = 2e-3 * normal(random);
+    track.samples.push_back({i * std::int64_t{10'000'000},
+                             {x + 1e-4 * normal(random), 2e-4 * normal(random), 5e-5 * normal(random), 0, 0,
+                              std::sin(angle / 2), std::cos(angle / 2)},
+                             true});
+  }
+  const auto noise = inspect(track).noise;
+  ASSERT_TRUE(noise.has_value());
+  EXPECT_NEAR(noise->rest_s, 20, 1.5);
+  // 2000 samples know a standard deviation to 1.6 %; five times that.
+  EXPECT_NEAR(noise->sd_m[0], 1e-4, 8e-6);
+  EXPECT_NEAR(noise->sd_m[1], 2e-4, 16e-6);
+  EXPECT_NEAR(noise->sd_m[2], 5e-5, 4e-6);
+  EXPECT_NEAR(noise->sd_rad, 2e-3, 1.6e-4);
+}
+
+TEST(Inspection, ARealTakeHasTheNoiseThatIsKnownOfIt) {
+  const std::string path =
+      test::shared_file("sousa_optiodom/square/231220200029/231220200029_run-01_opti.csv.gz");
+  SKIP_WITHOUT(path);
+  const Inspection found = inspect(test::text_of_file(path), path);
+  ASSERT_EQ(found.bodies.size(), 1U);
+  const BodyInspection& body = found.bodies[0];
+  EXPECT_EQ(body.name.name, "robot-diff");
+  EXPECT_NEAR(body.duration_s, 85.88, 1e-9);
+  EXPECT_EQ(body.facts.start_time, "2020-12-23T01:18:10.123");
+  ASSERT_TRUE(body.noise.has_value());
+  std::printf("  %.1f s of rest, sd %.3f %.3f %.3f mm, %.3f degrees; gaps %zu, longest %.2f s\n",
+              body.noise->rest_s, 1e3 * body.noise->sd_m[0], 1e3 * body.noise->sd_m[1],
+              1e3 * body.noise->sd_m[2], body.noise->sd_rad * 180 / 3.14159265, body.gaps,
+              body.longest_gap_s);
+  for (const double sd_m : body.noise->sd_m) {
+    EXPECT_GT(sd_m, 0.01e-3);
+    EXPECT_LT(sd_m, 0.3e-3);
+  }
+}
+
+}  // namespace
+}  // namespace astro::truth
