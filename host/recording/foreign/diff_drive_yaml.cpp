@@ -4,7 +4,7 @@
 #include <map>
 
 #include "host/base/numbers.hpp"
-#include "host/recording/foreign/joint_names.hpp"
+#include "host/recording/foreign/unclear_choice.hpp"
 #include "host/recording/yaml/yaml_scalars.hpp"
 
 namespace astro::recording {
@@ -64,17 +64,16 @@ DiffDriveParameters diff_drive_parameters(std::string_view text, std::string_vie
   std::vector<std::string> nodes;
   for (const auto& [at, parameters] : controllers.by_node)
     if (parameters.wheel_radius_m > 0 || parameters.wheel_separation_m > 0) nodes.push_back(at);
-  std::string listed;
-  for (const std::string& at : nodes) listed += (listed.empty() ? "" : ", ") + at;
   if (nodes.empty())
     throw UnclearChoice(std::string(name) + " has no wheel_radius and no wheel_separation of a controller",
                         nodes);
   if (node.empty() && nodes.size() > 1)
-    throw UnclearChoice(std::string(name) + " has several controllers of wheels: " + listed, nodes);
+    throw UnclearChoice(std::string(name) + " has several controllers of wheels: " + listed(nodes), nodes);
   const std::string chosen = node.empty() ? nodes.front() : std::string(node);
   const auto found = controllers.by_node.find(chosen);
   if (found == controllers.by_node.end())
-    throw UnclearChoice(std::string(name) + " has no controller '" + chosen + "'; it has " + listed, nodes);
+    throw UnclearChoice(std::string(name) + " has no controller '" + chosen + "'; it has " + listed(nodes),
+                        nodes);
   found->second.node = chosen;
   return found->second;
 }

@@ -17,7 +17,7 @@ struct DiffDriveParameters {
 };
 
 /// The parameters of the controller `node`, or of the only one that has a wheel_radius or a wheel_separation. `name` is
-/// that of the file. Throws UnclearChoice (joint_names.hpp) if there is no such controller or several, and astro::Error
+/// that of the file. Throws UnclearChoice (unclear_choice.hpp) if there is no such controller or several, and astro::Error
 /// naming the file and the line if the text is no YAML or a value is no number above 0.
 DiffDriveParameters diff_drive_parameters(std::string_view text, std::string_view name,
                                           std::string_view node = {});

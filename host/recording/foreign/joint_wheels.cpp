@@ -7,18 +7,14 @@
 
 #include "host/recording/bag/bag.hpp"
 #include "host/recording/foreign/counter_wraps.hpp"
+#include "host/recording/foreign/time_order.hpp"
+#include "host/recording/foreign/unclear_choice.hpp"
 #include "host/ros2/joint_state.hpp"
 
 namespace astro::recording {
 namespace {
 
 constexpr std::size_t kMostNames = 4096;  // of one topic
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text.empty() ? "none" : text;
-}
 
 void for_each_state(const std::filesystem::path& path, const std::string& topic, BagReport& report,
                     const std::function<void(const ros2::JointState*, std::int64_t)>& take) {
@@ -112,22 +108,9 @@ class JointWheels {
     (positions ? track_.samples : velocities_).push_back(sample);
   }
 
-  /// Sorts by time; of several samples of one instant the first stays.
-  void order(std::vector<WheelSample>& samples) {
-    const auto earlier = [](const WheelSample& a, const WheelSample& b) { return a.time_ns < b.time_ns; };
-    if (!std::ranges::is_sorted(samples, earlier)) {
-      std::stable_sort(samples.begin(), samples.end(), earlier);
-      remark("messages of the wheels were recorded out of order; they were sorted by time");
-    }
-    const auto repeated = std::ranges::unique(samples, {}, &WheelSample::time_ns);
-    if (!repeated.empty())
-      remark(std::to_string(repeated.size()) + " samples of the wheels repeat a time and were left out");
-    samples.erase(repeated.begin(), repeated.end());
-  }
-
   void integrate() {
     remark("the joints have no positions; their velocities were integrated");
-    order(velocities_);
+    order_by_time(velocities_, topic_, track_.remarks);
     WheelSample sum;
     for (std::size_t i = 0; i < velocities_.size(); ++i) {
       const WheelSample& at = velocities_[i];
@@ -144,7 +127,7 @@ class JointWheels {
     if (track_.samples.empty() && !velocities_.empty()) {
       integrate();
     } else {
-      order(track_.samples);
+      order_by_time(track_.samples, topic_, track_.remarks);
       unwrap(track_);
     }
     if (without_values_ > 0)

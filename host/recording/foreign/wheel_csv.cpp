@@ -7,9 +7,9 @@
 
 #include "host/base/csv_table.hpp"
 #include "host/recording/foreign/counter_wraps.hpp"
-#include "host/recording/foreign/joint_names.hpp"
 #include "host/recording/foreign/line_reader.hpp"
 #include "host/recording/foreign/time_text.hpp"
+#include "host/recording/foreign/unclear_choice.hpp"
 #include "host/recording/foreign/wheel_columns.hpp"
 
 namespace astro::recording {
@@ -91,11 +91,10 @@ class Table {
     if (!given_.columns.empty()) split(given_.columns, ',', names);
     const auto columns = wheel_columns(names);
     if (!columns) {
-      std::string listed;
-      for (const std::string_view at : names) (listed += listed.empty() ? "" : ", ") += at;
+      const std::vector<std::string> found(names.begin(), names.end());
       throw UnclearChoice(
-          name_ + ": the columns do not tell time, left and right wheel with their units: " + listed,
-          {names.begin(), names.end()});
+          name_ + ": the columns do not tell time, left and right wheel with their units: " + listed(found),
+          found);
     }
     columns_ = *columns;
     columns_.per_interval = columns_.per_interval || given_.per_interval;

@@ -20,7 +20,7 @@ struct WheelTable {
 /// row unless they are given, lines that begin with # left out. Times are kept exact to a nanosecond. Rows with an empty
 /// cell of the three are left out and counted in a remark.
 ///
-/// Errors  UnclearChoice (joint_names.hpp) with the names in the file if they do not tell the three columns; astro::Error
+/// Errors  UnclearChoice (unclear_choice.hpp) with the names in the file if they do not tell the three columns; astro::Error
 ///         naming `name`, line and column for anything else than a finite number, for times that do not rise, and for a
 ///         table of fewer than two rows.
 WheelTrack wheels_in_table(ByteSource& file, const std::string& name, const WheelTable& table = {});

@@ -5,8 +5,8 @@
 #include <random>
 
 #include "host/base/error.hpp"
-#include "host/recording/foreign/joint_names.hpp"
 #include "host/recording/foreign/time_text.hpp"
+#include "host/recording/foreign/unclear_choice.hpp"
 #include "tests/support/base/bounded.hpp"
 
 namespace astro::recording {
