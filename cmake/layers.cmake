@@ -57,6 +57,7 @@ set(ASTRO_LAYERS
   "host/simulation/robot        : firmware/app hal/sim host/recording/run host/robot/port host/truth/source"
   "host/simulation/server       : host/base host/recording/run host/simulation/robot"
   "host/simulation/study        : host/base host/calibration host/experiment host/recording/run host/robot/parameters host/simulation/robot"
+  "host/truth/bags              : host/base host/recording/foreign host/truth/files host/truth/source"
   "host/truth/files             : host/base host/truth/manual host/truth/source"
   "host/truth/live              : host/base host/truth/source host/truth/vrpn"
   "host/truth/manual            : host/base host/recording/run host/truth/source"
@@ -95,7 +96,7 @@ set(ASTRO_OUTSIDE
   "atomic condition_variable future mutex shared_mutex stop_token thread : host/commands host/console host/robot/client host/robot/port host/robot/sharing host/simulation/server host/simulation/study"
 
   # Files, and what is printed.
-  "filesystem               : host/base host/commands host/console host/emulator host/experiment host/programs host/recording/bag host/recording/files host/recording/foreign host/report host/robot/port host/simulation/server host/truth/files host/truth/live"
+  "filesystem               : host/base host/commands host/console host/emulator host/experiment host/programs host/recording/bag host/recording/files host/recording/foreign host/report host/robot/port host/simulation/server host/truth/bags host/truth/files host/truth/live"
   "fstream                  : host/base host/emulator/core host/recording/bag host/robot/port host/robot/sharing host/simulation/server"
   "iostream                 : host/commands"
   "cstdio                   : host/commands host/console host/programs"
