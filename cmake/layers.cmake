@@ -40,7 +40,7 @@ set(ASTRO_LAYERS
   "host/programs/astrolabe      : common host/base host/commands host/console"
   "host/programs/emulator       : host/base host/commands/base host/commands/serving host/console host/emulator/robot host/simulation/server"
   "host/recording/bag           : host/base host/recording/mcap host/recording/yaml"
-  "host/recording/files         : host/base host/recording/mcap host/recording/run host/ros2"
+  "host/recording/files         : host/base host/recording/bag host/recording/mcap host/recording/run host/ros2"
   "host/recording/mcap          : host/base"
   "host/recording/foreign       : host/base host/recording/bag host/recording/yaml host/ros2"
   "host/recording/run           : host/base host/recording/mcap"

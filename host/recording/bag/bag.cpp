@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "host/base/byte_source.hpp"
 #include "host/base/error.hpp"
 #include "host/recording/bag/bag_files.hpp"
 #include "host/recording/bag/db3_reader.hpp"

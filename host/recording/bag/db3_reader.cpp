@@ -5,6 +5,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "host/base/byte_source.hpp"
 #include "host/base/error.hpp"
 #include "host/recording/bag/sqlite.hpp"
 

@@ -39,7 +39,7 @@ class JointWheels {
     track_.unit = WheelUnit::radians;
     choose_topic();
     choose_joints();
-    track_.clock = all_stamped_ ? WheelClock::stamp : WheelClock::receipt;
+    track_.clock = stamped_ ? WheelClock::stamp : WheelClock::receipt;
     BagReport report;
     for_each_state(path_, topic_, report, [this](const ros2::JointState* state, std::int64_t log_time_ns) {
       if (state != nullptr) take(*state, log_time_ns);
@@ -68,7 +68,7 @@ class JointWheels {
     BagReport report;
     for_each_state(path_, topic_, report, [&](const ros2::JointState* state, std::int64_t) {
       if (state == nullptr) return;
-      all_stamped_ = all_stamped_ && state->time_ns != 0;
+      stamped_ = stamped_ || state->time_ns != 0;
       for (const std::string& name : state->names)
         if (found.size() < kMostNames) found.insert(name);
     });
@@ -142,7 +142,7 @@ class JointWheels {
   const std::filesystem::path& path_;
   std::string topic_;
   JointPair joints_;
-  bool all_stamped_ = true;
+  bool stamped_ = false;
   std::size_t without_values_ = 0;
   std::vector<WheelSample> velocities_;
   WheelTrack track_;

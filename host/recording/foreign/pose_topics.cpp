@@ -162,7 +162,7 @@ PoseTopic poses_in_bag(const fs::path& path, const PoseSelection& selection) {
         if (topic.type != stream.type || pose.child_frame != stream.child_frame ||
             (!pose.child_frame.empty() && pose.frame != stream.frame))
           return;
-        out.has_stamps = out.has_stamps && pose.time_ns != 0;
+        out.has_stamps = out.has_stamps || pose.time_ns != 0;
         offset.take(log_time_ns, pose.time_ns);
         log_times_ns.push_back(log_time_ns);
         out.poses.push_back({pose.time_ns, pose.x_m, pose.y_m, pose.z_m, pose.qx, pose.qy, pose.qz, pose.qw});

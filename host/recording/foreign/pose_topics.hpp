@@ -30,7 +30,7 @@ struct TimedPose {
 
 struct PoseTopic {
   PoseStream stream;
-  bool has_stamps = true;        // false: the times are those of the recorder, because a stamp is zero
+  bool has_stamps = false;       // false: all are zero, and the times are those of the recorder
   std::vector<TimedPose> poses;  // times increase strictly
   std::vector<Remark> remarks;   // what was inferred or left out
 };
