@@ -4,6 +4,9 @@
 #include <cctype>
 #include <map>
 #include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace astro::recording {
 namespace {
