@@ -40,9 +40,12 @@ set(ASTRO_LAYERS
   "host/motor/wiring            : host/base host/motor/model"
   "host/programs/astrolabe      : common host/base host/commands host/console"
   "host/programs/emulator       : host/base host/commands/base host/commands/serving host/console host/emulator/robot host/simulation/server"
-  "host/recording/files         : host/base host/recording/mcap host/recording/run host/ros2"
+  "host/recording/bag           : host/base host/recording/mcap host/recording/yaml"
+  "host/recording/files         : host/base host/recording/bag host/recording/mcap host/recording/run host/ros2"
   "host/recording/mcap          : host/base"
+  "host/recording/foreign       : host/base host/recording/bag host/recording/yaml host/ros2"
   "host/recording/run           : host/base host/recording/mcap"
+  "host/recording/yaml          : host/base"
   "host/report/page             : host/base"
   "host/report/sections         : host/base host/calibration host/motor/model host/recording/run host/report/page"
   "host/robot/arbitration       : common host/base"
@@ -56,6 +59,7 @@ set(ASTRO_LAYERS
   "host/simulation/server       : host/base host/recording/run host/simulation/robot host/simulation/tracker"
   "host/simulation/study        : host/base host/calibration host/experiment host/recording/run host/robot/parameters host/simulation/robot"
   "host/simulation/tracker      : host/base host/recording/run host/truth/natnet host/truth/source host/truth/vrpn"
+  "host/truth/bags              : host/base host/recording/foreign host/truth/files host/truth/source"
   "host/truth/files             : host/base host/truth/manual host/truth/source"
   "host/truth/floor             : host/base host/calibration/clock host/calibration/motion host/recording/run host/truth/files host/truth/source"
   "host/truth/live              : host/base host/truth/natnet host/truth/source host/truth/vrpn"
@@ -84,8 +88,10 @@ set(ASTRO_OUTSIDE
   "fmt/                     : host"
   "lz4frame.h zlib.h zstd.h : host/recording/mcap"
   "nlohmann/                : host/commands host/experiment host/report host/simulation/study"
+  "sqlite3.h                : host/recording/bag"
   "toml++/                  : host/experiment"
   "unicorn/ elf.h cxxabi.h  : host/emulator/core"
+  "yaml.h                   : host/recording/yaml"
 
   # The operating system.
   "asm/ sys/ fcntl.h poll.h signal.h spawn.h termios.h time.h unistd.h : host/base host/commands host/console host/programs host/recording/files host/robot/port host/robot/sharing host/simulation/server host/truth/live"
@@ -95,8 +101,8 @@ set(ASTRO_OUTSIDE
   "atomic condition_variable future mutex shared_mutex stop_token thread : host/commands host/console host/robot/client host/robot/port host/robot/sharing host/simulation/server host/simulation/study"
 
   # Files, and what is printed.
-  "filesystem               : host/base host/commands host/console host/emulator host/experiment host/programs host/recording/files host/report host/robot/port host/simulation/server host/truth/files host/truth/live"
-  "fstream                  : host/base host/emulator/core host/robot/port host/robot/sharing host/simulation/server"
+  "filesystem               : host/base host/commands host/console host/emulator host/experiment host/programs host/recording/bag host/recording/files host/recording/foreign host/report host/robot/port host/simulation/server host/truth/bags host/truth/files host/truth/live"
+  "fstream                  : host/base host/emulator/core host/recording/bag host/robot/port host/robot/sharing host/simulation/server"
   "iostream                 : host/commands"
   "cstdio                   : host/commands host/console host/programs"
 )

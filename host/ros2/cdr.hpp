@@ -1,13 +1,17 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <string>
 #include <string_view>
 
 #include "host/base/bytes.hpp"
 
-/// CDR, the byte format of ROS 2 messages: plain CDR version 1, little-endian, after the 4-byte encapsulation
-/// header 00 01 00 00. A number of s bytes starts at a multiple of s, counted from the end of that header; a
-/// string is its length including the NUL (u32), the text and the NUL. Structs and fixed arrays add no bytes.
+/// CDR, the byte format of ROS 2 messages: plain CDR after an encapsulation header of 4 bytes, which is 00 01 00 00
+/// for little-endian version 1. A number of s bytes starts at a multiple of s, counted from the end of that header;
+/// a string is its length including the NUL (u32), the text and the NUL; a sequence is its length (u32) and its
+/// elements. Structs and fixed arrays add no bytes.
 ///
 /// Source  OMG DDSI-RTPS 2.3, 10.2; DDS-XTypes 1.3, 7.4.1.
 namespace astro::ros2 {
@@ -32,23 +36,46 @@ class CdrWriter {
   Bytes bytes_{0, 1, 0, 0};
 };
 
-/// Reads what CdrWriter or any ROS 2 writer wrote. A message that is too short, has another encapsulation, or
-/// has a string that does not end in NUL makes ok() false from then on; numbers read after that are zero.
-/// Bytes after the last field are ignored, because writers pad to 4.
+/// Reads what any ROS 2 writer wrote, in either byte order. A message that is too short, has another encapsulation
+/// (such as CDR version 2, which ROS 2 does not use), or has a string that does not end in NUL makes ok() false from
+/// then on; numbers read after that are zero. Bytes after the last field are ignored, because writers pad to 4.
 class CdrReader {
  public:
   explicit CdrReader(ByteView message) : cursor_(message) {
     const ByteView header = cursor_.take(kCdrHeaderBytes);
-    ok_ = cursor_.ok() && header[0] == 0 && header[1] == 1;
+    ok_ = cursor_.ok() && header[0] == 0 && header[1] <= 1;
+    big_endian_ = ok_ && header[1] == 0;
   }
 
   bool ok() const { return ok_ && cursor_.ok(); }
+  std::size_t left() const { return cursor_.left(); }
 
   template <Number T>
   T number() {
-    const std::size_t over = (cursor_.offset() - kCdrHeaderBytes) % sizeof(T);
-    if (ok() && over != 0) cursor_.take(sizeof(T) - over);
-    return ok() ? cursor_.number<T>() : T{};
+    align(sizeof(T));
+    if (!ok()) return T{};
+    const ByteView raw = cursor_.take(sizeof(T));
+    if (!ok()) return T{};
+    std::array<std::uint8_t, sizeof(T)> bytes;
+    std::copy(raw.begin(), raw.end(), bytes.begin());
+    if (big_endian_) std::reverse(bytes.begin(), bytes.end());
+    return std::bit_cast<T>(bytes);
+  }
+
+  /// Skips `count` numbers of one type.
+  template <Number T>
+  void skip(std::size_t count) {
+    if (count == 0) return;
+    align(sizeof(T));
+    cursor_.take(std::uint64_t{count} * sizeof(T));
+  }
+
+  /// The length of a sequence whose elements take at least `least_bytes` each; makes ok() false if so many do not
+  /// fit into the rest of the message, so that a caller may reserve memory for them.
+  std::size_t length(std::size_t least_bytes) {
+    const auto count = number<std::uint32_t>();
+    if (count > left() / least_bytes) ok_ = false;
+    return ok() ? count : 0;
   }
 
   /// Accepts the length 0, which some writers use for the empty string.
@@ -61,8 +88,15 @@ class CdrReader {
   }
 
  private:
+  void align(std::size_t size) {
+    if (!ok()) return;
+    if (const std::size_t over = (cursor_.offset() - kCdrHeaderBytes) % size; over != 0)
+      cursor_.take(size - over);
+  }
+
   ByteCursor cursor_;
   bool ok_ = false;
+  bool big_endian_ = false;
 };
 
 }  // namespace astro::ros2

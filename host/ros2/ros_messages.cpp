@@ -4,21 +4,8 @@
 #include <limits>
 
 #include "host/ros2/cdr.hpp"
-
-#define ASTRO_MSG_RULE "================================================================================\n"
-#define ASTRO_MSG_TIME ASTRO_MSG_RULE "MSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n"
-#define ASTRO_MSG_HEADER \
-  ASTRO_MSG_RULE "MSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n" ASTRO_MSG_TIME
-#define ASTRO_MSG_POSE                                                               \
-  ASTRO_MSG_RULE                                                                     \
-  "MSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion " \
-  "orientation\n" ASTRO_MSG_RULE                                                     \
-  "MSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n" ASTRO_MSG_RULE       \
-  "MSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1\n"
-#define ASTRO_MSG_TWIST                                                                                    \
-  ASTRO_MSG_RULE                                                                                           \
-  "MSG: geometry_msgs/Twist\ngeometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n" ASTRO_MSG_RULE \
-  "MSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n"
+#include "host/ros2/message_definitions.hpp"
+#include "host/ros2/ros_stamp.hpp"
 
 namespace astro::ros2 {
 namespace {
@@ -41,18 +28,15 @@ constexpr RosType kWheelCountsType{"astrolabe_msgs/msg/WheelCounts",
                                    "builtin_interfaces/Time stamp\nint32 left\nint32 right\n" ASTRO_MSG_TIME};
 
 constexpr std::int64_t kMicrosPerSecond = 1'000'000;
-constexpr int kCovarianceCells = 36;
+constexpr int kCovarianceNumbers = 36;
 
-void put_stamp(CdrWriter& out, std::int64_t time_us) {
-  std::int64_t micros = time_us % kMicrosPerSecond;
-  if (micros < 0) micros += kMicrosPerSecond;
-  out.number(static_cast<std::int32_t>((time_us - micros) / kMicrosPerSecond));
-  out.number(static_cast<std::uint32_t>(micros * 1000));
-}
+void put_stamp(CdrWriter& out, std::int64_t time_us) { put_time_ns(out, time_us * 1000); }
 
 std::int64_t take_stamp(CdrReader& in) {
-  const std::int64_t seconds = in.number<std::int32_t>();
-  return seconds * kMicrosPerSecond + in.number<std::uint32_t>() / 1000;
+  // Rounded downwards, before 1970 as well.
+  const std::int64_t time_ns = take_time_ns(in);
+  const std::int64_t nanos = time_ns % 1000;
+  return (time_ns - (nanos < 0 ? nanos + 1000 : nanos)) / 1000;
 }
 
 void put_numbers(CdrWriter& out, std::initializer_list<double> values) {
@@ -100,9 +84,9 @@ Bytes encode_odometry(const recording::OdometrySample& sample) {
   out.string(kOdomFrame);
   out.string(kBaseFrame);
   put_pose(out, sample.x_m, sample.y_m, 0, sample.theta_rad);
-  put_zeros(out, kCovarianceCells);
+  put_zeros(out, kCovarianceNumbers);
   put_numbers(out, {sample.v_mps, 0, 0, 0, 0, sample.omega_radps});
-  put_zeros(out, kCovarianceCells);
+  put_zeros(out, kCovarianceNumbers);
   return out.bytes();
 }
 
@@ -134,7 +118,7 @@ std::optional<recording::OdometrySample> decode_odometry(ByteView message) {
   in.string();
   in.string();
   sample.theta_rad = take_pose(in, sample.x_m, sample.y_m);
-  skip_numbers(in, kCovarianceCells);
+  skip_numbers(in, kCovarianceNumbers);
   sample.v_mps = in.number<double>();
   skip_numbers(in, 4);
   sample.omega_radps = in.number<double>();

@@ -1,6 +1,9 @@
 // ROS 2 messages.
 #include "host/ros2/cdr.hpp"
+#include "host/ros2/joint_state.hpp"
 #include "host/ros2/ros_messages.hpp"
+#include "host/ros2/stamped_pose.hpp"
+#include "host/ros2/text_message.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace astro::fuzz {
@@ -11,6 +14,15 @@ void take(ByteView input) {
   if (const auto counts = ros2::decode_counts(input))
     require(ros2::decode_counts(ros2::encode_counts(*counts))->left == counts->left,
             "counts come back from their message");
+  for (const char* type :
+       {"geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/PoseWithCovarianceStamped",
+        "geometry_msgs/msg/TransformStamped", "nav_msgs/msg/Odometry", "tf2_msgs/msg/TFMessage"}) {
+    if (const auto poses = ros2::poses_in(type, input))
+      require(poses->size() <= 1 + input.size() / 64, "a message holds no more poses than fit into it");
+  }
+  if (const auto joints = ros2::decode_joint_state(input))
+    require(joints->names.size() <= ros2::kMostJoints, "a robot has no more joints than that");
+  ros2::decode_text(input);
   ros2::CdrReader reader(input);
   while (reader.ok()) {
     require(reader.string().size() <= input.size(), "a string is no longer than the message");
@@ -24,7 +36,13 @@ std::vector<Bytes> seeds() {
   writer.string("text");
   writer.number(1.0);
   writer.number(std::uint16_t{1});
-  return {ros2::encode_odometry({}), ros2::encode_counts({1, 2, 3}), ros2::encode_truth({}), writer.bytes()};
+  return {ros2::encode_odometry({}),
+          ros2::encode_counts({1, 2, 3}),
+          ros2::encode_truth({}),
+          writer.bytes(),
+          ros2::encode_joint_state({1, {"l", "r"}, {1, 2}, {3, 4}, {}}),
+          ros2::encode_tf({{1, "a", "b", 1, 2, 3, 0, 0, 0, 1}}),
+          ros2::encode_text("x")};
 }
 
 }  // namespace astro::fuzz

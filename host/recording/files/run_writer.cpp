@@ -1,12 +1,7 @@
 #include "host/recording/files/run_writer.hpp"
 
-#include <time.h>
-
-#include <algorithm>
 #include <cmath>
-#include <ctime>
 
-#include "host/base/error.hpp"
 #include "host/ros2/ros_messages.hpp"
 
 namespace astro::recording {
@@ -18,16 +13,6 @@ std::uint16_t add_topic(McapWriter& mcap, std::string_view topic, const ros2::Ro
   return mcap.add_channel(schema, topic, "cdr", {{"offered_qos_profiles", ""}});
 }
 
-/// Microseconds since 1970 of "2024-06-11T12:00:00Z"; nothing if `text` is no such time.
-std::optional<std::int64_t> utc_us(const std::string& text) {
-  std::tm time{};
-  const char* const end = strptime(text.c_str(), "%Y-%m-%dT%H:%M:%SZ", &time);
-  if (end == nullptr || *end != '\0') return std::nullopt;
-  const std::time_t seconds = timegm(&time);
-  if (seconds < 0) return std::nullopt;
-  return std::int64_t{seconds} * 1'000'000;
-}
-
 void keep_first(std::optional<double>& first, double heading_rad) {
   if (!first && std::isfinite(heading_rad)) first = heading_rad;
 }
@@ -35,9 +20,9 @@ void keep_first(std::optional<double>& first, double heading_rad) {
 }  // namespace
 
 RunWriter::RunWriter(const std::filesystem::path& path, const RunInfo& info, McapWriterOptions options)
-    : path_(path),
-      file_(path, PartFile::Replaces::recordings_too),
-      mcap_([this](ByteView bytes) { file_.write(bytes); }, {"ros2", "astrolabe"}, options) {
+    : file_(path, PartFile::Replaces::recordings_too),
+      mcap_([this](ByteView bytes) { file_.write(bytes); }, {"ros2", "astrolabe"}, options),
+      log_time_(path, info.started_at) {
   record_.info = info;
   mcap_.write_metadata({std::string(kRunRecordName), to_map(record_)});
   odometry_ = add_topic(mcap_, "/odom", ros2::odometry_type());
@@ -45,21 +30,8 @@ RunWriter::RunWriter(const std::filesystem::path& path, const RunInfo& info, Mca
   truth_ = add_topic(mcap_, "/truth", ros2::pose_stamped_type());
 }
 
-/// MCAP times cannot be negative; the stamp inside the message has the true time.
-std::uint64_t RunWriter::log_time_ns(std::int64_t time_us) {
-  if (!ros2::fits_stamp(time_us)) {
-    throw Error(path_.string() + " cannot hold the time " + std::to_string(time_us) +
-                " us: times are microseconds of the robot's clock, within 2^31 s");
-  }
-  if (!utc_offset_us_) {
-    const auto started_us = utc_us(record_.info.started_at);
-    utc_offset_us_ = started_us ? *started_us - time_us : 0;
-  }
-  return static_cast<std::uint64_t>(std::max<std::int64_t>(0, time_us + *utc_offset_us_)) * 1000;
-}
-
 void RunWriter::add(const OdometrySample& sample) {
-  const std::uint64_t time_ns = log_time_ns(sample.time_us);
+  const std::uint64_t time_ns = static_cast<std::uint64_t>(log_time_.ns(sample.time_us));
   keep_first(record_.first_odometry_heading_rad, sample.theta_rad);
   mcap_.write(odometry_, time_ns, ros2::encode_odometry(sample));
   mcap_.write(counts_, time_ns,
@@ -67,7 +39,7 @@ void RunWriter::add(const OdometrySample& sample) {
 }
 
 void RunWriter::add(const TruthSample& sample) {
-  const std::uint64_t time_ns = log_time_ns(sample.time_us);
+  const std::uint64_t time_ns = static_cast<std::uint64_t>(log_time_.ns(sample.time_us));
   if (sample.valid) keep_first(record_.first_truth_heading_rad, sample.theta_rad);
   mcap_.write(truth_, time_ns, ros2::encode_truth(sample));
 }

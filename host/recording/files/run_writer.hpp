@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "host/base/files.hpp"
+#include "host/recording/files/log_time.hpp"
 #include "host/recording/mcap/writer.hpp"
 #include "host/recording/run/run_metadata.hpp"
 
@@ -30,13 +31,10 @@ class RunWriter {
   void close(const RunInfo& final);
 
  private:
-  std::uint64_t log_time_ns(std::int64_t time_us);
-
-  std::filesystem::path path_;
   PartFile file_;
   McapWriter mcap_;
   RunRecord record_;
-  std::optional<std::int64_t> utc_offset_us_;  // UTC minus the robot's clock; set by the first message
+  LogTime log_time_;
   std::uint16_t odometry_ = 0, counts_ = 0, truth_ = 0;
 };
 

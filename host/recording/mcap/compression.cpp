@@ -4,6 +4,8 @@
 #include <zlib.h>
 #include <zstd.h>
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 
@@ -56,6 +58,45 @@ std::optional<Bytes> expand(std::string_view compression, ByteView bytes, std::u
   if (compression == "lz4") return expand_lz4(bytes, size);
   if (!compression.empty() || bytes.size() != size) return std::nullopt;
   return Bytes(bytes.begin(), bytes.end());
+}
+
+bool begins_like_zstd(ByteView bytes) {
+  constexpr std::uint8_t kMagic[] = {0x28, 0xB5, 0x2F, 0xFD};
+  return bytes.size() >= std::size(kMagic) && std::ranges::equal(bytes.first(std::size(kMagic)), kMagic);
+}
+
+std::optional<Bytes> expand_zstd_frame(ByteView bytes, std::uint64_t most_bytes) {
+  const std::uint64_t size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
+  if (size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR || size > most_bytes)
+    return std::nullopt;
+  return expand("zstd", bytes, size);
+}
+
+Expansion expand_zstd_file(ByteSource& file, std::uint64_t most_bytes,
+                           const std::function<void(ByteView)>& sink) {
+  const std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context(ZSTD_createDCtx(), &ZSTD_freeDCtx);
+  if (!context) throw std::bad_alloc();
+  // The window is what the decoder must keep; more than 32 MiB is used by no recorder.
+  ZSTD_DCtx_setParameter(context.get(), ZSTD_d_windowLogMax, 25);
+  Bytes piece(std::size_t{1} << 20);
+  std::uint64_t written = 0;
+  std::size_t hint = 0;
+  for (std::uint64_t at = 0; at < file.size();) {
+    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(piece.size(), file.size() - at));
+    ZSTD_inBuffer in{file.read(at, count).data(), count, 0};
+    bool full = true;  // a full piece: the decoder may hold more
+    while (in.pos < in.size || full) {
+      ZSTD_outBuffer out{piece.data(), piece.size(), 0};
+      hint = ZSTD_decompressStream(context.get(), &out, &in);
+      if (ZSTD_isError(hint) != 0) return Expansion::damaged;
+      written += out.pos;
+      if (written > most_bytes) return Expansion::too_large;
+      if (out.pos > 0) sink(ByteView(piece).first(out.pos));
+      full = out.pos == piece.size() && hint != 0;
+    }
+    at += count;
+  }
+  return hint == 0 ? Expansion::whole : Expansion::cut;
 }
 
 std::uint32_t crc32_ieee(ByteView bytes, std::uint32_t before) {

@@ -3,44 +3,40 @@
 #include <algorithm>
 
 #include "host/recording/mcap/compression.hpp"
+#include "host/recording/mcap/record_stream.hpp"
 
 namespace astro::recording {
 namespace {
 
 using mcap::Op;
+using mcap::Record;
 
 constexpr std::size_t kMaxWarnings = 8;
+constexpr std::size_t kMagicBytes = sizeof mcap::kMagic;
 
-struct Record {
-  std::uint8_t op = 0;
-  std::size_t start = 0;
-  ByteView content;
-};
+bool is_magic(ByteView bytes) { return std::ranges::equal(bytes, mcap::kMagic); }
 
 class Walker {
  public:
-  Walker(ByteView file, const McapHandlers& handlers, const McapLimits& limits)
-      : file_(file), handlers_(handlers), limits_(limits) {}
+  Walker(ByteSource& file, const McapHandlers& handlers, const McapLimits& limits)
+      : file_(file), records_(file), handlers_(handlers), limits_(limits) {}
 
+  /// Precondition: the file begins like one.
   McapReport walk() {
-    ByteCursor cursor(file_);
-    report_.is_mcap = is_magic(cursor.take(sizeof mcap::kMagic));
-    if (!report_.is_mcap) return report_;
+    report_.is_mcap = true;
     while (!footer_seen_) {
       Record record;
-      if (!next(cursor, record)) {
+      if (!records_.next(record)) {
         no_footer(record.start);
         return report_;
       }
       take(record);
     }
-    check_end(cursor);
+    check_end();
     return report_;
   }
 
  private:
-  static bool is_magic(ByteView bytes) { return std::ranges::equal(bytes, mcap::kMagic); }
-
   void warn(const std::string& what) {
     if (report_.warnings.size() < kMaxWarnings) report_.warnings.push_back(what);
   }
@@ -48,24 +44,16 @@ class Walker {
     report_.truncated = true;
     warn(what);
   }
-  void damage(const std::string& what, std::size_t at) {
+  void damage(const std::string& what, std::uint64_t at) {
     report_.damaged = true;
     warn(what + " at byte " + std::to_string(at));
   }
 
   /// A file with an intact end was not cut off: something before it is wrong, such as a length.
-  void no_footer(std::size_t at) {
-    if (file_.size() >= 2 * sizeof mcap::kMagic && is_magic(file_.last(sizeof mcap::kMagic)))
+  void no_footer(std::uint64_t at) {
+    if (file_.size() >= 2 * kMagicBytes && is_magic(file_.read(file_.size() - kMagicBytes, kMagicBytes)))
       return damage("a record that does not fit into the file", at);
     cut_off("the file ends at byte " + std::to_string(file_.size()) + " without a footer");
-  }
-
-  /// Opcode 0 does not exist; a file system leaves zeros where a power cut prevented the writing of bytes.
-  static bool next(ByteCursor& cursor, Record& record) {
-    record.start = cursor.offset();
-    record.op = cursor.number<std::uint8_t>();
-    record.content = cursor.take(cursor.number<std::uint64_t>());
-    return cursor.ok() && record.op != 0;
   }
 
   void take(const Record& record) {
@@ -86,7 +74,7 @@ class Walker {
   }
 
   /// The records that may be inside or outside of chunks. `at` is the position in the file for messages.
-  void take_content(const Record& record, std::size_t at) {
+  void take_content(const Record& record, std::uint64_t at) {
     switch (static_cast<Op>(record.op)) {
       case Op::schema:
         return schema(record, at);
@@ -106,13 +94,13 @@ class Walker {
     report_.library = header->library;
   }
 
-  void schema(const Record& record, std::size_t at) {
+  void schema(const Record& record, std::uint64_t at) {
     auto schema = mcap::decode_schema(record.content);
     if (!schema) return damage("bad schema", at);
     keep(schemas_, std::move(*schema), at);
   }
 
-  void channel(const Record& record, std::size_t at) {
+  void channel(const Record& record, std::uint64_t at) {
     auto channel = mcap::decode_channel(record.content);
     if (!channel) return damage("bad channel", at);
     keep(channels_, std::move(*channel), at);
@@ -130,7 +118,7 @@ class Walker {
 
   /// A definition may be repeated, even in each chunk, and replaces the one before.
   template <class Definition>
-  void keep(std::map<std::uint16_t, Definition>& all, Definition&& definition, std::size_t at) {
+  void keep(std::map<std::uint16_t, Definition>& all, Definition&& definition, std::uint64_t at) {
     const auto before = all.find(definition.id);
     const std::uint64_t freed = before == all.end() ? 0 : memory_of(before->second);
     const std::uint64_t bytes = definition_bytes_ - freed + memory_of(definition);
@@ -140,7 +128,7 @@ class Walker {
     all.insert_or_assign(definition.id, std::move(definition));
   }
 
-  void message(const Record& record, std::size_t at) {
+  void message(const Record& record, std::uint64_t at) {
     if (!handlers_.message) return;
     const auto message = mcap::decode_message(record.content);
     if (!message) return damage("bad message", at);
@@ -177,7 +165,7 @@ class Walker {
     ByteCursor cursor(*bytes);
     while (cursor.left() > 0) {
       Record inner;
-      if (!next(cursor, inner)) return damage("chunk that ends inside a record", record.start);
+      if (!mcap::next_inside(cursor, inner)) return damage("chunk that ends inside a record", record.start);
       take_content(inner, record.start);
     }
   }
@@ -187,7 +175,7 @@ class Walker {
     ByteCursor cursor(record.content);
     const auto crc = cursor.number<std::uint32_t>();
     if (!cursor.ok()) return damage("bad end of data", record.start);
-    if (crc != 0 && crc != crc32_ieee(file_.first(record.start))) {
+    if (crc != 0 && crc != records_.crc_before_record()) {
       damage("the data have a wrong checksum: found", record.start);
     }
   }
@@ -198,22 +186,21 @@ class Walker {
     if (!footer || footer->summary_start > record.start) return damage("bad footer", record.start);
     if (footer->summary_crc == 0) return;
     constexpr std::size_t kCovered = mcap::kRecordHeadBytes + 2 * sizeof(std::uint64_t);
-    const auto start =
-        footer->summary_start == 0 ? record.start : static_cast<std::size_t>(footer->summary_start);
-    if (footer->summary_crc != crc32_ieee(file_.subspan(start, record.start + kCovered - start))) {
+    const std::uint64_t start = footer->summary_start == 0 ? record.start : footer->summary_start;
+    if (footer->summary_crc != records_.crc_of(start, record.start + kCovered))
       damage("the summary has a wrong checksum: found", record.start);
-    }
   }
 
-  void check_end(ByteCursor& cursor) {
-    if (!data_end_seen_) damage("no end of data before the footer", cursor.offset());
-    const std::size_t at = cursor.offset();
-    const ByteView magic = cursor.take(sizeof mcap::kMagic);
-    if (!cursor.ok()) return cut_off("the file ends inside its last 8 bytes");
-    if (!is_magic(magic) || cursor.left() > 0) damage("the file does not end like an MCAP file", at);
+  void check_end() {
+    const std::uint64_t at = records_.at();
+    if (!data_end_seen_) damage("no end of data before the footer", at);
+    if (file_.size() - at < kMagicBytes) return cut_off("the file ends inside its last 8 bytes");
+    if (file_.size() - at > kMagicBytes || !is_magic(file_.read(at, kMagicBytes)))
+      damage("the file does not end like an MCAP file", at);
   }
 
-  ByteView file_;
+  ByteSource& file_;
+  mcap::RecordStream records_;
   const McapHandlers& handlers_;
   const McapLimits& limits_;
   McapReport report_;
@@ -225,8 +212,14 @@ class Walker {
 
 }  // namespace
 
-McapReport read_mcap(ByteView file, const McapHandlers& handlers, const McapLimits& limits) {
+McapReport read_mcap(ByteSource& file, const McapHandlers& handlers, const McapLimits& limits) {
+  if (file.size() < kMagicBytes || !is_magic(file.read(0, kMagicBytes))) return {};
   return Walker(file, handlers, limits).walk();
+}
+
+McapReport read_mcap(ByteView file, const McapHandlers& handlers, const McapLimits& limits) {
+  MemorySource source(file);
+  return read_mcap(source, handlers, limits);
 }
 
 }  // namespace astro::recording

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "host/base/byte_source.hpp"
 #include "host/recording/mcap/records.hpp"
 
 namespace astro::recording {
@@ -45,5 +46,8 @@ struct McapReport {
 /// summary; skips unknown records and trailing fields. Terminates for all input, and allocates no more than
 /// the limits allow. Throws only what a handler throws.
 McapReport read_mcap(ByteView file, const McapHandlers& handlers, const McapLimits& limits = {});
+
+/// The same for a file of any size, with one record of it in memory at a time. Throws what the source throws, too.
+McapReport read_mcap(ByteSource& file, const McapHandlers& handlers, const McapLimits& limits = {});
 
 }  // namespace astro::recording

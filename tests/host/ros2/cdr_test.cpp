@@ -87,8 +87,8 @@ TEST(Cdr, ReaderTakesAnEmptyStringOfLengthZero) {
 }
 
 TEST(Cdr, ReaderRefusesOtherEncapsulations) {
-  for (const Bytes& header :
-       {Bytes{0, 0, 0, 0}, Bytes{0, 3, 0, 0}, Bytes{0, 7, 0, 0}, Bytes{0, 1, 0}, Bytes{}}) {
+  for (const Bytes& header : {Bytes{1, 0, 0, 0}, Bytes{0, 2, 0, 0}, Bytes{0, 3, 0, 0}, Bytes{0, 7, 0, 0},
+                              Bytes{0, 1, 0}, Bytes{}}) {
     Bytes message = header;
     if (message.size() == 4) message.resize(8, 1);
     ros2::CdrReader in(message);

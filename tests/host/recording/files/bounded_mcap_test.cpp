@@ -1,8 +1,13 @@
 #include <gmock/gmock.h>
 
+#include <fstream>
+#include <random>
+
+#include "host/base/byte_source.hpp"
 #include "host/recording/files/run_file.hpp"
 #include "host/recording/mcap/compression.hpp"
 #include "host/recording/mcap/reader.hpp"
+#include "host/recording/mcap/writer.hpp"
 #include "host/ros2/ros_messages.hpp"
 #include "tests/host/recording/support.hpp"
 #include "tests/support/base/bounded.hpp"
@@ -58,6 +63,43 @@ TEST(BoundedMcap, SchemasAndChannelsThatExpandToMegabytesAreNotKept) {
   Bytes file = start_of_file();
   append_chunk(file, compress_zstd(records), records.size());
   EXPECT_THAT(reading(file).complaint, HasSubstr("more schemas and channels than this reader takes"));
+}
+
+TEST(BoundedMcap, AMillionEndsOfDataAreReadInATimeThatGrowsWithTheFile) {
+  Bytes file = start_of_file();
+  while (file.size() < 8 * kMebibyte) mcap::append_record(file, mcap::Op::data_end, Bytes{1, 2, 3, 4});
+  EXPECT_THAT(reading(file).complaint, HasSubstr("x.mcap is damaged (the data have a wrong checksum"));
+}
+
+TEST(BoundedMcap, AFileOfAnySizeIsReadPieceByPiece) {
+  support::TempFolder folder;
+  const std::filesystem::path path = folder / "long.mcap";
+  constexpr int kMessages = 48;
+  {
+    std::ofstream out(path, std::ios::binary);
+    McapWriter writer([&](ByteView bytes) { out << as_text(bytes); }, {"ros2", "test"});
+    const auto channel = writer.add_channel(writer.add_schema("a/msg/A", "ros2msg", ""), "/a", "cdr", {});
+    std::mt19937_64 random(1);  // so that it does not compress
+    for (int i = 0; i < kMessages; ++i) {
+      Bytes message;
+      while (message.size() < 4 * kMebibyte) append(message, std::uint64_t{random()});
+      writer.write(channel, static_cast<std::uint64_t>(i), message);
+    }
+    writer.close();
+  }
+  const Taken taken = measured([&] {
+    FileSource source(path);
+    int messages = 0;
+    McapHandlers handlers;
+    handlers.message = [&](const auto&, const auto*, const auto&) { ++messages; };
+    const McapReport report = read_mcap(source, handlers);
+    if (messages != kMessages || report.damaged || report.truncated) throw std::runtime_error("not all read");
+  });
+  EXPECT_TRUE(taken.ended);
+  EXPECT_EQ(taken.complaint, "");
+  if (astro::support::kMeasuresMemory) {
+    EXPECT_LE(taken.peak_bytes, 32 * kMebibyte);  // of a file of 192 MiB
+  }
 }
 
 TEST(BoundedMcap, AMapOfMillionsOfPairsIsRefused) {

@@ -1,0 +1,58 @@
+#include "host/base/byte_source.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include "host/base/error.hpp"
+
+namespace astro {
+namespace {
+
+constexpr std::size_t kWindowBytes = std::size_t{1} << 20;
+
+[[noreturn]] void cannot_read(const std::filesystem::path& path, const std::string& why) {
+  throw Error("cannot read " + path.string() + ": " + why, {Help::check_path});
+}
+
+}  // namespace
+
+FileSource::FileSource(std::filesystem::path path) : path_(std::move(path)) {
+  // O_NONBLOCK: opening a pipe that nobody writes to must not wait.
+  descriptor_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor_ < 0) cannot_read(path_, std::generic_category().message(errno));
+  struct stat status {};
+  if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) {
+    ::close(descriptor_);
+    cannot_read(path_, "it is not a regular file");
+  }
+  size_ = static_cast<std::uint64_t>(status.st_size);
+}
+
+FileSource::~FileSource() { ::close(descriptor_); }
+
+ByteView FileSource::read(std::uint64_t offset, std::size_t count) {
+  if (offset < window_start_ || offset + count > window_start_ + window_.size()) {
+    const std::uint64_t most = std::max(count, kWindowBytes);
+    window_.resize(static_cast<std::size_t>(std::min(most, size_ - offset)));
+    window_start_ = offset;
+    for (std::size_t done = 0; done < window_.size();) {
+      const ssize_t got = ::pread(descriptor_, window_.data() + done, window_.size() - done,
+                                  static_cast<off_t>(offset + done));
+      if (got < 0 && errno == EINTR) continue;
+      if (got <= 0) {
+        window_.clear();
+        cannot_read(path_, got < 0 ? std::generic_category().message(errno) : "it became shorter");
+      }
+      done += static_cast<std::size_t>(got);
+    }
+  }
+  return ByteView(window_).subspan(static_cast<std::size_t>(offset - window_start_), count);
+}
+
+}  // namespace astro

@@ -1,0 +1,159 @@
+#include "host/recording/bag/bag.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <optional>
+
+#include "host/base/byte_source.hpp"
+#include "host/base/error.hpp"
+#include "host/recording/bag/bag_files.hpp"
+#include "host/recording/bag/db3_reader.hpp"
+#include "host/recording/bag/scratch_folder.hpp"
+#include "host/recording/bag/topic_table.hpp"
+#include "host/recording/mcap/compression.hpp"
+#include "host/recording/mcap/reader.hpp"
+
+namespace astro::recording {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::uint64_t kMebibyte = std::uint64_t{1} << 20;
+constexpr std::size_t kMostWarnings = 8;
+
+class BagReader {
+ public:
+  explicit BagReader(const BagHandlers& handlers) : topics_(handlers) {}
+
+  BagReport read(const fs::path& path) {
+    const BagFiles files = bag_files(path);
+    report_.truncated = !files.warnings.empty();
+    for (const std::string& warning : files.warnings) warn(warning);
+    for (const fs::path& file : files.files) {
+      report_.files.push_back(file);
+      read_file(file, file.string());
+    }
+    report_.topics = topics_.topics();
+    return std::move(report_);
+  }
+
+ private:
+  void warn(const std::string& what) {
+    if (report_.warnings.size() < kMostWarnings) report_.warnings.push_back(what);
+  }
+
+  /// `name`: of the bag's own file, if `file` is a copy.
+  void read_file(const fs::path& file, const std::string& name, bool unpacked = false) {
+    switch (bag_file_kind(file)) {
+      case BagFileKind::database:
+        return read_database(file, name);
+      case BagFileKind::mcap:
+        return read_mcap_file(file, name);
+      case BagFileKind::zstd:
+        if (!unpacked) return read_packed(file, name);
+        break;
+      case BagFileKind::none:
+        break;
+    }
+    throw Error(name + " is not a bag: it begins like no .db3, .mcap or .zstd file", {Help::name_right_file});
+  }
+
+  void read_database(const fs::path& file, const std::string& name) {
+    std::error_code ignored;
+    const fs::path logs[] = {fs::path(file) += "-wal", fs::path(file) += "-journal"};
+    const bool killed = std::ranges::any_of(logs, [&](const fs::path& log) {
+      return fs::is_regular_file(log, ignored) && fs::file_size(log, ignored) > 0;
+    });
+    const std::uint64_t whole_pages = bytes_in_whole_pages(file);
+    const bool partial_page = whole_pages < fs::file_size(file, ignored);
+    if (!killed && !partial_page) return read_db3(file, name, false, topics_, report_);
+    const ScratchFolder scratch;
+    const fs::path copy = scratch / "copy.db3";
+    copy_file(file, copy);
+    if (!killed) {
+      // SQLite would fill the last page of a cut file with zeros, and messages with them.
+      fs::resize_file(copy, whole_pages);
+      return read_db3(copy, name, false, topics_, report_);
+    }
+    for (const fs::path& log : logs)
+      if (fs::is_regular_file(log, ignored))
+        copy_file(log, copy.string() + log.string().substr(file.string().size()));
+    read_db3(copy, name, true, topics_, report_);
+  }
+
+  static void copy_file(const fs::path& from, const fs::path& to) {
+    std::error_code error;
+    if (!fs::copy_file(from, to, error))
+      throw Error("cannot copy " + from.string() + " to " + to.string() + ": " + error.message(),
+                  {Help::check_permissions_and_disk});
+  }
+
+  void read_mcap_file(const fs::path& file, const std::string& name) {
+    FileSource source(file);
+    TopicTable::ExpansionLimit limit{32 * kMebibyte + source.size(), 64 * kMebibyte + 256 * source.size()};
+    // Of the channel ids; a channel may be defined again, and then as another topic.
+    std::vector<TopicTable::Entry*> entries;
+    bool expanded = true;
+    McapHandlers handlers;
+    handlers.message = [&](const mcap::Channel& channel, const mcap::Schema* schema,
+                           const mcap::Message& message) {
+      const std::string_view type = schema == nullptr ? std::string_view() : std::string_view(schema->name);
+      if (entries.size() <= channel.id) entries.resize(std::size_t{channel.id} + 1);
+      TopicTable::Entry*& entry = entries[channel.id];
+      if (entry == nullptr || entry->topic.name != channel.topic || entry->topic.type != type ||
+          entry->topic.encoding != channel.message_encoding)
+        entry = &topics_.entry(channel.topic, type, channel.message_encoding);
+      const auto time_ns = static_cast<std::int64_t>(
+          std::min<std::uint64_t>(message.log_time_ns, std::numeric_limits<std::int64_t>::max()));
+      expanded = topics_.take(*entry, time_ns, message.data, limit) && expanded;
+    };
+    const McapReport report = read_mcap(source, handlers);
+    report_.truncated = report_.truncated || report.truncated;
+    report_.damaged = report_.damaged || report.damaged || !expanded;
+    for (const std::string& warning : report.warnings) warn(name + ": " + warning);
+    if (!expanded) warn(name + ": a compressed message that does not expand");
+  }
+
+  void read_packed(const fs::path& file, const std::string& name) {
+    const ScratchFolder scratch;
+    const fs::path unpacked = scratch / "unpacked";
+    FileSource source(file);
+    std::ofstream out(unpacked, std::ios::binary);
+    const Expansion expansion =
+        expand_zstd_file(source, 64 * kMebibyte + 256 * source.size(), [&](ByteView piece) {
+          if (!out.write(reinterpret_cast<const char*>(piece.data()),
+                         static_cast<std::streamsize>(piece.size())))
+            throw Error("cannot write " + unpacked.string(), {Help::check_permissions_and_disk});
+        });
+    out.close();
+    if (expansion != Expansion::whole) {
+      (expansion == Expansion::cut ? report_.truncated : report_.damaged) = true;
+      warn(name + (expansion == Expansion::cut         ? " ends inside its compressed data"
+                   : expansion == Expansion::too_large ? " expands to more than 256 times its size"
+                                                       : " has damaged compressed data"));
+    }
+    read_file(unpacked, name, true);
+  }
+
+  TopicTable topics_;
+  BagReport report_;
+};
+
+}  // namespace
+
+bool is_bag(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::is_directory(path, ignored)) return bag_file_kind(path) != BagFileKind::none;
+  try {
+    return std::ranges::any_of(bag_files(path).files,
+                               [](const fs::path& file) { return bag_file_kind(file) != BagFileKind::none; });
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+BagReport read_bag(const fs::path& path, const BagHandlers& handlers) {
+  return BagReader(handlers).read(path);
+}
+
+}  // namespace astro::recording

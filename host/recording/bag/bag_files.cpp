@@ -1,0 +1,116 @@
+#include "host/recording/bag/bag_files.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fstream>
+
+#include "host/base/error.hpp"
+#include "host/base/files.hpp"
+#include "host/recording/mcap/compression.hpp"
+#include "host/recording/mcap/records.hpp"
+#include "host/recording/yaml/yaml_scalars.hpp"
+
+namespace astro::recording {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view kMetadataFile = "metadata.yaml";
+constexpr std::size_t kMostFiles = 100'000;
+
+/// Orders "bag_2" before "bag_10": numbers by their value, everything else by its bytes.
+bool natural_less(std::string_view a, std::string_view b) {
+  const auto digits = [](std::string_view text) {
+    const std::size_t end = text.find_first_not_of("0123456789");
+    return text.substr(0, end);
+  };
+  while (!a.empty() && !b.empty()) {
+    std::string_view left = digits(a), right = digits(b);
+    if (left.empty() || right.empty()) {
+      if (a.front() != b.front()) return a.front() < b.front();
+      a.remove_prefix(1);
+      b.remove_prefix(1);
+      continue;
+    }
+    a.remove_prefix(left.size());
+    b.remove_prefix(right.size());
+    left.remove_prefix(std::min(left.find_first_not_of('0'), left.size()));
+    right.remove_prefix(std::min(right.find_first_not_of('0'), right.size()));
+    if (left.size() != right.size()) return left.size() < right.size();
+    if (left != right) return left < right;
+  }
+  return a.size() < b.size();
+}
+
+std::vector<fs::path> parts_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    const std::string extension = at->path().extension().string();
+    if (extension != ".db3" && extension != ".mcap" && extension != ".zstd") continue;
+    if (files.size() >= kMostFiles) break;
+    files.push_back(at->path());
+  }
+  std::ranges::sort(files, [](const fs::path& a, const fs::path& b) {
+    return natural_less(a.filename().string(), b.filename().string());
+  });
+  return files;
+}
+
+/// The file as it is named, or packed or unpacked since the metadata were written; empty if it is not there.
+fs::path found(const fs::path& folder, const fs::path& name) {
+  fs::path packed = name, unpacked = name;
+  packed += ".zstd";
+  if (unpacked.extension() == ".zstd") unpacked.replace_extension();
+  std::error_code ignored;
+  for (const fs::path& variant : {name, packed, unpacked})
+    if (fs::is_regular_file(folder / variant, ignored)) return folder / variant;
+  return {};
+}
+
+BagFiles named_in(const fs::path& metadata, const fs::path& folder) {
+  constexpr std::string_view kKey = "rosbag2_bagfile_information/relative_file_paths/";
+  const Bytes text = load_file(metadata, kMaxSettingsBytes);
+  BagFiles out;
+  for (const YamlScalar& scalar : yaml_scalars(as_text(text), metadata.string())) {
+    if (!scalar.path.starts_with(kKey)) continue;
+    const fs::path name = fs::path(scalar.value).filename();
+    const fs::path file = found(folder, name);
+    if (file.empty()) {
+      out.warnings.push_back(metadata.string() + " names " + name.string() + ", which is not there");
+    } else {
+      out.files.push_back(file);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+BagFileKind bag_file_kind(const fs::path& path) {
+  constexpr std::string_view kDatabase{"SQLite format 3\0", 16};
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) return BagFileKind::none;
+  std::array<char, kDatabase.size()> start{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(start.data(), start.size());
+  const std::string_view text(start.data(), static_cast<std::size_t>(file.gcount()));
+  if (text == kDatabase) return BagFileKind::database;
+  if (text.starts_with(as_text(mcap::kMagic))) return BagFileKind::mcap;
+  return begins_like_zstd(as_bytes(text)) ? BagFileKind::zstd : BagFileKind::none;
+}
+
+BagFiles bag_files(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) throw Error("there is no " + path.string(), {Help::check_path});
+  if (!fs::is_directory(path, ignored)) return {{path}, {}};
+  BagFiles files;
+  const fs::path metadata = path / kMetadataFile;
+  if (fs::is_regular_file(metadata, ignored)) files = named_in(metadata, path);
+  if (files.files.empty()) files.files = parts_in(path);
+  if (files.files.empty())
+    throw Error(path.string() + " has no part of a bag in it, no .db3 and no .mcap", {Help::name_right_file});
+  return files;
+}
+
+}  // namespace astro::recording

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "host/recording/foreign/wheel_track.hpp"
+
+namespace astro::recording {
+
+/// Makes counters and angles continuous that start again at the end of their range: counts of 16 or 32 bits, signed or
+/// not, and angles in [0, 2 pi) or [-pi, pi). A wheel is taken to wrap if all its values are in such a range and it
+/// jumps by more than half of it at least once; a wheel must then move less than half the range between two samples.
+/// Adds a remark for each wheel that wraps. Metres are left as they are.
+void unwrap(WheelTrack& track);
+
+}  // namespace astro::recording

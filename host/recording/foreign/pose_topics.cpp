@@ -1,0 +1,181 @@
+#include "host/recording/foreign/pose_topics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <tuple>
+
+#include "host/recording/bag/bag.hpp"
+#include "host/recording/foreign/time_order.hpp"
+#include "host/recording/foreign/unclear_choice.hpp"
+#include "host/ros2/stamped_pose.hpp"
+
+namespace astro::recording {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostStreams = 10'000;
+/// As for our own recordings: this many samples, and one more for each kLeastBytesPerPose of the file.
+constexpr std::uint64_t kFreePoses = 300'000, kLeastBytesPerPose = 20;
+
+using TakePose = std::function<void(const BagTopic&, const ros2::StampedPose&, std::int64_t log_time_ns)>;
+
+struct PoseReport {
+  BagReport bag;
+  std::uint64_t unreadable = 0;
+};
+
+PoseReport for_each_pose(const fs::path& path, const std::string& topic, const TakePose& take) {
+  PoseReport report;
+  BagHandlers handlers;
+  handlers.wants = [&](const BagTopic& at) {
+    return ros2::holds_poses(at.type) && at.encoding == "cdr" && (topic.empty() || at.name == topic);
+  };
+  handlers.message = [&](const BagTopic& at, const BagMessage& message) {
+    const auto poses = ros2::poses_in(at.type, message.data);
+    report.unreadable += poses ? 0 : 1;
+    if (!poses) return;
+    for (const ros2::StampedPose& pose : *poses) take(at, pose, message.log_time_ns);
+  };
+  report.bag = read_bag(path, handlers);
+  return report;
+}
+
+bool is_truth_by_name(const std::string& topic) {
+  std::string lower = topic;
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  for (const char* word :
+       {"mocap", "vrpn", "optitrack", "vicon", "qualisys", "natnet", "ground", "truth", "tracker"})
+    if (lower.find(word) != std::string::npos) return true;
+  return false;
+}
+
+bool is_estimate_by_type(const std::string& type) {
+  return type == "nav_msgs/msg/Odometry" || type == ros2::tf_message_type().name;
+}
+
+std::vector<std::string> names_of(const std::vector<PoseStream>& streams) {
+  std::vector<std::string> names;
+  for (const PoseStream& stream : streams) names.push_back(stream.name());
+  return names;
+}
+
+PoseStream chosen(const fs::path& path, const PoseSelection& selection, std::vector<Remark>& remarks) {
+  const std::vector<PoseStream> all = pose_streams(path);
+  std::vector<PoseStream> left;
+  for (const PoseStream& stream : all)
+    if ((selection.topic.empty() || stream.topic == selection.topic) &&
+        (selection.frame.empty() || stream.frame == selection.frame) &&
+        (selection.child_frame.empty() || stream.child_frame == selection.child_frame))
+      left.push_back(stream);
+  if (left.size() == 1) return left.front();
+  if (left.empty())
+    throw UnclearChoice(path.string() + (all.empty() ? " has no poses"
+                                                     : " has no such poses; it has " + listed(names_of(all))),
+                        names_of(all));
+  const auto only = [&](const auto& is_meant) -> const PoseStream* {
+    const auto first = std::ranges::find_if(left, is_meant);
+    if (first == left.end() || std::find_if(first + 1, left.end(), is_meant) != left.end()) return nullptr;
+    return &*first;
+  };
+  const PoseStream* found = only([](const PoseStream& stream) { return is_truth_by_name(stream.topic); });
+  if (found == nullptr)
+    found = only([](const PoseStream& stream) { return !is_estimate_by_type(stream.type); });
+  if (found == nullptr)
+    throw UnclearChoice(path.string() + " has several streams of poses: " + listed(names_of(left)),
+                        names_of(left));
+  remarks.push_back({"the poses are those of " + found->name()});
+  return *found;
+}
+
+/// How far the recorder's clock is ahead of the stamps.
+struct ClockOffset {
+  double least_s = 0, most_s = 0;
+  bool any = false;
+
+  void take(std::int64_t log_time_ns, std::int64_t stamp_ns) {
+    const double offset_s = (static_cast<double>(log_time_ns) - static_cast<double>(stamp_ns)) * 1e-9;
+    least_s = any ? std::min(least_s, offset_s) : offset_s;
+    most_s = any ? std::max(most_s, offset_s) : offset_s;
+    any = true;
+  }
+  void remark(std::vector<Remark>& remarks) const {
+    constexpr double kOtherClock_s = 3600, kMostSpread_s = 1;
+    if (std::abs(least_s) > kOtherClock_s || std::abs(most_s) > kOtherClock_s)
+      remarks.push_back({"the stamps of the poses are on another clock than the recorder's: they are " +
+                         std::to_string(std::llround(least_s)) + " s before it"});
+    if (most_s - least_s > kMostSpread_s)
+      remarks.push_back({"the poses reached the recorder with delays that differ by " +
+                         std::to_string(std::llround(most_s - least_s)) + " s"});
+  }
+};
+
+}  // namespace
+
+std::string PoseStream::name() const {
+  std::string text = topic;
+  if (!child_frame.empty()) text += " " + frame + " " + child_frame;
+  return text;
+}
+
+std::vector<PoseStream> pose_streams(const fs::path& path) {
+  std::map<std::tuple<std::string, std::string, std::string, std::string>, std::size_t> places;
+  std::vector<PoseStream> streams;
+  for_each_pose(
+      path, "", [&](const BagTopic& topic, const ros2::StampedPose& pose, std::int64_t log_time_ns) {
+        // A pose without a child frame belongs to its topic, whatever its frame is called from message to message.
+        const std::string frame = pose.child_frame.empty() ? "" : pose.frame;
+        const auto [at, is_new] =
+            places.try_emplace({topic.name, topic.type, frame, pose.child_frame}, streams.size());
+        if (is_new && streams.size() >= kMostStreams) {
+          places.erase(at);
+          return;
+        }
+        if (is_new)
+          streams.push_back({topic.name, topic.type, frame, pose.child_frame, 0, log_time_ns, log_time_ns});
+        PoseStream& stream = streams[at->second];
+        ++stream.poses;
+        stream.first_ns = std::min(stream.first_ns, log_time_ns);
+        stream.last_ns = std::max(stream.last_ns, log_time_ns);
+      });
+  return streams;
+}
+
+PoseTopic poses_in_bag(const fs::path& path, const PoseSelection& selection) {
+  PoseTopic out;
+  out.stream = chosen(path, selection, out.remarks);
+  const PoseStream& stream = out.stream;
+  ClockOffset offset;
+  std::vector<std::int64_t> log_times_ns;
+  std::uint64_t bytes = 0;
+  for (const fs::path& file : read_bag(path).files) bytes += fs::file_size(file);
+  if (stream.poses > kFreePoses + bytes / kLeastBytesPerPose)
+    throw Error(path.string() + " holds more poses than any recording of its size: it is damaged",
+                {Help::copy_or_record_again});
+  out.poses.reserve(stream.poses);
+  log_times_ns.reserve(stream.poses);
+  const PoseReport report = for_each_pose(
+      path, stream.topic,
+      [&](const BagTopic& topic, const ros2::StampedPose& pose, std::int64_t log_time_ns) {
+        if (topic.type != stream.type || pose.child_frame != stream.child_frame ||
+            (!pose.child_frame.empty() && pose.frame != stream.frame))
+          return;
+        out.has_stamps = out.has_stamps || pose.time_ns != 0;
+        offset.take(log_time_ns, pose.time_ns);
+        log_times_ns.push_back(log_time_ns);
+        out.poses.push_back({pose.time_ns, pose.x_m, pose.y_m, pose.z_m, pose.qx, pose.qy, pose.qz, pose.qw});
+      });
+  if (!out.has_stamps)
+    for (std::size_t i = 0; i < out.poses.size(); ++i) out.poses[i].time_ns = log_times_ns[i];
+  for (const std::string& warning : report.bag.warnings) out.remarks.push_back({warning});
+  if (report.unreadable > 0)
+    out.remarks.push_back(
+        {std::to_string(report.unreadable) + " messages do not fit their type and were left out"});
+  if (out.has_stamps) offset.remark(out.remarks);
+  order_by_time(out.poses, "poses of " + stream.topic, out.remarks);
+  return out;
+}
+
+}  // namespace astro::recording

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "host/base/remedy.hpp"
+
+/// Poses in bags, from whatever published them: ground truth of a tracker, or a robot's own odometry.
+namespace astro::recording {
+
+/// Poses that belong together: those of a topic between one pair of frames. Messages without a child frame have "".
+struct PoseStream {
+  std::string topic, type;         // "/tf", "tf2_msgs/msg/TFMessage"
+  std::string frame, child_frame;  // "map", "base_link"
+  std::uint64_t poses = 0;
+  std::int64_t first_ns = 0, last_ns = 0;  // of the recorder
+
+  std::string name() const;  // "/tf map base_link"
+};
+
+struct TimedPose {
+  std::int64_t time_ns = 0;
+  double x_m = 0, y_m = 0, z_m = 0;
+  double qx = 0, qy = 0, qz = 0, qw = 1;  // as in the message: perhaps not of length 1, perhaps NaN
+
+  bool operator==(const TimedPose&) const = default;
+};
+
+struct PoseTopic {
+  PoseStream stream;
+  bool has_stamps = false;       // false: all are zero, and the times are those of the recorder
+  std::vector<TimedPose> poses;  // times increase strictly
+  std::vector<Remark> remarks;   // what was inferred or left out
+};
+
+/// What is not given ("") may be anything.
+struct PoseSelection {
+  std::string topic, frame, child_frame;
+};
+
+/// All streams of poses in the order of the bag, at most 10,000. Errors as read_bag (host/recording/bag).
+std::vector<PoseStream> pose_streams(const std::filesystem::path& path);
+
+/// The poses of the only stream that is selected. If several are, the only one that is neither odometry nor a transform
+/// or whose topic's name speaks of ground truth or of a tracker. Times are header.stamp; a remark says if they are far
+/// from those of the recorder or drift against them.
+///
+/// Errors  UnclearChoice (unclear_choice.hpp) with the names of the streams if none or several are left; astro::Error
+///         naming the file if it is no bag, or packs more poses than any recording of its size.
+PoseTopic poses_in_bag(const std::filesystem::path& path, const PoseSelection& selection = {});
+
+}  // namespace astro::recording

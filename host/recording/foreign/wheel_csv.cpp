@@ -1,0 +1,176 @@
+#include "host/recording/foreign/wheel_csv.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "host/base/csv_table.hpp"
+#include "host/recording/foreign/counter_wraps.hpp"
+#include "host/recording/foreign/line_reader.hpp"
+#include "host/recording/foreign/time_text.hpp"
+#include "host/recording/foreign/unclear_choice.hpp"
+#include "host/recording/foreign/wheel_columns.hpp"
+
+namespace astro::recording {
+namespace {
+
+constexpr std::size_t kMostCells = 1000;
+
+std::string_view trimmed(std::string_view cell) {
+  while (!cell.empty() && (cell.front() == ' ' || cell.front() == '"')) cell.remove_prefix(1);
+  while (!cell.empty() && (cell.back() == ' ' || cell.back() == '"')) cell.remove_suffix(1);
+  return cell;
+}
+
+/// Splits a line at the separator; several blanks are one.
+void split(std::string_view line, char separator, std::vector<std::string_view>& cells) {
+  cells.clear();
+  while (cells.size() < kMostCells) {
+    if (separator == ' ') line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
+    const std::size_t end = line.find(separator);
+    cells.push_back(trimmed(line.substr(0, end)));
+    if (end == std::string_view::npos) break;
+    line.remove_prefix(end + 1);
+  }
+  if (separator == ' ' && cells.size() > 1 && cells.back().empty()) cells.pop_back();
+}
+
+char separator_of(std::string_view line) {
+  for (const char separator : {'\t', ';', ','})
+    if (line.find(separator) != std::string_view::npos) return separator;
+  return ' ';
+}
+
+std::optional<double> number(std::string_view cell) {
+  if (cell.starts_with('+')) cell.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+class Table {
+ public:
+  Table(ByteSource& file, const std::string& name, const WheelTable& table)
+      : lines_(file, name), name_(name), given_(table) {
+    // The shortest row, "1,0,0" and its line end, has six bytes.
+    track_.samples.reserve(std::min<std::size_t>(static_cast<std::size_t>(file.size() / 6 + 1), kFreeRows));
+  }
+
+  WheelTrack read() {
+    while (const auto line = lines_.next()) {
+      if (line->find_first_not_of(" \t,;") == std::string_view::npos || line->front() == '#') continue;
+      if (separator_ == '\0') {
+        begin(*line);
+      } else {
+        split(*line, separator_, cells_);
+        row();
+      }
+    }
+    finish();
+    return std::move(track_);
+  }
+
+ private:
+  static constexpr std::size_t kFreeRows = 1'000'000;
+
+  /// The first line that is not empty: names, or a row if the names are given.
+  void begin(std::string_view line) {
+    separator_ = separator_of(line);
+    split(line, separator_, cells_);
+    choose_columns();
+    if (given_.columns.empty()) return;
+    // Names although they are given: none of the three cells is a number.
+    for (const std::size_t at : {columns_.time, columns_.left, columns_.right})
+      if (number(cell(at))) return row();
+  }
+
+  void choose_columns() {
+    std::vector<std::string_view> names = cells_;
+    if (!given_.columns.empty()) split(given_.columns, ',', names);
+    const auto columns = wheel_columns(names);
+    if (!columns) {
+      const std::vector<std::string> found(names.begin(), names.end());
+      throw UnclearChoice(
+          name_ + ": the columns do not tell time, left and right wheel with their units: " + listed(found),
+          found);
+    }
+    columns_ = *columns;
+    columns_.per_interval = columns_.per_interval || given_.per_interval;
+    track_.unit = columns_.unit;
+  }
+
+  std::string_view cell(std::size_t at) const { return at < cells_.size() ? cells_[at] : std::string_view(); }
+
+  [[noreturn]] void refuse_cell(std::size_t at, const std::string& what) const {
+    const bool comma = separator_ != ',' && cell(at).find(',') != std::string_view::npos;
+    refuse(name_, lines_.line(),
+           "column " + std::to_string(at + 1) + ": '" + std::string(cell(at)) + "' " + what,
+           {comma ? Help::write_decimal_point : Help::none});
+  }
+
+  double travel(std::size_t at) const {
+    const auto value = number(cell(at));
+    if (!value) refuse_cell(at, "is not a number");
+    return *value * columns_.scale;
+  }
+
+  void row() {
+    if (cell(columns_.time).empty() || cell(columns_.left).empty() || cell(columns_.right).empty()) {
+      // What a row of travel per interval does not say is missing in all rows after it.
+      if (columns_.per_interval)
+        refuse(name_, lines_.line(), "a cell is empty, and travel per interval cannot be left out",
+               {Help::fill_each_cell});
+      ++incomplete_;
+      return;
+    }
+    const auto time_ns = time_in(cell(columns_.time), columns_.time_unit_ns);
+    if (!time_ns) refuse_cell(columns_.time, "is not a time");
+    WheelSample sample{*time_ns, travel(columns_.left), travel(columns_.right)};
+    if (!track_.samples.empty()) {
+      const WheelSample& before = track_.samples.back();
+      if (sample.time_ns < before.time_ns)
+        refuse(name_, lines_.line(), "the time is before that of the row above", {Help::sort_rows});
+      if (columns_.per_interval) {
+        sample.left += before.left;
+        sample.right += before.right;
+      }
+      if (sample.time_ns == before.time_ns) {
+        ++repeated_;
+        if (columns_.per_interval) track_.samples.back() = sample;
+        return;
+      }
+    }
+    track_.samples.push_back(sample);
+  }
+
+  void finish() {
+    if (track_.samples.size() < 2)
+      refuse(name_, lines_.line(), "the table ends with fewer than two rows of wheels");
+    if (!columns_.per_interval) unwrap(track_);
+    if (incomplete_ > 0)
+      track_.remarks.push_back(
+          {name_ + " has " + std::to_string(incomplete_) + " rows with empty cells; they were left out"});
+    if (repeated_ > 0)
+      track_.remarks.push_back(
+          {name_ + " has " + std::to_string(repeated_) + " rows that repeat the time of the row above"});
+  }
+
+  LineReader lines_;
+  const std::string& name_;
+  const WheelTable& given_;
+  char separator_ = '\0';
+  std::vector<std::string_view> cells_;
+  WheelColumns columns_;
+  std::size_t incomplete_ = 0, repeated_ = 0;
+  WheelTrack track_;
+};
+
+}  // namespace
+
+WheelTrack wheels_in_table(ByteSource& file, const std::string& name, const WheelTable& table) {
+  return Table(file, name, table).read();
+}
+
+}  // namespace astro::recording

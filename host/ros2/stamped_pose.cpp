@@ -1,0 +1,95 @@
+#include "host/ros2/stamped_pose.hpp"
+
+#include "host/ros2/cdr.hpp"
+#include "host/ros2/message_definitions.hpp"
+#include "host/ros2/ros_stamp.hpp"
+
+namespace astro::ros2 {
+namespace {
+
+constexpr RosType kTfMessageType{
+    "tf2_msgs/msg/TFMessage",
+    "geometry_msgs/TransformStamped[] transforms\n" ASTRO_MSG_RULE
+    "MSG: geometry_msgs/TransformStamped\nstd_msgs/Header header\nstring child_frame_id\n"
+    "geometry_msgs/Transform transform\n" ASTRO_MSG_HEADER ASTRO_MSG_RULE
+    "MSG: geometry_msgs/Transform\ngeometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion "
+    "rotation\n" ASTRO_MSG_VECTOR3 ASTRO_MSG_QUATERNION};
+
+constexpr std::size_t kCovarianceCells = 36, kTwistNumbers = 6, kPoseNumbers = 7;
+constexpr std::size_t kLeastTransformBytes = 2 * sizeof(std::uint32_t) + kPoseNumbers * sizeof(double);
+
+enum class Child { absent, named };
+
+StampedPose take_stamped_pose(CdrReader& in, Child child) {
+  StampedPose pose;
+  pose.time_ns = take_time_ns(in);
+  pose.frame = in.string();
+  if (child == Child::named) pose.child_frame = in.string();
+  for (double* number : {&pose.x_m, &pose.y_m, &pose.z_m, &pose.qx, &pose.qy, &pose.qz, &pose.qw})
+    *number = in.number<double>();
+  return pose;
+}
+
+std::vector<StampedPose> take_transforms(CdrReader& in) {
+  std::vector<StampedPose> all(in.length(kLeastTransformBytes));
+  for (StampedPose& pose : all) {
+    if (!in.ok()) break;
+    pose = take_stamped_pose(in, Child::named);
+  }
+  return all;
+}
+
+struct PoseType {
+  std::string_view name;
+  Child child;
+  std::size_t further_numbers;  // behind the pose, which a whole message has
+};
+
+constexpr PoseType kPoseTypes[] = {
+    {"geometry_msgs/msg/PoseStamped", Child::absent, 0},
+    {"geometry_msgs/msg/PoseWithCovarianceStamped", Child::absent, kCovarianceCells},
+    {"geometry_msgs/msg/TransformStamped", Child::named, 0},
+    {"nav_msgs/msg/Odometry", Child::named, kCovarianceCells + kTwistNumbers + kCovarianceCells},
+};
+
+const PoseType* pose_type(std::string_view name) {
+  for (const PoseType& type : kPoseTypes)
+    if (type.name == name) return &type;
+  return nullptr;
+}
+
+}  // namespace
+
+const RosType& tf_message_type() { return kTfMessageType; }
+
+bool holds_poses(std::string_view type) { return type == kTfMessageType.name || pose_type(type) != nullptr; }
+
+std::optional<std::vector<StampedPose>> poses_in(std::string_view type, ByteView message) {
+  CdrReader in(message);
+  std::vector<StampedPose> poses;
+  if (type == kTfMessageType.name) {
+    poses = take_transforms(in);
+  } else if (const PoseType* single = pose_type(type)) {
+    poses.push_back(take_stamped_pose(in, single->child));
+    in.skip<double>(single->further_numbers);
+  } else {
+    return std::nullopt;
+  }
+  if (!in.ok()) return std::nullopt;
+  return poses;
+}
+
+Bytes encode_tf(const std::vector<StampedPose>& transforms) {
+  CdrWriter out;
+  out.number(static_cast<std::uint32_t>(transforms.size()));
+  for (const StampedPose& pose : transforms) {
+    put_time_ns(out, pose.time_ns);
+    out.string(pose.frame);
+    out.string(pose.child_frame);
+    for (const double number : {pose.x_m, pose.y_m, pose.z_m, pose.qx, pose.qy, pose.qz, pose.qw})
+      out.number(number);
+  }
+  return out.bytes();
+}
+
+}  // namespace astro::ros2

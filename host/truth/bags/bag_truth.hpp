@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+
+#include "host/recording/foreign/pose_topics.hpp"
+#include "host/truth/files/body_track.hpp"
+
+namespace astro::truth {
+
+/// The selected stream of poses in a bag as a track. Its body is named like the child frame, or like the topic if the
+/// messages have none. A pose that no body can have, such as one of zeros or NaN, is one that the tracker had lost.
+/// Errors as recording::poses_in_bag.
+BodyTrack track_in_bag(const std::filesystem::path& path, const recording::PoseSelection& selection = {});
+
+}  // namespace astro::truth

@@ -1,0 +1,94 @@
+// Bags of either storage, packed or not, and the wheels and poses in them.
+#include "host/recording/bag/bag.hpp"
+#include "host/base/error.hpp"
+#include "host/recording/bag/sqlite.hpp"
+#include "host/recording/foreign/joint_wheels.hpp"
+#include "host/recording/foreign/pose_topics.hpp"
+#include "host/recording/mcap/compression.hpp"
+#include "host/recording/mcap/writer.hpp"
+#include "host/ros2/joint_state.hpp"
+#include "host/ros2/stamped_pose.hpp"
+#include "tests/fuzz/input_file.hpp"
+#include "tests/fuzz/target.hpp"
+
+namespace astro::fuzz {
+namespace {
+
+using namespace recording;  // NOLINT(google-build-using-namespace): this file is all recordings
+using fuzz::Bytes;
+using fuzz::ByteView;
+
+template <class Read>
+void try_to(Read read) {
+  try {
+    read();
+  } catch (const Error&) {
+  }
+}
+
+Bytes joints() { return ros2::encode_joint_state({5, {"left_wheel", "right_wheel"}, {1, 2}, {3, 4}, {}}); }
+Bytes transform() { return ros2::encode_tf({{5, "map", "base", 1, 2, 3, 0, 0, 0, 1}}); }
+
+Bytes mcap_bag() {
+  Bytes file;
+  McapWriter writer([&](ByteView bytes) { append(file, bytes); }, {"ros2", "fuzz"});
+  const auto add = [&](const ros2::RosType& type, const char* topic, const Bytes& data) {
+    const auto channel = writer.add_channel(writer.add_schema(type.name, "ros2msg", "x"), topic, "cdr", {});
+    for (std::uint64_t i = 0; i < 3; ++i) writer.write(channel, i, data);
+  };
+  add(ros2::joint_state_type(), "/joint_states", joints());
+  add(ros2::tf_message_type(), "/tf", transform());
+  writer.close();
+  return file;
+}
+
+Bytes database_bag() {
+  sqlite3* raw = nullptr;
+  sqlite3_open(":memory:", &raw);
+  const Database database(raw);
+  sqlite3_exec(
+      raw,
+      "PRAGMA page_size=512;CREATE TABLE topics(id INTEGER PRIMARY KEY,name TEXT,type TEXT,"
+      "serialization_format TEXT);CREATE TABLE messages(id INTEGER PRIMARY KEY,topic_id INTEGER,timestamp "
+      "INTEGER,data BLOB);INSERT INTO topics VALUES(1,'/joint_states','sensor_msgs/msg/JointState','cdr'),"
+      "(2,'/tf','tf2_msgs/msg/TFMessage','cdr');",
+      nullptr, nullptr, nullptr);
+  const Bytes messages[] = {joints(), transform()};
+  for (int i = 0; i < 6; ++i) {
+    Statement insert(raw, "INSERT INTO messages(topic_id,timestamp,data) VALUES(?,?,?)");
+    insert.bind(1, std::int64_t{1 + i % 2});
+    insert.bind(2, std::int64_t{i});
+    insert.bind(3, ByteView(messages[i % 2]));
+    insert.step();
+  }
+  sqlite3_int64 size = 0;
+  unsigned char* image = sqlite3_serialize(raw, "main", &size, 0);
+  Bytes file(image, image + size);
+  sqlite3_free(image);
+  return file;
+}
+
+}  // namespace
+
+void take(ByteView input) {
+  static const InputFile file("bag");
+  const std::filesystem::path path = file.holding(input);
+  BagHandlers handlers;
+  std::uint64_t passed = 0;
+  handlers.message = [&](const BagTopic&, const BagMessage&) { ++passed; };
+  try_to([&] {
+    const BagReport report = read_bag(path, handlers);
+    std::uint64_t counted = 0;
+    for (const BagTopic& topic : report.topics) counted += topic.messages;
+    require(passed <= counted, "every message that is passed on is counted");
+    require(report.damaged || passed == counted, "only damaged messages are left out");
+  });
+  try_to([&] { wheels_in_bag(path); });
+  try_to([&] { poses_in_bag(path); });
+}
+
+std::vector<Bytes> seeds() {
+  return {mcap_bag(), database_bag(), compress_zstd(mcap_bag()), compress_zstd(database_bag())};
+}
+
+}  // namespace astro::fuzz

@@ -1,0 +1,39 @@
+#include "host/truth/bags/bag_truth.hpp"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "host/ros2/stamped_pose.hpp"
+#include "tests/host/recording/bag/made_bags.hpp"
+#include "tests/support/base/temporary_folder.hpp"
+
+namespace astro::truth {
+namespace {
+
+TEST(BagTruth, PosesAreATrackOfTheChildFrameAndImpossibleOnesAreLost) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const test::TemporaryFolder folder;
+  Bytes file;
+  recording::McapWriter writer([&](ByteView bytes) { append(file, bytes); }, {"ros2", "test"});
+  const auto channel =
+      writer.add_channel(writer.add_schema(ros2::tf_message_type().name, "ros2msg", ""), "/tf", "cdr", {});
+  const ros2::StampedPose poses[] = {{1, "map", "robot", 1, 2, 3, 0, 0, 1.0001, 0},
+                                     {2, "map", "robot", 0, 0, 0, 0, 0, 0, 0},
+                                     {3, "map", "robot", nan, 2, 3, 0, 0, 1, 0}};
+  for (const ros2::StampedPose& pose : poses)
+    writer.write(channel, static_cast<std::uint64_t>(pose.time_ns), ros2::encode_tf({pose}));
+  writer.close();
+  recording::made_bags::save(folder.path() / "x.mcap", file);
+  const BodyTrack track = track_in_bag(folder.path() / "x.mcap");
+  EXPECT_EQ(track.name, "robot");
+  ASSERT_EQ(track.samples.size(), 3U);
+  EXPECT_TRUE(track.samples[0].valid);
+  EXPECT_EQ(track.samples[0].pose.qz, 1);
+  EXPECT_EQ(track.samples[0].pose.z_m, 3);
+  EXPECT_FALSE(track.samples[1].valid);
+  EXPECT_FALSE(track.samples[2].valid);
+}
+
+}  // namespace
+}  // namespace astro::truth
