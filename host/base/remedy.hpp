@@ -116,6 +116,19 @@ enum class Help : std::uint8_t {
   export_rigid_bodies,
   export_as_table,
   export_in_one_frame,
+  unpack_first,
+  // recordings of other programs
+  name_wheel_columns,
+  name_wheel_joints,
+  name_wheel_topic,
+  name_pose_stream,
+  name_controller,
+  check_wheel_units,
+  exchange_wheels_or_give_up,
+  exchange_wheels_or_change_up,
+  give_wheel_diameter,
+  give_counts_per_turn,
+  give_wheelbase,
   // calibrations
   name_calibration,
   name_calibration_in_folder,  // {file}

@@ -140,7 +140,11 @@ std::string sentence_for(const CLI::App& app, const CLI::ParseError& error, int 
 
 constexpr int kWrongUsage = 2;
 
+int answer = 0;  // one command runs in a process
+
 }  // namespace
+
+void answer_no() { answer = kAnswerIsNo; }
 
 Program::Program(const char* name, const std::string& what) : app_(std::make_unique<CLI::App>(what, name)) {
   set_program_name(name);
@@ -164,7 +168,7 @@ int Program::run(int argc, char** argv) {
     complain(sentence_for(*app_, error, argc, argv));
     return kWrongUsage;
   }
-  return 0;
+  return answer;
 }
 
 }  // namespace astro::console

@@ -7,6 +7,11 @@
 
 namespace astro::console {
 
+/// For a command that answers a question, as grep does: it did its work, and the answer is no. The program ends
+/// with kAnswerIsNo.
+void answer_no();
+inline constexpr int kAnswerIsNo = 3;
+
 /// A program's whole command line: prints --help and --version, runs the command that was given, and turns
 /// wrong usage into one sentence that names the wrong word and the help that explains it.
 class Program {
@@ -19,7 +24,8 @@ class Program {
   Command command() { return Command(app_.get()); }
   void version(const std::string& text);
 
-  /// Returns the exit code: 0, or 2 after a sentence on stderr. Exceptions of the callbacks pass through.
+  /// Returns the exit code: 0, what answer_no() says, or 2 after a sentence on stderr. Exceptions of the callbacks
+  /// pass through.
   int run(int argc, char** argv);
 
  private:

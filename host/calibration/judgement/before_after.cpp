@@ -1,9 +1,10 @@
 #include "host/calibration/judgement/before_after.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+
+#include "host/calibration/judgement/student_t.hpp"
 
 namespace astro::calibration {
 namespace {
@@ -23,15 +24,6 @@ bool errors_known(const FigureOfMerit& before, const FigureOfMerit& after) {
 }
 
 }  // namespace
-
-double student_t_975(int degrees_of_freedom) {
-  constexpr std::array table{12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228};
-  if (degrees_of_freedom < 1) return kInfinity;
-  if (degrees_of_freedom <= 10) return table[static_cast<std::size_t>(degrees_of_freedom - 1)];
-  // Cornish-Fisher expansion about the normal quantile, good to 0.001 from ten degrees of freedom on.
-  const double z = 1.959964, n = degrees_of_freedom;
-  return z + (z * z * z + z) / (4 * n) + (5 * std::pow(z, 5) + 16 * z * z * z + 3 * z) / (96 * n * n);
-}
 
 FigureOfMerit E_max_syst_mm(const ExperimentSummary& squares) {
   const int runs = squares.cw.r_cg_m > squares.ccw.r_cg_m ? squares.cw.runs : squares.ccw.runs;

@@ -39,7 +39,4 @@ enum class Verdict { better, worse, undecided, unknown };
 /// errors.
 Verdict judge(const FigureOfMerit& before, const FigureOfMerit& after);
 
-/// Two-sided 5 % quantile of Student's t; infinite for less than one degree of freedom.
-double student_t_975(int degrees_of_freedom);
-
 }  // namespace astro::calibration

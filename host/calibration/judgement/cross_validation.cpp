@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 
 #include "host/base/error.hpp"
+#include "host/calibration/end_poses/replay.hpp"
+#include "host/calibration/judgement/student_t.hpp"
 #include "host/calibration/likelihood/ml_fit.hpp"
 #include "host/calibration/preparation/preparation.hpp"
 
@@ -14,15 +18,6 @@ namespace {
 constexpr std::size_t kMostGroups = 10;
 constexpr int kPriorRuns = 4;
 
-/// One-sided 10 % quantile of Student's t for at least kPriorRuns degrees of freedom.
-double student_t_90(int degrees_of_freedom) {
-  // Cornish-Fisher expansion about the normal quantile, good to 0.003 from four degrees of freedom on.
-  const double z = 1.281552, n = degrees_of_freedom;
-  const double z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z;
-  return z + (z3 + z) / (4 * n) + (5 * z5 + 16 * z3 + 3 * z) / (96 * n * n) +
-         (3 * z7 + 19 * z5 + 17 * z3 - 15 * z) / (384 * n * n * n);
-}
-
 /// Every so many-th run, so that a group has runs of all kinds and senses if they were driven by turns or one after
 /// the other.
 std::vector<std::size_t> group(std::size_t index, std::size_t groups, std::size_t runs) {
@@ -31,29 +26,12 @@ std::vector<std::size_t> group(std::size_t index, std::size_t groups, std::size_
   return members;
 }
 
-struct Split {
-  std::vector<Trajectory> held_out, others;
-};
-
-Split split(std::span<const Trajectory> runs, const std::vector<std::size_t>& held_out) {
-  Split out;
-  for (std::size_t i = 0; i < runs.size(); ++i)
-    (std::find(held_out.begin(), held_out.end(), i) == held_out.end() ? out.others : out.held_out)
-        .push_back(runs[i]);
-  return out;
-}
-
-/// Truth no closer than the estimate used it.
-std::vector<Trajectory> thinned(std::span<const Trajectory> runs, double period_s) {
-  std::vector<Trajectory> out(runs.begin(), runs.end());
-  constexpr double kRounding_s = 1e-6;
-  for (Trajectory& run : out) {
-    double next_s = -std::numeric_limits<double>::infinity();
-    std::erase_if(run.truth, [&](const BodySample& sample) {
-      if (sample.time_s < next_s - kRounding_s) return true;
-      next_s = sample.time_s + period_s;
-      return false;
-    });
+PreparedRuns chosen(const PreparedRuns& all, const std::vector<std::size_t>& members, bool are_chosen) {
+  PreparedRuns out;
+  for (std::size_t i = 0; i < all.runs.size(); ++i) {
+    if ((std::find(members.begin(), members.end(), i) != members.end()) != are_chosen) continue;
+    out.runs.push_back(all.runs[i]);
+    out.clocks.push_back(all.clocks[i]);
   }
   return out;
 }
@@ -64,15 +42,81 @@ struct Followed {
   std::vector<double> cost;  // -2 log likelihood of each run
 };
 
-Followed followed(std::span<const Trajectory> runs, const WheelFactors& factors, const MlOptions& options) {
-  const PreparedRuns prepared = prepare(runs, factors, options.clock_known, Density::independent);
+Followed followed(const PreparedRuns& prepared, const WheelFactors& factors, const MlOptions& options) {
   const MlFit fit(prepared, factors, options, true);
   Followed out{path_errors(fit, factors).runs, {}};
   for (const InnovationSums& sums : fit.sums()) out.cost.push_back(sums.cost);
   return out;
 }
 
+void judge(CrossValidation& out) {
+  std::vector<double> gains;
+  for (const HeldOutRun& run : out.runs) gains.push_back(run.gain);
+  out.verdict = judge_gains(gains);
+}
+
+HeldOutErrors root_mean_squares(const std::vector<HeldOutRun>& runs, RunErrors HeldOutRun::*which) {
+  const auto over = [&](double RunErrors::*error) {
+    double sum = 0, count = 0;
+    for (const HeldOutRun& run : runs) {
+      const double value = run.*which.*error;
+      if (!std::isfinite(value)) continue;
+      sum += value * value;
+      ++count;
+    }
+    return std::sqrt(sum / count);
+  };
+  return {over(&RunErrors::final_m), over(&RunErrors::final_heading_rad), over(&RunErrors::path_rms_m)};
+}
+
+/// Sum of the squared distances of the ends from the mean of their direction, and its degrees of freedom.
+struct Scatter {
+  double position_m2 = 0, position_dof = 0, heading_rad2 = 0, heading_dof = 0;
+
+  void add(std::span<const EndPose> ends) {
+    const auto n = static_cast<double>(ends.size());
+    EndPose mean;
+    for (const EndPose& end : ends) {
+      mean.x_m += end.x_m / n;
+      mean.y_m += end.y_m / n;
+      mean.theta_rad += end.theta_rad / n;
+    }
+    for (const EndPose& end : ends) {
+      position_m2 += std::pow(end.x_m - mean.x_m, 2) + std::pow(end.y_m - mean.y_m, 2);
+      heading_rad2 += std::pow(end.theta_rad - mean.theta_rad, 2);  // NaN if one has none
+    }
+    position_dof += 2 * (n - 1);
+    heading_dof += n - 1;
+  }
+};
+
+/// What is left of an end error with factors that foretell `expected` of it.
+RunErrors left_of(const EndPose& end, const EndPose& expected, std::string name) {
+  return {std::move(name), std::hypot(end.x_m - expected.x_m, end.y_m - expected.y_m),
+          end.theta_rad - expected.theta_rad, std::numeric_limits<double>::quiet_NaN()};
+}
+
+/// -2 log likelihood of an end, but for what does not depend on the factors. No end is measured better than to a tenth of a
+/// millimetre and of a milliradian, however little the ends of a simulation scatter.
+double cost_of(const RunErrors& left, const Scatter& scatter) {
+  constexpr double kLeastVariance = 1e-8;
+  const double position =
+      left.final_m * left.final_m / std::max(scatter.position_m2 / scatter.position_dof, kLeastVariance);
+  if (!std::isfinite(left.final_heading_rad) || !std::isfinite(scatter.heading_rad2)) return position;
+  return position + left.final_heading_rad * left.final_heading_rad /
+                        std::max(scatter.heading_rad2 / scatter.heading_dof, kLeastVariance);
+}
+
+std::vector<EndPose> without(std::span<const EndPose> ends, std::size_t index) {
+  std::vector<EndPose> rest(ends.begin(), ends.end());
+  if (rest.size() > 1) rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(index % rest.size()));
+  return rest;
+}
+
 }  // namespace
+
+HeldOutErrors CrossValidation::in_use() const { return root_mean_squares(runs, &HeldOutRun::in_use); }
+HeldOutErrors CrossValidation::found() const { return root_mean_squares(runs, &HeldOutRun::found); }
 
 int CrossValidation::better_on() const {
   return static_cast<int>(
@@ -98,26 +142,54 @@ CrossValidation cross_validate(std::span<const Trajectory> runs, const WheelFact
   CrossValidation out;
   MlOptions with_noise = options;
   with_noise.noise = all.noise;
-  const std::size_t groups = std::min(kMostGroups, runs.size());
-  for (std::size_t i = 0; i < groups && runs.size() > 1; ++i) {
-    const Split parts = split(runs, group(i, groups, runs.size()));
+  with_noise.stride = all.stride;
+  const PreparedRuns prepared = prepare(runs, in_use, options.clock_known, Density::independent);
+  const std::size_t groups = std::min(kMostGroups, prepared.runs.size());
+  for (std::size_t i = 0; i < groups && prepared.runs.size() > 1; ++i) {
+    const std::vector<std::size_t> members = group(i, groups, prepared.runs.size());
+    const PreparedRuns held_out = chosen(prepared, members, true), others = chosen(prepared, members, false);
     try {
-      const std::vector<Trajectory> others = thinned(parts.others, all.thinned_to_s);
-      const std::vector<Trajectory> held_out = thinned(parts.held_out, all.thinned_to_s);
       const WheelFactors found = estimate_ml(others, in_use, with_noise).factors;
-      // Which runs cannot be used does not depend on the factors, so both are of the same runs.
       const Followed by_in_use = followed(held_out, in_use, with_noise);
       const Followed by_found = followed(held_out, found, with_noise);
       for (std::size_t k = 0; k < by_found.errors.size(); ++k)
         out.runs.push_back({by_in_use.errors.at(k), by_found.errors[k],
                             (by_in_use.cost.at(k) - by_found.cost[k]) / all.dispersion});
     } catch (const Error& error) {
-      out.not_judged.push_back(error.what());
+      out.not_judged.push_back({error.what(), error.remedy()});
     }
   }
-  std::vector<double> gains;
-  for (const HeldOutRun& run : out.runs) gains.push_back(run.gain);
-  out.verdict = judge_gains(gains);
+  judge(out);
+  return out;
+}
+
+CrossValidation cross_validate(std::span<const EndPose> cw, std::span<const EndPose> ccw, double side_m,
+                               const WheelFactors& in_use, const Options& options) {
+  CrossValidation out;
+  if (cw.size() < 2 || ccw.size() < 2) return out;
+  Scatter scatter;
+  scatter.add(cw);
+  scatter.add(ccw);
+  const auto judge_end = [&](std::span<const EndPose> ends, std::size_t index, Sense sense,
+                             const WheelFactors& found) {
+    if (index >= ends.size()) return;  // of the direction with fewer squares
+    const std::string name = (sense == Sense::cw ? "cw " : "ccw ") + std::to_string(index + 1);
+    const EndPose expected = replay_square(side_m, sense, in_use, found);
+    HeldOutRun run{left_of(ends[index], {}, name), left_of(ends[index], expected, name)};
+    run.gain = cost_of(run.in_use, scatter) - cost_of(run.found, scatter);
+    out.runs.push_back(run);
+  };
+  for (std::size_t i = 0; i < std::max(cw.size(), ccw.size()); ++i) {
+    try {
+      const WheelFactors found =
+          estimate_factors(without(cw, i), without(ccw, i), side_m, in_use, options).factors;
+      judge_end(cw, i, Sense::cw, found);
+      judge_end(ccw, i, Sense::ccw, found);
+    } catch (const Error& error) {
+      out.not_judged.push_back({error.what(), error.remedy()});
+    }
+  }
+  judge(out);
   return out;
 }
 

@@ -1,9 +1,10 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <vector>
 
+#include "host/base/remedy.hpp"
+#include "host/calibration/end_poses/umbmark.hpp"
 #include "host/calibration/judgement/before_after.hpp"
 #include "host/calibration/judgement/path_errors.hpp"
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
@@ -19,22 +20,29 @@ namespace astro::calibration {
 
 /// One run with the factors in use, and with factors that were found without it.
 struct HeldOutRun {
-  RunErrors in_use, found;  // by dead reckoning
+  RunErrors in_use, found;  // by dead reckoning; of end poses alone, path_rms_m is NaN
   /// How much more likely the drive is with the factors that were found: difference of -2 log likelihood. The
   /// path errors above grow with everything that slipped since the start; this weighs what each moment adds,
   /// so it tells factors apart whose paths differ by less than the slip.
   double gain = 0;
 };
 
+/// Root mean squares over the runs; NaN where nothing was measured.
+struct HeldOutErrors {
+  double final_m = 0, final_heading_rad = 0, path_m = 0;
+};
+
 struct CrossValidation {
   std::vector<HeldOutRun> runs;
   /// For each group of runs that could not be held out, because the others do not determine all factors: why.
-  std::vector<std::string> not_judged;
+  std::vector<Remark> not_judged;
   /// unknown: of fewer than two drives.
   Verdict verdict = Verdict::unknown;
 
   /// Runs that are more likely with the new factors.
   int better_on() const;
+  HeldOutErrors in_use() const;
+  HeldOutErrors found() const;
 };
 
 /// `in_use`: the factors to compare with. `all`: the estimate from all runs; its noise model, spacing of samples and
@@ -43,6 +51,12 @@ struct CrossValidation {
 /// Cost    as many estimates as there are groups: one for each run, but ten at most.
 CrossValidation cross_validate(std::span<const Trajectory> runs, const WheelFactors& in_use,
                                const MlEstimate& all, const MlOptions& options);
+
+/// The same for factors from end poses of squares: one square of each direction is held out at a time, and what the other
+/// squares say of its end is compared with where it ended. The scatter of the ends within their direction is taken for
+/// their noise. Nothing is judged with fewer than two squares in a direction.
+CrossValidation cross_validate(std::span<const EndPose> cw, std::span<const EndPose> ccw, double side_m,
+                               const WheelFactors& in_use, const Options& options);
 
 /// better or worse where the mean gain differs from none at the 10 % level, one-sided; unknown for fewer than two.
 /// Where the factors in use are right, others found from data lose a little on average, so a false claim is far less

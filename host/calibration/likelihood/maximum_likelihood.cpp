@@ -152,6 +152,7 @@ MlEstimate summarise(const MlFit& fit) {
     estimate.clock_skew_se = se(kSkew);
   }
   estimate.noise = fit.noise();
+  estimate.stride = fit.stride();
   if (fit.stride() > 1) estimate.thinned_to_s = fit.stride() * median_period_s(longest(fit).truth);
   estimate.iterations = fit.iterations();
   estimate.dispersion = widened;
@@ -195,7 +196,10 @@ FactorCovariance bound_of(const PreparedRuns& prepared, const WheelFactors& fact
 
 MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& loaded,
                        const MlOptions& options) {
-  const PreparedRuns prepared = prepare(runs, loaded, options.clock_known, Density::independent);
+  return estimate_ml(prepare(runs, loaded, options.clock_known, Density::independent), loaded, options);
+}
+
+MlEstimate estimate_ml(const PreparedRuns& prepared, const WheelFactors& loaded, const MlOptions& options) {
   require_variety(prepared);
   // Checked with the usual noise before the fit, because factors that the runs do not observe diverge in a
   // fit. Not checked without headings: the lever arm is not known yet, and without it spins show nothing.

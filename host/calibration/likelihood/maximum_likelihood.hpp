@@ -10,6 +10,7 @@
 #include "host/calibration/likelihood/slip_events.hpp"
 #include "host/calibration/motion/trajectory.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
+#include "host/calibration/preparation/preparation.hpp"
 
 /// Wheel factors by maximum likelihood from whole trajectories.
 ///
@@ -29,6 +30,9 @@ struct MlOptions {
   bool clock_known = false;
   /// A given noise model is used as it stands; without one it is estimated.
   std::optional<NoiseModel> noise;
+  /// With a given noise model: every so many-th truth sample counts, because closer ones are not independent
+  /// (MlEstimate::stride). Without one it is found.
+  int stride = 1;
   /// Huber's loss for slips and for truth samples. Off: least squares, for comparison.
   bool robust = true;
 };
@@ -88,6 +92,7 @@ struct MlEstimate {
   /// Time between the truth samples that the likelihood uses, in the longest run, if closer samples have
   /// correlated errors that slip and tracker do not explain (whiteness.hpp); 0 if all samples are used.
   double thinned_to_s = 0;
+  int stride = 1;  // the same as a number of samples
   std::vector<RunFit> runs;
   std::vector<Remark> left_out;                      // for each run that could not be used: the reason
   std::vector<KindFit> kinds;                        // only those that occur, in the order of Motion
@@ -115,6 +120,9 @@ struct MlEstimate {
 /// Cost    linear in the samples; ten 3 m squares of 60 Hz take about 0.2 s.
 MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& loaded,
                        const MlOptions& options = {});
+
+/// The same of runs that were prepared before, with Density::independent; they must outlive the call.
+MlEstimate estimate_ml(const PreparedRuns& prepared, const WheelFactors& loaded, const MlOptions& options);
 
 /// The smallest covariance of c_R, c_L, b (b in m) that an unbiased estimator can have (Cramer-Rao bound): the
 /// inverse of the Fisher information of these runs. `options.noise` must be given. The path comes from the

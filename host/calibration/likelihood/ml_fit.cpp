@@ -59,7 +59,9 @@ MlFit::MlFit(const PreparedRuns& prepared, const WheelFactors& loaded, const MlO
   require_plausible();
   if (options.robust) robust_ = RobustMode::tracker_and_wheels;
   if (options.noise) {
-    if (options.robust) maximise();
+    stride_ = options.stride;
+    phases_ = std::min(stride_, kMostPhases);
+    if (options.robust || stride_ > 1) maximise();
   } else {
     fit_with_noise();
     while (!innovations_are_independent()) {

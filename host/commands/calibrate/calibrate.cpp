@@ -1,6 +1,8 @@
+#include "host/commands/calibrate/calibrate_bag.hpp"
 #include "host/commands/calibrate/calibrate_check.hpp"
 #include "host/commands/calibrate/calibrate_end_poses.hpp"
 #include "host/commands/calibrate/calibrate_export.hpp"
+#include "host/commands/calibrate/calibrate_files.hpp"
 #include "host/commands/calibrate/calibrate_runs.hpp"
 #include "host/commands/calibrate/commands.hpp"
 
@@ -13,10 +15,14 @@ void add_calibrate(console::Command app) {
   command.footer(
       "Examples:\n"
       "  astrolabe calibrate runs my-experiment/before --out calib.toml\n"
+      "  astrolabe calibrate files --wheels ticks.csv --truth take.csv --robot robot.toml\n"
+      "  astrolabe calibrate bag drive1 drive2 --robot diff_drive.yaml\n"
       "  astrolabe calibrate end-poses --help\n"
       "  astrolabe calibrate check other-drives --with calib.toml\n"
       "  astrolabe calibrate export calib.toml --to calib.yaml");
   add_calibrate_runs(command);
+  add_calibrate_files(command);
+  add_calibrate_bag(command);
   add_calibrate_end_poses(command);
   add_calibrate_check(command);
   add_calibrate_export(command);

@@ -10,8 +10,10 @@
 
 #include "host/base/error.hpp"
 #include "host/commands/shared/damaged_option.hpp"
+#include "host/commands/shared/import_options.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/console/console.hpp"
+#include "host/console/wrong_usage.hpp"
 #include "host/experiment/analysis/dead_reckoning.hpp"
 #include "host/experiment/analysis/json.hpp"
 #include "host/experiment/analysis/squares.hpp"
@@ -24,7 +26,8 @@ using experiment::DeadReckoning;
 using experiment::MlChoice;
 
 struct CheckOptions {
-  fs::path folder;
+  fs::path folder;  // or files of others
+  ImportOptions import;
   std::vector<fs::path> with;
   std::vector<std::string> without;
   std::string clock = "auto";
@@ -47,26 +50,32 @@ void warn_of_other_robots(const std::vector<experiment::NamedFactors>& factors,
 }
 
 /// The factors that were loaded in all drives; throws if they differ.
-calibration::WheelFactors loaded_in_all(const CheckOptions& options, const experiment::RunSet& set) {
+calibration::WheelFactors loaded_in_all(const experiment::RunSet& set) {
   const calibration::WheelFactors first = experiment::loaded_factors(set.runs.front().info);
   for (std::size_t i = 1; i < set.runs.size(); ++i) {
     const calibration::WheelFactors one = experiment::loaded_factors(set.runs[i].info);
     if (one.c_r != first.c_r || one.c_l != first.c_l || one.b_m != first.b_m)
-      throw Error(
-          fmt::format("the robot had other factors loaded in {} than in {}: check the folders in '{}' "
-                      "separately",
-                      set.names[i], set.names.front(), options.folder.string()));
+      throw Error(fmt::format("the robot had other factors loaded in {} than in {}: check them separately",
+                              set.names[i], set.names.front()));
   }
   return first;
 }
 
-std::vector<DeadReckoning> evaluated(const CheckOptions& options) {
-  const experiment::RunSet set = read_recordings(options.damaged, [&](recording::Damage damage) {
+experiment::RunSet read_drives(const CheckOptions& options) {
+  if (options.folder.empty() == !options.import.given())
+    throw console::WrongUsage("name either a folder with recordings, or --wheels and --truth of each drive");
+  if (options.import.given()) return read_drive_files(options.import);
+  experiment::RunSet set = read_recordings(options.damaged, [&](recording::Damage damage) {
     return experiment::read_run_set(options.folder, options.without, damage);
   });
   warn_of_recordings(set.runs);
+  return set;
+}
+
+std::vector<DeadReckoning> evaluated(const CheckOptions& options) {
+  const experiment::RunSet set = read_drives(options);
   const auto wheel = experiment::nominal_wheel(set.runs.front().info, set.names.front());
-  std::vector<experiment::NamedFactors> factors{{"carried", loaded_in_all(options, set)}};
+  std::vector<experiment::NamedFactors> factors{{"carried", loaded_in_all(set)}};
   for (const fs::path& file : options.with) factors.push_back(experiment::factors_of_file(file, wheel));
   warn_of_other_robots(factors, set);
   return experiment::dead_reckon(set, factors, clock_of(options));
@@ -128,7 +137,7 @@ nlohmann::json json_of(const std::vector<DeadReckoning>& all) {
 void add_calibrate_check(console::Command calibrate) {
   const auto options = std::make_shared<CheckOptions>();
   const console::Command command = calibrate.add_subcommand("check", "test calibrations on recorded drives");
-  command.add_option("folder", options->folder, "folder with recordings that have ground truth").required();
+  command.add_option("folder", options->folder, "folder with recordings that have ground truth");
   command.add_option("--with", options->with, "calib.toml to judge (repeatable)").required().one_each_time();
   command.add_option("--without", options->without, "a recording to leave out, by its name (repeatable)")
       .one_each_time();
@@ -140,6 +149,7 @@ void add_calibrate_check(console::Command calibrate) {
       .one_of({"auto", "known", "estimated"})
       .capture_default_str();
   add_damaged_flag(command, options->damaged);
+  add_import(command, options->import);
   command.add_flag("--runs", options->runs, "each drive separately, too");
   command.add_flag("--json", options->json, "print one JSON array");
   command.footer(
@@ -148,7 +158,8 @@ void add_calibrate_check(console::Command calibrate) {
       "not seen.\n"
       "Examples:\n"
       "  astrolabe calibrate check friday --with monday.toml\n"
-      "  astrolabe calibrate check friday --with ml.toml --with umbmark.toml --runs");
+      "  astrolabe calibrate check friday --with ml.toml --with umbmark.toml --runs\n"
+      "  astrolabe calibrate check --wheels ticks.csv --truth take.csv --robot robot.toml --with calib.toml");
   command.callback([options] {
     const std::vector<DeadReckoning> all = evaluated(*options);
     for (const Remark& why : all.front().errors.left_out) console::say(in_words(why) + "; it was left out");

@@ -11,7 +11,7 @@
 #include "host/calibration/end_poses/end_pose_csv.hpp"
 #include "host/calibration/end_poses/odd_run.hpp"
 #include "host/commands/calibrate/calibration_output.hpp"
-#include "host/commands/calibrate/method_option.hpp"
+#include "host/commands/shared/method_option.hpp"
 #include "host/console/options.hpp"
 #include "host/experiment/analysis/calibration.hpp"
 

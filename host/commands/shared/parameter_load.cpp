@@ -5,6 +5,7 @@
 #include "host/base/error.hpp"
 #include "host/commands/shared/params_view.hpp"
 #include "host/console/console.hpp"
+#include "host/experiment/analysis/judgement_sentences.hpp"
 #include "host/experiment/files/robot_identity.hpp"
 
 namespace astro::commands {
@@ -59,7 +60,11 @@ LoadResult load_parameters(robot::Client& client, const robot::RemoteParameters&
   if (const std::string note = experiment::insignificance(loaded.changes, file.standard_errors);
       !note.empty())
     console::say(note);
-  if (!options.yes && !console::confirm("Load these into the robot?")) throw Error("nothing was changed");
+  const bool advised_against = experiment::advises_against(file.verdict);
+  if (advised_against) console::say("warning: " + file.verdict_sentence);
+  if (!options.yes && !console::confirm(advised_against ? "Load these into the robot all the same?"
+                                                        : "Load these into the robot?"))
+    throw Error("nothing was changed");
   loaded.report = robot::upload(client, file.parameters);
   return loaded;
 }

@@ -2,7 +2,7 @@
 
 #include "host/console/command_line.hpp"
 
-/// The subcommands around sources of ground truth. Each is a file named after it and adds itself to the
+/// The subcommands around ground truth and files of others. Each is a file named after it and adds itself to the
 /// program: options, examples in its footer, and a callback that does the work.
 ///
 /// Output  data on stdout; everything else (progress, questions, warnings) on stderr.
@@ -11,5 +11,6 @@
 namespace astro::commands {
 
 void add_truth(console::Command app);
+void add_inspect(console::Command app);
 
 }  // namespace astro::commands

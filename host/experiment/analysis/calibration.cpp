@@ -87,6 +87,7 @@ Calibration by_ml(Phases phases, const MlChoice& choice) {
   result.robot = identity_of(first.runs().front().info);
   result.wheel = nominal_wheel(first.runs().front().info, first.names().front());
   result.squares = summary_of_squares(*phases.back());
+  result.judgement = calibration::cross_validate(runs, result.loaded, ml.estimate, ml.options);
   result.detail = std::move(ml);
   return result;
 }
@@ -134,9 +135,12 @@ Calibration calibrate(const Squares& squares, const MethodChoice& method) {
   if (method.family == Family::ml)
     throw Error("maximum likelihood needs whole drives with ground truth, and end poses are all there is",
                 {Help::use_end_poses});
-  const calibration::Estimate estimate = calibration::estimate_factors(
-      squares.cw, squares.ccw, squares.side_m, squares.loaded, options_for(squares, method));
+  const calibration::Options options = options_for(squares, method);
+  const calibration::Estimate estimate =
+      calibration::estimate_factors(squares.cw, squares.ccw, squares.side_m, squares.loaded, options);
   Calibration result;
+  result.judgement =
+      calibration::cross_validate(squares.cw, squares.ccw, squares.side_m, squares.loaded, options);
   result.loaded = estimate.loaded;
   result.factors = estimate.factors;
   result.se = {estimate.se.c_r, estimate.se.c_l, estimate.se.b_m,

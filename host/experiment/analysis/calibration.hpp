@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "host/calibration/end_poses/umbmark.hpp"
+#include "host/calibration/judgement/cross_validation.hpp"
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
 #include "host/experiment/analysis/recordings.hpp"
@@ -44,6 +45,8 @@ struct Calibration {
   /// End errors of the squares among the runs, if squares of one kind were driven in both directions.
   std::optional<calibration::ExperimentSummary> squares;
   std::variant<calibration::Estimate, MlResult> detail;
+  /// The loaded factors and new ones on drives that the new ones have not seen; unknown for a single drive.
+  calibration::CrossValidation judgement;
 
   const MlResult* ml() const { return std::get_if<MlResult>(&detail); }
   const calibration::Estimate* end_poses() const { return std::get_if<calibration::Estimate>(&detail); }

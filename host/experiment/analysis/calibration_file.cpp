@@ -7,6 +7,7 @@
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
 #include "host/base/plain_text.hpp"
+#include "host/experiment/analysis/judgement_sentences.hpp"
 #include "host/experiment/files/toml_file.hpp"
 
 namespace astro::experiment {
@@ -50,10 +51,12 @@ std::string covariance_lines(const calibration::FactorCovariance& covariance) {
 }
 
 std::string nominal_lines(const NominalWheel& wheel) {
-  return fmt::format(
-      "# The wheel that c_R and c_L refer to.\n[nominal]\nwheel_diameter = {} # m\n"
-      "counts_per_wheel_turn = {}\n\n",
-      real_text(wheel.diameter_m), real_text(wheel.counts_per_turn));
+  std::string text =
+      fmt::format("# The wheel that c_R and c_L refer to.\n[nominal]\nwheel_diameter = {} # m\n",
+                  real_text(wheel.diameter_m));
+  if (!wheel.turns_as_angle())
+    text += fmt::format("counts_per_wheel_turn = {}\n", real_text(wheel.counts_per_turn));
+  return text + '\n';
 }
 
 std::string robot_lines(const RobotIdentity& robot) {
@@ -75,6 +78,14 @@ std::string calibration_lines(const Calibration& calibration) {
     text += fmt::format("runs_cw = {}\nruns_ccw = {}\nE_max_syst_m = {}\n", calibration.squares->cw.runs,
                         calibration.squares->ccw.runs, real_text(calibration.squares->E_max_syst_m));
   return text;
+}
+
+std::string verdict_lines(const calibration::CrossValidation& judgement) {
+  std::ostringstream text;
+  text << "\n# On drives that the calibration had not seen.\n[verdict]\nverdict = \""
+       << name_of(judgement.verdict) << "\"\nsentence = " << toml::value(judgement_sentence(judgement))
+       << '\n';
+  return text.str();
 }
 
 robot::Value value_of(const toml::node& node, const std::string& where) {
@@ -105,7 +116,7 @@ std::map<std::string, double> numbers_in(toml::node_view<const toml::node> secti
 
 NominalWheel wheel_of(const toml::table& file, const fs::path& path) {
   const NominalWheel wheel{file["nominal"]["wheel_diameter"].value_or(0.0),
-                           file["nominal"]["counts_per_wheel_turn"].value_or(0.0)};
+                           file["nominal"]["counts_per_wheel_turn"].value_or(kAngleCounts)};
   if (!(wheel.diameter_m > 0) || !(wheel.counts_per_turn > 0))
     throw Error("'" + path.string() +
                 "': [nominal] needs a wheel_diameter and counts_per_wheel_turn above 0");
@@ -138,7 +149,7 @@ void write_calibration(const fs::path& path, const Calibration& calibration) {
   if (!calibration.robot.id.empty()) text += robot_lines(calibration.robot);
   text += "# The factors that were loaded in the robot while it drove.\n[carried]\n" +
           factor_lines(loaded.c_r, loaded.c_l, loaded.b_m);
-  save(path, text + calibration_lines(calibration));
+  save(path, text + calibration_lines(calibration) + verdict_lines(calibration.judgement));
 }
 
 void write_parameters(const fs::path& path, const ParameterValues& values) {
@@ -173,6 +184,8 @@ ParameterFile read_parameter_file(const fs::path& path) {
   result.robot = {file["robot"]["name"].value_or(std::string()), file["robot"]["id"].value_or(std::string())};
   result.method = file["calibration"]["method"].value_or(std::string());
   result.absolute = file["calibration"]["absolute"].value_or(false);
+  result.verdict = verdict_named(file["verdict"]["verdict"].value_or(std::string()));
+  result.verdict_sentence = file["verdict"]["sentence"].value_or(std::string());
   if (file.contains("nominal")) result.wheel = wheel_of(file, path);
   if (file.contains("covariance")) result.covariance = covariance_of(file, path);
   return result;

@@ -15,8 +15,8 @@ namespace astro::experiment {
 using ParameterValues = std::map<std::string, robot::Value>;
 
 /// Writes [parameters] c_R, c_L, b; [standard_errors] and, from maximum likelihood, [covariance]; [nominal],
-/// the wheel that c_R and c_L refer to, and [robot], where they are known; [loaded]; [calibration] with how
-/// it was found.
+/// the wheel that c_R and c_L refer to (without counts if the recordings had none), and [robot], where they are known;
+/// [loaded]; [calibration] with how it was found; [verdict] whether it is better.
 void write_calibration(const std::filesystem::path& path, const Calibration& calibration);
 
 /// Writes parameters alone.
@@ -34,8 +34,10 @@ struct ParameterFile {
   std::optional<NominalWheel> wheel;  // [nominal]
   /// Of c_R, c_L and b; none in a file without [covariance].
   std::optional<calibration::FactorCovariance> covariance;
-  RobotIdentity robot;  // [robot]
-  std::string method;   // "" in a file that no calibration wrote
+  RobotIdentity robot;                                           // [robot]
+  std::string method;                                            // "" in a file that no calibration wrote
+  calibration::Verdict verdict = calibration::Verdict::unknown;  // [verdict]
+  std::string verdict_sentence;                                  // "" in a file without one
 };
 
 /// Throws astro::Error naming the file, and the line where TOML knows it: no such file, not TOML, no

@@ -23,10 +23,8 @@ NamedFactors factors_of_file(const std::filesystem::path& path, const NominalWhe
   const ParameterFile file = read_parameter_file(path);
   if (file.wheel && !wheel.measures_like(*file.wheel))
     throw Error(fmt::format(
-        "{} is for wheels of {:.6g} m and {:.6g} counts a turn, the drives were recorded with {:.6g} m and "
-        "{:.6g}: its c_R and c_L mean another thing there",
-        path.string(), file.wheel->diameter_m, file.wheel->counts_per_turn, wheel.diameter_m,
-        wheel.counts_per_turn));
+        "{} is for {}, the drives were recorded with {}: its c_R and c_L mean another thing there",
+        path.string(), file.wheel->described(), wheel.described()));
   const NamedFactors found{path.string(),
                            {factor(file, path, "c_R"), factor(file, path, "c_L"), factor(file, path, "b")},
                            file.robot};

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "host/base/degrees.hpp"
+#include "host/experiment/analysis/judgement_sentences.hpp"
 #include "host/experiment/analysis/likelihood_json.hpp"
 
 namespace astro::experiment {
@@ -36,6 +37,34 @@ void add_end_poses(nlohmann::json& json, const calibration::Estimate& estimate) 
     json["formula"] = calibration::name_of(estimate.options.formula);
     json["alpha_Ed_deg"] = number(degrees(estimate.alpha_Ed_rad));
   }
+}
+
+nlohmann::json held_out_json(const calibration::RunErrors& errors) {
+  return {{"end_m", errors.final_m},
+          {"heading_rad", number(errors.final_heading_rad)},
+          {"path_m", number(errors.path_rms_m)}};
+}
+
+nlohmann::json held_out_json(const calibration::HeldOutErrors& errors) {
+  return {{"end_m", number(errors.final_m)},
+          {"heading_rad", number(errors.final_heading_rad)},
+          {"path_m", number(errors.path_m)}};
+}
+
+nlohmann::json judgement_json(const calibration::CrossValidation& judgement) {
+  nlohmann::json drives = nlohmann::json::array();
+  for (const calibration::HeldOutRun& run : judgement.runs)
+    drives.push_back({{"name", run.found.name},
+                      {"carried", held_out_json(run.in_use)},
+                      {"new", held_out_json(run.found)},
+                      {"gain", number(run.gain)}});
+  return {{"verdict", name_of(judgement.verdict)},
+          {"use", !advises_against(judgement.verdict)},
+          {"sentence", judgement_sentence(judgement)},
+          {"better_on", judgement.better_on()},
+          {"carried", held_out_json(judgement.in_use())},
+          {"new", held_out_json(judgement.found())},
+          {"drives", drives}};
 }
 
 }  // namespace
@@ -85,6 +114,7 @@ nlohmann::json to_json(const Calibration& calibration) {
   if (calibration.squares) add_squares(json, *calibration.squares);
   if (const calibration::Estimate* estimate = calibration.end_poses()) add_end_poses(json, *estimate);
   if (const MlResult* ml = calibration.ml()) json.update(to_json(*ml));
+  json["verdict"] = judgement_json(calibration.judgement);
   return json;
 }
 

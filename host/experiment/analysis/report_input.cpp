@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "host/experiment/analysis/judgement_sentences.hpp"
 #include "host/experiment/analysis/likelihood_sentences.hpp"
 
 namespace astro::experiment {
@@ -69,8 +70,9 @@ std::string end_pose_text(const calibration::Estimate& estimate) {
 
 std::string method_text(const Calibration& calibration) {
   const std::string name = fmt::format("Method: {}.", calibration.method());
-  if (const MlResult* ml = calibration.ml()) return name + ' ' + ml_text(*ml);
-  return name + end_pose_text(*calibration.end_poses());
+  const MlResult* ml = calibration.ml();
+  return name + (ml != nullptr ? ' ' + ml_text(*ml) : end_pose_text(*calibration.end_poses())) + "\n\n" +
+         judgement_sentence(calibration.judgement);
 }
 
 }  // namespace

@@ -60,7 +60,13 @@ class Clock {
 double NominalWheel::metres_per_count() const { return std::numbers::pi * diameter_m / counts_per_turn; }
 
 bool NominalWheel::measures_like(const NominalWheel& other) const {
+  if (turns_as_angle() || other.turns_as_angle()) return same_number(diameter_m / other.diameter_m, 1);
   return same_number(metres_per_count() / other.metres_per_count(), 1);
+}
+
+std::string NominalWheel::described() const {
+  if (turns_as_angle()) return fmt::format("a wheel of {:.6g} m", diameter_m);
+  return fmt::format("a wheel of {:.6g} m with {:.6g} counts a turn", diameter_m, counts_per_turn);
 }
 
 NominalWheel nominal_wheel(const recording::RunInfo& info, const std::string& name) {

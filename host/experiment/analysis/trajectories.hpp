@@ -10,16 +10,25 @@
 /// From recordings to the trajectories that maximum likelihood takes.
 namespace astro::experiment {
 
+/// The counts of a turn where a recording has no counts but angles or metres: fine enough that rounding them is nothing.
+inline constexpr double kAngleCounts = 0x1p24;
+
 /// The wheels as the robot's parameters describe them, without c_R and c_L.
 struct NominalWheel {
   double diameter_m = 0;
   double counts_per_turn = 0;  // of the wheel: encoder counts times gear ratio
   bool operator==(const NominalWheel&) const = default;
 
+  /// The recording has no counts: what made the angles knew how many are a turn.
+  bool turns_as_angle() const { return counts_per_turn == kAngleCounts; }
+
   /// Travel of a wheel with c = 1.
   double metres_per_count() const;
-  /// Whether one count is the same travel for both, so that c_R and c_L of one are right for the other.
+  /// Whether the same turning is the same travel for both, so that c_R and c_L of one are right for the other: one count,
+  /// or one angle where one of them has no counts.
   bool measures_like(const NominalWheel& other) const;
+  /// "a wheel of 0.084 m with 2796.8 counts a turn".
+  std::string described() const;
 };
 
 /// Throws astro::Error, calling the run `name`, if the recording does not name it.

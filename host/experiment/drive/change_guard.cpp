@@ -110,10 +110,8 @@ std::string wrong_basis(const robot::RemoteParameters& robot, const ParameterFil
       on_robot("wheel_diameter"),
       on_robot("counts_per_motor_rev") * on_robot("gear_numerator") / on_robot("gear_denominator")};
   if (now.measures_like(*file.wheel)) return {};
-  return fmt::format(
-      "the calibration refers to a wheel of {:.6g} m with {:.6g} counts a turn, and the robot's parameters "
-      "now give {:.6g} m and {:.6g}",
-      file.wheel->diameter_m, file.wheel->counts_per_turn, now.diameter_m, now.counts_per_turn);
+  return fmt::format("the calibration refers to {}, and the robot's parameters now give {}",
+                     file.wheel->described(), now.described());
 }
 
 std::string incomplete(const ParameterFile& file) {
@@ -131,6 +129,9 @@ std::optional<Remark> objection(const robot::RemoteParameters& robot, const Para
     return Remark{why, {Help::load_old_values_or_override}};
   if (const std::string why = suspicion(changes); !why.empty())
     return Remark{why, {Help::check_units_or_override}};
+  if (file.verdict == calibration::Verdict::worse)
+    return Remark{"on drives that the calibration had not seen it is worse than what the robot carried",
+                  {Help::calibrate_again_or_override}};
   return std::nullopt;
 }
 

@@ -30,8 +30,8 @@ std::string suspicion(const std::vector<Change>& changes);
 /// the nominal wheel (diameter, gear, encoder) that they refer to, as far as the file tells it.
 std::string wrong_basis(const robot::RemoteParameters& robot, const ParameterFile& file);
 
-/// Why these changes are uploaded only on request: c_R, c_L and b are not complete, or what the two checks above
-/// find. Nothing if all are in order.
+/// Why these changes are uploaded only on request: c_R, c_L and b are not complete, what the two checks above find, or the
+/// calibration was worse on drives that it had not seen. Nothing if all are in order.
 std::optional<Remark> objection(const robot::RemoteParameters& robot, const ParameterFile& file,
                                 const std::vector<Change>& changes);
 

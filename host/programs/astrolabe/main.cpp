@@ -13,6 +13,7 @@
 #include "host/commands/base/remedies.hpp"
 #include "host/commands/calibrate/commands.hpp"
 #include "host/commands/drive/commands.hpp"
+#include "host/commands/experiment/commands.hpp"
 #include "host/commands/robot/commands.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/commands/simulate/commands.hpp"
@@ -31,10 +32,11 @@ using namespace astro::console;   // NOLINT(google-build-using-namespace): and h
 constexpr int kFailed = 1, kWrongUsage = 2, kInterrupted = 130;
 
 void add_commands(Command app) {
-  for (const auto add : {add_umbmark,      add_calibrate, add_upload, add_record, add_compare, add_report,
-                         add_sim,          add_ports,     add_info,   add_params, add_drive,   add_stop,
-                         add_pause,        add_resume,    add_faults, add_reboot, add_flash,   add_monitor,
-                         add_check_wiring, add_tune,      add_plan,   add_study,  add_export,  add_truth})
+  for (const auto add :
+       {add_umbmark, add_calibrate, add_upload,  add_record,  add_compare,      add_report, add_sim,
+        add_ports,   add_info,      add_params,  add_drive,   add_stop,         add_pause,  add_resume,
+        add_faults,  add_reboot,    add_flash,   add_monitor, add_check_wiring, add_tune,   add_plan,
+        add_study,   add_export,    add_inspect, add_truth})
     add(app);
 }
 

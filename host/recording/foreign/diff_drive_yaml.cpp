@@ -66,14 +66,15 @@ DiffDriveParameters diff_drive_parameters(std::string_view text, std::string_vie
     if (parameters.wheel_radius_m > 0 || parameters.wheel_separation_m > 0) nodes.push_back(at);
   if (nodes.empty())
     throw UnclearChoice(std::string(name) + " has no wheel_radius and no wheel_separation of a controller",
-                        nodes);
+                        nodes, Help::name_controller);
   if (node.empty() && nodes.size() > 1)
-    throw UnclearChoice(std::string(name) + " has several controllers of wheels: " + listed(nodes), nodes);
+    throw UnclearChoice(std::string(name) + " has several controllers of wheels: " + listed(nodes), nodes,
+                        Help::name_controller);
   const std::string chosen = node.empty() ? nodes.front() : std::string(node);
   const auto found = controllers.by_node.find(chosen);
   if (found == controllers.by_node.end())
     throw UnclearChoice(std::string(name) + " has no controller '" + chosen + "'; it has " + listed(nodes),
-                        nodes);
+                        nodes, Help::name_controller);
   found->second.node = chosen;
   return found->second;
 }

@@ -60,7 +60,8 @@ class JointWheels {
     const std::string what = topics.empty()   ? " has no messages of joints (sensor_msgs/msg/JointState)"
                              : topic_.empty() ? " has several topics of joints: "
                                               : " has no topic " + topic_ + " of joints; it has ";
-    throw UnclearChoice(path_.string() + what + (topics.empty() ? "" : listed(topics)), topics);
+    throw UnclearChoice(path_.string() + what + (topics.empty() ? "" : listed(topics)), topics,
+                        Help::name_wheel_topic);
   }
 
   void choose_joints() {
@@ -78,16 +79,18 @@ class JointWheels {
       if (!recognised)
         throw UnclearChoice(path_.string() + ": which joints of " + topic_ +
                                 " are the wheels cannot be told from their names: " + listed(names),
-                            names);
+                            names, Help::name_wheel_joints);
       joints_ = *recognised;
       remark("the wheels are the joints " + joints_.left + " and " + joints_.right);
     }
     for (const std::string& joint : {joints_.left, joints_.right})
       if (!found.contains(joint))
         throw UnclearChoice(
-            path_.string() + ": " + topic_ + " has no joint '" + joint + "'; it has " + listed(names), names);
+            path_.string() + ": " + topic_ + " has no joint '" + joint + "'; it has " + listed(names), names,
+            Help::name_wheel_joints);
     if (joints_.left == joints_.right)
-      throw UnclearChoice(path_.string() + ": both wheels are the joint " + joints_.left, names);
+      throw UnclearChoice(path_.string() + ": both wheels are the joint " + joints_.left, names,
+                          Help::name_wheel_joints);
   }
 
   void take(const ros2::JointState& state, std::int64_t log_time_ns) {

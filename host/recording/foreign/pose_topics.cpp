@@ -74,7 +74,7 @@ PoseStream chosen(const fs::path& path, const PoseSelection& selection, std::vec
   if (left.empty())
     throw UnclearChoice(path.string() + (all.empty() ? " has no poses"
                                                      : " has no such poses; it has " + listed(names_of(all))),
-                        names_of(all));
+                        names_of(all), Help::name_pose_stream);
   const auto only = [&](const auto& is_meant) -> const PoseStream* {
     const auto first = std::ranges::find_if(left, is_meant);
     if (first == left.end() || std::find_if(first + 1, left.end(), is_meant) != left.end()) return nullptr;
@@ -85,7 +85,7 @@ PoseStream chosen(const fs::path& path, const PoseSelection& selection, std::vec
     found = only([](const PoseStream& stream) { return !is_estimate_by_type(stream.type); });
   if (found == nullptr)
     throw UnclearChoice(path.string() + " has several streams of poses: " + listed(names_of(left)),
-                        names_of(left));
+                        names_of(left), Help::name_pose_stream);
   remarks.push_back({"the poses are those of " + found->name()});
   return *found;
 }

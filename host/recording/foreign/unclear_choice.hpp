@@ -11,8 +11,8 @@ namespace astro::recording {
 /// What was meant cannot be told from a file alone, or is not in it; choices() is what there is to choose from.
 class UnclearChoice : public Error {
  public:
-  UnclearChoice(const std::string& fact, std::vector<std::string> choices)
-      : Error(fact), choices_(std::move(choices)) {}
+  UnclearChoice(const std::string& fact, std::vector<std::string> choices, Help help)
+      : Error(fact, {choices.empty() ? Help::name_right_file : help}), choices_(std::move(choices)) {}
   const std::vector<std::string>& choices() const { return choices_; }
 
  private:

@@ -94,7 +94,7 @@ class Table {
       const std::vector<std::string> found(names.begin(), names.end());
       throw UnclearChoice(
           name_ + ": the columns do not tell time, left and right wheel with their units: " + listed(found),
-          found);
+          found, Help::name_wheel_columns);
     }
     columns_ = *columns;
     columns_.per_interval = columns_.per_interval || given_.per_interval;

@@ -171,6 +171,7 @@ void settle_direction(std::vector<FloorPoint>& points, std::span<const WheelMoti
   }
   findings.turning_correlation = correlation_with(points, turning_of(wheels), *findings.clock);
   if (findings.turning_correlation > -kSure) return;
+  findings.turns_against_wheels = true;
   if (findings.up_given) {
     findings.remarks.push_back(
         {"the body turns left where the wheels turn right, with the up axis as it was given"});
@@ -179,6 +180,16 @@ void settle_direction(std::vector<FloorPoint>& points, std::span<const WheelMoti
   reverse(points, findings.up);
   findings.reversed = true;
   findings.turning_correlation = -findings.turning_correlation;
+}
+
+double mean_height(const BodyTrack& track, const Direction3& up) {
+  double sum = 0, count = 0;
+  for (const TrackedPose& sample : track.samples) {
+    if (!sample.valid) continue;
+    sum += sample.pose.x_m * up[0] + sample.pose.y_m * up[1] + sample.pose.z_m * up[2];
+    ++count;
+  }
+  return sum / count;
 }
 
 std::vector<recording::TruthSample> samples_of(const BodyTrack& track,
@@ -213,6 +224,7 @@ FloorPath place_on_floor(const BodyTrack& track, std::span<const WheelMotion> wh
   settle_mirror(points, choices, findings);
   settle_units(points, track, wheels, choices, findings);
   if (!wheels.empty()) settle_direction(points, wheels, findings);
+  findings.height_m = mean_height(track, findings.up) * findings.length_factor;
   findings.turned_rad = points.back().theta_rad - points.front().theta_rad;
   out.samples = samples_of(track, points);
   return out;

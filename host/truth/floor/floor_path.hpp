@@ -31,6 +31,13 @@ struct FloorFindings {
   /// recording is a mirror image, which is the same on the floor.
   bool reversed = false;
 
+  /// The body turns against the wheels about the axis that was fitted or given. If it was fitted, it was then reversed.
+  bool turns_against_wheels = false;
+
+  /// Mean height of the body above the tracker's origin along the axis that was used: the origin is on the floor as a
+  /// rule.
+  double height_m = 0;
+
   /// The path turns left where the orientation turns right: one of the two is a mirror image, so the positions
   /// were reflected.
   bool mirrored = false;

@@ -48,7 +48,7 @@ void TrackerWatch::take(const Sighting& sighting) {
   seen_.push_back(seen);
 }
 
-std::optional<RestNoise> TrackerWatch::rest() const {
+std::optional<LiveNoise> TrackerWatch::rest() const {
   constexpr std::size_t kFewest = 20;
   constexpr double kGreatest_m = 0.01;  // no tracker is worse than this, and a robot that drives is
   std::vector<double> x_m, y_m, theta_rad;
@@ -63,7 +63,7 @@ std::optional<RestNoise> TrackerWatch::rest() const {
   const Scatter x = scatter_of(x_m), y = scatter_of(y_m), theta = scatter_of(theta_rad);
   const double position_m = std::hypot(x.deviation, y.deviation) / std::numbers::sqrt2;
   if (!x.stands || !y.stands || !theta.stands || position_m > kGreatest_m) return std::nullopt;
-  return RestNoise{position_m, theta.deviation};
+  return LiveNoise{position_m, theta.deviation};
 }
 
 TrackerReport TrackerWatch::report(std::int64_t now_us) {

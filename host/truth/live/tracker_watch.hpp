@@ -10,7 +10,7 @@
 namespace astro::truth {
 
 /// Scatter of a body that stands still.
-struct RestNoise {
+struct LiveNoise {
   double position_m = 0;  // standard deviation per coordinate
   double heading_rad = 0;
 };
@@ -23,7 +23,7 @@ struct TrackerReport {
   double longest_gap_s = 0;         // between two poses with the body
   Regularity sender, arrival;       // the two clocks by which samples can be stamped
   std::optional<FloorPose> pose;    // the last one with the body
-  std::optional<RestNoise> rest;    // nothing while the body moves
+  std::optional<LiveNoise> rest;    // nothing while the body moves
 };
 
 /// Keeps the last few seconds of a tracker's poses and sums them up.
@@ -41,7 +41,7 @@ class TrackerWatch {
     Stamp stamp;
     std::optional<FloorPose> pose;  // nothing: lost
   };
-  std::optional<RestNoise> rest() const;
+  std::optional<LiveNoise> rest() const;
 
   UpAxis up_;
   std::int64_t span_us_;

@@ -10,13 +10,6 @@
 namespace astro::calibration {
 namespace {
 
-TEST(BeforeAfter, ReproducesTabulatedQuantilesOfStudentsT) {
-  EXPECT_EQ(student_t_975(4), 2.776);
-  EXPECT_NEAR(student_t_975(15), 2.131, 1e-3);  // tables print three decimals
-  EXPECT_NEAR(student_t_975(30), 2.042, 1e-3);
-  EXPECT_NEAR(student_t_975(120), 1.980, 1e-3);
-}
-
 TEST(BeforeAfter, FactorOfExactValuesHasNoWidth) {
   const Improvement gain = improvement({300, 0, 5}, {60, 0, 5});
   EXPECT_DOUBLE_EQ(gain.factor, 5);

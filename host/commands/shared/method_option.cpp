@@ -1,4 +1,4 @@
-#include "host/commands/calibrate/method_option.hpp"
+#include "host/commands/shared/method_option.hpp"
 
 #include <fmt/format.h>
 

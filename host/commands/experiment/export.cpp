@@ -1,7 +1,7 @@
 #include <memory>
 
 #include "host/base/error.hpp"
-#include "host/commands/calibrate/commands.hpp"
+#include "host/commands/experiment/commands.hpp"
 #include "host/commands/shared/damaged_option.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/console/options.hpp"

@@ -5,8 +5,8 @@
 
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
-#include "host/commands/calibrate/commands.hpp"
-#include "host/commands/calibrate/record_programme.hpp"
+#include "host/commands/experiment/commands.hpp"
+#include "host/commands/experiment/record_programme.hpp"
 #include "host/commands/shared/connection.hpp"
 #include "host/commands/shared/drive_recording.hpp"
 #include "host/commands/shared/robot_view.hpp"

@@ -1,6 +1,6 @@
 #include <memory>
 
-#include "host/commands/calibrate/commands.hpp"
+#include "host/commands/experiment/commands.hpp"
 #include "host/commands/shared/results_option.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/console/console.hpp"

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "host/commands/calibrate/record_programme.hpp"
+#include "host/commands/experiment/record_programme.hpp"
 #include "host/commands/simulate/programme_options.hpp"
 
 namespace astro::commands {

@@ -1,4 +1,4 @@
-#include "host/commands/calibrate/record_programme.hpp"
+#include "host/commands/experiment/record_programme.hpp"
 #include "host/commands/base/remedies.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "host/commands/calibrate/calibration_view.hpp"
+#include "host/commands/shared/calibration_view.hpp"
 
 #include <fmt/format.h>
 
@@ -9,6 +9,7 @@
 #include "host/base/shown.hpp"
 #include "host/commands/base/remedies.hpp"
 #include "host/console/console.hpp"
+#include "host/experiment/analysis/judgement_sentences.hpp"
 #include "host/experiment/analysis/likelihood_sentences.hpp"
 #include "host/experiment/analysis/until.hpp"
 #include "host/experiment/files/method_names.hpp"
@@ -119,18 +120,20 @@ std::string calibration_text(const Calibration& calibration) {
   if (ml != nullptr) text += console::wrapped(experiment::extent_sentence(*ml));
   text += factors_text(calibration);
   if (ml != nullptr) text += '\n' + ml_text(*ml);
-  return text;
+  return text + '\n' + console::wrapped(experiment::judgement_sentence(calibration.judgement));
 }
 
 std::string calibration_summary(const Calibration& calibration) {
   const MlResult* ml = calibration.ml();
-  if (ml == nullptr) return fmt::format("calibrated by {}:\n", calibration.method());
+  if (ml == nullptr)
+    return fmt::format("calibrated by {}:\n", calibration.method()) +
+           console::wrapped(experiment::judgement_sentence(calibration.judgement));
   std::string text =
       console::wrapped(experiment::extent_sentence(*ml)) +
       console::wrapped("Standard errors: " + experiment::described(experiment::precision_of(calibration)) +
                        ".");
   text += verdict_text(*ml);
-  return text;
+  return text + console::wrapped(experiment::judgement_sentence(calibration.judgement));
 }
 
 }  // namespace astro::commands

@@ -1,0 +1,42 @@
+#include "host/commands/calibrate/calibrate_bag.hpp"
+
+#include <memory>
+
+#include "host/commands/calibrate/calibration_output.hpp"
+#include "host/commands/calibrate/ml_option.hpp"
+#include "host/commands/shared/import_options.hpp"
+#include "host/experiment/analysis/calibration.hpp"
+
+namespace astro::commands {
+
+void add_calibrate_bag(console::Command calibrate) {
+  struct Options {
+    ImportOptions import;
+    CalibrationOutput output;
+    MlOption ml;
+  };
+  const auto options = std::make_shared<Options>();
+  const console::Command command =
+      calibrate.add_subcommand("bag", "from ROS 2 bags that hold joint states and a tracker's poses");
+  command.add_option("bags", options->import.wheels, "a bag for each drive: .mcap, .db3 or a folder")
+      .required();
+  add_bag_choices(command, options->import);
+  add_tracker_choices(command, options->import);
+  add_geometry_choices(command, options->import);
+  add_output(command, options->output);
+  add_ml(command, options->ml);
+  command.footer(
+      "Examples:\n"
+      "  astrolabe calibrate bag drive1 drive2 --robot diff_drive.yaml --out calib.toml\n"
+      "  astrolabe calibrate bag drive.mcap --wheels-topic /joint_states --truth-topic /tracker/pose \\\n"
+      "    --wheel-diameter 0.066 --wheelbase 0.16\n"
+      "  astrolabe inspect drive.mcap");
+  command.callback([options] {
+    options->import.truth = options->import.wheels;
+    put_out(experiment::calibrate(read_drive_files(options->import),
+                                  {experiment::MethodChoice::Family::ml, {}}, options->ml.choice()),
+            options->output);
+  });
+}
+
+}  // namespace astro::commands

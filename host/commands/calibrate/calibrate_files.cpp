@@ -1,0 +1,42 @@
+#include "host/commands/calibrate/calibrate_files.hpp"
+
+#include <memory>
+
+#include "host/commands/calibrate/calibration_output.hpp"
+#include "host/commands/calibrate/ml_option.hpp"
+#include "host/commands/shared/import_options.hpp"
+#include "host/console/wrong_usage.hpp"
+#include "host/experiment/analysis/calibration.hpp"
+
+namespace astro::commands {
+
+void add_calibrate_files(console::Command calibrate) {
+  struct Options {
+    ImportOptions import;
+    CalibrationOutput output;
+    MlOption ml;
+  };
+  const auto options = std::make_shared<Options>();
+  const console::Command command =
+      calibrate.add_subcommand("files", "from wheels and ground truth that other programs recorded");
+  add_import(command, options->import);
+  add_output(command, options->output);
+  add_ml(command, options->ml);
+  command.footer(
+      "For any differential-drive robot under any tracker. The clocks of both need not agree.\n"
+      "Examples:\n"
+      "  astrolabe calibrate files --wheels 1.csv --truth take1.csv --wheels 2.csv --truth take2.csv \\\n"
+      "    --wheel-diameter 0.084 --counts-per-turn 2796.8 --wheelbase 0.2 --out calib.toml\n"
+      "  astrolabe calibrate files --wheels ticks.csv --wheel-columns time_s,left_counts,right_counts \\\n"
+      "    --per-interval --truth take.csv --body ASTRO --robot diff_drive.yaml\n"
+      "  astrolabe inspect take.csv");
+  command.callback([options] {
+    if (!options->import.given())
+      throw console::WrongUsage("no drives are named: give --wheels and --truth for each");
+    put_out(experiment::calibrate(read_drive_files(options->import),
+                                  {experiment::MethodChoice::Family::ml, {}}, options->ml.choice()),
+            options->output);
+  });
+}
+
+}  // namespace astro::commands

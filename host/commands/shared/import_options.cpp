@@ -1,0 +1,175 @@
+#include "host/commands/shared/import_options.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "host/base/numbers.hpp"
+#include "host/commands/base/remedies.hpp"
+#include "host/console/console.hpp"
+#include "host/console/options.hpp"
+#include "host/console/wrong_usage.hpp"
+
+namespace astro::commands {
+namespace {
+
+using experiment::ImportChoices;
+using experiment::RobotGeometry;
+
+/// "y", "-z", or three numbers between commas.
+std::optional<truth::Direction3> axis_in(std::string_view text) {
+  const bool negative = text.starts_with('-') && text.size() == 2;
+  const std::string_view name = negative ? text.substr(1) : text;
+  if (name.size() == 1 && name[0] >= 'x' && name[0] <= 'z') {
+    truth::Direction3 axis{0, 0, 0};
+    axis[static_cast<std::size_t>(name[0] - 'x')] = negative ? -1 : 1;
+    return axis;
+  }
+  truth::Direction3 axis{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t comma = text.find(',');
+    if ((i < 2) == (comma == std::string_view::npos)) return std::nullopt;
+    const auto value = typed_number(text.substr(0, comma));
+    if (!value) return std::nullopt;
+    axis[i] = *value;
+    text.remove_prefix(i < 2 ? comma + 1 : text.size());
+  }
+  if (std::hypot(axis[0], axis[1], axis[2]) == 0) return std::nullopt;
+  return axis;
+}
+
+console::Check is_axis() {
+  return [](const std::string& word) -> std::string {
+    return axis_in(word) ? ""
+                         : "'" + word + "' is no axis: give x, y, z, -x, -y, -z or three numbers as 0,1,0";
+  };
+}
+
+RobotGeometry geometry_of(const ImportOptions& options) {
+  RobotGeometry geometry;
+  if (!options.robot_file.empty())
+    geometry = experiment::read_robot_file(options.robot_file, options.controller);
+  RobotGeometry given;
+  given.wheel_diameter_m = options.wheel_diameter_m;
+  given.counts_per_turn = options.counts_per_turn;
+  given.wheelbase_m = options.wheelbase_m;
+  if (!options.joints.empty()) given.joints = {options.joints.at(0), options.joints.at(1)};
+  return geometry.overridden_by(given);
+}
+
+ImportChoices choices_of(const ImportOptions& options) {
+  if (!options.joints.empty() && options.joints.size() != 2)
+    throw console::WrongUsage("--joints takes two names, LEFT,RIGHT");
+  if (!options.frames.empty() && options.frames.size() != 2)
+    throw console::WrongUsage("--truth-frames takes two names, PARENT,CHILD");
+  ImportChoices choices;
+  choices.geometry = geometry_of(options);
+  choices.wheels.table = options.table;
+  choices.wheels.joints = {options.wheels_topic, choices.geometry.joints};
+  choices.wheels.exchanged = options.swap_wheels;
+  choices.truth.body = options.body;
+  choices.truth.poses.topic = options.truth_topic;
+  if (!options.frames.empty()) {
+    choices.truth.poses.frame = options.frames[0];
+    choices.truth.poses.child_frame = options.frames[1];
+  }
+  if (!options.up.empty()) choices.floor.up = axis_in(options.up);
+  choices.truth.length_unit = options.unit;
+  if (options.mirrored != "auto") choices.floor.mirrored = options.mirrored == "yes";
+  return choices;
+}
+
+}  // namespace
+
+void add_drive_files(console::Command command, ImportOptions& options) {
+  command
+      .add_option("--wheels", options.wheels,
+                  "a drive's wheels: CSV, bag (JointState) or our own\nrecording (repeatable, with --truth)")
+      .type_name("FILE")
+      .one_each_time();
+  command
+      .add_option("--truth", options.truth,
+                  "its ground truth: Motive, Vicon, TUM or plain CSV\n(also .gz), or a bag")
+      .type_name("FILE")
+      .one_each_time();
+}
+
+void add_table_choices(console::Command command, ImportOptions& options) {
+  command
+      .add_option("--wheel-columns", options.table.columns,
+                  "the columns of a CSV without names, as\ntime_s,left_counts,right_counts (or _rad, _m)")
+      .type_name("NAMES");
+  command.add_flag("--per-interval", options.table.per_interval,
+                   "each row is the travel since the row before");
+}
+
+void add_bag_choices(console::Command command, ImportOptions& options) {
+  command.add_option("--wheels-topic", options.wheels_topic, "bags: the topic of the wheels (JointState)")
+      .type_name("TOPIC");
+  command.add_option("--joints", options.joints, "bags: the joints of the wheels")
+      .type_name("LEFT,RIGHT")
+      .delimiter(',');
+  command.add_option("--truth-topic", options.truth_topic, "bags: the topic of the tracker's poses")
+      .type_name("TOPIC");
+  command.add_option("--truth-frames", options.frames, "bags: the frames of a transform")
+      .type_name("PARENT,CHILD")
+      .delimiter(',');
+}
+
+void add_tracker_choices(console::Command command, ImportOptions& options) {
+  command.add_option("--body", options.body, "trackers: the body, by name or number").type_name("NAME");
+  command.add_option("--up", options.up, "the tracker's axis that points up: x, y, z, -x, -y,\n-z or A,B,C")
+      .type_name("AXIS")
+      .check(is_axis());
+  command.add_option("--truth-unit", options.unit, "the unit of its positions, in place of the file's")
+      .one_of({"m", "cm", "mm"});
+  command.add_option("--truth-mirrored", options.mirrored, "its positions are a mirror image")
+      .one_of({"auto", "yes", "no"})
+      .capture_default_str();
+}
+
+void add_geometry_choices(console::Command command, ImportOptions& options) {
+  command
+      .add_option(
+          "--robot", options.robot_file,
+          "sizes of the robot: a file of 'params export', a\ncalib.toml that it carries, or parameters of\n"
+          "diff_drive_controller (YAML)")
+      .type_name("FILE");
+  command.add_option("--controller", options.controller, "the controller in a YAML file with several")
+      .type_name("NAME");
+  command.add_option("--wheel-diameter", options.wheel_diameter_m, "nominal, m")
+      .check(console::between(0.005, 5, "m"));
+  command.add_option("--counts-per-turn", options.counts_per_turn, "encoder counts in a turn of the wheel")
+      .check(console::between(1, 1e8, "counts"));
+  command.add_option("--wheelbase", options.wheelbase_m, "as the robot's odometry takes it, m")
+      .check(console::between(0.02, 10, "m"));
+  command.add_flag("--swap-wheels", options.swap_wheels, "left and right are exchanged in the files");
+}
+
+void add_import(console::Command command, ImportOptions& options) {
+  add_drive_files(command, options);
+  add_table_choices(command, options);
+  add_bag_choices(command, options);
+  add_tracker_choices(command, options);
+  add_geometry_choices(command, options);
+}
+
+experiment::RunSet read_drive_files(const ImportOptions& options) {
+  if (options.wheels.size() != options.truth.size())
+    throw console::WrongUsage(fmt::format("there are {} --wheels and {} --truth: each drive needs both",
+                                          options.wheels.size(), options.truth.size()));
+  std::vector<experiment::DriveFiles> files;
+  for (std::size_t i = 0; i < options.wheels.size(); ++i)
+    files.push_back({options.wheels[i], options.truth[i]});
+  experiment::ImportedDrives drives = experiment::import_drives(files, choices_of(options));
+  for (std::size_t i = 0; i < drives.reports.size(); ++i) {
+    console::say(drives.set.names[i] + ": " + drives.reports[i].summary);
+    for (const Remark& remark : drives.reports[i].remarks)
+      console::say(drives.set.names[i] + ": " + in_words(remark));
+  }
+  return std::move(drives.set);
+}
+
+}  // namespace astro::commands

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/console/command_line.hpp"
+#include "host/experiment/import/import_drives.hpp"
+
+/// Options of commands that take drives which other programs recorded.
+namespace astro::commands {
+
+struct ImportOptions {
+  std::vector<std::filesystem::path> wheels, truth;  // of the same length
+  recording::WheelTable table;
+  std::string wheels_topic, truth_topic, body, up, unit, mirrored = "auto", controller;
+  std::vector<std::string> joints, frames;
+  bool swap_wheels = false;
+  std::filesystem::path robot_file;
+  std::optional<double> wheel_diameter_m, counts_per_turn, wheelbase_m;
+
+  bool given() const { return !wheels.empty() || !truth.empty(); }
+};
+
+/// --wheels and --truth, each as often as there are drives.
+void add_drive_files(console::Command command, ImportOptions& options);
+
+/// How to read files of these kinds: what is not said is recognised or asked for in an error.
+void add_table_choices(console::Command command, ImportOptions& options);
+void add_bag_choices(console::Command command, ImportOptions& options);
+void add_tracker_choices(console::Command command, ImportOptions& options);
+void add_geometry_choices(console::Command command, ImportOptions& options);
+
+/// All of the above.
+void add_import(console::Command command, ImportOptions& options);
+
+/// Reads them, and says about each drive what was found and inferred. Throws console::WrongUsage if the numbers of files
+/// differ, and what experiment::import_drives throws.
+experiment::RunSet read_drive_files(const ImportOptions& options);
+
+}  // namespace astro::commands

@@ -1,0 +1,51 @@
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "host/commands/base/flags.hpp"
+#include "host/commands/shared/robot_view.hpp"
+#include "host/commands/truth/commands.hpp"
+#include "host/commands/truth/inspect_view.hpp"
+
+namespace astro::commands {
+
+void add_inspect(console::Command app) {
+  struct Options {
+    std::filesystem::path file;
+    recording::WheelTable table;
+    recording::PoseSelection topic;
+    bool json = false;
+  };
+  const auto options = std::make_shared<Options>();
+  const console::Command command =
+      app.add_subcommand("inspect", "say what is in a file of a tracker, a robot or a ROS 2 bag");
+  command.add_option("file", options->file, "the file, or the folder of a bag").required();
+  command
+      .add_option("--wheel-columns", options->table.columns,
+                  "the columns of a CSV without names, as\ntime_s,left_counts,right_counts (or _rad, _m)")
+      .type_name("NAMES");
+  command.add_flag("--per-interval", options->table.per_interval,
+                   "each row is the travel since the row before");
+  command
+      .add_option("--truth-topic", options->topic.topic,
+                  "bags: look at the poses of this topic: lost, gaps,\nup axis, noise at rest")
+      .type_name("TOPIC");
+  add_json_flag(command, options->json);
+  command.footer(
+      "Recognised by content: Motive CSV, Vicon CSV, TUM, EuRoC, CSV with names and units (also packed with\n"
+      "gzip); bags (.mcap, .db3, folders); tables of wheels; sizes of a robot (.toml, .yaml).\n"
+      "Examples:\n"
+      "  astrolabe inspect take.csv\n"
+      "  astrolabe inspect drive.mcap --truth-topic /tracker/pose\n"
+      "  astrolabe inspect ticks.csv --wheel-columns time_s,left_counts,right_counts --per-interval --json");
+  command.callback([options] {
+    const experiment::FileInspection found =
+        experiment::inspect_file(options->file, options->table, options->topic);
+    if (options->json) {
+      print_json(to_json(found));
+    } else {
+      write(inspection_text(found));
+    }
+  });
+}
+
+}  // namespace astro::commands

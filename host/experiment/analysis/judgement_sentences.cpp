@@ -1,0 +1,72 @@
+#include "host/experiment/analysis/judgement_sentences.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace astro::experiment {
+namespace {
+
+using calibration::CrossValidation;
+using calibration::HeldOutErrors;
+using calibration::Verdict;
+
+constexpr std::array<std::pair<Verdict, std::string_view>, 4> kNames{{{Verdict::better, "better"},
+                                                                      {Verdict::worse, "worse"},
+                                                                      {Verdict::undecided, "undecided"},
+                                                                      {Verdict::unknown, "unknown"}}};
+
+/// "the end error is 21.3 mm instead of 83.1 mm, the heading error 12 mrad instead of 76 mrad"
+std::string comparison(const CrossValidation& judgement) {
+  const HeldOutErrors before = judgement.in_use(), after = judgement.found();
+  std::vector<std::string> parts;
+  const auto add = [&](const char* what, double was, double is, const char* unit) {
+    if (std::isfinite(was) && std::isfinite(is))
+      parts.push_back(fmt::format("the {} {}{:.1f} {} instead of {:.1f} {}", what, parts.empty() ? "is " : "",
+                                  1000 * is, unit, 1000 * was, unit));
+  };
+  add("end error", before.final_m, after.final_m, "mm");
+  add("heading error", before.final_heading_rad, after.final_heading_rad, "mrad");
+  add("path error", before.path_m, after.path_m, "mm");
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+}  // namespace
+
+std::string judgement_sentence(const CrossValidation& judgement) {
+  const std::size_t drives = judgement.runs.size();
+  if (judgement.verdict == Verdict::unknown)
+    return judgement.not_judged.empty()
+               ? "Whether it is better than what the robot carries cannot be judged from a single drive."
+               : fmt::format(
+                     "Whether it is better than what the robot carries cannot be judged: without some of "
+                     "the drives, {}.",
+                     judgement.not_judged.front().fact);
+  const std::string seen =
+      fmt::format("on drives that it had not seen {} (root mean squares), and {} of {} drives fit better",
+                  comparison(judgement), judgement.better_on(), drives);
+  if (judgement.verdict == Verdict::better)
+    return fmt::format("Better than what the robot carries: {}.", seen);
+  if (judgement.verdict == Verdict::worse)
+    return fmt::format("Worse than what the robot carries: {}. Keep what it carries.", seen);
+  return fmt::format("Not shown to be better than what the robot carries: {}. Keep what it carries.", seen);
+}
+
+std::string_view name_of(Verdict verdict) {
+  for (const auto& [one, name] : kNames)
+    if (one == verdict) return name;
+  return "unknown";
+}
+
+Verdict verdict_named(std::string_view name) {
+  for (const auto& [verdict, one] : kNames)
+    if (one == name) return verdict;
+  return Verdict::unknown;
+}
+
+bool advises_against(Verdict verdict) { return verdict == Verdict::worse || verdict == Verdict::undecided; }
+
+}  // namespace astro::experiment

@@ -1,0 +1,135 @@
+#include "host/experiment/import/file_inspection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "host/base/byte_source.hpp"
+#include "host/base/error.hpp"
+#include "host/base/files.hpp"
+#include "host/experiment/import/wheel_file.hpp"
+#include "host/recording/files/run_file.hpp"
+#include "host/ros2/joint_state.hpp"
+#include "host/ros2/ros_messages.hpp"
+#include "host/truth/bags/bag_truth.hpp"
+#include "host/truth/files/packed_text.hpp"
+#include "host/truth/files/tracker_file.hpp"
+
+namespace astro::experiment {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostJoints = 1000;
+
+double seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
+
+double rate_hz(std::uint64_t samples, double duration_s) {
+  return duration_s > 0 ? static_cast<double>(samples - 1) / duration_s : 0;
+}
+
+/// What one pass over a bag shows of each topic.
+class Pass {
+ public:
+  BagInspection over(const fs::path& path) {
+    recording::BagHandlers handlers;
+    handlers.message = [this](const recording::BagTopic& topic, const recording::BagMessage& message) {
+      take(topic, message);
+    };
+    BagInspection out;
+    out.report = recording::read_bag(path, handlers);
+    for (const recording::BagTopic& topic : out.report.topics)
+      out.topics.push_back({topic, rate_hz(topic.messages, seconds(topic.last_ns - topic.first_ns)),
+                            gaps_[topic.name].longest_s});
+    out.joints.assign(joints_.begin(), joints_.end());
+    out.wheels = recording::recognise_wheels(out.joints);
+    return out;
+  }
+
+ private:
+  struct Gap {
+    std::int64_t last_ns = 0;
+    bool any = false;
+    double longest_s = 0;
+  };
+
+  void take(const recording::BagTopic& topic, const recording::BagMessage& message) {
+    Gap& gap = gaps_[topic.name];
+    if (gap.any)
+      gap.longest_s = std::max(gap.longest_s, std::abs(seconds(message.log_time_ns - gap.last_ns)));
+    gap = {message.log_time_ns, true, gap.longest_s};
+    if (topic.type != ros2::joint_state_type().name || joints_.size() >= kMostJoints) return;
+    if (const auto state = ros2::decode_joint_state(message.data))
+      for (const std::string& name : state->names)
+        if (joints_.size() < kMostJoints) joints_.insert(name);
+  }
+
+  std::map<std::string, Gap, std::less<>> gaps_;
+  std::set<std::string> joints_;
+};
+
+BagInspection inspect_bag(const fs::path& path) {
+  BagInspection bag = Pass().over(path);
+  bag.poses = recording::pose_streams(path);
+  const bool own = std::any_of(bag.topics.begin(), bag.topics.end(), [](const TopicInspection& one) {
+    return one.topic.type == ros2::wheel_counts_type().name;
+  });
+  if (own && !fs::is_directory(path)) bag.run = recording::read_run(path, recording::Damage::accepted).info;
+  return bag;
+}
+
+WheelInspection inspect_wheels(recording::WheelTrack track) {
+  WheelInspection out;
+  out.track = std::move(track);
+  const std::vector<recording::WheelSample>& samples = out.track.samples;
+  out.duration_s = seconds(samples.back().time_ns - samples.front().time_ns);
+  out.rate_hz = rate_hz(samples.size(), out.duration_s);
+  for (std::size_t i = 1; i < samples.size(); ++i)
+    out.longest_gap_s = std::max(out.longest_gap_s, seconds(samples[i].time_ns - samples[i - 1].time_ns));
+  out.left = samples.back().left - samples.front().left;
+  out.right = samples.back().right - samples.front().right;
+  return out;
+}
+
+/// Only its end tells the kind of a file of settings: text with columns is never called so.
+bool is_settings(const fs::path& path) {
+  const fs::path end = path.extension();
+  return end == ".toml" || end == ".yaml" || end == ".yml";
+}
+
+FileInspection inspect_text(const fs::path& path, const recording::WheelTable& table) {
+  FileInspection out;
+  const Bytes bytes = load_file(path);
+  const std::string unpacked = truth::is_gzip(bytes) ? truth::unpacked(bytes, path.string()) : "";
+  const std::string_view text = unpacked.empty() ? as_text(bytes) : std::string_view(unpacked);
+  if (table.columns.empty() && truth::recognise(text) != truth::FileKind::unknown) {
+    out.tracker = truth::inspect(text, path.string());
+    return out;
+  }
+  MemorySource source({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  out.wheels = inspect_wheels(recording::wheels_in_table(source, path.string(), table));
+  return out;
+}
+
+}  // namespace
+
+FileInspection inspect_file(const fs::path& path, const recording::WheelTable& table,
+                            const recording::PoseSelection& topic) {
+  FileInspection out;
+  if (recording::is_bag(path) && topic.topic.empty()) {
+    out.bag = inspect_bag(path);
+  } else if (recording::is_bag(path)) {
+    truth::BodyTrack track = truth::track_in_bag(path, topic);
+    out.tracker = truth::Inspection{};
+    out.tracker->bodies.push_back(truth::inspect(track));
+  } else if (is_settings(path)) {
+    out.robot = read_robot_file(path);
+  } else {
+    out = inspect_text(path, table);
+  }
+  return out;
+}
+
+}  // namespace astro::experiment

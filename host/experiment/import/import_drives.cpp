@@ -1,0 +1,63 @@
+#include "host/experiment/import/import_drives.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "host/base/error.hpp"
+
+namespace astro::experiment {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The last `parts` parts of the path, without the extension.
+std::string name_of(const fs::path& path, std::size_t parts) {
+  const fs::path whole = fs::absolute(path).lexically_normal();
+  fs::path name = (whole.has_filename() ? whole : whole.parent_path()).filename().replace_extension();
+  fs::path folder = (whole.has_filename() ? whole : whole.parent_path()).parent_path();
+  for (; parts > 1 && folder.has_filename(); --parts, folder = folder.parent_path())
+    name = folder.filename() / name;
+  return name.string();
+}
+
+/// As short as they can be without being equal.
+std::vector<std::string> names_of(std::span<const DriveFiles> files) {
+  constexpr std::size_t kMostParts = 8;
+  for (std::size_t parts = 1;; ++parts) {
+    std::vector<std::string> names;
+    std::map<std::string, int> uses;
+    for (const DriveFiles& one : files) ++uses[names.emplace_back(name_of(one.wheels, parts))];
+    if (uses.size() == files.size()) return names;
+    if (parts < kMostParts) continue;
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (uses[names[i]] > 1) names[i] += " (" + std::to_string(i + 1) + ")";
+    return names;
+  }
+}
+
+void refuse_twins(std::span<const DriveFiles> files) {
+  for (std::size_t i = 0; i < files.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (fs::weakly_canonical(files[i].wheels) == fs::weakly_canonical(files[j].wheels))
+        throw Error("'" + files[i].wheels.string() +
+                        "' is given twice, and a drive that counts twice would seem more certain than it is",
+                    {Help::name_other_file});
+}
+
+}  // namespace
+
+ImportedDrives import_drives(std::span<const DriveFiles> files, const ImportChoices& choices) {
+  refuse_twins(files);
+  ImportedDrives drives;
+  drives.set.names = names_of(files);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    PairedDrive drive = pair_up(drives.set.names[i], read_wheels(files[i].wheels, choices.wheels),
+                                read_truth(files[i].truth, choices.truth), choices.geometry, choices.floor);
+    drives.set.runs.push_back(std::move(drive.run));
+    drives.reports.push_back(std::move(drive.report));
+  }
+  return drives;
+}
+
+}  // namespace astro::experiment

@@ -1,0 +1,221 @@
+#include "host/experiment/import/paired_drive.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "host/base/error.hpp"
+#include "host/calibration/motion/arc.hpp"
+#include "host/calibration/motion/wheel_factors.hpp"
+#include "host/experiment/analysis/squares.hpp"
+#include "host/experiment/analysis/trajectories.hpp"
+
+namespace astro::experiment {
+namespace {
+
+using recording::WheelSample;
+using recording::WheelTrack;
+using recording::WheelUnit;
+
+constexpr double kTurn_rad = 2 * std::numbers::pi;
+
+bool whole_counts(const WheelTrack& track) {
+  return track.unit == WheelUnit::counts &&
+         std::all_of(track.samples.begin(), track.samples.end(), [](const WheelSample& sample) {
+           return std::round(sample.left) == sample.left && std::round(sample.right) == sample.right;
+         });
+}
+
+/// How the travel of a track becomes counts of a nominal wheel.
+struct Counter {
+  NominalWheel wheel;
+  double counts_per_unit = 1;
+
+  Counter(const WheelTrack& track, const RobotGeometry& geometry)
+      : wheel{*geometry.wheel_diameter_m, kAngleCounts} {
+    switch (track.unit) {
+      case WheelUnit::counts:
+        counts_per_unit = kAngleCounts / *geometry.counts_per_turn;
+        if (whole_counts(track)) {
+          wheel.counts_per_turn = *geometry.counts_per_turn;
+          counts_per_unit = 1;
+        }
+        break;
+      case WheelUnit::radians:
+        counts_per_unit = kAngleCounts / kTurn_rad;
+        break;
+      case WheelUnit::metres:
+        counts_per_unit = 1 / wheel.metres_per_count();
+        break;
+    }
+  }
+
+  std::int64_t counts(double travel) const { return std::llround(travel * counts_per_unit); }
+};
+
+/// Rounded down, also before the epoch, as the times of truth are.
+std::int64_t microseconds(std::int64_t time_ns) { return (time_ns - (time_ns % 1000 + 1000) % 1000) / 1000; }
+
+/// Between two samples in more than a hundred turns of a wheel something else is wrong than a gap.
+void refuse_leaps(const std::string& name, const WheelTrack& track, const Counter& counter) {
+  constexpr double kMostTurns = 100;
+  for (std::size_t i = 1; i < track.samples.size(); ++i) {
+    const WheelSample &from = track.samples[i - 1], &to = track.samples[i];
+    const double most = std::max(std::abs(to.left - from.left), std::abs(to.right - from.right));
+    if (!(most * counter.counts_per_unit < kMostTurns * counter.wheel.counts_per_turn))
+      throw Error(
+          fmt::format("'{}': a wheel turns more than {} times between the samples at {:.3f} s and {:.3f} s",
+                      name, kMostTurns, 1e-9 * static_cast<double>(from.time_ns),
+                      1e-9 * static_cast<double>(to.time_ns)),
+          {Help::check_wheel_units});
+  }
+}
+
+std::vector<recording::OdometrySample> odometry_of(const WheelTrack& track, const Counter& counter,
+                                                   const RobotGeometry& geometry) {
+  std::vector<recording::OdometrySample> odometry;
+  odometry.reserve(track.samples.size());
+  const double right_m = geometry.c_r * counter.wheel.metres_per_count(),
+               left_m = geometry.c_l * counter.wheel.metres_per_count();
+  const std::int64_t left_start = counter.counts(track.samples.front().left),
+                     right_start = counter.counts(track.samples.front().right);
+  recording::OdometrySample sample;
+  std::int64_t left = 0, right = 0;
+  for (const WheelSample& at : track.samples) {
+    const std::int64_t new_left = counter.counts(at.left) - left_start,
+                       new_right = counter.counts(at.right) - right_start;
+    const std::int64_t time_us = microseconds(at.time_ns);
+    const double right_step_m = right_m * static_cast<double>(new_right - right),
+                 left_step_m = left_m * static_cast<double>(new_left - left);
+    if (!odometry.empty() && time_us > sample.time_us) {
+      const double dt_s = 1e-6 * static_cast<double>(time_us - sample.time_us);
+      sample.v_mps = (right_step_m + left_step_m) / 2 / dt_s;
+      sample.omega_radps = (right_step_m - left_step_m) / *geometry.wheelbase_m / dt_s;
+    }
+    calibration::advance(sample, right_step_m, left_step_m, *geometry.wheelbase_m);
+    left = new_left;
+    right = new_right;
+    sample.time_us = time_us;
+    sample.left_counts = static_cast<std::int32_t>(static_cast<std::uint32_t>(left));
+    sample.right_counts = static_cast<std::int32_t>(static_cast<std::uint32_t>(right));
+    odometry.push_back(sample);
+  }
+  return odometry;
+}
+
+/// Times of wheels and tracker as they are in their files, so in microseconds of any origin.
+std::vector<truth::WheelMotion> motion_of(const std::vector<recording::OdometrySample>& odometry) {
+  std::vector<truth::WheelMotion> motion;
+  for (std::size_t i = 1; i < odometry.size(); ++i)
+    motion.push_back({0.5e-6 * static_cast<double>(odometry[i - 1].time_us + odometry[i].time_us),
+                      odometry[i].v_mps, odometry[i].omega_radps});
+  return motion;
+}
+
+void settle_direction(const std::string& name, const truth::FloorFindings& findings,
+                      std::vector<Remark>& remarks) {
+  constexpr double kClear_m = 0.03;  // more than a tracker's origin is off its floor
+  if (!findings.turns_against_wheels) return;
+  const std::string fact = "'" + name + "': the wheels turn the robot the other way than the ground truth";
+  if (findings.up_given) throw Error(fact, {Help::exchange_wheels_or_change_up});
+  if (findings.height_m > kClear_m) {
+    remarks.push_back({"the wheels show that the tracker's axis that seems to point up points down"});
+    return;
+  }
+  if (findings.height_m < -kClear_m)
+    throw Error(
+        fmt::format("{}, and the body is {:.2f} m above the tracker's origin", fact, -findings.height_m),
+        {Help::exchange_wheels_or_give_up});
+  throw Error(fact + ", and nothing shows which of the two is a mirror image",
+              {Help::exchange_wheels_or_give_up});
+}
+
+recording::RunInfo info_of(const ImportedWheels& wheels, const Counter& counter,
+                           const RobotGeometry& geometry) {
+  recording::RunInfo info = wheels.info.value_or(recording::RunInfo{});
+  info.truth_source = "file";
+  info.truth_clock = "tracker";
+  if (wheels.info) return info;
+  info.kind = "free";
+  info.robot_name = geometry.name;
+  info.robot_id = geometry.id;
+  info.parameters = {{"wheel_diameter", counter.wheel.diameter_m},
+                     {"counts_per_motor_rev", counter.wheel.counts_per_turn},
+                     {"gear_numerator", 1},
+                     {"gear_denominator", 1},
+                     {"c_R", geometry.c_r},
+                     {"c_L", geometry.c_l},
+                     {"b", *geometry.wheelbase_m}};
+  return info;
+}
+
+/// What our own recording knows counts more than what is assumed of a robot.
+RobotGeometry geometry_of(const ImportedWheels& wheels, const RobotGeometry& given, const std::string& name) {
+  if (!wheels.info) return complete_geometry(given, wheels.track.unit);
+  const NominalWheel wheel = nominal_wheel(*wheels.info, name);
+  const calibration::WheelFactors loaded = loaded_factors(*wheels.info);
+  RobotGeometry geometry;
+  geometry.wheel_diameter_m = wheel.diameter_m;
+  geometry.counts_per_turn = wheel.counts_per_turn;
+  geometry.wheelbase_m = loaded.b_m;
+  geometry.c_r = loaded.c_r;
+  geometry.c_l = loaded.c_l;
+  return geometry;
+}
+
+/// Samples in a second, from the first to the last.
+template <class Sample>
+double rate_hz(const std::vector<Sample>& samples) {
+  const double span_s = 1e-9 * static_cast<double>(samples.back().time_ns - samples.front().time_ns);
+  return span_s > 0 ? static_cast<double>(samples.size() - 1) / span_s : 0;
+}
+
+/// "y is up", "-z is up", "(0.02, 0.17, 0.98) is up".
+std::string up_text(const truth::Direction3& up) {
+  constexpr double kAxis = 0.999;  // 2.6 degrees
+  for (std::size_t i = 0; i < 3; ++i)
+    if (std::abs(up[i]) > kAxis) return fmt::format("{}{} is up", up[i] < 0 ? "-" : "", "xyz"[i]);
+  return fmt::format("({:.2f}, {:.2f}, {:.2f}) is up", up[0], up[1], up[2]);
+}
+
+std::string summary_of(const ImportedWheels& wheels, const ImportedTruth& truth,
+                       const truth::FloorFindings& floor) {
+  const std::vector<WheelSample>& counts = wheels.track.samples;
+  std::string text = fmt::format(
+      "{} samples of the wheels at {:.4g} Hz over {:.1f} s; {} poses{} at {:.4g} Hz, {} lost; {}",
+      counts.size(), rate_hz(counts),
+      1e-9 * static_cast<double>(counts.back().time_ns - counts.front().time_ns), truth.track.samples.size(),
+      truth.track.name.empty() ? "" : " of '" + truth.track.name + "'", rate_hz(truth.track.samples),
+      truth.lost.all(), up_text(floor.up));
+  return text;
+}
+
+}  // namespace
+
+PairedDrive pair_up(const std::string& name, const ImportedWheels& wheels, const ImportedTruth& truth,
+                    const RobotGeometry& given, const truth::FloorChoices& choices) {
+  const RobotGeometry geometry = geometry_of(wheels, given, name);
+  const Counter counter(wheels.track, geometry);
+  refuse_leaps(name, wheels.track, counter);
+  PairedDrive drive;
+  std::vector<Remark>& all = drive.report.remarks;
+  all = wheels.track.remarks;
+  const auto add = [&](const std::vector<Remark>& remarks) {
+    all.insert(all.end(), remarks.begin(), remarks.end());
+  };
+  add(truth.track.facts.remarks);
+  drive.run.info = info_of(wheels, counter, geometry);
+  drive.run.odometry = odometry_of(wheels.track, counter, geometry);
+  truth::FloorPath floor = truth::place_on_floor(truth.track, motion_of(drive.run.odometry), choices);
+  drive.run.truth = std::move(floor.samples);
+  drive.report.floor = std::move(floor.findings);
+  add(drive.report.floor.remarks);
+  settle_direction(name, drive.report.floor, all);
+  drive.report.summary = summary_of(wheels, truth, drive.report.floor);
+  return drive;
+}
+
+}  // namespace astro::experiment

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "host/recording/foreign/joint_names.hpp"
+#include "host/recording/foreign/wheel_track.hpp"
+
+namespace astro::experiment {
+
+/// The wheels of any robot as its own program takes them: nominal sizes, and what its odometry multiplied them by
+/// while it drove.
+struct RobotGeometry {
+  std::optional<double> wheel_diameter_m, counts_per_turn, wheelbase_m;
+  double c_r = 1, c_l = 1;
+  recording::JointPair joints;  // "" unless the file names the wheels' joints
+  std::string name, id;         // of the robot, "" if unknown
+
+  /// What `over` says, and the rest of this.
+  RobotGeometry overridden_by(const RobotGeometry& over) const;
+};
+
+/// The geometry in a file, of which the content tells the kind:
+///   TOML   [parameters] wheel_diameter, counts_per_motor_rev, gear_numerator, gear_denominator (1 unless given), b, c_R,
+///          c_L, in SI units: as the robot's parameters are exported; or a calibration that the robot carries, with
+///          its [nominal] wheel
+///   YAML   parameters of ROS 2's diff_drive_controller; `node` chooses among several. Its multipliers are c_R and c_L, and
+///          the wheelbase is wheel_separation times its multiplier.
+///
+/// Throws astro::Error naming the file if it cannot be read, and recording::UnclearChoice for the node.
+RobotGeometry read_robot_file(const std::filesystem::path& path, const std::string& node = {});
+
+/// The same if it has what travel in this unit needs: a wheelbase, the diameter (also that which metres assume, because c_R
+/// and c_L refer to it), and for counts how many make a turn. Throws astro::Error that names what is missing.
+RobotGeometry complete_geometry(RobotGeometry geometry, recording::WheelUnit unit);
+
+}  // namespace astro::experiment

@@ -1,0 +1,71 @@
+#include "host/experiment/import/wheel_file.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include "host/base/byte_source.hpp"
+#include "host/recording/bag/bag.hpp"
+#include "host/recording/files/run_file.hpp"
+#include "host/ros2/ros_messages.hpp"
+
+namespace astro::experiment {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_own_recording(const fs::path& path) {
+  if (fs::is_directory(path)) return false;
+  bool found = false;
+  recording::BagHandlers handlers;
+  handlers.wants = [&](const recording::BagTopic& topic) {
+    found = found || topic.type == ros2::wheel_counts_type().name;
+    return false;
+  };
+  recording::read_bag(path, handlers);
+  return found;
+}
+
+/// Our counters wrap at 2^32.
+recording::WheelTrack track_of(const recording::Run& run) {
+  recording::WheelTrack track;
+  track.samples.reserve(run.odometry.size());
+  std::int64_t left = 0, right = 0;
+  const recording::OdometrySample* before = nullptr;
+  const auto step = [](std::int32_t from, std::int32_t to) {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(to) - static_cast<std::uint32_t>(from));
+  };
+  for (const recording::OdometrySample& sample : run.odometry) {
+    if (before != nullptr) {
+      left += step(before->left_counts, sample.left_counts);
+      right += step(before->right_counts, sample.right_counts);
+    }
+    before = &sample;
+    track.samples.push_back({1000 * sample.time_us, static_cast<double>(left), static_cast<double>(right)});
+  }
+  if (!run.warning.empty()) track.remarks.push_back({run.warning});
+  return track;
+}
+
+ImportedWheels read(const fs::path& path, const WheelSelection& selection) {
+  if (!recording::is_bag(path)) {
+    FileSource file(path);
+    return {recording::wheels_in_table(file, path.string(), selection.table), {}};
+  }
+  if (selection.joints.topic.empty() && is_own_recording(path)) {
+    const recording::Run run = recording::read_run(path);
+    return {track_of(run), run.info};
+  }
+  return {recording::wheels_in_bag(path, selection.joints), {}};
+}
+
+}  // namespace
+
+ImportedWheels read_wheels(const fs::path& path, const WheelSelection& selection) {
+  ImportedWheels wheels = read(path, selection);
+  if (selection.exchanged)
+    for (recording::WheelSample& sample : wheels.track.samples) std::swap(sample.left, sample.right);
+  return wheels;
+}
+
+}  // namespace astro::experiment

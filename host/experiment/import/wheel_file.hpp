@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "host/recording/foreign/joint_wheels.hpp"
+#include "host/recording/foreign/wheel_csv.hpp"
+#include "host/recording/foreign/wheel_track.hpp"
+#include "host/recording/run/run.hpp"
+
+namespace astro::experiment {
+
+/// What a person says about files of wheels; what is not said is recognised.
+struct WheelSelection {
+  recording::WheelTable table;       // of tables
+  recording::JointSelection joints;  // of bags
+  bool exchanged = false;            // left is right
+};
+
+struct ImportedWheels {
+  recording::WheelTrack track;
+  /// The file is a recording of this project, which knows its robot.
+  std::optional<recording::RunInfo> info;
+};
+
+/// The wheels in a table, in a bag, or in a recording of this project, by the content of the file. Throws as
+/// wheels_in_table, wheels_in_bag and read_run do.
+ImportedWheels read_wheels(const std::filesystem::path& path, const WheelSelection& selection = {});
+
+}  // namespace astro::experiment

@@ -1,0 +1,29 @@
+#include "host/calibration/judgement/student_t.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace astro::calibration {
+namespace {
+
+constexpr double kPrinted = 1e-3;  // tables print three decimals
+
+TEST(StudentT, ReproducesTabulatedQuantiles) {
+  EXPECT_EQ(student_t_975(4), 2.776);
+  EXPECT_NEAR(student_t_975(15), 2.131, kPrinted);
+  EXPECT_NEAR(student_t_975(30), 2.042, kPrinted);
+  EXPECT_NEAR(student_t_975(120), 1.980, kPrinted);
+  EXPECT_EQ(student_t_90(5), 1.476);
+  EXPECT_NEAR(student_t_90(12), 1.356, kPrinted);
+  EXPECT_NEAR(student_t_90(20), 1.325, kPrinted);
+  EXPECT_NEAR(student_t_90(60), 1.296, kPrinted);
+}
+
+TEST(StudentT, KnowsNothingWithoutDegreesOfFreedom) {
+  EXPECT_TRUE(std::isinf(student_t_975(0)));
+  EXPECT_TRUE(std::isinf(student_t_90(0)));
+}
+
+}  // namespace
+}  // namespace astro::calibration
