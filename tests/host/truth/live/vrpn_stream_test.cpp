@@ -12,9 +12,9 @@ using testing::IsEmpty;
 using testing::SizeIs;
 
 /// The bytes of a server.
-class Server {
+class ServerBytes {
  public:
-  explicit Server(VrpnStream& stream) : stream_(stream) {}
+  explicit ServerBytes(VrpnStream& stream) : stream_(stream) {}
 
   void greet() { stream_.push(vrpn::cookie(), 0); }
   void describe(std::int32_t id, const std::string& body) {
@@ -38,7 +38,7 @@ class Server {
 
 TEST(VrpnStream, GivesThePosesOfTheNamedBodyWithBothTimes) {
   VrpnStream stream("ASTRO");
-  Server server(stream);
+  ServerBytes server(stream);
   server.greet();
   server.describe(1, "TABLE");
   server.describe(2, "ASTRO");
@@ -55,7 +55,7 @@ TEST(VrpnStream, GivesThePosesOfTheNamedBodyWithBothTimes) {
 
 TEST(VrpnStream, LeavesOutOtherMessagesOtherSensorsAndIdsThatNobodyHasDescribed) {
   VrpnStream stream("ASTRO");
-  Server server(stream);
+  ServerBytes server(stream);
   server.greet();
   server.pose(2, 1);  // before its description
   server.describe(2, "ASTRO");
@@ -67,7 +67,7 @@ TEST(VrpnStream, LeavesOutOtherMessagesOtherSensorsAndIdsThatNobodyHasDescribed)
 
 TEST(VrpnStream, WithoutANameTakesTheFirstBodyAndTellsOfTheOthers) {
   VrpnStream stream("");
-  Server server(stream);
+  ServerBytes server(stream);
   server.greet();
   server.describe(1, "TABLE");
   server.describe(2, "ASTRO");
@@ -82,7 +82,7 @@ TEST(VrpnStream, WithoutANameTakesTheFirstBodyAndTellsOfTheOthers) {
 
 TEST(VrpnStream, ABodyThatIsSwitchedOnLaterIsFound) {
   VrpnStream stream("ASTRO");
-  Server server(stream);
+  ServerBytes server(stream);
   server.greet();
   server.describe(1, "TABLE");
   EXPECT_NE(stream.why_silent(), "");
@@ -93,7 +93,7 @@ TEST(VrpnStream, ABodyThatIsSwitchedOnLaterIsFound) {
 
 TEST(VrpnStream, SilenceHasALikelyCause) {
   VrpnStream stream("ASTRO"), any("");
-  Server server(stream), any_server(any);
+  ServerBytes server(stream), any_server(any);
   EXPECT_EQ(stream.why_silent(), "it has not answered as a VRPN server");
   server.greet();
   any_server.greet();
@@ -111,7 +111,7 @@ TEST(VrpnStream, SilenceHasALikelyCause) {
 
 TEST(VrpnStream, OfManyBodiesTwentyAreListed) {
   VrpnStream stream("ASTRO");
-  Server server(stream);
+  ServerBytes server(stream);
   server.greet();
   for (int i = 10; i < 35; ++i) server.describe(i, "body" + std::to_string(i));
   EXPECT_THAT(stream.why_silent(), testing::EndsWith("'body28', 'body29' and 5 more"));
