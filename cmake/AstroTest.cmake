@@ -4,12 +4,11 @@
 #   OPTIMISED   sources that take longer to run than to compile
 #   LONG        some of the program's tests take many seconds: it is started first, so that no processor waits for it in
 #               the end
-#   PLAIN       a program that the sanitizers leave out: whole experiments, the emulated chip. What it walks through,
-#               shorter programs walk through under them
+#   PLAIN       a program that the sanitizers leave out: whole programs on the emulated chip, campaigns of power cuts. What of
+#               the host's code it walks through, shorter programs walk through under them, but for its own rig
 #   REPEATING   tests, by GoogleTest's patterns, that the sanitizers leave out because they do a hundred times what others
 #               do once
-# What the sanitizers leave out has the label `plain`: `./dev check` runs each test once, those with the label without
-# sanitizers. The target plain_tests builds what they need.
+# `./dev test` runs all of them, `./dev check` those that the sanitizers take.
 find_package(GTest REQUIRED)
 find_package(Threads REQUIRED)
 include(GoogleTest)
@@ -53,9 +52,6 @@ function(astro_test name)
   # Real data lives beside a developer's checkout only; tests that use it skip where it is absent.
   target_compile_definitions(${name}.test PRIVATE
     ASTRO_SOURCE_DIR="${CMAKE_SOURCE_DIR}" ASTRO_SHARED_DATA="${CMAKE_SOURCE_DIR}/../shared/data")
-  if(arg_PLAIN OR arg_REPEATING)
-    set_property(GLOBAL APPEND PROPERTY ASTRO_PLAIN_TESTS ${name}.test)
-  endif()
   set(cost 0)
   if(arg_LONG)
     set(cost 1)
@@ -79,18 +75,8 @@ function(astro_test name)
       set_tests_properties("${name}: ${shard} of ${shards}" PROPERTIES TIMEOUT 900 COST ${cost}
         ENVIRONMENT "${environment};GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${index}")
     endforeach()
-  elseif(arg_PLAIN)
-    astro_discover(${name} all "*" LABELS plain COST ${cost} ENVIRONMENT "${environment}")
   else()
-    astro_discover(${name} others "-${repeating}" COST ${cost} ENVIRONMENT "${environment}")
-    if(arg_REPEATING)
-      astro_discover(${name} repeating "${repeating}" LABELS plain COST ${cost} ENVIRONMENT "${environment}")
-    endif()
+    gtest_discover_tests(${name}.test TEST_PREFIX "${name}: " DISCOVERY_TIMEOUT 60
+      PROPERTIES TIMEOUT 300 COST ${cost} ENVIRONMENT "${environment}")
   endif()
-endfunction()
-
-# astro_discover(name list filter properties...): a ctest for each TEST of the program <name>.test that the filter selects.
-function(astro_discover name list filter)
-  gtest_discover_tests(${name}.test TEST_PREFIX "${name}: " TEST_LIST ${name}.${list} TEST_FILTER "${filter}"
-    DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 ${ARGN})
 endfunction()

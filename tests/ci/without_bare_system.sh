@@ -25,4 +25,4 @@ expect() {
 }
 expect 0 "ci: the checks passed, but on no bare system: ../shared/tools/clean-machine is not here"
 expect 3 "ci: the checks passed, but on no bare system" ASTROLABE_CI_BARE=required
-expect 1 "checked: check" DEV_ENDS_WITH=1
+expect 1 "checked: test" DEV_ENDS_WITH=1

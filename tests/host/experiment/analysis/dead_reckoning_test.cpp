@@ -56,7 +56,7 @@ TEST_F(DeadReckonings, ByTheFactorsOfAnotherWheelAreRefused) {
   other.diameter_m *= 1.01;
   EXPECT_THAT([&] { factors_of_file(folder_.path() / "calib-before.toml", other); },
               ThrowsMessage<Error>(
-                  AllOf(HasSubstr("calib-before.toml is for wheels of"), HasSubstr("recorded with"))));
+                  AllOf(HasSubstr("calib-before.toml is for a wheel of"), HasSubstr("recorded with"))));
 }
 
 TEST_F(DeadReckonings, ByAFileWithoutFactorsAreRefused) {

@@ -55,9 +55,12 @@ class Ml : public testing::Test {
   static nlohmann::json json_of(std::vector<std::string> more, const std::string& folder = "/before") {
     more.push_back("--json");
     const Outcome outcome = runs(more, folder);
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.code, folder.empty() ? kNotBetter : 0) << outcome.err;
     return support::parse_json(outcome.out);
   }
+
+  /// What the robot carries after the experiment is what the same drives gave.
+  static constexpr int kNotBetter = 3;
 
   inline static Simulator* simulator_ = nullptr;
   inline static Outcome driven_;
