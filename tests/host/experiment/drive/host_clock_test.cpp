@@ -3,14 +3,13 @@
 #include <memory>
 
 #include "host/experiment/drive/record_run.hpp"
-#include "tests/support/desk.hpp"
+#include "tests/support/robots/desk.hpp"
 
 // Ground truth that is stamped by the recording computer's clock.
 namespace astro::experiment {
 namespace {
 
 using namespace std::chrono_literals;
-using robot::microseconds;
 
 constexpr microseconds kAhead = 3h;  // of the computer's clock
 
@@ -32,7 +31,7 @@ class ComputersTruth : public truth::Source {
   std::string clock() const override { return "host"; }
 
  private:
-  simulation::InProcessTruth cameras_;
+  simulation::CameraTruth cameras_;
 };
 
 TEST(TruthOnTheHostsClock, IsRecordedOnTheRobotsWithAnOffsetThatStays) {

@@ -5,8 +5,8 @@
 #include <csignal>
 #include <utility>
 
-#include "tests/support/json.hpp"
-#include "tests/support/program.hpp"
+#include "tests/support/base/json.hpp"
+#include "tests/support/programs/program.hpp"
 
 // Ground truth by VRPN from a simulator's virtual tracker, in real time, as from a lab's.
 namespace astro {
