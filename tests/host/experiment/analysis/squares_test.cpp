@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "host/base/error.hpp"
+#include "host/experiment/analysis/recordings.hpp"
 
 namespace astro::experiment {
 namespace {
@@ -55,6 +56,13 @@ TEST(Squares, RefuseAParameterThatNoRobotCanHave) {
         ThrowsMessage<Error>(HasSubstr("does not say which b")))
         << value;
   }
+}
+
+TEST(Squares, OfRecordingsThatGrowAreCountedAnew) {
+  Recordings recordings(RunSet{{"one"}, {square()}});
+  EXPECT_EQ(recordings.squares().cw.size(), 1U);
+  recordings.add(RunSet{{"two"}, {square()}});
+  EXPECT_EQ(recordings.squares().cw.size(), 2U);
 }
 
 TEST(Squares, OfOneSizeMayDifferByRoundingAndNoMore) {
