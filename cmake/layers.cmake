@@ -26,7 +26,7 @@ set(ASTRO_LAYERS
   "host/commands/shared         : common host/base host/commands/base host/console host/experiment host/recording host/robot host/truth"
   "host/commands/simulate       : host/base host/calibration/motion host/commands/base host/commands/serving host/commands/shared host/console host/simulation/study"
   "host/commands/truth          : host/base host/commands/base host/commands/shared host/console host/truth/live"
-  "host/commands/tune           : host/base host/commands/base host/commands/shared host/console host/experiment/drive host/motor host/report host/robot/parameters"
+  "host/commands/tune           : host/base host/commands/base host/commands/shared host/console host/experiment/drive host/motor host/report host/robot/client host/robot/parameters"
   "host/console                 : host/base"
   "host/emulator/chip           : hal/sim hal/teensy40/registers host/emulator/core"
   "host/emulator/core           : hal/teensy40/registers host/base"

@@ -14,6 +14,7 @@
 #include "host/commands/shared/robot_view.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
+#include "host/robot/client/handshake.hpp"
 #include "host/robot/parameters/parameters.hpp"
 #include "host/robot/port/ports.hpp"
 
@@ -111,7 +112,7 @@ void run(FlashOptions& options) {
         fmt::format("flashed {}; next, once its LED blinks: astrolabe info", options.file.string()));
   }
   const auto client = find_robot(options.connection);
-  const std::string old = firmware_version(client->robot());
+  const std::string old = robot::firmware_version(client->robot());
   console::say(fmt::format("{} runs firmware {}", client->robot().robot_name.view(), old));
   check_board(client->robot(), options.file);
   check_at_rest(*client);
@@ -123,11 +124,11 @@ void run(FlashOptions& options) {
     return console::say(
         fmt::format("flashed {}; whether it runs, 'astrolabe info' shows if it can", options.file.string()));
   wait_for(*client);
-  check_version(image.version, firmware_version(client->robot()));
+  check_version(image.version, robot::firmware_version(client->robot()));
   const robot::RemoteParameters now = robot::RemoteParameters::fetch(*client);
   check_parameters(before, now);
   console::say(fmt::format("flashed: firmware {} -> {}, all {} parameters kept", old,
-                           firmware_version(client->robot()), before.rows().size()));
+                           robot::firmware_version(client->robot()), before.rows().size()));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "host/base/degrees.hpp"
 #include "host/console/console.hpp"
+#include "host/robot/client/handshake.hpp"
 
 namespace astro::commands {
 namespace {
@@ -173,7 +174,7 @@ report::TuningInput report_input(const TuneResult& result, const robot::Client& 
   input.description = {
       {"Robot", std::string(client.robot().robot_name.view())},
       {"Robot id", hex_id(client.robot())},
-      {"Firmware", firmware_version(client.robot())},
+      {"Firmware", robot::firmware_version(client.robot())},
       {"Measured", fmt::format("{:%Y-%m-%d %H:%M} UTC, {}", fmt::gmtime(std::time(nullptr)),
                                result.on_stand ? "wheels off the ground" : "on the ground")},
       {"Samples", fmt::format("every {:.0f} ms for {:.0f} s", 1e3 * result.period_s, result.motors.seconds)},

@@ -49,11 +49,6 @@ class Session {
   }
 
  private:
-  static calibration::WheelFactors factors_of(const robot::RemoteParameters& robot) {
-    return {std::get<double>(robot.value("c_R")), std::get<double>(robot.value("c_L")),
-            std::get<double>(robot.value("b"))};
-  }
-
   void drive_phase(std::size_t phase) {
     const Plan& plan = journal_.plan;
     announced_ = false;
@@ -97,7 +92,8 @@ class Session {
     if (missing.front() < current_.size()) current_.start();
 
     const robot::RemoteParameters parameters = robot::RemoteParameters::fetch(client_);
-    begin_phase(specs.front().phase, factors_of(parameters));
+    begin_phase(specs.front().phase,
+                {parameters.number("c_R"), parameters.number("c_L"), parameters.number("b")});
     if (missing.size() < specs.size() && !announced_)
       hooks_.run.notice({fmt::format("{}: {} of {} runs are recorded already", specs.front().phase,
                                      specs.size() - missing.size(), specs.size())});
@@ -180,9 +176,7 @@ class Session {
     info.robot_id = journal_.robot_id;
     info.board = journal_.board;
     info.firmware = journal_.firmware;
-    for (const robot::ParameterRow& row : parameters.rows())
-      if (row.kind != protocol::ParameterKind::text)
-        info.parameters[row.name] = robot::to_real(row, row.active.raw);
+    info.parameters = parameters.numbers();
     const robot::Path path = path_of(journal_.plan, spec);
     for (int attempt = 1;; ++attempt) {
       info.started_at = utc_now();

@@ -1,11 +1,10 @@
 #include "host/experiment/drive/open_journal.hpp"
 
-#include <fmt/format.h>
-
 #include <nlohmann/json.hpp>
 
 #include "host/base/error.hpp"
 #include "host/experiment/files/robot_identity.hpp"
+#include "host/robot/client/handshake.hpp"
 
 namespace astro::experiment {
 namespace {
@@ -36,7 +35,7 @@ Journal open_journal(const std::filesystem::path& folder, const Plan& plan, cons
   journal.robot_id = identity.id;
   journal.robot_name = identity.name;
   journal.board = robot.board.view();
-  journal.firmware = fmt::format("{}.{}.{}", robot.fw_major, robot.fw_minor, robot.fw_patch);
+  journal.firmware = robot::firmware_version(robot);
   journal.started_at = utc_now();
   write_journal(folder, journal);
   return journal;

@@ -19,7 +19,7 @@ constexpr microseconds kUsualRamp = milliseconds(5000);
 microseconds longest_ramp(Client& client) {
   const RemoteParameters parameters = RemoteParameters::fetch(client);
   const auto value = [&](std::string_view name) {
-    return parameters.find(name) != nullptr ? std::get<double>(parameters.value(name)) : 0;
+    return parameters.find(name) != nullptr ? parameters.number(name) : 0;
   };
   const auto seconds = [&](std::string_view speed, std::string_view acceleration) {
     return value(acceleration) > 0 ? value(speed) / value(acceleration) : 0;
