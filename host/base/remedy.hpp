@@ -136,6 +136,7 @@ enum class Help : std::uint8_t {
   calibrate_again,
   calibrate_each_phase,
   calibrate_each_robot,
+  check_each_phase,
   separate_sizes,
   check_units_or_override,
   load_old_values_or_override,
