@@ -143,9 +143,9 @@ enum class Help : std::uint8_t {
   calibrate_again_or_override,
   // experiments
   name_experiment,
-  choose_other_folder,
-  give_same_settings_or_choose_other_folder,
-  load_factors_or_choose_other_folder,
+  choose_other_out_folder,
+  give_same_settings_or_choose_other_out_folder,
+  load_factors_or_choose_other_out_folder,
   resume_experiment,  // {folder}
   resume_for_truth,
   use_same_version,

@@ -65,7 +65,7 @@ void check_origin(const FirmwareImage& image, const FlashOptions& options) {
     throw Error("nothing was flashed");
 }
 
-void check_at_rest(robot::Client& client) {
+void check_disarmed(robot::Client& client) {
   const protocol::Mode mode = client.request(protocol::GetStatus{}).mode;
   if (mode != protocol::Mode::disarmed && mode != protocol::Mode::fault)
     throw Error(fmt::format("the robot is armed ({}): 'astrolabe stop' disarms it", protocol::name(mode)));
@@ -115,7 +115,7 @@ void run(FlashOptions& options) {
   const std::string old = robot::firmware_version(client->robot());
   console::say(fmt::format("{} runs firmware {}", client->robot().robot_name.view(), old));
   check_board(client->robot(), options.file);
-  check_at_rest(*client);
+  check_disarmed(*client);
   const robot::RemoteParameters before = robot::RemoteParameters::fetch(*client);
   client->request(protocol::Disarm{});
   request_restart<protocol::EnterBootloader>(*client);

@@ -163,7 +163,7 @@ class Session {
                                 "experiment began with {:.9f}, {:.9f}, {:.9f} m",
                                 factors.c_r, factors.c_l, factors.b_m, phase, known->second.c_r,
                                 known->second.c_l, known->second.b_m),
-                    {Help::load_factors_or_choose_other_folder});
+                    {Help::load_factors_or_choose_other_out_folder});
       return;
     }
     journal_.loaded[phase] = factors;

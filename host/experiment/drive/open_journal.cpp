@@ -13,11 +13,11 @@ void require_same(const std::filesystem::path& folder, const Journal& journal, c
                   const RobotIdentity& identity) {
   if (nlohmann::json(journal.plan) != nlohmann::json(plan))
     throw Error("'" + folder.string() + "' holds an experiment with other settings",
-                {Help::give_same_settings_or_choose_other_folder});
+                {Help::give_same_settings_or_choose_other_out_folder});
   if (const std::string other = different_robots("the experiment in '" + folder.string() + "'",
                                                  {journal.robot_name, journal.robot_id}, "this", identity);
       !other.empty())
-    throw Error(other, {Help::choose_other_folder});
+    throw Error(other, {Help::choose_other_out_folder});
 }
 
 }  // namespace

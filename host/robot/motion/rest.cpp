@@ -55,7 +55,7 @@ bool wait_until_wheels_stopped(Client& client) {
   return stopped;
 }
 
-bool wait_for_rest(Client& client) {
+bool wait_until_power_off(Client& client) {
   const microseconds start = client.now();
   if (stops_before(client, start + kUsualRamp)) return true;
   if (stops_before(client, start + longest_ramp(client))) return true;

@@ -197,7 +197,7 @@ TEST_F(Resume, RefusesAnotherRobot) {
   interrupt_in_run(2);
   Desk other(thesis_robot(0, 2));
   EXPECT_THAT([&] { run_experiment(other.client, other.truth, small_plan(), folder_.path(), {}); },
-              support::ThrowsTelling(HasSubstr("is of robot"), Help::choose_other_folder));
+              support::ThrowsTelling(HasSubstr("is of robot"), Help::choose_other_out_folder));
 }
 
 TEST_F(Resume, RefusesARobotWhoseParametersChangedInTheMiddleOfAPhase) {
