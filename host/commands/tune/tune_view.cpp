@@ -47,8 +47,7 @@ std::string motor_table(const TuneResult& result) {
 
 std::string margins_in_words(const Margins& margins) {
   return fmt::format("bandwidth {:.1f} Hz, phase margin {:.0f} deg, gain margin {:.1f}",
-                     hertz(margins.bandwidth_radps), 180 / std::numbers::pi * margins.phase_margin_rad,
-                     margins.gain_margin);
+                     hertz(margins.bandwidth_radps), degrees(margins.phase_margin_rad), margins.gain_margin);
 }
 
 report::StepLines lines(const TunedStep& step, Side side) {

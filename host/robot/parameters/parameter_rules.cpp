@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "common/params/parameter_set.hpp"
+#include "host/base/degrees.hpp"
 
 namespace astro::robot {
 namespace {
@@ -51,7 +52,7 @@ std::string geometry_rule(const Staged& staged, std::string_view name) {
   const auto b_m = staged.number("b");
   if (!travel_m || !b_m) return "";
   if (name == "b")
-    return "one count turns the robot by " + digits(*travel_m / *b_m / std::numbers::pi * 180) +
+    return "one count turns the robot by " + digits(degrees(*travel_m / *b_m)) +
            " degrees, and has to turn it by less than " + digits(360.0 / kFewestCountsPerTurn) +
            " degrees; that follows from " + staged.shown("b") + ", the wheel, the gear and the encoder";
   return "one count moves a wheel by " + digits(*travel_m) + " m, and that has to be from " +
