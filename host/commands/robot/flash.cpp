@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "host/base/error.hpp"
-#include "host/base/firmware_image.hpp"
+#include "host/base/formats/firmware_image.hpp"
 #include "host/commands/base/remedies.hpp"
 #include "host/commands/robot/commands.hpp"
 #include "host/commands/robot/loader.hpp"

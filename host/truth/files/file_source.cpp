@@ -10,7 +10,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
-#include "host/base/csv_table.hpp"
+#include "host/base/formats/csv_table.hpp"
 #include "host/base/numbers.hpp"
 #include "host/truth/source/plausibility.hpp"
 
