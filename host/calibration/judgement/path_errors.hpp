@@ -23,7 +23,7 @@ struct RunErrors {
 
 struct PathErrors {
   std::vector<RunErrors> runs;
-  std::vector<Remark> left_out;                       // for each run that cannot be used: the reason
+  std::vector<Remark> left_out;                       // PreparedRuns::left_out
   double final_rms_m = 0, final_heading_rms_rad = 0;  // over the runs
   double path_rms_m = 0;                              // over all samples of all runs
 };
