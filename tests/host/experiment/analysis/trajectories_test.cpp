@@ -123,10 +123,11 @@ TEST(Recordings, ThatAreAddedToConvertTheNewRunsOnly) {
   const calibration::WheelSample* first = recordings.trajectories()[0].wheels.data();
   add_odometry(run, 10'000, 1000, 1000);
   recordings.add(RunSet{{"two"}, {run}});
-  ASSERT_EQ(recordings.trajectories().size(), 2U);
-  EXPECT_EQ(recordings.trajectories()[0].wheels.data(), first) << "the samples are those of before";
-  EXPECT_EQ(recordings.trajectories()[1].name, "two");
-  EXPECT_EQ(recordings.trajectories()[1].wheels.size(), 2U);
+  const std::vector<calibration::Trajectory>& all = recordings.trajectories();
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].wheels.data(), first) << "the samples are those of before";
+  EXPECT_EQ(all[1].name, "two");
+  EXPECT_EQ(all[1].wheels.size(), 2U);
 }
 
 TEST(Trajectories, RefuseRunsWhoseFactorsWouldReferToDifferentThings) {
