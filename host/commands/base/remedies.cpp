@@ -149,7 +149,7 @@ constexpr Sentence kSentences[] = {
     {Help::calibrate_again, "; calibrate again"},
     {Help::calibrate_each_phase, ": calibrate each phase for itself (name its folder)"},
     {Help::calibrate_each_robot, ": calibrate each for itself"},
-    {Help::check_each_phase, ": check the folders with one set of factors each separately"},
+    {Help::check_each_phase, ": check them separately"},
     {Help::separate_sizes, ": keep each size in a folder of its own"},
     {Help::check_units_or_override, ": check units, side and robot (--force uploads all the same)"},
     {Help::load_old_values_or_override,

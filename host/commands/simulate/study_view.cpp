@@ -69,9 +69,8 @@ std::string ml_text(const Summary& summary) {
                         ratios[0].value, ratios[0].se, ratios[1].value, ratios[1].se, ratios[2].value,
                         ratios[2].se);
   if (const auto& consistency = summary.ml_covariance)
-    text += fmt::format(
-        "chi-square of ml's errors by its own covariance: {:.3f} ± {:.3f}; 3 if the covariance is right\n",
-        consistency->mean, consistency->se);
+    text += fmt::format("chi-square of ml's errors by its own covariance: {:.3f} ± {:.3f}, expected 3\n",
+                        consistency->mean, consistency->se);
   return text;
 }
 
