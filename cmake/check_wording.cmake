@@ -1,6 +1,6 @@
-# Libraries state facts, commands phrase remedies: below host/commands and host/programs no text names an option, a
-# subcommand or the program, none says what to do about an error (host/base/remedy.hpp has the kinds of that), and
-# nothing prints.   cmake -DROOT=<tree> -P cmake/check_wording.cmake
+# Libraries state facts, commands phrase remedies: outside host/commands and host/programs no text names an option, a
+# subcommand, the program or a key, none says what to do about an error (host/base/remedy.hpp has the kinds of that),
+# and nothing prints.   cmake -DROOT=<tree> -P cmake/check_wording.cmake
 cmake_policy(VERSION 3.21)
 set(bad 0)
 set(count 0)
@@ -35,7 +35,7 @@ list(JOIN names "|" names)
 list(JOIN long_names "|" long_names)
 
 set(verbs "add|answer|ask|build|calibrate|change|check|choose|close|connect|correct|cut|delete|do not|drive|end|enter|exchange"
-  "|export|give|install|keep|leave|lessen|let|load|log|look at|lower|make|measure|merge|mount|move|name|negate|omit|open|pass|plug|put|raise|record"
+  "|export|give|install|keep|leave|lessen|let|load|log|look at|lower|make|measure|merge|mount|move|name|negate|omit|open|pass|plug|press|put|raise|record"
   "|remove|rename|repeat|replace|roll|run|save|say|set|split|start|stop|swap|switch|take|try|turn|type|update|upload|use|wait"
   "|write")
 string(CONCAT verbs ${verbs})
@@ -75,7 +75,8 @@ macro(refuse what line)
   math(EXPR bad "${bad} + 1")
 endmacro()
 
-file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/host/*.[ch]pp ${ROOT}/common/*.[ch]pp)
+file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/host/*.[ch]pp ${ROOT}/common/*.[ch]pp
+  ${ROOT}/hal/*.[ch]pp ${ROOT}/firmware/*.[ch]pp)
 list(FILTER files EXCLUDE REGEX "^host/(commands|programs)/")
 foreach(file IN LISTS files)
   math(EXPR count "${count} + 1")
@@ -92,7 +93,7 @@ foreach(file IN LISTS files)
     if(file STREQUAL "host/console/program.cpp")
       string(REGEX REPLACE "--(help|version)|^--$" "" literal "${literal}")
     endif()
-    if(literal MATCHES "--[a-z][a-z]|--$|(^|[ '(])-[a-zA-Z]([ ',.)=]|$)")
+    if(literal MATCHES "--[a-zA-Z]|--$|(^|[ '(])-[a-zA-Z]([ ',.)=]|$)")
       refuse("names an option or a subcommand" "${literal}")
     endif()
     if(names AND literal MATCHES "(['`]|astrolabe )(${names})(['` ]|$)")
@@ -103,8 +104,8 @@ foreach(file IN LISTS files)
     if(literal MATCHES "astrolabe")
       refuse("names the program" "${literal}")
     endif()
-    # A verb as a command stands behind the fact and a joint; a semicolon is written | here.
-    if(literal MATCHES "[:|(] ?(${verbs})( |$)")
+    # A verb as a command stands behind the fact and a joint; a semicolon is written | here. A key is one anywhere.
+    if(literal MATCHES "[:|(] ?(${verbs})( |$)|(^|[^a-zA-Z])[Pp]ress [A-Z]")
       refuse("phrases a remedy" "${literal}")
     endif()
     if(literal MATCHES ": (is|are|does|do|has|have) [^?]*[?]$|sudo |kill -|\\./dev|XDG_[A-Z_]+[^A-Z_]|\\$[A-Z]")
@@ -113,13 +114,16 @@ foreach(file IN LISTS files)
   endforeach()
   if(NOT file MATCHES "^host/console/")
     string(REGEX REPLACE "(^|\n)[ \t]*//[^\n]*" "\\1" text "${text}")
-    string(REGEX MATCHALL "[^\n]*(std::(cout|cerr|clog)|fmt::print|[^a-z_](printf|puts|fputs|fprintf) *\\()[^\n]*" prints
+    string(REGEX MATCHALL "[^\n]*(std::(cout|cerr|clog)|fmt::print|[^a-z_](v?f?printf|dprintf|f?puts|f?putc|putchar|fwrite|perror|psignal|syslog) *\\(|write *\\( *(1|2|STD[A-Z]+_FILENO) *,)[^\n]*" prints
       "${text}")
     foreach(line IN LISTS prints)
       refuse("prints" "${line}")
     endforeach()
   endif()
 endforeach()
+if(count EQUAL 0)
+  message(FATAL_ERROR "there is nothing to check in ${ROOT}: give the tree's absolute path")
+endif()
 if(bad GREATER 0)
   message(FATAL_ERROR "${bad} lines belong into host/commands")
 endif()

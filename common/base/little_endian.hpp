@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <utility>
 
+/// The host's files and links have host/base/bytes.hpp, which also knows signed numbers and floats.
 namespace astro {
 
 /// Writes `value` to the sizeof(T) bytes from `to` on, the least significant byte first.

@@ -23,7 +23,7 @@ class Trapezoid {
 
   Trapezoid() = default;  // an empty profile: done at once
 
-  /// False if the segment is empty or moves and dwells, beyond kMaxLength / kMaxAngle, or would take longer
+  /// False if the segment is empty or moves and dwells, beyond kMaxLength_nm or kMaxAngle_32, or would take longer
   /// than kMaxTicks.
   static bool plan(const Segment& segment, const MotionLimits& limits, Trapezoid& out);
 

@@ -57,7 +57,6 @@ class Fixed {
 };
 
 using Q16 = Fixed<16>;
-using Q30 = Fixed<30>;
 
 static_assert(!std::convertible_to<float, Q16>, "a float must never become fixed silently");
 static_assert(!std::convertible_to<double, Q16>);

@@ -5,10 +5,6 @@
 namespace astro {
 namespace {
 
-constexpr std::int64_t kNanometresPerMetre = 1'000'000'000;
-constexpr std::int64_t kLongestCountNm = kNanometresPerMetre / 8;
-constexpr std::int64_t kShortestCountNm = 1;
-
 static_assert(param_row(Param::wheel_diameter).exponent == -9 && param_row(Param::b).exponent == -9 &&
                   param_row(Param::c_R).exponent == -30 && param_row(Param::c_L).exponent == -30,
               "the rules below count in nanometres and Q2.30");
@@ -51,9 +47,10 @@ Result<void, Param> check_geometry(const ParameterSet& set) {
   const std::int64_t right_nm = count_travel_nm(set, Param::c_R);
   const std::int64_t left_nm = count_travel_nm(set, Param::c_L);
   const auto [shortest_nm, longest_nm] = std::minmax(right_nm, left_nm);
-  if (longest_nm >= kLongestCountNm || shortest_nm < kShortestCountNm) return Param::counts_per_motor_rev;
-  // The turn per count is travel / b radians and must be less than 2 pi / 16.
-  if ((longest_nm + 1) * 8 * 113 >= std::int64_t{set.get(Param::b)} * 355) return Param::b;
+  if (longest_nm >= kLongestCount_nm || shortest_nm < kShortestCount_nm) return Param::counts_per_motor_rev;
+  // The turn per count is travel / b radians and must be less than 2 pi / kFewestCountsPerTurn.
+  if ((longest_nm + 1) * (kFewestCountsPerTurn / 2) * 113 >= std::int64_t{set.get(Param::b)} * 355)
+    return Param::b;
   return {};
 }
 

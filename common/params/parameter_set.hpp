@@ -61,14 +61,19 @@ class ParameterSet {
 /// The two sets differ in gains only, which may change while the wheels are driven.
 bool only_gains_differ(const ParameterSet& a, const ParameterSet& b);
 
+/// What validate() allows of the geometry: how far one count may move a wheel, and how many counts a turn of the robot
+/// takes at least.
+inline constexpr std::int64_t kShortestCount_nm = 1, kLongestCount_nm = 1'000'000'000 / 8;
+inline constexpr std::int64_t kFewestCountsPerTurn = 16;
+
 /// Refuses a set that the robot cannot run with, and names the row to change:
 ///   any row                a value outside its limits; a text too short, too long or not printable ASCII
 ///   a polarity             0
 ///   battery_high           not above battery_low, while neither is 0
 ///   over_speed             not above speed_limit: full speed would be a fault
-///   counts_per_motor_rev   one count moves a wheel by 2^-3 m or more, or by less than 1 nm: it does not fit
-///                          the odometry's fixed point
-///   b                      one count turns the robot by a sixteenth of a turn or more: the heading is
+///   counts_per_motor_rev   one count moves a wheel by kLongestCount_nm or more, or by less than kShortestCount_nm:
+///                          it does not fit the odometry's fixed point
+///   b                      kFewestCountsPerTurn counts of one wheel turn the robot once or more: the heading is
 ///                          ambiguous
 /// The rows are checked first, in table order. Integers only. Called when parameters change, not in the tick.
 Result<void, Param> validate(const ParameterSet& set);

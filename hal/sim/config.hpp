@@ -66,9 +66,4 @@ constexpr Geometry true_geometry(const Config& config) {
   return {{left_m, config.true_ed * left_m}, config.true_wheelbase_m};
 }
 
-/// E_b of UMBmark: true over nominal wheelbase.
-constexpr double true_eb(const Config& config) {
-  return config.true_wheelbase_m / config.nominal_wheelbase_m;
-}
-
 }  // namespace astro::sim

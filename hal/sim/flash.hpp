@@ -16,7 +16,7 @@ namespace astro::sim {
 /// Misuse (outside the flash, across a sector's end, unaligned) changes nothing, returns false and is
 /// counted.
 template <std::uint32_t Sectors, std::uint32_t SectorBytes, std::uint32_t ProgramBytes>
-class NorFlash {
+class SimulatedFlash {
  public:
   static constexpr std::uint32_t kSectors = Sectors;
   static constexpr std::uint32_t kSectorBytes = SectorBytes;
@@ -25,7 +25,7 @@ class NorFlash {
 
   /// `image` is a content() that was saved earlier. A shorter one is padded with erased bytes, a longer one
   /// is cut.
-  explicit NorFlash(std::span<const std::uint8_t> image = {}) : cells_(kBytes, 0xFF) {
+  explicit SimulatedFlash(std::span<const std::uint8_t> image = {}) : cells_(kBytes, 0xFF) {
     std::copy_n(image.begin(), std::min<std::size_t>(image.size(), kBytes), cells_.begin());
   }
 
@@ -105,6 +105,6 @@ class NorFlash {
 
 /// The simulated board's flash. Its program unit is 4 bytes: serial NOR takes single bytes, but its
 /// controllers move words, and a unit above 1 finds a store that does not set its padding.
-using Flash = NorFlash<6, 4096, 4>;
+using Flash = SimulatedFlash<6, 4096, 4>;
 
 }  // namespace astro::sim

@@ -1,8 +1,8 @@
 #include "hal/teensy40/battery.hpp"
 
-#include "hal/teensy40/clock_gate.hpp"
+#include "hal/teensy40/core/clock_gate.hpp"
+#include "hal/teensy40/core/poll.hpp"
 #include "hal/teensy40/pins.hpp"
-#include "hal/teensy40/poll.hpp"
 
 namespace astro::teensy40 {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "hal/teensy40/interrupts.hpp"
+#include "hal/teensy40/core/interrupts.hpp"
 
 namespace astro::teensy40 {
 

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "hal/teensy40/clock_gate.hpp"
-#include "hal/teensy40/interrupts.hpp"
+#include "hal/teensy40/core/clock_gate.hpp"
+#include "hal/teensy40/core/interrupts.hpp"
 #include "hal/teensy40/pins.hpp"
 
 namespace astro::teensy40 {

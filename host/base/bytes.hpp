@@ -8,7 +8,8 @@
 #include <string_view>
 #include <vector>
 
-/// Little-endian numbers in byte strings.
+/// Little-endian numbers in byte strings. common/base/little_endian.hpp does the same on the robot, for unsigned integers
+/// alone; files and links of the host hold signed numbers and floats, too, and host/base uses no other layer.
 namespace astro {
 
 static_assert(std::endian::native == std::endian::little, "bytes.hpp copies numbers as they are in memory");

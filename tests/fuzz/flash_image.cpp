@@ -8,7 +8,7 @@
 namespace astro::fuzz {
 namespace {
 
-using Part = sim::NorFlash<2, 4096, 4>;  // two sectors: what all boards have at least
+using Part = sim::SimulatedFlash<2, 4096, 4>;  // two sectors: what all boards have at least
 
 }  // namespace
 

@@ -6,7 +6,7 @@ cd "$(dirname "$0")/../.."
 sources() { git ls-files 'common/*.[ch]pp' 'firmware/*.[ch]pp' 'hal/*.[ch]pp' 'host/*.[ch]pp'; }
 
 # An idea is a header with its source, or either alone.
-ideas_by_room() { sed 's/\.[ch]pp$//' | sort -u | sed 's|/[^/]*$||' | uniq -c | sort -rn; }
+ideas_by_room() { sed 's/\.[ch]pp$//' | sort -u | sed 's|/[^/]*$||' | sort | uniq -c | sort -rn; }
 rooms=$(sources | ideas_by_room)
 test_rooms=$(git ls-files 'tests/*.[ch]pp' | ideas_by_room)
 largest() { head -1 <<<"$1" | awk '{ print $1 " ideas (" $2 ")" }'; }

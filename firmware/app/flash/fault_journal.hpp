@@ -10,8 +10,8 @@
 namespace astro {
 
 /// The log of faults in flash. The tick notes what the robot was doing when a fault came (FaultWatch); the
-/// main loop writes it here when the robot stands with its outputs off, because the processor may stand still
-/// while the flash erases.
+/// main loop writes it here when the wheels have stopped with the outputs off, because the processor may have
+/// to wait while the flash erases.
 template <NorFlash Flash, class Mark>
 class FaultJournal {
  public:

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "hal/teensy40/cpu.hpp"
+#include "hal/teensy40/core/cpu.hpp"
 #include "hal/teensy40/registers/registers.hpp"
 
 namespace astro::teensy40::protection {

@@ -4,8 +4,8 @@
 #include "hal/teensy40/boot/protection.hpp"
 #include "hal/teensy40/boot/vectors.hpp"
 #include "hal/teensy40/clock.hpp"
-#include "hal/teensy40/clock_gate.hpp"
-#include "hal/teensy40/cpu.hpp"
+#include "hal/teensy40/core/clock_gate.hpp"
+#include "hal/teensy40/core/cpu.hpp"
 #include "hal/teensy40/pins.hpp"
 #include "hal/teensy40/watchdog.hpp"
 

@@ -4,7 +4,7 @@
 
 #include "hal/teensy40/arithmetic/reset_cause.hpp"
 #include "hal/teensy40/boot/start.hpp"
-#include "hal/teensy40/cpu.hpp"
+#include "hal/teensy40/core/cpu.hpp"
 #include "hal/teensy40/motors.hpp"
 
 extern "C" const std::uint8_t stack_bottom, stack_top;

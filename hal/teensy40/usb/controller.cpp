@@ -1,8 +1,8 @@
 #include "hal/teensy40/usb/controller.hpp"
 
-#include "hal/teensy40/clock_gate.hpp"
-#include "hal/teensy40/cpu.hpp"
-#include "hal/teensy40/poll.hpp"
+#include "hal/teensy40/core/clock_gate.hpp"
+#include "hal/teensy40/core/cpu.hpp"
+#include "hal/teensy40/core/poll.hpp"
 #include "hal/teensy40/registers/registers.hpp"
 
 namespace astro::teensy40::usb_device::controller {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "hal/teensy40/clock.hpp"
-#include "hal/teensy40/interrupts.hpp"
+#include "hal/teensy40/core/interrupts.hpp"
 
 namespace astro::teensy40 {
 namespace {

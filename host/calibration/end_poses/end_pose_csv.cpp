@@ -10,8 +10,8 @@
 #include <span>
 #include <string>
 
-#include "host/base/csv_table.hpp"
 #include "host/base/error.hpp"
+#include "host/base/formats/csv_table.hpp"
 #include "host/base/sense.hpp"
 
 namespace astro::calibration {

@@ -32,6 +32,10 @@ BodySample placed(const BodySample& odometry, const Unknowns& u) {
 
 }  // namespace
 
+double rms_standard_error(double rms, std::size_t count) {
+  return rms / std::sqrt(2 * static_cast<double>(count));
+}
+
 PathErrors path_errors(const MlFit& fit, const WheelFactors& factors) {
   PathErrors errors;
   SquareSum final_m, heading_rad, path_m;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,10 +23,14 @@ struct RunErrors {
 
 struct PathErrors {
   std::vector<RunErrors> runs;
-  std::vector<Remark> left_out;                       // for each run that cannot be used: the reason
+  std::vector<Remark> left_out;                       // PreparedRuns::left_out
   double final_rms_m = 0, final_heading_rms_rad = 0;  // over the runs
   double path_rms_m = 0;                              // over all samples of all runs
 };
+
+/// The standard error of a root mean square over `count` normal errors about 0: to first order it is 1 / sqrt(2 count) of
+/// the value.
+double rms_standard_error(double rms, std::size_t count);
 
 /// Dead reckoning by `factors` alone from the start of each run. Lever arm, clocks and start poses are fitted
 /// to these runs with the factors fixed.

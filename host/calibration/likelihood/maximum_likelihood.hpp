@@ -94,7 +94,7 @@ struct MlEstimate {
   double thinned_to_s = 0;
   int stride = 1;  // the same as a number of samples
   std::vector<RunFit> runs;
-  std::vector<Remark> left_out;                      // for each run that could not be used: the reason
+  std::vector<Remark> left_out;                      // PreparedRuns::left_out; other useless runs are errors
   std::vector<KindFit> kinds;                        // only those that occur, in the order of Motion
   std::optional<WheelbaseByKind> wheelbase_by_kind;  // only with enough of both
   /// How much more the runs that are no outliers scatter than their noise explains, as a factor on variances.

@@ -29,6 +29,8 @@ constexpr double kMargin_s = 0.02;
 constexpr double kWindow_s = 0.1;  // half of the window in which a motion is classified
 // The window that separates lines from arcs, because a robot that is controlled along a line sways about it.
 constexpr double kLongWindow_s = 0.5;
+// Mean speed over the window. The robot's own limit (common/safety/wheel_stopped.hpp) is for the speed that it observes,
+// which jumps to several mm/s at a single count; here one count in the window is 0.4 mm/s (reference robot).
 constexpr double kSlowest_mps = 0.002;
 
 // Of one stream.

@@ -21,6 +21,14 @@ enum class Density {
   independent
 };
 
+struct PreparedRuns {
+  std::vector<PreparedRun> runs;
+  std::vector<ClockFit> clocks;  // of each run; zero if the clocks are known
+  /// For each run that was left out without harm: the reason and the remedy. Such a run is a spin with unknown
+  /// clock under positions that stand still.
+  std::vector<Remark> left_out;
+};
+
 /// The samples of `runs` that the estimator uses, and the offsets of their clocks. `loaded` need only be roughly
 /// right.
 ///
@@ -32,13 +40,6 @@ enum class Density {
 ///   no usable run
 ///   headings of truth that never change although the wheels turn the robot
 ///   truth that turns the other way than the wheels: headings clockwise, axes mirrored, or wheels exchanged
-struct PreparedRuns {
-  std::vector<PreparedRun> runs;
-  std::vector<ClockFit> clocks;  // of each run; zero if the clocks are known
-  /// For each run that was left out without harm: the reason and the remedy. Such a run is a spin with unknown
-  /// clock under positions that stand still.
-  std::vector<Remark> left_out;
-};
 PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& loaded, bool clock_known,
                      Density density);
 

@@ -49,18 +49,6 @@ void warn_of_other_robots(const std::vector<experiment::NamedFactors>& factors,
       console::say("warning: " + other);
 }
 
-/// The factors that were loaded in all drives; throws if they differ.
-calibration::WheelFactors loaded_in_all(const experiment::RunSet& set) {
-  const calibration::WheelFactors first = experiment::loaded_factors(set.runs.front().info);
-  for (std::size_t i = 1; i < set.runs.size(); ++i) {
-    const calibration::WheelFactors one = experiment::loaded_factors(set.runs[i].info);
-    if (one.c_r != first.c_r || one.c_l != first.c_l || one.b_m != first.b_m)
-      throw Error(fmt::format("the robot had other factors loaded in {} than in {}: check them separately",
-                              set.names[i], set.names.front()));
-  }
-  return first;
-}
-
 experiment::RunSet read_drives(const CheckOptions& options) {
   if (options.folder.empty() == !options.import.given())
     throw console::WrongUsage("name either a folder with recordings, or --wheels and --truth of each drive");
@@ -75,20 +63,19 @@ experiment::RunSet read_drives(const CheckOptions& options) {
 std::vector<DeadReckoning> evaluated(const CheckOptions& options) {
   const experiment::RunSet set = read_drives(options);
   const auto wheel = experiment::nominal_wheel(set.runs.front().info, set.names.front());
-  std::vector<experiment::NamedFactors> factors{{"carried", loaded_in_all(set)}};
+  std::vector<experiment::NamedFactors> factors{{"carried", experiment::loaded_in_all(set)}};
   for (const fs::path& file : options.with) factors.push_back(experiment::factors_of_file(file, wheel));
   warn_of_other_robots(factors, set);
   return experiment::dead_reckon(set, factors, clock_of(options));
 }
 
-/// A row for `runs` runs; the relative standard error of a root mean square of n is 1 / sqrt(2 n).
+/// A row for `runs` runs.
 std::vector<std::string> row(const std::string& name, std::size_t runs, double final_m, double heading_rad,
                              double path_m) {
   const auto milli = [&](double value) {
     if (!std::isfinite(value)) return std::string("-");
     if (runs < 2) return fmt::format("{:.1f}", 1000 * value);
-    return fmt::format("{:.1f} ± {:.1f}", 1000 * value,
-                       1000 * value / std::sqrt(2 * static_cast<double>(runs)));
+    return fmt::format("{:.1f} ± {:.1f}", 1000 * value, 1000 * calibration::rms_standard_error(value, runs));
   };
   return {name, milli(final_m), milli(std::abs(heading_rad)), milli(path_m)};
 }

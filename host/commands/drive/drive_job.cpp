@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "common/safety/wheel_stopped.hpp"
 #include "host/commands/drive/steering.hpp"
 #include "host/commands/shared/drive_recording.hpp"
 #include "host/commands/shared/limit_notes.hpp"
@@ -26,7 +27,8 @@ constexpr std::uint16_t kPeriod_ms = 20;  // Steering needs at most this period
 class Stopwatch {
  public:
   void moved_to(const recording::OdometrySample& sample) {
-    constexpr double kStill_mps = 0.002, kStill_radps = 0.01;
+    // Of a spin at this rate, the wheels of the reference robot are half as fast as kStill_mps.
+    constexpr double kStill_mps = 1e-6 * kWheelStopped_umps, kStill_radps = 0.01;
     if (std::abs(sample.v_mps) < kStill_mps && std::abs(sample.omega_radps) < kStill_radps) return;
     if (first_us_ == 0) first_us_ = sample.time_us;
     last_us_ = sample.time_us;

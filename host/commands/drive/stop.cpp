@@ -18,7 +18,7 @@ struct StopOptions {
 
 void ramp_to_rest(robot::Client& client) {
   client.request(protocol::Stop{});
-  const bool rests = robot::wait_for_rest(client);
+  const bool rests = robot::wait_until_power_off(client);
   const protocol::Status status = client.request(protocol::GetStatus{});
   client.request(protocol::Disarm{});
   if (!rests)

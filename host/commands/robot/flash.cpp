@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "host/base/error.hpp"
-#include "host/base/firmware_image.hpp"
+#include "host/base/formats/firmware_image.hpp"
 #include "host/commands/base/remedies.hpp"
 #include "host/commands/robot/commands.hpp"
 #include "host/commands/robot/loader.hpp"
@@ -14,6 +14,7 @@
 #include "host/commands/shared/robot_view.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
+#include "host/robot/client/handshake.hpp"
 #include "host/robot/parameters/parameters.hpp"
 #include "host/robot/port/ports.hpp"
 
@@ -64,7 +65,7 @@ void check_origin(const FirmwareImage& image, const FlashOptions& options) {
     throw Error("nothing was flashed");
 }
 
-void check_at_rest(robot::Client& client) {
+void check_disarmed(robot::Client& client) {
   const protocol::Mode mode = client.request(protocol::GetStatus{}).mode;
   if (mode != protocol::Mode::disarmed && mode != protocol::Mode::fault)
     throw Error(fmt::format("the robot is armed ({}): 'astrolabe stop' disarms it", protocol::name(mode)));
@@ -111,10 +112,10 @@ void run(FlashOptions& options) {
         fmt::format("flashed {}; next, once its LED blinks: astrolabe info", options.file.string()));
   }
   const auto client = find_robot(options.connection);
-  const std::string old = firmware_version(client->robot());
+  const std::string old = robot::firmware_version(client->robot());
   console::say(fmt::format("{} runs firmware {}", client->robot().robot_name.view(), old));
   check_board(client->robot(), options.file);
-  check_at_rest(*client);
+  check_disarmed(*client);
   const robot::RemoteParameters before = robot::RemoteParameters::fetch(*client);
   client->request(protocol::Disarm{});
   request_restart<protocol::EnterBootloader>(*client);
@@ -123,11 +124,11 @@ void run(FlashOptions& options) {
     return console::say(
         fmt::format("flashed {}; whether it runs, 'astrolabe info' shows if it can", options.file.string()));
   wait_for(*client);
-  check_version(image.version, firmware_version(client->robot()));
+  check_version(image.version, robot::firmware_version(client->robot()));
   const robot::RemoteParameters now = robot::RemoteParameters::fetch(*client);
   check_parameters(before, now);
   console::say(fmt::format("flashed: firmware {} -> {}, all {} parameters kept", old,
-                           firmware_version(client->robot()), before.rows().size()));
+                           robot::firmware_version(client->robot()), before.rows().size()));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "host/commands/shared/robot_view.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
+#include "host/robot/client/handshake.hpp"
 
 namespace astro::commands {
 namespace {
@@ -35,7 +36,7 @@ Json as_json(const robot::Client& client, const protocol::Status& status, micros
           {"name", std::string(robot.robot_name.view())},
           {"id", hex_id(robot)},
           {"board", std::string(robot.board.view())},
-          {"firmware", firmware_version(robot)},
+          {"firmware", robot::firmware_version(robot)},
           {"protocol", robot.protocol_version},
           {"mode", std::string(protocol::name(status.mode))},
           {"faults", fault_list(status.latched_faults)},
@@ -59,7 +60,7 @@ std::string as_text(const robot::Client& client, const protocol::Status& status,
   line("name", std::string(robot.robot_name.view()));
   line("port", client.name());
   line("board", fmt::format("{}, id {}", robot.board.view(), hex_id(robot)));
-  line("firmware", fmt::format("{}, protocol {}", firmware_version(robot), robot.protocol_version));
+  line("firmware", fmt::format("{}, protocol {}", robot::firmware_version(robot), robot.protocol_version));
   line("mode", std::string(protocol::name(status.mode)));
   line("faults", faults_in_words(status.latched_faults));
   line("battery", fmt::format("{:.2f} V", status.battery_mv / 1e3));

@@ -7,6 +7,7 @@
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
 #include "host/robot/client/discovery.hpp"
+#include "host/robot/client/handshake.hpp"
 
 namespace astro::commands {
 namespace {
@@ -27,7 +28,7 @@ Json as_json(const std::vector<robot::FoundPort>& found) {
       entry["robot"] = {{"name", std::string(at.robot->robot_name.view())},
                         {"id", hex_id(*at.robot)},
                         {"board", std::string(at.robot->board.view())},
-                        {"firmware", firmware_version(*at.robot)}};
+                        {"firmware", robot::firmware_version(*at.robot)}};
     } else {
       entry["reason"] = in_words(at.reason);
     }
@@ -41,7 +42,7 @@ void show(const std::vector<robot::FoundPort>& found) {
   for (const robot::FoundPort& at : found)
     if (at.robot)
       rows.push_back({at.port.address, std::string(at.robot->robot_name.view()),
-                      std::string(at.robot->board.view()), firmware_version(*at.robot)});
+                      std::string(at.robot->board.view()), robot::firmware_version(*at.robot)});
   if (rows.size() > 1) write(console::table(rows, "llll"));
   if (rows.size() == 1) console::say("no robot was found; 'astrolabe sim' starts a simulated one");
   for (const robot::FoundPort& at : found)

@@ -9,6 +9,7 @@
 #include "host/console/console.hpp"
 #include "host/experiment/files/journal.hpp"
 #include "host/experiment/files/robot_identity.hpp"
+#include "host/robot/client/handshake.hpp"
 #include "host/robot/parameters/parameters.hpp"
 
 namespace astro::commands {
@@ -29,12 +30,9 @@ recording::RunInfo describe_robot(robot::Client& client) {
   info.robot_name = identity.name;
   info.robot_id = identity.id;
   info.board = robot.board.view();
-  info.firmware = fmt::format("{}.{}.{}", robot.fw_major, robot.fw_minor, robot.fw_patch);
+  info.firmware = robot::firmware_version(robot);
   info.started_at = experiment::utc_now();
-  const robot::RemoteParameters parameters = robot::RemoteParameters::fetch(client);
-  for (const robot::ParameterRow& row : parameters.rows())
-    if (row.kind != protocol::ParameterKind::text)
-      info.parameters[row.name] = robot::to_real(row, row.active.raw);
+  info.parameters = robot::RemoteParameters::fetch(client).numbers();
   return info;
 }
 

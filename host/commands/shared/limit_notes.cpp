@@ -39,8 +39,7 @@ RequestedMotion requested_by(const robot::Path& path) {
 
 /// A robot without this parameter has no such limit.
 double limit_of(const robot::RemoteParameters& robot, const char* name) {
-  const robot::ParameterRow* row = robot.find(name);
-  return row == nullptr ? HUGE_VAL : robot::to_real(*row, row->active.raw);
+  return robot.find(name) == nullptr ? HUGE_VAL : robot.number(name);
 }
 
 void say_which_are_exceeded(const robot::RemoteParameters& robot, const RequestedMotion& requested) {

@@ -36,10 +36,6 @@ void print_path(const std::filesystem::path& path) {
   console::stdout_is_terminal() ? print(path.string()) : to_stdout(path.string() + '\n');
 }
 
-std::string firmware_version(const protocol::HelloReply& robot) {
-  return fmt::format("{}.{}.{}", robot.fw_major, robot.fw_minor, robot.fw_patch);
-}
-
 std::string hex_id(const protocol::HelloReply& robot) {
   std::string text;
   for (const std::uint8_t byte : robot.unique_id) text += fmt::format("{:02x}", byte);

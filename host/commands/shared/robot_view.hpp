@@ -34,7 +34,6 @@ void print_json(const AnyJson& json) {
 /// look like a result.
 void flush_output();
 
-std::string firmware_version(const protocol::HelloReply& robot);
 std::string hex_id(const protocol::HelloReply& robot);
 
 std::vector<std::string> fault_list(std::uint32_t mask);

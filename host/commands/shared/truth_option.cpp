@@ -42,9 +42,21 @@ console::Check truth_source(std::vector<std::string> words) {
   };
 }
 
-std::string ask_person(const truth::Question& question) {
-  return console::ask(in_words(question.occasion) + question.text);
+std::string in_words(const truth::Question& question) {
+  const std::string text = in_words(question.occasion) + question.text;
+  switch (question.answer) {
+    case truth::AnswerKind::file_saved:
+      return text + "; press Enter once it is there: ";
+    case truth::AnswerKind::file_corrected:
+      return text + "; press Enter once the file is corrected: ";
+    case truth::AnswerKind::file_corrected_or_kept:
+      return text + " Press Enter once the file is corrected, or to keep it as it is: ";
+    default:
+      return text;
+  }
 }
+
+std::string ask_person(const truth::Question& question) { return console::ask(in_words(question)); }
 
 std::unique_ptr<truth::Source> open_truth(const TruthOption& option, const std::string& port,
                                           const truth::Ask& asking) {

@@ -25,6 +25,9 @@ struct TruthOption {
 /// Accepts these words and the addresses of trackers.
 console::Check truth_source(std::vector<std::string> words);
 
+/// The question with the key that answers it.
+std::string in_words(const truth::Question& question);
+
 /// Asks at the terminal.
 std::string ask_person(const truth::Question& question);
 

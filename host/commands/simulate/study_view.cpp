@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
+#include "host/base/degrees.hpp"
 #include "host/console/console.hpp"
 
 namespace astro::commands {
@@ -33,15 +33,15 @@ constexpr std::array<Column, simulation::study::kFigures> kColumns = {
      {"line_10m_m", "10 m line", "mm", 1e3}}};
 
 std::string setup_text(const TrialSetup& setup) {
-  const double degrees = setup.noise.sigma_theta_rad * 180 / std::numbers::pi;
   return fmt::format(
       "{13}\n"
       "{0} + {0} squares of {1:g} m; b {2:g} m, E_d {3:g}, E_b {4:g}, scale {5:g}\n"
       "slip {6:g} m; truth {7:g} Hz, {8:g} mm, {9:.3g} deg; counts {10:g} Hz\n"
       "clock {11}; noise {12} to ml\n",
       setup.runs, setup.side_m, setup.wheelbase_m, setup.E_d, setup.E_b, setup.scale, setup.noise.K_m,
-      setup.truth_rate_hz, setup.noise.sigma_xy_m * 1000, degrees, setup.count_rate_hz,
-      setup.clock_known ? "known" : "estimated", setup.noise_known ? "known" : "estimated",
+      setup.truth_rate_hz, setup.noise.sigma_xy_m * 1000, degrees(setup.noise.sigma_theta_rad),
+      setup.count_rate_hz, setup.clock_known ? "known" : "estimated",
+      setup.noise_known ? "known" : "estimated",
       setup.model == simulation::study::Model::simulator ? "simulated robot: firmware, motors, encoders"
                                                          : "kinematic robot: wheels and noise alone");
 }
@@ -69,7 +69,7 @@ std::string ml_text(const Summary& summary) {
                         ratios[0].value, ratios[0].se, ratios[1].value, ratios[1].se, ratios[2].value,
                         ratios[2].se);
   if (const auto& consistency = summary.ml_covariance)
-    text += fmt::format("chi-square of ml's errors by its own covariance: {:.3f} ± {:.3f}, honest is 3\n",
+    text += fmt::format("chi-square of ml's errors by its own covariance: {:.3f} ± {:.3f}, expected 3\n",
                         consistency->mean, consistency->se);
   return text;
 }

@@ -11,6 +11,7 @@
 
 #include "host/base/degrees.hpp"
 #include "host/console/console.hpp"
+#include "host/robot/client/handshake.hpp"
 
 namespace astro::commands {
 namespace {
@@ -46,8 +47,7 @@ std::string motor_table(const TuneResult& result) {
 
 std::string margins_in_words(const Margins& margins) {
   return fmt::format("bandwidth {:.1f} Hz, phase margin {:.0f} deg, gain margin {:.1f}",
-                     hertz(margins.bandwidth_radps), 180 / std::numbers::pi * margins.phase_margin_rad,
-                     margins.gain_margin);
+                     hertz(margins.bandwidth_radps), degrees(margins.phase_margin_rad), margins.gain_margin);
 }
 
 report::StepLines lines(const TunedStep& step, Side side) {
@@ -173,7 +173,7 @@ report::TuningInput report_input(const TuneResult& result, const robot::Client& 
   input.description = {
       {"Robot", std::string(client.robot().robot_name.view())},
       {"Robot id", hex_id(client.robot())},
-      {"Firmware", firmware_version(client.robot())},
+      {"Firmware", robot::firmware_version(client.robot())},
       {"Measured", fmt::format("{:%Y-%m-%d %H:%M} UTC, {}", fmt::gmtime(std::time(nullptr)),
                                result.on_stand ? "wheels off the ground" : "on the ground")},
       {"Samples", fmt::format("every {:.0f} ms for {:.0f} s", 1e3 * result.period_s, result.motors.seconds)},

@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
+#include <array>
+#include <bit>
 
 #include "hal/teensy40/registers/registers.hpp"
 
@@ -131,8 +132,7 @@ std::uint32_t Flexspi::read(std::uint32_t offset) {
 void Flexspi::write_flags(std::uint32_t word) {
   if (flexspi::INTR_IPTXWE.of(word) != 0) {
     if (queued() + kPair > kQueue) machine_.fail("FLEXSPI TFDR0: overrun, the queue to the flash is full");
-    std::array<std::uint8_t, kPair> bytes{};
-    std::memcpy(bytes.data(), pair_.data(), bytes.size());
+    const auto bytes = std::bit_cast<std::array<std::uint8_t, kPair>>(pair_);
     to_flash_.insert(to_flash_.end(), bytes.begin(), bytes.end());
   }
   events_ &= ~word;

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "host/emulator/chip/nor_flash.hpp"
+#include "host/emulator/chip/flash_chip.hpp"
 #include "host/emulator/chip/stored.hpp"
 
 namespace astro::emulator {
@@ -15,7 +15,7 @@ namespace astro::emulator {
 /// only the last sequence; the first one reads the program.
 class Flexspi : public Stored {
  public:
-  Flexspi(Machine& machine, NorFlash& flash) : machine_(machine), flash_(flash) {}
+  Flexspi(Machine& machine, FlashChip& flash) : machine_(machine), flash_(flash) {}
 
   std::uint32_t read(std::uint32_t offset) override;
   void write(std::uint32_t offset, std::uint32_t value) override;
@@ -37,7 +37,7 @@ class Flexspi : public Stored {
   void write_flags(std::uint32_t value);
 
   Machine& machine_;
-  NorFlash& flash_;
+  FlashChip& flash_;
   bool key_ = false, unlocked_ = false, running_ = false;
   std::uint32_t events_ = 0;
   std::array<std::uint32_t, 2> pair_{};

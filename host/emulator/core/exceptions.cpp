@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "host/base/bytes.hpp"
 
@@ -109,7 +108,7 @@ std::optional<int> Exceptions::push_frame(std::uint32_t sp, std::uint32_t frame)
   for (std::size_t i = 0; i < kFrame.size(); ++i) words[i] = cpu_.get(kFrame[i]);
   words[6] = cpu_.pc() & ~1U;
   words[7] = (cpu_.get(UC_ARM_REG_XPSR) & ~kAligned) | Cpu::kThumb | ((sp & 4) != 0 ? kAligned : 0);
-  std::memcpy(stack.data(), words.data(), kFrameBytes);
+  for (std::size_t i = 0; i < words.size(); ++i) store(stack, 4 * i, words[i]);
   return {};
 }
 
@@ -160,7 +159,7 @@ void Exceptions::leave(std::uint32_t return_value) {
     return;
   }
   std::array<std::uint32_t, 8> words{};
-  std::memcpy(words.data(), stack.data(), kFrameBytes);
+  for (std::size_t i = 0; i < words.size(); ++i) words[i] = load<std::uint32_t>(stack, 4 * i);
   for (std::size_t i = 0; i < kFrame.size(); ++i) cpu_.set(kFrame[i], words[i]);
   cpu_.set(UC_ARM_REG_SP, (sp + kFrameBytes) | ((words[7] & kAligned) != 0 ? 4U : 0U));
   cpu_.set(UC_ARM_REG_IPSR, words[7] & 0x1FF);

@@ -1,11 +1,10 @@
 #include "host/emulator/robot/teensy.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 #include "hal/teensy40/registers/registers.hpp"
 #include "host/base/bytes.hpp"
-#include "host/base/firmware_image.hpp"
+#include "host/base/formats/firmware_image.hpp"
 
 namespace astro::emulator {
 namespace {
@@ -98,11 +97,8 @@ std::uint64_t Teensy::state_hash() {
   std::uint64_t hash = 0xCBF2'9CE4'8422'2325;  // FNV-1a, by words
   const auto add = [&hash](std::uint64_t word) { hash = (hash ^ word) * 0x0000'0100'0000'01B3; };
   for (const Memory::Range& range : chip_.memory().ranges())
-    for (std::size_t at = 0; at < range.bytes.size(); at += sizeof(std::uint64_t)) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, range.bytes.data() + at, sizeof word);
-      add(word);
-    }
+    for (std::size_t at = 0; at < range.bytes.size(); at += sizeof(std::uint64_t))
+      add(load<std::uint64_t>(range.bytes, at));
   for (int reg = UC_ARM_REG_R0; reg <= UC_ARM_REG_R12; ++reg) add(chip_.cpu().get(reg));
   for (const int reg :
        {UC_ARM_REG_SP, UC_ARM_REG_LR, UC_ARM_REG_PC, UC_ARM_REG_XPSR, UC_ARM_REG_PRIMASK, UC_ARM_REG_BASEPRI})

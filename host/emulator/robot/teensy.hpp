@@ -59,7 +59,7 @@ class Teensy {
   Lpuart& serial() { return lpuart_; }
   UsbController& usb() { return usb_; }
   World& world() { return world_; }
-  NorFlash& flash() { return flash_; }
+  FlashChip& flash() { return flash_; }
   FlexPwm& pwm() { return pwm_; }
   Gpio& gpio7() { return gpio7_; }
   Enc& encoder(std::size_t side) { return side == 0 ? enc1_ : enc2_; }
@@ -97,7 +97,7 @@ class Teensy {
   EncoderWires encoder_wires_{iomuxc_, gpr_, xbara_, enc1_, enc2_};
   FlexPwm pwm_{chip_, iomuxc_};
   Adc adc_{chip_, iomuxc_};
-  NorFlash flash_{chip_, chip_.memory().flash()};
+  FlashChip flash_{chip_, chip_.memory().flash()};
   Flexspi flexspi_{chip_, flash_};
   UsbPhy usb_phy_;
   UsbController usb_{chip_, [this] { return analog_.usb_pll_ready() && usb_phy_.ready(); }};

@@ -1,12 +1,22 @@
 #include "host/experiment/analysis/recordings.hpp"
 
+#include <iterator>
+
 #include "host/experiment/analysis/trajectories.hpp"
 
 namespace astro::experiment {
 
+void Recordings::add(RunSet more) {
+  set_.names.insert(set_.names.end(), std::make_move_iterator(more.names.begin()),
+                    std::make_move_iterator(more.names.end()));
+  set_.runs.insert(set_.runs.end(), std::make_move_iterator(more.runs.begin()),
+                   std::make_move_iterator(more.runs.end()));
+  squares_.reset();
+}
+
 const std::vector<calibration::Trajectory>& Recordings::trajectories() const {
-  if (!trajectories_) trajectories_ = trajectories_of(set_);
-  return *trajectories_;
+  extend_trajectories(trajectories_, set_);
+  return trajectories_;
 }
 
 const Squares& Recordings::squares() const {

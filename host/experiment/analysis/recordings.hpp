@@ -18,7 +18,11 @@ namespace astro::experiment {
 /// Not safe for use by several threads at once.
 class Recordings {
  public:
+  Recordings() = default;
   Recordings(RunSet set) : set_(std::move(set)) {}  // NOLINT(google-explicit-constructor): the same runs
+
+  /// Adds runs behind the others. What was converted of the others stays, but may move in memory.
+  void add(RunSet more);
 
   const RunSet& set() const { return set_; }
   const std::vector<std::string>& names() const { return set_.names; }
@@ -32,7 +36,7 @@ class Recordings {
 
  private:
   RunSet set_;
-  mutable std::optional<std::vector<calibration::Trajectory>> trajectories_;
+  mutable std::vector<calibration::Trajectory> trajectories_;  // of the first runs
   mutable std::optional<Squares> squares_;
 };
 

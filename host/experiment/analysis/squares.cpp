@@ -38,6 +38,16 @@ calibration::WheelFactors loaded_factors(const recording::RunInfo& info) {
   return {loaded_parameter(info, "c_R"), loaded_parameter(info, "c_L"), loaded_parameter(info, "b")};
 }
 
+calibration::WheelFactors loaded_in_all(const RunSet& set) {
+  const calibration::WheelFactors first = loaded_factors(set.runs.front().info);
+  for (std::size_t i = 1; i < set.runs.size(); ++i)
+    if (!same_factors(loaded_factors(set.runs[i].info), first))
+      throw Error(
+          fmt::format("the robot had other factors loaded in {} than in {}", set.names[i], set.names.front()),
+          {Help::check_each_phase});
+  return first;
+}
+
 Squares squares_of(std::span<const recording::Run> runs) {
   Squares squares;
   for (const recording::Run& run : runs)

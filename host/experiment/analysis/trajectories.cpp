@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <utility>
 
 #include "host/base/error.hpp"
 #include "host/experiment/analysis/loaded_parameter.hpp"
@@ -106,11 +107,16 @@ calibration::Trajectory trajectory_of(const recording::Run& run, const std::stri
 
 std::vector<calibration::Trajectory> trajectories_of(const RunSet& set) {
   std::vector<calibration::Trajectory> trajectories;
-  for (std::size_t i = 0; i < set.runs.size(); ++i) {
-    trajectories.push_back(trajectory_of(set.runs[i], set.names[i]));
-    require_comparable(set.runs.front().info, set.names.front(), set.runs[i].info, set.names[i]);
-  }
+  extend_trajectories(trajectories, set);
   return trajectories;
+}
+
+void extend_trajectories(std::vector<calibration::Trajectory>& trajectories, const RunSet& set) {
+  for (std::size_t i = trajectories.size(); i < set.runs.size(); ++i) {
+    calibration::Trajectory trajectory = trajectory_of(set.runs[i], set.names[i]);
+    require_comparable(set.runs.front().info, set.names.front(), set.runs[i].info, set.names[i]);
+    trajectories.push_back(std::move(trajectory));
+  }
 }
 
 void require_comparable(const recording::RunInfo& a, const std::string& a_name, const recording::RunInfo& b,

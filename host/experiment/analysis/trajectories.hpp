@@ -49,6 +49,9 @@ calibration::Trajectory trajectory_of(const recording::Run& run, const std::stri
 /// All of them. Throws astro::Error also as require_comparable does.
 std::vector<calibration::Trajectory> trajectories_of(const RunSet& set);
 
+/// The same where the first runs of the set are converted already: appends the others to `trajectories`.
+void extend_trajectories(std::vector<calibration::Trajectory>& trajectories, const RunSet& set);
+
 /// Throws astro::Error unless both recordings are of the same robot with the same nominal wheels: common
 /// factors would mean nothing otherwise.
 void require_comparable(const recording::RunInfo& a, const std::string& a_name, const recording::RunInfo& b,

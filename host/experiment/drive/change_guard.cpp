@@ -99,16 +99,15 @@ std::string suspicion(const std::vector<Change>& changes) {
 }
 
 std::string wrong_basis(const robot::RemoteParameters& robot, const ParameterFile& file) {
-  const auto on_robot = [&](const char* name) { return std::get<double>(robot.value(name)); };
   if (!file.absolute)
     for (const auto& [name, loaded] : file.loaded)
-      if (const double now = on_robot(name.c_str()); !same_number(now, loaded))
+      if (const double now = robot.number(name); !same_number(now, loaded))
         return fmt::format("the calibration was driven with {} = {:.9g}, and the robot now holds {:.9g}",
                            name, loaded, now);
   if (!file.wheel) return {};
-  const NominalWheel now{
-      on_robot("wheel_diameter"),
-      on_robot("counts_per_motor_rev") * on_robot("gear_numerator") / on_robot("gear_denominator")};
+  const NominalWheel now{robot.number("wheel_diameter"), robot.number("counts_per_motor_rev") *
+                                                             robot.number("gear_numerator") /
+                                                             robot.number("gear_denominator")};
   if (now.measures_like(*file.wheel)) return {};
   return fmt::format("the calibration refers to {}, and the robot's parameters now give {}",
                      file.wheel->described(), now.described());

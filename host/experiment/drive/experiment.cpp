@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <cmath>
 #include <memory>
 #include <set>
+#include <span>
 
 #include "host/base/error.hpp"
 #include "host/base/folder_lock.hpp"
 #include "host/experiment/analysis/until.hpp"
-#include "host/experiment/drive/mistyped_square.hpp"
 #include "host/experiment/drive/open_journal.hpp"
+#include "host/experiment/drive/phase_recordings.hpp"
 #include "host/experiment/files/experiment_folder.hpp"
 #include "host/recording/files/run_file.hpp"
 #include "host/robot/parameters/upload.hpp"
@@ -34,11 +34,13 @@ class Session {
         folder_(std::move(folder)),
         lock_(folder_),
         hooks_(hooks),
-        journal_(open_journal(folder_, plan, client)) {}
+        journal_(open_journal(folder_, plan, client)),
+        current_(folder_) {}
 
   Results run() {
     const std::vector<std::string> phases = phase_names(journal_.plan);
     for (std::size_t i = 0; i < phases.size(); ++i) {
+      current_.start();
       drive_phase(i);
       read_phase(i);
       if (i + 1 < phases.size()) calibrate(i);
@@ -47,11 +49,6 @@ class Session {
   }
 
  private:
-  static calibration::WheelFactors factors_of(const robot::RemoteParameters& robot) {
-    return {std::get<double>(robot.value("c_R")), std::get<double>(robot.value("c_L")),
-            std::get<double>(robot.value("b"))};
-  }
-
   void drive_phase(std::size_t phase) {
     const Plan& plan = journal_.plan;
     announced_ = false;
@@ -66,7 +63,7 @@ class Session {
     for (int squares = squares_in_phase(folder_, plan, phase);; ++squares) {
       const std::vector<RunSpec> specs = squares_of_phase(plan, phase, squares);
       drive_missing(specs);
-      const Calibration found = calibrate_with(read_specs(folder_, specs));
+      const Calibration found = calibrate_with(specs);
       if (found.ml() == nullptr)
         throw Error(
             "a precision can only be driven for by maximum likelihood, and these runs have no ground truth "
@@ -87,20 +84,23 @@ class Session {
   }
 
   void drive_missing(const std::vector<RunSpec>& specs) {
-    std::vector<RunSpec> missing;
-    for (const RunSpec& spec : specs)
-      if (!fs::exists(file_of(folder_, spec))) missing.push_back(spec);
+    std::vector<std::size_t> missing;
+    for (std::size_t i = 0; i < specs.size(); ++i)
+      if (!fs::exists(file_of(folder_, specs[i]))) missing.push_back(i);
     if (missing.empty()) return;
+    // Somebody took away a recording that was read already, for example to have it driven again.
+    if (missing.front() < current_.size()) current_.start();
 
     const robot::RemoteParameters parameters = robot::RemoteParameters::fetch(client_);
-    begin_phase(specs.front().phase, factors_of(parameters));
+    begin_phase(specs.front().phase,
+                {parameters.number("c_R"), parameters.number("c_L"), parameters.number("b")});
     if (missing.size() < specs.size() && !announced_)
       hooks_.run.notice({fmt::format("{}: {} of {} runs are recorded already", specs.front().phase,
                                      specs.size() - missing.size(), specs.size())});
     announced_ = true;
-    const auto total = static_cast<int>(specs.size());
-    int number = total - static_cast<int>(missing.size());
-    for (const RunSpec& spec : missing) {
+    auto number = static_cast<int>(specs.size() - missing.size());
+    for (const std::size_t i : missing) {
+      const RunSpec& spec = specs[i];
       ++number;
       recording::Run run;
       if (const fs::path driven = file_without_truth(folder_, spec); fs::exists(driven)) {
@@ -109,21 +109,22 @@ class Session {
         run = recording::read_run(driven);
       } else {
         hooks_.ready(spec);
-        hooks_.run_started(spec, number, total);
+        hooks_.run_started(spec, number, static_cast<int>(specs.size()));
         run = drive(spec, parameters);
       }
-      keep(spec, run);
+      keep(std::span(specs).first(i), spec, run);
       hooks_.run_finished(spec, run);
     }
   }
 
-  /// Saves a drive before a person is asked for its truth, because they may leave or press Ctrl-C.
-  void keep(const RunSpec& spec, recording::Run& run) {
+  /// Saves a drive before a person is asked for its truth, because they may leave or press Ctrl-C. `earlier`: the
+  /// runs of the phase before it, all of them recorded.
+  void keep(std::span<const RunSpec> earlier, const RunSpec& spec, recording::Run& run) {
     const fs::path driven = file_without_truth(folder_, spec);
     if (truth_.comes_afterwards()) {
       recording::write_run(driven, run);
       try {
-        complete_plausibly(spec, run);
+        complete_plausibly(earlier, spec, run);
       } catch (const Interrupted&) {
         throw;
       } catch (const Error& error) {
@@ -135,17 +136,22 @@ class Session {
   }
 
   /// Asks for the ground truth of a run, again if it looks mistyped and nobody confirms it.
-  void complete_plausibly(const RunSpec& spec, recording::Run& run) {
+  void complete_plausibly(std::span<const RunSpec> earlier, const RunSpec& spec, recording::Run& run) {
     while (true) {
       recording::Run whole = run;
       complete(whole, truth_);
-      const auto odd = mistyped_square(folder_, journal_.plan, spec, whole);
-      if (odd && odd->file.empty() && !hooks_.keep(odd->why)) continue;
+      const auto odd = current_.mistyped(earlier, spec, whole, journal_.plan.side_m);
+      if (odd && odd->spec == spec && !hooks_.keep(odd->why)) continue;
       run = std::move(whole);
-      if (odd && !odd->file.empty() && warned_of_.insert(odd->file).second)
-        hooks_.run.notice({"warning: " + odd->why, {Help::drive_run_again, odd->file.string()}});
+      if (odd && odd->spec != spec) warn_of(*odd);
       return;
     }
+  }
+
+  void warn_of(const MistypedSquare& odd) {
+    const fs::path file = file_of(folder_, odd.spec);
+    if (warned_of_.insert(file).second)
+      hooks_.run.notice({"warning: " + odd.why, {Help::drive_run_again, file.string()}});
   }
 
   /// Checks that a phase is driven with one set of parameters, also if it is resumed.
@@ -157,7 +163,7 @@ class Session {
                                 "experiment began with {:.9f}, {:.9f}, {:.9f} m",
                                 factors.c_r, factors.c_l, factors.b_m, phase, known->second.c_r,
                                 known->second.c_l, known->second.b_m),
-                    {Help::load_factors_or_choose_other_folder});
+                    {Help::load_factors_or_choose_other_out_folder});
       return;
     }
     journal_.loaded[phase] = factors;
@@ -170,9 +176,7 @@ class Session {
     info.robot_id = journal_.robot_id;
     info.board = journal_.board;
     info.firmware = journal_.firmware;
-    for (const robot::ParameterRow& row : parameters.rows())
-      if (row.kind != protocol::ParameterKind::text)
-        info.parameters[row.name] = robot::to_real(row, row.active.raw);
+    info.parameters = parameters.numbers();
     const robot::Path path = path_of(journal_.plan, spec);
     for (int attempt = 1;; ++attempt) {
       info.started_at = utc_now();
@@ -187,17 +191,17 @@ class Session {
     }
   }
 
-  Calibration calibrate_with(RunSet current) const {
+  Calibration calibrate_with(const std::vector<RunSpec>& current) {
+    current_.read(current);
     std::vector<std::shared_ptr<const Recordings>> phases = finished_;
-    phases.push_back(std::make_shared<const Recordings>(std::move(current)));
+    phases.push_back(current_.recordings());
     return calibrate_after(phases, journal_.plan.method);
   }
 
-  /// The recordings as they are on disk: what is calibrated and reported is what was kept.
   void read_phase(std::size_t phase) {
     const Plan& plan = journal_.plan;
-    const auto specs = runs_of_phase(plan, phase, squares_in_phase(folder_, plan, phase));
-    finished_.push_back(std::make_shared<const Recordings>(read_specs(folder_, specs)));
+    current_.read(runs_of_phase(plan, phase, squares_in_phase(folder_, plan, phase)));
+    finished_.push_back(current_.recordings());
   }
 
   void calibrate(std::size_t phase) {
@@ -230,6 +234,7 @@ class Session {
   Journal journal_;
   std::vector<std::shared_ptr<const Recordings>> finished_;  // phases that are driven
   std::vector<Calibration> found_;                           // after each of them but the last
+  PhaseRecordings current_;                                  // of the phase under way
   std::set<fs::path> warned_of_;                             // recordings that look mistyped
   bool announced_ = false;  // whether the number of recorded runs of this phase was announced
 };

@@ -1,22 +1,31 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 
+#include "host/calibration/end_poses/end_pose.hpp"
 #include "host/experiment/files/plan.hpp"
 #include "host/recording/run/run.hpp"
 
 namespace astro::experiment {
 
-struct MistypedSquare {
-  std::string why;             // names the run, its value and that of the others
-  std::filesystem::path file;  // of an earlier run; empty: it is the new one
+/// Where a run of the plan ended in contrast to where odometry says.
+struct RunEnd {
+  RunSpec spec;
+  calibration::EndPose error;  // NaN where it cannot be computed; then the calibration reports why
 };
 
-/// Whether `run`, a square of which the ground truth was just entered, or one of those that `folder` holds of
-/// the same phase and direction, looks mistyped compared with the others (host/calibration/end_poses/odd_run.hpp).
-std::optional<MistypedSquare> mistyped_square(const std::filesystem::path& folder, const Plan& plan,
-                                              const RunSpec& spec, const recording::Run& run);
+RunEnd run_end(const RunSpec& spec, const recording::Run& run);
+
+struct MistypedSquare {
+  std::string why;  // names the run, its value and that of the others
+  RunSpec spec;
+};
+
+/// Whether the ground truth of a square looks mistyped compared with the others
+/// (host/calibration/end_poses/odd_run.hpp). The last of `ends` is the new run; among the others, the squares of
+/// its phase and direction count. Nothing if it is no square.
+std::optional<MistypedSquare> mistyped_square(std::span<const RunEnd> ends, double side_m);
 
 }  // namespace astro::experiment

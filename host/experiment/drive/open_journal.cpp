@@ -1,11 +1,10 @@
 #include "host/experiment/drive/open_journal.hpp"
 
-#include <fmt/format.h>
-
 #include <nlohmann/json.hpp>
 
 #include "host/base/error.hpp"
 #include "host/experiment/files/robot_identity.hpp"
+#include "host/robot/client/handshake.hpp"
 
 namespace astro::experiment {
 namespace {
@@ -14,11 +13,11 @@ void require_same(const std::filesystem::path& folder, const Journal& journal, c
                   const RobotIdentity& identity) {
   if (nlohmann::json(journal.plan) != nlohmann::json(plan))
     throw Error("'" + folder.string() + "' holds an experiment with other settings",
-                {Help::give_same_settings_or_choose_other_folder});
+                {Help::give_same_settings_or_choose_other_out_folder});
   if (const std::string other = different_robots("the experiment in '" + folder.string() + "'",
                                                  {journal.robot_name, journal.robot_id}, "this", identity);
       !other.empty())
-    throw Error(other, {Help::choose_other_folder});
+    throw Error(other, {Help::choose_other_out_folder});
 }
 
 }  // namespace
@@ -36,7 +35,7 @@ Journal open_journal(const std::filesystem::path& folder, const Plan& plan, cons
   journal.robot_id = identity.id;
   journal.robot_name = identity.name;
   journal.board = robot.board.view();
-  journal.firmware = fmt::format("{}.{}.{}", robot.fw_major, robot.fw_minor, robot.fw_patch);
+  journal.firmware = robot::firmware_version(robot);
   journal.started_at = utc_now();
   write_journal(folder, journal);
   return journal;

@@ -76,7 +76,7 @@ class Collector {
       return interrupted() || (stand_from_us_ && newest_us_ - *stand_from_us_ >= duration.count());
     };
     if (!client_.pump_until(done, 10 * duration))
-      throw Error("the robot's telemetry has dried up while it stood", {Help::check_link});
+      throw Error("the robot sent no more telemetry while it stood still", {Help::check_link});
   }
 
   /// Stops the stream. Waits for the last truth samples, which may arrive a little later than the odometry.

@@ -7,7 +7,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
-#include "host/base/json_weight.hpp"
+#include "host/base/formats/json_weight.hpp"
 
 namespace astro::experiment {
 namespace {

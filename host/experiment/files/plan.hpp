@@ -60,6 +60,7 @@ struct RunSpec {
   std::string file_name() const;
   /// "before: square cw 3", without a phase "square cw 3"
   std::string title() const;
+  bool operator==(const RunSpec&) const = default;
 };
 
 /// "before", "after" for one round; "before", "after-1", ..., "after-N" for N rounds.

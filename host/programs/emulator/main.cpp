@@ -19,7 +19,7 @@ using namespace astro;  // NOLINT(google-build-using-namespace): a program's own
 namespace fs = std::filesystem;
 
 void run(const fs::path& hex, commands::SimOptions& options) {
-  commands::prepare(options, emulator::NorFlash::kParametersEnd - emulator::NorFlash::kParameters);
+  commands::prepare(options, emulator::FlashChip::kParametersEnd - emulator::FlashChip::kParameters);
   if (const fs::path& usb = options.server.second_pty;
       !usb.empty() && fs::weakly_canonical(fs::absolute(usb).parent_path()) / usb.filename() ==
                           fs::weakly_canonical(fs::absolute(options.server.pty).parent_path()) /

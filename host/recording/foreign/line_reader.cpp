@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "host/base/csv_table.hpp"
+#include "host/base/formats/csv_table.hpp"
 
 namespace astro::recording {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "host/base/csv_table.hpp"
+#include "host/base/formats/csv_table.hpp"
 #include "host/recording/foreign/counter_wraps.hpp"
 #include "host/recording/foreign/line_reader.hpp"
 #include "host/recording/foreign/time_text.hpp"

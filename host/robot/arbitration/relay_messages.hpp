@@ -30,11 +30,13 @@ struct PortUsers {
 
   static constexpr std::uint8_t kId = 0x41;
   static constexpr std::string_view kName = "PortUsers";
-  static constexpr std::string_view kDoc = "Who drives through this port, and who ended the asker's drive.";
+  static constexpr std::string_view kDoc =
+      "Who drives through this port, and who ended the drive of the program that asks.";
   static constexpr std::tuple kFields{
       protocol::Field{&PortUsers::driver_pid, "driver_pid", "", "whose motion requests are taken"},
       protocol::Field{&PortUsers::driver_command, "driver_command", "", "its command line"},
-      protocol::Field{&PortUsers::stopper_pid, "stopper_pid", "", "who stopped the asker's drive"},
+      protocol::Field{&PortUsers::stopper_pid, "stopper_pid", "",
+                      "who stopped the drive of the program that asks"},
       protocol::Field{&PortUsers::stopper_command, "stopper_command", "", "its command line"},
   };
 };

@@ -25,10 +25,10 @@ constexpr microseconds longest_turn(std::uint8_t message) {
 
 RequestArbiter::RequestArbiter() { join(kSelf, {}); }
 
-void RequestArbiter::join(SessionId id, PortUser user) { askers_.try_emplace(id, id, std::move(user)); }
+void RequestArbiter::join(SessionId id, PortUser user) { sessions_.try_emplace(id, id, std::move(user)); }
 
 void RequestArbiter::release(SessionId id) {
-  askers_.at(id).forget();
+  sessions_.at(id).forget();
   driver_.release(id);
   staging_.release(id);
   turns_.end(id);
@@ -38,170 +38,171 @@ void RequestArbiter::release(SessionId id) {
 void RequestArbiter::leave(SessionId id) {
   release(id);
   driver_.remove(id);
-  askers_.erase(id);
+  sessions_.erase(id);
 }
 
 /// `body` has the request id that the program used.
-void RequestArbiter::reply(Asker& asker, const Header& request, ByteView body) {
+void RequestArbiter::reply(ProgramSession& session, const Header& request, ByteView body) {
   const Bytes frame = frame_of(body);
-  asker.remember_answer(request, frame);
-  replies_.push_back({asker.id(), frame});
+  session.remember_answer(request, frame);
+  replies_.push_back({session.id(), frame});
 }
 
 template <Message M>
-void RequestArbiter::reply_with(Asker& asker, const Header& request, const M& message) {
-  reply(asker, request, body_of(message, request.request_id));
+void RequestArbiter::reply_with(ProgramSession& session, const Header& request, const M& message) {
+  reply(session, request, body_of(message, request.request_id));
 }
 
 bool RequestArbiter::repeats(SessionId id, const Header& request) const {
-  return askers_.at(id).has_under_way(request);
+  return sessions_.at(id).has_under_way(request);
 }
 
 void RequestArbiter::take(SessionId id, ByteView body, microseconds now) {
-  Asker& asker = askers_.at(id);
+  ProgramSession& session = sessions_.at(id);
   const Header header = *peek(body);  // a framer's body always has a header
-  if (header.message_id == Ping::kId) return send(asker, asker.ping(header, body), now);
-  if (asker.has_answered(header)) return replies_.push_back({id, asker.answer()});
-  if (answer_here(asker, header, body)) return;
-  if (const auto refused = driver_.refusal(id, header.message_id)) return reply_with(asker, header, *refused);
-  if (request_rules::stops(header.message_id)) driver_.note_stop(id, asker.user());
+  if (header.message_id == Ping::kId) return send(session, session.ping(header, body), now);
+  if (session.has_answered(header)) return replies_.push_back({id, session.answer()});
+  if (answer_here(session, header, body)) return;
+  if (const auto refused = driver_.refusal(id, header.message_id))
+    return reply_with(session, header, *refused);
+  if (request_rules::stops(header.message_id)) driver_.note_stop(id, session.user());
   if (request_rules::halts(header.message_id)) cancel_motion(id, header.message_id);
-  if (asker.has_under_way(header)) return repeat(asker, now);
-  begin(asker, Exchange(header, body), now);
+  if (session.has_under_way(header)) return repeat(session, now);
+  begin(session, Exchange(header, body), now);
 }
 
 /// An answer of the robot that still comes is dropped, so an Arm that was sent before a Stop does not undo it.
 void RequestArbiter::cancel_motion(SessionId by, std::uint8_t halt) {
   const ErrorCode why = request_rules::stops(halt) ? ErrorCode::not_armed : ErrorCode::busy;
-  for (auto& [id, asker] : askers_) {
-    if (id == by || asker.current() == nullptr) continue;
-    const Header request = asker.current()->header;
+  for (auto& [id, session] : sessions_) {
+    if (id == by || session.current() == nullptr) continue;
+    const Header request = session.current()->header;
     if (!request_rules::is_cancelled_by(request.message_id, halt)) continue;
     turns_.end(id);
-    reply_with(asker, request, ErrorReply{why, 0});
+    reply_with(session, request, ErrorReply{why, 0});
   }
 }
 
 /// Answers requests that do not need the robot; returns false for all others.
-bool RequestArbiter::answer_here(Asker& asker, const Header& header, ByteView body) {
+bool RequestArbiter::answer_here(ProgramSession& session, const Header& header, ByteView body) {
   if (header.message_id == GetPortUsers::kId) {
-    reply_with(asker, header, users_for(asker.id()));
+    reply_with(session, header, users_for(session.id()));
     return true;
   }
   if (header.message_id == SetTelemetry::kId) {
-    take_telemetry(asker, header, body);
+    take_telemetry(session, header, body);
     return true;
   }
   return false;
 }
 
-PortUsers RequestArbiter::users_for(SessionId asker) const {
+PortUsers RequestArbiter::users_for(SessionId session) const {
   PortUsers users;
   if (const auto driver = driver_.confirmed_driver()) {
-    users.driver_pid = askers_.at(*driver).user().pid;
-    users.driver_command = CommandLine(askers_.at(*driver).user().command);
+    users.driver_pid = sessions_.at(*driver).user().pid;
+    users.driver_command = CommandLine(sessions_.at(*driver).user().command);
   }
-  if (const PortUser* stopper = driver_.stopper_of(asker)) {
+  if (const PortUser* stopper = driver_.stopper_of(session)) {
     users.stopper_pid = stopper->pid;
     users.stopper_command = CommandLine(stopper->command);
   }
   return users;
 }
 
-void RequestArbiter::take_telemetry(Asker& asker, const Header& header, ByteView body) {
+void RequestArbiter::take_telemetry(ProgramSession& session, const Header& header, ByteView body) {
   const auto request = decode<SetTelemetry>(body);
-  if (!request.ok()) return reply_with(asker, header, ErrorReply{ErrorCode::malformed, 0});
+  if (!request.ok()) return reply_with(session, header, ErrorReply{ErrorCode::malformed, 0});
   if ((request->fields & ~Telemetry::kAll) != 0)
-    return reply_with(asker, header, ErrorReply{ErrorCode::out_of_range, 0});
-  telemetry_.request(asker.id(), *request);
-  reply_with(asker, header, Ack{});
+    return reply_with(session, header, ErrorReply{ErrorCode::out_of_range, 0});
+  telemetry_.request(session.id(), *request);
+  reply_with(session, header, Ack{});
 }
 
-void RequestArbiter::send(const Asker& asker, Exchange& exchange, microseconds now) {
-  to_robot_.send(exchange, driver_.drives(asker.id()), now);
+void RequestArbiter::send(const ProgramSession& session, Exchange& exchange, microseconds now) {
+  to_robot_.send(exchange, driver_.drives(session.id()), now);
 }
 
-void RequestArbiter::begin(Asker& asker, Exchange exchange, microseconds now) {
-  turns_.end(asker.id());  // the program has given up its last request
+void RequestArbiter::begin(ProgramSession& session, Exchange exchange, microseconds now) {
+  turns_.end(session.id());  // the program has given up its last request
   const std::uint8_t message = exchange.header.message_id;
-  if (message == Hello::kId) return take_hello(asker, std::move(exchange), now);
-  driver_.note_request(asker.id(), message);
-  Exchange& current = asker.begin(std::move(exchange));
-  const bool at_once = driver_.drives(asker.id()) || request_rules::halts(message);
-  if (!at_once) return turns_.wait(asker.id());
-  if (staging_allows(asker)) send(asker, current, now);
+  if (message == Hello::kId) return take_hello(session, std::move(exchange), now);
+  driver_.note_request(session.id(), message);
+  Exchange& current = session.begin(std::move(exchange));
+  const bool at_once = driver_.drives(session.id()) || request_rules::halts(message);
+  if (!at_once) return turns_.wait(session.id());
+  if (staging_allows(session)) send(session, current, now);
 }
 
 /// The first Hello goes to the robot, where it ends the session of an earlier program; so does one after
 /// which the robot's answer may differ. All others are answered here, because they would end the driver's
 /// session.
-void RequestArbiter::take_hello(Asker& asker, Exchange exchange, microseconds now) {
+void RequestArbiter::take_hello(ProgramSession& session, Exchange exchange, microseconds now) {
   const auto hello = decode<Hello>(exchange.body);
   const Header header = exchange.header;
-  if (!hello.ok()) return reply_with(asker, header, ErrorReply{ErrorCode::malformed, 0});
-  release(asker.id());
+  if (!hello.ok()) return reply_with(session, header, ErrorReply{ErrorCode::malformed, 0});
+  release(session.id());
   if (!hello_) {
-    Exchange& current = asker.begin(std::move(exchange));
-    if (driver_.driver()) return turns_.wait(asker.id());
+    Exchange& current = session.begin(std::move(exchange));
+    if (driver_.driver()) return turns_.wait(session.id());
     to_robot_.send(current, true, now);  // with a driver's id, which shows that nobody drives
   } else if (hello->protocol_version != hello_->protocol_version) {
-    reply_with(asker, header, ErrorReply{ErrorCode::wrong_version, hello_->protocol_version});
+    reply_with(session, header, ErrorReply{ErrorCode::wrong_version, hello_->protocol_version});
   } else {
-    reply_with(asker, header, *hello_);
+    reply_with(session, header, *hello_);
   }
 }
 
-void RequestArbiter::repeat(Asker& asker, microseconds now) {
-  Exchange& exchange = *asker.current();
+void RequestArbiter::repeat(ProgramSession& session, microseconds now) {
+  Exchange& exchange = *session.current();
   const std::uint8_t message = exchange.header.message_id;
   // Another program has sent Hello or drives by now, and a Hello with a driver's id would end its session.
   const bool drivers = exchange.is_sent() && !exchange.has_onlookers_id();
   if (message == Hello::kId && (hello_ || (driver_.driver() && drivers)))
-    return take_hello(asker, Exchange(exchange.header, Bytes(exchange.body)), now);
+    return take_hello(session, Exchange(exchange.header, Bytes(exchange.body)), now);
   if (!exchange.is_sent()) return;
   const bool takes_turns = exchange.has_onlookers_id() && !request_rules::halts(message);
-  if (!takes_turns || turns_.has(asker.id())) return send(asker, exchange, now);
+  if (!takes_turns || turns_.has(session.id())) return send(session, exchange, now);
   exchange.state = Exchange::State::waits;  // its turn ended before the answer came
-  turns_.wait(asker.id());
+  turns_.wait(session.id());
 }
 
 /// Returns false if the current request was refused.
-bool RequestArbiter::staging_allows(Asker& asker) {
-  const Header header = asker.current()->header;
-  if (staging_.allows(asker.id(), header.message_id)) return true;
-  reply_with(asker, header, ErrorReply{ErrorCode::staging_lost, 0});
+bool RequestArbiter::staging_allows(ProgramSession& session) {
+  const Header header = session.current()->header;
+  if (staging_.allows(session.id(), header.message_id)) return true;
+  reply_with(session, header, ErrorReply{ErrorCode::staging_lost, 0});
   return false;
 }
 
 void RequestArbiter::next_onlooker(microseconds now) {
   while (const auto id = turns_.next(now)) {
-    Asker& asker = askers_.at(*id);
-    Exchange* current = asker.current();
-    if (current == nullptr || current->is_sent() || !staging_allows(asker)) continue;
+    ProgramSession& session = sessions_.at(*id);
+    Exchange* current = session.current();
+    if (current == nullptr || current->is_sent() || !staging_allows(session)) continue;
     turns_.begin(*id, now + longest_turn(current->header.message_id));
-    send(asker, *current, now);
+    send(session, *current, now);
   }
 }
 
 void RequestArbiter::take_answer(ByteView body, microseconds now) {
   const Header header = *peek(body);
-  for (auto& [id, asker] : askers_) {
-    if (const auto ping = asker.take_pong(header, now))
-      return reply(asker, *ping, with_request_id(body, ping->request_id));
-    if (asker.current() == nullptr || !asker.current()->is_answered_by(header, now)) continue;
-    const Header asked = asker.current()->header;
+  for (auto& [id, session] : sessions_) {
+    if (const auto ping = session.take_pong(header, now))
+      return reply(session, *ping, with_request_id(body, ping->request_id));
+    if (session.current() == nullptr || !session.current()->is_answered_by(header, now)) continue;
+    const Header asked = session.current()->header;
     turns_.end(id);
-    note_answer(asker, asked.message_id, body);
-    asker.end();
+    note_answer(session, asked.message_id, body);
+    session.end();
     const Bytes answer = with_request_id(body, asked.request_id);
-    reply(asker, asked, staging_.hides_from(id) ? without_staged(answer) : answer);
+    reply(session, asked, staging_.hides_from(id) ? without_staged(answer) : answer);
     return next_onlooker(now);
   }
 }
 
-void RequestArbiter::note_answer(const Asker& asker, std::uint8_t request, ByteView body) {
+void RequestArbiter::note_answer(const ProgramSession& session, std::uint8_t request, ByteView body) {
   const bool accepted = body.front() != ErrorReply::kId;
-  driver_.note_answer(asker.id(), request, accepted);
+  driver_.note_answer(session.id(), request, accepted);
   if (request == CommitParameters::kId && accepted) hello_.reset();  // the robot's name may have changed
   if (request != Hello::kId) return;
   const auto hello = decode<HelloReply>(body);
@@ -222,11 +223,11 @@ void RequestArbiter::note_restart() {
   staging_.clear();
   telemetry_.clear();
   turns_.clear();
-  for (auto& [id, asker] : askers_) asker.forget();
+  for (auto& [id, session] : sessions_) session.forget();
 }
 
 void RequestArbiter::tick(microseconds now) {
-  Asker& self = askers_.at(kSelf);
+  ProgramSession& self = sessions_.at(kSelf);
   const Exchange* own = self.current();
   if (auto request = telemetry_.next_request())
     begin(self, std::move(*request), now);
@@ -237,7 +238,7 @@ void RequestArbiter::tick(microseconds now) {
 
 std::optional<microseconds> RequestArbiter::next_tick() const {
   std::optional<microseconds> next = turns_.deadline();
-  const Exchange* own = askers_.at(kSelf).current();
+  const Exchange* own = sessions_.at(kSelf).current();
   if (own != nullptr && own->is_sent())
     next = std::min(next.value_or(microseconds::max()), own->sent_at + kRepeat);
   return next;

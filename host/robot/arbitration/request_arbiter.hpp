@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "host/robot/arbitration/asker.hpp"
 #include "host/robot/arbitration/driver_rule.hpp"
+#include "host/robot/arbitration/program_session.hpp"
 #include "host/robot/arbitration/relay_messages.hpp"
 #include "host/robot/arbitration/robot_queue.hpp"
 #include "host/robot/arbitration/staging_area.hpp"
@@ -68,23 +68,23 @@ class RequestArbiter {
  private:
   using Header = protocol::Header;
 
-  void reply(Asker& asker, const Header& request, ByteView body);
+  void reply(ProgramSession& session, const Header& request, ByteView body);
   template <protocol::Message M>
-  void reply_with(Asker& asker, const Header& request, const M& message);
-  bool answer_here(Asker& asker, const Header& header, ByteView body);
-  PortUsers users_for(SessionId asker) const;
-  void take_telemetry(Asker& asker, const Header& header, ByteView body);
-  void take_hello(Asker& asker, Exchange exchange, microseconds now);
-  void begin(Asker& asker, Exchange exchange, microseconds now);
-  void repeat(Asker& asker, microseconds now);
-  void send(const Asker& asker, Exchange& exchange, microseconds now);
+  void reply_with(ProgramSession& session, const Header& request, const M& message);
+  bool answer_here(ProgramSession& session, const Header& header, ByteView body);
+  PortUsers users_for(SessionId session) const;
+  void take_telemetry(ProgramSession& session, const Header& header, ByteView body);
+  void take_hello(ProgramSession& session, Exchange exchange, microseconds now);
+  void begin(ProgramSession& session, Exchange exchange, microseconds now);
+  void repeat(ProgramSession& session, microseconds now);
+  void send(const ProgramSession& session, Exchange& exchange, microseconds now);
   void cancel_motion(SessionId by, std::uint8_t halt);
-  bool staging_allows(Asker& asker);
+  bool staging_allows(ProgramSession& session);
   void next_onlooker(microseconds now);
-  void note_answer(const Asker& asker, std::uint8_t request, ByteView body);
+  void note_answer(const ProgramSession& session, std::uint8_t request, ByteView body);
   void note_restart();
 
-  std::map<SessionId, Asker> askers_;  // the first is the relay itself, which asks for telemetry
+  std::map<SessionId, ProgramSession> sessions_;  // the first is the relay itself, which asks for telemetry
   std::vector<Reply> replies_;
   std::optional<protocol::HelloReply> hello_;
   RobotQueue to_robot_;

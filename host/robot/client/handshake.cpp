@@ -32,4 +32,9 @@ void require_same_robot(const std::string& name, const protocol::HelloReply& kno
               {Help::connect_first_robot});
 }
 
+std::string firmware_version(const protocol::HelloReply& robot) {
+  return std::to_string(robot.fw_major) + '.' + std::to_string(robot.fw_minor) + '.' +
+         std::to_string(robot.fw_patch);
+}
+
 }  // namespace astro::robot

@@ -26,4 +26,7 @@ void require_version(const std::string& name, std::uint16_t theirs);
 void require_same_robot(const std::string& name, const protocol::HelloReply& known,
                         const protocol::HelloReply& answers);
 
+/// "1.4.0"
+std::string firmware_version(const protocol::HelloReply& robot);
+
 }  // namespace astro::robot

@@ -111,7 +111,7 @@ void DriveSession::arm() {
                      first_fault(report.latched & ~kLeftBehind));
   }
   if (report.latched != 0) {
-    wait_for_rest();  // if its host died a moment ago, it is still ramping down
+    wait_until_power_off();  // if its host died a moment ago, it is still ramping down
     client_.request(ClearFaults{});
     hooks_.notice({"cleared " + fault_names(report.latched) + ", which an earlier drive left behind"});
   }
@@ -192,12 +192,12 @@ void DriveSession::pump(microseconds duration) {
 void DriveSession::stop() {
   const Restore stopping(stopping_, true);
   client_.request(Stop{});
-  wait_for_rest();
+  wait_until_power_off();
   aborted_ = 0;  // this stop aborted it
 }
 
-void DriveSession::wait_for_rest() {
-  if (robot::wait_for_rest(client_)) return;
+void DriveSession::wait_until_power_off() {
+  if (robot::wait_until_power_off(client_)) return;
   throw Error("the robot did not come to rest and was disarmed: its motors are off, but it may roll on");
 }
 

@@ -85,7 +85,7 @@ class DriveSession {
   void wait_for_progress();
   void ask_for_progress();
   void check();
-  void wait_for_rest();
+  void wait_until_power_off();
   void rest_and_disarm();
   template <protocol::Request M>
   void command(const M& motion);

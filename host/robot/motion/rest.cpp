@@ -19,7 +19,7 @@ constexpr microseconds kUsualRamp = milliseconds(5000);
 microseconds longest_ramp(Client& client) {
   const RemoteParameters parameters = RemoteParameters::fetch(client);
   const auto value = [&](std::string_view name) {
-    return parameters.find(name) != nullptr ? std::get<double>(parameters.value(name)) : 0;
+    return parameters.find(name) != nullptr ? parameters.number(name) : 0;
   };
   const auto seconds = [&](std::string_view speed, std::string_view acceleration) {
     return value(acceleration) > 0 ? value(speed) / value(acceleration) : 0;
@@ -55,7 +55,7 @@ bool wait_until_wheels_stopped(Client& client) {
   return stopped;
 }
 
-bool wait_for_rest(Client& client) {
+bool wait_until_power_off(Client& client) {
   const microseconds start = client.now();
   if (stops_before(client, start + kUsualRamp)) return true;
   if (stops_before(client, start + longest_ramp(client))) return true;

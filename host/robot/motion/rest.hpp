@@ -10,7 +10,7 @@ namespace astro::robot {
 ///
 /// Returns false if it had to be disarmed.
 /// Errors  all that Client::request throws.
-[[nodiscard]] bool wait_for_rest(Client& client);
+[[nodiscard]] bool wait_until_power_off(Client& client);
 
 /// Waits until the wheels have stopped although nothing brakes them: a robot whose bridges were opened by a
 /// fault rolls on until friction stops it. Returns false if they still turn after two seconds. Ends this

@@ -1,18 +1,19 @@
 #include "host/robot/parameters/parameter_rules.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <string_view>
 
+#include "common/params/parameter_set.hpp"
+#include "host/base/degrees.hpp"
+
 namespace astro::robot {
 namespace {
-
-constexpr double kShortestCount_m = 1e-9, kLongestCount_m = 0.125, kMostTurnPerCount = 1.0 / 16;
 
 class Staged {
  public:
@@ -51,13 +52,14 @@ std::string geometry_rule(const Staged& staged, std::string_view name) {
   const auto b_m = staged.number("b");
   if (!travel_m || !b_m) return "";
   if (name == "b")
-    return "one count turns the robot by " + digits(*travel_m / *b_m / std::numbers::pi * 180) +
-           " degrees, and has to turn it by less than " + digits(360 * kMostTurnPerCount) +
+    return "one count turns the robot by " + digits(degrees(*travel_m / *b_m)) +
+           " degrees, and has to turn it by less than " + digits(360.0 / kFewestCountsPerTurn) +
            " degrees; that follows from " + staged.shown("b") + ", the wheel, the gear and the encoder";
   return "one count moves a wheel by " + digits(*travel_m) + " m, and that has to be from " +
-         digits(kShortestCount_m) + " m to " + digits(kLongestCount_m) + " m; that follows from " +
-         staged.shown("counts_per_motor_rev") + ", " + staged.shown("gear_numerator") + ", " +
-         staged.shown("gear_denominator") + " and " + staged.shown("wheel_diameter");
+         digits(1e-9 * kShortestCount_nm) + " m to " + digits(1e-9 * kLongestCount_nm) +
+         " m; that follows from " + staged.shown("counts_per_motor_rev") + ", " +
+         staged.shown("gear_numerator") + ", " + staged.shown("gear_denominator") + " and " +
+         staged.shown("wheel_diameter");
 }
 
 std::string limits_rule(const ParameterRow& row) {

@@ -68,6 +68,20 @@ ParameterRow& RemoteParameters::mutable_row(std::string_view name) {
 
 Value RemoteParameters::value(std::string_view name) const { return to_value(row(name), row(name).active); }
 
+double RemoteParameters::number(std::string_view name) const {
+  const ParameterRow& found = row(name);
+  if (found.kind == ParameterKind::text)
+    throw Error("the robot's parameter '" + found.name + "' is a text, not a number");
+  return to_real(found, found.active.raw);
+}
+
+std::map<std::string, double> RemoteParameters::numbers() const {
+  std::map<std::string, double> numbers;
+  for (const ParameterRow& row : rows_)
+    if (row.kind != ParameterKind::text) numbers[row.name] = to_real(row, row.active.raw);
+  return numbers;
+}
+
 void RemoteParameters::stage(std::string_view name, const Value& value) {
   ParameterRow& row = mutable_row(name);
   const RawValue raw = to_raw(row, value);

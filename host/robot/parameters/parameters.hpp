@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -29,6 +31,11 @@ class RemoteParameters {
 
   /// The value in force, in the row's unit or as text.
   Value value(std::string_view name) const;
+
+  /// The same of a parameter that is a number. Throws Error if the robot has no such parameter, or a text there.
+  double number(std::string_view name) const;
+  /// Of all parameters that are numbers.
+  std::map<std::string, double> numbers() const;
 
   /// Stages a value; it is not in force before commit() or apply(). Throws as to_raw does, without asking the
   /// robot. The first call of stage(), commit() or apply() opens the robot's staging area for this session,

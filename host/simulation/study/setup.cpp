@@ -10,6 +10,7 @@
 #include <random>
 #include <string>
 
+#include "host/base/degrees.hpp"
 #include "host/base/error.hpp"
 #include "host/base/numbers.hpp"
 #include "host/simulation/study/limits.hpp"
@@ -39,7 +40,7 @@ void require_square(const TrialSetup& setup) {
   throw Error(fmt::format(
       "a square of {:g} m turns a robot with these errors {:.0f} degrees away from its heading, and an end "
       "pose can show at most 180: with these errors the side can be at most some {:.2g} m",
-      setup.side_m, error_rad * 180 / std::numbers::pi, setup.side_m * std::numbers::pi / error_rad));
+      setup.side_m, degrees(error_rad), setup.side_m * std::numbers::pi / error_rad));
 }
 
 /// A seed must be an integer: the library would also convert 1e300, and differently on each machine.

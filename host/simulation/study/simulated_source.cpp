@@ -63,12 +63,9 @@ class SimulatedRobot {
         plan_(plan_of(setup)) {
     client_.connect();
     client_.pump(50ms);  // through boot
-    const double loaded_m = std::get<double>(robot::RemoteParameters::fetch(client_).value("b"));
+    const double loaded_m = robot::RemoteParameters::fetch(client_).number("b");
     if (std::abs(loaded_m - setup.wheelbase_m) > 1e-9) robot::upload(client_, {{"b", setup.wheelbase_m}});
-    const robot::RemoteParameters active = robot::RemoteParameters::fetch(client_);
-    for (const robot::ParameterRow& row : active.rows())
-      if (row.kind != protocol::ParameterKind::text)
-        parameters_[row.name] = robot::to_real(row, row.active.raw);
+    parameters_ = robot::RemoteParameters::fetch(client_).numbers();
   }
 
   recording::Run drive(int run) {

@@ -8,9 +8,9 @@
 #include <optional>
 #include <utility>
 
-#include "host/base/csv_table.hpp"
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
+#include "host/base/formats/csv_table.hpp"
 #include "host/base/numbers.hpp"
 #include "host/truth/source/plausibility.hpp"
 
@@ -111,14 +111,15 @@ std::string missing(const fs::path& file) {
 /// Asks until there is a readable file.
 Poses poses_from(const fs::path& file, const Ask& ask) {
   if (!fs::exists(file))
-    ask({"the ground truth of this run belongs into '" + file.string() + "' (" + missing(file) +
-         "); press Enter once it is there: "});
+    ask({"the ground truth of this run belongs into '" + file.string() + "' (" + missing(file) + ")",
+         {},
+         AnswerKind::file_saved});
   while (true) {
-    Question again{missing(file) + " for the ground truth of this run; press Enter once it is there: "};
+    Question again{missing(file) + " for the ground truth of this run", {}, AnswerKind::file_saved};
     if (fs::exists(file)) try {
         return read_poses(file);
       } catch (const Error& error) {
-        again = {"; press Enter once the file is corrected: ", {error.what(), error.remedy()}};
+        again = {"", {error.what(), error.remedy()}, AnswerKind::file_corrected};
       }
     ask(again);
   }
@@ -157,8 +158,7 @@ std::vector<recording::TruthSample> FileSource::complete(const recording::Run& r
   while (true) {
     const std::string why = implausible_end(run, poses.rows.front(), poses.rows.back());
     if (why.empty()) break;
-    ask_({"'" + file.string() + "': " + why +
-          " Press Enter once the file is corrected, or to keep it as it is: "});
+    ask_({"'" + file.string() + "': " + why, {}, AnswerKind::file_corrected_or_kept});
     Poses again = poses_from(file, ask_);
     const bool same = again == poses;
     poses = std::move(again);

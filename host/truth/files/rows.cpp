@@ -6,8 +6,8 @@
 #include <cstring>
 #include <limits>
 
-#include "host/base/csv_table.hpp"
 #include "host/base/error.hpp"
+#include "host/base/formats/csv_table.hpp"
 
 namespace astro::truth {
 namespace {

@@ -7,10 +7,19 @@
 
 namespace astro::truth {
 
+/// What answers a question: a value that is typed, or a sign that something was done. Whoever asks knows by which key.
+enum class AnswerKind {
+  value,
+  file_saved,              // the file that was missing is there
+  file_corrected,          // the file that could not be read is corrected
+  file_corrected_or_kept,  // the file that looks wrong is corrected, or is right as it is
+};
+
 /// What a person is asked. `occasion`, if it has a fact: why, and what would help; it goes before the text.
 struct Question {
   std::string text;
   Remark occasion = {};
+  AnswerKind answer = AnswerKind::value;
 };
 
 /// Puts the question, returns the answer.

@@ -81,7 +81,7 @@ TEST(Fixed, SaturatesWhereTwosComplementWouldTurnAround) {
 TEST(Fixed, LiteralsAreTheNearestStep) {
   static_assert(Q16(1.0).raw() == 65536);
   static_assert(Q16(-1.5).raw() == -98304);
-  static_assert(Q30(0.1).raw() == 107374182);                           // 107374182.4
+  static_assert(Fixed<30>(0.1).raw() == 107374182);                     // 107374182.4
   static_assert(Q16(0x1p-17).raw() == 1 && Q16(-0x1p-17).raw() == -1);  // a tie goes away from zero
   static_assert(Q16(32767.9999847412109375).raw() == INT32_MAX && Q16(-32768.0).raw() == INT32_MIN);
 }

@@ -8,7 +8,7 @@
 namespace astro {
 namespace {
 
-using Flash = sim::NorFlash<2, 4096, 8>;
+using Flash = sim::SimulatedFlash<2, 4096, 8>;
 using Mark = CommitMark<Flash, 64, 40>;
 
 TEST(CommitMark, OfABlankFlashIsNone) {

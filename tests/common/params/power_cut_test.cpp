@@ -45,8 +45,8 @@ void cut_everywhere(const Flash& flash, const ParameterSet& old, std::mt19937& r
 
 template <class Flash>
 class PowerCutOn : public ::testing::Test {};
-using Geometries =
-    ::testing::Types<sim::NorFlash<2, 2048, 4>, sim::NorFlash<3, 1024, 256>, sim::NorFlash<2, 1024, 1>>;
+using Geometries = ::testing::Types<sim::SimulatedFlash<2, 2048, 4>, sim::SimulatedFlash<3, 1024, 256>,
+                                    sim::SimulatedFlash<2, 1024, 1>>;
 TYPED_TEST_SUITE(PowerCutOn, Geometries);
 
 TYPED_TEST(PowerCutOn, EveryByteOfACommitLeavesTheOldOrTheNewSet) {

@@ -15,10 +15,10 @@ namespace astro {
 namespace {
 
 /// Counts reads that leave the part.
-struct StrictFlash : sim::NorFlash<3, 1024, 4> {
+struct StrictFlash : sim::SimulatedFlash<3, 1024, 4> {
   void read(std::uint32_t offset, std::span<std::uint8_t> into) noexcept {
     if (offset > kBytes || into.size() > kBytes - offset) ++outside;
-    NorFlash::read(offset, into);
+    SimulatedFlash::read(offset, into);
   }
   int outside = 0;
 };

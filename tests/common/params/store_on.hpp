@@ -32,7 +32,7 @@ class StoreOn : public ::testing::Test {
 
   void TearDown() override { EXPECT_EQ(flash.misuses(), 0); }
 };
-using Geometries =
-    ::testing::Types<sim::NorFlash<2, 4096, 4>, sim::NorFlash<4, 4096, 256>, sim::NorFlash<3, 1024, 1>>;
+using Geometries = ::testing::Types<sim::SimulatedFlash<2, 4096, 4>, sim::SimulatedFlash<4, 4096, 256>,
+                                    sim::SimulatedFlash<3, 1024, 1>>;
 
 }  // namespace astro::support

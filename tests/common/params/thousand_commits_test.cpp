@@ -22,7 +22,7 @@ namespace {
 
 using sim::Tear;
 using support::random_valid_set;
-using Flash = sim::NorFlash<4, 4096, 8>;
+using Flash = sim::SimulatedFlash<4, 4096, 8>;
 constexpr std::uint32_t kSectorBytes = Flash::kSectorBytes;
 
 /// A flash that records the calls.

@@ -9,7 +9,7 @@
 namespace astro {
 namespace {
 
-using ParameterSectors = sim::NorFlash<4, 4096, 8>;
+using ParameterSectors = sim::SimulatedFlash<4, 4096, 8>;
 constexpr int kCommits = ASTRO_WEAR_COMMITS;
 
 /// Erases per sector, (most - least) / mean, after kCommits; sector `unused`, if any, does not count.

@@ -44,7 +44,7 @@ class FaultLogOn : public ::testing::Test {
   Flash flash;
   void TearDown() override { EXPECT_EQ(flash.misuses(), 0); }
 };
-using LogGeometries =
-    ::testing::Types<sim::NorFlash<2, 4096, 8>, sim::NorFlash<4, 512, 1>, sim::NorFlash<2, 1024, 256>>;
+using LogGeometries = ::testing::Types<sim::SimulatedFlash<2, 4096, 8>, sim::SimulatedFlash<4, 512, 1>,
+                                       sim::SimulatedFlash<2, 1024, 256>>;
 
 }  // namespace astro::support

@@ -64,7 +64,7 @@ TEST(Geometry, DiametersFollowFromRatioAndScale) {
   const Geometry geometry = true_geometry(config);
   EXPECT_NEAR(geometry.diameter_m[1] / geometry.diameter_m[0], 1.00416, 1e-15);
   EXPECT_NEAR(geometry.diameter_m[0] + geometry.diameter_m[1], 2.0 * 0.072 * 1.005, 1e-15);
-  EXPECT_NEAR(true_eb(config), 0.99521, 1e-15);
+  EXPECT_EQ(geometry.wheelbase_m, config.true_wheelbase_m);
 }
 
 // Dead reckoning in doubles on nothing but the counts, with the true geometry: what is left is one count of

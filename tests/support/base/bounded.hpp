@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -23,7 +24,7 @@ inline constexpr bool kMeasuresMemory = true;
 
 struct Taken {
   std::string complaint;       // what the work threw; "" if nothing
-  bool ended = false;          // by itself, not by a signal
+  bool ended = false;          // by itself, not by a signal, and no expectation failed in it
   std::size_t peak_bytes = 0;  // of memory, beyond what the process had at the start
   double cpu_s = 0;
 };
@@ -55,7 +56,8 @@ Taken measured(Work work) {
         std::to_string(static_cast<std::size_t>(usage.ru_maxrss) * 1024 - resident * page) + " " +
         complaint.substr(0, 4000);
     const ssize_t written = write(ends[1], text.data(), text.size());
-    _exit(written == static_cast<ssize_t>(text.size()) ? 0 : 1);
+    // An expectation of this process that failed is not one of the parent's, so it must not end well.
+    _exit(written == static_cast<ssize_t>(text.size()) && !testing::Test::HasFailure() ? 0 : 1);
   }
   close(ends[1]);
   std::string text;

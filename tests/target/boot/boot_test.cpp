@@ -32,7 +32,7 @@ TEST(Boot, AFetchFromABusyFlashEndsTheRun) {
   Teensy teensy(kImage);
   teensy.run_for(50ms);
   teensy.flash().write_enable();
-  teensy.flash().erase_sector(NorFlash::kParameters);
+  teensy.flash().erase_sector(FlashChip::kParameters);
   teensy.run_for(1ms);  // the image needs nothing from the flash
   teensy.chip().cpu().set(UC_ARM_REG_PC, Memory::kFlash + 0x1031);
   try {
@@ -49,7 +49,7 @@ TEST(Boot, AResetWhileTheFlashErasesIsReported) {
   Teensy teensy(kImage);
   teensy.run_for(50ms);
   teensy.flash().write_enable();
-  teensy.flash().erase_sector(NorFlash::kParameters);
+  teensy.flash().erase_sector(FlashChip::kParameters);
   teensy.press_reset();
   EXPECT_THROW(teensy.run_for(1ms), Stopped);
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hal/teensy40/interrupts.hpp"
+#include "hal/teensy40/core/interrupts.hpp"
 #include "tests/target/image/call_graph.hpp"
 
 namespace astro::target {

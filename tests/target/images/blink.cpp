@@ -1,4 +1,4 @@
-#include "hal/teensy40/interrupts.hpp"
+#include "hal/teensy40/core/interrupts.hpp"
 #include "hal/teensy40/pins.hpp"
 #include "hal/teensy40/registers/registers.hpp"
 

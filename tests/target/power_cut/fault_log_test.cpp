@@ -21,7 +21,7 @@ class FaultLog : public testing::Test {
     client_.connect();
   }
   Teensy& teensy() { return robot_->teensy(); }
-  NorFlash& flash() { return teensy().flash(); }
+  FlashChip& flash() { return teensy().flash(); }
 
   std::vector<FaultLogEntry> entries() {
     std::vector<FaultLogEntry> all;
@@ -96,7 +96,7 @@ TEST_F(FaultLog, APowerCutWhileItIsWrittenLosesNoEntryBeforeIt) {
 }
 
 TEST_F(FaultLog, ASlowEraseDoesNotStarveTheWatchdog) {
-  flash().times = NorFlash::Times::slowest();
+  flash().times = FlashChip::Times::slowest();
   client_.request(protocol::EmergencyStop{});
   teensy().run_for(600ms);
   client_.connect();

@@ -59,7 +59,7 @@ class CutRobot {
     EXPECT_EQ(client_.request(protocol::GetStatus{}).latched_faults, 0U) << "the robot found no valid set";
     return client_.request(protocol::GetParameter{kParameter}).active;
   }
-  NorFlash& flash() { return robot_->teensy().flash(); }
+  FlashChip& flash() { return robot_->teensy().flash(); }
 
  private:
   std::shared_ptr<EmulatedRobot> robot_ =
@@ -78,7 +78,7 @@ bool wiped(const Content& before, const Content& after) {
 /// A flash that holds the old set, such that the next commit begins with (or does without) erasing a sector
 /// that is full of older records.
 Content before_a_commit(CutRobot& robot, bool erases) {
-  robot.start_with(Content(NorFlash::kParametersEnd - NorFlash::kParameters, 0xFF));
+  robot.start_with(Content(FlashChip::kParametersEnd - FlashChip::kParameters, 0xFF));
   EXPECT_TRUE(robot.commit(kOld));
   for (int commits = 0; commits < 200; ++commits) {
     const Content before = robot.content();

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "host/base/error.hpp"
+#include "host/experiment/analysis/recordings.hpp"
+#include "tests/support/base/remarks.hpp"
 
 namespace astro::experiment {
 namespace {
@@ -55,6 +57,23 @@ TEST(Squares, RefuseAParameterThatNoRobotCanHave) {
         ThrowsMessage<Error>(HasSubstr("does not say which b")))
         << value;
   }
+}
+
+TEST(LoadedFactors, OfAllRunsMayDifferByLessThanTheRobotResolvesAndNoMore) {
+  RunSet set{{"one", "two"}, {square(), square()}};
+  set.runs[1].info.parameters["c_R"] += 1e-9;
+  EXPECT_EQ(loaded_in_all(set).c_r, 1.01);
+  set.runs[1].info.parameters["c_R"] += 1e-4;
+  EXPECT_THAT([&] { loaded_in_all(set); },
+              support::ThrowsTelling("the robot had other factors loaded in two than in one",
+                                     Help::check_each_phase));
+}
+
+TEST(Squares, OfRecordingsThatGrowAreCountedAnew) {
+  Recordings recordings(RunSet{{"one"}, {square()}});
+  EXPECT_EQ(recordings.squares().cw.size(), 1U);
+  recordings.add(RunSet{{"two"}, {square()}});
+  EXPECT_EQ(recordings.squares().cw.size(), 2U);
 }
 
 TEST(Squares, OfOneSizeMayDifferByRoundingAndNoMore) {

@@ -116,6 +116,20 @@ TEST(Recordings, ConvertTheirCountsOnceAndKeepWhatTheyGave) {
   EXPECT_THROW((void)recordings.squares(), Error) << "none of them is a square";
 }
 
+TEST(Recordings, ThatAreAddedToConvertTheNewRunsOnly) {
+  recording::Run run = followed_run();
+  add_odometry(run, 0, 0, 0);
+  Recordings recordings(RunSet{{"one"}, {run}});
+  const calibration::WheelSample* first = recordings.trajectories()[0].wheels.data();
+  add_odometry(run, 10'000, 1000, 1000);
+  recordings.add(RunSet{{"two"}, {run}});
+  const std::vector<calibration::Trajectory>& all = recordings.trajectories();
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].wheels.data(), first) << "the samples are those of before";
+  EXPECT_EQ(all[1].name, "two");
+  EXPECT_EQ(all[1].wheels.size(), 2U);
+}
+
 TEST(Trajectories, RefuseRunsWhoseFactorsWouldReferToDifferentThings) {
   recording::Run run = followed_run();
   add_odometry(run, 0, 0, 0);

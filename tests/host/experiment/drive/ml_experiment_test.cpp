@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "host/experiment/analysis/json.hpp"
@@ -11,6 +12,7 @@
 #include "host/experiment/drive/experiment.hpp"
 #include "host/experiment/files/experiment_folder.hpp"
 #include "host/experiment/files/method_names.hpp"
+#include "host/recording/files/run_file.hpp"
 #include "host/robot/parameters/upload.hpp"
 #include "tests/support/robots/desk.hpp"
 
@@ -169,6 +171,33 @@ TEST_F(MlExperiment, DrivesUntilThePrecisionIsReachedAndNoFurther) {
   const RunSet fewer =
       read_specs(folder_.path(), squares_of_phase(until_plan(kTarget, 20), 0, static_cast<int>(squares) - 1));
   EXPECT_FALSE(reaches(precision_of(calibrate(fewer, {})), kTarget)) << "one pair less was not enough";
+}
+
+TEST_F(MlExperiment, ReadsEachRecordingOnceHoweverManyPairsFollow) {
+  hooks_.run.notice = [this](const Remark& remark) {
+    notices_ += remark.fact + '\n';
+    if (!remark.fact.starts_with("before: 2 + 2 squares give")) return;
+    // They were read for this figure. Whoever reads them again finds no recording.
+    for (const char* name :
+         {"square-cw-1.mcap", "square-ccw-1.mcap", "square-cw-2.mcap", "square-ccw-2.mcap"})
+      std::ofstream(folder_.path() / "before" / name) << "no recording";
+  };
+  const Results results = run(until_plan(1e-5, 3));
+  EXPECT_THAT(notices_, HasSubstr("before: 3 + 3 squares give E_d ± "));
+  EXPECT_EQ(results.before().calibration->ml()->estimate.runs.size(), 6U);
+}
+
+TEST_F(MlExperiment, ReadsAgainIfARecordingWasTakenAwayToBeDrivenAgain) {
+  hooks_.run.notice = [this](const Remark& remark) {
+    if (remark.fact.starts_with("before: 2 + 2 squares give"))
+      fs::remove(folder_.path() / "before" / "square-cw-1.mcap");
+  };
+  const Results results = run(until_plan(1e-5, 3));
+  EXPECT_EQ(driven_in("before"), 7);
+  const std::vector<recording::Run>& runs = results.before().runs();
+  ASSERT_EQ(runs.size(), 6U);
+  const recording::Run kept = recording::read_run(folder_.path() / "before" / "square-cw-1.mcap");
+  EXPECT_EQ(runs.front().odometry.front().time_us, kept.odometry.front().time_us);
 }
 
 TEST_F(MlExperiment, SaysWhatWasReachedWhenTheMostSquaresAreDriven) {

@@ -122,7 +122,9 @@ class ATypingPerson {
 class MistypedTruth : public Resume {
  protected:
   /// What was asked about and what was noticed until the squares of the first phase were done.
-  void measure(ATypingPerson& person, bool keep) {
+  void measure(
+      ATypingPerson& person, bool keep,
+      const std::function<void(const RunSpec&, int, int)>& started = [](const RunSpec&, int, int) {}) {
     Plan plan = small_plan();
     plan.truth = "manual";
     plan.runs = 3;
@@ -131,6 +133,7 @@ class MistypedTruth : public Resume {
     hooks.keep = [&](const std::string& why) { return asked.push_back(why), keep; };
     hooks.run.notice = [&](const Remark& remark) { noticed.push_back(remark); };
     hooks.agree = [](const auto&, const auto&) { return false; };
+    hooks.run_started = started;
     truth::ManualSource source(std::ref(person));
     EXPECT_THROW(run_experiment(desk_.client, source, plan, folder_.path(), hooks), Error);
   }
@@ -165,6 +168,17 @@ TEST_F(MistypedTruth, OfAnEarlierSquareIsToldOnceWithItsRecording) {
                                             testing::Field(&Remedy::value, HasSubstr("square-cw-1.mcap")))));
 }
 
+TEST_F(MistypedTruth, IsLookedForWithoutReadingARecordingAgain) {
+  ATypingPerson person(3);
+  const fs::path first = folder_.path() / "before" / "square-cw-1.mcap";
+  measure(person, true, [&](const RunSpec& spec, int, int) {
+    // It was read when the truth of the second square was entered.
+    if (spec.index == 3) std::ofstream(first) << "no recording";
+  });
+  EXPECT_EQ(person.measured, 6) << "all squares were driven and measured";
+  EXPECT_EQ(asked.size(), 1U) << "the third square is compared with the first two";
+}
+
 TEST_F(Resume, AFinishedExperimentDrivesNothing) {
   run(small_plan());
   ExperimentHooks hooks;
@@ -183,7 +197,7 @@ TEST_F(Resume, RefusesAnotherRobot) {
   interrupt_in_run(2);
   Desk other(thesis_robot(0, 2));
   EXPECT_THAT([&] { run_experiment(other.client, other.truth, small_plan(), folder_.path(), {}); },
-              support::ThrowsTelling(HasSubstr("is of robot"), Help::choose_other_folder));
+              support::ThrowsTelling(HasSubstr("is of robot"), Help::choose_other_out_folder));
 }
 
 TEST_F(Resume, RefusesARobotWhoseParametersChangedInTheMiddleOfAPhase) {

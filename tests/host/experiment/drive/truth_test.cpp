@@ -118,8 +118,10 @@ TEST_F(FileTruth, AsksAgainForAFileThatCannotBeReadNamingWhatIsWrongWithIt) {
   const std::vector<std::string> texts{"", "x,y\n0,0\n1,1\n", "x_m,y_m\n0,0\n", "x_m,y_m\n0,0\nnan,0\n",
                                        "x_m,y_m\n0,0\n0.5,0\n"};
   std::vector<std::string> asked;
+  std::vector<truth::AnswerKind> answers;
   truth::FileSource source(folder_.path(), [&](const truth::Question& question) -> std::string {
     asked.push_back(question.occasion.fact + question.text);
+    answers.push_back(question.answer);
     std::ofstream(file) << texts.at(asked.size());
     return "";
   });
@@ -129,9 +131,11 @@ TEST_F(FileTruth, AsksAgainForAFileThatCannotBeReadNamingWhatIsWrongWithIt) {
   ASSERT_EQ(asked.size(), 4U);
   EXPECT_THAT(asked[0], testing::StartsWith("the ground truth of this run belongs into '" + file.string()));
   EXPECT_THAT(asked[1], testing::AllOf(HasSubstr("before-line-1.csv"), HasSubstr("x_m or x_mm"),
-                                       HasSubstr("once the file is corrected")));
+                                       testing::Not(HasSubstr("Enter"))));
   EXPECT_THAT(asked[2], HasSubstr("fewer than two poses"));
   EXPECT_THAT(asked[3], HasSubstr("line 3"));
+  using enum truth::AnswerKind;
+  EXPECT_THAT(answers, testing::ElementsAre(file_saved, file_corrected, file_corrected, file_corrected));
 }
 
 TEST_F(FileTruth, SpreadsRowsByTheColumnOfTimeWhateverItsUnit) {
@@ -175,11 +179,12 @@ TEST_F(FileTruth, RefusesTimesThatAreNoneAndAnEndThatIsHardlyThatOfTheRun) {
 
 TEST_F(FileTruth, KeepsAnImplausibleEndOfAFileThatIsLeftAsItIs) {
   std::ofstream(folder_.path() / "before-line-1.csv") << "x_m,y_m\n0,0\n2.5,0\n";
-  int asked = 0;
-  truth::FileSource source(folder_.path(),
-                           [&](const truth::Question&) -> std::string { return ++asked, ""; });
+  std::vector<truth::AnswerKind> asked;
+  truth::FileSource source(folder_.path(), [&](const truth::Question& question) -> std::string {
+    return asked.push_back(question.answer), "";
+  });
   run_ = drive_line(desk_, source);
-  EXPECT_EQ(asked, 1);
+  EXPECT_THAT(asked, testing::ElementsAre(truth::AnswerKind::file_corrected_or_kept));
   EXPECT_NEAR(recording::end_error(run_).x_m, 2.5 - run_.odometry.back().x_m, 1e-6);
 }
 

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 
 #include "common/protocol/messages.hpp"
-#include "host/robot/arbitration/asker.hpp"
 #include "host/robot/arbitration/driver_rule.hpp"
+#include "host/robot/arbitration/program_session.hpp"
 #include "host/robot/arbitration/request_arbiter.hpp"
 #include "host/robot/arbitration/robot_queue.hpp"
 #include "host/robot/arbitration/staging_area.hpp"
@@ -284,26 +284,26 @@ TEST(Exchange, AnAnswerThatComesLaterThanIdsAreReusedIsNotItsOwn) {
 
 // ---- one program
 
-TEST(Asker, OfFivePingsTheOldestIsForgotten) {
-  Asker asker(kDriver, {});
+TEST(ProgramSession, OfFivePingsTheOldestIsForgotten) {
+  ProgramSession session(kDriver, {});
   RobotQueue queue;
   std::vector<std::uint16_t> ids;
   for (std::uint16_t i = 1; i <= 5; ++i) {
-    Exchange& ping = asker.ping({Ping::kId, i}, body_of(Ping{}, i));
+    Exchange& ping = session.ping({Ping::kId, i}, body_of(Ping{}, i));
     queue.send(ping, true, milliseconds(1));
     ids.push_back(ping.robot_id);
   }
-  EXPECT_EQ(asker.take_pong({Pong::kId, ids[0]}, milliseconds(2)), std::nullopt);
+  EXPECT_EQ(session.take_pong({Pong::kId, ids[0]}, milliseconds(2)), std::nullopt);
   for (std::uint16_t i = 1; i < 5; ++i) {
-    EXPECT_EQ(asker.take_pong({Pong::kId, ids[i]}, milliseconds(2)),
+    EXPECT_EQ(session.take_pong({Pong::kId, ids[i]}, milliseconds(2)),
               (Header{Ping::kId, static_cast<std::uint16_t>(i + 1)}));
-    EXPECT_EQ(asker.take_pong({Pong::kId, ids[i]}, milliseconds(2)), std::nullopt) << "answered once";
+    EXPECT_EQ(session.take_pong({Pong::kId, ids[i]}, milliseconds(2)), std::nullopt) << "answered once";
   }
 }
 
 // ---- all together
 
-TEST(RequestArbiter, RepliesGoToTheAskerWithItsOwnIdAndAreTakenOnce) {
+TEST(RequestArbiter, RepliesGoToTheProgramThatAskedWithItsOwnIdAndAreTakenOnce) {
   RequestArbiter requests;
   requests.join(kDriver, {11, "one"});
   requests.join(kOther, {22, "two"});

@@ -19,7 +19,7 @@ class Rest : public testing::Test {
   }
   double seconds_waited() {
     const microseconds start = client.now();
-    rested = wait_for_rest(client);
+    rested = wait_until_power_off(client);
     return static_cast<double>((client.now() - start).count()) / 1e6;
   }
   void add(const char* name, std::int32_t micro) {

@@ -107,6 +107,18 @@ TEST_F(Parameters, AreWhatTheRobotSaysTheyAre) {
   EXPECT_THROW(parameters.row("no_such"), Error);
 }
 
+TEST_F(Parameters, ThatAreNumbersAreReadAsSuchOneByOneOrTogether) {
+  const auto parameters = RemoteParameters::fetch(client);
+  EXPECT_EQ(parameters.number("b"), 0.29);
+  const std::map<std::string, double> all = parameters.numbers();
+  EXPECT_EQ(all.at("b"), 0.29);
+  EXPECT_EQ(all.at("c_R"), 1.0);
+  EXPECT_FALSE(all.contains("robot_name")) << "a text";
+  EXPECT_THAT([&] { (void)parameters.number("robot_name"); },
+              testing::ThrowsMessage<Error>(HasSubstr("'robot_name' is a text, not a number")));
+  EXPECT_THROW((void)parameters.number("no_such"), Error);
+}
+
 TEST_F(Parameters, StagedValuesComeInForceWithTheCommit) {
   auto parameters = RemoteParameters::fetch(client);
   parameters.stage("b", 0.3);

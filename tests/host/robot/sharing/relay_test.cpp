@@ -72,7 +72,7 @@ class SharedPort : public testing::Test {
   RelayedProgram second{rig, 22, "astrolabe stop"};
 };
 
-TEST_F(SharedPort, AnswersReturnToTheAskerOnly) {
+TEST_F(SharedPort, AnswersReturnOnlyToTheProgramThatAsked) {
   first.client.request(GetStatus{});
   second.client.request(GetStatus{});
   EXPECT_EQ(second.client.request(GetParameterInfo{2}).name.view(), "b");

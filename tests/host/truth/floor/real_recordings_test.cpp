@@ -4,7 +4,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "host/base/csv_table.hpp"
+#include "host/base/formats/csv_table.hpp"
 #include "host/base/numbers.hpp"
 #include "host/truth/files/tracker_file.hpp"
 #include "host/truth/floor/floor_path.hpp"

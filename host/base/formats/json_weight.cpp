@@ -1,4 +1,4 @@
-#include "host/base/json_weight.hpp"
+#include "host/base/formats/json_weight.hpp"
 
 #include <cstddef>
 

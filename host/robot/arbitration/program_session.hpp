@@ -10,10 +10,10 @@
 
 namespace astro::robot {
 
-/// The requests of one program: the one under way, its pings, and the last answer.
-class Asker {
+/// One program at the port and its requests: the one under way, its pings, and the last answer.
+class ProgramSession {
  public:
-  Asker(SessionId id, PortUser user) : id_(id), user_(std::move(user)) {}
+  ProgramSession(SessionId id, PortUser user) : id_(id), user_(std::move(user)) {}
 
   SessionId id() const { return id_; }
   const PortUser& user() const { return user_; }

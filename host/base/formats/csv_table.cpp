@@ -1,4 +1,4 @@
-#include "host/base/csv_table.hpp"
+#include "host/base/formats/csv_table.hpp"
 
 #include "host/base/error.hpp"
 

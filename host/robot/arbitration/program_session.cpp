@@ -1,4 +1,4 @@
-#include "host/robot/arbitration/asker.hpp"
+#include "host/robot/arbitration/program_session.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -10,7 +10,7 @@ namespace astro::robot {
 
 using protocol::Header;
 
-Exchange& Asker::ping(const Header& header, ByteView body) {
+Exchange& ProgramSession::ping(const Header& header, ByteView body) {
   const auto repeated =
       std::find_if(pings_.begin(), pings_.end(), [&](const Exchange& ping) { return ping.header == header; });
   if (repeated != pings_.end()) return *repeated;
@@ -19,15 +19,17 @@ Exchange& Asker::ping(const Header& header, ByteView body) {
   return oldest = Exchange(header, body);
 }
 
-std::optional<Header> Asker::take_pong(const Header& answer, microseconds now) {
+std::optional<Header> ProgramSession::take_pong(const Header& answer, microseconds now) {
   for (Exchange& ping : pings_)
     if (ping.is_answered_by(answer, now)) return std::exchange(ping, {}).header;
   return std::nullopt;
 }
 
-bool Asker::has_answered(const Header& request) const { return !answer_.empty() && answered_ == request; }
+bool ProgramSession::has_answered(const Header& request) const {
+  return !answer_.empty() && answered_ == request;
+}
 
-void Asker::remember_answer(const Header& request, const Bytes& frame) {
+void ProgramSession::remember_answer(const Header& request, const Bytes& frame) {
   if (request.message_id == protocol::Ping::kId || request.message_id == protocol::Hello::kId) return;
   if (has_under_way(request)) end();
   if (request_rules::halts(request.message_id)) return;
@@ -35,7 +37,7 @@ void Asker::remember_answer(const Header& request, const Bytes& frame) {
   answer_ = frame;
 }
 
-void Asker::forget() {
+void ProgramSession::forget() {
   end();
   pings_ = {};
   answer_.clear();

@@ -1,4 +1,4 @@
-#include "host/emulator/chip/nor_flash.hpp"
+#include "host/emulator/chip/flash_chip.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@ constexpr std::uint32_t kSectorBytes = 4096, kPageBytes = 256;
 
 }  // namespace
 
-void NorFlash::restore_power() {
+void FlashChip::restore_power() {
   faults_.restore_power();
   enabled_ = false;
   busy_until_ = 0;
@@ -19,21 +19,21 @@ void NorFlash::restore_power() {
 }
 
 /// Called by all commands except the one for the status.
-void NorFlash::refuse_while_busy() {
+void FlashChip::refuse_while_busy() {
   if (busy()) machine_.fail("NOR flash: a command while the last one runs is ignored");
 }
 
-void NorFlash::write_enable() {
+void FlashChip::write_enable() {
   refuse_while_busy();
   enabled_ = true;
 }
 
-std::array<std::uint8_t, 3> NorFlash::identity() {
+std::array<std::uint8_t, 3> FlashChip::identity() {
   refuse_while_busy();
   return {0xEF, 0x40, 0x15};
 }
 
-bool NorFlash::begin(std::uint32_t address, Cycles takes) {
+bool FlashChip::begin(std::uint32_t address, Cycles takes) {
   refuse_while_busy();
   if (!enabled_) machine_.fail("NOR flash: programming or erasing without write enable (0x06) is ignored");
   if (address < kParameters || address >= kParametersEnd)
@@ -47,13 +47,13 @@ bool NorFlash::begin(std::uint32_t address, Cycles takes) {
   return powered() && address >= kParameters && address < kParametersEnd;
 }
 
-void NorFlash::erase_sector(std::uint32_t address) {
+void FlashChip::erase_sector(std::uint32_t address) {
   if (!begin(address, times.erase)) return;
   const std::uint32_t first = address / kSectorBytes * kSectorBytes;
   faults_.erase(first, content_.subspan(first, kSectorBytes));
 }
 
-void NorFlash::program(std::uint32_t address, std::span<const std::uint8_t> bytes) {
+void FlashChip::program(std::uint32_t address, std::span<const std::uint8_t> bytes) {
   if (bytes.size() > kPageBytes) machine_.fail("NOR flash: more than a page is programmed at once");
   if (!begin(address, times.page)) return;
   const std::uint32_t page = address / kPageBytes * kPageBytes;

@@ -1,4 +1,4 @@
-#include "host/base/firmware_image.hpp"
+#include "host/base/formats/firmware_image.hpp"
 
 #include <gmock/gmock.h>
 #include <sys/stat.h>

@@ -1,6 +1,6 @@
-#include "hal/teensy40/interrupts.hpp"
+#include "hal/teensy40/core/interrupts.hpp"
 
-#include "hal/teensy40/cpu.hpp"
+#include "hal/teensy40/core/cpu.hpp"
 #include "hal/teensy40/registers/registers.hpp"
 
 namespace astro::teensy40 {

@@ -13,7 +13,7 @@ namespace astro::emulator {
 /// The serial NOR flash of a Teensy 4.0 (W25Q16JV): commands and their times, over the memory that the
 /// processor reads its program from. Programming clears bits, erasing sets all bits of a sector. Failures,
 /// above all power cuts, are those of the simulated board's flash.
-class NorFlash : public Model {
+class FlashChip : public Model {
  public:
   struct Times {
     Cycles page = 400 * kCyclesPerMicrosecond, erase = 45'000 * kCyclesPerMicrosecond;
@@ -22,7 +22,7 @@ class NorFlash : public Model {
   };
   static constexpr std::uint32_t kParameters = 0x1F'0000, kParametersEnd = 0x1F'F000;
 
-  NorFlash(Machine& machine, std::span<std::uint8_t> content) : machine_(machine), content_(content) {}
+  FlashChip(Machine& machine, std::span<std::uint8_t> content) : machine_(machine), content_(content) {}
 
   // No registers: it takes part in time.
   std::uint32_t read(std::uint32_t) override { return 0; }
