@@ -1,0 +1,190 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/host/calibration/ml_drives.hpp"
+#include "tests/host/experiment/import/drive_files.hpp"
+#include "tests/support/base/json.hpp"
+#include "tests/support/base/temporary_folder.hpp"
+#include "tests/support/programs/program.hpp"
+
+// `calibrate files`, `calibrate bag`, `calibrate check` and `inspect` on what other programs recorded.
+namespace astro {
+namespace {
+
+namespace fs = std::filesystem;
+using support::astrolabe;
+using support::Outcome;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr int kWrongUsage = 2, kNotBetter = 3;
+
+class Files : public testing::Test {
+ protected:
+  static std::vector<calibration::Trajectory> drives(int count, std::uint64_t seed = calibration::kSeed) {
+    simulation::study::DriveModel model = calibration::astro_drive();
+    model.metres_per_count = test::kMetresPerCount;
+    model.clock_offset_s = 0.031;
+    return calibration::squares(model, count, 2, seed);
+  }
+
+  std::string at(const std::string& name) const { return (folder_.path() / name).string(); }
+
+  std::vector<std::string> pairs(int count, const std::string& name = "drive") {
+    std::vector<std::string> words;
+    int i = 0;
+    for (const calibration::Trajectory& run : drives(count)) {
+      const std::string stem = at(name + std::to_string(++i));
+      words.insert(words.end(), {"--wheels", test::write_counts(stem + ".csv", run).string(), "--truth",
+                                 test::write_motive(stem + "-take.csv", run).string()});
+    }
+    return words;
+  }
+
+  static Outcome run(std::vector<std::string> words, const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return astrolabe(words);
+  }
+
+  static std::vector<std::string> sizes() {
+    return {"--wheel-diameter", "0.084", "--counts-per-turn", "4096", "--wheelbase", "0.29"};
+  }
+
+  Outcome calibrated(int count, std::vector<std::string> more = sizes()) {
+    std::vector<std::string> words{"calibrate", "files"};
+    for (const std::string& word : pairs(count)) words.push_back(word);
+    return run(words, more);
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(Files, AreCalibratedFromOneCommandWithErrorsAndAVerdict) {
+  std::vector<std::string> more = sizes();
+  more.insert(more.end(), {"--out", at("calib.toml"), "--json"});
+  const Outcome outcome = calibrated(4, more);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const nlohmann::json json = support::parse_json(outcome.out);
+  const calibration::WheelFactors actual = calibration::astro_drive().actual;
+  EXPECT_NEAR(json["c_R"], actual.c_r, 4 * json["standard_errors"]["c_R"].get<double>());
+  EXPECT_NEAR(json["b_m"], actual.b_m, 4 * json["standard_errors"]["b_m"].get<double>());
+  EXPECT_EQ(json["verdict"]["verdict"], "better");
+  EXPECT_EQ(json["verdict"]["drives"].size(), 4);
+  EXPECT_THAT(outcome.err, HasSubstr("drive1: "));
+  EXPECT_THAT(outcome.err, HasSubstr("poses of 'ASTRO' at 60 Hz, 0 lost; y is up"));
+  EXPECT_TRUE(fs::exists(at("calib.toml")));
+}
+
+TEST_F(Files, AreCheckedWithACalibrationThatHasNotSeenThem) {
+  std::vector<std::string> more = sizes();
+  more.insert(more.end(), {"--out", at("calib.toml")});
+  ASSERT_EQ(calibrated(4, more).code, 0);
+  std::vector<std::string> words{"calibrate", "check", "--with", at("calib.toml"), "--json"};
+  int i = 0;
+  for (const calibration::Trajectory& run : drives(2, 77)) {
+    const std::string stem = at("unseen" + std::to_string(++i));
+    words.insert(words.end(), {"--wheels", test::write_degrees(stem + ".txt", run).string(), "--truth",
+                               test::write_tum(stem + ".tum", run).string()});
+  }
+  // Angles need no counts, and the calibration from counts holds for them.
+  const Outcome outcome = run(words, {"--wheel-diameter", "0.084", "--wheelbase", "0.29"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const nlohmann::json json = support::parse_json(outcome.out);
+  // Slip alone leaves about 60 mm, which no factors change.
+  EXPECT_LT(json[1]["end_m"].get<double>(), 0.5 * json[0]["end_m"].get<double>());
+}
+
+TEST_F(Files, OfARobotThatIsRightAlreadyGiveAnAdviceAndAnExitCodeOfTheirOwn) {
+  const calibration::WheelFactors actual = calibration::astro_drive().actual;
+  std::ofstream(at("robot.toml")) << fmt::format(
+      "[parameters]\nwheel_diameter = 0.084\ncounts_per_motor_rev = 4096\nb = {}\nc_R = {}\nc_L = {}\n",
+      actual.b_m, actual.c_r, actual.c_l);
+  const Outcome outcome = calibrated(4, {"--robot", at("robot.toml"), "--out", at("calib.toml")});
+  EXPECT_EQ(outcome.code, kNotBetter) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("Keep what it carries."));
+  EXPECT_THAT(outcome.err, HasSubstr("although it is not shown to be better"));
+  std::ifstream file(at("calib.toml"));
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_THAT(text, testing::AnyOf(HasSubstr("verdict = \"undecided\""), HasSubstr("verdict = \"worse\"")));
+}
+
+TEST_F(Files, InABagAreCalibratedWithTheControllersParameters) {
+  std::ofstream(at("base.yaml")) << "diff_drive_controller:\n  ros__parameters:\n    wheel_separation: 0.29\n"
+                                    "    wheel_radius: 0.042\n    left_wheel_names: [\"wheel_left_joint\"]\n"
+                                    "    right_wheel_names: [\"wheel_right_joint\"]\n";
+  std::vector<std::string> words{"calibrate", "bag", "--robot", at("base.yaml"), "--json"};
+  int i = 0;
+  for (const calibration::Trajectory& run : drives(2))
+    words.push_back(test::write_bag(at("bag" + std::to_string(++i)), run).string());
+  const Outcome outcome = astrolabe(words);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const nlohmann::json json = support::parse_json(outcome.out);
+  EXPECT_NEAR(json["c_R"], calibration::astro_drive().actual.c_r,
+              4 * json["standard_errors"]["c_R"].get<double>());
+}
+
+TEST_F(Files, ThatDoNotPairAreWrongUsage) {
+  const std::vector<std::string> some = pairs(1);
+  EXPECT_EQ(astrolabe({"calibrate", "files", "--wheels", some[1], "--wheelbase", "0.3"}).code, kWrongUsage);
+  EXPECT_EQ(astrolabe({"calibrate", "files"}).code, kWrongUsage);
+  EXPECT_EQ(astrolabe({"calibrate", "check", "--with", "x.toml"}).code, kWrongUsage);
+}
+
+TEST_F(Files, WhoseSizesAreNotKnownAreAskedForByTheirOptions) {
+  const Outcome outcome = calibrated(1, {"--wheel-diameter", "0.084", "--wheelbase", "0.29"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("give --counts-per-turn, or a file with --robot"));
+}
+
+TEST_F(Files, AreInspected) {
+  const calibration::Trajectory drive = drives(1)[0];
+  const Outcome take = astrolabe({"inspect", test::write_motive(at("take.csv"), drive).string()});
+  EXPECT_EQ(take.code, 0) << take.err;
+  EXPECT_THAT(take.out, StartsWith("Motive CSV 1.23: 1 body, lengths in Millimeters"));
+  EXPECT_THAT(take.out, HasSubstr("ASTRO"));
+  const Outcome wheels =
+      astrolabe({"inspect", test::write_counts(at("ticks.csv"), drive).string(), "--json"});
+  EXPECT_EQ(support::parse_json(wheels.out)["kind"], "wheels") << wheels.err;
+  EXPECT_EQ(support::parse_json(wheels.out)["unit"], "counts");
+  const fs::path bag_folder = test::write_bag(at("bag"), drive);
+  const Outcome bag = astrolabe({"inspect", bag_folder.string()});
+  EXPECT_THAT(bag.out, HasSubstr("/tracker/pose"));
+  EXPECT_THAT(bag.out, HasSubstr("wheels: wheel_left_joint (left)"));
+  const Outcome poses =
+      astrolabe({"inspect", bag_folder.string(), "--truth-topic", "/tracker/pose", "--json"});
+  EXPECT_EQ(support::parse_json(poses.out)["bodies"][0]["samples"], drive.truth.size()) << poses.err;
+  std::ofstream(at("noise.bin")) << "nothing that anybody knows\n1 2 3\n";
+  const Outcome unknown = astrolabe({"inspect", at("noise.bin")});
+  EXPECT_EQ(unknown.code, 1);
+  EXPECT_THAT(unknown.err, HasSubstr("noise.bin"));
+}
+
+TEST_F(Files, ThatRobotsCarryAreNotReplacedWithoutAQuestion) {
+  support::Simulator simulator;
+  std::ofstream(at("calib.toml"))
+      << "[parameters]\nc_R = 1.001\nc_L = 0.999\nb = 0.29\n[calibration]\nmethod = "
+         "\"ml\"\nabsolute = true\n[verdict]\nverdict = \"undecided\"\nsentence = \"Not "
+         "shown to be better.\"\n";
+  const Outcome asked = astrolabe({"upload", at("calib.toml"), "--port", simulator.port()});
+  EXPECT_EQ(asked.code, 1);  // nobody is there to answer
+  EXPECT_THAT(asked.err, HasSubstr("warning: Not shown to be better."));
+  const Outcome agreed = astrolabe({"upload", at("calib.toml"), "--port", simulator.port(), "--yes"});
+  EXPECT_EQ(agreed.code, 0) << agreed.err;
+  EXPECT_THAT(agreed.err, HasSubstr("warning: Not shown to be better."));
+}
+
+TEST_F(Files, ThatMakeARobotWorseAreLoadedOnlyByForce) {
+  support::Simulator simulator;
+  std::ofstream(at("calib.toml"))
+      << "[parameters]\nc_R = 1.001\nc_L = 0.999\nb = 0.29\n[calibration]\nmethod = "
+         "\"ml\"\nabsolute = true\n[verdict]\nverdict = \"worse\"\nsentence = \"Worse.\"\n";
+  const Outcome refused = astrolabe({"upload", at("calib.toml"), "--port", simulator.port(), "--yes"});
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("worse than what the robot carried"));
+  EXPECT_EQ(astrolabe({"upload", at("calib.toml"), "--port", simulator.port(), "--yes", "--force"}).code, 0);
+}
+
+}  // namespace
+}  // namespace astro
