@@ -138,8 +138,9 @@ TEST(Experiment, FactorsThatAreWorseOnUnseenDrivesAreNotLoaded) {
   const std::map<std::string, robot::Value> right{
       {"c_R", c_large}, {"c_L", c_small}, {"b", config.true_wheelbase_m}};
   robot::upload(desk.client, right);
-  EXPECT_THAT(support::told_by([&] { calibrate(desk, squares_only(1)); }),
-              support::Tells(HasSubstr("worse than what the robot carried"), Help::calibrate_again_or_override));
+  EXPECT_THAT(
+      support::told_by([&] { calibrate(desk, squares_only(1)); }),
+      support::Tells(HasSubstr("worse than what the robot carried"), Help::calibrate_again_or_override));
   const robot::RemoteParameters after = robot::RemoteParameters::fetch(desk.client);
   EXPECT_NEAR(std::get<double>(after.value("c_R")), c_large, 1e-8);
 }
