@@ -36,7 +36,7 @@ set(ASTRO_LAYERS
   "host/experiment/analysis     : common host/base host/calibration host/experiment/files host/recording host/report/sections host/robot/parameters"
   "host/experiment/drive        : host/base host/calibration/end_poses host/experiment/analysis host/experiment/files host/recording host/robot host/truth/source"
   "host/experiment/files        : common host/base host/calibration host/recording"
-  "host/experiment/import       : host/base host/calibration/motion host/experiment/analysis host/experiment/files host/recording host/ros2 host/truth/bags host/truth/files host/truth/floor"
+  "host/experiment/import       : host/base host/calibration/motion host/experiment/analysis host/experiment/files host/recording host/report/sections host/ros2 host/truth/bags host/truth/files host/truth/floor"
   "host/motor/bench             : host/base host/motor/model host/motor/wiring host/robot"
   "host/motor/model             : host/base"
   "host/motor/wiring            : host/base host/motor/model"

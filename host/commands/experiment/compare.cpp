@@ -18,7 +18,7 @@ void add_compare(console::Command app) {
   const auto options = std::make_shared<Options>();
   const console::Command command =
       app.add_subcommand("compare", "put recorded squares side by side: before, after, ...");
-  add_results(command, options->results);
+  add_results(command, options->results).required();
   command.add_flag("--json", options->json, "print one JSON object");
   command.footer(
       "Examples:\n"

@@ -15,6 +15,7 @@
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
 #include "host/console/options.hpp"
+#include "host/console/wrong_usage.hpp"
 #include "host/robot/port/ports.hpp"
 #include "host/simulation/server/pty.hpp"
 #include "host/simulation/server/runtime_link.hpp"
@@ -198,6 +199,11 @@ sim::Config reference_robot() {
 }
 
 void prepare(SimOptions& options, std::size_t flash_bytes) {
+  const simulation::NetworkTrackerConfig& tracker = options.server.tracker;
+  if (options.server.fast && (tracker.vrpn_port || tracker.natnet_port))
+    throw console::WrongUsage(
+        "with --fast virtual time runs ahead of the clocks that a tracker's clients go by: leave it out, or "
+        "--vrpn-port and --natnet-port");
   if (options.server.pty.empty()) options.server.pty = robot::make_runtime_folder() / "astro.pty";
   simulation::sweep_dead_links(robot::runtime_folder());
   options.mocap.seed = options.server.tracker.faults.seed = options.robot.seed;

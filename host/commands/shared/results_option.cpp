@@ -5,11 +5,14 @@
 
 namespace astro::commands {
 
-void add_results(console::Command command, ResultsOption& option) {
-  command
-      .add_option("folders", option.folders, "an experiment's folder, or two or more folders of recordings")
-      .required();
+console::Option add_results(console::Command command, ResultsOption& option) {
+  const console::Option folders =
+      command
+          .add_option("folders", option.folders,
+                      "an experiment's folder, or two or more folders of recordings")
+          .type_name("FOLDER");
   add_damaged_flag(command, option.damaged);
+  return folders;
 }
 
 experiment::Results read_results(const ResultsOption& option) {

@@ -14,7 +14,7 @@ struct ResultsOption {
   bool damaged = false;
 };
 
-void add_results(console::Command command, ResultsOption& option);
+console::Option add_results(console::Command command, ResultsOption& option);
 
 /// Prints warnings about incomplete recordings and about phases of different robots.
 experiment::Results read_results(const ResultsOption& option);

@@ -4,6 +4,7 @@
 
 #include "host/base/files.hpp"
 #include "host/recording/files/log_time.hpp"
+#include "host/recording/files/robot_messages.hpp"
 #include "host/recording/mcap/writer.hpp"
 #include "host/recording/run/run_metadata.hpp"
 
@@ -14,7 +15,8 @@ namespace astro::recording {
 /// (renamed) can be read up to about its last two seconds.
 ///
 /// Topics  /odom nav_msgs/msg/Odometry (odom -> base_link), /wheel_counts astrolabe_msgs/msg/WheelCounts,
-///         /truth geometry_msgs/msg/PoseStamped (frame truth); run info as Metadata "astrolabe.run".
+///         /truth geometry_msgs/msg/PoseStamped (frame truth); run info as Metadata "astrolabe.run". For viewers /tf and,
+///         if the run knows the robot's sizes, /joint_states and /robot_description (robot_messages.hpp).
 /// Times   stamps inside the messages are the robot's clock. MCAP's own times are UTC, so that viewers show
 ///         when it was driven and not 1970: the first message is at RunInfo::started_at, the others at their
 ///         distance from it by the robot's clock. Without a started_at they are the robot's clock, too.
@@ -31,11 +33,15 @@ class RunWriter {
   void close(const RunInfo& final);
 
  private:
+  void describe(std::uint64_t time_ns);
+
   PartFile file_;
   McapWriter mcap_;
   RunRecord record_;
   LogTime log_time_;
-  std::uint16_t odometry_ = 0, counts_ = 0, truth_ = 0;
+  RobotMessages robot_;
+  bool described_ = false;
+  std::uint16_t odometry_ = 0, counts_ = 0, truth_ = 0, transforms_ = 0, joints_ = 0, description_ = 0;
 };
 
 }  // namespace astro::recording

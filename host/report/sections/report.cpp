@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/report/page/page.hpp"
+#include "host/report/sections/drives.hpp"
 #include "host/report/sections/figures.hpp"
 #include "host/report/sections/history.hpp"
 #include "host/report/sections/provenance.hpp"
@@ -15,7 +16,7 @@ namespace astro::report {
 std::string render_html(const ReportInput& input) {
   const auto groups = group_runs(input.phases);
   return render_page(input.title,
-                     {headline(input), parameter_table(input), history(input), scatter(input),
+                     {headline(input), drive_comparison(input), parameter_table(input), history(input), scatter(input),
                       factor_table(input), rms_tables(input), run_figures(input, groups), provenance(input)},
                      figure_data(input.phases, groups));
 }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,11 +39,30 @@ struct Phase {
   std::vector<LoadedValue> loaded{};          // in the order of ReportInput::parameters; may be empty
 };
 
+/// How one set of factors dead-reckons a drive: odometry less ground truth. NaN where nothing was measured.
+struct DriveFigures {
+  double end_m = 0, heading_rad = 0, path_rms_m = 0;
+};
+
+/// A drive with the factors of the first and of the last phase.
+struct DriveRow {
+  std::string name;
+  DriveFigures before, after;
+};
+
+/// Drives of any shape, compared one by one.
+struct DriveComparison {
+  std::string verdict;  // sentences
+  std::vector<DriveRow> drives;
+  DriveFigures before, after;  // root mean squares over the drives
+};
+
 struct ReportInput {
   std::string title;
   std::vector<DescriptionRow> description;  // the robot and the set-up
   std::vector<Phase> phases;                // in the order they were driven; the first is the reference
   std::vector<ParameterRow> parameters;
+  std::optional<DriveComparison> comparison{};  // for drives that are no squares
   std::string method;              // how the parameters were found; a blank line starts a new paragraph
   std::vector<std::string> notes;  // anything else a reader should know, such as seeds
 };

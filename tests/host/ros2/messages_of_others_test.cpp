@@ -10,7 +10,7 @@
 namespace astro::ros2 {
 namespace {
 
-constexpr StampedPose kPose{1'700'000'000'123'456'789, "map", "base", 1, -2, 3, 0.5, -0.5, 0.5, 0.5};
+const StampedPose kPose{1'700'000'000'123'456'789, "map", "base", 1, -2, 3, 0.5, -0.5, 0.5, 0.5};
 
 /// Writes CDR of either byte order, so that the reader is compared with something else than CdrWriter.
 class AnyCdr {

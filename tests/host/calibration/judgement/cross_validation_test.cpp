@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 
+#include "host/calibration/end_poses/replay.hpp"
 #include "tests/host/calibration/ml_drives.hpp"
 
 namespace astro::calibration {
@@ -86,16 +88,74 @@ class CrossValidationWith : public testing::TestWithParam<Wrong> {};
 TEST_P(CrossValidationWith, ThreePerMilleOffInOneRespectRecommendsTheNewFactors) {
   const DriveModel model = slow_tracker();
   int recommended = 0;
-  for (std::uint64_t seed = 101; seed <= 112; ++seed) {
+  for (std::uint64_t seed = 101; seed <= 114; ++seed) {
     const double wrong = seed % 2 == 0 ? 0.003 : -0.003;
     recommended += verdict_on(model, off_by(model.actual, GetParam(), wrong), 10, seed) == Verdict::better;
   }
-  std::printf("seeds 101 to 112: recommended for %d robots of 12\n", recommended);
-  EXPECT_EQ(recommended, 12);
+  std::printf("seeds 101 to 114: recommended for %d robots of 14\n", recommended);
+  EXPECT_EQ(recommended, 14);
 }
 
 INSTANTIATE_TEST_SUITE_P(Factors, CrossValidationWith,
                          testing::Values(Wrong::ratio, Wrong::scale, Wrong::wheelbase));
+
+/// What a tape measures after squares of a robot that drives by `in_use`.
+CrossValidation judged_by_ends(const WheelFactors& in_use, int squares_each, std::uint64_t seed) {
+  DriveModel model = astro_drive();
+  model.loaded = in_use;
+  model.lever = {};
+  std::vector<EndPose> ends[2];
+  for (int i = 0; i < 2 * squares_each; ++i) {
+    const Sense sense = i % 2 == 0 ? Sense::cw : Sense::ccw;
+    ends[i % 2].push_back(simulation::study::end_error(
+        simulation::study::synthetic_drive(
+            simulation::study::square_course(3, sense), model, "square",
+            simulation::study::derived_seed(seed, static_cast<std::uint64_t>(i))),
+        in_use));
+  }
+  return cross_validate(ends[0], ends[1], 3, in_use, Options{Method::extended});
+}
+
+TEST(CrossValidationByEnds, OfRobotsWhoseFactorsAreRightClaimsNoImprovement) {
+  int claims = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed)
+    claims += judged_by_ends(astro_drive().actual, 5, seed).verdict == Verdict::better;
+  std::printf("seeds 1 to 40: an improvement that is none is claimed of %d robots of 40\n", claims);
+  EXPECT_LE(claims, 2);  // 5 %
+}
+
+TEST(CrossValidationByEnds, OfRobotsWhoseWheelsDifferByThreePerMilleRecommendsTheNewFactors) {
+  int recommended = 0;
+  for (std::uint64_t seed = 101; seed <= 140; ++seed)
+    recommended +=
+        judged_by_ends(off_by(astro_drive().actual, Wrong::ratio, seed % 2 == 0 ? 0.003 : -0.003), 5, seed)
+            .verdict == Verdict::better;
+  std::printf("seeds 101 to 140: recommended for %d robots of 40\n", recommended);
+  EXPECT_EQ(recommended, 40);
+}
+
+TEST(CrossValidationByEnds, OfOneSquareInADirectionSaysNothing) {
+  EXPECT_EQ(judged_by_ends(astro_drive().loaded, 1, kSeed).verdict, Verdict::unknown);
+}
+
+TEST(CrossValidationByEnds, BearsAHeadingThatWasNotMeasured) {
+  const WheelFactors in_use{1, 1, 0.29}, right{1.002, 0.998, 0.289};
+  const auto ends = [&](Sense sense) {
+    std::vector<EndPose> list;
+    for (const double scatter_m : {-0.01, 0.0, 0.01}) {
+      EndPose end = replay_square(3, sense, in_use, right);
+      end.x_m += scatter_m;
+      end.y_m -= scatter_m;
+      if (scatter_m != 0) end.theta_rad = std::nan("");
+      list.push_back(end);
+    }
+    return list;
+  };
+  const CrossValidation judged =
+      cross_validate(ends(Sense::cw), ends(Sense::ccw), 3, in_use, Options{Method::least_squares});
+  EXPECT_EQ(judged.verdict, Verdict::better);
+  EXPECT_LT(judged.found().final_m, judged.in_use().final_m / 5);
+}
 
 TEST(CrossValidation, ClaimsNoImprovementFromDrivesThatContradictEachOther) {
   // The tracker was calibrated anew between the runs, and its metre changed by 4 %.

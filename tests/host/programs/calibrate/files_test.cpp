@@ -125,6 +125,19 @@ TEST_F(Files, InABagAreCalibratedWithTheControllersParameters) {
               4 * json["standard_errors"]["c_R"].get<double>());
 }
 
+TEST_F(Files, AreReportedDriveByDrive) {
+  std::vector<std::string> words{"report", "--out", at("report.html")};
+  for (const std::string& word : pairs(3)) words.push_back(word);
+  const Outcome outcome = run(words, sizes());
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  std::ifstream file(at("report.html"));
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_THAT(page, HasSubstr("Better than what the robot carries"));
+  EXPECT_THAT(page, HasSubstr("<th scope=\"row\">drive2</th>"));
+  EXPECT_EQ(astrolabe({"report"}).code, kWrongUsage);
+  EXPECT_EQ(astrolabe({"report", folder_.path().string(), "--with", "x.toml"}).code, kWrongUsage);
+}
+
 TEST_F(Files, ThatDoNotPairAreWrongUsage) {
   const std::vector<std::string> some = pairs(1);
   EXPECT_EQ(astrolabe({"calibrate", "files", "--wheels", some[1], "--wheelbase", "0.3"}).code, kWrongUsage);

@@ -45,6 +45,12 @@ struct Recorder {
   support::Program program;
 };
 
+TEST(TrackerOnTheNetwork, IsNotServedFasterThanTime) {
+  const support::Outcome outcome = astrolabe({"sim", "--fast", "--vrpn-port", "0"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("leave it out, or --vrpn-port"));
+}
+
 TEST(TrackerOnTheNetwork, GivesTheFactorsThatTheSimulatorsOwnTruthGives) {
   Simulator simulator({"--vrpn-port", "0", "--natnet-port", "0", "--tracker-latency", "0.03",
                        "--tracker-ahead", "0.08", "--tracker-left", "-0.03", "--tracker-drops", "0.1",

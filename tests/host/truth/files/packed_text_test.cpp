@@ -1,0 +1,77 @@
+#include "host/truth/files/packed_text.hpp"
+
+#include <gmock/gmock.h>
+#include <zlib.h>
+
+#include "tests/support/base/remarks.hpp"
+
+namespace astro::truth {
+namespace {
+
+using support::Tells;
+using support::told_by;
+using testing::HasSubstr;
+
+Bytes gzip(const std::string& text) {
+  z_stream stream{};
+  deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY);
+  Bytes out(deflateBound(&stream, text.size()) + 64);
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+  stream.avail_in = static_cast<uInt>(text.size());
+  stream.next_out = out.data();
+  stream.avail_out = static_cast<uInt>(out.size());
+  deflate(&stream, Z_FINISH);
+  out.resize(stream.total_out);
+  deflateEnd(&stream);
+  return out;
+}
+
+TEST(PackedText, IsTheTextThatWasPacked) {
+  std::string text;
+  for (int i = 0; i < 50'000; ++i) text += std::to_string(i) + ",1.25\n";
+  EXPECT_TRUE(is_gzip(gzip(text)));
+  EXPECT_EQ(unpacked(gzip(text), "x.csv.gz"), text);
+  EXPECT_FALSE(is_gzip(Bytes{'F', 'o', 'r'}));
+}
+
+TEST(PackedText, OfSeveralPartsIsAllOfThem) {
+  Bytes both = gzip("first\n");
+  const Bytes second = gzip("second\n");
+  both.insert(both.end(), second.begin(), second.end());
+  EXPECT_EQ(unpacked(both, "x"), "first\nsecond\n");
+}
+
+TEST(PackedText, ThatIsCutOffAnywhereIsRefused) {
+  const Bytes whole = gzip("a line of text that is long enough\n");
+  for (std::size_t size = 3; size < whole.size(); ++size)
+    EXPECT_THAT(told_by([&] {
+                  unpacked({whole.data(), size}, "take.csv.gz");
+                }),
+                Tells(HasSubstr("'take.csv.gz' is packed with gzip and cut off"), Help::use_original))
+        << size;
+}
+
+TEST(PackedText, ThatIsDamagedIsTheTextOrRefusedAndNothingElse) {
+  const std::string text = "1,2,3\n4,5,6\n7,8,9\n";
+  const Bytes whole = gzip(text);
+  for (std::size_t i = 0; i < whole.size(); ++i)
+    for (const unsigned flip : {0x01u, 0x80u, 0xFFu}) {
+      Bytes damaged = whole;
+      damaged[i] = static_cast<std::uint8_t>(damaged[i] ^ flip);
+      if (!is_gzip(damaged)) continue;
+      try {
+        EXPECT_EQ(unpacked(damaged, "x"), text) << i;  // a byte of the header that means nothing
+      } catch (const Error&) {
+      }
+    }
+}
+
+TEST(PackedText, ThatWouldFillTheMemoryIsRefused) {
+  const Bytes bomb = gzip(std::string(std::size_t{64} << 20, '0'));
+  EXPECT_LT(bomb.size(), 100'000u);
+  EXPECT_THAT(told_by([&] { unpacked(bomb, "bomb.gz"); }),
+              Tells(HasSubstr("unpacks to more than 32 MiB"), Help::unpack_first));
+}
+
+}  // namespace
+}  // namespace astro::truth
