@@ -15,10 +15,11 @@ namespace astro::report {
 
 std::string render_html(const ReportInput& input) {
   const auto groups = group_runs(input.phases);
-  return render_page(input.title,
-                     {headline(input), drive_comparison(input), parameter_table(input), history(input), scatter(input),
-                      factor_table(input), rms_tables(input), run_figures(input, groups), provenance(input)},
-                     figure_data(input.phases, groups));
+  return render_page(
+      input.title,
+      {headline(input), drive_comparison(input), parameter_table(input), history(input), scatter(input),
+       factor_table(input), rms_tables(input), run_figures(input, groups), provenance(input)},
+      figure_data(input.phases, groups));
 }
 
 void write_report(const std::filesystem::path& path, const ReportInput& input) {
