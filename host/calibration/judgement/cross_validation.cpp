@@ -26,12 +26,20 @@ std::vector<std::size_t> group(std::size_t index, std::size_t groups, std::size_
   return members;
 }
 
-PreparedRuns chosen(const PreparedRuns& all, const std::vector<std::size_t>& members, bool are_chosen) {
-  PreparedRuns out;
+/// Some of the runs, with the unknowns that a fit of all runs gave them, where others begin: the optimum is close.
+struct Part {
+  PreparedRuns prepared;
+  std::vector<Unknowns> start;
+};
+
+Part part(const PreparedRuns& all, const MlFit& fit, const std::vector<std::size_t>& members,
+          bool are_members) {
+  Part out;
   for (std::size_t i = 0; i < all.runs.size(); ++i) {
-    if ((std::find(members.begin(), members.end(), i) != members.end()) != are_chosen) continue;
-    out.runs.push_back(all.runs[i]);
-    out.clocks.push_back(all.clocks[i]);
+    if ((std::find(members.begin(), members.end(), i) != members.end()) != are_members) continue;
+    out.prepared.runs.push_back(all.runs[i]);
+    out.prepared.clocks.push_back(all.clocks[i]);
+    out.start.push_back(fit.unknowns()[i]);
   }
   return out;
 }
@@ -42,8 +50,8 @@ struct Followed {
   std::vector<double> cost;  // -2 log likelihood of each run
 };
 
-Followed followed(const PreparedRuns& prepared, const WheelFactors& factors, const MlOptions& options) {
-  const MlFit fit(prepared, factors, options, true);
+Followed followed(const Part& runs, const WheelFactors& factors, const MlOptions& options) {
+  const MlFit fit(runs.prepared, factors, options, true, runs.start);
   Followed out{path_errors(fit, factors).runs, {}};
   for (const InnovationSums& sums : fit.sums()) out.cost.push_back(sums.cost);
   return out;
@@ -144,12 +152,13 @@ CrossValidation cross_validate(std::span<const Trajectory> runs, const WheelFact
   with_noise.noise = all.noise;
   with_noise.stride = all.stride;
   const PreparedRuns prepared = prepare(runs, in_use, options.clock_known, Density::independent);
+  const MlFit fit(prepared, in_use, with_noise);
   const std::size_t groups = std::min(kMostGroups, prepared.runs.size());
   for (std::size_t i = 0; i < groups && prepared.runs.size() > 1; ++i) {
     const std::vector<std::size_t> members = group(i, groups, prepared.runs.size());
-    const PreparedRuns held_out = chosen(prepared, members, true), others = chosen(prepared, members, false);
+    const Part held_out = part(prepared, fit, members, true), others = part(prepared, fit, members, false);
     try {
-      const WheelFactors found = estimate_ml(others, in_use, with_noise).factors;
+      const WheelFactors found = estimate_ml(others.prepared, in_use, with_noise, others.start).factors;
       const Followed by_in_use = followed(held_out, in_use, with_noise);
       const Followed by_found = followed(held_out, found, with_noise);
       for (std::size_t k = 0; k < by_found.errors.size(); ++k)

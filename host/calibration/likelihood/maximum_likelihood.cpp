@@ -199,14 +199,15 @@ MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& loa
   return estimate_ml(prepare(runs, loaded, options.clock_known, Density::independent), loaded, options);
 }
 
-MlEstimate estimate_ml(const PreparedRuns& prepared, const WheelFactors& loaded, const MlOptions& options) {
+MlEstimate estimate_ml(const PreparedRuns& prepared, const WheelFactors& loaded, const MlOptions& options,
+                       std::span<const Unknowns> start) {
   require_variety(prepared);
   // Checked with the usual noise before the fit, because factors that the runs do not observe diverge in a
   // fit. Not checked without headings: the lever arm is not known yet, and without it spins show nothing.
   if (std::any_of(prepared.runs.begin(), prepared.runs.end(),
                   [](const PreparedRun& run) { return run.has_headings; }))
     require_observed(errors_of(bound_of(prepared, loaded, {}, {}, options.clock_known), loaded), loaded);
-  MlEstimate estimate = summarise(MlFit(prepared, loaded, options));
+  MlEstimate estimate = summarise(MlFit(prepared, loaded, options, false, start));
   estimate.left_out = prepared.left_out;
   return estimate;
 }

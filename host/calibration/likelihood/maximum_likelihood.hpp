@@ -8,6 +8,7 @@
 
 #include "host/base/remedy.hpp"
 #include "host/calibration/likelihood/slip_events.hpp"
+#include "host/calibration/likelihood/unknowns.hpp"
 #include "host/calibration/motion/trajectory.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
 #include "host/calibration/preparation/preparation.hpp"
@@ -121,8 +122,10 @@ struct MlEstimate {
 MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& loaded,
                        const MlOptions& options = {});
 
-/// The same of runs that were prepared before, with Density::independent; they must outlive the call.
-MlEstimate estimate_ml(const PreparedRuns& prepared, const WheelFactors& loaded, const MlOptions& options);
+/// The same of runs that were prepared before, with Density::independent; they must outlive the call. `start`: as MlFit
+/// takes it (ml_fit.hpp).
+MlEstimate estimate_ml(const PreparedRuns& prepared, const WheelFactors& loaded, const MlOptions& options,
+                       std::span<const Unknowns> start = {});
 
 /// The smallest covariance of c_R, c_L, b (b in m) that an unbiased estimator can have (Cramer-Rao bound): the
 /// inverse of the Fisher information of these runs. `options.noise` must be given. The path comes from the

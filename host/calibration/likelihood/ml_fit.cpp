@@ -41,10 +41,11 @@ double scale_variance(double& value, int power, double change, double least, dou
 }  // namespace
 
 MlFit::MlFit(const PreparedRuns& prepared, const WheelFactors& loaded, const MlOptions& options,
-             bool factors_fixed)
+             bool factors_fixed, std::span<const Unknowns> start)
     : runs_(prepared.runs),
       loaded_(loaded),
-      unknowns_(start_values(prepared, loaded)),
+      unknowns_(start.empty() ? start_values(prepared, loaded)
+                              : std::vector<Unknowns>(start.begin(), start.end())),
       noise_(options.noise ? *options.noise : start_noise(prepared)) {
   fixed_.factors = factors_fixed;
   fixed_.clock = options.clock_known;
@@ -55,7 +56,7 @@ MlFit::MlFit(const PreparedRuns& prepared, const WheelFactors& loaded, const MlO
     if (fixed_.factors) u.head<3>() << loaded.c_r, loaded.c_l, loaded.b_m;
   }
   // The first fit is least squares, because a sample that looks like an outlier to a first guess may be right.
-  maximise();
+  if (start.empty() || !options.robust || !options.noise) maximise();
   require_plausible();
   if (options.robust) robust_ = RobustMode::tracker_and_wheels;
   if (options.noise) {

@@ -20,9 +20,10 @@ namespace astro::calibration {
 class MlFit {
  public:
   /// `prepared` must outlive it. With `factors_fixed` c_R, c_L and b stay as `loaded`, and only the nuisance
-  /// parameters are fitted.
+  /// parameters are fitted. `start`: unknowns of these runs from another fit that are nearly right, one for each run; without
+  /// them start values are sought.
   MlFit(const PreparedRuns& prepared, const WheelFactors& loaded, const MlOptions& options,
-        bool factors_fixed = false);
+        bool factors_fixed = false, std::span<const Unknowns> start = {});
 
   const std::vector<PreparedRun>& runs() const { return runs_; }
   const std::vector<Unknowns>& unknowns() const { return unknowns_; }  // of each run, their shared part equal

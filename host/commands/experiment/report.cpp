@@ -19,7 +19,9 @@ report::ReportInput of_drives(const ImportOptions& import, const std::filesystem
   const experiment::Calibration found =
       experiment::calibrate(set, {experiment::MethodChoice::Family::ml, {}});
   if (with.empty()) return experiment::drive_report(set, found);
-  return experiment::drive_report(set, found, experiment::factors_of_file(with, found.wheel.value()));
+  experiment::NamedFactors factors = experiment::factors_of_file(with, found.wheel.value());
+  factors.name = with.filename().string();
+  return experiment::drive_report(set, found, factors);
 }
 
 }  // namespace

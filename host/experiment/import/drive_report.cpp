@@ -37,6 +37,9 @@ void place_on_robot(recording::Run& run, const calibration::RunFit& fit, double 
 
 /// Odometry as it would have been with these factors.
 void dead_reckon_again(recording::Run& run, const NominalWheel& wheel, const WheelFactors& factors) {
+  run.info.parameters["c_R"] = factors.c_r;
+  run.info.parameters["c_L"] = factors.c_l;
+  run.info.parameters["b"] = factors.b_m;
   const double metres = wheel.metres_per_count();
   recording::OdometrySample at;
   for (std::size_t i = 0; i < run.odometry.size(); ++i) {
