@@ -16,14 +16,10 @@ namespace fs = std::filesystem;
 
 bool is_own_recording(const fs::path& path) {
   if (fs::is_directory(path)) return false;
-  bool found = false;
-  recording::BagHandlers handlers;
-  handlers.wants = [&](const recording::BagTopic& topic) {
-    found = found || topic.type == ros2::wheel_counts_type().name;
-    return false;
-  };
-  recording::read_bag(path, handlers);
-  return found;
+  const std::vector<recording::BagTopic> topics = recording::read_bag(path).topics;
+  return std::any_of(topics.begin(), topics.end(), [](const recording::BagTopic& topic) {
+    return topic.type == ros2::wheel_counts_type().name;
+  });
 }
 
 /// Our counters wrap at 2^32.

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "host/experiment/analysis/calibration.hpp"
+#include "host/recording/files/run_file.hpp"
 #include "tests/host/calibration/ml_drives.hpp"
 #include "tests/host/experiment/import/drive_files.hpp"
 #include "tests/support/base/remarks.hpp"
@@ -205,6 +206,19 @@ TEST_F(Import, SaysWhichSizeIsMissing) {
   EXPECT_EQ(without(&RobotGeometry::wheel_diameter_m), Help::give_wheel_diameter);
   EXPECT_EQ(without(&RobotGeometry::counts_per_turn), Help::give_counts_per_turn);
   EXPECT_EQ(without(&RobotGeometry::wheelbase_m), Help::give_wheelbase);
+}
+
+TEST_F(Import, KnowsTheRobotOfARecordingOfOurs) {
+  const std::vector<DriveFiles> pair{
+      {test::write_counts(at("w.csv"), drives()[0]), test::write_tum(at("t.tum"), drives()[0])}};
+  const recording::Run run = import_drives(pair, choices()).set.runs[0];
+  recording::write_run(at("own.mcap"), run);
+  const std::vector<DriveFiles> own{{at("own.mcap"), at("t.tum")}};
+  const recording::Run back = import_drives(own, {}).set.runs[0];  // no sizes are given
+  EXPECT_EQ(back.info.parameters, run.info.parameters);
+  ASSERT_EQ(back.odometry.size(), run.odometry.size());
+  EXPECT_EQ(back.odometry.back().left_counts - back.odometry.front().left_counts,
+            run.odometry.back().left_counts - run.odometry.front().left_counts);
 }
 
 TEST_F(Import, RefusesWheelsThatLeap) {
