@@ -96,13 +96,12 @@ void add_drive_files(console::Command command, ImportOptions& options) {
       .one_each_time();
 }
 
-void add_table_choices(console::Command command, ImportOptions& options) {
+void add_table_choices(console::Command command, recording::WheelTable& table) {
   command
-      .add_option("--wheel-columns", options.table.columns,
+      .add_option("--wheel-columns", table.columns,
                   "the columns of a CSV without names, as\ntime_s,left_counts,right_counts (or _rad, _m)")
       .type_name("NAMES");
-  command.add_flag("--per-interval", options.table.per_interval,
-                   "each row is the travel since the row before");
+  command.add_flag("--per-interval", table.per_interval, "each row is the travel since the row before");
 }
 
 void add_bag_choices(console::Command command, ImportOptions& options) {
@@ -150,7 +149,7 @@ void add_geometry_choices(console::Command command, ImportOptions& options) {
 
 void add_import(console::Command command, ImportOptions& options) {
   add_drive_files(command, options);
-  add_table_choices(command, options);
+  add_table_choices(command, options.table);
   add_bag_choices(command, options);
   add_tracker_choices(command, options);
   add_geometry_choices(command, options);

@@ -27,7 +27,7 @@ struct ImportOptions {
 void add_drive_files(console::Command command, ImportOptions& options);
 
 /// How to read files of these kinds: what is not said is recognised or asked for in an error.
-void add_table_choices(console::Command command, ImportOptions& options);
+void add_table_choices(console::Command command, recording::WheelTable& table);
 void add_bag_choices(console::Command command, ImportOptions& options);
 void add_tracker_choices(console::Command command, ImportOptions& options);
 void add_geometry_choices(console::Command command, ImportOptions& options);

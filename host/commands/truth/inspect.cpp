@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/commands/base/flags.hpp"
+#include "host/commands/shared/import_options.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/commands/truth/commands.hpp"
 #include "host/commands/truth/inspect_view.hpp"
@@ -19,12 +20,7 @@ void add_inspect(console::Command app) {
   const console::Command command =
       app.add_subcommand("inspect", "say what is in a file of a tracker, a robot or a ROS 2 bag");
   command.add_option("file", options->file, "the file, or the folder of a bag").required();
-  command
-      .add_option("--wheel-columns", options->table.columns,
-                  "the columns of a CSV without names, as\ntime_s,left_counts,right_counts (or _rad, _m)")
-      .type_name("NAMES");
-  command.add_flag("--per-interval", options->table.per_interval,
-                   "each row is the travel since the row before");
+  add_table_choices(command, options->table);
   command
       .add_option("--truth-topic", options->topic.topic,
                   "bags: look at the poses of this topic: lost, gaps,\nup axis, noise at rest")
@@ -32,7 +28,8 @@ void add_inspect(console::Command app) {
   add_json_flag(command, options->json);
   command.footer(
       "Recognised by content: Motive CSV, Vicon CSV, TUM, EuRoC, CSV with names and units (also packed with\n"
-      "gzip); bags (.mcap, .db3, folders); tables of wheels; sizes of a robot (.toml, .yaml).\n"
+      "gzip); bags (.mcap, .db3, folders); tables of wheels. By the end of its name: sizes of a robot "
+      "(.toml, .yaml).\n"
       "Examples:\n"
       "  astrolabe inspect take.csv\n"
       "  astrolabe inspect drive.mcap --truth-topic /tracker/pose\n"

@@ -45,7 +45,7 @@ struct FileInspection {
   std::optional<RobotGeometry> robot;
 };
 
-/// The kind is recognised by the content; `table` describes wheels without names of columns. `topic`: of a bag, the one
+/// The kind is recognised by the content, that of settings (.toml, .yaml) by the end of the name; `table` describes wheels without names of columns. `topic`: of a bag, the one
 /// stream of poses that is inspected as a tracker's recording, which takes 72 bytes of memory for each pose; without
 /// it a bag of any size is read in constant memory.
 ///
