@@ -20,23 +20,42 @@ constexpr int kPriorRuns = 4;
 
 /// Every so many-th run, so that a group has runs of all kinds and senses if they were driven by turns or one after
 /// the other.
-std::vector<std::size_t> group(std::size_t index, std::size_t groups, std::size_t runs) {
+std::vector<std::size_t> members_of(std::size_t index, std::size_t groups, std::size_t runs) {
   std::vector<std::size_t> members;
   for (std::size_t i = index; i < runs; i += groups) members.push_back(i);
   return members;
 }
 
-/// Some of the runs, with the unknowns that a fit of all runs gave them, where others begin: the optimum is close.
-struct Part {
+bool contains(std::span<const std::size_t> members, std::size_t run) {
+  return std::find(members.begin(), members.end(), run) != members.end();
+}
+
+/// What the runs that are no members say of the factors: one step of the search from where the fit of all runs ended. Half
+/// of the runs move the factors by a standard error or so, and over that much the wheels' paths are linear in them.
+WheelFactors found_without(const MlFit& fit, std::span<const std::size_t> members) {
+  std::vector<InnovationSums> others;
+  SharedInformation information = SharedInformation::Zero();
+  for (std::size_t i = 0; i < fit.sums().size(); ++i) {
+    if (contains(members, i)) continue;
+    others.push_back(fit.sums()[i]);
+    information += reduced(others.back(), fit.fixed(), 0).information;
+  }
+  const Unknowns found = fit.unknowns().front() + gauss_newton_step(others, fit.fixed(), 0).front();
+  const WheelFactors factors{found[kCRight], found[kCLeft], found[kB]};
+  const FactorCovariance covariance = shared_covariance(information, fit.fixed()).topLeftCorner<3, 3>();
+  require_observed(errors_of(covariance, factors), factors);
+  return factors;
+}
+
+/// The members of a group, with the unknowns that the fit of all runs gave them, where others begin.
+struct Group {
   PreparedRuns prepared;
   std::vector<Unknowns> start;
 };
 
-Part part(const PreparedRuns& all, const MlFit& fit, const std::vector<std::size_t>& members,
-          bool are_members) {
-  Part out;
-  for (std::size_t i = 0; i < all.runs.size(); ++i) {
-    if ((std::find(members.begin(), members.end(), i) != members.end()) != are_members) continue;
+Group group_of(const PreparedRuns& all, const MlFit& fit, std::span<const std::size_t> members) {
+  Group out;
+  for (const std::size_t i : members) {
     out.prepared.runs.push_back(all.runs[i]);
     out.prepared.clocks.push_back(all.clocks[i]);
     out.start.push_back(fit.unknowns()[i]);
@@ -50,7 +69,7 @@ struct Followed {
   std::vector<double> cost;  // -2 log likelihood of each run
 };
 
-Followed followed(const Part& runs, const WheelFactors& factors, const MlOptions& options) {
+Followed followed(const Group& runs, const WheelFactors& factors, const MlOptions& options) {
   const MlFit fit(runs.prepared, factors, options, true, runs.start);
   Followed out{path_errors(fit, factors).runs, {}};
   for (const InnovationSums& sums : fit.sums()) out.cost.push_back(sums.cost);
@@ -155,14 +174,14 @@ CrossValidation cross_validate(std::span<const Trajectory> runs, const WheelFact
   const MlFit fit(prepared, in_use, with_noise);
   const std::size_t groups = std::min(kMostGroups, prepared.runs.size());
   for (std::size_t i = 0; i < groups && prepared.runs.size() > 1; ++i) {
-    const std::vector<std::size_t> members = group(i, groups, prepared.runs.size());
-    const Part held_out = part(prepared, fit, members, true), others = part(prepared, fit, members, false);
+    const std::vector<std::size_t> members = members_of(i, groups, prepared.runs.size());
     try {
-      const WheelFactors found = estimate_ml(others.prepared, in_use, with_noise, others.start).factors;
+      const WheelFactors found = found_without(fit, members);
+      const Group held_out = group_of(prepared, fit, members);
       const Followed by_in_use = followed(held_out, in_use, with_noise);
       const Followed by_found = followed(held_out, found, with_noise);
       for (std::size_t k = 0; k < by_found.errors.size(); ++k)
-        out.runs.push_back({by_in_use.errors.at(k), by_found.errors[k],
+        out.runs.push_back({by_in_use.errors.at(k), by_found.errors[k], found,
                             (by_in_use.cost.at(k) - by_found.cost[k]) / all.dispersion});
     } catch (const Error& error) {
       out.not_judged.push_back({error.what(), error.remedy()});
@@ -184,7 +203,7 @@ CrossValidation cross_validate(std::span<const EndPose> cw, std::span<const EndP
     if (index >= ends.size()) return;  // of the direction with fewer squares
     const std::string name = (sense == Sense::cw ? "cw " : "ccw ") + std::to_string(index + 1);
     const EndPose expected = replay_square(side_m, sense, in_use, found);
-    HeldOutRun run{left_of(ends[index], {}, name), left_of(ends[index], expected, name)};
+    HeldOutRun run{left_of(ends[index], {}, name), left_of(ends[index], expected, name), found};
     run.gain = cost_of(run.in_use, scatter) - cost_of(run.found, scatter);
     out.runs.push_back(run);
   };

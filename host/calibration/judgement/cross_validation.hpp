@@ -21,6 +21,7 @@ namespace astro::calibration {
 /// One run with the factors in use, and with factors that were found without it.
 struct HeldOutRun {
   RunErrors in_use, found;  // by dead reckoning; of end poses alone, path_rms_m is NaN
+  WheelFactors without_it;  // what was found without the run
   /// How much more likely the drive is with the factors that were found: difference of -2 log likelihood. The
   /// path errors above grow with everything that slipped since the start; this weighs what each moment adds,
   /// so it tells factors apart whose paths differ by less than the slip.
@@ -48,7 +49,8 @@ struct CrossValidation {
 /// `in_use`: the factors to compare with. `all`: the estimate from all runs; its noise model, spacing of samples and
 /// dispersion are used for each group.
 ///
-/// Cost    as many estimates as there are groups: one for each run, but ten at most.
+/// Cost    less than that of the estimate: each run is followed twice more, whatever the number of groups (one for each run,
+///         but ten at most).
 CrossValidation cross_validate(std::span<const Trajectory> runs, const WheelFactors& in_use,
                                const MlEstimate& all, const MlOptions& options);
 

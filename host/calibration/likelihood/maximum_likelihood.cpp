@@ -22,15 +22,6 @@ constexpr double kOpen = 0.05;
 constexpr double kUnlikely = 1e-3;
 constexpr double kEnoughTurning_rad = 6;
 
-void require_observed(const MlErrors& se, const WheelFactors& factors) {
-  if (se.scale < kOpen && se.E_d < kOpen && se.b_m < kOpen * factors.b_m) return;
-  throw Error(fmt::format("the runs do not separate c_R, c_L and b (standard errors {:.2g}, {:.2g} and "
-                          "{:.2g} m), because all "
-                          "of them move alike",
-                          se.c_r, se.c_l, se.b_m),
-              {Help::drive_lines_and_turns});
-}
-
 // Rounding can turn an infinite variance into one that is not positive.
 double root(double variance) {
   return variance > 0 ? std::sqrt(variance) : std::numeric_limits<double>::infinity();
@@ -196,18 +187,14 @@ FactorCovariance bound_of(const PreparedRuns& prepared, const WheelFactors& fact
 
 MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& loaded,
                        const MlOptions& options) {
-  return estimate_ml(prepare(runs, loaded, options.clock_known, Density::independent), loaded, options);
-}
-
-MlEstimate estimate_ml(const PreparedRuns& prepared, const WheelFactors& loaded, const MlOptions& options,
-                       std::span<const Unknowns> start) {
+  const PreparedRuns prepared = prepare(runs, loaded, options.clock_known, Density::independent);
   require_variety(prepared);
   // Checked with the usual noise before the fit, because factors that the runs do not observe diverge in a
   // fit. Not checked without headings: the lever arm is not known yet, and without it spins show nothing.
   if (std::any_of(prepared.runs.begin(), prepared.runs.end(),
                   [](const PreparedRun& run) { return run.has_headings; }))
     require_observed(errors_of(bound_of(prepared, loaded, {}, {}, options.clock_known), loaded), loaded);
-  MlEstimate estimate = summarise(MlFit(prepared, loaded, options, false, start));
+  MlEstimate estimate = summarise(MlFit(prepared, loaded, options));
   estimate.left_out = prepared.left_out;
   return estimate;
 }
@@ -236,6 +223,15 @@ MlErrors errors_of(const FactorCovariance& covariance, const WheelFactors& facto
   se.scale = propagated(0.5, 0.5, 0);
   se.b_over_scale_m = propagated(-b_over_scale_m / scale / 2, -b_over_scale_m / scale / 2, 1 / scale);
   return se;
+}
+
+void require_observed(const MlErrors& se, const WheelFactors& factors) {
+  if (se.scale < kOpen && se.E_d < kOpen && se.b_m < kOpen * factors.b_m) return;
+  throw Error(fmt::format("the runs do not separate c_R, c_L and b (standard errors {:.2g}, {:.2g} and "
+                          "{:.2g} m), because all "
+                          "of them move alike",
+                          se.c_r, se.c_l, se.b_m),
+              {Help::drive_lines_and_turns});
 }
 
 }  // namespace astro::calibration

@@ -122,11 +122,6 @@ struct MlEstimate {
 MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& loaded,
                        const MlOptions& options = {});
 
-/// The same of runs that were prepared before, with Density::independent; they must outlive the call. `start`: as MlFit
-/// takes it (ml_fit.hpp).
-MlEstimate estimate_ml(const PreparedRuns& prepared, const WheelFactors& loaded, const MlOptions& options,
-                       std::span<const Unknowns> start = {});
-
 /// The smallest covariance of c_R, c_L, b (b in m) that an unbiased estimator can have (Cramer-Rao bound): the
 /// inverse of the Fisher information of these runs. `options.noise` must be given. The path comes from the
 /// wheels and `factors`; of truth only the times matter, apart from the search for the clocks and the checks
@@ -141,5 +136,8 @@ FactorCovariance cramer_rao_bound(std::span<const Trajectory> runs, const WheelF
 
 /// The standard errors of a covariance.
 MlErrors errors_of(const FactorCovariance& covariance, const WheelFactors& factors);
+
+/// Throws astro::Error unless all three factors are known to 5 %: with less, the runs do not tell them apart.
+void require_observed(const MlErrors& se, const WheelFactors& factors);
 
 }  // namespace astro::calibration

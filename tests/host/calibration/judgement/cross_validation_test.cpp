@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -188,6 +189,36 @@ TEST(CrossValidation, ShowsTheErrorsOfEachDriveWithFactorsThatHaveNotSeenIt) {
     EXPECT_LT(judged.runs[i].found.path_rms_m, judged.runs[i].in_use.path_rms_m);
     // With the lever arm of this run alone or of all: a tenth.
     EXPECT_NEAR(judged.runs[i].in_use.path_rms_m, in_use.runs[i].path_rms_m, 0.1 * in_use.runs[i].path_rms_m);
+  }
+}
+
+/// How far two sets of factors are apart, in standard errors of each.
+double apart(const WheelFactors& a, const WheelFactors& b, const MlErrors& se) {
+  return std::max(
+      {std::abs(a.c_r - b.c_r) / se.c_r, std::abs(a.c_l - b.c_l) / se.c_l, std::abs(a.b_m - b.b_m) / se.b_m});
+}
+
+TEST(CrossValidation, JudgesByFactorsThatAWholeEstimateWithoutTheDriveWouldFind) {
+  const DriveModel model = astro_drive();
+  const MlOptions options = known_clock();
+  for (const int runs : {2, 3, 6}) {
+    const std::vector<Trajectory> drives = squares(model, runs);
+    const MlEstimate all = estimate_ml(drives, model.loaded, options);
+    const CrossValidation judged = cross_validate(drives, model.loaded, all, options);
+    ASSERT_EQ(judged.runs.size(), drives.size());
+    MlOptions with_noise = options;
+    with_noise.noise = all.noise;
+    with_noise.stride = all.stride;
+    double worst = 0;
+    for (std::size_t i = 0; i < drives.size(); ++i) {
+      std::vector<Trajectory> others = drives;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+      const MlEstimate whole = estimate_ml(others, model.loaded, with_noise);
+      worst = std::max(worst, apart(judged.runs[i].without_it, whole.factors, whole.se));
+    }
+    std::printf("%d drives: at most %.3f standard errors apart\n", runs, worst);
+    // Where a search ends within a twentieth of a standard error of the best, one step cannot be nearer.
+    EXPECT_LT(worst, 0.05);
   }
 }
 
