@@ -1,72 +1,111 @@
 #include "host/calibration/likelihood/innovation.hpp"
 
-#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "host/calibration/likelihood/kalman_filter.hpp"
 
 namespace astro::calibration {
 namespace {
 
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
+/// One row of the Jacobian of the pose by all unknowns.
+using Row = std::array<double, kUnknowns>;
 
 /// Propagates the Jacobian of the state by the unknowns and sums up what the innovations say about them.
 class ParameterDerivatives final : public Accumulator {
  public:
-  explicit ParameterDerivatives(const Unknowns& unknowns) : u_(unknowns) {
-    jacobian_.setZero();
-    jacobian_.block<3, 3>(0, kStartX).setIdentity();
+  explicit ParameterDerivatives(const Unknowns& u) : b_m_(u[kB]) {
+    jacobian_[0][kStartX] = jacobian_[1][kStartY] = jacobian_[2][kStartTheta] = 1;
   }
 
   void predict(const Prediction& step) override {
-    const Arc& arc = step.arc;
-    jacobian_.row(0) += step.transition(0, 2) * jacobian_.row(2);
-    jacobian_.row(1) += step.transition(1, 2) * jacobian_.row(2);
-    jacobian_.col(kCLeft) += step.left_m * arc.jacobian_left;
-    jacobian_.col(kCRight) += step.right_m * arc.jacobian_right;
-    const Vector3d by_wheelbase = arc.turn_rad * arc.jacobian_turn;  // relative, with the sign reversed
-    jacobian_.col(kB) -= by_wheelbase / u_[kB];
-    if (step.motion == Motion::arc) jacobian_.col(kArcWheelbase) -= by_wheelbase;
-    const Vector3d to = velocity(step.wheels_to, arc), from = velocity(step.wheels_from, arc);
-    jacobian_.col(kClockOffset) += to - from;
-    jacobian_.col(kSkew) += step.to.jacobian_skew_s * to - step.from.jacobian_skew_s * from;
+    Row &x = jacobian_[0], &y = jacobian_[1];
+    const Row& theta = jacobian_[2];
+    for (std::size_t i = 0; i < kUnknowns; ++i) {
+      x[i] -= step.dy_m * theta[i];
+      y[i] += step.dx_m * theta[i];
+    }
+    for (std::size_t i = 0; i < kMoveUnknowns.size(); ++i)
+      add(kMoveUnknowns[i], step.turned(step.move.by[i]), 1);
+    // The wheelbase of arcs is relative to b.
+    if (step.motion == Motion::arc) add(kArcWheelbase, step.turned(step.move.by_b()), b_m_);
   }
 
   void update(const Update& step, Motion motion) override {
-    Eigen::Matrix<double, 3, kUnknowns> jacobian = step.jacobian_state * jacobian_;
-    jacobian.block<3, 3>(0, kLeverX) += step.jacobian_lever;
-    sums.cost += std::log(step.expected_covariance.determinant());
-    sums.cost += step.loss.cost;
+    const std::array<Row, 3> by = of_innovation(step);
+    const Symmetric3& w = step.weight;
+    const Vector3 weighted_innovation = product(w, step.innovation);
+    std::array<Row, 3> weighted;
+    for (std::size_t i = 0; i < kUnknowns; ++i) {
+      const Vector3 column = product(w, {by[0][i], by[1][i], by[2][i]});
+      for (std::size_t k = 0; k < 3; ++k) weighted[k][i] = column[k];
+      gradient_[i] += by[0][i] * weighted_innovation[0] + by[1][i] * weighted_innovation[1] +
+                      by[2][i] * weighted_innovation[2];
+    }
+    for (std::size_t i = 0; i < kUnknowns; ++i)
+      for (std::size_t k = i; k < kUnknowns; ++k)
+        information_[i][k] +=
+            by[0][i] * weighted[0][k] + by[1][i] * weighted[1][k] + by[2][i] * weighted[2][k];
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t i = 0; i < kUnknowns; ++i)
+        jacobian_[k][i] -=
+            step.gain[k][0] * by[0][i] + step.gain[k][1] * by[1][i] + step.gain[k][2] * by[2][i];
     count(step, motion);
-    const Eigen::Matrix<double, kUnknowns, 3> weighted = jacobian.transpose() * step.weight;
-    sums.information.noalias() += weighted * jacobian;
-    sums.gradient.noalias() += weighted * step.innovation;
-    jacobian_.noalias() -= step.gain * jacobian;
   }
 
-  InnovationSums sums;
+  InnovationSums sums() const {
+    InnovationSums out = sums_;
+    for (std::size_t i = 0; i < kUnknowns; ++i) {
+      out.gradient[static_cast<Eigen::Index>(i)] = gradient_[i];
+      for (std::size_t k = 0; k < kUnknowns; ++k)
+        out.information(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
+            information_[std::min(i, k)][std::max(i, k)];
+    }
+    return out;
+  }
 
  private:
-  /// Velocity of the state at an end of the arc: its derivative by the time of that end.
-  Vector3d velocity(const WheelState& wheels, const Arc& arc) const {
-    return u_[kCLeft] * wheels.left_mps * arc.jacobian_left +
-           u_[kCRight] * wheels.right_mps * arc.jacobian_right;
+  void add(Unknown unknown, const Vector3& change, double factor) {
+    for (std::size_t k = 0; k < 3; ++k) jacobian_[k][unknown] += factor * change[k];
+  }
+
+  /// Derivatives of the measurement.
+  std::array<Row, 3> of_innovation(const Update& step) const {
+    std::array<Row, 3> by = jacobian_;
+    for (std::size_t i = 0; i < kUnknowns; ++i) {
+      by[0][i] -= step.lever_y_m * jacobian_[2][i];
+      by[1][i] += step.lever_x_m * jacobian_[2][i];
+    }
+    by[0][kLeverX] += step.cosine;
+    by[0][kLeverY] -= step.sine;
+    by[1][kLeverX] += step.sine;
+    by[1][kLeverY] += step.cosine;
+    if (step.has_heading)
+      by[2][kLeverYaw] += 1;
+    else
+      by[2] = {};
+    return by;
   }
 
   void count(const Update& step, Motion motion) {
-    const auto& r = step.innovation;
-    sums.chi_square += step.chi_square;
-    sums.degrees_of_freedom += step.components();
-    MotionTotals& totals = sums.motion[static_cast<std::size_t>(motion)];
+    const Vector3& r = step.innovation;
+    sums_.cost += std::log(determinant(step.expected_covariance)) + step.loss.cost;
+    sums_.chi_square += step.chi_square;
+    sums_.degrees_of_freedom += step.components();
+    MotionTotals& totals = sums_.motion[static_cast<std::size_t>(motion)];
     ++totals.samples;
     totals.sum_xy_m2 += r[0] * r[0] + r[1] * r[1];
     totals.sum_theta_rad2 += r[2] * r[2];
     totals.chi_square += step.chi_square;
   }
 
-  const Unknowns& u_;
-  Eigen::Matrix<double, 3, kUnknowns> jacobian_;
+  const double b_m_;
+  std::array<Row, 3> jacobian_{};
+  std::array<Row, kUnknowns> information_{};  // above its diagonal
+  Row gradient_{};
+  InnovationSums sums_;
 };
 
 /// Keeps each innovation in the robot's frame, divided by the Cholesky factor of its covariance.
@@ -74,14 +113,14 @@ class Standardiser final : public Accumulator {
  public:
   void predict(const Prediction&) override {}
   void update(const Update& step, Motion) override {
-    const double c = std::cos(step.heading_rad), s = std::sin(step.heading_rad);
-    Matrix3d to_robot;
-    to_robot << c, s, 0, -s, c, 0, 0, 0, 1;
-    const Matrix3d turned = to_robot * step.covariance * to_robot.transpose();
-    innovations.push_back(turned.llt().matrixL().solve(to_robot * step.innovation));
+    const double c = step.cosine, s = step.sine;
+    const Vector3& r = step.innovation;
+    const Vector3 turned{c * r[0] + s * r[1], c * r[1] - s * r[0], r[2]};
+    const Vector3 unit = standardised(turned, rotated(step.covariance, c, -s));
+    innovations.push_back({unit[0], unit[1], unit[2]});
   }
 
-  std::vector<Vector3d> innovations;
+  std::vector<Eigen::Vector3d> innovations;
 };
 
 }  // namespace
@@ -110,25 +149,24 @@ InnovationSums mean_of(std::span<const InnovationSums> passes) {
   return mean;
 }
 
-InnovationSums innovations(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise,
-                           RobustMode robust, const SampleSelection& samples) {
-  ParameterDerivatives derivatives(unknowns);
-  filter_run(run, unknowns, noise, robust, TruthUse::values, samples, derivatives);
-  return derivatives.sums;
+InnovationSums innovations(const Moves& moves, const NoiseModel& noise, RobustMode robust,
+                           const SampleSelection& samples) {
+  ParameterDerivatives derivatives(moves.unknowns());
+  filter_run(moves, noise, robust, TruthUse::values, samples, derivatives);
+  return derivatives.sums();
 }
 
-std::vector<Vector3d> standardised_innovations(const PreparedRun& run, const Unknowns& unknowns,
-                                               const NoiseModel& noise, RobustMode robust,
-                                               const SampleSelection& samples) {
+std::vector<Eigen::Vector3d> standardised_innovations(const Moves& moves, const NoiseModel& noise,
+                                                      RobustMode robust, const SampleSelection& samples) {
   Standardiser standardiser;
-  filter_run(run, unknowns, noise, robust, TruthUse::values, samples, standardiser);
+  filter_run(moves, noise, robust, TruthUse::values, samples, standardiser);
   return std::move(standardiser.innovations);
 }
 
-Information expected_information(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise) {
-  ParameterDerivatives derivatives(unknowns);
-  filter_run(run, unknowns, noise, RobustMode::none, TruthUse::times, {}, derivatives);
-  return derivatives.sums.information;
+Information expected_information(const Moves& moves, const NoiseModel& noise) {
+  ParameterDerivatives derivatives(moves.unknowns());
+  filter_run(moves, noise, RobustMode::none, TruthUse::times, {}, derivatives);
+  return derivatives.sums().information;
 }
 
 }  // namespace astro::calibration

@@ -5,11 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "host/calibration/likelihood/moves.hpp"
 #include "host/calibration/likelihood/robust_mode.hpp"
 #include "host/calibration/likelihood/sample_selection.hpp"
 #include "host/calibration/likelihood/unknowns.hpp"
 #include "host/calibration/motion/trajectory.hpp"
-#include "host/calibration/preparation/prepared_run.hpp"
 
 /// A drive as the innovations of the Kalman filter, with their derivatives by every unknown.
 ///
@@ -42,16 +42,15 @@ struct InnovationSums {
 InnovationSums mean_of(std::span<const InnovationSums> passes);
 
 /// One pass of the filter along a run.
-InnovationSums innovations(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise,
-                           RobustMode robust = RobustMode::none, const SampleSelection& samples = {});
+InnovationSums innovations(const Moves& moves, const NoiseModel& noise, RobustMode robust = RobustMode::none,
+                           const SampleSelection& samples = {});
 
 /// The innovations themselves, in order: ahead of the robot, to its left and in heading, made independent and
 /// of variance 1 by the covariance that the filter expects. Without headings the last component is 0.
-std::vector<Eigen::Vector3d> standardised_innovations(const PreparedRun& run, const Unknowns& unknowns,
-                                                      const NoiseModel& noise, RobustMode robust,
-                                                      const SampleSelection& samples);
+std::vector<Eigen::Vector3d> standardised_innovations(const Moves& moves, const NoiseModel& noise,
+                                                      RobustMode robust, const SampleSelection& samples);
 
 /// The Fisher information of a run with exactly these unknowns. Only the times of its truth samples matter.
-Information expected_information(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise);
+Information expected_information(const Moves& moves, const NoiseModel& noise);
 
 }  // namespace astro::calibration

@@ -1,100 +1,107 @@
 #include "host/calibration/likelihood/kalman_filter.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "host/calibration/motion/wheel_path.hpp"
-
 namespace astro::calibration {
 namespace {
+
+double wrapped(double angle_rad) {
+  if (std::abs(angle_rad) < std::numbers::pi) return angle_rad;
+  return std::remainder(angle_rad, 2 * std::numbers::pi);
+}
+
+/// Huber's loss is rare, so it may use decompositions.
+HuberLoss loss_of(const Vector3& innovation, const Symmetric3& slip, const Symmetric3& tracker, double limit,
+                  RobustMode robust) {
+  Eigen::Matrix3d p;
+  p << slip.xx, slip.xy, slip.xt, slip.xy, slip.yy, slip.yt, slip.xt, slip.yt, slip.tt;
+  return huber_loss({innovation[0], innovation[1], innovation[2]}, p, {tracker.xx, tracker.yy, tracker.tt},
+                    limit, robust);
+}
 
 class KalmanFilter {
  public:
   /// All references must outlive the filter.
-  KalmanFilter(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise, RobustMode robust,
-               TruthUse truth, Accumulator& accumulator)
-      : u_(unknowns),
+  KalmanFilter(const Moves& moves, const NoiseModel& noise, RobustMode robust, TruthUse truth,
+               Accumulator& accumulator)
+      : u_(moves.unknowns()),
         noise_(noise),
         robust_(robust),
         truth_(truth),
-        has_headings_(run.has_headings),
+        has_headings_(moves.run().has_headings),
         accumulator_(accumulator),
-        state_(unknowns.segment<3>(kStartX)) {}
+        x_m_(u_[kStartX]),
+        y_m_(u_[kStartY]),
+        theta_rad_(u_[kStartTheta]) {}
 
-  void predict(const Moment& from, const WheelState& wheels_from, const Moment& to,
-               const WheelState& wheels_to, Motion motion) {
-    const double left_m = wheels_to.left_m - wheels_from.left_m;
-    const double right_m = wheels_to.right_m - wheels_from.right_m;
-    if (left_m == 0 && right_m == 0) return;
-    const Arc arc = arc_of(state_[2], u_[kCLeft] * left_m, u_[kCRight] * right_m, u_[kB]);
+  void predict(const Move& move, Motion motion) {
+    const double middle_rad = theta_rad_ + move.turn_rad / 2, c = std::cos(middle_rad),
+                 s = std::sin(middle_rad);
     const Prediction step{
-        from,   to,      wheels_from, wheels_to,       motion,
-        left_m, right_m, arc,         transition(arc), noise_.K_m * slip_per_K(arc, left_m, right_m)};
-    state_ += Eigen::Vector3d(arc.dx_m, arc.dy_m, arc.turn_rad);
-    covariance_ = step.transition * covariance_ * step.transition.transpose() + step.slip_covariance;
+        move, motion, c, s, move.chord_m * c, move.chord_m * s, noise_.K_m * rotated(move.slip_per_K, c, s)};
+    x_m_ += step.dx_m;
+    y_m_ += step.dy_m;
+    theta_rad_ += move.turn_rad;
+    covariance_ = sheared(covariance_, -step.dy_m, step.dx_m) + step.slip_covariance;
     accumulator_.predict(step);
   }
 
   void update(const BodySample& sample, Motion motion) {
-    const ExpectedBody expected = expected_body(state_, u_);
     Update step;
     step.has_heading = has_headings_;
-    step.heading_rad = state_[2];
-    step.jacobian_state = expected.jacobian_state;
-    step.jacobian_lever = expected.jacobian_lever;
-    if (!has_headings_) {
-      step.jacobian_state.row(2).setZero();
-      step.jacobian_lever.row(2).setZero();
-    }
-    step.innovation = innovation(sample, expected.pose);
+    step.cosine = std::cos(theta_rad_);
+    step.sine = std::sin(theta_rad_);
+    step.lever_x_m = step.cosine * u_[kLeverX] - step.sine * u_[kLeverY];
+    step.lever_y_m = step.sine * u_[kLeverX] + step.cosine * u_[kLeverY];
+    step.innovation = innovation(sample, step);
     step.tracker_covariance = tracker_covariance();
-    Eigen::Matrix3d ph = covariance_ * step.jacobian_state.transpose();
-    step.expected_covariance = step.jacobian_state * ph + step.tracker_covariance;
-    step.expected_weight = step.expected_covariance.inverse();
-    step.expected_chi_square = step.innovation.dot(step.expected_weight * step.innovation);
-    down_weight(step, ph);
-    step.gain = ph * step.weight;
+    const Symmetric3 slip = step.seen(covariance_);
+    step.expected_covariance = slip + step.tracker_covariance;
+    step.expected_weight = inverse(step.expected_covariance);
+    step.expected_chi_square = dot(step.innovation, product(step.expected_weight, step.innovation));
+    down_weight(step, slip);
+    const Matrix3 ph = step.with_state(covariance_);
+    step.gain = product(ph, step.weight);
     accumulator_.update(step, motion);
 
-    state_ += step.gain * step.innovation;
-    covariance_ -= step.gain * ph.transpose();
-    covariance_ = (covariance_ + covariance_.transpose().eval()) / 2;
+    const Vector3 correction = product(step.gain, step.innovation);
+    x_m_ += correction[0];
+    y_m_ += correction[1];
+    theta_rad_ += correction[2];
+    covariance_ += -1 * symmetric_product(step.gain, ph);
   }
 
  private:
-  Eigen::Vector3d innovation(const BodySample& sample, const Eigen::Vector3d& expected) const {
-    if (truth_ == TruthUse::times) return Eigen::Vector3d::Zero();
-    return {sample.x_m - expected[0], sample.y_m - expected[1],
-            has_headings_ ? std::remainder(sample.theta_rad - expected[2], 2 * std::numbers::pi) : 0};
+  Vector3 innovation(const BodySample& sample, const Update& step) const {
+    if (truth_ == TruthUse::times) return {};
+    return {sample.x_m - x_m_ - step.lever_x_m, sample.y_m - y_m_ - step.lever_y_m,
+            has_headings_ ? wrapped(sample.theta_rad - theta_rad_ - u_[kLeverYaw]) : 0};
   }
 
-  Eigen::Matrix3d tracker_covariance() const {
+  Symmetric3 tracker_covariance() const {
     constexpr double kOfTheConstant = 1;  // stands for the heading where there is none; see Update
     const double xy = noise_.sigma_xy_m * noise_.sigma_xy_m;
     const double theta = has_headings_ ? noise_.sigma_theta_rad * noise_.sigma_theta_rad : kOfTheConstant;
-    return Eigen::Vector3d(xy, xy, theta).asDiagonal();
+    return {xy, 0, 0, xy, 0, theta};
   }
 
-  /// An outlier gets the covariance of wheels that slipped and a tracker that erred more than usual. `ph` is
-  /// the covariance of state and measurement.
-  void down_weight(Update& step, Eigen::Matrix3d& ph) {
+  /// An outlier gets the covariance of wheels that slipped and a tracker that erred more than usual. `slip` is the part of
+  /// the innovation's covariance that comes from the wheels.
+  void down_weight(Update& step, const Symmetric3& slip) {
     step.is_outlier = robust_ != RobustMode::none && step.expected_chi_square > huber_limit(step);
     step.covariance = step.expected_covariance;
     step.weight = step.expected_weight;
     step.chi_square = step.expected_chi_square;
     step.loss.cost = step.chi_square;
     if (!step.is_outlier) return;
-    const Eigen::Matrix3d slip = step.expected_covariance - step.tracker_covariance;
-    step.loss =
-        huber_loss(step.innovation, slip, step.tracker_covariance.diagonal(), huber_limit(step), robust_);
+    step.loss = loss_of(step.innovation, slip, step.tracker_covariance, huber_limit(step), robust_);
     covariance_ *= step.loss.slip;
-    ph *= step.loss.slip;
     step.covariance = step.loss.slip * slip + step.loss.tracker * step.tracker_covariance;
-    step.weight = step.covariance.inverse();
-    step.chi_square = step.innovation.dot(step.weight * step.innovation);
+    step.weight = inverse(step.covariance);
+    step.chi_square = dot(step.innovation, product(step.weight, step.innovation));
   }
 
   const Unknowns& u_;
@@ -103,38 +110,32 @@ class KalmanFilter {
   const TruthUse truth_;
   const bool has_headings_;
   Accumulator& accumulator_;
-  Eigen::Vector3d state_;
-  Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
+  double x_m_, y_m_, theta_rad_;
+  Symmetric3 covariance_;
 };
 
 }  // namespace
 
-void filter_run(const PreparedRun& run, const Unknowns& u, const NoiseModel& noise, RobustMode robust,
-                TruthUse truth, const SampleSelection& samples, Accumulator& accumulator) {
-  KalmanFilter filter(run, u, noise, robust, truth, accumulator);
-  const WheelPath wheels(run.source->wheels);
-  const auto moment = [&](double truth_time_s) {
-    const double since_middle_s = truth_time_s - run.clock_middle_s;
-    return Moment{truth_time_s + u[kClockOffset] + u[kSkew] * since_middle_s, since_middle_s};
-  };
-  Moment from = moment(run.truth.front().time_s);
-  WheelState wheels_from = wheels.at(from.time_s);
+Symmetric3 Update::seen(const Symmetric3& p) const {
+  Symmetric3 out = sheared(p, -lever_y_m, lever_x_m);
+  if (!has_heading) out.xt = out.yt = out.tt = 0;
+  return out;
+}
+
+Matrix3 Update::with_state(const Symmetric3& p) const {
+  Matrix3 out = times_shear(p, -lever_y_m, lever_x_m);
+  if (!has_heading) out[0][2] = out[1][2] = out[2][2] = 0;
+  return out;
+}
+
+void filter_run(const Moves& moves, const NoiseModel& noise, RobustMode robust, TruthUse truth,
+                const SampleSelection& samples, Accumulator& accumulator) {
+  KalmanFilter filter(moves, noise, robust, truth, accumulator);
+  const PreparedRun& run = moves.run();
   std::array<double, 4> spent_s{};  // by Motion
   for (std::size_t i = 0; i < run.truth.size(); ++i) {
-    const Moment end = moment(run.truth[i].time_s);
-    const int steps =
-        i == 0 ? 0 : std::max(1, static_cast<int>(std::ceil((end.time_s - from.time_s) / kLongestStep_s)));
-    const Moment begin = from;
-    for (int step = 1; step <= steps; ++step) {
-      const double part = static_cast<double>(step) / steps;
-      const Moment to{begin.time_s + part * (end.time_s - begin.time_s),
-                      begin.jacobian_skew_s + part * (end.jacobian_skew_s - begin.jacobian_skew_s)};
-      const WheelState wheels_to = wheels.at(to.time_s);
-      filter.predict(from, wheels_from, to, wheels_to, run.motion[i]);
-      from = to;
-      wheels_from = wheels_to;
-    }
-    spent_s[static_cast<std::size_t>(run.motion[i])] += end.time_s - begin.time_s;
+    for (const Move& move : moves.before(i)) filter.predict(move, run.motion[i]);
+    spent_s[static_cast<std::size_t>(run.motion[i])] += moves.duration_s(i);
     if (static_cast<int>(i) % samples.stride != samples.first) continue;
     const auto most = std::max_element(spent_s.begin(), spent_s.end());
     filter.update(run.truth[i], *most > 0 ? static_cast<Motion>(most - spent_s.begin()) : run.motion[i]);

@@ -1,15 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include "host/calibration/likelihood/huber.hpp"
-#include "host/calibration/likelihood/motion_model.hpp"
+#include "host/calibration/likelihood/matrix3.hpp"
+#include "host/calibration/likelihood/moves.hpp"
 #include "host/calibration/likelihood/robust_mode.hpp"
 #include "host/calibration/likelihood/sample_selection.hpp"
-#include "host/calibration/likelihood/unknowns.hpp"
 #include "host/calibration/motion/trajectory.hpp"
-#include "host/calibration/motion/wheel_path.hpp"
-#include "host/calibration/preparation/prepared_run.hpp"
 
 /// THE Kalman filter along a drive: prediction over arcs, update with truth samples, Huber's loss for
 /// outliers.
@@ -20,20 +16,18 @@
 /// Cost  linear in the samples; the filter itself allocates nothing.
 namespace astro::calibration {
 
-/// A moment on the robot's clock, and its derivative by the skew of the clocks.
-struct Moment {
-  double time_s = 0, jacobian_skew_s = 0;
-};
-
-/// One prediction step: the arc between two moments.
+/// One prediction step.
 struct Prediction {
-  Moment from, to;
-  WheelState wheels_from, wheels_to;
+  const Move& move;
   Motion motion = Motion::rest;
-  double left_m = 0, right_m = 0;  // travel of the nominal wheels
-  Arc arc;
-  Eigen::Matrix3d transition;       // Jacobian of the new state by the old one
-  Eigen::Matrix3d slip_covariance;  // that the step adds
+  double cosine = 1, sine = 0;  // of the heading in the middle of the arc
+  double dx_m = 0, dy_m = 0;    // in the tracker's frame
+  Symmetric3 slip_covariance;   // that the step adds
+
+  /// A change of the pose from the frame of the arc into the tracker's.
+  Vector3 turned(const Vector3& v) const {
+    return {cosine * v[0] - sine * v[1], sine * v[0] + cosine * v[1], v[2]};
+  }
 };
 
 /// One measurement update. Without headings the third component of the measurement is a constant that is known
@@ -41,20 +35,24 @@ struct Prediction {
 /// derivative, and there is one filter instead of two.
 struct Update {
   bool has_heading = false;
-  double heading_rad = 0;                          // of the robot, as predicted
-  Eigen::Matrix3d jacobian_state, jacobian_lever;  // of the measurement
-  Eigen::Vector3d innovation;
-  Eigen::Matrix3d tracker_covariance;   // of the measurement, as the noise model has it
-  Eigen::Matrix3d expected_covariance;  // of the innovation, before Huber's loss
-  Eigen::Matrix3d expected_weight;      // its inverse
+  double cosine = 1, sine = 0;          // of the robot's heading, as predicted
+  double lever_x_m = 0, lever_y_m = 0;  // from the robot to the tracked body, in the tracker's frame
+  Vector3 innovation{};
+  Symmetric3 tracker_covariance;   // of the measurement, as the noise model has it; diagonal
+  Symmetric3 expected_covariance;  // of the innovation, before Huber's loss
+  Symmetric3 expected_weight;      // its inverse
   double expected_chi_square = 0;
   HuberLoss loss;  // of the innovation; its factors are 1 where it is no outlier
   bool is_outlier = false;
-  Eigen::Matrix3d covariance, weight;  // of the innovation, with the factors of `loss`
+  Symmetric3 covariance, weight;  // of the innovation, with the factors of `loss`
   double chi_square = 0;
-  Eigen::Matrix3d gain;
+  Matrix3 gain{};
 
   int components() const { return has_heading ? 3 : 2; }
+  /// H p H' with the measurement's Jacobian H by the state.
+  Symmetric3 seen(const Symmetric3& p) const;
+  /// p H'.
+  Matrix3 with_state(const Symmetric3& p) const;
 };
 
 // Squares of Huber's thresholds: 99 % of chi-square with 2 and 3 degrees of freedom.
@@ -76,9 +74,9 @@ class Accumulator {
   ~Accumulator() = default;
 };
 
-/// Runs the filter along a drive: predicts over arcs of at most kLongestStep_s and updates with the selected
-/// truth samples, each with the motion that took most of the time since the one before.
-void filter_run(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise, RobustMode robust,
-                TruthUse truth, const SampleSelection& samples, Accumulator& accumulator);
+/// Runs the filter along a drive: predicts over its moves and updates with the selected truth samples, each with the motion
+/// that took most of the time since the one before.
+void filter_run(const Moves& moves, const NoiseModel& noise, RobustMode robust, TruthUse truth,
+                const SampleSelection& samples, Accumulator& accumulator);
 
 }  // namespace astro::calibration

@@ -177,7 +177,7 @@ FactorCovariance bound_of(const PreparedRuns& prepared, const WheelFactors& fact
     u[kSkew] = prepared.clocks[i].skew;
     u[kClockOffset] = prepared.clocks[i].offset_s;
     InnovationSums sums;
-    sums.information = expected_information(prepared.runs[i], u, noise);
+    sums.information = expected_information(Moves(prepared.runs[i], u), noise);
     information += reduced(sums, fixed, 0).information;
   }
   return shared_covariance(information, fixed).topLeftCorner<3, 3>();

@@ -89,16 +89,18 @@ void MlFit::fit_with_noise() {
 bool MlFit::innovations_are_independent() const {
   std::vector<std::vector<Eigen::Vector3d>> all;
   for (std::size_t i = 0; i < runs_.size(); ++i)
-    all.push_back(standardised_innovations(runs_[i], unknowns_[i], noise_, robust_, samples_of(runs_[i], 0)));
+    all.push_back(
+        standardised_innovations(Moves(runs_[i], unknowns_[i]), noise_, robust_, samples_of(runs_[i], 0)));
   return are_independent(all, kShared + kOwn * static_cast<int>(runs_.size()));
 }
 
 std::vector<InnovationSums> MlFit::pass(std::span<const Unknowns> unknowns, RobustMode robust) const {
   std::vector<InnovationSums> sums;
   for (std::size_t i = 0; i < runs_.size(); ++i) {
+    const Moves moves(runs_[i], unknowns[i]);
     std::vector<InnovationSums> passes;
     for (int phase = 0; phase < phases_; ++phase) {
-      passes.push_back(innovations(runs_[i], unknowns[i], noise_, robust, samples_of(runs_[i], phase)));
+      passes.push_back(innovations(moves, noise_, robust, samples_of(runs_[i], phase)));
     }
     sums.push_back(mean_of(passes));
   }
@@ -111,13 +113,14 @@ std::vector<InnovationSums> MlFit::sums_with_full_slip_weight() const {
 
 NoiseSlope MlFit::noise_slopes() const {
   NoiseSlope sum;
-  for (std::size_t i = 0; i < runs_.size(); ++i)
+  for (std::size_t i = 0; i < runs_.size(); ++i) {
+    const Moves moves(runs_[i], unknowns_[i]);
     for (int phase = 0; phase < phases_; ++phase) {
-      const NoiseSlope part =
-          noise_slope(runs_[i], unknowns_[i], noise_, robust_, samples_of(runs_[i], phase));
+      const NoiseSlope part = noise_slope(moves, noise_, robust_, samples_of(runs_[i], phase));
       sum.gradient += part.gradient / phases_;
       sum.curvature += part.curvature / phases_;
     }
+  }
   // Without headings nothing determines their noise. This keeps it where it is.
   sum.curvature.diagonal().array() += 1e-9;
   return sum;

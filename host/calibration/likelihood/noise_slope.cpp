@@ -1,5 +1,6 @@
 #include "host/calibration/likelihood/noise_slope.hpp"
 
+#include <array>
 #include <cmath>
 
 #include "host/calibration/likelihood/kalman_filter.hpp"
@@ -7,10 +8,7 @@
 namespace astro::calibration {
 namespace {
 
-using Eigen::Matrix3d;
-
-constexpr int kNoises = NoiseSlope::kNoises;
-using PerNoise = Eigen::Matrix<double, 3, kNoises>;  // a column for each noise
+constexpr std::size_t kNoises = NoiseSlope::kNoises;
 
 // Mean of min(d^2, limit) over the mean of d^2 for a normal distribution with 2 and 3 components: how much of
 // a variance is left if no sample counts for more than Huber's threshold (his proposal 2). Without the
@@ -22,83 +20,100 @@ double bounded_variance(const Update& step) { return step.has_heading ? 0.99287 
 /// from every other one.
 class NoiseDerivatives final : public Accumulator {
  public:
-  NoiseDerivatives(const NoiseModel& noise, RobustMode robust) : noise_(noise), robust_(robust) {
-    for (Matrix3d& derivative : covariance_) derivative.setZero();
-  }
+  explicit NoiseDerivatives(RobustMode robust) : robust_(robust) {}
 
   void predict(const Prediction& step) override {
-    for (Matrix3d& derivative : covariance_)
-      derivative = step.transition * derivative * step.transition.transpose();
+    for (std::size_t i = 0; i < kNoises; ++i) {
+      covariance_[i] = sheared(covariance_[i], -step.dy_m, step.dx_m);
+      state_[i][0] -= step.dy_m * state_[i][2];
+      state_[i][1] += step.dx_m * state_[i][2];
+    }
     covariance_[0] += step.slip_covariance;
-    state_.row(0) += step.transition(0, 2) * state_.row(2);
-    state_.row(1) += step.transition(1, 2) * state_.row(2);
   }
 
   void update(const Update& step, Motion) override {
-    const Matrix3d& h = step.jacobian_state;
-    const PerNoise innovation = -h * state_;
-    Matrix3d tracker[kNoises] = {Matrix3d::Zero(), xy_covariance(), theta_covariance(step)};
-    Matrix3d slopes[kNoises];
-    for (int i = 0; i < kNoises; ++i) slopes[i] = h * covariance_[i] * h.transpose() + tracker[i];
-    add(step, slopes, innovation);
-    if (step.is_outlier)  // the factors of Huber's loss are held
-      for (int i = 0; i < kNoises; ++i) {
-        tracker[i] *= step.loss.tracker;
-        covariance_[i] *= step.loss.slip;
-      }
-    const Matrix3d keep = Matrix3d::Identity() - step.gain * h;
-    const Eigen::Vector3d weighted = step.weight * step.innovation;
-    for (int i = 0; i < kNoises; ++i) {
-      state_.col(i) += (keep * covariance_[i] * h.transpose() - step.gain * tracker[i]) * weighted +
-                       step.gain * innovation.col(i);
-      covariance_[i] =
-          keep * covariance_[i] * keep.transpose() + step.gain * tracker[i] * step.gain.transpose();
+    const std::array<Symmetric3, kNoises> tracker = by_noise(step.tracker_covariance, step.has_heading);
+    std::array<Symmetric3, kNoises> slopes;    // of the innovation's covariance
+    std::array<Vector3, kNoises> innovations;  // slopes of the innovation
+    for (std::size_t i = 0; i < kNoises; ++i) {
+      slopes[i] = step.seen(covariance_[i]) + tracker[i];
+      innovations[i] = seen(state_[i], step);
+    }
+    add(step, slopes, innovations);
+    const Vector3 weighted = product(step.weight, step.innovation);
+    for (std::size_t i = 0; i < kNoises; ++i) {
+      // The factors of Huber's loss are held.
+      const Symmetric3 held = step.loss.slip * step.seen(covariance_[i]) + step.loss.tracker * tracker[i];
+      covariance_[i] *= step.loss.slip;
+      correct(step, i, held, weighted, innovations[i]);
     }
   }
 
   NoiseSlope slope;
 
  private:
-  Matrix3d xy_covariance() const {
-    const double variance = noise_.sigma_xy_m * noise_.sigma_xy_m;
-    return Eigen::Vector3d(variance, variance, 0).asDiagonal();
+  /// Derivatives of the tracker's covariance by the logarithms of K, sigma_xy^2 and sigma_theta^2.
+  static std::array<Symmetric3, kNoises> by_noise(const Symmetric3& tracker, bool has_heading) {
+    Symmetric3 xy, theta;
+    xy.xx = xy.yy = tracker.xx;
+    if (has_heading) theta.tt = tracker.tt;
+    return {Symmetric3{}, xy, theta};
   }
 
-  Matrix3d theta_covariance(const Update& step) const {
-    return Eigen::Vector3d(0, 0, step.has_heading ? noise_.sigma_theta_rad * noise_.sigma_theta_rad : 0)
-        .asDiagonal();
+  /// -H v: a change of the state lessens the innovation.
+  static Vector3 seen(const Vector3& v, const Update& step) {
+    return {-v[0] + step.lever_y_m * v[2], -v[1] - step.lever_x_m * v[2], step.has_heading ? -v[2] : 0};
   }
 
-  /// `slopes`: derivatives of the innovation's covariance; `innovation`: of the innovation itself.
-  void add(const Update& step, const Matrix3d (&slopes)[kNoises], const PerNoise& innovation) {
-    const auto& weight = step.expected_weight;
+  /// What the gain K does to the derivatives of state and covariance by noise i. With P the derivative of the covariance and
+  /// S = H P H' + T that of the innovation's, the gain changes by (P H' - K S) S_innovation^-1, and (I - K H) P (I - K H)' + K T K'
+  /// is P - K H P - P H' K' + K S K'.
+  void correct(const Update& step, std::size_t i, const Symmetric3& seen_slope, const Vector3& weighted,
+               const Vector3& innovation) {
+    const Matrix3 ph = step.with_state(covariance_[i]), ks = product(step.gain, seen_slope);
+    Matrix3 left_over;  // P H' - K S / 2: its product with K', with the transpose added, is what leaves P
+    for (std::size_t row = 0; row < 3; ++row) {
+      state_[i][row] += dot(ph[row], weighted) - dot(ks[row], weighted) + dot(step.gain[row], innovation);
+      for (std::size_t col = 0; col < 3; ++col) left_over[row][col] = ph[row][col] - ks[row][col] / 2;
+    }
+    const Matrix3& k = step.gain;
+    const Matrix3& m = left_over;
+    covariance_[i] += Symmetric3{
+        -2 * dot(m[0], k[0]), -dot(m[0], k[1]) - dot(m[1], k[0]), -dot(m[0], k[2]) - dot(m[2], k[0]),
+        -2 * dot(m[1], k[1]), -dot(m[1], k[2]) - dot(m[2], k[1]), -2 * dot(m[2], k[2])};
+  }
+
+  /// `slopes`: derivatives of the innovation's covariance; `innovations`: of the innovation itself.
+  void add(const Update& step, const std::array<Symmetric3, kNoises>& slopes,
+           const std::array<Vector3, kNoises>& innovations) {
+    const Symmetric3& weight = step.expected_weight;
     const double trust = step.is_outlier ? huber_limit(step) / step.expected_chi_square : 1;
     const double bounded = robust_ == RobustMode::none ? 1 : bounded_variance(step);
-    const Eigen::Vector3d weighted = weight * step.innovation;
-    Matrix3d weighted_slopes[kNoises];
-    for (int i = 0; i < kNoises; ++i) {
-      weighted_slopes[i] = weight * slopes[i];
-      slope.gradient[i] += bounded * weighted_slopes[i].trace() +
-                           trust * (2 * weighted.dot(innovation.col(i)) - weighted.dot(slopes[i] * weighted));
+    const Vector3 weighted = product(weight, step.innovation);
+    for (std::size_t i = 0; i < kNoises; ++i) {
+      slope.gradient[static_cast<Eigen::Index>(i)] +=
+          bounded * trace_of_product(weight, slopes[i]) +
+          trust * (2 * dot(weighted, innovations[i]) - dot(weighted, product(slopes[i], weighted)));
+      // weight slope weight, whose trace with another slope is the expected curvature.
+      const Symmetric3 both = symmetric_product(product(weight.full(), slopes[i]), weight.full());
+      const Vector3 weighted_slope = product(weight, innovations[i]);
+      for (std::size_t k = 0; k < kNoises; ++k)
+        slope.curvature(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) +=
+            bounded * trace_of_product(both, slopes[k]) + 2 * trust * dot(weighted_slope, innovations[k]);
     }
-    for (int i = 0; i < kNoises; ++i)
-      for (int k = 0; k < kNoises; ++k)
-        slope.curvature(i, k) += bounded * (weighted_slopes[i] * weighted_slopes[k]).trace();
-    slope.curvature += 2 * trust * innovation.transpose() * weight * innovation;
   }
 
-  const NoiseModel& noise_;
   const RobustMode robust_;
-  PerNoise state_ = PerNoise::Zero();
-  Matrix3d covariance_[kNoises];
+  std::array<Vector3, kNoises> state_{};
+  std::array<Symmetric3, kNoises> covariance_{};
 };
 
 }  // namespace
 
-NoiseSlope noise_slope(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise,
-                       RobustMode robust, const SampleSelection& samples) {
-  NoiseDerivatives derivatives(noise, robust);
-  filter_run(run, unknowns, noise, robust, TruthUse::values, samples, derivatives);
+NoiseSlope noise_slope(const Moves& moves, const NoiseModel& noise, RobustMode robust,
+                       const SampleSelection& samples) {
+  NoiseDerivatives derivatives(robust);
+  filter_run(moves, noise, robust, TruthUse::values, samples, derivatives);
   return derivatives.slope;
 }
 

@@ -2,11 +2,10 @@
 
 #include <Eigen/Core>
 
+#include "host/calibration/likelihood/moves.hpp"
 #include "host/calibration/likelihood/robust_mode.hpp"
 #include "host/calibration/likelihood/sample_selection.hpp"
-#include "host/calibration/likelihood/unknowns.hpp"
 #include "host/calibration/motion/trajectory.hpp"
-#include "host/calibration/preparation/prepared_run.hpp"
 
 namespace astro::calibration {
 
@@ -19,7 +18,7 @@ struct NoiseSlope {
 };
 
 /// One pass of the Kalman filter along a run.
-NoiseSlope noise_slope(const PreparedRun& run, const Unknowns& unknowns, const NoiseModel& noise,
-                       RobustMode robust = RobustMode::none, const SampleSelection& samples = {});
+NoiseSlope noise_slope(const Moves& moves, const NoiseModel& noise, RobustMode robust = RobustMode::none,
+                       const SampleSelection& samples = {});
 
 }  // namespace astro::calibration

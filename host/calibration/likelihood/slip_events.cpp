@@ -1,6 +1,5 @@
 #include "host/calibration/likelihood/slip_events.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -26,7 +25,7 @@ constexpr std::size_t kMost = 3;
 struct Parting {
   double time_s = 0;
   std::size_t at = 0;  // sample of truth
-  double turned_rad = 0, moved_m = 0;
+  double turned_rad = 0;
 };
 
 /// Compares truth before and after each moment of a run, carried to that moment by the wheels.
@@ -48,21 +47,26 @@ class Moments {
 
   double window_s() const { return window_s_; }
 
-  /// The pose by a window that begins `gap` windows after a sample, minus the pose by a window that ends as
+  /// The heading by a window that begins `gap` windows after a sample, minus the heading by a window that ends as
   /// long before it. Nothing if truth is missing there.
-  std::optional<Parting> parting(std::size_t at, double gap) const {
-    const double time_s = run_.truth[at].time_s, near_s = gap * window_s_;
-    const double far_s = near_s + kReach * window_s_;
-    std::vector<Eigen::Vector3d> before, after;
-    for (std::size_t k = at; k-- > 0 && run_.truth[k].time_s > time_s - far_s && before.size() < most();)
-      if (run_.truth[k].time_s < time_s - near_s) before.push_back(carried_pose(k, at));
-    for (std::size_t k = at;
-         k < run_.truth.size() && run_.truth[k].time_s < time_s + far_s && after.size() < most(); ++k)
-      if (run_.truth[k].time_s >= time_s + near_s) after.push_back(carried_pose(k, at));
+  std::optional<double> turned_rad(std::size_t at, double gap) const {
+    const auto [before, after] = windows_about(at, gap);
     if (std::min(before.size(), after.size()) < kFewestSamples) return {};
-    const Eigen::Vector3d was = middle(before), is = middle(after);
-    return Parting{time_s, at, std::remainder(is[2] - was[2], 2 * std::numbers::pi),
-                   (is - was).head<2>().norm()};
+    const double from_rad = robot_[before.front()].turn_rad;
+    const auto turn_rad = [&](std::size_t k) {
+      return std::remainder(robot_[k].turn_rad - from_rad, 2 * std::numbers::pi);
+    };
+    return std::remainder(middle(after, turn_rad) - middle(before, turn_rad), 2 * std::numbers::pi);
+  }
+
+  /// How far the positions at a sample by the windows on both sides are apart. Precondition: turned_rad has an answer there.
+  double moved_m(std::size_t at) const {
+    const Windows windows = windows_about(at, 0);
+    const auto apart = [&](double Position::*coordinate) {
+      const auto carried = [&](std::size_t k) { return carried_position(k, at).*coordinate; };
+      return middle(windows.after, carried) - middle(windows.before, carried);
+    };
+    return std::hypot(apart(&Position::x_m), apart(&Position::y_m));
   }
 
   std::vector<Parting> all() const {
@@ -71,7 +75,7 @@ class Moments {
     for (std::size_t at = 0; at < run_.truth.size(); ++at) {
       if (run_.truth[at].time_s < next_s || run_.motion[at] == Motion::rest) continue;
       next_s = run_.truth[at].time_s + window_s_ / kStepsPerWindow;
-      if (const auto here = parting(at, 0)) found.push_back(*here);
+      if (const auto turned = turned_rad(at, 0)) found.push_back({run_.truth[at].time_s, at, *turned});
     }
     return found;
   }
@@ -82,25 +86,42 @@ class Moments {
     return static_cast<std::size_t>(std::clamp(samples, static_cast<double>(kFewestSamples), 1e3));
   }
 
-  /// The robot's pose at sample `to` by the wheels, starting from its true pose at sample `from`.
-  Eigen::Vector3d carried_pose(std::size_t from, std::size_t to) const {
+  /// Samples before and after a sample, the nearest ones first.
+  struct Windows {
+    std::vector<std::size_t> before, after;
+  };
+
+  Windows windows_about(std::size_t at, double gap) const {
+    const double time_s = run_.truth[at].time_s, near_s = gap * window_s_;
+    const double far_s = near_s + kReach * window_s_;
+    Windows found;
+    for (std::size_t k = at;
+         k-- > 0 && run_.truth[k].time_s > time_s - far_s && found.before.size() < most();)
+      if (run_.truth[k].time_s < time_s - near_s) found.before.push_back(k);
+    for (std::size_t k = at;
+         k < run_.truth.size() && run_.truth[k].time_s < time_s + far_s && found.after.size() < most(); ++k)
+      if (run_.truth[k].time_s >= time_s + near_s) found.after.push_back(k);
+    return found;
+  }
+
+  struct Position {
+    double x_m, y_m;
+  };
+
+  /// The robot's position at sample `to` by the wheels, starting from its true pose at sample `from`.
+  Position carried_position(std::size_t from, std::size_t to) const {
     const BodySample &was = odometry_[from], &is = odometry_[to];
     const Placed& robot = robot_[from];
     const double dx = is.x_m - was.x_m, dy = is.y_m - was.y_m;
-    return {robot.x_m + robot.cosine * dx - robot.sine * dy, robot.y_m + robot.sine * dx + robot.cosine * dy,
-            robot.turn_rad + is.theta_rad};
+    return {robot.x_m + robot.cosine * dx - robot.sine * dy, robot.y_m + robot.sine * dx + robot.cosine * dy};
   }
 
-  static Eigen::Vector3d middle(const std::vector<Eigen::Vector3d>& poses) {
-    Eigen::Vector3d pose;
-    for (int i = 0; i < 3; ++i) {
-      std::vector<double> values;
-      for (const Eigen::Vector3d& each : poses)
-        values.push_back(i < 2 ? each[i] : std::remainder(each[2] - poses[0][2], 2 * std::numbers::pi));
-      pose[i] = median_of(std::move(values));
-    }
-    pose[2] += poses[0][2];
-    return pose;
+  template <class Value>
+  static double middle(const std::vector<std::size_t>& samples, Value value) {
+    std::vector<double> values;
+    values.reserve(samples.size());
+    for (const std::size_t k : samples) values.push_back(value(k));
+    return median_of(std::move(values));
   }
 
   /// The robot's true pose, and the rotation from odometry to truth there.
@@ -121,9 +142,9 @@ std::vector<SlipEvent> lasting(const Moments& moments, double start_s, std::vect
   while (!candidates.empty() && found.size() < kMost) {
     const Parting here = *std::max_element(candidates.begin(), candidates.end(),
                                            [&](const auto& a, const auto& b) { return size(a) < size(b); });
-    const auto later = moments.parting(here.at, kLasting);
-    if (later && later->turned_rad / here.turned_rad > 0.5)
-      found.push_back({here.time_s, here.time_s - start_s, here.turned_rad, here.moved_m});
+    const auto later_rad = moments.turned_rad(here.at, kLasting);
+    if (later_rad && *later_rad / here.turned_rad > 0.5)
+      found.push_back({here.time_s, here.time_s - start_s, here.turned_rad, moments.moved_m(here.at)});
     std::erase_if(candidates, [&](const Parting& other) {
       return std::abs(other.time_s - here.time_s) < 2 * moments.window_s();
     });

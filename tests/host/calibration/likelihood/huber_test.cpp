@@ -165,15 +165,15 @@ TEST(Huber, MakesTheCostOfADriveFallByItsGradient) {
       run.has_headings = headings;
       const NoiseModel noise{K_m, 1e-3, 3e-3};
       constexpr RobustMode kRobust = RobustMode::tracker_and_wheels;
-      const InnovationSums sums = innovations(run, u, noise, kRobust);
+      const InnovationSums sums = innovations(Moves(run, u), noise, kRobust);
       for (const int unknown : {kStartX, kStartY}) {
         constexpr double kStep_m = 1e-6;
         Unknowns up = u, down = u;
         up[unknown] += kStep_m;
         down[unknown] -= kStep_m;
-        const double slope =
-            (innovations(run, up, noise, kRobust).cost - innovations(run, down, noise, kRobust).cost) /
-            (2 * kStep_m);
+        const double slope = (innovations(Moves(run, up), noise, kRobust).cost -
+                              innovations(Moves(run, down), noise, kRobust).cost) /
+                             (2 * kStep_m);
         // Before the first look nothing is uncertain, so no gain hides behind the derivative.
         EXPECT_NEAR(slope, -2 * sums.gradient[unknown], 1e-4 * (1 + std::abs(slope)))
             << K_m << ' ' << headings << ' ' << unknown;

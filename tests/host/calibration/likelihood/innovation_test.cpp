@@ -118,7 +118,7 @@ TEST_P(Innovations, CarryTheInformationOfTheWholeDriveAtOnce) {
     return body_path(scene, u, Vector::Zero(2 * static_cast<int>(scene.run.truth.size())));
   });
   const Matrix dense = by.transpose() * dense_covariance(scene).ldlt().solve(by);
-  const Matrix filtered = expected_information(scene.run, scene.unknowns, scene.noise);
+  const Matrix filtered = expected_information(Moves(scene.run, scene.unknowns), scene.noise);
   const int count =
       GetParam() ? kArcWheelbase : kClockOffset + 1;  // the wheelbase of arcs is in no model here
   for (int i = 0; i < count; ++i)
@@ -148,7 +148,7 @@ TEST_P(Innovations, HaveTheLikelihoodOfTheWholeDriveAtOnce) {
   const Eigen::LDLT<Matrix> covariance(dense_covariance(at));
   const double chi_square = misses.dot(covariance.solve(misses));
   const double cost = chi_square + covariance.vectorD().array().log().sum();
-  const InnovationSums sums = innovations(scene.run, u, scene.noise, {});
+  const InnovationSums sums = innovations(Moves(scene.run, u), scene.noise, {});
   EXPECT_EQ(sums.degrees_of_freedom, n * count);
   // The filter linearises about what it has seen, the dense matrix about the prediction: a mrad of heading
   // apart.
@@ -159,8 +159,8 @@ TEST_P(Innovations, HaveTheLikelihoodOfTheWholeDriveAtOnce) {
 TEST_P(Innovations, HaveAThirdComponentWhereThereAreHeadingsAndAnExactZeroElsewhere) {
   const Scene scene = astro::calibration::scene(GetParam());
   double sum = 0;
-  for (const Eigen::Vector3d& e :
-       standardised_innovations(scene.run, scene.unknowns, scene.noise, RobustMode::tracker_and_wheels, {}))
+  for (const Eigen::Vector3d& e : standardised_innovations(Moves(scene.run, scene.unknowns), scene.noise,
+                                                           RobustMode::tracker_and_wheels, {}))
     sum += std::abs(e[2]);
   EXPECT_EQ(sum > 0, GetParam());
 }
@@ -173,9 +173,9 @@ TEST_P(Innovations, FallWithTheNoiseAsTheSlopeSays) {
                            scene.noise.sigma_theta_rad / 1.5};
     Unknowns u = scene.unknowns;
     u.segment<3>(kStartX).setZero();
-    const NoiseSlope slope = noise_slope(scene.run, u, noise, {});
+    const NoiseSlope slope = noise_slope(Moves(scene.run, u), noise, {});
     const auto cost = [&](double K, double xy, double theta) {
-      return innovations(scene.run, u,
+      return innovations(Moves(scene.run, u),
                          {noise.K_m * std::exp(K), noise.sigma_xy_m * std::exp(xy / 2),
                           noise.sigma_theta_rad * std::exp(theta / 2)},
                          {})
