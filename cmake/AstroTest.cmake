@@ -27,7 +27,7 @@ if(ASTROLABE_SANITIZE)
   # What is checked is the code under test. The checks named here cost the most time to compile, and in the
   # tests' own code AddressSanitizer catches what they would.
   target_compile_options(astro_test_compile INTERFACE
-    -fno-sanitize=null,alignment,object-size,vptr,nonnull-attribute,returns-nonnull-attribute)
+    -fno-sanitize=null,alignment,object-size,vptr,pointer-overflow,nonnull-attribute,returns-nonnull-attribute)
 endif()
 
 # What nearly every test includes, read once. A test still includes what it uses.
