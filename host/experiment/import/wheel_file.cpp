@@ -1,9 +1,9 @@
 #include "host/experiment/import/wheel_file.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <utility>
 
+#include "common/fixed/wrapping.hpp"
 #include "host/base/byte_source.hpp"
 #include "host/recording/bag/bag.hpp"
 #include "host/recording/files/run_file.hpp"
@@ -28,13 +28,10 @@ recording::WheelTrack track_of(const recording::Run& run) {
   track.samples.reserve(run.odometry.size());
   std::int64_t left = 0, right = 0;
   const recording::OdometrySample* before = nullptr;
-  const auto step = [](std::int32_t from, std::int32_t to) {
-    return static_cast<std::int32_t>(static_cast<std::uint32_t>(to) - static_cast<std::uint32_t>(from));
-  };
   for (const recording::OdometrySample& sample : run.odometry) {
     if (before != nullptr) {
-      left += step(before->left_counts, sample.left_counts);
-      right += step(before->right_counts, sample.right_counts);
+      left += wrapping_difference(sample.left_counts, before->left_counts);
+      right += wrapping_difference(sample.right_counts, before->right_counts);
     }
     before = &sample;
     track.samples.push_back({1000 * sample.time_us, static_cast<double>(left), static_cast<double>(right)});
