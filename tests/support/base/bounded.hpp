@@ -37,6 +37,7 @@ Taken measured(Work work) {
   if (pipe(ends) != 0) throw std::runtime_error("no pipe");
   const pid_t child = fork();
   if (child == 0) {
+    const bool failed_before = testing::Test::HasFailure();
     close(ends[0]);
     alarm(60);
     std::size_t pages = 0, resident = 0;
@@ -57,7 +58,8 @@ Taken measured(Work work) {
         complaint.substr(0, 4000);
     const ssize_t written = write(ends[1], text.data(), text.size());
     // An expectation of this process that failed is not one of the parent's, so it must not end well.
-    _exit(written == static_cast<ssize_t>(text.size()) && !testing::Test::HasFailure() ? 0 : 1);
+    const bool failed = !failed_before && testing::Test::HasFailure();
+    _exit(written == static_cast<ssize_t>(text.size()) && !failed ? 0 : 1);
   }
   close(ends[1]);
   std::string text;
