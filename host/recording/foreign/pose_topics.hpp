@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -30,9 +31,10 @@ struct TimedPose {
 
 struct PoseTopic {
   PoseStream stream;
-  bool has_stamps = false;       // false: all are zero, and the times are those of the recorder
-  std::vector<TimedPose> poses;  // times increase strictly
-  std::vector<Remark> remarks;   // what was inferred or left out
+  bool has_stamps = false;  // false: all are zero, and the times are those of the recorder
+  /// Times increase strictly. A deque, because a caller that converts them frees what it has read.
+  std::deque<TimedPose> poses;
+  std::vector<Remark> remarks;  // what was inferred or left out
 };
 
 /// What is not given ("") may be anything.
