@@ -80,13 +80,12 @@ std::vector<recording::OdometrySample> odometry_of(const WheelTrack& track, cons
   odometry.reserve(track.samples.size());
   const double right_m = geometry.c_r * counter.wheel.metres_per_count(),
                left_m = geometry.c_l * counter.wheel.metres_per_count();
-  const std::int64_t left_start = counter.counts(track.samples.front().left),
-                     right_start = counter.counts(track.samples.front().right);
+  const WheelSample start = track.samples.front();  // a counter may stand at any number
   recording::OdometrySample sample;
   std::int64_t left = 0, right = 0;
   for (const WheelSample& at : track.samples) {
-    const std::int64_t new_left = counter.counts(at.left) - left_start,
-                       new_right = counter.counts(at.right) - right_start;
+    const std::int64_t new_left = counter.counts(at.left - start.left),
+                       new_right = counter.counts(at.right - start.right);
     const std::int64_t time_us = microseconds(at.time_ns);
     const double right_step_m = right_m * static_cast<double>(new_right - right),
                  left_step_m = left_m * static_cast<double>(new_left - left);
