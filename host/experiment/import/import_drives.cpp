@@ -52,8 +52,7 @@ PairedDrive paired(const std::string& name, const DriveFiles& files, const Impor
   try {
     return pair_up(name, wheels, truth, choices.geometry, choices.floor);
   } catch (const Error& error) {
-    throw Error("'" + files.wheels.string() + "' and '" + files.truth.string() +
-                    "' do not make a drive: " + error.what(),
+    throw Error("'" + files.wheels.string() + "' with '" + files.truth.string() + "': " + error.what(),
                 error.remedy());
   }
 }

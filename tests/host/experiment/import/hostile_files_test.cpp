@@ -58,7 +58,7 @@ bool is_about_the_whole_file(const std::string& text) {
                                       "written by a newer version",
                                       "messages that do not belong",
                                       "holds more ",
-                                      "do not make a drive",
+                                      "' with '",
                                       "has no [parameters]",
                                       "[nominal] needs",
                                       "[parameters]",
