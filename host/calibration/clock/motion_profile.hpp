@@ -60,9 +60,9 @@ class BodyPath {
   Stream<double> heading_rad_;
 };
 
-/// The most steps of time into which a recording is divided. A drive of 100 minutes has so many of 25 ms; one wrong time
+/// The most steps of time into which a recording is divided. A drive of 40 minutes has so many of 25 ms; one wrong time
 /// can make a recording seem decades long.
-inline constexpr double kMostSteps = 250'000;
+inline constexpr double kMostSteps = 100'000;
 
 /// The path of a point `lever_m` ahead of a nominal robot's centre, from its wheels alone. Before and after
 /// their samples it stands still for `beyond_s`. Cost  40 poses for each second, at

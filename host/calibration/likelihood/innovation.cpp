@@ -1,6 +1,7 @@
 #include "host/calibration/likelihood/innovation.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <cmath>
 
 #include "host/calibration/likelihood/kalman_filter.hpp"

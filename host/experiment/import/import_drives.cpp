@@ -47,10 +47,10 @@ void refuse_twins(std::span<const DriveFiles> files) {
 
 /// The errors of pairing are about both files.
 PairedDrive paired(const std::string& name, const DriveFiles& files, const ImportChoices& choices) {
-  const ImportedWheels wheels = read_wheels(files.wheels, choices.wheels);
+  ImportedWheels wheels = read_wheels(files.wheels, choices.wheels);
   const ImportedTruth truth = read_truth(files.truth, choices.truth);
   try {
-    return pair_up(name, wheels, truth, choices.geometry, choices.floor);
+    return pair_up(name, std::move(wheels), truth, choices.geometry, choices.floor);
   } catch (const Error& error) {
     throw Error("'" + files.wheels.string() + "' with '" + files.truth.string() + "': " + error.what(),
                 error.remedy());

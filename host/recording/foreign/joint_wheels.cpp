@@ -60,7 +60,7 @@ class JointWheels {
       topics.push_back(topic.name);
       messages += topic.messages;
     }
-    require_possible(messages, "states of joints", path_);
+    require_possible(messages, 24, "states of joints", path_);
     if (topic_.empty() && topics.size() == 1) topic_ = topics.front();
     if (std::ranges::find(topics, topic_) != topics.end()) return;
     const std::string what = topics.empty()   ? " has no messages of joints (sensor_msgs/msg/JointState)"

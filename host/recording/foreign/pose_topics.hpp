@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -31,10 +30,9 @@ struct TimedPose {
 
 struct PoseTopic {
   PoseStream stream;
-  bool has_stamps = false;  // false: all are zero, and the times are those of the recorder
-  /// Times increase strictly. A deque, because a caller that converts them frees what it has read.
-  std::deque<TimedPose> poses;
-  std::vector<Remark> remarks;  // what was inferred or left out
+  bool has_stamps = false;       // false: all are zero, and the times are those of the recorder
+  std::vector<TimedPose> poses;  // times increase strictly
+  std::vector<Remark> remarks;   // what was inferred or left out
 };
 
 /// What is not given ("") may be anything.
@@ -50,7 +48,7 @@ std::vector<PoseStream> pose_streams(const std::filesystem::path& path);
 /// from those of the recorder or drift against them.
 ///
 /// Errors  UnclearChoice (unclear_choice.hpp) with the names of the streams if none or several are left; astro::Error
-///         naming the file if it is no bag, or packs more poses than any recording of its size.
+///         naming the file if it is no bag, or packs more poses than are taken from one of its size.
 PoseTopic poses_in_bag(const std::filesystem::path& path, const PoseSelection& selection = {});
 
 }  // namespace astro::recording

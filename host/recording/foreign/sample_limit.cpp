@@ -7,12 +7,13 @@
 
 namespace astro::recording {
 
-void require_possible(std::uint64_t samples, const char* what, const std::filesystem::path& path) {
-  constexpr std::uint64_t kFreeSamples = 300'000, kLeastBytes = 24;
+void require_possible(std::uint64_t samples, std::uint64_t least_bytes, const char* what,
+                      const std::filesystem::path& path) {
+  constexpr std::uint64_t kFreeSamples = 300'000;
   std::uint64_t bytes = 0;
   for (const std::filesystem::path& file : bag_files(path).files) bytes += std::filesystem::file_size(file);
-  if (samples > kFreeSamples + bytes / kLeastBytes)
-    throw Error(path.string() + " holds more " + what + " than any recording of its size: it is damaged",
+  if (samples > kFreeSamples + bytes / least_bytes)
+    throw Error(path.string() + " holds more " + what + " than are taken from a file of its size",
                 {Help::copy_or_record_again});
 }
 

@@ -10,9 +10,8 @@ namespace astro::recording {
 
 /// Sorts samples by their time_ns and drops all but the first of one instant, with a remark for either; `what` names
 /// them: "poses of /tracker".
-template <class Samples>
-void order_by_time(Samples& samples, const std::string& what, std::vector<Remark>& remarks) {
-  using Sample = typename Samples::value_type;
+template <class Sample>
+void order_by_time(std::vector<Sample>& samples, const std::string& what, std::vector<Remark>& remarks) {
   if (!std::ranges::is_sorted(samples, {}, &Sample::time_ns)) {
     std::stable_sort(samples.begin(), samples.end(),
                      [](const Sample& a, const Sample& b) { return a.time_ns < b.time_ns; });

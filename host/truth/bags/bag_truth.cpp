@@ -31,7 +31,7 @@ BodyTrack track_in_bag(const std::filesystem::path& path, const recording::PoseS
   if (!topic.has_stamps)
     track.facts.remarks.push_back({"the poses have no stamps; their times are when they were recorded"});
   track.samples.reserve(topic.poses.size());
-  for (; !topic.poses.empty(); topic.poses.pop_front()) track.samples.push_back(tracked(topic.poses.front()));
+  for (const recording::TimedPose& pose : topic.poses) track.samples.push_back(tracked(pose));
   return track;
 }
 

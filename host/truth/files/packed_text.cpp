@@ -29,8 +29,10 @@ class Inflater {
   z_stream stream_{};
 };
 
-/// A text with the memory that it and its poses take.
+/// A text with the memory that it takes with its poses, and that they take when they are put on the floor.
 class BoundedText {
+  static constexpr std::size_t kBytesOnFloor = 152;  // with what it is made from, for each pose
+
  public:
   explicit BoundedText(std::size_t most_bytes) : most_(most_bytes) {
     text_.reserve(most_);  // memory that is not written to is not taken; a text that grows would be copied
@@ -40,6 +42,7 @@ class BoundedText {
   bool add(ByteView piece) {
     lines_ += static_cast<std::size_t>(std::count(piece.begin(), piece.end(), std::uint8_t{'\n'}));
     if (text_.size() + piece.size() + sizeof(TrackedPose) * lines_ > most_) return false;
+    if (kBytesOnFloor * lines_ > most_) return false;
     append(text_, piece);
     return true;
   }

@@ -206,6 +206,33 @@ TEST_F(BoundedImport, TablesOfManyShortRows) {
   of("x.tum", truth);
 }
 
+TEST_F(BoundedImport, DrivesOfManyShortRows) {
+  std::string wheels = "time_s,left_counts,right_counts\n", truth = "time_s,x_m,y_m,yaw_rad\n";
+  for (int i = 0; wheels.size() < 16 * kMebibyte; ++i) wheels += std::to_string(i) + ",0,0\n";
+  for (int i = 0; truth.size() < 6 * kMebibyte; ++i)
+    truth += fmt::format("{},{},{},{}\n", i, i % 7, i % 5, i % 3);
+  const fs::path good_wheels = test::write_counts(at("good wheels"), test::short_drive()),
+                 good_truth = test::write_tum(at("good truth"), test::short_drive());
+  test::save(at("wheels.csv"), wheels);
+  test::save(at("truth.csv"), truth);
+  ImportChoices choices;
+  choices.geometry.wheel_diameter_m = test::kDiameter_m;
+  choices.geometry.counts_per_turn = test::kCountsPerTurn;
+  choices.geometry.wheelbase_m = 0.29;
+  for (const DriveFiles& files :
+       {DriveFiles{at("wheels.csv"), good_truth}, DriveFiles{good_wheels, at("truth.csv")},
+        DriveFiles{at("wheels.csv"), at("truth.csv")}}) {
+    const std::size_t bytes = fs::file_size(files.wheels) + fs::file_size(files.truth);
+    const Taken taken = measured([&] { import_drives(std::span(&files, 1), choices); });
+    EXPECT_TRUE(taken.ended);
+    if (support::kMeasuresMemory) {
+      const std::size_t large_files = bytes > 17 * kMebibyte ? 2 : 1;
+      EXPECT_LE(taken.peak_bytes, 4 * bytes + large_files * 64 * kMebibyte) << "each file may take as much";
+      EXPECT_LE(taken.cpu_s, 1 + 40e-9 * static_cast<double>(bytes)) << "a second, and 25 MB/s";
+    }
+  }
+}
+
 TEST_F(BoundedImport, TimesAtTheEndsOfTheirRange) {
   std::string wheels =
       "time_ns,left_counts,right_counts\n-9100000000000000000,0,0\n9100000000000000000,5,5\n";
