@@ -110,6 +110,11 @@ double path_length(std::span<const WheelMotion> wheels) {
 std::optional<ClockMatch> match_clocks(std::span<const FloorPoint> points, double metres_per_unit,
                                        std::span<const WheelMotion> wheels) {
   if (points.size() < 10 || wheels.size() < 10) return std::nullopt;
+  // No drive is longer than a day; a recording that is has a wrong time in it.
+  constexpr double kLongest_s = 86'400;
+  if (points.back().time_s - points.front().time_s > kLongest_s ||
+      wheels.back().time_s - wheels.front().time_s > kLongest_s)
+    return std::nullopt;
   calibration::Trajectory run;
   run.wheels = travel_of(wheels);
   // All points of 7 minutes at 240 Hz; of an hour 28 in a second, which show as much in bins of 50 ms.
