@@ -22,6 +22,27 @@ namespace {
 constexpr std::uint64_t kMebibyte = std::uint64_t{1} << 20;
 constexpr std::size_t kMostWarnings = 8;
 
+/// The topics of the channels of an MCAP file. A channel may be defined again, and then as another topic.
+class ChannelTopics {
+ public:
+  explicit ChannelTopics(TopicTable& topics) : topics_(topics) {}
+
+  /// Null as TopicTable::entry.
+  TopicTable::Entry* entry(const mcap::Channel& channel, const mcap::Schema* schema) {
+    const std::string_view type = schema == nullptr ? std::string_view() : std::string_view(schema->name);
+    if (entries_.size() <= channel.id) entries_.resize(std::size_t{channel.id} + 1);
+    TopicTable::Entry*& entry = entries_[channel.id];
+    if (entry == nullptr || entry->topic.name != channel.topic || entry->topic.type != type ||
+        entry->topic.encoding != channel.message_encoding)
+      entry = topics_.entry(channel.topic, type, channel.message_encoding);
+    return entry;
+  }
+
+ private:
+  TopicTable& topics_;
+  std::vector<TopicTable::Entry*> entries_;  // by the channels' ids
+};
+
 class BagReader {
  public:
   explicit BagReader(const BagHandlers& handlers) : topics_(handlers) {}
@@ -119,18 +140,12 @@ class BagReader {
                                      64 * kMebibyte + 256 * part.stored_bytes};
     McapLimits limits;
     limits.packed_bytes = part.stored_bytes;
-    // Of the channel ids; a channel may be defined again, and then as another topic.
-    std::vector<TopicTable::Entry*> entries;
+    ChannelTopics channels(topics_);
     bool expanded = true, known = true;
     McapHandlers handlers;
     handlers.message = [&](const mcap::Channel& channel, const mcap::Schema* schema,
                            const mcap::Message& message) {
-      const std::string_view type = schema == nullptr ? std::string_view() : std::string_view(schema->name);
-      if (entries.size() <= channel.id) entries.resize(std::size_t{channel.id} + 1);
-      TopicTable::Entry*& entry = entries[channel.id];
-      if (entry == nullptr || entry->topic.name != channel.topic || entry->topic.type != type ||
-          entry->topic.encoding != channel.message_encoding)
-        entry = topics_.entry(channel.topic, type, channel.message_encoding);
+      TopicTable::Entry* entry = channels.entry(channel, schema);
       known = known && entry != nullptr;
       if (entry == nullptr) return;
       const auto time_ns = static_cast<std::int64_t>(
