@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "host/base/error.hpp"
+#include "host/base/files.hpp"
 
 namespace astro {
 namespace {
@@ -23,6 +24,7 @@ constexpr std::size_t kWindowBytes = std::size_t{1} << 20;
 }  // namespace
 
 FileSource::FileSource(std::filesystem::path path) : path_(std::move(path)) {
+  require_file(path_);
   // O_NONBLOCK: opening a pipe that nobody writes to must not wait.
   descriptor_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor_ < 0) cannot_read(path_, std::generic_category().message(errno));

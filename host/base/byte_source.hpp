@@ -32,8 +32,8 @@ class MemorySource : public ByteSource {
 /// A regular file, read through a window of 1 MiB, or of the largest `count` if that is more. Its size is the one
 /// that it had when it was opened: what a recorder appends later is not seen.
 ///
-/// Errors  astro::Error naming the file if it does not exist, is no regular file, or cannot be read, also because it
-///         became shorter in the meantime.
+/// Errors  astro::Error naming the file: as require_file (files.hpp), or if it cannot be read, also because it became
+///         shorter in the meantime.
 class FileSource : public ByteSource {
  public:
   explicit FileSource(std::filesystem::path path);

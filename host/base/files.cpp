@@ -32,8 +32,8 @@ bool is_recording(const fs::path& path) {
 Error too_large(const fs::path& path, std::uintmax_t size, std::uintmax_t most_bytes) {
   if (most_bytes == kMaxFileBytes)
     return Error(path.string() + " is larger than 4 GiB", {Help::split_into_shorter_runs});
-  return Error(path.string() + " has " + std::to_string(size >> 20U) +
-                   " MiB, and no file of its kind has more than " + std::to_string(most_bytes >> 20U),
+  return Error(path.string() + " has " + std::to_string(size) +
+                   " bytes, and no file of its kind has more than " + std::to_string(most_bytes),
                {Help::name_right_file});
 }
 
@@ -48,7 +48,7 @@ void sync_folder(const fs::path& folder) {
 
 }  // namespace
 
-Bytes load_file(const fs::path& path, std::uintmax_t most_bytes) {
+void require_file(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::status_known(status)) throw Error("cannot read " + path.string() + ": " + error.message());
@@ -62,6 +62,11 @@ Bytes load_file(const fs::path& path, std::uintmax_t most_bytes) {
   }
   if (fs::is_directory(status)) throw Error(path.string() + " is a folder", {Help::name_file_in_it});
   if (!fs::is_regular_file(status)) throw Error(path.string() + " is a device or a pipe", {Help::name_file});
+}
+
+Bytes load_file(const fs::path& path, std::uintmax_t most_bytes) {
+  require_file(path);
+  std::error_code error;
   const std::uintmax_t size = fs::file_size(path, error);
   if (error) throw Error("cannot read " + path.string() + ": " + error.message());
   if (size > most_bytes) throw too_large(path, size, most_bytes);

@@ -11,8 +11,11 @@ namespace astro {
 inline constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{4} << 30;
 inline constexpr std::uintmax_t kMaxSettingsBytes = std::uintmax_t{1} << 20;
 
-/// Reads the whole file. Throws astro::Error if it does not exist, is no regular file, cannot be read, or is
-/// larger than `most_bytes`; the message for a missing file says if its `.part` exists.
+/// Throws astro::Error if the file does not exist, and says if its `.part` does, or if it is no regular file.
+void require_file(const std::filesystem::path& path);
+
+/// Reads the whole file. Throws astro::Error as require_file does, or if it cannot be read or is larger than
+/// `most_bytes`.
 Bytes load_file(const std::filesystem::path& path, std::uintmax_t most_bytes = kMaxFileBytes);
 
 /// A file that gets its name only when it is complete. Bytes go to `<path>.part`; commit() syncs them to the

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <string>
 #include <string_view>
 
 #include "host/base/bytes.hpp"
@@ -17,6 +16,10 @@
 namespace astro::ros2 {
 
 inline constexpr std::size_t kCdrHeaderBytes = 4;
+
+/// Of a frame or a joint, in characters; ROS limits the names of topics to the same. A message may come from anybody, and
+/// whoever keeps the names of many of them must know how long they are.
+inline constexpr std::size_t kLongestName = 255;
 
 class CdrWriter {
  public:
@@ -78,13 +81,20 @@ class CdrReader {
     return ok() ? count : 0;
   }
 
-  /// Accepts the length 0, which some writers use for the empty string.
-  std::string string() {
+  /// Valid as long as the message. Accepts the length 0, which some writers use for the empty string.
+  std::string_view string() {
     const auto size = number<std::uint32_t>();
     const ByteView text = cursor_.take(size);
     if (!ok() || text.empty()) return {};
     if (text.back() != 0) ok_ = false;
-    return std::string(as_text(text.first(text.size() - 1)));
+    return as_text(text.first(text.size() - 1));
+  }
+
+  /// A string of at most kLongestName characters; a longer one makes ok() false.
+  std::string_view name() {
+    const std::string_view text = string();
+    if (text.size() > kLongestName) ok_ = false;
+    return ok() ? text : std::string_view();
   }
 
  private:

@@ -48,7 +48,7 @@ std::optional<JointState> decode_joint_state(ByteView message) {
   const std::size_t joints = in.length(sizeof(std::uint32_t));
   if (!in.ok() || joints > kMostJoints) return std::nullopt;
   state.names.resize(joints);
-  for (std::string& name : state.names) name = in.string();
+  for (std::string& name : state.names) name = in.name();
   for (auto* list : {&state.positions, &state.velocities, &state.efforts})
     if (!take_list(in, joints, *list)) return std::nullopt;
   return state;

@@ -28,7 +28,8 @@ const RosType& joint_state_type();
 /// Precondition: a time within 2^31 s.
 Bytes encode_joint_state(const JointState& state);
 
-/// Nothing if the message is too short for its type, has more than kMostJoints, or a list of another length.
+/// Nothing if the message is too short for its type, has more than kMostJoints, a name longer than kLongestName
+/// (cdr.hpp), or a list of another length.
 std::optional<JointState> decode_joint_state(ByteView message);
 
 }  // namespace astro::ros2

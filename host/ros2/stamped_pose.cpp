@@ -1,5 +1,7 @@
 #include "host/ros2/stamped_pose.hpp"
 
+#include <algorithm>
+
 #include "host/ros2/cdr.hpp"
 #include "host/ros2/message_definitions.hpp"
 #include "host/ros2/ros_stamp.hpp"
@@ -23,15 +25,16 @@ enum class Child { absent, named };
 StampedPose take_stamped_pose(CdrReader& in, Child child) {
   StampedPose pose;
   pose.time_ns = take_time_ns(in);
-  pose.frame = in.string();
-  if (child == Child::named) pose.child_frame = in.string();
+  pose.frame = in.name();
+  if (child == Child::named) pose.child_frame = in.name();
   for (double* number : {&pose.x_m, &pose.y_m, &pose.z_m, &pose.qx, &pose.qy, &pose.qz, &pose.qw})
     *number = in.number<double>();
   return pose;
 }
 
 std::vector<StampedPose> take_transforms(CdrReader& in) {
-  std::vector<StampedPose> all(in.length(kLeastTransformBytes));
+  const std::size_t count = in.length(kLeastTransformBytes);
+  std::vector<StampedPose> all(std::min(count, kMostTransforms + 1));
   for (StampedPose& pose : all) {
     if (!in.ok()) break;
     pose = take_stamped_pose(in, Child::named);
@@ -69,6 +72,7 @@ std::optional<std::vector<StampedPose>> poses_in(std::string_view type, ByteView
   std::vector<StampedPose> poses;
   if (type == kTfMessageType.name) {
     poses = take_transforms(in);
+    if (poses.size() > kMostTransforms) return std::nullopt;
   } else if (const PoseType* single = pose_type(type)) {
     poses.push_back(take_stamped_pose(in, single->child));
     in.skip<double>(single->further_numbers);

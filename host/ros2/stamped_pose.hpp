@@ -25,8 +25,12 @@ struct StampedPose {
 /// TransformStamped, "nav_msgs/msg/Odometry", "tf2_msgs/msg/TFMessage".
 bool holds_poses(std::string_view type);
 
-/// The poses of one message; a TFMessage has any number of them, the others one. Nothing if the message does not
-/// fit its type, or if holds_poses(type) is false. No memory beyond a few times the message.
+/// More transforms than any robot publishes in one message. In memory each takes twice its bytes, so a message is not
+/// allowed to hold any number of them.
+inline constexpr std::size_t kMostTransforms = 16'384;
+
+/// The poses of one message; a TFMessage has up to kMostTransforms of them, the others one. Nothing if the message does
+/// not fit its type, has a frame longer than kLongestName (cdr.hpp), or if holds_poses(type) is false.
 std::optional<std::vector<StampedPose>> poses_in(std::string_view type, ByteView message);
 
 const RosType& tf_message_type();

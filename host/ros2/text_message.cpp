@@ -19,9 +19,9 @@ Bytes encode_text(std::string_view text) {
 
 std::optional<std::string> decode_text(ByteView message) {
   CdrReader in(message);
-  std::string text = in.string();
+  const std::string_view text = in.string();
   if (!in.ok()) return std::nullopt;
-  return text;
+  return std::string(text);
 }
 
 }  // namespace astro::ros2

@@ -5,6 +5,7 @@
 #include "common/fixed/multiply.hpp"
 #include "common/fixed/saturate.hpp"
 #include "common/fixed/wide.hpp"
+#include "common/fixed/wrapping.hpp"
 
 namespace astro {
 namespace {
@@ -14,14 +15,6 @@ constexpr std::int32_t kLeastSupply_mv = 1000;  // a lower reading cannot be the
 
 std::int32_t speed_umps(const Geometry::Wheel& wheel, const SpeedObserver& observer) {
   return saturate32(mul_high(wheel.speed, observer.speed()));
-}
-
-std::int32_t wrapping_difference(std::int32_t a, std::int32_t b) {
-  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
-}
-
-std::int32_t wrapping_sum(std::int32_t a, std::int32_t b) {
-  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
 }
 
 // In one tick a wheel may not turn the robot by more than a sixteenth of a turn (the odometry's domain), nor

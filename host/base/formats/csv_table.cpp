@@ -98,9 +98,9 @@ void refuse(std::string_view name, int line, const std::string& what, const Reme
 
 CsvTable split_csv(std::string_view text, std::string_view name) {
   if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
-  if (text.find('\0') != std::string_view::npos) {
-    throw Error(std::string(name) + " is not plain text", {Help::save_as_csv});
-  }
+  if (const std::size_t at = text.find('\0'); at != std::string_view::npos)
+    throw Error(std::string(name) + " is not plain text: byte " + std::to_string(at + 1) + " is zero",
+                {Help::save_as_csv});
   CsvTable out;
   std::size_t memory = 0;
   const std::size_t most = kFreeTableBytes + 2 * text.size();

@@ -10,7 +10,6 @@
 namespace astro::calibration {
 namespace {
 
-constexpr double kFinestBin_s = 0.05;
 constexpr double kNearby_s = 1;
 constexpr double kGoodEnough = 0.95;
 constexpr double kMostSkew = 0.05;
@@ -37,12 +36,13 @@ class Search {
   explicit Search(const RecordedMotion& motion)
       : motion_(motion),
         truth_is_longer_(motion.truth_span_s() > motion.wheel_span_s()),
-        shorter_s_(std::min(motion.truth_span_s(), motion.wheel_span_s())) {}
+        shorter_s_(std::min(motion.truth_span_s(), motion.wheel_span_s())),
+        finest_s_(motion.finest_bin_s()) {}
 
   Candidate nearby(double skew) const {
-    const MotionMatch match = motion_.match(kFinestBin_s);
+    const MotionMatch match = motion_.match(finest_s_);
     Candidate best;
-    for (double offset_s = -kNearby_s; offset_s <= kNearby_s; offset_s += kFinestBin_s)
+    for (double offset_s = -kNearby_s; offset_s <= kNearby_s; offset_s += finest_s_)
       best = std::min(best, tried(match, {middle_s(), middle_s() - offset_s, skew}), better);
     return polished(match, best, false);
   }
@@ -92,7 +92,7 @@ class Search {
     const double pairs = shorter_s_ * (motion_.truth_span_s() + motion_.wheel_span_s()) / 2;  // times bin^2
     const double skews = 2 * kMostSkew / skew_step(1);                                        // times bin
     return std::max(
-        {kFinestBin_s, std::sqrt(pairs / kMostWork), skew_known ? 0 : std::cbrt(pairs * skews / kMostWork)});
+        {finest_s_, std::sqrt(pairs / kMostWork), skew_known ? 0 : std::cbrt(pairs * skews / kMostWork)});
   }
 
   std::vector<Candidate> scan(double bin_s, std::optional<double> skew) const {
@@ -136,7 +136,7 @@ class Search {
   /// Refines the candidates with bins of half the size, until the bins are the finest.
   std::vector<Candidate> refined(std::vector<Candidate> found, double bin_s, bool free_skew) const {
     while (true) {
-      bin_s = std::max(kFinestBin_s, bin_s / 2);
+      bin_s = std::max(finest_s_, bin_s / 2);
       const MotionMatch match = motion_.match(bin_s);
       for (Candidate& candidate : found) {
         const ClockGuess around = candidate.guess;
@@ -145,9 +145,9 @@ class Search {
         for (int i = -4; i <= 4; ++i)
           for (int k = free_skew ? -4 : 0; k <= (free_skew ? 4 : 0); ++k)
             candidate = std::min(candidate, moved(match, around, i * bin_s, k * step), better);
-        if (bin_s == kFinestBin_s) candidate = polished(match, candidate, free_skew);
+        if (bin_s == finest_s_) candidate = polished(match, candidate, free_skew);
       }
-      if (bin_s == kFinestBin_s) break;
+      if (bin_s == finest_s_) break;
     }
     std::sort(found.begin(), found.end(), better);
     return found;
@@ -162,7 +162,7 @@ class Search {
     const auto height = [&](double offset_s, double skew) {
       return moved(match, found.guess, offset_s, skew).agreement.correlation;
     };
-    const double step_s = kFinestBin_s, step = free_skew ? skew_step(kFinestBin_s) / 2 : 0;
+    const double step_s = finest_s_, step = free_skew ? skew_step(finest_s_) / 2 : 0;
     const double b = found.agreement.correlation;
     const double by_s = step_s * top(height(-step_s, 0), b, height(step_s, 0));
     return std::min(found, moved(match, found.guess, by_s, step * top(height(0, -step), b, height(0, step))),
@@ -171,7 +171,7 @@ class Search {
 
   const RecordedMotion& motion_;
   bool truth_is_longer_;
-  double shorter_s_;
+  double shorter_s_, finest_s_;
 };
 
 ClockFit fit_of(const Search& search, const Candidate& found) {

@@ -83,15 +83,15 @@ std::optional<Rate> BodyPath::rate(double time_s, const Window& window, double r
 
 BodyPath wheel_body(std::span<const WheelSample> wheels, double wheelbase_m, double lever_m,
                     double beyond_s) {
-  constexpr double kStep_s = 0.025;
   const WheelPath path(wheels);
   std::vector<BodySample> body;
   BodySample robot{0, 0, 0, 0};
   const double first_s = wheels.front().time_s - beyond_s, last_s = wheels.back().time_s + beyond_s;
-  const int steps = static_cast<int>(std::ceil((last_s - first_s) / kStep_s)) + 1;
+  const double step_s = std::max(0.025, (last_s - first_s) / kMostSteps);
+  const int steps = static_cast<int>(std::ceil((last_s - first_s) / step_s)) + 1;
   WheelState before = path.at(first_s);
   for (int i = 0; i <= steps; ++i) {
-    const double time_s = first_s + i * kStep_s;
+    const double time_s = first_s + i * step_s;
     const WheelState now = path.at(time_s);
     advance(robot, now.right_m - before.right_m, now.left_m - before.left_m, wheelbase_m);
     before = now;

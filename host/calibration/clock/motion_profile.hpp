@@ -60,8 +60,13 @@ class BodyPath {
   Stream<double> heading_rad_;
 };
 
+/// The most steps of time into which a recording is divided. A drive of 40 minutes has so many of 25 ms; one wrong time
+/// can make a recording seem decades long.
+inline constexpr double kMostSteps = 100'000;
+
 /// The path of a point `lever_m` ahead of a nominal robot's centre, from its wheels alone. Before and after
-/// their samples it stands still for `beyond_s`. Cost  40 poses for each second.
+/// their samples it stands still for `beyond_s`. Cost  40 poses for each second, at
+/// most kMostSteps.
 BodyPath wheel_body(std::span<const WheelSample> wheels, double wheelbase_m, double lever_m, double beyond_s);
 
 /// Rates at equal steps of time, one column each.

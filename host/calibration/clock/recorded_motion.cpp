@@ -15,6 +15,7 @@ constexpr double kBeyond_s =
     5;  // of standing still before and after the wheels' samples: longer than any window
 // Bins fine enough for the variation of the wheels' speed.
 constexpr double kGlance_s = 0.1;
+constexpr double kFinestBin_s = 0.05;
 
 double standard_deviation_mps(const MotionProfile& profile) {
   double n = 0, speed = 0, turn = 0, square = 0;
@@ -44,11 +45,16 @@ RecordedMotion::RecordedMotion(const Trajectory& run, double wheelbase_m, double
 }
 
 void RecordedMotion::choose_window() {
-  const double wanted_mps = kWantedNoise * standard_deviation_mps(wheel_profile(kGlance_s, window_));
+  const double wanted_mps =
+      kWantedNoise * standard_deviation_mps(wheel_profile(std::max(kGlance_s, finest_bin_s()), window_));
   if (noise_mps(window_) <= wanted_mps) return;
   // Of n = rate * width samples each, means over neighbouring widths differ by sqrt(2 / n) sigma.
   const double width_s = std::cbrt(2 / truth_rate_hz_ * std::pow(sigma_m_ / std::max(wanted_mps, 1e-6), 2));
   window_ = {std::clamp(width_s / 2, window_.half_s, kLongestHalfWindow_s), true};
+}
+
+double RecordedMotion::finest_bin_s() const {
+  return std::max(kFinestBin_s, (truth_span_s() + wheel_span_s()) / kMostSteps);
 }
 
 double RecordedMotion::noise_mps(const Window& window) const {

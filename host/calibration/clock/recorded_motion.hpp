@@ -16,6 +16,10 @@ class RecordedMotion {
   /// fifth of the variation of the wheels' speed: 0.9 s for 5 cm at 60 Hz.
   const Window& window() const { return window_; }
 
+  /// The smallest bins that are worth comparing: a twentieth of a second, or longer if a single wrong time makes the
+  /// recording so long that they would not fit into memory.
+  double finest_bin_s() const;
+
   /// Bins much coarser than the window use speeds averaged over a bin.
   MotionMatch match(double bin_s) const;
 

@@ -1,5 +1,6 @@
 #include "host/emulator/robot/world.hpp"
 
+#include "common/fixed/wrapping.hpp"
 #include "hal/sim/encoder.hpp"
 
 namespace astro::emulator {
@@ -63,10 +64,7 @@ std::array<std::int32_t, 2> World::edges(const sim::Pair& wheels_rad) {
   const hal::EncoderCounts before = shafts_.read();
   shafts_.turn(wheels_rad);
   const hal::EncoderCounts after = shafts_.read();
-  const auto difference = [](std::int32_t a, std::int32_t b) {
-    return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
-  };
-  return {difference(after.left, before.left), difference(after.right, before.right)};
+  return {wrapping_difference(after.left, before.left), wrapping_difference(after.right, before.right)};
 }
 
 void World::event() {

@@ -177,7 +177,8 @@ ParameterFile read_parameter_file(const fs::path& path) {
   ParameterFile result;
   for (const auto& [key, node] : *parameters) {
     const std::string name(key.str());
-    result.parameters[name] = value_of(node, "'" + path.string() + "': [parameters] " + name);
+    result.parameters[name] = value_of(
+        node, fmt::format("'{}' line {}: [parameters] {}", path.string(), node.source().begin.line, name));
   }
   result.loaded = numbers_in(file["carried"]);
   result.standard_errors = numbers_in(file["standard_errors"]);

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "common/fixed/wrapping.hpp"
 #include "host/base/error.hpp"
 #include "host/experiment/analysis/loaded_parameter.hpp"
 #include "host/experiment/files/same_number.hpp"
@@ -18,16 +19,15 @@ namespace {
 class Travel {
  public:
   double advance(std::int32_t counts, double metres_per_count) {
-    const auto now = static_cast<std::uint32_t>(counts);
-    if (!first_) total_ += static_cast<std::int32_t>(now - seen_);
+    if (!first_) total_ += wrapping_difference(counts, seen_);
     first_ = false;
-    seen_ = now;
+    seen_ = counts;
     return static_cast<double>(total_) * metres_per_count;
   }
 
  private:
   bool first_ = true;
-  std::uint32_t seen_ = 0;
+  std::int32_t seen_ = 0;
   std::int64_t total_ = 0;
 };
 

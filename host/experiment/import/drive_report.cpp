@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 
+#include "common/fixed/wrapping.hpp"
 #include "host/calibration/motion/arc.hpp"
 #include "host/experiment/analysis/judgement_sentences.hpp"
 #include "host/experiment/analysis/likelihood_sentences.hpp"
@@ -45,12 +45,9 @@ void dead_reckon_again(recording::Run& run, const NominalWheel& wheel, const Whe
   for (std::size_t i = 0; i < run.odometry.size(); ++i) {
     recording::OdometrySample& sample = run.odometry[i];
     const recording::OdometrySample& before = run.odometry[i == 0 ? 0 : i - 1];
-    const auto step = [](std::int32_t from, std::int32_t to) {
-      return static_cast<double>(
-          static_cast<std::int32_t>(static_cast<std::uint32_t>(to) - static_cast<std::uint32_t>(from)));
-    };
-    calibration::advance(at, factors.c_r * metres * step(before.right_counts, sample.right_counts),
-                         factors.c_l * metres * step(before.left_counts, sample.left_counts), factors.b_m);
+    calibration::advance(
+        at, factors.c_r * metres * wrapping_difference(sample.right_counts, before.right_counts),
+        factors.c_l * metres * wrapping_difference(sample.left_counts, before.left_counts), factors.b_m);
     sample.x_m = at.x_m;
     sample.y_m = at.y_m;
     sample.theta_rad = at.theta_rad;

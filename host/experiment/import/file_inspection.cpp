@@ -6,15 +6,14 @@
 #include <set>
 #include <utility>
 
-#include "host/base/byte_source.hpp"
-#include "host/base/error.hpp"
-#include "host/base/files.hpp"
+#include "host/base/bytes.hpp"
+#include "host/experiment/import/text_file.hpp"
 #include "host/experiment/import/wheel_file.hpp"
+#include "host/recording/bag/bag_files.hpp"
 #include "host/recording/files/run_file.hpp"
 #include "host/ros2/joint_state.hpp"
 #include "host/ros2/ros_messages.hpp"
 #include "host/truth/bags/bag_truth.hpp"
-#include "host/truth/files/packed_text.hpp"
 #include "host/truth/files/tracker_file.hpp"
 
 namespace astro::experiment {
@@ -76,7 +75,8 @@ BagInspection inspect_bag(const fs::path& path) {
   const bool own = std::any_of(bag.topics.begin(), bag.topics.end(), [](const TopicInspection& one) {
     return one.topic.type == ros2::wheel_counts_type().name;
   });
-  if (own && !fs::is_directory(path)) bag.run = recording::read_run(path, recording::Damage::accepted).info;
+  if (own && recording::bag_file_kind(path) == recording::BagFileKind::mcap)
+    bag.run = recording::read_run_info(path);
   return bag;
 }
 
@@ -99,17 +99,18 @@ bool is_settings(const fs::path& path) {
   return end == ".toml" || end == ".yaml" || end == ".yml";
 }
 
+/// Nothing if the file is no recording of a tracker; its text is not in memory any more then.
+std::optional<truth::Inspection> inspect_tracker(const fs::path& path) {
+  const Bytes bytes = text_of_file(path);
+  const std::string_view text = as_text(bytes);
+  if (truth::recognise(text) == truth::FileKind::unknown) return std::nullopt;
+  return truth::inspect(text, path.string());
+}
+
 FileInspection inspect_text(const fs::path& path, const recording::WheelTable& table) {
   FileInspection out;
-  const Bytes bytes = load_file(path);
-  const std::string unpacked = truth::is_gzip(bytes) ? truth::unpacked(bytes, path.string()) : "";
-  const std::string_view text = unpacked.empty() ? as_text(bytes) : std::string_view(unpacked);
-  if (table.columns.empty() && truth::recognise(text) != truth::FileKind::unknown) {
-    out.tracker = truth::inspect(text, path.string());
-    return out;
-  }
-  MemorySource source({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-  out.wheels = inspect_wheels(recording::wheels_in_table(source, path.string(), table));
+  if (table.columns.empty()) out.tracker = inspect_tracker(path);
+  if (!out.tracker) out.wheels = inspect_wheels(read_wheel_table(path, table));
   return out;
 }
 

@@ -45,6 +45,18 @@ void refuse_twins(std::span<const DriveFiles> files) {
                     {Help::name_other_file});
 }
 
+/// The errors of pairing are about both files.
+PairedDrive paired(const std::string& name, const DriveFiles& files, const ImportChoices& choices) {
+  ImportedWheels wheels = read_wheels(files.wheels, choices.wheels);
+  const ImportedTruth truth = read_truth(files.truth, choices.truth);
+  try {
+    return pair_up(name, std::move(wheels), truth, choices.geometry, choices.floor);
+  } catch (const Error& error) {
+    throw Error("'" + files.wheels.string() + "' with '" + files.truth.string() + "': " + error.what(),
+                error.remedy());
+  }
+}
+
 }  // namespace
 
 ImportedDrives import_drives(std::span<const DriveFiles> files, const ImportChoices& choices) {
@@ -52,8 +64,7 @@ ImportedDrives import_drives(std::span<const DriveFiles> files, const ImportChoi
   ImportedDrives drives;
   drives.set.names = names_of(files);
   for (std::size_t i = 0; i < files.size(); ++i) {
-    PairedDrive drive = pair_up(drives.set.names[i], read_wheels(files[i].wheels, choices.wheels),
-                                read_truth(files[i].truth, choices.truth), choices.geometry, choices.floor);
+    PairedDrive drive = paired(drives.set.names[i], files[i], choices);
     drives.set.runs.push_back(std::move(drive.run));
     drives.reports.push_back(std::move(drive.report));
   }

@@ -36,7 +36,7 @@ struct PairedDrive {
 ///
 /// Throws astro::Error: wheels and truth turn against each other; a wheel turns 100 times between two samples; what
 /// complete_geometry and truth::place_on_floor throw.
-PairedDrive pair_up(const std::string& name, const ImportedWheels& wheels, const ImportedTruth& truth,
+PairedDrive pair_up(const std::string& name, ImportedWheels wheels, const ImportedTruth& truth,
                     const RobotGeometry& geometry, const truth::FloorChoices& choices = {});
 
 }  // namespace astro::experiment

@@ -51,7 +51,7 @@ RobotGeometry of_parameters(const fs::path& path) {
     if (found == file.parameters.end()) return std::nullopt;
     const double* value = std::get_if<double>(&found->second);
     if (value == nullptr || !(*value > 0))
-      throw Error(fmt::format("'{}': {} is not a number above 0", path.string(), name),
+      throw Error(fmt::format("'{}': [parameters] {} is not a number above 0", path.string(), name),
                   {Help::correct_or_replace_file});
     return *value;
   };

@@ -1,10 +1,9 @@
 #include "host/experiment/import/truth_file.hpp"
 
 #include "host/base/bytes.hpp"
-#include "host/base/files.hpp"
+#include "host/experiment/import/text_file.hpp"
 #include "host/recording/bag/bag.hpp"
 #include "host/truth/bags/bag_truth.hpp"
-#include "host/truth/files/packed_text.hpp"
 #include "host/truth/files/rotations.hpp"
 #include "host/truth/files/tracker_file.hpp"
 
@@ -13,9 +12,8 @@ namespace {
 
 truth::BodyTrack read(const std::filesystem::path& path, const TruthSelection& selection) {
   if (recording::is_bag(path)) return truth::track_in_bag(path, selection.poses);
-  const Bytes bytes = load_file(path);
-  if (!truth::is_gzip(bytes)) return truth::read_track(as_text(bytes), path.string(), selection.body);
-  return truth::read_track(truth::unpacked(bytes, path.string()), path.string(), selection.body);
+  const Bytes text = text_of_file(path);
+  return truth::read_track(as_text(text), path.string(), selection.body);
 }
 
 void change_unit(truth::BodyTrack& track, const std::string& unit) {

@@ -1,11 +1,13 @@
 #include "host/experiment/import/wheel_file.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <utility>
 
+#include "common/fixed/wrapping.hpp"
 #include "host/base/byte_source.hpp"
+#include "host/experiment/import/text_file.hpp"
 #include "host/recording/bag/bag.hpp"
+#include "host/recording/bag/bag_files.hpp"
 #include "host/recording/files/run_file.hpp"
 #include "host/ros2/ros_messages.hpp"
 
@@ -14,8 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Our recordings are single MCAP files; exported as bags or packed they are bags as any other.
 bool is_own_recording(const fs::path& path) {
-  if (fs::is_directory(path)) return false;
+  if (recording::bag_file_kind(path) != recording::BagFileKind::mcap) return false;
   const std::vector<recording::BagTopic> topics = recording::read_bag(path).topics;
   return std::any_of(topics.begin(), topics.end(), [](const recording::BagTopic& topic) {
     return topic.type == ros2::wheel_counts_type().name;
@@ -28,13 +31,10 @@ recording::WheelTrack track_of(const recording::Run& run) {
   track.samples.reserve(run.odometry.size());
   std::int64_t left = 0, right = 0;
   const recording::OdometrySample* before = nullptr;
-  const auto step = [](std::int32_t from, std::int32_t to) {
-    return static_cast<std::int32_t>(static_cast<std::uint32_t>(to) - static_cast<std::uint32_t>(from));
-  };
   for (const recording::OdometrySample& sample : run.odometry) {
     if (before != nullptr) {
-      left += step(before->left_counts, sample.left_counts);
-      right += step(before->right_counts, sample.right_counts);
+      left += wrapping_difference(sample.left_counts, before->left_counts);
+      right += wrapping_difference(sample.right_counts, before->right_counts);
     }
     before = &sample;
     track.samples.push_back({1000 * sample.time_us, static_cast<double>(left), static_cast<double>(right)});
@@ -45,8 +45,7 @@ recording::WheelTrack track_of(const recording::Run& run) {
 
 ImportedWheels read(const fs::path& path, const WheelSelection& selection) {
   if (!recording::is_bag(path)) {
-    FileSource file(path);
-    return {recording::wheels_in_table(file, path.string(), selection.table), {}};
+    return {read_wheel_table(path, selection.table), {}};
   }
   if (selection.joints.topic.empty() && is_own_recording(path)) {
     const recording::Run run = recording::read_run(path);
@@ -56,6 +55,16 @@ ImportedWheels read(const fs::path& path, const WheelSelection& selection) {
 }
 
 }  // namespace
+
+recording::WheelTrack read_wheel_table(const fs::path& path, const recording::WheelTable& table) {
+  if (!is_packed_text(path)) {
+    FileSource file(path);
+    return recording::wheels_in_table(file, path.string(), table);
+  }
+  const Bytes text = text_of_file(path);
+  MemorySource source(text);
+  return recording::wheels_in_table(source, path.string(), table);
+}
 
 ImportedWheels read_wheels(const fs::path& path, const WheelSelection& selection) {
   ImportedWheels wheels = read(path, selection);

@@ -24,8 +24,11 @@ struct ImportedWheels {
   std::optional<recording::RunInfo> info;
 };
 
+/// The wheels in a table, also packed with gzip. Throws as wheels_in_table and text_of_file do.
+recording::WheelTrack read_wheel_table(const std::filesystem::path& path, const recording::WheelTable& table);
+
 /// The wheels in a table, in a bag, or in a recording of this project, by the content of the file. Throws as
-/// wheels_in_table, wheels_in_bag and read_run do.
+/// read_wheel_table, wheels_in_bag and read_run do.
 ImportedWheels read_wheels(const std::filesystem::path& path, const WheelSelection& selection = {});
 
 }  // namespace astro::experiment

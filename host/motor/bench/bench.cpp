@@ -1,5 +1,7 @@
 #include "host/motor/bench/bench.hpp"
 
+#include "common/fixed/wrapping.hpp"
+
 namespace astro::motor {
 
 using namespace protocol;  // NOLINT(google-build-using-namespace): this file is all messages
@@ -12,10 +14,6 @@ constexpr microseconds kStepAtMost = milliseconds(60);
 constexpr std::uint32_t kFields = Telemetry::kCounts | Telemetry::kWheelSpeed | Telemetry::kSetpoint |
                                   Telemetry::kDuty | Telemetry::kBattery;
 constexpr double kFullDuty = 32767;
-
-std::int32_t wrapping_difference(std::int32_t a, std::int32_t b) {
-  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
-}
 
 }  // namespace
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -21,6 +22,27 @@ namespace {
 constexpr std::uint64_t kMebibyte = std::uint64_t{1} << 20;
 constexpr std::size_t kMostWarnings = 8;
 
+/// The topics of the channels of an MCAP file. A channel may be defined again, and then as another topic.
+class ChannelTopics {
+ public:
+  explicit ChannelTopics(TopicTable& topics) : topics_(topics) {}
+
+  /// Null as TopicTable::entry.
+  TopicTable::Entry* entry(const mcap::Channel& channel, const mcap::Schema* schema) {
+    const std::string_view type = schema == nullptr ? std::string_view() : std::string_view(schema->name);
+    if (entries_.size() <= channel.id) entries_.resize(std::size_t{channel.id} + 1);
+    TopicTable::Entry*& entry = entries_[channel.id];
+    if (entry == nullptr || entry->topic.name != channel.topic || entry->topic.type != type ||
+        entry->topic.encoding != channel.message_encoding)
+      entry = topics_.entry(channel.topic, type, channel.message_encoding);
+    return entry;
+  }
+
+ private:
+  TopicTable& topics_;
+  std::vector<TopicTable::Entry*> entries_;  // by the channels' ids
+};
+
 class BagReader {
  public:
   explicit BagReader(const BagHandlers& handlers) : topics_(handlers) {}
@@ -31,7 +53,8 @@ class BagReader {
     for (const std::string& warning : files.warnings) warn(warning);
     for (const fs::path& file : files.files) {
       report_.files.push_back(file);
-      read_file(file, file.string());
+      std::error_code ignored;
+      read_file({file, file.string(), fs::file_size(file, ignored)});
     }
     report_.topics = topics_.topics();
     return std::move(report_);
@@ -42,23 +65,32 @@ class BagReader {
     if (report_.warnings.size() < kMostWarnings) report_.warnings.push_back(what);
   }
 
-  /// `name`: of the bag's own file, if `file` is a copy.
-  void read_file(const fs::path& file, const std::string& name, bool unpacked = false) {
-    switch (bag_file_kind(file)) {
+  /// A file of the bag, or what was unpacked from it.
+  struct Part {
+    fs::path file;
+    std::string name;                // of the bag's own file
+    std::uint64_t stored_bytes = 0;  // of the bag's own file, to which all limits refer
+    bool is_unpacked = false;
+  };
+
+  void read_file(const Part& part) {
+    switch (bag_file_kind(part.file)) {
       case BagFileKind::database:
-        return read_database(file, name);
+        return read_database(part);
       case BagFileKind::mcap:
-        return read_mcap_file(file, name);
+        return read_mcap_file(part);
       case BagFileKind::zstd:
-        if (!unpacked) return read_packed(file, name);
+        if (!part.is_unpacked) return read_packed(part);
         break;
       case BagFileKind::none:
         break;
     }
-    throw Error(name + " is not a bag: it begins like no .db3, .mcap or .zstd file", {Help::name_right_file});
+    throw Error(part.name + " is not a bag: it begins like no .db3, .mcap or .zstd file",
+                {Help::name_right_file});
   }
 
-  void read_database(const fs::path& file, const std::string& name) {
+  void read_database(const Part& part) {
+    const fs::path& file = part.file;
     std::error_code ignored;
     const fs::path logs[] = {fs::path(file) += "-wal", fs::path(file) += "-journal"};
     const bool killed = std::ranges::any_of(logs, [&](const fs::path& log) {
@@ -66,19 +98,33 @@ class BagReader {
     });
     const std::uint64_t whole_pages = bytes_in_whole_pages(file);
     const bool partial_page = whole_pages < fs::file_size(file, ignored);
-    if (!killed && !partial_page) return read_db3(file, name, false, topics_, report_);
+    if (!killed && !partial_page) return read_db3({file, part.name, part.stored_bytes}, topics_, report_);
     const ScratchFolder scratch;
     const fs::path copy = scratch / "copy.db3";
     copy_file(file, copy);
     if (!killed) {
       // SQLite would fill the last page of a cut file with zeros, and messages with them.
       fs::resize_file(copy, whole_pages);
-      return read_db3(copy, name, false, topics_, report_);
+      return read_db3({copy, part.name, part.stored_bytes}, topics_, report_);
     }
     for (const fs::path& log : logs)
       if (fs::is_regular_file(log, ignored))
         copy_file(log, copy.string() + log.string().substr(file.string().size()));
-    read_db3(copy, name, true, topics_, report_);
+    forget_super_journal(copy.string() + "-journal");
+    read_db3({copy, part.name, part.stored_bytes, true}, topics_, report_);
+  }
+
+  /// The journal of a transaction over several databases ends with the name of a file, which SQLite deletes after the
+  /// transaction was rolled back. In a journal from outside that can be any file, so the mark at its end is cut off.
+  static void forget_super_journal(const fs::path& journal) {
+    constexpr std::uint8_t kMark[] = {0xd9, 0xd5, 0x05, 0xf9, 0x20, 0xa1, 0x63, 0xd7};
+    std::error_code ignored;
+    if (!fs::is_regular_file(journal, ignored)) return;
+    FileSource source(journal);
+    const std::uint64_t size = source.size();
+    if (size >= std::size(kMark) &&
+        std::ranges::equal(source.read(size - std::size(kMark), std::size(kMark)), kMark))
+      fs::resize_file(journal, size - 1);
   }
 
   static void copy_file(const fs::path& from, const fs::path& to) {
@@ -88,36 +134,36 @@ class BagReader {
                   {Help::check_permissions_and_disk});
   }
 
-  void read_mcap_file(const fs::path& file, const std::string& name) {
-    FileSource source(file);
-    TopicTable::ExpansionLimit limit{32 * kMebibyte + source.size(), 64 * kMebibyte + 256 * source.size()};
-    // Of the channel ids; a channel may be defined again, and then as another topic.
-    std::vector<TopicTable::Entry*> entries;
-    bool expanded = true;
+  void read_mcap_file(const Part& part) {
+    FileSource source(part.file);
+    TopicTable::ExpansionLimit limit{24 * kMebibyte + part.stored_bytes,
+                                     64 * kMebibyte + 256 * part.stored_bytes};
+    McapLimits limits;
+    limits.packed_bytes = part.stored_bytes;
+    ChannelTopics channels(topics_);
+    bool expanded = true, known = true;
     McapHandlers handlers;
     handlers.message = [&](const mcap::Channel& channel, const mcap::Schema* schema,
                            const mcap::Message& message) {
-      const std::string_view type = schema == nullptr ? std::string_view() : std::string_view(schema->name);
-      if (entries.size() <= channel.id) entries.resize(std::size_t{channel.id} + 1);
-      TopicTable::Entry*& entry = entries[channel.id];
-      if (entry == nullptr || entry->topic.name != channel.topic || entry->topic.type != type ||
-          entry->topic.encoding != channel.message_encoding)
-        entry = &topics_.entry(channel.topic, type, channel.message_encoding);
+      TopicTable::Entry* entry = channels.entry(channel, schema);
+      known = known && entry != nullptr;
+      if (entry == nullptr) return;
       const auto time_ns = static_cast<std::int64_t>(
           std::min<std::uint64_t>(message.log_time_ns, std::numeric_limits<std::int64_t>::max()));
       expanded = topics_.take(*entry, time_ns, message.data, limit) && expanded;
     };
-    const McapReport report = read_mcap(source, handlers);
+    const McapReport report = read_mcap(source, handlers, limits);
     report_.truncated = report_.truncated || report.truncated;
-    report_.damaged = report_.damaged || report.damaged || !expanded;
-    for (const std::string& warning : report.warnings) warn(name + ": " + warning);
-    if (!expanded) warn(name + ": a compressed message that does not expand");
+    report_.damaged = report_.damaged || report.damaged || !expanded || !known;
+    for (const std::string& warning : report.warnings) warn(part.name + ": " + warning);
+    if (!known) warn(part.name + ": more topics than this reader takes");
+    if (!expanded) warn(part.name + ": a compressed message that does not expand");
   }
 
-  void read_packed(const fs::path& file, const std::string& name) {
+  void read_packed(const Part& part) {
     const ScratchFolder scratch;
     const fs::path unpacked = scratch / "unpacked";
-    FileSource source(file);
+    FileSource source(part.file);
     std::ofstream out(unpacked, std::ios::binary);
     const Expansion expansion =
         expand_zstd_file(source, 64 * kMebibyte + 256 * source.size(), [&](ByteView piece) {
@@ -128,11 +174,11 @@ class BagReader {
     out.close();
     if (expansion != Expansion::whole) {
       (expansion == Expansion::cut ? report_.truncated : report_.damaged) = true;
-      warn(name + (expansion == Expansion::cut         ? " ends inside its compressed data"
-                   : expansion == Expansion::too_large ? " expands to more than 256 times its size"
-                                                       : " has damaged compressed data"));
+      warn(part.name + (expansion == Expansion::cut         ? " ends inside its compressed data"
+                        : expansion == Expansion::too_large ? " expands to more than 256 times its size"
+                                                            : " has damaged compressed data"));
     }
-    read_file(unpacked, name, true);
+    read_file({unpacked, part.name, part.stored_bytes, true});
   }
 
   TopicTable topics_;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cctype>
 #include <fstream>
+#include <set>
+#include <string>
 
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
@@ -16,7 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kMetadataFile = "metadata.yaml";
-constexpr std::size_t kMostFiles = 100'000;
+constexpr std::size_t kMostFiles = 10'000, kMostMissing = 8;
 
 /// Orders "bag_2" before "bag_10": numbers by their value, everything else by its bytes.
 bool natural_less(std::string_view a, std::string_view b) {
@@ -48,7 +50,9 @@ std::vector<fs::path> parts_in(const fs::path& folder) {
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     const std::string extension = at->path().extension().string();
     if (extension != ".db3" && extension != ".mcap" && extension != ".zstd") continue;
-    if (files.size() >= kMostFiles) break;
+    if (files.size() >= kMostFiles)
+      throw Error(folder.string() + " has more than " + std::to_string(kMostFiles) + " parts of a bag in it",
+                  {Help::name_right_file});
     files.push_back(at->path());
   }
   std::ranges::sort(files, [](const fs::path& a, const fs::path& b) {
@@ -72,14 +76,20 @@ BagFiles named_in(const fs::path& metadata, const fs::path& folder) {
   constexpr std::string_view kKey = "rosbag2_bagfile_information/relative_file_paths/";
   const Bytes text = load_file(metadata, kMaxSettingsBytes);
   BagFiles out;
+  std::set<std::string> named;
   for (const YamlScalar& scalar : yaml_scalars(as_text(text), metadata.string())) {
     if (!scalar.path.starts_with(kKey)) continue;
     const fs::path name = fs::path(scalar.value).filename();
+    if (!named.insert(name.string()).second) continue;  // a file is read once, however often it is named
+    if (named.size() > kMostFiles)
+      throw Error(metadata.string() + ", line " + std::to_string(scalar.line) + ": this is file " +
+                      std::to_string(named.size()) + " of the bag, more than any bag has",
+                  {Help::name_right_file});
     const fs::path file = found(folder, name);
-    if (file.empty()) {
-      out.warnings.push_back(metadata.string() + " names " + name.string() + ", which is not there");
-    } else {
+    if (!file.empty()) {
       out.files.push_back(file);
+    } else if (out.warnings.size() < kMostMissing) {
+      out.warnings.push_back(metadata.string() + " names " + name.string() + ", which is not there");
     }
   }
   return out;

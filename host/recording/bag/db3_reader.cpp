@@ -14,9 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kFreeBytes = std::uint64_t{1} << 20;
-constexpr std::size_t kMostTopics = 65'536;  // as many as MCAP can have
-constexpr int kOperationsPerCall = 10'000;   // of SQLite's virtual machine, until it asks whether to go on
+constexpr std::uint64_t kRowBytes = std::uint64_t{1} << 20;    // of a row, beyond what the file holds
+constexpr std::uint64_t kFreeBytes = std::uint64_t{24} << 20;  // of a message, beyond the size of the file
+constexpr int kOperationsPerCall = 10'000;  // of SQLite's virtual machine, until it asks whether to go on
 
 /// What SQLite may do with a file of that size. A row takes at least 6 bytes of it, and some 20 operations.
 struct Effort {
@@ -47,22 +47,22 @@ struct Header {
 
 class Db3Reader {
  public:
-  Db3Reader(const fs::path& path, std::string name, bool with_log, TopicTable& topics, BagReport& report)
-      : name_(std::move(name)), topics_(topics), report_(report) {
+  Db3Reader(const Db3File& file, TopicTable& topics, BagReport& report)
+      : file_(file), topics_(topics), report_(report) {
     std::error_code ignored;
-    size_ = fs::file_size(path, ignored);
-    if (with_log) size_ += fs::file_size(fs::path(path) += "-wal", ignored) + 1;
-    expansion_ = {32 * kFreeBytes + size_, 64 * kFreeBytes + 256 * size_};
+    size_ = fs::file_size(file.path, ignored);
+    if (file.with_log) size_ += fs::file_size(fs::path(file.path) += "-wal", ignored) + 1;
+    expansion_ = {kFreeBytes + file.stored_bytes, (std::uint64_t{64} << 20) + 256 * file.stored_bytes};
     effort_.left = 10'000'000 + 16 * size_;
     sqlite3* raw = nullptr;
-    const int flags =
-        (with_log ? SQLITE_OPEN_READWRITE : SQLITE_OPEN_READONLY) | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX;
-    const int opened =
-        sqlite3_open_v2(sqlite_uri(path, with_log ? "mode=rw" : "immutable=1").c_str(), &raw, flags, nullptr);
+    const int flags = (file.with_log ? SQLITE_OPEN_READWRITE : SQLITE_OPEN_READONLY) | SQLITE_OPEN_URI |
+                      SQLITE_OPEN_NOMUTEX;
+    const std::string uri = sqlite_uri(file.path, file.with_log ? "mode=rw" : "immutable=1");
+    const int opened = sqlite3_open_v2(uri.c_str(), &raw, flags, nullptr);
     database_.reset(raw);
     if (opened != SQLITE_OK) refuse("cannot be opened: " + why());
     harden();
-    if (!with_log) allow_cut(path);
+    if (!file.with_log) allow_cut();
   }
 
   void read() {
@@ -75,7 +75,7 @@ class Db3Reader {
   using Entry = TopicTable::Entry;
 
   [[noreturn]] void refuse(const std::string& what) const {
-    throw Error(name_ + " " + what, {Help::name_right_file});
+    throw Error(file_.name + " " + what, {Help::name_right_file});
   }
   std::string why() const { return sqlite3_errmsg(database_.get()); }
   void damage(const std::string& what) {
@@ -83,7 +83,7 @@ class Db3Reader {
     warn(what);
   }
   void warn(const std::string& what) {
-    if (report_.warnings.size() < 8) report_.warnings.push_back(name_ + ": " + what);
+    if (report_.warnings.size() < 8) report_.warnings.push_back(file_.name + ": " + what);
   }
 
   void harden() {
@@ -91,14 +91,15 @@ class Db3Reader {
     sqlite3_db_config(db, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
     sqlite3_db_config(db, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
     sqlite3_db_config(db, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
-    const std::uint64_t most = std::min<std::uint64_t>(kFreeBytes + size_, std::numeric_limits<int>::max());
+    const std::uint64_t most = std::min<std::uint64_t>(
+        {kRowBytes + size_, kFreeBytes + file_.stored_bytes, std::numeric_limits<int>::max()});
     sqlite3_limit(db, SQLITE_LIMIT_LENGTH, static_cast<int>(most));
     sqlite3_progress_handler(db, kOperationsPerCall, &Effort::ask, &effort_);
   }
 
   /// SQLite refuses a file that is shorter than its header says, unless the schema may be repaired.
-  void allow_cut(const fs::path& path) {
-    const std::uint64_t expected = Header(path).file_bytes();
+  void allow_cut() {
+    const std::uint64_t expected = Header(file_.path).file_bytes();
     if (size_ >= expected) return;
     cut_ = report_.truncated = true;
     warn("the file ends at byte " + std::to_string(size_) + " of " + std::to_string(expected));
@@ -136,13 +137,11 @@ class Db3Reader {
         "SELECT rowid, id, name, type, serialization_format FROM topics NOT INDEXED ORDER BY rowid");
     if (rows.prepared() != SQLITE_OK) refuse("is not a bag of any known version: " + why());
     last_row_.reset();
-    std::uint64_t bytes = 0;
     int step = 0;
     while ((step = rows.step()) == SQLITE_ROW && rises(rows)) {
-      bytes += 3 * rows.bytes(2).size() + rows.bytes(3).size() + rows.bytes(4).size();
-      if (by_id_.size() >= kMostTopics || bytes > 16 * kFreeBytes + size_)
-        return damage("more topics than this reader takes");
-      by_id_.try_emplace(rows.integer(1), &topics_.entry(rows.text(2), rows.text(3), rows.text(4)));
+      Entry* entry = topics_.entry(as_text(rows.bytes(2)), as_text(rows.bytes(3)), as_text(rows.bytes(4)));
+      if (entry == nullptr) return damage("more topics than this reader takes");
+      by_id_.try_emplace(rows.integer(1), entry);
     }
     if (step != SQLITE_ROW && step != SQLITE_DONE) damage("topics that cannot be read (" + why() + ")");
   }
@@ -177,7 +176,7 @@ class Db3Reader {
       damage("a compressed message that does not expand");
   }
 
-  std::string name_;
+  const Db3File& file_;
   TopicTable& topics_;
   BagReport& report_;
   Database database_;
@@ -197,9 +196,8 @@ std::uint64_t bytes_in_whole_pages(const fs::path& path) {
   return page == 0 ? size : size / page * page;
 }
 
-void read_db3(const fs::path& path, const std::string& name, bool with_log, TopicTable& topics,
-              BagReport& report) {
-  Db3Reader(path, name, with_log, topics, report).read();
+void read_db3(const Db3File& file, TopicTable& topics, BagReport& report) {
+  Db3Reader(file, topics, report).read();
 }
 
 }  // namespace astro::recording

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <vector>
 
+#include "common/fixed/wrapping.hpp"
 #include "host/base/numbers.hpp"
 #include "host/ros2/joint_state.hpp"
 #include "host/ros2/ros_messages.hpp"
@@ -21,11 +22,6 @@ constexpr const char* kRightJoint = "right_wheel_joint";
 double parameter(const RunInfo& info, const char* name) {
   const auto found = info.parameters.find(name);
   return found == info.parameters.end() || !std::isfinite(found->second) ? 0 : found->second;
-}
-
-/// The travel of a counter that wraps at 2^32.
-std::int64_t counted(std::int32_t now, std::int32_t before) {
-  return static_cast<std::int32_t>(static_cast<std::uint32_t>(now) - static_cast<std::uint32_t>(before));
 }
 
 std::string wheel_link(const char* name, double radius_m) {
@@ -64,8 +60,8 @@ Bytes RobotMessages::description() const {
 
 void RobotMessages::advance(const OdometrySample& sample) {
   if (any_) {
-    left_counts_ += counted(sample.left_counts, sample_.left_counts);
-    right_counts_ += counted(sample.right_counts, sample_.right_counts);
+    left_counts_ += wrapping_difference(sample.left_counts, sample_.left_counts);
+    right_counts_ += wrapping_difference(sample.right_counts, sample_.right_counts);
   }
   any_ = true;
   sample_ = sample;

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <set>
 
+#include "host/base/byte_source.hpp"
 #include "host/base/error.hpp"
-#include "host/base/files.hpp"
 #include "host/recording/files/run_writer.hpp"
 #include "host/recording/mcap/reader.hpp"
 #include "host/recording/run/planar_pose.hpp"
@@ -70,24 +70,30 @@ std::string warning_of(const std::string& file, const McapReport& report, Damage
   return "";
 }
 
-RunFile parse(ByteView bytes, const std::string& file, Damage damage) {
-  RunFile out;
-  out.streams.file = file;
-  out.streams.most = kFreeSamples + bytes.size() / kLeastBytesPerSample;
+/// Reads the file; `handlers` has no handler of metadata yet. Returns its run record.
+RunRecord record_in(ByteSource& source, const std::string& file, Damage damage, McapHandlers handlers,
+                    std::string& warning) {
   std::optional<mcap::Map> entries;
-  McapHandlers handlers;
   // The last record counts: the first is written before the run, the last after it.
   handlers.metadata = [&](const mcap::Metadata& metadata) {
     if (metadata.name == kRunRecordName) entries = metadata.entries;
   };
-  handlers.message = [&](const mcap::Channel& channel, const mcap::Schema* schema,
-                         const mcap::Message& message) { out.streams.take(channel, schema, message); };
-  out.warning = warning_of(file, read_mcap(bytes, handlers), damage);
+  warning = warning_of(file, read_mcap(source, handlers), damage);
   if (!entries) {
     throw Error(file + " is not a recording of a run (it has no record " + std::string(kRunRecordName) + ")",
                 {Help::name_recording});
   }
-  out.record = run_record(*entries, file);
+  return run_record(*entries, file);
+}
+
+RunFile parse(ByteSource& source, const std::string& file, Damage damage) {
+  RunFile out;
+  out.streams.file = file;
+  out.streams.most = kFreeSamples + static_cast<std::size_t>(source.size()) / kLeastBytesPerSample;
+  McapHandlers handlers;
+  handlers.message = [&](const mcap::Channel& channel, const mcap::Schema* schema,
+                         const mcap::Message& message) { out.streams.take(channel, schema, message); };
+  out.record = record_in(source, file, damage, handlers, out.warning);
   return out;
 }
 
@@ -141,6 +147,17 @@ void unwrap(std::deque<Sample>& samples, const std::optional<double>& first_rad)
   }
 }
 
+Run run_in(ByteSource& source, const std::string& name, Damage damage) {
+  RunFile file = parse(source, name, damage);
+  if (damage == Damage::accepted && !file.warning.empty()) drop_singles(file.streams);
+  pair_counts(name, !file.warning.empty(), file.streams);
+  unwrap(file.streams.odometry, file.record.first_odometry_heading_rad);
+  unwrap(file.streams.truth, file.record.first_truth_heading_rad);
+  file.streams.counts = {};
+  return {std::move(file.record.info), drained(file.streams.odometry), drained(file.streams.truth),
+          std::move(file.warning)};
+}
+
 }  // namespace
 
 void write_run(const std::filesystem::path& path, const Run& run) {
@@ -155,18 +172,19 @@ void write_run(const std::filesystem::path& path, const Run& run) {
 }
 
 Run run_from_bytes(ByteView bytes, const std::string& name, Damage damage) {
-  RunFile file = parse(bytes, name, damage);
-  if (damage == Damage::accepted && !file.warning.empty()) drop_singles(file.streams);
-  pair_counts(name, !file.warning.empty(), file.streams);
-  unwrap(file.streams.odometry, file.record.first_odometry_heading_rad);
-  unwrap(file.streams.truth, file.record.first_truth_heading_rad);
-  file.streams.counts = {};
-  return {std::move(file.record.info), drained(file.streams.odometry), drained(file.streams.truth),
-          std::move(file.warning)};
+  MemorySource source(bytes);
+  return run_in(source, name, damage);
 }
 
 Run read_run(const std::filesystem::path& path, Damage damage) {
-  return run_from_bytes(load_file(path), path.string(), damage);
+  FileSource source(path);
+  return run_in(source, path.string(), damage);
+}
+
+RunInfo read_run_info(const std::filesystem::path& path) {
+  FileSource source(path);
+  std::string warning;
+  return record_in(source, path.string(), Damage::accepted, {}, warning).info;
 }
 
 }  // namespace astro::recording

@@ -36,4 +36,8 @@ Run read_run(const std::filesystem::path& path, Damage damage = Damage::refused)
 /// The same for a file in memory; `name` is its name in messages.
 Run run_from_bytes(ByteView file, const std::string& name, Damage damage = Damage::refused);
 
+/// What the file says of its run, also if it is damaged or was cut off; the samples are not looked at, so the memory it
+/// takes does not grow with the file. Throws as read_run does.
+RunInfo read_run_info(const std::filesystem::path& path);
+
 }  // namespace astro::recording

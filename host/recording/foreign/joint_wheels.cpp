@@ -7,6 +7,7 @@
 
 #include "host/recording/bag/bag.hpp"
 #include "host/recording/foreign/counter_wraps.hpp"
+#include "host/recording/foreign/sample_limit.hpp"
 #include "host/recording/foreign/time_order.hpp"
 #include "host/recording/foreign/unclear_choice.hpp"
 #include "host/ros2/joint_state.hpp"
@@ -53,8 +54,13 @@ class JointWheels {
 
   void choose_topic() {
     std::vector<std::string> topics;
-    for (const BagTopic& topic : read_bag(path_).topics)
-      if (topic.type == ros2::joint_state_type().name && topic.messages > 0) topics.push_back(topic.name);
+    std::uint64_t messages = 0;
+    for (const BagTopic& topic : read_bag(path_).topics) {
+      if (topic.type != ros2::joint_state_type().name || topic.messages == 0) continue;
+      topics.push_back(topic.name);
+      messages += topic.messages;
+    }
+    require_possible(messages, 24, "states of joints", path_);
     if (topic_.empty() && topics.size() == 1) topic_ = topics.front();
     if (std::ranges::find(topics, topic_) != topics.end()) return;
     const std::string what = topics.empty()   ? " has no messages of joints (sensor_msgs/msg/JointState)"

@@ -48,7 +48,7 @@ std::vector<PoseStream> pose_streams(const std::filesystem::path& path);
 /// from those of the recorder or drift against them.
 ///
 /// Errors  UnclearChoice (unclear_choice.hpp) with the names of the streams if none or several are left; astro::Error
-///         naming the file if it is no bag, or packs more poses than any recording of its size.
+///         naming the file if it is no bag, or packs more poses than are taken from one of its size.
 PoseTopic poses_in_bag(const std::filesystem::path& path, const PoseSelection& selection = {});
 
 }  // namespace astro::recording

@@ -7,7 +7,7 @@
 namespace astro::recording {
 namespace {
 
-constexpr double kLimit = 9.2e18;  // a little below 2^63
+constexpr double kLimit = 4.6e18;  // a little below 2^62, so that the difference of two times fits
 
 std::optional<std::int64_t> rounded(std::string_view text, std::int64_t unit_ns) {
   double value = 0;

@@ -54,8 +54,8 @@ class Table {
  public:
   Table(ByteSource& file, const std::string& name, const WheelTable& table)
       : lines_(file, name), name_(name), given_(table) {
-    // The shortest row, "1,0,0" and its line end, has six bytes.
-    track_.samples.reserve(std::min<std::size_t>(static_cast<std::size_t>(file.size() / 6 + 1), kFreeRows));
+    const auto by_size = static_cast<std::size_t>(kBytesPerByte * static_cast<double>(file.size()));
+    most_rows_ = (kFreeBytes + by_size) / kRowBytes;
   }
 
   WheelTrack read() {
@@ -73,7 +73,10 @@ class Table {
   }
 
  private:
-  static constexpr std::size_t kFreeRows = 1'000'000;
+  /// A row becomes 24 bytes of wheels and 56 of odometry: with this limit at most four times the file and 64 MiB. Rows of 20
+  /// characters and more are never too many.
+  static constexpr std::size_t kRowBytes = 80, kFreeBytes = std::size_t{56} << 20;
+  static constexpr double kBytesPerByte = 3.9;
 
   /// The first line that is not empty: names, or a row if the names are given.
   void begin(std::string_view line) {
@@ -142,6 +145,8 @@ class Table {
         return;
       }
     }
+    if (track_.samples.size() >= most_rows_)
+      refuse(name_, lines_.line(), "the table has more rows than can be held", {Help::split_into_files});
     track_.samples.push_back(sample);
   }
 
@@ -163,7 +168,7 @@ class Table {
   char separator_ = '\0';
   std::vector<std::string_view> cells_;
   WheelColumns columns_;
-  std::size_t incomplete_ = 0, repeated_ = 0;
+  std::size_t most_rows_ = 0, incomplete_ = 0, repeated_ = 0;
   WheelTrack track_;
 };
 

@@ -22,7 +22,7 @@ struct WheelTable {
 ///
 /// Errors  UnclearChoice (unclear_choice.hpp) with the names in the file if they do not tell the three columns; astro::Error
 ///         naming `name`, line and column for anything else than a finite number, for times that do not rise, and for a
-///         table of fewer than two rows.
+///         table of fewer than two rows or of more than can be held.
 WheelTrack wheels_in_table(ByteSource& file, const std::string& name, const WheelTable& table = {});
 
 }  // namespace astro::recording

@@ -19,7 +19,11 @@ bool is_magic(ByteView bytes) { return std::ranges::equal(bytes, mcap::kMagic); 
 class Walker {
  public:
   Walker(ByteSource& file, const McapHandlers& handlers, const McapLimits& limits)
-      : file_(file), records_(file), handlers_(handlers), limits_(limits) {}
+      : file_(file),
+        handlers_(handlers),
+        limits_(limits),
+        file_bytes_(limits.packed_bytes.value_or(file.size())),
+        records_(file, most_bytes()) {}
 
   /// Precondition: the file begins like one.
   McapReport walk() {
@@ -37,6 +41,8 @@ class Walker {
   }
 
  private:
+  std::uint64_t most_bytes() const { return std::max(limits_.chunk_bytes, file_bytes_); }
+
   void warn(const std::string& what) {
     if (report_.warnings.size() < kMaxWarnings) report_.warnings.push_back(what);
   }
@@ -57,6 +63,7 @@ class Walker {
   }
 
   void take(const Record& record) {
+    if (record.is_too_large) return damage("a record of more bytes than this reader takes", record.start);
     switch (static_cast<Op>(record.op)) {
       case Op::header:
         return header(record);
@@ -122,7 +129,7 @@ class Walker {
     const auto before = all.find(definition.id);
     const std::uint64_t freed = before == all.end() ? 0 : memory_of(before->second);
     const std::uint64_t bytes = definition_bytes_ - freed + memory_of(definition);
-    if (bytes > limits_.definition_bytes + file_.size())
+    if (bytes > limits_.definition_bytes + file_bytes_)
       return damage("more schemas and channels than this reader takes,", at);
     definition_bytes_ = bytes;
     all.insert_or_assign(definition.id, std::move(definition));
@@ -148,12 +155,12 @@ class Walker {
     const auto chunk = mcap::decode_chunk(record.content);
     if (!chunk) return damage("bad chunk", record.start);
     if (!handlers_.message) return;
-    if (chunk->size > std::max<std::uint64_t>(limits_.chunk_bytes, file_.size())) {
+    if (chunk->size > most_bytes()) {
       return damage("chunk of " + std::to_string(chunk->size) + " bytes, more than this reader takes,",
                     record.start);
     }
     expanded_bytes_ += chunk->size;
-    if (expanded_bytes_ > limits_.all_chunks_bytes + limits_.most_gain * file_.size())
+    if (expanded_bytes_ > limits_.all_chunks_bytes + limits_.most_gain * file_bytes_)
       return damage(
           "chunks that expand to more than " + std::to_string(limits_.most_gain) + " times the file,",
           record.start);
@@ -200,9 +207,10 @@ class Walker {
   }
 
   ByteSource& file_;
-  mcap::RecordStream records_;
   const McapHandlers& handlers_;
   const McapLimits& limits_;
+  std::uint64_t file_bytes_;  // to which the limits refer
+  mcap::RecordStream records_;
   McapReport report_;
   std::map<std::uint16_t, mcap::Schema> schemas_;
   std::map<std::uint16_t, mcap::Channel> channels_;

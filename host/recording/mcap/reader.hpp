@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,9 @@ struct McapHandlers {
 /// Limits in bytes. They grow with the size of the file, so that a small file with false sizes cannot exhaust
 /// memory or time.
 struct McapLimits {
-  /// Of one expanded chunk, or the size of the file if that is more. Usual chunks have 1 to 4 MiB.
+  /// The size of the file from which this one was unpacked, if it was.
+  std::optional<std::uint64_t> packed_bytes;
+  /// Of one record or expanded chunk, or the size of the file if that is more. Usual chunks have 1 to 4 MiB.
   std::uint64_t chunk_bytes = std::uint64_t{32} << 20;
   /// Of all expanded chunks: this plus `most_gain` times the size of the file. Drives compress by a factor of
   /// 5 to 50.

@@ -25,8 +25,11 @@ bool is_needed(Op op) {
 
 }  // namespace
 
-RecordStream::RecordStream(ByteSource& file)
-    : file_(file), at_(sizeof kMagic), crc_(crc32_ieee(file.read(0, sizeof kMagic))) {}
+RecordStream::RecordStream(ByteSource& file, std::uint64_t most_bytes)
+    : file_(file),
+      most_bytes_(most_bytes),
+      at_(sizeof kMagic),
+      crc_(crc32_ieee(file.read(0, sizeof kMagic))) {}
 
 bool RecordStream::next(Record& record) {
   record.start = at_;
@@ -37,8 +40,10 @@ bool RecordStream::next(Record& record) {
   if (record.op == 0 || length > file_.size() - at_ - kRecordHeadBytes) return false;
   const std::uint64_t end = at_ + kRecordHeadBytes + length;
   record.content = {};
+  const bool is_held = is_needed(static_cast<Op>(record.op));
+  record.is_too_large = is_held && length > most_bytes_;
   crc_before_ = crc_;
-  if (is_needed(static_cast<Op>(record.op))) {
+  if (is_held && !record.is_too_large) {
     const ByteView whole = file_.read(at_, static_cast<std::size_t>(end - at_));
     crc_ = crc32_ieee(whole, crc_);
     record.content = whole.subspan(kRecordHeadBytes);

@@ -9,14 +9,15 @@ struct Record {
   std::uint8_t op = 0;
   std::uint64_t start = 0;  // position in the file
   ByteView content;  // empty for records that no reader of ours needs: indexes, attachments, unknown ones
+  bool is_too_large = false;  // needed, but larger than may be held; the content is empty
 };
 
 /// Walks over the records of a file and keeps the checksum of all that it has passed. One record is in memory at a
 /// time, and those that nobody needs not even once as a whole.
 class RecordStream {
  public:
-  /// Precondition: the file has at least kMagicBytes.
-  explicit RecordStream(ByteSource& file);
+  /// Precondition: the file has at least kMagicBytes. `most_bytes`: of a record that is held.
+  RecordStream(ByteSource& file, std::uint64_t most_bytes);
 
   /// False if there is no whole record any more; `record.start` says where. Opcode 0 does not exist; a file system
   /// leaves zeros where a power cut prevented the writing of bytes.
@@ -30,7 +31,7 @@ class RecordStream {
 
  private:
   ByteSource& file_;
-  std::uint64_t at_ = 0;
+  std::uint64_t most_bytes_, at_ = 0;
   std::uint32_t crc_ = 0, crc_before_ = 0;
 };
 

@@ -3,17 +3,14 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/fixed/wrapping.hpp"
+
 namespace astro::recording {
 namespace {
 
-/// Difference of two running counts, correct across their wrap.
-std::int32_t moved(std::int32_t from, std::int32_t to) {
-  return static_cast<std::int32_t>(static_cast<std::uint32_t>(to) - static_cast<std::uint32_t>(from));
-}
-
 bool is_still(const OdometrySample& a, const OdometrySample& b) {
-  const std::int32_t left = moved(a.left_counts, b.left_counts);
-  const std::int32_t right = moved(a.right_counts, b.right_counts);
+  const std::int32_t left = wrapping_difference(b.left_counts, a.left_counts);
+  const std::int32_t right = wrapping_difference(b.right_counts, a.right_counts);
   return left >= -kStillCounts && left <= kStillCounts && right >= -kStillCounts && right <= kStillCounts;
 }
 

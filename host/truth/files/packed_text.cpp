@@ -3,9 +3,10 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <limits>
+#include <utility>
 
 #include "host/base/error.hpp"
+#include "host/truth/files/body_track.hpp"
 
 namespace astro::truth {
 namespace {
@@ -28,39 +29,90 @@ class Inflater {
   z_stream stream_{};
 };
 
+/// A text with the memory that it takes with its poses, and that they take when they are put on the floor.
+class BoundedText {
+  static constexpr std::size_t kBytesOnFloor = 152;  // with what it is made from, for each pose
+
+ public:
+  explicit BoundedText(std::size_t most_bytes) : most_(most_bytes) {
+    text_.reserve(most_);  // memory that is not written to is not taken; a text that grows would be copied
+  }
+
+  /// False if it would take more than it may.
+  bool add(ByteView piece) {
+    lines_ += static_cast<std::size_t>(std::count(piece.begin(), piece.end(), std::uint8_t{'\n'}));
+    if (text_.size() + piece.size() + sizeof(TrackedPose) * lines_ > most_) return false;
+    if (kBytesOnFloor * lines_ > most_) return false;
+    append(text_, piece);
+    return true;
+  }
+  Bytes take() { return std::move(text_); }
+
+ private:
+  std::size_t most_, lines_ = 0;
+  Bytes text_;
+};
+
+class Unpacking {
+ public:
+  Unpacking(ByteSource& file, const std::string& name)
+      : file_(file),
+        name_(name),
+        most_(static_cast<std::size_t>(4 * file.size() + kFreeBytes)),
+        text_(most_) {}
+
+  Bytes text() {
+    while (true) {
+      const int state = step();
+      if (state == Z_STREAM_END && !begins_part()) return text_.take();  // padding may follow, as from a tape
+      if (state == Z_STREAM_END) {
+        inflater_.next_part();
+      } else if (state != Z_OK) {
+        const bool cut = taken_ == file_.size();
+        throw Error("'" + name_ + "' is packed with gzip and " + (cut ? "cut off" : "damaged") + " at byte " +
+                        std::to_string(taken_),
+                    {Help::use_original});
+      }
+    }
+  }
+
+ private:
+  static constexpr std::size_t kFreeBytes = std::size_t{56} << 20, kPieceBytes = 65'536;
+
+  ByteView packed_at(std::uint64_t at, std::size_t most) {
+    return file_.read(at, static_cast<std::size_t>(std::min<std::uint64_t>(file_.size() - at, most)));
+  }
+  bool begins_part() { return is_gzip(packed_at(taken_, 3)); }
+
+  /// Expands one piece; returns zlib's state.
+  int step() {
+    const ByteView packed = packed_at(taken_, kPieceBytes);
+    inflater_->next_in = const_cast<Bytef*>(packed.data());  // zlib reads it only
+    inflater_->avail_in = static_cast<uInt>(packed.size());
+    std::uint8_t out[kPieceBytes];
+    inflater_->next_out = out;
+    inflater_->avail_out = sizeof out;
+    const int state = inflater_.step();
+    taken_ += packed.size() - inflater_->avail_in;
+    if (!text_.add(ByteView(out).first(sizeof out - inflater_->avail_out)))
+      throw Error("'" + name_ + "' unpacks to more than can be held: with its poses " +
+                      std::to_string(most_ >> 20U) + " MiB",
+                  {Help::unpack_first});
+    return state;
+  }
+
+  ByteSource& file_;
+  const std::string& name_;
+  std::size_t most_;
+  BoundedText text_;
+  Inflater inflater_;
+  std::uint64_t taken_ = 0;
+};
+
 }  // namespace
 
 bool is_gzip(ByteView bytes) { return bytes.size() > 2 && bytes[0] == 0x1f && bytes[1] == 0x8b; }
 
-std::string unpacked(ByteView bytes, const std::string& file) {
-  const std::size_t most = 4 * bytes.size() + (std::size_t{32} << 20);
-  std::string text;
-  Inflater inflater;
-  std::size_t taken = 0;
-  while (true) {
-    const std::size_t part = std::min<std::size_t>(bytes.size() - taken, std::numeric_limits<uInt>::max());
-    inflater->next_in = const_cast<Bytef*>(bytes.data() + taken);  // zlib reads it only
-    inflater->avail_in = static_cast<uInt>(part);
-    char out[65536];
-    inflater->next_out = reinterpret_cast<Bytef*>(out);
-    inflater->avail_out = sizeof out;
-    const int state = inflater.step();
-    taken += part - inflater->avail_in;
-    text.append(out, sizeof out - inflater->avail_out);
-    if (text.size() > most)
-      throw Error("'" + file + "' unpacks to more than " + std::to_string(most >> 20) + " MiB",
-                  {Help::unpack_first});
-    if (state == Z_STREAM_END && taken == bytes.size()) return text;
-    if (state == Z_STREAM_END && is_gzip(bytes.subspan(taken))) {
-      inflater.next_part();
-    } else if (state == Z_STREAM_END) {
-      return text;  // what follows is padding, as from a tape
-    } else if (state != Z_OK) {
-      throw Error("'" + file + "' is packed with gzip and " +
-                      (taken == bytes.size() ? "cut off" : "damaged") + " at byte " + std::to_string(taken),
-                  {Help::use_original});
-    }
-  }
-}
+Bytes unpacked(ByteSource& file, const std::string& name) { return Unpacking(file, name).text(); }
 
 }  // namespace astro::truth

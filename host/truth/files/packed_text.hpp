@@ -2,15 +2,15 @@
 
 #include <string>
 
-#include "host/base/bytes.hpp"
+#include "host/base/byte_source.hpp"
 
 /// Text that was packed with gzip, as archives of recordings keep it.
 namespace astro::truth {
 
 bool is_gzip(ByteView bytes);
 
-/// The text. It may be four times as long as the file, and 32 MiB more.
-/// Throws astro::Error naming `file` if it is damaged, is cut off, or would be longer.
-std::string unpacked(ByteView bytes, const std::string& file);
+/// The text. With 72 bytes for the pose of each line, it may take four times the memory of the file, and 56 MiB more.
+/// Throws astro::Error naming `name` if it is damaged, is cut off, or would take more.
+Bytes unpacked(ByteSource& file, const std::string& name);
 
 }  // namespace astro::truth

@@ -9,8 +9,10 @@
 namespace astro::truth {
 namespace {
 
-/// Memory limit of the samples: this much plus twice the size of the text, which is in memory as well.
-constexpr std::size_t kFreeSampleBytes = std::size_t{40} << 20;
+/// Memory limit of the samples: this much plus nearly twice the size of the text. What puts them on the floor holds 152
+/// bytes for each of their 72: with this limit at most four times the text and 64 MiB.
+constexpr std::size_t kFreeSampleBytes = std::size_t{24} << 20;
+constexpr double kSampleBytesPerByte = 1.85;
 
 bool is_text(std::size_t slot) { return slot <= static_cast<std::size_t>(Slot::time); }
 
@@ -91,7 +93,8 @@ TrackedPose PoseRow::pose() const {
 }
 
 TrackBuilder::TrackBuilder(BodyTrack& track, std::string_view text) : track_(track) {
-  most_ = (kFreeSampleBytes + 2 * text.size()) / sizeof(TrackedPose);
+  const auto by_text = static_cast<std::size_t>(kSampleBytesPerByte * static_cast<double>(text.size()));
+  most_ = (kFreeSampleBytes + by_text) / sizeof(TrackedPose);
   const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
   track_.samples.reserve(std::min(most_, lines + 1));
 }

@@ -72,6 +72,7 @@ std::vector<FloorPoint> points_of(const BodyTrack& track, const Direction3& up) 
   const Plane plane(up);
   const bool turns = track.facts.rotation_kind != RotationKind::none;
   std::vector<FloorPoint> points;
+  points.reserve(track.samples.size());
   bool joined = true;
   for (const TrackedPose& sample : track.samples) {
     joined = joined && sample.valid;
@@ -160,9 +161,9 @@ double correlation_with(const std::vector<FloorPoint>& points, const Turning& wh
 void settle_direction(std::vector<FloorPoint>& points, std::span<const WheelMotion> wheels,
                       FloorFindings& findings) {
   constexpr double kSure = 0.3;
-  std::vector<FloorPoint> metric = points;  // a wrong unit would hide the turning behind the speed
-  if (findings.length_factor == 1) scale(metric, 1 / findings.unit_ratio, 1 / findings.unit_ratio);
-  findings.clock = match_clocks(metric, wheels);
+  // A wrong unit would hide the turning behind the speed.
+  const double to_metres = findings.length_factor == 1 ? 1 / findings.unit_ratio : 1;
+  findings.clock = match_clocks(points, to_metres, wheels);
   if (!findings.clock) {
     findings.remarks.push_back(
         {"the motion is not that of the wheels, so left and right could not be checked",

@@ -35,8 +35,8 @@ struct ClockMatch {
 
 /// Searches all offsets (calibration::search_clock) by speeds and turn rates. If the robot turned, the offset is then
 /// set to where the turning alone agrees best, because the speed of a body beside the axle is not that of the wheels.
-/// Nothing if the streams hold no common motion.
-std::optional<ClockMatch> match_clocks(std::span<const FloorPoint> points,
+/// Nothing if the streams hold no common motion, or one of them is longer than a day. `metres_per_unit`: of the points' positions.
+std::optional<ClockMatch> match_clocks(std::span<const FloorPoint> points, double metres_per_unit,
                                        std::span<const WheelMotion> wheels);
 
 }  // namespace astro::truth

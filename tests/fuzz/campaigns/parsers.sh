@@ -16,6 +16,7 @@ else
   programs=("${@/#/build/fuzz/fuzz/fuzz.}")
 fi
 export UBSAN_OPTIONS=print_stacktrace=1
+if [[ -d /dev/shm && -z ${TMPDIR:-} ]]; then export TMPDIR=/dev/shm; fi  # for parsers that take a path
 failed=0
 for program in "${programs[@]}"; do
   name=${program##*/fuzz.}

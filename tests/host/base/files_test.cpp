@@ -124,7 +124,7 @@ TEST(LoadFile, RefusesWhatIsFarTooLargeForItsKindUnread) {
   std::filesystem::resize_file(folder / "x.toml",
                                std::uintmax_t{300} << 20);  // a sparse file that takes no disk space
   EXPECT_THAT(complaint([&] { load_file(folder / "x.toml", kMaxSettingsBytes); }),
-              HasSubstr("x.toml has 300 MiB, and no file of its kind has more than 1"));
+              HasSubstr("x.toml has 314572800 bytes, and no file of its kind has more than 1048576"));
 }
 
 }  // namespace

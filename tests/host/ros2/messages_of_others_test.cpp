@@ -112,6 +112,22 @@ TEST(MessagesOfOthers, ClaimsOfMillionsOfElementsTakeNoMemory) {
   EXPECT_FALSE(decode_joint_state(names.bytes()));
 }
 
+TEST(MessagesOfOthers, NamesLongerThanThoseOfTopicsAreRefused) {
+  for (const std::size_t longer : {0U, 1U}) {
+    const std::string name(kLongestName + longer, 'a');
+    EXPECT_EQ(decode_joint_state(encode_joint_state({0, {name}, {}, {}, {}})).has_value(), longer == 0);
+    EXPECT_EQ(poses_in(tf_message_type().name, encode_tf({{0, name, "b", 0, 0, 0, 0, 0, 0, 1}})).has_value(),
+              longer == 0);
+  }
+}
+
+TEST(MessagesOfOthers, MoreTransformsThanAnyRobotHasAreRefused) {
+  for (const std::size_t more : {0U, 1U})
+    EXPECT_EQ(poses_in(tf_message_type().name, encode_tf(std::vector<StampedPose>(kMostTransforms + more)))
+                  .has_value(),
+              more == 0);
+}
+
 TEST(MessagesOfOthers, JointsComeBackFromTheirMessage) {
   const JointState state{-1, {"left_wheel_joint", "", "r"}, {1, 2, 3}, {}, {7, 8, 9}};
   EXPECT_EQ(decode_joint_state(encode_joint_state(state)), state);

@@ -124,7 +124,7 @@ TEST(EndPoseCsv, WhatIsNoCommaSeparatedTextIsRefused) {
   using namespace std::string_view_literals;
   EXPECT_THAT(told("\xFF\xFE"
                    "e\0x\0"sv),
-              Tells("cw.csv is not plain text", Help::save_as_csv));
+              Tells(testing::HasSubstr("cw.csv is not plain text: byte "), Help::save_as_csv));
 }
 
 TEST(EndPoseCsv, AFileThatMixesDirectionsIsRefusedWhereOneIsWanted) {

@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 
 #include "host/experiment/analysis/calibration.hpp"
+#include "host/experiment/import/file_inspection.hpp"
+#include "host/recording/files/rosbag_export.hpp"
 #include "host/recording/files/run_file.hpp"
 #include "tests/host/calibration/ml_drives.hpp"
 #include "tests/host/experiment/import/drive_files.hpp"
+#include "tests/host/experiment/import/file_samples.hpp"
 #include "tests/support/base/remarks.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 
@@ -234,6 +237,19 @@ TEST_F(Import, AnotherUnitIsTakenInPlaceOfTheFilesOwn) {
   const std::vector<DriveFiles> pair{
       {test::write_counts(at("w.csv"), drives()[0]), test::write_tum(at("t.tum"), drives()[0])}};
   EXPECT_NEAR(import_drives(pair, wrong).reports[0].floor.length_ratio, 0.01, 1e-3);
+}
+
+TEST_F(Import, TakesOurRecordingsThatWereExportedOrPackedAsBagsOfOthers) {
+  const recording::Run run = test::own_run(test::short_drive());
+  recording::export_rosbag(run, at("exported"));
+  recording::write_run(at("own.mcap"), run);
+  test::save(at("own.mcap.zstd"), recording::compress_zstd(load_file(at("own.mcap"))));
+  for (const char* name : {"exported", "exported/exported_0.db3", "own.mcap.zstd"}) {
+    const FileInspection found = inspect_file(at(name));
+    EXPECT_FALSE(found.bag->run) << name;
+    EXPECT_EQ(read_wheels(at(name)).track.samples.size(), run.odometry.size()) << name;
+  }
+  EXPECT_EQ(inspect_file(at("own.mcap")).bag->run->kind, "free");
 }
 
 }  // namespace

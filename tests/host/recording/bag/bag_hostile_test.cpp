@@ -1,11 +1,11 @@
 #include <gmock/gmock.h>
 
 #include <ctime>
-#include <random>
 
 #include "host/base/error.hpp"
 #include "tests/host/recording/bag/made_bags.hpp"
 #include "tests/support/base/bounded.hpp"
+#include "tests/support/base/mutations.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 
 // Bags that claim more than they hold, or lead SQLite astray, stay within the limits of bounded.hpp.
@@ -113,35 +113,49 @@ TEST_F(HostileBag, PagesThatLeadRoundInACircleEnd) {
   EXPECT_THAT(bounded(at("x.db3")), HasSubstr("out of order"));
 }
 
-struct Mutant {
-  explicit Mutant(unsigned seed) : random(seed) {}
-  std::mt19937 random;
-  std::size_t place(std::size_t size) {
-    return std::uniform_int_distribution<std::size_t>(0, size - 1)(random);
-  }
+/// A journal as it lies beside a database in the middle of a transaction, with the end that SQLite gives one of several
+/// databases: the name of a file that it deletes after it was rolled back.
+Bytes journal_of_several(const Bytes& journal, const std::string& name) {
+  Bytes bytes = journal;
+  const auto big_endian = [&](std::uint32_t value) {
+    for (const unsigned shift : {24U, 16U, 8U, 0U})
+      bytes.push_back(static_cast<std::uint8_t>(value >> shift));
+  };
+  std::uint32_t sum = 0;
+  for (const char c : name) sum += static_cast<std::uint32_t>(c);
+  big_endian(0x4000'0000U / 4096 + 1);
+  append(bytes, as_bytes(name));
+  big_endian(static_cast<std::uint32_t>(name.size()));
+  big_endian(sum);
+  append(bytes, Bytes{0xd9, 0xd5, 0x05, 0xf9, 0x20, 0xa1, 0x63, 0xd7});
+  return bytes;
+}
 
-  Bytes of(Bytes bytes) {
-    for (std::size_t edits = 1 + place(8); edits > 0; --edits) {
-      // Half of the edits in the first page, where the headers are.
-      const std::size_t at =
-          place(2) == 0 ? place(std::min<std::size_t>(bytes.size(), 4096)) : place(bytes.size());
-      bytes[at] = place(3) == 0 ? std::uint8_t{0xFF} : static_cast<std::uint8_t>(place(256));
-    }
-    if (place(4) == 0) bytes.resize(1 + place(bytes.size()));
-    if (place(8) == 0)
-      bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(place(bytes.size())), 7, 0xFF);
-    return bytes;
+TEST_F(HostileBag, AJournalDeletesNoFileOfThisComputer) {
+  const fs::path victim = at("thesis.tex");
+  save(victim, as_bytes("three years of work"));
+  make_db3(at("live.db3"), 200);
+  {
+    const Database recorder = open(at("live.db3"));
+    run(recorder,
+        "PRAGMA cache_size=1;BEGIN");  // what does not fit into the cache goes to the disk, behind a journal
+    run(recorder, "UPDATE messages SET data = zeroblob(2000)");
+    fs::copy_file(at("live.db3"), at("x.db3"));
+    save(at("x.db3-journal"), journal_of_several(load_file(at("live.db3-journal")), victim.string()));
   }
-};
+  const Seen seen = read(at("x.db3"));
+  EXPECT_EQ(seen.messages, expected(200)) << "the transaction is rolled back";
+  EXPECT_TRUE(fs::exists(victim));
+}
 
 void survives_mutations(const fs::path& path, const Bytes& seed) {
   constexpr unsigned kSeed = 20240613;
   constexpr int kRounds = 1200;
   SCOPED_TRACE("seed " + std::to_string(kSeed));
   const Taken taken = measured([&] {
-    Mutant mutant(kSeed);
+    astro::support::Mutator mutator(kSeed);
     for (int round = 0; round < kRounds; ++round) {
-      save(path, mutant.of(seed));
+      save(path, mutator.bytes(seed));
       const std::clock_t start = std::clock();
       try {
         read(path);

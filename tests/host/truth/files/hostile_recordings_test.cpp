@@ -1,12 +1,11 @@
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include "host/base/error.hpp"
 #include "host/truth/files/tracker_file.hpp"
 #include "host/truth/floor/inspection.hpp"
 #include "tests/host/truth/files/own_recordings.hpp"
 #include "tests/support/base/bounded.hpp"
+#include "tests/support/base/mutations.hpp"
 
 namespace astro::truth {
 namespace {
@@ -22,56 +21,12 @@ void read_anything(const std::string& text) {
   }
 }
 
-/// One to four changes: a byte, a cut, a copied stretch, a cell that is something else.
-std::string mutated(const std::string& text, std::mt19937& random) {
-  static const std::vector<std::string> kCells = {"",
-                                                  "nan",
-                                                  "1e308",
-                                                  "-0",
-                                                  "\"",
-                                                  ",",
-                                                  ";",
-                                                  "\n",
-                                                  "\r",
-                                                  "1e-9",
-                                                  "9e999",
-                                                  "Frame",
-                                                  "mm",
-                                                  "#",
-                                                  "rad",
-                                                  "Marker",
-                                                  "99999999999999999999"};
-  std::string out = text;
-  const auto place = [&] { return out.empty() ? 0 : random() % out.size(); };
-  for (unsigned i = 0, count = 1 + random() % 4; i < count; ++i) {
-    switch (random() % 5) {
-      case 0:
-        out.insert(place(), 1, static_cast<char>(random() % 256));
-        break;
-      case 1:
-        out.erase(place(), 1 + random() % 40);
-        break;
-      case 2:
-        out.insert(place(), out.substr(place(), random() % 200));
-        break;
-      case 3:
-        out.insert(place(), kCells[random() % kCells.size()]);
-        break;
-      default: {
-        const std::size_t at = place(), end = out.find_first_of(",;\n ", at);
-        out.replace(at, end == out.npos ? 0 : end - at, kCells[random() % kCells.size()]);
-      }
-    }
-  }
-  return out;
-}
-
 class Mutations : public testing::TestWithParam<std::string> {};
 
 TEST_P(Mutations, AreReadOrRefusedInBoundedTime) {
   const auto taken = support::measured([] {
-    std::mt19937 random(20'260'804);
-    for (int i = 0; i < 1500; ++i) read_anything(mutated(GetParam(), random));
+    support::Mutator mutator(20'260'804);
+    for (int i = 0; i < 1500; ++i) read_anything(mutator.text(GetParam()));
   });
   EXPECT_EQ(taken.complaint, "");
   EXPECT_TRUE(taken.ended);

@@ -1,0 +1,26 @@
+// Text that was packed with gzip.
+#include "host/truth/files/packed_text.hpp"
+
+#include "host/base/error.hpp"
+#include "tests/fuzz/target.hpp"
+#include "tests/host/experiment/import/file_samples.hpp"
+#include "tests/host/truth/files/own_recordings.hpp"
+
+namespace astro::fuzz {
+
+void take(ByteView input) {
+  MemorySource source(input);
+  try {
+    const Bytes text = truth::unpacked(source, "x.gz");
+    require(text.size() <= 4 * input.size() + (std::size_t{56} << 20), "a text is no longer than allowed");
+  } catch (const Error&) {
+  }
+}
+
+std::vector<Bytes> seeds() {
+  Bytes parts = test::gzip(test::kMotive);
+  append(parts, ByteView(test::gzip(test::kTum)));
+  return {parts, test::gzip(""), test::gzip(std::string(100'000, '\n'))};
+}
+
+}  // namespace astro::fuzz
