@@ -37,7 +37,7 @@ struct UmbmarkOptions {
   std::string order = "alternating", unit, angle_unit = "deg";
   MethodOption method;
   experiment::Until until;
-  console::Option until_option, truth_folder;
+  console::Option until_option, truth_folder, unit_option, angle_unit_option;
   bool yes = false, force = false, json = false, no_extras = false, pause = false;
 };
 
@@ -53,13 +53,15 @@ void add_options(console::Command command, UmbmarkOptions& options) {
   options.truth_folder = command.add_option("--truth-folder", options.truth.folder,
                                             "--truth file: where the CSV of each run appears;\n"
                                             "default: OUT/truth");
-  command
-      .add_option("--unit", options.unit,
-                  "--truth manual: of lengths typed without one; asked for if\nnot given")
-      .one_of({"mm", "cm", "m"});
-  command.add_option("--angle-unit", options.angle_unit, "--truth manual: of headings typed without one")
-      .one_of({"deg", "rad"})
-      .capture_default_str();
+  options.unit_option =
+      command
+          .add_option("--unit", options.unit,
+                      "--truth manual: of lengths typed without one; asked for if\nnot given")
+          .one_of({"mm", "cm", "m"});
+  options.angle_unit_option =
+      command.add_option("--angle-unit", options.angle_unit, "--truth manual: of headings typed without one")
+          .one_of({"deg", "rad"})
+          .capture_default_str();
   command.add_option("--out", options.out, "folder of the experiment; the same folder again continues it")
       .required();
   command.add_option("--runs", plan.runs, "squares in each direction, before and after")
@@ -148,6 +150,14 @@ experiment::ExperimentHooks hooks_for(const UmbmarkOptions& options, console::Pr
   return hooks;
 }
 
+/// An option that changes nothing with another source is a mistake.
+void require_truth(const UmbmarkOptions& options, const console::Option& option, const std::string& name,
+                   const std::string& source) {
+  if (option.count() > 0 && options.truth.source != source)
+    throw console::WrongUsage(name + " is of --truth " + source + ", and this is --truth " +
+                              options.truth.source);
+}
+
 /// Before the first run: what there is to measure, and in which unit.
 void brief(UmbmarkOptions& options) {
   console::say(tape_briefing(options.plan, options.out));
@@ -164,9 +174,9 @@ void run(UmbmarkOptions& options) {
   options.plan.truth = options.truth.source;
   if (options.until_option.count() > 0) options.plan.until = options.until;
   options.plan.check();
-  if (options.truth_folder.count() > 0 && options.truth.source != "file")
-    throw console::WrongUsage("--truth-folder is of --truth file, and this is --truth " +
-                              options.truth.source);
+  require_truth(options, options.truth_folder, "--truth-folder", "file");
+  require_truth(options, options.unit_option, "--unit", "manual");
+  require_truth(options, options.angle_unit_option, "--angle-unit", "manual");
   if (options.truth_folder.count() > 0 && !std::filesystem::is_directory(options.truth.folder))
     throw Error(fmt::format("--truth-folder: there is no folder '{}': make it, or name another",
                             options.truth.folder.string()));

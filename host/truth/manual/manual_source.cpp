@@ -36,7 +36,7 @@ class Form {
 
   Outcome fill(recording::TruthSample& end) {
     const std::string heading = fmt::format(
-        "  heading, counter-clockwise, {} (odometry {}; empty: not measured): ", name_of(units_.angle),
+        "  heading, counter-clockwise, {} (odometry {}; empty: none): ", name_of(units_.angle),
         shown(odometry_.theta_rad, units_.angle));
     const auto length = [&](const std::string& text) { return length_m_in(text, units_.length); };
     const auto angle = [&](const std::string& text) -> std::optional<double> {

@@ -73,7 +73,7 @@ TEST(ManualTruth, ShowsWhatOdometrySaysBesideEachQuestionInItsUnit) {
   ASSERT_EQ(person.asked.size(), 3U);
   EXPECT_THAT(person.asked[0], testing::AllOf(HasSubstr("line 1"), HasSubstr("mm (odometry 500.0 mm)")));
   EXPECT_THAT(person.asked[1], HasSubstr("mm (odometry 0.0 mm)"));
-  EXPECT_THAT(person.asked[2], HasSubstr("deg (odometry 0.00 deg; empty: not measured)"));
+  EXPECT_THAT(person.asked[2], HasSubstr("deg (odometry 0.00 deg; empty: none)"));
 }
 
 TEST(ManualTruth, AsksAgainForWhatIsNoNumberAndTakesAnEmptyHeading) {

@@ -175,6 +175,9 @@ TEST_F(BadInput, SettingsThatCannotBeDriven) {
   refuses({"umbmark", "--truth", "sim", "--out", out, "--until", "50%"}, {"precision of 50 %"});
   refuses({"umbmark", "--truth", "sim", "--out", out, "--max-runs", "3"}, {"--until"});
   refuses({"umbmark", "--truth", "manual", "--out", out, "--until", "0.1%"}, {"--truth manual"});
+  refuses({"umbmark", "--truth", "sim", "--out", out, "--unit", "cm"}, {"--unit is of --truth manual"});
+  refuses({"umbmark", "--truth", "sim", "--out", out, "--angle-unit", "rad"},
+          {"--angle-unit is of --truth manual"});
 }
 
 }  // namespace
