@@ -35,9 +35,9 @@ class Form {
       : ask_(ask), units_(units), run_(run), odometry_(odometry_end(run)) {}
 
   Outcome fill(recording::TruthSample& end) {
-    const std::string heading = fmt::format(
-        "  heading, counter-clockwise, {} (odometry {}; empty: none): ", name_of(units_.angle),
-        shown(odometry_.theta_rad, units_.angle));
+    const std::string heading =
+        fmt::format("  heading, counter-clockwise, {} (odometry {}; empty: none): ", name_of(units_.angle),
+                    shown(odometry_.theta_rad, units_.angle));
     const auto length = [&](const std::string& text) { return length_m_in(text, units_.length); };
     const auto angle = [&](const std::string& text) -> std::optional<double> {
       return text.empty() ? std::numeric_limits<double>::quiet_NaN() : angle_rad_in(text, units_.angle);
