@@ -41,7 +41,8 @@ void take(ByteView input) {
     throw Error(question.occasion.fact + question.text);
   });
   reading([&] {
-    for (const recording::TruthSample& sample : source.complete(run))
+    const auto samples = source.complete(run);
+    for (const recording::TruthSample& sample : *samples)
       require(sample.time_us >= 0 && sample.time_us <= 2'900'000, "truth lies within its run");
   });
 }

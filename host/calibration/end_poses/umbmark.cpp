@@ -11,6 +11,7 @@
 #include "host/base/sense.hpp"
 #include "host/calibration/end_poses/compose.hpp"
 #include "host/calibration/end_poses/least_squares.hpp"
+#include "host/calibration/end_poses/robust_fit.hpp"
 
 namespace astro::calibration {
 namespace {
@@ -33,6 +34,7 @@ struct Experiment {
       case Method::least_squares:
         return fit_end_positions(mean, runs, side_m, loaded);
       case Method::umbmark:
+      case Method::robust:  // does not fit means
         break;
     }
     return umbmark_ratios(mean, side_m, loaded.b_m, options.angles);
@@ -123,6 +125,43 @@ StandardErrors standard_errors(const Experiment& experiment, const Vector6& mean
   return {se(0), se(1), se(2), se(3), se(4)};
 }
 
+void take(Estimate& out, const Ratios& ratios) {
+  require_plausible(ratios);
+  out.alpha_rad = ratios.alpha_rad;
+  out.beta_rad = ratios.beta_rad;
+  out.alpha_Ed_rad = ratios.alpha_Ed_rad;
+  out.radius_m = 1 / ratios.curvature_per_m;
+  out.E_d = ratios.E_d;
+  out.E_b = ratios.E_b;
+  out.factors = compose(out.loaded, ratios.E_d, ratios.E_b);
+}
+
+/// c_R and c_L share the change of ln E_d, and their sum stays.
+StandardErrors standard_errors(const RobustFit& fit, const WheelFactors& factors) {
+  const double ln_E_d = std::sqrt(fit.covariance(0, 0)), ln_E_b = std::sqrt(fit.covariance(1, 1));
+  const double c = factors.c_r * factors.c_l / (factors.c_r + factors.c_l) * ln_E_d;
+  return {fit.E_d * ln_E_d, fit.E_b * ln_E_b, c, c, factors.b_m * ln_E_b};
+}
+
+void estimate_robustly(Estimate& out, std::span<const EndPose> cw, std::span<const EndPose> ccw) {
+  const SquareSetup setup{out.side_m, out.loaded};
+  const RobustFit fit = fit_ends(cw, ccw, setup);
+  take(out, ratios_of(fit, setup));
+  out.se = standard_errors(fit, out.factors);
+}
+
+/// With those methods that take the mean ends of both directions.
+void estimate_from_means(Estimate& out, std::span<const EndPose> cw, std::span<const EndPose> ccw) {
+  const Experiment experiment{
+      out.side_m, out.loaded, out.options, {out.summary.cw.runs, out.summary.ccw.runs}};
+  const Vector6 mean = means_of(out.summary);
+  take(out, experiment.ratios(mean));
+  Matrix6 covariance = Matrix6::Zero();
+  covariance.topLeftCorner<3, 3>() = covariance_of_mean(cw);
+  covariance.bottomRightCorner<3, 3>() = covariance_of_mean(ccw);
+  out.se = standard_errors(experiment, mean, covariance);
+}
+
 }  // namespace
 
 Estimate estimate_factors(std::span<const EndPose> cw, std::span<const EndPose> ccw, double side_m,
@@ -137,23 +176,11 @@ Estimate estimate_factors(std::span<const EndPose> cw, std::span<const EndPose> 
     require_headings(cw, in_words(Sense::cw));
     require_headings(ccw, in_words(Sense::ccw));
   }
-
-  const Experiment experiment{side_m, loaded, options, {out.summary.cw.runs, out.summary.ccw.runs}};
-  const Vector6 mean = means_of(out.summary);
-  const Ratios ratios = experiment.ratios(mean);
-  require_plausible(ratios);
-  out.alpha_rad = ratios.alpha_rad;
-  out.beta_rad = ratios.beta_rad;
-  out.alpha_Ed_rad = ratios.alpha_Ed_rad;
-  out.radius_m = 1 / ratios.curvature_per_m;
-  out.E_d = ratios.E_d;
-  out.E_b = ratios.E_b;
-  out.factors = compose(loaded, ratios.E_d, ratios.E_b);
-
-  Matrix6 covariance = Matrix6::Zero();
-  covariance.topLeftCorner<3, 3>() = covariance_of_mean(cw);
-  covariance.bottomRightCorner<3, 3>() = covariance_of_mean(ccw);
-  out.se = standard_errors(experiment, mean, covariance);
+  if (options.method == Method::robust) {
+    estimate_robustly(out, cw, ccw);
+  } else {
+    estimate_from_means(out, cw, ccw);
+  }
   return out;
 }
 
@@ -164,9 +191,11 @@ std::string_view name_of(Method method) {
     case Method::extended:
       return "extended";
     case Method::least_squares:
+      return "least-squares";
+    case Method::robust:
       break;
   }
-  return "least-squares";
+  return "robust";
 }
 
 std::string_view name_of(AngleSource angles) {

@@ -8,13 +8,15 @@
 #include "host/calibration/motion/wheel_factors.hpp"
 
 /// Wheel factors from the end poses of squares driven both ways round: UMBmark (Borenstein & Feng 1996),
-/// extended UMBmark (Jung & Chung 2011) and the exact fit of the end positions.
+/// extended UMBmark (Jung & Chung 2011), the exact fit of the end positions, and the robust fit of whole ends.
 namespace astro::calibration {
 
 /// umbmark        end positions, first order in the angles; `angles` says which coordinates
 /// extended       end headings; `formula` says exact or as published
 /// least_squares  end positions, exact arcs, no small-angle bias
-enum class Method { umbmark, extended, least_squares };
+/// robust         end positions and the headings of the runs that have one, exact arcs, weighted by how slip scatters them; a
+///                run that is far from the others counts little
+enum class Method { umbmark, extended, least_squares, robust };
 
 struct Options {
   Method method = Method::umbmark;
@@ -23,7 +25,8 @@ struct Options {
 };
 
 /// Standard errors from the scatter of the runs within each direction, to first order. All NaN with fewer
-/// than two runs in a direction: one run shows no scatter. They do not include the bias of the method, the
+/// than two runs in a direction: one run shows no scatter. Method::robust takes the scatter about its fit, of which
+/// something is known before any run, and has them for single runs, too. They do not include the bias of the method, the
 /// error of the side length, or the uncertainty of the loaded factors.
 struct StandardErrors {
   double E_d = 0, E_b = 0, c_r = 0, c_l = 0, b_m = 0;
@@ -46,14 +49,14 @@ struct Estimate {
 /// runs; for a nominal robot {1, 1, nominal wheelbase}.
 ///
 /// Throws astro::Error with its remedy if
-///   a direction is missing, a value is not finite, or only some runs of a direction have a heading
+///   a direction is missing or a value is not finite
 ///   the method is extended and a run has no heading, or one beyond half a turn
 ///   the side or a loaded factor is not positive and finite
 ///   a ratio is outside 0.5..2, which means wrong units, side or sets
 Estimate estimate_factors(std::span<const EndPose> cw, std::span<const EndPose> ccw, double side_m,
                           const WheelFactors& loaded, const Options& options = {});
 
-/// The names users type and read: "umbmark", "extended", "least-squares"; "x", "y", "thesis", "average";
+/// The names users type and read: "umbmark", "extended", "least-squares", "robust"; "x", "y", "thesis", "average";
 /// "exact", "published".
 std::string_view name_of(Method method);
 std::string_view name_of(AngleSource angles);

@@ -96,24 +96,22 @@ HeldOutErrors root_mean_squares(const std::vector<HeldOutRun>& runs, RunErrors H
   return {over(&RunErrors::final_m), over(&RunErrors::final_heading_rad), over(&RunErrors::path_rms_m)};
 }
 
-/// Sum of the squared distances of the ends from the mean of their direction, and its degrees of freedom.
+/// Sum of the squared distances of the ends from the mean of their direction, and its degrees of freedom. Ends without a
+/// heading count with their positions.
 struct Scatter {
   double position_m2 = 0, position_dof = 0, heading_rad2 = 0, heading_dof = 0;
 
   void add(std::span<const EndPose> ends) {
-    const auto n = static_cast<double>(ends.size());
-    EndPose mean;
+    const ClusterSummary mean = summarize(ends);
+    double headings = 0;
     for (const EndPose& end : ends) {
-      mean.x_m += end.x_m / n;
-      mean.y_m += end.y_m / n;
-      mean.theta_rad += end.theta_rad / n;
+      position_m2 += std::pow(end.x_m - mean.x_cg_m, 2) + std::pow(end.y_m - mean.y_cg_m, 2);
+      if (std::isnan(end.theta_rad)) continue;
+      heading_rad2 += std::pow(end.theta_rad - mean.theta_cg_rad, 2);
+      ++headings;
     }
-    for (const EndPose& end : ends) {
-      position_m2 += std::pow(end.x_m - mean.x_m, 2) + std::pow(end.y_m - mean.y_m, 2);
-      heading_rad2 += std::pow(end.theta_rad - mean.theta_rad, 2);  // NaN if one has none
-    }
-    position_dof += 2 * (n - 1);
-    heading_dof += n - 1;
+    position_dof += 2 * (static_cast<double>(ends.size()) - 1);
+    heading_dof += std::max(0.0, headings - 1);
   }
 };
 
@@ -129,7 +127,7 @@ double cost_of(const RunErrors& left, const Scatter& scatter) {
   constexpr double kLeastVariance = 1e-8;
   const double position =
       left.final_m * left.final_m / std::max(scatter.position_m2 / scatter.position_dof, kLeastVariance);
-  if (!std::isfinite(left.final_heading_rad) || !std::isfinite(scatter.heading_rad2)) return position;
+  if (!std::isfinite(left.final_heading_rad) || scatter.heading_dof == 0) return position;
   return position + left.final_heading_rad * left.final_heading_rad /
                         std::max(scatter.heading_rad2 / scatter.heading_dof, kLeastVariance);
 }

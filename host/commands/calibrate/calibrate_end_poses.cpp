@@ -36,9 +36,6 @@ std::string read_text(const fs::path& path) {
 
 std::vector<calibration::EndPose> end_poses(const fs::path& file, double side_m) {
   const std::vector<calibration::EndPose> poses = calibration::read_end_poses(read_text(file), file.string());
-  if (const auto odd = calibration::mistyped_run(poses, side_m))
-    throw Error(fmt::format("{}: run {} has {} Correct it, or leave the run out", file.string(),
-                            odd->index + 1, described(*odd)));
   for (const calibration::EndPose& pose : poses)
     if (const double off_m = std::hypot(pose.x_m, pose.y_m); side_m > 0 && off_m > side_m)
       throw Error(fmt::format(
@@ -46,6 +43,23 @@ std::vector<calibration::EndPose> end_poses(const fs::path& file, double side_m)
           "columns by their unit, ex_mm or ex_m",
           file.string(), side_m, off_m));
   return poses;
+}
+
+std::vector<calibration::SquareEnd> ends_of(const std::vector<calibration::EndPose>& errors) {
+  std::vector<calibration::SquareEnd> ends;
+  for (const calibration::EndPose& error : errors) ends.push_back({error});
+  return ends;
+}
+
+/// A number that is another one with its decimal point moved, or its sign changed, is a mistake that is easily corrected.
+/// An end that nothing explains is borne.
+void refuse_mistakes(const experiment::Squares& squares, const EndPosesOptions& options) {
+  for (const calibration::OddRun& odd :
+       calibration::odd_runs(ends_of(squares.cw), ends_of(squares.ccw), {squares.side_m, squares.loaded}))
+    if (odd.mistake)
+      throw Error(fmt::format("{}: run {} has {}. Correct it, or leave the run out",
+                              (odd.sense == Sense::cw ? options.cw : options.ccw).string(), odd.index + 1,
+                              described(odd)));
 }
 
 }  // namespace
@@ -72,8 +86,8 @@ void add_calibrate_end_poses(console::Command calibrate) {
   command.add_option("--c-left", options->c_l, "c_L that was loaded in the robot")
       .check(console::between(0.5, 1.5, ""))
       .capture_default_str();
-  add_method(command, options->method, {"auto", "umbmark", "extended", "least-squares"},
-             "auto: extended where every run has an end heading,\numbmark where not");
+  add_method(command, options->method, {"auto", "umbmark", "extended", "least-squares", "robust"},
+             "auto: robust");
   add_output(command, options->output);
   command.footer(
       "An error is absolute (tape measure, mocap) minus odometry, at the end, in the run's start frame.\n"
@@ -88,6 +102,7 @@ void add_calibrate_end_poses(console::Command calibrate) {
     squares.ccw = end_poses(options->ccw, options->side_m);
     squares.side_m = options->side_m;
     squares.loaded = {options->c_r, options->c_l, options->wheelbase_m};
+    refuse_mistakes(squares, *options);
     put_out(experiment::calibrate(squares, method), options->output);
   });
 }

@@ -50,11 +50,11 @@ void add_calibrate_runs(console::Command calibrate) {
   const console::Command command =
       calibrate.add_subcommand("runs", "from recorded runs with ground truth (MCAP)");
   command.add_option("folder", options->folder, "folder with the recordings").required();
-  add_method(command, options->method, {"auto", "ml", "umbmark", "extended", "least-squares"},
+  add_method(command, options->method, {"auto", "ml", "umbmark", "extended", "least-squares", "robust"},
              "ml: maximum likelihood over whole drives of any\n"
              "kind; the others: from end poses of squares; auto:\n"
              "ml where ground truth followed every run, else\n"
-             "extended or umbmark");
+             "robust");
   add_output(command, options->output);
   add_ml(command, options->ml);
   command.add_option("--without", options->without, "a recording to leave out, by its name (repeatable)")

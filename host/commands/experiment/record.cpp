@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 struct RecordOptions {
   ConnectionOptions connection;
-  TruthOption truth{"none", {}};
+  TruthOption truth{"none", {}, {}};
   fs::path out;
   fs::path csv;
   double seconds = 0;

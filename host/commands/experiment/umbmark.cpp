@@ -8,6 +8,8 @@
 #include "host/commands/base/flags.hpp"
 #include "host/commands/base/remedies.hpp"
 #include "host/commands/experiment/commands.hpp"
+#include "host/commands/experiment/tape_briefing.hpp"
+#include "host/commands/experiment/tape_dialogue.hpp"
 #include "host/commands/shared/calibration_view.hpp"
 #include "host/commands/shared/connection.hpp"
 #include "host/commands/shared/limit_notes.hpp"
@@ -32,10 +34,10 @@ struct UmbmarkOptions {
   TruthOption truth;
   experiment::Plan plan;
   std::filesystem::path out;
-  std::string order = "alternating";
+  std::string order = "alternating", unit, angle_unit = "deg";
   MethodOption method;
   experiment::Until until;
-  console::Option until_option, truth_folder;
+  console::Option until_option, truth_folder, unit_option, angle_unit_option;
   bool yes = false, force = false, json = false, no_extras = false, pause = false;
 };
 
@@ -51,6 +53,15 @@ void add_options(console::Command command, UmbmarkOptions& options) {
   options.truth_folder = command.add_option("--truth-folder", options.truth.folder,
                                             "--truth file: where the CSV of each run appears;\n"
                                             "default: OUT/truth");
+  options.unit_option =
+      command
+          .add_option("--unit", options.unit,
+                      "--truth manual: of lengths typed without one; asked for if\nnot given")
+          .one_of({"mm", "cm", "m"});
+  options.angle_unit_option =
+      command.add_option("--angle-unit", options.angle_unit, "--truth manual: of headings typed without one")
+          .one_of({"deg", "rad"})
+          .capture_default_str();
   command.add_option("--out", options.out, "folder of the experiment; the same folder again continues it")
       .required();
   command.add_option("--runs", plan.runs, "squares in each direction, before and after")
@@ -75,10 +86,9 @@ void add_options(console::Command command, UmbmarkOptions& options) {
   command.add_option("--line", plan.line_m, "length of the straight line, m").capture_default_str();
   command.add_option("--circle", plan.circle_radius_m, "radius of the circles, m").capture_default_str();
   command.add_flag("--no-extras", options.no_extras, "squares only, no line and circles");
-  add_method(command, options.method, {"auto", "ml", "umbmark", "extended", "least-squares"},
+  add_method(command, options.method, {"auto", "ml", "umbmark", "extended", "least-squares", "robust"},
              "auto: ml (maximum likelihood over whole drives)\n"
-             "with ground truth along the way, else extended\n"
-             "where every run has an end heading, or umbmark");
+             "with ground truth along the way, else robust");
   command.add_flag("--pause", options.pause, "wait for Enter before each run (always with --truth manual)");
   command.add_flag("--yes,-y", options.yes, "upload without asking");
   add_force(command, options.force);
@@ -116,16 +126,15 @@ experiment::ExperimentHooks hooks_for(const UmbmarkOptions& options, console::Pr
     console::say("recorded " + spec.title());
   };
   const bool pauses = options.pause || options.truth.source == "manual";
-  hooks.ready = [pauses, &progress](const experiment::RunSpec& spec) {
-    if (!pauses) return;
+  const AskLine ask = [&progress](const std::string& prompt) {
     progress.clear();
-    console::ask(fmt::format("next is {}: put the robot on its start mark and press Enter ", spec.title()));
+    return console::ask(prompt);
   };
-  hooks.keep = [&progress](const std::string& why) {
-    progress.clear();
-    const std::string answer = console::ask(why + " [y: keep it, n: it is corrected or entered again] ");
-    return answer == "y" || answer == "yes";
+  hooks.ready = [pauses, ask](const experiment::RunSpec& spec,
+                              const std::optional<experiment::RunSpec>& last) {
+    return pauses ? ask_ready(ask, spec, last) : experiment::Redo::no;
   };
+  hooks.doubt = [ask](const experiment::DoubtfulRun& run) { return ask_about(ask, run); };
   hooks.agree = [&options, &progress](const experiment::Calibration& found, const auto& changes) {
     progress.clear();
     console::say('\n' + calibration_summary(found));
@@ -141,6 +150,23 @@ experiment::ExperimentHooks hooks_for(const UmbmarkOptions& options, console::Pr
   return hooks;
 }
 
+/// An option that changes nothing with another source is a mistake.
+void require_truth(const UmbmarkOptions& options, const console::Option& option, const std::string& name,
+                   const std::string& source) {
+  if (option.count() > 0 && options.truth.source != source)
+    throw console::WrongUsage(name + " is of --truth " + source + ", and this is --truth " +
+                              options.truth.source);
+}
+
+/// Before the first run: what there is to measure, and in which unit.
+void brief(UmbmarkOptions& options) {
+  console::say(tape_briefing(options.plan, options.out));
+  options.truth.units.angle = truth::angle_unit_named(options.angle_unit).value();
+  options.truth.units.length =
+      options.unit.empty() ? ask_length_unit([](const std::string& prompt) { return console::ask(prompt); })
+                           : truth::length_unit_named(options.unit).value();
+}
+
 void run(UmbmarkOptions& options) {
   options.plan.order = experiment::order_named(options.order);
   options.plan.method = options.method.choice();
@@ -148,9 +174,9 @@ void run(UmbmarkOptions& options) {
   options.plan.truth = options.truth.source;
   if (options.until_option.count() > 0) options.plan.until = options.until;
   options.plan.check();
-  if (options.truth_folder.count() > 0 && options.truth.source != "file")
-    throw console::WrongUsage("--truth-folder is of --truth file, and this is --truth " +
-                              options.truth.source);
+  require_truth(options, options.truth_folder, "--truth-folder", "file");
+  require_truth(options, options.unit_option, "--unit", "manual");
+  require_truth(options, options.angle_unit_option, "--angle-unit", "manual");
   if (options.truth_folder.count() > 0 && !std::filesystem::is_directory(options.truth.folder))
     throw Error(fmt::format("--truth-folder: there is no folder '{}': make it, or name another",
                             options.truth.folder.string()));
@@ -162,6 +188,7 @@ void run(UmbmarkOptions& options) {
     all.insert(all.end(), path.begin(), path.end());
   }
   note_limits(*client, all);
+  if (options.truth.source == "manual") brief(options);
   console::Progress progress("driving");
   const auto truth = open_truth(options.truth, options.connection.port, [&](const truth::Question& question) {
     progress.clear();
@@ -177,6 +204,7 @@ void run(UmbmarkOptions& options) {
     print_json(json);
     return;
   }
+  for (const std::string& square : results.left_out()) print(console::wrapped(square + '.'));
   write(console::table(experiment::before_after_table(results)) + '\n' + console::wrapped(results.verdict()));
   print("Report: " + report.string());
 }

@@ -60,6 +60,18 @@ std::string factors_text(const Calibration& found) {
                          {"E_b", with_error(found.E_b(), se.E_b, 7), ""}});
 }
 
+std::string scale_text(const Calibration& calibration) {
+  const auto& scale = calibration.line_scale;
+  if (!scale) return "S is as loaded: closed squares do not show it, and no line was measured.";
+  return fmt::format("S is from {} measured line{}.", scale->lines, scale->lines == 1 ? "" : "s");
+}
+
+std::string left_out_text(const Calibration& calibration) {
+  std::string text;
+  for (const std::string& square : calibration.left_out) text += console::wrapped(square + '.');
+  return text;
+}
+
 std::string end_pose_text(const calibration::Estimate& estimate) {
   return console::table(
       {{"method", std::string(calibration::name_of(estimate.options.method))},
@@ -119,14 +131,16 @@ std::string calibration_text(const Calibration& calibration) {
   const MlResult* ml = calibration.ml();
   if (ml != nullptr) text += console::wrapped(experiment::extent_sentence(*ml));
   text += factors_text(calibration);
-  if (ml != nullptr) text += '\n' + ml_text(*ml);
+  text += ml != nullptr ? '\n' + ml_text(*ml)
+                        : console::wrapped(scale_text(calibration)) + left_out_text(calibration);
   return text + '\n' + console::wrapped(experiment::judgement_sentence(calibration.judgement));
 }
 
 std::string calibration_summary(const Calibration& calibration) {
   const MlResult* ml = calibration.ml();
   if (ml == nullptr)
-    return fmt::format("calibrated by {}:\n", calibration.method()) +
+    return fmt::format("calibrated by {}:\n", calibration.method()) + left_out_text(calibration) +
+           console::wrapped(scale_text(calibration)) +
            console::wrapped(experiment::judgement_sentence(calibration.judgement));
   std::string text =
       console::wrapped(experiment::extent_sentence(*ml)) +

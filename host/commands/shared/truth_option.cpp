@@ -51,6 +51,8 @@ std::string in_words(const truth::Question& question) {
       return text + "; press Enter once the file is corrected: ";
     case truth::AnswerKind::file_corrected_or_kept:
       return text + " Press Enter once the file is corrected, or to keep it as it is: ";
+    case truth::AnswerKind::right_or_entered_again:
+      return console::wrapped(text) + "  y: it is right; Enter: enter it again: ";
     default:
       return text;
   }
@@ -61,7 +63,7 @@ std::string ask_person(const truth::Question& question) { return console::ask(in
 std::unique_ptr<truth::Source> open_truth(const TruthOption& option, const std::string& port,
                                           const truth::Ask& asking) {
   if (option.source == "sim") return std::make_unique<truth::SocketSource>(truth::mocap_socket_of(port));
-  if (option.source == "manual") return std::make_unique<truth::ManualSource>(asking);
+  if (option.source == "manual") return std::make_unique<truth::ManualSource>(asking, option.units);
   if (option.source == "file") return std::make_unique<truth::FileSource>(option.folder, asking);
   if (option.source == "none") return std::make_unique<truth::NoSource>();
   if (truth::is_tracker_url(option.source)) return open_tracker(option.source);

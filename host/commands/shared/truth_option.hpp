@@ -7,6 +7,7 @@
 
 #include "host/console/command_line.hpp"
 #include "host/truth/manual/manual_source.hpp"
+#include "host/truth/manual/reading.hpp"
 #include "host/truth/source/source.hpp"
 
 namespace astro::commands {
@@ -20,6 +21,7 @@ namespace astro::commands {
 struct TruthOption {
   std::string source;
   std::filesystem::path folder;  // file: where the CSV files appear
+  truth::Units units;            // manual: of numbers without one
 };
 
 /// Accepts these words and the addresses of trackers.

@@ -11,13 +11,10 @@ namespace {
 
 using Family = MethodChoice::Family;
 
-calibration::Options options_for(const Squares& squares, const MethodChoice& method) {
+calibration::Options options_for(const MethodChoice& method) {
   if (method.family == Family::end_poses) return method.options;
-  const auto has_heading = [](const calibration::EndPose& pose) { return std::isfinite(pose.theta_rad); };
-  const bool headings = std::all_of(squares.cw.begin(), squares.cw.end(), has_heading) &&
-                        std::all_of(squares.ccw.begin(), squares.ccw.end(), has_heading);
   calibration::Options options;
-  options.method = headings ? calibration::Method::extended : calibration::Method::umbmark;
+  options.method = calibration::Method::robust;
   return options;
 }
 
@@ -92,8 +89,19 @@ Calibration by_ml(Phases phases, const MlChoice& choice) {
   return result;
 }
 
-Calibration by_end_poses(const Recordings& recordings, const MethodChoice& method) {
-  Calibration result = calibrate(recordings.squares(), method);
+/// The squares of the last phase with the lines of all.
+Squares squares_and_lines(Phases phases) {
+  Squares squares = phases.back()->squares();
+  for (const auto& phase : phases.first(phases.size() - 1)) {
+    const std::vector<calibration::LineEnd>& lines = phase->squares().lines;
+    squares.lines.insert(squares.lines.end(), lines.begin(), lines.end());
+  }
+  return squares;
+}
+
+Calibration by_end_poses(Phases phases, const MethodChoice& method) {
+  Calibration result = calibrate(squares_and_lines(phases), method);
+  const Recordings& recordings = *phases.back();
   const recording::RunInfo& info = recordings.runs().front().info;
   result.robot = identity_of(info);
   // Recordings of other origin may lack the wheel. The ratios that end poses give do not need it.
@@ -102,8 +110,26 @@ Calibration by_end_poses(const Recordings& recordings, const MethodChoice& metho
   return result;
 }
 
+/// Takes a scale that lines gave: it moves both wheels and the wheelbase alike, because a closed square stays closed.
+void apply(const calibration::LineScale& scale, Calibration& result) {
+  const double change = scale.scale / result.scale();
+  const double part = scale.se / scale.scale;
+  calibration::WheelFactors& factors = result.factors;
+  factors = {change * factors.c_r, change * factors.c_l, change * factors.b_m};
+  const auto widened = [&](double error, double value) {
+    return value * std::hypot(change * error / value, part);
+  };
+  FactorErrors& se = result.se;
+  se.c_r = widened(se.c_r, factors.c_r);
+  se.c_l = widened(se.c_l, factors.c_l);
+  se.b_m = widened(se.b_m, factors.b_m);
+  se.E_b = se.b_m / result.loaded.b_m;
+  se.scale = scale.se;
+  result.line_scale = scale;
+}
+
 Calibration calibrate_phases(Phases phases, const MethodChoice& method, const MlChoice& ml) {
-  return uses_ml(phases, method) ? by_ml(phases, ml) : by_end_poses(*phases.back(), method);
+  return uses_ml(phases, method) ? by_ml(phases, ml) : by_end_poses(phases, method);
 }
 
 }  // namespace
@@ -125,7 +151,8 @@ double Calibration::E_d() const {
 }
 
 double Calibration::E_b() const {
-  if (const calibration::Estimate* estimate = end_poses()) return estimate->E_b;
+  if (const calibration::Estimate* estimate = end_poses(); estimate != nullptr && !line_scale)
+    return estimate->E_b;
   return factors.b_m / loaded.b_m;
 }
 
@@ -135,7 +162,7 @@ Calibration calibrate(const Squares& squares, const MethodChoice& method) {
   if (method.family == Family::ml)
     throw Error("maximum likelihood needs whole drives with ground truth, and end poses are all there is",
                 {Help::use_end_poses});
-  const calibration::Options options = options_for(squares, method);
+  const calibration::Options options = options_for(method);
   const calibration::Estimate estimate =
       calibration::estimate_factors(squares.cw, squares.ccw, squares.side_m, squares.loaded, options);
   Calibration result;
@@ -147,6 +174,8 @@ Calibration calibrate(const Squares& squares, const MethodChoice& method) {
                estimate.se.E_d, estimate.se.E_b, FactorErrors::kUnknown};
   result.squares = estimate.summary;
   result.detail = estimate;
+  result.left_out = squares.left_out;
+  if (const auto scale = calibration::scale_of_lines(squares.lines)) apply(*scale, result);
   return result;
 }
 
@@ -158,7 +187,7 @@ Calibration calibrate(const Recordings& recordings, const MethodChoice& method, 
 
 Calibration calibrate_after(std::span<const std::shared_ptr<const Recordings>> phases,
                             const MethodChoice& method) {
-  return calibrate_phases(uses_ml(phases, method) ? phases : phases.last(1), method, {});
+  return calibrate_phases(phases, method, {});
 }
 
 }  // namespace astro::experiment

@@ -4,9 +4,12 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
+#include "host/calibration/end_poses/line_scale.hpp"
 #include "host/calibration/end_poses/umbmark.hpp"
 #include "host/calibration/judgement/cross_validation.hpp"
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
@@ -45,18 +48,22 @@ struct Calibration {
   /// End errors of the squares among the runs, if squares of one kind were driven in both directions.
   std::optional<calibration::ExperimentSummary> squares;
   std::variant<calibration::Estimate, MlResult> detail;
+  /// The scale from measured lines, in `factors` already; none without lines, and none of maximum likelihood.
+  std::optional<calibration::LineScale> line_scale;
+  std::vector<std::string> left_out;  // squares that end poses do not use: which, and why
   /// The loaded factors and new ones on drives that the new ones have not seen; unknown for a single drive.
   calibration::CrossValidation judgement;
 
   const MlResult* ml() const { return std::get_if<MlResult>(&detail); }
   const calibration::Estimate* end_poses() const { return std::get_if<calibration::Estimate>(&detail); }
-  /// "ml", "umbmark", "extended", "least-squares".
+  /// "ml", "umbmark", "extended", "least-squares", "robust".
   std::string_view method() const;
 
-  /// How the factors differ from the loaded ones: wheel ratio and wheelbase, new over loaded.
+  /// How the factors differ from the loaded ones: wheel ratio and wheelbase, new over loaded. Of end poses, E_b contains the
+  /// change of the scale, because a closed square shows b / S.
   double E_d() const;
   double E_b() const;
-  /// (c_R + c_L) / 2. The methods of end poses keep the loaded one.
+  /// (c_R + c_L) / 2. The methods of end poses keep the loaded one unless lines were measured.
   double scale() const { return (factors.c_r + factors.c_l) / 2; }
   double scale_change() const;  // new over loaded
 
@@ -85,13 +92,12 @@ Calibration calibrate(const Recordings& recordings, const MethodChoice& method, 
 
 /// After the phases of an experiment, at least one: maximum likelihood takes all runs so far, as its factors
 /// do not depend on what was loaded in the robot, so each round adds to the rounds before; the methods of end poses
-/// take the last phase alone. `squares` are those of the last phase. Throws as above.
+/// take the squares of the last phase alone, and the lines of all: a scale is absolute. `squares` are those of the last phase. Throws as above.
 Calibration calibrate_after(std::span<const std::shared_ptr<const Recordings>> phases,
                             const MethodChoice& method);
 
-/// From end poses alone; automatic: extended where every run has an end heading, UMBmark where not. Throws
-/// astro::Error if the method is maximum likelihood, which needs more; and what
-/// calibration::estimate_factors throws.
+/// From end poses and measured lines alone; automatic: robust. Throws astro::Error if the method is maximum likelihood,
+/// which needs more; and what calibration::estimate_factors and calibration::scale_of_lines throw.
 Calibration calibrate(const Squares& squares, const MethodChoice& method);
 
 }  // namespace astro::experiment

@@ -74,6 +74,7 @@ std::string calibration_lines(const Calibration& calibration) {
   if (const MlResult* ml = calibration.ml()) text += fmt::format("runs = {}\n", ml->estimate.runs.size());
   text += fmt::format("E_d = {}\nE_b = {}\nscale = {}\n", real_text(calibration.E_d()),
                       real_text(calibration.E_b()), real_text(calibration.scale()));
+  if (calibration.line_scale) text += fmt::format("lines = {}\n", calibration.line_scale->lines);
   if (calibration.squares)
     text += fmt::format("runs_cw = {}\nruns_ccw = {}\nE_max_syst_m = {}\n", calibration.squares->cw.runs,
                         calibration.squares->ccw.runs, real_text(calibration.squares->E_max_syst_m));

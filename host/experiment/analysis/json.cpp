@@ -113,6 +113,8 @@ nlohmann::json to_json(const Calibration& calibration) {
   json["carried"] = to_json(calibration.loaded);
   if (calibration.squares) add_squares(json, *calibration.squares);
   if (const calibration::Estimate* estimate = calibration.end_poses()) add_end_poses(json, *estimate);
+  if (calibration.line_scale) json["lines"] = calibration.line_scale->lines;
+  if (!calibration.left_out.empty()) json["left_out"] = calibration.left_out;
   if (const MlResult* ml = calibration.ml()) json.update(to_json(*ml));
   json["verdict"] = judgement_json(calibration.judgement);
   return json;

@@ -56,22 +56,32 @@ std::string ml_text(const MlResult& ml) {
   return text;
 }
 
-std::string end_pose_text(const calibration::Estimate& estimate) {
+std::string scale_text(const Calibration& calibration) {
+  const auto& scale = calibration.line_scale;
+  if (!scale)
+    return "A closed square is blind to the common scale of both wheels, so c_R + c_L is left as it was.";
+  return fmt::format(
+      "A closed square is blind to the common scale of both wheels: {} measured line{} gave S = {:.5f} ± "
+      "{:.5f}.",
+      scale->lines, scale->lines == 1 ? "" : "s", scale->scale, scale->se);
+}
+
+std::string end_pose_text(const Calibration& calibration) {
+  const calibration::Estimate& estimate = *calibration.end_poses();
   std::string text;
   if (estimate.options.method == calibration::Method::umbmark)
     text += fmt::format(" Angles from: {}.", calibration::name_of(estimate.options.angles));
   if (estimate.options.method == calibration::Method::extended)
     text += fmt::format(" Formula: {}.", calibration::name_of(estimate.options.formula));
   return text +
-         "\n\nThe estimate is composed with the factors that were loaded in the robot while it drove. A "
-         "closed "
-         "square is blind to the common scale of both wheels, so c_R + c_L is left as it was.";
+         "\n\nThe estimate is composed with the factors that were loaded in the robot while it drove. " +
+         scale_text(calibration);
 }
 
 std::string method_text(const Calibration& calibration) {
   const std::string name = fmt::format("Method: {}.", calibration.method());
   const MlResult* ml = calibration.ml();
-  return name + (ml != nullptr ? ' ' + ml_text(*ml) : end_pose_text(*calibration.end_poses())) + "\n\n" +
+  return name + (ml != nullptr ? ' ' + ml_text(*ml) : end_pose_text(calibration)) + "\n\n" +
          judgement_sentence(calibration.judgement);
 }
 
@@ -94,6 +104,7 @@ report::ReportInput report_input(const Results& results) {
                       {"c_L", "", old.c_l, now.c_l, se.c_l},
                       {"b", "m", old.b_m, now.b_m, se.b_m}};
   if (const std::string other = results.other_robot(); !other.empty()) input.notes.push_back(other + '.');
+  for (const std::string& square : results.left_out()) input.notes.push_back(square + '.');
   if (last != nullptr) input.method = method_text(*last);
   return input;
 }

@@ -56,6 +56,13 @@ calibration::Improvement Results::gain() const {
                                   calibration::E_max_syst_mm(after().summary));
 }
 
+std::vector<std::string> Results::left_out() const {
+  std::vector<std::string> all;
+  for (const PhaseResult& phase : phases)
+    all.insert(all.end(), phase.squares().left_out.begin(), phase.squares().left_out.end());
+  return all;
+}
+
 std::string Results::other_robot() const {
   for (const PhaseResult& phase : phases)
     for (const recording::Run& run : phase.runs())

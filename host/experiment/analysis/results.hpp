@@ -41,6 +41,8 @@ struct Results {
   double improvement() const { return gain().factor; }
   /// The same with its 95 % interval.
   calibration::Improvement gain() const;
+  /// The squares of all phases that were left out (squares_of): which, and why.
+  std::vector<std::string> left_out() const;
   /// The sentence that a phase was driven with another robot than the first one, or "".
   std::string other_robot() const;
   /// The verdict of the report in one paragraph.

@@ -2,16 +2,45 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "host/base/error.hpp"
 #include "host/base/sense.hpp"
+#include "host/calibration/motion/arc.hpp"
 #include "host/experiment/analysis/loaded_parameter.hpp"
+#include "host/experiment/analysis/trajectories.hpp"
 #include "host/experiment/files/same_number.hpp"
 #include "host/recording/run/end_error.hpp"
+#include "host/recording/run/run_metadata.hpp"
 
 namespace astro::experiment {
 namespace {
 
-void accept(Squares& squares, const recording::Run& run, bool first) {
+using calibration::EndPose;
+using calibration::SquareEnd;
+
+SquareEnd end_in(const recording::Run& run) {
+  const auto [absolute, odometry] = recording::ends_of(run);
+  return {{absolute.x_m, absolute.y_m, recording::wrapped_rad(absolute.theta_rad)},
+          {odometry.x_m, odometry.y_m, recording::wrapped_rad(odometry.theta_rad)}};
+}
+
+/// The squares of one direction, before any is left out.
+struct Driven {
+  std::vector<SquareEnd> ends;
+  std::vector<std::string> names;
+  std::vector<bool> entered;  // by a person
+};
+
+struct AllDriven {
+  Driven cw, ccw;
+
+  Driven& of(Sense sense) { return sense == Sense::cw ? cw : ccw; }
+};
+
+void accept(Squares& squares, AllDriven& driven, const recording::Run& run, bool first) {
   const calibration::WheelFactors loaded = loaded_factors(run.info);
   if (first) {
     squares.loaded = loaded;
@@ -23,9 +52,31 @@ void accept(Squares& squares, const recording::Run& run, bool first) {
     throw Error(
         fmt::format("the squares have different sides ({} m and {} m)", squares.side_m, run.info.size_m),
         {Help::separate_sizes});
-  const recording::EndError error = recording::end_error(run);
-  (run.info.direction == Sense::cw ? squares.cw : squares.ccw)
-      .push_back({error.x_m, error.y_m, error.theta_rad});
+  Driven& direction = driven.of(*run.info.direction);
+  direction.ends.push_back(end_in(run));
+  direction.names.push_back(recording::run_name(run.info));
+  direction.entered.push_back(!run.info.truth_source.empty() && !has_moving_truth(run.info));
+}
+
+/// Which squares of a direction are used.
+std::vector<bool> sifted(Squares& squares, const Driven& direction, Sense sense,
+                         std::span<const calibration::OddRun> odd_runs) {
+  constexpr std::ptrdiff_t kFewest = 3;
+  std::vector<bool> used(direction.ends.size(), true);
+  for (const calibration::OddRun& odd : odd_runs) {
+    if (odd.sense != sense || !direction.entered[odd.index]) continue;
+    if (std::ranges::count(used, true) <= kFewest) break;
+    used[odd.index] = false;
+    squares.left_out.push_back(direction.names[odd.index] + " is left out: " + described(odd));
+  }
+  return used;
+}
+
+void take(Squares& squares, const Driven& direction, Sense sense,
+          std::span<const calibration::OddRun> odd_runs) {
+  const std::vector<bool> used = sifted(squares, direction, sense, odd_runs);
+  for (std::size_t i = 0; i < used.size(); ++i)
+    if (used[i]) (sense == Sense::cw ? squares.cw : squares.ccw).push_back(direction.ends[i].error());
 }
 
 }  // namespace
@@ -50,12 +101,37 @@ calibration::WheelFactors loaded_in_all(const RunSet& set) {
 
 Squares squares_of(std::span<const recording::Run> runs) {
   Squares squares;
-  for (const recording::Run& run : runs)
+  AllDriven driven;
+  for (const recording::Run& run : runs) {
     if (run.info.kind == "square" && run.info.direction)
-      accept(squares, run, squares.cw.empty() && squares.ccw.empty());
-  if (squares.cw.empty() && squares.ccw.empty())
+      accept(squares, driven, run, driven.cw.ends.empty() && driven.ccw.ends.empty());
+    if (const auto line = line_of(run)) squares.lines.push_back(*line);
+  }
+  if (driven.cw.ends.empty() && driven.ccw.ends.empty())
     throw Error("none of the recordings is a square", {Help::drive_squares});
+  const auto odd = calibration::odd_runs(driven.cw.ends, driven.ccw.ends, {squares.side_m, squares.loaded});
+  take(squares, driven.cw, Sense::cw, odd);
+  take(squares, driven.ccw, Sense::ccw, odd);
   return squares;
+}
+
+std::optional<calibration::LineEnd> line_of(const recording::Run& run) {
+  if (run.info.kind != "line") return std::nullopt;
+  const SquareEnd end = square_end(run);
+  const double half_turn = end.odometry.theta_rad / 2;
+  const double driven_m = std::hypot(end.odometry.x_m, end.odometry.y_m) / calibration::sinc(half_turn);
+  if (!(end.odometry.x_m > 0) || !std::isfinite(end.measured.x_m)) return std::nullopt;
+  const calibration::WheelFactors loaded = loaded_factors(run.info);
+  return calibration::LineEnd{end.measured.x_m, end.measured.y_m, driven_m, (loaded.c_r + loaded.c_l) / 2};
+}
+
+SquareEnd square_end(const recording::Run& run) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  try {
+    return end_in(run);
+  } catch (const Error&) {
+    return {{kUnknown, kUnknown, kUnknown}};
+  }
 }
 
 }  // namespace astro::experiment

@@ -1,26 +1,43 @@
 #pragma once
 
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "host/calibration/end_poses/end_pose.hpp"
+#include "host/calibration/end_poses/line_scale.hpp"
+#include "host/calibration/end_poses/odd_run.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
 #include "host/experiment/files/run_set.hpp"
 #include "host/recording/run/run.hpp"
 
-/// From recordings to the end errors of squares, and to the factors with which they were driven.
+/// From recordings to the end errors of squares and the lengths of lines, and to the factors with which they were driven.
 namespace astro::experiment {
 
-/// All squares that were driven with one set of parameters.
+/// All squares that were driven with one set of parameters, and the lines beside them.
 struct Squares {
   std::vector<calibration::EndPose> cw, ccw;
   double side_m = 0;
   calibration::WheelFactors loaded;
+  std::vector<calibration::LineEnd> lines;  // forwards, with a measured end
+  /// For each square that was left out: which, and why.
+  std::vector<std::string> left_out;
 };
 
-/// The squares among `runs`. Throws astro::Error if there are none, or if they differ in side or in
-/// the parameters that were loaded in the robot: such runs must not be averaged.
+/// The squares among `runs`. A square whose end a person entered (has_moving_truth) and that does not fit the others is
+/// left out (calibration::odd_runs) if three of its direction remain: a tracker does not mistype, and what a robot does is
+/// not left out because it is rare.
+///
+/// Throws astro::Error if there are no squares, or if they differ in side or in the parameters that were loaded in the
+/// robot: such runs must not be averaged.
 Squares squares_of(std::span<const recording::Run> runs);
+
+/// The measured end of a line beside what odometry says; nothing if the run is no line forwards, or if its end is not known.
+std::optional<calibration::LineEnd> line_of(const recording::Run& run);
+
+/// The end of a run; NaN where it cannot be computed: then the calibration reports why.
+calibration::SquareEnd square_end(const recording::Run& run);
 
 /// Whether a robot cannot tell `a` from `b`: they differ by less than the wire format resolves.
 bool same_factors(const calibration::WheelFactors& a, const calibration::WheelFactors& b);

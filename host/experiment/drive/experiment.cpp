@@ -2,14 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
-#include <set>
 #include <span>
 
 #include "host/base/error.hpp"
 #include "host/base/folder_lock.hpp"
 #include "host/experiment/analysis/until.hpp"
+#include "host/experiment/drive/entered_truth.hpp"
 #include "host/experiment/drive/open_journal.hpp"
 #include "host/experiment/drive/phase_recordings.hpp"
 #include "host/experiment/files/experiment_folder.hpp"
@@ -35,7 +36,8 @@ class Session {
         lock_(folder_),
         hooks_(hooks),
         journal_(open_journal(folder_, plan, client)),
-        current_(folder_) {}
+        current_(folder_),
+        entered_(truth_, folder_, hooks_, journal_, current_) {}
 
   Results run() {
     const std::vector<std::string> phases = phase_names(journal_.plan);
@@ -53,13 +55,20 @@ class Session {
     const Plan& plan = journal_.plan;
     announced_ = false;
     if (open_ended(plan, phase)) drive_until_enough(phase, *plan.until);
-    drive_missing(runs_of_phase(plan, phase, squares_in_phase(folder_, plan, phase)));
+    const std::vector<RunSpec> specs = runs_of_phase(plan, phase, squares_in_phase(folder_, plan, phase));
+    if (!is_over(phase)) entered_.look_back(specs);
+    drive_missing(specs);
+  }
+
+  /// Whether the next phase has begun, with other factors in the robot.
+  bool is_over(std::size_t phase) const {
+    const std::vector<std::string> names = phase_names(journal_.plan);
+    return phase + 1 < names.size() && journal_.loaded.contains(names[phase + 1]);
   }
 
   void drive_until_enough(std::size_t phase, const Until& until) {
     const Plan& plan = journal_.plan;
-    if (journal_.loaded.contains(phase_names(plan)[phase + 1]))
-      return;  // an earlier session reached the precision
+    if (is_over(phase)) return;  // an earlier session reached the precision
     for (int squares = squares_in_phase(folder_, plan, phase);; ++squares) {
       const std::vector<RunSpec> specs = squares_of_phase(plan, phase, squares);
       drive_missing(specs);
@@ -84,74 +93,53 @@ class Session {
   }
 
   void drive_missing(const std::vector<RunSpec>& specs) {
-    std::vector<std::size_t> missing;
-    for (std::size_t i = 0; i < specs.size(); ++i)
-      if (!fs::exists(file_of(folder_, specs[i]))) missing.push_back(i);
-    if (missing.empty()) return;
-    // Somebody took away a recording that was read already, for example to have it driven again.
-    if (missing.front() < current_.size()) current_.start();
-
+    if (recorded(specs) == specs.size()) return;
     const robot::RemoteParameters parameters = robot::RemoteParameters::fetch(client_);
     begin_phase(specs.front().phase,
                 {parameters.number("c_R"), parameters.number("c_L"), parameters.number("b")});
-    if (missing.size() < specs.size() && !announced_)
-      hooks_.run.notice({fmt::format("{}: {} of {} runs are recorded already", specs.front().phase,
-                                     specs.size() - missing.size(), specs.size())});
+    announce(specs);
+    std::optional<RunSpec> last;
+    while (const RunSpec* spec = first_missing(folder_, specs)) {
+      // Somebody took away a recording that was read already, for example to have it driven again.
+      if (static_cast<std::size_t>(spec - specs.data()) < current_.size()) current_.start();
+      if (drive_one(*spec, static_cast<int>(recorded(specs)) + 1, static_cast<int>(specs.size()), last,
+                    parameters))
+        entered_.look_back(specs);
+    }
+  }
+
+  std::size_t recorded(const std::vector<RunSpec>& specs) const {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        specs, [&](const RunSpec& spec) { return fs::exists(file_of(folder_, spec)); }));
+  }
+
+  void announce(const std::vector<RunSpec>& specs) {
+    if (const std::size_t done = recorded(specs); done > 0 && !announced_)
+      hooks_.run.notice(
+          {fmt::format("{}: {} of {} runs are recorded already", specs.front().phase, done, specs.size())});
     announced_ = true;
-    auto number = static_cast<int>(specs.size() - missing.size());
-    for (const std::size_t i : missing) {
-      const RunSpec& spec = specs[i];
-      ++number;
-      recording::Run run;
-      if (const fs::path driven = file_without_truth(folder_, spec); fs::exists(driven)) {
-        hooks_.run.notice({spec.title() + " is driven, but its ground truth is missing",
-                           {Help::drive_run_again, driven.string()}});
-        run = recording::read_run(driven);
-      } else {
-        hooks_.ready(spec);
-        hooks_.run_started(spec, number, static_cast<int>(specs.size()));
-        run = drive(spec, parameters);
+  }
+
+  /// Drives a run, or takes up its drive, and keeps it; false if something else was done first at the person's wish.
+  bool drive_one(const RunSpec& spec, int number, int total, std::optional<RunSpec>& last,
+                 const robot::RemoteParameters& parameters) {
+    recording::Run run;
+    if (const fs::path driven = file_without_truth(folder_, spec); fs::exists(driven)) {
+      hooks_.run.notice({spec.title() + " is driven, but its ground truth is missing",
+                         {Help::drive_run_again, driven.string()}});
+      run = recording::read_run(driven);
+    } else {
+      if (const Redo redo = hooks_.ready(spec, last); redo != Redo::no && last) {
+        entered_.correct(*last, redo);
+        return true;
       }
-      keep(std::span(specs).first(i), spec, run);
-      hooks_.run_finished(spec, run);
+      hooks_.run_started(spec, number, total);
+      run = drive(spec, parameters);
     }
-  }
-
-  /// Saves a drive before a person is asked for its truth, because they may leave or press Ctrl-C. `earlier`: the
-  /// runs of the phase before it, all of them recorded.
-  void keep(std::span<const RunSpec> earlier, const RunSpec& spec, recording::Run& run) {
-    const fs::path driven = file_without_truth(folder_, spec);
-    if (truth_.comes_afterwards()) {
-      recording::write_run(driven, run);
-      try {
-        complete_plausibly(earlier, spec, run);
-      } catch (const Interrupted&) {
-        throw;
-      } catch (const Error& error) {
-        throw Error(std::string(error.what()) + "; the drive is kept", {Help::resume_for_truth});
-      }
-    }
-    recording::write_run(file_of(folder_, spec), run);
-    fs::remove(driven);
-  }
-
-  /// Asks for the ground truth of a run, again if it looks mistyped and nobody confirms it.
-  void complete_plausibly(std::span<const RunSpec> earlier, const RunSpec& spec, recording::Run& run) {
-    while (true) {
-      recording::Run whole = run;
-      complete(whole, truth_);
-      const auto odd = current_.mistyped(earlier, spec, whole, journal_.plan.side_m);
-      if (odd && odd->spec == spec && !hooks_.keep(odd->why)) continue;
-      run = std::move(whole);
-      if (odd && odd->spec != spec) warn_of(*odd);
-      return;
-    }
-  }
-
-  void warn_of(const MistypedSquare& odd) {
-    const fs::path file = file_of(folder_, odd.spec);
-    if (warned_of_.insert(file).second)
-      hooks_.run.notice({"warning: " + odd.why, {Help::drive_run_again, file.string()}});
+    if (!entered_.keep(spec, run)) return false;
+    hooks_.run_finished(spec, run);
+    if (truth_.comes_afterwards()) last = spec;
+    return true;
   }
 
   /// Checks that a phase is driven with one set of parameters, also if it is resumed.
@@ -186,7 +174,7 @@ class Session {
         if (attempt == kTriesPerRun || hooks_.run.interrupted()) throw;
         hooks_.run.notice({fmt::format("{}; this run starts again", lost.what()), lost.remedy()});
         client_.reconnect(kReconnectPatience);
-        hooks_.ready(spec);
+        hooks_.ready(spec, std::nullopt);
       }
     }
   }
@@ -235,7 +223,7 @@ class Session {
   std::vector<std::shared_ptr<const Recordings>> finished_;  // phases that are driven
   std::vector<Calibration> found_;                           // after each of them but the last
   PhaseRecordings current_;                                  // of the phase under way
-  std::set<fs::path> warned_of_;                             // recordings that look mistyped
+  EnteredTruth entered_;
   bool announced_ = false;  // whether the number of recorded runs of this phase was announced
 };
 

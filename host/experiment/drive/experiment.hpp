@@ -2,13 +2,22 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 
 #include "host/base/remedy.hpp"
 #include "host/experiment/analysis/results.hpp"
 #include "host/experiment/drive/change_guard.hpp"
+#include "host/experiment/drive/doubtful_run.hpp"
 #include "host/experiment/drive/record_run.hpp"
 
 namespace astro::experiment {
+
+/// What a person wants to be done about a run that is driven.
+enum class Redo {
+  no,           // it is right
+  enter_again,  // its ground truth is entered again, or read again from a file that is corrected
+  drive_again,
+};
 
 /// Callbacks through which an experiment shows progress and asks its user.
 struct ExperimentHooks {
@@ -16,11 +25,13 @@ struct ExperimentHooks {
   std::function<void(const RunSpec&, int number, int total)> run_started = [](const RunSpec&, int, int) {};
   std::function<void(const RunSpec&, const recording::Run&)> run_finished = [](const RunSpec&,
                                                                                const recording::Run&) {};
-  /// Called before each drive, when the robot has to be put back on its mark.
-  std::function<void(const RunSpec&)> ready = [](const RunSpec&) {};
-  /// True: keep the ground truth that was entered for a run although it looks mistyped, for the reason given;
-  /// false: it is asked for again.
-  std::function<bool(const std::string& why)> keep = [](const std::string&) { return true; };
+  /// Called before each drive, when the robot has to be put back on its mark. `last`: the run before it in this session, if
+  /// a person entered its ground truth. Anything but `no` is about that run.
+  std::function<Redo(const RunSpec&, const std::optional<RunSpec>& last)> ready =
+      [](const RunSpec&, const std::optional<RunSpec>&) { return Redo::no; };
+  /// A run whose ground truth comes from a person or a file does not fit the others; it may be an earlier one. Not called
+  /// again for a run that is said to be right.
+  std::function<Redo(const DoubtfulRun&)> doubt = [](const DoubtfulRun&) { return Redo::no; };
   /// Returns true to upload these changes. Not called if there is an objection (change_guard.hpp).
   std::function<bool(const Calibration&, const std::vector<Change>&)> agree =
       [](const Calibration&, const std::vector<Change>&) { return true; };

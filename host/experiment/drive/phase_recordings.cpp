@@ -16,14 +16,9 @@ void PhaseRecordings::read(std::span<const RunSpec> specs) {
   specs_.insert(specs_.end(), rest.begin(), rest.end());
 }
 
-std::optional<MistypedSquare> PhaseRecordings::mistyped(std::span<const RunSpec> earlier, const RunSpec& spec,
-                                                        const recording::Run& run, double side_m) {
-  read(earlier);
-  std::vector<RunEnd> ends;
-  for (std::size_t i = 0; i < earlier.size(); ++i)
-    ends.push_back(run_end(earlier[i], recordings_->runs()[i]));
-  ends.push_back(run_end(spec, run));
-  return mistyped_square(ends, side_m);
+std::vector<DoubtfulRun> PhaseRecordings::doubtful(std::span<const RunSpec> specs) {
+  read(specs);
+  return doubtful_runs(specs, std::span(recordings_->runs()).first(specs.size()));
 }
 
 }  // namespace astro::experiment

@@ -2,12 +2,11 @@
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "host/experiment/analysis/recordings.hpp"
-#include "host/experiment/drive/mistyped_square.hpp"
+#include "host/experiment/drive/doubtful_run.hpp"
 #include "host/experiment/files/plan.hpp"
 
 namespace astro::experiment {
@@ -15,7 +14,7 @@ namespace astro::experiment {
 /// The recordings of the phase that an experiment is driving, as they are on disk: what is calibrated and reported is
 /// what was kept. Each file is read once, however often the runs are looked at while the phase grows.
 ///
-/// Errors  read() and mistyped() throw what recording::read_run throws.
+/// Errors  read() and doubtful() throw what recording::read_run throws.
 class PhaseRecordings {
  public:
   explicit PhaseRecordings(std::filesystem::path folder) : folder_(std::move(folder)) { start(); }
@@ -31,9 +30,8 @@ class PhaseRecordings {
   std::size_t size() const { return specs_.size(); }
   std::shared_ptr<const Recordings> recordings() const { return recordings_; }
 
-  /// mistyped_square for a new run among the runs before it, which are read if they were not yet.
-  std::optional<MistypedSquare> mistyped(std::span<const RunSpec> earlier, const RunSpec& spec,
-                                         const recording::Run& run, double side_m);
+  /// doubtful_runs among these, which are read if they were not yet; the same precondition.
+  std::vector<DoubtfulRun> doubtful(std::span<const RunSpec> specs);
 
  private:
   std::filesystem::path folder_;

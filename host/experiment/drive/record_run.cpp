@@ -190,9 +190,10 @@ recording::Run record_run(robot::Client& client, truth::Source& truth, const rob
   return run;
 }
 
-void complete(recording::Run& run, truth::Source& truth) {
-  const std::vector<recording::TruthSample> samples = truth.complete(run);
-  run.truth.insert(run.truth.end(), samples.begin(), samples.end());
+bool complete(recording::Run& run, truth::Source& truth) {
+  const auto samples = truth.complete(run);
+  if (samples) run.truth.insert(run.truth.end(), samples->begin(), samples->end());
+  return samples.has_value();
 }
 
 Recorded record_until(robot::Client& client, truth::Source& truth, const SampleSink& sink,

@@ -39,9 +39,9 @@ recording::RunInfo info_of(const Plan& plan, const RunSpec& spec);
 recording::Run record_run(robot::Client& client, truth::Source& truth, const robot::Path& path,
                           const recording::RunInfo& info, const RunHooks& hooks);
 
-/// Adds the truth that is available only after a run, from a person or a file. Throws what the source throws;
-/// `run` is unchanged then.
-void complete(recording::Run& run, truth::Source& truth);
+/// Adds the truth that is available only after a run, from a person or a file. Returns false if the person wants the run
+/// driven again. Throws what the source throws; `run` is unchanged in both cases.
+[[nodiscard]] bool complete(recording::Run& run, truth::Source& truth);
 
 /// Receives the samples, each stream in order of time.
 struct SampleSink {

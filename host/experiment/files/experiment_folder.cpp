@@ -29,6 +29,12 @@ fs::path file_without_truth(const fs::path& folder, const RunSpec& spec) {
   return file_of(folder, spec) += ".no-truth";
 }
 
+const RunSpec* first_missing(const fs::path& folder, const std::vector<RunSpec>& specs) {
+  const auto missing =
+      std::ranges::find_if(specs, [&](const RunSpec& spec) { return !fs::exists(file_of(folder, spec)); });
+  return missing == specs.end() ? nullptr : &*missing;
+}
+
 RunSet read_specs(const fs::path& folder, const std::vector<RunSpec>& specs, recording::Damage damage) {
   RunSet set;
   for (const RunSpec& spec : specs) {

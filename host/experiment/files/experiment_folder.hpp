@@ -21,6 +21,9 @@ std::filesystem::path file_of(const std::filesystem::path& folder, const RunSpec
 /// Where its drive is kept as long as the truth is missing that comes afterwards; not listed as a recording.
 std::filesystem::path file_without_truth(const std::filesystem::path& folder, const RunSpec& spec);
 
+/// The first of these runs that is not recorded; null if all are.
+const RunSpec* first_missing(const std::filesystem::path& folder, const std::vector<RunSpec>& specs);
+
 /// The recordings of these runs, named as in the folder ("before/square-cw-3"). Throws what
 /// recording::read_run throws.
 RunSet read_specs(const std::filesystem::path& folder, const std::vector<RunSpec>& specs,

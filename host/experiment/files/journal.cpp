@@ -65,6 +65,7 @@ Journal read_journal(const std::filesystem::path& folder) {
     // "carried" is the name of the loaded factors in the files of this format.
     for (const auto& [phase, loaded] : json.at("carried").items())
       journal.loaded[phase] = {loaded.at("c_R"), loaded.at("c_L"), loaded.at("b_m")};
+    journal.confirmed = json.value("confirmed", journal.confirmed);  // older versions have none
     return journal;
   } catch (const nlohmann::json::exception&) {
     throw Error(damaged, {Help::calibrate_recordings});
@@ -83,7 +84,8 @@ void write_journal(const std::filesystem::path& folder, const Journal& journal) 
                                  {"name", journal.robot_name},
                                  {"board", journal.board},
                                  {"firmware", journal.firmware}}},
-                               {"carried", loaded}};
+                               {"carried", loaded},
+                               {"confirmed", journal.confirmed}};
   // Texts of a robot may not be valid UTF-8.
   const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   PartFile file(file_in(folder));

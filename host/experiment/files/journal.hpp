@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 
 #include "host/calibration/motion/wheel_factors.hpp"
@@ -16,6 +17,8 @@ struct Journal {
   std::string robot_id, robot_name, board, firmware, started_at;
   /// The factors loaded in the robot when a phase began, by phase.
   std::map<std::string, calibration::WheelFactors> loaded;
+  /// Recordings whose ground truth looks mistyped and was said to be right: "before/square-cw-3.mcap".
+  std::set<std::string> confirmed;
 };
 
 bool has_journal(const std::filesystem::path& folder);

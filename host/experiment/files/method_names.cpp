@@ -35,7 +35,8 @@ MethodChoice method_named(const std::string& method, const std::string& angles, 
                                            : Family::end_poses;
   if (choice.family == Family::end_poses)
     choice.options.method = find<Method>(
-        method, "method", {Method::umbmark, Method::extended, Method::least_squares}, "auto, ml, ");
+        method, "method", {Method::umbmark, Method::extended, Method::least_squares, Method::robust},
+        "auto, ml, ");
   choice.options.angles =
       find<AngleSource>(angles, "source of angles",
                         {AngleSource::x, AngleSource::y, AngleSource::thesis, AngleSource::average});

@@ -12,7 +12,7 @@ namespace astro::experiment {
 inline constexpr std::string_view kAutomaticName = "auto";
 inline constexpr std::string_view kMlName = "ml";
 
-/// "auto", "ml", "umbmark", "extended", "least-squares"; "x", "y", "thesis", "average"; "exact", "published".
+/// "auto", "ml", "umbmark", "extended", "least-squares", "robust"; "x", "y", "thesis", "average"; "exact", "published".
 /// Throws astro::Error naming the word and what it may be.
 MethodChoice method_named(const std::string& method, const std::string& angles, const std::string& formula);
 

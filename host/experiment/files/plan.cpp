@@ -12,6 +12,8 @@
 namespace astro::experiment {
 namespace {
 
+constexpr int kLinesByHand = 3;
+
 bool within(double value, double least, double most) { return value >= least && value <= most; }
 
 void need(bool condition, const std::string& sentence, const Remedy& remedy = {}) {
@@ -107,11 +109,12 @@ std::vector<RunSpec> runs_of_phase(const Plan& plan, std::size_t phase, int squa
   std::vector<RunSpec> specs = squares_of_phase(plan, phase, squares);
   const std::string name = phase_names(plan).at(phase);
   const bool last = phase + 1 == phase_names(plan).size();
-  if (plan.extras && (phase == 0 || last)) {
-    specs.push_back({name, "line", {}, 1});
-    specs.push_back({name, "circle", Sense::cw, 1});
-    specs.push_back({name, "circle", Sense::ccw, 1});
-  }
+  if (!plan.extras || (phase > 0 && !last)) return specs;
+  const bool by_hand = plan.truth == "manual";
+  for (int i = 1; i <= (by_hand ? kLinesByHand : 1); ++i) specs.push_back({name, "line", {}, i});
+  if (by_hand) return specs;
+  specs.push_back({name, "circle", Sense::cw, 1});
+  specs.push_back({name, "circle", Sense::ccw, 1});
   return specs;
 }
 

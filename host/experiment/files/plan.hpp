@@ -14,8 +14,7 @@
 namespace astro::experiment {
 
 /// How the factors are found. automatic: maximum likelihood if all runs were recorded with ground truth along the
-/// way; otherwise extended UMBmark, exact, if every square has an end heading, or UMBmark with
-/// averaged angles.
+/// way; otherwise the robust fit of end poses.
 struct MethodChoice {
   enum class Family { automatic, ml, end_poses };
   Family family = Family::automatic;
@@ -42,7 +41,9 @@ struct Plan {
   int rounds = 1;  // how often to calibrate, upload and drive again
   double line_m = 3;
   double circle_radius_m = 0.75;
-  bool extras = true;  // line and circles in the first and the last phase
+  /// Line and circles in the first and the last phase. A person who measures ends is asked for three lines instead: they
+  /// give the scale, of three one may be wrong, and no method uses the end of a circle.
+  bool extras = true;
   MethodChoice method;
   std::string truth;  // name of the source
 

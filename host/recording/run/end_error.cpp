@@ -20,7 +20,7 @@ Rest required(const std::optional<Rest>& rest, const Run& run, const std::string
 
 }  // namespace
 
-EndError end_error(const Run& run) {
+RunEnds ends_of(const Run& run) {
   if (run.odometry.empty()) throw Error(run_name(run.info) + " holds no odometry", {Help::record_again});
   const Rest start = required(rest_at_start(run), run, "start");
   const Rest end = required(rest_at_end(run), run, "end");
@@ -31,8 +31,11 @@ EndError end_error(const Run& run) {
     throw Error(run_name(run.info) +
                 " has no heading of ground truth at its start: without it the end cannot " + "be placed");
   }
-  const PlanarPose absolute = in_frame_of(*start.truth, *end.truth);
-  const PlanarPose odometry = in_frame_of(start.odometry, end.odometry);
+  return {in_frame_of(*start.truth, *end.truth), in_frame_of(start.odometry, end.odometry)};
+}
+
+EndError end_error(const Run& run) {
+  const auto [absolute, odometry] = ends_of(run);
   return {absolute.x_m - odometry.x_m, absolute.y_m - odometry.y_m,
           wrapped_rad(absolute.theta_rad - odometry.theta_rad)};
 }

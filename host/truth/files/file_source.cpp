@@ -152,7 +152,7 @@ std::string truth_file_name(const recording::RunInfo& info) {
   return name + "-" + std::to_string(info.index) + ".csv";
 }
 
-std::vector<recording::TruthSample> FileSource::complete(const recording::Run& run) {
+std::optional<std::vector<recording::TruthSample>> FileSource::complete(const recording::Run& run) {
   const fs::path file = folder_ / truth_file_name(run.info);
   Poses poses = poses_from(file, ask_);
   while (true) {

@@ -26,7 +26,7 @@ class FileSource : public Source {
 
   std::vector<recording::TruthSample> poll() override { return {}; }
   bool comes_afterwards() const override { return true; }
-  std::vector<recording::TruthSample> complete(const recording::Run& run) override;
+  std::optional<std::vector<recording::TruthSample>> complete(const recording::Run& run) override;
   std::string name() const override { return "file"; }
   std::string clock() const override { return "start and end of the run"; }
 

@@ -1,11 +1,11 @@
 #include "host/truth/manual/manual_source.hpp"
 
-#include <cmath>
+#include <fmt/format.h>
+
 #include <limits>
-#include <numbers>
 #include <utility>
 
-#include "host/base/numbers.hpp"
+#include "host/recording/run/planar_pose.hpp"
 #include "host/recording/run/run_metadata.hpp"
 #include "host/truth/source/plausibility.hpp"
 
@@ -18,43 +18,87 @@ std::string trimmed(const std::string& text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-/// Two NaNs count as the same.
-bool same_reading(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+recording::PlanarPose odometry_end(const recording::Run& run) {
+  if (run.odometry.empty()) return {};
+  const recording::OdometrySample &start = run.odometry.front(), &end = run.odometry.back();
+  const recording::PlanarPose pose =
+      recording::in_frame_of({start.x_m, start.y_m, start.theta_rad}, {end.x_m, end.y_m, end.theta_rad});
+  return {pose.x_m, pose.y_m, recording::wrapped_rad(pose.theta_rad)};
+}
+
+enum class Outcome { entered, back, redo };
+
+/// The questions about one run.
+class Form {
+ public:
+  Form(const Ask& ask, const Units& units, const recording::Run& run)
+      : ask_(ask), units_(units), run_(run), odometry_(odometry_end(run)) {}
+
+  Outcome fill(recording::TruthSample& end) {
+    const std::string heading =
+        fmt::format("  heading, counter-clockwise, {} (odometry {}; empty: none): ", name_of(units_.angle),
+                    shown(odometry_.theta_rad, units_.angle));
+    const auto length = [&](const std::string& text) { return length_m_in(text, units_.length); };
+    const auto angle = [&](const std::string& text) -> std::optional<double> {
+      return text.empty() ? std::numeric_limits<double>::quiet_NaN() : angle_rad_in(text, units_.angle);
+    };
+    const std::string about =
+        recording::run_name(run_.info) +
+        ": where does the robot stand?\n  ('back' begins again, 'redo' has it driven again)\n";
+    Outcome outcome = number(position("x, forward of the start mark", odometry_.x_m), length, end.x_m, about);
+    if (outcome == Outcome::entered)
+      outcome = number(position("y, left of it", odometry_.y_m), length, end.y_m);
+    if (outcome == Outcome::entered) outcome = number(heading, angle, end.theta_rad);
+    return outcome;
+  }
+
+ private:
+  std::string position(const char* what, double odometry_m) const {
+    return fmt::format("  {}, {} (odometry {}): ", what, name_of(units_.length),
+                       shown(odometry_m, units_.length));
+  }
+
+  /// Asks until the answer is a number, or a word that is none.
+  template <class Read>
+  Outcome number(const std::string& prompt, const Read& read, double& value, const std::string& about = "") {
+    Question question{about + prompt};
+    while (true) {
+      const std::string answer = trimmed(ask_(question));
+      if (answer == "back") return Outcome::back;
+      if (answer == "redo") return Outcome::redo;
+      if (const auto number = read(answer)) {
+        value = *number;
+        return Outcome::entered;
+      }
+      question = {".\n" + prompt,
+                  {"  '" + answer + "' is not a number in a known unit", {Help::write_decimal_point}}};
+    }
+  }
+
+  const Ask& ask_;
+  const Units& units_;
+  const recording::Run& run_;
+  recording::PlanarPose odometry_;
+};
 
 }  // namespace
 
-double ManualSource::number(const std::string& prompt, bool may_be_empty, const std::string& hint) {
-  Question question{hint + prompt};
-  while (true) {
-    const std::string answer = trimmed(ask_(question));
-    if (answer.empty() && may_be_empty) return std::numeric_limits<double>::quiet_NaN();
-    if (const auto value = typed_number(answer)) return *value;
-    question = {". " + prompt, {"'" + answer + "' is not a number", {Help::write_decimal_point}}};
-  }
+bool ManualSource::is_right(const recording::Run& run, const recording::TruthSample& end) {
+  const std::string why = implausible_end(run, {}, end);
+  if (why.empty()) return true;
+  const Question question{
+      "", {recording::run_name(run.info) + ": " + why}, AnswerKind::right_or_entered_again};
+  const std::string answer = trimmed(ask_(question));
+  return answer == "y" || answer == "yes";
 }
 
-recording::TruthSample ManualSource::measured(const std::string& hint) {
-  recording::TruthSample end;
-  end.x_m = number("measured end x (m, forward of the start): ", false, hint);
-  end.y_m = number("measured end y (m, left of the start): ", false);
-  end.theta_rad = number("measured end heading (degrees, counter-clockwise; empty: not measured): ", true) *
-                  std::numbers::pi / 180;
-  return end;
-}
-
-std::vector<recording::TruthSample> ManualSource::complete(const recording::Run& run) {
-  recording::TruthSample end = measured("");
+std::optional<std::vector<recording::TruthSample>> ManualSource::complete(const recording::Run& run) {
   while (true) {
-    const std::string why = implausible_end(run, {}, end);
-    if (why.empty()) break;
-    const recording::TruthSample again = measured(recording::run_name(run.info) + ": " + why +
-                                                  " It is asked for again; the same values keep them.\n");
-    const bool same = same_reading(again.x_m, end.x_m) && same_reading(again.y_m, end.y_m) &&
-                      same_reading(again.theta_rad, end.theta_rad);
-    end = again;
-    if (same) break;
+    recording::TruthSample end;
+    const Outcome outcome = Form(ask_, units_, run).fill(end);
+    if (outcome == Outcome::redo) return std::nullopt;
+    if (outcome == Outcome::entered && is_right(run, end)) return at_both_ends(run, {}, end);
   }
-  return at_both_ends(run, {}, end);
 }
 
 std::vector<recording::TruthSample> at_both_ends(const recording::Run& run,

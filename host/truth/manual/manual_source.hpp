@@ -1,8 +1,10 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "host/base/remedy.hpp"
+#include "host/truth/manual/reading.hpp"
 #include "host/truth/source/source.hpp"
 
 namespace astro::truth {
@@ -10,6 +12,7 @@ namespace astro::truth {
 /// What answers a question: a value that is typed, or a sign that something was done. Whoever asks knows by which key.
 enum class AnswerKind {
   value,
+  right_or_entered_again,  // what was entered looks wrong: "y" if it is right
   file_saved,              // the file that was missing is there
   file_corrected,          // the file that could not be read is corrected
   file_corrected_or_kept,  // the file that looks wrong is corrected, or is right as it is
@@ -25,27 +28,28 @@ struct Question {
 /// Puts the question, returns the answer.
 using Ask = std::function<std::string(const Question&)>;
 
-/// A person with a tape measure, who is asked after each run for the end pose in the run's start frame: x
-/// forward and y left of the start mark in metres, heading counter-clockwise in degrees, empty if it was not
-/// measured. If the end can hardly be that of the run (plausibility.hpp), the person is asked again; the same
-/// answers are then kept.
+/// A person with a tape measure, who is asked after each run for the end pose in the run's start frame: x forward and y left
+/// of the start mark, heading counter-clockwise, empty if it was not measured. Numbers are in `units` unless they carry their
+/// own (reading.hpp); each question shows what odometry says. In place of a number "back" asks for this run's numbers again,
+/// and "redo" has the run driven again. If the end can hardly be that of the run (plausibility.hpp), the person is asked
+/// whether it is right.
 class ManualSource : public Source {
  public:
-  explicit ManualSource(Ask ask) : ask_(std::move(ask)) {}
+  explicit ManualSource(Ask ask, Units units = {}) : ask_(std::move(ask)), units_(units) {}
 
   std::vector<recording::TruthSample> poll() override { return {}; }
   bool comes_afterwards() const override { return true; }
   /// Returns the start mark for the samples in which the robot stood there, and the measured pose for those
   /// in which it stood at the end.
-  std::vector<recording::TruthSample> complete(const recording::Run& run) override;
+  std::optional<std::vector<recording::TruthSample>> complete(const recording::Run& run) override;
   std::string name() const override { return "manual"; }
   std::string clock() const override { return "robot"; }
 
  private:
-  double number(const std::string& prompt, bool may_be_empty, const std::string& hint = {});
-  recording::TruthSample measured(const std::string& hint);
+  bool is_right(const recording::Run& run, const recording::TruthSample& end);
 
   Ask ask_;
+  Units units_;
 };
 
 /// A sample for every odometry sample within `stretch_us` of the run's start (pose `start`) and end (pose

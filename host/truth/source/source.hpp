@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,10 +28,11 @@ class Source {
   virtual bool comes_afterwards() const { return false; }
 
   /// After a run: samples that exist only when the robot stands at its end (a tape measure, a file). `run`
-  /// holds the odometry of the whole run, including the rests at both ends. Empty for sources that stream.
-  virtual std::vector<recording::TruthSample> complete(const recording::Run& run) {
+  /// holds the odometry of the whole run, including the rests at both ends. Empty for sources that stream. Nothing if
+  /// the person who was asked wants the run to be driven again.
+  virtual std::optional<std::vector<recording::TruthSample>> complete(const recording::Run& run) {
     static_cast<void>(run);
-    return {};
+    return std::vector<recording::TruthSample>{};
   }
 
   /// What a person should know about the source now that it is open: one clause, or "".

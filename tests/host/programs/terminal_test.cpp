@@ -164,12 +164,13 @@ TEST_F(Terminal, WorkWithoutAKnownEndShowsNoBar) {
 TEST_F(Terminal, ABarMakesRoomForAQuestion) {
   const support::Simulator fast;
   TerminalProgram umbmark({ASTROLABE_PROGRAM, "umbmark", "--truth", "manual", "--side", "0.5", "--runs", "1",
-                           "--no-extras", "--port", fast.port(), "--out", (fast.folder() / "x").string()});
+                           "--no-extras", "--unit", "mm", "--port", fast.port(), "--out",
+                           (fast.folder() / "x").string()});
   ASSERT_TRUE(umbmark.shows("press Enter")) << umbmark.seen();
   poll(nullptr, 0, 1200);  // a bar appears only after a second
   umbmark.type("\n");
-  ASSERT_TRUE(umbmark.shows("measured end x")) << umbmark.seen();
-  EXPECT_THAT(umbmark.seen(), HasSubstr("\r\033[Kmeasured end x"));
+  ASSERT_TRUE(umbmark.shows("x, forward of the start mark")) << umbmark.seen();
+  EXPECT_THAT(umbmark.seen(), HasSubstr("\r\033[Krun square cw 1"));
   umbmark.type(kCtrlC);
   EXPECT_EQ(umbmark.wait(), 130);
 }

@@ -22,6 +22,7 @@ const std::vector<EndPose> kCw{{-0.2, -0.26, 0.15}};
 const std::vector<EndPose> kCcw{{0.31, -0.26, 0.17}};
 constexpr Options kExtended{Method::extended};
 constexpr Options kFit{Method::least_squares};
+constexpr Options kRobust{Method::robust};
 
 Remark told(const std::vector<EndPose>& cw, const std::vector<EndPose>& ccw, double side_m = kSide_m,
             const WheelFactors& loaded = kNominal, const Options& options = {}) {
@@ -97,7 +98,7 @@ TEST(HostileInput, ExtendedMethodNamesTheRunThatLacksItsHeading) {
 TEST(HostileInput, PositionsAreEnoughForTheOtherMethods) {
   const std::vector<EndPose> cw{{-0.2, -0.26, kNaN}, {-0.25, -0.24, kNaN}},
       ccw{{0.31, -0.26, kNaN}, {0.28, -0.3, kNaN}};
-  for (const Options& options : {Options{}, kFit}) {
+  for (const Options& options : {Options{}, kFit, kRobust}) {
     const Estimate e = estimate_factors(cw, ccw, kSide_m, kNominal, options);
     EXPECT_TRUE(std::isfinite(e.factors.c_r) && std::isfinite(e.factors.c_l) && std::isfinite(e.factors.b_m));
     EXPECT_GT(e.se.E_d, 0);
@@ -113,7 +114,7 @@ TEST(HostileInput, ASquareTooSmallToSayAnythingIsNoRobotEither) {
 
 TEST(HostileInput, MillimetresTakenForMetresAreNoRobot) {
   const std::vector<EndPose> cw{{-223, -260, 8.7}}, ccw{{314, -256, 10}};  // and degrees for radians
-  for (const Options& options : {Options{}, kExtended, kFit}) {
+  for (const Options& options : {Options{}, kExtended, kFit, kRobust}) {
     EXPECT_EQ(told(cw, ccw, kSide_m, kNominal, options).remedy.help,
               options.method == Method::extended ? Help::check_units : Help::check_units_and_directions)
         << name_of(options.method);
@@ -136,7 +137,7 @@ TEST(HostileInput, AnyFiniteEndPosesGiveAPlausibleRobotOrOneSentence) {
     const double size = std::pow(10, uniform(random, -12, 6));
     const auto value = [&] { return size * uniform(random, -1, 1); };
     const std::vector<EndPose> cw{{value(), value(), value()}}, ccw{{value(), value(), value()}};
-    for (const Options& options : {Options{}, kExtended, kFit}) {
+    for (const Options& options : {Options{}, kExtended, kFit, kRobust}) {
       try {
         const Estimate e = estimate_factors(cw, ccw, kSide_m, kNominal, options);
         EXPECT_TRUE(e.factors.c_r > 0 && e.factors.c_l > 0 && e.factors.b_m > 0);

@@ -146,7 +146,7 @@ TEST_F(MlExperiment, FallsBackToEndPosesWhereOneRunWasOnlyMeasuredAtItsEnds) {
   run(small_plan(2));
   RunSet set = read_run_set(folder_.path() / "before");
   set.runs.front().info.truth_source = "manual";
-  EXPECT_EQ(calibrate(set, {}).method(), "extended");
+  EXPECT_EQ(calibrate(set, {}).method(), "robust");
   EXPECT_THAT([&] { calibrate(set, method_named("ml", "average", "exact")); },
               ThrowsMessage<Error>(HasSubstr(set.names.front())));
 }

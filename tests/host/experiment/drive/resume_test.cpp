@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
+#include <map>
 
 #include "host/recording/files/run_file.hpp"
 #include "host/robot/parameters/upload.hpp"
@@ -96,7 +98,7 @@ TEST_F(Resume, ADriveOutlivesAPersonWhoWalksAwayFromTheTapeMeasure) {
                 support::ThrowsTelling("nobody is there; the drive is kept", Help::resume_for_truth));
   EXPECT_EQ(driven, 1);
 
-  truth::ManualSource person([](const truth::Question&) { return "0.01"; });
+  truth::ManualSource person([](const truth::Question&) { return "10"; });
   EXPECT_EQ(run_experiment(desk_.client, person, plan, folder_.path(), hooks).phases.size(), 2U);
   EXPECT_EQ(driven, 4);
   const recording::Run run = recording::read_run(folder_.path() / "before" / "square-cw-1.mcap");
@@ -104,79 +106,142 @@ TEST_F(Resume, ADriveOutlivesAPersonWhoWalksAwayFromTheTapeMeasure) {
   EXPECT_EQ(run.info.truth_source, "manual");
 }
 
-/// A person who measures about the same each time, and in one run forgets a decimal point.
+/// A person who measures about the same each time, and mistypes some answers: `mistyped` has them by the number of the run
+/// that is measured, counted from 1.
 class ATypingPerson {
  public:
-  explicit ATypingPerson(int mistyped) : mistyped_(mistyped) {}
+  explicit ATypingPerson(std::map<int, std::string> mistyped) : mistyped_(std::move(mistyped)) {}
   std::string operator()(const truth::Question& question) {
-    if (question.text.find("end x") == std::string::npos) return "0";
+    if (question.text.find("heading") != std::string::npos) return "";
+    // A robot that ends ahead of its mark ends to the left of it after a clockwise square, and to the right after another.
+    if (question.text.find("y, left") != std::string::npos)
+      return std::to_string(sign_ * (60 + measured % 3));
+    sign_ = question.text.find("ccw") == std::string::npos ? 1 : -1;
     ++measured;
-    return measured == mistyped_ ? "0.6" : std::to_string(0.06 + 0.001 * (measured % 3));
+    const auto typed = mistyped_.find(measured);
+    return typed == mistyped_.end() ? std::to_string(60 + 2 * (measured % 3)) : typed->second;
   }
   int measured = 0;
 
  private:
-  int mistyped_;
+  std::map<int, std::string> mistyped_;
+  int sign_ = 1;
 };
 
-class MistypedTruth : public Resume {
+class DoubtfulTruth : public Resume {
  protected:
-  /// What was asked about and what was noticed until the squares of the first phase were done.
+  /// What was asked about until the squares of the first phase were done: three clockwise, three counter-clockwise.
   void measure(
-      ATypingPerson& person, bool keep,
+      ATypingPerson& person, const std::function<Redo(const DoubtfulRun&)>& doubt,
       const std::function<void(const RunSpec&, int, int)>& started = [](const RunSpec&, int, int) {}) {
     Plan plan = small_plan();
     plan.truth = "manual";
     plan.runs = 3;
     plan.order = Order::cw_first;
     ExperimentHooks hooks;
-    hooks.keep = [&](const std::string& why) { return asked.push_back(why), keep; };
-    hooks.run.notice = [&](const Remark& remark) { noticed.push_back(remark); };
+    hooks.doubt = [&](const DoubtfulRun& run) {
+      asked.push_back(run.why);
+      return doubt(run);
+    };
     hooks.agree = [](const auto&, const auto&) { return false; };
-    hooks.run_started = started;
+    hooks.run_started = [&](const RunSpec& spec, int number, int total) {
+      driven.push_back(spec.title());
+      started(spec, number, total);
+    };
     truth::ManualSource source(std::ref(person));
     EXPECT_THROW(run_experiment(desk_.client, source, plan, folder_.path(), hooks), Error);
   }
-  std::vector<std::string> asked;
-  std::vector<Remark> noticed;
+  double measured_m(const char* name) const {
+    return recording::read_run(folder_.path() / "before" / name).truth.back().x_m;
+  }
+  std::vector<std::string> asked, driven;
 };
 
-TEST_F(MistypedTruth, OfTheThirdSquareIsAskedForAgainAndNamesTheRun) {
-  ATypingPerson person(3);
-  measure(person, false);
+constexpr auto kIsRight = [](const DoubtfulRun&) { return Redo::no; };
+constexpr auto kEnterAgain = [](const DoubtfulRun&) { return Redo::enter_again; };
+constexpr auto kDriveAgain = [](const DoubtfulRun&) { return Redo::drive_again; };
+
+TEST_F(DoubtfulTruth, IsEnteredAgainAndNamesTheRunAndWhatWouldFit) {
+  ATypingPerson person({{3, "600"}});
+  measure(person, kEnterAgain);
   EXPECT_EQ(person.measured, 7) << "six squares, one of them twice";
   ASSERT_EQ(asked.size(), 1U);
-  EXPECT_THAT(asked[0], testing::AllOf(HasSubstr("before: square cw 3: x = "), HasSubstr("in the others")));
+  EXPECT_THAT(asked[0], testing::AllOf(HasSubstr("before: square cw 3: x = 600 mm"),
+                                       HasSubstr("x = 60 mm would fit (the decimal point of x)")));
+  EXPECT_NEAR(measured_m("square-cw-3.mcap"), 0.062, 1e-9);
 }
 
-TEST_F(MistypedTruth, IsKeptIfSomebodySaysThatItIsRight) {
-  ATypingPerson person(3);
-  measure(person, true);
+TEST_F(DoubtfulTruth, IsDrivenAgainIfSomebodyWantsIt) {
+  ATypingPerson person({{3, "600"}});
+  measure(person, kDriveAgain);
+  EXPECT_EQ(std::ranges::count(driven, "before: square cw 3"), 2);
+  EXPECT_NEAR(measured_m("square-cw-3.mcap"), 0.062, 1e-9);
+}
+
+TEST_F(DoubtfulTruth, IsKeptIfSomebodySaysThatItIsRightAndNotAskedAboutAgain) {
+  ATypingPerson person({{3, "600"}});
+  measure(person, kIsRight);
   EXPECT_EQ(person.measured, 6);
   EXPECT_EQ(asked.size(), 1U);
+  measure(person, kIsRight);  // the experiment is taken up again
+  EXPECT_EQ(asked.size(), 1U);
+  EXPECT_NEAR(measured_m("square-cw-3.mcap"), 0.6, 1e-9);
 }
 
-TEST_F(MistypedTruth, OfAnEarlierSquareIsToldOnceWithItsRecording) {
-  ATypingPerson person(1);
-  measure(person, false);
-  EXPECT_EQ(person.measured, 6);
-  EXPECT_TRUE(asked.empty());
-  ASSERT_EQ(noticed.size(), 1U);
-  EXPECT_THAT(noticed[0],
-              testing::AllOf(support::Tells(HasSubstr("before: square cw 1: x = "), Help::drive_run_again),
-                             testing::Field(&Remark::remedy,
-                                            testing::Field(&Remedy::value, HasSubstr("square-cw-1.mcap")))));
+TEST_F(DoubtfulTruth, OfAnEarlierSquareIsCorrectedOnceTheOthersShowIt) {
+  // Side by side the first two contradict each other, and the person is sure of the second. The third settles it.
+  ATypingPerson person({{1, "400"}});
+  measure(person, [&](const DoubtfulRun& run) {
+    return run.spec.index == 1 && person.measured >= 3 ? Redo::enter_again : Redo::no;
+  });
+  EXPECT_NEAR(measured_m("square-cw-1.mcap"), person.measured == 7 ? 0.062 : 0.4, 0.003);
+  ASSERT_FALSE(asked.empty());
+  EXPECT_THAT(asked.front(), HasSubstr("before: square cw 1: x = 400 mm"));
 }
 
-TEST_F(MistypedTruth, IsLookedForWithoutReadingARecordingAgain) {
-  ATypingPerson person(3);
+TEST_F(DoubtfulTruth, AfterAnInterruptionIsAskedAboutWhenTheExperimentGoesOn) {
+  ATypingPerson person({{3, "600"}});
+  measure(person, [](const DoubtfulRun&) -> Redo { throw Interrupted("Ctrl-C"); });
+  EXPECT_EQ(driven.size(), 3U);
+  measure(person, kEnterAgain);
+  ASSERT_EQ(asked.size(), 2U);
+  EXPECT_EQ(asked[0], asked[1]);
+  EXPECT_EQ(driven.size(), 6U) << "no drive was lost";
+}
+
+TEST_F(DoubtfulTruth, IsLookedForWithoutReadingARecordingAgain) {
+  ATypingPerson person({{3, "600"}});
   const fs::path first = folder_.path() / "before" / "square-cw-1.mcap";
-  measure(person, true, [&](const RunSpec& spec, int, int) {
+  measure(person, kIsRight, [&](const RunSpec& spec, int, int) {
     // It was read when the truth of the second square was entered.
     if (spec.index == 3) std::ofstream(first) << "no recording";
   });
   EXPECT_EQ(person.measured, 6) << "all squares were driven and measured";
   EXPECT_EQ(asked.size(), 1U) << "the third square is compared with the first two";
+}
+
+TEST_F(Resume, TheLastRunIsCorrectedOrDrivenAgainBeforeTheNext) {
+  Plan plan = small_plan();
+  plan.truth = "manual";
+  plan.runs = 2;
+  ATypingPerson person({});
+  std::vector<Redo> wishes{Redo::enter_again, Redo::drive_again};
+  std::vector<std::string> driven;
+  ExperimentHooks hooks;
+  hooks.ready = [&](const RunSpec&, const std::optional<RunSpec>& last) {
+    if (!last || wishes.empty()) return Redo::no;
+    const Redo wish = wishes.front();
+    wishes.erase(wishes.begin());
+    return wish;
+  };
+  hooks.agree = [](const auto&, const auto&) { return false; };
+  hooks.run_started = [&](const RunSpec& spec, int, int) { driven.push_back(spec.title()); };
+  truth::ManualSource source(std::ref(person));
+  EXPECT_THROW(run_experiment(desk_.client, source, plan, folder_.path(), hooks), Error);
+  EXPECT_EQ(driven,
+            (std::vector<std::string>{"before: square cw 1", "before: square cw 1", "before: square ccw 1",
+                                      "before: square cw 2", "before: square ccw 2"}));
+  EXPECT_EQ(person.measured, 6);
 }
 
 TEST_F(Resume, AFinishedExperimentDrivesNothing) {

@@ -24,7 +24,7 @@ recording::Run drive_line(Desk& desk, truth::Source& source) {
   info.phase = "before";
   info.index = 1;
   recording::Run run = record_run(desk.client, source, robot::line(0.5), info, {});
-  complete(run, source);
+  EXPECT_TRUE(complete(run, source));
   return run;
 }
 
@@ -44,47 +44,78 @@ class Person {
   std::deque<std::string> answers_;
 };
 
-TEST(ManualTruth, IsTheEndErrorOfTheRun) {
+constexpr truth::Units kMetres{truth::LengthUnit::m, truth::AngleUnit::deg};
+
+TEST(ManualTruth, IsTheEndErrorOfTheRunInMillimetresAndDegreesUnlessTheNumberSaysOtherwise) {
+  for (const auto& [units, answers] : {std::pair{truth::Units{}, std::deque<std::string>{"600", "-20", "3"}},
+                                       {truth::Units{}, {"60 cm", "-0.02m", "0.05235987755982989 rad"}},
+                                       {truth::Units{truth::LengthUnit::cm}, {" 60", "-20 mm ", "3°"}},
+                                       {truth::Units{truth::LengthUnit::m, truth::AngleUnit::rad},
+                                        {"0.6", "-0.02", "0.05235987755982989"}}}) {
+    Desk desk{sim::Config{}};
+    Person person(answers);
+    truth::ManualSource source(std::ref(person), units);
+    const recording::Run run = drive_line(desk, source);
+    const recording::OdometrySample& end = run.odometry.back();
+    const recording::EndError error = recording::end_error(run);
+    // 1e-6: the odometry at rest is averaged, and a robot that stands moves by less than that.
+    EXPECT_NEAR(error.x_m, 0.6 - end.x_m, 1e-6);
+    EXPECT_NEAR(error.y_m, -0.02 - end.y_m, 1e-6);
+    EXPECT_NEAR(error.theta_rad, 3 * std::numbers::pi / 180 - end.theta_rad, 1e-6);
+  }
+}
+
+TEST(ManualTruth, ShowsWhatOdometrySaysBesideEachQuestionInItsUnit) {
   Desk desk{sim::Config{}};
-  Person person({"0.6", "-0.02", "3"});
+  Person person({"500", "0", ""});
   truth::ManualSource source(std::ref(person));
-  const recording::Run run = drive_line(desk, source);
-  const recording::OdometrySample& end = run.odometry.back();
-  const recording::EndError error = recording::end_error(run);
-  // 1e-6: the odometry at rest is averaged, and a robot that stands moves by less than that.
-  EXPECT_NEAR(error.x_m, 0.6 - end.x_m, 1e-6);
-  EXPECT_NEAR(error.y_m, -0.02 - end.y_m, 1e-6);
-  EXPECT_NEAR(error.theta_rad, 3 * std::numbers::pi / 180 - end.theta_rad, 1e-6);
+  drive_line(desk, source);
+  ASSERT_EQ(person.asked.size(), 3U);
+  EXPECT_THAT(person.asked[0], testing::AllOf(HasSubstr("line 1"), HasSubstr("mm (odometry 500.0 mm)")));
+  EXPECT_THAT(person.asked[1], HasSubstr("mm (odometry 0.0 mm)"));
+  EXPECT_THAT(person.asked[2], HasSubstr("deg (odometry 0.00 deg; empty: none)"));
 }
 
 TEST(ManualTruth, AsksAgainForWhatIsNoNumberAndTakesAnEmptyHeading) {
   Desk desk{sim::Config{}};
   Person person({"0,6", "0.6", "+0.01", ""});
-  truth::ManualSource source(std::ref(person));
+  truth::ManualSource source(std::ref(person), kMetres);
   const recording::EndError error = recording::end_error(drive_line(desk, source));
   EXPECT_EQ(person.asked.size(), 4U);
   EXPECT_THAT(person.asked[1], HasSubstr("'0,6' is not a number"));
   EXPECT_TRUE(std::isnan(error.theta_rad));
 }
 
-TEST(ManualTruth, AsksAgainForAnEndThatIsHardlyThatOfTheRunAndNamesIt) {
+TEST(ManualTruth, BackBeginsAgainAndRedoWantsTheRunDrivenAgain) {
   Desk desk{sim::Config{}};
-  // 500 for 0.5; then the heading in the wrong unit.
-  Person person({"500", "-0.02", "3", "0.5", "-0.02", "170", "0.5", "-0.02", "3"});
-  truth::ManualSource source(std::ref(person));
-  const recording::EndError error = recording::end_error(drive_line(desk, source));
-  EXPECT_NEAR(error.y_m, -0.02, 0.001);
-  ASSERT_EQ(person.asked.size(), 9U);
-  EXPECT_THAT(person.asked[3],
-              testing::AllOf(HasSubstr("line 1"), HasSubstr("499.5 m from where odometry ends"),
-                             HasSubstr("after a run of 0.5 m"), HasSubstr("the same values keep them")));
-  EXPECT_THAT(person.asked[6], HasSubstr("170 degrees from that of odometry"));
+  Person person({"0.4", "0.2", "back", "0.6", "-0.02", "3"});
+  truth::ManualSource source(std::ref(person), kMetres);
+  const recording::Run run = drive_line(desk, source);
+  EXPECT_NEAR(recording::end_error(run).y_m, -0.02 - run.odometry.back().y_m, 1e-6);
+
+  Person tired({"0.4", "redo"});
+  truth::ManualSource other(std::ref(tired), kMetres);
+  EXPECT_FALSE(other.complete(run));
 }
 
-TEST(ManualTruth, KeepsAnImplausibleEndThatIsEnteredTwice) {
+TEST(ManualTruth, AsksWhetherAnEndThatIsHardlyThatOfTheRunIsRightAndSaysWhatWouldFit) {
   Desk desk{sim::Config{}};
-  Person person({"2.5", "0", "", "2.5", "0", ""});
-  truth::ManualSource source(std::ref(person));
+  // 500 for 0.5; then the heading in the wrong unit.
+  Person person({"500", "-0.02", "3", "", "0.5", "-0.02", "170", "", "0.5", "-0.02", "3"});
+  truth::ManualSource source(std::ref(person), kMetres);
+  const recording::EndError error = recording::end_error(drive_line(desk, source));
+  EXPECT_NEAR(error.y_m, -0.02, 0.001);
+  ASSERT_EQ(person.asked.size(), 11U);
+  EXPECT_THAT(person.asked[3],
+              testing::AllOf(HasSubstr("line 1"), HasSubstr("499.5 m from where odometry ends"),
+                             HasSubstr("after a run of 0.5 m"), HasSubstr("x = 0.5 m would fit")));
+  EXPECT_THAT(person.asked[7], HasSubstr("170 degrees from that of odometry"));
+}
+
+TEST(ManualTruth, KeepsAnImplausibleEndThatIsSaidToBeRight) {
+  Desk desk{sim::Config{}};
+  Person person({"2.5", "0", "", "y"});
+  truth::ManualSource source(std::ref(person), kMetres);
   const recording::Run run = drive_line(desk, source);
   EXPECT_NEAR(recording::end_error(run).x_m, 2.5 - run.odometry.back().x_m, 1e-6);
 }

@@ -51,6 +51,14 @@ TEST(Plan, AlternatesDirectionsUnlessToldOtherwise) {
                                                        "after: square cw 1", "after: square cw 2"}));
 }
 
+TEST(Plan, APersonMeasuresThreeLinesInPlaceOfALineAndCircles) {
+  Plan plan;
+  plan.runs = 1;
+  plan.truth = "manual";
+  EXPECT_EQ(titles(plan, 1), (std::vector<std::string>{"after: square cw 1", "after: square ccw 1",
+                                                       "after: line 1", "after: line 2", "after: line 3"}));
+}
+
 TEST(Plan, DrivesExtrasInTheFirstAndTheLastPhaseOnly) {
   Plan plan;
   plan.runs = 1;

@@ -84,10 +84,10 @@ TEST_F(BadInput, SizesInMillimetres) {
   refuses({"drive", "line", "1200"}, {"1200 m", "1000 m", "in metres"});
 }
 TEST_F(BadInput, TenfoldTypoInOneOfFiveRuns) {
-  refuses_end_poses("ex_mm,ey_mm\n300,-250\n310,-260\n3050,-255\n295,-248\n305,-252\n",
-                    {"cw.csv", "run 3", "x = 3.05 m", "0.305 m", "decimal point"});
-  refuses_end_poses("ex_mm,ey_mm\n300,-250\n310,-26\n305,-255\n295,-248\n305,-252\n",
-                    {"cw.csv", "run 2", "y = -0.026 m"});
+  refuses_end_poses("ex_mm,ey_mm\n-230,-250\n-240,-260\n-2350,-255\n-225,-248\n-235,-252\n",
+                    {"cw.csv", "run 3", "x = -2350 mm", "x = -235 mm would fit", "decimal point"});
+  refuses_end_poses("ex_mm,ey_mm\n-230,-250\n-240,-26\n-235,-255\n-225,-248\n-235,-252\n",
+                    {"cw.csv", "run 2", "y = -26 mm"});
 }
 TEST_F(BadInput, FolderOfGroundTruthThatIsNotThere) {
   refuses({"umbmark", "--port", "/nowhere", "--truth", "file", "--truth-folder", "/no/truth", "--out",
@@ -175,6 +175,9 @@ TEST_F(BadInput, SettingsThatCannotBeDriven) {
   refuses({"umbmark", "--truth", "sim", "--out", out, "--until", "50%"}, {"precision of 50 %"});
   refuses({"umbmark", "--truth", "sim", "--out", out, "--max-runs", "3"}, {"--until"});
   refuses({"umbmark", "--truth", "manual", "--out", out, "--until", "0.1%"}, {"--truth manual"});
+  refuses({"umbmark", "--truth", "sim", "--out", out, "--unit", "cm"}, {"--unit is of --truth manual"});
+  refuses({"umbmark", "--truth", "sim", "--out", out, "--angle-unit", "rad"},
+          {"--angle-unit is of --truth manual"});
 }
 
 }  // namespace

@@ -62,7 +62,8 @@ TEST(TrackerOnTheNetwork, GivesTheFactorsThatTheSimulatorsOwnTruthGives) {
   const nlohmann::json vrpn = tracked.calibration(), sim = own.calibration(),
                        natnet = optitrack.calibration();
   EXPECT_THAT(tracked.program.err(), HasSubstr("'ASTRO' from 127.0.0.1:"));
-  EXPECT_THAT(tracked.program.err(), testing::ContainsRegex("(59|60)\\.[0-9] poses per second, times by the tracker's clock"));
+  EXPECT_THAT(tracked.program.err(),
+              testing::ContainsRegex("(59|60)\\.[0-9] poses per second, times by the tracker's clock"));
   // Both saw the same drive with the same noise, so wheel slip, the greatest part of the error, is common. What
   // differs is 10 % of the poses, and the offset of the clocks, which only one of them had to find.
   for (const char* factor : {"c_R", "c_L", "b_m"}) {

@@ -212,7 +212,7 @@ TEST(Umbmark, AsksEachQuestionOnceWhenTheInputHasEnded) {
   const Simulator simulator;
   const support::Outcome outcome =
       astrolabe({"umbmark", "--port", simulator.port(), "--truth", "manual", "--out",
-                 (simulator.folder() / "x").string(), "--runs", "1", "--no-extras"});
+                 (simulator.folder() / "x").string(), "--runs", "1", "--no-extras", "--unit", "mm"});
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(
       outcome.err,

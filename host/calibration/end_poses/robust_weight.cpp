@@ -1,0 +1,39 @@
+#include "host/calibration/end_poses/robust_weight.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace astro::calibration {
+namespace {
+
+/// The value that chi-square with `count` degrees of freedom stays below with a probability near 0.5: Wilson and Hilferty's
+/// cube, and a straight line for the normal quantile.
+double usual_square(double count, double probability) {
+  const double spread = 2 / (9 * count), normal = 2.5066 * (probability - 0.5);
+  return count * std::pow(1 - spread + normal * std::sqrt(spread), 3);
+}
+
+}  // namespace
+
+double robust_weight(const Distance& distance, double scatter) {
+  constexpr double kFreedom = 6, kClosestToNormal = 0.79;
+  return (kFreedom + distance.count) / (kFreedom + distance.square / (kClosestToNormal * scatter));
+}
+
+double robust_scatter(const std::vector<Distance>& distances, double fitted) {
+  constexpr double kPriorNumbers = 4;
+  if (distances.empty()) return 1;
+  const std::size_t middle = (distances.size() - 1) / 2;  // of an even number the lower one
+  const double probability = static_cast<double>(middle + 1) / static_cast<double>(distances.size() + 1);
+  std::vector<double> ratios;
+  double numbers = 0;
+  for (const Distance& one : distances) {
+    ratios.push_back(one.square / usual_square(one.count, probability));
+    numbers += one.count;
+  }
+  const auto at = ratios.begin() + static_cast<std::ptrdiff_t>(middle);
+  std::nth_element(ratios.begin(), at, ratios.end());
+  return (*at * numbers + kPriorNumbers) / (std::max(0.0, numbers - fitted) + kPriorNumbers);
+}
+
+}  // namespace astro::calibration

@@ -1,0 +1,51 @@
+#include "host/commands/experiment/tape_dialogue.hpp"
+
+#include <fmt/format.h>
+
+#include "host/console/console.hpp"
+
+namespace astro::commands {
+namespace {
+
+using experiment::Redo;
+
+/// "back" and "redo", as in the questions for the numbers.
+std::optional<Redo> redo_in(const std::string& answer) {
+  if (answer == "back") return Redo::enter_again;
+  if (answer == "redo") return Redo::drive_again;
+  return std::nullopt;
+}
+
+}  // namespace
+
+truth::LengthUnit ask_length_unit(const AskLine& ask) {
+  while (true) {
+    const std::string answer = ask("Unit of the lengths you type: mm, cm or m? [mm] ");
+    if (answer.empty()) return truth::LengthUnit::mm;
+    if (const auto unit = truth::length_unit_named(answer)) return *unit;
+  }
+}
+
+Redo ask_ready(const AskLine& ask, const experiment::RunSpec& next,
+               const std::optional<experiment::RunSpec>& last) {
+  const std::string prompt =
+      fmt::format("next is {}: put the robot on its start mark and press Enter ", next.title());
+  if (!last) {
+    ask(prompt);
+    return Redo::no;
+  }
+  return redo_in(ask(fmt::format("('back' corrects {}, 'redo' drives it again)\n{}", last->title(), prompt)))
+      .value_or(Redo::no);
+}
+
+Redo ask_about(const AskLine& ask, const experiment::DoubtfulRun& run) {
+  const std::string prompt =
+      console::wrapped(run.why + '.') + "  y: it is right; back: enter it again; redo: drive it again: ";
+  while (true) {
+    const std::string answer = ask(prompt);
+    if (answer == "y" || answer == "yes") return Redo::no;
+    if (const auto redo = redo_in(answer)) return *redo;
+  }
+}
+
+}  // namespace astro::commands

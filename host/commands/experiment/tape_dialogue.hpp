@@ -1,0 +1,26 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "host/experiment/drive/experiment.hpp"
+#include "host/truth/manual/reading.hpp"
+
+/// The questions of an experiment whose ground truth people enter, beside those for the numbers themselves.
+namespace astro::commands {
+
+/// Puts a question at the terminal, returns the answer.
+using AskLine = std::function<std::string(const std::string&)>;
+
+/// The unit of numbers without one; an empty answer is mm.
+truth::LengthUnit ask_length_unit(const AskLine& ask);
+
+/// Waits until the robot stands on its mark for `next`. Where `last` is given, it can be corrected first.
+experiment::Redo ask_ready(const AskLine& ask, const experiment::RunSpec& next,
+                           const std::optional<experiment::RunSpec>& last);
+
+/// What to do about a run that does not fit the others.
+experiment::Redo ask_about(const AskLine& ask, const experiment::DoubtfulRun& run);
+
+}  // namespace astro::commands
