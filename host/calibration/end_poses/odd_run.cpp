@@ -108,13 +108,13 @@ bool agree(const std::vector<EndPose>& ends, Sense sense, const SquareSetup& set
   });
 }
 
-/// Takes out the runs of a direction if all of them are odd in the same way: then nobody mistyped, but the robot or the
-/// person's axes are not as expected.
+/// Takes out the runs of a direction if most of them are odd and all agree with each other: then nobody mistyped, but the
+/// robot or the person's axes are not as expected.
 void forgive_all(std::vector<OddRun>& list, const std::vector<EndPose>& ends, Sense sense,
                  const SquareSetup& setup) {
   const auto is_of = [sense](const OddRun& odd) { return odd.sense == sense; };
   const auto odd = static_cast<std::size_t>(std::ranges::count_if(list, is_of));
-  if (odd >= 2 && odd == ends.size() && agree(ends, sense, setup)) std::erase_if(list, is_of);
+  if (odd >= 2 && 2 * odd > ends.size() && agree(ends, sense, setup)) std::erase_if(list, is_of);
 }
 
 /// To a tenth, without zeros behind the point.

@@ -40,7 +40,8 @@ struct OddRun {
 ///
 /// A single square is judged, too: whatever the wheels and the wheelbase are, x, y and heading belong together, so that
 /// a changed sign shows at once. A dropped digit may show only when more runs of its direction are there. While two runs of a
-/// direction contradict each other, both are odd. If all runs of a direction are odd in the same way, none is.
+/// direction contradict each other, both are odd. If most runs of a direction are odd and all of it agree with each other,
+/// none is: not one number is wrong then, but an axis or the robot.
 ///
 /// Errors  none: ends that nothing explains are no odd runs but no runs at all, and the estimate says so.
 std::vector<OddRun> odd_runs(std::span<const SquareEnd> cw, std::span<const SquareEnd> ccw,

@@ -144,9 +144,12 @@ class Db3Writer::Impl {
       last_ns = messages == 0 ? topic.last_ns : std::max(last_ns, topic.last_ns);
       messages += topic.messages;
     }
+    // Stamps may lie at both ends of their range: their difference then fits an unsigned number only.
+    const std::uint64_t duration_ns =
+        static_cast<std::uint64_t>(last_ns) - static_cast<std::uint64_t>(first_ns);
     const std::string name = yaml_text(file_.filename().string());
     const auto times = [&](const std::string& indent) {
-      return indent + "duration:\n" + indent + "  nanoseconds: " + std::to_string(last_ns - first_ns) + "\n" +
+      return indent + "duration:\n" + indent + "  nanoseconds: " + std::to_string(duration_ns) + "\n" +
              indent + "starting_time:\n" + indent + "  nanoseconds_since_epoch: " + std::to_string(first_ns) +
              "\n" + indent + "message_count: " + std::to_string(messages) + "\n";
     };

@@ -155,11 +155,18 @@ TEST(OddRuns, AreHardlyEverFoundAmongHonestOnes) {
     }
 }
 
-TEST(OddRuns, AreNoneIfAllOfADirectionAreOddInTheSameWay) {
+TEST(OddRuns, AreMostlyNoneIfAllOfADirectionAreOddInTheSameWay) {
+  constexpr int kExperiments = 200;
   SlippingRobot robot(1);
-  Runs runs = robot.squares(4);
-  for (EndPose& end : runs.cw) end.y_m = -end.y_m;  // the person takes the right for the left
-  EXPECT_TRUE(odd_in(runs).empty());
+  int asked = 0;
+  for (int i = 0; i < kExperiments; ++i) {
+    Runs runs = robot.squares(4);
+    for (EndPose& end : runs.cw) end.y_m = -end.y_m;  // the person takes the right for the left
+    asked += odd_in(runs).empty() ? 0 : 1;
+  }
+  std::printf("in %d of %d experiments with one axis reversed a run is odd\n", asked, kExperiments);
+  // Slip may make two of four look right even so, and then somebody is asked, who finds that an axis was reversed.
+  EXPECT_LE(asked, kExperiments * 2 / 5);
 }
 
 TEST(OddRuns, AreNoneWhereThereAreNoRunsOrNothingExplainsThem) {

@@ -54,9 +54,12 @@ class SlippingRobot {
   /// `right_m` and `left_m` by odometry, in so many cells of independent slip.
   void drive(EndPose& pose, double right_m, double left_m, int cells, const WheelFactors& loaded,
              const WheelFactors& truth) {
-    for (int i = 0; i < cells; ++i)
-      advance(pose, slipped(right_m * truth.c_r / loaded.c_r / cells),
-              slipped(left_m * truth.c_l / loaded.c_l / cells), truth.b_m);
+    for (int i = 0; i < cells; ++i) {
+      // One after the other: compilers differ in the order of arguments, and so would the draws.
+      const double right = slipped(right_m * truth.c_r / loaded.c_r / cells);
+      const double left = slipped(left_m * truth.c_l / loaded.c_l / cells);
+      advance(pose, right, left, truth.b_m);
+    }
   }
   double slipped(double travel_m) {
     return travel_m + std::sqrt(noise_.slip_m * std::abs(travel_m)) * normal_(random_);
