@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <functional>
 
@@ -150,7 +151,7 @@ TEST(RobustFit, IsMovedByNoMistakeInWhicheverRunByMoreThanTwoStandardErrors) {
 TEST(RobustFit, IsMovedLittleByFourMistakesInDifferentRuns) {
   constexpr int kExperiments = 300;
   SlippingRobot robot(8);
-  double most = 0;
+  double most = 0, squares = 0;
   int far = 0;
   for (int i = 0; i < kExperiments; ++i) {
     const Runs runs = robot.squares(5);
@@ -161,13 +162,18 @@ TEST(RobustFit, IsMovedLittleByFourMistakesInDifferentRuns) {
     kSlips[9].spoil(spoilt.ccw[4]);
     const double moved = moved_by(calibrate(runs, kNominal, kRobust), calibrate(spoilt, kNominal, kRobust));
     most = std::max(most, moved);
+    squares += moved * moved;
     far += moved > 2 ? 1 : 0;
   }
-  std::printf("four mistakes move by %.2f standard errors at most, by more than 2 in %d of %d experiments\n",
-              most, far, kExperiments);
-  // Three runs of ten are lost, and the loss of their honest ends alone moves a factor by 0.65 standard errors (rms).
-  EXPECT_LE(far, kExperiments / 50);
-  EXPECT_LT(most, 3);
+  const double rms = std::sqrt(squares / kExperiments);
+  std::printf(
+      "four mistakes move by %.2f standard errors (rms), %.2f at most, by more than 2 in %d of %d "
+      "experiments\n",
+      rms, most, far, kExperiments);
+  // Three runs of ten are lost, and the loss of their honest ends alone moves each of two factors by 0.65 standard errors
+  // (rms), the one that moves more by 0.8. The wrong ends may add half of that, and nobody was asked here.
+  EXPECT_LT(rms, 1.2);
+  EXPECT_LE(far, kExperiments / 20);
 }
 
 }  // namespace
