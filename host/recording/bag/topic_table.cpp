@@ -10,7 +10,7 @@ namespace {
 /// A robot has some hundred topics. Who inspects a bag holds five copies of each name.
 constexpr std::size_t kMostTopics = 10'000, kMostNameBytes = std::size_t{2} << 20;
 
-constexpr std::int64_t kLastTime_ns = std::int64_t{1} << 62;
+constexpr std::int64_t kLastTime_ns = (std::int64_t{1} << 62) - 1;
 
 }  // namespace
 
