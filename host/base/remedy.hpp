@@ -126,6 +126,7 @@ enum class Help : std::uint8_t {
   check_wheel_units,
   exchange_wheels_or_give_up,
   exchange_wheels_or_change_up,
+  say_axis_in_address,  // {axis}
   give_wheel_diameter,
   give_counts_per_turn,
   give_wheelbase,

@@ -18,9 +18,9 @@ void take(ByteView input) {
 }
 
 std::vector<Bytes> seeds() {
-  Bytes parts = test::gzip(test::kMotive);
-  append(parts, ByteView(test::gzip(test::kTum)));
-  return {parts, test::gzip(""), test::gzip(std::string(100'000, '\n'))};
+  Bytes parts = support::gzip(test::kMotive);
+  append(parts, ByteView(support::gzip(test::kTum)));
+  return {parts, support::gzip(""), test::gzip(std::string(100'000, '\n'))};
 }
 
 }  // namespace astro::fuzz

@@ -1,17 +1,12 @@
 #include "host/base/formats/csv_table.hpp"
 
 #include "host/base/error.hpp"
+#include "host/base/trimmed.hpp"
 
 namespace astro {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
 
 /// Takes the first line off `rest`; ends at LF, CRLF or CR.
 std::string_view take_line(std::string_view& rest) {

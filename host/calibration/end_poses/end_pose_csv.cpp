@@ -5,11 +5,11 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
 
+#include "host/base/degrees.hpp"
 #include "host/base/error.hpp"
 #include "host/base/formats/csv_table.hpp"
 #include "host/base/sense.hpp"
@@ -22,7 +22,7 @@ struct Unit {
   double to_si;
 };
 constexpr std::array kLengths{Unit{"mm", 1e-3}, Unit{"cm", 1e-2}, Unit{"m", 1.0}};
-constexpr std::array kAngles{Unit{"rad", 1.0}, Unit{"deg", std::numbers::pi / 180}};
+constexpr std::array kAngles{Unit{"rad", 1.0}, Unit{"deg", radians(1)}};
 
 struct Quantity {
   std::string_view name, alias;

@@ -48,9 +48,8 @@ Mistakes mistakes_of(const EndPose& typed) {
   add_signs(list, typed);
   add_decimal_points(list, typed);
   list.push_back({"x and y exchanged", {typed.y_m, typed.x_m, typed.theta_rad}});
-  constexpr double kDegree = std::numbers::pi / 180;
-  list.push_back({"degrees for radians", {typed.x_m, typed.y_m, typed.theta_rad * kDegree}});
-  list.push_back({"radians for degrees", {typed.x_m, typed.y_m, typed.theta_rad / kDegree}});
+  list.push_back({"degrees for radians", {typed.x_m, typed.y_m, radians(typed.theta_rad)}});
+  list.push_back({"radians for degrees", {typed.x_m, typed.y_m, degrees(typed.theta_rad)}});
   return list;
 }
 

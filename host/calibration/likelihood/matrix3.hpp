@@ -58,8 +58,9 @@ inline double trace_of_product(const Symmetric3& a, const Symmetric3& b) {
   return a.xx * b.xx + a.yy * b.yy + a.tt * b.tt + 2 * (a.xy * b.xy + a.xt * b.xt + a.yt * b.yt);
 }
 
-/// F p F' with F = (1 0 x; 0 1 y; 0 0 1): the covariance of a pose that has moved by (-y, x) turned back by a right angle,
-/// and of a point that is fixed there.
+/// F p F' with F = (1 0 x; 0 1 y; 0 0 1). An error of the heading moves a point at (a, b) from the robot's centre by (-b, a)
+/// for each radian. So this with (x, y) = (-b, a) is the covariance of that point's place and the heading, if p is that of the
+/// centre's.
 inline Symmetric3 sheared(const Symmetric3& p, double x, double y) {
   const double xt = p.xt + x * p.tt, yt = p.yt + y * p.tt;
   return {p.xx + x * (p.xt + xt), p.xy + x * p.yt + y * xt, xt, p.yy + y * (p.yt + yt), yt, p.tt};
@@ -72,7 +73,8 @@ inline Matrix3 times_shear(const Symmetric3& p, double x, double y) {
            {p.xt + x * p.tt, p.yt + y * p.tt, p.tt}}};
 }
 
-/// In axes that are turned back by the angle of this cosine and sine.
+/// R p R' with R = (c -s 0; s c 0; 0 0 1): the covariance p of a pose in the robot's axes, given in axes in which the robot
+/// has the heading of this cosine and sine.
 inline Symmetric3 rotated(const Symmetric3& p, double c, double s) {
   return {c * c * p.xx - 2 * c * s * p.xy + s * s * p.yy,
           c * s * (p.xx - p.yy) + (c * c - s * s) * p.xy,

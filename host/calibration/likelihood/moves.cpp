@@ -32,6 +32,8 @@ Vector3 sum(double f, const Vector3& a, double g, const Vector3& b) {
   return {f * a[0] + g * b[0], f * a[1] + g * b[1], f * a[2] + g * b[2]};
 }
 
+Vector3 scaled(double f, const Vector3& v) { return {f * v[0], f * v[1], f * v[2]}; }
+
 /// Adds f v v'.
 void add_square(Symmetric3& sum, double f, const Vector3& v) {
   sum += Symmetric3{f * v[0] * v[0], f * v[0] * v[1], f * v[0] * v[2],
@@ -57,8 +59,7 @@ Move move_between(const Moment& from, const WheelState& was, const Moment& to, c
     return sum(u[kCLeft] * wheels.left_mps, by_left, u[kCRight] * wheels.right_mps, by_right);
   };
   const Vector3 at_start = velocity(was), at_end = velocity(is);
-  move.by = {sum(right_m, by_right, 0, {}), sum(left_m, by_left, 0, {}),
-             sum(-move.turn_rad / u[kB], by_turn, 0, {}),
+  move.by = {scaled(right_m, by_right), scaled(left_m, by_left), scaled(-move.turn_rad / u[kB], by_turn),
              sum(to.by_skew_s, at_end, -from.by_skew_s, at_start), sum(1, at_end, -1, at_start)};
   return move;
 }

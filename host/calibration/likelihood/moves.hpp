@@ -37,8 +37,8 @@ class Moves {
   const Unknowns& unknowns() const { return unknowns_; }
   /// The moves that end at a truth sample and begin at the one before; none where the wheels stood.
   std::span<const Move> before(std::size_t sample) const {
-    return std::span(moves_).subspan(sample == 0 ? 0 : ends_[sample - 1],
-                                     ends_[sample] - (sample == 0 ? 0 : ends_[sample - 1]));
+    const std::size_t begin = sample == 0 ? 0 : ends_[sample - 1];
+    return std::span(moves_).subspan(begin, ends_[sample] - begin);
   }
   /// Time on the robot's clock between a truth sample and the one before.
   double duration_s(std::size_t sample) const { return durations_s_[sample]; }

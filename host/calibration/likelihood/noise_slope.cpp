@@ -33,17 +33,19 @@ class NoiseDerivatives final : public Accumulator {
 
   void update(const Update& step, Motion) override {
     const std::array<Symmetric3, kNoises> tracker = by_noise(step.tracker_covariance, step.has_heading);
+    std::array<Symmetric3, kNoises> states;    // of the state's covariance, as the innovation sees it
     std::array<Symmetric3, kNoises> slopes;    // of the innovation's covariance
     std::array<Vector3, kNoises> innovations;  // slopes of the innovation
     for (std::size_t i = 0; i < kNoises; ++i) {
-      slopes[i] = step.seen(covariance_[i]) + tracker[i];
+      states[i] = step.seen(covariance_[i]);
+      slopes[i] = states[i] + tracker[i];
       innovations[i] = seen(state_[i], step);
     }
     add(step, slopes, innovations);
     const Vector3 weighted = product(step.weight, step.innovation);
     for (std::size_t i = 0; i < kNoises; ++i) {
       // The factors of Huber's loss are held.
-      const Symmetric3 held = step.loss.slip * step.seen(covariance_[i]) + step.loss.tracker * tracker[i];
+      const Symmetric3 held = step.loss.slip * states[i] + step.loss.tracker * tracker[i];
       covariance_[i] *= step.loss.slip;
       correct(step, i, held, weighted, innovations[i]);
     }

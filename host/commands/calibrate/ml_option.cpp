@@ -1,7 +1,6 @@
 #include "host/commands/calibrate/ml_option.hpp"
 
-#include <numbers>
-
+#include "host/base/degrees.hpp"
 #include "host/console/options.hpp"
 
 namespace astro::commands {
@@ -11,7 +10,7 @@ experiment::MlChoice MlOption::choice() const {
   experiment::MlChoice chosen;
   if (noise_option.count() > 0) {
     chosen.noise = noise;
-    chosen.noise->sigma_theta_rad = sigma_theta_deg * std::numbers::pi / 180;
+    chosen.noise->sigma_theta_rad = radians(sigma_theta_deg);
   }
   if (clock_option.count() > 0) chosen.clock = clock == "known" ? Clock::known : Clock::estimated;
   return chosen;

@@ -2,9 +2,9 @@
 #include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 
+#include "host/base/degrees.hpp"
 #include "host/base/numbers.hpp"
 #include "host/commands/base/flags.hpp"
 #include "host/commands/shared/robot_view.hpp"
@@ -80,7 +80,7 @@ void run(PlanOptions& options) {
         "--until finds the numbers of runs: give either it or --squares, --lines, --spins, --circles");
   if (options.until.empty() && !options.kinds.empty())
     throw console::WrongUsage("--kinds says what --until may use: give both, or numbers of runs instead");
-  programme.noise.sigma_theta_rad = options.sigma_theta_deg * std::numbers::pi / 180;
+  programme.noise.sigma_theta_rad = radians(options.sigma_theta_deg);
   simulation::study::Forecast forecast;
   if (options.until.empty()) {
     if (!named) programme.counts[simulation::study::kSquares] = 10;

@@ -4,10 +4,10 @@
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 #include <thread>
 
+#include "host/base/degrees.hpp"
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
 #include "host/base/numbers.hpp"
@@ -124,7 +124,7 @@ std::vector<simulation::study::Trial> drive(const StudyOptions& options) {
 }
 
 void run(StudyOptions& options) {
-  options.setup.noise.sigma_theta_rad = options.sigma_theta_deg * std::numbers::pi / 180;
+  options.setup.noise.sigma_theta_rad = radians(options.sigma_theta_deg);
   options.setup.model = *simulation::study::model_named(options.model);
   options.setup.clock_known = options.clock == "known";
   options.setup.noise_known = options.noise == "known";

@@ -10,6 +10,7 @@
 
 #include "host/base/error.hpp"
 #include "host/commands/base/flags.hpp"
+#include "host/commands/base/remedies.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/commands/truth/truth_watch_view.hpp"
 #include "host/console/console.hpp"
@@ -60,7 +61,7 @@ void run(const WatchOptions& options) {
   const auto passed = [&] {
     return 1e-6 * static_cast<double>((truth::LiveSource::steady_now() - begin).count());
   };
-  bool seen = false;
+  bool seen = false, objected = false;
   for (int second = 1; options.seconds == 0 || passed() < options.seconds; ++second) {
     watch.listen_until(begin + second * seconds(1));
     const truth::TrackerReport report = watch.report();
@@ -69,6 +70,7 @@ void run(const WatchOptions& options) {
       continue;
     }
     if (!std::exchange(seen, true)) console::say(watch.about());
+    if (report.objection && !std::exchange(objected, true)) console::say(in_words(*report.objection));
     print(options.json ? to_json(report).dump() : line_of(report));
   }
   if (!seen) throw Error(fmt::format("no ground truth came from {}: {}", url.place(), watch.why_silent()));

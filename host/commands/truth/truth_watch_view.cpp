@@ -3,23 +3,22 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <numbers>
+
+#include "host/base/degrees.hpp"
 
 namespace astro::commands {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 std::string place_of(const truth::TrackerReport& report) {
   if (!report.pose) return "not seen";
   return fmt::format("x {:8.4f} m  y {:8.4f} m  {:7.2f} deg", report.pose->x_m, report.pose->y_m,
-                     report.pose->theta_rad / kDegree);
+                     degrees(report.pose->theta_rad));
 }
 
 std::string noise_of(const truth::TrackerReport& report) {
   if (!report.rest) return report.pose ? "moves" : "";
   return fmt::format("noise {:.2f} mm {:.3f} deg", 1e3 * report.rest->position_m,
-                     report.rest->heading_rad / kDegree);
+                     degrees(report.rest->heading_rad));
 }
 
 }  // namespace

@@ -182,6 +182,21 @@ RobotGeometry geometry_of(const ImportedWheels& wheels, const RobotGeometry& giv
   return geometry;
 }
 
+/// Nothing where no sizes were given, or the same as the recording knows.
+void remark_on_unused(const RobotGeometry& given, const RobotGeometry& used, std::vector<Remark>& remarks) {
+  constexpr double kSame = 1e-6;
+  const auto differs = [](const std::optional<double>& value, const std::optional<double>& own) {
+    return value && std::abs(*value / *own - 1) > kSame;
+  };
+  if (!differs(given.wheel_diameter_m, used.wheel_diameter_m) &&
+      !differs(given.counts_per_turn, used.counts_per_turn) && !differs(given.wheelbase_m, used.wheelbase_m))
+    return;
+  remarks.push_back(
+      {fmt::format("its own recording knows the robot (wheels of {:.4g} m, {:.6g} counts per turn, wheelbase "
+                   "{:.4g} m), and the sizes that were given are not used",
+                   *used.wheel_diameter_m, *used.counts_per_turn, *used.wheelbase_m)});
+}
+
 /// Samples in a second, from the first to the last.
 template <class Sample>
 double rate_hz(const std::vector<Sample>& samples) {
@@ -221,6 +236,7 @@ PairedDrive pair_up(const std::string& name, ImportedWheels wheels, const Import
   const auto add = [&](const std::vector<Remark>& remarks) {
     all.insert(all.end(), remarks.begin(), remarks.end());
   };
+  if (wheels.info) remark_on_unused(given, geometry, all);
   add(truth.track.facts.remarks);
   drive.run.info = info_of(wheels, counter, geometry);
   drive.report.summary = summary_of(wheels.track.samples);

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <numbers>
 #include <vector>
+
+#include "host/base/degrees.hpp"
 
 namespace astro::recording {
 namespace {
@@ -40,8 +41,8 @@ constexpr TravelUnit kTravelUnits[] = {{"counts", WheelUnit::counts, 1},
                                        {"steps", WheelUnit::counts, 1},
                                        {"rad", WheelUnit::radians, 1},
                                        {"radians", WheelUnit::radians, 1},
-                                       {"deg", WheelUnit::radians, std::numbers::pi / 180},
-                                       {"degrees", WheelUnit::radians, std::numbers::pi / 180},
+                                       {"deg", WheelUnit::radians, radians(1)},
+                                       {"degrees", WheelUnit::radians, radians(1)},
                                        {"m", WheelUnit::metres, 1},
                                        {"metres", WheelUnit::metres, 1},
                                        {"meters", WheelUnit::metres, 1},

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "host/base/formats/csv_table.hpp"
+#include "host/base/trimmed.hpp"
 #include "host/recording/foreign/counter_wraps.hpp"
 #include "host/recording/foreign/line_reader.hpp"
 #include "host/recording/foreign/time_text.hpp"
@@ -17,19 +18,13 @@ namespace {
 
 constexpr std::size_t kMostCells = 1000;
 
-std::string_view trimmed(std::string_view cell) {
-  while (!cell.empty() && (cell.front() == ' ' || cell.front() == '"')) cell.remove_prefix(1);
-  while (!cell.empty() && (cell.back() == ' ' || cell.back() == '"')) cell.remove_suffix(1);
-  return cell;
-}
-
 /// Splits a line at the separator; several blanks are one.
 void split(std::string_view line, char separator, std::vector<std::string_view>& cells) {
   cells.clear();
   while (cells.size() < kMostCells) {
     if (separator == ' ') line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
     const std::size_t end = line.find(separator);
-    cells.push_back(trimmed(line.substr(0, end)));
+    cells.push_back(trimmed(line.substr(0, end), " \""));
     if (end == std::string_view::npos) break;
     line.remove_prefix(end + 1);
   }

@@ -4,10 +4,10 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <utility>
 
+#include "host/base/degrees.hpp"
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
 #include "host/base/formats/csv_table.hpp"
@@ -84,7 +84,7 @@ Poses read_poses(const fs::path& path) {
   const CsvTable table = split_csv(as_text(bytes), name);
   const auto x = find(table.header, "x_m", "x_mm", 1e-3);
   const auto y = find(table.header, "y_m", "y_mm", 1e-3);
-  const auto theta = find(table.header, "theta_rad", "theta_deg", std::numbers::pi / 180);
+  const auto theta = find(table.header, "theta_rad", "theta_deg", radians(1));
   if (!x || !y) refuse(name, table.header.line, "columns x_m or x_mm and y_m or y_mm are needed");
   Poses poses;
   for (const CsvRow& row : table.rows) {

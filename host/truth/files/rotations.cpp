@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
+
+#include "host/base/degrees.hpp"
 
 namespace astro::truth {
 namespace {
@@ -101,7 +102,7 @@ std::optional<double> metres_per(std::string_view unit) {
 }
 
 std::optional<double> radians_per(std::string_view unit) {
-  constexpr double kDegree = std::numbers::pi / 180;
+  constexpr double kDegree = radians(1);
   static constexpr std::pair<std::string_view, double> kUnits[] = {
       {"rad", 1}, {"radians", 1}, {"deg", kDegree}, {"degrees", kDegree}, {"\xC2\xB0", kDegree}};
   return looked_up(kUnits, unit);

@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <vector>
+
+#include "host/base/degrees.hpp"
 
 namespace astro::truth {
 namespace {
@@ -55,7 +56,7 @@ bool changes_beyond(const Values& digits, const Pose3& from, const Pose3& to) {
 }
 
 bool moves(const TrackedPose& from, const TrackedPose& to) {
-  constexpr double kSlowest_mps = 0.02, kSlowest_radps = 10 * std::numbers::pi / 180;
+  constexpr double kSlowest_mps = 0.02, kSlowest_radps = radians(10);
   const double time_s = seconds_between(from, to);
   return distance_m(from.pose, to.pose) > kSlowest_mps * time_s ||
          angle_rad(from.pose, to.pose) > kSlowest_radps * time_s;

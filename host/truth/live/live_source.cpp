@@ -39,7 +39,7 @@ microseconds LiveSource::steady_now() {
 }
 
 LiveSource::LiveSource(TrackerUrl url, std::unique_ptr<TrackerLink> link, Now now)
-    : url_(std::move(url)), link_(std::move(link)), now_(std::move(now)), floor_(url_.up) {
+    : url_(std::move(url)), link_(std::move(link)), now_(std::move(now)), floor_(url_.up), up_axis_(url_.up) {
   listen_at_first();
 }
 
@@ -78,6 +78,7 @@ void LiveSource::require_one_body() const {
 void LiveSource::take(const Sighting& sighting) {
   heard_at_ = microseconds(sighting.stamp.arrival_us);
   samples_.push_back(floor_.take(clock_->host_time_us(sighting.stamp), sighting.pose, sighting.tracked));
+  if (samples_.back().valid) up_axis_.take(sighting.pose);
 }
 
 /// Returns false if nothing has come.
@@ -92,9 +93,12 @@ bool LiveSource::take_some(microseconds now) {
 
 std::vector<recording::TruthSample> LiveSource::poll() {
   const microseconds now = now_();
-  if (now - std::exchange(polled_at_, now) > kPause) heard_at_ = now;  // nobody listened meanwhile
+  const bool paused = now - std::exchange(polled_at_, now) > kPause;
+  if (paused) heard_at_ = now;  // nobody listened meanwhile
   for (int i = 0; i < kMostRounds && take_some(now); ++i) {
   }
+  if (paused) up_axis_.forget();
+  if (const auto objection = up_axis_.objection()) throw Error(*objection);
   if (now - heard_at_ >= kGone)
     throw Error(fmt::format("no ground truth has come from {} for {} s: {}", url_.place(),
                             std::chrono::duration_cast<seconds>(kGone).count(), link_->why_silent()));

@@ -9,6 +9,7 @@
 
 #include "host/truth/live/tracker_link.hpp"
 #include "host/truth/live/tracker_url.hpp"
+#include "host/truth/live/up_axis_check.hpp"
 #include "host/truth/source/floor_track.hpp"
 #include "host/truth/source/source.hpp"
 
@@ -24,6 +25,7 @@ std::unique_ptr<TrackerLink> open_link(const TrackerUrl& url);
 /// Lost    if the body or the connection is lost during a drive, samples are invalid or missing; the link
 ///         connects again by itself. poll() throws once nothing has come for ten seconds of
 ///         listening; it need not be called while nothing is recorded.
+/// Axes    poll() throws if the drive shows that another axis points up than the URL says.
 class LiveSource : public Source {
  public:
   using Now = std::function<std::chrono::microseconds()>;
@@ -48,6 +50,7 @@ class LiveSource : public Source {
   std::unique_ptr<TrackerLink> link_;
   Now now_;
   FloorTrack floor_;
+  UpAxisCheck up_axis_;
   std::optional<TrackerClock> clock_;
   int connections_ = 0;
   std::chrono::microseconds heard_at_{}, polled_at_{};

@@ -44,7 +44,10 @@ Scatter scatter_of(std::span<const double> values) {
 void TrackerWatch::take(const Sighting& sighting) {
   const bool repeated = std::exchange(last_, sighting.pose) == sighting.pose;
   Seen seen{sighting.stamp, std::nullopt};
-  if (sighting.tracked && !repeated && is_possible(sighting.pose)) seen.pose = on_floor(sighting.pose, up_);
+  if (sighting.tracked && !repeated && is_possible(sighting.pose)) {
+    seen.pose = on_floor(sighting.pose, up_);
+    up_axis_.take(sighting.pose);
+  }
   seen_.push_back(seen);
 }
 
@@ -96,6 +99,7 @@ TrackerReport TrackerWatch::report(std::int64_t now_us) {
     report.longest_gap_s =
         std::max(report.longest_gap_s, 1e-6 * static_cast<double>(with_body_us[i] - with_body_us[i - 1]));
   report.rest = rest();
+  report.objection = up_axis_.objection();
   return report;
 }
 

@@ -5,7 +5,9 @@
 #include <deque>
 #include <optional>
 
+#include "host/base/remedy.hpp"
 #include "host/truth/live/sighting.hpp"
+#include "host/truth/live/up_axis_check.hpp"
 
 namespace astro::truth {
 
@@ -24,13 +26,15 @@ struct TrackerReport {
   Regularity sender, arrival;       // the two clocks by which samples can be stamped
   std::optional<FloorPose> pose;    // the last one with the body
   std::optional<LiveNoise> rest;    // nothing while the body moves
+  std::optional<Remark> objection;  // to the axis that is taken for up, from all that was seen
 };
 
 /// Keeps the last few seconds of a tracker's poses and sums them up.
 class TrackerWatch {
  public:
   /// `span_us`: of the arrivals that count.
-  explicit TrackerWatch(UpAxis up, std::int64_t span_us = 3'000'000) : up_(up), span_us_(span_us) {}
+  explicit TrackerWatch(UpAxis up, std::int64_t span_us = 3'000'000)
+      : up_(up), up_axis_(up), span_us_(span_us) {}
 
   void take(const Sighting& sighting);
   /// `now_us`: on the clock of the arrivals. What is older than the span is forgotten.
@@ -44,6 +48,7 @@ class TrackerWatch {
   std::optional<LiveNoise> rest() const;
 
   UpAxis up_;
+  UpAxisCheck up_axis_;
   std::int64_t span_us_;
   std::deque<Seen> seen_;
   std::optional<Pose3> last_;

@@ -5,18 +5,13 @@
 #include <limits>
 #include <utility>
 
+#include "host/base/trimmed.hpp"
 #include "host/recording/run/planar_pose.hpp"
 #include "host/recording/run/run_metadata.hpp"
 #include "host/truth/source/plausibility.hpp"
 
 namespace astro::truth {
 namespace {
-
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  if (first == std::string::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 recording::PlanarPose odometry_end(const recording::Run& run) {
   if (run.odometry.empty()) return {};
@@ -63,7 +58,7 @@ class Form {
   Outcome number(const std::string& prompt, const Read& read, double& value, const std::string& about = "") {
     Question question{about + prompt};
     while (true) {
-      const std::string answer = trimmed(ask_(question));
+      const std::string answer(trimmed(ask_(question)));
       if (answer == "back") return Outcome::back;
       if (answer == "redo") return Outcome::redo;
       if (const auto number = read(answer)) {
@@ -88,7 +83,7 @@ bool ManualSource::is_right(const recording::Run& run, const recording::TruthSam
   if (why.empty()) return true;
   const Question question{
       "", {recording::run_name(run.info) + ": " + why}, AnswerKind::right_or_entered_again};
-  const std::string answer = trimmed(ask_(question));
+  const std::string answer(trimmed(ask_(question)));
   return answer == "y" || answer == "yes";
 }
 

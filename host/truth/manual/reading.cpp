@@ -4,23 +4,15 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "host/base/degrees.hpp"
 #include "host/base/numbers.hpp"
 #include "host/base/shown.hpp"
+#include "host/base/trimmed.hpp"
 
 namespace astro::truth {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 /// The number, and what stands behind it.
 struct Split {
@@ -46,7 +38,7 @@ double metres(LengthUnit unit) {
   }
 }
 
-double radians(AngleUnit unit) { return unit == AngleUnit::deg ? kDegree : 1; }
+double radians_per(AngleUnit unit) { return unit == AngleUnit::deg ? radians(1) : 1; }
 
 std::optional<double> angle_of_marks(std::string_view left, std::string_view apart) {
   const auto a = typed_number(trimmed(left)), b = typed_number(trimmed(apart));
@@ -88,7 +80,7 @@ std::optional<double> angle_rad_in(std::string_view text, AngleUnit unit) {
   const Split parts = split(text);
   const auto given = parts.unit.empty() ? std::optional(unit) : angle_unit_named(parts.unit);
   if (!parts.number || !given) return std::nullopt;
-  return *parts.number * radians(*given);
+  return *parts.number * radians_per(*given);
 }
 
 std::string shown(double length_m, LengthUnit unit) {
@@ -99,7 +91,7 @@ std::string shown(double length_m, LengthUnit unit) {
 
 std::string shown(double angle_rad, AngleUnit unit) {
   const int decimals = unit == AngleUnit::deg ? 2 : 4;
-  const double value = angle_rad / radians(unit);
+  const double value = angle_rad / radians_per(unit);
   return fmt::format("{:.{}f} {}", without_minus_zero(value, decimals), decimals, name_of(unit));
 }
 

@@ -3,12 +3,12 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <deque>
 #include <fstream>
 #include <functional>
 #include <sstream>
 
 #include "host/commands/experiment/tape_briefing.hpp"
+#include "tests/support/base/person.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 
 namespace astro::commands {
@@ -16,23 +16,8 @@ namespace {
 
 using experiment::Redo;
 using experiment::RunSpec;
+using support::Person;
 using testing::HasSubstr;
-
-/// Answers in order, keeps what was asked.
-class Person {
- public:
-  explicit Person(std::deque<std::string> answers) : answers_(std::move(answers)) {}
-  std::string operator()(const std::string& prompt) {
-    asked.push_back(prompt);
-    const std::string answer = answers_.front();
-    answers_.pop_front();
-    return answer;
-  }
-  std::vector<std::string> asked;
-
- private:
-  std::deque<std::string> answers_;
-};
 
 const RunSpec kFirst{"before", "square", Sense::cw, 1}, kSecond{"before", "square", Sense::ccw, 1};
 

@@ -9,6 +9,7 @@
 #include "host/recording/run/end_error.hpp"
 #include "host/truth/files/file_source.hpp"
 #include "host/truth/manual/manual_source.hpp"
+#include "tests/support/base/person.hpp"
 #include "tests/support/robots/desk.hpp"
 
 // Ground truth that is only known after a run ends up as that run's end error, exactly.
@@ -16,6 +17,7 @@ namespace astro::experiment {
 namespace {
 
 using support::Desk;
+using support::Person;
 using testing::HasSubstr;
 
 recording::Run drive_line(Desk& desk, truth::Source& source) {
@@ -27,22 +29,6 @@ recording::Run drive_line(Desk& desk, truth::Source& source) {
   EXPECT_TRUE(complete(run, source));
   return run;
 }
-
-/// Answers in order, keeps what was asked.
-class Person {
- public:
-  explicit Person(std::deque<std::string> answers) : answers_(std::move(answers)) {}
-  std::string operator()(const truth::Question& question) {
-    asked.push_back(question.occasion.fact + question.text);
-    const std::string answer = answers_.front();
-    answers_.pop_front();
-    return answer;
-  }
-  std::vector<std::string> asked;
-
- private:
-  std::deque<std::string> answers_;
-};
 
 constexpr truth::Units kMetres{truth::LengthUnit::m, truth::AngleUnit::deg};
 

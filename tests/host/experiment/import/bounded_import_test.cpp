@@ -177,15 +177,15 @@ TEST_F(BoundedImport, ABagWhoseMetadataNameItsFileAThousandTimes) {
 
 TEST_F(BoundedImport, TextThatPacksAThousandTimes) {
   const std::string motive = "Format Version,1.23\n,Type,Rigid Body\n";
-  EXPECT_THAT(of("x.csv.gz", test::gzip(std::string(200 * kMebibyte, '0'))), HasSubstr("unpacks to more"));
+  EXPECT_THAT(of("x.csv.gz", support::gzip(std::string(200 * kMebibyte, '0'))), HasSubstr("unpacks to more"));
   for (const std::string& text :
        {filled("\n", 60 * kMebibyte), "t,x,y\n" + filled("1,2,3\n", 30 * kMebibyte),
         filled(",", 60 * kMebibyte), "time_s,left_m,right_m\n" + filled("1,2,3\n", 30 * kMebibyte),
         motive + filled(",", 60 * kMebibyte)})
-    of("x.csv.gz", test::gzip(text));
+    of("x.csv.gz", support::gzip(text));
   std::string rising = "1 0 0 0 0 0 0 1\n";
   for (int i = 2; rising.size() < 30 * kMebibyte; ++i) rising += std::to_string(i) + " 0 0 0 0 0 0 1\n";
-  of("x.tum.gz", test::gzip(rising));
+  of("x.tum.gz", support::gzip(rising));
 }
 
 TEST_F(BoundedImport, LinesOfAHundredMegabytesAndHeadersOfAMillionColumns) {

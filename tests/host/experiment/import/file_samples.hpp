@@ -1,7 +1,6 @@
 #pragma once
 
 #include <lz4frame.h>
-#include <zlib.h>
 
 #include <fstream>
 #include <iterator>
@@ -17,6 +16,7 @@
 #include "host/ros2/joint_state.hpp"
 #include "host/ros2/stamped_pose.hpp"
 #include "tests/host/experiment/import/drive_files.hpp"
+#include "tests/support/base/gzip.hpp"
 
 /// One short drive in every format that is imported, small enough to be damaged a thousand times.
 namespace astro::test {
@@ -43,20 +43,6 @@ inline calibration::Trajectory short_drive() {
     right_m += step_m + turn_rad * kWheelbase_m / 2;
   }
   return drive;
-}
-
-inline Bytes gzip(const std::string& text) {
-  z_stream stream{};
-  deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY);
-  Bytes out(deflateBound(&stream, text.size()) + 64);
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));  // zlib reads it only
-  stream.avail_in = static_cast<uInt>(text.size());
-  stream.next_out = out.data();
-  stream.avail_out = static_cast<uInt>(out.size());
-  deflate(&stream, Z_FINISH);
-  out.resize(stream.total_out);
-  deflateEnd(&stream);
-  return out;
 }
 
 inline Bytes lz4(ByteView bytes) {
@@ -209,8 +195,8 @@ inline std::vector<FileSample> file_samples(const fs::path& folder) {
           {"EuRoC", "x.csv", Holds::truth, true, of(euroc)},
           {"plain CSV of truth", "x.csv", Holds::truth, true, plain},
           {"CSV of wheels", "x.csv", Holds::wheels, true, counts},
-          {"gzip of truth", "x.csv.gz", Holds::truth, false, gzip(std::string(as_text(motive)))},
-          {"gzip of wheels", "x.csv.gz", Holds::wheels, false, gzip(std::string(as_text(counts)))},
+          {"gzip of truth", "x.csv.gz", Holds::truth, false, support::gzip(std::string(as_text(motive)))},
+          {"gzip of wheels", "x.csv.gz", Holds::wheels, false, support::gzip(std::string(as_text(counts)))},
           {"rosbag2 db3", "x.db3", Holds::both, false, database},
           {"rosbag2 db3, packed", "x.db3.zstd", Holds::both, false, recording::compress_zstd(database)},
           {"MCAP of ROS 2, stored", "x.mcap", Holds::both, false, stored},

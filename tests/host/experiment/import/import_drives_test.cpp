@@ -224,6 +224,23 @@ TEST_F(Import, KnowsTheRobotOfARecordingOfOurs) {
             run.odometry.back().left_counts - run.odometry.front().left_counts);
 }
 
+TEST_F(Import, SaysThatSizesGivenBesideARecordingOfOursAreNotUsed) {
+  const std::vector<DriveFiles> pair{
+      {test::write_counts(at("w.csv"), drives()[0]), test::write_tum(at("t.tum"), drives()[0])}};
+  recording::write_run(at("own.mcap"), import_drives(pair, choices()).set.runs[0]);
+  const std::vector<DriveFiles> own{{at("own.mcap"), at("t.tum")}};
+  const auto remarks = [&](const ImportChoices& given) {
+    const ImportedDrives drives = import_drives(own, given);
+    std::string all;
+    for (const Remark& remark : drives.reports[0].remarks) all += remark.fact + '\n';
+    return all;
+  };
+  EXPECT_THAT(remarks(choices()), testing::Not(HasSubstr("not used"))) << "they are the same";
+  ImportChoices other = choices();
+  other.geometry.wheelbase_m = 0.5;
+  EXPECT_THAT(remarks(other), HasSubstr("the sizes that were given are not used"));
+}
+
 TEST_F(Import, RefusesWheelsThatLeap) {
   std::ofstream(at("w.csv")) << "time_s,left_rad,right_rad\n0,0,0\n0.01,1e6,1e6\n0.02,1e6,1e6\n";
   const std::vector<DriveFiles> pair{{at("w.csv"), test::write_tum(at("t.tum"), drives()[0])}};

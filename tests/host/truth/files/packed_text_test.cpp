@@ -1,30 +1,17 @@
 #include "host/truth/files/packed_text.hpp"
 
 #include <gmock/gmock.h>
-#include <zlib.h>
 
+#include "tests/support/base/gzip.hpp"
 #include "tests/support/base/remarks.hpp"
 
 namespace astro::truth {
 namespace {
 
+using support::gzip;
 using support::Tells;
 using support::told_by;
 using testing::HasSubstr;
-
-Bytes gzip(const std::string& text) {
-  z_stream stream{};
-  deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY);
-  Bytes out(deflateBound(&stream, text.size()) + 64);
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
-  stream.avail_in = static_cast<uInt>(text.size());
-  stream.next_out = out.data();
-  stream.avail_out = static_cast<uInt>(out.size());
-  deflate(&stream, Z_FINISH);
-  out.resize(stream.total_out);
-  deflateEnd(&stream);
-  return out;
-}
 
 std::string text_of(ByteView packed, const std::string& name = "x") {
   MemorySource source(packed);

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <deque>
 #include <memory>
 
@@ -26,6 +27,7 @@ struct Lab {
   std::vector<std::string> bodies{"ASTRO"};
   std::string why = "it sleeps";
   int connections = 1;
+  double across_m = 2, height_m = 0.2, across_mps = 0, rise_mps = 0;
   std::vector<Sighting> sightings;
 
   void pass(microseconds time) {
@@ -33,7 +35,10 @@ struct Lab {
     for (; next + milliseconds(5) <= now; next += milliseconds(10)) {
       if (!sends) continue;
       const double x_m = 1e-6 * static_cast<double>(next.count());
-      sightings.push_back({{(next - senders_zero).count(), now.count()}, {x_m, 2, 0.2, 0, 0, 0, 1}});
+      across_m += 0.01 * across_mps;
+      height_m += 0.01 * rise_mps;
+      sightings.push_back(
+          {{(next - senders_zero).count(), now.count()}, {x_m, across_m, height_m, 0, 0, 0, 1}});
     }
   }
 };
@@ -161,6 +166,42 @@ TEST(LiveSource, TheUpAxisIsThatOfTheAddress) {
   Lab lab;
   EXPECT_EQ(open(lab, "vrpn://lab/ASTRO?up=z")->poll().front().y_m, 2);
   EXPECT_EQ(open(lab, "vrpn://lab/ASTRO?up=y")->poll().front().y_m, -0.2);
+}
+
+/// What the source says while the body moves for so many seconds.
+std::string said_in(Lab& lab, LiveSource& source, double span_s) {
+  return complaint([&] {
+    for (const microseconds end = lab.now + microseconds(std::llround(1e6 * span_s)); lab.now < end;) {
+      lab.pass(milliseconds(50));
+      source.poll();
+    }
+  });
+}
+
+TEST(LiveSource, ADriveUpTheAxisThatIsTakenForUpEndsAtOnce) {
+  for (const std::string up : {"z", "y"}) {
+    Lab lab;
+    const auto source = open(lab, "vrpn://lab/ASTRO?up=" + up);
+    source->poll();
+    (up == "z" ? lab.rise_mps : lab.across_mps) = -0.3;
+    EXPECT_EQ(said_in(lab, *source, 0.9), "");
+    EXPECT_THAT(said_in(lab, *source, 1),
+                HasSubstr("along the tracker's " + up + " axis, which is taken for up"));
+  }
+}
+
+TEST(LiveSource, ARobotThatClimbsARampOrIsCarriedBetweenDrivesMayRise) {
+  Lab lab;
+  const auto source = open(lab);
+  lab.rise_mps = 0.1;
+  lab.across_mps = 0.3;
+  EXPECT_EQ(said_in(lab, *source, 10), "") << "a ramp";
+  lab.across_mps = 0;
+  lab.rise_mps = 0.5;
+  EXPECT_EQ(said_in(lab, *source, 3), "") << "picked up after a drive";
+  lab.pass(seconds(3));  // nobody polls
+  lab.rise_mps = 0;
+  EXPECT_EQ(said_in(lab, *source, 10), "") << "put down elsewhere";
 }
 
 }  // namespace

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+
+#include "host/base/remedy.hpp"
+#include "host/truth/source/pose3.hpp"
+
+namespace astro::truth {
+
+/// Whether a body that drives on a floor shows that not the assumed axis of the tracker points up but the other one. A drive
+/// with the wrong axis has no use, and every drive before somebody notices is lost.
+class UpAxisCheck {
+ public:
+  explicit UpAxisCheck(UpAxis assumed) : assumed_(assumed) {}
+
+  /// The next pose of the body; it has to be a possible one.
+  void take(const Pose3& pose);
+  /// The body may be carried elsewhere before the next pose.
+  void forget();
+  /// Once the body has been 0.3 m higher or lower than at first for a while, and never left its place along the other axis. A
+  /// robot that is picked up after a drive has left it.
+  std::optional<Remark> objection() const;
+
+ private:
+  UpAxis assumed_;
+  std::optional<Pose3> first_;
+  double risen_m_ = 0, least_m_ = 0, most_m_ = 0;  // the last two along the other axis
+  int contradictions_ = 0;                         // in a row
+};
+
+}  // namespace astro::truth
