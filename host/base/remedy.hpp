@@ -160,7 +160,8 @@ enum class Help : std::uint8_t {
   choose_other_out_folder,
   give_same_settings_or_choose_other_out_folder,
   load_factors_or_choose_other_out_folder,
-  resume_experiment,  // {folder}
+  resume_experiment,    // {folder}
+  put_back_and_resume,  // {folder}
   resume_for_truth,
   use_same_version,
   drive_run_again,  // {file}

@@ -82,6 +82,7 @@ void hold_standard_streams() {
     if (fcntl(stream, F_GETFD) < 0 && errno == EBADF) static_cast<void>(open("/dev/null", other_way));
 }
 
+bool stdin_is_terminal() { return isatty(STDIN_FILENO) == 1; }
 bool stdout_is_terminal() { return isatty(STDOUT_FILENO) == 1; }
 bool stderr_is_terminal() { return isatty(STDERR_FILENO) == 1; }
 
@@ -123,7 +124,7 @@ std::string ask(const std::string& prompt) {
 }
 
 bool confirm(const std::string& question) {
-  if (isatty(STDIN_FILENO) != 1)
+  if (!stdin_is_terminal())
     throw Error("'" + question + "' needs an answer and the input is no terminal", {Help::agree_beforehand});
   const std::string answer = ask(question + " [y/N] ");
   return answer == "y" || answer == "Y" || answer == "yes";

@@ -15,6 +15,7 @@ namespace astro::console {
 /// there instead, so that writing fails.
 void hold_standard_streams();
 
+bool stdin_is_terminal();
 bool stdout_is_terminal();
 bool stderr_is_terminal();
 

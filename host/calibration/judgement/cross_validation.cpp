@@ -76,10 +76,20 @@ Followed followed(const Group& runs, const WheelFactors& factors, const MlOption
   return out;
 }
 
+/// Drives that could not be held out may be those on which the factors would fail.
 void judge(CrossValidation& out) {
   std::vector<double> gains;
   for (const HeldOutRun& run : out.runs) gains.push_back(run.gain);
   out.verdict = judge_gains(gains);
+  if (out.verdict == Verdict::better && !out.not_judged.empty()) out.verdict = Verdict::unknown;
+}
+
+/// "without run 1 and run 3, the runs do not separate ...".
+Remark not_judged(const std::vector<std::string>& held_out, const Error& error) {
+  std::string names;
+  for (std::size_t i = 0; i < held_out.size(); ++i)
+    names += (i == 0 ? "" : i + 1 < held_out.size() ? ", " : " and ") + held_out[i];
+  return {"without " + names + ", " + error.what(), error.remedy()};
 }
 
 HeldOutErrors root_mean_squares(const std::vector<HeldOutRun>& runs, RunErrors HeldOutRun::*which) {
@@ -151,6 +161,8 @@ int CrossValidation::better_on() const {
 Verdict judge_gains(std::span<const double> gains) {
   const auto n = static_cast<double>(gains.size());
   if (gains.size() < 2) return Verdict::unknown;
+  if (std::all_of(gains.begin(), gains.end(), [](double gain) { return gain == 0; }))
+    return Verdict::undecided;
   double mean = 0, squares = 0;
   for (const double gain : gains) mean += gain / n;
   for (const double gain : gains) squares += (gain - mean) * (gain - mean);
@@ -182,7 +194,9 @@ CrossValidation cross_validate(std::span<const Trajectory> runs, const WheelFact
         out.runs.push_back({by_in_use.errors.at(k), by_found.errors[k], found,
                             (by_in_use.cost.at(k) - by_found.cost[k]) / all.dispersion});
     } catch (const Error& error) {
-      out.not_judged.push_back({error.what(), error.remedy()});
+      std::vector<std::string> names;
+      for (const std::size_t member : members) names.push_back(prepared.runs[member].source->name);
+      out.not_judged.push_back(not_judged(names, error));
     }
   }
   judge(out);
@@ -192,7 +206,10 @@ CrossValidation cross_validate(std::span<const Trajectory> runs, const WheelFact
 CrossValidation cross_validate(std::span<const EndPose> cw, std::span<const EndPose> ccw, double side_m,
                                const WheelFactors& in_use, const Options& options) {
   CrossValidation out;
-  if (cw.size() < 2 || ccw.size() < 2) return out;
+  if (cw.size() < 2 || ccw.size() < 2) {
+    out.not_judged.push_back({"there are not two squares in each direction", {Help::drive_squares}});
+    return out;
+  }
   Scatter scatter;
   scatter.add(cw);
   scatter.add(ccw);
@@ -212,11 +229,38 @@ CrossValidation cross_validate(std::span<const EndPose> cw, std::span<const EndP
       judge_end(cw, i, Sense::cw, found);
       judge_end(ccw, i, Sense::ccw, found);
     } catch (const Error& error) {
-      out.not_judged.push_back({error.what(), error.remedy()});
+      out.not_judged.push_back(not_judged({"squares " + std::to_string(i + 1)}, error));
     }
   }
   judge(out);
   return out;
+}
+
+void cross_validate_scale(std::span<const LineEnd> lines, const WheelFactors& in_use, const LineScale& scale,
+                          CrossValidation& judged) {
+  if (lines.size() < 2) {
+    judged.not_judged.push_back({"the scale comes from a single line", {Help::drive_lines}});
+    return;
+  }
+  const double loaded = (in_use.c_r + in_use.c_l) / 2;
+  // The error of the mean, which contains slip, reading and scatter, says how far a single line may be off.
+  const double variance = static_cast<double>(lines.size()) * scale.se * scale.se;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    std::vector<LineEnd> others(lines.begin(), lines.end());
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    const double found = scale_of_lines(others)->scale, is = lines[i].scale();
+    const auto missed = [&](double expected) {
+      const double none = std::numeric_limits<double>::quiet_NaN();
+      return RunErrors{"line " + std::to_string(i + 1),
+                       std::abs(is - expected) / lines[i].loaded_scale * lines[i].driven_m, none, none};
+    };
+    HeldOutRun run{missed(loaded), missed(found), in_use};
+    const double change = found / loaded;
+    run.without_it = {change * in_use.c_r, change * in_use.c_l, change * in_use.b_m};
+    run.gain = (std::pow(is - loaded, 2) - std::pow(is - found, 2)) / variance;
+    judged.runs.push_back(run);
+  }
+  judge(judged);
 }
 
 }  // namespace astro::calibration

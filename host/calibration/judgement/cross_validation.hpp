@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "host/base/remedy.hpp"
+#include "host/calibration/end_poses/line_scale.hpp"
 #include "host/calibration/end_poses/umbmark.hpp"
 #include "host/calibration/judgement/before_after.hpp"
 #include "host/calibration/judgement/path_errors.hpp"
@@ -35,9 +36,10 @@ struct HeldOutErrors {
 
 struct CrossValidation {
   std::vector<HeldOutRun> runs;
-  /// For each group of runs that could not be held out, because the others do not determine all factors: why.
+  /// What could not be judged, each as a clause that says why: runs that could not be held out, because the others do not
+  /// determine all factors.
   std::vector<Remark> not_judged;
-  /// unknown: of fewer than two drives.
+  /// unknown: of fewer than two drives, or better only on some drives where others could not be held out.
   Verdict verdict = Verdict::unknown;
 
   /// Runs that are more likely with the new factors.
@@ -59,6 +61,11 @@ CrossValidation cross_validate(std::span<const Trajectory> runs, const WheelFact
 /// their noise. Nothing is judged with fewer than two squares in a direction.
 CrossValidation cross_validate(std::span<const EndPose> cw, std::span<const EndPose> ccw, double side_m,
                                const WheelFactors& in_use, const Options& options);
+
+/// Adds the scale that lines gave to what squares said: one line is held out at a time, and its length foretold by the scale of
+/// the others. `scale`: of all lines. The scale of a single line is not judged.
+void cross_validate_scale(std::span<const LineEnd> lines, const WheelFactors& in_use, const LineScale& scale,
+                          CrossValidation& judged);
 
 /// better or worse where the mean gain differs from none at the 10 % level, one-sided; unknown for fewer than two.
 /// Where the factors in use are right, others found from data lose a little on average, so a false claim is far less

@@ -183,6 +183,8 @@ constexpr Sentence kSentences[] = {
      ": give the same ones to go on with it, or another --out"},
     {Help::load_factors_or_choose_other_out_folder, ": load those, or choose another --out"},
     {Help::resume_experiment, ": 'astrolabe umbmark --out {}' goes on from there"},
+    {Help::put_back_and_resume,
+     ": put it on its start mark; the same command with --out {} drives that run again"},
     {Help::resume_for_truth,
      "; the same command goes on with its ground truth, at a terminal or with all answers piped in"},
     {Help::use_same_version, ": use that one to go on with it"},

@@ -38,9 +38,16 @@ Redo ask_ready(const AskLine& ask, const experiment::RunSpec& next,
       .value_or(Redo::no);
 }
 
+void ask_put_back(const AskLine& ask, const experiment::RunSpec& run) {
+  ask(fmt::format(
+      "{} was broken off: see that the robot is connected, put it back on its\nstart mark, and press Enter "
+      "to drive it again (Ctrl-C ends the experiment) ",
+      run.title()));
+}
+
 Redo ask_about(const AskLine& ask, const experiment::DoubtfulRun& run) {
-  const std::string prompt =
-      console::wrapped(run.why + '.') + "  y: it is right; back: enter it again; redo: drive it again: ";
+  const std::string prompt = console::wrapped(run.why + '.') +
+                             "  y: it stays as it is; back: enter it again; redo: drive it again: ";
   while (true) {
     const std::string answer = ask(prompt);
     if (answer == "y" || answer == "yes") return Redo::no;

@@ -20,6 +20,9 @@ truth::LengthUnit ask_length_unit(const AskLine& ask);
 experiment::Redo ask_ready(const AskLine& ask, const experiment::RunSpec& next,
                            const std::optional<experiment::RunSpec>& last);
 
+/// After a run that was broken off: waits until the robot stands on its mark again.
+void ask_put_back(const AskLine& ask, const experiment::RunSpec& run);
+
 /// What to do about a run that does not fit the others.
 experiment::Redo ask_about(const AskLine& ask, const experiment::DoubtfulRun& run);
 

@@ -134,6 +134,11 @@ experiment::ExperimentHooks hooks_for(const UmbmarkOptions& options, console::Pr
                               const std::optional<experiment::RunSpec>& last) {
     return pauses ? ask_ready(ask, spec, last) : experiment::Redo::no;
   };
+  hooks.put_back = [ask](const experiment::RunSpec& run) {
+    if (!console::stdin_is_terminal()) return false;  // answers from a pipe do not look at the robot
+    ask_put_back(ask, run);
+    return true;
+  };
   hooks.doubt = [ask](const experiment::DoubtfulRun& run) { return ask_about(ask, run); };
   hooks.agree = [&options, &progress](const experiment::Calibration& found, const auto& changes) {
     progress.clear();

@@ -175,7 +175,10 @@ Calibration calibrate(const Squares& squares, const MethodChoice& method) {
   result.squares = estimate.summary;
   result.detail = estimate;
   result.left_out = squares.left_out;
-  if (const auto scale = calibration::scale_of_lines(squares.lines)) apply(*scale, result);
+  if (const auto scale = calibration::scale_of_lines(squares.lines)) {
+    calibration::cross_validate_scale(squares.lines, squares.loaded, *scale, result.judgement);
+    apply(*scale, result);
+  }
   return result;
 }
 

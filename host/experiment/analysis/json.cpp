@@ -58,13 +58,16 @@ nlohmann::json judgement_json(const calibration::CrossValidation& judgement) {
                       {"carried", held_out_json(run.in_use)},
                       {"new", held_out_json(run.found)},
                       {"gain", number(run.gain)}});
+  nlohmann::json not_judged = nlohmann::json::array();
+  for (const Remark& remark : judgement.not_judged) not_judged.push_back(remark.fact);
   return {{"verdict", name_of(judgement.verdict)},
           {"use", !advises_against(judgement.verdict)},
           {"sentence", judgement_sentence(judgement)},
           {"better_on", judgement.better_on()},
           {"carried", held_out_json(judgement.in_use())},
           {"new", held_out_json(judgement.found())},
-          {"drives", drives}};
+          {"drives", drives},
+          {"not_judged", not_judged}};
 }
 
 }  // namespace

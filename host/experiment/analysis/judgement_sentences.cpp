@@ -41,18 +41,20 @@ std::string judgement_sentence(const CrossValidation& judgement) {
   if (judgement.verdict == Verdict::unknown)
     return judgement.not_judged.empty()
                ? "Whether it is better than what the robot carries cannot be judged from a single drive."
-               : fmt::format(
-                     "Whether it is better than what the robot carries cannot be judged: without some of "
-                     "the drives, {}.",
-                     judgement.not_judged.front().fact);
+               : fmt::format("Whether it is better than what the robot carries cannot be judged: {}.",
+                             judgement.not_judged.front().fact);
   const std::string seen =
       fmt::format("on drives that it had not seen {} (root mean squares), and {} of {} drives fit better",
                   comparison(judgement), judgement.better_on(), drives);
+  const std::string rest = judgement.not_judged.empty()
+                               ? ""
+                               : fmt::format(" Not all is judged: {}.", judgement.not_judged.front().fact);
   if (judgement.verdict == Verdict::better)
-    return fmt::format("Better than what the robot carries: {}.", seen);
+    return fmt::format("Better than what the robot carries: {}.{}", seen, rest);
   if (judgement.verdict == Verdict::worse)
-    return fmt::format("Worse than what the robot carries: {}. Keep what it carries.", seen);
-  return fmt::format("Not shown to be better than what the robot carries: {}. Keep what it carries.", seen);
+    return fmt::format("Worse than what the robot carries: {}. Keep what it carries.{}", seen, rest);
+  return fmt::format("Not shown to be better than what the robot carries: {}. Keep what it carries.{}", seen,
+                     rest);
 }
 
 std::string_view name_of(Verdict verdict) {

@@ -23,7 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-constexpr int kTriesPerRun = 3;
 constexpr auto kReconnectPatience = 10s;
 
 class Session {
@@ -129,6 +128,8 @@ class Session {
                          {Help::drive_run_again, driven.string()}});
       run = recording::read_run(driven);
     } else {
+      // Whoever had the last run driven again has taken its recording away.
+      if (last && !fs::exists(file_of(folder_, *last))) last.reset();
       if (const Redo redo = hooks_.ready(spec, last); redo != Redo::no && last) {
         entered_.correct(*last, redo);
         return true;
@@ -166,15 +167,17 @@ class Session {
     info.firmware = journal_.firmware;
     info.parameters = parameters.numbers();
     const robot::Path path = path_of(journal_.plan, spec);
-    for (int attempt = 1;; ++attempt) {
+    while (true) {
       info.started_at = utc_now();
       try {
         return record_run(client_, truth_, path, info, hooks_.run);
       } catch (const robot::LinkLost& lost) {
-        if (attempt == kTriesPerRun || hooks_.run.interrupted()) throw;
-        hooks_.run.notice({fmt::format("{}; this run starts again", lost.what()), lost.remedy()});
+        if (hooks_.run.interrupted()) throw;
+        hooks_.run.notice({lost.what(), lost.remedy()});
+        if (!hooks_.put_back(spec))
+          throw Error(spec.title() + " was broken off, and the robot stands on its way",
+                      {Help::put_back_and_resume, folder_.string()});
         client_.reconnect(kReconnectPatience);
-        hooks_.ready(spec, std::nullopt);
       }
     }
   }

@@ -29,6 +29,9 @@ struct ExperimentHooks {
   /// a person entered its ground truth. Anything but `no` is about that run.
   std::function<Redo(const RunSpec&, const std::optional<RunSpec>& last)> ready =
       [](const RunSpec&, const std::optional<RunSpec>&) { return Redo::no; };
+  /// The link was lost during a run, and the robot stands somewhere on its way: true once a person has put it back on its
+  /// mark, and the run may be driven again. If false, the experiment ends here.
+  std::function<bool(const RunSpec&)> put_back = [](const RunSpec&) { return false; };
   /// A run whose ground truth comes from a person or a file does not fit the others; it may be an earlier one. Not called
   /// again for a run that is said to be right.
   std::function<Redo(const DoubtfulRun&)> doubt = [](const DoubtfulRun&) { return Redo::no; };

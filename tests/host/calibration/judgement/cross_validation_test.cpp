@@ -232,7 +232,48 @@ TEST(CrossValidation, NamesWhatCannotBeHeldOut) {
   const MlEstimate all = estimate_ml(drives, model.loaded, options);
   const CrossValidation judged = cross_validate(drives, model.loaded, all, options);
   EXPECT_EQ(judged.verdict, Verdict::unknown);
-  EXPECT_EQ(judged.not_judged.size(), 2u);
+  ASSERT_EQ(judged.not_judged.size(), 2u);
+  EXPECT_EQ(judged.not_judged[0].fact.rfind("without the line, ", 0), 0u) << judged.not_judged[0].fact;
+}
+
+TEST(CrossValidation, IsNotBetterOnWhatWasNotHeldOut) {
+  // The wheelbase comes from the spin alone, and nothing says whether it slipped there.
+  const DriveModel model = astro_drive();
+  std::vector<Trajectory> drives{
+      simulation::study::synthetic_drive(simulation::study::spin_course(6.28), model, "the spin", kSeed)};
+  for (unsigned i = 1; i <= 4; ++i)
+    drives.push_back(simulation::study::synthetic_drive(simulation::study::line_course(3), model,
+                                                        "line " + std::to_string(i), kSeed + i));
+  const MlOptions options = known_clock();
+  const MlEstimate all = estimate_ml(drives, model.loaded, options);
+  const CrossValidation judged = cross_validate(drives, model.loaded, all, options);
+  EXPECT_EQ(judged.better_on(), 4);
+  EXPECT_EQ(judged.verdict, Verdict::unknown);
+  ASSERT_EQ(judged.not_judged.size(), 1u);
+}
+
+/// What three measured lines say of a robot that carries a scale of 1, and whose squares say nothing.
+CrossValidation judged_by_lines(const std::vector<double>& lengths_m) {
+  std::vector<LineEnd> lines;
+  for (const double length_m : lengths_m) lines.push_back({length_m, 0, 3, 1});
+  CrossValidation judged;
+  cross_validate_scale(lines, {1, 1, 0.3}, scale_of_lines(lines).value(), judged);
+  return judged;
+}
+
+TEST(CrossValidation, HoldsOutMeasuredLines) {
+  EXPECT_EQ(judged_by_lines({3.031, 3.029, 3.030}).verdict, Verdict::better)
+      << "1 % longer than odometry says";
+  EXPECT_NE(judged_by_lines({3.001, 2.998, 3.000}).verdict, Verdict::better) << "as long as odometry says";
+  EXPECT_NE(judged_by_lines({3.060, 3.000, 3.001}).verdict, Verdict::better) << "one mistyped";
+  const CrossValidation single = judged_by_lines({3.06});
+  EXPECT_EQ(single.verdict, Verdict::unknown);
+  EXPECT_EQ(single.not_judged.at(0).fact, "the scale comes from a single line");
+}
+
+TEST(CrossValidation, ARobotWhoseFactorsDoNotChangeIsNotJudgedByASingleDrive) {
+  const std::vector<double> no_gains{0, 0, 0};
+  EXPECT_EQ(judge_gains(no_gains), Verdict::undecided);
 }
 
 }  // namespace

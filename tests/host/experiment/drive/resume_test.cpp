@@ -76,6 +76,77 @@ TEST_F(Resume, AnInterruptedRobotStandsAndIsDisarmed) {
   EXPECT_EQ(desk_.client.request(protocol::GetStatus{}).mode, protocol::Mode::disarmed);
 }
 
+/// A line that breaks once, while the robot is on its way.
+class BreakingLine : public robot::Transport {
+ public:
+  BreakingLine(std::unique_ptr<robot::Transport> line, const bool& breaks)
+      : line_(std::move(line)), breaks_(breaks) {}
+
+  void write(std::span<const std::uint8_t> bytes) override {
+    if (is_broken()) throw robot::LinkLost("the cable was pulled");
+    line_->write(bytes);
+  }
+  std::size_t read(std::span<std::uint8_t> into, std::chrono::microseconds timeout) override {
+    if (is_broken()) throw robot::LinkLost("the cable was pulled");
+    return line_->read(into, timeout);
+  }
+  std::chrono::microseconds now() const override { return line_->now(); }
+  const std::string& name() const override { return line_->name(); }
+  void reopen(std::chrono::microseconds timeout) override {
+    plugged_in_ = true;
+    line_->reopen(timeout);
+  }
+
+ private:
+  bool is_broken() const { return breaks_ && !plugged_in_; }
+
+  std::unique_ptr<robot::Transport> line_;
+  const bool& breaks_;
+  bool plugged_in_ = false;
+};
+
+/// An experiment whose line breaks when the second run has begun. `put_back`: whether somebody puts the robot back.
+std::vector<std::string> driven_over_a_line_that_breaks(const fs::path& folder, bool put_back) {
+  Desk desk(thesis_robot(0, 1));
+  bool breaks = false;
+  robot::Client client(
+      std::make_unique<BreakingLine>(std::make_unique<simulation::InProcessTransport>(desk.robot), breaks));
+  client.connect();
+  std::vector<std::string> events;
+  ExperimentHooks hooks;
+  hooks.run_started = [&](const RunSpec& spec, int, int) { events.push_back("drives " + spec.title()); };
+  hooks.run.segment_done = [&](std::uint16_t) { breaks = events.size() > 1; };
+  hooks.run.notice = [&](const Remark& remark) { events.push_back(remark.fact); };
+  hooks.put_back = [&](const RunSpec& spec) {
+    events.push_back("asks about " + spec.title());
+    const auto two_seconds_later = desk.robot->board().world_us() + 2'000'000;
+    while (desk.robot->board().world_us() < two_seconds_later)
+      desk.robot->step();  // it stops for want of commands
+    return put_back;
+  };
+  try {
+    run_experiment(client, desk.truth, small_plan(), folder, hooks);
+  } catch (const Error& error) {
+    events.push_back(error.what());
+  }
+  return events;
+}
+
+TEST_F(Resume, AfterALostLinkTheRobotDoesNotDriveBeforeSomebodyHasPutItBack) {
+  const std::vector<std::string> events = driven_over_a_line_that_breaks(folder_.path(), false);
+  EXPECT_THAT(events, testing::ElementsAre("drives before: square cw 1", "drives before: square ccw 1",
+                                           HasSubstr("may still be moving"), "the cable was pulled",
+                                           "asks about before: square ccw 1",
+                                           HasSubstr("before: square ccw 1 was broken off")));
+}
+
+TEST_F(Resume, ARunWhoseLinkWasLostIsDrivenAgainOnceTheRobotIsPutBack) {
+  const std::vector<std::string> events = driven_over_a_line_that_breaks(folder_.path(), true);
+  ASSERT_GE(events.size(), 7U);
+  EXPECT_EQ(events[4], "asks about before: square ccw 1");
+  EXPECT_EQ(events.back(), "drives after: square ccw 1");
+}
+
 TEST_F(Resume, GoesOnAfterTheUpload) {
   interrupt_in_run(3);  // the first run of "after"
   int started = 0;
@@ -242,6 +313,24 @@ TEST_F(Resume, TheLastRunIsCorrectedOrDrivenAgainBeforeTheNext) {
             (std::vector<std::string>{"before: square cw 1", "before: square cw 1", "before: square ccw 1",
                                       "before: square cw 2", "before: square ccw 2"}));
   EXPECT_EQ(person.measured, 6);
+}
+
+TEST_F(Resume, ARunThatIsDrivenAgainIsNotOfferedForCorrectionBeforeItIsDriven) {
+  Plan plan = small_plan();
+  plan.truth = "manual";
+  truth::ManualSource person([](const truth::Question&) { return "10"; });
+  std::vector<std::string> offered;
+  ExperimentHooks hooks;
+  hooks.ready = [&](const RunSpec& next, const std::optional<RunSpec>& last) {
+    offered.push_back(next.title() + (last ? " after " + last->title() : ""));
+    // Of the second run, and again if that is possible.
+    return offered.size() == 2 || offered.size() == 3 ? Redo::drive_again : Redo::no;
+  };
+  EXPECT_EQ(run_experiment(desk_.client, person, plan, folder_.path(), hooks).phases.size(), 2U);
+  ASSERT_GE(offered.size(), 4U);
+  EXPECT_EQ(offered[1], "before: square ccw 1 after before: square cw 1");
+  EXPECT_EQ(offered[2], "before: square cw 1");
+  EXPECT_EQ(offered[3], "before: square ccw 1 after before: square cw 1");
 }
 
 TEST_F(Resume, AFinishedExperimentDrivesNothing) {
