@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "host/calibration/clock/clock_search.hpp"
 #include "host/calibration/end_poses/umbmark.hpp"
 #include "host/calibration/judgement/path_errors.hpp"
 #include "host/calibration/judgement/remarks.hpp"
@@ -104,6 +105,20 @@ TEST_F(Optiodom, RawLogsGiveTheirClockAndWhereTheMarkersSat) {
   EXPECT_TRUE(calibration::remarks(found).empty());
   // Heavier tails than normal: a real tracker has a few bad moments that the noise is not allowed to follow.
   EXPECT_NEAR(found.chi_square / found.degrees_of_freedom, 1.1, 0.15);
+}
+
+TEST_F(Optiodom, ATakeThatWasStoppedEarlyIsNotTakenForAnotherSideOfTheSquare) {
+  for (int run = 1; run <= 3; ++run) {
+    Trajectory cut = raw_optiodom_run(kTraining, run);
+    const ClockFit whole = search_clock(cut, kOptiodomWheelbase_m, {});
+    for (const double part : {0.9, 0.8, 0.7, 0.6, 0.5}) {
+      cut.truth.resize(static_cast<std::size_t>(part * static_cast<double>(cut.truth.size())));
+      // A side of the square takes 17.6 s.
+      EXPECT_NEAR(search_clock(cut, kOptiodomWheelbase_m, {}).offset_s, whole.offset_s, 0.1)
+          << run << ' ' << part;
+      cut = raw_optiodom_run(kTraining, run);
+    }
+  }
 }
 
 TEST_F(Optiodom, CastorsKickAtTheEndOfSpins) {

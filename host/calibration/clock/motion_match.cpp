@@ -96,7 +96,9 @@ Agreement MotionMatch::at(const ClockGuess& guess) const {
   const auto without_noise = [&](double square) {
     return std::max(square - s.count * noise_, kLeastMotion * s.count * noise_);
   };
-  const double covered = std::max(part(wheels, all_wheels_.square), part(truth, all_truth_.square));
+  const double covered =
+      std::max(part(plain_wheels, all_wheels_.motion()),
+               part(without_noise(plain_truth), all_truth_.motion() - all_truth_.count * noise_));
   Agreement found;
   found.correlation = cosine(both, wheels, without_noise(truth)) * std::sqrt(covered);
   found.likeness = cosine(plain_both, plain_wheels, without_noise(plain_truth)) *

@@ -12,7 +12,8 @@ struct ClockGuess {
 
 struct Agreement {
   /// Correlation of speeds and turn rates about their means where both are known, corrected for the tracker's
-  /// noise, and reduced if neither recording covers the other. At most about 1; -1 without overlap.
+  /// noise, and reduced if neither recording covers the motion of the other; standing still beyond its ends does not count.
+  /// At most about 1; -1 without overlap.
   double correlation = -1;
   double likeness = 0;     // of speeds and turn rates themselves: near 1 for a steady motion as well
   double unexplained = 1;  // part of the truth's variance, its noise included
@@ -34,6 +35,8 @@ class MotionMatch {
 
   struct Whole {  // of all known bins: their number, means, and sum of squares about the means
     double count = 0, mean_mps[2] = {}, square = 0;
+    /// Sum of squares of the rates themselves.
+    double motion() const { return square + count * (mean_mps[0] * mean_mps[0] + mean_mps[1] * mean_mps[1]); }
   };
   static Whole centred(MotionProfile& profile);
 

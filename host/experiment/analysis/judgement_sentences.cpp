@@ -34,6 +34,16 @@ std::string comparison(const CrossValidation& judgement) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+/// The verdict weighs each moment of the drives, the errors add up from their starts. They may contradict each other where slip is
+/// larger than what the factors change, and where something is wrong with a drive.
+std::string doubt_about(const CrossValidation& judgement) {
+  const HeldOutErrors before = judgement.in_use(), after = judgement.found();
+  if (!(after.final_m > before.final_m)) return "";
+  return " The ends of the drives do not show it: they slipped by more than the factors change, or something "
+         "is wrong with one "
+         "of them.";
+}
+
 }  // namespace
 
 std::string judgement_sentence(const CrossValidation& judgement) {
@@ -50,7 +60,7 @@ std::string judgement_sentence(const CrossValidation& judgement) {
                                ? ""
                                : fmt::format(" Not all is judged: {}.", judgement.not_judged.front().fact);
   if (judgement.verdict == Verdict::better)
-    return fmt::format("Better than what the robot carries: {}.{}", seen, rest);
+    return fmt::format("Better than what the robot carries: {}.{}{}", seen, doubt_about(judgement), rest);
   if (judgement.verdict == Verdict::worse)
     return fmt::format("Worse than what the robot carries: {}. Keep what it carries.{}", seen, rest);
   return fmt::format("Not shown to be better than what the robot carries: {}. Keep what it carries.{}", seen,

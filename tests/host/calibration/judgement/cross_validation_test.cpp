@@ -38,7 +38,10 @@ TEST(Gains, ThatAreAsSmallAsChanceMakesThemAreNoVerdict) {
   EXPECT_EQ(judge_gains(std::vector{1.0, 0.5, 0.8, 1.2}), Verdict::undecided);
 }
 
-TEST(Gains, OfNothingAreNoVerdict) { EXPECT_EQ(judge_gains(std::vector{0.0, 0.0}), Verdict::unknown); }
+TEST(Gains, OfNothingAreNoImprovement) {
+  EXPECT_EQ(judge_gains(std::vector{0.0, 0.0}), Verdict::undecided);
+  EXPECT_EQ(judge_gains(std::vector{0.0}), Verdict::unknown);
+}
 
 /// A robot whose factors in use are off by `wrong` in one of the ways that matter.
 enum class Wrong { ratio, scale, wheelbase };
@@ -269,11 +272,6 @@ TEST(CrossValidation, HoldsOutMeasuredLines) {
   const CrossValidation single = judged_by_lines({3.06});
   EXPECT_EQ(single.verdict, Verdict::unknown);
   EXPECT_EQ(single.not_judged.at(0).fact, "the scale comes from a single line");
-}
-
-TEST(CrossValidation, ARobotWhoseFactorsDoNotChangeIsNotJudgedByASingleDrive) {
-  const std::vector<double> no_gains{0, 0, 0};
-  EXPECT_EQ(judge_gains(no_gains), Verdict::undecided);
 }
 
 }  // namespace
