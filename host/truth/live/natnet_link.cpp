@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <utility>
 
 #include "host/base/error.hpp"
 
@@ -25,16 +26,32 @@ net::Socket command_socket(const net::Address& server) {
 }  // namespace
 
 NatNetLink::NatNetLink(const TrackerUrl& url)
-    : url_(url.with_usual_port(natnet::kCommandPort)),
-      server_(net::Address::of(url_.host, url_.port)),
-      command_(command_socket(server_)),
-      stream_(url_.body) {}
+    : NatNetLink(url, net::Address::all_of(url.host, url.with_usual_port(natnet::kCommandPort).port)) {}
+
+NatNetLink::NatNetLink(const TrackerUrl& url, const std::vector<net::Address>& servers)
+    : url_(url.with_usual_port(natnet::kCommandPort)), servers_(reachable(servers)), stream_(url_.body) {}
+
+/// Without those that this computer has no route to, as to an address of IPv6 where only IPv4 is set up.
+std::vector<NatNetLink::Server> NatNetLink::reachable(const std::vector<net::Address>& servers) {
+  std::vector<Server> reachable;
+  std::optional<Error> failure;
+  for (const net::Address& address : servers) {
+    try {
+      reachable.push_back({address, command_socket(address)});
+    } catch (const Error& error) {
+      failure = error;
+    }
+  }
+  if (reachable.empty()) throw Error(*failure);
+  return reachable;
+}
 
 void NatNetLink::work(microseconds now) {
-  read(command_, now);
+  read(server().command, now);
   if (data_) read(data_, now);
   if (!answered_ && stream_.server()) {
     answered_ = true;
+    asked_before_ = false;
     ++connections_;
     open_data();
     ask_at_ = now;  // for the names, at once
@@ -47,7 +64,7 @@ void NatNetLink::work(microseconds now) {
   if (now >= ask_at_) ask(now);
 }
 
-void NatNetLink::wait(microseconds timeout) { net::wait_to_read(command_, data_, timeout); }
+void NatNetLink::wait(microseconds timeout) { net::wait_to_read(server().command, data_, timeout); }
 
 void NatNetLink::read(const net::Socket& socket, microseconds now) {
   std::array<std::uint8_t, 65'536>
@@ -55,7 +72,7 @@ void NatNetLink::read(const net::Socket& socket, microseconds now) {
   for (int i = 0; i < kMostDatagrams; ++i) {
     const auto datagram = net::receive_datagram(socket, buffer);
     if (!datagram) return;
-    if (datagram->from.host() != server_.host()) continue;
+    if (datagram->from.host() != server().address.host()) continue;
     heard_at_ = now;
     stream_.push(datagram->bytes, now.count());
   }
@@ -66,7 +83,7 @@ void NatNetLink::open_data() {
   const natnet::ServerInfo& info = *stream_.server();
   multicast_ = info.multicast;
   try {
-    const net::Address local = net::Address::local(command_);
+    const net::Address local = net::Address::local(server().command);
     data_ = multicast_ ? net::join_multicast(info.group, info.data_port, local)
                        : net::bind_udp(local.with_port(info.data_port));
     why_no_data_.clear();
@@ -77,14 +94,17 @@ void NatNetLink::open_data() {
 }
 
 void NatNetLink::ask(microseconds now) {
-  const auto send = [this](const Bytes& datagram) { net::send_datagram(command_, datagram, server_); };
+  if (!answered_ && std::exchange(asked_before_, true)) asked_ = (asked_ + 1) % servers_.size();
+  const auto send = [this](const Bytes& datagram) {
+    net::send_datagram(server().command, datagram, server().address);
+  };
   if (!answered_) {
     send(natnet::connect_request());
   } else {
     if (stream_.needs_names()) send(natnet::datagram_of(natnet::Id::request_models));
     send(natnet::datagram_of(natnet::Id::keep_alive));
   }
-  ask_at_ = now + kCommandPeriod;
+  ask_at_ = now + (answered_ ? kCommandPeriod : kCommandPeriod / static_cast<std::int64_t>(servers_.size()));
 }
 
 std::string NatNetLink::why_silent() const {
