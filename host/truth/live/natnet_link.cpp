@@ -1,5 +1,7 @@
 #include "host/truth/live/natnet_link.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <optional>
 #include <utility>
@@ -72,10 +74,20 @@ void NatNetLink::read(const net::Socket& socket, microseconds now) {
   for (int i = 0; i < kMostDatagrams; ++i) {
     const auto datagram = net::receive_datagram(socket, buffer);
     if (!datagram) return;
-    if (datagram->from.host() != server().address.host()) continue;
+    if (datagram->from.host() != server().address.host()) {
+      note_elsewhere(*datagram);
+      continue;
+    }
     heard_at_ = now;
     stream_.push(datagram->bytes, now.count());
   }
+}
+
+void NatNetLink::note_elsewhere(const net::Datagram& datagram) {
+  const auto packet = natnet::packet_in(datagram.bytes);
+  if (!packet || packet->id != natnet::Id::frame) return;
+  ++from_elsewhere_;
+  elsewhere_ = datagram.from.host();
 }
 
 /// Without its own socket for data there may still be frames at the other one.
@@ -108,9 +120,13 @@ void NatNetLink::ask(microseconds now) {
 }
 
 std::string NatNetLink::why_silent() const {
-  if (!answered_) return "nothing answers there as a NatNet server";
-  const std::string why = stream_.why_silent();
-  return why.empty() || why_no_data_.empty() ? why : why + " (" + why_no_data_ + ")";
+  std::string why = answered_ ? stream_.why_silent() : "nothing answers there as a NatNet server";
+  if (why.empty()) return why;
+  if (answered_ && !why_no_data_.empty()) why += " (" + why_no_data_ + ")";
+  if (from_elsewhere_ > 0)
+    why += fmt::format("; frames from {} ({} so far) are not read, because {} was asked", elsewhere_,
+                       from_elsewhere_, server().address.host());
+  return why;
 }
 
 }  // namespace astro::truth

@@ -15,7 +15,8 @@ namespace astro::truth {
 /// A NatNet server, by UDP. It is asked until it answers, tells then whether it sends to this computer alone
 /// or to a multicast group, and is told each second that somebody listens. Clients disagree to which of our
 /// two sockets a server sends its frames to this computer alone, so both are read. Of a host with several addresses
-/// each is asked in turn until one answers.
+/// each is asked in turn until one answers. Frames from any other address are not read but counted: they may be those
+/// of another server, or of a second network card of this one.
 class NatNetLink : public TrackerLink {
  public:
   /// Throws astro::Error if the host's name is unknown or no socket can be made.
@@ -44,6 +45,7 @@ class NatNetLink : public TrackerLink {
   const Server& server() const { return servers_[asked_]; }
   static std::vector<Server> reachable(const std::vector<net::Address>& servers);
   void read(const net::Socket& socket, microseconds now);
+  void note_elsewhere(const net::Datagram& datagram);
   void open_data();
   void ask(microseconds now);
 
@@ -57,6 +59,8 @@ class NatNetLink : public TrackerLink {
   bool answered_ = false, multicast_ = false;
   bool asked_before_ = false;  // since the last answer
   std::string why_no_data_;
+  std::size_t from_elsewhere_ = 0;  // frames that were not read, and where the last of them came from
+  std::string elsewhere_;
 };
 
 }  // namespace astro::truth

@@ -181,7 +181,7 @@ TEST(NatNetLink, JoinsTheGroupThatTheServerNames) {
   EXPECT_THAT(link.take(), SizeIs(1)) << link.why_silent();
 }
 
-TEST(NatNetLink, WhatComesFromSomebodyElseIsIgnored) {
+TEST(NatNetLink, WhatComesFromSomebodyElseIsIgnoredAndTold) {
   Server server;
   NatNetLink link(url_of(server));
   microseconds now{0};
@@ -191,6 +191,10 @@ TEST(NatNetLink, WhatComesFromSomebodyElseIsIgnored) {
   link.wait(milliseconds(100));
   link.work(now);
   EXPECT_THAT(link.take(), IsEmpty());
+  EXPECT_EQ(link.why_silent(),
+            "Motive has answered but sends no frames; frames from 127.0.0.2 (1 so far) are not read, because "
+            "127.0.0.1 "
+            "was asked");
 }
 
 }  // namespace
