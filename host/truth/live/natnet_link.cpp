@@ -113,6 +113,7 @@ void NatNetLink::ask(microseconds now) {
   if (!answered_) {
     send(natnet::connect_request());
   } else {
+    if (now - ask_at_ > kCommandPeriod) send(natnet::connect_request());  // it may have dropped us meanwhile
     if (stream_.needs_names()) send(natnet::datagram_of(natnet::Id::request_models));
     send(natnet::datagram_of(natnet::Id::keep_alive));
   }
