@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "host/base/error.hpp"
+#include "host/truth/live/listening_link.hpp"
 #include "host/truth/live/natnet_link.hpp"
 #include "host/truth/live/vrpn_link.hpp"
 
@@ -38,6 +39,9 @@ std::unique_ptr<TrackerLink> open_link(const TrackerUrl& url) {
 microseconds LiveSource::steady_now() {
   return std::chrono::duration_cast<microseconds>(std::chrono::steady_clock::now().time_since_epoch());
 }
+
+LiveSource::LiveSource(const TrackerUrl& url)
+    : LiveSource(url, std::make_unique<ListeningLink>(open_link(url), steady_now), steady_now) {}
 
 LiveSource::LiveSource(TrackerUrl url, std::unique_ptr<TrackerLink> link, Now now)
     : url_(std::move(url)), link_(std::move(link)), now_(std::move(now)), floor_(url_.up), up_axis_(url_.up) {

@@ -38,7 +38,8 @@ class LiveSource : public Source {
   using Now = std::function<std::chrono::microseconds()>;
   static std::chrono::microseconds steady_now();
 
-  explicit LiveSource(const TrackerUrl& url) : LiveSource(url, open_link(url), steady_now) {}
+  /// Over a ListeningLink, so that poses have the times at which they came, and not those at which they are polled.
+  explicit LiveSource(const TrackerUrl& url);
   /// Throws astro::Error that says why no pose comes, or which bodies there are if none was named.
   LiveSource(TrackerUrl url, std::unique_ptr<TrackerLink> link, Now now);
 

@@ -26,6 +26,9 @@ struct Lab {
   bool sends = true, seen = true;
   microseconds senders_zero{5'000'000};  // of its clock, in ours
   double senders_drift = 0;              // of its clock against ours
+  std::int64_t senders_tick_us = 1;      // its clock shows whole ticks
+  bool stamped_at_once = false;          // otherwise poses arrive when somebody looks
+  std::int64_t delayed_us = 0;           // of every third pose, by a busy network
   std::vector<std::string> bodies{"ASTRO"};
   std::string why = "it sleeps";
   int connections = 1;
@@ -40,11 +43,16 @@ struct Lab {
       across_m += 0.01 * across_mps;
       height_m += 0.01 * rise_mps;
       sightings.push_back(
-          {{senders_us(), now.count()}, {seen ? x_m : 0, across_m, height_m, 0, 0, 0, seen ? 1.0 : 0.0}});
+          {{senders_us(), arrival_us()}, {seen ? x_m : 0, across_m, height_m, 0, 0, 0, seen ? 1.0 : 0.0}});
     }
   }
   std::int64_t senders_us() const {
-    return std::llround((1 + senders_drift) * static_cast<double>((next - senders_zero).count()));
+    return std::llround((1 + senders_drift) * static_cast<double>((next - senders_zero).count())) /
+           senders_tick_us * senders_tick_us;
+  }
+  std::int64_t arrival_us() const {
+    if (!stamped_at_once) return now.count();
+    return next.count() + 5'000 + (next.count() / 10'000 % 3 == 0 ? delayed_us : 0);
   }
 };
 
@@ -242,6 +250,27 @@ TEST(LiveSource, ATrackerWhoseClockIsSetDuringARunGoesOnInTime) {
     EXPECT_NEAR(lateness_us(after).first, lateness_us(before).second, 10'001) << jump.count();
     EXPECT_NEAR(lateness_us(after).first, lateness_us(after).second, 1) << jump.count();
   }
+}
+
+TEST(LiveSource, EachRunChoosesItsTimesByWhatTheLastDriveWasLike) {
+  Lab lab;
+  lab.senders_tick_us = 4'000;
+  lab.stamped_at_once = true;
+  const auto source = open(lab);
+  EXPECT_THAT(source->description(), HasSubstr("times of arrival (jitter 0.00 ms"));
+  source->begin_run();
+  const auto calm = polled_for(lab, *source, seconds(3));
+  for (std::size_t i = 1; i < calm.size(); ++i) EXPECT_EQ(calm[i].time_us - calm[i - 1].time_us, 10'000);
+  lab.delayed_us = 9'000;
+  const auto are_ticks = [&](const std::vector<recording::TruthSample>& samples) {
+    for (std::size_t i = 1; i < samples.size(); ++i)
+      if ((samples[i].time_us - samples[i - 1].time_us) % lab.senders_tick_us != 0) return false;
+    return true;
+  };
+  EXPECT_FALSE(are_ticks(polled_for(lab, *source, seconds(3)))) << "within a run the choice stays";
+  source->begin_run();
+  source->poll();
+  EXPECT_TRUE(are_ticks(polled_for(lab, *source, seconds(3))));
 }
 
 TEST(LiveSource, OfPosesThatOvertakeEachOtherTheLateOnesAreLeftOut) {
