@@ -101,7 +101,7 @@ set(ASTRO_OUTSIDE
   "arpa/ netinet/ netdb.h   : host/base/net"
   "csignal                  : host/console"
   "chrono ctime             : host/base host/commands host/console host/emulator/robot host/experiment host/recording/files host/robot host/simulation host/truth"
-  "atomic condition_variable future mutex shared_mutex stop_token thread : host/commands host/console host/robot/client host/robot/port host/robot/sharing host/simulation/server host/simulation/study"
+  "atomic condition_variable future mutex shared_mutex stop_token thread : host/commands host/console host/robot/client host/robot/port host/robot/sharing host/simulation/server host/simulation/study host/truth/live"
 
   # Files, and what is printed.
   "filesystem               : host/base host/commands host/console host/emulator host/experiment host/programs host/recording/bag host/recording/files host/recording/foreign host/report host/robot/port host/simulation/server host/truth/bags host/truth/files host/truth/live"

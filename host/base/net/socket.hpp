@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "host/base/bytes.hpp"
 
@@ -38,8 +39,9 @@ struct Address {
   sockaddr_storage storage{};
   socklen_t size = sizeof storage;
 
-  /// The first address of a host. Throws astro::Error if its name has none.
-  static Address of(const std::string& host, std::uint16_t port);
+  /// All addresses of a host, at least one, in the order in which they should be tried. Throws astro::Error if its name
+  /// has none.
+  static std::vector<Address> all_of(const std::string& host, std::uint16_t port);
   /// This computer itself, which no other one reaches; or all of its networks.
   static Address loopback(std::uint16_t port);
   static Address everywhere(std::uint16_t port);

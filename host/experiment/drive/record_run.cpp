@@ -174,6 +174,7 @@ recording::Run record_run(robot::Client& client, truth::Source& truth, const rob
   drive_hooks.notice = hooks.notice;
   drive_hooks.segment_done = [&](const protocol::SegmentDone& done) { hooks.segment_done(done.tag); };
 
+  truth.begin_run();
   robot::DriveSession drive(client, drive_hooks);
   client.request(protocol::SetPose{});
   const SampleSink sink{[&](const auto& sample) { run.odometry.push_back(sample); },

@@ -33,9 +33,10 @@ recording::RunInfo info_of(const Plan& plan, const RunSpec& spec);
 
 /// Drives one run from rest to rest, starting at odometry pose 0, and records odometry
 /// and truth. The robot stands still for more than half a second at both ends, so that the poses
-/// there can be averaged. Truth that is measured afterwards is added by complete().
+/// there can be averaged. Truth that is measured afterwards is added by complete(). The robot is not armed before
+/// truth comes.
 ///
-/// Throws what robot::DriveSession throws (the robot stands then), and astro::Error if the truth ends.
+/// Throws what robot::DriveSession throws (the robot stands then), and astro::Error if the truth does not come or ends.
 recording::Run record_run(robot::Client& client, truth::Source& truth, const robot::Path& path,
                           const recording::RunInfo& info, const RunHooks& hooks);
 

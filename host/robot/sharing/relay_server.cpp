@@ -1,7 +1,6 @@
 #include "host/robot/sharing/relay_server.hpp"
 
 #include <poll.h>
-#include <signal.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -11,6 +10,7 @@
 #include <cerrno>
 #include <chrono>
 
+#include "host/base/blocked_signals.hpp"
 #include "host/base/error.hpp"
 #include "host/robot/sharing/background_process.hpp"
 #include "host/robot/sharing/port_socket.hpp"
@@ -60,13 +60,8 @@ RelayServer::~RelayServer() {
 }
 
 void RelayServer::start() {
-  // Signals are for the program's own thread: one that arrives here would not interrupt what that thread
-  // waits for.
-  sigset_t all, before;
-  ::sigfillset(&all);
-  ::pthread_sigmask(SIG_BLOCK, &all, &before);
+  const BlockedSignals blocked;
   thread_ = std::thread([this] { run(); });
-  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
 void RelayServer::stop() {

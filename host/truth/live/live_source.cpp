@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "host/base/error.hpp"
+#include "host/truth/live/listening_link.hpp"
 #include "host/truth/live/natnet_link.hpp"
 #include "host/truth/live/vrpn_link.hpp"
 
@@ -16,13 +18,13 @@ using std::chrono::seconds;
 
 namespace {
 
-constexpr microseconds kFirstPoseTimeout =
+constexpr microseconds kPoseTimeout =
     seconds(6);  // a connection attempt, a call back, and a second to describe
-constexpr microseconds kFirstListening = milliseconds(700);
-constexpr std::size_t kMostFirst = 100;
+constexpr microseconds kListening = milliseconds(700);  // to choose the clock
+constexpr microseconds kSettling = milliseconds(300);   // to see the shortest delay of another clock
+constexpr microseconds kRecent = seconds(3);
+constexpr std::size_t kMostRecent = 4096;
 constexpr microseconds kGone = seconds(10);
-constexpr microseconds kPause =
-    seconds(1);  // between two polls: a person is asked something, or the robot waits
 constexpr microseconds kStep = milliseconds(20);
 // Of what the network has kept while nobody polled: minutes. A tracker that sends without end cannot keep us.
 constexpr int kMostRounds = 64;
@@ -38,34 +40,40 @@ microseconds LiveSource::steady_now() {
   return std::chrono::duration_cast<microseconds>(std::chrono::steady_clock::now().time_since_epoch());
 }
 
+LiveSource::LiveSource(const TrackerUrl& url)
+    : LiveSource(url, std::make_unique<ListeningLink>(open_link(url), steady_now), steady_now) {}
+
 LiveSource::LiveSource(TrackerUrl url, std::unique_ptr<TrackerLink> link, Now now)
     : url_(std::move(url)), link_(std::move(link)), now_(std::move(now)), floor_(url_.up), up_axis_(url_.up) {
-  listen_at_first();
+  listen(Need::any_pose);
 }
 
-/// The times of the first poses show which clock is the more regular one.
-void LiveSource::listen_at_first() {
+void LiveSource::begin_run() {
+  held_.clear();
+  samples_.clear();
+  last_us_.reset();
+  listen(Need::body_seen_now);
+  up_axis_.forget();  // somebody may have carried the body until now
+}
+
+/// What the system has kept while nobody listened shows neither that poses come now nor how late they are.
+void LiveSource::listen(Need need) {
   const microseconds begin = now_();
-  std::vector<Sighting> first;
-  std::optional<microseconds> first_at;
-  const auto enough = [&] {
-    return first.size() >= kMostFirst || (first_at && now_() - *first_at >= kFirstListening);
-  };
-  while (!enough()) {
-    link_->work(now_());
-    for (Sighting& sighting : link_->take()) first.push_back(sighting);
-    if (!first.empty() && !first_at) first_at = now_();
-    if (!first_at && now_() - begin >= kFirstPoseTimeout)
-      throw Error(fmt::format("no ground truth comes from {}: {}", url_.place(), link_->why_silent()));
+  mapped_ = false;
+  for (int i = 0; i < kMostRounds && work(begin); ++i) {
+  }
+  if (need == Need::body_seen_now) held_.clear();
+  const auto enough = [&](const Heard& heard) { return need == Need::any_pose || heard.sample.valid; };
+  while (std::ranges::none_of(held_, enough) ||
+         now_().count() - recent_.front().arrival_us < kListening.count()) {
+    if (now_() - begin >= kPoseTimeout && std::ranges::none_of(held_, enough))
+      throw Error(fmt::format("no ground truth comes from {}: {}", url_.place(), why_missing()));
     link_->wait(kStep);
+    work(now_());
   }
   require_one_body();
-  std::vector<Stamp> stamps;
-  for (const Sighting& sighting : first) stamps.push_back(sighting.stamp);
-  clock_.emplace(stamps);
-  connections_ = link_->connections();
-  polled_at_ = now_();
-  for (const Sighting& sighting : first) take(sighting);
+  clock_.emplace(std::vector<Stamp>(recent_.begin(), recent_.end()));
+  pass_on_held();
 }
 
 void LiveSource::require_one_body() const {
@@ -75,34 +83,78 @@ void LiveSource::require_one_body() const {
   throw Error(fmt::format("{} tracks several bodies, and none was named: {}", url_.place(), list));
 }
 
-void LiveSource::take(const Sighting& sighting) {
-  heard_at_ = microseconds(sighting.stamp.arrival_us);
-  samples_.push_back(floor_.take(clock_->host_time_us(sighting.stamp), sighting.pose, sighting.tracked));
-  if (samples_.back().valid) up_axis_.take(sighting.pose);
-}
-
 /// Returns false if nothing has come.
-bool LiveSource::take_some(microseconds now) {
+bool LiveSource::work(microseconds now) {
   link_->work(now);
   const std::vector<Sighting> sightings = link_->take();
-  if (link_->connections() != connections_) clock_->restart();
-  connections_ = link_->connections();
+  if (std::exchange(connections_, link_->connections()) != connections_) {
+    if (clock_) clock_->restart();
+    expect_another_clock();
+  }
   for (const Sighting& sighting : sightings) take(sighting);
   return !sightings.empty();
 }
 
+void LiveSource::take(const Sighting& sighting) {
+  heard_at_ = microseconds(sighting.stamp.arrival_us);
+  if (clock_ && !clock_->follows(sighting.stamp)) expect_another_clock();
+  remember(sighting.stamp);
+  const Heard heard{sighting.stamp, floor_.take(0, sighting.pose, sighting.tracked)};
+  if (heard.sample.valid) up_axis_.take(sighting.pose);
+  if (!mapped_) return held_.push_back(heard);
+  pass_on(heard);
+}
+
+void LiveSource::remember(const Stamp& stamp) {
+  recent_.push_back(stamp);
+  while (recent_.size() > kMostRecent || stamp.arrival_us - recent_.front().arrival_us > kRecent.count())
+    recent_.pop_front();
+}
+
+void LiveSource::expect_another_clock() {
+  recent_.clear();
+  held_.clear();
+  mapped_ = mapped_ && !clock_->is_senders();  // times of arrival are not concerned
+}
+
+/// Once enough samples of the sender's other clock have come, so that the shortest delay is among them.
+void LiveSource::settle(microseconds now) {
+  if (mapped_ || recent_.empty() || now.count() - recent_.front().arrival_us < kSettling.count()) return;
+  clock_->continue_with(std::vector<Stamp>(recent_.begin(), recent_.end()));
+  pass_on_held();
+}
+
+void LiveSource::pass_on_held() {
+  mapped_ = true;
+  for (const Heard& heard : std::exchange(held_, {})) pass_on(heard);
+}
+
+/// Datagrams may overtake each other; the later ones of them are left out.
+void LiveSource::pass_on(const Heard& heard) {
+  recording::TruthSample sample = heard.sample;
+  sample.time_us = clock_->host_time_us(heard.stamp);
+  if (last_us_ && sample.time_us < *last_us_) return;
+  last_us_ = sample.time_us;
+  samples_.push_back(sample);
+}
+
 std::vector<recording::TruthSample> LiveSource::poll() {
   const microseconds now = now_();
-  const bool paused = now - std::exchange(polled_at_, now) > kPause;
-  if (paused) heard_at_ = now;  // nobody listened meanwhile
-  for (int i = 0; i < kMostRounds && take_some(now); ++i) {
+  for (int i = 0; i < kMostRounds && work(now); ++i) {
   }
-  if (paused) up_axis_.forget();
+  settle(now);
   if (const auto objection = up_axis_.objection()) throw Error(*objection);
   if (now - heard_at_ >= kGone)
     throw Error(fmt::format("no ground truth has come from {} for {} s: {}", url_.place(),
-                            std::chrono::duration_cast<seconds>(kGone).count(), link_->why_silent()));
+                            std::chrono::duration_cast<seconds>(kGone).count(), why_missing()));
   return std::exchange(samples_, {});
+}
+
+std::string LiveSource::why_missing() const {
+  if (!held_.empty())
+    return fmt::format("'{}' is not seen, or has the same pose again and again", link_->body());
+  const std::string why = link_->why_silent();
+  return why.empty() ? fmt::format("no more poses of '{}' are sent", link_->body()) : why;
 }
 
 std::string LiveSource::description() const {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -18,33 +20,52 @@ namespace astro::truth {
 /// The link for the URL's scheme. Throws astro::Error if the host's name is unknown.
 std::unique_ptr<TrackerLink> open_link(const TrackerUrl& url);
 
-/// A tracker on the network as a source of ground truth. Its times are on this computer's steady clock.
+/// A tracker on the network as a source of ground truth. Its times are on this computer's steady clock, and never run
+/// backwards between two calls of begin_run().
 ///
 /// Start   the constructor waits until poses come, and listens to them for a moment to choose between the
 ///         sender's times and the times of arrival (stamps.hpp). Without poses it throws with the likely cause.
+/// Run     begin_run() returns once the tracker sees the body now, at the latest after seven seconds, and throws if it
+///         does not. It chooses again between the two times, by the last seconds: only here may the mapping of the
+///         sender's clock change.
 /// Lost    if the body or the connection is lost during a drive, samples are invalid or missing; the link
-///         connects again by itself. poll() throws once nothing has come for ten seconds of
-///         listening; it need not be called while nothing is recorded.
+///         connects again by itself. The first samples after that come a little later, because the sender's clock may
+///         be another one. poll() throws once nothing has come for ten seconds. It need not be called while nothing is
+///         recorded, if begin_run() is called before the next recording.
 /// Axes    poll() throws if the drive shows that another axis points up than the URL says.
 class LiveSource : public Source {
  public:
   using Now = std::function<std::chrono::microseconds()>;
   static std::chrono::microseconds steady_now();
 
-  explicit LiveSource(const TrackerUrl& url) : LiveSource(url, open_link(url), steady_now) {}
+  /// Over a ListeningLink, so that poses have the times at which they came, and not those at which they are polled.
+  explicit LiveSource(const TrackerUrl& url);
   /// Throws astro::Error that says why no pose comes, or which bodies there are if none was named.
   LiveSource(TrackerUrl url, std::unique_ptr<TrackerLink> link, Now now);
 
+  void begin_run() override;
   std::vector<recording::TruthSample> poll() override;
   std::string name() const override { return url_.scheme; }
   std::string clock() const override { return "host"; }
   std::string description() const override;
 
  private:
-  void listen_at_first();
+  enum class Need { any_pose, body_seen_now };
+  struct Heard {
+    Stamp stamp;
+    recording::TruthSample sample;  // all but its time
+  };
+
+  void listen(Need need);
   void require_one_body() const;
-  bool take_some(std::chrono::microseconds now);
+  bool work(std::chrono::microseconds now);
   void take(const Sighting& sighting);
+  void remember(const Stamp& stamp);
+  void expect_another_clock();
+  void settle(std::chrono::microseconds now);
+  void pass_on(const Heard& heard);
+  void pass_on_held();
+  std::string why_missing() const;
 
   TrackerUrl url_;
   std::unique_ptr<TrackerLink> link_;
@@ -52,8 +73,12 @@ class LiveSource : public Source {
   FloorTrack floor_;
   UpAxisCheck up_axis_;
   std::optional<TrackerClock> clock_;
+  bool mapped_ = false;       // otherwise the clock has yet to be chosen or continued, by `recent_`
+  std::deque<Stamp> recent_;  // of one clock of the sender
+  std::vector<Heard> held_;   // until it is mapped
   int connections_ = 0;
-  std::chrono::microseconds heard_at_{}, polled_at_{};
+  std::chrono::microseconds heard_at_{};
+  std::optional<std::int64_t> last_us_;          // of this run's samples
   std::vector<recording::TruthSample> samples_;  // not yet polled
 };
 

@@ -7,9 +7,11 @@
 namespace astro::truth {
 namespace {
 
-constexpr std::int64_t kMostAhead_us = 100'000;      // of a sender's time after it arrived
-constexpr double kUsualJitter_s = 1e-3;              // of stamps in whole milliseconds
-constexpr std::int64_t kMostBehind_us = 10'000'000;  // of a network that holds samples back
+constexpr std::int64_t kJump_us =
+    100'000;  // more than a network changes the order of datagrams, or a clock is slewed
+constexpr std::int64_t kMostDrift =
+    1'000;                               // 1 / that is the greatest drift between two clocks that is followed
+constexpr double kUsualJitter_s = 1e-3;  // of stamps in whole milliseconds
 
 std::vector<double> intervals_of(std::span<const std::int64_t> times_us) {
   std::vector<double> intervals;
@@ -43,6 +45,14 @@ bool counts_seconds(const Regularity& sender, const Regularity& arrival) {
          arrival.period_s < kMostRatio * sender.period_s;
 }
 
+std::int64_t delay_of(const Stamp& stamp) { return stamp.arrival_us - stamp.sender_us; }
+
+std::int64_t least_delay_us(std::span<const Stamp> stamps) {
+  std::int64_t least_us = delay_of(stamps.front());
+  for (const Stamp& stamp : stamps) least_us = std::min(least_us, delay_of(stamp));
+  return least_us;
+}
+
 }  // namespace
 
 Regularity regularity_of(std::span<const std::int64_t> times_us) {
@@ -59,13 +69,12 @@ Regularity regularity_of(std::span<const std::int64_t> times_us) {
   return {kMicro * period, kMicro * std::sqrt(square / static_cast<double>(intervals.size()))};
 }
 
-TrackerClock::TrackerClock(std::span<const Stamp> first) {
+TrackerClock::TrackerClock(std::span<const Stamp> first)
+    : delay_us_(least_delay_us(first)), least_us_(delay_us_), last_(first.back()) {
   std::vector<std::int64_t> sent, arrived;
-  delay_us_ = first.front().arrival_us - first.front().sender_us;
   for (const Stamp& stamp : first) {
     sent.push_back(stamp.sender_us);
     arrived.push_back(stamp.arrival_us);
-    delay_us_ = std::min(*delay_us_, stamp.arrival_us - stamp.sender_us);
   }
   sender_ = regularity_of(sent);
   arrival_ = regularity_of(arrived);
@@ -73,12 +82,26 @@ TrackerClock::TrackerClock(std::span<const Stamp> first) {
   senders_ = counts_seconds(sender_, arrival_) && sender_.jitter_s <= most_s;
 }
 
-std::int64_t TrackerClock::host_time_us(const Stamp& stamp) {
-  if (!senders_) return stamp.arrival_us;
-  const std::int64_t delay_us = stamp.arrival_us - stamp.sender_us,
-                     late_us = delay_us - delay_us_.value_or(delay_us);
-  if (!delay_us_ || late_us < -kMostAhead_us || late_us > kMostBehind_us) delay_us_ = delay_us;
-  return stamp.sender_us + *delay_us_;
+bool TrackerClock::follows(const Stamp& stamp) {
+  const std::int64_t delay_us = delay_of(stamp);
+  const bool jumps =
+      senders_ && last_ && (stamp.sender_us < last_->sender_us - kJump_us || delay_us < least_us_ - kJump_us);
+  if (jumps) restart();
+  const std::int64_t passed_us = last_ ? std::max<std::int64_t>(0, stamp.arrival_us - last_->arrival_us) : 0;
+  least_us_ = last_ ? std::min(delay_us, least_us_ + passed_us / kMostDrift) : delay_us;
+  last_ = stamp;
+  return !jumps;
+}
+
+void TrackerClock::restart() {
+  if (!mapped_least_us_) mapped_least_us_ = least_us_;
+  last_.reset();
+}
+
+void TrackerClock::continue_with(std::span<const Stamp> next) {
+  const std::int64_t change_us = least_delay_us(next) - mapped_least_us_.value_or(least_us_);
+  if (change_us < -kJump_us || change_us > kJump_us) delay_us_ += change_us;
+  mapped_least_us_.reset();
 }
 
 }  // namespace astro::truth

@@ -29,8 +29,9 @@ Regularity regularity_of(std::span<const std::int64_t> times_us);
 /// the moment of choosing and be late once the network or this computer is busy.
 ///
 /// A sender's clock is mapped by a constant: the smallest delay among the first samples counts as none. What
-/// is left of the network's shortest delay, and the drift between two quartz clocks, are found with the
-/// offset and the skew of each run by the calibration. A sender's clock that jumps is mapped anew.
+/// is left of the network's shortest delay, and the drift between two quartz clocks in either direction, are found
+/// with the offset and the skew of each run by the calibration. So the mapping changes only if the sender's clock
+/// itself has jumped, and then so that the times go on as if it had not.
 class TrackerClock {
  public:
   /// Precondition: at least one stamp.
@@ -40,14 +41,28 @@ class TrackerClock {
   const Regularity& sender() const { return sender_; }
   const Regularity& arrival() const { return arrival_; }
 
-  std::int64_t host_time_us(const Stamp& stamp);
+  std::int64_t host_time_us(const Stamp& stamp) const {
+    return senders_ ? stamp.sender_us + delay_us_ : stamp.arrival_us;
+  }
+
+  /// To be asked of each stamp in turn: false if the sender's clock has jumped by more than 0.1 s since the last one.
+  /// Samples that the network holds back are no jump.
+  bool follows(const Stamp& stamp);
   /// The sender's clock may be another one from the next stamp on.
-  void restart() { delay_us_.reset(); }
+  void restart();
+  /// After a jump or a restart: the first stamps since then. If it is the same clock within 0.1 s, the mapping stays;
+  /// otherwise the smallest delay among them takes the place of the smallest one before.
+  /// Precondition: at least one stamp.
+  void continue_with(std::span<const Stamp> next);
 
  private:
   Regularity sender_, arrival_;
   bool senders_ = false;
-  std::optional<std::int64_t> delay_us_;  // arrival minus sender of the fastest sample
+  std::int64_t delay_us_ = 0;  // arrival minus sender of a sample that has none: the mapping
+  std::int64_t least_us_ = 0;  // arrival minus sender of the fastest samples by now, so it drifts
+  std::optional<std::int64_t>
+      mapped_least_us_;  // the same of the clock that is mapped, if there is another one since
+  std::optional<Stamp> last_;
 };
 
 }  // namespace astro::truth

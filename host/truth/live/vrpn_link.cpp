@@ -23,19 +23,21 @@ constexpr int kMostReads = 16;
 }  // namespace
 
 VrpnLink::VrpnLink(const TrackerUrl& url)
-    : url_(url.with_usual_port(vrpn::kPort)),
-      server_(net::Address::of(url_.host, url_.port)),
-      stream_(url_.body) {}
+    : VrpnLink(url, net::Address::all_of(url.host, url.with_usual_port(vrpn::kPort).port)) {}
+
+VrpnLink::VrpnLink(const TrackerUrl& url, std::vector<net::Address> servers)
+    : url_(url.with_usual_port(vrpn::kPort)), servers_(std::move(servers)), stream_(url_.body) {}
 
 void VrpnLink::work(microseconds now) {
   switch (state_) {
     case State::down:
-      if (now >= due_) begin(now);
-      return;
+      if (now < due_) return;
+      tried_ = 0;
+      return begin(now);
     case State::connecting: {
       const net::Connecting outcome = net::connecting(connection_);
       if (outcome == net::Connecting::connected) return rise(std::move(connection_));
-      if (outcome == net::Connecting::failed || now >= deadline_) ask(now);
+      if (outcome == net::Connecting::failed || now >= deadline_) begin_next(now);
       return;
     }
     case State::asking:
@@ -55,35 +57,50 @@ void VrpnLink::wait(microseconds timeout) {
   }
 }
 
+microseconds VrpnLink::share_of(microseconds limit) const {
+  return limit / static_cast<std::int64_t>(servers_.size());
+}
+
 void VrpnLink::begin(microseconds now) {
-  connection_ = net::begin_tcp(server_);
+  connection_ = net::begin_tcp(server());
   state_ = State::connecting;
-  deadline_ = now + kConnectTimeout;
-  if (!connection_) ask(now);
+  deadline_ = now + share_of(kConnectTimeout);
+  if (!connection_) begin_next(now);
+}
+
+void VrpnLink::begin_next(microseconds now) {
+  if (++tried_ < servers_.size()) return begin(now);
+  tried_ = 0;
+  ask(now);
 }
 
 /// The server calls back at the address that the datagram comes from, so the one named in it is for show.
 void VrpnLink::ask(microseconds now) {
   connection_ = {};
   try {
-    asking_ = net::connect_udp(server_);
+    asking_ = net::connect_udp(server());
     listener_ = net::listen_tcp(net::Address::local(asking_).with_port(0));
   } catch (const Error& error) {
-    return fall(now, error.what());
+    return ask_next(now, error.what());
   }
   state_ = State::asking;
-  deadline_ = now + kAskTimeout;
+  deadline_ = now + share_of(kAskTimeout);
   due_ = now;
   repeat_asking(now);
 }
 
+void VrpnLink::ask_next(microseconds now, const std::string& why) {
+  if (++tried_ < servers_.size()) return ask(now);
+  fall(now, why);
+}
+
 void VrpnLink::repeat_asking(microseconds now) {
   auto caller = net::accept_tcp(listener_);
-  if (caller && caller->from.host() == server_.host()) {
+  if (caller && caller->from.host() == server().host()) {
     called_back_ = true;
     return rise(std::move(caller->socket));
   }
-  if (now >= deadline_) return fall(now, "nothing answers there, neither by TCP nor by a call back");
+  if (now >= deadline_) return ask_next(now, "nothing answers there, neither by TCP nor by a call back");
   if (now < due_) return;
   const net::Address ours = net::Address::local(listener_);
   const std::string request = ours.host() + " " + std::to_string(ours.port());

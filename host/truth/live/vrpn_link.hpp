@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -12,11 +13,15 @@
 namespace astro::truth {
 
 /// A VRPN server, over TCP. Most serve whoever connects. If this one does not, it is asked by UDP to call back
-/// at a port of ours, as the upstream library does it; then this computer's firewall must let it in.
+/// at a port of ours, as the upstream library does it; then this computer's firewall must let it in. Of a host with
+/// several addresses each is tried, because a server may listen at one of them only; all of them together take as long
+/// as one alone would.
 class VrpnLink : public TrackerLink {
  public:
   /// Throws astro::Error if the host's name is unknown.
   explicit VrpnLink(const TrackerUrl& url);
+  /// `servers`: the addresses to try, at least one.
+  VrpnLink(const TrackerUrl& url, std::vector<net::Address> servers);
 
   void work(std::chrono::microseconds now) override;
   void wait(std::chrono::microseconds timeout) override;
@@ -32,15 +37,20 @@ class VrpnLink : public TrackerLink {
 
   using microseconds = std::chrono::microseconds;
 
+  const net::Address& server() const { return servers_[tried_]; }
+  microseconds share_of(microseconds limit) const;
   void begin(microseconds now);
+  void begin_next(microseconds now);
   void ask(microseconds now);
+  void ask_next(microseconds now, const std::string& why);
   void repeat_asking(microseconds now);
   void rise(net::Socket socket);
   void fall(microseconds now, const std::string& why);
   void read(microseconds now);
 
   TrackerUrl url_;
-  net::Address server_;
+  std::vector<net::Address> servers_;
+  std::size_t tried_ = 0;  // the one of them that is tried now
   VrpnStream stream_;
   State state_ = State::down;
   net::Socket connection_, listener_, asking_;

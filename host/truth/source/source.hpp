@@ -19,6 +19,10 @@ class Source {
   Source& operator=(const Source&) = delete;
   virtual ~Source() = default;
 
+  /// Before a run, while the robot stands and is not armed: returns once truth comes, within a bounded time. Samples from
+  /// before are discarded. Throws astro::Error that says why none comes.
+  virtual void begin_run() {}
+
   /// All samples that arrived since the last call, oldest first; never waits. Times are on the clock that
   /// clock() names. Throws astro::Error if the tracker is gone.
   virtual std::vector<recording::TruthSample> poll() = 0;

@@ -395,6 +395,35 @@ TEST(NetworkTracker, ANatNetClientThatFallsSilentIsDropped) {
   EXPECT_EQ(lab.tracker.natnet()->clients(), 0U);
 }
 
+TEST(NetworkTracker, ANatNetClientThatWasDroppedWhileNobodyListenedHasTruthBeforeItsRunBegins) {
+  Lab lab(with_natnet());
+  const auto source = open(lab, natnet_url_of(lab));
+  source->poll();
+  lab.pass(std::chrono::seconds(7));  // a person is asked something, and nobody serves the link
+  EXPECT_EQ(lab.tracker.natnet()->clients(), 0U);
+  const microseconds begin = lab.now;
+  source->begin_run();
+  EXPECT_LE(lab.now - begin, milliseconds(1'500)) << "sooner than the silence of a server is noticed";
+  source->poll();
+  std::size_t came = 0;
+  for (int i = 0; i < 250; ++i) {
+    lab.pass(milliseconds(20));
+    came += source->poll().size();
+  }
+  EXPECT_NEAR(static_cast<double>(came), 450, 4 * std::sqrt(500 * 0.1 * 0.9));
+}
+
+TEST(NetworkTracker, NoRunBeginsOnceItIsGone) {
+  for (const NetworkTrackerConfig& config : {with_natnet(), with_vrpn()}) {
+    Lab lab(config);
+    const auto source = open(lab, config.natnet_port ? natnet_url_of(lab) : url_of(lab));
+    lab.pass(milliseconds(100));  // the system keeps these poses
+    lab.sees = false;
+    lab.pass(milliseconds(100));
+    EXPECT_THROW(source->begin_run(), Error);
+  }
+}
+
 TEST(NetworkTracker, ANatNetBodyThatItDoesNotKnowIsNamedWithThoseThatItDoes) {
   Lab lab(with_natnet());
   try {

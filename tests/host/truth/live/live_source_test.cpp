@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deque>
 #include <memory>
+#include <utility>
 
 #include "host/base/error.hpp"
 
@@ -22,8 +23,12 @@ using testing::SizeIs;
 struct Lab {
   microseconds now{1'000'000'000};
   microseconds next{now};
-  bool sends = true;
+  bool sends = true, seen = true;
   microseconds senders_zero{5'000'000};  // of its clock, in ours
+  double senders_drift = 0;              // of its clock against ours
+  std::int64_t senders_tick_us = 1;      // its clock shows whole ticks
+  bool stamped_at_once = false;          // otherwise poses arrive when somebody looks
+  std::int64_t delayed_us = 0;           // of every third pose, by a busy network
   std::vector<std::string> bodies{"ASTRO"};
   std::string why = "it sleeps";
   int connections = 1;
@@ -38,8 +43,16 @@ struct Lab {
       across_m += 0.01 * across_mps;
       height_m += 0.01 * rise_mps;
       sightings.push_back(
-          {{(next - senders_zero).count(), now.count()}, {x_m, across_m, height_m, 0, 0, 0, 1}});
+          {{senders_us(), arrival_us()}, {seen ? x_m : 0, across_m, height_m, 0, 0, 0, seen ? 1.0 : 0.0}});
     }
+  }
+  std::int64_t senders_us() const {
+    return std::llround((1 + senders_drift) * static_cast<double>((next - senders_zero).count())) /
+           senders_tick_us * senders_tick_us;
+  }
+  std::int64_t arrival_us() const {
+    if (!stamped_at_once) return now.count();
+    return next.count() + 5'000 + (next.count() / 10'000 % 3 == 0 ? delayed_us : 0);
   }
 };
 
@@ -137,29 +150,139 @@ TEST(LiveSource, AShortSilenceIsAGapAndALongOneAnError) {
             "no ground truth has come from lab for 10 s: it sleeps");
 }
 
-TEST(LiveSource, WhileNobodyPollsNothingIsMissed) {
+TEST(LiveSource, ARunBeginsOnceTheBodyIsSeenNowAndWithoutTheSamplesFromBefore) {
   Lab lab;
   const auto source = open(lab);
-  source->poll();
-  lab.sends = false;
-  lab.pass(std::chrono::minutes(10));  // a person is asked something, and the tracker has let the client go
-  EXPECT_THAT(source->poll(), IsEmpty());
-  lab.sends = true;
+  lab.pass(std::chrono::minutes(10));  // a person is asked something
+  const microseconds begin = lab.now;
+  source->begin_run();
+  EXPECT_LE(lab.now - begin, seconds(1));
+  const auto samples = source->poll();
+  ASSERT_THAT(samples, testing::Not(IsEmpty()));
+  EXPECT_GE(1e6 * samples.front().x_m, static_cast<double>((begin - milliseconds(20)).count()));
   lab.pass(milliseconds(100));
   EXPECT_THAT(source->poll(), SizeIs(10));
 }
 
-TEST(LiveSource, ATrackerThatRestartedWithAnotherClockGoesOnInTime) {
+TEST(LiveSource, NoRunBeginsWhileNoTruthComes) {
   Lab lab;
   const auto source = open(lab);
-  const std::int64_t last_us = source->poll().back().time_us;
-  lab.senders_zero += seconds(3);  // less than a slow network could hold samples back
-  ++lab.connections;
-  lab.pass(milliseconds(20));
+  const auto refusal = [&] {
+    const microseconds begin = lab.now;
+    const std::string why = complaint([&] { source->begin_run(); });
+    EXPECT_LE(lab.now - begin, milliseconds(7'000));
+    return why;
+  };
+  lab.pass(seconds(2));  // these poses are not from now
+  lab.sends = false;
+  EXPECT_EQ(refusal(), "no ground truth comes from lab: it sleeps");
+  lab.why = "";  // as of a link that has had poses
+  EXPECT_EQ(refusal(), "no ground truth comes from lab: no more poses of 'ASTRO' are sent");
+  lab.sends = true;
+  lab.seen = false;
+  EXPECT_EQ(refusal(),
+            "no ground truth comes from lab: 'ASTRO' is not seen, or has the same pose again and again");
+  lab.seen = true;
+  EXPECT_EQ(refusal(), "");
+}
+
+/// The samples of so long, polled as a drive polls.
+std::vector<recording::TruthSample> polled_for(Lab& lab, LiveSource& source, microseconds time) {
+  std::vector<recording::TruthSample> samples;
+  for (const microseconds end = lab.now + time; lab.now < end;) {
+    lab.pass(milliseconds(50));
+    for (const auto& sample : source.poll()) samples.push_back(sample);
+  }
+  return samples;
+}
+
+/// How far the first and the last of samples are late.
+std::pair<double, double> lateness_us(const std::vector<recording::TruthSample>& samples) {
+  const auto late_us = [](const auto& sample) {
+    return static_cast<double>(sample.time_us) - 1e6 * sample.x_m;
+  };
+  return {late_us(samples.front()), late_us(samples.back())};
+}
+
+TEST(LiveSource, WithinARunTheTimesOfATrackerWhoseClockDriftsNeverStep) {
+  for (const double drift : {-100e-6, 100e-6}) {
+    Lab lab;
+    lab.senders_drift = drift;
+    const auto source = open(lab);
+    source->begin_run();
+    const auto samples = polled_for(lab, *source, std::chrono::minutes(40));
+    ASSERT_GT(samples.size(), 239'900U);
+    for (std::size_t i = 1; i < samples.size(); ++i)
+      ASSERT_NEAR(static_cast<double>(samples[i].time_us - samples[i - 1].time_us), 10'000, 2) << i;
+    source->begin_run();
+    lab.pass(milliseconds(50));
+    EXPECT_NEAR(lateness_us(source->poll()).first, 10'000, 11'000) << "the next run forgets the drift";
+  }
+}
+
+TEST(LiveSource, ATrackerThatConnectsAgainGoesOnInTimeByTheSameClockOrAnother) {
+  for (const microseconds jump : {seconds(0), seconds(3), seconds(-3), seconds(-3'600), seconds(3'600)}) {
+    Lab lab;
+    const auto source = open(lab);
+    source->begin_run();
+    const auto before = polled_for(lab, *source, seconds(3));
+    lab.senders_zero += jump;
+    ++lab.connections;
+    const auto after = polled_for(lab, *source, seconds(3));
+    ASSERT_GT(after.size(), 290U) << "none is lost";
+    EXPECT_GE(after.front().time_us, before.back().time_us);
+    const double most_us =
+        jump == seconds(0) ? 1 : 10'001;  // the shortest delay of batches is known to a period
+    EXPECT_NEAR(lateness_us(after).first, lateness_us(before).second, most_us) << jump.count();
+    EXPECT_NEAR(lateness_us(after).first, lateness_us(after).second, 1) << jump.count();
+  }
+}
+
+TEST(LiveSource, ATrackerWhoseClockIsSetDuringARunGoesOnInTime) {
+  for (const microseconds jump : {seconds(3), seconds(-3)}) {
+    Lab lab;
+    const auto source = open(lab);
+    source->begin_run();
+    const auto before = polled_for(lab, *source, seconds(3));
+    lab.senders_zero += jump;
+    const auto after = polled_for(lab, *source, seconds(3));
+    ASSERT_GT(after.size(), 290U);
+    EXPECT_NEAR(lateness_us(after).first, lateness_us(before).second, 10'001) << jump.count();
+    EXPECT_NEAR(lateness_us(after).first, lateness_us(after).second, 1) << jump.count();
+  }
+}
+
+TEST(LiveSource, EachRunChoosesItsTimesByWhatTheLastDriveWasLike) {
+  Lab lab;
+  lab.senders_tick_us = 4'000;
+  lab.stamped_at_once = true;
+  const auto source = open(lab);
+  EXPECT_THAT(source->description(), HasSubstr("times of arrival (jitter 0.00 ms"));
+  source->begin_run();
+  const auto calm = polled_for(lab, *source, seconds(3));
+  for (std::size_t i = 1; i < calm.size(); ++i) EXPECT_EQ(calm[i].time_us - calm[i - 1].time_us, 10'000);
+  lab.delayed_us = 9'000;
+  const auto are_ticks = [&](const std::vector<recording::TruthSample>& samples) {
+    for (std::size_t i = 1; i < samples.size(); ++i)
+      if ((samples[i].time_us - samples[i - 1].time_us) % lab.senders_tick_us != 0) return false;
+    return true;
+  };
+  EXPECT_FALSE(are_ticks(polled_for(lab, *source, seconds(3)))) << "within a run the choice stays";
+  source->begin_run();
+  source->poll();
+  EXPECT_TRUE(are_ticks(polled_for(lab, *source, seconds(3))));
+}
+
+TEST(LiveSource, OfPosesThatOvertakeEachOtherTheLateOnesAreLeftOut) {
+  Lab lab;
+  const auto source = open(lab);
+  source->begin_run();
+  source->poll();
+  lab.pass(milliseconds(50));
+  std::swap(lab.sightings[1], lab.sightings[2]);
   const auto samples = source->poll();
-  ASSERT_THAT(samples, testing::Not(IsEmpty()));
-  // The first of the new stamps is taken for one without delay, and it is at most 20 ms old.
-  EXPECT_NEAR(static_cast<double>(samples.front().time_us - last_us), 10'000, 20'000);
+  ASSERT_THAT(samples, SizeIs(4));
+  for (std::size_t i = 1; i < samples.size(); ++i) EXPECT_GT(samples[i].time_us, samples[i - 1].time_us);
 }
 
 TEST(LiveSource, TheUpAxisIsThatOfTheAddress) {
@@ -201,6 +324,7 @@ TEST(LiveSource, ARobotThatClimbsARampOrIsCarriedBetweenDrivesMayRise) {
   EXPECT_EQ(said_in(lab, *source, 3), "") << "picked up after a drive";
   lab.pass(seconds(3));  // nobody polls
   lab.rise_mps = 0;
+  source->begin_run();
   EXPECT_EQ(said_in(lab, *source, 10), "") << "put down elsewhere";
 }
 

@@ -155,6 +155,14 @@ TEST(NatNetLink, TakesFramesFromEitherOfItsTwoSockets) {
   EXPECT_EQ(link.way(), "by UDP");
 }
 
+TEST(NatNetLink, AsksEachAddressOfTheHost) {
+  Server server;
+  NatNetLink link(url_of(server), {net::Address::all_of("127.0.0.2", server.port()).front(),
+                                   net::Address::loopback(server.port())});
+  microseconds now{0};
+  EXPECT_TRUE(connected(link, server, server_info(), now)) << "within a second, as with one address";
+}
+
 TEST(NatNetLink, JoinsTheGroupThatTheServerNames) {
   const std::uint16_t data_port = net::Address::local(net::bind_udp(net::Address::loopback(0))).port();
   Server server;
@@ -166,22 +174,27 @@ TEST(NatNetLink, JoinsTheGroupThatTheServerNames) {
   const unsigned char hops = 0;
   ::setsockopt(server.socket.descriptor(), IPPROTO_IP, IP_MULTICAST_IF, &loopback, sizeof loopback);
   ::setsockopt(server.socket.descriptor(), IPPROTO_IP, IP_MULTICAST_TTL, &hops, sizeof hops);
-  net::send_datagram(server.socket, frame_of({body_at(2, 1)}), net::Address::of("239.255.42.99", data_port));
+  net::send_datagram(server.socket, frame_of({body_at(2, 1)}),
+                     net::Address::all_of("239.255.42.99", data_port).front());
   link.wait(milliseconds(1000));
   link.work(now);
   EXPECT_THAT(link.take(), SizeIs(1)) << link.why_silent();
 }
 
-TEST(NatNetLink, WhatComesFromSomebodyElseIsIgnored) {
+TEST(NatNetLink, WhatComesFromSomebodyElseIsIgnoredAndTold) {
   Server server;
   NatNetLink link(url_of(server));
   microseconds now{0};
   ASSERT_TRUE(connected(link, server, server_info(), now));
-  const net::Socket stranger = net::bind_udp(net::Address::of("127.0.0.2", 0));
+  const net::Socket stranger = net::bind_udp(net::Address::all_of("127.0.0.2", 0).front());
   net::send_datagram(stranger, frame_of({body_at(2, 1)}), *server.client);
   link.wait(milliseconds(100));
   link.work(now);
   EXPECT_THAT(link.take(), IsEmpty());
+  EXPECT_EQ(link.why_silent(),
+            "Motive has answered but sends no frames; frames from 127.0.0.2 (1 so far) are not read, because "
+            "127.0.0.1 "
+            "was asked");
 }
 
 }  // namespace

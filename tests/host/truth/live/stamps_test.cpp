@@ -101,33 +101,80 @@ TEST(TrackerClock, StampsThatCountSomethingElseThanMicrosecondsAreNotUsed) {
   }
 }
 
-TEST(TrackerClock, AJumpOfTheSendersClockIsMappedAnew) {
+TEST(TrackerClock, AJumpOfTheSendersClockIsMappedAnewSoThatTheTimesGoOn) {
   const auto stamps = sent_evenly(50);
   TrackerClock clock(stamps);
   Stamp later = stamps.back();
-  for (const std::int64_t jump_us : {-3'600'000'000LL, 200'000LL, 3'600'000'000LL}) {
+  for (const std::int64_t jump_us : {-3'600'000'000LL, -200'000LL, 200'000LL, 3'600'000'000LL}) {
+    const std::int64_t time_us = clock.host_time_us(later);
     later.sender_us += jump_us + kPeriod_us;
     later.arrival_us += kPeriod_us;
-    EXPECT_EQ(clock.host_time_us(later), later.arrival_us) << jump_us;
+    EXPECT_FALSE(clock.follows(later)) << jump_us;
+    clock.continue_with({&later, 1});
+    // The delays differ by up to 5 ms, and here there is one from which to tell the shortest.
+    EXPECT_NEAR(static_cast<double>(clock.host_time_us(later) - time_us), kPeriod_us, 5'000) << jump_us;
   }
+}
+
+/// The same again, later and by another clock.
+std::vector<Stamp> moved(std::vector<Stamp> stamps, std::int64_t later_us, std::int64_t jump_us) {
+  for (Stamp& stamp : stamps) {
+    stamp.sender_us += later_us + jump_us;
+    stamp.arrival_us += later_us;
+  }
+  return stamps;
 }
 
 TEST(TrackerClock, AfterANewConnectionTheSendersClockMayBeAnyOther) {
   const auto stamps = sent_evenly(50);
+  for (const std::int64_t jump_us : {-3'600'000'000LL, -5'000'000LL, -150'000LL, 5'000'000LL}) {
+    TrackerClock clock(stamps);
+    const std::int64_t time_us = clock.host_time_us(stamps[20]);
+    clock.restart();
+    const auto next = moved(stamps, 2'000'000, jump_us);
+    EXPECT_TRUE(clock.follows(next[0])) << "whatever it is";
+    clock.continue_with(next);
+    EXPECT_EQ(clock.host_time_us(next[20]) - time_us, 2'000'000)
+        << "the shortest delay is the same: " << jump_us;
+  }
+}
+
+TEST(TrackerClock, AfterANewConnectionToTheSameClockTheMappingStays) {
+  const auto stamps = sent_evenly(50);
   TrackerClock clock(stamps);
+  const std::int64_t time_us = clock.host_time_us(stamps[20]);
   clock.restart();
-  Stamp later = stamps.back();
-  later.sender_us -= 5'000'000;  // within what a slow network could do
-  EXPECT_EQ(clock.host_time_us(later), later.arrival_us);
+  auto next = moved(stamps, 2'000'000, 0);
+  for (Stamp& stamp : next) stamp.arrival_us += 40'000;  // the network is slower for a while
+  clock.continue_with(next);
+  EXPECT_EQ(clock.host_time_us(next[20]) - time_us, 2'000'000);
+}
+
+TEST(TrackerClock, ClocksThatDriftApartForHoursNeverJump) {
+  for (const double ppm : {-200, -50, 50, 200}) {
+    const auto stamps = sent_evenly(50);
+    TrackerClock clock(stamps);
+    for (std::int64_t i = 0; i < 720'000; ++i) {
+      const std::int64_t passed_us = i * kPeriod_us;
+      const auto drift_us = std::llround(1e-6 * ppm * static_cast<double>(passed_us));
+      ASSERT_TRUE(clock.follows(moved({stamps.back()}, passed_us, drift_us).front())) << ppm << " ppm, " << i;
+    }
+    EXPECT_FALSE(
+        clock.follows(moved({stamps.back()}, 7'200'000'000, std::llround(7'200 * ppm) + 150'000).front()))
+        << "a jump is one all the same";
+  }
 }
 
 TEST(TrackerClock, ANetworkThatHoldsSamplesBackDoesNotMoveTheirTimes) {
   const auto stamps = sent_evenly(50);
   TrackerClock clock(stamps);
-  Stamp late = stamps.back();
-  const std::int64_t time_us = clock.host_time_us(late);
-  late.arrival_us += 3'000'000;
-  EXPECT_EQ(clock.host_time_us(late), time_us);
+  for (const std::int64_t late_us : {3'000'000, 15'000'000}) {
+    Stamp late = stamps.back();
+    const std::int64_t time_us = clock.host_time_us(late);
+    late.arrival_us += late_us;
+    EXPECT_TRUE(clock.follows(late));
+    EXPECT_EQ(clock.host_time_us(late), time_us);
+  }
 }
 
 }  // namespace

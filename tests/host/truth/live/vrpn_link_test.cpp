@@ -71,6 +71,35 @@ TEST(VrpnLink, AsksByUdpToBeCalledBackWhereNothingAnswersByTcp) {
   EXPECT_EQ(cookie, vrpn::cookie());
 }
 
+/// Two addresses of one host; a test's server serves at the last of them only.
+std::vector<net::Address> two_addresses(std::uint16_t port) {
+  return {net::Address::all_of("127.0.0.2", port).front(), net::Address::loopback(port)};
+}
+
+TEST(VrpnLink, TriesEachAddressOfTheHostByTcpAndThenByACallBack) {
+  net::Socket listener = net::listen_tcp(net::Address::loopback(0));
+  const std::uint16_t port = net::Address::local(listener).port();
+  const net::Socket server = net::bind_udp(net::Address::loopback(port));
+  microseconds now{0};
+  VrpnLink by_tcp(url_of(port), two_addresses(port));
+  EXPECT_TRUE(work_until(by_tcp, now, [&] { return net::accept_tcp(listener).has_value(); }));
+  listener = net::Socket();
+  VrpnLink by_call(url_of(port), two_addresses(port));
+  std::array<std::uint8_t, 256> buffer{};
+  EXPECT_TRUE(work_until(by_call, now, [&] { return net::receive_datagram(server, buffer).has_value(); }));
+}
+
+TEST(VrpnLink, SeveralAddressesThatDoNotAnswerTakeNoLongerThanOne) {
+  const std::uint16_t port = free_port();
+  for (std::vector<net::Address> servers : {two_addresses(port), {net::Address::loopback(port)}}) {
+    const net::Socket silent = net::bind_udp(servers.front());
+    VrpnLink link(url_of(port), servers);
+    microseconds now{0};
+    EXPECT_TRUE(work_until(link, now, [&] { return link.why_silent() != "nothing answers there"; }));
+    EXPECT_LE(now, milliseconds(4'700)) << "a connection attempt of 1.5 s and a call back of 3 s";
+  }
+}
+
 TEST(VrpnLink, WhatSpeaksSomethingElseIsNamedAsSuch) {
   const net::Socket listener = net::listen_tcp(net::Address::loopback(0));
   VrpnLink link(url_of(net::Address::local(listener).port()));
