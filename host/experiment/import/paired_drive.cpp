@@ -218,9 +218,10 @@ std::string summary_of(const std::vector<WheelSample>& counts) {
 }
 
 std::string summary_of(const ImportedTruth& truth, const truth::FloorFindings& floor) {
-  return fmt::format("; {} poses{} at {:.4g} Hz, {} lost; {}", truth.track.samples.size(),
+  return fmt::format("; {} poses{} ({}) at {:.4g} Hz, {} lost; {}", truth.track.samples.size(),
                      truth.track.name.empty() ? "" : " of '" + truth.track.name + "'",
-                     rate_hz(truth.track.samples), truth.lost.all(), up_text(floor.up));
+                     truth.track.facts.format, rate_hz(truth.track.samples), truth.lost.all(),
+                     up_text(floor.up));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace astro::experiment {
 /// What was found in the files of a drive.
 struct DriveReport {
   truth::FloorFindings floor;
-  std::string summary;          // how many samples, how often, what is up: one phrase
+  std::string summary;          // how many samples, how often, whose poses, what is up: one phrase
   std::vector<Remark> remarks;  // what was inferred or left out, of both files
 };
 

@@ -7,9 +7,9 @@
 #include <tuple>
 
 #include "host/recording/bag/bag.hpp"
+#include "host/recording/foreign/pose_choice.hpp"
 #include "host/recording/foreign/sample_limit.hpp"
 #include "host/recording/foreign/time_order.hpp"
-#include "host/recording/foreign/unclear_choice.hpp"
 #include "host/ros2/stamped_pose.hpp"
 
 namespace astro::recording {
@@ -40,53 +40,6 @@ PoseReport for_each_pose(const fs::path& path, const std::string& topic, const T
   };
   report.bag = read_bag(path, handlers);
   return report;
-}
-
-bool is_truth_by_name(const std::string& topic) {
-  std::string lower = topic;
-  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  for (const char* word :
-       {"mocap", "vrpn", "optitrack", "vicon", "qualisys", "natnet", "ground", "truth", "tracker"})
-    if (lower.find(word) != std::string::npos) return true;
-  return false;
-}
-
-bool is_estimate_by_type(const std::string& type) {
-  return type == "nav_msgs/msg/Odometry" || type == ros2::tf_message_type().name;
-}
-
-std::vector<std::string> names_of(const std::vector<PoseStream>& streams) {
-  std::vector<std::string> names;
-  for (const PoseStream& stream : streams) names.push_back(stream.name());
-  return names;
-}
-
-PoseStream chosen(const fs::path& path, const PoseSelection& selection, std::vector<Remark>& remarks) {
-  const std::vector<PoseStream> all = pose_streams(path);
-  std::vector<PoseStream> left;
-  for (const PoseStream& stream : all)
-    if ((selection.topic.empty() || stream.topic == selection.topic) &&
-        (selection.frame.empty() || stream.frame == selection.frame) &&
-        (selection.child_frame.empty() || stream.child_frame == selection.child_frame))
-      left.push_back(stream);
-  if (left.size() == 1) return left.front();
-  if (left.empty())
-    throw UnclearChoice(path.string() + (all.empty() ? " has no poses"
-                                                     : " has no such poses; it has " + listed(names_of(all))),
-                        names_of(all), Help::name_pose_stream);
-  const auto only = [&](const auto& is_meant) -> const PoseStream* {
-    const auto first = std::ranges::find_if(left, is_meant);
-    if (first == left.end() || std::find_if(first + 1, left.end(), is_meant) != left.end()) return nullptr;
-    return &*first;
-  };
-  const PoseStream* found = only([](const PoseStream& stream) { return is_truth_by_name(stream.topic); });
-  if (found == nullptr)
-    found = only([](const PoseStream& stream) { return !is_estimate_by_type(stream.type); });
-  if (found == nullptr)
-    throw UnclearChoice(path.string() + " has several streams of poses: " + listed(names_of(left)),
-                        names_of(left), Help::name_pose_stream);
-  remarks.push_back({"the poses are those of " + found->name()});
-  return *found;
 }
 
 /// How far the recorder's clock is ahead of the stamps.
@@ -144,7 +97,7 @@ std::vector<PoseStream> pose_streams(const fs::path& path) {
 
 PoseTopic poses_in_bag(const fs::path& path, const PoseSelection& selection) {
   PoseTopic out;
-  out.stream = chosen(path, selection, out.remarks);
+  out.stream = chosen_stream(path, pose_streams(path), selection, out.remarks);
   const PoseStream& stream = out.stream;
   ClockOffset offset;
   std::vector<std::int64_t> log_times_ns;

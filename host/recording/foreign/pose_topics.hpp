@@ -43,9 +43,8 @@ struct PoseSelection {
 /// All streams of poses in the order of the bag, at most 10,000. Errors as read_bag (host/recording/bag).
 std::vector<PoseStream> pose_streams(const std::filesystem::path& path);
 
-/// The poses of the only stream that is selected. If several are, the only one that is neither odometry nor a transform
-/// or whose topic's name speaks of ground truth or of a tracker. Times are header.stamp; a remark says if they are far
-/// from those of the recorder or drift against them.
+/// The poses of the stream that is selected or can be told to be ground truth (pose_choice.hpp). Times are header.stamp; a
+/// remark says if they are far from those of the recorder or drift against them.
 ///
 /// Errors  UnclearChoice (unclear_choice.hpp) with the names of the streams if none or several are left; astro::Error
 ///         naming the file if it is no bag, or packs more poses than are taken from one of its size.

@@ -23,7 +23,7 @@ BodyTrack track_in_bag(const std::filesystem::path& path, const recording::PoseS
   BodyTrack track;
   track.name = topic.stream.child_frame.empty() ? topic.stream.topic : topic.stream.child_frame;
   track.id = topic.stream.name();
-  track.facts.format = "ROS 2 bag, " + topic.stream.type;
+  track.facts.format = "ROS 2 bag, " + topic.stream.name() + " of " + topic.stream.type;
   track.facts.length_unit = "m";  // REP 103
   track.facts.rotation_kind = RotationKind::quaternion;
   track.facts.rotation = "quaternion";

@@ -130,6 +130,8 @@ TEST_F(Import, FindsTheSameInABagThatHoldsBoth) {
   ImportChoices joints = choices();
   joints.geometry.counts_per_turn.reset();  // joints are angles
   expect_like(calibrated(bags, joints).factors, by_counts_and_tum(), kRounding);
+  EXPECT_THAT(import_drives(bags, joints).reports[0].summary,
+              HasSubstr("of '/tracker/pose' (ROS 2 bag, /tracker/pose of geometry_msgs/msg/PoseStamped)"));
 }
 
 TEST_F(Import, FindsTheSameWhereTheClocksHaveNothingInCommon) {

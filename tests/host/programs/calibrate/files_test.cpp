@@ -73,7 +73,7 @@ TEST_F(Files, AreCalibratedFromOneCommandWithErrorsAndAVerdict) {
   EXPECT_EQ(json["verdict"]["verdict"], "better");
   EXPECT_EQ(json["verdict"]["drives"].size(), 4);
   EXPECT_THAT(outcome.err, HasSubstr("drive1: "));
-  EXPECT_THAT(outcome.err, HasSubstr("poses of 'ASTRO' at 60 Hz, 0 lost; y is up"));
+  EXPECT_THAT(outcome.err, HasSubstr("poses of 'ASTRO' (Motive CSV 1.23) at 60 Hz, 0 lost; y is up"));
   EXPECT_TRUE(fs::exists(at("calib.toml")));
 }
 

@@ -25,8 +25,9 @@ TEST(BagTruth, PosesAreATrackOfTheChildFrameAndImpossibleOnesAreLost) {
     writer.write(channel, static_cast<std::uint64_t>(pose.time_ns), ros2::encode_tf({pose}));
   writer.close();
   recording::made_bags::save(folder.path() / "x.mcap", file);
-  const BodyTrack track = track_in_bag(folder.path() / "x.mcap");
+  const BodyTrack track = track_in_bag(folder.path() / "x.mcap", {"/tf", "", ""});
   EXPECT_EQ(track.name, "robot");
+  EXPECT_EQ(track.facts.format, "ROS 2 bag, /tf map robot of tf2_msgs/msg/TFMessage");
   ASSERT_EQ(track.samples.size(), 3U);
   EXPECT_TRUE(track.samples[0].valid);
   EXPECT_EQ(track.samples[0].pose.qz, 1);
