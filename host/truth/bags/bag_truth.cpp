@@ -28,7 +28,7 @@ BodyTrack track_in_bag(const std::filesystem::path& path, const recording::PoseS
   track.facts.rotation_kind = RotationKind::quaternion;
   track.facts.rotation = "quaternion";
   track.facts.remarks = std::move(topic.remarks);
-  if (!topic.has_stamps)
+  if (!topic.stream.stamps.most_are_set())
     track.facts.remarks.push_back({"the poses have no stamps; their times are when they were recorded"});
   track.samples.reserve(topic.poses.size());
   for (const recording::TimedPose& pose : topic.poses) track.samples.push_back(tracked(pose));

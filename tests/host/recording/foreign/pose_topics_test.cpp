@@ -104,7 +104,7 @@ TEST_F(PoseTopics, ARobotsOwnEstimatesAreNeverTruthUnlessTheyAreNamed) {
 
 TEST(PoseChoice, EstimatesAreToldByTheirTypeOrTheirName) {
   const auto estimate = [](const char* topic, const char* type) {
-    return is_estimate({topic, type, "", "", 0, 0, 0});
+    return is_estimate({topic, type, "", "", 0, {}, 0, 0});
   };
   for (const char* type :
        {"nav_msgs/msg/Odometry", "tf2_msgs/msg/TFMessage", "geometry_msgs/msg/PoseWithCovarianceStamped"}) {
@@ -122,18 +122,53 @@ TEST(PoseChoice, EstimatesAreToldByTheirTypeOrTheirName) {
 TEST_F(PoseTopics, TimesAreStampsOrThoseOfTheRecorder) {
   const PoseTopic stamped =
       poses_in_bag(bag({{"/mocap", pose(kSecond, "a", "b", 1)}, {"/mocap", pose(2 * kSecond, "a", "b", 2)}}));
-  EXPECT_TRUE(stamped.has_stamps);
+  EXPECT_TRUE(stamped.stream.stamps.most_are_set());
   EXPECT_EQ(stamped.poses[1].time_ns, 2 * kSecond);
   EXPECT_THAT(stamped.remarks, IsEmpty());
   const PoseTopic zero =
       poses_in_bag(bag({{"/mocap", pose(0, "a", "b", 1)}, {"/mocap", pose(0, "a", "b", 2)}}));
-  EXPECT_FALSE(zero.has_stamps);
+  EXPECT_FALSE(zero.stream.stamps.most_are_set());
   EXPECT_EQ(zero.poses[1].time_ns, 2 * kSecond);
   const PoseTopic other = poses_in_bag(bag(
       {{"/mocap", pose(kSecond, "a", "b", 1)}, {"/mocap", pose(5 * kSecond, "a", "b", 2)}}, 9000 * kSecond));
   ASSERT_EQ(other.remarks.size(), 2U);
   EXPECT_THAT(other.remarks[0].fact, HasSubstr("another clock than the recorder's"));
   EXPECT_THAT(other.remarks[1].fact, HasSubstr("delays that differ by 3 s"));
+}
+
+TEST_F(PoseTopics, StampsAheadOfTheRecorderAreSaidToBeAfterIt) {
+  const PoseTopic ahead = poses_in_bag(
+      bag({{"/mocap", pose(9000 * kSecond, "a", "b", 1)}, {"/mocap", pose(9001 * kSecond, "a", "b", 2)}}));
+  ASSERT_EQ(ahead.remarks.size(), 1U);
+  EXPECT_THAT(ahead.remarks[0].fact, HasSubstr("they are 8999 s after it"));
+}
+
+// A node in simulated time publishes zeros until it hears the clock.
+TEST_F(PoseTopics, PosesBeforeTheFirstStampAreLeftOut) {
+  const PoseTopic late = poses_in_bag(bag({{"/mocap", pose(0, "a", "b", 1)},
+                                           {"/mocap", pose(2 * kSecond, "a", "b", 2)},
+                                           {"/mocap", pose(3 * kSecond, "a", "b", 3)}}));
+  EXPECT_THAT(xs(late), ElementsAre(2, 3));
+  ASSERT_EQ(late.remarks.size(), 1U);
+  EXPECT_EQ(late.remarks[0].fact, "poses of /mocap: 1 have no stamp and were left out");
+  const PoseTopic once = poses_in_bag(bag({{"/mocap", pose(0, "a", "b", 1)},
+                                           {"/mocap", pose(0, "a", "b", 2)},
+                                           {"/mocap", pose(3 * kSecond, "a", "b", 3)}}));
+  EXPECT_THAT(xs(once), ElementsAre(1, 2, 3)) << "one stamp of three";
+  EXPECT_EQ(once.poses[0].time_ns, kSecond);
+}
+
+TEST(StampCount, ZeroIsATimeWhereAClockStartsWithIt) {
+  const auto count = [](std::initializer_list<std::int64_t> stamps) {
+    StampCount all;
+    for (const std::int64_t stamp_ns : stamps) all.take(stamp_ns);
+    return all;
+  };
+  EXPECT_FALSE(count({0, kSecond / 50, kSecond / 25}).is_missing(0));
+  EXPECT_TRUE(count({0, 0, kSecond / 50, kSecond / 25}).is_missing(0)) << "no clock stands still";
+  EXPECT_TRUE(count({0, 1'700'000'000 * kSecond}).is_missing(0));
+  EXPECT_FALSE(count({0, 1'700'000'000 * kSecond}).is_missing(1));
+  EXPECT_FALSE(count({0, 0, 5}).most_are_set());
 }
 
 TEST_F(PoseTopics, PosesOutOfOrderAreSortedAndRepeatedOnesLeftOut) {
