@@ -60,18 +60,29 @@ struct Counter {
 /// Rounded down, also before the epoch, as the times of truth are.
 std::int64_t microseconds(std::int64_t time_ns) { return (time_ns - (time_ns % 1000 + 1000) % 1000) / 1000; }
 
-/// Between two samples in more than a hundred turns of a wheel something else is wrong than a gap.
+/// Between two samples in more than a hundred turns of a wheel something else is wrong than a gap. No robot drives at
+/// 20 m/s, so a counter started again; but a recorder may stamp many samples at once that it received late.
 void refuse_leaps(const std::string& name, const WheelTrack& track, const Counter& counter) {
-  constexpr double kMostTurns = 100;
+  constexpr double kMostTurns = 100, kMost_mps = 20, kAtOnce_m = 0.5;
   for (std::size_t i = 1; i < track.samples.size(); ++i) {
     const WheelSample &from = track.samples[i - 1], &to = track.samples[i];
     const double most = std::max(std::abs(to.left - from.left), std::abs(to.right - from.right));
-    if (!(most * counter.counts_per_unit < kMostTurns * counter.wheel.counts_per_turn))
+    const double counts = most * counter.counts_per_unit;
+    const double from_s = 1e-9 * static_cast<double>(from.time_ns),
+                 to_s = 1e-9 * static_cast<double>(to.time_ns);
+    if (!(counts < kMostTurns * counter.wheel.counts_per_turn))
       throw Error(
           fmt::format("'{}': a wheel turns more than {} times between the samples at {:.3f} s and {:.3f} s",
-                      name, kMostTurns, 1e-9 * static_cast<double>(from.time_ns),
-                      1e-9 * static_cast<double>(to.time_ns)),
+                      name, kMostTurns, from_s, to_s),
           {Help::check_wheel_units});
+    const double way_m = counts * counter.wheel.metres_per_count();
+    if (way_m > kAtOnce_m + kMost_mps * (to_s - from_s))
+      throw Error(
+          fmt::format(
+              "'{}': a wheel leaps by {:.2f} m between the samples at {:.3f} s and {:.3f} s, as where "
+              "a counter starts again",
+              name, way_m, from_s, to_s),
+          {Help::cut_recording_or_check_wheel_units});
   }
 }
 

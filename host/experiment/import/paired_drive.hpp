@@ -34,7 +34,8 @@ struct PairedDrive {
 /// the axis was reversed. Otherwise nothing is guessed, because exchanged wheels would give the left factor to the
 /// right wheel.
 ///
-/// Throws astro::Error: wheels and truth turn against each other; a wheel turns 100 times between two samples; what
+/// Throws astro::Error: wheels and truth turn against each other; a wheel turns 100 times between two samples, or leaps
+/// faster than 20 m/s; what
 /// complete_geometry and truth::place_on_floor throw.
 PairedDrive pair_up(const std::string& name, ImportedWheels wheels, const ImportedTruth& truth,
                     const RobotGeometry& geometry, const truth::FloorChoices& choices = {});

@@ -143,7 +143,7 @@ class JointWheels {
       integrate();
     } else {
       order_by_time(track_.samples, topic_, track_.remarks);
-      unwrap(track_);
+      unwrap(track_, path_.string() + ": " + topic_);
     }
     if (without_values_ > 0)
       remark(std::to_string(without_values_) +

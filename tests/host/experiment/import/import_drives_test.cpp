@@ -250,6 +250,16 @@ TEST_F(Import, RefusesWheelsThatLeap) {
               Tells(HasSubstr("turns more than 100 times"), Help::check_wheel_units));
 }
 
+TEST_F(Import, RefusesACounterThatStartsAgain) {
+  std::string rows = "time_s,left_counts,right_counts\n";
+  for (int i = 0; i < 100; ++i) rows += fmt::format("{},{},{}\n", 0.02 * i, 20000 + 60 * i, 60 * i);
+  std::ofstream(at("w.csv")) << rows << "2.0,0,0\n2.02,60,60\n";
+  const std::vector<DriveFiles> pair{{at("w.csv"), test::write_tum(at("t.tum"), drives()[0])}};
+  EXPECT_THAT(told_by([&] { import_drives(pair, choices()); }),
+              Tells(HasSubstr("a wheel leaps by 1.67 m between the samples at 1.980 s and 2.000 s"),
+                    Help::cut_recording_or_check_wheel_units));
+}
+
 TEST_F(Import, AnotherUnitIsTakenInPlaceOfTheFilesOwn) {
   ImportChoices wrong = choices();
   wrong.truth.length_unit = "cm";
