@@ -145,6 +145,14 @@ std::vector<truth::WheelMotion> motion_of(const std::vector<recording::OdometryS
 void settle_direction(const std::string& name, const truth::FloorFindings& findings,
                       std::vector<Remark>& remarks) {
   constexpr double kClear_m = 0.03;  // more than a tracker's origin is off its floor
+  // Exchanged wheels under an axis that points down turn as they should.
+  if (!findings.turns_against_wheels && !findings.up_given && findings.height_m < -kClear_m)
+    throw Error(
+        fmt::format(
+            "'{}': the body is {:.2f} m below the tracker's origin, so the axis that seems to point up "
+            "may point down and the wheels may be exchanged",
+            name, -findings.height_m),
+        {Help::exchange_wheels_or_give_up});
   if (!findings.turns_against_wheels) return;
   const std::string fact = "'" + name + "': the wheels turn the robot the other way than the ground truth";
   if (findings.up_given) throw Error(fact, {Help::exchange_wheels_or_change_up});

@@ -186,6 +186,19 @@ TEST_F(Directions, ExchangedWheelsUnderABodyAboveTheFloorAreRefusedAndNotTakenFo
               Tells(HasSubstr("0.21 m above the tracker's origin"), Help::exchange_wheels_or_give_up));
 }
 
+TEST_F(Directions, ExchangedWheelsUnderAnAxisThatPointsDownDoNotHideEachOther) {
+  ImportChoices exchanged = choices();
+  exchanged.wheels.exchanged = true;  // as the file would have them
+  EXPECT_THAT(
+      told_by([&] { imported(test::z_down, exchanged); }),
+      Tells(HasSubstr("the body is 0.21 m below the tracker's origin"), Help::exchange_wheels_or_give_up));
+  ImportChoices below = choices();
+  below.floor.up = truth::Direction3{0, 0, 1};
+  EXPECT_NO_THROW(imported(test::z_up, below, -test::kHeight_m))
+      << "a tracker whose origin is not on the floor";
+  EXPECT_THROW(imported(test::z_up, choices(), -test::kHeight_m), Error);
+}
+
 TEST_F(Directions, WhereNothingShowsWhatIsMirroredNothingIsGuessed) {
   ImportChoices exchanged = choices();
   exchanged.wheels.exchanged = true;
