@@ -86,6 +86,10 @@ RobotGeometry RobotGeometry::overridden_by(const RobotGeometry& over) const {
   return result;
 }
 
+bool is_controller_file(const fs::path& path) {
+  return looks_like_yaml(as_text(load_file(path, kMaxSettingsBytes)));
+}
+
 RobotGeometry read_robot_file(const fs::path& path, const std::string& node) {
   const Bytes bytes = load_file(path, kMaxSettingsBytes);
   const std::string_view text = as_text(bytes);
