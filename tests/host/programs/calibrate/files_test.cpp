@@ -145,6 +145,20 @@ TEST_F(Files, ThatDoNotPairAreWrongUsage) {
   EXPECT_EQ(astrolabe({"calibrate", "check", "--with", "x.toml"}).code, kWrongUsage);
 }
 
+TEST_F(Files, AreNotReadWithOptionsThatApplyToOtherKindsOfFiles) {
+  std::vector<std::string> words{"calibrate", "files"};
+  for (const std::string& word : pairs(1)) words.push_back(word);
+  const Outcome outcome = run(words, {"--truth-topic", "/tracker/pose"});
+  EXPECT_EQ(outcome.code, kWrongUsage);
+  EXPECT_THAT(outcome.err, HasSubstr("--truth-topic does not apply here"));
+  EXPECT_EQ(astrolabe({"inspect", words[3], "--truth-topic", "/tracker/pose"}).code, kWrongUsage);
+  EXPECT_EQ(astrolabe({"inspect", words[5], "--per-interval"}).code, kWrongUsage);
+  EXPECT_EQ(astrolabe({"report", folder_.path().string(), "--up", "y"}).code, kWrongUsage);
+  EXPECT_EQ(astrolabe({"calibrate", "check", folder_.path().string(), "--with", "x.toml", "--up", "y"}).code,
+            kWrongUsage);
+  EXPECT_EQ(astrolabe({"calibrate", "bag", "drive", "--body", "ASTRO"}).code, kWrongUsage);
+}
+
 TEST_F(Files, WhoseSizesAreNotKnownAreAskedForByTheirOptions) {
   const Outcome outcome = calibrated(1, {"--wheel-diameter", "0.084", "--wheelbase", "0.29"});
   EXPECT_EQ(outcome.code, 1);
