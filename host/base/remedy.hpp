@@ -124,6 +124,7 @@ enum class Help : std::uint8_t {
   name_pose_stream,
   name_controller,
   check_wheel_units,
+  cut_recording_or_check_wheel_units,
   exchange_wheels_or_give_up,
   exchange_wheels_or_change_up,
   say_axis_in_address,  // {axis}

@@ -50,7 +50,7 @@ class Poses {
 
 Bytes mcap_file(const std::string& compression) {
   test::McapBag bag(compression);
-  bag.topic(1, "/tf", test::kTfType);
+  bag.topic(1, "/mocap/tf", test::kTfType);
   Poses poses;
   for (int i = 0; i < kMessages; ++i) {
     const Bytes message = poses.next();
@@ -70,7 +70,7 @@ void write_database(const fs::path& path) {
       "TEXT,type "
       "TEXT,serialization_format TEXT);CREATE TABLE messages(id INTEGER PRIMARY KEY,topic_id INTEGER NOT "
       "NULL,timestamp INTEGER NOT NULL,data BLOB NOT NULL);CREATE INDEX timestamp_idx ON messages(timestamp);"
-      "INSERT INTO topics VALUES(1,'/tf','tf2_msgs/msg/TFMessage','cdr');BEGIN",
+      "INSERT INTO topics VALUES(1,'/mocap/tf','tf2_msgs/msg/TFMessage','cdr');BEGIN",
       nullptr, nullptr, nullptr);
   recording::Statement insert(raw, "INSERT INTO messages(topic_id,timestamp,data) VALUES(1,?,?)");
   Poses poses;

@@ -85,6 +85,7 @@ void take(ByteView input) {
   });
   try_to([&] { wheels_in_bag(path); });
   try_to([&] { poses_in_bag(path); });
+  try_to([&] { poses_in_bag(path, {"/tf", "", ""}); });
 }
 
 std::vector<Bytes> seeds() {

@@ -139,6 +139,9 @@ constexpr Sentence kSentences[] = {
     {Help::name_controller, ": name one with --controller"},
     {Help::check_wheel_units,
      ": check the unit of the wheels, and whether their rows are travel --per-interval"},
+    {Help::cut_recording_or_check_wheel_units,
+     "; cut the recording there, or check the unit of the wheels and whether their rows are travel "
+     "--per-interval"},
     {Help::exchange_wheels_or_give_up,
      ": give --swap-wheels if left and right are exchanged, or --up with the axis of the tracker that points "
      "up"},

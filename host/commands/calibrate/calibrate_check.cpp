@@ -12,6 +12,7 @@
 #include "host/commands/shared/damaged_option.hpp"
 #include "host/commands/shared/import_options.hpp"
 #include "host/commands/shared/robot_view.hpp"
+#include "host/commands/shared/unused_choices.hpp"
 #include "host/console/console.hpp"
 #include "host/console/wrong_usage.hpp"
 #include "host/experiment/analysis/dead_reckoning.hpp"
@@ -53,6 +54,7 @@ experiment::RunSet read_drives(const CheckOptions& options) {
   if (options.folder.empty() == !options.import.given())
     throw console::WrongUsage("name either a folder with recordings, or --wheels and --truth of each drive");
   if (options.import.given()) return read_drive_files(options.import);
+  refuse_choices_without_drives(options.import);
   experiment::RunSet set = read_recordings(options.damaged, [&](recording::Damage damage) {
     return experiment::read_run_set(options.folder, options.without, damage);
   });

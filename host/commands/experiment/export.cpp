@@ -53,7 +53,9 @@ void add_export(console::Command app) {
                   "write odometry.csv and truth.csv into this folder;\nof a folder, a folder inside it for "
                   "each recording")
       .type_name("FOLDER");
-  command.add_option("--tum", options->tum, "write odometry.tum and truth.tum into this folder")
+  command
+      .add_option("--tum", options->tum,
+                  "write odometry.tum and truth.tum into this folder:\nthe poses that have a heading")
       .type_name("FOLDER");
   command
       .add_option("--rosbag", options->rosbag,

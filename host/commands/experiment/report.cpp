@@ -4,6 +4,7 @@
 #include "host/commands/shared/import_options.hpp"
 #include "host/commands/shared/results_option.hpp"
 #include "host/commands/shared/robot_view.hpp"
+#include "host/commands/shared/unused_choices.hpp"
 #include "host/console/console.hpp"
 #include "host/console/wrong_usage.hpp"
 #include "host/experiment/analysis/report_input.hpp"
@@ -48,6 +49,7 @@ void add_report(console::Command app) {
     const bool files = options->import.given();
     if (files == !options->results.folders.empty())
       throw console::WrongUsage("name either folders of recordings, or --wheels and --truth of each drive");
+    if (!files) refuse_choices_without_drives(options->import);
     if (!files && !options->with.empty()) throw console::WrongUsage("--with goes with --wheels and --truth");
     std::filesystem::path out = options->out;
     if (out.empty()) out = files ? "report.html" : options->results.folders.front() / "report.html";

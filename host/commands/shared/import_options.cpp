@@ -8,6 +8,7 @@
 
 #include "host/base/numbers.hpp"
 #include "host/commands/base/remedies.hpp"
+#include "host/commands/shared/unused_choices.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
 #include "host/console/wrong_usage.hpp"
@@ -117,8 +118,11 @@ void add_bag_choices(console::Command command, ImportOptions& options) {
       .delimiter(',');
 }
 
-void add_tracker_choices(console::Command command, ImportOptions& options) {
+void add_body_choice(console::Command command, ImportOptions& options) {
   command.add_option("--body", options.body, "trackers: the body, by name or number").type_name("NAME");
+}
+
+void add_tracker_choices(console::Command command, ImportOptions& options) {
   command.add_option("--up", options.up, "the tracker's axis that points up: x, y, z, -x, -y,\n-z or A,B,C")
       .type_name("AXIS")
       .check(is_axis());
@@ -151,6 +155,7 @@ void add_import(console::Command command, ImportOptions& options) {
   add_drive_files(command, options);
   add_table_choices(command, options.table);
   add_bag_choices(command, options);
+  add_body_choice(command, options);
   add_tracker_choices(command, options);
   add_geometry_choices(command, options);
 }
@@ -159,6 +164,7 @@ experiment::RunSet read_drive_files(const ImportOptions& options) {
   if (options.wheels.size() != options.truth.size())
     throw console::WrongUsage(fmt::format("there are {} --wheels and {} --truth: each drive needs both",
                                           options.wheels.size(), options.truth.size()));
+  refuse_unused_choices(options);
   std::vector<experiment::DriveFiles> files;
   for (std::size_t i = 0; i < options.wheels.size(); ++i)
     files.push_back({options.wheels[i], options.truth[i]});

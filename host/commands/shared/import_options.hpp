@@ -29,6 +29,7 @@ void add_drive_files(console::Command command, ImportOptions& options);
 /// How to read files of these kinds: what is not said is recognised or asked for in an error.
 void add_table_choices(console::Command command, recording::WheelTable& table);
 void add_bag_choices(console::Command command, ImportOptions& options);
+void add_body_choice(console::Command command, ImportOptions& options);
 void add_tracker_choices(console::Command command, ImportOptions& options);
 void add_geometry_choices(console::Command command, ImportOptions& options);
 
@@ -36,7 +37,7 @@ void add_geometry_choices(console::Command command, ImportOptions& options);
 void add_import(console::Command command, ImportOptions& options);
 
 /// Reads them, and says about each drive what was found and inferred. Throws console::WrongUsage if the numbers of files
-/// differ, and what experiment::import_drives throws.
+/// differ or an option applies to none of them (unused_choices.hpp), and what experiment::import_drives throws.
 experiment::RunSet read_drive_files(const ImportOptions& options);
 
 }  // namespace astro::commands

@@ -26,14 +26,6 @@ std::string said(const std::vector<Remark>& remarks) {
   return text;
 }
 
-std::string axis_text(const std::optional<truth::Direction3>& axis) {
-  if (!axis) return "-";
-  constexpr double kAlong = 0.999;  // 2.6 degrees
-  for (std::size_t i = 0; i < 3; ++i)
-    if (std::abs((*axis)[i]) > kAlong) return std::string(1, "xyz"[i]);
-  return fmt::format("{:.2f},{:.2f},{:.2f}", (*axis)[0], (*axis)[1], (*axis)[2]);
-}
-
 /// The positions decide where both show it.
 const std::optional<truth::Direction3>& up_of(const truth::BodyInspection& body) {
   return body.up.by_positions ? body.up.by_positions : body.up.by_rotations;
@@ -68,8 +60,8 @@ std::string tracker_text(const truth::Inspection& tracker) {
                     fmt::format("{}", body.samples), fmt::format("{:.1f}", body.duration_s),
                     body.median_period_s > 0 ? fmt::format("{:.4g}", 1 / body.median_period_s) : "-",
                     fmt::format("{}", body.lost.all()), fmt::format("{}", body.gaps),
-                    fmt::format("{:.2f}", body.longest_gap_s), axis_text(up_of(body)),
-                    noise_text(body.noise)});
+                    fmt::format("{:.2f}", body.longest_gap_s),
+                    up_of(body) ? truth::axis_text(*up_of(body)) : "-", noise_text(body.noise)});
   text += console::table(rows);
   if (tracker.bodies_left_out > 0) text += fmt::format("and {} more bodies\n", tracker.bodies_left_out);
   for (const truth::BodyInspection& body : tracker.bodies) text += said(body.facts.remarks);

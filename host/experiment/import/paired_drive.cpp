@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "host/base/error.hpp"
+#include "host/base/whole_microseconds.hpp"
 #include "host/calibration/motion/arc.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
 #include "host/experiment/analysis/squares.hpp"
@@ -57,21 +58,29 @@ struct Counter {
   std::int64_t counts(double travel) const { return std::llround(travel * counts_per_unit); }
 };
 
-/// Rounded down, also before the epoch, as the times of truth are.
-std::int64_t microseconds(std::int64_t time_ns) { return (time_ns - (time_ns % 1000 + 1000) % 1000) / 1000; }
-
-/// Between two samples in more than a hundred turns of a wheel something else is wrong than a gap.
+/// Between two samples in more than a hundred turns of a wheel something else is wrong than a gap. No robot drives at
+/// 20 m/s, so a counter started again; but a recorder may stamp many samples at once that it received late.
 void refuse_leaps(const std::string& name, const WheelTrack& track, const Counter& counter) {
-  constexpr double kMostTurns = 100;
+  constexpr double kMostTurns = 100, kMost_mps = 20, kAtOnce_m = 0.5;
   for (std::size_t i = 1; i < track.samples.size(); ++i) {
     const WheelSample &from = track.samples[i - 1], &to = track.samples[i];
     const double most = std::max(std::abs(to.left - from.left), std::abs(to.right - from.right));
-    if (!(most * counter.counts_per_unit < kMostTurns * counter.wheel.counts_per_turn))
+    const double counts = most * counter.counts_per_unit;
+    const double from_s = 1e-9 * static_cast<double>(from.time_ns),
+                 to_s = 1e-9 * static_cast<double>(to.time_ns);
+    if (!(counts < kMostTurns * counter.wheel.counts_per_turn))
       throw Error(
           fmt::format("'{}': a wheel turns more than {} times between the samples at {:.3f} s and {:.3f} s",
-                      name, kMostTurns, 1e-9 * static_cast<double>(from.time_ns),
-                      1e-9 * static_cast<double>(to.time_ns)),
+                      name, kMostTurns, from_s, to_s),
           {Help::check_wheel_units});
+    const double way_m = counts * counter.wheel.metres_per_count();
+    if (way_m > kAtOnce_m + kMost_mps * (to_s - from_s))
+      throw Error(
+          fmt::format(
+              "'{}': a wheel leaps by {:.2f} m between the samples at {:.3f} s and {:.3f} s, as where "
+              "a counter starts again",
+              name, way_m, from_s, to_s),
+          {Help::cut_recording_or_check_wheel_units});
   }
 }
 
@@ -89,7 +98,7 @@ std::vector<recording::OdometrySample> odometry_of(std::vector<WheelSample> samp
   for (const WheelSample& at : samples) {
     const std::int64_t new_left = counter.counts(at.left - start.left),
                        new_right = counter.counts(at.right - start.right);
-    const std::int64_t time_us = microseconds(at.time_ns);
+    const std::int64_t time_us = whole_microseconds(at.time_ns);
     const double right_step_m = right_m * static_cast<double>(new_right - right),
                  left_step_m = left_m * static_cast<double>(new_left - left);
     if (!odometry.empty() && time_us > sample.time_us) {
@@ -134,6 +143,14 @@ std::vector<truth::WheelMotion> motion_of(const std::vector<recording::OdometryS
 void settle_direction(const std::string& name, const truth::FloorFindings& findings,
                       std::vector<Remark>& remarks) {
   constexpr double kClear_m = 0.03;  // more than a tracker's origin is off its floor
+  // Exchanged wheels under an axis that points down turn as they should.
+  if (!findings.turns_against_wheels && !findings.up_given && findings.height_m < -kClear_m)
+    throw Error(
+        fmt::format(
+            "'{}': the body is {:.2f} m below the tracker's origin, so the axis that seems to point up "
+            "may point down and the wheels may be exchanged",
+            name, -findings.height_m),
+        {Help::exchange_wheels_or_give_up});
   if (!findings.turns_against_wheels) return;
   const std::string fact = "'" + name + "': the wheels turn the robot the other way than the ground truth";
   if (findings.up_given) throw Error(fact, {Help::exchange_wheels_or_change_up});
@@ -204,23 +221,16 @@ double rate_hz(const std::vector<Sample>& samples) {
   return span_s > 0 ? static_cast<double>(samples.size() - 1) / span_s : 0;
 }
 
-/// "y is up", "-z is up", "(0.02, 0.17, 0.98) is up".
-std::string up_text(const truth::Direction3& up) {
-  constexpr double kAxis = 0.999;  // 2.6 degrees
-  for (std::size_t i = 0; i < 3; ++i)
-    if (std::abs(up[i]) > kAxis) return fmt::format("{}{} is up", up[i] < 0 ? "-" : "", "xyz"[i]);
-  return fmt::format("({:.2f}, {:.2f}, {:.2f}) is up", up[0], up[1], up[2]);
-}
-
 std::string summary_of(const std::vector<WheelSample>& counts) {
   return fmt::format("{} samples of the wheels at {:.4g} Hz over {:.1f} s", counts.size(), rate_hz(counts),
                      1e-9 * static_cast<double>(counts.back().time_ns - counts.front().time_ns));
 }
 
 std::string summary_of(const ImportedTruth& truth, const truth::FloorFindings& floor) {
-  return fmt::format("; {} poses{} at {:.4g} Hz, {} lost; {}", truth.track.samples.size(),
+  return fmt::format("; {} poses{} ({}) at {:.4g} Hz, {} lost; {} is up", truth.track.samples.size(),
                      truth.track.name.empty() ? "" : " of '" + truth.track.name + "'",
-                     rate_hz(truth.track.samples), truth.lost.all(), up_text(floor.up));
+                     truth.track.facts.format, rate_hz(truth.track.samples), truth.lost.all(),
+                     truth::axis_text(floor.up));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace astro::experiment {
 /// What was found in the files of a drive.
 struct DriveReport {
   truth::FloorFindings floor;
-  std::string summary;          // how many samples, how often, what is up: one phrase
+  std::string summary;          // how many samples, how often, whose poses, what is up: one phrase
   std::vector<Remark> remarks;  // what was inferred or left out, of both files
 };
 
@@ -32,9 +32,11 @@ struct PairedDrive {
 /// wrong, and the motion alone cannot show which: the up axis, left and right wheel, or the recording is a mirror image. The
 /// height of the body above the origin decides if it is clear, because trackers have their origin on the floor: below it,
 /// the axis was reversed. Otherwise nothing is guessed, because exchanged wheels would give the left factor to the
-/// right wheel.
+/// right wheel. Where both turn alike but the body is below the origin, two of the three may be wrong and hide each other,
+/// so the axis must be given.
 ///
-/// Throws astro::Error: wheels and truth turn against each other; a wheel turns 100 times between two samples; what
+/// Throws astro::Error: wheels and truth turn against each other, or the body is below the origin of an axis that was
+/// not given; a wheel turns 100 times between two samples, or leaps faster than 20 m/s; what
 /// complete_geometry and truth::place_on_floor throw.
 PairedDrive pair_up(const std::string& name, ImportedWheels wheels, const ImportedTruth& truth,
                     const RobotGeometry& geometry, const truth::FloorChoices& choices = {});

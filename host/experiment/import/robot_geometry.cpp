@@ -17,14 +17,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// By the first line that says anything: TOML begins with a [table] or `key =`, YAML with `key:`.
+/// By the first line that says anything: TOML begins with a [table] or `key =`, YAML with `key:`, with the three dashes
+/// that begin a document or with a %directive.
 bool looks_like_yaml(std::string_view text) {
+  const std::string document(3, '-');
   while (!text.empty()) {
     std::string_view line = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(line.size() + 1, text.size()));
     line.remove_prefix(std::min(line.find_first_not_of(" \t\r"), line.size()));
     if (line.empty() || line.front() == '#') continue;
     if (line.front() == '[') return false;
+    if (line.starts_with(document) || line.front() == '%') return true;
     return line.find(':') < line.find('=');
   }
   return false;
@@ -81,6 +84,10 @@ RobotGeometry RobotGeometry::overridden_by(const RobotGeometry& over) const {
   if (over.wheelbase_m) result.wheelbase_m = over.wheelbase_m;
   if (!over.joints.left.empty()) result.joints = over.joints;
   return result;
+}
+
+bool is_controller_file(const fs::path& path) {
+  return looks_like_yaml(as_text(load_file(path, kMaxSettingsBytes)));
 }
 
 RobotGeometry read_robot_file(const fs::path& path, const std::string& node) {

@@ -21,6 +21,9 @@ struct RobotGeometry {
   RobotGeometry overridden_by(const RobotGeometry& over) const;
 };
 
+/// Whether the file is read as YAML below. Throws astro::Error naming the file if it cannot be read.
+bool is_controller_file(const std::filesystem::path& path);
+
 /// The geometry in a file, of which the content tells the kind:
 ///   TOML   [parameters] wheel_diameter, counts_per_motor_rev, gear_numerator, gear_denominator (1 unless given), b, c_R,
 ///          c_L, in SI units: as the robot's parameters are exported; or a calibration that the robot carries, with

@@ -16,15 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Our recordings are single MCAP files; exported as bags or packed they are bags as any other.
-bool is_own_recording(const fs::path& path) {
-  if (recording::bag_file_kind(path) != recording::BagFileKind::mcap) return false;
-  const std::vector<recording::BagTopic> topics = recording::read_bag(path).topics;
-  return std::any_of(topics.begin(), topics.end(), [](const recording::BagTopic& topic) {
-    return topic.type == ros2::wheel_counts_type().name;
-  });
-}
-
 /// Our counters wrap at 2^32.
 recording::WheelTrack track_of(const recording::Run& run) {
   recording::WheelTrack track;
@@ -55,6 +46,14 @@ ImportedWheels read(const fs::path& path, const WheelSelection& selection) {
 }
 
 }  // namespace
+
+bool is_own_recording(const fs::path& path) {
+  if (recording::bag_file_kind(path) != recording::BagFileKind::mcap) return false;
+  const std::vector<recording::BagTopic> topics = recording::read_bag(path).topics;
+  return std::any_of(topics.begin(), topics.end(), [](const recording::BagTopic& topic) {
+    return topic.type == ros2::wheel_counts_type().name;
+  });
+}
 
 recording::WheelTrack read_wheel_table(const fs::path& path, const recording::WheelTable& table) {
   if (!is_packed_text(path)) {

@@ -24,6 +24,9 @@ struct ImportedWheels {
   std::optional<recording::RunInfo> info;
 };
 
+/// Our recordings are single MCAP files; exported as bags or packed they are bags as any other.
+bool is_own_recording(const std::filesystem::path& path);
+
 /// The wheels in a table, also packed with gzip. Throws as wheels_in_table and text_of_file do.
 recording::WheelTrack read_wheel_table(const std::filesystem::path& path, const recording::WheelTable& table);
 

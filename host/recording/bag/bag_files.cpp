@@ -9,6 +9,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
+#include "host/base/natural_order.hpp"
 #include "host/recording/mcap/compression.hpp"
 #include "host/recording/mcap/records.hpp"
 #include "host/recording/yaml/yaml_scalars.hpp"
@@ -19,30 +20,6 @@ namespace {
 
 constexpr std::string_view kMetadataFile = "metadata.yaml";
 constexpr std::size_t kMostFiles = 10'000, kMostMissing = 8;
-
-/// Orders "bag_2" before "bag_10": numbers by their value, everything else by its bytes.
-bool natural_less(std::string_view a, std::string_view b) {
-  const auto digits = [](std::string_view text) {
-    const std::size_t end = text.find_first_not_of("0123456789");
-    return text.substr(0, end);
-  };
-  while (!a.empty() && !b.empty()) {
-    std::string_view left = digits(a), right = digits(b);
-    if (left.empty() || right.empty()) {
-      if (a.front() != b.front()) return a.front() < b.front();
-      a.remove_prefix(1);
-      b.remove_prefix(1);
-      continue;
-    }
-    a.remove_prefix(left.size());
-    b.remove_prefix(right.size());
-    left.remove_prefix(std::min(left.find_first_not_of('0'), left.size()));
-    right.remove_prefix(std::min(right.find_first_not_of('0'), right.size()));
-    if (left.size() != right.size()) return left.size() < right.size();
-    if (left != right) return left < right;
-  }
-  return a.size() < b.size();
-}
 
 std::vector<fs::path> parts_in(const fs::path& folder) {
   std::vector<fs::path> files;

@@ -17,7 +17,4 @@ std::vector<std::filesystem::path> list_runs(const std::filesystem::path& folder
 /// The runs themselves, in that order. Throws astro::Error naming a file that is no run.
 std::vector<Run> read_runs(const std::filesystem::path& folder, Damage damage = Damage::refused);
 
-/// Whether `a` comes before `b` when the digits in them are read as numbers.
-bool natural_less(std::string_view a, std::string_view b);
-
 }  // namespace astro::recording

@@ -10,9 +10,10 @@
 namespace astro::recording {
 namespace {
 
-void append_pose(std::string& text, std::int64_t time_us, double x_m, double y_m, double theta_rad) {
-  const double half = std::isfinite(theta_rad) ? theta_rad / 2 : 0;
-  text += seconds_text(time_us) + ' ' + to_text(x_m) + ' ' + to_text(y_m) + " 0 0 0 " +
+template <class Sample>
+void append(std::string& text, const Sample& sample) {
+  const double half = sample.theta_rad / 2;
+  text += seconds_text(sample.time_us) + ' ' + to_text(sample.x_m) + ' ' + to_text(sample.y_m) + " 0 0 0 " +
           to_text(std::sin(half)) + ' ' + to_text(std::cos(half)) + '\n';
 }
 
@@ -21,13 +22,20 @@ void write(const std::filesystem::path& path, const std::vector<Sample>& samples
   constexpr std::size_t kWrittenAtATime = 65536;
   PartFile file(path);
   std::string text = "# timestamp tx ty tz qx qy qz qw\n";
+  std::size_t without_heading = 0;
   for (const Sample& sample : samples) {
     if (!is_valid(sample)) continue;
-    append_pose(text, sample.time_us, sample.x_m, sample.y_m, sample.theta_rad);
+    if (!std::isfinite(sample.theta_rad)) {
+      ++without_heading;
+      continue;
+    }
+    append(text, sample);
     if (text.size() < kWrittenAtATime) continue;
     file.write(as_bytes(text));
     text.clear();
   }
+  if (without_heading > 0)
+    text += "# left out because their heading was not measured: " + std::to_string(without_heading) + "\n";
   file.write(as_bytes(text));
   file.commit();
 }

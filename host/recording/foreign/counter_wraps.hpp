@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "host/recording/foreign/wheel_track.hpp"
 
 namespace astro::recording {
@@ -8,6 +10,9 @@ namespace astro::recording {
 /// not, and angles in [0, 2 pi) or [-pi, pi). A wheel is taken to wrap if all its values are in such a range and it
 /// jumps by more than half of it at least once; a wheel must then move less than half the range between two samples.
 /// Adds a remark for each wheel that wraps. Metres are left as they are.
-void unwrap(WheelTrack& track);
+///
+/// Errors  astro::Error with `name` and the time if a jump is neither a step over the end of the range nor motion: it is
+///         more than four times as long and as fast as any other step of this wheel. The counter started again then.
+void unwrap(WheelTrack& track, const std::string& name);
 
 }  // namespace astro::recording

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <set>
+#include <map>
 
 #include "host/recording/bag/bag.hpp"
 #include "host/recording/foreign/counter_wraps.hpp"
 #include "host/recording/foreign/sample_limit.hpp"
+#include "host/recording/foreign/stamp_count.hpp"
 #include "host/recording/foreign/time_order.hpp"
 #include "host/recording/foreign/unclear_choice.hpp"
 #include "host/ros2/joint_state.hpp"
@@ -40,7 +41,6 @@ class JointWheels {
     track_.unit = WheelUnit::radians;
     choose_topic();
     choose_joints();
-    track_.clock = stamped_ ? WheelClock::stamp : WheelClock::receipt;
     BagReport report;
     for_each_state(path_, topic_, report, [this](const ros2::JointState* state, std::int64_t log_time_ns) {
       if (state != nullptr) take(*state, log_time_ns);
@@ -71,15 +71,17 @@ class JointWheels {
   }
 
   void choose_joints() {
-    std::set<std::string> found;
+    std::map<std::string, StampCount> found;
     BagReport report;
     for_each_state(path_, topic_, report, [&](const ros2::JointState* state, std::int64_t) {
       if (state == nullptr) return;
-      stamped_ = stamped_ || state->time_ns != 0;
-      for (const std::string& name : state->names)
-        if (found.size() < kMostNames) found.insert(name);
+      for (const std::string& name : state->names) {
+        if (found.size() >= kMostNames && !found.contains(name)) continue;
+        found[name].take(state->time_ns);
+      }
     });
-    const std::vector<std::string> names(found.begin(), found.end());
+    std::vector<std::string> names;
+    for (const auto& [name, stamps] : found) names.push_back(name);
     if (joints_.left.empty() && joints_.right.empty()) {
       const auto recognised = recognise_wheels(names);
       if (!recognised)
@@ -97,6 +99,9 @@ class JointWheels {
     if (joints_.left == joints_.right)
       throw UnclearChoice(path_.string() + ": both wheels are the joint " + joints_.left, names,
                           Help::name_wheel_joints);
+    // Other drivers on the same topic may have no clock.
+    stamps_ = found.at(joints_.left);
+    track_.clock = stamps_.most_are_set() ? WheelClock::stamp : WheelClock::receipt;
   }
 
   void take(const ros2::JointState& state, std::int64_t log_time_ns) {
@@ -112,8 +117,9 @@ class JointWheels {
       ++without_values_;
       return;
     }
-    const WheelSample sample{track_.clock == WheelClock::stamp ? state.time_ns : log_time_ns, values[left],
-                             values[right]};
+    const bool stamped = track_.clock == WheelClock::stamp;
+    if (stamped && stamps_.is_missing(state.time_ns)) return;
+    const WheelSample sample{stamped ? state.time_ns : log_time_ns, values[left], values[right]};
     (positions ? track_.samples : velocities_).push_back(sample);
   }
 
@@ -137,11 +143,12 @@ class JointWheels {
       integrate();
     } else {
       order_by_time(track_.samples, topic_, track_.remarks);
-      unwrap(track_);
+      unwrap(track_, path_.string() + ": " + topic_);
     }
     if (without_values_ > 0)
       remark(std::to_string(without_values_) +
              " messages have neither positions nor velocities of the wheels");
+    if (track_.clock == WheelClock::stamp) stamps_.remark("messages of " + topic_, track_.remarks);
     if (track_.samples.size() < 2)
       throw Error(path_.string() + ": " + topic_ + " has fewer than two messages with both wheels (" +
                       joints_.left + ", " + joints_.right + ")",
@@ -151,7 +158,7 @@ class JointWheels {
   const std::filesystem::path& path_;
   std::string topic_;
   JointPair joints_;
-  bool stamped_ = false;
+  StampCount stamps_;  // of the messages with the left wheel
   std::size_t without_values_ = 0;
   std::vector<WheelSample> velocities_;
   WheelTrack track_;

@@ -7,9 +7,9 @@
 #include <tuple>
 
 #include "host/recording/bag/bag.hpp"
+#include "host/recording/foreign/pose_choice.hpp"
 #include "host/recording/foreign/sample_limit.hpp"
 #include "host/recording/foreign/time_order.hpp"
-#include "host/recording/foreign/unclear_choice.hpp"
 #include "host/ros2/stamped_pose.hpp"
 
 namespace astro::recording {
@@ -42,53 +42,6 @@ PoseReport for_each_pose(const fs::path& path, const std::string& topic, const T
   return report;
 }
 
-bool is_truth_by_name(const std::string& topic) {
-  std::string lower = topic;
-  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  for (const char* word :
-       {"mocap", "vrpn", "optitrack", "vicon", "qualisys", "natnet", "ground", "truth", "tracker"})
-    if (lower.find(word) != std::string::npos) return true;
-  return false;
-}
-
-bool is_estimate_by_type(const std::string& type) {
-  return type == "nav_msgs/msg/Odometry" || type == ros2::tf_message_type().name;
-}
-
-std::vector<std::string> names_of(const std::vector<PoseStream>& streams) {
-  std::vector<std::string> names;
-  for (const PoseStream& stream : streams) names.push_back(stream.name());
-  return names;
-}
-
-PoseStream chosen(const fs::path& path, const PoseSelection& selection, std::vector<Remark>& remarks) {
-  const std::vector<PoseStream> all = pose_streams(path);
-  std::vector<PoseStream> left;
-  for (const PoseStream& stream : all)
-    if ((selection.topic.empty() || stream.topic == selection.topic) &&
-        (selection.frame.empty() || stream.frame == selection.frame) &&
-        (selection.child_frame.empty() || stream.child_frame == selection.child_frame))
-      left.push_back(stream);
-  if (left.size() == 1) return left.front();
-  if (left.empty())
-    throw UnclearChoice(path.string() + (all.empty() ? " has no poses"
-                                                     : " has no such poses; it has " + listed(names_of(all))),
-                        names_of(all), Help::name_pose_stream);
-  const auto only = [&](const auto& is_meant) -> const PoseStream* {
-    const auto first = std::ranges::find_if(left, is_meant);
-    if (first == left.end() || std::find_if(first + 1, left.end(), is_meant) != left.end()) return nullptr;
-    return &*first;
-  };
-  const PoseStream* found = only([](const PoseStream& stream) { return is_truth_by_name(stream.topic); });
-  if (found == nullptr)
-    found = only([](const PoseStream& stream) { return !is_estimate_by_type(stream.type); });
-  if (found == nullptr)
-    throw UnclearChoice(path.string() + " has several streams of poses: " + listed(names_of(left)),
-                        names_of(left), Help::name_pose_stream);
-  remarks.push_back({"the poses are those of " + found->name()});
-  return *found;
-}
-
 /// How far the recorder's clock is ahead of the stamps.
 struct ClockOffset {
   double least_s = 0, most_s = 0;
@@ -104,7 +57,8 @@ struct ClockOffset {
     constexpr double kOtherClock_s = 3600, kMostSpread_s = 1;
     if (std::abs(least_s) > kOtherClock_s || std::abs(most_s) > kOtherClock_s)
       remarks.push_back({"the stamps of the poses are on another clock than the recorder's: they are " +
-                         std::to_string(std::llround(least_s)) + " s before it"});
+                         std::to_string(std::llround(std::abs(least_s))) +
+                         (least_s < 0 ? " s after it" : " s before it")});
     if (most_s - least_s > kMostSpread_s)
       remarks.push_back({"the poses reached the recorder with delays that differ by " +
                          std::to_string(std::llround(most_s - least_s)) + " s"});
@@ -122,56 +76,54 @@ std::string PoseStream::name() const {
 std::vector<PoseStream> pose_streams(const fs::path& path) {
   std::map<std::tuple<std::string, std::string, std::string, std::string>, std::size_t> places;
   std::vector<PoseStream> streams;
-  for_each_pose(
-      path, "", [&](const BagTopic& topic, const ros2::StampedPose& pose, std::int64_t log_time_ns) {
-        // A pose without a child frame belongs to its topic, whatever its frame is called from message to message.
-        const std::string frame = pose.child_frame.empty() ? "" : pose.frame;
-        const auto [at, is_new] =
-            places.try_emplace({topic.name, topic.type, frame, pose.child_frame}, streams.size());
-        if (is_new && streams.size() >= kMostStreams) {
-          places.erase(at);
-          return;
-        }
-        if (is_new)
-          streams.push_back({topic.name, topic.type, frame, pose.child_frame, 0, log_time_ns, log_time_ns});
-        PoseStream& stream = streams[at->second];
-        ++stream.poses;
-        stream.first_ns = std::min(stream.first_ns, log_time_ns);
-        stream.last_ns = std::max(stream.last_ns, log_time_ns);
-      });
+  const auto take = [&](const BagTopic& topic, const ros2::StampedPose& pose, std::int64_t log_time_ns) {
+    // A pose without a child frame belongs to its topic, whatever its frame is called from message to message.
+    const std::string frame = pose.child_frame.empty() ? "" : pose.frame;
+    const auto [at, is_new] =
+        places.try_emplace({topic.name, topic.type, frame, pose.child_frame}, streams.size());
+    if (is_new && streams.size() >= kMostStreams) {
+      places.erase(at);
+      return;
+    }
+    if (is_new)
+      streams.push_back({topic.name, topic.type, frame, pose.child_frame, 0, {}, log_time_ns, log_time_ns});
+    PoseStream& stream = streams[at->second];
+    ++stream.poses;
+    stream.stamps.take(pose.time_ns);
+    stream.first_ns = std::min(stream.first_ns, log_time_ns);
+    stream.last_ns = std::max(stream.last_ns, log_time_ns);
+  };
+  for_each_pose(path, "", take);
   return streams;
 }
 
 PoseTopic poses_in_bag(const fs::path& path, const PoseSelection& selection) {
   PoseTopic out;
-  out.stream = chosen(path, selection, out.remarks);
+  out.stream = chosen_stream(path, pose_streams(path), selection, out.remarks);
   const PoseStream& stream = out.stream;
+  const bool stamped = stream.stamps.most_are_set();
   ClockOffset offset;
-  std::vector<std::int64_t> log_times_ns;
   // Of a pose 152 bytes are held when it is put on the floor: four times as many as these.
   require_possible(stream.poses, 38, "poses", path);
   out.poses.reserve(stream.poses);
-  log_times_ns.reserve(stream.poses);
-  const PoseReport report = for_each_pose(
-      path, stream.topic,
-      [&](const BagTopic& topic, const ros2::StampedPose& pose, std::int64_t log_time_ns) {
-        if (topic.type != stream.type || pose.child_frame != stream.child_frame ||
-            (!pose.child_frame.empty() && pose.frame != stream.frame))
-          return;
-        out.has_stamps = out.has_stamps || pose.time_ns != 0;
-        offset.take(log_time_ns, pose.time_ns);
-        log_times_ns.push_back(log_time_ns);
-        out.poses.push_back({pose.time_ns, pose.x_m, pose.y_m, pose.z_m, pose.qx, pose.qy, pose.qz, pose.qw});
-      });
-  if (!out.has_stamps)
-    for (std::size_t i = 0; i < out.poses.size(); ++i) out.poses[i].time_ns = log_times_ns[i];
-  log_times_ns = {};
+  const auto take = [&](const BagTopic& topic, const ros2::StampedPose& pose, std::int64_t log_time_ns) {
+    if (topic.type != stream.type || pose.child_frame != stream.child_frame ||
+        (!pose.child_frame.empty() && pose.frame != stream.frame))
+      return;
+    if (stamped && stream.stamps.is_missing(pose.time_ns)) return;
+    if (stamped) offset.take(log_time_ns, pose.time_ns);
+    out.poses.push_back({stamped ? pose.time_ns : log_time_ns, pose.x_m, pose.y_m, pose.z_m, pose.qx, pose.qy,
+                         pose.qz, pose.qw});
+  };
+  const PoseReport report = for_each_pose(path, stream.topic, take);
   for (const std::string& warning : report.bag.warnings) out.remarks.push_back({warning});
   if (report.unreadable > 0)
     out.remarks.push_back(
         {std::to_string(report.unreadable) + " messages do not fit their type and were left out"});
-  if (out.has_stamps) offset.remark(out.remarks);
-  order_by_time(out.poses, "poses of " + stream.topic, out.remarks);
+  const std::string what = "poses of " + stream.topic;
+  if (stamped) stream.stamps.remark(what, out.remarks);
+  offset.remark(out.remarks);
+  order_by_time(out.poses, what, out.remarks);
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/base/remedy.hpp"
+#include "host/recording/foreign/stamp_count.hpp"
 
 /// Poses in bags, from whatever published them: ground truth of a tracker, or a robot's own odometry.
 namespace astro::recording {
@@ -15,6 +16,7 @@ struct PoseStream {
   std::string topic, type;         // "/tf", "tf2_msgs/msg/TFMessage"
   std::string frame, child_frame;  // "map", "base_link"
   std::uint64_t poses = 0;
+  StampCount stamps;
   std::int64_t first_ns = 0, last_ns = 0;  // of the recorder
 
   std::string name() const;  // "/tf map base_link"
@@ -30,7 +32,6 @@ struct TimedPose {
 
 struct PoseTopic {
   PoseStream stream;
-  bool has_stamps = false;       // false: all are zero, and the times are those of the recorder
   std::vector<TimedPose> poses;  // times increase strictly
   std::vector<Remark> remarks;   // what was inferred or left out
 };
@@ -43,9 +44,9 @@ struct PoseSelection {
 /// All streams of poses in the order of the bag, at most 10,000. Errors as read_bag (host/recording/bag).
 std::vector<PoseStream> pose_streams(const std::filesystem::path& path);
 
-/// The poses of the only stream that is selected. If several are, the only one that is neither odometry nor a transform
-/// or whose topic's name speaks of ground truth or of a tracker. Times are header.stamp; a remark says if they are far
-/// from those of the recorder or drift against them.
+/// The poses of the stream that is selected or can be told to be ground truth (pose_choice.hpp). Times are header.stamp, and
+/// poses without one are left out, or those of the recorder if most have none. A remark says if stamps are far from the
+/// recorder's times or drift against them.
 ///
 /// Errors  UnclearChoice (unclear_choice.hpp) with the names of the streams if none or several are left; astro::Error
 ///         naming the file if it is no bag, or packs more poses than are taken from one of its size.

@@ -148,7 +148,7 @@ class Table {
   void finish() {
     if (track_.samples.size() < 2)
       refuse(name_, lines_.line(), "the table ends with fewer than two rows of wheels");
-    if (!columns_.per_interval) unwrap(track_);
+    if (!columns_.per_interval) unwrap(track_, name_);
     if (incomplete_ > 0)
       track_.remarks.push_back(
           {name_ + " has " + std::to_string(incomplete_) + " rows with empty cells; they were left out"});

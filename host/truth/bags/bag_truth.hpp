@@ -8,7 +8,8 @@
 namespace astro::truth {
 
 /// The selected stream of poses in a bag as a track. Its body is named like the child frame, or like the topic if the
-/// messages have none. A pose that no body can have, such as one of zeros or NaN, is one that the tracker had lost.
+/// messages have none. A pose that no body can have, such as one of zeros or NaN, is one that the tracker had lost;
+/// but if no pose has a rotation, the messages are positions only, as our own export of a point that was tracked.
 /// Errors as recording::poses_in_bag.
 BodyTrack track_in_bag(const std::filesystem::path& path, const recording::PoseSelection& selection = {});
 

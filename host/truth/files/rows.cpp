@@ -8,22 +8,17 @@
 
 #include "host/base/error.hpp"
 #include "host/base/formats/csv_table.hpp"
+#include "host/base/trimmed.hpp"
 
 namespace astro::truth {
 namespace {
 
-constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";
+constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF", kBlanks = " \t";
 constexpr std::size_t kMostHeaderCells = 100'000;
-
-std::string_view without_blanks(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-  return text;
-}
 
 std::string_view without_quotes(std::string_view cell) {
   while (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
-    cell = without_blanks(cell.substr(1, cell.size() - 2));
+    cell = trimmed(cell.substr(1, cell.size() - 2), kBlanks);
   return cell;
 }
 
@@ -121,13 +116,13 @@ bool take_cell(std::optional<std::string_view>& rest, char separator, std::strin
   if (!rest) return false;
   std::size_t end = 0;
   if (separator == ' ') {
-    *rest = without_blanks(*rest);
+    *rest = trimmed(*rest, kBlanks);
     if (rest->empty()) return false;
     end = rest->find_first_of(" \t");
   } else {
     end = end_of_cell(*rest, separator);
   }
-  cell = without_quotes(without_blanks(rest->substr(0, end)));
+  cell = without_quotes(trimmed(rest->substr(0, end), kBlanks));
   if (end == std::string_view::npos) {
     rest.reset();
   } else {

@@ -13,6 +13,7 @@
 #include "host/base/degrees.hpp"
 #include "host/base/error.hpp"
 #include "host/base/shown.hpp"
+#include "host/base/whole_microseconds.hpp"
 
 namespace astro::truth {
 namespace {
@@ -200,8 +201,7 @@ std::vector<recording::TruthSample> samples_of(const BodyTrack& track,
   std::size_t next = 0;
   for (const TrackedPose& sample : track.samples) {
     recording::TruthSample one;
-    // Rounded down also before the epoch, so that steps of time stay even.
-    one.time_us = (sample.time_ns - (sample.time_ns % 1000 + 1000) % 1000) / 1000;
+    one.time_us = whole_microseconds(sample.time_ns);
     one.valid = sample.valid;
     const FloorPoint& point = points[std::min(next, points.size() - 1)];
     one.x_m = point.x_m;

@@ -1,5 +1,7 @@
 #include "host/truth/floor/up_axis.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -66,6 +68,13 @@ void judge_rotations(const BodyTrack& track, UpAxisEvidence& out) {
 }
 
 }  // namespace
+
+std::string axis_text(const Direction3& direction) {
+  constexpr double kAlong = 0.999;  // 2.6 degrees
+  for (std::size_t i = 0; i < 3; ++i)
+    if (std::abs(direction[i]) > kAlong) return std::string(direction[i] < 0 ? "-" : "") + "xyz"[i];
+  return fmt::format("{:.2f},{:.2f},{:.2f}", direction[0], direction[1], direction[2]);
+}
 
 UpAxisEvidence find_up_axis(const BodyTrack& track) {
   UpAxisEvidence out;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 
 #include "host/truth/files/body_track.hpp"
 
@@ -9,6 +10,9 @@
 namespace astro::truth {
 
 using Direction3 = std::array<double, 3>;  // of length 1
+
+/// "y", "-z", or "0.02,0.17,0.98" if it is more than 2.6 degrees from every axis.
+std::string axis_text(const Direction3& direction);
 
 struct UpAxisEvidence {
   /// Normal of the plane in which the positions lie; nothing if they lie on a line or at a point.

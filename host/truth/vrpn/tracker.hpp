@@ -20,7 +20,7 @@ struct TrackerPose {
 };
 
 /// Nothing if the payload is no pose: another size than 64 bytes. What is in it may still be no pose that a
-/// body can have (Pose3::tracked()).
+/// body can have (is_possible()).
 std::optional<TrackerPose> pose_in(ByteView payload);
 Bytes payload_of(const TrackerPose& pose);
 

@@ -71,7 +71,7 @@ Bytes joints(const std::vector<std::string>& names) {
 TEST_F(BoundedImport, AMessageOfHalfAMillionTransforms) {
   for (const std::string compression : {"zstd", "lz4"}) {
     McapBag bag(compression);
-    bag.topic(1, "/tf", test::kTfType);
+    bag.topic(1, "/mocap/tf", test::kTfType);
     bag.message(1, 1, transforms(440'000));  // 31 MB
     of("x.mcap", bag.closed());
   }
@@ -79,7 +79,7 @@ TEST_F(BoundedImport, AMessageOfHalfAMillionTransforms) {
 
 TEST_F(BoundedImport, FramesWithNamesOfMegabytes) {
   McapBag bag("zstd");
-  bag.topic(1, "/tf", test::kTfType);
+  bag.topic(1, "/mocap/tf", test::kTfType);
   for (int i = 0; i < 250; ++i) {
     bag.message(1, i, transform(std::string(kMebibyte, 'a') + std::to_string(i)));
     if (bag.open_bytes() > 8 * kMebibyte) bag.end_chunk();
@@ -100,7 +100,7 @@ TEST_F(BoundedImport, JointsWithNamesOfMegabytes) {
 TEST_F(BoundedImport, AChannelThatIsAnotherTopicWithEachMessage) {
   McapBag bag("zstd");
   for (int i = 0; i < 250; ++i) {
-    bag.topic(1, "/tf" + std::string(kMebibyte, 'a') + std::to_string(i), test::kTfType);
+    bag.topic(1, "/mocap/tf" + std::string(kMebibyte, 'a') + std::to_string(i), test::kTfType);
     bag.message(1, i, transform("robot"));
     if (bag.open_bytes() > 8 * kMebibyte) bag.end_chunk();
   }
@@ -131,7 +131,7 @@ TEST_F(BoundedImport, ChunksThatClaimGigabytes) {
 Bytes database_of(const fs::path& path, ByteView message, int rows) {
   {
     recording::Db3Writer bag(path);
-    const int topic = bag.add_topic("/tf", test::kTfType, "");
+    const int topic = bag.add_topic("/mocap/tf", test::kTfType, "");
     for (int i = 0; i < rows; ++i) bag.write(topic, i, message);
     bag.close();
   }
@@ -148,7 +148,7 @@ TEST_F(BoundedImport, MessagesOfADatabaseThatExpandToMegabytes) {
 
 TEST_F(BoundedImport, PackedFilesWhoseRecordsAreAsLargeAsTheyExpand) {
   McapBag stored("");
-  stored.topic(1, "/tf", test::kTfType);
+  stored.topic(1, "/mocap/tf", test::kTfType);
   while (stored.open_bytes() < 60 * kMebibyte) stored.message(1, 1, transforms(10'000));
   of("x.mcap.zstd", recording::compress_zstd(stored.closed()));
   of("x.db3.zstd", recording::compress_zstd(database_of(at("bag"), Bytes(60 * kMebibyte), 1)));
@@ -239,7 +239,7 @@ TEST_F(BoundedImport, TimesAtTheEndsOfTheirRange) {
   of("wheels.csv", wheels);
   constexpr std::int64_t kEnd = std::numeric_limits<std::int64_t>::max();
   recording::Db3Writer bag(at("bag"));
-  const int poses = bag.add_topic("/tf", test::kTfType, "");
+  const int poses = bag.add_topic("/mocap/tf", test::kTfType, "");
   const int states = bag.add_topic("/joint_states", test::kJointType, "");
   for (const std::int64_t time_ns : {-kEnd, std::int64_t{0}, kEnd}) {
     bag.write(poses, time_ns, ros2::encode_tf({{0, "map", "robot", 1, 2, 0, 0, 0, 0, 1}}));

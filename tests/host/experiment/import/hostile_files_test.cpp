@@ -23,9 +23,9 @@ using test::Holds;
 
 bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
 
-/// "line 3", "byte 17", "row 5".
+/// "line 3", "byte 17", "row 5", "at 11.100000 s".
 bool names_a_place(const std::string& text) {
-  for (const std::string_view unit : {"line ", "byte ", "row ", "column "})
+  for (const std::string_view unit : {"line ", "byte ", "row ", "column ", " at "})
     for (std::size_t at = text.find(unit); at != std::string::npos; at = text.find(unit, at + 1))
       if (at + unit.size() < text.size() &&
           std::isdigit(static_cast<unsigned char>(text[at + unit.size()])) != 0)

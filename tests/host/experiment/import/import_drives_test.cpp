@@ -130,6 +130,8 @@ TEST_F(Import, FindsTheSameInABagThatHoldsBoth) {
   ImportChoices joints = choices();
   joints.geometry.counts_per_turn.reset();  // joints are angles
   expect_like(calibrated(bags, joints).factors, by_counts_and_tum(), kRounding);
+  EXPECT_THAT(import_drives(bags, joints).reports[0].summary,
+              HasSubstr("of '/tracker/pose' (ROS 2 bag, /tracker/pose of geometry_msgs/msg/PoseStamped)"));
 }
 
 TEST_F(Import, FindsTheSameWhereTheClocksHaveNothingInCommon) {
@@ -182,6 +184,19 @@ TEST_F(Directions, ExchangedWheelsUnderABodyAboveTheFloorAreRefusedAndNotTakenFo
   exchanged.wheels.exchanged = true;
   EXPECT_THAT(told_by([&] { imported(test::z_up, exchanged); }),
               Tells(HasSubstr("0.21 m above the tracker's origin"), Help::exchange_wheels_or_give_up));
+}
+
+TEST_F(Directions, ExchangedWheelsUnderAnAxisThatPointsDownDoNotHideEachOther) {
+  ImportChoices exchanged = choices();
+  exchanged.wheels.exchanged = true;  // as the file would have them
+  EXPECT_THAT(
+      told_by([&] { imported(test::z_down, exchanged); }),
+      Tells(HasSubstr("the body is 0.21 m below the tracker's origin"), Help::exchange_wheels_or_give_up));
+  ImportChoices below = choices();
+  below.floor.up = truth::Direction3{0, 0, 1};
+  EXPECT_NO_THROW(imported(test::z_up, below, -test::kHeight_m))
+      << "a tracker whose origin is not on the floor";
+  EXPECT_THROW(imported(test::z_up, choices(), -test::kHeight_m), Error);
 }
 
 TEST_F(Directions, WhereNothingShowsWhatIsMirroredNothingIsGuessed) {
@@ -246,6 +261,16 @@ TEST_F(Import, RefusesWheelsThatLeap) {
   const std::vector<DriveFiles> pair{{at("w.csv"), test::write_tum(at("t.tum"), drives()[0])}};
   EXPECT_THAT(told_by([&] { import_drives(pair, choices()); }),
               Tells(HasSubstr("turns more than 100 times"), Help::check_wheel_units));
+}
+
+TEST_F(Import, RefusesACounterThatStartsAgain) {
+  std::string rows = "time_s,left_counts,right_counts\n";
+  for (int i = 0; i < 100; ++i) rows += fmt::format("{},{},{}\n", 0.02 * i, 20000 + 60 * i, 60 * i);
+  std::ofstream(at("w.csv")) << rows << "2.0,0,0\n2.02,60,60\n";
+  const std::vector<DriveFiles> pair{{at("w.csv"), test::write_tum(at("t.tum"), drives()[0])}};
+  EXPECT_THAT(told_by([&] { import_drives(pair, choices()); }),
+              Tells(HasSubstr("a wheel leaps by 1.67 m between the samples at 1.980 s and 2.000 s"),
+                    Help::cut_recording_or_check_wheel_units));
 }
 
 TEST_F(Import, AnotherUnitIsTakenInPlaceOfTheFilesOwn) {

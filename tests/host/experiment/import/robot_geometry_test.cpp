@@ -47,6 +47,12 @@ TEST_F(RobotFile, MayBeACalibrationThatTheRobotCarries) {
   EXPECT_THAT(robot.wheelbase_m, Optional(0.2014));
 }
 
+TEST_F(RobotFile, OfAControllerMayBeginAsADocumentOfYaml) {
+  const std::string body = "diff_drive_controller:\n  ros__parameters:\n    wheel_separation: 0.16\n";
+  for (const char* head : {"---\n", "# a robot\n\n--- # its base\n", "%YAML 1.2\n---\n"})
+    EXPECT_THAT(read_robot_file(file("c.yaml", head + body)).wheelbase_m, Optional(0.16)) << head;
+}
+
 TEST_F(RobotFile, OfADiffDriveControllerHasItsMultipliersAsWhatTheRobotCarried) {
   const RobotGeometry robot = read_robot_file(
       file("controllers.yaml",

@@ -73,7 +73,7 @@ TEST_F(Files, AreCalibratedFromOneCommandWithErrorsAndAVerdict) {
   EXPECT_EQ(json["verdict"]["verdict"], "better");
   EXPECT_EQ(json["verdict"]["drives"].size(), 4);
   EXPECT_THAT(outcome.err, HasSubstr("drive1: "));
-  EXPECT_THAT(outcome.err, HasSubstr("poses of 'ASTRO' at 60 Hz, 0 lost; y is up"));
+  EXPECT_THAT(outcome.err, HasSubstr("poses of 'ASTRO' (Motive CSV 1.23) at 60 Hz, 0 lost; y is up"));
   EXPECT_TRUE(fs::exists(at("calib.toml")));
 }
 
@@ -143,6 +143,20 @@ TEST_F(Files, ThatDoNotPairAreWrongUsage) {
   EXPECT_EQ(astrolabe({"calibrate", "files", "--wheels", some[1], "--wheelbase", "0.3"}).code, kWrongUsage);
   EXPECT_EQ(astrolabe({"calibrate", "files"}).code, kWrongUsage);
   EXPECT_EQ(astrolabe({"calibrate", "check", "--with", "x.toml"}).code, kWrongUsage);
+}
+
+TEST_F(Files, AreNotReadWithOptionsThatApplyToOtherKindsOfFiles) {
+  std::vector<std::string> words{"calibrate", "files"};
+  for (const std::string& word : pairs(1)) words.push_back(word);
+  const Outcome outcome = run(words, {"--truth-topic", "/tracker/pose"});
+  EXPECT_EQ(outcome.code, kWrongUsage);
+  EXPECT_THAT(outcome.err, HasSubstr("--truth-topic does not apply here"));
+  EXPECT_EQ(astrolabe({"inspect", words[3], "--truth-topic", "/tracker/pose"}).code, kWrongUsage);
+  EXPECT_EQ(astrolabe({"inspect", words[5], "--per-interval"}).code, kWrongUsage);
+  EXPECT_EQ(astrolabe({"report", folder_.path().string(), "--up", "y"}).code, kWrongUsage);
+  EXPECT_EQ(astrolabe({"calibrate", "check", folder_.path().string(), "--with", "x.toml", "--up", "y"}).code,
+            kWrongUsage);
+  EXPECT_EQ(astrolabe({"calibrate", "bag", "drive", "--body", "ASTRO"}).code, kWrongUsage);
 }
 
 TEST_F(Files, WhoseSizesAreNotKnownAreAskedForByTheirOptions) {

@@ -110,6 +110,27 @@ TEST_F(JointWheels, MessagesWithoutStampsHaveTheTimesOfTheRecorder) {
   EXPECT_THAT(track.samples, ElementsAre(WheelSample{100, 0, 1}, WheelSample{101, 1, 2}));
 }
 
+TEST_F(JointWheels, StampsOfOtherDriversOnTheTopicDoNotCount) {
+  const WheelTrack track = wheels_in_bag(bag({{"/joint_states",
+                                               {{7, {"arm"}, {9}, {}, {}},
+                                                {0, {"l", "r"}, {0, 1}, {}, {}},
+                                                {8, {"arm"}, {9}, {}, {}},
+                                                {0, {"l", "r"}, {1, 2}, {}, {}}}}}),
+                                         {"", {"l", "r"}});
+  EXPECT_EQ(track.clock, WheelClock::receipt);
+  EXPECT_THAT(track.samples, ElementsAre(WheelSample{101, 0, 1}, WheelSample{103, 1, 2}));
+}
+
+TEST_F(JointWheels, MessagesBeforeTheFirstStampAreLeftOut) {
+  constexpr std::int64_t late = 5'000'000'000;
+  const WheelTrack track = wheels_in_bag(bag({{"/joint_states",
+                                               {{0, {"l", "r"}, {0, 1}, {}, {}},
+                                                {late, {"l", "r"}, {1, 2}, {}, {}},
+                                                {late + 1, {"l", "r"}, {2, 3}, {}, {}}}}}));
+  EXPECT_THAT(track.samples, ElementsAre(WheelSample{late, 1, 2}, WheelSample{late + 1, 2, 3}));
+  EXPECT_EQ(track.remarks.back().fact, "messages of /joint_states: 1 have no stamp and were left out");
+}
+
 TEST_F(JointWheels, WhatIsUnclearIsRefusedWithTheChoices) {
   const std::vector<JointState> pair{{1, {"l", "r"}, {0, 1}, {}, {}}, {2, {"l", "r"}, {1, 2}, {}, {}}};
   const std::vector<JointState> four{{1, {"fl", "fr"}, {0, 1}, {}, {}}, {2, {"fl", "fr"}, {1, 2}, {}, {}}};

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "host/recording/foreign/pose_choice.hpp"
 #include "host/recording/foreign/unclear_choice.hpp"
 #include "host/ros2/stamped_pose.hpp"
 #include "tests/host/recording/bag/made_bags.hpp"
@@ -67,7 +68,8 @@ TEST_F(PoseTopics, ATopicOfATrackerIsRecognised) {
       bag({{"/tf", pose(1, "map", "odom", 1)}, {"/vicon/tf", pose(2, "world", "robot", 2)}});
   const PoseTopic topic = poses_in_bag(path);
   EXPECT_THAT(xs(topic), ElementsAre(2));
-  EXPECT_EQ(topic.remarks.at(0).fact, "the poses are those of /vicon/tf world robot");
+  EXPECT_EQ(topic.remarks.at(0).fact,
+            "the poses are those of /vicon/tf world robot (tf2_msgs/msg/TFMessage)");
 }
 
 TEST_F(PoseTopics, WhatIsUnclearIsRefusedWithTheChoices) {
@@ -83,27 +85,97 @@ TEST_F(PoseTopics, WhatIsUnclearIsRefusedWithTheChoices) {
   EXPECT_THROW(poses_in_bag(bag({})), UnclearChoice);
 }
 
+// Wheels that are calibrated against the odometry that was computed from them seem perfect.
+TEST_F(PoseTopics, ARobotsOwnEstimatesAreNeverTruthUnlessTheyAreNamed) {
+  const fs::path transform = bag({{"/tf", pose(1, "odom", "base_link", 1)}});
+  try {
+    poses_in_bag(transform);
+    FAIL() << "the only stream of poses";
+  } catch (const UnclearChoice& unclear) {
+    EXPECT_THAT(unclear.what(), HasSubstr("it has /tf odom base_link"));
+    EXPECT_EQ(unclear.remedy().help, Help::name_pose_stream);
+  }
+  for (const PoseSelection& named : {PoseSelection{"/tf", "", ""}, PoseSelection{"", "odom", "base_link"}}) {
+    const PoseTopic topic = poses_in_bag(transform, named);
+    EXPECT_THAT(xs(topic), ElementsAre(1));
+    EXPECT_THAT(topic.remarks.at(0).fact, HasSubstr("may be an estimate of the robot itself"));
+  }
+}
+
+TEST(PoseChoice, EstimatesAreToldByTheirTypeOrTheirName) {
+  const auto estimate = [](const char* topic, const char* type) {
+    return is_estimate({topic, type, "", "", 0, {}, 0, 0});
+  };
+  for (const char* type :
+       {"nav_msgs/msg/Odometry", "tf2_msgs/msg/TFMessage", "geometry_msgs/msg/PoseWithCovarianceStamped"}) {
+    EXPECT_TRUE(estimate("/pose", type)) << type;
+    EXPECT_TRUE(estimate("/path_tracker/pose", type)) << type;
+    EXPECT_TRUE(estimate("/ground_robot/pose", type)) << type;
+    EXPECT_FALSE(estimate("/ground_truth/pose", type)) << type;
+    EXPECT_FALSE(estimate("/vrpn_mocap/robot/pose", type)) << type;
+  }
+  for (const char* topic : {"/odom_pose", "/robot/AMCL_pose", "/slam/pose", "/goal_pose"})
+    EXPECT_TRUE(estimate(topic, "geometry_msgs/msg/PoseStamped")) << topic;
+  EXPECT_FALSE(estimate("/tracker/pose", "geometry_msgs/msg/PoseStamped"));
+}
+
 TEST_F(PoseTopics, TimesAreStampsOrThoseOfTheRecorder) {
   const PoseTopic stamped =
-      poses_in_bag(bag({{"/t", pose(kSecond, "a", "b", 1)}, {"/t", pose(2 * kSecond, "a", "b", 2)}}));
-  EXPECT_TRUE(stamped.has_stamps);
+      poses_in_bag(bag({{"/mocap", pose(kSecond, "a", "b", 1)}, {"/mocap", pose(2 * kSecond, "a", "b", 2)}}));
+  EXPECT_TRUE(stamped.stream.stamps.most_are_set());
   EXPECT_EQ(stamped.poses[1].time_ns, 2 * kSecond);
   EXPECT_THAT(stamped.remarks, IsEmpty());
-  const PoseTopic zero = poses_in_bag(bag({{"/t", pose(0, "a", "b", 1)}, {"/t", pose(0, "a", "b", 2)}}));
-  EXPECT_FALSE(zero.has_stamps);
+  const PoseTopic zero =
+      poses_in_bag(bag({{"/mocap", pose(0, "a", "b", 1)}, {"/mocap", pose(0, "a", "b", 2)}}));
+  EXPECT_FALSE(zero.stream.stamps.most_are_set());
   EXPECT_EQ(zero.poses[1].time_ns, 2 * kSecond);
-  const PoseTopic other = poses_in_bag(
-      bag({{"/t", pose(kSecond, "a", "b", 1)}, {"/t", pose(5 * kSecond, "a", "b", 2)}}, 9000 * kSecond));
+  const PoseTopic other = poses_in_bag(bag(
+      {{"/mocap", pose(kSecond, "a", "b", 1)}, {"/mocap", pose(5 * kSecond, "a", "b", 2)}}, 9000 * kSecond));
   ASSERT_EQ(other.remarks.size(), 2U);
   EXPECT_THAT(other.remarks[0].fact, HasSubstr("another clock than the recorder's"));
   EXPECT_THAT(other.remarks[1].fact, HasSubstr("delays that differ by 3 s"));
 }
 
+TEST_F(PoseTopics, StampsAheadOfTheRecorderAreSaidToBeAfterIt) {
+  const PoseTopic ahead = poses_in_bag(
+      bag({{"/mocap", pose(9000 * kSecond, "a", "b", 1)}, {"/mocap", pose(9001 * kSecond, "a", "b", 2)}}));
+  ASSERT_EQ(ahead.remarks.size(), 1U);
+  EXPECT_THAT(ahead.remarks[0].fact, HasSubstr("they are 8999 s after it"));
+}
+
+// A node in simulated time publishes zeros until it hears the clock.
+TEST_F(PoseTopics, PosesBeforeTheFirstStampAreLeftOut) {
+  const PoseTopic late = poses_in_bag(bag({{"/mocap", pose(0, "a", "b", 1)},
+                                           {"/mocap", pose(2 * kSecond, "a", "b", 2)},
+                                           {"/mocap", pose(3 * kSecond, "a", "b", 3)}}));
+  EXPECT_THAT(xs(late), ElementsAre(2, 3));
+  ASSERT_EQ(late.remarks.size(), 1U);
+  EXPECT_EQ(late.remarks[0].fact, "poses of /mocap: 1 have no stamp and were left out");
+  const PoseTopic once = poses_in_bag(bag({{"/mocap", pose(0, "a", "b", 1)},
+                                           {"/mocap", pose(0, "a", "b", 2)},
+                                           {"/mocap", pose(3 * kSecond, "a", "b", 3)}}));
+  EXPECT_THAT(xs(once), ElementsAre(1, 2, 3)) << "one stamp of three";
+  EXPECT_EQ(once.poses[0].time_ns, kSecond);
+}
+
+TEST(StampCount, ZeroIsATimeWhereAClockStartsWithIt) {
+  const auto count = [](std::initializer_list<std::int64_t> stamps) {
+    StampCount all;
+    for (const std::int64_t stamp_ns : stamps) all.take(stamp_ns);
+    return all;
+  };
+  EXPECT_FALSE(count({0, kSecond / 50, kSecond / 25}).is_missing(0));
+  EXPECT_TRUE(count({0, 0, kSecond / 50, kSecond / 25}).is_missing(0)) << "no clock stands still";
+  EXPECT_TRUE(count({0, 1'700'000'000 * kSecond}).is_missing(0));
+  EXPECT_FALSE(count({0, 1'700'000'000 * kSecond}).is_missing(1));
+  EXPECT_FALSE(count({0, 0, 5}).most_are_set());
+}
+
 TEST_F(PoseTopics, PosesOutOfOrderAreSortedAndRepeatedOnesLeftOut) {
-  const PoseTopic topic = poses_in_bag(bag({{"/t", pose(3, "a", "b", 3)},
-                                            {"/t", pose(1, "a", "b", 1)},
-                                            {"/t", pose(1, "a", "b", 9)},
-                                            {"/t", pose(2, "a", "b", 2)}}));
+  const PoseTopic topic = poses_in_bag(bag({{"/mocap", pose(3, "a", "b", 3)},
+                                            {"/mocap", pose(1, "a", "b", 1)},
+                                            {"/mocap", pose(1, "a", "b", 9)},
+                                            {"/mocap", pose(2, "a", "b", 2)}}));
   EXPECT_THAT(xs(topic), ElementsAre(1, 2, 3));
 }
 

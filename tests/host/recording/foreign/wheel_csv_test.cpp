@@ -1,5 +1,6 @@
 #include "host/recording/foreign/wheel_csv.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <random>
@@ -89,6 +90,17 @@ TEST(WheelCsv, CountersAndAnglesThatStartAgainAreMadeContinuous) {
   const WheelTrack turns = wheels("time_ns,left_rad,right_rad\n1,3.0,0\n2,-3.0,50\n");
   EXPECT_NEAR(turns.samples[1].left, 2 * std::numbers::pi - 3.0, 1e-12);
   EXPECT_EQ(turns.samples[1].right, 50);
+}
+
+TEST(WheelCsv, ACounterThatStartsAgainIsNotTakenForAWrap) {
+  std::string rows = "time_s,left_counts,right_counts\n";
+  for (int i = 0; i < 40; ++i) rows += fmt::format("{},{},{}\n", 0.02 * i, 40000 + 60 * i, 100 + 50 * i);
+  const std::string restarted = rows + "0.8,0,0\n0.82,60,50\n";
+  EXPECT_THAT(why(restarted), HasSubstr("w.csv: the left wheel jumps from 42340 to 0 at 0.800000 s"));
+  // Eight seconds of messages are lost, and in this time the left wheel passes the end of its range.
+  const WheelTrack gap = wheels(rows + "8.8,844,10000\n");
+  EXPECT_EQ(gap.samples.back().left, 65536 + 844);
+  EXPECT_EQ(gap.remarks.size(), 1U);
 }
 
 TEST(WheelCsv, ACounterThatOnlyCountsFarDoesNotWrap) {
