@@ -30,6 +30,7 @@ enum class Help : std::uint8_t {
   split_into_files,
   save_as_csv,
   fill_each_cell,
+  log_running_counts,
   separate_by_commas,
   build_image,
   build_image_again,

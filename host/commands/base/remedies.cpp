@@ -30,6 +30,8 @@ constexpr Sentence kSentences[] = {
     {Help::split_into_shorter_runs, ": split it into shorter runs"},
     {Help::split_into_files, ": split it into one file for each run"},
     {Help::save_as_csv, ": save the table as comma separated UTF-8"},
+    {Help::log_running_counts,
+     ": record again, and log the counters themselves, of which a lost row takes nothing away"},
     {Help::fill_each_cell, ": give every column a cell, and write numbers with a decimal point"},
     {Help::separate_by_commas, ": use commas, and decimal points in the numbers"},
     {Help::build_image, ": build one with './dev firmware'"},

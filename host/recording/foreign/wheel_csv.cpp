@@ -1,5 +1,7 @@
 #include "host/recording/foreign/wheel_csv.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -9,6 +11,7 @@
 #include "host/base/trimmed.hpp"
 #include "host/recording/foreign/counter_wraps.hpp"
 #include "host/recording/foreign/line_reader.hpp"
+#include "host/recording/foreign/lost_rows.hpp"
 #include "host/recording/foreign/time_text.hpp"
 #include "host/recording/foreign/unclear_choice.hpp"
 #include "host/recording/foreign/wheel_columns.hpp"
@@ -148,13 +151,25 @@ class Table {
   void finish() {
     if (track_.samples.size() < 2)
       refuse(name_, lines_.line(), "the table ends with fewer than two rows of wheels");
-    if (!columns_.per_interval) unwrap(track_, name_);
+    columns_.per_interval ? refuse_lost_rows() : unwrap(track_, name_);
     if (incomplete_ > 0)
       track_.remarks.push_back(
           {name_ + " has " + std::to_string(incomplete_) + " rows with empty cells; they were left out"});
     if (repeated_ > 0)
       track_.remarks.push_back(
           {name_ + " has " + std::to_string(repeated_) + " rows that repeat the time of the row above"});
+  }
+
+  void refuse_lost_rows() const {
+    constexpr double kHarmless = 1e-4;  // of the travel: a tenth of what calibrations are good for
+    const auto lost = find_lost_rows(track_.samples);
+    if (!lost || lost->part < kHarmless) return;
+    throw Error(
+        fmt::format(
+            "{} has lost rows in {} places, the first before {:.3f} s: after longer steps the wheels have "
+            "gone no further than in others, so {:.2g} % of the travel is missing",
+            name_, lost->steps, 1e-9 * static_cast<double>(lost->first_ns), 100 * lost->part),
+        {Help::log_running_counts});
   }
 
   LineReader lines_;

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <random>
+#include <vector>
 
 #include "host/base/error.hpp"
 #include "host/recording/foreign/time_text.hpp"
@@ -54,6 +56,35 @@ TEST(WheelCsv, ATableWithoutAHeaderIsDescribedFromOutside) {
   EXPECT_THAT(wheels("1 x 2 3\n2   x 4 5 \n", table).samples,
               ElementsAre(WheelSample{1'000'000'000, 2, 3}, WheelSample{2'000'000'000, 4, 5}));
   EXPECT_THAT(wheels("a,b,c,d\n1,x,2,3\n2,x,4,5\n", table).samples.size(), 2U) << "the header is passed over";
+}
+
+/// A log of travel per interval, 20 rows a second, of a robot that stands, drives and stands. Some rows are lost, or the logger
+/// was late and the row after holds the travel of both.
+std::string interval_log(const std::vector<int>& missing, bool held_back) {
+  std::string text = "time_s,left_counts,right_counts\n";
+  int owed = 0;
+  for (int row = 0; row < 200; ++row) {
+    const int travel = row < 30 || row >= 170 ? 0 : 20 + row % 3;
+    if (std::find(missing.begin(), missing.end(), row) != missing.end()) {
+      owed += held_back ? travel : 0;
+      continue;
+    }
+    text += fmt::format("{:.2f},{},{}\n", 0.05 * row, travel + owed, travel + owed);
+    owed = 0;
+  }
+  return text;
+}
+
+TEST(WheelCsv, TravelPerIntervalOfWhichRowsAreLostIsRefused) {
+  const WheelTable intervals{"", true};
+  EXPECT_THAT(
+      why(interval_log({60, 90, 91, 140}, false), intervals),
+      HasSubstr(
+          "has lost rows in 3 places, the first before 3.050 s: after longer steps the wheels have gone no "
+          "further than in others, so 2.9 % of the travel is missing"));
+  EXPECT_EQ(why(interval_log({60, 90, 91, 140}, true), intervals), "") << "the logger was late";
+  EXPECT_EQ(why(interval_log({5, 6, 180}, false), intervals), "") << "the robot stood";
+  EXPECT_EQ(why(interval_log({60, 90, 91, 140}, false)), "") << "counters lose nothing";
 }
 
 TEST(WheelCsv, TravelPerIntervalIsSummed) {
