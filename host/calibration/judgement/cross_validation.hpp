@@ -1,11 +1,11 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
+#include "host/base/error.hpp"
 #include "host/base/remedy.hpp"
-#include "host/calibration/end_poses/line_scale.hpp"
-#include "host/calibration/end_poses/umbmark.hpp"
 #include "host/calibration/judgement/before_after.hpp"
 #include "host/calibration/judgement/path_errors.hpp"
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
@@ -46,6 +46,11 @@ struct CrossValidation {
   int better_on() const;
   HeldOutErrors in_use() const;
   HeldOutErrors found() const;
+
+  /// Sets the verdict.
+  void judge();
+  /// For `not_judged`: "without run 1 and run 3, the runs do not separate ...".
+  static Remark without(const std::vector<std::string>& held_out, const Error& error);
 };
 
 /// `in_use`: the factors to compare with. `all`: the estimate from all runs; its noise model, spacing of samples and
@@ -55,17 +60,6 @@ struct CrossValidation {
 ///         but ten at most).
 CrossValidation cross_validate(std::span<const Trajectory> runs, const WheelFactors& in_use,
                                const MlEstimate& all, const MlOptions& options);
-
-/// The same for factors from end poses of squares: one square of each direction is held out at a time, and what the other
-/// squares say of its end is compared with where it ended. The scatter of the ends within their direction is taken for
-/// their noise. Nothing is judged with fewer than two squares in a direction.
-CrossValidation cross_validate(std::span<const EndPose> cw, std::span<const EndPose> ccw, double side_m,
-                               const WheelFactors& in_use, const Options& options);
-
-/// Adds the scale that lines gave to what squares said: one line is held out at a time, and its length foretold by the scale of
-/// the others. `scale`: of all lines. The scale of a single line is not judged.
-void cross_validate_scale(std::span<const LineEnd> lines, const WheelFactors& in_use, const LineScale& scale,
-                          CrossValidation& judged);
 
 /// better or worse where the mean gain differs from none at the 10 % level, one-sided; unknown for fewer than two.
 /// Where the factors in use are right, others found from data lose a little on average, so a false claim is far less

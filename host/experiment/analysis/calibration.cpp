@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/base/error.hpp"
+#include "host/calibration/judgement/end_pose_validation.hpp"
 #include "host/experiment/files/method_names.hpp"
 
 namespace astro::experiment {

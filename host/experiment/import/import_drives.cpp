@@ -45,6 +45,23 @@ void refuse_twins(std::span<const DriveFiles> files) {
                     {Help::name_other_file});
 }
 
+/// A copy under another name would count twice as well.
+void refuse_copy(const recording::Run& run, std::span<const recording::Run> others, const std::string& name,
+                 std::span<const std::string> names) {
+  const auto same_wheels = [](const recording::OdometrySample& a, const recording::OdometrySample& b) {
+    return a.time_us == b.time_us && a.left_counts == b.left_counts && a.right_counts == b.right_counts;
+  };
+  const auto same_truth = [](const recording::TruthSample& a, const recording::TruthSample& b) {
+    return a.time_us == b.time_us && a.x_m == b.x_m && a.y_m == b.y_m;
+  };
+  for (std::size_t i = 0; i < others.size(); ++i)
+    if (std::ranges::equal(run.odometry, others[i].odometry, same_wheels) &&
+        std::ranges::equal(run.truth, others[i].truth, same_truth))
+      throw Error("'" + name + "' is a copy of '" + names[i] +
+                      "', and a drive that counts twice would seem more certain than it is",
+                  {Help::name_other_file});
+}
+
 /// The errors of pairing are about both files.
 PairedDrive paired(const std::string& name, const DriveFiles& files, const ImportChoices& choices) {
   ImportedWheels wheels = read_wheels(files.wheels, choices.wheels);
@@ -65,6 +82,7 @@ ImportedDrives import_drives(std::span<const DriveFiles> files, const ImportChoi
   drives.set.names = names_of(files);
   for (std::size_t i = 0; i < files.size(); ++i) {
     PairedDrive drive = paired(drives.set.names[i], files[i], choices);
+    refuse_copy(drive.run, drives.set.runs, drives.set.names[i], drives.set.names);
     drives.set.runs.push_back(std::move(drive.run));
     drives.reports.push_back(std::move(drive.report));
   }

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "host/calibration/end_poses/replay.hpp"
+#include "host/calibration/judgement/end_pose_validation.hpp"
 #include "tests/host/calibration/ml_drives.hpp"
 
 namespace astro::calibration {

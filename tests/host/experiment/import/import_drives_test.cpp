@@ -226,6 +226,14 @@ TEST_F(Import, SaysWhichSizeIsMissing) {
   EXPECT_EQ(without(&RobotGeometry::wheelbase_m), Help::give_wheelbase);
 }
 
+TEST_F(Import, RefusesACopyOfADriveUnderAnotherName) {
+  const std::vector<DriveFiles> pairs{
+      {test::write_counts(at("w1.csv"), drives()[0]), test::write_tum(at("t1.tum"), drives()[0])},
+      {test::write_counts(at("w2.csv"), drives()[0]), test::write_tum(at("t2.tum"), drives()[0])}};
+  EXPECT_THAT(told_by([&] { import_drives(pairs, choices()); }),
+              Tells(HasSubstr("'w2' is a copy of 'w1'"), Help::name_other_file));
+}
+
 TEST_F(Import, KnowsTheRobotOfARecordingOfOurs) {
   const std::vector<DriveFiles> pair{
       {test::write_counts(at("w.csv"), drives()[0]), test::write_tum(at("t.tum"), drives()[0])}};
