@@ -4,7 +4,7 @@
 #include <string>
 
 #include "host/base/error.hpp"
-#include "host/base/numbers.hpp"
+#include "host/base/text/numbers.hpp"
 
 namespace astro {
 

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "host/base/error.hpp"
-#include "host/base/plain_text.hpp"
+#include "host/base/text/plain_text.hpp"
 #include "host/console/interrupt.hpp"
 #include "host/console/terminal.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "host/base/numbers.hpp"
+#include "host/base/text/numbers.hpp"
 
 namespace astro::console {
 namespace {

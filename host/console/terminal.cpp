@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "host/base/error.hpp"
-#include "host/base/plain_text.hpp"
+#include "host/base/text/plain_text.hpp"
 #include "host/console/interrupt.hpp"
 
 namespace astro::console {

@@ -1,8 +1,8 @@
 // Numbers of the command line: what a check lets through is read without loss.
 #include <cmath>
 
-#include "host/base/numbers.hpp"
-#include "host/base/plain_text.hpp"
+#include "host/base/text/numbers.hpp"
+#include "host/base/text/plain_text.hpp"
 #include "host/console/options.hpp"
 #include "tests/fuzz/target.hpp"
 

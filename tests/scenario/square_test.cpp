@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/base/sense.hpp"
+#include "host/base/text/sense.hpp"
 #include "host/experiment/drive/record_run.hpp"
 #include "host/recording/run/planar_pose.hpp"
 #include "host/robot/motion/drive.hpp"

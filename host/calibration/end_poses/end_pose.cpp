@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "host/base/error.hpp"
-#include "host/base/sense.hpp"
+#include "host/base/text/sense.hpp"
 
 namespace astro::calibration {
 namespace {

@@ -9,10 +9,10 @@
 #include <span>
 #include <string>
 
-#include "host/base/degrees.hpp"
 #include "host/base/error.hpp"
 #include "host/base/formats/csv_table.hpp"
-#include "host/base/sense.hpp"
+#include "host/base/text/degrees.hpp"
+#include "host/base/text/sense.hpp"
 
 namespace astro::calibration {
 namespace {

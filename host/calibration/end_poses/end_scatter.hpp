@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "host/base/sense.hpp"
+#include "host/base/text/sense.hpp"
 
 namespace astro::calibration {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "host/base/error.hpp"
-#include "host/base/sense.hpp"
+#include "host/base/text/sense.hpp"
 #include "host/calibration/end_poses/compose.hpp"
 #include "host/calibration/end_poses/replay.hpp"
 

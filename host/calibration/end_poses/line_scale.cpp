@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "host/base/error.hpp"
-#include "host/base/numbers.hpp"
+#include "host/base/text/numbers.hpp"
 #include "host/calibration/end_poses/robust_weight.hpp"
 #include "host/calibration/motion/arc.hpp"
 #include "host/calibration/motion/median.hpp"

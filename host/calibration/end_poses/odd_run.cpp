@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/base/degrees.hpp"
 #include "host/base/error.hpp"
-#include "host/base/shown.hpp"
+#include "host/base/text/degrees.hpp"
+#include "host/base/text/shown.hpp"
 
 namespace astro::calibration {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/sense.hpp"
+#include "host/base/text/sense.hpp"
 #include "host/calibration/end_poses/end_pose.hpp"
 #include "host/calibration/end_poses/robust_fit.hpp"
 

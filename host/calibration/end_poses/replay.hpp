@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/base/sense.hpp"
+#include "host/base/text/sense.hpp"
 #include "host/calibration/end_poses/end_pose.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "host/base/sense.hpp"
+#include "host/base/text/sense.hpp"
 #include "host/calibration/end_poses/closed_form.hpp"
 #include "host/calibration/end_poses/end_pose.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"

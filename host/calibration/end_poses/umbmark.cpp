@@ -7,8 +7,8 @@
 #include <string>
 
 #include "host/base/error.hpp"
-#include "host/base/numbers.hpp"
-#include "host/base/sense.hpp"
+#include "host/base/text/numbers.hpp"
+#include "host/base/text/sense.hpp"
 #include "host/calibration/end_poses/compose.hpp"
 #include "host/calibration/end_poses/least_squares.hpp"
 #include "host/calibration/end_poses/robust_fit.hpp"

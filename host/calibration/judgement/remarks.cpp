@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "host/base/degrees.hpp"
+#include "host/base/text/degrees.hpp"
 
 namespace astro::calibration {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/base/degrees.hpp"
 #include "host/base/error.hpp"
+#include "host/base/text/degrees.hpp"
 #include "host/calibration/preparation/path_alignment.hpp"
 
 namespace astro::calibration {

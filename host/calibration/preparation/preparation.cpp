@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "host/base/degrees.hpp"
 #include "host/base/error.hpp"
+#include "host/base/text/degrees.hpp"
 #include "host/calibration/motion/median_period.hpp"
 #include "host/calibration/motion/tracker_noise.hpp"
 #include "host/calibration/motion/wheel_path.hpp"

@@ -1,6 +1,6 @@
 #include "host/commands/calibrate/ml_option.hpp"
 
-#include "host/base/degrees.hpp"
+#include "host/base/text/degrees.hpp"
 #include "host/console/options.hpp"
 
 namespace astro::commands {

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "host/base/error.hpp"
-#include "host/base/sense.hpp"
+#include "host/base/text/sense.hpp"
 #include "host/commands/drive/commands.hpp"
 #include "host/commands/drive/drive_job.hpp"
 #include "host/commands/drive/drive_teleop.hpp"

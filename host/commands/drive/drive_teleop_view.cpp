@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "host/base/degrees.hpp"
-#include "host/base/shown.hpp"
+#include "host/base/text/degrees.hpp"
+#include "host/base/text/shown.hpp"
 #include "host/commands/shared/robot_view.hpp"
 
 namespace astro::commands {

@@ -7,7 +7,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/folder_lock.hpp"
-#include "host/base/sense.hpp"
+#include "host/base/text/sense.hpp"
 #include "host/commands/shared/limit_notes.hpp"
 #include "host/commands/shared/path_progress.hpp"
 #include "host/console/console.hpp"

@@ -6,7 +6,7 @@
 
 #include "common/protocol/enums.hpp"
 #include "common/safety/fault.hpp"
-#include "host/base/shown.hpp"
+#include "host/base/text/shown.hpp"
 #include "host/console/console.hpp"
 
 namespace astro::commands {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "host/base/degrees.hpp"
-#include "host/base/shown.hpp"
+#include "host/base/text/degrees.hpp"
+#include "host/base/text/shown.hpp"
 #include "host/console/console.hpp"
 #include "host/console/terminal.hpp"
 #include "host/experiment/drive/record_run.hpp"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "host/base/error.hpp"
-#include "host/base/numbers.hpp"
+#include "host/base/text/numbers.hpp"
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
 #include "host/console/options.hpp"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/base/degrees.hpp"
-#include "host/base/shown.hpp"
+#include "host/base/text/degrees.hpp"
+#include "host/base/text/shown.hpp"
 #include "host/commands/base/remedies.hpp"
 #include "host/console/console.hpp"
 #include "host/experiment/analysis/judgement_sentences.hpp"

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "host/base/numbers.hpp"
+#include "host/base/text/numbers.hpp"
 #include "host/commands/base/remedies.hpp"
 #include "host/commands/shared/unused_choices.hpp"
 #include "host/console/console.hpp"

@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "host/base/error.hpp"
-#include "host/base/numbers.hpp"
+#include "host/base/text/numbers.hpp"
 #include "host/console/console.hpp"
 #include "host/console/terminal.hpp"
 

@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <iostream>
 
-#include "host/base/degrees.hpp"
 #include "host/base/error.hpp"
-#include "host/base/plain_text.hpp"
-#include "host/base/shown.hpp"
+#include "host/base/text/degrees.hpp"
+#include "host/base/text/plain_text.hpp"
+#include "host/base/text/shown.hpp"
 #include "host/console/console.hpp"
 #include "host/robot/client/refusal.hpp"
 

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "host/base/degrees.hpp"
-#include "host/base/numbers.hpp"
+#include "host/base/text/degrees.hpp"
+#include "host/base/text/numbers.hpp"
 #include "host/commands/base/flags.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/commands/simulate/commands.hpp"

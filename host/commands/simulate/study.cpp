@@ -7,10 +7,10 @@
 #include <optional>
 #include <thread>
 
-#include "host/base/degrees.hpp"
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
-#include "host/base/numbers.hpp"
+#include "host/base/text/degrees.hpp"
+#include "host/base/text/numbers.hpp"
 #include "host/commands/base/flags.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/commands/simulate/commands.hpp"

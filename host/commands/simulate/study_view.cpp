@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "host/base/degrees.hpp"
+#include "host/base/text/degrees.hpp"
 #include "host/console/console.hpp"
 
 namespace astro::commands {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/base/degrees.hpp"
+#include "host/base/text/degrees.hpp"
 #include "host/commands/base/remedies.hpp"
 #include "host/console/console.hpp"
 

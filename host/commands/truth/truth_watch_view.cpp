@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "host/base/degrees.hpp"
+#include "host/base/text/degrees.hpp"
 
 namespace astro::commands {
 namespace {

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <span>
 
-#include "host/base/degrees.hpp"
+#include "host/base/text/degrees.hpp"
 #include "host/console/console.hpp"
 #include "host/robot/client/handshake.hpp"
 

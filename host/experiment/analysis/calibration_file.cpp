@@ -6,7 +6,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
-#include "host/base/plain_text.hpp"
+#include "host/base/text/plain_text.hpp"
 #include "host/experiment/analysis/judgement_sentences.hpp"
 #include "host/experiment/files/toml_file.hpp"
 

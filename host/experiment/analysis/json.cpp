@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "host/base/degrees.hpp"
+#include "host/base/text/degrees.hpp"
 #include "host/experiment/analysis/judgement_sentences.hpp"
 #include "host/experiment/analysis/likelihood_json.hpp"
 

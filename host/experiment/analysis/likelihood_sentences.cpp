@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/base/degrees.hpp"
-#include "host/base/shown.hpp"
+#include "host/base/text/degrees.hpp"
+#include "host/base/text/shown.hpp"
 #include "host/calibration/judgement/remarks.hpp"
 
 namespace astro::experiment {

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "host/base/error.hpp"
-#include "host/base/sense.hpp"
+#include "host/base/text/sense.hpp"
 #include "host/calibration/motion/arc.hpp"
 #include "host/experiment/analysis/loaded_parameter.hpp"
 #include "host/experiment/analysis/trajectories.hpp"

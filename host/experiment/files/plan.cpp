@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/base/error.hpp"
-#include "host/base/numbers.hpp"
+#include "host/base/text/numbers.hpp"
 #include "host/experiment/files/method_names.hpp"
 
 namespace astro::experiment {

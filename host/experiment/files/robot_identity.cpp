@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "host/base/plain_text.hpp"
+#include "host/base/text/plain_text.hpp"
 
 namespace astro::experiment {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "host/base/error.hpp"
-#include "host/base/shown.hpp"
+#include "host/base/text/shown.hpp"
 
 namespace astro::motor {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
-#include "host/base/natural_order.hpp"
+#include "host/base/text/natural_order.hpp"
 #include "host/recording/mcap/compression.hpp"
 #include "host/recording/mcap/records.hpp"
 #include "host/recording/yaml/yaml_scalars.hpp"

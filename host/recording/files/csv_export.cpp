@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "host/base/numbers.hpp"
+#include "host/base/text/numbers.hpp"
 
 namespace astro::recording {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/fixed/wrapping.hpp"
-#include "host/base/numbers.hpp"
+#include "host/base/text/numbers.hpp"
 #include "host/ros2/joint_state.hpp"
 #include "host/ros2/ros_messages.hpp"
 #include "host/ros2/stamped_pose.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "host/base/error.hpp"
-#include "host/base/natural_order.hpp"
+#include "host/base/text/natural_order.hpp"
 
 namespace astro::recording {
 namespace fs = std::filesystem;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "host/base/files.hpp"
-#include "host/base/numbers.hpp"
+#include "host/base/text/numbers.hpp"
 
 namespace astro::recording {
 namespace {

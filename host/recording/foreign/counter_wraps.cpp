@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "host/base/error.hpp"
-#include "host/base/numbers.hpp"
+#include "host/base/text/numbers.hpp"
 
 namespace astro::recording {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <map>
 
-#include "host/base/numbers.hpp"
+#include "host/base/text/numbers.hpp"
 #include "host/recording/foreign/unclear_choice.hpp"
 #include "host/recording/yaml/yaml_scalars.hpp"
 

@@ -4,7 +4,7 @@
 #include <cctype>
 #include <vector>
 
-#include "host/base/degrees.hpp"
+#include "host/base/text/degrees.hpp"
 
 namespace astro::recording {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "host/base/formats/csv_table.hpp"
-#include "host/base/trimmed.hpp"
+#include "host/base/text/trimmed.hpp"
 #include "host/recording/foreign/counter_wraps.hpp"
 #include "host/recording/foreign/line_reader.hpp"
 #include "host/recording/foreign/lost_rows.hpp"

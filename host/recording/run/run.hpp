@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/sense.hpp"
+#include "host/base/text/sense.hpp"
 
 /// One drive as it was recorded: odometry and ground truth.
 ///

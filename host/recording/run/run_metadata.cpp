@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "host/base/error.hpp"
-#include "host/base/numbers.hpp"
-#include "host/base/sense.hpp"
+#include "host/base/text/numbers.hpp"
+#include "host/base/text/sense.hpp"
 
 namespace astro::recording {
 namespace {

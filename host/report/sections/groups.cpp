@@ -7,7 +7,7 @@
 #include <map>
 #include <tuple>
 
-#include "host/base/sense.hpp"
+#include "host/base/text/sense.hpp"
 #include "host/report/page/html.hpp"
 
 namespace astro::report {

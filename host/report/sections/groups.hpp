@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/sense.hpp"
+#include "host/base/text/sense.hpp"
 #include "host/report/sections/report.hpp"
 
 /// The runs grouped for comparison: runs that were driven the same way, phase beside phase.

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "host/base/sense.hpp"
+#include "host/base/text/sense.hpp"
 #include "host/report/page/html.hpp"
 #include "host/report/page/numbers.hpp"
 #include "host/report/sections/comparison.hpp"

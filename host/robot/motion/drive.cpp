@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/base/numbers.hpp"
+#include "host/base/text/numbers.hpp"
 #include "host/robot/client/restore.hpp"
 #include "host/robot/motion/other_program.hpp"
 #include "host/robot/motion/rest.hpp"

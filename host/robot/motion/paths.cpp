@@ -6,7 +6,7 @@
 #include <string>
 
 #include "host/base/error.hpp"
-#include "host/base/numbers.hpp"
+#include "host/base/text/numbers.hpp"
 
 namespace astro::robot {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "common/protocol/motion.hpp"
-#include "host/base/sense.hpp"
+#include "host/base/text/sense.hpp"
 
 /// Paths as segments for the robot's queue. Angles that are dyadic fractions of a turn are exact (a
 /// quarter turn is 2^30), lengths are rounded to 1 nm. Left and counter-clockwise are positive.

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "host/base/error.hpp"
-#include "host/base/numbers.hpp"
-#include "host/base/plain_text.hpp"
+#include "host/base/text/numbers.hpp"
+#include "host/base/text/plain_text.hpp"
 
 namespace astro::robot {
 

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "common/params/parameter_set.hpp"
-#include "host/base/degrees.hpp"
+#include "host/base/text/degrees.hpp"
 
 namespace astro::robot {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "host/base/plain_text.hpp"
+#include "host/base/text/plain_text.hpp"
 #include "host/robot/parameters/parameter_rules.hpp"
 
 namespace astro::robot {

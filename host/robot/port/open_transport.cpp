@@ -8,7 +8,7 @@
 #include <boost/asio/posix/stream_descriptor.hpp>
 #include <thread>
 
-#include "host/base/numbers.hpp"
+#include "host/base/text/numbers.hpp"
 #include "host/robot/port/serial_port.hpp"
 #include "host/robot/port/stream_transport.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host/base/error.hpp"
-#include "host/base/sense.hpp"
+#include "host/base/text/sense.hpp"
 #include "host/simulation/study/limits.hpp"
 #include "host/simulation/study/synthetic_drive.hpp"
 

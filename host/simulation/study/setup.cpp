@@ -10,9 +10,9 @@
 #include <random>
 #include <string>
 
-#include "host/base/degrees.hpp"
 #include "host/base/error.hpp"
-#include "host/base/numbers.hpp"
+#include "host/base/text/degrees.hpp"
+#include "host/base/text/numbers.hpp"
 #include "host/simulation/study/limits.hpp"
 #include "host/simulation/study/synthetic_drive.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/formats/json_weight.hpp"
-#include "host/base/numbers.hpp"
+#include "host/base/text/numbers.hpp"
 
 namespace astro::simulation::study {
 namespace {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "host/base/error.hpp"
-#include "host/base/sense.hpp"
+#include "host/base/text/sense.hpp"
 #include "host/calibration/end_poses/replay.hpp"
 #include "host/calibration/end_poses/umbmark.hpp"
 #include "host/calibration/likelihood/maximum_likelihood.hpp"

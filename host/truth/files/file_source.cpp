@@ -7,11 +7,11 @@
 #include <optional>
 #include <utility>
 
-#include "host/base/degrees.hpp"
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
 #include "host/base/formats/csv_table.hpp"
-#include "host/base/numbers.hpp"
+#include "host/base/text/degrees.hpp"
+#include "host/base/text/numbers.hpp"
 #include "host/truth/source/plausibility.hpp"
 
 namespace astro::truth {

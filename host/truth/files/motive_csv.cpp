@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "host/base/numbers.hpp"
+#include "host/base/text/numbers.hpp"
 #include "host/truth/files/frame_numbers.hpp"
 #include "host/truth/files/motive_header.hpp"
 #include "host/truth/files/rotations.hpp"

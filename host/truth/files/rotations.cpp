@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "host/base/degrees.hpp"
+#include "host/base/text/degrees.hpp"
 
 namespace astro::truth {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/formats/csv_table.hpp"
-#include "host/base/trimmed.hpp"
+#include "host/base/text/trimmed.hpp"
 
 namespace astro::truth {
 namespace {

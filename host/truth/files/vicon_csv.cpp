@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "host/base/degrees.hpp"
+#include "host/base/text/degrees.hpp"
 #include "host/truth/files/frame_numbers.hpp"
 #include "host/truth/files/rotations.hpp"
 #include "host/truth/files/vicon_header.hpp"

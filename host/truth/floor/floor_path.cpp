@@ -10,9 +10,9 @@
 #include <limits>
 #include <numbers>
 
-#include "host/base/degrees.hpp"
 #include "host/base/error.hpp"
-#include "host/base/shown.hpp"
+#include "host/base/text/degrees.hpp"
+#include "host/base/text/shown.hpp"
 #include "host/base/whole_microseconds.hpp"
 
 namespace astro::truth {

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "host/base/error.hpp"
-#include "host/base/numbers.hpp"
+#include "host/base/text/numbers.hpp"
 
 namespace astro::truth {
 namespace {

@@ -3,7 +3,7 @@
 #include <charconv>
 
 #include "host/base/error.hpp"
-#include "host/base/numbers.hpp"
+#include "host/base/text/numbers.hpp"
 
 namespace astro::truth {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "host/base/trimmed.hpp"
+#include "host/base/text/trimmed.hpp"
 #include "host/recording/run/planar_pose.hpp"
 #include "host/recording/run/run_metadata.hpp"
 #include "host/truth/source/plausibility.hpp"

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <utility>
 
-#include "host/base/degrees.hpp"
-#include "host/base/numbers.hpp"
-#include "host/base/shown.hpp"
-#include "host/base/trimmed.hpp"
+#include "host/base/text/degrees.hpp"
+#include "host/base/text/numbers.hpp"
+#include "host/base/text/shown.hpp"
+#include "host/base/text/trimmed.hpp"
 
 namespace astro::truth {
 namespace {

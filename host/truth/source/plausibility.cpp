@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "host/base/degrees.hpp"
+#include "host/base/text/degrees.hpp"
 #include "host/recording/run/planar_pose.hpp"
 
 namespace astro::truth {

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "host/base/bytes.hpp"
-#include "host/base/sense.hpp"
+#include "host/base/text/sense.hpp"
 #include "host/recording/run/planar_pose.hpp"
 #include "host/recording/run/run.hpp"
 

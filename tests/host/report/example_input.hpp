@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/base/sense.hpp"
+#include "host/base/text/sense.hpp"
 #include "host/report/sections/report.hpp"
 
 /// Inputs for the report: the end errors that the thesis measured (tables 11 to 14) with drives that make

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "host/base/sense.hpp"
+#include "host/base/text/sense.hpp"
 #include "host/emulator/robot/emulated_robot.hpp"
 #include "host/robot/client/client.hpp"
 #include "host/robot/motion/drive.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "host/base/shown.hpp"
+#include "host/base/text/shown.hpp"
 
 namespace astro::commands {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "host/base/degrees.hpp"
+#include "host/base/text/degrees.hpp"
 #include "host/recording/run/planar_pose.hpp"
 #include "host/truth/manual/manual_source.hpp"
 #include "tests/support/robots/desk.hpp"

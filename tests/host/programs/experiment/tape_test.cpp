@@ -6,7 +6,7 @@
 #include <map>
 #include <sstream>
 
-#include "host/base/degrees.hpp"
+#include "host/base/text/degrees.hpp"
 #include "host/recording/run/planar_pose.hpp"
 #include "host/truth/live/socket_source.hpp"
 #include "tests/support/base/json.hpp"

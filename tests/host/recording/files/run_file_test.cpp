@@ -1,5 +1,5 @@
 #include "host/recording/files/run_file.hpp"
-#include "host/base/sense.hpp"
+#include "host/base/text/sense.hpp"
 
 #include <gmock/gmock.h>
 
@@ -7,7 +7,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
-#include "host/base/numbers.hpp"
+#include "host/base/text/numbers.hpp"
 #include "host/recording/files/run_writer.hpp"
 #include "host/recording/mcap/reader.hpp"
 #include "host/recording/mcap/writer.hpp"

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "host/base/error.hpp"
-#include "host/base/natural_order.hpp"
+#include "host/base/text/natural_order.hpp"
 #include "host/recording/files/run_file.hpp"
 #include "tests/host/recording/support.hpp"
 #include "tests/support/base/remarks.hpp"

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "host/base/sense.hpp"
+#include "host/base/text/sense.hpp"
 #include "host/recording/files/csv_export.hpp"
 #include "host/recording/files/run_file.hpp"
 

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "host/base/error.hpp"
-#include "host/base/sense.hpp"
+#include "host/base/text/sense.hpp"
 #include "host/report/page/assets.hpp"
 #include "host/report/page/html.hpp"
 #include "tests/host/report/example_input.hpp"

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "host/base/formats/csv_table.hpp"
-#include "host/base/numbers.hpp"
+#include "host/base/text/numbers.hpp"
 #include "host/truth/files/tracker_file.hpp"
 #include "host/truth/floor/floor_path.hpp"
 #include "host/truth/floor/lost_tracking.hpp"

@@ -1,4 +1,4 @@
-#include "host/base/natural_order.hpp"
+#include "host/base/text/natural_order.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "host/base/sense.hpp"
+#include "host/base/text/sense.hpp"
 
 #include <gtest/gtest.h>
 

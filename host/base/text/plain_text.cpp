@@ -1,4 +1,4 @@
-#include "host/base/plain_text.hpp"
+#include "host/base/text/plain_text.hpp"
 
 #include <cstddef>
 #include <cstdint>

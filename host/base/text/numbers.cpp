@@ -1,4 +1,4 @@
-#include "host/base/numbers.hpp"
+#include "host/base/text/numbers.hpp"
 
 #include <array>
 #include <charconv>
