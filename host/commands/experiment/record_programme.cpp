@@ -8,11 +8,11 @@
 #include "host/base/error.hpp"
 #include "host/base/folder_lock.hpp"
 #include "host/base/sense.hpp"
+#include "host/base/utc.hpp"
 #include "host/commands/shared/limit_notes.hpp"
 #include "host/commands/shared/path_progress.hpp"
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
-#include "host/experiment/files/journal.hpp"
 #include "host/recording/files/run_file.hpp"
 
 namespace astro::commands {
@@ -114,7 +114,7 @@ void record_programme(robot::Client& client, truth::Source& truth, const std::ve
     about.direction = run.spec.direction;
     about.index = run.spec.index;
     about.size_m = run.size_m;
-    about.started_at = experiment::utc_now();
+    about.started_at = utc_now();
     recording::write_run(folder / run.spec.file_name(), record_run(client, truth, run.path, about, hooks));
     progress.clear();
     console::say("recorded " + run.spec.title());

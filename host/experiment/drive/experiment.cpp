@@ -9,6 +9,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/folder_lock.hpp"
+#include "host/base/utc.hpp"
 #include "host/experiment/analysis/until.hpp"
 #include "host/experiment/drive/entered_truth.hpp"
 #include "host/experiment/drive/open_journal.hpp"

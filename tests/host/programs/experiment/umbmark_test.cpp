@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <fstream>
 
 #include "tests/support/base/json.hpp"
@@ -228,6 +229,8 @@ TEST(Umbmark, KeepsADriveWhoseTruthCannotBeReadAndGoesOnWithItOnceItCan) {
   fs::create_directories(csv.parent_path());
   const auto umbmark_with = [&](const std::string& truth) {
     std::ofstream(csv) << truth;
+    // It counts as that of the run, which begins only after the robot has answered.
+    fs::last_write_time(csv, fs::file_time_type::clock::now() + std::chrono::hours(1));
     return astrolabe({"umbmark", "--port", simulator.port(), "--truth", "file", "--out", out.string(),
                       "--side", "0.5", "--runs", "1", "--no-extras"});
   };
@@ -243,6 +246,22 @@ TEST(Umbmark, KeepsADriveWhoseTruthCannotBeReadAndGoesOnWithItOnceItCan) {
                              HasSubstr("before-square-ccw-1.csv")));
   EXPECT_TRUE(fs::exists(out / "before" / "square-cw-1.mcap"));
   EXPECT_FALSE(fs::exists(driven));
+}
+
+TEST(Umbmark, DoesNotTakeTheTruthOfAnEarlierExperimentForThatOfTheRunJustDriven) {
+  const Simulator simulator;
+  const fs::path out = simulator.folder() / "x", csv = out / "truth" / "before-square-cw-1.csv";
+  fs::create_directories(csv.parent_path());
+  std::ofstream(csv) << "x_m,y_m\n0,0\n0.01,0\n";
+  fs::last_write_time(csv, fs::file_time_type::clock::now() - std::chrono::hours(72));
+  const support::Outcome outcome =
+      astrolabe({"umbmark", "--port", simulator.port(), "--truth", "file", "--out", out.string(), "--side",
+                 "0.5", "--runs", "1", "--no-extras", "--yes"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err,
+              testing::AllOf(HasSubstr(csv.string()), HasSubstr("before this run began"),
+                             HasSubstr("press Enter once it is there"), HasSubstr("the drive is kept")));
+  EXPECT_FALSE(fs::exists(out / "before" / "square-cw-1.mcap"));
 }
 
 TEST(Umbmark, HelpShowsTheFormatOfTruthFiles) {
