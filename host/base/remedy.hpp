@@ -148,6 +148,7 @@ enum class Help : std::uint8_t {
   check_units_and_directions,
   check_units_and_wheels,
   estimate_noise,
+  look_for_odd_run,
   calibrate_with_usual_motion,
   calibrate_again,
   calibrate_each_phase,
@@ -157,12 +158,15 @@ enum class Help : std::uint8_t {
   check_units_or_override,
   load_old_values_or_override,
   calibrate_again_or_override,
+  calibrate_robot_or_override,
+  override_advice,
   // experiments
   name_experiment,
   choose_other_out_folder,
   give_same_settings_or_choose_other_out_folder,
   load_factors_or_choose_other_out_folder,
   resume_experiment,    // {folder}
+  look_at_runs,         // {folder}
   put_back_and_resume,  // {folder}
   resume_for_truth,
   use_same_version,

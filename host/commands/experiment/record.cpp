@@ -17,7 +17,6 @@
 #include "host/console/options.hpp"
 #include "host/console/wrong_usage.hpp"
 #include "host/experiment/drive/record_run.hpp"
-#include "host/experiment/files/journal.hpp"
 #include "host/experiment/files/robot_identity.hpp"
 #include "host/recording/files/csv_export.hpp"
 #include "host/recording/files/run_writer.hpp"

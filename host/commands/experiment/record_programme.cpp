@@ -8,11 +8,12 @@
 #include "host/base/error.hpp"
 #include "host/base/folder_lock.hpp"
 #include "host/base/text/sense.hpp"
+#include "host/base/utc.hpp"
+#include "host/commands/experiment/tape_dialogue.hpp"
 #include "host/commands/shared/limit_notes.hpp"
 #include "host/commands/shared/path_progress.hpp"
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
-#include "host/experiment/files/journal.hpp"
 #include "host/recording/files/run_file.hpp"
 
 namespace astro::commands {
@@ -105,16 +106,14 @@ void record_programme(robot::Client& client, truth::Source& truth, const std::ve
   for (const ProgrammeRun& run : missing) all.insert(all.end(), run.path.begin(), run.path.end());
   note_limits(client, all);
   for (const ProgrammeRun& run : missing) {
-    if (pause)
-      console::ask(
-          fmt::format("next is {}: put the robot on its start mark and press Enter ", run.spec.title()));
+    if (pause) ask_ready(console::ask_before_acting, run.spec, std::nullopt);
     way.emplace(run.path);
     recording::RunInfo about = info;
     about.kind = run.spec.kind;
     about.direction = run.spec.direction;
     about.index = run.spec.index;
     about.size_m = run.size_m;
-    about.started_at = experiment::utc_now();
+    about.started_at = utc_now();
     recording::write_run(folder / run.spec.file_name(), record_run(client, truth, run.path, about, hooks));
     progress.clear();
     console::say("recorded " + run.spec.title());

@@ -19,11 +19,10 @@ std::optional<Redo> redo_in(const std::string& answer) {
 }  // namespace
 
 truth::LengthUnit ask_length_unit(const AskLine& ask) {
-  while (true) {
-    const std::string answer = ask("Unit of the lengths you type: mm, cm or m? [mm] ");
-    if (answer.empty()) return truth::LengthUnit::mm;
-    if (const auto unit = truth::length_unit_named(answer)) return *unit;
-  }
+  const std::string question = "Unit of the lengths you type: mm, cm or m? [mm] ";
+  const std::string answer = enter_or(
+      ask, question, [](const std::string& word) { return truth::length_unit_named(word).has_value(); });
+  return answer.empty() ? truth::LengthUnit::mm : truth::length_unit_named(answer).value();
 }
 
 Redo ask_ready(const AskLine& ask, const experiment::RunSpec& next,
@@ -31,23 +30,25 @@ Redo ask_ready(const AskLine& ask, const experiment::RunSpec& next,
   const std::string prompt =
       fmt::format("next is {}: put the robot on its start mark and press Enter ", next.title());
   if (!last) {
-    ask(prompt);
+    press_enter(ask, prompt);
     return Redo::no;
   }
-  return redo_in(ask(fmt::format("('back' corrects {}, 'redo' drives it again)\n{}", last->title(), prompt)))
-      .value_or(Redo::no);
+  const std::string answer =
+      enter_or(ask, fmt::format("('back' corrects {}, 'redo' drives it again)\n{}", last->title(), prompt),
+               [](const std::string& word) { return redo_in(word).has_value(); });
+  return redo_in(answer).value_or(Redo::no);
 }
 
 void ask_put_back(const AskLine& ask, const experiment::RunSpec& run) {
-  ask(fmt::format(
-      "{} was broken off: see that the robot is connected, put it back on its\nstart mark, and press Enter "
-      "to drive it again (Ctrl-C ends the experiment) ",
-      run.title()));
+  press_enter(ask,
+              fmt::format("{} was broken off: see that the robot is connected, put it back on its\nstart "
+                          "mark, and press Enter to drive it again (Ctrl-C ends the experiment) ",
+                          run.title()));
 }
 
 Redo ask_about(const AskLine& ask, const experiment::DoubtfulRun& run) {
   const std::string prompt = console::wrapped(run.why + '.') +
-                             "  y: it stays as it is; back: enter it again; redo: drive it again: ";
+                             "  yes: it stays as it is; back: enter it again; redo: drive it again: ";
   while (true) {
     const std::string answer = ask(prompt);
     if (answer == "y" || answer == "yes") return Redo::no;

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "host/base/error.hpp"
+#include "host/base/utc.hpp"
 #include "host/console/console.hpp"
-#include "host/experiment/files/journal.hpp"
 #include "host/experiment/files/robot_identity.hpp"
 #include "host/robot/client/handshake.hpp"
 #include "host/robot/parameters/parameters.hpp"
@@ -31,7 +31,7 @@ recording::RunInfo describe_robot(robot::Client& client) {
   info.robot_id = identity.id;
   info.board = robot.board.view();
   info.firmware = robot::firmware_version(robot);
-  info.started_at = experiment::utc_now();
+  info.started_at = utc_now();
   info.parameters = robot::RemoteParameters::fetch(client).numbers();
   return info;
 }

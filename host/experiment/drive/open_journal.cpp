@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/base/error.hpp"
+#include "host/base/utc.hpp"
 #include "host/experiment/files/robot_identity.hpp"
 #include "host/robot/client/handshake.hpp"
 

@@ -1,8 +1,7 @@
 #include "host/experiment/files/journal.hpp"
 
-#include <fmt/chrono.h>
+#include <fmt/format.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "host/base/error.hpp"
@@ -36,10 +35,6 @@ Plan drivable_plan(const nlohmann::json& json, const std::string& damaged) {
 }
 
 }  // namespace
-
-std::string utc_now() {
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::now()));
-}
 
 bool has_journal(const std::filesystem::path& folder) { return std::filesystem::exists(file_in(folder)); }
 

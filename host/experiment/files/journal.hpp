@@ -27,7 +27,4 @@ bool has_journal(const std::filesystem::path& folder);
 Journal read_journal(const std::filesystem::path& folder);
 void write_journal(const std::filesystem::path& folder, const Journal& journal);
 
-/// "2026-03-01T12:00:00Z"
-std::string utc_now();
-
 }  // namespace astro::experiment

@@ -20,8 +20,9 @@ void append(std::string& text, const Sample& sample) {
 template <class Sample>
 void write(const std::filesystem::path& path, const std::vector<Sample>& samples, const auto& is_valid) {
   constexpr std::size_t kWrittenAtATime = 65536;
-  PartFile file(path);
   std::string text = "# timestamp tx ty tz qx qy qz qw\n";
+  require_own_kind(path, text, "export");
+  PartFile file(path);
   std::size_t without_heading = 0;
   for (const Sample& sample : samples) {
     if (!is_valid(sample)) continue;

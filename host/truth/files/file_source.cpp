@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "host/base/formats/csv_table.hpp"
 #include "host/base/text/degrees.hpp"
 #include "host/base/text/numbers.hpp"
+#include "host/base/utc.hpp"
 #include "host/truth/source/plausibility.hpp"
 
 namespace astro::truth {
@@ -108,8 +110,20 @@ std::string missing(const fs::path& file) {
                                                       : "there is no file '" + file.string() + "'";
 }
 
-/// Asks until there is a readable file.
-Poses poses_from(const fs::path& file, const Ask& ask) {
+constexpr auto kFileTimeTolerance = std::chrono::seconds(2);  // FAT stores times in steps of 2 s
+
+/// That the file was written before the run began; "" if it was not, or if the run's start is unknown.
+std::string too_old(const fs::path& file, const recording::Run& run) {
+  const std::optional<UtcTime> started = utc_time(run.info.started_at);
+  const auto written = std::chrono::floor<std::chrono::microseconds>(
+      std::chrono::file_clock::to_sys(fs::last_write_time(file)));
+  if (!started || written >= *started - kFileTimeTolerance) return "";
+  return "'" + file.string() + "' was written at " + utc_text(written) + ", before this run began at " +
+         run.info.started_at + ", so it is not its ground truth (if it is, save it again)";
+}
+
+/// Asks until there is a readable file that was written after the run began.
+Poses poses_from(const fs::path& file, const recording::Run& run, const Ask& ask) {
   if (!fs::exists(file))
     ask({"the ground truth of this run belongs into '" + file.string() + "' (" + missing(file) + ")",
          {},
@@ -117,7 +131,9 @@ Poses poses_from(const fs::path& file, const Ask& ask) {
   while (true) {
     Question again{missing(file) + " for the ground truth of this run", {}, AnswerKind::file_saved};
     if (fs::exists(file)) try {
-        return read_poses(file);
+        const std::string old = too_old(file, run);
+        if (old.empty()) return read_poses(file);
+        again = {old, {}, AnswerKind::file_saved};
       } catch (const Error& error) {
         again = {"", {error.what(), error.remedy()}, AnswerKind::file_corrected};
       }
@@ -154,12 +170,12 @@ std::string truth_file_name(const recording::RunInfo& info) {
 
 std::optional<std::vector<recording::TruthSample>> FileSource::complete(const recording::Run& run) {
   const fs::path file = folder_ / truth_file_name(run.info);
-  Poses poses = poses_from(file, ask_);
+  Poses poses = poses_from(file, run, ask_);
   while (true) {
     const std::string why = implausible_end(run, poses.rows.front(), poses.rows.back());
     if (why.empty()) break;
     ask_({"'" + file.string() + "': " + why, {}, AnswerKind::file_corrected_or_kept});
-    Poses again = poses_from(file, ask_);
+    Poses again = poses_from(file, run, ask_);
     const bool same = again == poses;
     poses = std::move(again);
     if (same) break;

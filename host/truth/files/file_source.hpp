@@ -17,6 +17,9 @@ namespace astro::truth {
 /// rows between are spread over the run, which is only good for plots: by a column t or time if there is one
 /// (any unit, as t_s or time_ms; it must increase), evenly otherwise.
 ///
+/// A file that was written before the run began (recording::RunInfo::started_at) is that of another run, and counts as
+/// missing.
+///
 /// Errors  if a file is missing or cannot be read, `ask` is called with the folder or file, line and column,
 ///         until the file can be read or `ask` throws. If the end can hardly be that of the run
 ///         (plausibility.hpp), `ask` is called once; if the file is the same afterwards, it is kept.

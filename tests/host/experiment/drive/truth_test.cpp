@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <deque>
 #include <fstream>
 #include <numbers>
@@ -20,8 +21,9 @@ using support::Desk;
 using support::Person;
 using testing::HasSubstr;
 
-recording::Run drive_line(Desk& desk, truth::Source& source) {
+recording::Run drive_line(Desk& desk, truth::Source& source, const std::string& started_at = "") {
   recording::RunInfo info;
+  info.started_at = started_at;
   info.kind = "line";
   info.phase = "before";
   info.index = 1;
@@ -203,6 +205,31 @@ TEST_F(FileTruth, KeepsAnImplausibleEndOfAFileThatIsLeftAsItIs) {
   run_ = drive_line(desk_, source);
   EXPECT_THAT(asked, testing::ElementsAre(truth::AnswerKind::file_corrected_or_kept));
   EXPECT_NEAR(recording::end_error(run_).x_m, 2.5 - run_.odometry.back().x_m, 1e-6);
+}
+
+TEST_F(FileTruth, OfAnEarlierRunIsNotThatOfThisOne) {
+  const std::filesystem::path file = folder_.path() / "before-line-1.csv";
+  const auto written_at = [&](int second) {
+    std::ofstream(file) << "x_m,y_m\n0,0\n0.5,0\n";
+    const std::chrono::sys_seconds start = std::chrono::sys_days(std::chrono::year(2026) / 3 / 1);
+    const auto time = start + std::chrono::seconds(second);
+    std::filesystem::last_write_time(file, std::chrono::file_clock::from_sys(time));
+  };
+  std::vector<std::string> asked;
+  std::vector<truth::AnswerKind> answers;
+  truth::FileSource source(folder_.path(), [&](const truth::Question& question) -> std::string {
+    asked.push_back(question.text);
+    answers.push_back(question.answer);
+    if (asked.size() == 2) written_at(28);  // while it drives; the start is at 30 s, and file systems round
+    return "";
+  });
+  written_at(27);
+  run_ = drive_line(desk_, source, "2026-03-01T00:00:30Z");
+  EXPECT_NEAR(recording::end_error(run_).x_m, 0.5 - run_.odometry.back().x_m, 1e-6);
+  EXPECT_THAT(answers, testing::ElementsAre(truth::AnswerKind::file_saved, truth::AnswerKind::file_saved));
+  EXPECT_THAT(asked,
+              testing::Each(testing::AllOf(HasSubstr(file.string()), HasSubstr("2026-03-01T00:00:27Z"),
+                                           HasSubstr("before this run began at 2026-03-01T00:00:30Z"))));
 }
 
 TEST_F(FileTruth, ThatIsMissingIsToldWithItsFolderOrItsName) {

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <fstream>
 
 #include "tests/support/base/json.hpp"
@@ -75,12 +76,35 @@ TEST(Umbmark, CalibratesASimulatedRobotOverAPty) {
 TEST(Umbmark, WithoutSlipOneRepeatLeavesAThirtiethAtMost) {
   const Simulator simulator({"--fast", "--slip", "0"});
   const std::string out = (simulator.folder() / "x").string();
-  const support::Outcome outcome =
-      astrolabe(umbmark(simulator, out, {"--runs", "2", "--rounds", "2", "--no-extras", "--json"}));
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const support::Outcome outcome = astrolabe(
+      umbmark(simulator, out, {"--runs", "2", "--rounds", "2", "--no-extras", "--json", "--force"}));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;  // the second round finds nothing that is better
   const double improvement = support::parse_json(outcome.out)["improvement"];
   std::printf("over a pty without slip, two rounds: %.0f times smaller\n", improvement);
   EXPECT_GE(improvement, 30);
+}
+
+TEST(Umbmark, YesLoadsNothingThatIsNotBetterAndEndsWithAReportOfWhatWasDriven) {
+  const Simulator simulator({"--fast", "--slip", "0"});
+  const auto run = [&](const char* name) {
+    return astrolabe(
+        umbmark(simulator, (simulator.folder() / name).string(), {"--runs", "2", "--no-extras"}));
+  };
+  const auto c_r = [&] {
+    return astrolabe({"params", "get", "c_R", "--port", simulator.port(), "--json"}).out;
+  };
+  const support::Outcome first = run("first");
+  ASSERT_EQ(first.code, 0) << first.err;
+  const std::string carried = c_r();
+  const support::Outcome second = run("second");  // of a robot that is calibrated already
+  EXPECT_EQ(second.code, 3) << second.err;
+  EXPECT_EQ(c_r(), carried);
+  EXPECT_THAT(second.err, testing::AllOf(HasSubstr("the robot keeps what it carries"),
+                                         HasSubstr("calib-before.toml"), HasSubstr("calibrate runs")));
+  EXPECT_THAT(second.out, testing::AllOf(HasSubstr("E_max_syst"), HasSubstr("Keep what it carries."),
+                                         HasSubstr("--force"), HasSubstr("report.html")));
+  EXPECT_TRUE(fs::exists(simulator.folder() / "second" / "report.html"));
+  EXPECT_FALSE(fs::exists(simulator.folder() / "second" / "after"));
 }
 
 TEST(Umbmark, CtrlCStopsTheRobotAndTheSameCommandGoesOn) {
@@ -228,6 +252,8 @@ TEST(Umbmark, KeepsADriveWhoseTruthCannotBeReadAndGoesOnWithItOnceItCan) {
   fs::create_directories(csv.parent_path());
   const auto umbmark_with = [&](const std::string& truth) {
     std::ofstream(csv) << truth;
+    // It counts as that of the run, which begins only after the robot has answered.
+    fs::last_write_time(csv, fs::file_time_type::clock::now() + std::chrono::hours(1));
     return astrolabe({"umbmark", "--port", simulator.port(), "--truth", "file", "--out", out.string(),
                       "--side", "0.5", "--runs", "1", "--no-extras"});
   };
@@ -243,6 +269,22 @@ TEST(Umbmark, KeepsADriveWhoseTruthCannotBeReadAndGoesOnWithItOnceItCan) {
                              HasSubstr("before-square-ccw-1.csv")));
   EXPECT_TRUE(fs::exists(out / "before" / "square-cw-1.mcap"));
   EXPECT_FALSE(fs::exists(driven));
+}
+
+TEST(Umbmark, DoesNotTakeTheTruthOfAnEarlierExperimentForThatOfTheRunJustDriven) {
+  const Simulator simulator;
+  const fs::path out = simulator.folder() / "x", csv = out / "truth" / "before-square-cw-1.csv";
+  fs::create_directories(csv.parent_path());
+  std::ofstream(csv) << "x_m,y_m\n0,0\n0.01,0\n";
+  fs::last_write_time(csv, fs::file_time_type::clock::now() - std::chrono::hours(72));
+  const support::Outcome outcome =
+      astrolabe({"umbmark", "--port", simulator.port(), "--truth", "file", "--out", out.string(), "--side",
+                 "0.5", "--runs", "1", "--no-extras", "--yes"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err,
+              testing::AllOf(HasSubstr(csv.string()), HasSubstr("before this run began"),
+                             HasSubstr("press Enter once it is there"), HasSubstr("the drive is kept")));
+  EXPECT_FALSE(fs::exists(out / "before" / "square-cw-1.mcap"));
 }
 
 TEST(Umbmark, HelpShowsTheFormatOfTruthFiles) {
