@@ -150,7 +150,7 @@ TEST(LiveSource, AShortSilenceIsAGapAndALongOneAnError) {
             "no ground truth has come from lab for 10 s: it sleeps");
   lab.why = "";  // as a link says that has passed on poses
   EXPECT_EQ(complaint([&] { listen(milliseconds(11'000)); }),
-            "no ground truth has come from lab for 10 s: it has stopped sending");
+            "no ground truth has come from lab for 10 s: no more poses of 'ASTRO' are sent");
 }
 
 TEST(LiveSource, ARunBeginsOnceTheBodyIsSeenNowAndWithoutTheSamplesFromBefore) {
