@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -75,6 +76,22 @@ bool await_input(std::string& bytes) {
   }
 }
 
+std::string read_ahead;  // answers typed, or piped in, before their question
+
+// Long enough for a key that bounces or is hit twice, too short to be noticed.
+constexpr int kQuiet_ms = 300;
+
+void discard_typed_input() {
+  if (!stdin_is_terminal()) return;
+  read_ahead.clear();
+  pollfd input{STDIN_FILENO, POLLIN, 0};
+  do {
+    check_interrupt();
+    tcflush(STDIN_FILENO, TCIFLUSH);
+  } while (poll(&input, 1, kQuiet_ms) > 0 && input.revents == POLLIN);  // not if the terminal is gone
+  tcflush(STDIN_FILENO, TCIFLUSH);  // the beginning of a line, which poll() does not report
+}
+
 }  // namespace
 
 void hold_standard_streams() {
@@ -105,7 +122,6 @@ void complain_without_memory(const char* sentence) {
 }
 
 std::string ask(const std::string& prompt) {
-  static std::string read_ahead;  // answers typed, or piped in, before their question
   to_stderr(plain_text(prompt));
   std::size_t end = 0;
   while ((end = read_ahead.find('\n')) == std::string::npos)
@@ -123,10 +139,15 @@ std::string ask(const std::string& prompt) {
   return line;
 }
 
+std::string ask_before_acting(const std::string& prompt) {
+  discard_typed_input();
+  return ask(prompt);
+}
+
 bool confirm(const std::string& question) {
   if (!stdin_is_terminal())
     throw Error("'" + question + "' needs an answer and the input is no terminal", {Help::agree_beforehand});
-  const std::string answer = ask(question + " [y/N] ");
+  const std::string answer = ask_before_acting(question + " [y/N] ");
   return answer == "y" || answer == "Y" || answer == "yes";
 }
 

@@ -34,13 +34,18 @@ std::string in_words(const std::filesystem::filesystem_error& error);
 /// The same without allocating memory, for when there is none; `sentence` is printed as it stands.
 void complain_without_memory(const char* sentence);
 
-/// Asks on stderr, reads a line from stdin. Throws astro::Error with Help::agree_beforehand if stdin is no
-/// terminal.
+/// Asks on stderr, reads a line from stdin, as ask_before_acting() does. Throws astro::Error with
+/// Help::agree_beforehand if stdin is no terminal.
 bool confirm(const std::string& question);
 
 /// A line from stdin after a prompt on stderr. Throws astro::Error at the end of input, Interrupted on
 /// Ctrl-C.
 std::string ask(const std::string& prompt);
+
+/// The same for a question whose answer moves a robot or writes its flash: what was typed at a terminal before the
+/// question was shown is not its answer and is discarded, and the question is shown only when no line has come for a
+/// moment, so that neither is a key that bounces. Piped answers are taken in their order.
+std::string ask_before_acting(const std::string& prompt);
 
 /// When progress is reported where no line can be rewritten, as in a file or a pipe: after 10 s, then each
 /// time the elapsed time has doubled, but at least every minute. A short job prints nothing, and the log of a

@@ -43,7 +43,7 @@ RawTerminal::RawTerminal() {
   raw.c_cc[VTIME] = 0;
   raw.c_cc[VSUSP] = raw.c_cc[VQUIT] = _POSIX_VDISABLE;
   before_forced_exit(put_back);
-  tcsetattr(STDIN_FILENO, TCSANOW, &raw);
+  tcsetattr(STDIN_FILENO, TCSAFLUSH, &raw);  // keys that were pressed before must not steer
 }
 
 RawTerminal::~RawTerminal() {

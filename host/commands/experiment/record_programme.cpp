@@ -9,6 +9,7 @@
 #include "host/base/folder_lock.hpp"
 #include "host/base/sense.hpp"
 #include "host/base/utc.hpp"
+#include "host/commands/experiment/tape_dialogue.hpp"
 #include "host/commands/shared/limit_notes.hpp"
 #include "host/commands/shared/path_progress.hpp"
 #include "host/console/console.hpp"
@@ -105,9 +106,7 @@ void record_programme(robot::Client& client, truth::Source& truth, const std::ve
   for (const ProgrammeRun& run : missing) all.insert(all.end(), run.path.begin(), run.path.end());
   note_limits(client, all);
   for (const ProgrammeRun& run : missing) {
-    if (pause)
-      console::ask(
-          fmt::format("next is {}: put the robot on its start mark and press Enter ", run.spec.title()));
+    if (pause) ask_ready(console::ask_before_acting, run.spec, std::nullopt);
     way.emplace(run.path);
     recording::RunInfo about = info;
     about.kind = run.spec.kind;

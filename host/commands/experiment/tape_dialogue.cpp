@@ -31,18 +31,20 @@ Redo ask_ready(const AskLine& ask, const experiment::RunSpec& next,
   const std::string prompt =
       fmt::format("next is {}: put the robot on its start mark and press Enter ", next.title());
   if (!last) {
-    ask(prompt);
+    press_enter(ask, prompt);
     return Redo::no;
   }
-  return redo_in(ask(fmt::format("('back' corrects {}, 'redo' drives it again)\n{}", last->title(), prompt)))
-      .value_or(Redo::no);
+  const std::string answer =
+      enter_or(ask, fmt::format("('back' corrects {}, 'redo' drives it again)\n{}", last->title(), prompt),
+               [](const std::string& word) { return redo_in(word).has_value(); });
+  return redo_in(answer).value_or(Redo::no);
 }
 
 void ask_put_back(const AskLine& ask, const experiment::RunSpec& run) {
-  ask(fmt::format(
-      "{} was broken off: see that the robot is connected, put it back on its\nstart mark, and press Enter "
-      "to drive it again (Ctrl-C ends the experiment) ",
-      run.title()));
+  press_enter(ask,
+              fmt::format("{} was broken off: see that the robot is connected, put it back on its\nstart "
+                          "mark, and press Enter to drive it again (Ctrl-C ends the experiment) ",
+                          run.title()));
 }
 
 Redo ask_about(const AskLine& ask, const experiment::DoubtfulRun& run) {

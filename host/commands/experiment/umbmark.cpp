@@ -128,7 +128,7 @@ experiment::ExperimentHooks hooks_for(const UmbmarkOptions& options, console::Pr
   const bool pauses = options.pause || options.truth.source == "manual";
   const AskLine ask = [&progress](const std::string& prompt) {
     progress.clear();
-    return console::ask(prompt);
+    return console::ask_before_acting(prompt);
   };
   hooks.ready = [pauses, ask](const experiment::RunSpec& spec,
                               const std::optional<experiment::RunSpec>& last) {
@@ -168,8 +168,7 @@ void brief(UmbmarkOptions& options) {
   console::say(tape_briefing(options.plan, options.out));
   options.truth.units.angle = truth::angle_unit_named(options.angle_unit).value();
   options.truth.units.length =
-      options.unit.empty() ? ask_length_unit([](const std::string& prompt) { return console::ask(prompt); })
-                           : truth::length_unit_named(options.unit).value();
+      options.unit.empty() ? ask_length_unit(console::ask) : truth::length_unit_named(options.unit).value();
 }
 
 void run(UmbmarkOptions& options) {

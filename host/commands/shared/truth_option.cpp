@@ -4,6 +4,7 @@
 
 #include "host/base/error.hpp"
 #include "host/commands/base/remedies.hpp"
+#include "host/commands/shared/press_enter.hpp"
 #include "host/console/console.hpp"
 #include "host/truth/files/file_source.hpp"
 #include "host/truth/live/live_source.hpp"
@@ -58,7 +59,17 @@ std::string in_words(const truth::Question& question) {
   }
 }
 
-std::string ask_person(const truth::Question& question) { return console::ask(in_words(question)); }
+std::string ask_person(const truth::Question& question) {
+  switch (question.answer) {
+    case truth::AnswerKind::file_saved:
+    case truth::AnswerKind::file_corrected:
+    case truth::AnswerKind::file_corrected_or_kept:
+      press_enter(console::ask_before_acting, in_words(question));  // the next run may be driven at once
+      return "";
+    default:
+      return console::ask(in_words(question));
+  }
+}
 
 std::unique_ptr<truth::Source> open_truth(const TruthOption& option, const std::string& port,
                                           const truth::Ask& asking) {

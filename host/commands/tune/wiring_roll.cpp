@@ -44,7 +44,7 @@ Roll ask_how_far(const motor::RobotFacts& facts) {
 
 std::string ask_or_interrupt(const std::string& prompt) {
   try {
-    return console::ask(prompt);
+    return console::ask_before_acting(prompt);
   } catch (const Error&) {
     console::check_interrupt();
     throw;

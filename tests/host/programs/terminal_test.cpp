@@ -49,10 +49,21 @@ TEST_F(Terminal, TeleopDrivesByKeysAndLeavesTheTerminalAsItWas) {
   EXPECT_EQ(info()["mode"], "disarmed");
 }
 
+TEST_F(Terminal, TeleopDrivesByNoKeyThatWasPressedBeforeItBegan) {
+  TerminalProgram teleop(command({"drive", "teleop"}));
+  teleop.type("w");
+  ASSERT_TRUE(teleop.shows("space   stop")) << teleop.seen();
+  ASSERT_TRUE(teleop.shows("+0.00 m/s")) << teleop.seen();
+  teleop.type("q");
+  EXPECT_EQ(teleop.wait(), 0);
+  EXPECT_THAT(teleop.seen(), Not(HasSubstr("+0.08 m/s")));
+}
+
 TEST_F(Terminal, TeleopEndsOnCtrlCWithTheRobotAtRestAndTheTerminalAsItWas) {
   TerminalProgram teleop(command({"drive", "teleop"}));
+  ASSERT_TRUE(teleop.shows("space   stop")) << teleop.seen();
   teleop.type(kUp);
-  ASSERT_TRUE(teleop.shows("is +0.0")) << teleop.seen();
+  ASSERT_TRUE(teleop.shows("+0.08 m/s    is +0.0")) << teleop.seen();
   teleop.type(kCtrlC);
   EXPECT_EQ(teleop.wait(), 130);
   EXPECT_TRUE(teleop.is_cooked());
@@ -196,6 +207,15 @@ TEST_F(Terminal, ParameterListIsCutToItsWidth) {
     const auto width = std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; });
     EXPECT_LE(width, 81) << line;  // a carriage return is not visible
   }
+}
+
+TEST_F(Terminal, NoAnswerThatWasTypedBeforeItsQuestionWritesTheFlash) {
+  TerminalProgram set(command({"params", "set", "c_R=1.001", "c_L=0.999"}));
+  set.type("y\n");
+  ASSERT_TRUE(set.shows("[y/N]")) << set.seen();
+  set.type("\n");
+  EXPECT_EQ(set.wait(), 1);
+  EXPECT_EQ(astrolabe({"params", "get", "c_R", "--port", simulator_.port()}).out, "1\n");
 }
 
 TEST_F(Terminal, QuestionsAreAnsweredByHand) {

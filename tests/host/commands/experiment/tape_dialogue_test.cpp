@@ -28,7 +28,7 @@ TEST(TapeDialogue, AsksForAUnitUntilItIsOneAndTakesMillimetresForEnter) {
 }
 
 TEST(TapeDialogue, OffersToCorrectTheLastRunOnlyWhereThereIsOne) {
-  Person person({"back", "back", "redo", ""});
+  Person person({"", "back", "redo", ""});
   EXPECT_EQ(ask_ready(std::ref(person), kFirst, {}), Redo::no);
   EXPECT_EQ(ask_ready(std::ref(person), kSecond, kFirst), Redo::enter_again);
   EXPECT_EQ(ask_ready(std::ref(person), kSecond, kFirst), Redo::drive_again);
@@ -36,6 +36,18 @@ TEST(TapeDialogue, OffersToCorrectTheLastRunOnlyWhereThereIsOne) {
   EXPECT_THAT(person.asked[0], testing::Not(HasSubstr("redo")));
   EXPECT_THAT(person.asked[1], testing::AllOf(HasSubstr("corrects before: square cw 1"),
                                               HasSubstr("next is before: square ccw 1")));
+}
+
+TEST(TapeDialogue, LetsTheRobotDriveOnEnterAlone) {
+  Person hesitant({"no wait, not yet", "y", " ", "wait", "back", "stop", ""});
+  EXPECT_EQ(ask_ready(std::ref(hesitant), kFirst, {}), Redo::no);
+  EXPECT_EQ(hesitant.asked.size(), 3U);
+  EXPECT_THAT(hesitant.asked[1], testing::AllOf(HasSubstr("'no wait, not yet' is no answer"),
+                                                HasSubstr("next is before: square cw 1")));
+  EXPECT_EQ(ask_ready(std::ref(hesitant), kSecond, kFirst), Redo::enter_again);
+  EXPECT_EQ(hesitant.asked.size(), 5U);
+  ask_put_back(std::ref(hesitant), kFirst);
+  EXPECT_EQ(hesitant.asked.size(), 7U);
 }
 
 TEST(TapeDialogue, DoesNotTakeEnterForAnAnswerAboutADoubtfulRun) {

@@ -218,6 +218,19 @@ TEST_F(Tape, CatchesOrBearsEveryMistakeAndLoadsTheRobotsFactorsWithItsScale) {
   EXPECT_FALSE(parameters.contains("left_out")) << "all mistakes were corrected";
 }
 
+TEST_F(Tape, AnEnterThatWasHitTwiceDoesNotLetTheRobotDriveAndNeitherDoesAWord) {
+  TmuxProgram umbmark(command("--runs 1 --side 1 --unit mm --no-extras"));
+  drive(umbmark, "before: square cw 1");
+  Answers honest = measured();
+  honest.heading += "\nno wait, not yet";  // typed ahead of the question whether it may drive
+  answer(umbmark, honest);
+  ASSERT_TRUE(umbmark.shows("next is before: square ccw 1")) << umbmark.seen();
+  umbmark.type("no wait");
+  ASSERT_TRUE(umbmark.shows("'no wait' is no answer to this")) << umbmark.seen();
+  ASSERT_TRUE(umbmark.shows("next is before: square ccw 1")) << umbmark.seen();
+  EXPECT_THAT(umbmark.seen(), Not(HasSubstr("run square ccw 1 (before)")));
+}
+
 TEST_F(Tape, ABadEndIsNamedWithWhatWouldFitBeforeAnythingIsKept) {
   TmuxProgram umbmark(command("--runs 1 --unit m --no-extras"));
   drive(umbmark, "before: square cw 1");
