@@ -155,12 +155,15 @@ enum class Help : std::uint8_t {
   check_units_or_override,
   load_old_values_or_override,
   calibrate_again_or_override,
+  calibrate_robot_or_override,
+  override_advice,
   // experiments
   name_experiment,
   choose_other_out_folder,
   give_same_settings_or_choose_other_out_folder,
   load_factors_or_choose_other_out_folder,
   resume_experiment,    // {folder}
+  look_at_runs,         // {folder}
   put_back_and_resume,  // {folder}
   resume_for_truth,
   use_same_version,

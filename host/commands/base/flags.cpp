@@ -4,7 +4,9 @@ namespace astro::commands {
 
 void add_force(console::Command command, bool& force) {
   command.add_flag("--force", force,
-                   "upload also a change of more than 10 %, or on top of other\nparameters");
+                   "upload also what is not shown to be better, a change of more\n"
+                   "than 10 %, and what is of another robot, of another wheel or\n"
+                   "on top of other parameters");
 }
 
 void add_json_flag(console::Command command, bool& json) {

@@ -5,7 +5,8 @@
 /// Options that mean the same in every command.
 namespace astro::commands {
 
-/// Adds --force to a command that uploads a calibration: see experiment::objection.
+/// Adds --force to a command that uploads a calibration: see experiment::objections and agreed_to_load
+/// (host/commands/shared/parameter_load.hpp).
 void add_force(console::Command command, bool& force);
 
 /// Adds --json.

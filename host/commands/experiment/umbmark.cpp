@@ -14,13 +14,16 @@
 #include "host/commands/shared/connection.hpp"
 #include "host/commands/shared/limit_notes.hpp"
 #include "host/commands/shared/method_option.hpp"
+#include "host/commands/shared/parameter_load.hpp"
 #include "host/commands/shared/path_progress.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/commands/shared/truth_option.hpp"
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
 #include "host/console/options.hpp"
+#include "host/console/program.hpp"
 #include "host/console/wrong_usage.hpp"
+#include "host/experiment/analysis/judgement_sentences.hpp"
 #include "host/experiment/analysis/report_input.hpp"
 #include "host/experiment/drive/experiment.hpp"
 #include "host/experiment/files/method_names.hpp"
@@ -81,7 +84,10 @@ void add_options(console::Command command, UmbmarkOptions& options) {
   command.add_option("--order", options.order, "of the directions")
       .one_of({"alternating", "cw-first", "ccw-first"})
       .capture_default_str();
-  command.add_option("--rounds", plan.rounds, "calibrate, upload and drive again so often")
+  command
+      .add_option("--rounds", plan.rounds,
+                  "calibrate, upload and drive again so often, or until a\n"
+                  "calibration is not shown to be better")
       .capture_default_str();
   command.add_option("--line", plan.line_m, "length of the straight line, m").capture_default_str();
   command.add_option("--circle", plan.circle_radius_m, "radius of the circles, m").capture_default_str();
@@ -90,7 +96,7 @@ void add_options(console::Command command, UmbmarkOptions& options) {
              "auto: ml (maximum likelihood over whole drives)\n"
              "with ground truth along the way, else robust");
   command.add_flag("--pause", options.pause, "wait for Enter before each run (always with --truth manual)");
-  command.add_flag("--yes,-y", options.yes, "upload without asking");
+  command.add_flag("--yes,-y", options.yes, "upload without asking what is better, or cannot be judged");
   add_force(command, options.force);
   command.add_flag("--json", options.json, "print the result as one JSON object");
 }
@@ -140,7 +146,7 @@ experiment::ExperimentHooks hooks_for(const UmbmarkOptions& options, console::Pr
     return true;
   };
   hooks.doubt = [ask](const experiment::DoubtfulRun& run) { return ask_about(ask, run); };
-  hooks.agree = [&options, &progress](const experiment::Calibration& found, const auto& changes) {
+  hooks.calibrated = [&progress](const experiment::Calibration& found, const auto& changes) {
     progress.clear();
     console::say('\n' + calibration_summary(found));
     console::say(console::table(experiment::side_by_side(changes)));
@@ -148,7 +154,11 @@ experiment::ExperimentHooks hooks_for(const UmbmarkOptions& options, console::Pr
     const std::string note =
         experiment::insignificance(changes, {{"c_R", se.c_r}, {"c_L", se.c_l}, {"b", se.b_m}});
     if (!note.empty()) console::say(note);
-    return options.yes || console::confirm("Load these into the robot?");
+  };
+  hooks.decide = [&options](const experiment::Calibration& found, const auto&) {
+    using enum experiment::Decision;
+    if (agreed_to_load(found.judgement.verdict, {options.yes, options.force})) return load;
+    return experiment::advises_against(found.judgement.verdict) ? keep : later;
   };
   hooks.force = options.force;
   hooks.uploaded = [](const Remark& remark) { console::say(in_words(remark) + "\n"); };
@@ -169,6 +179,25 @@ void brief(UmbmarkOptions& options) {
   options.truth.units.angle = truth::angle_unit_named(options.angle_unit).value();
   options.truth.units.length =
       options.unit.empty() ? ask_length_unit(console::ask) : truth::length_unit_named(options.unit).value();
+}
+
+/// Prints what came out. An experiment that ends before its last phase does so because the drives speak against loading.
+void conclude(const experiment::Results& results, const std::filesystem::path& report, bool as_json) {
+  const experiment::Calibration* const not_loaded = results.not_loaded();
+  if (as_json) {
+    nlohmann::json json = to_json(results);
+    json["report"] = report.string();
+    print_json(json);
+  } else {
+    for (const std::string& square : results.left_out()) print(console::wrapped(square + '.'));
+    write(console::table(experiment::before_after_table(results)) + '\n');
+    if (results.phases.size() > 1) write(console::wrapped(results.verdict()));
+    if (not_loaded != nullptr)
+      write(console::wrapped(experiment::judgement_sentence(not_loaded->judgement) +
+                             " It was not loaded; --force loads it all the same."));
+    print("Report: " + report.string());
+  }
+  if (not_loaded != nullptr) console::answer_no();
 }
 
 void run(UmbmarkOptions& options) {
@@ -202,15 +231,7 @@ void run(UmbmarkOptions& options) {
       run_experiment(*client, *truth, options.plan, options.out, hooks_for(options, progress));
   const std::filesystem::path report = std::filesystem::absolute(options.out / "report.html");
   report::write_report(report, experiment::report_input(results));
-  if (options.json) {
-    nlohmann::json json = to_json(results);
-    json["report"] = report.string();
-    print_json(json);
-    return;
-  }
-  for (const std::string& square : results.left_out()) print(console::wrapped(square + '.'));
-  write(console::table(experiment::before_after_table(results)) + '\n' + console::wrapped(results.verdict()));
-  print("Report: " + report.string());
+  conclude(results, report, options.json);
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ void add_upload(console::Command app) {
   command.add_option("file", options->file, "calib.toml of 'calibrate', or a file of 'params export'")
       .required();
   add_connection(command, options->connection);
-  command.add_flag("--yes,-y", options->yes, "do not ask");
+  command.add_flag("--yes,-y", options->yes, "do not ask; loads nothing that is not shown to be better");
   add_force(command, options->force);
   command.add_flag("--json", options->json, "print what the robot now holds as one JSON object");
   command.footer(

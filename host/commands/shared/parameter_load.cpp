@@ -11,12 +11,6 @@
 namespace astro::commands {
 namespace {
 
-void warn_of_another_robot(const robot::Client& client, const experiment::ParameterFile& file) {
-  const std::string other = experiment::different_robots("the calibration", file.robot, "this",
-                                                         experiment::identity_of(client.robot()));
-  if (!other.empty()) console::say("warning: " + other);
-}
-
 /// Writes values to flash that are in force already, because they may only have been tried.
 void save_tried_values(robot::RemoteParameters robot, const experiment::ParameterFile& file) {
   for (const auto& [name, value] : file.parameters) robot.stage(name, value);
@@ -45,26 +39,35 @@ bool agreed(const robot::RemoteParameters& robot, const std::vector<experiment::
                                               : fmt::format("Put these {} values in force?", changes.size()));
 }
 
+bool agreed_to_load(calibration::Verdict verdict, const LoadOptions& options) {
+  const bool advised_against = experiment::advises_against(verdict);
+  const bool may_ask = !options.yes && verdict != calibration::Verdict::worse && console::stdin_is_terminal();
+  if (advised_against && !options.force && !may_ask) return false;
+  return options.yes || console::confirm(advised_against ? "Load these into the robot all the same?"
+                                                         : "Load these into the robot?");
+}
+
 LoadResult load_parameters(robot::Client& client, const robot::RemoteParameters& robot,
                            const experiment::ParameterFile& file, const LoadOptions& options) {
-  warn_of_another_robot(client, file);
   LoadResult loaded{experiment::changes(robot, file.parameters), std::nullopt};
   if (loaded.changes.empty()) {
     save_tried_values(robot, file);
     return loaded;
   }
   console::say(console::table(experiment::side_by_side(loaded.changes), "llrrr"));
-  if (const auto why = experiment::objection(robot, file, loaded.changes); why && !options.force)
-    throw Error(*why);
+  for (const Remark& why :
+       experiment::objections(robot, experiment::identity_of(client.robot()), file, loaded.changes)) {
+    if (!options.force) throw Error(why);
+    console::say("warning: " + why.fact);
+  }
   warn_of_far_changes(robot, loaded.changes);
   if (const std::string note = experiment::insignificance(loaded.changes, file.standard_errors);
       !note.empty())
     console::say(note);
   const bool advised_against = experiment::advises_against(file.verdict);
   if (advised_against) console::say("warning: " + file.verdict_sentence);
-  if (!options.yes && !console::confirm(advised_against ? "Load these into the robot all the same?"
-                                                        : "Load these into the robot?"))
-    throw Error("nothing was changed");
+  if (!agreed_to_load(file.verdict, options))
+    throw Error("nothing was changed", {advised_against ? Help::override_advice : Help::none});
   loaded.report = robot::upload(client, file.parameters);
   return loaded;
 }

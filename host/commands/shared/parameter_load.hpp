@@ -12,15 +12,20 @@ struct LoadOptions {
   bool yes = false, force = false;
 };
 
+/// Whether a calibration is loaded: asks at the terminal, unless `yes`. One that its drives speak against (worse, or not
+/// shown to be better) is loaded only if a person at a terminal says so, or with `force` beside `yes`; one that is worse
+/// only with `force`.
+bool agreed_to_load(calibration::Verdict verdict, const LoadOptions& options);
+
 struct LoadResult {
   std::vector<experiment::Change> changes;    // empty: the robot held these values already
   std::optional<robot::UploadReport> report;  // none without changes
 };
 
 /// Loads the parameters of a file (a calibration or a robot's whole table) into the robot; the only function
-/// that does so. Warns if the file is from another robot, shows old and new values side by side, refuses what
-/// experiment::objection names unless `force`, warns about values far from the present ones, asks unless
-/// `yes`, and uploads. Throws astro::Error if nothing was loaded.
+/// that does so. Shows old and new values side by side, refuses what experiment::objections name, or warns of each with
+/// `force`, warns about values far from the present ones, asks as agreed_to_load does, and uploads. Throws astro::Error if
+/// nothing was loaded.
 LoadResult load_parameters(robot::Client& client, const robot::RemoteParameters& robot,
                            const experiment::ParameterFile& file, const LoadOptions& options);
 

@@ -105,7 +105,13 @@ report::ReportInput report_input(const Results& results) {
                       {"b", "m", old.b_m, now.b_m, se.b_m}};
   if (const std::string other = results.other_robot(); !other.empty()) input.notes.push_back(other + '.');
   for (const std::string& square : results.left_out()) input.notes.push_back(square + '.');
-  if (last != nullptr) input.method = method_text(*last);
+  if (const Calibration* const found = results.not_loaded(); found != nullptr) {
+    input.notes.push_back("The calibration from these drives was not loaded. " +
+                          judgement_sentence(found->judgement));
+    input.method = method_text(*found);
+  } else if (last != nullptr) {
+    input.method = method_text(*last);
+  }
   return input;
 }
 

@@ -6,6 +6,7 @@
 
 #include "host/base/error.hpp"
 #include "host/experiment/analysis/json.hpp"
+#include "host/experiment/analysis/judgement_sentences.hpp"
 #include "host/experiment/files/experiment_folder.hpp"
 #include "host/experiment/files/robot_identity.hpp"
 #include "host/recording/files/run_folder.hpp"
@@ -49,6 +50,12 @@ const Calibration* Results::last_calibration() const {
   if (phases.size() < 2) return nullptr;
   const std::optional<Calibration>& last = phases[phases.size() - 2].calibration;
   return last ? &*last : nullptr;
+}
+
+const Calibration* Results::not_loaded() const {
+  const std::optional<Calibration>& found = after().calibration;
+  if (!found) return nullptr;
+  return journal.loaded.contains(phase_names(journal.plan)[phases.size()]) ? nullptr : &*found;
 }
 
 calibration::Improvement Results::gain() const {
@@ -157,6 +164,9 @@ nlohmann::json to_json(const Results& results) {
     json["parameters"]["standard_errors"] = {
         {"c_R", number(last->se.c_r)}, {"c_L", number(last->se.c_l)}, {"b_m", number(last->se.b_m)}};
   }
+  const Calibration* const not_loaded = results.not_loaded();
+  json["not_loaded"] = nullptr;  // or why, in a sentence
+  if (not_loaded != nullptr) json["not_loaded"] = judgement_sentence(not_loaded->judgement);
   json["robot"] = {{"id", results.journal.robot_id}, {"name", results.journal.robot_name}};
   return json;
 }

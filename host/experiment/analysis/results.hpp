@@ -37,6 +37,8 @@ struct Results {
   const PhaseResult& after() const { return phases.back(); }
   /// The calibration whose factors were loaded in the last phase; none if nothing was uploaded yet.
   const Calibration* last_calibration() const;
+  /// The calibration after the last phase that was driven, if the robot does not carry its factors.
+  const Calibration* not_loaded() const;
   /// E_max_syst before over after.
   double improvement() const { return gain().factor; }
   /// The same with its 95 % interval.

@@ -70,6 +70,13 @@ std::string change_in_words(const Change& change) {
   return is_visible ? fmt::format("{:+.4f} %", percent) : "< 0.0001 %";
 }
 
+std::string incomplete(const ParameterFile& file) {
+  const auto has = [&](const char* name) { return file.parameters.contains(name); };
+  if (file.method.empty() || (has("c_R") && has("c_L") && has("b"))) return {};
+  const char* missing = !has("c_R") ? "c_R" : !has("c_L") ? "c_L" : "b";
+  return fmt::format("the calibration has no {}, and c_R, c_L and b were found together", missing);
+}
+
 std::string shown(const robot::Value& value) {
   if (const double* number = std::get_if<double>(&value)) return fmt::format("{:.9g}", *number);
   return std::get<std::string>(value);
@@ -98,12 +105,16 @@ std::string suspicion(const std::vector<Change>& changes) {
   return {};
 }
 
-std::string wrong_basis(const robot::RemoteParameters& robot, const ParameterFile& file) {
-  if (!file.absolute)
-    for (const auto& [name, loaded] : file.loaded)
-      if (const double now = robot.number(name); !same_number(now, loaded))
-        return fmt::format("the calibration was driven with {} = {:.9g}, and the robot now holds {:.9g}",
-                           name, loaded, now);
+std::string wrong_loaded_factors(const robot::RemoteParameters& robot, const ParameterFile& file) {
+  if (file.absolute) return {};
+  for (const auto& [name, loaded] : file.loaded)
+    if (const double now = robot.number(name); !same_number(now, loaded))
+      return fmt::format("the calibration was driven with {} = {:.9g}, and the robot now holds {:.9g}", name,
+                         loaded, now);
+  return {};
+}
+
+std::string wrong_wheel(const robot::RemoteParameters& robot, const ParameterFile& file) {
   if (!file.wheel) return {};
   const NominalWheel now{robot.number("wheel_diameter"), robot.number("counts_per_motor_rev") *
                                                              robot.number("gear_numerator") /
@@ -113,25 +124,18 @@ std::string wrong_basis(const robot::RemoteParameters& robot, const ParameterFil
                      file.wheel->described(), now.described());
 }
 
-std::string incomplete(const ParameterFile& file) {
-  const auto has = [&](const char* name) { return file.parameters.contains(name); };
-  if (file.method.empty() || (has("c_R") && has("c_L") && has("b"))) return {};
-  const char* missing = !has("c_R") ? "c_R" : !has("c_L") ? "c_L" : "b";
-  return fmt::format("the calibration has no {}, and c_R, c_L and b were found together", missing);
-}
-
-std::optional<Remark> objection(const robot::RemoteParameters& robot, const ParameterFile& file,
-                                const std::vector<Change>& changes) {
-  if (const std::string why = incomplete(file); !why.empty())
-    return Remark{why, {Help::calibrate_again_or_override}};
-  if (const std::string why = wrong_basis(robot, file); !why.empty())
-    return Remark{why, {Help::load_old_values_or_override}};
-  if (const std::string why = suspicion(changes); !why.empty())
-    return Remark{why, {Help::check_units_or_override}};
-  if (file.verdict == calibration::Verdict::worse)
-    return Remark{"on drives that the calibration had not seen it is worse than what the robot carried",
-                  {Help::calibrate_again_or_override}};
-  return std::nullopt;
+std::vector<Remark> objections(const robot::RemoteParameters& robot, const RobotIdentity& identity,
+                               const ParameterFile& file, const std::vector<Change>& changes) {
+  std::vector<Remark> all;
+  const auto add = [&](const std::string& why, Help help) {
+    if (!why.empty()) all.push_back({why, {help}});
+  };
+  add(different_robots("the calibration", file.robot, "this", identity), Help::calibrate_robot_or_override);
+  add(incomplete(file), Help::calibrate_again_or_override);
+  add(wrong_wheel(robot, file), Help::load_old_values_or_override);
+  add(wrong_loaded_factors(robot, file), Help::load_old_values_or_override);
+  add(suspicion(changes), Help::check_units_or_override);
+  return all;
 }
 
 std::string insignificance(const std::vector<Change>& changes,

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,15 +24,19 @@ std::vector<Change> changes(const robot::RemoteParameters& robot, const Paramete
 /// calibration: states which one, or "" if there is none. Checks c_R, c_L and b only.
 std::string suspicion(const std::vector<Change>& changes);
 
-/// Why factors that were found like this would be wrong on top of what is loaded in the robot now, or "" if they
-/// are right. Factors that are not absolute need the factors that were loaded when they were measured; all need
-/// the nominal wheel (diameter, gear, encoder) that they refer to, as far as the file tells it.
-std::string wrong_basis(const robot::RemoteParameters& robot, const ParameterFile& file);
+/// Why factors that are not absolute would be wrong on top of what is loaded in the robot now: they need the factors that
+/// were loaded when they were measured. "" if they are right.
+std::string wrong_loaded_factors(const robot::RemoteParameters& robot, const ParameterFile& file);
 
-/// Why these changes are uploaded only on request: c_R, c_L and b are not complete, what the two checks above find, or the
-/// calibration was worse on drives that it had not seen. Nothing if all are in order.
-std::optional<Remark> objection(const robot::RemoteParameters& robot, const ParameterFile& file,
-                                const std::vector<Change>& changes);
+/// Why factors would be wrong with the robot's nominal wheel (diameter, gear, encoder): they refer to another one, as far
+/// as the file tells it. "" if they are right.
+std::string wrong_wheel(const robot::RemoteParameters& robot, const ParameterFile& file);
+
+/// Why these changes are uploaded only on request: the file is of another robot than `identity`, c_R, c_L and b are not
+/// complete, and what the three checks above find. What its own drives say of a calibration is not among them
+/// (judgement_sentences.hpp).
+std::vector<Remark> objections(const robot::RemoteParameters& robot, const RobotIdentity& identity,
+                               const ParameterFile& file, const std::vector<Change>& changes);
 
 /// The sentence that no factor changes by more than twice its standard error, or "". Such an upload is harmless
 /// and of little use. `standard_errors` by name; NaN and those that are missing are unknown.

@@ -15,6 +15,7 @@
 #include "host/experiment/drive/open_journal.hpp"
 #include "host/experiment/drive/phase_recordings.hpp"
 #include "host/experiment/files/experiment_folder.hpp"
+#include "host/experiment/files/robot_identity.hpp"
 #include "host/recording/files/run_file.hpp"
 #include "host/robot/parameters/upload.hpp"
 
@@ -45,7 +46,7 @@ class Session {
       current_.start();
       drive_phase(i);
       read_phase(i);
-      if (i + 1 < phases.size()) calibrate(i);
+      if (i + 1 < phases.size() && !calibrate(i)) break;
     }
     return results_of(read_journal(folder_), finished_, found_);
   }
@@ -196,26 +197,40 @@ class Session {
     finished_.push_back(current_.recordings());
   }
 
-  void calibrate(std::size_t phase) {
+  /// False if the experiment ends here, because the robot keeps what it carries.
+  bool calibrate(std::size_t phase) {
     const std::vector<std::string> names = phase_names(journal_.plan);
     const Calibration found = calibrate_after(finished_, journal_.plan.method);
     const fs::path file = folder_ / fmt::format("calib-{}.toml", names[phase]);
     write_calibration(file, found);
-    if (!journal_.loaded.contains(names[phase + 1])) upload(found, file);
     found_.push_back(found);
+    return journal_.loaded.contains(names[phase + 1]) || upload(found, file, folder_ / names[phase]);
   }
 
-  void upload(const Calibration& found, const fs::path& file) {
+  /// False if it is decided that the robot keeps what it carries. `runs`: the folder of the phase that was driven last.
+  bool upload(const Calibration& found, const fs::path& file, const fs::path& runs) {
     const ParameterFile calibration = read_parameter_file(file);
     const robot::RemoteParameters robot = robot::RemoteParameters::fetch(client_);
     const std::vector<Change> list = changes(robot, calibration.parameters);
-    if (list.empty()) return;  // an earlier session uploaded them already
-    if (const auto why = objection(robot, calibration, list); why && !hooks_.force) throw Error(*why);
-    if (!hooks_.agree(found, list))
+    if (list.empty()) return true;  // an earlier session uploaded them already
+    hooks_.calibrated(found, list);
+    const Remark kept{"the robot keeps what it carries; the calibration is in '" + file.string() + "'",
+                      {Help::look_at_runs, runs.string()}};
+    for (const Remark& why : objections(robot, identity_of(client_.robot()), calibration, list)) {
+      hooks_.run.notice(hooks_.force ? Remark{"overridden: " + why.fact} : kept);
+      if (!hooks_.force) throw Error(why);
+    }
+    const Decision decision = hooks_.decide(found, list);
+    if (decision == Decision::later)
       throw Error("the new parameters were not uploaded", {Help::resume_experiment, folder_.string()});
+    if (decision == Decision::keep) {
+      hooks_.run.notice(kept);
+      return false;
+    }
     const robot::UploadReport report = robot::upload(client_, calibration.parameters);
     if (report.active != robot::ActiveSet::new_set) throw Error(report.remark());
     hooks_.uploaded(report.remark());
+    return true;
   }
 
   robot::Client& client_;

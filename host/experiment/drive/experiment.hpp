@@ -19,6 +19,13 @@ enum class Redo {
   drive_again,
 };
 
+/// What becomes of a calibration that was found.
+enum class Decision {
+  load,   // into the robot, and the experiment goes on
+  keep,   // the robot keeps what it carries, and the experiment ends with what was driven
+  later,  // nothing yet: the same experiment asks again
+};
+
 /// Callbacks through which an experiment shows progress and asks its user.
 struct ExperimentHooks {
   RunHooks run;
@@ -35,10 +42,13 @@ struct ExperimentHooks {
   /// A run whose ground truth comes from a person or a file does not fit the others; it may be an earlier one. Not called
   /// again for a run that is said to be right.
   std::function<Redo(const DoubtfulRun&)> doubt = [](const DoubtfulRun&) { return Redo::no; };
-  /// Returns true to upload these changes. Not called if there is an objection (change_guard.hpp).
-  std::function<bool(const Calibration&, const std::vector<Change>&)> agree =
-      [](const Calibration&, const std::vector<Change>&) { return true; };
-  bool force = false;  // upload in spite of an objection
+  /// A calibration was found, and would change these parameters of the robot. Called before anything is decided.
+  std::function<void(const Calibration&, const std::vector<Change>&)> calibrated =
+      [](const Calibration&, const std::vector<Change>&) {};
+  /// Whether these changes are loaded. Not called if there are objections (change_guard.hpp).
+  std::function<Decision(const Calibration&, const std::vector<Change>&)> decide =
+      [](const Calibration&, const std::vector<Change>&) { return Decision::load; };
+  bool force = false;  // upload in spite of objections, each of which is a notice then
   std::function<void(const Remark&)> uploaded = [](const Remark&) {};
 };
 
@@ -46,7 +56,7 @@ struct ExperimentHooks {
 /// `folder` are not driven again, so an experiment that was stopped resumes where it was.
 ///
 /// Throws astro::Error if the folder holds another plan or another robot's experiment, if the robot's
-/// parameters are not those of the phase under way, if the upload is not agreed to or suspicious; and what
+/// parameters are not those of the phase under way, if there are objections to the upload or it is put off; and what
 /// record_run throws.
 Results run_experiment(robot::Client& client, truth::Source& truth, const Plan& plan,
                        const std::filesystem::path& folder, const ExperimentHooks& hooks);

@@ -14,7 +14,9 @@ namespace astro::experiment {
 namespace {
 
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::ThrowsMessage;
 
 class CalibrationFile : public testing::Test {
@@ -145,21 +147,21 @@ TEST_F(ChangeGuard, DoubtsWheelFactorsThatMoveByMoreThanATenth) {
 TEST_F(ChangeGuard, FactorsFromEndPosesNeedWhatWasCarriedAndAbsoluteOnesDoNot) {
   ParameterFile file;
   file.loaded = {{"c_R", 1.001}};
-  EXPECT_THAT(wrong_basis(robot_, file), HasSubstr("driven with c_R = 1.001"));
+  EXPECT_THAT(wrong_loaded_factors(robot_, file), HasSubstr("driven with c_R = 1.001"));
   file.loaded = {{"c_R", 1.0}};
-  EXPECT_EQ(wrong_basis(robot_, file), "");
+  EXPECT_EQ(wrong_loaded_factors(robot_, file), "");
   file.loaded = {{"c_R", 1.001}};
   file.absolute = true;
-  EXPECT_EQ(wrong_basis(robot_, file), "");
+  EXPECT_EQ(wrong_loaded_factors(robot_, file), "");
 }
 
 TEST_F(ChangeGuard, AllFactorsNeedTheWheelThatTheyReferTo) {
   ParameterFile file;
   file.absolute = true;
   file.wheel = NominalWheel{0.072, 64 * 43.8};  // what the simulated robot believes in
-  EXPECT_EQ(wrong_basis(robot_, file), "");
+  EXPECT_EQ(wrong_wheel(robot_, file), "");
   file.wheel->diameter_m = 0.0721;
-  EXPECT_THAT(wrong_basis(robot_, file), AllOf(HasSubstr("0.0721 m"), HasSubstr("0.072 m")));
+  EXPECT_THAT(wrong_wheel(robot_, file), AllOf(HasSubstr("0.0721 m"), HasSubstr("0.072 m")));
 }
 
 TEST_F(ChangeGuard, SaysThatAChangeWithinItsErrorMayBeForNothing) {
@@ -172,27 +174,42 @@ TEST_F(ChangeGuard, SaysThatAChangeWithinItsErrorMayBeForNothing) {
   EXPECT_EQ(note({{"kp", 80.0}}), "") << "a gain has no error";
 }
 
-TEST_F(ChangeGuard, ObjectsInOneSentenceThatCanBeOverridden) {
+TEST_F(ChangeGuard, ObjectsInSentencesThatCanBeOverridden) {
   ParameterFile file;
-  EXPECT_FALSE(objection(robot_, file, changes(robot_, {{"b", 0.31}})));
-  EXPECT_THAT(*objection(robot_, file, changes(robot_, {{"b", 0.32}})),
-              support::Tells(HasSubstr("+10.3 %"), Help::check_units_or_override));
+  const auto objected = [&](double b_m) {
+    return objections(robot_, {"ASTRO", "01"}, file, changes(robot_, {{"b", b_m}}));
+  };
+  EXPECT_THAT(objected(0.31), IsEmpty());
+  EXPECT_THAT(objected(0.32),
+              ElementsAre(support::Tells(HasSubstr("+10.3 %"), Help::check_units_or_override)));
   file.loaded = {{"c_R", 1.001}};
-  EXPECT_THAT(*objection(robot_, file, changes(robot_, {{"b", 0.31}})),
-              support::Tells(HasSubstr("driven with"), Help::load_old_values_or_override));
+  EXPECT_THAT(objected(0.31),
+              ElementsAre(support::Tells(HasSubstr("driven with"), Help::load_old_values_or_override)));
+}
+
+TEST_F(ChangeGuard, NamesEachThingThatIsOverridden) {
+  ParameterFile file;
+  file.robot = {"ASTRO", "02"};
+  file.wheel = NominalWheel{0.0721, 64 * 43.8};
+  EXPECT_THAT(objections(robot_, {"ASTRO", "01"}, file, changes(robot_, {{"b", 0.32}})),
+              ElementsAre(support::Tells(HasSubstr("of robot ASTRO (02), and this is ASTRO (01)"),
+                                         Help::calibrate_robot_or_override),
+                          support::Tells(HasSubstr("0.0721 m"), Help::load_old_values_or_override),
+                          support::Tells(HasSubstr("+10.3 %"), Help::check_units_or_override)));
 }
 
 TEST_F(ChangeGuard, ObjectsToFactorsThatAreNotAllThere) {
   ParameterFile file;
+  const auto objected = [&] { return objections(robot_, {}, file, {}); };
   file.method = "ml";
   file.parameters = {{"c_R", 1.001}, {"c_L", 0.999}};
-  EXPECT_THAT(*objection(robot_, file, {}),
-              support::Tells(HasSubstr("has no b"), Help::calibrate_again_or_override));
+  EXPECT_THAT(objected(),
+              ElementsAre(support::Tells(HasSubstr("has no b"), Help::calibrate_again_or_override)));
   file.parameters["b"] = 0.29;
-  EXPECT_FALSE(objection(robot_, file, {}));
+  EXPECT_THAT(objected(), IsEmpty());
   file = {};
   file.parameters = {{"c_R", 1.001}};
-  EXPECT_FALSE(objection(robot_, file, {})) << "no calibration, but somebody's own choice";
+  EXPECT_THAT(objected(), IsEmpty()) << "no calibration, but somebody's own choice";
 }
 
 TEST_F(ChangeGuard, RefusesNamesAndValuesThatTheRobotDoesNotHave) {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "host/experiment/analysis/judgement_sentences.hpp"
+#include "host/experiment/analysis/report_input.hpp"
 #include "host/experiment/files/method_names.hpp"
 #include "host/robot/parameters/upload.hpp"
 #include "tests/support/base/remarks.hpp"
@@ -138,9 +140,24 @@ TEST(Experiment, FactorsThatAreWorseOnUnseenDrivesAreNotLoaded) {
   const std::map<std::string, robot::Value> right{
       {"c_R", c_large}, {"c_L", c_small}, {"b", config.true_wheelbase_m}};
   robot::upload(desk.client, right);
-  EXPECT_THAT(
-      support::told_by([&] { calibrate(desk, squares_only(1)); }),
-      support::Tells(HasSubstr("worse than what the robot carried"), Help::calibrate_again_or_override));
+  ExperimentHooks hooks;
+  calibration::Verdict verdict{};
+  hooks.decide = [&](const Calibration& found, const auto&) {
+    verdict = found.judgement.verdict;
+    return advises_against(verdict) ? Decision::keep : Decision::load;
+  };
+  std::vector<Remark> notices;
+  hooks.run.notice = [&](const Remark& notice) { notices.push_back(notice); };
+  const Results results = calibrate(desk, squares_only(1), hooks);
+  EXPECT_EQ(verdict, calibration::Verdict::worse);
+  ASSERT_EQ(results.phases.size(), 1U) << "it ends with what was driven";
+  ASSERT_NE(results.not_loaded(), nullptr);
+  EXPECT_EQ(results.not_loaded()->judgement.verdict, verdict);
+  EXPECT_THAT(to_json(results)["not_loaded"].get<std::string>(),
+              HasSubstr("Worse than what the robot carries"));
+  EXPECT_THAT(report_input(results).notes,
+              testing::Contains(testing::AllOf(HasSubstr("was not loaded"), HasSubstr("Worse than"))));
+  EXPECT_THAT(notices, testing::Contains(support::Tells(HasSubstr("calib-before.toml"), Help::look_at_runs)));
   const robot::RemoteParameters after = robot::RemoteParameters::fetch(desk.client);
   EXPECT_NEAR(std::get<double>(after.value("c_R")), c_large, 1e-8);
 }
@@ -169,7 +186,7 @@ TEST(Experiment, UploadsOnlyWhatIsAgreedTo) {
   Desk desk(thesis_robot(0, 1));
   const TemporaryFolder folder;
   ExperimentHooks hooks;
-  hooks.agree = [](const Calibration&, const std::vector<Change>&) { return false; };
+  hooks.decide = [](const Calibration&, const std::vector<Change>&) { return Decision::later; };
   EXPECT_THROW(run_experiment(desk.client, desk.truth, squares_only(1), folder.path(), hooks), Error);
   EXPECT_EQ(std::get<double>(robot::RemoteParameters::fetch(desk.client).value("c_R")), 1.0);
 }

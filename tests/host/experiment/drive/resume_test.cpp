@@ -214,7 +214,7 @@ class DoubtfulTruth : public Resume {
       asked.push_back(run.why);
       return doubt(run);
     };
-    hooks.agree = [](const auto&, const auto&) { return false; };
+    hooks.decide = [](const auto&, const auto&) { return Decision::later; };
     hooks.run_started = [&](const RunSpec& spec, int number, int total) {
       driven.push_back(spec.title());
       started(spec, number, total);
@@ -305,7 +305,7 @@ TEST_F(Resume, TheLastRunIsCorrectedOrDrivenAgainBeforeTheNext) {
     wishes.erase(wishes.begin());
     return wish;
   };
-  hooks.agree = [](const auto&, const auto&) { return false; };
+  hooks.decide = [](const auto&, const auto&) { return Decision::later; };
   hooks.run_started = [&](const RunSpec& spec, int, int) { driven.push_back(spec.title()); };
   truth::ManualSource source(std::ref(person));
   EXPECT_THROW(run_experiment(desk_.client, source, plan, folder_.path(), hooks), Error);

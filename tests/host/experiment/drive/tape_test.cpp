@@ -108,7 +108,9 @@ Outcome calibrate(std::uint64_t seed, const Mistakes& mistakes, bool attentive =
   ExperimentHooks hooks;
   hooks.ready = [&](const RunSpec& next, const auto&) { return person.put_on_mark(next), Redo::no; };
   hooks.doubt = [&](const DoubtfulRun& run) { return person.doubt(run); };
-  hooks.agree = [&](const Calibration& found, const auto&) { return outcome.found = found, false; };
+  hooks.decide = [&](const Calibration& found, const auto&) {
+    return outcome.found = found, Decision::later;
+  };
   hooks.force = true;
   truth::ManualSource tape([&](const truth::Question& question) { return person.answer(question); });
   EXPECT_THROW(run_experiment(desk.client, tape, plan, folder.path(), hooks), Error);

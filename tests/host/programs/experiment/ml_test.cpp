@@ -220,12 +220,15 @@ TEST_F(Ml, DamagedRecordingsAreUsedOnlyIfThatIsWantedAndThenWarnedOf) {
   }
 }
 
-TEST_F(Ml, WarnsOfAnotherRobotWhereverItIsUsed) {
+TEST_F(Ml, IsNotLoadedIntoAnotherRobotUnlessForcedAndWarnsOfItElsewhere) {
   const Simulator other({"--fast", "--seed", "2"});
   const std::string file = out() + "/calib-before.toml", drives = (other.folder() / "drives").string();
-  const Outcome uploaded = astrolabe({"upload", file, "--port", other.port(), "--yes"});
-  EXPECT_EQ(uploaded.code, 0);
-  EXPECT_THAT(uploaded.err, HasSubstr("warning: the calibration is of robot "));
+  const Outcome refused = astrolabe({"upload", file, "--port", other.port(), "--yes"});
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("the calibration is of robot "), HasSubstr("--force")));
+  const Outcome forced = astrolabe({"upload", file, "--port", other.port(), "--yes", "--force"});
+  EXPECT_EQ(forced.code, 0);
+  EXPECT_THAT(forced.err, HasSubstr("warning: the calibration is of robot "));
   ASSERT_EQ(astrolabe({"record", "--squares", "2", "--side", "1", "--truth", "sim", "--port", other.port(),
                        "--out", drives})
                 .code,

@@ -76,12 +76,35 @@ TEST(Umbmark, CalibratesASimulatedRobotOverAPty) {
 TEST(Umbmark, WithoutSlipOneRepeatLeavesAThirtiethAtMost) {
   const Simulator simulator({"--fast", "--slip", "0"});
   const std::string out = (simulator.folder() / "x").string();
-  const support::Outcome outcome =
-      astrolabe(umbmark(simulator, out, {"--runs", "2", "--rounds", "2", "--no-extras", "--json"}));
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const support::Outcome outcome = astrolabe(
+      umbmark(simulator, out, {"--runs", "2", "--rounds", "2", "--no-extras", "--json", "--force"}));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;  // the second round finds nothing that is better
   const double improvement = support::parse_json(outcome.out)["improvement"];
   std::printf("over a pty without slip, two rounds: %.0f times smaller\n", improvement);
   EXPECT_GE(improvement, 30);
+}
+
+TEST(Umbmark, YesLoadsNothingThatIsNotBetterAndEndsWithAReportOfWhatWasDriven) {
+  const Simulator simulator({"--fast", "--slip", "0"});
+  const auto run = [&](const char* name) {
+    return astrolabe(
+        umbmark(simulator, (simulator.folder() / name).string(), {"--runs", "2", "--no-extras"}));
+  };
+  const auto c_r = [&] {
+    return astrolabe({"params", "get", "c_R", "--port", simulator.port(), "--json"}).out;
+  };
+  const support::Outcome first = run("first");
+  ASSERT_EQ(first.code, 0) << first.err;
+  const std::string carried = c_r();
+  const support::Outcome second = run("second");  // of a robot that is calibrated already
+  EXPECT_EQ(second.code, 3) << second.err;
+  EXPECT_EQ(c_r(), carried);
+  EXPECT_THAT(second.err, testing::AllOf(HasSubstr("the robot keeps what it carries"),
+                                         HasSubstr("calib-before.toml"), HasSubstr("calibrate runs")));
+  EXPECT_THAT(second.out, testing::AllOf(HasSubstr("E_max_syst"), HasSubstr("Keep what it carries."),
+                                         HasSubstr("--force"), HasSubstr("report.html")));
+  EXPECT_TRUE(fs::exists(simulator.folder() / "second" / "report.html"));
+  EXPECT_FALSE(fs::exists(simulator.folder() / "second" / "after"));
 }
 
 TEST(Umbmark, CtrlCStopsTheRobotAndTheSameCommandGoesOn) {

@@ -91,6 +91,39 @@ TEST_F(Upload, SaysThatAChangeWithinItsErrorMayBeForNothingAndLoadsIt) {
   EXPECT_NEAR(on_robot("c_R"), 1.0001, 1e-9);
 }
 
+TEST_F(Upload, YesDoesNotLoadWhatTheDrivesAdviseAgainstAndForceDoes) {
+  for (const char* verdict : {"undecided", "worse"}) {
+    const std::string file = std::string("c_R = 1.002\n[verdict]\nverdict = \"") + verdict +
+                             "\"\nsentence = \"Keep what it carries.\"\n";
+    const Outcome outcome = upload(file, {"--yes"});
+    EXPECT_EQ(outcome.code, 1) << verdict;
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("warning: Keep what it carries."),
+                                   HasSubstr("nothing was changed"), HasSubstr("--force")));
+    EXPECT_EQ(on_robot("c_R"), 1) << verdict;
+  }
+  EXPECT_EQ(upload("c_R = 1.002\n[verdict]\nverdict = \"better\"\n", {"--yes"}).code, 0);
+  const Outcome forced =
+      upload("c_R = 1.001\n[verdict]\nverdict = \"worse\"\nsentence = \"Worse.\"\n", {"--yes", "--force"});
+  EXPECT_EQ(forced.code, 0);
+  EXPECT_THAT(forced.err, HasSubstr("warning: Worse."));
+  EXPECT_NEAR(on_robot("c_R"), 1.001, 1e-9);
+}
+
+TEST_F(Upload, RefusesTheCalibrationOfAnotherRobotOrWheelAndNamesBothIfTheyAreOverridden) {
+  const std::string file =
+      "c_R = 1.002\n[robot]\nname = \"ASTRO\"\nid = \"00ff\"\n"
+      "[nominal]\nwheel_diameter = 0.08\ncounts_per_wheel_turn = 2803.2\n";
+  const Outcome refused = upload(file, {"--yes"});
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("of robot ASTRO (00ff), and this is"));
+  EXPECT_EQ(on_robot("c_R"), 1);
+  const Outcome forced = upload(file, {"--yes", "--force"});
+  EXPECT_EQ(forced.code, 0);
+  EXPECT_THAT(forced.err, AllOf(HasSubstr("warning: the calibration is of robot ASTRO (00ff)"),
+                                HasSubstr("warning: the calibration refers to a wheel of 0.08 m")));
+  EXPECT_NEAR(on_robot("c_R"), 1.002, 1e-9);
+}
+
 TEST_F(Upload, ALinkThatDropsLeavesTheOldSetOrTheNewOne) {
   std::vector<std::string> command{
       ASTROLABE_PROGRAM, "upload",          calibration("c_R = 1.002\nc_L = 0.998\n"),
