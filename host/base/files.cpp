@@ -81,6 +81,27 @@ Bytes load_file(const fs::path& path, std::uintmax_t most_bytes) {
   return bytes;
 }
 
+void require_own_kind(const fs::path& path, std::string_view mark, const std::string& kind) {
+  constexpr std::size_t kBeginning = 65536;
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored) || fs::file_size(path, ignored) == 0) return;
+  std::string beginning(kBeginning, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+  beginning.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
+  if (beginning.find(mark) == std::string::npos)
+    throw Error(
+        "'" + path.string() + "' exists and is no " + kind + " of this program, as what would replace it is",
+        {Help::remove_or_name_other_file});
+}
+
+void require_no_input(const fs::path& path, std::initializer_list<fs::path> inputs) {
+  std::error_code ignored;
+  for (const fs::path& input : inputs)
+    if (fs::equivalent(path, input, ignored))
+      throw Error("'" + path.string() + "' is read, and would be overwritten", {Help::name_other_file});
+}
+
 PartFile::PartFile(fs::path path, Replaces replaces) : path_(std::move(path)), part_(part_of(path_)) {
   std::error_code ignored, error;
   if (fs::is_directory(path_, ignored))

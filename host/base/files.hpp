@@ -1,6 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
+#include <string>
+#include <string_view>
 
 #include "host/base/bytes.hpp"
 #include "host/base/remedy.hpp"
@@ -17,6 +20,14 @@ void require_file(const std::filesystem::path& path);
 /// Reads the whole file. Throws astro::Error as require_file does, or if it cannot be read or is larger than
 /// `most_bytes`.
 Bytes load_file(const std::filesystem::path& path, std::uintmax_t most_bytes = kMaxFileBytes);
+
+/// Before a file is replaced that may be a person's own. Throws astro::Error if there is a file at `path` that is not empty
+/// and does not contain `mark`, which all files contain, near their beginning, that this program writes there; `kind` names
+/// them ("report").
+void require_own_kind(const std::filesystem::path& path, std::string_view mark, const std::string& kind);
+
+/// Throws astro::Error if `path` is one of the files that are read to write it.
+void require_no_input(const std::filesystem::path& path, std::initializer_list<std::filesystem::path> inputs);
 
 /// A file that gets its name only when it is complete. Bytes go to `<path>.part`; commit() syncs them to the
 /// disk and renames the file, replacing an older file of that name unless it is a recording, because a drive

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "host/base/files.hpp"
 #include "host/commands/calibrate/calibration_output.hpp"
 #include "host/commands/calibrate/ml_option.hpp"
 #include "host/commands/shared/import_options.hpp"
@@ -33,6 +34,7 @@ void add_calibrate_bag(console::Command calibrate) {
       "  astrolabe inspect drive.mcap");
   command.callback([options] {
     options->import.truth = options->import.wheels;
+    require_no_input(options->output.file, {options->import.robot_file});
     put_out(experiment::calibrate(read_drive_files(options->import),
                                   {experiment::MethodChoice::Family::ml, {}}, options->ml.choice()),
             options->output);

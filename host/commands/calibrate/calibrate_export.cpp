@@ -3,6 +3,7 @@
 
 #include <iostream>
 #include <memory>
+#include <string_view>
 
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
@@ -39,8 +40,15 @@ std::optional<experiment::DiffDrive> sizes_if_known(const experiment::ParameterF
   return experiment::diff_drive(file, nominal);
 }
 
+/// What all files of a format contain that were exported before.
+std::string_view mark_of(const std::string& format) {
+  return format == "ros2" ? "# Found by Astrolabe" : format == "json" ? "\"c_R\":" : "[parameters]";
+}
+
 std::string text_of(const ExportOptions& options) {
   const std::string format = format_of(options);
+  require_no_input(options.to, {options.file});
+  require_own_kind(options.to, mark_of(format), "export");
   const experiment::ParameterFile file = experiment::read_parameter_file(options.file);
   try {
     experiment::require_loadable(file);

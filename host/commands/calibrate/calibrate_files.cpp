@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "host/base/files.hpp"
 #include "host/commands/calibrate/calibration_output.hpp"
 #include "host/commands/calibrate/ml_option.hpp"
 #include "host/commands/shared/import_options.hpp"
@@ -33,6 +34,7 @@ void add_calibrate_files(console::Command calibrate) {
   command.callback([options] {
     if (!options->import.given())
       throw console::WrongUsage("no drives are named: give --wheels and --truth for each");
+    require_no_input(options->output.file, {options->import.robot_file});
     put_out(experiment::calibrate(read_drive_files(options->import),
                                   {experiment::MethodChoice::Family::ml, {}}, options->ml.choice()),
             options->output);

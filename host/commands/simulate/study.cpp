@@ -135,8 +135,10 @@ void run(StudyOptions& options) {
   if (part && options.json)
     throw console::WrongUsage("--shard prints no result: give --json to 'study merge'");
   std::optional<PartFile> file;
-  if (!options.out.empty())
-    file.emplace(options.out);  // so that a file that cannot be written is an error before the work
+  if (!options.out.empty()) {  // a file that cannot be written is an error before the work
+    require_own_kind(options.out, "\"methods\":", "part of a study");
+    file.emplace(options.out);
+  }
   const std::vector<simulation::study::Trial> trials = drive(options);
   if (file) {
     const std::string text = to_text(options.setup, trials);

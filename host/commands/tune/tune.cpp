@@ -83,6 +83,7 @@ void check_out(const std::filesystem::path& out) {
   if (out.empty() || !std::filesystem::is_directory(folder) || std::filesystem::is_directory(out))
     throw Error(fmt::format(
         "--out: the report cannot be written to '{}': name a file in a folder that exists", out.string()));
+  report::require_replaceable(out);
 }
 
 bool wants_upload(const TuneOptions& options, const TuneResult& result) {

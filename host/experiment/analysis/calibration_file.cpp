@@ -15,15 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A calibration or a parameter file may replace another one, but not a recording or a journal.
-void require_own_kind(const fs::path& path) {
-  if (fs::exists(path) && !fs::is_directory(path) && path.extension() != ".toml")
-    throw Error(fmt::format("'{}' exists and is no .toml, as what would replace it is", path.string()),
-                {Help::name_other_file});
-}
-
 void save(const fs::path& path, const std::string& text) {
-  require_own_kind(path);
+  require_own_kind(path, "[parameters]", "calibration or parameter file");
   PartFile file(path);
   file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   file.commit();

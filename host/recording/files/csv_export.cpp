@@ -29,7 +29,7 @@ constexpr std::size_t kWriteBytes = 65536;  // written at a time
 }  // namespace
 
 CsvWriter::Table::Table(const std::filesystem::path& path, std::string heading)
-    : file_(path), waiting_(std::move(heading)) {}
+    : file_((require_own_kind(path, "__time,/", "export"), path)), waiting_(std::move(heading)) {}
 
 void CsvWriter::Table::add(const std::string& row) {
   waiting_ += row;

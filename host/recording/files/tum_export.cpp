@@ -19,8 +19,9 @@ void append_pose(std::string& text, std::int64_t time_us, double x_m, double y_m
 template <class Sample>
 void write(const std::filesystem::path& path, const std::vector<Sample>& samples, const auto& is_valid) {
   constexpr std::size_t kWrittenAtATime = 65536;
-  PartFile file(path);
   std::string text = "# timestamp tx ty tz qx qy qz qw\n";
+  require_own_kind(path, text, "export");
+  PartFile file(path);
   for (const Sample& sample : samples) {
     if (!is_valid(sample)) continue;
     append_pose(text, sample.time_us, sample.x_m, sample.y_m, sample.theta_rad);

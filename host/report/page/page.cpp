@@ -25,7 +25,14 @@ std::string render_page(const std::string& title, const std::vector<Section>& se
                                         {"script", std::string(assets::script_js())}});
 }
 
+void require_replaceable(const std::filesystem::path& path) {
+  // From the head of the template.
+  require_own_kind(path,
+                   "script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:", "report");
+}
+
 void write_page(const std::filesystem::path& path, const std::string& html) {
+  require_replaceable(path);
   PartFile file(path);
   file.write({reinterpret_cast<const std::uint8_t*>(html.data()), html.size()});
   file.commit();

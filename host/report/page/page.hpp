@@ -23,7 +23,11 @@ inline constexpr std::size_t kAccents = 4;
 std::string render_page(const std::string& title, const std::vector<Section>& sections,
                         const nlohmann::json& data);
 
-/// `path` never holds half a page. Throws what PartFile throws.
+/// Throws astro::Error if there is a file at `path` that is no page of this kind. write_page() checks it, too; call it before
+/// work that would be lost.
+void require_replaceable(const std::filesystem::path& path);
+
+/// `path` never holds half a page. Throws what require_replaceable and PartFile throw.
 void write_page(const std::filesystem::path& path, const std::string& html);
 
 }  // namespace astro::report

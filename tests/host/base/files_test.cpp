@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
+#include <fstream>
+
 #include "host/base/folder_lock.hpp"
 #include "host/recording/files/run_folder.hpp"
 #include "tests/host/recording/support.hpp"
@@ -30,6 +32,29 @@ TEST(PartFile, RefusesTheNameOfAFolderBeforeAnythingIsWritten) {
   EXPECT_THAT(astro::support::told_by([&] { PartFile(folder.path()).commit(); }),
               astro::support::Tells(HasSubstr("is a folder"), Help::name_file_in_it));
   EXPECT_FALSE(std::filesystem::exists(folder.path().string() + ".part"));
+}
+
+TEST(RequireOwnKind, LetsOnlyFilesWithTheMarkBeReplacedAndEmptyOnes) {
+  const TempFolder folder;
+  const auto holds = [&](const std::string& text) {
+    std::ofstream(folder / "out") << text;
+    return complaint([&] { require_own_kind(folder / "out", "# ours", "report"); });
+  };
+  EXPECT_EQ(complaint([&] { require_own_kind(folder / "none", "# ours", "report"); }), "");
+  EXPECT_EQ(holds(""), "");
+  EXPECT_EQ(holds("title\n# ours\n"), "");
+  EXPECT_THAT(holds("t_s,left,right\n"), HasSubstr("exists and is no report of this program"));
+}
+
+TEST(RequireNoInput, KnowsAnInputUnderAnotherName) {
+  const TempFolder folder;
+  std::ofstream(folder / "in") << "1";
+  std::filesystem::create_symlink(folder / "in", folder / "link");
+  EXPECT_THAT(complaint([&] {
+                require_no_input(folder / "link", {folder / "other", folder / "in"});
+              }),
+              HasSubstr("is read, and would be overwritten"));
+  EXPECT_EQ(complaint([&] { require_no_input(folder / "new", {folder / "in", {}}); }), "");
 }
 
 TEST(PartFile, ReplacesNoRecording) {

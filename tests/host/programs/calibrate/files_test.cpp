@@ -139,6 +139,42 @@ TEST_F(Files, AreReportedDriveByDrive) {
   EXPECT_EQ(astrolabe({"report", folder_.path().string(), "--with", "x.toml"}).code, kWrongUsage);
 }
 
+TEST_F(Files, AreNeverOverwrittenByWhatIsMadeOfThem) {
+  const auto text_of = [](const std::string& path) {
+    std::ifstream file(path);
+    return std::string{std::istreambuf_iterator<char>(file), {}};
+  };
+  const std::vector<std::string> some = pairs(1);
+  const std::string wheels = text_of(some[1]);
+  std::vector<std::string> report{"report", "--out", some[1]};
+  report.insert(report.end(), some.begin(), some.end());
+  const Outcome refused = run(report, sizes());
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("exists and is no report of this program"));
+  EXPECT_EQ(text_of(some[1]), wheels);
+
+  const std::string robot =
+      "[parameters]\nwheel_diameter = 0.084\ncounts_per_motor_rev = 4096\nb = 0.29\nc_R = 1\nc_L = 1\n";
+  std::ofstream(at("robot.toml")) << robot;
+  const Outcome same = calibrated(2, {"--robot", at("robot.toml"), "--out", at("robot.toml")});
+  EXPECT_EQ(same.code, 1);
+  EXPECT_THAT(same.err, HasSubstr("is read, and would be overwritten"));
+  EXPECT_EQ(text_of(at("robot.toml")), robot);
+
+  std::ofstream(at("controller.yaml")) << "controller_server:\n  ros__parameters:\n    rate: 20.0\n";
+  std::ofstream(at("calib.toml")) << "[parameters]\nc_R = 1.001\nc_L = 0.999\nb = 0.29\n";
+  const auto exported = [&](const std::string& to) {
+    return astrolabe({"calibrate", "export", at("calib.toml"), "--to", at(to), "--wheel-radius", "0.042",
+                      "--wheel-separation", "0.29"});
+  };
+  EXPECT_EQ(exported("controller.yaml").code, 1);
+  EXPECT_THAT(text_of(at("controller.yaml")), HasSubstr("rate: 20.0"));
+  EXPECT_EQ(exported("calib.toml").code, 1);
+  for (const char* own : {"wheels.yaml", "wheels.json", "wheels.toml"})
+    for (int again = 0; again < 2; ++again)
+      EXPECT_EQ(exported(own).code, 0) << own << ' ' << exported(own).err;
+}
+
 TEST_F(Files, ThatDoNotPairAreWrongUsage) {
   const std::vector<std::string> some = pairs(1);
   EXPECT_EQ(astrolabe({"calibrate", "files", "--wheels", some[1], "--wheelbase", "0.3"}).code, kWrongUsage);

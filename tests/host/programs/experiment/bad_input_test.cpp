@@ -60,7 +60,7 @@ TEST_F(BadInput, CalibrationOverWhatWasMeasured) {
   const std::string cw = file("cw.csv", kGood);
   refuses({"calibrate", "end-poses", "--cw", cw, "--ccw", file("ccw.csv", kGood), "--side", "3",
            "--wheelbase", "0.29", "--out", cw},
-          {"cw.csv", "no .toml"});
+          {"cw.csv", "is no calibration or parameter file"});
   std::ifstream kept(cw);
   EXPECT_EQ(std::string(std::istreambuf_iterator<char>(kept), {}), kGood);
 }

@@ -42,6 +42,21 @@ TEST(ExportCommand, WritesTheTablesOfARecording) {
   EXPECT_THAT(text_of(folder / "csv/truth.csv"), HasSubstr("\n1.500000,0.25,0,0,1\n"));
 }
 
+TEST(ExportCommand, ReplacesItsOwnTablesAndNoOthers) {
+  const test::TemporaryFolder temporary;
+  const fs::path folder = temporary.path();
+  write_run(folder / "drive.mcap", run_that_ends_at(0.25));
+  const auto exported = [&](const char* option) {
+    return astrolabe({"export", (folder / "drive.mcap").string(), option, (folder / "out").string()});
+  };
+  for (const char* option : {"--csv", "--tum"})
+    for (int again = 0; again < 2; ++again) EXPECT_EQ(exported(option).code, 0) << option;
+  for (const char* name : {"truth.csv", "truth.tum"}) std::ofstream(folder / "out" / name) << "1 2 3\n";
+  EXPECT_THAT(exported("--csv").err, HasSubstr("truth.csv' exists and is no export of this program"));
+  EXPECT_THAT(exported("--tum").err, HasSubstr("truth.tum' exists and is no export of this program"));
+  EXPECT_EQ(text_of(folder / "out/truth.csv"), "1 2 3\n");
+}
+
 TEST(ExportCommand, GivesEachRecordingOfAFolderAFolderOfItsOwn) {
   const test::TemporaryFolder temporary;
   const fs::path folder = temporary.path();
