@@ -146,6 +146,7 @@ enum class Help : std::uint8_t {
   check_units_and_directions,
   check_units_and_wheels,
   estimate_noise,
+  look_for_odd_run,
   calibrate_with_usual_motion,
   calibrate_again,
   calibrate_each_phase,

@@ -36,7 +36,7 @@ std::string wheelbase_sentence(const WheelbaseByKind& kind) {
 
 }  // namespace
 
-std::vector<Remark> remarks(const MlEstimate& estimate) {
+std::vector<Remark> remarks(const MlEstimate& estimate, bool noise_given) {
   std::vector<Remark> list;
   for (const Remark& why : estimate.left_out) list.push_back({why.fact + "; it was left out", why.remedy});
   for (const RunFit& run : estimate.runs)
@@ -44,16 +44,17 @@ std::vector<Remark> remarks(const MlEstimate& estimate) {
   for (const RunFit& run : estimate.runs)
     if (!run.slip_events.empty()) list.push_back({slip_sentence(run), {Help::leave_out_if_accident}});
   const double ratio = estimate.chi_square / estimate.degrees_of_freedom;
+  const char* const noise = noise_given ? "given" : "estimated";
   if (ratio < 0.5)
-    list.push_back({fmt::format("the ground truth is only {:.2g} times as far from the wheels as the given "
+    list.push_back({fmt::format("the ground truth is only {:.2g} times as far from the wheels as the {} "
                                 "noise explains, so the standard errors are too large",
-                                std::sqrt(ratio)),
-                    {Help::estimate_noise}});
+                                std::sqrt(ratio), noise),
+                    {noise_given ? Help::estimate_noise : Help::none}});
   if (ratio > 1.5)
-    list.push_back({fmt::format("the ground truth is {:.1f} times as far from the wheels as the given noise "
+    list.push_back({fmt::format("the ground truth is {:.1f} times as far from the wheels as the {} noise "
                                 "explains, so the standard errors are too small",
-                                std::sqrt(ratio)),
-                    {Help::estimate_noise}});
+                                std::sqrt(ratio), noise),
+                    {noise_given ? Help::estimate_noise : Help::look_for_odd_run}});
   if (estimate.dispersion > 1)
     list.push_back(
         {fmt::format("the runs differ {:.1f} times as much as the noise within them explains; the standard "

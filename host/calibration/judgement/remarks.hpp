@@ -7,7 +7,8 @@
 
 namespace astro::calibration {
 
-/// One sentence for each thing that does not fit about an estimate; empty if everything fits.
-std::vector<Remark> remarks(const MlEstimate& estimate);
+/// One sentence for each thing that does not fit about an estimate; empty if everything fits. `noise_given`: the noise model
+/// was given (MlOptions::noise) and not estimated.
+std::vector<Remark> remarks(const MlEstimate& estimate, bool noise_given = false);
 
 }  // namespace astro::calibration

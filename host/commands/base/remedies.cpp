@@ -94,9 +94,11 @@ constexpr Sentence kSentences[] = {
     {Help::use_original, "; use the original"},
     {Help::leave_out_or_record_again, ": leave it out, or record it again"},
     {Help::leave_out_or_drive_more, "; drive at least a metre or a turn, or leave it out"},
-    {Help::leave_run_out, ": leave it out with 'astrolabe calibrate runs --without {}'"},
+    {Help::leave_run_out, ": leave it out (of a folder: 'astrolabe calibrate runs --without {}')"},
     {Help::leave_copy_out, ": leave one out with --without {}"},
-    {Help::leave_out_if_accident, "; look there, and leave the run out with --without if it was an accident"},
+    {Help::leave_out_if_accident,
+     "; look there, and if it was an accident leave the run out (of a folder: 'astrolabe calibrate runs "
+     "--without ...')"},
     {Help::leave_run_out_or_use_end_poses,
      ": leave it out with 'astrolabe calibrate runs --without {}', or use --method robust, extended or "
      "umbmark"},
@@ -167,6 +169,8 @@ constexpr Sentence kSentences[] = {
     {Help::check_units_and_wheels,
      ": check the unit of the ground truth, the wheel diameter and the counts of a turn"},
     {Help::estimate_noise, ": let the noise be estimated (without --K, --sigma-xy and --sigma-theta)"},
+    {Help::look_for_odd_run,
+     "; look for a run whose chi²/dof is far above the others', for slip, and for truth of another drive"},
     {Help::calibrate_with_usual_motion, "; calibrate with the motion that the robot will use most"},
     {Help::calibrate_again, "; calibrate again"},
     {Help::calibrate_each_phase, ": calibrate each phase for itself (name its folder)"},

@@ -17,9 +17,10 @@ nlohmann::json slip_events_json(const std::vector<calibration::SlipEvent>& slip_
   return json;
 }
 
-nlohmann::json remark_facts(const calibration::MlEstimate& estimate) {
+nlohmann::json remark_facts(const MlResult& ml) {
   nlohmann::json json = nlohmann::json::array();
-  for (const Remark& remark : calibration::remarks(estimate)) json.push_back(remark.fact);
+  for (const Remark& remark : calibration::remarks(ml.estimate, ml.options.noise.has_value()))
+    json.push_back(remark.fact);
   return json;
 }
 
@@ -90,7 +91,7 @@ nlohmann::json to_json(const MlResult& ml) {
       {"dispersion", number(estimate.dispersion)},
       {"iterations", estimate.iterations},
       {"wheelbase_by_motion", agreement_json(estimate.wheelbase_by_kind)},
-      {"remarks", remark_facts(estimate)}};
+      {"remarks", remark_facts(ml)}};
   json["runs"] = nlohmann::json::array();
   for (const calibration::RunFit& run : estimate.runs) json["runs"].push_back(run_json(run));
   json["motions"] = nlohmann::json::array();

@@ -77,7 +77,7 @@ std::string noise_sentence(const MlResult& ml) {
 }
 
 std::vector<Remark> verdict(const MlResult& ml) {
-  std::vector<Remark> remarks = calibration::remarks(ml.estimate);
+  std::vector<Remark> remarks = calibration::remarks(ml.estimate, ml.options.noise.has_value());
   for (Remark& remark : remarks) remark.fact = capitalised(std::move(remark.fact), ml.estimate.runs);
   if (remarks.empty())
     remarks.push_back({ml.estimate.wheelbase_by_kind

@@ -42,7 +42,7 @@ TEST(RemedyWords, FollowTheFactOfAnErrorAndOfARemark) {
   const Error error("cannot read a.mcap", {Help::check_permissions_and_disk});
   EXPECT_EQ(in_words(error), "cannot read a.mcap: check its permissions and the disk");
   EXPECT_EQ(in_words(Remark{"run 3 slipped", {Help::leave_run_out, "3"}}),
-            "run 3 slipped: leave it out with 'astrolabe calibrate runs --without 3'");
+            "run 3 slipped: leave it out (of a folder: 'astrolabe calibrate runs --without 3')");
   EXPECT_EQ(in_words(Remark{"nothing to do"}), "nothing to do");
 }
 

@@ -429,8 +429,12 @@ TEST(MaximumLikelihood, SaysSoWhenTheGivenNoiseIsTooSmall) {
   const DriveModel model = astro_drive();
   MlOptions options;
   options.noise = NoiseModel{model.noise.K_m, model.noise.sigma_xy_m / 5, model.noise.sigma_theta_rad / 5};
-  EXPECT_THAT(remarks(estimate_ml(squares(model, 2), model.loaded, options)),
+  MlEstimate found = estimate_ml(squares(model, 2), model.loaded, options);
+  EXPECT_THAT(remarks(found, true),
               testing::Contains(support::Tells(HasSubstr("given noise"), Help::estimate_noise)));
+  EXPECT_THAT(remarks(found, false),
+              testing::Contains(support::Tells(HasSubstr("estimated noise"), Help::look_for_odd_run)))
+      << "noise that nobody gave cannot be left out";
 }
 
 TEST(MaximumLikelihood, TellsTheMotionsApart) {
