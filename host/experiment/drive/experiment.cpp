@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <span>
 
@@ -26,6 +27,7 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 constexpr auto kReconnectPatience = 10s;
+constexpr double kOnMark_m = 0.01;  // how far a robot on its start mark may be from it by odometry
 
 class Session {
  public:
@@ -169,17 +171,29 @@ class Session {
     info.firmware = journal_.firmware;
     info.parameters = parameters.numbers();
     const robot::Path path = path_of(journal_.plan, spec);
+    const Remark broken_off{spec.title() + " was broken off, and the robot stands on its way",
+                            {Help::put_back_and_resume, folder_.string()}};
+    bool on_its_way = false;  // the robot has left its start mark
+    RunHooks hooks = hooks_.run;
+    hooks.moved = [&](const recording::OdometrySample& sample) {
+      on_its_way = on_its_way || std::hypot(sample.x_m, sample.y_m) > kOnMark_m;
+      hooks_.run.moved(sample);
+    };
     while (true) {
       info.started_at = utc_now();
+      on_its_way = false;
       try {
-        return record_run(client_, truth_, path, info, hooks_.run);
+        return record_run(client_, truth_, path, info, hooks);
+      } catch (const Interrupted&) {
+        throw;
       } catch (const robot::LinkLost& lost) {
         if (hooks_.run.interrupted()) throw;
         hooks_.run.notice({lost.what(), lost.remedy()});
-        if (!hooks_.put_back(spec))
-          throw Error(spec.title() + " was broken off, and the robot stands on its way",
-                      {Help::put_back_and_resume, folder_.string()});
+        if (!hooks_.put_back(spec)) throw Error(broken_off);
         client_.reconnect(kReconnectPatience);
+      } catch (const Error&) {
+        if (on_its_way) hooks_.run.notice(broken_off);
+        throw;
       }
     }
   }

@@ -24,6 +24,12 @@ constexpr microseconds kGone = seconds(10);
 constexpr microseconds kPause =
     seconds(1);  // between two polls: a person is asked something, or the robot waits
 constexpr microseconds kStep = milliseconds(20);
+
+/// A link that has passed on poses knows no reason why none comes any more.
+std::string why_silent(const TrackerLink& link) {
+  const std::string why = link.why_silent();
+  return why.empty() ? "it has stopped sending" : why;
+}
 // Of what the network has kept while nobody polled: minutes. A tracker that sends without end cannot keep us.
 constexpr int kMostRounds = 64;
 
@@ -56,7 +62,7 @@ void LiveSource::listen_at_first() {
     for (Sighting& sighting : link_->take()) first.push_back(sighting);
     if (!first.empty() && !first_at) first_at = now_();
     if (!first_at && now_() - begin >= kFirstPoseTimeout)
-      throw Error(fmt::format("no ground truth comes from {}: {}", url_.place(), link_->why_silent()));
+      throw Error(fmt::format("no ground truth comes from {}: {}", url_.place(), why_silent(*link_)));
     link_->wait(kStep);
   }
   require_one_body();
@@ -101,7 +107,7 @@ std::vector<recording::TruthSample> LiveSource::poll() {
   if (const auto objection = up_axis_.objection()) throw Error(*objection);
   if (now - heard_at_ >= kGone)
     throw Error(fmt::format("no ground truth has come from {} for {} s: {}", url_.place(),
-                            std::chrono::duration_cast<seconds>(kGone).count(), link_->why_silent()));
+                            std::chrono::duration_cast<seconds>(kGone).count(), why_silent(*link_)));
   return std::exchange(samples_, {});
 }
 

@@ -147,6 +147,41 @@ TEST_F(Resume, ARunWhoseLinkWasLostIsDrivenAgainOnceTheRobotIsPutBack) {
   EXPECT_EQ(events.back(), "drives after: square ccw 1");
 }
 
+/// Ground truth of a simulator that ends in the middle of a run.
+class TruthThatEnds : public truth::Source {
+ public:
+  explicit TruthThatEnds(truth::Source& truth) : truth_(truth) {}
+  std::vector<recording::TruthSample> poll() override {
+    if (ended) throw Error("the tracker is gone");
+    return truth_.poll();
+  }
+  std::string name() const override { return truth_.name(); }
+  std::string clock() const override { return truth_.clock(); }
+
+  bool ended = false;
+
+ private:
+  truth::Source& truth_;
+};
+
+TEST_F(Resume, AfterALostTruthItSaysThatTheRobotStandsOnItsWay) {
+  for (const bool on_the_way : {true, false}) {
+    TruthThatEnds truth(desk_.truth);
+    ExperimentHooks hooks;
+    std::vector<Remark> notices;
+    hooks.run_started = [&](const RunSpec&, int, int) { truth.ended = !on_the_way; };
+    hooks.run.segment_done = [&](std::uint16_t) { truth.ended = true; };
+    hooks.run.notice = [&](const Remark& notice) { notices.push_back(notice); };
+    EXPECT_THAT([&] { run_experiment(desk_.client, truth, small_plan(), folder_.path(), hooks); },
+                testing::ThrowsMessage<Error>(HasSubstr("the tracker is gone")));
+    const bool told = std::ranges::any_of(notices, [](const Remark& notice) {
+      return notice.fact == "before: square cw 1 was broken off, and the robot stands on its way" &&
+             notice.remedy.help == Help::put_back_and_resume;
+    });
+    EXPECT_EQ(told, on_the_way);
+  }
+}
+
 TEST_F(Resume, GoesOnAfterTheUpload) {
   interrupt_in_run(3);  // the first run of "after"
   int started = 0;

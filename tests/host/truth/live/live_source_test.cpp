@@ -135,6 +135,9 @@ TEST(LiveSource, AShortSilenceIsAGapAndALongOneAnError) {
   lab.sends = false;
   EXPECT_EQ(complaint([&] { listen(milliseconds(11'000)); }),
             "no ground truth has come from lab for 10 s: it sleeps");
+  lab.why = "";  // as a link says that has passed on poses
+  EXPECT_EQ(complaint([&] { listen(milliseconds(11'000)); }),
+            "no ground truth has come from lab for 10 s: it has stopped sending");
 }
 
 TEST(LiveSource, WhileNobodyPollsNothingIsMissed) {
