@@ -55,6 +55,19 @@ Verdict judge(const FigureOfMerit& before, const FigureOfMerit& after) {
   return difference > 0 ? Verdict::better : Verdict::worse;
 }
 
+std::optional<int> runs_to_tell(const FigureOfMerit& before, const FigureOfMerit& after) {
+  constexpr int kMost = 100;
+  if (!errors_known(before, after)) return std::nullopt;
+  const auto with = [](FigureOfMerit figure, int runs) {
+    figure.standard_error *= std::sqrt(static_cast<double>(figure.runs) / runs);
+    figure.runs = runs;
+    return figure;
+  };
+  for (int runs = 2; runs <= kMost; ++runs)
+    if (judge(with(before, runs), with(after, runs)) != Verdict::undecided) return runs;
+  return std::nullopt;
+}
+
 FigureOfMerit root_mean_square(std::span<const double> values) {
   const double n = static_cast<double>(values.size());
   double mean = 0, spread = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "host/calibration/end_poses/end_pose.hpp"
@@ -38,5 +39,9 @@ enum class Verdict { better, worse, undecided, unknown };
 /// better or worse where the difference is significant at the 5 % level, two-sided; unknown without standard
 /// errors.
 Verdict judge(const FigureOfMerit& before, const FigureOfMerit& after);
+
+/// The smallest number of runs before and after with which the same difference would be significant, if each run scattered as
+/// these did; nothing if more than 100 would be needed, or without standard errors.
+std::optional<int> runs_to_tell(const FigureOfMerit& before, const FigureOfMerit& after);
 
 }  // namespace astro::calibration

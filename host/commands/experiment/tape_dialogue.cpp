@@ -19,11 +19,10 @@ std::optional<Redo> redo_in(const std::string& answer) {
 }  // namespace
 
 truth::LengthUnit ask_length_unit(const AskLine& ask) {
-  while (true) {
-    const std::string answer = ask("Unit of the lengths you type: mm, cm or m? [mm] ");
-    if (answer.empty()) return truth::LengthUnit::mm;
-    if (const auto unit = truth::length_unit_named(answer)) return *unit;
-  }
+  const std::string question = "Unit of the lengths you type: mm, cm or m? [mm] ";
+  const std::string answer = enter_or(
+      ask, question, [](const std::string& word) { return truth::length_unit_named(word).has_value(); });
+  return answer.empty() ? truth::LengthUnit::mm : truth::length_unit_named(answer).value();
 }
 
 Redo ask_ready(const AskLine& ask, const experiment::RunSpec& next,
@@ -49,7 +48,7 @@ void ask_put_back(const AskLine& ask, const experiment::RunSpec& run) {
 
 Redo ask_about(const AskLine& ask, const experiment::DoubtfulRun& run) {
   const std::string prompt = console::wrapped(run.why + '.') +
-                             "  y: it stays as it is; back: enter it again; redo: drive it again: ";
+                             "  yes: it stays as it is; back: enter it again; redo: drive it again: ";
   while (true) {
     const std::string answer = ask(prompt);
     if (answer == "y" || answer == "yes") return Redo::no;

@@ -12,7 +12,7 @@ std::string enter_or(const AskLine& ask, const std::string& prompt,
   while (true) {
     const std::string line = ask(question), answer(trimmed(line));
     if (answer.empty() || accepted(answer)) return answer;
-    question = fmt::format("'{}' is no answer to this, and nothing is done.\n{}", answer, prompt);
+    question = fmt::format("'{}' is no answer to this.\n{}", answer, prompt);
   }
 }
 

@@ -53,7 +53,7 @@ std::string in_words(const truth::Question& question) {
     case truth::AnswerKind::file_corrected_or_kept:
       return text + " Press Enter once the file is corrected, or to keep it as it is: ";
     case truth::AnswerKind::right_or_entered_again:
-      return console::wrapped(text) + "  y: it is right; Enter: enter it again: ";
+      return console::wrapped(text) + "  yes: it is right; Enter: enter it again: ";
     default:
       return text;
   }

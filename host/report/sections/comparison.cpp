@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <optional>
+#include <string>
 
 #include "host/report/page/numbers.hpp"
 
@@ -26,11 +28,14 @@ std::string verdict_sentence(const FigureOfMerit& before, const FigureOfMerit& a
     case Verdict::worse:
       return fmt::format("{}: the robot got worse, and the difference ({}) is significant at the 5 % level.",
                          change, by);
-    case Verdict::undecided:
+    case Verdict::undecided: {
+      const std::optional<int> enough = calibration::runs_to_tell(before, after);
       return fmt::format(
           "{}, but the difference ({}) is not significant at the 5 % level: with so few runs it may be "
-          "chance.",
-          change, error > 0 ? by : "none");
+          "chance{}.",
+          change, error > 0 ? by : "none",
+          enough ? fmt::format("; {} in each direction would tell", *enough) : "");
+    }
     case Verdict::unknown:
       break;
   }

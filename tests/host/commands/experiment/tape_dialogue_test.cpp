@@ -25,6 +25,7 @@ TEST(TapeDialogue, AsksForAUnitUntilItIsOneAndTakesMillimetresForEnter) {
   Person person({"inch", "cm", ""});
   EXPECT_EQ(ask_length_unit(std::ref(person)), truth::LengthUnit::cm);
   EXPECT_EQ(ask_length_unit(std::ref(person)), truth::LengthUnit::mm);
+  EXPECT_THAT(person.asked[1], testing::StartsWith("'inch' is no answer to this.\nUnit of the lengths"));
 }
 
 TEST(TapeDialogue, OffersToCorrectTheLastRunOnlyWhereThereIsOne) {

@@ -12,6 +12,7 @@ namespace astro::report {
 using calibration::FigureOfMerit;
 using calibration::improvement;
 using calibration::Improvement;
+using testing::AllOf;
 using testing::HasSubstr;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -37,6 +38,10 @@ TEST(Comparison, ClaimsNoMoreThanTheIntervalBears) {
 TEST(Comparison, SaysWhetherTheDifferenceIsSignificant) {
   EXPECT_THAT(verdict_sentence({90, 24, 5}, {405, 30, 5}), HasSubstr("got worse"));
   EXPECT_THAT(verdict_sentence({90, 24, 5}, {37, 30, 5}), HasSubstr("not significant"));
+  EXPECT_THAT(verdict_sentence({129, 6, 2}, {15, 15, 2}),
+              AllOf(HasSubstr("(7.1 standard errors) is not significant"),
+                    HasSubstr("3 in each direction would tell")));
+  EXPECT_THAT(verdict_sentence({90, 24, 5}, {90, 30, 5}), testing::EndsWith("it may be chance."));
   EXPECT_THAT(verdict_sentence({405, 0, 5}, {1, 0, 5}), HasSubstr("far beyond the scatter"));
 }
 
