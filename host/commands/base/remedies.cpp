@@ -187,7 +187,7 @@ constexpr Sentence kSentences[] = {
      ": load the old values or drive again (--force uploads all the same)"},
     {Help::calibrate_again_or_override, ": calibrate again (--force uploads all the same)"},
     {Help::calibrate_robot_or_override, ": calibrate this one (--force uploads all the same)"},
-    {Help::override_advice, ", because it is advised against (--force uploads all the same)"},
+    {Help::override_advice, ": it is advised against (--force uploads all the same)"},
     {Help::name_experiment, ": name the --out of 'astrolabe umbmark', or two or more folders of recordings"},
     {Help::choose_other_out_folder, ": choose another --out"},
     {Help::give_same_settings_or_choose_other_out_folder,

@@ -26,6 +26,7 @@ constexpr microseconds kRecent = seconds(3);
 constexpr std::size_t kMostRecent = 4096;
 constexpr microseconds kGone = seconds(10);
 constexpr microseconds kStep = milliseconds(20);
+
 // Of what the network has kept while nobody polled: minutes. A tracker that sends without end cannot keep us.
 constexpr int kMostRounds = 64;
 

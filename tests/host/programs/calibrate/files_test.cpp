@@ -8,6 +8,7 @@
 #include "tests/support/base/json.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 #include "tests/support/programs/program.hpp"
+#include "tests/support/programs/terminal_program.hpp"
 
 // `calibrate files`, `calibrate bag`, `calibrate check` and `inspect` on what other programs recorded.
 namespace astro {
@@ -233,20 +234,11 @@ TEST_F(Files, ThatRobotsCarryAreNotReplacedWithoutAQuestion) {
   const Outcome asked = astrolabe({"upload", at("calib.toml"), "--port", simulator.port()});
   EXPECT_EQ(asked.code, 1);  // nobody is there to answer
   EXPECT_THAT(asked.err, HasSubstr("warning: Not shown to be better."));
-  const Outcome agreed = astrolabe({"upload", at("calib.toml"), "--port", simulator.port(), "--yes"});
-  EXPECT_EQ(agreed.code, 0) << agreed.err;
-  EXPECT_THAT(agreed.err, HasSubstr("warning: Not shown to be better."));
-}
-
-TEST_F(Files, ThatMakeARobotWorseAreLoadedOnlyByForce) {
-  support::Simulator simulator;
-  std::ofstream(at("calib.toml"))
-      << "[parameters]\nc_R = 1.001\nc_L = 0.999\nb = 0.29\n[calibration]\nmethod = "
-         "\"ml\"\nabsolute = true\n[verdict]\nverdict = \"worse\"\nsentence = \"Worse.\"\n";
-  const Outcome refused = astrolabe({"upload", at("calib.toml"), "--port", simulator.port(), "--yes"});
-  EXPECT_EQ(refused.code, 1);
-  EXPECT_THAT(refused.err, HasSubstr("worse than what the robot carried"));
-  EXPECT_EQ(astrolabe({"upload", at("calib.toml"), "--port", simulator.port(), "--yes", "--force"}).code, 0);
+  support::TerminalProgram upload(
+      {ASTROLABE_PROGRAM, "upload", at("calib.toml"), "--port", simulator.port()});
+  ASSERT_TRUE(upload.shows("Load these into the robot all the same? [y/N]")) << upload.seen();
+  upload.type("y\n");
+  EXPECT_EQ(upload.wait(), 0) << upload.seen();
 }
 
 }  // namespace

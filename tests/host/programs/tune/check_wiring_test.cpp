@@ -121,6 +121,7 @@ TEST(CheckWiring, ARollThatNobodyMakesChangesNothing) {
   ASSERT_TRUE(program.shows("How far was it?"));
   program.type("far\n");
   ASSERT_TRUE(program.shows("no length"));
+  ASSERT_TRUE(program.shows("How far was it?"));
   program.type("2.26\n");
   EXPECT_EQ(program.wait(), 1);
   EXPECT_THAT(program.seen(), HasSubstr("counted next to nothing"));
