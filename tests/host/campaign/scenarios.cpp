@@ -117,7 +117,7 @@ std::vector<Scenario> make() {
        [](const Place& place) {
          give_end_poses(place);
          do_or_throw(end_poses(place, "calib.toml"));
-         place.write("robot.yaml", "old: yes\n");
+         place.write("robot.yaml", "# Found by Astrolabe\nold: yes\n");
        },
        [](const Place& place) {
          return Words{"calibrate",      "export", place.path("calib.toml"), "--to", place.path("robot.yaml"),
@@ -130,13 +130,13 @@ std::vector<Scenario> make() {
          std::filesystem::create_directory(place.path("more"));
          for (const auto& entry : std::filesystem::directory_iterator(place.path("runs")))
            std::filesystem::copy(entry.path(), place.path("more") / entry.path().filename());
-         place.write("report.html", "<html>old</html>\n");
+         do_or_throw({"report", place.path("runs"), place.path("more"), "--out", place.path("report.html")});
        },
        [](const Place& place) {
          return Words{"report", place.path("runs"), place.path("more"), "--out", place.path("report.html")};
        },
        false},
-      {"study_shard", [](const Place& place) { place.write("part.json", "{\"old\": true}\n"); },
+      {"study_shard", [](const Place& place) { place.write("part.json", "{\"methods\": \"old\"}\n"); },
        [](const Place& place) {
          return Words{"study",
                       "--runs",
