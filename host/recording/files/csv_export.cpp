@@ -26,10 +26,16 @@ std::string row(const TruthSample& sample) {
 
 constexpr std::size_t kWriteBytes = 65536;  // written at a time
 
+/// The path itself, unless a file of another kind stands there.
+const std::filesystem::path& replaceable(const std::filesystem::path& path) {
+  require_own_kind(path, "__time,/", "export");
+  return path;
+}
+
 }  // namespace
 
 CsvWriter::Table::Table(const std::filesystem::path& path, std::string heading)
-    : file_((require_own_kind(path, "__time,/", "export"), path)), waiting_(std::move(heading)) {}
+    : file_(replaceable(path)), waiting_(std::move(heading)) {}
 
 void CsvWriter::Table::add(const std::string& row) {
   waiting_ += row;
