@@ -49,8 +49,22 @@ std::vector<Row> rows_of(const fs::path& path) {
   return rows;
 }
 
-std::string stem(const std::string& dataset, int run) {
-  return (optiodom_folder() / "square" / dataset / (dataset + "_run-0" + std::to_string(run))).string();
+std::string stem(const std::string& dataset, int run, const char* kind = "square") {
+  return (optiodom_folder() / kind / dataset / (dataset + "_run-0" + std::to_string(run))).string();
+}
+
+Trajectory synchronised(const std::string& dataset, int run, const char* kind) {
+  Trajectory trajectory;
+  trajectory.name = dataset + " run " + std::to_string(run);
+  double left = 0, right = 0;
+  for (const Row& row : rows_of(stem(dataset, run, kind) + ".csv")) {
+    if (row.size() < 6) continue;
+    right += *row[4] * kMetresPerTick;
+    left += *row[5] * kMetresPerTick;
+    trajectory.wheels.push_back({*row[0], left, right});
+    trajectory.truth.push_back({*row[0], *row[1], *row[2], *row[3]});
+  }
+  return trajectory;
 }
 
 }  // namespace
@@ -77,17 +91,11 @@ Trajectory raw_optiodom_run(const std::string& dataset, int run) {
 }
 
 Trajectory synchronised_optiodom_run(const std::string& dataset, int run) {
-  Trajectory trajectory;
-  trajectory.name = dataset + " run " + std::to_string(run);
-  double left = 0, right = 0;
-  for (const Row& row : rows_of(stem(dataset, run) + ".csv")) {
-    if (row.size() < 6) continue;
-    right += *row[4] * kMetresPerTick;
-    left += *row[5] * kMetresPerTick;
-    trajectory.wheels.push_back({*row[0], left, right});
-    trajectory.truth.push_back({*row[0], *row[1], *row[2], *row[3]});
-  }
-  return trajectory;
+  return synchronised(dataset, run, "square");
+}
+
+Trajectory circular_optiodom_run(const std::string& dataset, int run) {
+  return synchronised(dataset, run, "circular");
 }
 
 }  // namespace astro::golden

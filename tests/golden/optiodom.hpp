@@ -24,4 +24,7 @@ calibration::Trajectory raw_optiodom_run(const std::string& dataset, int run);
 /// centre from pose 0.
 calibration::Trajectory synchronised_optiodom_run(const std::string& dataset, int run);
 
+/// Of the sets that were driven in circles, which are at hand synchronised only.
+calibration::Trajectory circular_optiodom_run(const std::string& dataset, int run);
+
 }  // namespace astro::golden

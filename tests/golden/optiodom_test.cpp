@@ -5,9 +5,11 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <tuple>
 
 #include "host/calibration/clock/clock_search.hpp"
 #include "host/calibration/end_poses/umbmark.hpp"
+#include "host/calibration/judgement/cross_validation.hpp"
 #include "host/calibration/judgement/path_errors.hpp"
 #include "host/calibration/judgement/remarks.hpp"
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
@@ -20,6 +22,7 @@ using namespace calibration;
 
 constexpr const char* kTraining = "231220200029";
 constexpr const char* kTest = "231220200040";
+constexpr const char* kCircles = "231220200121";
 constexpr WheelFactors kNominal{1, 1, kOptiodomWheelbase_m};
 
 class Optiodom : public testing::Test {
@@ -95,13 +98,13 @@ TEST_F(Optiodom, UmbmarkGivesTheAuthorsNumbers) {
 TEST_F(Optiodom, RawLogsGiveTheirClockAndWhereTheMarkersSat) {
   const MlEstimate found = estimate_ml(raw(), kNominal);
   // The robot's "50 ms" are 51.2, as its authors' readers worked out by hand.
-  EXPECT_NEAR(1 / (1 + found.clock_skew), 1.0241, 2e-4);
-  EXPECT_NEAR(found.lever.x_m, -0.033, 1e-3);
-  EXPECT_NEAR(found.lever.y_m, 0, 1e-3);
-  EXPECT_NEAR(found.lever.yaw_rad * 180 / std::numbers::pi, -112.1, 0.1);
-  // Looked at every 50 ms the wheels seem to slip ten times as much as over seconds (3.3e-6 m), and arcs to
-  // want a wheelbase 2 % larger than spins do: errors that come back.
-  EXPECT_GT(found.thinned_to_s, 0.5);
+  EXPECT_NEAR(1 / (1 + found.sessions[0].clock_skew), 1.0241, 2e-4);
+  EXPECT_NEAR(found.sessions[0].lever.x_m, -0.033, 1e-3);
+  EXPECT_NEAR(found.sessions[0].lever.y_m, 0, 1e-3);
+  EXPECT_NEAR(found.sessions[0].lever.yaw_rad * 180 / std::numbers::pi, -112.1, 0.1);
+  // Looked at every 50 ms the wheels seem to slip ten times as much as over seconds: errors that come back.
+  EXPECT_GT(found.spacing_m, 0.2);
+  EXPECT_LT(found.noise.K_m, 6e-7);
   EXPECT_TRUE(calibration::remarks(found).empty());
   // Heavier tails than normal: a real tracker has a few bad moments that the noise is not allowed to follow.
   EXPECT_NEAR(found.chi_square / found.degrees_of_freedom, 1.1, 0.15);
@@ -172,6 +175,57 @@ TEST_F(Optiodom, FactorsLearnedFromOneSetHoldForAnother) {
   EXPECT_LT(after.final_rms_m, umbmark.final_rms_m);
   EXPECT_LT(after.final_heading_rms_rad, umbmark.final_heading_rms_rad);
   EXPECT_LT(after.path_rms_m, umbmark.path_rms_m);
+}
+
+/// Root mean squares over some of the held-out runs.
+HeldOutErrors over(const CrossValidation& judged, const std::string& dataset) {
+  HeldOutErrors sums;
+  double count = 0;
+  for (const HeldOutRun& run : judged.runs) {
+    if (!run.found.name.starts_with(dataset)) continue;
+    sums.final_m += run.found.final_m * run.found.final_m;
+    sums.final_heading_rad += run.found.final_heading_rad * run.found.final_heading_rad;
+    sums.path_m += run.found.path_rms_m * run.found.path_rms_m;
+    ++count;
+  }
+  return {std::sqrt(sums.final_m / count), std::sqrt(sums.final_heading_rad / count),
+          std::sqrt(sums.path_m / count)};
+}
+
+TEST_F(Optiodom, SquaresAndCirclesOfTwoSessionsPool) {
+  std::vector<Trajectory> runs = raw();
+  for (int run = 1; run <= 6; ++run) runs.push_back(circular_optiodom_run(kCircles, run));
+  const MlEstimate found = estimate_ml(runs, kNominal);
+  const CrossValidation judged = cross_validate(runs, kNominal, found, {});
+  ASSERT_TRUE(judged.not_judged.empty());
+  const HeldOutErrors squares = over(judged, kTraining), circles = over(judged, kCircles);
+  std::printf("e %.4f +- %.4f, dispersion %.2f; each drive by the others:\n", found.factors.e, found.se.e,
+              found.dispersion);
+  for (const auto& [name, errors, bars] :
+       {std::tuple{"squares", squares, "13 / 9 / 14.5"}, std::tuple{"circles", circles, "12 / 13 / 13"}})
+    std::printf("  %s end %.1f mm, heading %.1f mrad, path %.1f mm (bars %s)\n", name, 1e3 * errors.final_m,
+                1e3 * errors.final_heading_rad, 1e3 * errors.path_m, bars);
+  EXPECT_EQ(found.sessions.size(), 2U);
+  EXPECT_GT(found.factors.e, 4 * found.se.e);
+  EXPECT_LE(found.dispersion, 1.2);
+  EXPECT_LE(squares.final_m, 0.013);
+  EXPECT_LE(squares.final_heading_rad, 0.009);
+  EXPECT_LE(squares.path_m, 0.0145);
+  EXPECT_LE(circles.final_m, 0.012);
+  EXPECT_LE(circles.final_heading_rad, 0.013);
+  EXPECT_LE(circles.path_m, 0.013);
+}
+
+TEST_F(Optiodom, SquaresAloneHoldForAnotherSet) {
+  const MlEstimate found = estimate_ml(raw(), kNominal);
+  std::vector<Trajectory> unseen;
+  for (int run = 1; run <= 6; ++run) unseen.push_back(raw_optiodom_run(kTest, run));
+  const PathErrors errors = path_errors(unseen, found.factors);
+  std::printf("end %.1f mm, heading %.1f mrad, path %.1f mm (bars 23.5 / 16 / 17.2)\n",
+              1e3 * errors.final_rms_m, 1e3 * errors.final_heading_rms_rad, 1e3 * errors.path_rms_m);
+  EXPECT_LE(errors.final_rms_m, 0.0235);
+  EXPECT_LE(errors.final_heading_rms_rad, 0.016);
+  EXPECT_LE(errors.path_rms_m, 0.0172);
 }
 
 }  // namespace

@@ -13,9 +13,12 @@ EndPose replay_square(double side_m, Sense sense, const WheelFactors& odometry, 
   const double sign = sign_of(sense);
   const double spin_m = sign * odometry.b_m * std::numbers::pi / 4;
   EndPose pose;
+  const auto follow = [&](double right_m, double left_m) {
+    advance(pose, right_m, left_m, effective_wheelbase_m(right_m, left_m, truth));
+  };
   for (int leg = 0; leg < 4; ++leg) {
-    advance(pose, side_m * right, side_m * left, truth.b_m);
-    advance(pose, spin_m * right, -spin_m * left, truth.b_m);
+    follow(side_m * right, side_m * left);
+    follow(spin_m * right, -spin_m * left);
   }
   pose.theta_rad -= sign * 2 * std::numbers::pi;
   return pose;

@@ -29,47 +29,60 @@ bool contains(std::span<const std::size_t> members, std::size_t run) {
   return std::find(members.begin(), members.end(), run) != members.end();
 }
 
-/// What the runs that are no members say of the factors: one step of the search from where the fit of all runs ended. Half
+/// What all runs but the members of a group say together.
+Pool without(const MlFit& fit, std::span<const std::size_t> members) {
+  Pool others(fit.fixed(), fit.unknowns().front()[kE]);
+  for (std::size_t i = 0; i < fit.sums().size(); ++i)
+    if (!contains(members, i)) others.add(reduced(fit.sums()[i], fit.fixed(), 0));
+  return others;
+}
+
+/// The factors by the other runs: one step of the search from where the fit of all runs ended. Half
 /// of the runs move the factors by a standard error or so, and over that much the wheels' paths are linear in them.
-WheelFactors found_without(const MlFit& fit, std::span<const std::size_t> members) {
-  std::vector<InnovationSums> others;
-  SharedInformation information = SharedInformation::Zero();
-  for (std::size_t i = 0; i < fit.sums().size(); ++i) {
-    if (contains(members, i)) continue;
-    others.push_back(fit.sums()[i]);
-    information += reduced(others.back(), fit.fixed(), 0).information;
-  }
-  const Unknowns found = fit.unknowns().front() + gauss_newton_step(others, fit.fixed(), 0).front();
-  const WheelFactors factors{found[kCRight], found[kCLeft], found[kB]};
-  const FactorCovariance covariance = shared_covariance(information, fit.fixed()).topLeftCorner<3, 3>();
-  require_observed(errors_of(covariance, factors), factors);
+WheelFactors found_by(const Pool& others, const MlFit& fit) {
+  Unknowns found = fit.unknowns().front();
+  found.head<kFactors>() += others.factor_step();
+  const WheelFactors factors = factors_of(found);
+  require_observed(errors_of(others.factor_covariance(), factors), factors);
   return factors;
 }
 
-/// The members of a group, with the unknowns that the fit of all runs gave them, where others begin.
+/// The members of a group, with the unknowns where their fits begin: those of a fit of all runs, but lever arm and skew without them.
 struct Group {
   PreparedRuns prepared;
   std::vector<Unknowns> start;
 };
 
-Group group_of(const PreparedRuns& all, const MlFit& fit, std::span<const std::size_t> members) {
+Group group_of(const PreparedRuns& all, const MlFit& fit, const Pool& others,
+               std::span<const std::size_t> members) {
   Group out;
   for (const std::size_t i : members) {
     out.prepared.runs.push_back(all.runs[i]);
     out.prepared.clocks.push_back(all.clocks[i]);
     out.start.push_back(fit.unknowns()[i]);
+    out.start.back().segment<kOfSession>(kFactors) += others.step(all.runs[i].session).tail<kOfSession>();
   }
   return out;
 }
 
-/// How drives are followed with given factors; start poses, lever arm and clocks are fitted to the drives.
+/// Whether other runs know the lever arms and the skews of the members.
+bool sessions_are_known(const PreparedRuns& all, std::span<const std::size_t> members) {
+  return std::all_of(members.begin(), members.end(), [&](std::size_t member) {
+    for (std::size_t i = 0; i < all.runs.size(); ++i)
+      if (!contains(members, i) && all.runs[i].session == all.runs[member].session) return true;
+    return false;
+  });
+}
+
+/// How drives are followed with given factors; start poses and clock offsets are fitted to the drives, and so are lever arm and
+/// skew where no other drive knows them.
 struct Followed {
   std::vector<RunErrors> errors;
   std::vector<double> cost;  // -2 log likelihood of each run
 };
 
-Followed followed(const Group& runs, const WheelFactors& factors, const MlOptions& options) {
-  const MlFit fit(runs.prepared, factors, options, true, runs.start);
+Followed followed(const Group& runs, const WheelFactors& factors, const MlOptions& options, Held held) {
+  const MlFit fit(runs.prepared, factors, options, held, runs.start);
   Followed out{path_errors(fit, factors).runs, {}};
   for (const InnovationSums& sums : fit.sums()) out.cost.push_back(sums.cost);
   return out;
@@ -135,17 +148,22 @@ CrossValidation cross_validate(std::span<const Trajectory> runs, const WheelFact
   CrossValidation out;
   MlOptions with_noise = options;
   with_noise.noise = all.noise;
-  with_noise.stride = all.stride;
+  with_noise.spacing_m = all.spacing_m;
+  with_noise.with_e = all.factors.e != 0;
   const PreparedRuns prepared = prepare(runs, in_use, options.clock_known, Density::independent);
   const MlFit fit(prepared, in_use, with_noise);
+  const MlFit fit_in_use(prepared, in_use, with_noise, Held::factors, fit.unknowns());
   const std::size_t groups = std::min(kMostGroups, prepared.runs.size());
   for (std::size_t i = 0; i < groups && prepared.runs.size() > 1; ++i) {
     const std::vector<std::size_t> members = members_of(i, groups, prepared.runs.size());
     try {
-      const WheelFactors found = found_without(fit, members);
-      const Group held_out = group_of(prepared, fit, members);
-      const Followed by_in_use = followed(held_out, in_use, with_noise);
-      const Followed by_found = followed(held_out, found, with_noise);
+      const Pool others = without(fit, members);
+      const WheelFactors found = found_by(others, fit);
+      const Held held = sessions_are_known(prepared, members) ? Held::factors_and_sessions : Held::factors;
+      const Followed by_found = followed(group_of(prepared, fit, others, members), found, with_noise, held);
+      const Pool others_in_use = without(fit_in_use, members);
+      const Followed by_in_use =
+          followed(group_of(prepared, fit_in_use, others_in_use, members), in_use, with_noise, held);
       for (std::size_t k = 0; k < by_found.errors.size(); ++k)
         out.runs.push_back({by_in_use.errors.at(k), by_found.errors[k], found,
                             (by_in_use.cost.at(k) - by_found.cost[k]) / all.dispersion});

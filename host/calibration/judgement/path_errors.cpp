@@ -69,8 +69,8 @@ PathErrors path_errors(const MlFit& fit, const WheelFactors& factors) {
 
 PathErrors path_errors(std::span<const Trajectory> runs, const WheelFactors& factors,
                        const MlOptions& options) {
-  const PreparedRuns prepared = prepare(runs, factors, options.clock_known, Density::all);
-  PathErrors errors = path_errors(MlFit(prepared, factors, options, true), factors);
+  const PreparedRuns prepared = prepare(runs, factors, options.clock_known, Density::independent);
+  PathErrors errors = path_errors(MlFit(prepared, factors, options, Held::factors), factors);
   errors.left_out = prepared.left_out;
   return errors;
 }

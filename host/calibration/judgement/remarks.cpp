@@ -28,12 +28,6 @@ std::string slip_sentence(const RunFit& run) {
       run.name, fmt::join(moments, " and "));
 }
 
-std::string wheelbase_sentence(const WheelbaseByKind& kind) {
-  return fmt::format("arcs give a wheelbase {:.2f} ± {:.2f} % {} than spins, and this b lies between",
-                     100 * std::abs(kind.arc_over_spin - 1), 100 * kind.standard_error,
-                     kind.arc_over_spin > 1 ? "larger" : "smaller");
-}
-
 }  // namespace
 
 std::vector<Remark> remarks(const MlEstimate& estimate, bool noise_given) {
@@ -60,8 +54,6 @@ std::vector<Remark> remarks(const MlEstimate& estimate, bool noise_given) {
         {fmt::format("the runs differ {:.1f} times as much as the noise within them explains; the standard "
                      "errors are widened by that",
                      std::sqrt(estimate.dispersion))});
-  if (estimate.wheelbase_by_kind && estimate.wheelbase_by_kind->disagrees)
-    list.push_back({wheelbase_sentence(*estimate.wheelbase_by_kind), {Help::calibrate_with_usual_motion}});
   return list;
 }
 

@@ -8,26 +8,24 @@
 namespace astro::calibration {
 namespace {
 
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
-
 // If leaving the run out widens the covariance by less than this part in some direction, the run does not
 // observe that direction.
 constexpr double kSilent = 1e-4;
 
-Disagreement disagreement(const Reduced& run, const SharedInformation& total, const FixedParameters& fixed) {
-  const SharedInformation all = shared_covariance(total, fixed);
-  const SharedInformation without = shared_covariance(total - run.information, fixed);
-  const Matrix3d before = all.topLeftCorner<3, 3>();
-  Matrix3d gained = (without - all).topLeftCorner<3, 3>();
-  const Vector3d change = -(without * run.gradient).head<3>();
-  // In units of the standard errors of all runs, so that ratios and metres are comparable.
-  const Vector3d unit = before.diagonal().cwiseSqrt().cwiseInverse();
+Disagreement disagreement(const Reduced& run, const Pool& all) {
+  Pool without = all;
+  without.take_out(run);
+  const FactorMatrix before = all.factor_covariance();
+  FactorMatrix gained = without.factor_covariance() - before;
+  const FactorVector change = -(without.covariance(run.session) * run.gradient).head<kFactors>();
+  // In units of the standard errors of all runs, so that ratios and metres are comparable. An e that is not estimated has none.
+  const FactorVector unit =
+      (before.diagonal().array() > 0).select(before.diagonal().cwiseSqrt().cwiseInverse(), 0);
   gained = unit.asDiagonal() * gained * unit.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen((gained + gained.transpose()) / 2);
-  const Vector3d parts = eigen.eigenvectors().transpose() * unit.cwiseProduct(change);
+  const Eigen::SelfAdjointEigenSolver<FactorMatrix> eigen((gained + gained.transpose()) / 2);
+  const FactorVector parts = eigen.eigenvectors().transpose() * unit.cwiseProduct(change);
   Disagreement found;
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < kFactors; ++i) {
     const double variance = eigen.eigenvalues()[i];
     if (variance > 1e8) return {};
     if (variance < kSilent) continue;
@@ -40,11 +38,10 @@ Disagreement disagreement(const Reduced& run, const SharedInformation& total, co
 }  // namespace
 
 std::vector<Disagreement> disagreements(std::span<const Reduced> runs, const FixedParameters& fixed) {
-  SharedInformation total = SharedInformation::Zero();
-  for (const Reduced& run : runs) total += run.information;
+  Pool all(fixed);
+  for (const Reduced& run : runs) all.add(run);
   std::vector<Disagreement> found;
-  for (const Reduced& run : runs)
-    found.push_back(runs.size() > 1 ? disagreement(run, total, fixed) : Disagreement{});
+  for (const Reduced& run : runs) found.push_back(runs.size() > 1 ? disagreement(run, all) : Disagreement{});
   return found;
 }
 
@@ -68,7 +65,8 @@ double dispersion(std::span<const Disagreement> runs) {
 }
 
 double typical_dispersion(std::span<const Disagreement> runs) {
-  constexpr double kMedian[] = {1, 0.4549, 1.3863, 2.3660};  // of chi-square by its degrees of freedom
+  constexpr double kMedian[] = {1, 0.4549, 1.3863, 2.3660,
+                                3.3567};  // of chi-square by its degrees of freedom
   std::vector<double> ratios;
   for (const Disagreement& run : runs)
     if (run.degrees_of_freedom > 0)

@@ -5,7 +5,7 @@
 
 #include "host/calibration/likelihood/normal_equations.hpp"
 
-/// Whether each run agrees with all others about c_R, c_L and b.
+/// Whether each run agrees with all others about the factors.
 namespace astro::calibration {
 
 /// d' C^-1 d for the change d of the factors when the run is left out, with its covariance C. It has a

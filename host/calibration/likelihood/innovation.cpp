@@ -16,9 +16,7 @@ using Row = std::array<double, kUnknowns>;
 /// Propagates the Jacobian of the state by the unknowns and sums up what the innovations say about them.
 class ParameterDerivatives final : public Accumulator {
  public:
-  explicit ParameterDerivatives(const Unknowns& u) : b_m_(u[kB]) {
-    jacobian_[0][kStartX] = jacobian_[1][kStartY] = jacobian_[2][kStartTheta] = 1;
-  }
+  ParameterDerivatives() { jacobian_[0][kStartX] = jacobian_[1][kStartY] = jacobian_[2][kStartTheta] = 1; }
 
   void predict(const Prediction& step) override {
     Row &x = jacobian_[0], &y = jacobian_[1];
@@ -28,9 +26,7 @@ class ParameterDerivatives final : public Accumulator {
       y[i] += step.dx_m * theta[i];
     }
     for (std::size_t i = 0; i < kMoveUnknowns.size(); ++i)
-      add(kMoveUnknowns[i], step.turned(step.move.by[i]), 1);
-    // The wheelbase of arcs is relative to b.
-    if (step.motion == Motion::arc) add(kArcWheelbase, step.turned(step.move.by_b()), b_m_);
+      add(kMoveUnknowns[i], step.turned(step.move.by[i]));
   }
 
   void update(const Update& step, Motion motion) override {
@@ -67,8 +63,8 @@ class ParameterDerivatives final : public Accumulator {
   }
 
  private:
-  void add(Unknown unknown, const Vector3& change, double factor) {
-    for (std::size_t k = 0; k < 3; ++k) jacobian_[k][unknown] += factor * change[k];
+  void add(Unknown unknown, const Vector3& change) {
+    for (std::size_t k = 0; k < 3; ++k) jacobian_[k][unknown] += change[k];
   }
 
   /// Derivatives of the measurement.
@@ -101,7 +97,6 @@ class ParameterDerivatives final : public Accumulator {
     totals.chi_square += step.chi_square;
   }
 
-  const double b_m_;
   std::array<Row, 3> jacobian_{};
   std::array<Row, kUnknowns> information_{};  // above its diagonal
   Row gradient_{};
@@ -127,6 +122,7 @@ class Standardiser final : public Accumulator {
 
 InnovationSums mean_of(std::span<const InnovationSums> passes) {
   InnovationSums mean;
+  mean.session = passes.front().session;
   const auto count = static_cast<double>(passes.size());
   double freedom = 0;
   std::array<double, 4> samples{};
@@ -151,9 +147,11 @@ InnovationSums mean_of(std::span<const InnovationSums> passes) {
 
 InnovationSums innovations(const Moves& moves, const NoiseModel& noise, RobustMode robust,
                            const SampleSelection& samples) {
-  ParameterDerivatives derivatives(moves.unknowns());
+  ParameterDerivatives derivatives;
   filter_run(moves, noise, robust, TruthUse::values, samples, derivatives);
-  return derivatives.sums();
+  InnovationSums sums = derivatives.sums();
+  sums.session = moves.run().session;
+  return sums;
 }
 
 std::vector<Eigen::Vector3d> standardised_innovations(const Moves& moves, const NoiseModel& noise,
@@ -164,7 +162,7 @@ std::vector<Eigen::Vector3d> standardised_innovations(const Moves& moves, const 
 }
 
 Information expected_information(const Moves& moves, const NoiseModel& noise) {
-  ParameterDerivatives derivatives(moves.unknowns());
+  ParameterDerivatives derivatives;
   filter_run(moves, noise, RobustMode::none, TruthUse::times, {}, derivatives);
   return derivatives.sums().information;
 }

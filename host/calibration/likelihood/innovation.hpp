@@ -35,6 +35,7 @@ struct InnovationSums {
   double cost = 0;                                // -2 log likelihood, with Huber's loss, up to a constant
   double chi_square = 0;
   int degrees_of_freedom = 0;
+  int session = 0;                       // PreparedRun::session
   std::array<MotionTotals, 4> motion{};  // by Motion
 };
 

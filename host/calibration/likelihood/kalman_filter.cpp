@@ -37,11 +37,11 @@ class KalmanFilter {
         y_m_(u_[kStartY]),
         theta_rad_(u_[kStartTheta]) {}
 
-  void predict(const Move& move, Motion motion) {
+  void predict(const Move& move) {
     const double middle_rad = theta_rad_ + move.turn_rad / 2, c = std::cos(middle_rad),
                  s = std::sin(middle_rad);
     const Prediction step{
-        move, motion, c, s, move.chord_m * c, move.chord_m * s, noise_.K_m * rotated(move.slip_per_K, c, s)};
+        move, c, s, move.chord_m * c, move.chord_m * s, noise_.K_m * rotated(move.slip_per_K, c, s)};
     x_m_ += step.dx_m;
     y_m_ += step.dy_m;
     theta_rad_ += move.turn_rad;
@@ -134,9 +134,9 @@ void filter_run(const Moves& moves, const NoiseModel& noise, RobustMode robust, 
   const PreparedRun& run = moves.run();
   std::array<double, 4> spent_s{};  // by Motion
   for (std::size_t i = 0; i < run.truth.size(); ++i) {
-    for (const Move& move : moves.before(i)) filter.predict(move, run.motion[i]);
+    for (const Move& move : moves.before(i)) filter.predict(move);
     spent_s[static_cast<std::size_t>(run.motion[i])] += moves.duration_s(i);
-    if (static_cast<int>(i) % samples.stride != samples.first) continue;
+    if (!samples.takes(run.path_m, i)) continue;
     const auto most = std::max_element(spent_s.begin(), spent_s.end());
     filter.update(run.truth[i], *most > 0 ? static_cast<Motion>(most - spent_s.begin()) : run.motion[i]);
     spent_s.fill(0);

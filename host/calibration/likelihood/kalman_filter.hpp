@@ -19,7 +19,6 @@ namespace astro::calibration {
 /// One prediction step.
 struct Prediction {
   const Move& move;
-  Motion motion = Motion::rest;
   double cosine = 1, sine = 0;  // of the heading in the middle of the arc
   double dx_m = 0, dy_m = 0;    // in the tracker's frame
   Symmetric3 slip_covariance;   // that the step adds

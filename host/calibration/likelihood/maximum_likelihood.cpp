@@ -12,7 +12,7 @@
 #include "host/calibration/likelihood/agreement.hpp"
 #include "host/calibration/likelihood/ml_fit.hpp"
 #include "host/calibration/likelihood/start_values.hpp"
-#include "host/calibration/motion/median_period.hpp"
+#include "host/calibration/preparation/sessions.hpp"
 
 namespace astro::calibration {
 namespace {
@@ -20,7 +20,7 @@ namespace {
 // A factor with a larger relative standard error counts as unobserved.
 constexpr double kOpen = 0.05;
 constexpr double kUnlikely = 1e-3;
-constexpr double kEnoughTurning_rad = 6;
+constexpr double kShowsE = 0.05;  // an e with a larger standard error is not worth a word
 
 // Rounding can turn an infinite variance into one that is not positive.
 double root(double variance) {
@@ -39,7 +39,7 @@ std::vector<bool> outliers(std::span<const Disagreement> found) {
 }
 
 std::vector<RunFit> summarise_runs(const MlFit& fit, std::span<const Disagreement> found,
-                                   const std::vector<bool>& outlier, const SharedInformation& covariance) {
+                                   const std::vector<bool>& outlier, const Pool& pool, double dispersion) {
   const std::vector<std::vector<SlipEvent>> slip_events = find_slip_events(fit.runs(), fit.unknowns());
   std::vector<RunFit> summaries;
   for (std::size_t i = 0; i < fit.runs().size(); ++i) {
@@ -48,9 +48,11 @@ std::vector<RunFit> summarise_runs(const MlFit& fit, std::span<const Disagreemen
     run.name = prepared.source->name;
     run.distance_m = prepared.distance_m;
     run.rotation_rad = prepared.rotation_rad;
+    run.session = prepared.session;
     if (!fit.fixed().clock) {
       run.clock_offset_s = fit.unknowns()[i][kClockOffset];
-      run.clock_offset_se_s = root(clock_offset_variance(fit.sums()[i], covariance, fit.fixed()));
+      run.clock_offset_se_s = root(
+          clock_offset_variance(fit.sums()[i], dispersion * pool.covariance(prepared.session), fit.fixed()));
     }
     run.chi_square = fit.sums()[i].chi_square;
     run.degrees_of_freedom = fit.sums()[i].degrees_of_freedom;
@@ -89,22 +91,25 @@ std::optional<KindFit> summarise_kind(const MlFit& fit, Motion motion) {
   return kind;
 }
 
-std::optional<WheelbaseByKind> summarise_wheelbase(const MlFit& fit, std::span<const KindFit> kinds) {
-  for (const Motion motion : {Motion::arc, Motion::spin})
-    if (std::none_of(kinds.begin(), kinds.end(), [&](const KindFit& kind) {
-          return kind.motion == motion && kind.rotation_rad > kEnoughTurning_rad;
-        }))
-      return {};
-  const OneUnknown arcs = arc_wheelbase(fit.sums(), fit.fixed());
-  if (!std::isfinite(arcs.standard_error)) return {};
-  return WheelbaseByKind{1 + arcs.value, arcs.standard_error,
-                         std::abs(arcs.value) > std::max(4 * arcs.standard_error, 1e-3)};
+std::optional<CurvatureEffect> summarise_curvature(const MlFit& fit, double dispersion) {
+  const double standard_error = std::sqrt(dispersion) * fit.e().standard_error;
+  if (!(standard_error > 0 && standard_error < kShowsE)) return {};
+  return CurvatureEffect{fit.e().value, standard_error, !fit.fixed().e};
 }
 
-const PreparedRun& longest(const MlFit& fit) {
-  return *std::max_element(
-      fit.runs().begin(), fit.runs().end(),
-      [](const PreparedRun& a, const PreparedRun& b) { return a.truth.size() < b.truth.size(); });
+SessionFit summarise_session(const Unknowns& u, const SharedInformation& covariance,
+                             const FixedParameters& fixed) {
+  const auto se = [&](int unknown) { return root(covariance(unknown, unknown)); };
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const bool yaw = !fixed.lever_yaw;
+  SessionFit session;
+  session.lever = {u[kLeverX], u[kLeverY], yaw ? std::remainder(u[kLeverYaw], 2 * std::numbers::pi) : none};
+  session.lever_se = {se(kLeverX), se(kLeverY), yaw ? se(kLeverYaw) : none};
+  if (!fixed.clock) {
+    session.clock_skew = u[kSkew];
+    session.clock_skew_se = se(kSkew);
+  }
+  return session;
 }
 
 std::vector<Reduced> all_reduced(std::span<const InnovationSums> sums, const FixedParameters& fixed) {
@@ -114,9 +119,7 @@ std::vector<Reduced> all_reduced(std::span<const InnovationSums> sums, const Fix
 }
 
 MlEstimate summarise(const MlFit& fit) {
-  const std::vector<Reduced> runs = all_reduced(fit.sums(), fit.fixed());
-  SharedInformation information = SharedInformation::Zero();
-  for (const Reduced& run : runs) information += run.information;
+  const Pool pool = pool_of(fit.sums(), fit.fixed());
   const std::vector<Disagreement> found =
       disagreements(all_reduced(fit.sums_with_full_slip_weight(), fit.fixed()), fit.fixed());
   const std::vector<bool> outlier = outliers(found);
@@ -124,37 +127,31 @@ MlEstimate summarise(const MlFit& fit) {
   std::vector<Disagreement> usual;
   for (std::size_t i = 0; i < found.size(); ++i)
     if (!outlier[i]) usual.push_back(found[i]);
-  const double widened = dispersion(usual);
-  const SharedInformation covariance = widened * shared_covariance(information, fit.fixed());
-  const auto se = [&](int unknown) { return root(covariance(unknown, unknown)); };
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  const Unknowns& u = fit.unknowns().front();
 
   MlEstimate estimate;
-  estimate.factors = {u[kCRight], u[kCLeft], u[kB]};
-  estimate.covariance = covariance.topLeftCorner<3, 3>();
+  estimate.dispersion = dispersion(usual);
+  estimate.factors = factors_of(fit.unknowns().front());
+  estimate.covariance = estimate.dispersion * pool.factor_covariance();
   estimate.se = errors_of(estimate.covariance, estimate.factors);
   require_observed(estimate.se, estimate.factors);
-  const bool yaw = !fit.fixed().lever_yaw;
-  estimate.lever = {u[kLeverX], u[kLeverY], yaw ? std::remainder(u[kLeverYaw], 2 * std::numbers::pi) : none};
-  estimate.lever_se = {se(kLeverX), se(kLeverY), yaw ? se(kLeverYaw) : none};
-  if (!fit.fixed().clock) {
-    estimate.clock_skew = u[kSkew];
-    estimate.clock_skew_se = se(kSkew);
-  }
+  for (int session = 0; session < session_count(fit.runs()); ++session)
+    for (std::size_t i = 0; i < fit.runs().size(); ++i) {
+      if (fit.runs()[i].session != session) continue;
+      estimate.sessions.push_back(
+          summarise_session(fit.unknowns()[i], estimate.dispersion * pool.covariance(session), fit.fixed()));
+      break;
+    }
   estimate.noise = fit.noise();
-  estimate.stride = fit.stride();
-  if (fit.stride() > 1) estimate.thinned_to_s = fit.stride() * median_period_s(longest(fit).truth);
+  estimate.spacing_m = fit.spacing_m();
   estimate.iterations = fit.iterations();
-  estimate.dispersion = widened;
-  estimate.runs = summarise_runs(fit, found, outlier, covariance);
+  estimate.runs = summarise_runs(fit, found, outlier, pool, estimate.dispersion);
   for (const RunFit& run : estimate.runs) {
     estimate.chi_square += run.chi_square;
     estimate.degrees_of_freedom += run.degrees_of_freedom;
   }
   for (const Motion motion : {Motion::rest, Motion::line, Motion::arc, Motion::spin})
     if (const auto kind = summarise_kind(fit, motion)) estimate.kinds.push_back(*kind);
-  estimate.wheelbase_by_kind = summarise_wheelbase(fit, estimate.kinds);
+  estimate.curvature = summarise_curvature(fit, estimate.dispersion);
   return estimate;
 }
 
@@ -163,24 +160,21 @@ FactorCovariance bound_of(const PreparedRuns& prepared, const WheelFactors& fact
                           const NoiseModel& noise, bool clock_known) {
   FixedParameters fixed;
   fixed.clock = clock_known;
+  fixed.e = factors.e == 0;
   fixed.lever_yaw = std::none_of(prepared.runs.begin(), prepared.runs.end(),
                                  [](const PreparedRun& run) { return run.has_headings; });
-  SharedInformation information = SharedInformation::Zero();
+  Pool pool(fixed);
   for (std::size_t i = 0; i < prepared.runs.size(); ++i) {
     Unknowns u = Unknowns::Zero();
-    u[kCRight] = factors.c_r;
-    u[kCLeft] = factors.c_l;
-    u[kB] = factors.b_m;
-    u[kLeverX] = lever.x_m;
-    u[kLeverY] = lever.y_m;
-    u[kLeverYaw] = lever.yaw_rad;
-    u[kSkew] = prepared.clocks[i].skew;
+    u.head<kShared>() << factors.c_r, factors.c_l, factors.b_m, factors.e, lever.x_m, lever.y_m,
+        lever.yaw_rad, prepared.clocks[i].skew;
     u[kClockOffset] = prepared.clocks[i].offset_s;
     InnovationSums sums;
+    sums.session = prepared.runs[i].session;
     sums.information = expected_information(Moves(prepared.runs[i], u), noise);
-    information += reduced(sums, fixed, 0).information;
+    pool.add(reduced(sums, fixed, 0));
   }
-  return shared_covariance(information, fixed).topLeftCorner<3, 3>();
+  return pool.factor_covariance();
 }
 
 }  // namespace
@@ -193,7 +187,10 @@ MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& loa
   // fit. Not checked without headings: the lever arm is not known yet, and without it spins show nothing.
   if (std::any_of(prepared.runs.begin(), prepared.runs.end(),
                   [](const PreparedRun& run) { return run.has_headings; }))
-    require_observed(errors_of(bound_of(prepared, loaded, {}, {}, options.clock_known), loaded), loaded);
+    require_observed(
+        errors_of(bound_of(prepared, {loaded.c_r, loaded.c_l, loaded.b_m}, {}, {}, options.clock_known),
+                  loaded),
+        loaded);
   MlEstimate estimate = summarise(MlFit(prepared, loaded, options));
   estimate.left_out = prepared.left_out;
   return estimate;
@@ -211,7 +208,7 @@ FactorCovariance cramer_rao_bound(std::span<const Trajectory> runs, const WheelF
 
 MlErrors errors_of(const FactorCovariance& covariance, const WheelFactors& factors) {
   const auto propagated = [&](double by_right, double by_left, double by_b) {
-    const Eigen::Vector3d jacobian(by_right, by_left, by_b);
+    const FactorVector jacobian(by_right, by_left, by_b, 0);
     return root(jacobian.dot(covariance * jacobian));
   };
   const double scale = (factors.c_r + factors.c_l) / 2, b_over_scale_m = factors.b_m / scale;
@@ -219,6 +216,7 @@ MlErrors errors_of(const FactorCovariance& covariance, const WheelFactors& facto
   se.c_r = propagated(1, 0, 0);
   se.c_l = propagated(0, 1, 0);
   se.b_m = propagated(0, 0, 1);
+  se.e = covariance(kE, kE) == 0 ? 0 : root(covariance(kE, kE));
   se.E_d = propagated(1 / factors.c_l, -factors.c_r / (factors.c_l * factors.c_l), 0);
   se.scale = propagated(0.5, 0.5, 0);
   se.b_over_scale_m = propagated(-b_over_scale_m / scale / 2, -b_over_scale_m / scale / 2, 1 / scale);

@@ -15,8 +15,8 @@
 
 /// Wheel factors by maximum likelihood from whole trajectories.
 ///
-/// Unknown are c_R, c_L, b; the lever arm of the tracked body; per run its start pose and the offset between
-/// the two clocks; one skew of the clocks; and the noise itself. A Kalman filter runs along each drive
+/// Unknown are c_R, c_L, b, and e where the runs show it; per session the lever arm of the tracked body and the skew of the clocks; per run its
+/// start pose and the offset between the two clocks; and the noise itself. A Kalman filter runs along each drive
 /// (innovation.hpp), its innovations are made as likely as they can be by Gauss-Newton, with Huber's weights
 /// against outliers. For normal noise that is the maximum-likelihood estimate, and it reaches the Cramer-Rao
 /// bound within a few percent.
@@ -31,19 +31,21 @@ struct MlOptions {
   bool clock_known = false;
   /// A given noise model is used as it stands; without one it is estimated.
   std::optional<NoiseModel> noise;
-  /// With a given noise model: every so many-th truth sample counts, because closer ones are not independent
-  /// (MlEstimate::stride). Without one it is found.
-  int stride = 1;
+  /// With a given noise model: only truth samples so far apart on the way of the wheels count, because closer ones are not
+  /// independent (MlEstimate::spacing_m). Without one it is found.
+  double spacing_m = 0;
+  /// Whether e is estimated. Not said: if the runs show that it is not zero.
+  std::optional<bool> with_e = {};
   /// Huber's loss for slips and for truth samples. Off: least squares, for comparison.
   bool robust = true;
 };
 
-/// Of c_R, c_L and b in this order; b in metres.
-using FactorCovariance = Eigen::Matrix3d;
+/// Of c_R, c_L, b and e in this order; b in metres. The row and the column of an e that is not estimated are zero.
+using FactorCovariance = Eigen::Matrix4d;
 
 /// Standard errors of the factors and of the ratios that people use: E_d = c_R / c_L, S = (c_R + c_L) / 2.
 struct MlErrors {
-  double c_r = 0, c_l = 0, b_m = 0;
+  double c_r = 0, c_l = 0, b_m = 0, e = 0;
   double E_d = 0, scale = 0;
   double b_over_scale_m = 0;  // b / S: what squares driven by odometry determine of b
 };
@@ -56,9 +58,10 @@ struct RunFit {
   double clock_offset_se_s = 0;
   double chi_square = 0;  // of the innovations
   int degrees_of_freedom = 0;
-  /// How far this run, without down-weighting its slips, is from all other runs in c_R, c_L and b: chi-square
-  /// with `disagreement_dof` degrees of freedom for a run like the others (fewer than 3 if the run does not
-  /// observe all three; 0 if there are no other runs).
+  int session = 0;  // number of the session (sessions.hpp)
+  /// How far this run, without down-weighting its slips, is from all other runs in the factors: chi-square
+  /// with `disagreement_dof` degrees of freedom for a run like the others (fewer than there are factors if the run does not
+  /// observe all; 0 if there are no other runs).
   double disagreement = 0;
   int disagreement_dof = 0;
   bool outlier = false;  // probability below one in a thousand among so many runs
@@ -74,30 +77,32 @@ struct KindFit {
   double chi_square_per_dof = 0;
 };
 
-/// Whether arcs and spins have the same wheelbase: real tyres turn about another point in a spin.
-struct WheelbaseByKind {
-  double arc_over_spin = 1, standard_error = 0;
-  /// They differ by more than four standard errors and 0.1 %. The error is not widened by `dispersion`,
-  /// because runs that differ for this reason would hide it.
-  bool disagrees = false;
+/// Whether gentle arcs turn about another wheelbase than spins.
+struct CurvatureEffect {
+  double e = 0, standard_error = 0;  // if it is not estimated: to first order
+  bool estimated = false;            // else the factors have e = 0
+};
+
+/// Where the tracked body sat in one session, and how the clocks ran.
+struct SessionFit {
+  LeverArm lever, lever_se;  // yaw NaN where no heading was measured
+  double clock_skew = 0,
+         clock_skew_se = 0;  // the robot's clock runs (1 + skew) times as fast as the tracker's
 };
 
 struct MlEstimate {
   WheelFactors factors;
   FactorCovariance covariance = FactorCovariance::Zero();
   MlErrors se;
-  LeverArm lever, lever_se;  // yaw NaN where no heading was measured
-  double clock_skew = 0,
-         clock_skew_se = 0;  // the robot's clock runs (1 + skew) times as fast as the tracker's
-  NoiseModel noise;          // K: its upper 95 % limit if the data do not determine it to a third
-  /// Time between the truth samples that the likelihood uses, in the longest run, if closer samples have
+  std::vector<SessionFit> sessions;  // at least one
+  NoiseModel noise;                  // K: its upper 95 % limit if the data do not determine it to a third
+  /// The way of the wheels between the truth samples that the likelihood uses, if closer samples have
   /// correlated errors that slip and tracker do not explain (whiteness.hpp); 0 if all samples are used.
-  double thinned_to_s = 0;
-  int stride = 1;  // the same as a number of samples
+  double spacing_m = 0;
   std::vector<RunFit> runs;
-  std::vector<Remark> left_out;                      // PreparedRuns::left_out; other useless runs are errors
-  std::vector<KindFit> kinds;                        // only those that occur, in the order of Motion
-  std::optional<WheelbaseByKind> wheelbase_by_kind;  // only with enough of both
+  std::vector<Remark> left_out;              // PreparedRuns::left_out; other useless runs are errors
+  std::vector<KindFit> kinds;                // only those that occur, in the order of Motion
+  std::optional<CurvatureEffect> curvature;  // nothing if the runs hardly show it
   /// How much more the runs that are no outliers scatter than their noise explains, as a factor on variances.
   /// The covariance and all standard errors of factors include it. 1 if they do not scatter more.
   double dispersion = 1;
@@ -122,9 +127,9 @@ struct MlEstimate {
 MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& loaded,
                        const MlOptions& options = {});
 
-/// The smallest covariance of c_R, c_L, b (b in m) that an unbiased estimator can have (Cramer-Rao bound): the
+/// The smallest covariance of the factors that an unbiased estimator can have (Cramer-Rao bound): the
 /// inverse of the Fisher information of these runs. `options.noise` must be given. The path comes from the
-/// wheels and `factors`; of truth only the times matter, apart from the search for the clocks and the checks
+/// wheels and `factors`, whose e counts as unknown if it is not zero; of truth only the times matter, apart from the search for the clocks and the checks
 /// of usable runs. As in the estimate, truth samples closer than two samples of the wheels do not count
 /// (preparation.hpp): with all of them, a tracker with centimetres of noise over counts at 20 Hz would seem up
 /// to 1.6 times as good as it is; at 100 Hz over 60 Hz nothing changes.

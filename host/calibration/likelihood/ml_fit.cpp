@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 #include "host/base/error.hpp"
 #include "host/calibration/likelihood/start_values.hpp"
 #include "host/calibration/likelihood/whiteness.hpp"
+#include "host/calibration/motion/median.hpp"
 
 namespace astro::calibration {
 namespace {
@@ -22,12 +25,9 @@ constexpr double kLargestNoiseStep = 2;
 constexpr double kLargestK_m = 1e-2;
 constexpr int kFewestSamples = 20;  // of a run
 constexpr int kMostPhases = 4;
-
-double cost_of(std::span<const InnovationSums> sums) {
-  double cost = 0;
-  for (const InnovationSums& run : sums) cost += run.cost;
-  return cost;
-}
+// e is estimated if it is so many standard errors from zero, if these are small, and if tyres can explain it: wheels out of round
+// would ask for an e of 2 or 3 to bend what should be lines.
+constexpr double kShown = 2, kUncertainE = 0.05, kLargestE = 0.2;
 
 /// Changes the logarithm of a variance, which is stored as its `power`-th root, within limits. Returns the size
 /// of the actual change.
@@ -40,42 +40,86 @@ double scale_variance(double& value, int power, double change, double least, dou
 
 }  // namespace
 
-MlFit::MlFit(const PreparedRuns& prepared, const WheelFactors& loaded, const MlOptions& options,
-             bool factors_fixed, std::span<const Unknowns> start)
+MlFit::MlFit(const PreparedRuns& prepared, const WheelFactors& loaded, const MlOptions& options, Held held,
+             std::span<const Unknowns> start)
     : runs_(prepared.runs),
       loaded_(loaded),
       unknowns_(start.empty() ? start_values(prepared, loaded)
                               : std::vector<Unknowns>(start.begin(), start.end())),
-      noise_(options.noise ? *options.noise : start_noise(prepared)) {
-  fixed_.factors = factors_fixed;
+      least_noise_(options.noise ? *options.noise : start_noise(prepared)) {
+  fixed_.factors = held != Held::nothing;
+  fixed_.session = held == Held::factors_and_sessions;
+  fixed_.e = fixed_.factors || !options.with_e.value_or(false);
   fixed_.clock = options.clock_known;
   fixed_.lever_yaw =
       std::none_of(runs_.begin(), runs_.end(), [](const PreparedRun& run) { return run.has_headings; });
   for (Unknowns& u : unknowns_) {
     if (fixed_.clock) u[kSkew] = u[kClockOffset] = 0;
-    if (fixed_.factors) u.head<3>() << loaded.c_r, loaded.c_l, loaded.b_m;
+    if (fixed_.factors)
+      u.head<kFactors>() << loaded.c_r, loaded.c_l, loaded.b_m, loaded.e;
+    else if (fixed_.e)
+      u[kE] = 0;
   }
+  fit(options, !start.empty());
+  if (!fixed_.factors && !options.with_e) fit_e(options);
+  if (!fixed_.e) e_ = e_to_first_order();
+}
+
+void MlFit::fit(const MlOptions& options, bool started) {
+  robust_ = RobustMode::none;
+  noise_ = least_noise_;
+  spacing_m_ = 0;
+  phases_ = 1;
   // The first fit is least squares, because a sample that looks like an outlier to a first guess may be right.
-  if (start.empty() || !options.robust || !options.noise) maximise();
+  if (!started || !options.robust || !options.noise) maximise();
   require_plausible();
   if (options.robust) robust_ = RobustMode::tracker_and_wheels;
   if (options.noise) {
-    stride_ = options.stride;
-    phases_ = std::min(stride_, kMostPhases);
-    if (options.robust || stride_ > 1) maximise();
+    spacing_m_ = options.spacing_m;
+    phases_ = spacing_m_ > 0 ? kMostPhases : 1;
+    if (options.robust || spacing_m_ > 0) maximise();
   } else {
     fit_with_noise();
-    while (!innovations_are_independent()) {
-      stride_ *= 2;
-      fit_with_noise();
-    }
-    if (stride_ > 1) {
-      phases_ = std::min(stride_, kMostPhases);
-      fit_with_noise();
-    }
+    find_spacing();
     widen_uncertain_slip();
   }
   require_plausible();
+}
+
+/// The wheelbase is one number until the runs show that it is not: an e that is only noise would widen the errors of b and
+/// gain nothing.
+void MlFit::fit_e(const MlOptions& options) {
+  const auto shown = [&] {
+    return std::abs(e_.value) > kShown * e_.standard_error && e_.standard_error < kUncertainE &&
+           std::abs(e_.value) < kLargestE;
+  };
+  fixed_.e = false;
+  e_ = e_to_first_order();
+  if (shown()) {
+    auto without = std::tuple(unknowns_, noise_, spacing_m_, phases_, sums_);
+    fit(options, true);
+    e_ = e_to_first_order();
+    if (shown()) return;
+    std::tie(unknowns_, noise_, spacing_m_, phases_, sums_) = std::move(without);
+    e_ = e_to_first_order();
+  }
+  fixed_.e = true;
+}
+
+OneUnknown MlFit::e_to_first_order() const {
+  const double now = unknowns_.front()[kE];
+  const Pool pool = pool_of(sums_, fixed_, now);
+  return {now + pool.factor_step()[kE], std::sqrt(pool.factor_covariance()(kE, kE))};
+}
+
+Moves MlFit::moves_of(std::size_t run, const Unknowns& unknowns) const {
+  return Moves(runs_[run], unknowns, fixed_.factors ? loaded_.kappa0 : kUsualKappa0);
+}
+
+double MlFit::cost_of(std::span<const InnovationSums> sums, double e) const {
+  double cost = fixed_.e ? 0 : prior_cost(e);
+  for (const InnovationSums& run : sums) cost += run.cost;
+  return cost;
 }
 
 void MlFit::fit_with_noise() {
@@ -86,18 +130,56 @@ void MlFit::fit_with_noise() {
   }
 }
 
+/// Once the innovations are not independent, closer samples than these are not tried: what a spin winds up and the next line
+/// lets go of must lie between two samples more often than not, and a quarter turn is 0.8 wheelbases of the wheels' way. No simple
+/// multiple of that, or the samples would fall upon the same place of every corner.
+constexpr double kLeastSpacing = 1.25;  // wheelbases
+
+/// Doubles the spacing of the samples until the innovations are independent.
+void MlFit::find_spacing() {
+  while (!innovations_are_independent()) {
+    spacing_m_ = std::max(2 * spacing_m_, kLeastSpacing * loaded_.b_m);
+    fit_with_noise();
+  }
+  if (spacing_m_ == 0) return;
+  phases_ = kMostPhases;
+  fit_with_noise();
+}
+
+/// Twice the usual way of the wheels between two samples of a moving robot.
+double MlFit::usual_step_m() const {
+  std::vector<double> ways_m;
+  for (const PreparedRun& run : runs_)
+    for (std::size_t i = 1; i < run.path_m.size(); ++i)
+      if (run.path_m[i] > run.path_m[i - 1]) ways_m.push_back(run.path_m[i] - run.path_m[i - 1]);
+  return 2 * median_of(std::move(ways_m));
+}
+
 bool MlFit::innovations_are_independent() const {
-  std::vector<std::vector<Eigen::Vector3d>> all;
-  for (std::size_t i = 0; i < runs_.size(); ++i)
-    all.push_back(
-        standardised_innovations(Moves(runs_[i], unknowns_[i]), noise_, robust_, samples_of(runs_[i], 0)));
-  return are_independent(all, kShared + kOwn * static_cast<int>(runs_.size()));
+  const int fitted = kShared + kOwn * static_cast<int>(runs_.size());
+  std::vector<Moves> moves;
+  for (std::size_t i = 0; i < runs_.size(); ++i) moves.push_back(moves_of(i, unknowns_[i]));
+  std::vector<std::vector<Eigen::Vector3d>> by_run;
+  for (const Moves& run : moves)
+    by_run.push_back(standardised_innovations(run, noise_, robust_, samples_of(run.run(), 0)));
+  if (!are_independent(by_run, fitted)) return false;
+  std::vector<std::vector<Eigen::Vector3d>> spacings(1);
+  for (const auto& run : by_run) spacings[0].insert(spacings[0].end(), run.begin(), run.end());
+  for (double spacing_m = std::max(2 * spacing_m_, usual_step_m());; spacing_m *= 2) {
+    std::vector<Eigen::Vector3d>& wider = spacings.emplace_back();
+    for (const Moves& run : moves) {
+      const auto of_run = standardised_innovations(run, noise_, robust_, {spacing_m, 0});
+      wider.insert(wider.end(), of_run.begin(), of_run.end());
+    }
+    if (wider.size() < fewest_innovations(fitted)) break;
+  }
+  return hold_over_path(spacings, fitted);
 }
 
 std::vector<InnovationSums> MlFit::pass(std::span<const Unknowns> unknowns, RobustMode robust) const {
   std::vector<InnovationSums> sums;
   for (std::size_t i = 0; i < runs_.size(); ++i) {
-    const Moves moves(runs_[i], unknowns[i]);
+    const Moves moves = moves_of(i, unknowns[i]);
     std::vector<InnovationSums> passes;
     for (int phase = 0; phase < phases_; ++phase) {
       passes.push_back(innovations(moves, noise_, robust, samples_of(runs_[i], phase)));
@@ -114,7 +196,7 @@ std::vector<InnovationSums> MlFit::sums_with_full_slip_weight() const {
 NoiseSlope MlFit::noise_slopes() const {
   NoiseSlope sum;
   for (std::size_t i = 0; i < runs_.size(); ++i) {
-    const Moves moves(runs_[i], unknowns_[i]);
+    const Moves moves = moves_of(i, unknowns_[i]);
     for (int phase = 0; phase < phases_; ++phase) {
       const NoiseSlope part = noise_slope(moves, noise_, robust_, samples_of(runs_[i], phase));
       sum.gradient += part.gradient / phases_;
@@ -130,8 +212,8 @@ NoiseSlope MlFit::noise_slopes() const {
 /// likelihoods are averaged, not added, because all of them contain the same slip. A short run is thinned
 /// less.
 SampleSelection MlFit::samples_of(const PreparedRun& run, int phase) const {
-  const int stride = std::clamp(static_cast<int>(run.truth.size()) / kFewestSamples, 1, stride_);
-  return {stride, phase * stride / phases_};
+  const double spacing_m = std::min(spacing_m_, run.path_m.back() / kFewestSamples);
+  return {spacing_m, phase * spacing_m / phases_};
 }
 
 void MlFit::maximise() {
@@ -139,7 +221,7 @@ void MlFit::maximise() {
   sums_ = pass(unknowns_, robust_);
   for (int step = 0; step < kMostSteps; ++step) {
     ++iterations_;
-    const std::vector<Unknowns> steps = gauss_newton_step(sums_, fixed_, damping);
+    const std::vector<Unknowns> steps = gauss_newton_step(sums_, fixed_, damping, unknowns_.front()[kE]);
     double expected = 0;
     std::vector<Unknowns> next = unknowns_;
     for (std::size_t i = 0; i < next.size(); ++i) {
@@ -147,7 +229,7 @@ void MlFit::maximise() {
       expected += steps[i].dot(sums_[i].gradient);
     }
     std::vector<InnovationSums> sums = pass(next, robust_);
-    const double fall = cost_of(sums_) - cost_of(sums);
+    const double fall = cost_of(sums_, unknowns_.front()[kE]) - cost_of(sums, next.front()[kE]);
     if (fall > -kSettled) {
       unknowns_ = std::move(next);
       sums_ = std::move(sums);
@@ -167,9 +249,10 @@ bool MlFit::fit_noise() {
   for (int step = 0; step < kMostScorings; ++step) {
     const NoiseSlope slope = noise_slopes();
     const Eigen::Vector3d change = -slope.curvature.ldlt().solve(slope.gradient);
-    const double moved = std::max({scale_variance(noise_.K_m, 1, change[0], 1e-13, kLargestK_m),
-                                   scale_variance(noise_.sigma_xy_m, 2, change[1], 1e-7, 1),
-                                   scale_variance(noise_.sigma_theta_rad, 2, change[2], 1e-7, 1)});
+    const double moved =
+        std::max({scale_variance(noise_.K_m, 1, change[0], 1e-13, kLargestK_m),
+                  scale_variance(noise_.sigma_xy_m, 2, change[1], least_noise_.sigma_xy_m / 2, 1),
+                  scale_variance(noise_.sigma_theta_rad, 2, change[2], least_noise_.sigma_theta_rad / 2, 1)});
     if (step == 0) first = moved;
     if (moved < kNoiseSettled) break;
   }
@@ -185,7 +268,7 @@ void MlFit::widen_uncertain_slip() {
   if (2 * noise_slopes().curvature.inverse()(0, 0) < kSurelyKnown) return;
   double least = std::numeric_limits<double>::infinity();
   while (true) {
-    const double cost = cost_of(sums_) + log_determinant(sums_, fixed_);
+    const double cost = cost_of(sums_, unknowns_.front()[kE]) + log_determinant(sums_, fixed_);
     least = std::min(least, cost);
     // Written with !(x <= limit) so that a NaN also ends the loop.
     if (!(cost <= least + kRise && noise_.K_m < kLargestK_m)) return;

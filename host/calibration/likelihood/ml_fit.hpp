@@ -13,17 +13,24 @@
 /// The search for the most likely unknowns.
 namespace astro::calibration {
 
+/// What a fit leaves as it is given.
+enum class Held {
+  nothing,
+  factors,
+  factors_and_sessions,  // also the lever arms and the skews, which must be in the start values
+};
+
 /// Gauss-Newton, damped if necessary. If the noise is not given, it is fitted in alternation with the unknowns,
-/// and truth is thinned until the innovations are independent (whiteness.hpp).
+/// and truth is thinned until the innovations are independent (whiteness.hpp). If it is not said whether e is to be estimated, that is
+/// done only where the runs show it.
 ///
 /// Throws astro::Error for factors that no robot has, and what start_values throws.
 class MlFit {
  public:
-  /// `prepared` must outlive it. With `factors_fixed` c_R, c_L and b stay as `loaded`, and only the nuisance
-  /// parameters are fitted. `start`: unknowns of these runs from another fit that are nearly right, one for each run; without
-  /// them start values are sought.
+  /// `prepared` must outlive it. Factors that are held stay as `loaded`. `start`: unknowns of these runs from another fit that
+  /// are nearly right, one for each run; without them start values are sought.
   MlFit(const PreparedRuns& prepared, const WheelFactors& loaded, const MlOptions& options,
-        bool factors_fixed = false, std::span<const Unknowns> start = {});
+        Held held = Held::nothing, std::span<const Unknowns> start = {});
 
   const std::vector<PreparedRun>& runs() const { return runs_; }
   const std::vector<Unknowns>& unknowns() const { return unknowns_; }  // of each run, their shared part equal
@@ -32,17 +39,26 @@ class MlFit {
   std::vector<InnovationSums> sums_with_full_slip_weight() const;
   const NoiseModel& noise() const { return noise_; }
   const FixedParameters& fixed() const { return fixed_; }
-  /// The filter uses every so many-th truth sample; of short runs more.
-  int stride() const { return stride_; }
+  /// The way of the wheels between the truth samples that the filter uses; of short runs less. 0: it uses all.
+  double spacing_m() const { return spacing_m_; }
+  /// What the runs say about e, estimated or, to first order, not.
+  OneUnknown e() const { return e_; }
   int iterations() const { return iterations_; }
 
  private:
+  void fit(const MlOptions& options, bool started);
+  void fit_e(const MlOptions& options);
+  OneUnknown e_to_first_order() const;
+  Moves moves_of(std::size_t run, const Unknowns& unknowns) const;
   SampleSelection samples_of(const PreparedRun& run, int phase) const;
+  double cost_of(std::span<const InnovationSums> sums, double e) const;
   std::vector<InnovationSums> pass(std::span<const Unknowns> unknowns, RobustMode robust) const;
   NoiseSlope noise_slopes() const;
   void maximise();
   bool fit_noise();
   void fit_with_noise();
+  void find_spacing();
+  double usual_step_m() const;
   bool innovations_are_independent() const;
   void widen_uncertain_slip();
   void require_plausible() const;
@@ -52,9 +68,11 @@ class MlFit {
   std::vector<Unknowns> unknowns_;
   FixedParameters fixed_;
   NoiseModel noise_;
+  NoiseModel least_noise_;
   RobustMode robust_ = RobustMode::none;
-  int stride_ = 1;
+  double spacing_m_ = 0;
   int phases_ = 1;  // passes along each run, each beginning at another sample
+  OneUnknown e_;
   std::vector<InnovationSums> sums_;
   int iterations_ = 0;
 };

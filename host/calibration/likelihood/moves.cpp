@@ -40,33 +40,56 @@ void add_square(Symmetric3& sum, double f, const Vector3& v) {
                     f * v[1] * v[1], f * v[1] * v[2], f * v[2] * v[2]};
 }
 
+/// The turn of an arc and its derivatives by the travels of the wheels, b and e.
+struct Turn {
+  double rad, by_right, by_left, by_b, by_e;
+};
+
+Turn turn_of(double right_m, double left_m, double b_m, double e, double kappa0) {
+  const double difference_m = right_m - left_m, sum_m = right_m + left_m;
+  const double along = kappa0 * std::abs(sum_m) / 2, across = std::abs(difference_m);
+  const double g = along / (along + across), about_m = b_m * (1 + e * g), rad = difference_m / about_m;
+  // g grows with the sum and falls with the difference.
+  const double squared = (along + across) * (along + across);
+  const double g_by_sum = std::copysign(kappa0 / 2 * across / squared, sum_m);
+  const double g_by_difference = -std::copysign(along / squared, difference_m);
+  const double by_g = -rad * e * b_m / about_m;
+  return {rad, 1 / about_m + by_g * (g_by_sum + g_by_difference),
+          -1 / about_m + by_g * (g_by_sum - g_by_difference), -rad / b_m, -rad * g * b_m / about_m};
+}
+
 Move move_between(const Moment& from, const WheelState& was, const Moment& to, const WheelState& is,
-                  const Unknowns& u) {
+                  const Unknowns& u, double kappa0) {
   const double left_m = is.left_m - was.left_m, right_m = is.right_m - was.right_m;
   const double by_left_m = u[kCLeft] * left_m, by_right_m = u[kCRight] * right_m;
   const double centre_m = (by_left_m + by_right_m) / 2;
+  const Turn turn = turn_of(by_right_m, by_left_m, u[kB], u[kE], kappa0);
   Move move;
-  move.turn_rad = (by_right_m - by_left_m) / u[kB];
+  move.turn_rad = turn.rad;
   const Sinc chord = sinc_with_slope(move.turn_rad / 2);
   move.chord_m = centre_m * chord.value;
   const Vector3 by_turn{centre_m * chord.slope / 2, move.chord_m / 2, 1};
   const Vector3 by_centre{chord.value, 0, 0};
-  const Vector3 by_left = sum(0.5, by_centre, -1 / u[kB], by_turn);
-  const Vector3 by_right = sum(0.5, by_centre, 1 / u[kB], by_turn);
+  const Vector3 by_left = sum(0.5, by_centre, turn.by_left, by_turn);
+  const Vector3 by_right = sum(0.5, by_centre, turn.by_right, by_turn);
   add_square(move.slip_per_K, std::abs(left_m), by_left);
   add_square(move.slip_per_K, std::abs(right_m), by_right);
   const auto velocity = [&](const WheelState& wheels) {
     return sum(u[kCLeft] * wheels.left_mps, by_left, u[kCRight] * wheels.right_mps, by_right);
   };
   const Vector3 at_start = velocity(was), at_end = velocity(is);
-  move.by = {scaled(right_m, by_right), scaled(left_m, by_left), scaled(-move.turn_rad / u[kB], by_turn),
-             sum(to.by_skew_s, at_end, -from.by_skew_s, at_start), sum(1, at_end, -1, at_start)};
+  move.by = {scaled(right_m, by_right),
+             scaled(left_m, by_left),
+             scaled(turn.by_b, by_turn),
+             scaled(turn.by_e, by_turn),
+             sum(to.by_skew_s, at_end, -from.by_skew_s, at_start),
+             sum(1, at_end, -1, at_start)};
   return move;
 }
 
 }  // namespace
 
-Moves::Moves(const PreparedRun& run, const Unknowns& u) : run_(run), unknowns_(u) {
+Moves::Moves(const PreparedRun& run, const Unknowns& u, double kappa0) : run_(run), unknowns_(u) {
   const WheelPath wheels(run.source->wheels);
   const auto moment = [&](double truth_time_s) {
     const double since_middle_s = truth_time_s - run.clock_middle_s;
@@ -85,7 +108,7 @@ Moves::Moves(const PreparedRun& run, const Unknowns& u) : run_(run), unknowns_(u
                       begin.by_skew_s + part * (end.by_skew_s - begin.by_skew_s)};
       const WheelState is = wheels.at(to.time_s);
       if (is.left_m != was.left_m || is.right_m != was.right_m)
-        moves_.push_back(move_between(from, was, to, is, u));
+        moves_.push_back(move_between(from, was, to, is, u, kappa0));
       from = to;
       was = is;
     }

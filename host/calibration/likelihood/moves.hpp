@@ -14,7 +14,7 @@
 namespace astro::calibration {
 
 /// The unknowns by which the wheels' path differs, in the order of Move::by.
-inline constexpr std::array kMoveUnknowns{kCRight, kCLeft, kB, kSkew, kClockOffset};
+inline constexpr std::array kMoveUnknowns{kCRight, kCLeft, kB, kE, kSkew, kClockOffset};
 
 /// An arc of the robot. Its frame has the x axis along the chord, so the heading in the middle of the arc turns it into the
 /// tracker's frame.
@@ -24,14 +24,12 @@ struct Move {
   Symmetric3 slip_per_K;  // covariance of the pose's change that slip causes, for K = 1 m
   /// Derivatives of the pose's change by each of kMoveUnknowns.
   std::array<Vector3, kMoveUnknowns.size()> by{};
-
-  const Vector3& by_b() const { return by[2]; }
 };
 
 class Moves {
  public:
   /// Of arcs that last kLongestStep_s at most. The run must outlive this.
-  Moves(const PreparedRun& run, const Unknowns& unknowns);
+  Moves(const PreparedRun& run, const Unknowns& unknowns, double kappa0 = kUsualKappa0);
 
   const PreparedRun& run() const { return run_; }
   const Unknowns& unknowns() const { return unknowns_; }

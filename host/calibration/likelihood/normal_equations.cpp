@@ -7,31 +7,32 @@
 namespace astro::calibration {
 namespace {
 
-using Own = Eigen::Matrix<double, kOwn, kOwn>;
-using OwnVector = Eigen::Matrix<double, kOwn, 1>;
+// Whatever is eliminated has four unknowns: a run's own, those of its session, the factors. So one size of decomposition does.
+static_assert(kOwn == kFactors && kOfSession == kFactors);
+using Block = FactorMatrix;
+using BlockVector = FactorVector;
 using Mixed = Eigen::Matrix<double, kShared, kOwn>;
-using Matrix = Eigen::MatrixXd;
 
-/// The sizes are known at run time only. With sizes known at compile time, each would get a decomposition of its own, and
-/// compiling those would take longer than the rest of this file.
-Matrix solved(const Matrix& information, const Matrix& right_side) {
-  return information.ldlt().solve(right_side);
+struct Solved {
+  Block inverse;
+  double log_determinant;
+};
+
+Solved solved(const Block& information) {
+  const Eigen::LDLT<Block> ldlt(information);
+  return {ldlt.solve(Block::Identity()), ldlt.vectorD().array().abs().log().sum()};
 }
 
-double log_determinant_of(const Matrix& information) {
-  return information.ldlt().vectorD().array().abs().log().sum();
-}
-
-// Inverse squares of the largest plausible values: lever arm 1 m, yaw one turn, skew 10 %, offset 10 s.
-constexpr double kLeverPrior = 1, kYawPrior = 0.03, kSkewPrior = 100, kOffsetPrior = 0.01;
+// Inverse squares of the largest plausible values: e 0.1, lever arm 1 m, yaw one turn, skew 10 %, offset 10 s.
+constexpr double kEPrior = 100, kLeverPrior = 1, kYawPrior = 0.03, kSkewPrior = 100, kOffsetPrior = 0.01;
 
 /// Information of one run in its blocks, without the fixed unknowns and with the weak priors.
 struct Parts {
   SharedInformation shared;
   Mixed mixed;
-  Own own;
+  Block own;
   SharedVector shared_gradient;
-  OwnVector own_gradient;
+  BlockVector own_gradient;
 };
 
 Parts parts_of(const InnovationSums& sums, const FixedParameters& fixed, double damping) {
@@ -47,6 +48,9 @@ Parts parts_of(const InnovationSums& sums, const FixedParameters& fixed, double 
   };
   if (fixed.factors)
     for (const int unknown : {kCRight, kCLeft, kB}) hold(unknown);
+  if (fixed.factors || fixed.e) hold(kE);
+  if (fixed.session)
+    for (const int unknown : {kLeverX, kLeverY, kLeverYaw, kSkew}) hold(unknown);
   if (fixed.clock) {
     hold(kSkew);
     hold(kClockOffset);
@@ -56,95 +60,138 @@ Parts parts_of(const InnovationSums& sums, const FixedParameters& fixed, double 
           a.block<kOwn, kOwn>(kShared, kShared), g.head<kShared>(), g.segment<kOwn>(kShared)};
 }
 
-SharedInformation with_priors(SharedInformation information, const FixedParameters& fixed) {
-  if (fixed.factors) information.diagonal().head<3>().setOnes();
-  information(kLeverX, kLeverX) += kLeverPrior;
-  information(kLeverY, kLeverY) += kLeverPrior;
-  information(kLeverYaw, kLeverYaw) += fixed.lever_yaw ? 1 : kYawPrior;
-  information(kSkew, kSkew) += fixed.clock ? 1 : kSkewPrior;
-  return information;
-}
-
-Reduced reduced(const Parts& parts) {
-  const Mixed weighted = solved(parts.own, parts.mixed.transpose()).transpose();
+Reduced reduced(const Parts& parts, int session) {
+  const Mixed weighted = parts.mixed * solved(parts.own).inverse;
   return {parts.shared - weighted * parts.mixed.transpose(),
-          parts.shared_gradient - weighted * parts.own_gradient};
+          parts.shared_gradient - weighted * parts.own_gradient, session};
 }
 
 }  // namespace
 
 Reduced reduced(const InnovationSums& sums, const FixedParameters& fixed, double damping) {
-  return reduced(parts_of(sums, fixed, damping));
+  return reduced(parts_of(sums, fixed, damping), sums.session);
+}
+
+void Pool::add(const Reduced& run, double sign) {
+  while (static_cast<int>(sessions_.size()) <= run.session)
+    sessions_.push_back(
+        {SharedInformation::Zero(), SharedVector::Zero(), static_cast<int>(sessions_.size())});
+  Reduced& session = sessions_[static_cast<std::size_t>(run.session)];
+  session.information += sign * run.information;
+  session.gradient += sign * run.gradient;
+}
+
+Pool::Settled Pool::settled(const Reduced& session) const {
+  Block own = session.information.bottomRightCorner<kOfSession, kOfSession>();
+  const auto add_prior = [&](int unknown, double prior) {
+    own(unknown - kFactors, unknown - kFactors) += prior;
+  };
+  add_prior(kLeverX, kLeverPrior);
+  add_prior(kLeverY, kLeverPrior);
+  add_prior(kLeverYaw, fixed_.lever_yaw ? 1 : kYawPrior);
+  add_prior(kSkew, fixed_.clock ? 1 : kSkewPrior);
+  const Solved by_own = solved(own);
+  const Block mixed = session.information.topRightCorner<kFactors, kOfSession>();
+  Settled out;
+  out.own_covariance = by_own.inverse;
+  out.log_determinant = by_own.log_determinant;
+  out.weighted = mixed * by_own.inverse;
+  out.information =
+      session.information.topLeftCorner<kFactors, kFactors>() - out.weighted * mixed.transpose();
+  out.own_gradient = session.gradient.tail<kOfSession>();
+  out.gradient = session.gradient.head<kFactors>() - out.weighted * out.own_gradient;
+  return out;
+}
+
+FactorMatrix Pool::information() const {
+  Block sum = Block::Zero();
+  for (const Reduced& session : sessions_) sum += settled(session).information;
+  if (fixed_.factors) sum.diagonal().setOnes();
+  sum(kE, kE) += fixed_.e ? 1 : kEPrior;
+  return sum;
+}
+
+FactorMatrix Pool::factor_covariance() const {
+  FactorMatrix covariance = solved(information()).inverse;
+  if (fixed_.e) covariance(kE, kE) = 0;
+  return covariance;
+}
+
+FactorVector Pool::factor_step() const {
+  BlockVector gradient = BlockVector::Zero();
+  for (const Reduced& session : sessions_) gradient += settled(session).gradient;
+  if (!fixed_.e && !fixed_.factors) gradient[kE] -= kEPrior * e_;
+  return solved(information()).inverse * gradient;
+}
+
+SharedInformation Pool::covariance(int session) const {
+  const Settled of_session = settled(sessions_.at(static_cast<std::size_t>(session)));
+  const FactorMatrix factors = factor_covariance();
+  SharedInformation out;
+  out.topLeftCorner<kFactors, kFactors>() = factors;
+  out.topRightCorner<kFactors, kOfSession>() = -factors * of_session.weighted;
+  out.bottomLeftCorner<kOfSession, kFactors>() = out.topRightCorner<kFactors, kOfSession>().transpose();
+  out.bottomRightCorner<kOfSession, kOfSession>() =
+      of_session.own_covariance + of_session.weighted.transpose() * factors * of_session.weighted;
+  return out;
+}
+
+SharedVector Pool::step(int session) const {
+  const Settled of_session = settled(sessions_.at(static_cast<std::size_t>(session)));
+  SharedVector out;
+  out.head<kFactors>() = factor_step();
+  out.tail<kOfSession>() = of_session.own_covariance * of_session.own_gradient -
+                           of_session.weighted.transpose() * out.head<kFactors>();
+  return out;
+}
+
+double Pool::log_determinant() const {
+  double sum = solved(information()).log_determinant;
+  for (const Reduced& session : sessions_) sum += settled(session).log_determinant;
+  return sum;
 }
 
 std::vector<Unknowns> gauss_newton_step(std::span<const InnovationSums> sums, const FixedParameters& fixed,
-                                        double damping) {
-  SharedInformation information = SharedInformation::Zero();
-  SharedVector gradient = SharedVector::Zero();
+                                        double damping, double e) {
   std::vector<Parts> parts;
+  Pool pool(fixed, e);
   for (const InnovationSums& run : sums) {
     parts.push_back(parts_of(run, fixed, damping));
-    const Reduced r = reduced(parts.back());
-    information += r.information;
-    gradient += r.gradient;
+    pool.add(reduced(parts.back(), run.session));
   }
-  const SharedVector shared = solved(with_priors(information, fixed), gradient);
   std::vector<Unknowns> steps;
-  for (const Parts& run : parts) {
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const SharedVector shared = pool.step(sums[i].session);
     Unknowns step = Unknowns::Zero();
     step.head<kShared>() = shared;
-    step.segment<kOwn>(kShared) = solved(run.own, run.own_gradient - run.mixed.transpose() * shared);
+    step.segment<kOwn>(kShared) =
+        solved(parts[i].own).inverse * (parts[i].own_gradient - parts[i].mixed.transpose() * shared);
     steps.push_back(step);
   }
   return steps;
 }
 
-SharedInformation shared_covariance(const SharedInformation& information, const FixedParameters& fixed) {
-  return solved(with_priors(information, fixed), SharedInformation::Identity());
+Pool pool_of(std::span<const InnovationSums> sums, const FixedParameters& fixed, double e) {
+  Pool pool(fixed, e);
+  for (const InnovationSums& run : sums) pool.add(reduced(run, fixed, 0));
+  return pool;
 }
+
+double prior_cost(double e) { return kEPrior * e * e; }
 
 double log_determinant(std::span<const InnovationSums> sums, const FixedParameters& fixed) {
-  SharedInformation information = SharedInformation::Zero();
-  double sum = 0;
-  for (const InnovationSums& run : sums) {
-    const Parts parts = parts_of(run, fixed, 0);
-    sum += log_determinant_of(parts.own);
-    information += reduced(parts).information;
-  }
-  return sum + log_determinant_of(with_priors(information, fixed));
-}
-
-OneUnknown arc_wheelbase(std::span<const InnovationSums> sums, const FixedParameters& fixed) {
-  SharedInformation information = SharedInformation::Zero();
-  SharedVector mixed = SharedVector::Zero(), gradient = SharedVector::Zero();
-  double own_information = 0, own_gradient = 0;
-  for (const InnovationSums& run : sums) {
-    const Parts parts = parts_of(run, fixed, 0);
-    const Reduced r = reduced(parts);
-    SharedVector with_shared = run.information.col(kArcWheelbase).head<kShared>();
-    OwnVector with_own = run.information.col(kArcWheelbase).segment<kOwn>(kShared);
-    if (fixed.clock) with_shared[kSkew] = with_own[kOwn - 1] = 0;
-    if (fixed.lever_yaw) with_shared[kLeverYaw] = 0;
-    information += r.information;
-    gradient += r.gradient;
-    const OwnVector weighted = solved(parts.own, with_own);
-    mixed += with_shared - parts.mixed * weighted;
-    own_information += run.information(kArcWheelbase, kArcWheelbase) - with_own.dot(weighted);
-    own_gradient += run.gradient[kArcWheelbase] - weighted.dot(parts.own_gradient);
-  }
-  const SharedInformation covariance = shared_covariance(information, fixed);
-  const double left = own_information - mixed.dot(covariance * mixed);
-  if (!(left > 0)) return {0, std::numeric_limits<double>::infinity()};
-  return {(own_gradient - mixed.dot(covariance * gradient)) / left, 1 / std::sqrt(left)};
+  double sum = pool_of(sums, fixed).log_determinant();
+  for (const InnovationSums& run : sums) sum += solved(parts_of(run, fixed, 0).own).log_determinant;
+  return sum;
 }
 
 double clock_offset_variance(const InnovationSums& sums, const SharedInformation& covariance,
                              const FixedParameters& fixed) {
   const Parts parts = parts_of(sums, fixed, 0);
-  // The clock offset's row of the inverse for this run alone, and what the uncertainty of the shared unknowns adds.
-  const OwnVector own = solved(parts.own, OwnVector::Unit(kOwn - 1));
-  const SharedVector by_shared = parts.mixed * own;
-  return own[kOwn - 1] + by_shared.dot(covariance * by_shared);
+  const Block own = solved(parts.own).inverse;
+  const Eigen::Matrix<double, kOwn, kShared> by_shared = own * parts.mixed.transpose();
+  constexpr int kClock = kClockOffset - kShared;
+  return own(kClock, kClock) + by_shared.row(kClock).dot(covariance * by_shared.row(kClock).transpose());
 }
 
 }  // namespace astro::calibration

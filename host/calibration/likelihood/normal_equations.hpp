@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -11,43 +12,82 @@ namespace astro::calibration {
 
 using SharedInformation = Eigen::Matrix<double, kShared, kShared>;
 using SharedVector = Eigen::Matrix<double, kShared, 1>;
+using FactorMatrix = Eigen::Matrix<double, kFactors, kFactors>;
+using FactorVector = Eigen::Matrix<double, kFactors, 1>;
 
 /// Which unknowns are not estimated.
 struct FixedParameters {
-  bool factors = false;    // c_R, c_L, b
+  bool factors = false;    // c_R, c_L, b, e
+  bool e = true;           // e alone
+  bool session = false;    // lever arms and skews
   bool clock = false;      // offsets and skew
   bool lever_yaw = false;  // no headings anywhere
 };
 
-/// One run with its own unknowns eliminated (Schur complement).
+/// One run with its own unknowns eliminated (Schur complement): what it says of the factors, and of the lever arm and the skew
+/// of its session.
 struct Reduced {
   SharedInformation information;
   SharedVector gradient;
+  int session = 0;
 };
 Reduced reduced(const InnovationSums& sums, const FixedParameters& fixed, double damping);
 
-/// The steps of all unknowns, one entry per run; the shared part is equal in all. `damping` is that of
+/// What several runs say together. An unknown that they do not observe (the lever arm in lines, the skew in one short run) keeps
+/// the wide variance of a weak prior, so that the others can be determined.
+class Pool {
+ public:
+  /// `e`: its present value, which its prior at zero pulls on.
+  explicit Pool(const FixedParameters& fixed, double e = 0) : fixed_(fixed), e_(e) {}
+
+  void add(const Reduced& run) { add(run, 1); }
+  void take_out(const Reduced& run) { add(run, -1); }
+
+  /// Of the factors alone; rows and columns of a fixed e are zero.
+  FactorMatrix factor_covariance() const;
+  FactorVector factor_step() const;
+  /// Of the factors and the unknowns of one session.
+  SharedInformation covariance(int session) const;
+  SharedVector step(int session) const;
+  double log_determinant() const;
+
+ private:
+  /// A session with its own unknowns eliminated.
+  struct Settled {
+    FactorMatrix information, weighted, own_covariance;  // weighted: mixed information times own_covariance
+    FactorVector gradient, own_gradient;
+    double log_determinant = 0;
+  };
+
+  void add(const Reduced& run, double sign);
+  Settled settled(const Reduced& session) const;
+  FactorMatrix information() const;
+
+  FixedParameters fixed_;
+  double e_;
+  std::vector<Reduced> sessions_;  // sums over the runs of each
+};
+
+/// The steps of all unknowns, one entry per run; the shared part is equal in all, that of a session in its runs. `damping` is that of
 /// Levenberg and Marquardt.
 std::vector<Unknowns> gauss_newton_step(std::span<const InnovationSums> sums, const FixedParameters& fixed,
-                                        double damping);
+                                        double damping, double e = 0);
 
-/// Covariance of the shared unknowns from the sum of the reduced informations. An unknown that the runs do not
-/// observe (the lever arm in lines, the skew in one short run) keeps the wide variance of a weak prior, so that
-/// the others can be determined.
-SharedInformation shared_covariance(const SharedInformation& information, const FixedParameters& fixed);
+/// Of all runs, without damping.
+Pool pool_of(std::span<const InnovationSums> sums, const FixedParameters& fixed, double e = 0);
+
+struct OneUnknown {
+  double value = 0, standard_error = 0;
+};
+
+/// What the prior of e adds to -2 log likelihood.
+double prior_cost(double e);
 
 /// Logarithm of the determinant of the information about all unknowns together. Added to -2 log likelihood it
 /// gives that of the restricted likelihood, which allows for the fitted unknowns when noise is estimated. Source  Patterson & Thompson 1971, Biometrika 58(3).
 double log_determinant(std::span<const InnovationSums> sums, const FixedParameters& fixed);
 
-/// The estimate of kArcWheelbase to first order, with all other unknowns fitted beside it. The standard error is
-/// infinite if the runs do not observe it.
-struct OneUnknown {
-  double value = 0, standard_error = 0;
-};
-OneUnknown arc_wheelbase(std::span<const InnovationSums> sums, const FixedParameters& fixed);
-
-/// Variance of one run's clock offset, given the covariance of the shared unknowns.
+/// Variance of one run's clock offset, given the covariance of the unknowns that it shares with others.
 double clock_offset_variance(const InnovationSums& sums, const SharedInformation& covariance,
                              const FixedParameters& fixed);
 

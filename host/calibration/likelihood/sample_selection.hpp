@@ -1,12 +1,27 @@
 #pragma once
 
+#include <cmath>
+#include <cstddef>
+#include <span>
+
 namespace astro::calibration {
 
-/// Which truth samples of a run the filter uses: `first`, and every `stride`-th after it. The others only say
-/// how the robot moved in between.
+/// Which truth samples of a run the filter uses. The others only say how the robot moved in between.
+///
+/// They are chosen by path, not by time: while a robot stands, its tyres hold what they were wound up by, and let go of it at
+/// the restart within hardly any travel. Samples of the stand would pin the pose in between, and what is let go would pass
+/// for slip.
 struct SampleSelection {
-  int stride = 1;
-  int first = 0;  // less than stride
+  double spacing_m = 0;  // of the wheels' path (PreparedRun::path_m); 0: all samples
+  double first_m = 0;    // less than the spacing; 0 takes the first sample
+
+  /// The first sample behind each knot at first_m, first_m + spacing_m, first_m + 2 spacing_m ... of the path.
+  bool takes(std::span<const double> path_m, std::size_t sample) const {
+    if (spacing_m <= 0) return true;
+    if (sample == 0) return first_m <= 0;
+    const auto knot = [&](std::size_t i) { return std::floor((path_m[i] - first_m) / spacing_m); };
+    return knot(sample) > knot(sample - 1);
+  }
 };
 
 }  // namespace astro::calibration

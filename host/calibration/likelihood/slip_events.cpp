@@ -33,7 +33,7 @@ class Moments {
  public:
   Moments(const PreparedRun& run, const Unknowns& u)
       : run_(run),
-        odometry_(dead_reckoned(run, {u[kClockOffset], u[kSkew]}, {u[kCRight], u[kCLeft], u[kB]})),
+        odometry_(dead_reckoned(run, {u[kClockOffset], u[kSkew]}, factors_of(u))),
         period_s_(median_period_s(run.truth)),
         window_s_(std::max(kWindow_s, static_cast<double>(kFewestSamples) * period_s_)) {
     for (std::size_t k = 0; k < run.truth.size(); ++k) {

@@ -9,57 +9,49 @@
 
 #include "host/base/error.hpp"
 #include "host/calibration/motion/tracker_noise.hpp"
-#include "host/calibration/motion/wheel_path.hpp"
+#include "host/calibration/preparation/mounting.hpp"
 #include "host/calibration/preparation/path_alignment.hpp"
+#include "host/calibration/preparation/pieces.hpp"
 #include "host/calibration/preparation/position_lever.hpp"
 #include "host/calibration/preparation/relative_pose.hpp"
+#include "host/calibration/preparation/sessions.hpp"
 
 namespace astro::calibration {
 namespace {
 
-// A piece is long enough to exceed the tracker's noise, and short enough that there are many pieces.
-constexpr double kPiece_m = 0.3, kPiece_rad = 0.5;
 constexpr double kStretch_m = 1;
 constexpr double kLeastTurn_rad = 1;
 constexpr double kTypicalK_m = 2.6e-6;
 
-RelativePose closed_piece(const BodySample& from, const BodySample& to, std::vector<WheelStep> steps) {
-  const double dx = to.x_m - from.x_m, dy = to.y_m - from.y_m;
-  const double c = std::cos(from.theta_rad), s = std::sin(from.theta_rad);
-  return {std::move(steps), c * dx + s * dy, c * dy - s * dx,
-          std::remainder(to.theta_rad - from.theta_rad, 2 * std::numbers::pi)};
-}
-
-void add_pieces(const PreparedRun& run, const ClockFit& clock, double wheelbase_m,
-                std::vector<RelativePose>& pieces) {
-  const WheelPath path(run.source->wheels);
-  std::vector<WheelStep> steps;
-  std::size_t from = 0;
-  double travelled_m = 0, turned_rad = 0, before_s = 0;
-  for (std::size_t i = 0; i < run.truth.size(); ++i) {
-    const double now_s = clock.robot_time_s(run.truth[i].time_s, run.clock_middle_s);
-    if (i > 0)
-      for (const WheelStep& step : wheel_steps(path, before_s, now_s)) {
-        steps.push_back(step);
-        travelled_m += (step.left + step.right) / 2;
-        turned_rad += (step.right - step.left) / wheelbase_m;
-      }
-    before_s = now_s;
-    if (std::abs(travelled_m) < kPiece_m && std::abs(turned_rad) < kPiece_rad) continue;
-    // During a gap of the tracker the robot may have turned by more than half a turn.
-    if (std::abs(turned_rad) < 2.5)
-      pieces.push_back(closed_piece(run.truth[from], run.truth[i], std::move(steps)));
-    steps.clear();
-    from = i;
-    travelled_m = turned_rad = 0;
+std::vector<RelativePose> pieces_of_session(const PreparedRuns& runs, const WheelFactors& loaded,
+                                            int session) {
+  std::vector<RelativePose> all;
+  for (std::size_t i = 0; i < runs.runs.size(); ++i) {
+    if (runs.runs[i].session != session || !runs.runs[i].has_headings) continue;
+    const std::vector<RelativePose> pieces = pieces_of(runs.runs[i], runs.clocks[i], loaded.b_m);
+    all.insert(all.end(), pieces.begin(), pieces.end());
   }
+  return all;
 }
 
-std::optional<RelativePoseFit> closed_form(const PreparedRuns& runs, const WheelFactors& loaded) {
-  std::vector<RelativePose> pieces;
-  for (std::size_t i = 0; i < runs.runs.size(); ++i)
-    if (runs.runs[i].has_headings) add_pieces(runs.runs[i], runs.clocks[i], loaded.b_m, pieces);
-  return fit_relative_poses_trimmed(pieces, 2, 0.02);
+PreparedRuns only_of_session(const PreparedRuns& runs, int session) {
+  PreparedRuns out;
+  for (std::size_t i = 0; i < runs.runs.size(); ++i) {
+    if (runs.runs[i].session != session) continue;
+    out.runs.push_back(runs.runs[i]);
+    out.clocks.push_back(runs.clocks[i]);
+  }
+  return out;
+}
+
+double mean_skew(const PreparedRuns& runs, int session) {
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < runs.runs.size(); ++i) {
+    if (runs.runs[i].session != session) continue;
+    sum += runs.clocks[i].skew;
+    ++count;
+  }
+  return sum / count;
 }
 
 void require_forward(const RelativePoseFit& fit) {
@@ -119,27 +111,40 @@ void require_variety(const PreparedRuns& runs) {
 }
 
 std::vector<Unknowns> start_values(const PreparedRuns& runs, const WheelFactors& loaded) {
-  Unknowns shared = Unknowns::Zero();
-  shared[kCRight] = loaded.c_r;
-  shared[kCLeft] = loaded.c_l;
-  shared[kB] = loaded.b_m;
-  for (const ClockFit& clock : runs.clocks)
-    shared[kSkew] += clock.skew / static_cast<double>(runs.clocks.size());
-  if (const auto fit = closed_form(runs, loaded)) {
-    require_forward(*fit);
-    shared[kCRight] = fit->r_right;
-    shared[kCLeft] = fit->r_left;
-    shared[kB] = fit->b_m;
-    shared[kLeverX] = fit->sensor.x_m;
-    shared[kLeverY] = fit->sensor.y_m;
-    shared[kLeverYaw] = fit->sensor.yaw_rad;
-  } else if (const auto lever = lever_of_positions(runs, loaded)) {
-    shared[kLeverX] = lever->x_m;
-    shared[kLeverY] = lever->y_m;
+  const int sessions = session_count(runs.runs);
+  std::vector<std::vector<RelativePose>> pieces;
+  std::vector<std::optional<RelativePoseFit>> fits;
+  std::optional<RelativePoseFit> best;
+  for (int session = 0; session < sessions; ++session) {
+    pieces.push_back(pieces_of_session(runs, loaded, session));
+    fits.push_back(fit_relative_poses_trimmed(pieces.back(), 2, 0.02));
+    if (fits.back() && (!best || fits.back()->condition < best->condition)) best = fits.back();
   }
-  std::vector<Unknowns> all(runs.runs.size(), shared);
-  for (std::size_t i = 0; i < all.size(); ++i)
-    place_start(runs.runs[i], runs.clocks[i], {shared[kCRight], shared[kCLeft], shared[kB]}, all[i]);
+  WheelFactors factors = loaded;
+  if (best) {
+    require_forward(*best);
+    factors = {best->r_right, best->r_left, best->b_m, loaded.e};
+  }
+  std::vector<Unknowns> of_session;
+  for (int session = 0; session < sessions; ++session) {
+    Unknowns& shared = of_session.emplace_back(Unknowns::Zero());
+    shared.head<kFactors>() << factors.c_r, factors.c_l, factors.b_m, factors.e;
+    shared[kSkew] = mean_skew(runs, session);
+    const auto at = static_cast<std::size_t>(session);
+    std::optional<LeverArm> lever;
+    if (fits[at]) lever = fits[at]->sensor;
+    if (!lever && best) {
+      const TurnRates rates{-best->r_left / best->b_m, best->r_right / best->b_m};
+      if (const auto mounting = mounting_of(pieces[at], rates)) lever = mounting->lever;
+    }
+    if (!lever) lever = lever_of_positions(only_of_session(runs, session), factors);
+    if (lever) shared.segment<3>(kLeverX) << lever->x_m, lever->y_m, lever->yaw_rad;
+  }
+  std::vector<Unknowns> all;
+  for (std::size_t i = 0; i < runs.runs.size(); ++i) {
+    all.push_back(of_session[static_cast<std::size_t>(runs.runs[i].session)]);
+    place_start(runs.runs[i], runs.clocks[i], factors, all.back());
+  }
   return all;
 }
 

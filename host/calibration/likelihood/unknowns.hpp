@@ -2,14 +2,17 @@
 
 #include <Eigen/Core>
 
+#include "host/calibration/motion/wheel_factors.hpp"
+
 /// The unknowns of the maximum-likelihood estimate, in the order of every vector and matrix about them.
 namespace astro::calibration {
 
-/// The first seven are shared by all runs, the next four belong to each run.
+/// The factors are shared by all runs, the lever arm and the skew by the runs of a session, and the others belong to each run.
 enum Unknown : int {
   kCRight,
   kCLeft,
   kB,
+  kE,
   kLeverX,
   kLeverY,
   kLeverYaw,
@@ -18,13 +21,15 @@ enum Unknown : int {
   kStartY,
   kStartTheta,
   kClockOffset,
-  kArcWheelbase,  // the wheelbase in arcs is b (1 + this); it stays zero, only its derivative is used
   kUnknowns
 };
-inline constexpr int kShared = kSkew + 1, kOwn = kClockOffset + 1 - kShared;
+inline constexpr int kFactors = kE + 1, kOfSession = kSkew + 1 - kFactors;
+inline constexpr int kShared = kFactors + kOfSession, kOwn = kUnknowns - kShared;
 
 /// In units of m, rad and s.
 using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 using Information = Eigen::Matrix<double, kUnknowns, kUnknowns>;
+
+inline WheelFactors factors_of(const Unknowns& u) { return {u[kCRight], u[kCLeft], u[kB], u[kE]}; }
 
 }  // namespace astro::calibration

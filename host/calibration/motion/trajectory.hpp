@@ -26,6 +26,8 @@ struct Trajectory {
   std::string name;  // how messages call it: "run square cw 3 (before)"
   std::vector<WheelSample> wheels;
   std::vector<BodySample> truth;
+  std::string session =
+      {};  // runs of equal names share lever arm and clocks; empty: found from the data (sessions.hpp)
 };
 
 /// Pose of the tracked body in the robot frame (x forward, y left, origin midway between the wheels).

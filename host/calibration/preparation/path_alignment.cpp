@@ -30,7 +30,7 @@ std::vector<BodySample> dead_reckoned(const PreparedRun& run, const ClockFit& cl
     const double now_s = clock.robot_time_s(sample.time_s, run.clock_middle_s);
     if (!poses.empty())
       for (const WheelStep& step : wheel_steps(path, before_s, now_s))
-        advance(pose, factors.c_r * step.right, factors.c_l * step.left, factors.b_m);
+        advance(pose, step.right, step.left, factors);
     pose.time_s = sample.time_s;
     poses.push_back(pose);
     before_s = now_s;

@@ -12,6 +12,7 @@
 #include "host/calibration/motion/tracker_noise.hpp"
 #include "host/calibration/motion/wheel_path.hpp"
 #include "host/calibration/preparation/handedness.hpp"
+#include "host/calibration/preparation/sessions.hpp"
 
 namespace astro::calibration {
 namespace {
@@ -22,7 +23,9 @@ constexpr double kLongestPause_s = 3600;
 constexpr double kLongestWheelGap_s = 0.3, kWheelGapMotion_m = 0.01;
 // A drive with less than both was a push, not a drive.
 constexpr double kShortestDrive_m = 0.2, kSmallestTurn_rad = 0.5;
-constexpr double kLeastCorrelation = 0.5, kLeastLikeness = 0.9, kSurelyRight = 0.9;
+constexpr double kLeastCorrelation = 0.5, kLeastLikeness = 0.9;
+// With the skew of the runs before: if a run fits worse than this, or than they did by so much, its clock may have been set up anew.
+constexpr double kSurelyRight = 0.9, kNotWorse = 0.04;
 // Truth beyond the ends of the odometry would count as standing still, so truth within the error of the clock
 // offset from these ends is not used.
 constexpr double kMargin_s = 0.02;
@@ -142,6 +145,29 @@ double net_rotation_rad(const PreparedRun& run, const WheelPath& path, const Clo
   return sum_rad;
 }
 
+/// A standing wheel may flicker between two counts for minutes; that is no way.
+constexpr double kFlicker_m = 2e-3;
+
+/// The way of the wheels to each sample of truth, the mean of both. In a spin it grows as well.
+std::vector<double> way_of_wheels(const PreparedRun& run, const ClockFit& clock) {
+  const WheelPath path(run.source->wheels);
+  std::vector<double> way_m;
+  WheelState counted;
+  double sum_m = 0;
+  for (const BodySample& sample : run.truth) {
+    const WheelState now = path.at(clock.robot_time_s(sample.time_s, run.clock_middle_s));
+    if (way_m.empty()) counted = now;
+    const double moved_m =
+        (std::abs(now.left_m - counted.left_m) + std::abs(now.right_m - counted.right_m)) / 2;
+    if (moved_m > kFlicker_m) {
+      sum_m += moved_m;
+      counted = now;
+    }
+    way_m.push_back(sum_m);
+  }
+  return way_m;
+}
+
 void classify_motion(PreparedRun& run, const ClockFit& clock, const WheelFactors& factors) {
   const WheelPath path(run.source->wheels);
   WheelState before;
@@ -172,9 +198,11 @@ void require_motion(const PreparedRun& run) {
                 {Help::leave_out_or_drive_more});
 }
 
-ClockFit clock_of(const Trajectory& run, const WheelFactors& loaded, std::optional<double> skew) {
-  const ClockFit clock = search_clock(run, loaded.b_m, skew);
-  if (!skew || clock.correlation >= kSurelyRight) return clock;
+/// `before`: the clock of a run before, of which the skew is taken if it fits.
+ClockFit clock_of(const Trajectory& run, const WheelFactors& loaded, const std::optional<ClockFit>& before) {
+  if (!before) return search_clock(run, loaded.b_m, {});
+  const ClockFit clock = search_clock(run, loaded.b_m, before->skew);
+  if (clock.correlation >= std::max(kSurelyRight, before->correlation - kNotWorse)) return clock;
   const ClockFit anew = search_clock(run, loaded.b_m, {});
   return anew.correlation > clock.correlation ? anew : clock;
 }
@@ -221,27 +249,29 @@ PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& loade
                      Density density) {
   if (runs.empty()) throw Error("there are no runs to calibrate from");
   PreparedRuns prepared;
-  std::optional<double> skew;
+  std::optional<ClockFit> before;
   for (const Trajectory& run : runs) {
     require_samples(run);
     ClockFit clock;
     if (!clock_known) {
-      clock = clock_of(run, loaded, skew);
+      clock = clock_of(run, loaded, before);
       if (is_blind_spin(run, clock, loaded.b_m)) {
         prepared.left_out.push_back(why_blind(run));
         continue;
       }
       require_clock(run, clock);
-      skew = clock.skew;
+      before = clock;
     }
     PreparedRun ready = cropped(run, clock, density);
     classify_motion(ready, clock, loaded);
+    ready.path_m = way_of_wheels(ready, clock);
     require_motion(ready);
     require_handedness(ready, clock, loaded);
     prepared.runs.push_back(std::move(ready));
     prepared.clocks.push_back(clock);
   }
   if (prepared.runs.empty()) throw Error(prepared.left_out.front());
+  find_sessions(prepared, loaded);
   return prepared;
 }
 

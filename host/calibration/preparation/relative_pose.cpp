@@ -10,39 +10,6 @@
 namespace astro::calibration {
 namespace {
 
-// Heading per unit of travel of each wheel.
-struct TurnRates {
-  double left = 0, right = 0;
-};
-
-// Displacement of the robot, in wheelbases, and how far it turned.
-struct Displacement {
-  double x_m = 0, y_m = 0, theta_rad = 0;
-};
-
-Displacement displacement(const RelativePose& piece, const TurnRates& rates) {
-  Displacement at;
-  for (const WheelStep& step : piece.steps) {
-    advance(at, rates.right * step.right, -rates.left * step.left, 1);
-  }
-  return at;
-}
-
-std::optional<TurnRates> fit_headings(std::span<const RelativePose> pieces) {
-  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d right_side = Eigen::Vector2d::Zero();
-  for (const RelativePose& piece : pieces) {
-    Eigen::Vector2d travel = Eigen::Vector2d::Zero();
-    for (const WheelStep& step : piece.steps) travel += Eigen::Vector2d(step.left, step.right);
-    normal += travel * travel.transpose();
-    right_side += travel * piece.theta_rad;
-  }
-  // Straight pieces alone do not determine the sum of both, spins alone not the difference.
-  if (!(normal.determinant() > 1e-9 * normal.trace() * normal.trace())) return {};
-  const Eigen::Vector2d rates = normal.inverse() * right_side;
-  return TurnRates{rates[0], rates[1]};
-}
-
 // The displacements as 0 = row * (b, x, y, cos yaw, sin yaw), two rows a piece.
 Eigen::Matrix<double, 5, 5> displacement_normal(std::span<const RelativePose> pieces,
                                                 const TurnRates& rates) {
@@ -92,6 +59,28 @@ std::vector<RelativePose> without_worst(std::vector<RelativePose> pieces, const 
 
 }  // namespace
 
+Displacement displacement(const RelativePose& piece, const TurnRates& rates) {
+  Displacement at;
+  for (const WheelStep& step : piece.steps)
+    advance(at, rates.right * step.right, -rates.left * step.left, 1.0);
+  return at;
+}
+
+std::optional<TurnRates> fit_headings(std::span<const RelativePose> pieces) {
+  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d right_side = Eigen::Vector2d::Zero();
+  for (const RelativePose& piece : pieces) {
+    Eigen::Vector2d travel = Eigen::Vector2d::Zero();
+    for (const WheelStep& step : piece.steps) travel += Eigen::Vector2d(step.left, step.right);
+    normal += travel * travel.transpose();
+    right_side += travel * piece.theta_rad;
+  }
+  // Straight pieces alone do not determine the sum of both, spins alone not the difference.
+  if (!(normal.determinant() > 1e-9 * normal.trace() * normal.trace())) return {};
+  const Eigen::Vector2d rates = normal.inverse() * right_side;
+  return TurnRates{rates[0], rates[1]};
+}
+
 std::optional<RelativePoseFit> fit_relative_poses(std::span<const RelativePose> pieces) {
   if (pieces.size() < 3) return {};
   const std::optional<TurnRates> rates = fit_headings(pieces);
@@ -101,7 +90,8 @@ std::optional<RelativePoseFit> fit_relative_poses(std::span<const RelativePose> 
   const Eigen::Matrix3d inverse = free.inverse();
   // An inverse by cofactors loses as many digits as the condition number has. Half of them are left at this one.
   constexpr double kWorstCondition = 1e8;
-  if (!(norm(free) * norm(inverse) < kWorstCondition)) return {};
+  const double condition = norm(free) * norm(inverse);
+  if (!(condition < kWorstCondition)) return {};
   const Eigen::Matrix<double, 3, 2> mixed = normal.topRightCorner<3, 2>();
   const Eigen::Matrix<double, 3, 2> solved = inverse * mixed;
   const Eigen::Matrix2d reduced = normal.bottomRightCorner<2, 2>() - mixed.transpose() * solved;
@@ -114,7 +104,8 @@ std::optional<RelativePoseFit> fit_relative_poses(std::span<const RelativePose> 
   return RelativePoseFit{-rates->left * rest[0],
                          rates->right * rest[0],
                          rest[0],
-                         {rest[1], rest[2], std::atan2(yaw[1], yaw[0])}};
+                         {rest[1], rest[2], std::atan2(yaw[1], yaw[0])},
+                         condition};
 }
 
 std::optional<RelativePoseFit> fit_relative_poses_trimmed(std::span<const RelativePose> pieces, int rounds,

@@ -26,7 +26,22 @@ struct RelativePose {
 struct RelativePoseFit {
   double r_left = 0, r_right = 0, b_m = 0;
   LeverArm sensor;
+  double condition = 1;  // of the equations for b and the lever arm: the larger, the less the pieces tell
 };
+
+/// Heading per unit of travel of each wheel: that of the left one is negative.
+struct TurnRates {
+  double left = 0, right = 0;
+};
+
+/// Nothing if the pieces do not determine both: straight ones alone, or spins alone. Where the sensor sits has no effect.
+std::optional<TurnRates> fit_headings(std::span<const RelativePose> pieces);
+
+/// Displacement of the robot in wheelbases, and how far it turned.
+struct Displacement {
+  double x_m = 0, y_m = 0, theta_rad = 0;
+};
+Displacement displacement(const RelativePose& piece, const TurnRates& rates);
 
 /// Two linear least squares: headings give r / b of each wheel; the displacements, which are linear in b, in
 /// the lever arm and in the sine and cosine of its yaw, then give the rest as the eigenvector of the smaller

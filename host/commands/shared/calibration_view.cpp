@@ -114,8 +114,8 @@ std::string verdict_text(const MlResult& ml) {
 
 std::string ml_text(const MlResult& ml) {
   std::string text;
-  for (const std::string& sentence :
-       {experiment::lever_sentence(ml), experiment::clock_sentence(ml), experiment::noise_sentence(ml)})
+  for (const std::string& sentence : {experiment::lever_sentence(ml), experiment::clock_sentence(ml),
+                                      experiment::wheelbase_sentence(ml), experiment::noise_sentence(ml)})
     text += console::wrapped(sentence);
   text += '\n' + runs_text(ml) + '\n' + motions_text(ml.estimate) + '\n';
   text += verdict_text(ml);

@@ -55,15 +55,23 @@ nlohmann::json lever_json(const calibration::LeverArm& lever) {
 
 nlohmann::json matrix_json(const calibration::FactorCovariance& covariance) {
   nlohmann::json rows = nlohmann::json::array();
-  for (int i = 0; i < 3; ++i) rows.push_back({covariance(i, 0), covariance(i, 1), covariance(i, 2)});
+  for (int i = 0; i < covariance.rows(); ++i)
+    rows.push_back({covariance(i, 0), covariance(i, 1), covariance(i, 2), covariance(i, 3)});
   return rows;
 }
 
-nlohmann::json agreement_json(const std::optional<calibration::WheelbaseByKind>& wheelbase) {
-  if (!wheelbase) return {};
-  return {{"arc_over_spin", number(wheelbase->arc_over_spin)},
-          {"standard_error", number(wheelbase->standard_error)},
-          {"disagrees", wheelbase->disagrees}};
+nlohmann::json curvature_json(const std::optional<calibration::CurvatureEffect>& curvature) {
+  if (!curvature) return {};
+  return {{"e", number(curvature->e)},
+          {"standard_error", number(curvature->standard_error)},
+          {"estimated", curvature->estimated}};
+}
+
+nlohmann::json session_json(const calibration::SessionFit& session) {
+  return {{"lever_arm", lever_json(session.lever)},
+          {"lever_arm_se", lever_json(session.lever_se)},
+          {"clock_skew", number(session.clock_skew)},
+          {"clock_skew_se", number(session.clock_skew_se)}};
 }
 
 }  // namespace
@@ -71,27 +79,25 @@ nlohmann::json agreement_json(const std::optional<calibration::WheelbaseByKind>&
 nlohmann::json to_json(const MlResult& ml) {
   const calibration::MlEstimate& estimate = ml.estimate;
   nlohmann::json json = {
-      {"covariance", {{"of", {"c_R", "c_L", "b_m"}}, {"matrix", matrix_json(estimate.covariance)}}},
+      {"covariance", {{"of", {"c_R", "c_L", "b_m", "e"}}, {"matrix", matrix_json(estimate.covariance)}}},
       {"b_over_scale_m", estimate.factors.b_m / estimate.scale()},
       {"b_over_scale_se_m", number(estimate.se.b_over_scale_m)},
-      {"lever_arm", lever_json(estimate.lever)},
-      {"lever_arm_se", lever_json(estimate.lever_se)},
-      {"clock",
-       {{"known", ml.options.clock_known},
-        {"skew", number(estimate.clock_skew)},
-        {"skew_se", number(estimate.clock_skew_se)}}},
+      {"clock_known", ml.options.clock_known},
       {"noise",
        {{"given", ml.options.noise.has_value()},
         {"K_m", estimate.noise.K_m},
         {"sigma_xy_m", estimate.noise.sigma_xy_m},
         {"sigma_theta_rad", number(estimate.noise.sigma_theta_rad)}}},
-      {"thinned_to_s", estimate.thinned_to_s},
+      {"spacing_m", estimate.spacing_m},
       {"chi_square", number(estimate.chi_square)},
       {"degrees_of_freedom", estimate.degrees_of_freedom},
       {"dispersion", number(estimate.dispersion)},
       {"iterations", estimate.iterations},
-      {"wheelbase_by_motion", agreement_json(estimate.wheelbase_by_kind)},
+      {"curvature", curvature_json(estimate.curvature)},
       {"remarks", remark_facts(ml)}};
+  json["sessions"] = nlohmann::json::array();
+  for (const calibration::SessionFit& session : estimate.sessions)
+    json["sessions"].push_back(session_json(session));
   json["runs"] = nlohmann::json::array();
   for (const calibration::RunFit& run : estimate.runs) json["runs"].push_back(run_json(run));
   json["motions"] = nlohmann::json::array();

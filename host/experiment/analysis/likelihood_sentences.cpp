@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "host/base/text/degrees.hpp"
 #include "host/base/text/shown.hpp"
@@ -20,6 +22,24 @@ std::string capitalised(std::string remark, const std::vector<calibration::RunFi
   if (!named && !remark.empty() && remark[0] >= 'a' && remark[0] <= 'z')
     remark[0] = static_cast<char>(remark[0] - 'a' + 'A');
   return remark;
+}
+
+std::string place_text(const calibration::SessionFit& session) {
+  const calibration::LeverArm &lever = session.lever, &se = session.lever_se;
+  std::string text = fmt::format("x {} mm, y {} mm", with_error(1000 * lever.x_m, 1000 * se.x_m, 2),
+                                 with_error(1000 * lever.y_m, 1000 * se.y_m, 2));
+  if (std::isfinite(lever.yaw_rad))
+    text += fmt::format(", yaw {}°", with_error(degrees(lever.yaw_rad), degrees(se.yaw_rad), 3));
+  return text;
+}
+
+/// The runs of a session: "run 1 and run 2", or the first and how many more.
+std::string runs_text(const MlResult& ml, int session) {
+  std::vector<std::string> names;
+  for (const calibration::RunFit& run : ml.estimate.runs)
+    if (run.session == session) names.push_back(run.name);
+  if (names.size() > 2) return fmt::format("{} and {} more", names.front(), names.size() - 1);
+  return fmt::format("{}", fmt::join(names, " and "));
 }
 
 }  // namespace
@@ -42,47 +62,73 @@ std::string extent_sentence(const MlResult& ml) {
 }
 
 std::string lever_sentence(const MlResult& ml) {
-  const calibration::LeverArm &lever = ml.estimate.lever, &se = ml.estimate.lever_se;
-  std::string text =
-      fmt::format("The tracked body sits at x {} mm, y {} mm", with_error(1000 * lever.x_m, 1000 * se.x_m, 2),
-                  with_error(1000 * lever.y_m, 1000 * se.y_m, 2));
-  if (std::isfinite(lever.yaw_rad))
-    text += fmt::format(", yaw {}°", with_error(degrees(lever.yaw_rad), degrees(se.yaw_rad), 3));
-  return text + " on the robot (x ahead, y left of the midpoint between the wheels).";
+  const auto& sessions = ml.estimate.sessions;
+  if (sessions.size() == 1)
+    return "The tracked body sits at " + place_text(sessions.front()) +
+           " on the robot (x ahead, y left of the midpoint between the wheels).";
+  std::string text = fmt::format(
+      "The drives are of {} sessions, between which the tracked body or the clocks were set up anew. On the "
+      "robot (x ahead, y "
+      "left of the midpoint between the wheels) it sits",
+      sessions.size());
+  for (std::size_t i = 0; i < sessions.size(); ++i)
+    text += fmt::format("{} in {} at {}",
+                        i == 0                     ? ""
+                        : i + 1 == sessions.size() ? " and"
+                                                   : ",",
+                        runs_text(ml, static_cast<int>(i)), place_text(sessions[i]));
+  return text + '.';
 }
 
 std::string clock_sentence(const MlResult& ml) {
   if (ml.options.clock_known) return "The times of the ground truth are taken for the robot's own.";
+  std::vector<std::string> rates;
+  for (const calibration::SessionFit& session : ml.estimate.sessions)
+    rates.push_back(fmt::format(
+        "{} ppm {}", with_error(1e6 * std::abs(session.clock_skew), 1e6 * session.clock_skew_se, 1),
+        session.clock_skew < 0 ? "slower" : "faster"));
   return fmt::format(
-      "The robot's clock runs {} ppm {} than that of the ground truth; the offset was found for each run.",
-      with_error(1e6 * std::abs(ml.estimate.clock_skew), 1e6 * ml.estimate.clock_skew_se, 1),
-      ml.estimate.clock_skew < 0 ? "slower" : "faster");
+      "The robot's clock runs {} than that of the ground truth{}; the offset was found for each run.",
+      fmt::join(rates, " and "), rates.size() > 1 ? ", in the order of the sessions" : "");
+}
+
+std::string wheelbase_sentence(const MlResult& ml) {
+  const auto& curvature = ml.estimate.curvature;
+  if (!curvature)
+    return "Whether gentle arcs turn about another wheelbase than spins these drives hardly show; squares "
+           "and circles together "
+           "would.";
+  const std::string e = with_error(curvature->e, curvature->standard_error, 4);
+  if (!curvature->estimated)
+    return fmt::format(
+        "Gentle arcs and spins turn about the same wheelbase, as far as the drives show (e = {}).", e);
+  const calibration::WheelFactors& factors = ml.estimate.factors;
+  return fmt::format("Spins turn about b = {:.3f} mm, gentle arcs about {:.3f} mm: e = {}.",
+                     1000 * factors.b_m, 1000 * factors.b_m * (1 + factors.e), e);
 }
 
 std::string noise_sentence(const MlResult& ml) {
   const calibration::NoiseModel& noise = ml.estimate.noise;
-  const bool headings = std::isfinite(ml.estimate.lever.yaw_rad);
+  const bool headings = std::isfinite(ml.estimate.sessions.front().lever.yaw_rad);
   std::string text =
       fmt::format("Noise, {}: wheel slip K = {:.3g} m; ground truth {:.3g} mm",
                   ml.options.noise ? "given" : "estimated", noise.K_m, 1000 * noise.sigma_xy_m);
   if (headings) text += fmt::format(" and {:.3g} mrad", 1000 * noise.sigma_theta_rad);
   text += fmt::format(" a sample. Chi-square per degree of freedom: {:.2f}.",
                       ml.estimate.chi_square / std::max(1, ml.estimate.degrees_of_freedom));
-  if (ml.estimate.thinned_to_s > 0)
+  if (ml.estimate.spacing_m > 0)
     text += fmt::format(
-        " Ground truth was taken every {:.2g} s: closer samples share errors that come and go (wheels out of "
+        " Ground truth was taken every {:.2g} m of the wheels' way: closer samples share errors that come "
+        "and go (wheels out of "
         "round, tyres that give, times that jitter).",
-        ml.estimate.thinned_to_s);
+        ml.estimate.spacing_m);
   return text;
 }
 
 std::vector<Remark> verdict(const MlResult& ml) {
   std::vector<Remark> remarks = calibration::remarks(ml.estimate, ml.options.noise.has_value());
   for (Remark& remark : remarks) remark.fact = capitalised(std::move(remark.fact), ml.estimate.runs);
-  if (remarks.empty())
-    remarks.push_back({ml.estimate.wheelbase_by_kind
-                           ? "The runs agree with each other, and so do arcs and spins about the wheelbase"
-                           : "The runs agree with each other"});
+  if (remarks.empty()) remarks.push_back({"The runs agree with each other"});
   return remarks;
 }
 

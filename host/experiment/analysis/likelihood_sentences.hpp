@@ -12,11 +12,14 @@ namespace astro::experiment {
 /// The number of runs, their distance and their rotation.
 std::string extent_sentence(const MlResult& ml);
 
-/// The lever arm of the tracked body.
+/// The lever arm of the tracked body, in each session.
 std::string lever_sentence(const MlResult& ml);
 
 /// The clock of the truth: known, or its skew.
 std::string clock_sentence(const MlResult& ml);
+
+/// Whether gentle arcs turn about another wheelbase than spins.
+std::string wheelbase_sentence(const MlResult& ml);
 
 /// The noise, given or estimated, and how well it explains the runs.
 std::string noise_sentence(const MlResult& ml);

@@ -51,7 +51,8 @@ std::string ml_text(const MlResult& ml) {
       extent_sentence(ml) +
       " All recordings up to then count, not only the squares. The factors are absolute: they refer to "
       "the nominal wheel, whatever was loaded in the robot while it drove.\n\n" +
-      lever_sentence(ml) + ' ' + clock_sentence(ml) + "\n\n" + noise_sentence(ml) + "\n\n";
+      lever_sentence(ml) + ' ' + clock_sentence(ml) + "\n\n" + wheelbase_sentence(ml) + ' ' +
+      noise_sentence(ml) + "\n\n";
   for (const Remark& remark : verdict(ml)) text += remark.fact + ". ";
   return text;
 }

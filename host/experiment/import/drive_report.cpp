@@ -86,8 +86,8 @@ report::ReportInput outline(const RunSet& set, const Calibration& found, const s
   input.parameters = {{"c_R", "", found.loaded.c_r, factors.c_r, se.c_r},
                       {"c_L", "", found.loaded.c_l, factors.c_l, se.c_l},
                       {"b", "m", found.loaded.b_m, factors.b_m, se.b_m}};
-  input.method =
-      extent_sentence(ml) + ' ' + lever_sentence(ml) + ' ' + clock_sentence(ml) + "\n\n" + noise_sentence(ml);
+  input.method = extent_sentence(ml) + ' ' + lever_sentence(ml) + ' ' + clock_sentence(ml) + "\n\n" +
+                 wheelbase_sentence(ml) + ' ' + noise_sentence(ml);
   return input;
 }
 

@@ -45,6 +45,11 @@ Counts counts_of(const std::vector<Unit>& units, const std::vector<int>& numbers
   return counts;
 }
 
+/// About c_R, c_L and b.
+Matrix3d information_of(const Forecast& forecast) {
+  return forecast.covariance.topLeftCorner<3, 3>().inverse();
+}
+
 /// Time and information of a unit are what it adds to a programme with one unit of every kind.
 std::vector<Unit> units_of(const std::vector<Kind>& kinds, const Programme& sizes) {
   std::vector<Unit> units;
@@ -56,7 +61,7 @@ std::vector<Unit> units_of(const std::vector<Kind>& kinds, const Programme& size
     const Forecast more = forecast(sizes.with(counts_of(units, numbers)));
     numbers[i] = 1;
     units[i].time_s = more.driving_time_s - base.driving_time_s;
-    units[i].information = more.covariance.inverse() - base.covariance.inverse();
+    units[i].information = information_of(more) - information_of(base);
   }
   return units;
 }
@@ -91,7 +96,9 @@ class Search {
     }
     const Matrix3d covariance = information.inverse();
     if (!covariance.allFinite() || !(covariance.diagonal().minCoeff() > 0)) return kTargetMissed;
-    const calibration::MlErrors se = errors_of(covariance, nominal_);
+    calibration::FactorCovariance all = calibration::FactorCovariance::Zero();
+    all.topLeftCorner<3, 3>() = covariance;
+    const calibration::MlErrors se = errors_of(all, nominal_);
     const bool met = excess({se.E_d, se.scale, se.b_m / nominal_.b_m}, target_) <= 1;
     return met ? time_s : kTargetMissed;
   }

@@ -31,7 +31,8 @@ Mean mean_of(std::size_t count, Read read) {
 }
 
 std::vector<Errors> draws_from(const FactorCovariance& covariance, const TrialSetup& setup) {
-  const Eigen::Matrix3d root = covariance.llt().matrixL();
+  const Eigen::Matrix3d of_three = covariance.topLeftCorner<3, 3>();
+  const Eigen::Matrix3d root = of_three.llt().matrixL();
   const WheelFactors actual = setup.actual();
   std::mt19937_64 random(derived_seed(setup.seed, kDrawSeed));
   std::normal_distribution<double> normal;

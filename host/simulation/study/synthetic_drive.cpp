@@ -58,7 +58,10 @@ class Drive {
                                  angle > 0 ? model_.yaw_rate_radps / angle : 1e9);
     const double acceleration = std::min(length > 0 ? model_.acceleration_mps2 / length : 1e9,
                                          angle > 0 ? model_.yaw_acceleration_radps2 / angle : 1e9);
-    const double half_track_m = leg.angle_rad * model_.loaded.b_m / 2;
+    const double spin_m = leg.angle_rad * model_.loaded.b_m / 2;
+    const double about_m =
+        calibration::effective_wheelbase_m(leg.length_m + spin_m, leg.length_m - spin_m, model_.loaded);
+    const double half_track_m = leg.angle_rad * about_m / 2;
     double before = 0;
     for (double t = kStep_s; before < 1; t += kStep_s) {
       const double now = covered(t, rate, acceleration);
@@ -80,10 +83,23 @@ class Drive {
     left_m_ += left_m;
     right_m_ += right_m;
     if (left_m != 0 || right_m != 0) {
+      // The curvature is that of the wheels. Their slip in one step, a part of the way of a step in itself, is no curve.
+      const double about_m = calibration::effective_wheelbase_m(model_.actual.c_r * right_m,
+                                                                model_.actual.c_l * left_m, model_.actual);
       const double l = slipped(model_.actual.c_l, left_m), r = slipped(model_.actual.c_r, right_m);
-      calibration::advance(pose_, r, l, model_.actual.b_m);
+      calibration::advance(pose_, r, l, about_m);
+      if (model_.windup_rad != 0) wind_up(left_m, right_m);
     }
     keep();
+  }
+
+  void wind_up(double left_m, double right_m) {
+    constexpr double kWithin_m = 3e-3;
+    const double way_m = (std::abs(left_m) + std::abs(right_m)) / 2;
+    const double target_rad = model_.windup_rad * (right_m - left_m) / (2 * way_m);
+    const double change_rad = (target_rad - wound_rad_) * -std::expm1(-way_m / kWithin_m);
+    wound_rad_ += change_rad;
+    pose_.theta_rad -= change_rad;
   }
 
   void keep() {
@@ -95,7 +111,7 @@ class Drive {
   const DriveModel& model_;
   std::mt19937_64 random_;
   std::normal_distribution<double> normal_;
-  double left_m_ = 0, right_m_ = 0;
+  double left_m_ = 0, right_m_ = 0, wound_rad_ = 0;
   Pose pose_;
   Track track_;
 };
@@ -158,8 +174,8 @@ Pose mean_truth(const std::vector<BodySample>& truth, double from_s, double to_s
 Pose dead_reckoned(const std::vector<WheelSample>& wheels, const WheelFactors& loaded) {
   Pose pose;
   for (std::size_t i = 1; i < wheels.size(); ++i)
-    calibration::advance(pose, loaded.c_r * (wheels[i].right_m - wheels[i - 1].right_m),
-                         loaded.c_l * (wheels[i].left_m - wheels[i - 1].left_m), loaded.b_m);
+    calibration::advance(pose, wheels[i].right_m - wheels[i - 1].right_m,
+                         wheels[i].left_m - wheels[i - 1].left_m, loaded);
   return pose;
 }
 

@@ -36,6 +36,9 @@ Course circle_course(double radius_m, double angle_rad, double rest_s = 1);
 struct DriveModel {
   calibration::WheelFactors loaded;  // loaded in the robot: by these it follows the course
   calibration::WheelFactors actual;  // the true ones
+  /// What tyres and castor hold back of the heading in a spin, also while the robot stands after it, and let go within
+  /// millimetres of the next line.
+  double windup_rad = 0;
   calibration::NoiseModel noise;
   calibration::LeverArm lever;
   double speed_mps = 0.3, acceleration_mps2 = 0.5;

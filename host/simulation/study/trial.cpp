@@ -22,7 +22,7 @@ constexpr double kLineLength_m = 10;
 
 double line_miss_m(const WheelFactors& loaded, const WheelFactors& actual) {
   EndPose end;
-  advance(end, kLineLength_m * actual.c_r / loaded.c_r, kLineLength_m * actual.c_l / loaded.c_l, actual.b_m);
+  advance(end, kLineLength_m / loaded.c_r, kLineLength_m / loaded.c_l, actual);
   return std::hypot(end.x_m - kLineLength_m, end.y_m);
 }
 
@@ -51,7 +51,8 @@ WheelFactors by_end_poses(const TrialSetup& setup, const EndErrors& ends,
 double normalised_square(const calibration::MlEstimate& estimate, const WheelFactors& actual) {
   const Eigen::Vector3d error(estimate.factors.c_r - actual.c_r, estimate.factors.c_l - actual.c_l,
                               estimate.factors.b_m - actual.b_m);
-  return error.dot(estimate.covariance.ldlt().solve(error));
+  const Eigen::Matrix3d covariance = estimate.covariance.topLeftCorner<3, 3>();
+  return error.dot(covariance.ldlt().solve(error));
 }
 
 }  // namespace

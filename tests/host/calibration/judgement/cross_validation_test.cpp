@@ -212,7 +212,8 @@ TEST(CrossValidation, JudgesByFactorsThatAWholeEstimateWithoutTheDriveWouldFind)
     ASSERT_EQ(judged.runs.size(), drives.size());
     MlOptions with_noise = options;
     with_noise.noise = all.noise;
-    with_noise.stride = all.stride;
+    with_noise.spacing_m = all.spacing_m;
+    with_noise.with_e = all.factors.e != 0;
     double worst = 0;
     for (std::size_t i = 0; i < drives.size(); ++i) {
       std::vector<Trajectory> others = drives;

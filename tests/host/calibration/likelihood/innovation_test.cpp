@@ -36,8 +36,8 @@ Scene scene(bool headings) {
   scene.trajectory = simulation::study::synthetic_drive(course, model, "run", kSeed);
   scene.run = prepare(std::vector{scene.trajectory}, model.loaded, true, Density::all).runs.front();
   scene.run.source = &scene.trajectory;
-  scene.unknowns << model.actual.c_r, model.actual.c_l, model.actual.b_m, 0.03, -0.02, 0.4, 0.001, 0.1, 0.2,
-      0.3, 0.002, 0;
+  scene.unknowns << model.actual.c_r, model.actual.c_l, model.actual.b_m, 0.02, 0.03, -0.02, 0.4, 0.001, 0.1,
+      0.2, 0.3, 0.002;
   scene.noise = model.noise;
   return scene;
 }
@@ -57,7 +57,8 @@ Vector body_path(const Scene& scene, const Unknowns& u, const Vector& slip_m) {
     if (i > 0) {
       const double left = u[kCLeft] * (now.left_m - before.left_m) + slip_m[2 * i];
       const double right = u[kCRight] * (now.right_m - before.right_m) + slip_m[2 * i + 1];
-      const double turn = (right - left) / u[kB], middle = theta + turn / 2;
+      const double curve = std::abs(right - left) / (std::abs(right + left) / 2) / 0.12;
+      const double turn = (right - left) / (u[kB] * (1 + u[kE] / (1 + curve))), middle = theta + turn / 2;
       const double chord = (left + right) / 2 * (std::abs(turn) < 1e-9 ? 1 : std::sin(turn / 2) / (turn / 2));
       x += chord * std::cos(middle);
       y += chord * std::sin(middle);
@@ -119,10 +120,8 @@ TEST_P(Innovations, CarryTheInformationOfTheWholeDriveAtOnce) {
   });
   const Matrix dense = by.transpose() * dense_covariance(scene).ldlt().solve(by);
   const Matrix filtered = expected_information(Moves(scene.run, scene.unknowns), scene.noise);
-  const int count =
-      GetParam() ? kArcWheelbase : kClockOffset + 1;  // the wheelbase of arcs is in no model here
-  for (int i = 0; i < count; ++i)
-    for (int k = 0; k < count; ++k) {
+  for (int i = 0; i < kUnknowns; ++i)
+    for (int k = 0; k < kUnknowns; ++k) {
       if (!GetParam() && (i == kLeverYaw || k == kLeverYaw)) continue;
       // Finite differences of steps of 1e-6 leave some 1e-6 of each entry; the wheels' rate is a cubic's.
       const double size = std::sqrt(dense(i, i) * dense(k, k));

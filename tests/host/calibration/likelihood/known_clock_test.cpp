@@ -21,7 +21,7 @@ TEST(KnownClock, IsNotEstimatedHoweverMuchTheDataWouldLikeIt) {
   known.clock_known = true;
   const std::vector<Trajectory> late = late_squares(0.005);
   const MlEstimate held = estimate_ml(late, quiet_drive().loaded, known);
-  EXPECT_EQ(held.clock_skew, 0);
+  EXPECT_EQ(held.sessions.front().clock_skew, 0);
   for (const RunFit& run : held.runs) EXPECT_EQ(run.clock_offset_s, 0) << run.name;
   const MlEstimate free = estimate_ml(late, quiet_drive().loaded);
   for (const RunFit& run : free.runs) EXPECT_NEAR(run.clock_offset_s, 0.005, 1e-4) << run.name;

@@ -93,7 +93,7 @@ TEST_F(Ml, IsTheDefaultAndTellsAllThatItFound) {
   EXPECT_NEAR(json["runs"][0]["distance_m"].get<double>(), 4, 0.05);
   EXPECT_GE(json["motions"].size(), 3U);
   EXPECT_TRUE(json["remarks"].is_array());
-  EXPECT_TRUE(json["lever_arm"]["yaw_rad"].is_number());
+  EXPECT_TRUE(json["sessions"][0]["lever_arm"]["yaw_rad"].is_number());
 }
 
 TEST_F(Ml, IsReadableOnEightyColumns) {

@@ -75,7 +75,8 @@ TEST(TrackerOnTheNetwork, GivesTheFactorsThatTheSimulatorsOwnTruthGives) {
     EXPECT_LE(std::abs(by_natnet), 0.5 * error) << factor;
   }
   for (const auto& [axis, true_m] : {std::pair{"x_m", 0.08}, {"y_m", -0.03}})
-    EXPECT_NEAR(vrpn["lever_arm"][axis].get<double>(), true_m, 4 * vrpn["lever_arm_se"][axis].get<double>())
+    EXPECT_NEAR(vrpn["sessions"][0]["lever_arm"][axis].get<double>(), true_m,
+                4 * vrpn["sessions"][0]["lever_arm_se"][axis].get<double>())
         << axis;
 }
 

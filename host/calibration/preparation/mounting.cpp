@@ -1,0 +1,57 @@
+#include "host/calibration/preparation/mounting.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace astro::calibration {
+namespace {
+
+// A prior of 1 m, in units of the residuals, keeps what a drive does not show finite.
+constexpr double kWide_m = 1;
+// Residuals of pieces are a few millimetres. With hardly more pieces than unknowns they may come out smaller by chance.
+constexpr double kLeastResidual_m = 5e-4;
+
+using Row = Eigen::Matrix<double, 1, 4>;
+
+}  // namespace
+
+std::optional<Mounting> mounting_of(std::span<const RelativePose> pieces, const TurnRates& rates) {
+  const double b_m = 2 / (rates.right - rates.left);
+  Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d right_side = Eigen::Vector4d::Zero();
+  double squares_m2 = 0, displaced_m2 = 0;
+  // b d = (1 - R) l + R(yaw) p, with the robot's displacement d in wheelbases and that of the body p.
+  const auto add = [&](const Row& row, double value) {
+    normal += row.transpose() * row;
+    right_side += row.transpose() * value;
+    squares_m2 += value * value;
+  };
+  for (const RelativePose& piece : pieces) {
+    const Displacement robot = displacement(piece, rates);
+    const double c = std::cos(robot.theta_rad), s = std::sin(robot.theta_rad);
+    add({1 - c, s, piece.x_m, -piece.y_m}, b_m * robot.x_m);
+    add({-s, 1 - c, piece.y_m, piece.x_m}, b_m * robot.y_m);
+    displaced_m2 += b_m * b_m * (robot.x_m * robot.x_m + robot.y_m * robot.y_m);
+  }
+  const double rows = 2 * static_cast<double>(pieces.size());
+  // A robot that only spun shows the length of the lever arm, but not its direction.
+  if (rows < 6 || displaced_m2 < kWide_m * kWide_m * 0.01) return {};
+  const Eigen::LDLT<Eigen::Matrix4d> ldlt(normal + 1e-5 * Eigen::Matrix4d::Identity());
+  const Eigen::Vector4d found = ldlt.solve(right_side);
+  const double residual_m2 =
+      std::max((squares_m2 - found.dot(right_side)) / (rows - 4), kLeastResidual_m * kLeastResidual_m);
+  const Eigen::Matrix4d covariance = residual_m2 * ldlt.solve(Eigen::Matrix4d::Identity());
+  const double length = std::hypot(found[2], found[3]);
+  if (!(length > 0.5 && length < 2)) return {};
+  Mounting out;
+  out.lever = {found[0], found[1], std::atan2(found[3], found[2])};
+  Eigen::Matrix<double, 3, 4> by = Eigen::Matrix<double, 3, 4>::Zero();
+  by(0, 0) = by(1, 1) = 1;
+  by(2, 2) = -found[3] / (length * length);
+  by(2, 3) = found[2] / (length * length);
+  out.covariance = by * covariance * by.transpose();
+  return out;
+}
+
+}  // namespace astro::calibration

@@ -1,0 +1,145 @@
+#include "host/calibration/preparation/sessions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdio>
+#include <numbers>
+
+#include "host/calibration/likelihood/maximum_likelihood.hpp"
+#include "host/calibration/preparation/mounting.hpp"
+#include "host/calibration/preparation/pieces.hpp"
+#include "tests/host/calibration/ml_drives.hpp"
+
+namespace astro::calibration {
+namespace {
+
+using simulation::study::DriveModel;
+
+/// The same robot on another day: the tracked body 5 degrees and 30 mm from where it was.
+DriveModel on_another_day(DriveModel model) {
+  model.lever.x_m += 0.024;
+  model.lever.y_m -= 0.018;
+  model.lever.yaw_rad += 5 * std::numbers::pi / 180;
+  return model;
+}
+
+void append(std::vector<Trajectory>& runs, std::vector<Trajectory> more) {
+  for (Trajectory& run : more) runs.push_back(std::move(run));
+}
+
+std::vector<int> sessions_of(const std::vector<Trajectory>& runs, const WheelFactors& loaded,
+                             bool clock_known = true) {
+  std::vector<int> sessions;
+  for (const PreparedRun& run : prepare(runs, loaded, clock_known, Density::independent).runs)
+    sessions.push_back(run.session);
+  return sessions;
+}
+
+TEST(Mounting, IsWhereTheBodySits) {
+  const DriveModel model = astro_drive();
+  const std::vector<Trajectory> runs = squares(model, 2);
+  const PreparedRuns prepared = prepare(runs, model.loaded, true, Density::independent);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const auto pieces = pieces_of(prepared.runs[i], prepared.clocks[i], model.loaded.b_m);
+    const auto rates = fit_headings(pieces);
+    ASSERT_TRUE(rates);
+    const auto found = mounting_of(pieces, *rates);
+    ASSERT_TRUE(found);
+    // Beyond four standard errors a normal error lies once in 16,000; the scale is off by half a percent.
+    EXPECT_NEAR(found->lever.x_m, model.lever.x_m, 4 * std::sqrt(found->covariance(0, 0)) + 5e-4);
+    EXPECT_NEAR(found->lever.y_m, model.lever.y_m, 4 * std::sqrt(found->covariance(1, 1)) + 5e-4);
+    EXPECT_NEAR(found->lever.yaw_rad, model.lever.yaw_rad, 4 * std::sqrt(found->covariance(2, 2)));
+  }
+}
+
+TEST(Mounting, OfALineLeavesOpenWhereTheBodySitsAlongIt) {
+  const DriveModel model = astro_drive();
+  const std::vector<Trajectory> square = squares(model, 1);
+  const std::vector<Trajectory> line{
+      simulation::study::synthetic_drive(simulation::study::line_course(5), model, "line", kSeed)};
+  const auto pieces_of_first = [&](const std::vector<Trajectory>& runs) {
+    const PreparedRuns prepared = prepare(runs, model.loaded, true, Density::independent);
+    return pieces_of(prepared.runs[0], prepared.clocks[0], model.loaded.b_m);
+  };
+  const auto found = mounting_of(pieces_of_first(line), *fit_headings(pieces_of_first(square)));
+  ASSERT_TRUE(found);
+  EXPECT_GT(std::sqrt(found->covariance(0, 0)), 0.05);  // metres
+  EXPECT_NEAR(found->lever.yaw_rad, model.lever.yaw_rad, 4 * std::sqrt(found->covariance(2, 2)));
+}
+
+TEST(Sessions, AreOneWhereNobodyMovedTheBody) {
+  const DriveModel model = astro_drive();
+  for (std::uint64_t seed = 1; seed <= 10; ++seed)
+    EXPECT_EQ(sessions_of(squares(model, 4, 2, seed), model.loaded), (std::vector{0, 0, 0, 0})) << seed;
+}
+
+TEST(Sessions, AreToldApartByWhereTheBodySits) {
+  const DriveModel model = astro_drive(), later = on_another_day(model);
+  std::vector<Trajectory> runs = squares(model, 2);
+  append(runs, squares(later, 2));
+  append(runs, squares(model, 1, 3, kSeed + 9));  // it was put back
+  EXPECT_EQ(sessions_of(runs, model.loaded), (std::vector{0, 0, 1, 1, 0}));
+}
+
+TEST(Sessions, AreToldApartByTheirClocks) {
+  DriveModel model = astro_drive();
+  std::vector<Trajectory> runs = squares(model, 2);
+  model.clock_skew = -0.023;
+  append(runs, squares(model, 2));
+  EXPECT_EQ(sessions_of(runs, model.loaded, false), (std::vector{0, 0, 1, 1}));
+}
+
+TEST(Sessions, TakeARunThatShowsNothingForOneOfTheSessionBefore) {
+  const DriveModel model = astro_drive(), later = on_another_day(model);
+  std::vector<Trajectory> runs = squares(model, 1);
+  append(runs, squares(later, 1));
+  DriveModel blind = later;
+  blind.headings = false;
+  runs.push_back(simulation::study::synthetic_drive(simulation::study::line_course(5), blind, "line", kSeed));
+  EXPECT_EQ(sessions_of(runs, model.loaded), (std::vector{0, 1, 1}));
+}
+
+TEST(Sessions, AreThoseThatWereNamed) {
+  const DriveModel model = astro_drive();
+  std::vector<Trajectory> runs = squares(model, 4);
+  runs[0].session = runs[2].session = "monday";
+  runs[1].session = runs[3].session = "tuesday";
+  EXPECT_EQ(sessions_of(runs, model.loaded), (std::vector{0, 1, 0, 1}));
+}
+
+/// The mean of two values, each with the weight of its error.
+double weighted(double a, double se_a, double b, double se_b) {
+  const double wa = 1 / (se_a * se_a), wb = 1 / (se_b * se_b);
+  return (wa * a + wb * b) / (wa + wb);
+}
+
+TEST(Sessions, OfOneRobotPoolToTheWeightedMeanOfTheirFactors) {
+  const DriveModel model = astro_drive(), later = on_another_day(model);
+  const std::vector<Trajectory> first = squares(model, 6), second = squares(later, 6, 3, kSeed + 1);
+  std::vector<Trajectory> all = first;
+  append(all, second);
+  const auto begin = std::chrono::steady_clock::now();
+  const MlEstimate pooled = estimate_ml(all, model.loaded);
+  const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const MlEstimate a = estimate_ml(first, model.loaded), b = estimate_ml(second, model.loaded);
+  const auto apart = [&](double WheelFactors::*factor, double MlErrors::*se) {
+    return std::abs(pooled.factors.*factor -
+                    weighted(a.factors.*factor, a.se.*se, b.factors.*factor, b.se.*se)) /
+           (pooled.se.*se);
+  };
+  std::printf("pooled in %.2f s: c_R %.2f, c_L %.2f, b %.2f standard errors from the weighted mean\n", took_s,
+              apart(&WheelFactors::c_r, &MlErrors::c_r), apart(&WheelFactors::c_l, &MlErrors::c_l),
+              apart(&WheelFactors::b_m, &MlErrors::b_m));
+  EXPECT_LT(apart(&WheelFactors::c_r, &MlErrors::c_r), 1);
+  EXPECT_LT(apart(&WheelFactors::c_l, &MlErrors::c_l), 1);
+  EXPECT_LT(apart(&WheelFactors::b_m, &MlErrors::b_m), 1);
+  EXPECT_LT(pooled.dispersion, 1.2);
+  ASSERT_EQ(pooled.sessions.size(), 2U);
+  EXPECT_NEAR(pooled.sessions[1].lever.yaw_rad - pooled.sessions[0].lever.yaw_rad,
+              later.lever.yaw_rad - model.lever.yaw_rad, 2e-3);
+  EXPECT_NEAR(pooled.sessions[1].lever.x_m - pooled.sessions[0].lever.x_m, 0.024, 1e-3);
+}
+
+}  // namespace
+}  // namespace astro::calibration
