@@ -13,7 +13,7 @@ Board::Board(const Config& config)
       drivetrain_(config),
       slip_{Slip(config.seed, at(Side::left), config.slip_m),
             Slip(config.seed, at(Side::right), config.slip_m)},
-      chassis_(config.true_wheelbase_m) {}
+      chassis_(true_geometry(config)) {}
 
 void Board::advance_tick() {
   clock_.advance_us(kTick_us);

@@ -30,7 +30,7 @@ World::World(Machine& machine, const sim::Config& config, const Wires& wires)
       wires_(wires),
       drivetrain_(config),
       slip_{sim::Slip(config.seed, 0, config.slip_m), sim::Slip(config.seed, 1, config.slip_m)},
-      chassis_(config.true_wheelbase_m),
+      chassis_(sim::true_geometry(config)),
       shafts_(config),
       supply_V_(config.supply_V) {
   wires_.adc.pin_V = [this] { return drivetrain_.bus_V() * kDivider; };
