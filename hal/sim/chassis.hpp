@@ -79,6 +79,12 @@ class Chassis {
     }
   }
 
+  /// Turns the robot on the spot, which no wheel notices.
+  void jump(double turn_rad) {
+    if (turn_rad != 0.0)
+      step(0.0, turn_rad, std::sin(turn_rad) / turn_rad, (1.0 - std::cos(turn_rad)) / turn_rad);
+  }
+
   Pose pose() const { return {x_m_.value(), y_m_.value(), theta_rad_.value()}; }
   double cosine() const { return cos_; }
   double sine() const { return sin_; }

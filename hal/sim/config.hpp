@@ -47,6 +47,8 @@ struct Config {
   // Noise: the travel of each wheel has variance slip_m * |distance|. The default gives the scatter of the
   // thesis.
   double slip_m = 2.645e-6;
+  double restart_slip_rad =
+      0.0;                 // jump of the heading when the robot starts after a spin and a second's stand
   std::uint64_t seed = 1;  // also decides the board's unique id
 
   // Motor supply seen from the H-bridges: battery, regulator and leads as one source with one resistance.

@@ -134,6 +134,10 @@ void add_robot_options(console::Command command, sim::Config& robot) {
              2, "");
   add_ranged(command, "--slip", robot.slip_m, "wheel slip: variance of the travel per metre, in m; 0: none",
              "M", 0, 0.01, "m");
+  add_ranged(
+      command, "--restart-slip", robot.restart_slip_rad,
+      "unseen turn when the robot starts after a spin and a stand of 1 s or more, in the sense of the spin",
+      "RAD", -0.1, 0.1, "rad");
   command.add_option("--seed", robot.seed, "seed of all noise; also decides the robot's unique id")
       .type_name("N")
       .capture_default_str()
