@@ -50,6 +50,18 @@ constexpr std::int64_t mul_add(std::int64_t sum, std::int32_t a, std::int32_t b)
   return sum + std::int64_t{a} * b;
 }
 
+/// value * 2^bits, and 0 from 32 bits on, where the language leaves a shift undefined.
+constexpr std::uint32_t shift_left(std::uint32_t value, int bits) {
+#if ASTRO_ON_CORTEX_M7
+  if (!std::is_constant_evaluated()) {
+    std::uint32_t shifted = 0;
+    asm("lsl %0, %1, %2" : "=r"(shifted) : "r"(value), "r"(bits));
+    return shifted;
+  }
+#endif
+  return bits < 32 ? value << bits : 0;
+}
+
 /// The low 64 bits of a * b.
 constexpr std::int64_t mul_low(std::int64_t a, std::int32_t b) {
 #if ASTRO_ON_CORTEX_M7

@@ -69,6 +69,7 @@ Geometry make_geometry(const ParameterSet& set) {
   geometry.half_base_30 =
       static_cast<std::int32_t>(((base_nm << 29) + kNanometresPerMetre / 2) / kNanometresPerMetre);
   geometry.inverse_base_25 = static_cast<std::int32_t>(((kNanometresPerMetre << 25) + base_nm / 2) / base_nm);
+  geometry.effective_base = EffectiveBase(set);
   return geometry;
 }
 

@@ -2,11 +2,12 @@
 
 #include <cstdint>
 
+#include "common/kinematics/effective_base.hpp"
 #include "common/params/parameter_set.hpp"
 
 namespace astro {
 
-/// The effect of one encoder count, from the parameters c_R, c_L, b, wheel diameter, counts per revolution
+/// The effect of one encoder count, from the parameters c_R, c_L, b, e, kappa0, wheel diameter, counts per revolution
 /// and gear ratio, in the units of the tick. Computed exactly once per parameter change, then rounded once.
 ///
 ///   travel of a wheel per count     c * pi * D / (n * gear)                 metres
@@ -22,6 +23,7 @@ struct Geometry {
   Wheel left, right;
   std::int32_t half_base_30 = 0;     // b / 2 in 2^-30 m
   std::int32_t inverse_base_25 = 0;  // 1 / b in 2^-25 1/m
+  EffectiveBase effective_base;      // how far the wheelbase is from b
 };
 
 inline constexpr std::int32_t kTickHz = 1000;

@@ -20,19 +20,44 @@ struct BodyTwist {
   friend constexpr bool operator==(const BodyTwist&, const BodyTwist&) = default;
 };
 
-/// v -+ omega b / 2, with the calibrated b, so that a commanded spin turns by the commanded angle.
-constexpr WheelSpeeds to_wheels(const Geometry& geometry, const BodyTwist& twist) {
-  // b is at most 2 m, so that half of it times omega is no more than omega.
-  const auto half = static_cast<std::int32_t>(
-      mul_add(std::int64_t{1} << 29, geometry.half_base_30, twist.omega_uradps) >> 30);
-  return {subtract_saturated(twist.v_umps, half), add_saturated(twist.v_umps, half)};
+/// Half the wheelbase of a commanded twist, in 2^-30 m. Its accelerations are converted with the same one, which is
+/// exact as long as the curvature does not change.
+inline std::int32_t half_base_30(const Geometry& geometry, const BodyTwist& twist) {
+  const std::int32_t half = geometry.half_base_30;
+  if (!geometry.effective_base.varies()) return half;
+  return half + mul_high(half, geometry.effective_base.widening_32(twist.v_umps,
+                                                                   mul_high(half, twist.omega_uradps)));
 }
 
-/// (R + L) / 2 and (R - L) / b.
-constexpr BodyTwist to_body(const Geometry& geometry, const WheelSpeeds& wheels) {
+/// v -+ omega b / 2, with the calibrated b, so that a commanded spin turns by the commanded angle. Precondition, if b is
+/// more than 1.6 m and e is not 0: omega is below 1,700 rad/s, since half the wheelbase may then be up to 1.2 m.
+constexpr WheelSpeeds to_wheels(std::int32_t half_base_30, const BodyTwist& twist) {
+  // With e = 0, b is at most 2 m, so that half of it times omega is no more than omega.
+  const auto half =
+      static_cast<std::int32_t>(mul_add(std::int64_t{1} << 29, half_base_30, twist.omega_uradps) >> 30);
+  return {subtract_saturated(twist.v_umps, half), add_saturated(twist.v_umps, half)};
+}
+inline WheelSpeeds to_wheels(const Geometry& geometry, const BodyTwist& twist) {
+  return to_wheels(half_base_30(geometry, twist), twist);
+}
+
+/// b over the effective wheelbase of measured speeds, minus 1, in 2^-32. Precondition: the effective base varies.
+inline std::int32_t inverse_of_effective_base_32(const Geometry& geometry, const WheelSpeeds& wheels) {
+  return geometry.effective_base.inverse_32(add_saturated(wheels.right_umps, wheels.left_umps),
+                                            subtract_saturated(wheels.right_umps, wheels.left_umps));
+}
+
+/// The yaw rate of wheels that would turn about b by `omega_uradps`. A function of its own, because to_body() is used
+/// in many places.
+std::int32_t about_effective_base(const Geometry& geometry, const WheelSpeeds& wheels,
+                                  std::int32_t omega_uradps);
+
+/// (R + L) / 2 and (R - L) / b, with the effective wheelbase for b.
+inline BodyTwist to_body(const Geometry& geometry, const WheelSpeeds& wheels) {
   const std::int64_t difference = std::int64_t{wheels.right_umps} - wheels.left_umps;
-  return {static_cast<std::int32_t>((std::int64_t{wheels.right_umps} + wheels.left_umps) >> 1),
-          saturate32((difference * geometry.inverse_base_25 + (1 << 24)) >> 25)};
+  std::int32_t omega_uradps = saturate32((difference * geometry.inverse_base_25 + (1 << 24)) >> 25);
+  if (geometry.effective_base.varies()) omega_uradps = about_effective_base(geometry, wheels, omega_uradps);
+  return {static_cast<std::int32_t>((std::int64_t{wheels.right_umps} + wheels.left_umps) >> 1), omega_uradps};
 }
 
 }  // namespace astro

@@ -50,6 +50,8 @@ enum class Param : std::uint16_t {
   jerk_limit,
   yaw_jerk_limit,
   stall_time,
+  e,
+  kappa0,
 };
 
 /// THE parameter table: row i has id i + 1. Add a parameter by appending its id above and its row here;
@@ -132,6 +134,10 @@ inline constexpr auto kParamTable = std::to_array<ParamRow>({
         "Steepest change of commanded yaw acceleration, at least twice the limit per second; 0: none"),
     integer_row(Param::stall_time, "stall_time", "ms", {300, 50, 5000},
                 "The robot stops when half the voltage or more does not move a wheel for this long"),
+    binary_row(Param::e, "e", "1", 30, {0, -0.2, 0.2},
+               "Curvature effect: gentle arcs turn about b (1 + e), spins about b; 0: both about b"),
+    decimal_row(Param::kappa0, "kappa0", "1/b", 6, {0.12, 0.01, 10},
+                "Curvature effect: the curvature of a path, times b, at which half of e acts"),
 });
 
 inline constexpr std::size_t kParamCount = kParamTable.size();

@@ -13,13 +13,16 @@ Board::Board(const Config& config)
       drivetrain_(config),
       slip_{Slip(config.seed, at(Side::left), config.slip_m),
             Slip(config.seed, at(Side::right), config.slip_m)},
-      chassis_(config.true_wheelbase_m) {}
+      restart_slip_(config.restart_slip_rad),
+      chassis_(true_geometry(config)) {}
 
 void Board::advance_tick() {
   clock_.advance_us(kTick_us);
   world_us_ += kTick_us;
   const Pair wheels_rad = drivetrain_.advance_tick(motors_.at_wheels(battery_));
   battery_.observe(drivetrain_.bus_V());
+  if (!on_stand_)
+    chassis_.jump(restart_slip_.advance(wheels_rad[0] * radius_m_[0], wheels_rad[1] * radius_m_[1]));
   if (wheels_rad[0] != 0.0 || wheels_rad[1] != 0.0) roll(wheels_rad);
 }
 

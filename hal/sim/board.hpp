@@ -9,6 +9,7 @@
 #include "hal/sim/flash.hpp"
 #include "hal/sim/motors.hpp"
 #include "hal/sim/ports.hpp"
+#include "hal/sim/restart_slip.hpp"
 #include "hal/sim/slip.hpp"
 #include "hal/sim/system.hpp"
 
@@ -79,6 +80,7 @@ class Board {
   System system_;
   Drivetrain drivetrain_;
   std::array<Slip, 2> slip_;
+  RestartSlip restart_slip_;
   Chassis chassis_;
   std::uint64_t world_us_ = 0;
 };

@@ -2,10 +2,18 @@
 
 #include <cmath>
 
+#include "hal/sim/config.hpp"
+
 /// The robot's true pose. Each step is the exact arc of constant wheel speeds:
 ///
-///   d = (dR + dL) / 2,  a = (dR - dL) / b
+///   d = (dR + dL) / 2,  a = (dR - dL) / B
 ///   p <- p + R(theta) (d sin(a)/a, d (1 - cos a)/a),  theta <- theta + a
+///
+/// B is the wheelbase b, unless there is a curvature effect e as of real tyres: then
+///
+///   B = b (1 + e kappa0 |d| / (kappa0 |d| + |dR - dL|))
+///
+/// so that a spin turns about b and a gentle arc about b (1 + e).
 ///
 /// Units   metres; radians, counter-clockwise, not wrapped
 /// Cost    no sine or cosine for steps below kSmall_rad: the heading's unit vector is rotated with each step
@@ -40,6 +48,8 @@ class Chassis {
   static constexpr double kSmall_rad = 0.05;
 
   explicit Chassis(double wheelbase_m) : per_wheelbase_(1.0 / wheelbase_m) {}
+  explicit Chassis(const Geometry& geometry)
+      : per_wheelbase_(1.0 / geometry.wheelbase_m), e_(geometry.e), kappa0_(geometry.kappa0) {}
 
   /// Sets the pose, as if somebody had moved the robot.
   void place(const Pose& pose) {
@@ -51,7 +61,12 @@ class Chassis {
   }
 
   void advance(double left_m, double right_m) {
-    const double along_m = 0.5 * (left_m + right_m), turn = (right_m - left_m) * per_wheelbase_;
+    const double along_m = 0.5 * (left_m + right_m);
+    double turn = (right_m - left_m) * per_wheelbase_;
+    if (e_ != 0.0 && along_m != 0.0) {
+      const double along = kappa0_ * std::abs(along_m);
+      turn /= 1.0 + e_ * along / (along + std::abs(right_m - left_m));
+    }
     if (std::abs(turn) < kSmall_rad) {
       // Taylor series: the first omitted term is below 1e-17 relative.
       const double t = turn * turn;
@@ -62,6 +77,12 @@ class Chassis {
     } else {
       step(along_m, turn, std::sin(turn) / turn, (1.0 - std::cos(turn)) / turn);
     }
+  }
+
+  /// Turns the robot on the spot, which no wheel notices.
+  void jump(double turn_rad) {
+    if (turn_rad != 0.0)
+      step(0.0, turn_rad, std::sin(turn_rad) / turn_rad, (1.0 - std::cos(turn_rad)) / turn_rad);
   }
 
   Pose pose() const { return {x_m_.value(), y_m_.value(), theta_rad_.value()}; }
@@ -82,6 +103,7 @@ class Chassis {
   }
 
   double per_wheelbase_;
+  double e_ = 0.0, kappa0_ = 0.0;
   Sum x_m_, y_m_, theta_rad_;
   double cos_ = 1.0, sin_ = 0.0;
 };

@@ -36,6 +36,8 @@ struct Config {
   double true_wheelbase_m = 0.290;
   double true_ed = 1.0;         // D_R / D_L
   double scale = 1.0;           // mean true diameter over nominal diameter
+  double true_e = 0.0;          // curvature effect: gentle arcs turn about true_wheelbase_m (1 + true_e)
+  double true_kappa0 = 0.12;    // half of true_e acts at this curvature times the wheelbase
   double motor_mismatch = 0.0;  // right motor constant over left, minus one
   double body_kg = 4.7;
   double yaw_inertia_kgm2 = 0.0858;  // uniform 0.325 m x 0.337 m plate of 4.7 kg: m (a^2 + b^2) / 12
@@ -45,6 +47,8 @@ struct Config {
   // Noise: the travel of each wheel has variance slip_m * |distance|. The default gives the scatter of the
   // thesis.
   double slip_m = 2.645e-6;
+  double restart_slip_rad =
+      0.0;                 // jump of the heading when the robot starts after a spin and a second's stand
   std::uint64_t seed = 1;  // also decides the board's unique id
 
   // Motor supply seen from the H-bridges: battery, regulator and leads as one source with one resistance.
@@ -58,12 +62,13 @@ struct Config {
 struct Geometry {
   Pair diameter_m{};  // left, right
   double wheelbase_m = 0;
+  double e = 0, kappa0 = 0.12;
 };
 
 /// The geometry that the robot really has: D_R / D_L = true_ed and D_R + D_L = 2 scale nominal_diameter_m.
 constexpr Geometry true_geometry(const Config& config) {
   const double left_m = 2.0 * config.scale * config.nominal_diameter_m / (1.0 + config.true_ed);
-  return {{left_m, config.true_ed * left_m}, config.true_wheelbase_m};
+  return {{left_m, config.true_ed * left_m}, config.true_wheelbase_m, config.true_e, config.true_kappa0};
 }
 
 }  // namespace astro::sim

@@ -138,7 +138,7 @@ Result drive(const Path& path, int ticks) {
   Result result;
   for (int tick = 1; tick <= ticks; ++tick) {
     const auto [left, right] = encoders.at(tick * 1e-3L);
-    ours.advance(left, right);
+    ours.advance(left, right, {});
     in_float.advance(left, right);
     in_double.advance(left, right);
     exact.advance(left, right);

@@ -66,7 +66,7 @@ BENCHMARK(tick_of_a_segment);
 void odometry(benchmark::State& state) {
   Odometry odometry(make_geometry(ParameterSet{}));
   for (auto _ : state) {
-    odometry.advance(5, 6);
+    odometry.advance(5, 6, {});
     benchmark::DoNotOptimize(odometry.pose());
   }
 }

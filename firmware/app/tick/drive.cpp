@@ -51,7 +51,7 @@ void Drive::configure(const Configuration& configuration) {
 Drive::Output Drive::advance(const TickInput& input) {
   now_us_ = input.now_us;
   const Wheels::Steps steps = wheels_.read(input);
-  odometry_.advance(steps.left, steps.right);
+  odometry_.advance(steps.left, steps.right, wheels_.speeds());
   supervisor_.advance(input, steps.plausible, steering_, wheels_);
   if (state() != seen_) follow_state();
   return output(set_point(), input);
@@ -322,8 +322,9 @@ Drive::Output Drive::output(const SetPoint& set_point, const TickInput& input) {
     return {permission, {}};
   }
   if (steering_ == Steering::open_loop) return {permission, wheels_.open_loop(voltages_, input.battery_mv)};
-  const WheelSpeeds set_points = to_wheels(geometry_, set_point.twist);
-  const WheelSpeeds accelerations = to_wheels(geometry_, set_point.acceleration);
+  const std::int32_t half_base = half_base_30(geometry_, set_point.twist);
+  const WheelSpeeds set_points = to_wheels(half_base, set_point.twist);
+  const WheelSpeeds accelerations = to_wheels(half_base, set_point.acceleration);
   return {permission, wheels_.control(set_points, accelerations, input.battery_mv)};
 }
 

@@ -123,10 +123,21 @@ void add_robot_options(console::Command command, sim::Config& robot) {
              "M", 0.05, 2, "m");
   add_ranged(command, "--true-ed", robot.true_ed, "true ratio of the wheel diameters, right over left",
              "RATIO", 0.5, 2, "");
+  add_ranged(
+      command, "--true-e", robot.true_e,
+      "true curvature effect: gentle arcs turn about the true wheelbase times 1 + this, spins about it",
+      "RATIO", -0.2, 0.2, "");
+  add_ranged(command, "--true-kappa0", robot.true_kappa0,
+             "curvature of a path, times the wheelbase, at which half of --true-e acts", "RATIO", 0.01, 10,
+             "");
   add_ranged(command, "--scale", robot.scale, "true mean wheel diameter over the nominal one", "RATIO", 0.5,
              2, "");
   add_ranged(command, "--slip", robot.slip_m, "wheel slip: variance of the travel per metre, in m; 0: none",
              "M", 0, 0.01, "m");
+  add_ranged(
+      command, "--restart-slip", robot.restart_slip_rad,
+      "unseen turn when the robot starts after a spin and a stand of 1 s or more, in the sense of the spin",
+      "RAD", -0.1, 0.1, "rad");
   command.add_option("--seed", robot.seed, "seed of all noise; also decides the robot's unique id")
       .type_name("N")
       .capture_default_str()

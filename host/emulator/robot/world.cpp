@@ -30,7 +30,8 @@ World::World(Machine& machine, const sim::Config& config, const Wires& wires)
       wires_(wires),
       drivetrain_(config),
       slip_{sim::Slip(config.seed, 0, config.slip_m), sim::Slip(config.seed, 1, config.slip_m)},
-      chassis_(config.true_wheelbase_m),
+      restart_slip_(config.restart_slip_rad),
+      chassis_(sim::true_geometry(config)),
       shafts_(config),
       supply_V_(config.supply_V) {
   wires_.adc.pin_V = [this] { return drivetrain_.bus_V() * kDivider; };
@@ -78,14 +79,16 @@ void World::event() {
   if (wiring.left_motor_reversed) drive.duty[0] = -drive.duty[0];
   if (wiring.right_motor_reversed) drive.duty[1] = -drive.duty[1];
   const sim::Pair wheels_rad = drivetrain_.advance_tick(drive);
+  const sim::Geometry geometry = sim::true_geometry(config_);
+  const sim::Pair rolled_m{wheels_rad[0] * geometry.diameter_m[0] / 2,
+                           wheels_rad[1] * geometry.diameter_m[1] / 2};
+  if (!config_.on_stand) chassis_.jump(restart_slip_.advance(rolled_m[0], rolled_m[1]));
   if (wheels_rad[0] == 0.0 && wheels_rad[1] == 0.0) return;
   const auto counted = edges(wheels_rad);
   for (std::size_t side = 0; side < 2; ++side)
     if (!unplugged_[side]) wires_.encoders.count(side, counted[side]);
   if (config_.on_stand) return;
-  const sim::Geometry geometry = sim::true_geometry(config_);
-  chassis_.advance(slip_[0].travel(wheels_rad[0] * geometry.diameter_m[0] / 2),
-                   slip_[1].travel(wheels_rad[1] * geometry.diameter_m[1] / 2));
+  chassis_.advance(slip_[0].travel(rolled_m[0]), slip_[1].travel(rolled_m[1]));
 }
 
 }  // namespace astro::emulator

@@ -6,6 +6,7 @@
 #include "hal/sim/config.hpp"
 #include "hal/sim/drivetrain.hpp"
 #include "hal/sim/encoder.hpp"
+#include "hal/sim/restart_slip.hpp"
 #include "hal/sim/slip.hpp"
 #include "host/emulator/chip/adc.hpp"
 #include "host/emulator/chip/decoders.hpp"
@@ -59,6 +60,7 @@ class World : public Model {
   Wires wires_;
   sim::Drivetrain drivetrain_;
   std::array<sim::Slip, 2> slip_;
+  sim::RestartSlip restart_slip_;
   sim::Chassis chassis_;
   sim::Encoders shafts_;
   double supply_V_;

@@ -40,6 +40,12 @@ TEST(MulHigh, RoundsTiesUpwardAlsoBelowZero) {
   EXPECT_EQ(mul_high(-(std::int32_t{1} << 30), 2), 0);
 }
 
+TEST(ShiftLeft, ByAllBitsLeavesNothing) {
+  EXPECT_EQ(shift_left(5, 0), 5U);
+  EXPECT_EQ(shift_left(5, 31), 0x8000'0000U);
+  EXPECT_EQ(shift_left(5, 32), 0U);
+}
+
 TEST(Accumulate, ASumOfProductsIsTheProductOfTheSumToTheLastBit) {
   tests::Seeded random(10);
   for (int run = 0; run < 1000; ++run) {

@@ -91,7 +91,7 @@ inline Real distance_m(const Pose& pose, const ExactPose& exact) {
   return std::hypot(metres(pose.x) - exact.x_m, metres(pose.y) - exact.y_m);
 }
 
-/// A set that validate() takes, anywhere in what it takes.
+/// A set without a curvature effect that validate() takes, anywhere in what it takes.
 inline ParameterSet random_robot(Seeded& random) {
   constexpr Param kGeometry[] = {Param::c_R,
                                  Param::c_L,
@@ -112,6 +112,38 @@ inline ParameterSet random_robot(Seeded& random) {
     }
     if (validate(set)) return set;
   }
+}
+
+/// What the curvature effect makes of the wheelbase, from its definition.
+struct ExactEffect {
+  explicit ExactEffect(const ParameterSet& set)
+      : e(std::ldexp(static_cast<Real>(set.get(Param::e)), -30)), kappa0(set.get(Param::kappa0) * 1e-6L) {}
+
+  /// The effective wheelbase over b at these wheel speeds, in any unit. At rest 1: a robot that stands turns about b.
+  Real over_b(Real left, Real right) const {
+    const Real s = std::fabs(right + left) / 2, d = std::fabs(right - left);
+    return s == 0 ? 1 : 1 + e * kappa0 * s / (kappa0 * s + d);
+  }
+  /// The same for a body speed; `turning` is omega times b. Wheels of which d = |turning| (1 + x) have
+  /// x = e kappa0 s / (kappa0 s + d), which is a quadratic equation.
+  Real over_b_of_twist(Real v, Real turning) const {
+    const Real k = kappa0 * std::fabs(v), d = std::fabs(turning);
+    return k == 0 ? 1 : 1 + 2 * k * e / (k + d + std::sqrt((k + d) * (k + d) + 4 * d * k * e));
+  }
+
+  Real e, kappa0;
+};
+
+/// Any curvature effect that validate() takes; a third of them as of real tyres.
+inline void draw_effect(ParameterSet& set, Seeded& random) {
+  const auto draw = [&](Param id) {
+    const ParamRow& row = param_row(id);
+    return random.between32(row.minimum_raw, row.maximum_raw);
+  };
+  set.set(Param::e, draw(Param::e));
+  const int choice = static_cast<int>(random.between(0, 2));
+  if (choice == 0) set.set(Param::e, set.get(Param::e) / 5);
+  set.set(Param::kappa0, choice == 2 ? draw(Param::kappa0) : random.between32(10'000, 500'000));
 }
 
 /// ASTRO with corrections as a calibration finds them.

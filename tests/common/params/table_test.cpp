@@ -53,7 +53,9 @@ TEST(ParamTable, IdsAreForEver) {
                                          "k_sync",
                                          "jerk_limit",
                                          "yaw_jerk_limit",
-                                         "stall_time"};
+                                         "stall_time",
+                                         "e",
+                                         "kappa0"};
   for (std::size_t i = 0; i < std::size(kNames); ++i) {
     const ParamRow* row = find_param(static_cast<std::uint16_t>(i + 1));
     ASSERT_NE(row, nullptr) << kNames[i];
@@ -197,6 +199,8 @@ TEST(ParamTable, StandsAsItWasPublished) {
     {"jerk_limit", "m/s^3", ParamKind::decimal_scaled, -3, 20, 0, 1000},
     {"yaw_jerk_limit", "rad/s^3", ParamKind::decimal_scaled, -3, 120, 0, 10000},
     {"stall_time", "ms", ParamKind::integer, 0, 300, 50, 5000},
+    {"e", "1", ParamKind::binary_scaled, -30, 0, -0.2, 0.2},
+    {"kappa0", "1/b", ParamKind::decimal_scaled, -6, 0.12, 0.01, 10},
   };
   // clang-format on
   ASSERT_EQ(kParamTable.size(), std::size(kPublished));

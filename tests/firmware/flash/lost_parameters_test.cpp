@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "firmware/app/flash/flash_layout.hpp"
@@ -135,7 +136,11 @@ TEST_F(LostParameters, APowerCutAnywhereInACommitRaisesNoAlarmAndHidesNoLoss) {
                     before.begin() + std::ptrdiff_t{kParameterSectors} * Flash::kSectorBytes);
     if (!marks && commits != 3) continue;
     // Every cut within the last bytes, which are the end of the record and the marks; some cuts before them.
-    for (std::uint64_t cut = 0; cut <= whole; cut += cut + 60 < whole ? 97 : 1) {
+    constexpr std::uint64_t kLast = 60;
+    const auto step = [whole](std::uint64_t cut) {
+      return cut + kLast < whole ? std::min<std::uint64_t>(97, whole - kLast - cut) : 1;
+    };
+    for (std::uint64_t cut = 0; cut <= whole; cut += step(cut)) {
       board().flash().put_back(0, before);
       power_cycle();
       board().flash().cut_power_after(cut, cut % 2 == 0 ? sim::Tear::torn : sim::Tear::byte, cut);

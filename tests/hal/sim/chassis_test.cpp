@@ -56,6 +56,59 @@ TEST(Chassis, HeadingVectorKeepsWithTheHeadingForAnHour) {
   EXPECT_NEAR(chassis.sine(), std::sin(chassis.pose().theta_rad), 1e-10);
 }
 
+Geometry with_effect(double e) {
+  Geometry geometry;
+  geometry.wheelbase_m = kB_m;
+  geometry.e = e;
+  return geometry;
+}
+
+/// The wheelbase that steps of these wheel travels turn about, over the one of a spin.
+double turned_about(double e, double left_m, double right_m) {
+  Chassis chassis(with_effect(e));
+  for (int i = 0; i < 1000; ++i) chassis.advance(left_m, right_m);
+  return 1000 * (right_m - left_m) / chassis.pose().theta_rad / kB_m;
+}
+
+TEST(CurvatureEffect, LeavesASpinWhatItWas) {
+  for (const double e : {-0.2, 0.03, 0.2}) {
+    Chassis chassis(with_effect(e)), without(kB_m);
+    for (int i = 0; i < 1000; ++i) {
+      chassis.advance(-1e-4, 1e-4);
+      without.advance(-1e-4, 1e-4);
+    }
+    EXPECT_EQ(chassis.pose().theta_rad, without.pose().theta_rad) << e;
+  }
+}
+
+TEST(CurvatureEffect, TurnsAGentleArcAboutBTimesOnePlusE) {
+  for (const double e : {-0.2, 0.03, 0.2})
+    for (const double along_m : {-3e-4, 3e-4}) {
+      // |R - L| is 1e-6 of the travel, and so g = 1 - 1e-6 / 0.12; 1e-9: roundings of the difference.
+      const double half_m = 0.5e-6 * along_m;
+      EXPECT_NEAR(turned_about(e, along_m - half_m, along_m + half_m), 1 + e,
+                  std::abs(e) * 1e-6 / 0.12 + 1e-9)
+          << e;
+    }
+}
+
+TEST(CurvatureEffect, IsHalfAtTheCurvatureKappa0AndTheSameInAllSenses) {
+  for (const double along_m : {-3e-4, 3e-4})
+    for (const double half_m : {-0.06 * 3e-4, 0.06 * 3e-4})
+      EXPECT_NEAR(turned_about(0.03, along_m - half_m, along_m + half_m), 1.015, 1e-12);  // roundings
+}
+
+TEST(CurvatureEffect, OfZeroIsTheSameToTheLastBit) {
+  Chassis chassis(with_effect(0)), without(kB_m);
+  for (int ms = 0; ms < 10'000; ++ms) {
+    chassis.advance(0.0003 + 1e-7 * (ms % 7), 0.00045);
+    without.advance(0.0003 + 1e-7 * (ms % 7), 0.00045);
+  }
+  EXPECT_EQ(chassis.pose().x_m, without.pose().x_m);
+  EXPECT_EQ(chassis.pose().y_m, without.pose().y_m);
+  EXPECT_EQ(chassis.pose().theta_rad, without.pose().theta_rad);
+}
+
 TEST(Geometry, DiametersFollowFromRatioAndScale) {
   Config config;
   config.true_ed = 1.00416;

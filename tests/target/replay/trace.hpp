@@ -13,7 +13,10 @@ class Trace {
   static constexpr int kTicks = 60'000, kTicksPerSum = 1000;
   static constexpr int kSums = kTicks / kTicksPerSum;
 
-  Trace() : drive_(ParameterSet::defaults()) { drive_.arm(); }
+  /// The same drive without a curvature effect, and with one.
+  static constexpr int kScripts = 2;
+
+  explicit Trace(int script) : drive_(parameters(script)) { drive_.arm(); }
 
   /// One tick; its pose, speeds and duty go into the sum.
   void advance(int tick) {
@@ -36,6 +39,12 @@ class Trace {
   const Pose& pose() const { return drive_.pose(); }
 
  private:
+  static ParameterSet parameters(int script) {
+    ParameterSet set;
+    if (script == 1) set.set(Param::e, 32'212'255);  // 0.03
+    return set;
+  }
+
   std::uint32_t random() {  // xorshift
     state_ ^= state_ << 13;
     state_ ^= state_ >> 17;

@@ -78,6 +78,8 @@ class TickHeld : public testing::Test {
     ask(protocol::StageParameter{static_cast<std::uint16_t>(param), raw, {}}, when);
   }
 
+  void expect_short_holds(std::int32_t e_30);
+
   std::shared_ptr<EmulatedRobot> robot_ =
       std::make_shared<EmulatedRobot>(kImage, sim::Config{}, simulation::MocapConfig{});
   HeldTick held_{robot_->teensy()};
@@ -86,13 +88,14 @@ class TickHeld : public testing::Test {
   std::map<std::string, std::uint32_t> worst_;
 };
 
-TEST_F(TickHeld, ByAnyRequestIsHeldForAtMost500Instructions) {
+void TickHeld::expect_short_holds(std::int32_t e_30) {
   robot_->teensy().flash().times = {50 * emulator::kCyclesPerMicrosecond,
                                     500 * emulator::kCyclesPerMicrosecond};
   ask_whatever("disarmed");
   ask(protocol::DefaultParameters{}, "disarmed");
   stage(Param::b, 291'000'000, "disarmed");
   stage(Param::jerk_limit, 15'000, "disarmed");
+  stage(Param::e, e_30, "disarmed");
   ask(protocol::CommitParameters{}, "disarmed");
 
   ask(protocol::Arm{}, "disarmed");
@@ -135,6 +138,12 @@ TEST_F(TickHeld, ByAnyRequestIsHeldForAtMost500Instructions) {
     if (shown++ < 10) fmt::print("  {:>6}  {}\n", longest, name);
   EXPECT_GT(held_.holds(), 1000U) << "the sections were not found";
   EXPECT_GT(sorted.begin()->first, 20U);
+}
+
+TEST_F(TickHeld, ByAnyRequestIsHeldForAtMost500Instructions) { expect_short_holds(0); }
+
+TEST_F(TickHeld, WithACurvatureEffectIsHeldForAtMost500InstructionsToo) {
+  expect_short_holds(32'212'255);  // 0.03
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ int main() {
     const auto robot = thesis_robot();
     target::TickProfile profile(robot->teensy(), ASTRO_IMAGE_DIR "/astrolabe-teensy40.elf");
     run(robot, 1);
-    profile.print();
+    profile.print(350);
   }
   const auto robot = thesis_robot();
   const auto begun = std::chrono::steady_clock::now();

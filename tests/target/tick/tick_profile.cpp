@@ -31,6 +31,8 @@ constexpr Rule kRules[] = {
     {"SpeedObserver", TickProfile::speed},
     {"Wheels::read", TickProfile::speed},
     {"Odometry::", TickProfile::odometry},
+    {"EffectiveBase::inverse", TickProfile::odometry},
+    {"EffectiveBase::widening", TickProfile::control},
     {"PathFollower", TickProfile::motion},
     {"Trapezoid", TickProfile::motion},
     {"Drive::set_point", TickProfile::motion},
@@ -121,13 +123,13 @@ TickProfile::Cost TickProfile::cost(std::size_t row) const {
   return {worst_[row], ticks_ == 0 ? 0 : static_cast<double>(sum_[row]) / static_cast<double>(ticks_)};
 }
 
-void TickProfile::print() const {
+void TickProfile::print(std::uint32_t bar) const {
   fmt::print("instructions of {} control ticks   worst     mean\n", ticks_);
   for (std::size_t i = 0; i < kParts; ++i)
     fmt::print("  {:<32} {:>6} {:>8.1f}\n", kNames[i], cost(i).worst, cost(i).mean);
   fmt::print("  {:<32} {:>6} {:>8.1f}\n", "whole tick", whole().worst, whole().mean);
-  fmt::print("  {:<32} {:>6} {:>8.1f}   of 350\n", "control + odometry + safety", budgeted().worst,
-             budgeted().mean);
+  fmt::print("  {:<32} {:>6} {:>8.1f}   of {}\n", "control + odometry + safety", budgeted().worst,
+             budgeted().mean, bar);
 }
 
 }  // namespace astro::target

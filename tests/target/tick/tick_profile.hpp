@@ -46,7 +46,8 @@ class TickProfile {
   Cost whole() const { return cost(kParts); }
   /// What the budget is about: control, odometry and safety of the same tick.
   Cost budgeted() const { return cost(kParts + 1); }
-  void print() const;
+  /// `bar`: what the budget allows.
+  void print(std::uint32_t bar) const;
 
  private:
   using Counts = std::array<std::uint32_t, kParts>;
