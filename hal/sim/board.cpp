@@ -29,8 +29,8 @@ void Board::advance_tick() {
 void Board::roll(const Pair& wheels_rad) {
   encoders_.turn(wheels_rad);
   if (on_stand_) return;
-  chassis_.advance(slip_[0].travel(wheels_rad[0] * radius_m_[0]),
-                   slip_[1].travel(wheels_rad[1] * radius_m_[1]));
+  const Pair rolled_m{wheels_rad[0] * radius_m_[0], wheels_rad[1] * radius_m_[1]};
+  chassis_.advance(slip_[0].travel(rolled_m[0]), slip_[1].travel(rolled_m[1]), rolled_m[0], rolled_m[1]);
 }
 
 void Board::restart(hal::ResetCause cause) {

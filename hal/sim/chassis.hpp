@@ -60,13 +60,17 @@ class Chassis {
     sin_ = std::sin(pose.theta_rad);
   }
 
-  void advance(double left_m, double right_m) {
+  /// Without slip.
+  void advance(double left_m, double right_m) { advance(left_m, right_m, left_m, right_m); }
+
+  /// `rolled_...`: what the wheels rolled, which makes the curve. What they slipped in a millisecond on a straight line is as much
+  /// as a curve of a metre or two would be.
+  void advance(double left_m, double right_m, double rolled_left_m, double rolled_right_m) {
     const double along_m = 0.5 * (left_m + right_m);
     double turn = (right_m - left_m) * per_wheelbase_;
-    if (e_ != 0.0 && along_m != 0.0) {
-      const double along = kappa0_ * std::abs(along_m);
-      turn /= 1.0 + e_ * along / (along + std::abs(right_m - left_m));
-    }
+    const double along = kappa0_ * 0.5 * std::abs(rolled_left_m + rolled_right_m);
+    if (e_ != 0.0 && along != 0.0)
+      turn /= 1.0 + e_ * along / (along + std::abs(rolled_right_m - rolled_left_m));
     if (std::abs(turn) < kSmall_rad) {
       // Taylor series: the first omitted term is below 1e-17 relative.
       const double t = turn * turn;

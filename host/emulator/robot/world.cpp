@@ -88,7 +88,7 @@ void World::event() {
   for (std::size_t side = 0; side < 2; ++side)
     if (!unplugged_[side]) wires_.encoders.count(side, counted[side]);
   if (config_.on_stand) return;
-  chassis_.advance(slip_[0].travel(rolled_m[0]), slip_[1].travel(rolled_m[1]));
+  chassis_.advance(slip_[0].travel(rolled_m[0]), slip_[1].travel(rolled_m[1]), rolled_m[0], rolled_m[1]);
 }
 
 }  // namespace astro::emulator

@@ -98,6 +98,19 @@ TEST(CurvatureEffect, IsHalfAtTheCurvatureKappa0AndTheSameInAllSenses) {
       EXPECT_NEAR(turned_about(0.03, along_m - half_m, along_m + half_m), 1.015, 1e-12);  // roundings
 }
 
+TEST(CurvatureEffect, IsThatOfTheWheelsHoweverMuchTheySlip) {
+  Chassis slipping(with_effect(0.03));
+  // On a line the wheels slip as far apart as they roll, in steps of a third of a millimetre, and back.
+  constexpr int kSteps = 1000;
+  double turned_rad = 0;
+  for (int step = 0; step < kSteps; ++step) {
+    const double slip_m = step % 2 == 0 ? 3e-4 : -1e-4;
+    slipping.advance(3e-4 - slip_m / 2, 3e-4 + slip_m / 2, 3e-4, 3e-4);
+    turned_rad += slip_m / (kB_m * 1.03);
+  }
+  EXPECT_NEAR(slipping.pose().theta_rad, turned_rad, 1e-12);
+}
+
 TEST(CurvatureEffect, OfZeroIsTheSameToTheLastBit) {
   Chassis chassis(with_effect(0)), without(kB_m);
   for (int ms = 0; ms < 10'000; ++ms) {
