@@ -45,9 +45,8 @@ void dead_reckon_again(recording::Run& run, const NominalWheel& wheel, const Whe
   for (std::size_t i = 0; i < run.odometry.size(); ++i) {
     recording::OdometrySample& sample = run.odometry[i];
     const recording::OdometrySample& before = run.odometry[i == 0 ? 0 : i - 1];
-    calibration::advance(
-        at, factors.c_r * metres * wrapping_difference(sample.right_counts, before.right_counts),
-        factors.c_l * metres * wrapping_difference(sample.left_counts, before.left_counts), factors.b_m);
+    calibration::advance(at, metres * wrapping_difference(sample.right_counts, before.right_counts),
+                         metres * wrapping_difference(sample.left_counts, before.left_counts), factors);
     sample.x_m = at.x_m;
     sample.y_m = at.y_m;
     sample.theta_rad = at.theta_rad;
@@ -71,8 +70,9 @@ report::ReportInput outline(const RunSet& set, const Calibration& found, const s
     runs[i].info.index = static_cast<int>(i) + 1;
     const auto fit = std::find_if(ml.estimate.runs.begin(), ml.estimate.runs.end(),
                                   [&](const calibration::RunFit& one) { return one.name == set.names[i]; });
-    if (fit != ml.estimate.runs.end())
-      place_on_robot(runs[i], *fit, ml.estimate.clock_skew, ml.estimate.lever);
+    if (fit == ml.estimate.runs.end()) continue;
+    const calibration::SessionFit& session = ml.estimate.sessions.at(static_cast<std::size_t>(fit->session));
+    place_on_robot(runs[i], *fit, session.clock_skew, session.lever);
   }
   report::ReportInput input;
   const std::string& robot = found.robot.name;
