@@ -1,8 +1,10 @@
 #include "host/calibration/likelihood/innovation.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <type_traits>
 #include <utility>
 
 #include "host/calibration/likelihood/kalman_filter.hpp"
@@ -11,20 +13,38 @@ namespace astro::calibration {
 namespace {
 
 /// One row of the Jacobian of the pose by all unknowns.
-using Row = std::array<double, kUnknowns>;
+using Row = Eigen::Array<double, kUnknowns, 1>;
+
+/// The sum of the logarithms of many numbers, with one logarithm at the end.
+class LogSum {
+ public:
+  /// Precondition: positive.
+  void add(double factor) {
+    int exponent = 0;
+    product_ *= std::frexp(factor, &exponent);
+    exponent_ += exponent;
+    if (product_ > 0x1p-900) return;  // as long as another factor, of at least 1/2, fits
+    product_ = std::frexp(product_, &exponent);
+    exponent_ += exponent;
+  }
+  double value() const { return std::log(product_) + static_cast<double>(exponent_) * std::numbers::ln2; }
+
+ private:
+  double product_ = 1;
+  std::int64_t exponent_ = 0;
+};
 
 /// Propagates the Jacobian of the state by the unknowns and sums up what the innovations say about them.
 class ParameterDerivatives final : public Accumulator {
  public:
-  ParameterDerivatives() { jacobian_[0][kStartX] = jacobian_[1][kStartY] = jacobian_[2][kStartTheta] = 1; }
+  ParameterDerivatives() {
+    for (Row& row : jacobian_) row.setZero();
+    jacobian_[0][kStartX] = jacobian_[1][kStartY] = jacobian_[2][kStartTheta] = 1;
+  }
 
   void predict(const Prediction& step) override {
-    Row &x = jacobian_[0], &y = jacobian_[1];
-    const Row& theta = jacobian_[2];
-    for (std::size_t i = 0; i < kUnknowns; ++i) {
-      x[i] -= step.dy_m * theta[i];
-      y[i] += step.dx_m * theta[i];
-    }
+    jacobian_[0] -= step.dy_m * jacobian_[2];
+    jacobian_[1] += step.dx_m * jacobian_[2];
     for (std::size_t i = 0; i < kMoveUnknowns.size(); ++i)
       add(kMoveUnknowns[i], step.turned(step.move.by[i]));
   }
@@ -33,32 +53,22 @@ class ParameterDerivatives final : public Accumulator {
     const std::array<Row, 3> by = of_innovation(step);
     const Symmetric3& w = step.weight;
     const Vector3 weighted_innovation = product(w, step.innovation);
-    std::array<Row, 3> weighted;
-    for (std::size_t i = 0; i < kUnknowns; ++i) {
-      const Vector3 column = product(w, {by[0][i], by[1][i], by[2][i]});
-      for (std::size_t k = 0; k < 3; ++k) weighted[k][i] = column[k];
-      gradient_[i] += by[0][i] * weighted_innovation[0] + by[1][i] * weighted_innovation[1] +
-                      by[2][i] * weighted_innovation[2];
-    }
-    for (std::size_t i = 0; i < kUnknowns; ++i)
-      for (std::size_t k = i; k < kUnknowns; ++k)
-        information_[i][k] +=
-            by[0][i] * weighted[0][k] + by[1][i] * weighted[1][k] + by[2][i] * weighted[2][k];
+    const std::array<Row, 3> weighted{w.xx * by[0] + w.xy * by[1] + w.xt * by[2],
+                                      w.xy * by[0] + w.yy * by[1] + w.yt * by[2],
+                                      w.xt * by[0] + w.yt * by[1] + w.tt * by[2]};
+    gradient_ +=
+        weighted_innovation[0] * by[0] + weighted_innovation[1] * by[1] + weighted_innovation[2] * by[2];
+    add_information(by, weighted, std::make_index_sequence<kUnknowns>());
     for (std::size_t k = 0; k < 3; ++k)
-      for (std::size_t i = 0; i < kUnknowns; ++i)
-        jacobian_[k][i] -=
-            step.gain[k][0] * by[0][i] + step.gain[k][1] * by[1][i] + step.gain[k][2] * by[2][i];
+      jacobian_[k] -= step.gain[k][0] * by[0] + step.gain[k][1] * by[1] + step.gain[k][2] * by[2];
     count(step, motion);
   }
 
   InnovationSums sums() const {
     InnovationSums out = sums_;
-    for (std::size_t i = 0; i < kUnknowns; ++i) {
-      out.gradient[static_cast<Eigen::Index>(i)] = gradient_[i];
-      for (std::size_t k = 0; k < kUnknowns; ++k)
-        out.information(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
-            information_[std::min(i, k)][std::max(i, k)];
-    }
+    out.cost = losses_ + logarithms_.value();
+    out.gradient = gradient_;
+    out.information = information_.selfadjointView<Eigen::Lower>();
     return out;
   }
 
@@ -67,13 +77,25 @@ class ParameterDerivatives final : public Accumulator {
     for (std::size_t k = 0; k < 3; ++k) jacobian_[k][unknown] += change[k];
   }
 
+  /// Adds to what is on and below the diagonal, column by column; the sizes are known, so that the columns stay in registers.
+  template <std::size_t... Column>
+  void add_information(const std::array<Row, 3>& by, const std::array<Row, 3>& weighted,
+                       std::index_sequence<Column...>) {
+    const auto add_column = [&](auto column) {
+      constexpr int kColumn = static_cast<int>(decltype(column)::value);
+      constexpr int kRows = kUnknowns - kColumn / 2 * 2;  // an even number, for packets of two
+      information_.col(kColumn).template tail<kRows>().array() +=
+          by[0][kColumn] * weighted[0].template tail<kRows>() +
+          by[1][kColumn] * weighted[1].template tail<kRows>() +
+          by[2][kColumn] * weighted[2].template tail<kRows>();
+    };
+    (add_column(std::integral_constant<std::size_t, Column>()), ...);
+  }
+
   /// Derivatives of the measurement.
   std::array<Row, 3> of_innovation(const Update& step) const {
-    std::array<Row, 3> by = jacobian_;
-    for (std::size_t i = 0; i < kUnknowns; ++i) {
-      by[0][i] -= step.lever_y_m * jacobian_[2][i];
-      by[1][i] += step.lever_x_m * jacobian_[2][i];
-    }
+    std::array<Row, 3> by{jacobian_[0] - step.lever_y_m * jacobian_[2],
+                          jacobian_[1] + step.lever_x_m * jacobian_[2], jacobian_[2]};
     by[0][kLeverX] += step.cosine;
     by[0][kLeverY] -= step.sine;
     by[1][kLeverX] += step.sine;
@@ -81,13 +103,14 @@ class ParameterDerivatives final : public Accumulator {
     if (step.has_heading)
       by[2][kLeverYaw] += 1;
     else
-      by[2] = {};
+      by[2].setZero();
     return by;
   }
 
   void count(const Update& step, Motion motion) {
     const Vector3& r = step.innovation;
-    sums_.cost += std::log(determinant(step.expected_covariance)) + step.loss.cost;
+    logarithms_.add(determinant(step.expected_covariance));
+    losses_ += step.loss.cost;
     sums_.chi_square += step.chi_square;
     sums_.degrees_of_freedom += step.components();
     MotionTotals& totals = sums_.motion[static_cast<std::size_t>(motion)];
@@ -97,9 +120,11 @@ class ParameterDerivatives final : public Accumulator {
     totals.chi_square += step.chi_square;
   }
 
-  std::array<Row, 3> jacobian_{};
-  std::array<Row, kUnknowns> information_{};  // above its diagonal
-  Row gradient_{};
+  std::array<Row, 3> jacobian_;
+  Information information_ = Information::Zero();  // on and below its diagonal
+  Row gradient_ = Row::Zero();
+  LogSum logarithms_;
+  double losses_ = 0;
   InnovationSums sums_;
 };
 

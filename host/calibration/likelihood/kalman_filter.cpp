@@ -22,6 +22,28 @@ HuberLoss loss_of(const Vector3& innovation, const Symmetric3& slip, const Symme
                     limit, robust);
 }
 
+/// A direction as cosine and sine. Turning it takes no sine of its own, of which a pass over a drive would take two for each
+/// sample.
+struct Direction {
+  double cosine = 1, sine = 0;
+
+  explicit Direction(double angle_rad) : cosine(std::cos(angle_rad)), sine(std::sin(angle_rad)) {}
+  Direction(double c, double s) : cosine(c), sine(s) {}
+
+  Direction turned(double c, double s) const { return {c * cosine - s * sine, s * cosine + c * sine}; }
+  /// By a correction, which is a few milliradians.
+  Direction turned(double angle_rad) const {
+    if (std::abs(angle_rad) > 0.01) return turned(std::cos(angle_rad), std::sin(angle_rad));
+    const double q = angle_rad * angle_rad;  // the first terms left out are below 1e-17
+    return turned(1 - q / 2 * (1 - q / 12 * (1 - q / 30)), angle_rad * (1 - q / 6 * (1 - q / 20)));
+  }
+  /// Of length 1 again, by one Newton step: each turn rounds.
+  Direction of_length_one() const {
+    const double unit = 1.5 - 0.5 * (cosine * cosine + sine * sine);
+    return {unit * cosine, unit * sine};
+  }
+};
+
 class KalmanFilter {
  public:
   /// All references must outlive the filter.
@@ -35,16 +57,18 @@ class KalmanFilter {
         accumulator_(accumulator),
         x_m_(u_[kStartX]),
         y_m_(u_[kStartY]),
-        theta_rad_(u_[kStartTheta]) {}
+        theta_rad_(u_[kStartTheta]),
+        heading_(theta_rad_) {}
 
   void predict(const Move& move) {
-    const double middle_rad = theta_rad_ + move.turn_rad / 2, c = std::cos(middle_rad),
-                 s = std::sin(middle_rad);
+    const Direction middle = heading_.turned(move.half_cosine, move.half_sine);
+    const double c = middle.cosine, s = middle.sine;
     const Prediction step{
         move, c, s, move.chord_m * c, move.chord_m * s, noise_.K_m * rotated(move.slip_per_K, c, s)};
     x_m_ += step.dx_m;
     y_m_ += step.dy_m;
     theta_rad_ += move.turn_rad;
+    heading_ = middle.turned(move.half_cosine, move.half_sine);
     covariance_ = sheared(covariance_, -step.dy_m, step.dx_m) + step.slip_covariance;
     accumulator_.predict(step);
   }
@@ -52,8 +76,9 @@ class KalmanFilter {
   void update(const BodySample& sample, Motion motion) {
     Update step;
     step.has_heading = has_headings_;
-    step.cosine = std::cos(theta_rad_);
-    step.sine = std::sin(theta_rad_);
+    heading_ = heading_.of_length_one();
+    step.cosine = heading_.cosine;
+    step.sine = heading_.sine;
     step.lever_x_m = step.cosine * u_[kLeverX] - step.sine * u_[kLeverY];
     step.lever_y_m = step.sine * u_[kLeverX] + step.cosine * u_[kLeverY];
     step.innovation = innovation(sample, step);
@@ -71,6 +96,7 @@ class KalmanFilter {
     x_m_ += correction[0];
     y_m_ += correction[1];
     theta_rad_ += correction[2];
+    heading_ = heading_.turned(correction[2]);
     covariance_ += -1 * symmetric_product(step.gain, ph);
   }
 
@@ -111,6 +137,7 @@ class KalmanFilter {
   const bool has_headings_;
   Accumulator& accumulator_;
   double x_m_, y_m_, theta_rad_;
+  Direction heading_;  // of theta_rad_
   Symmetric3 covariance_;
 };
 

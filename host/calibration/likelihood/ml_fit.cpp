@@ -12,7 +12,6 @@
 #include "host/base/error.hpp"
 #include "host/calibration/likelihood/start_values.hpp"
 #include "host/calibration/likelihood/whiteness.hpp"
-#include "host/calibration/motion/median.hpp"
 
 namespace astro::calibration {
 namespace {
@@ -60,6 +59,7 @@ MlFit::MlFit(const PreparedRuns& prepared, const WheelFactors& loaded, const MlO
     else if (fixed_.e)
       u[kE] = 0;
   }
+  moves_ = moves_of(unknowns_);
   fit(options, !start.empty());
   if (!fixed_.factors && !options.with_e) fit_e(options);
   if (!fixed_.e) e_ = e_to_first_order();
@@ -96,11 +96,11 @@ void MlFit::fit_e(const MlOptions& options) {
   fixed_.e = false;
   e_ = e_to_first_order();
   if (shown()) {
-    auto without = std::tuple(unknowns_, noise_, spacing_m_, phases_, sums_);
+    auto without = std::tuple(unknowns_, moves_, noise_, spacing_m_, phases_, sums_);
     fit(options, true);
     e_ = e_to_first_order();
     if (shown()) return;
-    std::tie(unknowns_, noise_, spacing_m_, phases_, sums_) = std::move(without);
+    std::tie(unknowns_, moves_, noise_, spacing_m_, phases_, sums_) = std::move(without);
     e_ = e_to_first_order();
   }
   fixed_.e = true;
@@ -112,8 +112,12 @@ OneUnknown MlFit::e_to_first_order() const {
   return {now + pool.factor_step()[kE], std::sqrt(pool.factor_covariance()(kE, kE))};
 }
 
-Moves MlFit::moves_of(std::size_t run, const Unknowns& unknowns) const {
-  return Moves(runs_[run], unknowns, fixed_.factors ? loaded_.kappa0 : kUsualKappa0);
+std::vector<Moves> MlFit::moves_of(std::span<const Unknowns> unknowns) const {
+  std::vector<Moves> moves;
+  moves.reserve(runs_.size());
+  for (std::size_t i = 0; i < runs_.size(); ++i)
+    moves.emplace_back(runs_[i], unknowns[i], fixed_.factors ? loaded_.kappa0 : kUsualKappa0);
+  return moves;
 }
 
 double MlFit::cost_of(std::span<const InnovationSums> sums, double e) const {
@@ -146,28 +150,18 @@ void MlFit::find_spacing() {
   fit_with_noise();
 }
 
-/// Twice the usual way of the wheels between two samples of a moving robot.
-double MlFit::usual_step_m() const {
-  std::vector<double> ways_m;
-  for (const PreparedRun& run : runs_)
-    for (std::size_t i = 1; i < run.path_m.size(); ++i)
-      if (run.path_m[i] > run.path_m[i - 1]) ways_m.push_back(run.path_m[i] - run.path_m[i - 1]);
-  return 2 * median_of(std::move(ways_m));
-}
-
 bool MlFit::innovations_are_independent() const {
   const int fitted = kShared + kOwn * static_cast<int>(runs_.size());
-  std::vector<Moves> moves;
-  for (std::size_t i = 0; i < runs_.size(); ++i) moves.push_back(moves_of(i, unknowns_[i]));
   std::vector<std::vector<Eigen::Vector3d>> by_run;
-  for (const Moves& run : moves)
+  for (const Moves& run : moves_)
     by_run.push_back(standardised_innovations(run, noise_, robust_, samples_of(run.run(), 0)));
   if (!are_independent(by_run, fitted)) return false;
   std::vector<std::vector<Eigen::Vector3d>> spacings(1);
   for (const auto& run : by_run) spacings[0].insert(spacings[0].end(), run.begin(), run.end());
-  for (double spacing_m = std::max(2 * spacing_m_, usual_step_m());; spacing_m *= 2) {
+  // What comes and goes within a few samples shows in the sums over neighbours.
+  for (double spacing_m = std::max(2 * spacing_m_, kLeastSpacing / 2 * loaded_.b_m);; spacing_m *= 2) {
     std::vector<Eigen::Vector3d>& wider = spacings.emplace_back();
-    for (const Moves& run : moves) {
+    for (const Moves& run : moves_) {
       const auto of_run = standardised_innovations(run, noise_, robust_, {spacing_m, 0});
       wider.insert(wider.end(), of_run.begin(), of_run.end());
     }
@@ -176,33 +170,29 @@ bool MlFit::innovations_are_independent() const {
   return hold_over_path(spacings, fitted);
 }
 
-std::vector<InnovationSums> MlFit::pass(std::span<const Unknowns> unknowns, RobustMode robust) const {
+std::vector<InnovationSums> MlFit::pass(std::span<const Moves> moves, RobustMode robust) const {
   std::vector<InnovationSums> sums;
-  for (std::size_t i = 0; i < runs_.size(); ++i) {
-    const Moves moves = moves_of(i, unknowns[i]);
+  for (const Moves& run : moves) {
     std::vector<InnovationSums> passes;
-    for (int phase = 0; phase < phases_; ++phase) {
-      passes.push_back(innovations(moves, noise_, robust, samples_of(runs_[i], phase)));
-    }
+    for (int phase = 0; phase < phases_; ++phase)
+      passes.push_back(innovations(run, noise_, robust, samples_of(run.run(), phase)));
     sums.push_back(mean_of(passes));
   }
   return sums;
 }
 
 std::vector<InnovationSums> MlFit::sums_with_full_slip_weight() const {
-  return pass(unknowns_, std::min(robust_, RobustMode::tracker));
+  return pass(moves_, std::min(robust_, RobustMode::tracker));
 }
 
 NoiseSlope MlFit::noise_slopes() const {
   NoiseSlope sum;
-  for (std::size_t i = 0; i < runs_.size(); ++i) {
-    const Moves moves = moves_of(i, unknowns_[i]);
+  for (const Moves& run : moves_)
     for (int phase = 0; phase < phases_; ++phase) {
-      const NoiseSlope part = noise_slope(moves, noise_, robust_, samples_of(runs_[i], phase));
+      const NoiseSlope part = noise_slope(run, noise_, robust_, samples_of(run.run(), phase));
       sum.gradient += part.gradient / phases_;
       sum.curvature += part.curvature / phases_;
     }
-  }
   // Without headings nothing determines their noise. This keeps it where it is.
   sum.curvature.diagonal().array() += 1e-9;
   return sum;
@@ -218,7 +208,7 @@ SampleSelection MlFit::samples_of(const PreparedRun& run, int phase) const {
 
 void MlFit::maximise() {
   double damping = 0;
-  sums_ = pass(unknowns_, robust_);
+  sums_ = pass(moves_, robust_);
   for (int step = 0; step < kMostSteps; ++step) {
     ++iterations_;
     const std::vector<Unknowns> steps = gauss_newton_step(sums_, fixed_, damping, unknowns_.front()[kE]);
@@ -228,10 +218,12 @@ void MlFit::maximise() {
       next[i] += steps[i];
       expected += steps[i].dot(sums_[i].gradient);
     }
-    std::vector<InnovationSums> sums = pass(next, robust_);
+    std::vector<Moves> moves = moves_of(next);
+    std::vector<InnovationSums> sums = pass(moves, robust_);
     const double fall = cost_of(sums_, unknowns_.front()[kE]) - cost_of(sums, next.front()[kE]);
     if (fall > -kSettled) {
       unknowns_ = std::move(next);
+      moves_ = std::move(moves);
       sums_ = std::move(sums);
       damping = damping < 1e-3 ? 0 : damping / 10;
     } else {

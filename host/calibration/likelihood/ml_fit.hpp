@@ -49,16 +49,15 @@ class MlFit {
   void fit(const MlOptions& options, bool started);
   void fit_e(const MlOptions& options);
   OneUnknown e_to_first_order() const;
-  Moves moves_of(std::size_t run, const Unknowns& unknowns) const;
+  std::vector<Moves> moves_of(std::span<const Unknowns> unknowns) const;
   SampleSelection samples_of(const PreparedRun& run, int phase) const;
   double cost_of(std::span<const InnovationSums> sums, double e) const;
-  std::vector<InnovationSums> pass(std::span<const Unknowns> unknowns, RobustMode robust) const;
+  std::vector<InnovationSums> pass(std::span<const Moves> moves, RobustMode robust) const;
   NoiseSlope noise_slopes() const;
   void maximise();
   bool fit_noise();
   void fit_with_noise();
   void find_spacing();
-  double usual_step_m() const;
   bool innovations_are_independent() const;
   void widen_uncertain_slip();
   void require_plausible() const;
@@ -66,6 +65,7 @@ class MlFit {
   const std::vector<PreparedRun>& runs_;
   WheelFactors loaded_;
   std::vector<Unknowns> unknowns_;
+  std::vector<Moves> moves_;  // with these unknowns: what the noise and the spacing are tried on
   FixedParameters fixed_;
   NoiseModel noise_;
   NoiseModel least_noise_;

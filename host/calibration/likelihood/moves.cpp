@@ -68,6 +68,10 @@ Move move_between(const Moment& from, const WheelState& was, const Moment& to, c
   move.turn_rad = turn.rad;
   const Sinc chord = sinc_with_slope(move.turn_rad / 2);
   move.chord_m = centre_m * chord.value;
+  const double half_rad = move.turn_rad / 2;
+  move.half_sine = half_rad * chord.value;
+  move.half_cosine =
+      std::abs(half_rad) < 1 ? std::sqrt(1 - move.half_sine * move.half_sine) : std::cos(half_rad);
   const Vector3 by_turn{centre_m * chord.slope / 2, move.chord_m / 2, 1};
   const Vector3 by_centre{chord.value, 0, 0};
   const Vector3 by_left = sum(0.5, by_centre, turn.by_left, by_turn);
@@ -89,7 +93,7 @@ Move move_between(const Moment& from, const WheelState& was, const Moment& to, c
 
 }  // namespace
 
-Moves::Moves(const PreparedRun& run, const Unknowns& u, double kappa0) : run_(run), unknowns_(u) {
+Moves::Moves(const PreparedRun& run, const Unknowns& u, double kappa0) : run_(&run), unknowns_(u) {
   const WheelPath wheels(run.source->wheels);
   const auto moment = [&](double truth_time_s) {
     const double since_middle_s = truth_time_s - run.clock_middle_s;

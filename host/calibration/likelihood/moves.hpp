@@ -21,7 +21,8 @@ inline constexpr std::array kMoveUnknowns{kCRight, kCLeft, kB, kE, kSkew, kClock
 struct Move {
   double chord_m = 0;  // negative backwards
   double turn_rad = 0;
-  Symmetric3 slip_per_K;  // covariance of the pose's change that slip causes, for K = 1 m
+  double half_cosine = 1, half_sine = 0;  // of half the turn
+  Symmetric3 slip_per_K;                  // covariance of the pose's change that slip causes, for K = 1 m
   /// Derivatives of the pose's change by each of kMoveUnknowns.
   std::array<Vector3, kMoveUnknowns.size()> by{};
 };
@@ -31,7 +32,7 @@ class Moves {
   /// Of arcs that last kLongestStep_s at most. The run must outlive this.
   Moves(const PreparedRun& run, const Unknowns& unknowns, double kappa0 = kUsualKappa0);
 
-  const PreparedRun& run() const { return run_; }
+  const PreparedRun& run() const { return *run_; }
   const Unknowns& unknowns() const { return unknowns_; }
   /// The moves that end at a truth sample and begin at the one before; none where the wheels stood.
   std::span<const Move> before(std::size_t sample) const {
@@ -42,7 +43,7 @@ class Moves {
   double duration_s(std::size_t sample) const { return durations_s_[sample]; }
 
  private:
-  const PreparedRun& run_;
+  const PreparedRun* run_;
   Unknowns unknowns_;
   std::vector<Move> moves_;
   std::vector<std::size_t> ends_;  // of each truth sample: one behind its last move

@@ -39,7 +39,12 @@ class Moments {
     for (std::size_t k = 0; k < run.truth.size(); ++k) {
       const BodySample& truth = run.truth[k];
       const double theta = truth.theta_rad - u[kLeverYaw], c = std::cos(theta), s = std::sin(theta);
-      const double turn = theta - odometry_[k].theta_rad;
+      // Without jumps by whole turns, so that neighbours can be compared as they stand.
+      const double wrapped_rad = theta - odometry_[k].theta_rad;
+      const double turn = k == 0
+                              ? wrapped_rad
+                              : robot_[k - 1].turn_rad + std::remainder(wrapped_rad - robot_[k - 1].turn_rad,
+                                                                        2 * std::numbers::pi);
       robot_.push_back({truth.x_m - c * u[kLeverX] + s * u[kLeverY],
                         truth.y_m - s * u[kLeverX] - c * u[kLeverY], turn, std::cos(turn), std::sin(turn)});
     }
@@ -52,10 +57,7 @@ class Moments {
   std::optional<double> turned_rad(std::size_t at, double gap) const {
     const auto [before, after] = windows_about(at, gap);
     if (std::min(before.size(), after.size()) < kFewestSamples) return {};
-    const double from_rad = robot_[before.front()].turn_rad;
-    const auto turn_rad = [&](std::size_t k) {
-      return std::remainder(robot_[k].turn_rad - from_rad, 2 * std::numbers::pi);
-    };
+    const auto turn_rad = [&](std::size_t k) { return robot_[k].turn_rad; };
     return std::remainder(middle(after, turn_rad) - middle(before, turn_rad), 2 * std::numbers::pi);
   }
 
