@@ -65,17 +65,19 @@ Group group_of(const PreparedRuns& all, const MlFit& fit, const Pool& others,
   return out;
 }
 
-/// Whether other runs know the lever arms and the skews of the members.
+/// Whether other runs know the lever arms and the skews of the members better than these do themselves.
 bool sessions_are_known(const PreparedRuns& all, std::span<const std::size_t> members) {
+  constexpr int kEnough = 3;
   return std::all_of(members.begin(), members.end(), [&](std::size_t member) {
+    int others = 0;
     for (std::size_t i = 0; i < all.runs.size(); ++i)
-      if (!contains(members, i) && all.runs[i].session == all.runs[member].session) return true;
-    return false;
+      if (!contains(members, i) && all.runs[i].session == all.runs[member].session) ++others;
+    return others >= kEnough;
   });
 }
 
 /// How drives are followed with given factors; start poses and clock offsets are fitted to the drives, and so are lever arm and
-/// skew where no other drive knows them.
+/// skew where other drives do not know them well.
 struct Followed {
   std::vector<RunErrors> errors;
   std::vector<double> cost;  // -2 log likelihood of each run
