@@ -15,7 +15,7 @@ set(format_constants
   "host/robot/sharing/relay_server.cpp:astrolabe-relay"   # the thread's name, as `ps` and debuggers show it
   "host/simulation/server/pty.cpp:astrolabe-pty-{:016x}"  # the lock of a simulated port
   "host/simulation/server/truth_server.cpp:astrolabe-mocap 1\\n"
-  "host/simulation/study/shard_file.cpp:astrolabe study 2"
+  "host/simulation/study/shard_file.cpp:astrolabe study 3"
   "host/truth/live/socket_source.cpp:astrolabe-mocap 1")
 
 # A subcommand is a file of its name: calibrate_runs.cpp is `calibrate runs`, check_wiring.cpp is `check-wiring`.

@@ -59,7 +59,7 @@ set(ASTRO_LAYERS
   "host/ros2                    : host/base host/recording/run"
   "host/simulation/robot        : firmware/app hal/sim host/recording/run host/robot/port host/truth/source"
   "host/simulation/server       : host/base host/recording/run host/simulation/robot host/simulation/tracker"
-  "host/simulation/study        : host/base host/calibration host/experiment host/recording/run host/robot/parameters host/simulation/robot"
+  "host/simulation/study        : host/base host/calibration host/experiment host/recording/run host/robot/motion host/robot/parameters host/simulation/robot"
   "host/simulation/tracker      : host/base host/recording/run host/truth/natnet host/truth/source host/truth/vrpn"
   "host/truth/bags              : host/base host/recording/foreign host/truth/files host/truth/source"
   "host/truth/files             : host/base host/truth/manual host/truth/source"

@@ -29,6 +29,18 @@ std::vector<std::string> percent_row(const std::string& name, const Precision& r
   return {name, percent(relative.E_d), percent(relative.scale), percent(relative.b)};
 }
 
+/// What is to be said of e, if it is to be found.
+std::string e_text(const Forecast& forecast) {
+  if (!forecast.programme.with_e) return {};
+  std::string text = fmt::format("standard error of e: {:.4f}\n", forecast.se.e);
+  if (const auto why = simulation::study::why_e_is_hidden(forecast.programme.counts))
+    text += fmt::format("{}: add {}\n", *why,
+                        forecast.programme.counts[simulation::study::kCircles] == 0
+                            ? "circles, half of them each way"
+                            : "squares or spins");
+  return text + '\n';
+}
+
 json precision_json(const Precision& relative) {
   return {{"E_d", relative.E_d}, {"S", relative.scale}, {"b", relative.b}};
 }
@@ -55,10 +67,10 @@ std::string plan_text(const Forecast& forecast) {
       percent_row("relative", forecast.relative())};
   if (const auto rules = design_rules(forecast)) rows.push_back(percent_row("by the design rules", *rules));
   std::string text =
-      fmt::format("{}\n{:.0f} m and {:.1f} turns in {} of driving\n\n{}\nTo drive it and calibrate:\n",
+      fmt::format("{}\n{:.0f} m and {:.1f} turns in {} of driving\n\n{}\n{}To drive it and calibrate:\n",
                   forecast.programme.text(), forecast.extent.distance_m,
                   forecast.extent.rotation_rad / (2 * std::numbers::pi),
-                  duration_text(forecast.driving_time_s), console::table(rows));
+                  duration_text(forecast.driving_time_s), console::table(rows), e_text(forecast));
   for (const std::string& command : commands_for(forecast.programme)) text += "  " + command + '\n';
   return text;
 }
@@ -69,20 +81,27 @@ json plan_json(const Forecast& forecast) {
   for (std::size_t kind = 0; kind < simulation::study::kKinds; ++kind)
     counts[std::string(simulation::study::kKindNames[kind])] = programme.counts[kind];
   const auto rules = design_rules(forecast);
-  return {{"runs", counts},
-          {"side_m", programme.side_m},
-          {"line_m", programme.line_m},
-          {"turns", programme.turns},
-          {"radius_m", programme.radius_m},
-          {"K_m", programme.noise.K_m},
-          {"wheelbase_m", programme.wheelbase_m},
-          {"standard_errors", {{"E_d", forecast.se.E_d}, {"S", forecast.se.scale}, {"b_m", forecast.se.b_m}}},
-          {"relative_errors", precision_json(forecast.relative())},
-          {"design_rules", rules ? precision_json(*rules) : json()},
-          {"driving_time_s", forecast.driving_time_s},
-          {"commands", commands_for(programme)},
-          {"distance_m", forecast.extent.distance_m},
-          {"rotation_rad", forecast.extent.rotation_rad}};
+  json result = {
+      {"runs", counts},
+      {"side_m", programme.side_m},
+      {"line_m", programme.line_m},
+      {"turns", programme.turns},
+      {"radius_m", programme.radius_m},
+      {"K_m", programme.noise.K_m},
+      {"wheelbase_m", programme.wheelbase_m},
+      {"standard_errors", {{"E_d", forecast.se.E_d}, {"S", forecast.se.scale}, {"b_m", forecast.se.b_m}}},
+      {"relative_errors", precision_json(forecast.relative())},
+      {"design_rules", rules ? precision_json(*rules) : json()},
+      {"driving_time_s", forecast.driving_time_s},
+      {"commands", commands_for(programme)},
+      {"distance_m", forecast.extent.distance_m},
+      {"rotation_rad", forecast.extent.rotation_rad}};
+  if (programme.with_e) {
+    result["standard_errors"]["e"] = forecast.se.e;
+    const auto why = simulation::study::why_e_is_hidden(programme.counts);
+    result["e_hidden"] = why ? json(*why) : json();
+  }
+  return result;
 }
 
 }  // namespace astro::commands

@@ -39,7 +39,7 @@ const simulation::study::DriveSource& robot_of(simulation::study::Model model) {
 
 struct StudyOptions {
   simulation::study::TrialSetup setup;
-  double sigma_theta_deg = 0.15;
+  double sigma_theta_deg = 0.15, windup_mrad = 0;
   std::string model = "kinematic", clock = "known", noise = "estimated";
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   simulation::study::Shard shard;
@@ -59,6 +59,22 @@ std::optional<simulation::study::Shard> shard_named(const std::string& text) {
   const auto of = integer_in(std::string_view(text).substr(std::min(slash + 1, text.size())));
   if (!number || !of || *number < 1 || *of < *number) return std::nullopt;
   return simulation::study::Shard{*number, *of};
+}
+
+void add_tyres(console::Command command, StudyOptions& options) {
+  simulation::study::TrialSetup& setup = options.setup;
+  add_ranged(command, "--true-e,--e", setup.e,
+             "true curvature effect of the tyres: gentle arcs turn about the\n"
+             "wheelbase times 1 + e, spins about it",
+             "RATIO", -0.2, 0.2, "");
+  add_count(command, "--circles", setup.circles, 0, 1000,
+            "circles of two turns in each direction, which show e");
+  add_size(command, "--radius", setup.circle_radius_m, "of the circles, m");
+  add_ranged(command, "--windup", options.windup_mrad,
+             "what the tyres hold back of a spin until the next line, mrad; then\n"
+             "the squares have a stand of 1 s after each spin and a line of\n"
+             "0.3 m at the end. Not of the simulator",
+             "MRAD", 0, 100, "mrad");
 }
 
 void add_setup(console::Command command, StudyOptions& options) {
@@ -82,6 +98,7 @@ void add_setup(console::Command command, StudyOptions& options) {
   add_ratio(command, "--true-ed", setup.E_d, "true ratio of the wheel diameters, right over left");
   add_ratio(command, "--true-eb", setup.E_b, "true over nominal wheelbase, both at equal scale");
   add_ratio(command, "--scale", setup.scale, "common to the true wheels and wheelbase");
+  add_tyres(command, options);
   add_noise(command, setup.noise, options.sigma_theta_deg, setup.truth_rate_hz);
   add_rate(command, "--count-rate", setup.count_rate_hz, "of the encoder counts, Hz; the simulator's is 100");
   command
@@ -125,6 +142,7 @@ std::vector<simulation::study::Trial> drive(const StudyOptions& options) {
 
 void run(StudyOptions& options) {
   options.setup.noise.sigma_theta_rad = radians(options.sigma_theta_deg);
+  options.setup.windup_rad = options.windup_mrad / 1000;
   options.setup.model = *simulation::study::model_named(options.model);
   options.setup.clock_known = options.clock == "known";
   options.setup.noise_known = options.noise == "known";
@@ -182,11 +200,13 @@ void add_study(console::Command app) {
   add_work(command, *options);
   command.footer(
       "A trial drives squares with noise and lets every method calibrate from them.\n"
+      "Circles count for ml alone.\n"
       "E_max, theta and the 10 m line are the noise-free errors that remain with the\n"
       "result loaded.\n"
       "Examples:\n"
       "  astrolabe study --trials 500\n"
       "  astrolabe study --clock estimated --side 1.5 --json\n"
+      "  astrolabe study --true-e 0.02 --runs 3 --circles 3\n"
       "  astrolabe study --model simulator --trials 100\n"
       "GNU parallel over machines, then the table:\n"
       "  parallel -S host1,host2 --return part-{}.json astrolabe study --trials 10000 \\\n"

@@ -9,6 +9,7 @@
 
 #include "host/base/text/degrees.hpp"
 #include "host/console/console.hpp"
+#include "host/simulation/study/synthetic_drive.hpp"
 
 namespace astro::commands {
 namespace {
@@ -28,14 +29,37 @@ constexpr std::array<Column, simulation::study::kFigures> kColumns = {
     {{"E_d", "E_d", "x1e-4", 1e4},
      {"b_over_S", "b/S", "x1e-4", 1e4},
      {"scale", "scale S", "x1e-4", 1e4},
+     {"e", "e", "x1e-4", 1e4},
      {"E_max_m", "E_max", "mm", 1e3},
      {"theta_rad", "theta", "mrad", 1e3},
      {"line_10m_m", "10 m line", "mm", 1e3}}};
+
+/// The figures that the study has.
+std::vector<std::size_t> figures_of(const TrialSetup& setup) {
+  std::vector<std::size_t> figures;
+  for (std::size_t f = 0; f < simulation::study::kFigures; ++f)
+    if (f != simulation::study::kCurvature || setup.shows_e()) figures.push_back(f);
+  return figures;
+}
+
+/// What is not in every study: circles, and tyres with a width.
+std::string tyres_text(const TrialSetup& setup) {
+  std::string text;
+  if (setup.shows_e())
+    text += fmt::format("{0} + {0} circles of {1} turns, radius {2:g} m; e {3:g}\n", setup.circles,
+                        simulation::study::kCircleTurns, setup.circle_radius_m, setup.e);
+  if (setup.windup_rad > 0)
+    text +=
+        fmt::format("spins wind up {:g} mrad; a stand of {:g} s after each, a line of {:g} m at the end\n",
+                    1000 * setup.windup_rad, simulation::study::kStand_s, simulation::study::kEndLine_m);
+  return text;
+}
 
 std::string setup_text(const TrialSetup& setup) {
   return fmt::format(
       "{13}\n"
       "{0} + {0} squares of {1:g} m; b {2:g} m, E_d {3:g}, E_b {4:g}, scale {5:g}\n"
+      "{14}"
       "slip {6:g} m; truth {7:g} Hz, {8:g} mm, {9:.3g} deg; counts {10:g} Hz\n"
       "clock {11}; noise {12} to ml\n",
       setup.runs, setup.side_m, setup.wheelbase_m, setup.E_d, setup.E_b, setup.scale, setup.noise.K_m,
@@ -43,21 +67,21 @@ std::string setup_text(const TrialSetup& setup) {
       setup.count_rate_hz, setup.clock_known ? "known" : "estimated",
       setup.noise_known ? "known" : "estimated",
       setup.model == simulation::study::Model::simulator ? "simulated robot: firmware, motors, encoders"
-                                                         : "kinematic robot: wheels and noise alone");
+                                                         : "kinematic robot: wheels and noise alone",
+      tyres_text(setup));
 }
 
-std::vector<std::string> cells(const Row& row) {
+std::vector<std::string> cells(const Row& row, const std::vector<std::size_t>& figures) {
   std::vector<std::string> cells{row.name};
-  for (std::size_t f = 0; f < simulation::study::kFigures; ++f)
-    cells.push_back(three_digits(row.rms[f] * kColumns[f].per_unit));
+  for (const std::size_t f : figures) cells.push_back(three_digits(row.rms[f] * kColumns[f].per_unit));
   return cells;
 }
 
 // Of the figures that scatter at all, the one that is least certain.
-double worst_relative_error(const std::vector<Row>& rows) {
+double worst_relative_error(const std::vector<Row>& rows, const std::vector<std::size_t>& figures) {
   double worst = 0;
   for (const Row& row : rows)
-    for (std::size_t f = 0; f < simulation::study::kFigures; ++f)
+    for (const std::size_t f : figures)
       if (row.rms[f] > 0) worst = std::max(worst, row.se[f] / row.rms[f]);
   return worst;
 }
@@ -67,21 +91,30 @@ std::string ml_text(const Summary& summary) {
   if (const auto& ratios = summary.ml_over_bound; !ratios.empty())
     text += fmt::format("ml over the bound: E_d {:.3f} ± {:.3f}, b/S {:.3f} ± {:.3f}, S {:.3f} ± {:.3f}\n",
                         ratios[0].value, ratios[0].se, ratios[1].value, ratios[1].se, ratios[2].value,
-                        ratios[2].se);
+                        ratios[2].se) +
+            (ratios.size() > 3
+                 ? fmt::format("                   e {:.3f} ± {:.3f}\n", ratios[3].value, ratios[3].se)
+                 : "");
   if (const auto& consistency = summary.ml_covariance)
-    text += fmt::format("chi-square of ml's errors by its own covariance: {:.3f} ± {:.3f}, expected 3\n",
-                        consistency->mean, consistency->se);
+    text += fmt::format("chi-square of ml's errors by its own covariance: {:.3f} ± {:.3f}, expected {:.4g}\n",
+                        consistency->mean, consistency->se, consistency->expected);
+  if (summary.ml_median_K_m)
+    text += fmt::format("slip that ml found: {:.3g} m (median), true {:g} m\n", *summary.ml_median_K_m,
+                        summary.setup.noise.K_m);
   return text;
 }
 
-json figures(const Errors& values) {
+json figures(const Errors& values, const TrialSetup& setup) {
   json object;
-  for (std::size_t f = 0; f < simulation::study::kFigures; ++f) object[kColumns[f].key] = values[f];
+  for (const std::size_t f : figures_of(setup)) object[kColumns[f].key] = values[f];
   return object;
 }
 
-json row_json(const Row& row) {
-  return {{"name", row.name}, {"trials", row.trials}, {"rms", figures(row.rms)}, {"se", figures(row.se)}};
+json row_json(const Row& row, const TrialSetup& setup) {
+  return {{"name", row.name},
+          {"trials", row.trials},
+          {"rms", figures(row.rms, setup)},
+          {"se", figures(row.se, setup)}};
 }
 
 }  // namespace
@@ -93,26 +126,30 @@ std::string three_digits(double value) {
 }
 
 std::string study_text(const Summary& summary) {
+  const std::vector<std::size_t> figures = figures_of(summary.setup);
   std::vector<std::vector<std::string>> rows{{"rms errors"}, {""}};
-  for (const Column& column : kColumns) {
-    rows[0].emplace_back(column.heading);
-    rows[1].emplace_back(column.unit);
+  for (const std::size_t f : figures) {
+    rows[0].emplace_back(kColumns[f].heading);
+    rows[1].emplace_back(kColumns[f].unit);
   }
-  for (const Row& row : summary.methods) rows.push_back(cells(row));
-  rows.push_back(cells(summary.bound));
+  for (const Row& row : summary.methods) rows.push_back(cells(row, figures));
+  rows.push_back(cells(summary.bound, figures));
   std::string text = setup_text(summary.setup) + '\n' + console::table(rows) + '\n';
   text += fmt::format("{} trials: chance moves figures by up to {:.1f} % (one standard error)\n",
-                      summary.setup.trials, 100 * worst_relative_error(summary.methods));
+                      summary.setup.trials, 100 * worst_relative_error(summary.methods, figures));
   text += ml_text(summary);
   for (const std::string& failure : summary.failures) text += failure + '\n';
   return text;
 }
 
 json study_json(const Summary& summary) {
-  json result = {{"setup", to_json(summary.setup)},  {"methods", json::array()},
-                 {"bound", row_json(summary.bound)}, {"ml_over_bound", json()},
-                 {"ml_covariance", json()},          {"failures", summary.failures}};
-  for (const Row& row : summary.methods) result["methods"].push_back(row_json(row));
+  const TrialSetup& setup = summary.setup;
+  json result = {
+      {"setup", to_json(setup)},     {"methods", json::array()}, {"bound", row_json(summary.bound, setup)},
+      {"ml_over_bound", json()},     {"ml_covariance", json()},  {"ml_median_K_m", json()},
+      {"failures", summary.failures}};
+  for (const Row& row : summary.methods) result["methods"].push_back(row_json(row, setup));
+  if (summary.ml_median_K_m) result["ml_median_K_m"] = *summary.ml_median_K_m;
   for (std::size_t i = 0; i < summary.ml_over_bound.size(); ++i)
     result["ml_over_bound"][kColumns[i].key] = {{"value", summary.ml_over_bound[i].value},
                                                 {"se", summary.ml_over_bound[i].se}};
@@ -120,7 +157,7 @@ json study_json(const Summary& summary) {
     result["ml_covariance"] = {{"trials", consistency->trials},
                                {"mean", consistency->mean},
                                {"se", consistency->se},
-                               {"expected", 3}};
+                               {"expected", consistency->expected}};
   return result;
 }
 

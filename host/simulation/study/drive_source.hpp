@@ -9,13 +9,13 @@
 /// Where a study's drives come from: the robot that drives.
 namespace astro::simulation::study {
 
-/// The squares of a trial in the order of driving, in the form that each kind of method needs.
+/// The runs of a trial in the order of driving, squares before circles, in the form that each kind of method needs.
 struct Drives {
   std::vector<calibration::Trajectory> runs;     // whole, for maximum likelihood
-  std::vector<calibration::EndPose> end_errors;  // of each run, for UMBmark and its kin
+  std::vector<calibration::EndPose> end_errors;  // of each square, for UMBmark and its kin
 };
 
-/// A robot that drives the squares of a set-up. Both calls are made by several threads at once, and what they
+/// A robot that drives the squares and circles of a set-up. Both calls are made by several threads at once, and what they
 /// return depends on their arguments alone, to the last bit.
 class DriveSource {
  public:

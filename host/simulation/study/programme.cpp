@@ -115,6 +115,13 @@ std::optional<Remark> why_undetermined(const Counts& counts) {
   return std::nullopt;
 }
 
+std::optional<std::string> why_e_is_hidden(const Counts& counts) {
+  if (counts[kCircles] == 0) return "runs without circles hardly show e";
+  if (counts[kSquares] + counts[kSpins] == 0)
+    return "runs without squares and spins hardly tell e from the wheelbase";
+  return std::nullopt;
+}
+
 Programme Programme::with(const Counts& other) const {
   Programme programme = *this;
   programme.counts = other;
@@ -152,7 +159,10 @@ Forecast forecast(const Programme& programme) {
   });
   calibration::MlOptions options;
   options.noise = programme.noise;
-  result.covariance = cramer_rao_bound(runs, model.actual, {}, options);
+  calibration::WheelFactors factors = model.actual;
+  // Not zero, so that it counts as unknown. What the runs tell of e does not depend on so small a value.
+  if (programme.with_e) factors.e = 1e-9;
+  result.covariance = cramer_rao_bound(runs, factors, {}, options);
   result.se = errors_of(result.covariance, model.actual);
   return result;
 }

@@ -27,6 +27,10 @@ using Counts = std::array<int, kKinds>;
 /// Why these runs, of any size, cannot determine all three factors; nothing if they can.
 std::optional<Remark> why_undetermined(const Counts& counts);
 
+/// Why these runs, of any size, hardly show e, the difference between the wheelbase of gentle arcs and that of spins; nothing
+/// if they show it.
+std::optional<std::string> why_e_is_hidden(const Counts& counts);
+
 /// Sizes of the runs, how they are driven and what is measured. The clock offset counts as unknown, as in the
 /// estimator.
 struct Programme {
@@ -36,6 +40,7 @@ struct Programme {
   calibration::NoiseModel noise{2.645e-6, 5e-4, 0.0026179938779914943};  // 0.15 degrees
   double truth_rate_hz = 60, count_rate_hz = 100;
   double speed_mps = 0.3, yaw_rate_radps = 1.0;
+  bool with_e = false;  // e is to be found as well
 
   /// The same with other numbers of runs.
   Programme with(const Counts& other) const;
@@ -45,7 +50,8 @@ struct Programme {
 
 struct Forecast {
   Programme programme;
-  // Of a robot without errors: c_R = c_L = S = E_d = 1.
+  // Of a robot without errors: c_R = c_L = S = E_d = 1. Of e only if it is to be found; runs that do not show it
+  // leave it as uncertain as it is without runs, 0.1.
   calibration::FactorCovariance covariance = calibration::FactorCovariance::Zero();
   calibration::MlErrors se;
   calibration::DriveExtent extent;  // distance of the robot's centre, and the sum of |rotation|

@@ -27,7 +27,10 @@ void demand(bool holds, double value, const std::string& what, const std::string
 }
 
 // Far more than anybody needs; larger numbers from a damaged file or a typing error would exhaust the memory.
-constexpr int kMostTrials = 10'000'000, kMostSquares = 1000;
+constexpr int kMostTrials = 10'000'000, kMostSquares = 1000, kMostCircles = 1000;
+// A maximum-likelihood estimate takes no larger e for one of tyres.
+constexpr double kLargestE = 0.2;
+constexpr double kLargestWindup_rad = 0.1;
 
 /// An end heading is known only within half a turn; if the error is larger, no method can use the square.
 void require_square(const TrialSetup& setup) {
@@ -41,6 +44,16 @@ void require_square(const TrialSetup& setup) {
       "a square of {:g} m turns a robot with these errors {:.0f} degrees away from its heading, and an end "
       "pose can show at most 180: with these errors the side can be at most some {:.2g} m",
       setup.side_m, degrees(error_rad), setup.side_m * std::numbers::pi / error_rad));
+}
+
+/// Driving time of all runs of a trial, without rests.
+double driving_time_s(const TrialSetup& setup) {
+  const DriveModel usual;
+  const double turn_rad = 2 * std::numbers::pi, circle_rad = kCircleTurns * turn_rad;
+  const double square_s = 4 * setup.side_m / usual.speed_mps + turn_rad / usual.yaw_rate_radps;
+  const double circle_s =
+      circle_rad * std::max(setup.circle_radius_m / usual.speed_mps, 1 / usual.yaw_rate_radps);
+  return 2 * setup.runs * square_s + 2 * setup.circles * circle_s;
 }
 
 /// A seed must be an integer: the library would also convert 1e300, and differently on each machine.
@@ -63,7 +76,7 @@ std::optional<Model> model_named(std::string_view name) {
 }
 
 calibration::WheelFactors TrialSetup::actual() const {
-  return {scale * 2 * E_d / (E_d + 1), scale * 2 / (E_d + 1), scale * E_b * wheelbase_m};
+  return {scale * 2 * E_d / (E_d + 1), scale * 2 / (E_d + 1), scale * E_b * wheelbase_m, e};
 }
 
 calibration::MlOptions TrialSetup::ml_options() const {
@@ -95,9 +108,13 @@ void TrialSetup::check() const {
   require_positive(truth_rate_hz, "the rate of the ground truth in Hz");
   demand(std::isfinite(clock_offset_sd_s) && clock_offset_sd_s >= 0, clock_offset_sd_s,
          "the scatter of the clocks in seconds", "0 or more");
-  const DriveModel usual;
-  require_fits_memory(2 * runs * (4 * side_m / usual.speed_mps + 2 * std::numbers::pi / usual.yaw_rate_radps),
-                      truth_rate_hz, count_rate_hz);
+  demand(circles >= 0 && circles <= kMostCircles, circles, "the number of circles in each direction",
+         "0 to 1000");
+  require_positive(circle_radius_m, "the radius of the circles in metres");
+  demand(std::abs(e) <= kLargestE, e, "the curvature effect e", "-0.2 to 0.2");
+  demand(windup_rad >= 0 && windup_rad <= kLargestWindup_rad, windup_rad, "the wind-up in radians",
+         "0 to 0.1");
+  require_fits_memory(driving_time_s(*this), truth_rate_hz, count_rate_hz);
   require_square(*this);
 }
 
@@ -107,10 +124,14 @@ nlohmann::json to_json(const TrialSetup& setup) {
           {"seed", setup.seed},
           {"runs", setup.runs},
           {"side_m", setup.side_m},
+          {"circles", setup.circles},
+          {"circle_radius_m", setup.circle_radius_m},
           {"wheelbase_m", setup.wheelbase_m},
           {"E_d", setup.E_d},
           {"E_b", setup.E_b},
           {"scale", setup.scale},
+          {"e", setup.e},
+          {"windup_rad", setup.windup_rad},
           {"K_m", setup.noise.K_m},
           {"sigma_xy_m", setup.noise.sigma_xy_m},
           {"sigma_theta_rad", setup.noise.sigma_theta_rad},
@@ -131,10 +152,14 @@ TrialSetup setup_from(const nlohmann::json& json) {
   setup.seed = seed_from(json.at("seed"));
   setup.runs = count_in(json.at("runs").dump(), "runs");
   json.at("side_m").get_to(setup.side_m);
+  setup.circles = count_in(json.at("circles").dump(), "circles");
+  json.at("circle_radius_m").get_to(setup.circle_radius_m);
   json.at("wheelbase_m").get_to(setup.wheelbase_m);
   json.at("E_d").get_to(setup.E_d);
   json.at("E_b").get_to(setup.E_b);
   json.at("scale").get_to(setup.scale);
+  json.at("e").get_to(setup.e);
+  json.at("windup_rad").get_to(setup.windup_rad);
   json.at("K_m").get_to(setup.noise.K_m);
   json.at("sigma_xy_m").get_to(setup.noise.sigma_xy_m);
   json.at("sigma_theta_rad").get_to(setup.noise.sigma_theta_rad);
@@ -148,8 +173,11 @@ TrialSetup setup_from(const nlohmann::json& json) {
 
 Sense sense_of(int run) { return run % 2 == 0 ? Sense::cw : Sense::ccw; }
 
-std::string name_of(int run) {
-  return "square " + std::string(astro::name_of(sense_of(run))) + ' ' + std::to_string(run / 2 + 1);
+std::string name_of(const TrialSetup& setup, int run) {
+  const bool square = setup.is_square(run);
+  const int index = square ? run : run - 2 * setup.runs;
+  return (square ? "square " : "circle ") + std::string(astro::name_of(sense_of(run))) + ' ' +
+         std::to_string(index / 2 + 1);
 }
 
 std::uint64_t seed_of(const TrialSetup& setup, int trial) {
@@ -157,7 +185,7 @@ std::uint64_t seed_of(const TrialSetup& setup, int trial) {
 }
 
 std::vector<double> clock_offsets_s(const TrialSetup& setup, int trial) {
-  std::vector<double> offsets_s(static_cast<std::size_t>(2 * setup.runs), 0);
+  std::vector<double> offsets_s(static_cast<std::size_t>(setup.run_count()), 0);
   if (setup.clock_known) return offsets_s;
   std::mt19937_64 clocks(derived_seed(seed_of(setup, trial), kClocks));
   std::normal_distribution<double> normal(0, setup.clock_offset_sd_s);

@@ -13,7 +13,7 @@
 #include "host/calibration/motion/trajectory.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
 
-/// What a study repeats: one robot, one programme of squares, one ground truth.
+/// What a study repeats: one robot, one programme of squares and circles, one ground truth.
 namespace astro::simulation::study {
 
 /// Which robot drives: kinematics and noise alone, or the firmware on the simulated board.
@@ -30,10 +30,16 @@ struct TrialSetup {
   std::uint64_t seed = 1;
   int runs = 5;  // squares in each direction
   double side_m = 3;
+  int circles = 0;  // in each direction, of two turns each, after the squares
+  double circle_radius_m = 0.75;
   double wheelbase_m = 0.290;  // the parameter in the robot, with c_R = c_L = 1
   double E_d = 1.00416;        // D_R / D_L
   double E_b = 0.99521;        // b / (S wheelbase_m)
   double scale = 1.005;        // S, common to both wheels and the wheelbase
+  double e = 0;                // gentle arcs turn about b (1 + e), spins about b
+  /// DriveModel::windup_rad. If it is not zero, the squares have a stand after each spin and a line at the
+  /// end (square_course_with_stands). Only of the kinematic robot.
+  double windup_rad = 0;
   calibration::NoiseModel noise{2.645e-6, 5e-4, 0.0026179938779914943};  // 0.15 degrees
   double count_rate_hz = 100, truth_rate_hz = 60;
   bool clock_known = true;
@@ -42,14 +48,20 @@ struct TrialSetup {
 
   calibration::WheelFactors loaded() const { return {1, 1, wheelbase_m}; }
   calibration::WheelFactors actual() const;
+  /// Of a trial.
+  int run_count() const { return 2 * (runs + circles); }
+  bool is_square(int run) const { return run < 2 * runs; }
+  /// Whether e is one of the figures: the robot has one, or the circles could show one.
+  bool shows_e() const { return e != 0 || circles > 0; }
   /// The options for maximum likelihood.
   calibration::MlOptions ml_options() const;
 
   /// Throws astro::Error if the set-up is for another kind of robot.
   void require(Model driven) const;
 
-  /// Throws astro::Error naming what is not positive and finite, too many or too few trials or runs,
-  /// drives that do not fit into memory, or squares on which the errors turn the robot by half a turn.
+  /// Throws astro::Error naming what is not positive and finite, too many or too few trials or runs, an e or a
+  /// wind-up that no tyre has, drives that do not fit into memory, or squares on which the errors turn the
+  /// robot by half a turn.
   void check() const;
 };
 
@@ -58,10 +70,13 @@ struct TrialSetup {
 nlohmann::json to_json(const TrialSetup& setup);
 TrialSetup setup_from(const nlohmann::json& json);
 
-/// The runs of a trial are numbered from 0, alternating clockwise and counter-clockwise. "square ccw 1" is
-/// run 1.
+/// Turns of a circle.
+inline constexpr int kCircleTurns = 2;
+
+/// The runs of a trial are numbered from 0, squares before circles, alternating clockwise and
+/// counter-clockwise. "square ccw 1" is run 1.
 Sense sense_of(int run);
-std::string name_of(int run);
+std::string name_of(const TrialSetup& setup, int run);
 
 /// The seed of all noise of a trial; it depends on (seed, trial) alone.
 std::uint64_t seed_of(const TrialSetup& setup, int trial);

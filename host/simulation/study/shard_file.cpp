@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kFormat = "astrolabe study 2";
+constexpr const char* kFormat = "astrolabe study 3";
 
 // JSON has no NaN and no infinity; its writer would write null, which here means that a method gave no
 // answer.
@@ -49,6 +49,8 @@ json to_json(const Trial& trial) {
   return {{"trial", trial.index},
           {"errors", errors},
           {"ml_chi_square", trial.ml_chi_square ? to_json(*trial.ml_chi_square) : json()},
+          {"ml_unknowns", trial.ml_unknowns},
+          {"ml_K_m", trial.ml_K_m ? to_json(*trial.ml_K_m) : json()},
           {"failure", trial.failure}};
 }
 
@@ -61,6 +63,8 @@ Trial trial_from(const json& value) {
     if (!errors.at(i).is_null()) trial.errors[i] = errors_from(errors.at(i));
   if (const json& square = value.at("ml_chi_square"); !square.is_null())
     trial.ml_chi_square = number_from(square);
+  trial.ml_unknowns = count_in(value.at("ml_unknowns").dump(), "ml_unknowns");
+  if (const json& slip = value.at("ml_K_m"); !slip.is_null()) trial.ml_K_m = number_from(slip);
   return trial;
 }
 

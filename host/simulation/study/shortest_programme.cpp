@@ -13,8 +13,9 @@
 namespace astro::simulation::study {
 namespace {
 
+using calibration::FactorCovariance;
 using calibration::Precision;
-using Eigen::Matrix3d;
+using Information = calibration::FactorCovariance;  // about c_R, c_L, b and e
 
 // The search tries this many steps to either side, enough to exchange a square for lines.
 constexpr int kReach = 5;
@@ -26,9 +27,30 @@ constexpr double kTargetMissed = std::numeric_limits<double>::infinity();
               {Help::drive_longer_runs_or_ask_less});
 }
 
+struct Target {
+  Precision factors;
+  std::optional<double> e;
+
+  /// Smaller in the same proportion.
+  Target over(double factor) const {
+    return {{factors.E_d / factor, factors.scale / factor, factors.b / factor},
+            e ? std::optional(*e / factor) : std::nullopt};
+  }
+};
+
 /// 1 if the target is just met, more if it is missed.
-double excess(const Precision& reached, const Precision& target) {
-  return std::max({reached.E_d / target.E_d, reached.scale / target.scale, reached.b / target.b});
+double excess(const calibration::MlErrors& se, double b_m, const Target& target) {
+  const Precision& factors = target.factors;
+  const double most = std::max({se.E_d / factors.E_d, se.scale / factors.scale, se.b_m / b_m / factors.b});
+  return target.e ? std::max(most, se.e / *target.e) : most;
+}
+
+/// Of a covariance or an information; without e its row and column are zero in both.
+Eigen::Matrix4d inverse(const Eigen::Matrix4d& matrix, bool with_e) {
+  if (with_e) return matrix.inverse();
+  Eigen::Matrix4d out = Eigen::Matrix4d::Zero();
+  out.topLeftCorner<3, 3>() = Eigen::Matrix3d(matrix.topLeftCorner<3, 3>()).inverse();
+  return out;
 }
 
 /// What can be added to a programme at a time: a line, or a pair of turning runs.
@@ -36,7 +58,7 @@ struct Unit {
   Kind kind = kSquares;
   int runs = 1;
   double time_s = 0;
-  Matrix3d information = Matrix3d::Zero();
+  Information information = Information::Zero();
 };
 
 Counts counts_of(const std::vector<Unit>& units, const std::vector<int>& numbers) {
@@ -45,9 +67,8 @@ Counts counts_of(const std::vector<Unit>& units, const std::vector<int>& numbers
   return counts;
 }
 
-/// About c_R, c_L and b.
-Matrix3d information_of(const Forecast& forecast) {
-  return forecast.covariance.topLeftCorner<3, 3>().inverse();
+Information information_of(const Forecast& forecast) {
+  return inverse(forecast.covariance, forecast.programme.with_e);
 }
 
 /// Time and information of a unit are what it adds to a programme with one unit of every kind.
@@ -69,7 +90,7 @@ std::vector<Unit> units_of(const std::vector<Kind>& kinds, const Programme& size
 /// Searches the numbers of units whose summed information meets the target.
 class Search {
  public:
-  Search(const std::vector<Unit>& units, const Precision& target, double wheelbase_m)
+  Search(const std::vector<Unit>& units, const Target& target, double wheelbase_m)
       : units_(units), target_(target), nominal_{1, 1, wheelbase_m} {}
 
   std::vector<int> best() {
@@ -87,20 +108,19 @@ class Search {
   double time_of(const std::vector<int>& numbers) const {
     // A line adds a little information about b only beside turning runs, through the parameters that runs
     // share.
-    if (why_undetermined(counts_of(units_, numbers))) return kTargetMissed;
+    const Counts counts = counts_of(units_, numbers);
+    if (why_undetermined(counts) || (target_.e && why_e_is_hidden(counts))) return kTargetMissed;
     double time_s = 0;
-    Matrix3d information = Matrix3d::Zero();
+    Information information = Information::Zero();
     for (std::size_t i = 0; i < units_.size(); ++i) {
       time_s += numbers[i] * units_[i].time_s;
       information += numbers[i] * units_[i].information;
     }
-    const Matrix3d covariance = information.inverse();
-    if (!covariance.allFinite() || !(covariance.diagonal().minCoeff() > 0)) return kTargetMissed;
-    calibration::FactorCovariance all = calibration::FactorCovariance::Zero();
-    all.topLeftCorner<3, 3>() = covariance;
-    const calibration::MlErrors se = errors_of(all, nominal_);
-    const bool met = excess({se.E_d, se.scale, se.b_m / nominal_.b_m}, target_) <= 1;
-    return met ? time_s : kTargetMissed;
+    const FactorCovariance covariance = inverse(information, target_.e.has_value());
+    const Eigen::Index unknowns = target_.e ? 4 : 3;
+    if (!covariance.allFinite() || !(covariance.diagonal().head(unknowns).minCoeff() > 0))
+      return kTargetMissed;
+    return excess(errors_of(covariance, nominal_), nominal_.b_m, target_) <= 1 ? time_s : kTargetMissed;
   }
 
   /// Moves to the best neighbouring programme; returns false if none is better.
@@ -127,26 +147,37 @@ class Search {
   }
 
   const std::vector<Unit>& units_;
-  Precision target_;
+  Target target_;
   calibration::WheelFactors nominal_;
 };
 
+void require_e(double target, const std::vector<Kind>& kinds) {
+  require_positive(target, "the precision wanted of e");
+  Counts one_of_each{};
+  for (const Kind kind : kinds) one_of_each[kind] = 1;
+  if (const auto why = why_e_is_hidden(one_of_each)) throw Error(*why);
+}
+
 }  // namespace
 
-Forecast shortest_programme(const Precision& target, const std::vector<Kind>& kinds, const Programme& sizes) {
-  require_positive(target.E_d, "the precision wanted of E_d");
-  require_positive(target.scale, "the precision wanted of the scale");
-  require_positive(target.b, "the precision wanted of the wheelbase");
-  const std::vector<Unit> units = units_of(kinds, sizes);
+Forecast shortest_programme(const Precision& precision, const std::vector<Kind>& kinds,
+                            const Programme& sizes, std::optional<double> target_e) {
+  require_positive(precision.E_d, "the precision wanted of E_d");
+  require_positive(precision.scale, "the precision wanted of the scale");
+  require_positive(precision.b, "the precision wanted of the wheelbase");
+  if (target_e) require_e(*target_e, kinds);
+  const Target target{precision, target_e};
+  Programme programme = sizes;
+  programme.with_e = target_e.has_value();
+  const std::vector<Unit> units = units_of(kinds, programme);
   // All runs together may give a little less information than the sum of the units; then the sum has to meet
   // a slightly stricter target.
   double factor = 1;
   for (int round = 0; round < kMostRounds; ++round) {
-    const Precision stricter{target.E_d / factor, target.scale / factor, target.b / factor};
-    const Counts counts = counts_of(units, Search(units, stricter, sizes.wheelbase_m).best());
+    const Counts counts = counts_of(units, Search(units, target.over(factor), programme.wheelbase_m).best());
     if (std::accumulate(counts.begin(), counts.end(), 0) > kMostRuns) refuse_too_fine();
-    const Forecast found = forecast(sizes.with(counts));
-    const double missed = excess(found.relative(), target);
+    const Forecast found = forecast(programme.with(counts));
+    const double missed = excess(found.se, programme.wheelbase_m, target);
     if (missed <= 1) return found;
     factor *= std::max(missed, 1.0001);
   }

@@ -10,6 +10,7 @@
 #include "host/experiment/analysis/trajectories.hpp"
 #include "host/experiment/drive/record_run.hpp"
 #include "host/recording/run/end_error.hpp"
+#include "host/robot/motion/paths.hpp"
 #include "host/robot/parameters/upload.hpp"
 #include "host/simulation/robot/camera_truth.hpp"
 #include "host/simulation/robot/in_process.hpp"
@@ -31,6 +32,7 @@ sim::Config robot_of(const TrialSetup& setup, double K_m) {
   robot.true_ed = setup.E_d;
   robot.scale = setup.scale;
   robot.true_wheelbase_m = setup.actual().b_m;
+  robot.true_e = setup.e;
   // The simulator's slip is per metre that a true wheel rolls, the study's per metre of a nominal one.
   robot.slip_m = K_m / setup.scale;
   return robot;
@@ -48,10 +50,21 @@ experiment::Plan plan_of(const TrialSetup& setup) {
   experiment::Plan plan;
   plan.runs = setup.runs;
   plan.side_m = setup.side_m;
+  plan.circle_radius_m = setup.circle_radius_m;
   return plan;
 }
 
-experiment::RunSpec spec_of(int run) { return {"", "square", simulation::study::sense_of(run), run / 2 + 1}; }
+experiment::RunSpec spec_of(const TrialSetup& setup, int run) {
+  const bool square = setup.is_square(run);
+  const int index = square ? run : run - 2 * setup.runs;
+  return {"", square ? "square" : "circle", simulation::study::sense_of(run), index / 2 + 1};
+}
+
+robot::Path segments_of(const experiment::Plan& plan, const experiment::RunSpec& spec) {
+  if (spec.kind == "square") return experiment::path_of(plan, spec);
+  return robot::circle(plan.circle_radius_m, simulation::study::kCircleTurns, spec.direction.value(),
+                       {plan.speed_mps, plan.yaw_rate_radps});
+}
 
 /// A robot that is switched on, with the parameters of the set-up loaded.
 class SimulatedRobot {
@@ -68,11 +81,10 @@ class SimulatedRobot {
     parameters_ = robot::RemoteParameters::fetch(client_).numbers();
   }
 
-  recording::Run drive(int run) {
-    const experiment::RunSpec spec = spec_of(run);
+  recording::Run drive(const experiment::RunSpec& spec) {
     recording::RunInfo info = experiment::info_of(plan_, spec);
     info.parameters = parameters_;
-    return experiment::record_run(client_, truth_, path_of(plan_, spec), info, {});
+    return experiment::record_run(client_, truth_, segments_of(plan_, spec), info, {});
   }
 
  private:
@@ -87,11 +99,12 @@ simulation::study::Drives driven(const sim::Config& robot, const simulation::Moc
                                  const TrialSetup& setup) {
   SimulatedRobot simulated(robot, cameras, setup);
   simulation::study::Drives drives;
-  for (int run = 0; run < 2 * setup.runs; ++run) {
-    const recording::Run recorded = simulated.drive(run);
+  for (int run = 0; run < setup.run_count(); ++run) {
+    const recording::Run recorded = simulated.drive(spec_of(setup, run));
+    drives.runs.push_back(experiment::trajectory_of(recorded, simulation::study::name_of(setup, run)));
+    if (!setup.is_square(run)) continue;
     const recording::EndError end = recording::end_error(recorded);
     drives.end_errors.push_back({end.x_m, end.y_m, end.theta_rad});
-    drives.runs.push_back(experiment::trajectory_of(recorded, simulation::study::name_of(run)));
   }
   return drives;
 }
@@ -102,6 +115,9 @@ void SimulatedSource::check(const TrialSetup& setup) const {
   setup.require(simulation::study::Model::simulator);
   setup.check();
   plan_of(setup).check();
+  if (setup.windup_rad != 0)
+    throw Error(
+        "the simulated robot's tyres do not wind up in spins: only the robot of the kinematic model does");
   if (setup.count_rate_hz != kCountRate_hz)
     throw Error(
         "the simulated robot's counts are recorded at " + std::to_string(std::lround(kCountRate_hz)) + " Hz",

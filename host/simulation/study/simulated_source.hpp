@@ -9,11 +9,11 @@ namespace astro::simulation {
 /// control and encoders are the simulator's; true wheels and wheelbase, slip, and the cameras' rate and
 /// errors are those of the set-up.
 ///
-/// One robot drives all squares of a trial, as an experiment would drive and record them (speeds, rests, 100
+/// One robot drives all squares and circles of a trial, as an experiment would drive and record them (speeds, rests, 100
 /// Hz telemetry). If the clock is to be estimated, the cameras' times are shifted after all is recorded; no
 /// sample of truth is outside of the drive, as for the kinematic robot.
 ///
-/// Errors  beside those of DriveSource: counts at another rate, sizes that no plan or robot takes, a robot
+/// Errors  beside those of DriveSource: a wind-up, which only the kinematic robot has, counts at another rate, sizes that no plan or robot takes, a robot
 ///         that fails (a fault, a wheel that does not come to rest).
 /// Cost    about 0.2 s for ten 3 m squares.
 class SimulatedSource : public simulation::study::DriveSource {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "host/calibration/motion/median.hpp"
 #include "host/simulation/study/synthetic_drive.hpp"
 
 namespace astro::simulation::study {
@@ -31,6 +32,7 @@ Mean mean_of(std::size_t count, Read read) {
 }
 
 std::vector<Errors> draws_from(const FactorCovariance& covariance, const TrialSetup& setup) {
+  // The draws need no e: what they are for, squares and lines, has none.
   const Eigen::Matrix3d of_three = covariance.topLeftCorner<3, 3>();
   const Eigen::Matrix3d root = of_three.llt().matrixL();
   const WheelFactors actual = setup.actual();
@@ -40,7 +42,7 @@ std::vector<Errors> draws_from(const FactorCovariance& covariance, const TrialSe
   for (int i = 0; i < kDraws; ++i) {
     const double a = normal(random), b = normal(random), c = normal(random);
     const Eigen::Vector3d e = root * Eigen::Vector3d(a, b, c);
-    errors.push_back(errors_of({actual.c_r + e[0], actual.c_l + e[1], actual.b_m + e[2]}, setup));
+    errors.push_back(errors_of({actual.c_r + e[0], actual.c_l + e[1], actual.b_m + e[2], actual.e}, setup));
   }
   return errors;
 }
@@ -70,14 +72,28 @@ std::string failure_of(std::size_t method, const std::vector<Trial>& trials) {
 
 std::optional<CovarianceConsistency> covariance_consistency(const std::vector<Trial>& trials) {
   std::vector<double> values;
-  for (const Trial& trial : trials)
-    if (trial.ml_chi_square) values.push_back(*trial.ml_chi_square);
+  int unknowns = 0;
+  for (const Trial& trial : trials) {
+    if (!trial.ml_chi_square) continue;
+    values.push_back(*trial.ml_chi_square);
+    unknowns += trial.ml_unknowns;
+  }
   if (values.empty()) return std::nullopt;
   const Mean mean = mean_of(values.size(), [&](std::size_t i) { return values[i]; });
-  // The standard error of a mean of chi-squares with 3 degrees of freedom, because a few trials often show too
-  // little scatter.
-  return CovarianceConsistency{static_cast<int>(values.size()), mean.value,
-                               std::sqrt(6 / static_cast<double>(values.size()))};
+  // The standard error of a mean of chi-squares with so many degrees of freedom, because a few trials often show
+  // too little scatter.
+  const auto count = static_cast<double>(values.size());
+  const double expected = unknowns / count;
+  return CovarianceConsistency{static_cast<int>(values.size()), mean.value, std::sqrt(2 * expected / count),
+                               expected};
+}
+
+std::optional<double> median_K_m(const std::vector<Trial>& trials) {
+  std::vector<double> values;
+  for (const Trial& trial : trials)
+    if (trial.ml_K_m) values.push_back(*trial.ml_K_m);
+  if (values.empty()) return std::nullopt;
+  return calibration::median_of(std::move(values));
 }
 
 }  // namespace
@@ -105,7 +121,8 @@ Row bound_of(const TrialSetup& setup, const DriveSource& source) {
   row.rms[kE_d] = exact.E_d;
   row.rms[kB_over_S] = exact.b_over_scale_m / setup.wheelbase_m;
   row.rms[kScale] = exact.scale;
-  row.se[kE_d] = row.se[kB_over_S] = row.se[kScale] = 0;
+  row.rms[kCurvature] = exact.e;
+  row.se[kE_d] = row.se[kB_over_S] = row.se[kScale] = row.se[kCurvature] = 0;
   return row;
 }
 
@@ -122,12 +139,15 @@ Summary summarize(const TrialSetup& setup, const DriveSource& source, const std:
   }
   if (!summary.methods.empty() && summary.methods.back().name == kMethods[kMl]) {
     const Row& last = summary.methods.back();
-    for (const Figure figure : {kE_d, kB_over_S, kScale})
+    for (const Figure figure : {kE_d, kB_over_S, kScale, kCurvature}) {
+      if (figure == kCurvature && setup.e == 0) continue;
       summary.ml_over_bound.push_back(
           {last.rms[figure] / summary.bound.rms[figure],
            last.rms[figure] / summary.bound.rms[figure] / std::sqrt(2.0 * last.trials)});
+    }
   }
   summary.ml_covariance = covariance_consistency(trials);
+  summary.ml_median_K_m = median_K_m(trials);
   return summary;
 }
 

@@ -13,7 +13,7 @@
 namespace astro::simulation::study {
 
 /// Root mean squares over trials with their Monte Carlo standard errors (delta method:
-/// sd(e^2) / (2 rms sqrt(n))); NaN for a single answer. The first three of the bound are exact: 0.
+/// sd(e^2) / (2 rms sqrt(n))); NaN for a single answer. The first four of the bound are exact: 0.
 struct Row {
   std::string name;
   int trials = 0;
@@ -25,27 +25,29 @@ struct Ratio {
   double value = 0, se = 0;
 };
 
-/// Mean of e' C^-1 e over trials: 3 if the covariance is consistent with the errors, more if it is too small.
+/// Mean of Trial::ml_chi_square over trials: `expected` if the covariance is consistent with the errors, more if it
+/// is too small. Expected is the mean number of unknowns, 3 without e and 4 with it.
 struct CovarianceConsistency {
   int trials = 0;
-  double mean = 0, se = 0;
+  double mean = 0, se = 0, expected = 3;
 };
 
 struct Summary {
   TrialSetup setup;
   std::vector<Row> methods;  // those with an answer in any trial, in the order of kMethods
   Row bound;
-  /// Of E_d, b / S and S; empty without an answer of maximum likelihood.
+  /// Of E_d, b / S and S, and of e if the robot has one; empty without an answer of maximum likelihood.
   std::vector<Ratio> ml_over_bound;
   std::optional<CovarianceConsistency> ml_covariance;
-  std::vector<std::string> failures;  // a sentence for each method that failed
+  std::optional<double> ml_median_K_m;  // nothing if maximum likelihood did not estimate it
+  std::vector<std::string> failures;    // a sentence for each method that failed
 };
 
 /// Rms and its standard error per figure. `errors` is not empty.
 Row row_of(const std::string& name, const std::vector<Errors>& errors);
 
 /// The Cramer-Rao bound of the set-up as `source` drives it; its last three figures come from factors drawn
-/// from its covariance.
+/// from its covariance. An e of zero counts as known, so that its bound is zero.
 Row bound_of(const TrialSetup& setup, const DriveSource& source);
 
 /// `trials` in order of their index, for results that are the same to the last bit.

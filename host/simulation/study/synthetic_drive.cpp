@@ -191,6 +191,17 @@ Course square_course(double side_m, Sense sense, double rest_s) {
   return between_rests(path, rest_s);
 }
 
+Course square_course_with_stands(double side_m, Sense sense, double rest_s) {
+  const Course square = square_course(side_m, sense, 0);
+  Course path;
+  for (std::size_t leg = 1; leg + 1 < square.size(); ++leg) {  // without the rests at its ends
+    path.push_back(square[leg]);
+    if (square[leg].kind == Leg::Kind::turn) path.push_back({Leg::Kind::rest, 0, 0, kStand_s});
+  }
+  path.push_back({Leg::Kind::straight, kEndLine_m, 0, 0});
+  return between_rests(path, rest_s);
+}
+
 Course line_course(double length_m, double rest_s) {
   return between_rests({{Leg::Kind::straight, length_m, 0, 0}}, rest_s);
 }

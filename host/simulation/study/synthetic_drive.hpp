@@ -28,6 +28,10 @@ using Course = std::vector<Leg>;
 
 /// Rest, then the path, then rest again; each rest of `rest_s`. Distances in metres, angles in radians.
 Course square_course(double side_m, Sense sense, double rest_s = 1);
+/// A square with a stand after each spin. A line follows the last one, because what a spin winds up is let go of
+/// only in the next line.
+inline constexpr double kStand_s = 1, kEndLine_m = 0.3;
+Course square_course_with_stands(double side_m, Sense sense, double rest_s = 1);
 Course line_course(double length_m, double rest_s = 1);
 Course spin_course(double angle_rad, double rest_s = 1);
 Course circle_course(double radius_m, double angle_rad, double rest_s = 1);

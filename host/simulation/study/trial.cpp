@@ -48,11 +48,16 @@ WheelFactors by_end_poses(const TrialSetup& setup, const EndErrors& ends,
   return estimate_factors(ends.cw, ends.ccw, setup.side_m, setup.loaded(), options).factors;
 }
 
+int unknowns_of(const calibration::MlEstimate& estimate) { return estimate.se.e > 0 ? 4 : 3; }
+
+template <int kUnknowns>
 double normalised_square(const calibration::MlEstimate& estimate, const WheelFactors& actual) {
-  const Eigen::Vector3d error(estimate.factors.c_r - actual.c_r, estimate.factors.c_l - actual.c_l,
-                              estimate.factors.b_m - actual.b_m);
-  const Eigen::Matrix3d covariance = estimate.covariance.topLeftCorner<3, 3>();
-  return error.dot(covariance.ldlt().solve(error));
+  const Eigen::Vector4d error(estimate.factors.c_r - actual.c_r, estimate.factors.c_l - actual.c_l,
+                              estimate.factors.b_m - actual.b_m, estimate.factors.e - actual.e);
+  const Eigen::Matrix<double, kUnknowns, 1> of_unknowns = error.head<kUnknowns>();
+  const Eigen::Matrix<double, kUnknowns, kUnknowns> covariance =
+      estimate.covariance.topLeftCorner<kUnknowns, kUnknowns>();
+  return of_unknowns.dot(covariance.ldlt().solve(of_unknowns));
 }
 
 }  // namespace
@@ -63,6 +68,7 @@ Errors errors_of(const WheelFactors& found, const TrialSetup& setup) {
   return {found.c_r / found.c_l - setup.E_d,
           found.b_m / scale / setup.wheelbase_m - setup.E_b,
           scale - setup.scale,
+          found.e - actual.e,
           replay_E_max_syst_m(setup.side_m, found, actual),
           heading_rms_rad(setup.side_m, found, actual),
           line_miss_m(found, actual)};
@@ -99,7 +105,10 @@ Trial run_trial(const TrialSetup& setup, const DriveSource& source, int index) {
     attempt([&] { return by_end_poses(setup, ends, options); });
   attempt([&] {
     const calibration::MlEstimate estimate = estimate_ml(drives.runs, setup.loaded(), setup.ml_options());
-    trial.ml_chi_square = normalised_square(estimate, setup.actual());
+    trial.ml_unknowns = unknowns_of(estimate);
+    trial.ml_chi_square = trial.ml_unknowns == 4 ? normalised_square<4>(estimate, setup.actual())
+                                                 : normalised_square<3>(estimate, setup.actual());
+    if (!setup.noise_known) trial.ml_K_m = estimate.noise.K_m;
     return estimate.factors;
   });
   return trial;

@@ -9,7 +9,7 @@
 #include "host/simulation/study/drive_source.hpp"
 #include "host/simulation/study/setup.hpp"
 
-/// One trial: the squares are driven once, and every method calibrates from the same data.
+/// One trial: the squares and circles are driven once, and every method calibrates from the same data.
 namespace astro::simulation::study {
 
 /// In the order of the table.
@@ -18,24 +18,27 @@ inline constexpr std::array<std::string_view, 6> kMethods = {
 };
 inline constexpr std::size_t kMl = 5;
 
-/// Errors of a set of factors. The first three are differences of E_d, of b / S over the nominal wheelbase,
-/// and of S. The others are the noise-free errors that remain when the factors are loaded: E_max_syst of the
+/// Errors of a set of factors. The first four are differences of E_d, of b / S over the nominal wheelbase,
+/// of S and of e. The others are the noise-free errors that remain when the factors are loaded: E_max_syst of the
 /// square, the heading error at its end (rms of both directions), and after a straight line of 10 m by
 /// odometry the distance between true end and end by odometry.
-enum Figure : std::size_t { kE_d, kB_over_S, kScale, kE_max_m, kTheta_rad, kLine_m };
-inline constexpr std::size_t kFigures = 6;
+enum Figure : std::size_t { kE_d, kB_over_S, kScale, kCurvature, kE_max_m, kTheta_rad, kLine_m };
+inline constexpr std::size_t kFigures = 7;
 using Errors = std::array<double, kFigures>;
 
-/// Errors of `found` against the true factors of `setup`; the first three are signed.
+/// Errors of `found` against the true factors of `setup`; the first four are signed.
 Errors errors_of(const calibration::WheelFactors& found, const TrialSetup& setup);
 
 struct Trial {
   int index = 0;
   /// The errors of each method; none if it gave no answer.
   std::array<std::optional<Errors>, kMethods.size()> errors;
-  /// e' C^-1 e of c_R, c_L and b with the covariance that maximum likelihood claims.
+  /// x' C^-1 x, x the errors of c_R, c_L and b, and of e if it was estimated, C the covariance that maximum
+  /// likelihood claims.
   std::optional<double> ml_chi_square;
-  std::string failure;  // why the last method without an answer gave none: "ml: sentence"
+  int ml_unknowns = 3;           // in it: 4 with e
+  std::optional<double> ml_K_m;  // the slip that maximum likelihood found; none if it was given
+  std::string failure;           // why the last method without an answer gave none: "ml: sentence"
 
   bool operator==(const Trial&) const = default;
 };

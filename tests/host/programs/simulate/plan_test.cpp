@@ -57,6 +57,31 @@ TEST(PlanCommand, TakesTheSizesOfRunsAndTheNoise) {
   EXPECT_EQ(plan({"--circles", "2"})["design_rules"], json()) << "they take arcs for spins";
 }
 
+TEST(PlanCommand, SaysHowPreciselyEIsFoundAndWhatItTakes) {
+  const Outcome squares = astrolabe({"plan", "--e", "--squares", "10"});
+  EXPECT_EQ(squares.code, 0) << squares.err;
+  EXPECT_THAT(squares.out, HasSubstr("standard error of e: 0.1"));
+  EXPECT_THAT(squares.out, HasSubstr("\nruns without circles hardly show e: add circles"));
+  const Outcome usual = astrolabe({"plan", "--with-e"});
+  EXPECT_THAT(usual.out, HasSubstr("6 squares of 3 m, 6 circles of radius 1 m"));
+  EXPECT_THAT(usual.out, testing::Not(HasSubstr("hardly")));
+  EXPECT_THAT(astrolabe({"plan"}).out, testing::Not(HasSubstr(" e:")));
+
+  const json found = plan({"--until", "0.1%", "--until-e", "0.2%"});
+  EXPECT_LE(found["standard_errors"]["e"].get<double>(), 0.002);
+  EXPECT_GT(found["runs"]["circles"], 0);
+  EXPECT_EQ(found["e_hidden"], json());
+  EXPECT_FALSE(plan({})["standard_errors"].contains("e"));
+}
+
+TEST(PlanCommand, WantsAPrecisionOfEBesideThatOfTheFactors) {
+  EXPECT_EQ(astrolabe({"plan", "--until", "0.1%", "--e"}).code, 2);
+  EXPECT_EQ(astrolabe({"plan", "--until-e", "0.1%"}).code, 2);
+  const Outcome outcome = astrolabe({"plan", "--until", "0.1%", "--until-e", "0.2%", "--kinds", "squares"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("runs without circles hardly show e"));
+}
+
 TEST(PlanCommand, SaysWhichCommandsDriveIt) {
   EXPECT_THAT(astrolabe({"plan", "--lines", "3", "--spins", "2", "--turns", "4"}).out,
               HasSubstr("\n  astrolabe record --lines 3 --spins 2 --turns 4 --truth sim --out programme\n"

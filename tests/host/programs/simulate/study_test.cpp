@@ -61,6 +61,46 @@ TEST(StudyCommand, GivesTheSameAsJson) {
   EXPECT_EQ(result["ml_covariance"]["expected"], 3);
 }
 
+TEST(StudyCommand, ShowsEOnlyIfTheRobotHasOneOrDrivesCircles) {
+  const Outcome usual = astrolabe(study({}));
+  EXPECT_THAT(usual.out, testing::Not(HasSubstr("circles")));
+  EXPECT_THAT(usual.out, HasSubstr(", expected 3\n"));
+  EXPECT_THAT(usual.out, HasSubstr("(median), true 2.645e-06 m\n"));
+  const json without = support::parse_json(astrolabe(study({"--json"})).out);
+  EXPECT_FALSE(without["bound"]["rms"].contains("e"));
+  EXPECT_GT(without["ml_median_K_m"].get<double>(), 0);
+
+  const Words options{"--true-e", "0.02", "--circles", "1", "--radius", "0.5"};
+  const Outcome text = astrolabe(study(options));
+  ASSERT_EQ(text.code, 0) << text.err;
+  EXPECT_THAT(text.out, HasSubstr("\n1 + 1 circles of 2 turns, radius 0.5 m; e 0.02\n"));
+  EXPECT_LE(widest_line(text.out), 80U);
+  Words as_json = options;
+  as_json.push_back("--json");
+  const json result = support::parse_json(astrolabe(study(as_json)).out);
+  EXPECT_EQ(result["setup"]["e"], 0.02);
+  EXPECT_EQ(result["setup"]["circles"], 1);
+  EXPECT_NEAR(result["methods"][0]["rms"]["e"].get<double>(), 0.02, 1e-12) << "what was not calibrated";
+  EXPECT_GT(result["bound"]["rms"]["e"], 0);
+  EXPECT_GT(result["ml_over_bound"]["e"]["value"], 0);
+  EXPECT_FALSE(
+      support::parse_json(astrolabe(study({"--circles", "1", "--json"})).out)["ml_over_bound"].contains("e"))
+      << "there is none, and the bound knows";
+}
+
+TEST(StudyCommand, WindsUpTheKinematicRobotAlone) {
+  const Outcome text = astrolabe(study({"--windup", "6"}));
+  ASSERT_EQ(text.code, 0) << text.err;
+  EXPECT_THAT(text.out,
+              HasSubstr("\nspins wind up 6 mrad; a stand of 1 s after each, a line of 0.3 m at the end\n"));
+  EXPECT_LE(widest_line(text.out), 80U);
+  EXPECT_EQ(support::parse_json(astrolabe(study({"--windup", "6", "--json"})).out)["setup"]["windup_rad"],
+            0.006);
+  const Outcome simulator = astrolabe(study({"--windup", "6", "--model", "simulator"}));
+  EXPECT_EQ(simulator.code, 1);
+  EXPECT_THAT(simulator.err, HasSubstr("only the robot of the kinematic model does"));
+}
+
 TEST(StudyCommand, DrivesTheSimulatedRobotIfAsked) {
   const Outcome text = astrolabe(study({"--model", "simulator"}));
   ASSERT_EQ(text.code, 0) << text.err;

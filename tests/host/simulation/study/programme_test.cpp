@@ -76,6 +76,57 @@ TEST(Forecast, WorseGroundTruthAndMoreSlipTakePrecision) {
   EXPECT_GT(forecast(blurred).relative().b, 1.05 * best.b);
 }
 
+TEST(Forecast, OfAnEThatIsToBeFoundIsTheBoundThatAStudyComparesWith) {
+  TrialSetup setup;
+  setup.E_d = setup.E_b = setup.scale = 1;
+  setup.clock_known = false;
+  setup.runs = setup.circles = 3;
+  setup.e = 1e-9;  // as good as none, but unknown
+  const Row bound = bound_of(setup, KinematicSource());
+  Programme programme = Programme{}.with({6, 0, 0, 12});  // of one turn each, the study's are of two
+  programme.radius_m = setup.circle_radius_m;
+  programme.with_e = true;
+  const Forecast found = forecast(programme);
+  // Twelve circles have twice the rests and clock offsets of six.
+  EXPECT_NEAR(found.se.e / bound.rms[kCurvature], 1, 0.05);
+  EXPECT_NEAR(found.se.E_d / bound.rms[kE_d], 1, 0.05);
+}
+
+TEST(Forecast, OfSquaresAloneLeavesEAsUncertainAsItWas) {
+  Programme programme = Programme{}.with({10, 0, 0, 0});
+  const Forecast without = forecast(programme);
+  EXPECT_EQ(without.se.e, 0);
+  programme.with_e = true;
+  const Forecast squares = forecast(programme);
+  EXPECT_NEAR(squares.se.e, 0.1, 1e-3) << "what is known of tyres without a drive";
+  EXPECT_NEAR(squares.se.b_m / without.se.b_m, 1, 1e-3);
+  EXPECT_EQ(why_e_is_hidden(programme.counts), "runs without circles hardly show e");
+  const Forecast circles = forecast(programme.with({0, 0, 0, 10}));
+  EXPECT_GT(circles.se.e, 0.05);
+  EXPECT_EQ(why_e_is_hidden(circles.programme.counts),
+            "runs without squares and spins hardly tell e from the wheelbase");
+  const Forecast both = forecast(programme.with({6, 0, 0, 6}));
+  EXPECT_LT(both.se.e, 0.01);
+  EXPECT_FALSE(why_e_is_hidden(both.programme.counts));
+}
+
+TEST(ShortestProgramme, FindsEWithCircles) {
+  const Precision target{1e-3, 1e-3, 1e-3};
+  const std::vector<Kind> all{kSquares, kLines, kSpins, kCircles};
+  const Forecast found = shortest_programme(target, all, Programme{}, 2e-3);
+  EXPECT_TRUE(meets(found, 1e-3));
+  EXPECT_LE(found.se.e, 2e-3);
+  EXPECT_GT(found.se.e, 1.8e-3) << "and no more than it takes";
+  EXPECT_GT(found.programme.counts[kCircles], 0);
+  EXPECT_GT(found.programme.counts[kSquares] + found.programme.counts[kSpins], 0);
+  EXPECT_GT(found.driving_time_s, shortest_programme(target, all, Programme{}).driving_time_s);
+  const auto fact = [&](const std::vector<Kind>& kinds) {
+    return support::told_by([&] { (void)shortest_programme(target, kinds, Programme{}, 2e-3); }).fact;
+  };
+  EXPECT_EQ(fact({kSquares, kLines}), "runs without circles hardly show e");
+  EXPECT_EQ(fact({kLines, kCircles}), "runs without squares and spins hardly tell e from the wheelbase");
+}
+
 TEST(Forecast, RefusesProgrammesThatLeaveAFactorOpen) {
   const auto told = [](const Counts& counts) { return support::told_by([&] { (void)of(counts); }); };
   EXPECT_THAT(told({0, 0, 0, 0}), Tells("the programme is empty", Help::give_runs));

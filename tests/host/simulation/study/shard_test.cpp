@@ -44,10 +44,13 @@ std::vector<Trial> some_trials(int begin, int end) {
       trial.errors[m] = errors;
     }
     trial.ml_chi_square = std::numeric_limits<double>::denorm_min() * (i + 1);
+    trial.ml_unknowns = 3 + i % 2;
+    trial.ml_K_m = 1e-6 / (3.0 + i);
     trials.push_back(trial);
   }
   trials.front().errors[kMl].reset();
   trials.front().ml_chi_square.reset();
+  trials.front().ml_K_m.reset();
   trials.front().failure = "ml: \"quoted\", and\nbroken";
   return trials;
 }
@@ -56,6 +59,10 @@ TrialSetup of_trials(int trials) {
   TrialSetup setup;
   setup.trials = trials;
   setup.seed = std::numeric_limits<std::uint64_t>::max();
+  setup.circles = 2;
+  setup.circle_radius_m = 1.0 / 3;
+  setup.e = 1.0 / 70;
+  setup.windup_rad = 0.006 / 7;
   return setup;
 }
 
@@ -68,6 +75,10 @@ TEST(ShardFile, GivesBackEveryBit) {
   EXPECT_EQ(read.trials, some_trials(2, 6));
   EXPECT_EQ(to_text(read.setup, read.trials), to_text(of_trials(10), some_trials(2, 6)));
   EXPECT_EQ(read.setup.seed, of_trials(10).seed);
+  EXPECT_EQ(read.setup.circles, 2);
+  EXPECT_EQ(read.setup.circle_radius_m, of_trials(10).circle_radius_m);
+  EXPECT_EQ(read.setup.e, of_trials(10).e);
+  EXPECT_EQ(read.setup.windup_rad, of_trials(10).windup_rad);
 }
 
 TEST(ShardFile, SaysWhichRobotDrove) {
@@ -85,7 +96,7 @@ TEST(ShardFile, SaysWhichRobotDrove) {
 TEST(ShardFile, GivesBackWhatIsNoNumberAsThatAndNotAsNoAnswer) {
   std::vector<Trial> trials = some_trials(0, 2);
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  trials[1].errors[kMl] = Errors{std::nan(""), kInfinity, -kInfinity, 1, 2, 3};
+  trials[1].errors[kMl] = Errors{std::nan(""), kInfinity, -kInfinity, 0, 1, 2, 3};
   trials[1].ml_chi_square = std::nan("");
   const std::string text = to_text(of_trials(2), trials);
   const std::vector<Trial> read = read_shard_file(text, "x.json").trials;
@@ -93,7 +104,7 @@ TEST(ShardFile, GivesBackWhatIsNoNumberAsThatAndNotAsNoAnswer) {
   EXPECT_TRUE(std::isnan(errors[0]));
   EXPECT_EQ(errors[1], kInfinity);
   EXPECT_EQ(errors[2], -kInfinity);
-  EXPECT_EQ(errors[5], 3);
+  EXPECT_EQ(errors[6], 3);
   EXPECT_TRUE(std::isnan(read[1].ml_chi_square.value()));
   EXPECT_FALSE(read[0].errors[kMl].has_value());
   EXPECT_FALSE(read[0].ml_chi_square.has_value());
@@ -166,6 +177,10 @@ TEST(Merge, RefusesWhatIsNotOneWholeStudy) {
   other.side_m = 2;
   EXPECT_THAT(told({part("a", 0, 4), part("b", 4, 10, other)}),
               Tells("'a' was made with side_m 3.0 and 'b' with 2.0", Help::merge_one_study));
+  other = of_trials(10);
+  other.e = 0.02;
+  EXPECT_THAT(told({part("a", 0, 4, other), part("b", 4, 10)}),
+              Tells("'a' was made with e 0.02 and 'b' with 0.014285714285714285", Help::merge_one_study));
   other = of_trials(10);
   other.model = Model::simulator;
   EXPECT_THAT(

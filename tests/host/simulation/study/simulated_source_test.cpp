@@ -43,10 +43,14 @@ bool same(const Trajectory& a, const Trajectory& b) {
 // 72 mm wheels, 64 x 43.8 counts a turn.
 constexpr double kCount_m = std::numbers::pi * 0.072 / (64 * 43.8);
 
-void expect_true_factors(const TrialSetup& setup) {
+MlEstimate estimate_of(const TrialSetup& setup) {
   calibration::MlOptions options = setup.ml_options();
   options.noise = setup.noise;  // there is none to estimate
-  const MlEstimate found = estimate_ml(SimulatedSource().without_noise(setup), setup.loaded(), options);
+  return estimate_ml(SimulatedSource().without_noise(setup), setup.loaded(), options);
+}
+
+void expect_true_factors(const TrialSetup& setup) {
+  const MlEstimate found = estimate_of(setup);
   const double E_d = found.E_d() - setup.E_d, scale = found.scale() - setup.scale,
                b = found.factors.b_m / setup.actual().b_m - 1;
   fmt::print("errors of E_d {:.1e}, S {:.1e}, b {:.1e}\n", E_d, scale, b);
@@ -69,6 +73,22 @@ TEST(SimulatedSource, DrivesARobotThatIsOffInEveryWayAndBelievesInAnotherWheelba
   setup.E_b = 1.05;
   setup.scale = 0.96;
   expect_true_factors(setup);
+}
+
+TEST(SimulatedSource, DrivesARobotOnWideTyresInSquaresAndCircles) {
+  TrialSetup setup = small_setup();
+  setup.circles = 1;
+  setup.e = 0.02;
+  setup.noise.K_m = 1e-7;  // with more, one circle each way would not show e
+  const Drives drives = SimulatedSource().of_trial(setup, 0);
+  ASSERT_EQ(drives.runs.size(), 4U);
+  EXPECT_EQ(drives.runs[3].name, "circle ccw 1");
+  EXPECT_EQ(drives.end_errors.size(), 2U);
+  expect_true_factors(setup);
+  const double e = estimate_of(setup).factors.e;
+  fmt::print("e {:.5f}\n", e);
+  // A fifth of e acts in the circle, of two turns of which one count in a wheel is so much.
+  EXPECT_NEAR(e, setup.e, 5 * kCount_m / (4 * std::numbers::pi * setup.wheelbase_m) + 0.02 * setup.e);
 }
 
 TEST(SimulatedSource, GivesTheSameDrivesForTheSameTrialToTheLastBitAndOthersForAnother) {
@@ -113,6 +133,11 @@ TEST(SimulatedSource, RefusesWhatTheRobotCannotDriveOrRecord) {
   setup = small_setup();
   setup.side_m = 0.05;
   EXPECT_EQ(refusal(setup).fact, "a square of side 0.05 m cannot be driven: 0.2 m to 100 m are possible");
+  setup = small_setup();
+  setup.windup_rad = 0.006;
+  EXPECT_EQ(
+      refusal(setup).fact,
+      "the simulated robot's tyres do not wind up in spins: only the robot of the kinematic model does");
   setup = small_setup();
   setup.trials = 0;
   EXPECT_EQ(refusal(setup).fact, "the number of trials is 0: it has to be 1 to 10 million");

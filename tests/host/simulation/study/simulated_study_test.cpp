@@ -72,9 +72,11 @@ TEST(SimulatedStudy, AgreesWithTheKinematicOneWithinTheScatterOfBoth) {
       EXPECT_LT(std::abs(apart(a, b, figure)), 4) << a.name << ", figure " << figure;
     }
   }
-  for (std::size_t figure = 0; figure < simulation::study::kFigures; ++figure)
+  for (std::size_t figure = 0; figure < simulation::study::kFigures; ++figure) {
+    if (figure == simulation::study::kCurvature) continue;  // none, and known to be none
     EXPECT_NEAR(simulated.bound.rms[figure] / kinematic.bound.rms[figure], 1, 0.03)
         << "ramps and rests of their own, and 1 % of chance in what is drawn";
+  }
   ASSERT_TRUE(simulated.ml_covariance.has_value());
   fmt::print("chi-square {:.2f} ± {:.2f}, ml over the bound {:.2f} {:.2f} {:.2f}\n",
              simulated.ml_covariance->mean, simulated.ml_covariance->se, simulated.ml_over_bound[0].value,

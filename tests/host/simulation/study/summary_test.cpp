@@ -75,6 +75,38 @@ TEST(StudySummary, CountsFailuresInsteadOfHidingThem) {
   EXPECT_EQ(summary.ml_covariance->trials, 1);
 }
 
+TEST(StudySummary, ExpectsAsMuchOfTheCovarianceAsItHasUnknowns) {
+  Trial three, four;
+  three.errors.fill(all(1e-3));
+  three.ml_chi_square = 3;
+  three.ml_K_m = 1e-6;
+  four = three;
+  four.index = 1;
+  four.ml_chi_square = 5;
+  four.ml_unknowns = 4;
+  four.ml_K_m = 3e-6;
+  const Summary summary = summarize(small_setup(), KinematicSource(), {three, four, four});
+  ASSERT_TRUE(summary.ml_covariance.has_value());
+  EXPECT_DOUBLE_EQ(summary.ml_covariance->mean, 13.0 / 3);
+  EXPECT_DOUBLE_EQ(summary.ml_covariance->expected, 11.0 / 3);
+  // The variance of a chi-square is twice its degrees of freedom.
+  EXPECT_DOUBLE_EQ(summary.ml_covariance->se, std::sqrt(2 * 11.0) / 3);
+  EXPECT_EQ(summary.ml_median_K_m, 3e-6);
+}
+
+TEST(StudySummary, SetsEBesideTheBoundIfTheRobotHasOne) {
+  Trial one;
+  one.errors.fill(all(1e-3));
+  TrialSetup setup = small_setup();
+  setup.circles = 1;
+  EXPECT_EQ(summarize(setup, KinematicSource(), {one}).bound.rms[kCurvature], 0) << "none, and that is known";
+  setup.e = 0.02;
+  const Summary summary = summarize(setup, KinematicSource(), {one});
+  ASSERT_EQ(summary.ml_over_bound.size(), 4U);
+  EXPECT_DOUBLE_EQ(summary.ml_over_bound[kCurvature].value, 1e-3 / summary.bound.rms[kCurvature]);
+  EXPECT_EQ(summary.bound.se[kCurvature], 0);
+}
+
 TEST(StudySummary, SetsMaximumLikelihoodBesideTheBound) {
   Trial one;
   one.errors.fill(all(1e-3));

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "host/simulation/study/kinematic_source.hpp"
+#include "host/simulation/study/synthetic_drive.hpp"
 #include "tests/host/calibration/end_poses/square_runs.hpp"
 
 namespace astro::simulation::study {
@@ -58,6 +60,19 @@ TEST(StudySetup, RefusesWhatCannotBeDriven) {
               s.runs = 1000;
             }),
             "some 7411 hours of driving are more than fit into memory");
+  EXPECT_EQ(message([](TrialSetup& s) { s.circles = 1001; }),
+            "the number of circles in each direction is 1001: it has to be 0 to 1000");
+  EXPECT_EQ(message([](TrialSetup& s) { s.circle_radius_m = 0; }),
+            "the radius of the circles in metres is 0, and has to be a positive number");
+  EXPECT_EQ(message([](TrialSetup& s) { s.e = 0.3; }),
+            "the curvature effect e is 0.3: it has to be -0.2 to 0.2");
+  EXPECT_EQ(message([](TrialSetup& s) { s.windup_rad = -0.006; }),
+            "the wind-up in radians is -0.006: it has to be 0 to 0.1");
+  EXPECT_EQ(message([](TrialSetup& s) {
+              s.circles = 1000;
+              s.circle_radius_m = 1000;
+            }),
+            "some 23271 hours of driving are more than fit into memory");
 }
 
 TEST(StudySetup, DrivesHalfOfTheSquaresEachWayAndNoTwoAlike) {
@@ -70,6 +85,58 @@ TEST(StudySetup, DrivesHalfOfTheSquaresEachWayAndNoTwoAlike) {
   EXPECT_EQ(drives[3].name, "square ccw 2");
   EXPECT_NE(drives[0].truth.back().x_m, drives[2].truth.back().x_m);
   EXPECT_NE(drives[0].truth.back().x_m, KinematicSource().of_trial(setup, 1).runs[0].truth.back().x_m);
+}
+
+TEST(StudySetup, DrivesCirclesAfterTheSquaresAndLeavesTheSquaresAsTheyAre) {
+  TrialSetup setup;
+  setup.runs = 1;
+  setup.side_m = 1;
+  setup.clock_known = false;
+  const Drives squares = KinematicSource().of_trial(setup, 0);
+  setup.circles = 2;
+  const Drives drives = KinematicSource().of_trial(setup, 0);
+  ASSERT_EQ(drives.runs.size(), 6U);
+  EXPECT_EQ(drives.runs[2].name, "circle cw 1");
+  EXPECT_EQ(drives.runs[5].name, "circle ccw 2");
+  EXPECT_EQ(drives.end_errors.size(), 2U) << "a circle tells methods of end poses nothing";
+  for (std::size_t run = 0; run < 2; ++run) {
+    EXPECT_EQ(drives.runs[run].truth.back().x_m, squares.runs[run].truth.back().x_m);
+    EXPECT_EQ(drives.runs[run].truth.back().time_s, squares.runs[run].truth.back().time_s);
+    EXPECT_EQ(drives.end_errors[run].x_m, squares.end_errors[run].x_m);
+  }
+  // Two turns of a circle of 0.75 m.
+  const calibration::WheelSample& end = drives.runs[3].wheels.back();
+  EXPECT_NEAR((end.left_m + end.right_m) / 2, 3 * std::numbers::pi, 1e-9);
+}
+
+TEST(StudySetup, ASquareThatWindsUpHasTheEndErrorOfTheSquareAndNotOfTheLineBehindIt) {
+  TrialSetup setup;
+  setup.runs = 1;
+  setup.noise = {1e-13, 1e-9, 1e-9};
+  const Drives plain = KinematicSource().of_trial(setup, 0);
+  setup.windup_rad = 0.006;
+  const Drives wound = KinematicSource().of_trial(setup, 0);
+  for (std::size_t run = 0; run < 2; ++run) {
+    const calibration::EndPose &a = plain.end_errors[run], &b = wound.end_errors[run];
+    // Each line begins 6 mrad off and lets go of that within 3 mm: it is 18 um aside.
+    EXPECT_NEAR(b.x_m, a.x_m, 1e-4);
+    EXPECT_NEAR(b.y_m, a.y_m, 1e-4);
+    EXPECT_NEAR(std::abs(b.theta_rad - a.theta_rad), setup.windup_rad, 1e-5)
+        << "what the last spin holds back";
+    const calibration::WheelSample& end = wound.runs[run].wheels.back();
+    EXPECT_NEAR((end.left_m + end.right_m) / 2, 4 * setup.side_m + kEndLine_m, 1e-9);
+  }
+}
+
+TEST(StudyErrors, OfEAreAFigureOfTheirOwn) {
+  TrialSetup setup;
+  setup.e = 0.02;
+  for (const double error : errors_of(setup.actual(), setup)) EXPECT_NEAR(error, 0, 1e-12);
+  WheelFactors found = setup.actual();
+  found.e = 0.025;
+  const Errors errors = errors_of(found, setup);
+  EXPECT_NEAR(errors[kCurvature], 0.005, 1e-12);
+  EXPECT_EQ(errors[kLine_m], 0) << "a line has no curvature";
 }
 
 TEST(StudySetup, GivesEachRunAClockOfItsOwnOnlyIfItIsToBeEstimated) {
