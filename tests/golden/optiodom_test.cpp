@@ -216,6 +216,25 @@ TEST_F(Optiodom, SquaresAndCirclesOfTwoSessionsPool) {
   EXPECT_LE(circles.path_m, 0.013);
 }
 
+TEST_F(Optiodom, TheRightWheelRunsOutOfTrueByAFifthOfAMillimetreInEverySet) {
+  std::vector<std::vector<Trajectory>> sets(3);
+  for (int run = 1; run <= 6; ++run) {
+    sets[0].push_back(raw_optiodom_run(kTraining, run));
+    sets[1].push_back(raw_optiodom_run(kTest, run));
+    sets[2].push_back(circular_optiodom_run(kCircles, run));
+  }
+  for (std::vector<Trajectory>& runs : sets) {
+    for (Trajectory& run : runs) run.wheel_turn_m = std::numbers::pi * 0.084;
+    const Eccentricities found = estimate_ml(runs, kNominal).eccentricities;
+    std::printf("right %.2f +- %.2f mm, left %.2f +- %.2f mm\n", 1e3 * found.right.amplitude_m,
+                1e3 * found.right.standard_error_m, 1e3 * found.left.amplitude_m,
+                1e3 * found.left.standard_error_m);
+    EXPECT_TRUE(found.right.significant);
+    EXPECT_NEAR(found.right.amplitude_m, 2e-4, 3 * found.right.standard_error_m);
+    EXPECT_FALSE(found.left.significant);
+  }
+}
+
 TEST_F(Optiodom, SquaresAloneHoldForAnotherSet) {
   const MlEstimate found = estimate_ml(raw(), kNominal);
   std::vector<Trajectory> unseen;

@@ -152,6 +152,9 @@ MlEstimate summarise(const MlFit& fit) {
   for (const Motion motion : {Motion::rest, Motion::line, Motion::arc, Motion::spin})
     if (const auto kind = summarise_kind(fit, motion)) estimate.kinds.push_back(*kind);
   estimate.curvature = summarise_curvature(fit, estimate.dispersion);
+  std::vector<ClockFit> clocks;
+  for (const Unknowns& u : fit.unknowns()) clocks.push_back({u[kClockOffset], u[kSkew]});
+  estimate.eccentricities = find_eccentricities(fit.runs(), clocks, estimate.factors);
   return estimate;
 }
 

@@ -11,6 +11,7 @@
 #include "host/calibration/likelihood/unknowns.hpp"
 #include "host/calibration/motion/trajectory.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
+#include "host/calibration/preparation/eccentricity.hpp"
 #include "host/calibration/preparation/preparation.hpp"
 
 /// Wheel factors by maximum likelihood from whole trajectories.
@@ -103,6 +104,7 @@ struct MlEstimate {
   std::vector<Remark> left_out;              // PreparedRuns::left_out; other useless runs are errors
   std::vector<KindFit> kinds;                // only those that occur, in the order of Motion
   std::optional<CurvatureEffect> curvature;  // nothing if the runs hardly show it
+  Eccentricities eccentricities;             // of the wheels; not corrected for
   /// How much more the runs that are no outliers scatter than their noise explains, as a factor on variances.
   /// The covariance and all standard errors of factors include it. 1 if they do not scatter more.
   double dispersion = 1;

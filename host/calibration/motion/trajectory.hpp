@@ -26,6 +26,7 @@ struct Trajectory {
   std::string name;  // how messages call it: "run square cw 3 (before)"
   std::vector<WheelSample> wheels;
   std::vector<BodySample> truth;
+  double wheel_turn_m = 0;  // travel of one turn of a nominal wheel; 0: not known
   std::string session =
       {};  // runs of equal names share lever arm and clocks; empty: found from the data (sessions.hpp)
 };

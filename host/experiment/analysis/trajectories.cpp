@@ -91,7 +91,9 @@ calibration::Trajectory trajectory_of(const recording::Run& run, const std::stri
     throw Error(fmt::format("the recording '{}' holds no odometry", name), {Help::leave_run_out, name});
   calibration::Trajectory trajectory;
   trajectory.name = name;
-  const double metres_per_count = nominal_wheel(run.info, name).metres_per_count();
+  const NominalWheel wheel = nominal_wheel(run.info, name);
+  const double metres_per_count = wheel.metres_per_count();
+  trajectory.wheel_turn_m = std::numbers::pi * wheel.diameter_m;
   const std::int64_t origin_us = run.odometry.front().time_us;
   Travel left, right;
   Clock robot(origin_us, name, "odometry"), tracker(origin_us, name, "ground truth");

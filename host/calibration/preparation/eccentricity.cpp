@@ -1,0 +1,138 @@
+#include "host/calibration/preparation/eccentricity.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "host/calibration/motion/wheel_path.hpp"
+#include "host/calibration/preparation/path_alignment.hpp"
+
+namespace astro::calibration {
+namespace {
+
+// Once per turn first, then what is compared with it. Multiples of gears (1/2, 2) and a wheel of another size (near 1) are left out.
+constexpr std::array kPerTurn{1.0, 0.6, 0.7, 0.8, 1.25, 1.4, 1.6};
+constexpr double kFewestTurns = 10;
+constexpr double kShown = 4;  // standard errors
+
+/// A pair of samples half a turn of the wheels apart.
+struct Pair {
+  double gained_rad = 0;               // what truth turned more than the wheels
+  std::array<double, 2> from_m, to_m;  // readings, left and right
+};
+
+/// The headings by which truth is ahead of the wheels, without jumps by whole turns.
+std::vector<double> gains_rad(const PreparedRun& run, const ClockFit& clock, const WheelFactors& factors) {
+  const std::vector<BodySample> odometry = dead_reckoned(run, clock, factors);
+  std::vector<double> gains;
+  for (std::size_t i = 0; i < odometry.size(); ++i) {
+    const double gain = run.truth[i].theta_rad - odometry[i].theta_rad;
+    gains.push_back(gains.empty() ? gain
+                                  : gains.back() + std::remainder(gain - gains.back(), 2 * std::numbers::pi));
+  }
+  return gains;
+}
+
+std::vector<Pair> pairs_of(const PreparedRun& run, const ClockFit& clock, const WheelFactors& factors) {
+  const double half_turn_m = run.source->wheel_turn_m / 2;
+  const std::vector<double> gains = gains_rad(run, clock, factors);
+  const WheelPath path(run.source->wheels);
+  std::vector<std::array<double, 2>> readings;
+  for (const BodySample& sample : run.truth) {
+    const WheelState at = path.at(clock.robot_time_s(sample.time_s, run.clock_middle_s));
+    readings.push_back({at.left_m, at.right_m});
+  }
+  std::vector<Pair> pairs;
+  for (std::size_t from = 0, to = 0; from < readings.size(); ++from) {
+    const auto travelled_m = [&] {
+      return (readings[to][0] + readings[to][1] - readings[from][0] - readings[from][1]) / 2;
+    };
+    while (to + 1 < readings.size() && std::abs(travelled_m()) < half_turn_m) ++to;
+    const double way_m = run.path_m[to] - run.path_m[from];
+    // Not where the robot spun or turned back in between: it goes a longer way then. Nor across a gap of truth.
+    if (std::abs(travelled_m()) < half_turn_m || way_m > 1.2 * half_turn_m) continue;
+    pairs.push_back({gains[to] - gains[from], readings[from], readings[to]});
+  }
+  return pairs;
+}
+
+using Wave =
+    Eigen::Vector4d;  // cosine and sine of the left wheel's travel, then of the right one's, in metres
+
+std::optional<Wave> wave_of(const std::vector<Pair>& pairs, double per_turn, double turn_m,
+                            const WheelFactors& factors) {
+  Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+  Wave right_side = Wave::Zero();
+  const double per_metre = 2 * std::numbers::pi * per_turn / turn_m;
+  for (const Pair& pair : pairs) {
+    Wave row;
+    for (int wheel = 0; wheel < 2; ++wheel) {
+      const auto at = static_cast<std::size_t>(wheel);
+      const double from = per_metre * pair.from_m[at], to = per_metre * pair.to_m[at];
+      row.segment<2>(2 * wheel) << std::cos(to) - std::cos(from), std::sin(to) - std::sin(from);
+    }
+    row.head<2>() *= -1;
+    row /= factors.b_m;
+    normal += row * row.transpose();
+    right_side += row * pair.gained_rad;
+  }
+  const Eigen::LDLT<Eigen::Matrix4d> ldlt(normal);
+  // On one long line both wheels turn alike, and nothing tells their waves apart.
+  const auto pivots = ldlt.vectorD().array();
+  if (!(pivots.minCoeff() > 1e-3 * pivots.maxCoeff())) return {};
+  return ldlt.solve(right_side);
+}
+
+/// The waves of one run, at each of kPerTurn.
+using Waves = std::array<Wave, kPerTurn.size()>;
+
+std::optional<Waves> waves_of(const PreparedRun& run, const ClockFit& clock, const WheelFactors& factors) {
+  const double turn_m = run.source->wheel_turn_m;
+  if (!(turn_m > 0) || !run.has_headings || run.distance_m < kFewestTurns * turn_m) return {};
+  const std::vector<Pair> pairs = pairs_of(run, clock, factors);
+  Waves waves;
+  for (std::size_t i = 0; i < kPerTurn.size(); ++i) {
+    const auto wave = wave_of(pairs, kPerTurn[i], turn_m, factors);
+    if (!wave) return {};
+    waves[i] = *wave;
+  }
+  return waves;
+}
+
+Eccentricity of_wheel(const std::vector<Waves>& runs, int wheel) {
+  Eccentricity out;
+  double square_m2 = 0, noise_m2 = 0;
+  const auto count = static_cast<double>(runs.size());
+  for (const Waves& waves : runs) {
+    const auto of = [&](std::size_t i) { return Eigen::Vector2d(waves[i].segment<2>(2 * wheel)); };
+    square_m2 += of(0).squaredNorm() / count;
+    for (std::size_t i = 1; i < waves.size(); ++i)
+      noise_m2 += of(i).squaredNorm() / count / static_cast<double>(waves.size() - 1);
+    out.phases_rad.push_back(std::atan2(of(0)[1], of(0)[0]));
+  }
+  // Of noise alone the square would be that of the others. Each of its two directions has half of it.
+  out.amplitude_m = std::sqrt(std::max(0.0, square_m2 - noise_m2));
+  out.standard_error_m =
+      runs.empty() ? std::numeric_limits<double>::infinity() : std::sqrt(noise_m2 / 2 / count);
+  // Of a mean over runs noise alone exceeds its expectation by its root over the number of runs, as a chi-square does.
+  out.significant = out.amplitude_m > kShown * out.standard_error_m &&
+                    square_m2 > (1 + (kShown + 1) / std::sqrt(count)) * noise_m2;
+  return out;
+}
+
+}  // namespace
+
+Eccentricities find_eccentricities(std::span<const PreparedRun> runs, std::span<const ClockFit> clocks,
+                                   const WheelFactors& factors) {
+  std::vector<Waves> found;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    if (const auto waves = waves_of(runs[i], clocks[i], factors)) found.push_back(*waves);
+  return {of_wheel(found, 0), of_wheel(found, 1)};
+}
+
+}  // namespace astro::calibration
