@@ -138,6 +138,7 @@ enum class Help : std::uint8_t {
   correct_or_replace_file,
   give_wheel_separation,
   give_wheel_radius,
+  set_separation_of_arcs,  // {wheel_separation_multiplier}
   use_end_poses,
   measure_end_headings,
   measure_again_or_leave_out,

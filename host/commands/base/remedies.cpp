@@ -160,6 +160,10 @@ constexpr Sentence kSentences[] = {
     {Help::correct_or_replace_file, ": correct or replace it"},
     {Help::give_wheel_separation, ": give --wheel-separation"},
     {Help::give_wheel_radius, ": give --wheel-radius"},
+    {Help::set_separation_of_arcs,
+     "; drive with the odometry of Astrolabe's firmware, which has both, or set wheel_separation_multiplier "
+     "to "
+     "{} if the robot mostly drives arcs"},
     {Help::use_end_poses, ": choose --method robust, extended or umbmark, which use end poses alone"},
     {Help::measure_end_headings,
      ": measure the end headings (etheta_rad or etheta_deg), or use the method umbmark"},

@@ -113,6 +113,7 @@ nlohmann::json json_of(const std::vector<DeadReckoning>& all) {
                     {"c_R", one.by.factors.c_r},
                     {"c_L", one.by.factors.c_l},
                     {"b_m", one.by.factors.b_m},
+                    {"e", one.by.factors.e},
                     {"end_m", one.errors.final_rms_m},
                     {"heading_rad", experiment::number(one.errors.final_heading_rms_rad)},
                     {"path_m", one.errors.path_rms_m},

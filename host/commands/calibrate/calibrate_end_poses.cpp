@@ -25,7 +25,7 @@ struct EndPosesOptions {
   CalibrationOutput output;
   double side_m = 0;
   double wheelbase_m = 0;
-  double c_r = 1, c_l = 1;
+  double c_r = 1, c_l = 1, e = 0;
   MethodOption method;
 };
 
@@ -86,6 +86,9 @@ void add_calibrate_end_poses(console::Command calibrate) {
   command.add_option("--c-left", options->c_l, "c_L that was loaded in the robot")
       .check(console::between(0.5, 1.5, ""))
       .capture_default_str();
+  command.add_option("--e", options->e, "e that was loaded in the robot; it stays as it is")
+      .check(console::between(-0.2, 0.2, ""))
+      .capture_default_str();
   add_method(command, options->method, {"auto", "umbmark", "extended", "least-squares", "robust"},
              "auto: robust");
   add_output(command, options->output);
@@ -101,7 +104,7 @@ void add_calibrate_end_poses(console::Command calibrate) {
     squares.cw = end_poses(options->cw, options->side_m);
     squares.ccw = end_poses(options->ccw, options->side_m);
     squares.side_m = options->side_m;
-    squares.loaded = {options->c_r, options->c_l, options->wheelbase_m};
+    squares.loaded = {options->c_r, options->c_l, options->wheelbase_m, options->e};
     refuse_mistakes(squares, *options);
     put_out(experiment::calibrate(squares, method), options->output);
   });

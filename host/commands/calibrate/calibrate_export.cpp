@@ -55,9 +55,12 @@ std::string text_of(const ExportOptions& options) {
   } catch (const Error& error) {
     throw Error("'" + options.file.string() + "': " + in_words(error));
   }
-  if (format == "ros2")
-    return experiment::ros2_yaml(file, experiment::diff_drive(file, options.nominal), options.node);
-  const auto sizes = sizes_if_known(file, options.nominal);
+  const auto sizes = format == "ros2" ? std::optional(experiment::diff_drive(file, options.nominal))
+                                      : sizes_if_known(file, options.nominal);
+  if (sizes)
+    if (const auto note = experiment::single_wheelbase(file, *sizes))
+      console::say("warning: " + in_words(*note));
+  if (format == "ros2") return experiment::ros2_yaml(file, *sizes, options.node);
   return format == "json" ? experiment::json_text(options.file, sizes)
                           : experiment::toml_text(options.file, sizes);
 }

@@ -24,6 +24,7 @@
 #include "host/console/program.hpp"
 #include "host/console/wrong_usage.hpp"
 #include "host/experiment/analysis/judgement_sentences.hpp"
+#include "host/experiment/analysis/likelihood_sentences.hpp"
 #include "host/experiment/analysis/report_input.hpp"
 #include "host/experiment/drive/experiment.hpp"
 #include "host/experiment/files/method_names.hpp"
@@ -90,8 +91,12 @@ void add_options(console::Command command, UmbmarkOptions& options) {
                   "calibration is not shown to be better")
       .capture_default_str();
   command.add_option("--line", plan.line_m, "length of the straight line, m").capture_default_str();
-  command.add_option("--circle", plan.circle_radius_m, "radius of the circles, m").capture_default_str();
-  command.add_flag("--no-extras", options.no_extras, "squares only, no line and circles");
+  command
+      .add_option("--circle", plan.circle_radius_m, "radius of the circles, m; with the squares they show e")
+      .capture_default_str();
+  command.add_flag("--no-extras", options.no_extras,
+                   "squares only, no line and circles: whether gentle arcs\nturn about another wheelbase (e) "
+                   "is not looked for");
   add_method(command, options.method, {"auto", "ml", "umbmark", "extended", "least-squares", "robust"},
              "auto: ml (maximum likelihood over whole drives)\n"
              "with ground truth along the way, else robust");
@@ -152,7 +157,7 @@ experiment::ExperimentHooks hooks_for(const UmbmarkOptions& options, console::Pr
     console::say(console::table(experiment::side_by_side(changes)));
     const experiment::FactorErrors& se = found.se;
     const std::string note =
-        experiment::insignificance(changes, {{"c_R", se.c_r}, {"c_L", se.c_l}, {"b", se.b_m}});
+        experiment::insignificance(changes, {{"c_R", se.c_r}, {"c_L", se.c_l}, {"b", se.b_m}, {"e", se.e}});
     if (!note.empty()) console::say(note);
   };
   hooks.decide = [&options](const experiment::Calibration& found, const auto&) {
@@ -192,6 +197,9 @@ void conclude(const experiment::Results& results, const std::filesystem::path& r
     for (const std::string& square : results.left_out()) print(console::wrapped(square + '.'));
     write(console::table(experiment::before_after_table(results)) + '\n');
     if (results.phases.size() > 1) write(console::wrapped(results.verdict()));
+    if (const experiment::Calibration* const found = results.latest();
+        found != nullptr && found->ml() != nullptr)
+      write(console::wrapped(experiment::wheelbase_sentence(*found)));
     if (not_loaded != nullptr)
       write(console::wrapped(experiment::judgement_sentence(not_loaded->judgement) +
                              " It was not loaded; --force loads it all the same."));
@@ -221,6 +229,8 @@ void run(UmbmarkOptions& options) {
     all.insert(all.end(), path.begin(), path.end());
   }
   note_limits(*client, all);
+  if (options.no_extras && options.truth.source != "manual")
+    console::say("squares alone do not show e (whether gentle arcs turn about another wheelbase than spins)");
   if (options.truth.source == "manual") brief(options);
   console::Progress progress("driving");
   const auto truth = open_truth(options.truth, options.connection.port, [&](const truth::Question& question) {

@@ -51,13 +51,16 @@ std::string squares_text(const calibration::ExperimentSummary& squares) {
 std::string factors_text(const Calibration& found) {
   const experiment::FactorErrors& se = found.se;
   const calibration::WheelFactors &now = found.factors, &old = found.loaded;
-  return console::table({{"", "", "against loaded"},
-                         {"c_R", with_error(now.c_r, se.c_r, 8), percent(now.c_r / old.c_r)},
-                         {"c_L", with_error(now.c_l, se.c_l, 8), percent(now.c_l / old.c_l)},
-                         {"b mm", with_error(1000 * now.b_m, 1000 * se.b_m, 4), percent(now.b_m / old.b_m)},
-                         {"S", with_error(found.scale(), se.scale, 8), percent(found.scale_change())},
-                         {"E_d", with_error(found.E_d(), se.E_d, 7), ""},
-                         {"E_b", with_error(found.E_b(), se.E_b, 7), ""}});
+  Rows rows{{"", "", "against loaded"},
+            {"c_R", with_error(now.c_r, se.c_r, 8), percent(now.c_r / old.c_r)},
+            {"c_L", with_error(now.c_l, se.c_l, 8), percent(now.c_l / old.c_l)},
+            {"b mm", with_error(1000 * now.b_m, 1000 * se.b_m, 4), percent(now.b_m / old.b_m)}};
+  if (found.shows_e())
+    rows.push_back({"e", with_error(now.e, se.e, 6), fmt::format("{:+.6f}", now.e - old.e)});
+  rows.insert(rows.end(), {{"S", with_error(found.scale(), se.scale, 8), percent(found.scale_change())},
+                           {"E_d", with_error(found.E_d(), se.E_d, 7), ""},
+                           {"E_b", with_error(found.E_b(), se.E_b, 7), ""}});
+  return console::table(rows);
 }
 
 std::string scale_text(const Calibration& calibration) {
@@ -112,10 +115,11 @@ std::string verdict_text(const MlResult& ml) {
   return text;
 }
 
-std::string ml_text(const MlResult& ml) {
+std::string ml_text(const Calibration& found) {
+  const MlResult& ml = *found.ml();
   std::string text;
   for (const std::string& sentence : {experiment::lever_sentence(ml), experiment::clock_sentence(ml),
-                                      experiment::wheelbase_sentence(ml), experiment::noise_sentence(ml)})
+                                      experiment::wheelbase_sentence(found), experiment::noise_sentence(ml)})
     text += console::wrapped(sentence);
   text += '\n' + runs_text(ml) + '\n' + motions_text(ml.estimate) + '\n';
   text += verdict_text(ml);
@@ -131,7 +135,7 @@ std::string calibration_text(const Calibration& calibration) {
   const MlResult* ml = calibration.ml();
   if (ml != nullptr) text += console::wrapped(experiment::extent_sentence(*ml));
   text += factors_text(calibration);
-  text += ml != nullptr ? '\n' + ml_text(*ml)
+  text += ml != nullptr ? '\n' + ml_text(calibration)
                         : console::wrapped(scale_text(calibration)) + left_out_text(calibration);
   return text + '\n' + console::wrapped(experiment::judgement_sentence(calibration.judgement));
 }
@@ -145,7 +149,8 @@ std::string calibration_summary(const Calibration& calibration) {
   std::string text =
       console::wrapped(experiment::extent_sentence(*ml)) +
       console::wrapped("Standard errors: " + experiment::described(experiment::precision_of(calibration)) +
-                       ".");
+                       ".") +
+      console::wrapped(experiment::wheelbase_sentence(calibration));
   text += verdict_text(*ml);
   return text + console::wrapped(experiment::judgement_sentence(calibration.judgement));
 }

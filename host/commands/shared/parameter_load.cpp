@@ -12,8 +12,8 @@ namespace astro::commands {
 namespace {
 
 /// Writes values to flash that are in force already, because they may only have been tried.
-void save_tried_values(robot::RemoteParameters robot, const experiment::ParameterFile& file) {
-  for (const auto& [name, value] : file.parameters) robot.stage(name, value);
+void save_tried_values(robot::RemoteParameters robot, const experiment::ParameterValues& values) {
+  for (const auto& [name, value] : values) robot.stage(name, value);
   robot.commit();
   console::say("the robot holds these values already");
 }
@@ -49,9 +49,10 @@ bool agreed_to_load(calibration::Verdict verdict, const LoadOptions& options) {
 
 LoadResult load_parameters(robot::Client& client, const robot::RemoteParameters& robot,
                            const experiment::ParameterFile& file, const LoadOptions& options) {
-  LoadResult loaded{experiment::changes(robot, file.parameters), std::nullopt};
+  const experiment::ParameterValues values = experiment::understood_by(robot.rows(), file.parameters);
+  LoadResult loaded{experiment::changes(robot, values), std::nullopt};
   if (loaded.changes.empty()) {
-    save_tried_values(robot, file);
+    save_tried_values(robot, values);
     return loaded;
   }
   console::say(console::table(experiment::side_by_side(loaded.changes), "llrrr"));
@@ -68,7 +69,7 @@ LoadResult load_parameters(robot::Client& client, const robot::RemoteParameters&
   if (advised_against) console::say("warning: " + file.verdict_sentence);
   if (!agreed_to_load(file.verdict, options))
     throw Error("nothing was changed", {advised_against ? Help::override_advice : Help::none});
-  loaded.report = robot::upload(client, file.parameters);
+  loaded.report = robot::upload(client, values);
   return loaded;
 }
 

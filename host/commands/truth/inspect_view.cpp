@@ -131,6 +131,7 @@ std::string robot_text(const RobotGeometry& robot) {
             {"wheelbase, m", shown(robot.wheelbase_m)},
             {"c_R", fmt::format("{:.9g}", robot.c_r)},
             {"c_L", fmt::format("{:.9g}", robot.c_l)}};
+  if (robot.e != 0) rows.push_back({"e", fmt::format("{:.9g}", robot.e)});
   if (!robot.joints.left.empty()) rows.push_back({"joints", robot.joints.left + ", " + robot.joints.right});
   return console::table(rows);
 }
@@ -237,6 +238,8 @@ nlohmann::json to_json(const FileInspection& found) {
           {"wheelbase_m", number(robot.wheelbase_m)},
           {"c_R", robot.c_r},
           {"c_L", robot.c_l},
+          {"e", robot.e},
+          {"kappa0", robot.kappa0},
           {"left_joint", robot.joints.left},
           {"right_joint", robot.joints.right}};
 }

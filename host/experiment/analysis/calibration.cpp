@@ -76,12 +76,14 @@ Calibration by_ml(Phases phases, const MlChoice& choice) {
     return clock_known(phase->set(), choice.clock);
   });
   ml.options.noise = choice.noise;
+  ml.options.with_e = choice.with_e;
   ml.estimate = calibration::estimate_ml(runs, result.loaded, ml.options);
   result.factors = ml.estimate.factors;
   const calibration::MlErrors& se = ml.estimate.se;
   result.se = {
       se.c_r,  se.c_l, se.b_m, se.E_d * result.loaded.c_l / result.loaded.c_r, se.b_m / result.loaded.b_m,
       se.scale};
+  if (ml.estimate.factors.e != 0) result.se.e = se.e;
   result.robot = identity_of(first.runs().front().info);
   result.wheel = nominal_wheel(first.runs().front().info, first.names().front());
   result.squares = summary_of_squares(*phases.back());
@@ -116,7 +118,9 @@ void apply(const calibration::LineScale& scale, Calibration& result) {
   const double change = scale.scale / result.scale();
   const double part = scale.se / scale.scale;
   calibration::WheelFactors& factors = result.factors;
-  factors = {change * factors.c_r, change * factors.c_l, change * factors.b_m};
+  factors.c_r *= change;
+  factors.c_l *= change;
+  factors.b_m *= change;  // e and kappa0 are ratios of wheelbases
   const auto widened = [&](double error, double value) {
     return value * std::hypot(change * error / value, part);
   };
@@ -171,6 +175,8 @@ Calibration calibrate(const Squares& squares, const MethodChoice& method) {
       calibration::cross_validate(squares.cw, squares.ccw, squares.side_m, squares.loaded, options);
   result.loaded = estimate.loaded;
   result.factors = estimate.factors;
+  result.factors.e = estimate.loaded.e;
+  result.factors.kappa0 = estimate.loaded.kappa0;
   result.se = {estimate.se.c_r, estimate.se.c_l, estimate.se.b_m,
                estimate.se.E_d, estimate.se.E_b, FactorErrors::kUnknown};
   result.squares = estimate.summary;
@@ -190,8 +196,14 @@ Calibration calibrate(const Recordings& recordings, const MethodChoice& method, 
 }
 
 Calibration calibrate_after(std::span<const std::shared_ptr<const Recordings>> phases,
-                            const MethodChoice& method) {
-  return calibrate_phases(phases, method, {});
+                            const MethodChoice& method, const MlChoice& ml) {
+  return calibrate_phases(phases, method, ml);
+}
+
+MlChoice ml_choice(const Plan& plan) {
+  MlChoice choice;
+  if (!plan.extras) choice.with_e = false;
+  return choice;
 }
 
 }  // namespace astro::experiment

@@ -24,11 +24,13 @@
 /// From recordings to wheel factors, whatever the method.
 namespace astro::experiment {
 
-/// Standard errors; NaN if the method or the data do not determine them. E_d, E_b and scale are ratios.
+/// Standard errors; NaN if the method or the data do not determine them. E_d, E_b and scale are ratios. That of e is
+/// known only where e was estimated.
 struct FactorErrors {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   double c_r = kUnknown, c_l = kUnknown, b_m = kUnknown;
   double E_d = kUnknown, E_b = kUnknown, scale = kUnknown;
+  double e = kUnknown;
 };
 
 /// The result of maximum likelihood with its options.
@@ -41,7 +43,7 @@ struct Calibration {
   /// The factors of the robot's odometry while it drove. If runs of several sets are calibrated together: in the
   /// run that was driven last.
   calibration::WheelFactors loaded;
-  calibration::WheelFactors factors;  // what to load
+  calibration::WheelFactors factors;  // what to load; end poses do not show e and keep the loaded one
   FactorErrors se;
   RobotIdentity robot;                // empty if no recording names it
   std::optional<NominalWheel> wheel;  // to which c_R and c_L refer, if a recording names it
@@ -66,6 +68,8 @@ struct Calibration {
   /// (c_R + c_L) / 2. The methods of end poses keep the loaded one unless lines were measured.
   double scale() const { return (factors.c_r + factors.c_l) / 2; }
   double scale_change() const;  // new over loaded
+  /// Whether e is worth a word: it is found, or was loaded.
+  bool shows_e() const { return factors.e != 0 || loaded.e != 0; }
 
   /// Whether the factors hold on top of anything that may be loaded in the robot by now: those of maximum likelihood
   /// refer to the nominal wheel, those of end poses are composed with `loaded`.
@@ -78,6 +82,7 @@ struct MlChoice {
   enum class Clock { automatic, known, estimated };
   Clock clock = Clock::automatic;
   std::optional<calibration::NoiseModel> noise;  // estimated unless given
+  std::optional<bool> with_e = {};               // see calibration::MlOptions
 };
 
 /// Whether all truth is on the robot's own clock: as `clock` says or, automatic, as the recordings do.
@@ -94,7 +99,11 @@ Calibration calibrate(const Recordings& recordings, const MethodChoice& method, 
 /// do not depend on what was loaded in the robot, so each round adds to the rounds before; the methods of end poses
 /// take the squares of the last phase alone, and the lines of all: a scale is absolute. `squares` are those of the last phase. Throws as above.
 Calibration calibrate_after(std::span<const std::shared_ptr<const Recordings>> phases,
-                            const MethodChoice& method);
+                            const MethodChoice& method, const MlChoice& ml = {});
+
+/// What the plan of an experiment says about maximum likelihood: squares alone do not show e, so without circles it is not
+/// looked for.
+MlChoice ml_choice(const Plan& plan);
 
 /// From end poses and measured lines alone; automatic: robust. Throws astro::Error if the method is maximum likelihood,
 /// which needs more; and what calibration::estimate_factors and calibration::scale_of_lines throw.

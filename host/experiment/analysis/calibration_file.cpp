@@ -22,8 +22,14 @@ void save(const fs::path& path, const std::string& text) {
   file.commit();
 }
 
-std::string factor_lines(double c_r, double c_l, double b_m) {
-  return fmt::format("c_R = {}\nc_L = {}\nb = {} # m\n\n", real_text(c_r), real_text(c_l), real_text(b_m));
+std::string factor_lines(double c_r, double c_l, double b_m, double e) {
+  return fmt::format("c_R = {}\nc_L = {}\nb = {} # m\ne = {}\n", real_text(c_r), real_text(c_l),
+                     real_text(b_m), real_text(e));
+}
+
+std::string factor_lines(const calibration::WheelFactors& factors) {
+  return factor_lines(factors.c_r, factors.c_l, factors.b_m, factors.e) +
+         fmt::format("kappa0 = {}\n\n", real_text(factors.kappa0));
 }
 
 std::string end_pose_lines(const calibration::Estimate& estimate) {
@@ -36,10 +42,10 @@ std::string end_pose_lines(const calibration::Estimate& estimate) {
 }
 
 std::string covariance_lines(const calibration::FactorCovariance& covariance) {
-  std::string text = "# Rows and columns c_R, c_L, b (m).\n[covariance]\nmatrix = [\n";
-  for (int i = 0; i < 3; ++i)
-    text += fmt::format("  [{}, {}, {}],\n", real_text(covariance(i, 0)), real_text(covariance(i, 1)),
-                        real_text(covariance(i, 2)));
+  std::string text = "# Rows and columns c_R, c_L, b (m), e.\n[covariance]\nmatrix = [\n";
+  for (int i = 0; i < 4; ++i)
+    text += fmt::format("  [{}, {}, {}, {}],\n", real_text(covariance(i, 0)), real_text(covariance(i, 1)),
+                        real_text(covariance(i, 2)), real_text(covariance(i, 3)));
   return text + "]\n\n";
 }
 
@@ -118,14 +124,18 @@ NominalWheel wheel_of(const toml::table& file, const fs::path& path) {
 }
 
 calibration::FactorCovariance covariance_of(const toml::table& file, const fs::path& path) {
-  calibration::FactorCovariance covariance;
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column) {
+  // Older versions wrote three rows of three numbers.
+  const toml::array* matrix = file["covariance"]["matrix"].as_array();
+  const int size = matrix != nullptr && matrix->size() == 3 ? 3 : 4;
+  calibration::FactorCovariance covariance = calibration::FactorCovariance::Zero();
+  for (int row = 0; row < size; ++row)
+    for (int column = 0; column < size; ++column) {
       const auto entry =
           file["covariance"]["matrix"][static_cast<std::size_t>(row)][static_cast<std::size_t>(column)]
               .value<double>();
       if (!entry)
-        throw Error("'" + path.string() + "': [covariance] needs a matrix of three rows of three numbers");
+        throw Error("'" + path.string() +
+                    "': [covariance] needs a matrix of four rows of four numbers, or three of three");
       covariance(row, column) = *entry;
     }
   return covariance;
@@ -136,13 +146,13 @@ calibration::FactorCovariance covariance_of(const toml::table& file, const fs::p
 void write_calibration(const fs::path& path, const Calibration& calibration) {
   const calibration::WheelFactors &factors = calibration.factors, &loaded = calibration.loaded;
   std::string text = "# Found by Astrolabe, to be uploaded to the robot that drove.\n\n";
-  text += "[parameters]\n" + factor_lines(factors.c_r, factors.c_l, factors.b_m);
-  text += "[standard_errors]\n" + factor_lines(calibration.se.c_r, calibration.se.c_l, calibration.se.b_m);
+  text += "# Spins turn about b, gentle arcs about b (1 + e).\n[parameters]\n" + factor_lines(factors);
+  const FactorErrors& se = calibration.se;
+  text += "[standard_errors]\n" + factor_lines(se.c_r, se.c_l, se.b_m, se.e) + '\n';
   if (const MlResult* ml = calibration.ml()) text += covariance_lines(ml->estimate.covariance);
   if (calibration.wheel) text += nominal_lines(*calibration.wheel);
   if (!calibration.robot.id.empty()) text += robot_lines(calibration.robot);
-  text += "# The factors that were loaded in the robot while it drove.\n[carried]\n" +
-          factor_lines(loaded.c_r, loaded.c_l, loaded.b_m);
+  text += "# The factors that were loaded in the robot while it drove.\n[carried]\n" + factor_lines(loaded);
   save(path, text + calibration_lines(calibration) + verdict_lines(calibration.judgement));
 }
 

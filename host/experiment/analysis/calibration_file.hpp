@@ -14,7 +14,7 @@ namespace astro::experiment {
 
 using ParameterValues = std::map<std::string, robot::Value>;
 
-/// Writes [parameters] c_R, c_L, b; [standard_errors] and, from maximum likelihood, [covariance]; [nominal],
+/// Writes [parameters] c_R, c_L, b, e, kappa0; [standard_errors] and, from maximum likelihood, [covariance]; [nominal],
 /// the wheel that c_R and c_L refer to (without counts if the recordings had none), and [robot], where they are known;
 /// [loaded]; [calibration] with how it was found; [verdict] whether it is better.
 void write_calibration(const std::filesystem::path& path, const Calibration& calibration);
@@ -26,13 +26,13 @@ struct ParameterFile {
   ParameterValues parameters;
   /// The factors loaded in the robot when the calibration was driven; empty in a file without [loaded].
   std::map<std::string, double> loaded;
-  /// Of c_R, c_L and b ; NaN where the method or the data could not tell, empty in a file that no calibration
+  /// Of c_R, c_L, b and e; NaN where the method or the data could not tell, empty in a file that no calibration
   /// wrote.
   std::map<std::string, double> standard_errors;
   /// The parameters hold whatever is loaded in the robot by now (Calibration::absolute).
   bool absolute = false;
   std::optional<NominalWheel> wheel;  // [nominal]
-  /// Of c_R, c_L and b; none in a file without [covariance].
+  /// Of c_R, c_L, b and e; that of e is zero in a file of a version that did not know it; none in a file without [covariance].
   std::optional<calibration::FactorCovariance> covariance;
   RobotIdentity robot;                                           // [robot]
   std::string method;                                            // "" in a file that no calibration wrote

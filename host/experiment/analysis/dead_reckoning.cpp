@@ -4,6 +4,7 @@
 
 #include "host/base/error.hpp"
 #include "host/experiment/analysis/calibration_file.hpp"
+#include "host/experiment/files/curvature_named.hpp"
 #include "host/experiment/files/number_named.hpp"
 
 namespace astro::experiment {
@@ -25,9 +26,11 @@ NamedFactors factors_of_file(const std::filesystem::path& path, const NominalWhe
     throw Error(fmt::format(
         "{} is for {}, the drives were recorded with {}: its c_R and c_L mean another thing there",
         path.string(), file.wheel->described(), wheel.described()));
-  const NamedFactors found{path.string(),
-                           {factor(file, path, "c_R"), factor(file, path, "c_L"), factor(file, path, "b")},
-                           file.robot};
+  const NamedFactors found{
+      path.string(),
+      with_curvature_named({factor(file, path, "c_R"), factor(file, path, "c_L"), factor(file, path, "b")},
+                           file.parameters, path.string()),
+      file.robot};
   if (!(found.factors.b_m > 0.01 && found.factors.b_m < 10))
     throw Error(fmt::format("{} has b = {:.4g} m, which no robot has", path.string(), found.factors.b_m),
                 {Help::correct_or_replace_file});

@@ -56,6 +56,24 @@ toml::table extended(const fs::path& path, const std::optional<DiffDrive>& param
   return file;
 }
 
+/// The remedy's value is the multiplier for arcs.
+std::string comment(const Remark& note) {
+  std::string text = "#", word;
+  std::size_t column = 1;
+  std::istringstream words(note.fact + ". For arcs wheel_separation_multiplier would be " +
+                           note.remedy.value + ".");
+  while (words >> word) {
+    constexpr std::size_t kColumns = 78;
+    if (column + 1 + word.size() > kColumns) {
+      text += "\n#";
+      column = 1;
+    }
+    text += ' ' + word;
+    column += 1 + word.size();
+  }
+  return text + '\n';
+}
+
 std::string value_text(const toml::node& node) {
   std::ostringstream text;
   if (const auto number = node.value_exact<double>()) return real_text(*number);
@@ -115,6 +133,20 @@ DiffDrive diff_drive(const ParameterFile& file, const NominalSizes& nominal) {
   return result;
 }
 
+std::optional<Remark> single_wheelbase(const ParameterFile& file, const DiffDrive& parameters) {
+  const double e = number_named(file.parameters, "e").value_or(0);
+  if (e == 0) return std::nullopt;
+  const double b_m = factor(file, "b");
+  return Remark{fmt::format("diff_drive_controller knows one wheelbase, and this robot has two: spins turn "
+                            "about {:.6g} m, which "
+                            "is written, gentle arcs about {:.6g} m (e = {:.4g}), so that its odometry turns "
+                            "them up to {:.1f} % "
+                            "too {}",
+                            b_m, b_m * (1 + e), e, 100 * std::abs(e), e > 0 ? "far" : "little"),
+                {Help::set_separation_of_arcs,
+                 fmt::format("{:.6g}", parameters.wheel_separation_multiplier * (1 + e))}};
+}
+
 bool is_ros2_node(std::string_view name) {
   constexpr std::size_t kLongest = 255;
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
@@ -136,6 +168,7 @@ std::string ros2_yaml(const ParameterFile& file, const DiffDrive& parameters, co
     text += ", method " + file.method;  // in a comment anything else may end it
   text +=
       ".\n# wheel_radius and wheel_separation are nominal: the multipliers\n# belong to these very values.\n";
+  if (const auto note = single_wheelbase(file, parameters)) text += comment(*note);
   text += node + ":\n  ros__parameters:\n";
   text += fmt::format("    wheel_radius: {}\n", real_text(parameters.wheel_radius_m));
   text += fmt::format("    wheel_separation: {}\n", real_text(parameters.wheel_separation_m));

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "host/base/remedy.hpp"
 #include "host/experiment/analysis/calibration_file.hpp"
 
 /// Exports a calibration for other programs.
@@ -35,12 +36,17 @@ void require_loadable(const ParameterFile& file);
 /// nor `nominal` gives a size.
 DiffDrive diff_drive(const ParameterFile& file, const NominalSizes& nominal);
 
+/// What these parameters cannot say of a robot with a curvature effect: diff_drive_controller knows one wheelbase. They have
+/// that of spins (b), to which c_R and c_L belong in a calibration, and gentle arcs are wrong by e.
+/// Nothing for e = 0.
+std::optional<Remark> single_wheelbase(const ParameterFile& file, const DiffDrive& parameters);
+
 /// Whether ROS 2 takes it for a node in a file of parameters: "controller", "/left_robot/controller".
 ///
 /// Source  rmw, rmw/validate_node_name.h and validate_namespace.h.
 bool is_ros2_node(std::string_view name);
 
-/// A file for `--params-file` of a controller node called `node`.
+/// A file for `--params-file` of a controller node called `node`; single_wheelbase is among its comments.
 std::string ros2_yaml(const ParameterFile& file, const DiffDrive& parameters, const std::string& node);
 
 /// The content of calib.toml at `path` and, if given, [diff_drive_controller].

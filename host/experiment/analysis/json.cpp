@@ -100,7 +100,11 @@ nlohmann::json to_json(const calibration::ExperimentSummary& summary) {
 }
 
 nlohmann::json to_json(const calibration::WheelFactors& factors) {
-  return {{"c_R", factors.c_r}, {"c_L", factors.c_l}, {"b_m", factors.b_m}};
+  return {{"c_R", factors.c_r},
+          {"c_L", factors.c_l},
+          {"b_m", factors.b_m},
+          {"e", factors.e},
+          {"kappa0", factors.kappa0}};
 }
 
 nlohmann::json to_json(const Calibration& calibration) {
@@ -111,7 +115,8 @@ nlohmann::json to_json(const Calibration& calibration) {
   json["E_b"] = calibration.E_b();
   json["scale"] = calibration.scale();
   json["standard_errors"] = {{"E_b", number(se.E_b)}, {"E_d", number(se.E_d)}, {"scale", number(se.scale)},
-                             {"c_R", number(se.c_r)}, {"c_L", number(se.c_l)}, {"b_m", number(se.b_m)}};
+                             {"c_R", number(se.c_r)}, {"c_L", number(se.c_l)}, {"b_m", number(se.b_m)},
+                             {"e", number(se.e)}};
   // "carried" is the name of the loaded factors in the files of this format; a new name would be a new format.
   json["carried"] = to_json(calibration.loaded);
   if (calibration.squares) add_squares(json, *calibration.squares);

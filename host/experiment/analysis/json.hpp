@@ -14,7 +14,7 @@ nlohmann::json to_json(const calibration::ClusterSummary& cluster);
 /// The keys that all methods share (factors, their errors, the loaded factors, squares), and those of the method.
 nlohmann::json to_json(const Calibration& calibration);
 
-/// {"c_R", "c_L", "b_m"}
+/// {"c_R", "c_L", "b_m", "e", "kappa0"}
 nlohmann::json to_json(const calibration::WheelFactors& factors);
 
 /// Null where the value is not finite: JSON has no NaN.

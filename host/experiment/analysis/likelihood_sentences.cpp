@@ -92,19 +92,33 @@ std::string clock_sentence(const MlResult& ml) {
       fmt::join(rates, " and "), rates.size() > 1 ? ", in the order of the sessions" : "");
 }
 
-std::string wheelbase_sentence(const MlResult& ml) {
-  const auto& curvature = ml.estimate.curvature;
+std::string wheelbase_sentence(const Calibration& found) {
+  const auto& curvature = found.ml()->estimate.curvature;
+  const std::string reset = found.loaded.e != 0 && found.factors.e == 0
+                                ? fmt::format(" The loaded e = {:.4f} becomes 0.", found.loaded.e)
+                                : "";
+  if (found.ml()->options.with_e == false)
+    return "Whether gentle arcs turn about another wheelbase than spins was not looked for, so e is 0; "
+           "squares and "
+           "circles together would show it." +
+           reset;
   if (!curvature)
-    return "Whether gentle arcs turn about another wheelbase than spins these drives hardly show; squares "
-           "and circles together "
-           "would.";
-  const std::string e = with_error(curvature->e, curvature->standard_error, 4);
+    return "Whether gentle arcs turn about another wheelbase than spins these drives hardly show, so e is 0; "
+           "squares and circles together would show it." +
+           reset;
   if (!curvature->estimated)
     return fmt::format(
-        "Gentle arcs and spins turn about the same wheelbase, as far as the drives show (e = {}).", e);
-  const calibration::WheelFactors& factors = ml.estimate.factors;
-  return fmt::format("Spins turn about b = {:.3f} mm, gentle arcs about {:.3f} mm: e = {}.",
-                     1000 * factors.b_m, 1000 * factors.b_m * (1 + factors.e), e);
+               "Gentle arcs and spins turn about the same wheelbase, as far as the drives show (e = {}), so "
+               "e is 0.",
+               with_error(curvature->e, curvature->standard_error, 4)) +
+           reset;
+  const calibration::WheelFactors& factors = found.factors;
+  return fmt::format(
+      "Spins turn about b = {:.3f} mm, gentle arcs about b (1 + e) = {:.3f} mm: e = {}. With the wheelbase "
+      "of "
+      "spins alone, odometry would turn a gentle arc up to {:.1f} % too {}.",
+      1000 * factors.b_m, 1000 * factors.b_m * (1 + factors.e), with_error(factors.e, found.se.e, 4),
+      100 * std::abs(factors.e), factors.e > 0 ? "far" : "little");
 }
 
 std::string noise_sentence(const MlResult& ml) {

@@ -18,8 +18,9 @@ std::string lever_sentence(const MlResult& ml);
 /// The clock of the truth: known, or its skew.
 std::string clock_sentence(const MlResult& ml);
 
-/// Whether gentle arcs turn about another wheelbase than spins.
-std::string wheelbase_sentence(const MlResult& ml);
+/// Whether gentle arcs turn about another wheelbase than spins, what that is worth, and what becomes of a loaded e that
+/// was not found again. Precondition: found by maximum likelihood.
+std::string wheelbase_sentence(const Calibration& found);
 
 /// The noise, given or estimated, and how well it explains the runs.
 std::string noise_sentence(const MlResult& ml);

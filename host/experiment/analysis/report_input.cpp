@@ -43,15 +43,18 @@ std::vector<report::LoadedValue> loaded_of(const Results& results, std::size_t i
   const FactorErrors unknown;
   const bool found = i > 0 && results.phases[i - 1].calibration.has_value();
   const FactorErrors& se = found ? results.phases[i - 1].calibration->se : unknown;
-  return {{loaded.c_r, se.c_r}, {loaded.c_l, se.c_l}, {loaded.b_m, se.b_m}};
+  std::vector<report::LoadedValue> values{{loaded.c_r, se.c_r}, {loaded.c_l, se.c_l}, {loaded.b_m, se.b_m}};
+  if (results.shows_e()) values.push_back({loaded.e, se.e});
+  return values;
 }
 
-std::string ml_text(const MlResult& ml) {
+std::string ml_text(const Calibration& calibration) {
+  const MlResult& ml = *calibration.ml();
   std::string text =
       extent_sentence(ml) +
       " All recordings up to then count, not only the squares. The factors are absolute: they refer to "
       "the nominal wheel, whatever was loaded in the robot while it drove.\n\n" +
-      lever_sentence(ml) + ' ' + clock_sentence(ml) + "\n\n" + wheelbase_sentence(ml) + ' ' +
+      lever_sentence(ml) + ' ' + clock_sentence(ml) + "\n\n" + wheelbase_sentence(calibration) + ' ' +
       noise_sentence(ml) + "\n\n";
   for (const Remark& remark : verdict(ml)) text += remark.fact + ". ";
   return text;
@@ -81,9 +84,8 @@ std::string end_pose_text(const Calibration& calibration) {
 
 std::string method_text(const Calibration& calibration) {
   const std::string name = fmt::format("Method: {}.", calibration.method());
-  const MlResult* ml = calibration.ml();
-  return name + (ml != nullptr ? ' ' + ml_text(*ml) : end_pose_text(calibration)) + "\n\n" +
-         judgement_sentence(calibration.judgement);
+  return name + (calibration.ml() != nullptr ? ' ' + ml_text(calibration) : end_pose_text(calibration)) +
+         "\n\n" + judgement_sentence(calibration.judgement);
 }
 
 }  // namespace
@@ -104,6 +106,7 @@ report::ReportInput report_input(const Results& results) {
   input.parameters = {{"c_R", "", old.c_r, now.c_r, se.c_r},
                       {"c_L", "", old.c_l, now.c_l, se.c_l},
                       {"b", "m", old.b_m, now.b_m, se.b_m}};
+  if (results.shows_e()) input.parameters.push_back({"e", "", old.e, now.e, se.e});
   if (const std::string other = results.other_robot(); !other.empty()) input.notes.push_back(other + '.');
   for (const std::string& square : results.left_out()) input.notes.push_back(square + '.');
   if (const Calibration* const found = results.not_loaded(); found != nullptr) {

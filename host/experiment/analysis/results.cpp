@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "host/base/error.hpp"
@@ -63,6 +64,10 @@ calibration::Improvement Results::gain() const {
                                   calibration::E_max_syst_mm(after().summary));
 }
 
+bool Results::shows_e() const {
+  return std::ranges::any_of(phases, [](const PhaseResult& phase) { return phase.squares().loaded.e != 0; });
+}
+
 std::vector<std::string> Results::left_out() const {
   std::vector<std::string> all;
   for (const PhaseResult& phase : phases)
@@ -99,7 +104,8 @@ Results read_results(const fs::path& folder, recording::Damage damage) {
     if (set.runs.empty()) break;
     driven.push_back(std::make_shared<const Recordings>(std::move(set)));
     results.phases.push_back(phase_of(names[i], driven.back()));
-    if (i + 1 < names.size()) results.phases.back().calibration = calibrate_after(driven, plan.method);
+    if (i + 1 < names.size())
+      results.phases.back().calibration = calibrate_after(driven, plan.method, ml_choice(plan));
   }
   if (results.phases.empty())
     throw Error("the experiment in '" + folder.string() + "' has not driven its first phase to the end",
@@ -161,8 +167,10 @@ nlohmann::json to_json(const Results& results) {
   json["parameters"] = {{"old", to_json(results.before().squares().loaded)}, {"new", nullptr}};
   if (const Calibration* last = results.last_calibration()) {
     json["parameters"]["new"] = to_json(results.after().squares().loaded);
-    json["parameters"]["standard_errors"] = {
-        {"c_R", number(last->se.c_r)}, {"c_L", number(last->se.c_l)}, {"b_m", number(last->se.b_m)}};
+    json["parameters"]["standard_errors"] = {{"c_R", number(last->se.c_r)},
+                                             {"c_L", number(last->se.c_l)},
+                                             {"b_m", number(last->se.b_m)},
+                                             {"e", number(last->se.e)}};
   }
   const Calibration* const not_loaded = results.not_loaded();
   json["not_loaded"] = nullptr;  // or why, in a sentence
@@ -200,6 +208,10 @@ std::vector<std::vector<std::string>> before_after_table(const Results& results)
   rows.push_back(row(results, "b", "mm", [](const PhaseResult& phase) {
     return fmt::format("{:.4f}", 1000 * phase.squares().loaded.b_m);
   }));
+  if (results.shows_e())
+    rows.push_back(row(results, "e", "", [](const PhaseResult& phase) {
+      return fmt::format("{:.6f}", phase.squares().loaded.e);
+    }));
   return rows;
 }
 

@@ -37,12 +37,18 @@ struct Results {
   const PhaseResult& after() const { return phases.back(); }
   /// The calibration whose factors were loaded in the last phase; none if nothing was uploaded yet.
   const Calibration* last_calibration() const;
+  /// The last calibration of all, loaded or not; none before there is one.
+  const Calibration* latest() const {
+    return after().calibration ? &*after().calibration : last_calibration();
+  }
   /// The calibration after the last phase that was driven, if the robot does not carry its factors.
   const Calibration* not_loaded() const;
   /// E_max_syst before over after.
   double improvement() const { return gain().factor; }
   /// The same with its 95 % interval.
   calibration::Improvement gain() const;
+  /// Whether a phase was driven with an e that is not zero.
+  bool shows_e() const;
   /// The squares of all phases that were left out (squares_of): which, and why.
   std::vector<std::string> left_out() const;
   /// The sentence that a phase was driven with another robot than the first one, or "".

@@ -11,6 +11,7 @@
 #include "host/calibration/motion/arc.hpp"
 #include "host/experiment/analysis/loaded_parameter.hpp"
 #include "host/experiment/analysis/trajectories.hpp"
+#include "host/experiment/files/curvature_named.hpp"
 #include "host/experiment/files/same_number.hpp"
 #include "host/recording/run/end_error.hpp"
 #include "host/recording/run/run_metadata.hpp"
@@ -47,7 +48,8 @@ void accept(Squares& squares, AllDriven& driven, const recording::Run& run, bool
     squares.side_m = run.info.size_m;
   }
   if (!same_factors(loaded, squares.loaded))
-    throw Error("the squares were driven with different c_R, c_L or b", {Help::calibrate_each_phase});
+    throw Error("the squares were driven with different c_R, c_L or b, or another e",
+                {Help::calibrate_each_phase});
   if (!same_number(run.info.size_m, squares.side_m))
     throw Error(
         fmt::format("the squares have different sides ({} m and {} m)", squares.side_m, run.info.size_m),
@@ -82,11 +84,14 @@ void take(Squares& squares, const Driven& direction, Sense sense,
 }  // namespace
 
 bool same_factors(const calibration::WheelFactors& a, const calibration::WheelFactors& b) {
-  return same_number(a.c_r, b.c_r) && same_number(a.c_l, b.c_l) && same_number(a.b_m, b.b_m);
+  const bool same_arcs = same_number(a.e, b.e) && (same_number(a.e, 0) || same_number(a.kappa0, b.kappa0));
+  return same_number(a.c_r, b.c_r) && same_number(a.c_l, b.c_l) && same_number(a.b_m, b.b_m) && same_arcs;
 }
 
 calibration::WheelFactors loaded_factors(const recording::RunInfo& info) {
-  return {loaded_parameter(info, "c_R"), loaded_parameter(info, "c_L"), loaded_parameter(info, "b")};
+  return with_curvature_named(
+      {loaded_parameter(info, "c_R"), loaded_parameter(info, "c_L"), loaded_parameter(info, "b")},
+      info.parameters, fmt::format("the recording '{}'", recording::run_name(info)));
 }
 
 calibration::WheelFactors loaded_in_all(const RunSet& set) {

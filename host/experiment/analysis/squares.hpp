@@ -42,7 +42,8 @@ calibration::SquareEnd square_end(const recording::Run& run);
 /// Whether a robot cannot tell `a` from `b`: they differ by less than the wire format resolves.
 bool same_factors(const calibration::WheelFactors& a, const calibration::WheelFactors& b);
 
-/// The factors that were loaded in a run's robot; throws astro::Error where the recording does not say.
+/// The factors that were loaded in a run's robot; throws astro::Error where the recording does not say. A robot that
+/// knows no e has e = 0.
 calibration::WheelFactors loaded_factors(const recording::RunInfo& info);
 
 /// The factors that were loaded in all runs; throws astro::Error where they differ (same_factors), or where a recording

@@ -7,14 +7,26 @@
 #include <cmath>
 #include <string_view>
 
+#include "host/base/error.hpp"
+#include "host/experiment/files/curvature_named.hpp"
 #include "host/experiment/files/same_number.hpp"
 
 namespace astro::experiment {
 namespace {
 
 constexpr double kMostChange = 0.10;
+constexpr double kMostChangeOfE = 0.10;  // tyres have an e of a few hundredths
 
-bool is_factor(const std::string& name) { return name == "c_R" || name == "c_L" || name == "b"; }
+bool is_factor(std::string_view name) {
+  return name == "c_R" || name == "c_L" || name == "b" || name == "e" || name == "kappa0";
+}
+
+/// e is 0 for many robots and may have either sign, so its change is no ratio.
+bool is_far_e(const Change& change) {
+  const double *before = std::get_if<double>(&change.before), *after = std::get_if<double>(&change.after);
+  constexpr double kRounding = 1e-8;
+  return before != nullptr && after != nullptr && std::abs(*after - *before) > kMostChangeOfE + kRounding;
+}
 
 double relative(const Change& change) {
   const double* before = std::get_if<double>(&change.before);
@@ -30,7 +42,8 @@ double far_factor(std::string_view name) {
       "speed_limit",    "yaw_rate_limit",    "acceleration_limit", "yaw_acceleration_limit", "jerk_limit",
       "yaw_jerk_limit", "motor_voltage_max", "battery_low",        "battery_high",           "over_speed"};
   const auto among = [name](const auto& names) { return std::ranges::find(names, name) != names.end(); };
-  if (is_factor(std::string(name))) return 1 + kMostChange;
+  if (name == "kappa0") return 10;  // drives fit alike with a fifth or with five times as much
+  if (is_factor(name)) return 1 + kMostChange;
   if (among(kNominalSizes)) return 1.25;
   return among(kLimits) ? 2 : 3;
 }
@@ -47,6 +60,7 @@ std::string far_change(const robot::ParameterRow& row, const Change& change) {
     return {};  // this parameter has no effect any more
   const std::string step =
       fmt::format("{} would go from {} to {}", row.name, describe(row, *before), describe(row, *after));
+  if (row.name == "e") return is_far_e(change) ? step : "";
   if (*after == 0) return step;
   const double usual = *before != 0 ? *before : robot::to_real(row, row.default_value);
   if (usual == 0) return {};
@@ -77,12 +91,39 @@ std::string incomplete(const ParameterFile& file) {
   return fmt::format("the calibration has no {}, and c_R, c_L and b were found together", missing);
 }
 
+/// A calibration without e says what b is where all arcs turn about it.
+std::string foreign_e(const robot::RemoteParameters& robot, const ParameterFile& file) {
+  if (file.method.empty() || file.parameters.contains("e")) return {};
+  const double e = loaded_factors(robot).e;
+  if (same_number(e, 0)) return {};
+  return fmt::format(
+      "the calibration knows no e, and the robot holds e = {:.6g}, which its b does not go with", e);
+}
+
 std::string shown(const robot::Value& value) {
   if (const double* number = std::get_if<double>(&value)) return fmt::format("{:.9g}", *number);
   return std::get<std::string>(value);
 }
 
 }  // namespace
+
+calibration::WheelFactors loaded_factors(const robot::RemoteParameters& robot) {
+  return with_curvature_named({robot.number("c_R"), robot.number("c_L"), robot.number("b")}, robot.numbers(),
+                              "the robot");
+}
+
+ParameterValues understood_by(std::span<const robot::ParameterRow> robot, ParameterValues values) {
+  if (std::ranges::find(robot, "e", &robot::ParameterRow::name) != robot.end()) return values;
+  if (const double e = number_named(values, "e").value_or(0); e != 0)
+    throw Error(
+        fmt::format("the calibration has e = {:.6g}, and this robot's firmware has no e: it would turn "
+                    "gentle arcs about the wheelbase of spins",
+                    e),
+        {Help::update_firmware});
+  values.erase("e");
+  values.erase("kappa0");
+  return values;
+}
 
 std::vector<Change> changes(const robot::RemoteParameters& robot, const ParameterValues& values) {
   for (const auto& [name, value] : values) robot.row(name);  // throws for names that the robot does not have
@@ -98,19 +139,30 @@ std::vector<Change> changes(const robot::RemoteParameters& robot, const Paramete
 }
 
 std::string suspicion(const std::vector<Change>& changes) {
-  for (const Change& change : changes)
-    if (is_factor(change.name) && std::abs(relative(change)) > kMostChange)
+  for (const Change& change : changes) {
+    if (change.name == "e" && is_far_e(change))
+      return fmt::format("e would go from {} to {}, and tyres give it a few hundredths at most",
+                         shown(change.before), shown(change.after));
+    const bool measured_by_ratio = is_factor(change.name) && change.name != "e" && change.name != "kappa0";
+    if (measured_by_ratio && std::abs(relative(change)) > kMostChange)
       return fmt::format("{} would change by {:+.1f} %, and a calibration moves it by a few at most",
                          change.name, 100 * relative(change));
+  }
   return {};
 }
 
 std::string wrong_loaded_factors(const robot::RemoteParameters& robot, const ParameterFile& file) {
-  if (file.absolute) return {};
-  for (const auto& [name, loaded] : file.loaded)
-    if (const double now = robot.number(name); !same_number(now, loaded))
+  if (file.absolute || file.loaded.empty()) return {};
+  std::map<std::string, double> then = file.loaded;
+  then.try_emplace("e", 0);  // older versions did not know it
+  const calibration::WheelFactors held = loaded_factors(robot);
+  for (const auto& [name, loaded] : then) {
+    if (name == "kappa0" && same_number(held.e, 0)) continue;  // of no effect
+    const double now = name == "e" ? held.e : name == "kappa0" ? held.kappa0 : robot.number(name);
+    if (!same_number(now, loaded))
       return fmt::format("the calibration was driven with {} = {:.9g}, and the robot now holds {:.9g}", name,
                          loaded, now);
+  }
   return {};
 }
 
@@ -132,6 +184,7 @@ std::vector<Remark> objections(const robot::RemoteParameters& robot, const Robot
   };
   add(different_robots("the calibration", file.robot, "this", identity), Help::calibrate_robot_or_override);
   add(incomplete(file), Help::calibrate_again_or_override);
+  add(foreign_e(robot, file), Help::calibrate_again_or_override);
   add(wrong_wheel(robot, file), Help::load_old_values_or_override);
   add(wrong_loaded_factors(robot, file), Help::load_old_values_or_override);
   add(suspicion(changes), Help::check_units_or_override);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,12 +17,20 @@ struct Change {
   robot::Value before, after;
 };
 
+/// The factors in force. A firmware that knows no e has e = 0.
+calibration::WheelFactors loaded_factors(const robot::RemoteParameters& robot);
+
+/// The values as the firmware with these rows takes them: one that knows no e turns every arc about b, so e = 0 says nothing new to
+/// it and is left out with kappa0. Throws astro::Error for another e.
+ParameterValues understood_by(std::span<const robot::ParameterRow> robot, ParameterValues values);
+
 /// What `values` would change on the robot, in the order of its table; values that it holds already are left
 /// out. Throws astro::Error for a name that the robot does not have or a value that its table does not allow.
 std::vector<Change> changes(const robot::RemoteParameters& robot, const ParameterValues& values);
 
 /// A wheel factor that changes by more than a tenth is more likely a mistake (units, sides, another robot) than a
-/// calibration: states which one, or "" if there is none. Checks c_R, c_L and b only.
+/// calibration: states which one, or "" if there is none. Checks c_R, c_L and b, and e, which may change by a
+/// tenth of b whatever it is now.
 std::string suspicion(const std::vector<Change>& changes);
 
 /// Why factors that are not absolute would be wrong on top of what is loaded in the robot now: they need the factors that
@@ -33,7 +42,7 @@ std::string wrong_loaded_factors(const robot::RemoteParameters& robot, const Par
 std::string wrong_wheel(const robot::RemoteParameters& robot, const ParameterFile& file);
 
 /// Why these changes are uploaded only on request: the file is of another robot than `identity`, c_R, c_L and b are not
-/// complete, and what the three checks above find. What its own drives say of a calibration is not among them
+/// complete or lack the e that the robot has, and what the three checks above find. What its own drives say of a calibration is not among them
 /// (judgement_sentences.hpp).
 std::vector<Remark> objections(const robot::RemoteParameters& robot, const RobotIdentity& identity,
                                const ParameterFile& file, const std::vector<Change>& changes);
@@ -45,7 +54,7 @@ std::string insignificance(const std::vector<Change>& changes,
 
 /// Values so far from those on the robot that they are probably a typing error or a wrong unit: a clause for
 /// each, with both values and the unit. A wheel factor is far if it moves by more than a
-/// tenth, a nominal size by more than a quarter, a limit or a supply voltage if it is halved or doubled, and
+/// tenth, e by more than 0.1 (to 0, to the other sign or not), kappa0 by more than ten times, a nominal size by more than a quarter, a limit or a supply voltage if it is halved or doubled, and
 /// any other number if it is three times as much or as little; a changed sign always is, and so is 0 where
 /// there was none, which switches some of them off. A value that comes in place of 0 is compared with the
 /// default.

@@ -29,6 +29,12 @@ using namespace std::chrono_literals;
 constexpr auto kReconnectPatience = 10s;
 constexpr double kOnMark_m = 0.01;  // how far a robot on its start mark may be from it by odometry
 
+std::string in_words(const calibration::WheelFactors& factors) {
+  const std::string e =
+      factors.e == 0 ? "" : fmt::format(", e {:.9f}, kappa0 {:.6g}", factors.e, factors.kappa0);
+  return fmt::format("c_R {:.9f}, c_L {:.9f}, b {:.9f} m{}", factors.c_r, factors.c_l, factors.b_m, e);
+}
+
 class Session {
  public:
   Session(robot::Client& client, truth::Source& truth, const Plan& plan, fs::path folder,
@@ -98,8 +104,7 @@ class Session {
   void drive_missing(const std::vector<RunSpec>& specs) {
     if (recorded(specs) == specs.size()) return;
     const robot::RemoteParameters parameters = robot::RemoteParameters::fetch(client_);
-    begin_phase(specs.front().phase,
-                {parameters.number("c_R"), parameters.number("c_L"), parameters.number("b")});
+    begin_phase(specs.front().phase, loaded_factors(parameters));
     announce(specs);
     std::optional<RunSpec> last;
     while (const RunSpec* spec = first_missing(folder_, specs)) {
@@ -152,10 +157,8 @@ class Session {
     const auto known = journal_.loaded.find(phase);
     if (known != journal_.loaded.end()) {
       if (!same_factors(known->second, factors))
-        throw Error(fmt::format("the robot holds c_R {:.9f}, c_L {:.9f}, b {:.9f} m, but phase '{}' of this "
-                                "experiment began with {:.9f}, {:.9f}, {:.9f} m",
-                                factors.c_r, factors.c_l, factors.b_m, phase, known->second.c_r,
-                                known->second.c_l, known->second.b_m),
+        throw Error(fmt::format("the robot holds {}, but phase '{}' of this experiment began with {}",
+                                in_words(factors), phase, in_words(known->second)),
                     {Help::load_factors_or_choose_other_out_folder});
       return;
     }
@@ -202,7 +205,7 @@ class Session {
     current_.read(current);
     std::vector<std::shared_ptr<const Recordings>> phases = finished_;
     phases.push_back(current_.recordings());
-    return calibrate_after(phases, journal_.plan.method);
+    return calibrate_after(phases, journal_.plan.method, ml_choice(journal_.plan));
   }
 
   void read_phase(std::size_t phase) {
@@ -214,7 +217,7 @@ class Session {
   /// False if the experiment ends here, because the robot keeps what it carries.
   bool calibrate(std::size_t phase) {
     const std::vector<std::string> names = phase_names(journal_.plan);
-    const Calibration found = calibrate_after(finished_, journal_.plan.method);
+    const Calibration found = calibrate_after(finished_, journal_.plan.method, ml_choice(journal_.plan));
     const fs::path file = folder_ / fmt::format("calib-{}.toml", names[phase]);
     write_calibration(file, found);
     found_.push_back(found);
@@ -223,8 +226,9 @@ class Session {
 
   /// False if it is decided that the robot keeps what it carries. `runs`: the folder of the phase that was driven last.
   bool upload(const Calibration& found, const fs::path& file, const fs::path& runs) {
-    const ParameterFile calibration = read_parameter_file(file);
+    ParameterFile calibration = read_parameter_file(file);
     const robot::RemoteParameters robot = robot::RemoteParameters::fetch(client_);
+    calibration.parameters = understood_by(robot.rows(), calibration.parameters);
     const std::vector<Change> list = changes(robot, calibration.parameters);
     if (list.empty()) return true;  // an earlier session uploaded them already
     hooks_.calibrated(found, list);

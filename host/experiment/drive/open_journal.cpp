@@ -12,7 +12,11 @@ namespace {
 
 void require_same(const std::filesystem::path& folder, const Journal& journal, const Plan& plan,
                   const RobotIdentity& identity) {
-  if (nlohmann::json(journal.plan) != nlohmann::json(plan))
+  Plan same = plan;
+  // Nobody chooses these, and an experiment that an older version began goes on with its own.
+  same.circles = journal.plan.circles;
+  same.circle_turns = journal.plan.circle_turns;
+  if (nlohmann::json(journal.plan) != nlohmann::json(same))
     throw Error("'" + folder.string() + "' holds an experiment with other settings",
                 {Help::give_same_settings_or_choose_other_out_folder});
   if (const std::string other = different_robots("the experiment in '" + folder.string() + "'",

@@ -146,7 +146,8 @@ recording::OdometrySample to_sample(const Telemetry& telemetry) {
 robot::Path path_of(const Plan& plan, const RunSpec& spec) {
   const robot::PathLimits limits{plan.speed_mps, plan.yaw_rate_radps};
   if (spec.kind == "square") return robot::square(plan.side_m, spec.direction.value(), limits);
-  if (spec.kind == "circle") return robot::circle(plan.circle_radius_m, 1, spec.direction.value(), limits);
+  if (spec.kind == "circle")
+    return robot::circle(plan.circle_radius_m, plan.circle_turns, spec.direction.value(), limits);
   return robot::line(plan.line_m, limits);
 }
 

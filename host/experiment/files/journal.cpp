@@ -34,6 +34,14 @@ Plan drivable_plan(const nlohmann::json& json, const std::string& damaged) {
   }
 }
 
+/// Older versions have no e.
+calibration::WheelFactors factors_in(const nlohmann::json& json) {
+  calibration::WheelFactors factors{json.at("c_R"), json.at("c_L"), json.at("b_m")};
+  factors.e = json.value("e", factors.e);
+  factors.kappa0 = json.value("kappa0", factors.kappa0);
+  return factors;
+}
+
 }  // namespace
 
 bool has_journal(const std::filesystem::path& folder) { return std::filesystem::exists(file_in(folder)); }
@@ -58,8 +66,7 @@ Journal read_journal(const std::filesystem::path& folder) {
     robot.at("firmware").get_to(journal.firmware);
     json.at("started_at").get_to(journal.started_at);
     // "carried" is the name of the loaded factors in the files of this format.
-    for (const auto& [phase, loaded] : json.at("carried").items())
-      journal.loaded[phase] = {loaded.at("c_R"), loaded.at("c_L"), loaded.at("b_m")};
+    for (const auto& [phase, loaded] : json.at("carried").items()) journal.loaded[phase] = factors_in(loaded);
     journal.confirmed = json.value("confirmed", journal.confirmed);  // older versions have none
     return journal;
   } catch (const nlohmann::json::exception&) {
@@ -70,7 +77,11 @@ Journal read_journal(const std::filesystem::path& folder) {
 void write_journal(const std::filesystem::path& folder, const Journal& journal) {
   nlohmann::json loaded = nlohmann::json::object();
   for (const auto& [phase, factors] : journal.loaded)
-    loaded[phase] = {{"c_R", factors.c_r}, {"c_L", factors.c_l}, {"b_m", factors.b_m}};
+    loaded[phase] = {{"c_R", factors.c_r},
+                     {"c_L", factors.c_l},
+                     {"b_m", factors.b_m},
+                     {"e", factors.e},
+                     {"kappa0", factors.kappa0}};
   const nlohmann::json json = {{"format", kFormat},
                                {"started_at", journal.started_at},
                                {"plan", journal.plan},

@@ -54,6 +54,8 @@ void Plan::check() const {
        fmt::format("a yaw rate of {} rad/s cannot be driven: 0.05 to 20 rad/s are possible", yaw_rate_radps));
   need(within(line_m, 0.1, 100),
        fmt::format("a line of {} m cannot be driven: 0.1 m to 100 m are possible", line_m));
+  need(circles >= 1 && circles <= 100 && circle_turns >= 1 && circle_turns <= 100,
+       fmt::format("{} circles of {} turns cannot be driven: 1 to 100 are possible", circles, circle_turns));
   need(within(circle_radius_m, 0.1, 50),
        fmt::format("a circle of radius {} m cannot be driven: 0.1 m to 50 m are possible", circle_radius_m));
 }
@@ -113,8 +115,10 @@ std::vector<RunSpec> runs_of_phase(const Plan& plan, std::size_t phase, int squa
   const bool by_hand = plan.truth == "manual";
   for (int i = 1; i <= (by_hand ? kLinesByHand : 1); ++i) specs.push_back({name, "line", {}, i});
   if (by_hand) return specs;
-  specs.push_back({name, "circle", Sense::cw, 1});
-  specs.push_back({name, "circle", Sense::ccw, 1});
+  for (int i = 1; i <= plan.circles; ++i) {
+    specs.push_back({name, "circle", Sense::cw, i});
+    specs.push_back({name, "circle", Sense::ccw, i});
+  }
   return specs;
 }
 
@@ -127,6 +131,8 @@ void to_json(nlohmann::json& json, const Plan& plan) {
           {"rounds", plan.rounds},
           {"line_m", plan.line_m},
           {"circle_radius_m", plan.circle_radius_m},
+          {"circles", plan.circles},
+          {"circle_turns", plan.circle_turns},
           {"extras", plan.extras},
           {"method", name_of(plan.method)},
           {"angles", calibration::name_of(plan.method.options.angles)},
@@ -145,6 +151,9 @@ void from_json(const nlohmann::json& json, Plan& plan) {
   plan.rounds = count_at(json, "rounds");
   json.at("line_m").get_to(plan.line_m);
   json.at("circle_radius_m").get_to(plan.circle_radius_m);
+  const auto count_or_one = [&](const char* key) { return json.contains(key) ? count_at(json, key) : 1; };
+  plan.circles = count_or_one("circles");  // older versions drove one of one turn
+  plan.circle_turns = count_or_one("circle_turns");
   json.at("extras").get_to(plan.extras);
   plan.method = method_named(json.at("method").get<std::string>(), json.at("angles").get<std::string>(),
                              json.at("formula").get<std::string>());

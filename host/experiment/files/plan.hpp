@@ -41,6 +41,9 @@ struct Plan {
   int rounds = 1;  // how often to calibrate, upload and drive again
   double line_m = 3;
   double circle_radius_m = 0.75;
+  /// Circles in each direction, and the turns of each: so many that with the squares' spins they show e, of which a circle
+  /// of this radius has a quarter. With the slip of the thesis's robot one of one turn each knows it to 0.02, these to 0.004.
+  int circles = 2, circle_turns = 3;
   /// Line and circles in the first and the last phase. A person who measures ends is asked for three lines instead: they
   /// give the scale, of three one may be wrong, and no method uses the end of a circle.
   bool extras = true;

@@ -40,6 +40,8 @@ void dead_reckon_again(recording::Run& run, const NominalWheel& wheel, const Whe
   run.info.parameters["c_R"] = factors.c_r;
   run.info.parameters["c_L"] = factors.c_l;
   run.info.parameters["b"] = factors.b_m;
+  run.info.parameters["e"] = factors.e;
+  run.info.parameters["kappa0"] = factors.kappa0;
   const double metres = wheel.metres_per_count();
   recording::OdometrySample at;
   for (std::size_t i = 0; i < run.odometry.size(); ++i) {
@@ -54,11 +56,12 @@ void dead_reckon_again(recording::Run& run, const NominalWheel& wheel, const Whe
 }
 
 report::Phase phase_of(const std::string& title, std::vector<recording::Run> runs,
-                       const WheelFactors& factors) {
+                       const WheelFactors& factors, bool with_e) {
   report::Phase phase;
   phase.title = title;
   phase.runs = std::move(runs);
   phase.loaded = {{factors.c_r}, {factors.c_l}, {factors.b_m}};
+  if (with_e) phase.loaded.push_back({factors.e});
   return phase;
 }
 
@@ -80,14 +83,16 @@ report::ReportInput outline(const RunSet& set, const Calibration& found, const s
   input.description = {{"Robot", robot.empty() ? "not named in the files" : robot},
                        {"Nominal wheel", found.wheel ? found.wheel->described() : ""},
                        {"Drives", fmt::format("{}", runs.size())}};
-  input.phases.push_back(phase_of("carried", runs, found.loaded));
+  const bool with_e = found.loaded.e != 0 || factors.e != 0;
+  input.phases.push_back(phase_of("carried", runs, found.loaded, with_e));
   for (recording::Run& run : runs) dead_reckon_again(run, nominal_wheel(run.info, ""), factors);
-  input.phases.push_back(phase_of(title, std::move(runs), factors));
+  input.phases.push_back(phase_of(title, std::move(runs), factors, with_e));
   input.parameters = {{"c_R", "", found.loaded.c_r, factors.c_r, se.c_r},
                       {"c_L", "", found.loaded.c_l, factors.c_l, se.c_l},
                       {"b", "m", found.loaded.b_m, factors.b_m, se.b_m}};
+  if (with_e) input.parameters.push_back({"e", "", found.loaded.e, factors.e, se.e});
   input.method = extent_sentence(ml) + ' ' + lever_sentence(ml) + ' ' + clock_sentence(ml) + "\n\n" +
-                 wheelbase_sentence(ml) + ' ' + noise_sentence(ml);
+                 wheelbase_sentence(found) + ' ' + noise_sentence(ml);
   return input;
 }
 

@@ -90,8 +90,8 @@ std::vector<recording::OdometrySample> odometry_of(std::vector<WheelSample> samp
                                                    const RobotGeometry& geometry) {
   std::vector<recording::OdometrySample> odometry;
   odometry.reserve(samples.size());
-  const double right_m = geometry.c_r * counter.wheel.metres_per_count(),
-               left_m = geometry.c_l * counter.wheel.metres_per_count();
+  const calibration::WheelFactors factors = geometry.factors();
+  const double count_m = counter.wheel.metres_per_count();
   const WheelSample start = samples.front();  // a counter may stand at any number
   recording::OdometrySample sample;
   std::int64_t left = 0, right = 0;
@@ -99,14 +99,15 @@ std::vector<recording::OdometrySample> odometry_of(std::vector<WheelSample> samp
     const std::int64_t new_left = counter.counts(at.left - start.left),
                        new_right = counter.counts(at.right - start.right);
     const std::int64_t time_us = whole_microseconds(at.time_ns);
-    const double right_step_m = right_m * static_cast<double>(new_right - right),
-                 left_step_m = left_m * static_cast<double>(new_left - left);
+    const double right_step_m = count_m * static_cast<double>(new_right - right),
+                 left_step_m = count_m * static_cast<double>(new_left - left);
+    const double theta_rad = sample.theta_rad;
+    calibration::advance(sample, right_step_m, left_step_m, factors);
     if (!odometry.empty() && time_us > sample.time_us) {
       const double dt_s = 1e-6 * static_cast<double>(time_us - sample.time_us);
-      sample.v_mps = (right_step_m + left_step_m) / 2 / dt_s;
-      sample.omega_radps = (right_step_m - left_step_m) / *geometry.wheelbase_m / dt_s;
+      sample.v_mps = (factors.c_r * right_step_m + factors.c_l * left_step_m) / 2 / dt_s;
+      sample.omega_radps = (sample.theta_rad - theta_rad) / dt_s;
     }
-    calibration::advance(sample, right_step_m, left_step_m, *geometry.wheelbase_m);
     left = new_left;
     right = new_right;
     sample.time_us = time_us;
@@ -181,7 +182,9 @@ recording::RunInfo info_of(const ImportedWheels& wheels, const Counter& counter,
                      {"gear_denominator", 1},
                      {"c_R", geometry.c_r},
                      {"c_L", geometry.c_l},
-                     {"b", *geometry.wheelbase_m}};
+                     {"b", *geometry.wheelbase_m},
+                     {"e", geometry.e},
+                     {"kappa0", geometry.kappa0}};
   return info;
 }
 
@@ -196,6 +199,8 @@ RobotGeometry geometry_of(const ImportedWheels& wheels, const RobotGeometry& giv
   geometry.wheelbase_m = loaded.b_m;
   geometry.c_r = loaded.c_r;
   geometry.c_l = loaded.c_l;
+  geometry.e = loaded.e;
+  geometry.kappa0 = loaded.kappa0;
   return geometry;
 }
 

@@ -10,6 +10,7 @@
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
 #include "host/experiment/analysis/calibration_file.hpp"
+#include "host/experiment/files/curvature_named.hpp"
 #include "host/recording/foreign/diff_drive_yaml.hpp"
 
 namespace astro::experiment {
@@ -66,6 +67,10 @@ RobotGeometry of_parameters(const fs::path& path) {
   geometry.wheelbase_m = number("b");
   geometry.c_r = number("c_R").value_or(1);
   geometry.c_l = number("c_L").value_or(1);
+  const calibration::WheelFactors curved =
+      with_curvature_named({}, file.parameters, fmt::format("'{}'", path.string()));
+  geometry.e = curved.e;
+  geometry.kappa0 = curved.kappa0;
   if (file.wheel && !geometry.wheel_diameter_m) {
     geometry.wheel_diameter_m = file.wheel->diameter_m;
     if (!file.wheel->turns_as_angle()) geometry.counts_per_turn = file.wheel->counts_per_turn;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "host/calibration/motion/wheel_factors.hpp"
 #include "host/recording/foreign/joint_names.hpp"
 #include "host/recording/foreign/wheel_track.hpp"
 
@@ -14,9 +15,12 @@ namespace astro::experiment {
 struct RobotGeometry {
   std::optional<double> wheel_diameter_m, counts_per_turn, wheelbase_m;
   double c_r = 1, c_l = 1;
+  double e = 0, kappa0 = calibration::kUsualKappa0;
   recording::JointPair joints;  // "" unless the file names the wheels' joints
   std::string name, id;         // of the robot, "" if unknown
 
+  /// The factors of its odometry. Precondition: the wheelbase is known.
+  calibration::WheelFactors factors() const { return {c_r, c_l, *wheelbase_m, e, kappa0}; }
   /// What `over` says, and the rest of this.
   RobotGeometry overridden_by(const RobotGeometry& over) const;
 };
@@ -26,7 +30,7 @@ bool is_controller_file(const std::filesystem::path& path);
 
 /// The geometry in a file, of which the content tells the kind:
 ///   TOML   [parameters] wheel_diameter, counts_per_motor_rev, gear_numerator, gear_denominator (1 unless given), b, c_R,
-///          c_L, in SI units: as the robot's parameters are exported; or a calibration that the robot carries, with
+///          c_L, e, kappa0, in SI units: as the robot's parameters are exported; or a calibration that the robot carries, with
 ///          its [nominal] wheel
 ///   YAML   parameters of ROS 2's diff_drive_controller; `node` chooses among several. Its multipliers are c_R and c_L, and
 ///          the wheelbase is wheel_separation times its multiplier.

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "host/experiment/drive/change_guard.hpp"
+#include "host/robot/parameters/upload.hpp"
 #include "tests/support/base/remarks.hpp"
 #include "tests/support/robots/desk.hpp"
 
@@ -53,8 +54,8 @@ TEST_F(CalibrationFile, KeepsAnEstimateFromEndPosesToTheLastBit) {
 TEST_F(CalibrationFile, KeepsCovarianceAndNominalWheelOfMaximumLikelihood) {
   Calibration found = example();
   MlResult ml;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) ml.estimate.covariance(i, j) = 1e-9 / (1 + i + j);
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) ml.estimate.covariance(i, j) = 1e-9 / (1 + i + j);
   found.detail = ml;
   found.wheel = NominalWheel{0.072, 2803.2};
   const std::filesystem::path path = folder_.path() / "calib.toml";
@@ -64,6 +65,36 @@ TEST_F(CalibrationFile, KeepsCovarianceAndNominalWheelOfMaximumLikelihood) {
   EXPECT_EQ(read.wheel, found.wheel);
   EXPECT_TRUE(read.absolute);
   EXPECT_EQ(read.method, "ml");
+}
+
+TEST_F(CalibrationFile, KeepsEAndWhatWasLoadedAndItsError) {
+  Calibration found = example();
+  found.factors.e = 0.0312345678;
+  found.factors.kappa0 = 0.2;
+  found.loaded.e = -0.01;
+  found.se.e = 0.002;
+  const std::filesystem::path path = folder_.path() / "calib.toml";
+  write_calibration(path, found);
+  const ParameterFile read = read_parameter_file(path);
+  EXPECT_EQ(std::get<double>(read.parameters.at("e")), found.factors.e);
+  EXPECT_EQ(std::get<double>(read.parameters.at("kappa0")), 0.2);
+  EXPECT_EQ(read.loaded.at("e"), -0.01);
+  EXPECT_EQ(read.standard_errors.at("e"), 0.002);
+}
+
+TEST_F(CalibrationFile, WritesAnEOfZeroSoThatItResetsTheRobots) {
+  const std::filesystem::path path = folder_.path() / "calib.toml";
+  write_calibration(path, example());
+  EXPECT_EQ(std::get<double>(read_parameter_file(path).parameters.at("e")), 0);
+}
+
+TEST_F(CalibrationFile, OfAVersionWithoutEHasACovarianceOfThree) {
+  const auto path = file(
+      "[parameters]\nc_R = 1.0\n[covariance]\nmatrix = [[1.0, 2.0, 3.0], [2.0, 5.0, 6.0], "
+      "[3.0, 6.0, 9.0]]\n");
+  const auto covariance = read_parameter_file(path).covariance.value();
+  EXPECT_EQ(covariance(2, 1), 6);
+  EXPECT_EQ(covariance(3, 3), 0);
 }
 
 TEST_F(CalibrationFile, SaysWhatIsDamaged) {
@@ -144,6 +175,56 @@ TEST_F(ChangeGuard, DoubtsWheelFactorsThatMoveByMoreThanATenth) {
   EXPECT_EQ(suspicion(changes(robot_, {{"kp", 80.0}})), "") << "a gain may change as it likes";
 }
 
+TEST_F(ChangeGuard, LetsEComeAndGoAndChangeItsSign) {
+  const auto change = [](double before, double after) {
+    return std::vector<Change>{{"e", "", before, after}};
+  };
+  for (const auto& [before, after] : {std::pair{0.0, 0.03}, {0.03, 0.0}, {0.03, -0.03}, {0.0, 0.1}}) {
+    EXPECT_EQ(suspicion(change(before, after)), "") << before << ' ' << after;
+    EXPECT_THAT(far_changes(robot_, change(before, after)), IsEmpty()) << before << ' ' << after;
+  }
+  for (const auto& [before, after] : {std::pair{0.0, 0.11}, {0.06, -0.06}}) {
+    EXPECT_THAT(suspicion(change(before, after)), HasSubstr("e would go from ")) << before << ' ' << after;
+    EXPECT_THAT(far_changes(robot_, change(before, after)), ElementsAre(HasSubstr("e would go from ")));
+  }
+  EXPECT_EQ(suspicion({{"kappa0", "", 0.6, 0.12}}), "") << "which of these it is drives do not show";
+  EXPECT_THAT(far_changes(robot_, {{"kappa0", "", 0.6, 0.12}}), IsEmpty());
+}
+
+TEST_F(ChangeGuard, AFirmwareThatKnowsNoETakesAnEOfZeroAndNoOther) {
+  std::vector<robot::ParameterRow> rows = robot_.rows();
+  std::erase_if(rows, [](const auto& row) { return row.name == "e" || row.name == "kappa0"; });
+  EXPECT_EQ(understood_by(rows, {{"c_R", 1.001}, {"e", 0.0}, {"kappa0", 0.12}}),
+            (ParameterValues{{"c_R", 1.001}}));
+  EXPECT_THAT(
+      [&] {
+        understood_by(rows, {{"c_R", 1.001}, {"e", 0.03}});
+      },
+      support::ThrowsTelling(HasSubstr("this robot's firmware has no e"), Help::update_firmware));
+  const ParameterValues all{{"c_R", 1.001}, {"e", 0.03}};
+  EXPECT_EQ(understood_by(robot_.rows(), all), all);
+}
+
+TEST_F(ChangeGuard, FactorsThatKnowNoEAreNotForARobotThatHasOne) {
+  robot::upload(desk_.client, {{"e", 0.03}});
+  robot_.refresh();
+  ParameterFile file;
+  file.method = "ml";
+  file.absolute = true;
+  file.parameters = {{"c_R", 1.001}, {"c_L", 0.999}, {"b", 0.29}};
+  EXPECT_THAT(
+      objections(robot_, {}, file, {}),
+      ElementsAre(support::Tells(HasSubstr("robot holds e = 0.03"), Help::calibrate_again_or_override)));
+  file.parameters["e"] = 0.0;
+  EXPECT_THAT(objections(robot_, {}, file, {}), IsEmpty());
+  file.absolute = false;
+  file.loaded = {{"c_R", 1.0}, {"c_L", 1.0}, {"b", 0.29}, {"e", 0.02}};
+  EXPECT_THAT(wrong_loaded_factors(robot_, file),
+              HasSubstr("driven with e = 0.02, and the robot now holds 0.03"));
+  file.loaded["e"] = 0.03;
+  EXPECT_EQ(wrong_loaded_factors(robot_, file), "");
+}
+
 TEST_F(ChangeGuard, FactorsFromEndPosesNeedWhatWasCarriedAndAbsoluteOnesDoNot) {
   ParameterFile file;
   file.loaded = {{"c_R", 1.001}};
@@ -166,12 +247,15 @@ TEST_F(ChangeGuard, AllFactorsNeedTheWheelThatTheyReferTo) {
 
 TEST_F(ChangeGuard, SaysThatAChangeWithinItsErrorMayBeForNothing) {
   const auto note = [&](const ParameterValues& values) {
-    return insignificance(changes(robot_, values), {{"c_R", 1e-4}, {"c_L", 1e-4}, {"b", std::nan("")}});
+    return insignificance(changes(robot_, values),
+                          {{"c_R", 1e-4}, {"c_L", 1e-4}, {"b", std::nan("")}, {"e", 2e-3}});
   };
   EXPECT_THAT(note({{"c_R", 1.00019}, {"c_L", 0.99981}}), HasSubstr("twice its standard error"));
   EXPECT_EQ(note({{"c_R", 1.00019}, {"c_L", 0.9997}}), "");
   EXPECT_EQ(note({{"c_R", 1.00019}, {"b", 0.2901}}), "") << "nobody knows about b";
   EXPECT_EQ(note({{"kp", 80.0}}), "") << "a gain has no error";
+  EXPECT_THAT(note({{"e", 0.0039}}), HasSubstr("twice its standard error"));
+  EXPECT_EQ(note({{"e", 0.0041}}), "");
 }
 
 TEST_F(ChangeGuard, ObjectsInSentencesThatCanBeOverridden) {

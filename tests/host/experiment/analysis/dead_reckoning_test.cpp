@@ -59,6 +59,22 @@ TEST_F(DeadReckonings, ByTheFactorsOfAnotherWheelAreRefused) {
                   AllOf(HasSubstr("calib-before.toml is for a wheel of"), HasSubstr("recorded with"))));
 }
 
+TEST_F(DeadReckonings, TakeEFromTheFileAndNoneWhereItHasNone) {
+  const auto path = folder_.path() / "other.toml";
+  const auto factors = [&](const ParameterValues& more) {
+    ParameterValues values{{"c_R", 1.0}, {"c_L", 1.0}, {"b", 0.29}};
+    values.insert(more.begin(), more.end());
+    write_parameters(path, values);
+    return factors_of_file(path, {}).factors;
+  };
+  EXPECT_EQ(factors({}).e, 0);
+  EXPECT_EQ(factors({}).kappa0, calibration::kUsualKappa0);
+  EXPECT_EQ(factors({{"e", -0.02}, {"kappa0", 0.5}}).e, -0.02);
+  EXPECT_EQ(factors({{"e", -0.02}, {"kappa0", 0.5}}).kappa0, 0.5);
+  EXPECT_THAT([&] { factors({{"e", 3.0}}); }, ThrowsMessage<Error>(HasSubstr("e = 3, which no robot has")));
+  EXPECT_THAT([&] { factors({{"kappa0", 0.0}}); }, ThrowsMessage<Error>(HasSubstr("kappa0 = 0")));
+}
+
 TEST_F(DeadReckonings, ByAFileWithoutFactorsAreRefused) {
   const auto path = folder_.path() / "other.toml";
   write_parameters(path, {{"c_R", 1.0}, {"b", 0.29}});

@@ -128,6 +128,27 @@ TEST(Export, WritesNoCommentThatIsLongOrEndsEarly) {
   EXPECT_THAT(ros2_yaml(file, {}, "base"), HasSubstr("method least-squares"));
 }
 
+TEST(Export, NamesWhatOneWheelbaseCannotSayOfARobotWithTwo) {
+  ParameterFile file = calibrated();
+  EXPECT_FALSE(single_wheelbase(file, diff_drive(file, {})).has_value());
+  file.parameters["e"] = 0.03;
+  const DiffDrive ros = diff_drive(file, {});
+  EXPECT_NEAR(ros.wheel_separation_multiplier * ros.wheel_separation_m, 0.28861105, 1e-12) << "that of spins";
+  const Remark note = single_wheelbase(file, ros).value();
+  EXPECT_THAT(note, support::Tells(HasSubstr("e = 0.03"), Help::set_separation_of_arcs));
+  EXPECT_THAT(note.fact, HasSubstr("up to 3.0 % too far"));
+  EXPECT_NEAR(std::stod(note.remedy.value), 1.03 * ros.wheel_separation_multiplier, 1e-5);
+  std::istringstream lines(ros2_yaml(file, ros, "base"));
+  std::string comments;
+  for (std::string line; std::getline(lines, line) && line != "base:"; comments += line + '\n') {
+    EXPECT_TRUE(line.starts_with("# ")) << line;
+    EXPECT_LE(line.size(), 80U) << line;
+  }
+  EXPECT_THAT(comments, HasSubstr("knows one wheelbase"));
+  file.parameters["e"] = -0.02;
+  EXPECT_THAT(single_wheelbase(file, ros)->fact, HasSubstr("up to 2.0 % too little"));
+}
+
 TEST(Export, WritesRosNumbersAsFloatsToTheLastBit) {
   ParameterFile file = calibrated();
   file.parameters["c_R"] = 1.0;
@@ -148,7 +169,7 @@ class ExportedFiles : public testing::Test {
     found.wheel = NominalWheel{kDiameter_m, kCountsPerTurn};
     MlResult ml;
     ml.estimate.factors = found.factors;
-    ml.estimate.covariance << 1e-10, 2e-11, 0, 2e-11, 1e-10, 0, 0, 0, 3e-10;
+    ml.estimate.covariance.topLeftCorner<3, 3>() << 1e-10, 2e-11, 0, 2e-11, 1e-10, 0, 0, 0, 3e-10;
     found.detail = ml;
     write_calibration(file_, found);
   }

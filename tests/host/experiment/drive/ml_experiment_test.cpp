@@ -137,7 +137,7 @@ TEST_F(MlExperiment, TakesGivenNoiseAndAnUnknownClock) {
   EXPECT_FALSE(found.ml()->options.clock_known);
   const nlohmann::json json = to_json(found);
   EXPECT_EQ(json["noise"]["given"], true);
-  EXPECT_EQ(json["clock"]["known"], false);
+  EXPECT_EQ(json["clock_known"], false);
   // The simulated cameras stamp with the robot's clock, to its tick of 1 ms and a tick of latency.
   for (const auto& run : json["runs"]) EXPECT_NEAR(run["clock_offset_s"].get<double>(), 0, 2e-3);
 }

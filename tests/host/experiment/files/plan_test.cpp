@@ -40,6 +40,15 @@ TEST(Plan, SurvivesJson) {
   EXPECT_NE(until, json);
 }
 
+TEST(Plan, OfAnOlderVersionHasOneCircleOfOneTurnEachWay) {
+  nlohmann::json json = Plan();
+  json.erase("circles");
+  json.erase("circle_turns");
+  const Plan plan = json.get<Plan>();
+  EXPECT_EQ(plan.circles, 1);
+  EXPECT_EQ(plan.circle_turns, 1);
+}
+
 TEST(Plan, AlternatesDirectionsUnlessToldOtherwise) {
   Plan plan;
   plan.runs = 2;
@@ -63,9 +72,9 @@ TEST(Plan, DrivesExtrasInTheFirstAndTheLastPhaseOnly) {
   Plan plan;
   plan.runs = 1;
   plan.rounds = 2;
-  EXPECT_EQ(runs_of_phase(plan, 0, plan.runs).size(), 5U);
+  EXPECT_EQ(runs_of_phase(plan, 0, plan.runs).size(), 7U);
   EXPECT_EQ(runs_of_phase(plan, 1, plan.runs).size(), 2U);
-  EXPECT_EQ(runs_of_phase(plan, 2, plan.runs).size(), 5U);
+  EXPECT_EQ(runs_of_phase(plan, 2, plan.runs).size(), 7U);
 }
 
 TEST(Plan, RefusesWhatCannotBeDriven) {

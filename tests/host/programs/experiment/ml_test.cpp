@@ -84,7 +84,7 @@ TEST_F(Ml, IsTheDefaultAndTellsAllThatItFound) {
   EXPECT_NEAR(json["b_m"].get<double>(), kTrueWheelbase_m, 4 * json["standard_errors"]["b_m"].get<double>());
   EXPECT_NEAR(json["covariance"]["matrix"][2][2].get<double>(),
               std::pow(json["standard_errors"]["b_m"].get<double>(), 2), 1e-15);
-  EXPECT_EQ(json["clock"]["known"], true);
+  EXPECT_EQ(json["clock_known"], true);
   EXPECT_EQ(json["noise"]["given"], false);
   ASSERT_EQ(json["runs"].size(), 4U);
   EXPECT_EQ(json["runs"][0]["name"], "square-ccw-1");

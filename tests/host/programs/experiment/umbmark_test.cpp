@@ -73,6 +73,48 @@ TEST(Umbmark, CalibratesASimulatedRobotOverAPty) {
   EXPECT_EQ(support::parse_json(two.out)["improvement"], json["improvement"]);
 }
 
+TEST(Umbmark, NamesEOnTheTerminalInTheReportInTheFileAndOnTheRobot) {
+  const Simulator simulator({"--fast", "--true-ed", "1.00416", "--true-wheelbase", "0.28861", "--true-e",
+                             "0.03", "--slip", "2.645e-6", "--seed", "1"});
+  const std::string out = (simulator.folder() / "x").string(), calib = out + "/calib-before.toml";
+  const support::Outcome outcome = astrolabe(umbmark(simulator, out));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("gentle arcs about b (1 + e)"));
+  std::ifstream report(out + "/report.html");
+  EXPECT_THAT((std::string{std::istreambuf_iterator<char>(report), {}}),
+              HasSubstr("gentle arcs about b (1 + e)"));
+  const nlohmann::json e =
+      support::parse_json(astrolabe({"params", "get", "e", "--port", simulator.port(), "--json"}).out);
+  EXPECT_NEAR(e["value"].get<double>(), 0.03, 0.015);  // four standard errors
+  const support::Outcome yaml =
+      astrolabe({"calibrate", "export", calib, "--to", (simulator.folder() / "wheels.yaml").string()});
+  EXPECT_EQ(yaml.code, 0);
+  EXPECT_THAT(yaml.err, HasSubstr("warning: diff_drive_controller knows one wheelbase"));
+
+  const std::string without = (simulator.folder() / "without.toml").string();
+  std::ifstream file(calib);
+  std::ofstream copy(without);
+  bool parameters = false;
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with('[')) parameters = line == "[parameters]";
+    copy << (parameters && line.starts_with("e = ") ? "e = 0.0" : line) << '\n';
+  }
+  copy.close();
+  const nlohmann::json judged = support::parse_json(
+      astrolabe({"calibrate", "check", out + "/after", "--with", calib, "--with", without, "--json"}).out);
+  ASSERT_EQ(judged.size(), 3U);
+  EXPECT_NEAR(judged[1]["e"].get<double>(), e["value"].get<double>(), 1e-8);
+  EXPECT_EQ(judged[2]["e"], 0);
+  for (std::size_t i = 0; i < judged[1]["runs"].size(); ++i) {
+    const auto heading = [&](std::size_t by) {
+      return std::abs(judged[by]["runs"][i]["heading_rad"].get<double>());
+    };
+    std::printf("%s: heading %.1f mrad with e, %.1f mrad without\n",
+                judged[1]["runs"][i]["name"].get<std::string>().c_str(), 1000 * heading(1),
+                1000 * heading(2));
+  }
+}
+
 TEST(Umbmark, WithoutSlipOneRepeatLeavesAThirtiethAtMost) {
   const Simulator simulator({"--fast", "--slip", "0"});
   const std::string out = (simulator.folder() / "x").string();

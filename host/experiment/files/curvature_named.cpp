@@ -1,0 +1,25 @@
+#include "host/experiment/files/curvature_named.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "host/base/error.hpp"
+
+namespace astro::experiment {
+
+calibration::WheelFactors with_curvature(calibration::WheelFactors factors, std::optional<double> e,
+                                         std::optional<double> kappa0, const std::string& where) {
+  constexpr double kMostE = 0.5, kLeastKappa0 = 1e-3, kMostKappa0 = 100;  // far beyond any robot
+  factors.e = e.value_or(0);
+  factors.kappa0 = kappa0.value_or(calibration::kUsualKappa0);
+  if (!(std::abs(factors.e) < kMostE))
+    throw Error(fmt::format("{} has e = {:.4g}, which no robot has", where, factors.e),
+                {Help::correct_or_replace_file});
+  if (!(factors.kappa0 >= kLeastKappa0 && factors.kappa0 <= kMostKappa0))
+    throw Error(fmt::format("{} has kappa0 = {:.4g}, which no robot has", where, factors.kappa0),
+                {Help::correct_or_replace_file});
+  return factors;
+}
+
+}  // namespace astro::experiment

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "host/calibration/motion/wheel_factors.hpp"
+#include "host/experiment/files/number_named.hpp"
+
+namespace astro::experiment {
+
+/// `factors` with e and kappa0; without them a robot turns every arc about b (e = 0). `where`: what the numbers are from,
+/// for the error: "the recording 'line 1'".
+///
+/// Throws astro::Error for numbers that no robot has.
+calibration::WheelFactors with_curvature(calibration::WheelFactors factors, std::optional<double> e,
+                                         std::optional<double> kappa0, const std::string& where);
+
+/// The same from values by the parameters' names.
+template <class Values>
+calibration::WheelFactors with_curvature_named(const calibration::WheelFactors& factors, const Values& values,
+                                               const std::string& where) {
+  return with_curvature(factors, number_named(values, "e"), number_named(values, "kappa0"), where);
+}
+
+}  // namespace astro::experiment
