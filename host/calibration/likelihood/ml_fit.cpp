@@ -26,7 +26,7 @@ constexpr int kFewestSamples = 20;  // of a run
 constexpr int kMostPhases = 4;
 // e is estimated if it is so many standard errors from zero, if these are small, and if tyres can explain it: wheels out of round
 // would ask for an e of 2 or 3 to bend what should be lines.
-constexpr double kShown = 2, kUncertainE = 0.05, kLargestE = 0.2;
+constexpr double kShown = 2, kUncertainE = 0.02, kLargestE = 0.2;
 
 /// Changes the logarithm of a variance, which is stored as its `power`-th root, within limits. Returns the size
 /// of the actual change.
