@@ -95,7 +95,7 @@ TEST(TyresStudy, ReachesTheBoundOfEAndOfTheFactorsWithAnHonestCovariance) {
   setup.side_m = 1;
   setup.e = 0.02;
   setup.noise.K_m = 1e-6;  // so that every trial shows e by far
-  const Summary summary = summarize(setup, kRobot, run_study(setup, kRobot, {1, 1}, 2, kSilent));
+  const Summary summary = summarize(setup, kRobot, run_study(setup, kRobot, {1, 1}, 1, kSilent));
   EXPECT_TRUE(summary.failures.empty());
   ASSERT_EQ(summary.ml_over_bound.size(), 4U);
   for (const Ratio& ratio : summary.ml_over_bound) {
@@ -115,7 +115,7 @@ TEST(TyresStudy, WhatSpinsWindUpIsNotTakenForSlipAndHardlyForAnotherWheelbase) {
   setup.runs = 2;
   setup.noise = {5e-7, 2e-4, 5e-4};  // a good floor and a good tracker, which see the wind-up
   setup.windup_rad = 0.006;
-  const std::vector<Trial> trials = run_study(setup, kRobot, {1, 1}, 2, kSilent);
+  const std::vector<Trial> trials = run_study(setup, kRobot, {1, 1}, 1, kSilent);
   double sum = 0, squares = 0;
   for (const Trial& trial : trials) {
     const double error = trial.errors[kMl].value()[kB_over_S];
