@@ -67,6 +67,13 @@ nlohmann::json curvature_json(const std::optional<calibration::CurvatureEffect>&
           {"estimated", curvature->estimated}};
 }
 
+nlohmann::json eccentricity_json(const calibration::Eccentricity& wheel) {
+  return {{"amplitude_m", number(wheel.amplitude_m)},
+          {"standard_error_m", number(wheel.standard_error_m)},
+          {"phases_rad", wheel.phases_rad},
+          {"significant", wheel.significant}};
+}
+
 nlohmann::json session_json(const calibration::SessionFit& session) {
   return {{"lever_arm", lever_json(session.lever)},
           {"lever_arm_se", lever_json(session.lever_se)},
@@ -94,6 +101,9 @@ nlohmann::json to_json(const MlResult& ml) {
       {"dispersion", number(estimate.dispersion)},
       {"iterations", estimate.iterations},
       {"curvature", curvature_json(estimate.curvature)},
+      {"eccentricity",
+       {{"left", eccentricity_json(estimate.eccentricities.left)},
+        {"right", eccentricity_json(estimate.eccentricities.right)}}},
       {"remarks", remark_facts(ml)}};
   json["sessions"] = nlohmann::json::array();
   for (const calibration::SessionFit& session : estimate.sessions)

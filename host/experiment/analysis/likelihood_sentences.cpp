@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host/base/text/degrees.hpp"
@@ -136,6 +137,13 @@ std::string noise_sentence(const MlResult& ml) {
         "and go (wheels out of "
         "round, tyres that give, times that jitter).",
         ml.estimate.spacing_m);
+  for (const auto& [name, wheel] : {std::pair{"left", &ml.estimate.eccentricities.left},
+                                    std::pair{"right", &ml.estimate.eccentricities.right}})
+    if (wheel->significant)
+      text += fmt::format(
+          " The {} wheel runs {} mm out of true once per turn: its rim, its gear or its encoder sits off the "
+          "axis.",
+          name, with_error(1000 * wheel->amplitude_m, 1000 * wheel->standard_error_m, 2));
   return text;
 }
 

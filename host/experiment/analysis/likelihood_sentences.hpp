@@ -22,7 +22,7 @@ std::string clock_sentence(const MlResult& ml);
 /// was not found again. Precondition: found by maximum likelihood.
 std::string wheelbase_sentence(const Calibration& found);
 
-/// The noise, given or estimated, and how well it explains the runs.
+/// The noise, given or estimated, how well it explains the runs, and wheels that run out of true.
 std::string noise_sentence(const MlResult& ml);
 
 /// What does not fit, or one sentence that everything fits. Without final full stops.
