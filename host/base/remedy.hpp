@@ -150,7 +150,6 @@ enum class Help : std::uint8_t {
   check_units_and_wheels,
   estimate_noise,
   look_for_odd_run,
-  calibrate_with_usual_motion,
   calibrate_again,
   calibrate_each_phase,
   calibrate_each_robot,

@@ -27,6 +27,10 @@ constexpr int kMostPhases = 4;
 // e is estimated if it is so many standard errors from zero, if these are small, and if tyres can explain it: wheels out of round
 // would ask for an e of 2 or 3 to bend what should be lines.
 constexpr double kShown = 2, kUncertainE = 0.02, kLargestE = 0.2;
+// Once the innovations are not independent, closer samples than these are not tried: what a spin winds up and the next line
+// lets go of must lie between two samples more often than not, and a quarter turn is 0.8 wheelbases of the wheels' way. No simple
+// multiple of that, or the samples would fall upon the same place of every corner.
+constexpr double kLeastSpacing = 1.25;  // wheelbases
 
 /// Changes the logarithm of a variance, which is stored as its `power`-th root, within limits. Returns the size
 /// of the actual change.
@@ -61,8 +65,10 @@ MlFit::MlFit(const PreparedRuns& prepared, const WheelFactors& loaded, const MlO
   }
   moves_ = moves_of(unknowns_);
   fit(options, !start.empty());
-  if (!fixed_.factors && !options.with_e) fit_e(options);
-  if (!fixed_.e) e_ = e_to_first_order();
+  if (!fixed_.factors && !options.with_e)
+    fit_e(options);
+  else if (!fixed_.e)
+    e_ = e_to_first_order();
 }
 
 void MlFit::fit(const MlOptions& options, bool started) {
@@ -133,11 +139,6 @@ void MlFit::fit_with_noise() {
     if (settled) break;
   }
 }
-
-/// Once the innovations are not independent, closer samples than these are not tried: what a spin winds up and the next line
-/// lets go of must lie between two samples more often than not, and a quarter turn is 0.8 wheelbases of the wheels' way. No simple
-/// multiple of that, or the samples would fall upon the same place of every corner.
-constexpr double kLeastSpacing = 1.25;  // wheelbases
 
 /// Doubles the spacing of the samples until the innovations are independent.
 void MlFit::find_spacing() {

@@ -7,8 +7,8 @@
 namespace astro::calibration {
 namespace {
 
-// With some forty sums, one drive in a hundred exceeds this by chance. It is then thinned to every second
-// sample, which does little harm.
+// With some forty sums, one drive in a hundred exceeds this by chance. It is then thinned, which
+// costs little: slip, not the tracker, sets the errors.
 constexpr double kUnlikely = 1e-4;
 constexpr double kMatters = 1.2;  // ratio of variances: a tenth of a standard error
 constexpr int kPerUnknown =

@@ -180,7 +180,6 @@ constexpr Sentence kSentences[] = {
     {Help::estimate_noise, ": let the noise be estimated (without --K, --sigma-xy and --sigma-theta)"},
     {Help::look_for_odd_run,
      "; look for a run whose chi²/dof is far above the others', for slip, and for truth of another drive"},
-    {Help::calibrate_with_usual_motion, "; calibrate with the motion that the robot will use most"},
     {Help::calibrate_again, "; calibrate again"},
     {Help::calibrate_each_phase, ": calibrate each phase for itself (name its folder)"},
     {Help::calibrate_each_robot, ": calibrate each for itself"},
