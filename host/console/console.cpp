@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "host/base/error.hpp"
+#include "host/base/text/columns.hpp"
 #include "host/base/text/plain_text.hpp"
 #include "host/console/interrupt.hpp"
 #include "host/console/terminal.hpp"
@@ -24,12 +25,6 @@ constexpr auto kBarDelay = std::chrono::seconds(1);
 constexpr auto kBetweenRedraws = std::chrono::milliseconds(80);
 constexpr std::size_t kLongestSentence = 4000;  // bytes
 constexpr std::string_view kClearLine = "\r\033[K";
-
-// Columns a terminal uses for UTF-8 text: every byte that does not continue a character.
-std::size_t width_of(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(
-      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-}
 
 /// A message may quote text from a file: a name with line feeds, a cell of megabytes. It becomes one line of
 /// limited length.
@@ -208,40 +203,19 @@ std::string table(const std::vector<std::vector<std::string>>& rows, std::string
   for (const auto& row : rows)
     for (std::size_t i = 0; i < row.size(); ++i) {
       if (i == widths.size()) widths.push_back(0);
-      widths[i] = std::max(widths[i], width_of(row[i]));
+      widths[i] = std::max(widths[i], columns_of(row[i]));
     }
   std::string text;
   for (const auto& row : rows) {
     std::string line;
     for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string padding(widths[i] - width_of(row[i]), ' ');
+      const std::string padding(widths[i] - columns_of(row[i]), ' ');
       line += (i == 0 ? "" : "  ") + (is_left(i) ? row[i] + padding : padding + row[i]);
     }
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + '\n';
   }
   return text;
-}
-
-std::string wrapped(const std::string& text) {
-  constexpr std::size_t kColumns = 80;
-  std::string out, line;
-  std::size_t width = 0;
-  const auto flush = [&] {
-    out += line + '\n';
-    line.clear();
-    width = 0;
-  };
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find(' ', at), text.size());
-    const std::string word = text.substr(at, end - at);
-    if (width > 0 && width + 1 + width_of(word) > kColumns) flush();
-    line += (width > 0 ? " " : "") + word;
-    width += (width > 0 ? 1 : 0) + width_of(word);
-    at = end + 1;
-  }
-  flush();
-  return out;
 }
 
 }  // namespace astro::console

@@ -91,7 +91,4 @@ class Progress {
 /// column is left-aligned and the others are right-aligned.
 std::string table(const std::vector<std::vector<std::string>>& rows, std::string_view alignment = {});
 
-/// `text` broken between words so that no line is longer than 80 columns; ends with a newline.
-std::string wrapped(const std::string& text);
-
 }  // namespace astro::console

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "host/base/error.hpp"
+#include "host/base/text/columns.hpp"
 #include "host/base/text/plain_text.hpp"
 #include "host/console/interrupt.hpp"
 
@@ -29,8 +30,6 @@ void write_all(int fd, std::string_view text) {
     text.remove_prefix(static_cast<std::size_t>(count));
   }
 }
-
-bool continues_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) == 0x80; }
 
 }  // namespace
 
@@ -97,13 +96,6 @@ void Picture::draw_over(const std::string& text) {
     frame += clipped(text.substr(at, end - at), size.columns) + "\033[K\n";
   write_all(fd_, frame + "\033[J");
   drawn_ = true;
-}
-
-std::string clipped(const std::string& line, std::size_t columns) {
-  std::size_t characters = 0;
-  for (std::size_t i = 0; i < line.size(); ++i)
-    if (!continues_character(line[i]) && characters++ == columns) return line.substr(0, i);
-  return line;
 }
 
 std::string gauge(double fraction, int half) {

@@ -60,9 +60,6 @@ class Picture {
   bool drawn_ = false;
 };
 
-/// The first `columns` characters of UTF-8 text.
-std::string clipped(const std::string& line, std::size_t columns);
-
 /// A bar that grows from its middle: `fraction` in [-1, 1], positive to the right; 2 * half + 1 characters.
 std::string gauge(double fraction, int half);
 

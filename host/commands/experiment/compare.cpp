@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "host/base/text/columns.hpp"
 #include "host/commands/experiment/commands.hpp"
 #include "host/commands/shared/results_option.hpp"
 #include "host/commands/shared/robot_view.hpp"
@@ -31,7 +32,7 @@ void add_compare(console::Command app) {
       return;
     }
     write(console::table(experiment::before_after_table(results)));
-    if (results.phases.size() > 1) write('\n' + console::wrapped(results.verdict()));
+    if (results.phases.size() > 1) write('\n' + wrapped(results.verdict()));
   });
 }
 

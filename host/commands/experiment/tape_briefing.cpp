@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/base/text/columns.hpp"
 #include "host/console/console.hpp"
 #include "host/experiment/drive/record_run.hpp"
 #include "host/experiment/files/experiment_folder.hpp"
@@ -86,7 +87,7 @@ std::string tape_briefing(const experiment::Plan& plan, const std::filesystem::p
       "readings. It takes about {:.0f} minutes: {:.0f} of driving, and 2 for each run to measure and to "
       "carry the robot back.",
       work.left, work.all, phases, 3 * work.left, work.minutes(), work.driving_s / 60);
-  return console::wrapped(text) + kDrawing;
+  return wrapped(text) + kDrawing;
 }
 
 }  // namespace astro::commands

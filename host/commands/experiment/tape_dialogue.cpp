@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "host/base/text/columns.hpp"
 #include "host/console/console.hpp"
 
 namespace astro::commands {
@@ -47,8 +48,8 @@ void ask_put_back(const AskLine& ask, const experiment::RunSpec& run) {
 }
 
 Redo ask_about(const AskLine& ask, const experiment::DoubtfulRun& run) {
-  const std::string prompt = console::wrapped(run.why + '.') +
-                             "  yes: it stays as it is; back: enter it again; redo: drive it again: ";
+  const std::string prompt =
+      wrapped(run.why + '.') + "  yes: it stays as it is; back: enter it again; redo: drive it again: ";
   while (true) {
     const std::string answer = ask(prompt);
     if (answer == "y" || answer == "yes") return Redo::no;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/base/text/columns.hpp"
 #include "host/base/text/degrees.hpp"
 #include "host/commands/base/remedies.hpp"
 #include "host/console/console.hpp"
@@ -22,7 +23,7 @@ using Rows = std::vector<std::vector<std::string>>;
 
 std::string said(const std::vector<Remark>& remarks) {
   std::string text;
-  for (const Remark& remark : remarks) text += console::wrapped(in_words(remark));
+  for (const Remark& remark : remarks) text += wrapped(in_words(remark));
   return text;
 }
 
@@ -51,7 +52,7 @@ std::string tracker_text(const truth::Inspection& tracker) {
     if (facts->rotation_kind == truth::RotationKind::none) text += ", no orientation";
     if (facts->rate_hz > 0) text += fmt::format(", {:.6g} Hz stated", facts->rate_hz);
     if (!facts->start_time.empty()) text += ", started " + facts->start_time;
-    text = console::wrapped(text + '.');
+    text = wrapped(text + '.');
   }
   Rows rows{{"body", "samples", "seconds", "Hz", "lost", "gaps", "longest s", "up", "noise at rest"}};
   for (const truth::BodyInspection& body : tracker.bodies)
@@ -90,12 +91,13 @@ std::string bag_text(const BagInspection& bag) {
   if (!bag.joints.empty()) {
     std::string joints;
     for (const std::string& joint : bag.joints) joints += (joints.empty() ? "" : ", ") + joint;
-    text += '\n' + console::wrapped("Joints: " + joints +
-                                    (bag.wheels ? "; wheels: " + bag.wheels->left + " (left), " +
-                                                      bag.wheels->right + " (right)."
-                                                : "; which are the wheels, the names do not tell."));
+    text +=
+        '\n' +
+        wrapped("Joints: " + joints +
+                (bag.wheels ? "; wheels: " + bag.wheels->left + " (left), " + bag.wheels->right + " (right)."
+                            : "; which are the wheels, the names do not tell."));
   }
-  for (const std::string& warning : bag.report.warnings) text += console::wrapped(warning);
+  for (const std::string& warning : bag.report.warnings) text += wrapped(warning);
   return text;
 }
 

@@ -12,12 +12,6 @@
 namespace astro::console {
 namespace {
 
-TEST(Clipped, CountsCharactersNotBytes) {
-  EXPECT_EQ(clipped("äöü", 2), "äö");
-  EXPECT_EQ(clipped("█░", 5), "█░");
-  EXPECT_EQ(clipped("abc", 0), "");
-}
-
 TEST(Gauge, GrowsFromTheMiddleToEitherSide) {
   EXPECT_EQ(gauge(0, 3), "░░░┃░░░");
   EXPECT_EQ(gauge(1, 3), "░░░┃███");

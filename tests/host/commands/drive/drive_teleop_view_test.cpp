@@ -1,10 +1,9 @@
 #include "host/commands/drive/drive_teleop_view.hpp"
+#include "tests/support/base/columns.hpp"
 
 #include <gmock/gmock.h>
 
 #include <numbers>
-
-#include "tests/host/commands/picture.hpp"
 
 namespace astro::commands {
 namespace {
@@ -34,7 +33,7 @@ TEST(TeleopPicture, SaysTheSameAt40ColumnsAsAt80) {
   at.theta_rad = -9999.9 * std::numbers::pi / 180;
   for (const std::size_t columns : {40U, 41U, 69U, 70U, 80U, 200U}) {
     const std::string picture = teleop_picture("ASTRO", wheel, at, {columns, 24});
-    EXPECT_LE(widest_line(picture), columns) << picture;
+    EXPECT_LE(support::widest_line(picture), columns) << picture;
     EXPECT_LE(std::count(picture.begin(), picture.end(), '\n'), 23) << picture;
     expect_all_that_steers(picture);
   }

@@ -1,10 +1,9 @@
 #include "host/commands/robot/monitor_view.hpp"
+#include "tests/support/base/columns.hpp"
 
 #include <gmock/gmock.h>
 
 #include <limits>
-
-#include "tests/host/commands/picture.hpp"
 
 namespace astro::commands {
 namespace {
@@ -35,8 +34,7 @@ TEST(MonitorPicture, FitsATerminalOf80By24) {
   const std::string picture =
       monitor_picture("ASTRO   /run/user/1000/astrolabe-1000/astro.pty", extreme(), figures);
   EXPECT_LE(std::count(picture.begin(), picture.end(), '\n'), 23);  // the cursor needs one
-  for (std::size_t begin = 0, end; (end = picture.find('\n', begin)) != std::string::npos; begin = end + 1)
-    EXPECT_LE(width(picture.substr(begin, end - begin)), 80U) << picture.substr(begin, end - begin);
+  EXPECT_LE(support::widest_line(picture), 80U) << picture;
 }
 
 TEST(MonitorLine, SaysModeFaultsBatteryAndPose) {
