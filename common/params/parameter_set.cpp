@@ -48,9 +48,11 @@ Result<void, Param> check_geometry(const ParameterSet& set) {
   const std::int64_t left_nm = count_travel_nm(set, Param::c_L);
   const auto [shortest_nm, longest_nm] = std::minmax(right_nm, left_nm);
   if (longest_nm >= kLongestCount_nm || shortest_nm < kShortestCount_nm) return Param::counts_per_motor_rev;
-  // The turn per count is travel / b radians and must be less than 2 pi / kFewestCountsPerTurn.
-  if ((longest_nm + 1) * (kFewestCountsPerTurn / 2) * 113 >= std::int64_t{set.get(Param::b)} * 355)
-    return Param::b;
+  // Where e is negative, a curve may turn about b (1 + e). The turn per count is travel over that in radians, and must be
+  // less than 2 pi / kFewestCountsPerTurn.
+  const std::int64_t least_of_b_30 = (std::int64_t{1} << 30) + std::min<std::int32_t>(set.get(Param::e), 0);
+  const std::int64_t smallest_base_nm = (set.get(Param::b) * least_of_b_30) >> 30;
+  if ((longest_nm + 1) * (kFewestCountsPerTurn / 2) * 113 >= smallest_base_nm * 355) return Param::b;
   return {};
 }
 

@@ -73,8 +73,8 @@ inline constexpr std::int64_t kFewestCountsPerTurn = 16;
 ///   over_speed             not above speed_limit: full speed would be a fault
 ///   counts_per_motor_rev   one count moves a wheel by kLongestCount_nm or more, or by less than kShortestCount_nm:
 ///                          it does not fit the odometry's fixed point
-///   b                      kFewestCountsPerTurn counts of one wheel turn the robot once or more: the heading is
-///                          ambiguous
+///   b                      kFewestCountsPerTurn counts of one wheel turn the robot once or more, about b or in a curve
+///                          about b (1 + e): the heading is ambiguous
 /// The rows are checked first, in table order. Integers only. Called when parameters change, not in the tick.
 Result<void, Param> validate(const ParameterSet& set);
 

@@ -18,12 +18,14 @@ std::int32_t speed_umps(const Geometry::Wheel& wheel, const SpeedObserver& obser
 }
 
 // In one tick a wheel may not turn the robot by more than a sixteenth of a turn (the odometry's domain), nor
-// count more than the speed observer can take. Both are hundreds of times what a motor does.
-std::int32_t most_counts(const Geometry& geometry) {
-  constexpr std::int64_t kSixteenthTurn = std::int64_t{1} << 60;
+// count more than the speed observer can take. Both are hundreds of times what a motor does. The turns of the geometry are
+// about b, and a curve may turn about a smaller wheelbase.
+std::int32_t most_counts(const ParameterSet& set, const Geometry& geometry) {
+  constexpr std::int64_t kOne_30 = std::int64_t{1} << 30;
+  const std::int64_t sixteenth_turn = kOne_30 * (kOne_30 + std::min<std::int32_t>(set.get(Param::e), 0));
   const std::int64_t turn =
       geometry.left.turn > geometry.right.turn ? geometry.left.turn : geometry.right.turn;
-  const std::int64_t counts = kSixteenthTurn / turn;
+  const std::int64_t counts = sixteenth_turn / turn;
   return counts < 1000 ? static_cast<std::int32_t>(counts) : 1000;
 }
 
@@ -48,9 +50,9 @@ Wheels::Configuration::Configuration(const ParameterSet& set, const Geometry& wh
     : geometry(wheels),
       gains(set),
       observer(set.get(Param::observer_bandwidth)),
-      most_counts(std::min(astro::most_counts(wheels),
+      most_counts(std::min(astro::most_counts(set, wheels),
                            counts_at(4 * std::int64_t{set.get(Param::over_speed)}, wheels))),
-      most_late_counts(astro::most_counts(wheels)),
+      most_late_counts(astro::most_counts(set, wheels)),
       voltage_limit_uv(1000 * set.get(Param::motor_voltage_max)),
       left{set.get(Param::motor_polarity_left), set.get(Param::encoder_polarity_left),
            expected_scale(wheels.left)},

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <variant>
 
 #include "host/base/error.hpp"
 
@@ -20,6 +21,14 @@ calibration::WheelFactors with_curvature(calibration::WheelFactors factors, std:
     throw Error(fmt::format("{} has kappa0 = {:.4g}, which no robot has", where, factors.kappa0),
                 {Help::correct_or_replace_file});
   return factors;
+}
+
+void require_no_text(const NamedValues& values, const std::string& name, const std::string& where) {
+  const auto found = values.find(name);
+  if (found == values.end()) return;
+  if (const auto* text = std::get_if<std::string>(&found->second))
+    throw Error(fmt::format("{} has {} = '{}', which is text and no number", where, name, *text),
+                {Help::correct_or_replace_file});
 }
 
 }  // namespace astro::experiment

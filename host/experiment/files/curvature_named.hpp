@@ -15,10 +15,16 @@ namespace astro::experiment {
 calibration::WheelFactors with_curvature(calibration::WheelFactors factors, std::optional<double> e,
                                          std::optional<double> kappa0, const std::string& where);
 
-/// The same from values by the parameters' names.
+/// Throws astro::Error if what is called `name` is text.
+void require_no_text(const NamedValues& values, const std::string& name, const std::string& where);
+inline void require_no_text(const std::map<std::string, double>&, const std::string&, const std::string&) {}
+
+/// The same as with_curvature from values by the parameters' names. Text is no number.
 template <class Values>
 calibration::WheelFactors with_curvature_named(const calibration::WheelFactors& factors, const Values& values,
                                                const std::string& where) {
+  require_no_text(values, "e", where);
+  require_no_text(values, "kappa0", where);
   return with_curvature(factors, number_named(values, "e"), number_named(values, "kappa0"), where);
 }
 

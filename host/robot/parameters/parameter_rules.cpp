@@ -51,10 +51,13 @@ std::string geometry_rule(const Staged& staged, std::string_view name) {
   const auto travel_m = staged.travel_per_count_m();
   const auto b_m = staged.number("b");
   if (!travel_m || !b_m) return "";
-  if (name == "b")
-    return "one count turns the robot by " + digits(degrees(*travel_m / *b_m)) +
+  if (name == "b") {
+    const double narrower = std::min(staged.number("e").value_or(0), 0.0);  // in curves
+    return "one count turns the robot by " + digits(degrees(*travel_m / (*b_m * (1 + narrower)))) +
            " degrees, and has to turn it by less than " + digits(360.0 / kFewestCountsPerTurn) +
-           " degrees; that follows from " + staged.shown("b") + ", the wheel, the gear and the encoder";
+           " degrees; that follows from " + staged.shown("b") + ", " +
+           (narrower < 0 ? staged.shown("e") + ", " : "") + "the wheel, the gear and the encoder";
+  }
   return "one count moves a wheel by " + digits(*travel_m) + " m, and that has to be from " +
          digits(1e-9 * kShortestCount_nm) + " m to " + digits(1e-9 * kLongestCount_nm) +
          " m; that follows from " + staged.shown("counts_per_motor_rev") + ", " +

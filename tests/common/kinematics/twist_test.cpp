@@ -88,6 +88,42 @@ TEST(Twist, WithACurvatureEffectASpinStillTurnsAboutB) {
   }
 }
 
+// Limits are of the body, over_speed is of a wheel. A wheelbase that is wider in curves makes the outer wheel faster by at
+// most e of the turn's share, and by at most e kappa0 / 2 of the speed, because gentle curves alone are wider.
+TEST(Twist, ACurvatureEffectMakesNoWheelFasterThanItsWidestBase) {
+  tests::Seeded random(8);
+  for (int i = 0; i < 200'000; ++i) {
+    ParameterSet set = tests::random_robot(random);
+    const Geometry without = make_geometry(set);
+    tests::draw_effect(set, random);
+    const tests::ExactEffect effect(set);
+    const BodyTwist twist{random.between32(-kFastest_umps, kFastest_umps),
+                          random.between32(-kFastest_uradps, kFastest_uradps)};
+    const auto fastest = [&](const Geometry& geometry) {
+      const WheelSpeeds wheels = to_wheels(geometry, twist);
+      return std::max(std::fabs(static_cast<Real>(wheels.left_umps)),
+                      std::fabs(static_cast<Real>(wheels.right_umps)));
+    };
+    const Real v = std::fabs(static_cast<Real>(twist.v_umps)), turn = fastest(without) - v,
+               wider = std::max<Real>(effect.e, 0);
+    // The error of the series, of the share and of a wheel's speed, as effective_base.hpp states them.
+    const Real off = turn * (5e-5L + 0.022L * wider * wider) * wider + wider * (10 + effect.kappa0) + 2;
+    ASSERT_LE(fastest(make_geometry(set)), v + turn * (1 + wider) + off);
+    ASSERT_LE(fastest(make_geometry(set)), v * (1 + wider * effect.kappa0 / 2) + turn + off);
+  }
+}
+
+TEST(Twist, StraightIsTheSameNumberOnBothWheelsWithACurvatureEffect) {
+  tests::Seeded random(9);
+  for (int i = 0; i < 10'000; ++i) {
+    ParameterSet set = tests::random_robot(random);
+    tests::draw_effect(set, random);
+    const std::int32_t v = random.between32(-kFastest_umps, kFastest_umps);
+    ASSERT_EQ(to_wheels(make_geometry(set), {v, 0}), (WheelSpeeds{v, v}))
+        << "full speed stays below over_speed";
+  }
+}
+
 TEST(Twist, WheelsToBodyAndBackAreTheSameSpeeds) {
   tests::Seeded random(3);
   for (int i = 0; i < 50'000; ++i) {

@@ -217,16 +217,34 @@ TEST(Validation, RoundsAWheelToTheNearestNanometre) {
   EXPECT_EQ(verdict(set), Param::none);
 }
 
-TEST(Validation, RefusesAWheelbaseThatTurnsASixteenthPerCount) {
+/// One count is a turn of a wheel of 30 mm: 8 of them are pi * 0.24 m.
+ParameterSet with_a_count_of_a_turn() {
   ParameterSet set;
   set.set(Param::counts_per_motor_rev, 1);
   set.set(Param::gear_numerator, 1);
   set.set(Param::gear_denominator, 1);
   set.set(Param::wheel_diameter, 30'000'000);
-  set.set(Param::b, 240'001'000);  // 8 * travel = 8 pi D = pi * 0.24 m
+  return set;
+}
+
+TEST(Validation, RefusesAWheelbaseThatTurnsASixteenthPerCount) {
+  ParameterSet set = with_a_count_of_a_turn();
+  set.set(Param::b, 240'001'000);
   EXPECT_EQ(verdict(set), Param::none);
   set.set(Param::b, 239'999'000);
   EXPECT_EQ(verdict(set), Param::b);
+}
+
+TEST(Validation, RefusesAWheelbaseOfCurvesThatTurnsASixteenthPerCount) {
+  ParameterSet set = with_a_count_of_a_turn();
+  set.set(Param::e, -(1 << 30) / 5);
+  set.set(Param::b, 300'002'000);  // 0.8 b = 0.24 m
+  EXPECT_EQ(verdict(set), Param::none);
+  set.set(Param::b, 299'998'000);
+  EXPECT_EQ(verdict(set), Param::b);
+  set.set(Param::e, (1 << 30) / 5);
+  set.set(Param::b, 239'999'000);
+  EXPECT_EQ(verdict(set), Param::b) << "spins still turn about b";
 }
 
 /// Holds the integer arithmetic of the geometry rules against long double over the whole range of every row,
@@ -239,7 +257,7 @@ RC_GTEST_PROP(Validation, JudgesGeometryAsRealArithmeticDoes, ()) {
                             rc::gen::inRange<std::int64_t>(row.minimum_raw, row.maximum_raw + 1LL));
   };
   ParameterSet set;
-  for (const Param id : {Param::c_R, Param::c_L, Param::b, Param::wheel_diameter}) {
+  for (const Param id : {Param::c_R, Param::c_L, Param::b, Param::wheel_diameter, Param::e}) {
     set.set(id, static_cast<std::int32_t>(within(id)));
   }
   for (const Param id : {Param::counts_per_motor_rev, Param::gear_numerator, Param::gear_denominator}) {
@@ -251,7 +269,10 @@ RC_GTEST_PROP(Validation, JudgesGeometryAsRealArithmeticDoes, ()) {
   const long double right = travel_m(set, Param::c_R);
   const long double left = travel_m(set, Param::c_L);
   const long double longest = std::max(right, left);
-  const long double turn = longest / (set.get(Param::b) * 1e-9L) / (2 * 3.14159265358979323846L);
+  const long double smallest_base_m =
+      set.get(Param::b) * 1e-9L *
+      (1 + std::min(std::ldexp(static_cast<long double>(set.get(Param::e)), -30), 0.0L));
+  const long double turn = longest / smallest_base_m / (2 * 3.14159265358979323846L);
   RC_PRE(std::abs(longest / 0.125L - 1) > 1e-6L && std::abs(turn * 16 - 1) > 1e-6L &&
          std::min(right, left) > 2e-9L);
   const Param expected = longest > 0.125L ? Param::counts_per_motor_rev

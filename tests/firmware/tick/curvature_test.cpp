@@ -41,6 +41,7 @@ class RobotOnTyres {
     }
   }
 
+  bool has(Fault fault) const { return (drive_.faults().mask() & bit(fault)) != 0; }
   const WheelSpeeds& set_points() const { return drive_.wheels().set_points(); }
   double true_heading_rad() const { return board_.truth().theta_rad; }
   double heading_rad() const {
@@ -157,6 +158,17 @@ TEST(CurvatureEffect, InTheParameterACommandedCurveIsTheTrueOne) {
     // The heading at each end may be a count off.
     EXPECT_NEAR(with, omega_radps, 2 * 0.28e-3 / 10);
     EXPECT_LT(std::abs(ignored), std::abs(with) - 3e-4) << "1 + e g of a wheelbase turns more slowly";
+  }
+}
+
+// 0.75 m/s and 2 rad/s about 0.29 m are 1.04 m/s of a wheel. The widest wheelbase would make it 1.1 m/s, below over_speed.
+TEST(CurvatureEffect, LetsARobotDriveAtBothItsLimitsWithoutOverSpeed) {
+  for (const double e : {-0.2, 0.2}) {
+    RobotOnTyres robot(e, e);
+    robot.hold_velocity({7'500'000, 20'000'000}, 4000);
+    EXPECT_FALSE(robot.has(Fault::over_speed)) << e;
+    EXPECT_GT(robot.set_points().right_umps, 900'000) << e;
+    EXPECT_LT(robot.set_points().right_umps, ParameterSet{}.get(Param::over_speed)) << e;
   }
 }
 

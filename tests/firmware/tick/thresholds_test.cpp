@@ -228,6 +228,13 @@ TEST(MostCounts, OfCoarseEncodersIsASixteenthOfATurnByTheCoarserWheel) {
   set.set(Param::gear_numerator, 10);  // a count is 3.534 mm, and 1 / 515.6 turn of the robot
   EXPECT_TRUE(believed(set, 32, false));
   EXPECT_FALSE(believed(set, 33, false));
+  set.set(Param::e, -(1 << 30) / 5);  // curves turn about 0.8 b: 25.78 counts
+  EXPECT_TRUE(believed(set, 25, false));
+  EXPECT_FALSE(believed(set, 26, false));
+  set.set(Param::e, (1 << 30) / 5);  // spins still turn about b
+  EXPECT_TRUE(believed(set, 32, false));
+  EXPECT_FALSE(believed(set, 33, false));
+  set.set(Param::e, 0);
   set.set(Param::gear_numerator, 330);  // more than the thousand that any late tick may count
   EXPECT_TRUE(believed(set, 1000, false));
   EXPECT_FALSE(believed(set, 1001, false));
