@@ -13,7 +13,7 @@ namespace {
 constexpr double kNearby_s = 1;
 constexpr double kGoodEnough = 0.95;
 constexpr double kMostSkew = 0.05;
-// Number of pairs of bins to compare if every offset has to be tried. It takes a third of a second.
+// Number of pairs of bins to compare if every offset has to be tried. It takes a tenth of a second.
 constexpr double kMostWork = 4e7;
 // Laps of a drive take longer than this, so a repetition shows with bins of this size.
 constexpr double kLapBin_s = 0.2;

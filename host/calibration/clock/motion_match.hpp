@@ -1,5 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <vector>
+
 #include "host/calibration/clock/motion_profile.hpp"
 
 /// How well the motion of the wheels and that of the truth agree for a given offset of their clocks.
@@ -26,12 +29,14 @@ class MotionMatch {
   /// `noise_mps`: standard deviation of the noise in the truth's rates. Smaller rates do not count as motion.
   MotionMatch(MotionProfile wheels, MotionProfile truth, double noise_mps);
 
-  /// Cost  5 ns for each bin in which the two overlap.
+  /// Cost  2 ns for each bin in which the two overlap.
   Agreement at(const ClockGuess& guess) const;
 
  private:
   struct Sums;
+  struct Alignment;
   Sums sums(const ClockGuess& guess) const;
+  void add_row(const Alignment& alignment, double from, double to, Sums& sums) const;
 
   struct Whole {  // of all known bins: their number, means, and sum of squares about the means
     double count = 0, mean_mps[2] = {}, square = 0;
@@ -40,9 +45,26 @@ class MotionMatch {
   };
   static Whole centred(MotionProfile& profile);
 
+  /// A profile's speeds and turn rates once more, in rows that are added up several bins at a time.
+  struct Rows {
+    explicit Rows(const MotionProfile& profile);
+    Eigen::ArrayXd speed, turn;
+    Eigen::ArrayXd speed_step, turn_step;  // to the next bin
+  };
+
+  /// Neighbouring bins of truth that are all known: begin..end-1.
+  struct Stretch {
+    std::size_t begin, end;
+  };
+
   MotionProfile wheels_, truth_;
   double noise_;  // variance
   Whole all_wheels_, all_truth_;
+  Rows wheel_rows_, truth_rows_;
+  Eigen::ArrayXd index_;  // 0, 1, 2 ..
+  /// Before each bin of the wheels: sums of speeds, of turn rates, and of the squares of both.
+  std::vector<Eigen::Array3d> wheels_before_;
+  std::vector<Stretch> stretches_;
 };
 
 }  // namespace astro::calibration

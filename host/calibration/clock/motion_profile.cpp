@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "host/calibration/motion/arc.hpp"
+#include "host/calibration/motion/interval_near.hpp"
 #include "host/calibration/motion/wheel_path.hpp"
 
 namespace astro::calibration {
@@ -29,9 +31,8 @@ void Stream<Value>::add(double time_s, Value value) {
 }
 
 template <class Value>
-std::size_t Stream<Value>::interval_of(double time_s) const {
-  const auto next = std::upper_bound(time_s_.begin() + 1, time_s_.end() - 1, time_s);
-  return static_cast<std::size_t>(next - time_s_.begin()) - 1;
+std::size_t Stream<Value>::interval_of(double time_s, std::size_t& last) const {
+  return interval_near(last, std::span<const double>(time_s_), time_s, std::identity());
 }
 
 template <class Value>
@@ -41,8 +42,7 @@ Value Stream<Value>::value_at(std::size_t i, double time_s) const {
 }
 
 template <class Value>
-Value Stream<Value>::integral_at(double time_s) const {
-  const std::size_t i = interval_of(time_s);
+Value Stream<Value>::integral_at(std::size_t i, double time_s) const {
   return integral_[i] + (time_s - time_s_[i]) / 2 * (value_[i] + value_at(i, time_s));
 }
 
@@ -50,11 +50,13 @@ template <class Value>
 std::optional<Value> Stream<Value>::rate(double time_s, const Window& window) const {
   const double reach_s = window.support_s() / 2, from_s = time_s - reach_s, to_s = time_s + reach_s;
   if (time_s_.size() < 2 || !(from_s >= time_s_.front() && to_s <= time_s_.back())) return {};
-  const std::size_t from = interval_of(from_s), to = interval_of(to_s);
+  const std::size_t from = interval_of(from_s, last_from_), to = interval_of(to_s, last_to_);
   if (gaps_[to + 1] != gaps_[from]) return {};
   if (!window.averaged) return (value_at(to, to_s) - value_at(from, from_s)) / reach_s / 2.0;
   const double width_s = 2 * window.half_s;
-  return (integral_at(to_s) - 2.0 * integral_at(time_s) + integral_at(from_s)) / width_s / width_s;
+  const std::size_t middle = interval_of(time_s, last_middle_);
+  return (integral_at(to, to_s) - 2.0 * integral_at(middle, time_s) + integral_at(from, from_s)) / width_s /
+         width_s;
 }
 
 BodyPath::BodyPath(std::span<const BodySample> samples, bool headings) : headings_(headings) {

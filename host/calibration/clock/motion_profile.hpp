@@ -36,14 +36,14 @@ class Stream {
   std::optional<Value> rate(double time_s, const Window& window) const;
 
  private:
-  std::optional<std::size_t> covering(double from_s, double to_s) const;
   Value value_at(std::size_t i, double time_s) const;
-  Value integral_at(double time_s) const;
-  std::size_t interval_of(double time_s) const;
+  Value integral_at(std::size_t i, double time_s) const;
+  std::size_t interval_of(double time_s, std::size_t& last) const;
 
   std::vector<double> time_s_;
   std::vector<Value> value_, integral_;
   std::vector<int> gaps_;  // before each sample
+  mutable std::size_t last_from_ = 0, last_middle_ = 0, last_to_ = 0;
 };
 
 /// A body's path in the plane. Without headings its turn rate is zero.

@@ -168,7 +168,7 @@ CrossValidation cross_validate(std::span<const Trajectory> runs, const WheelFact
           followed(group_of(prepared, fit_in_use, others_in_use, members), in_use, with_noise, held);
       for (std::size_t k = 0; k < by_found.errors.size(); ++k)
         out.runs.push_back({by_in_use.errors.at(k), by_found.errors[k], found,
-                            (by_in_use.cost.at(k) - by_found.cost[k]) / all.dispersion});
+                            (by_in_use.cost.at(k) - by_found.cost[k]) / all.widening});
     } catch (const Error& error) {
       std::vector<std::string> names;
       for (const std::size_t member : members) names.push_back(prepared.runs[member].source->name);

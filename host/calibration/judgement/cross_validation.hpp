@@ -54,7 +54,7 @@ struct CrossValidation {
 };
 
 /// `in_use`: the factors to compare with. `all`: the estimate from all runs; its noise model, spacing of samples and
-/// dispersion are used for each group.
+/// widening are used for each group.
 ///
 /// Cost    less than that of the estimate: each run is followed twice more, whatever the number of groups (one for each run,
 ///         but ten at most).

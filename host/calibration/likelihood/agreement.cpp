@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 namespace astro::calibration {
@@ -35,18 +36,66 @@ Disagreement disagreement(const Reduced& run, const Pool& all) {
   return found;
 }
 
+/// Adds what another stretch of the same session says.
+void add(Reduced& sum, const Reduced& stretch) {
+  sum.information += stretch.information;
+  sum.gradient += stretch.gradient;
+}
+
+Reduced sum_of(std::span<const Reduced> stretches) {
+  Reduced sum = stretches.front();
+  for (const Reduced& stretch : stretches.subspan(1)) add(sum, stretch);
+  return sum;
+}
+
+/// The runs that are no outliers, at the optimum of these alone, where their gradients cancel.
+std::vector<RunInStretches> usual_ones(std::span<const RunInStretches> runs, const FixedParameters& fixed) {
+  std::vector<RunInStretches> usual;
+  Pool pool(fixed);
+  for (const RunInStretches& run : runs) {
+    if (run.outlier) continue;
+    usual.push_back(run);
+    for (const Reduced& stretch : run.stretches) pool.add(stretch);
+  }
+  for (RunInStretches& run : usual)
+    for (Reduced& stretch : run.stretches)
+      stretch.gradient -= stretch.information * pool.step(stretch.session);
+  return usual;
+}
+
+/// The stretches at each place of each course, together.
+std::vector<Reduced> by_place(std::span<const RunInStretches> runs) {
+  std::map<int, std::vector<Reduced>> courses;
+  for (const RunInStretches& run : runs) {
+    const auto [course, is_new] = courses.try_emplace(run.course, run.stretches);
+    for (std::size_t k = 0; k < run.stretches.size() && !is_new; ++k)
+      add(course->second[k], run.stretches[k]);
+  }
+  std::vector<Reduced> places;
+  for (const auto& [course, of_course] : courses)
+    places.insert(places.end(), of_course.begin(), of_course.end());
+  return places;
+}
+
 }  // namespace
 
 std::vector<Disagreement> disagreements(std::span<const Reduced> runs, const FixedParameters& fixed) {
+  if (runs.size() < 2) return std::vector<Disagreement>(runs.size());
   Pool all(fixed);
   for (const Reduced& run : runs) all.add(run);
   std::vector<Disagreement> found;
-  for (const Reduced& run : runs) found.push_back(runs.size() > 1 ? disagreement(run, all) : Disagreement{});
+  for (const Reduced& run : runs) found.push_back(disagreement(run, all));
   return found;
 }
 
-double dispersion(std::span<const Disagreement> runs) {
+double Scatter::ratio() const { return degrees_of_freedom > 0 ? chi_square / degrees_of_freedom : 1; }
+
+bool Scatter::significant() const {
   constexpr double kSignificant = 0.01;
+  return chi_square_tail(chi_square, degrees_of_freedom) <= kSignificant;
+}
+
+Scatter scatter(std::span<const Disagreement> runs) {
   double sum = 0;
   int freedom = 0, most = 0, compared = 0;
   for (const Disagreement& run : runs) {
@@ -56,12 +105,31 @@ double dispersion(std::span<const Disagreement> runs) {
     most = std::max(most, run.degrees_of_freedom);
     ++compared;
   }
-  if (compared < 2) return 1;
-  // Each run is compared with all others: n comparisons, of which n - 1 are independent.
-  const double chi_square = sum * (compared - 1) / compared;
-  const int independent = freedom - most;
-  if (chi_square_tail(chi_square, independent) > kSignificant) return 1;
-  return chi_square / independent;
+  if (compared < 2) return {};
+  return {sum * (compared - 1) / compared, freedom - most};
+}
+
+double dispersion(std::span<const Disagreement> runs) {
+  const Scatter all = scatter(runs);
+  return all.significant() ? all.ratio() : 1;
+}
+
+double clustered_dispersion(std::span<const RunInStretches> runs, const FixedParameters& fixed,
+                            bool trusted) {
+  const std::vector<RunInStretches> usual = usual_ones(runs, fixed);
+  if (usual.size() < 2) return 1;
+  std::vector<Reduced> whole, single;
+  for (const RunInStretches& run : usual) {
+    whole.push_back(sum_of(run.stretches));
+    single.insert(single.end(), run.stretches.begin(), run.stretches.end());
+  }
+  const Scatter by_run = scatter(disagreements(whole, fixed));
+  const Scatter at_places = scatter(disagreements(by_place(usual), fixed));
+  if (trusted && !by_run.significant() && !at_places.significant()) return 1;
+  const Scatter alone = scatter(disagreements(single, fixed));
+  for (const Scatter& each : {by_run, at_places, alone})
+    if (each.degrees_of_freedom == 0) return std::max(1.0, by_run.ratio());
+  return std::max(1.0, by_run.ratio() + at_places.ratio() - alone.ratio());
 }
 
 double typical_dispersion(std::span<const Disagreement> runs) {
@@ -76,6 +144,17 @@ double typical_dispersion(std::span<const Disagreement> runs) {
   const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>((ratios.size() - 1) / 2);
   std::nth_element(ratios.begin(), middle, ratios.end());
   return std::max(1.0, *middle);
+}
+
+std::vector<bool> outliers(std::span<const Disagreement> runs) {
+  constexpr double kUnlikely = 1e-3;
+  const double typical = typical_dispersion(runs);
+  std::vector<bool> outlier;
+  for (const Disagreement& run : runs)
+    outlier.push_back(chi_square_tail(run.chi_square / typical, run.degrees_of_freedom) *
+                          static_cast<double>(runs.size()) <
+                      kUnlikely);
+  return outlier;
 }
 
 double chi_square_tail(double value, int degrees_of_freedom) {

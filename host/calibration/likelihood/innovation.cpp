@@ -1,5 +1,6 @@
 #include "host/calibration/likelihood/innovation.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -37,7 +38,8 @@ class LogSum {
 /// Propagates the Jacobian of the state by the unknowns and sums up what the innovations say about them.
 class ParameterDerivatives final : public Accumulator {
  public:
-  ParameterDerivatives() {
+  explicit ParameterDerivatives(int session) {
+    sums_.session = session;
     for (Row& row : jacobian_) row.setZero();
     jacobian_[0][kStartX] = jacobian_[1][kStartY] = jacobian_[2][kStartTheta] = 1;
   }
@@ -128,6 +130,49 @@ class ParameterDerivatives final : public Accumulator {
   InnovationSums sums_;
 };
 
+/// Divides the sums among the stretches of a run.
+class ByStretch final : public Accumulator {
+ public:
+  ByStretch(const PreparedRun& run, const SampleSelection& samples, int count)
+      : sums_(static_cast<std::size_t>(count)) {
+    const double length_m = run.path_m.back();
+    for (std::size_t i = 0; i < run.truth.size(); ++i)
+      if (samples.takes(run.path_m, i))
+        stretch_.push_back(length_m > 0 ? std::min(sums_.size() - 1,
+                                                   static_cast<std::size_t>(run.path_m[i] / length_m * count))
+                                        : 0);
+    for (InnovationSums& stretch : sums_) stretch.session = run.session;
+  }
+
+  void predict(const Prediction& step) override { derivatives_.predict(step); }
+  void update(const Update& step, Motion motion) override {
+    const std::size_t stretch = stretch_[next_++];
+    if (stretch != current_) finish();
+    current_ = stretch;
+    derivatives_.update(step, motion);
+  }
+
+  std::vector<InnovationSums> sums() {
+    finish();
+    return sums_;
+  }
+
+ private:
+  /// What was added since the last call belongs to the current stretch.
+  void finish() {
+    const InnovationSums now = derivatives_.sums();
+    sums_[current_].information += now.information - before_.information;
+    sums_[current_].gradient += now.gradient - before_.gradient;
+    before_ = now;
+  }
+
+  std::vector<InnovationSums> sums_;
+  std::vector<std::size_t> stretch_;  // of each truth sample that the filter takes
+  std::size_t next_ = 0, current_ = 0;
+  ParameterDerivatives derivatives_{0};
+  InnovationSums before_;
+};
+
 /// Keeps each innovation in the robot's frame, divided by the Cholesky factor of its covariance.
 class Standardiser final : public Accumulator {
  public:
@@ -142,6 +187,13 @@ class Standardiser final : public Accumulator {
 
   std::vector<Eigen::Vector3d> innovations;
 };
+
+template <class... Accumulators>
+void run_filter(const Moves& moves, const NoiseModel& noise, RobustMode robust,
+                const SampleSelection& samples, Accumulators&... accumulators) {
+  const std::array<Accumulator*, sizeof...(Accumulators)> all{&accumulators...};
+  filter_run(moves, noise, robust, TruthUse::values, samples, all);
+}
 
 }  // namespace
 
@@ -172,23 +224,40 @@ InnovationSums mean_of(std::span<const InnovationSums> passes) {
 
 InnovationSums innovations(const Moves& moves, const NoiseModel& noise, RobustMode robust,
                            const SampleSelection& samples) {
-  ParameterDerivatives derivatives;
-  filter_run(moves, noise, robust, TruthUse::values, samples, derivatives);
-  InnovationSums sums = derivatives.sums();
-  sums.session = moves.run().session;
-  return sums;
+  ParameterDerivatives derivatives(moves.run().session);
+  run_filter(moves, noise, robust, samples, derivatives);
+  return derivatives.sums();
+}
+
+std::pair<InnovationSums, NoiseSlope> innovations_and_noise(const Moves& moves, const NoiseModel& noise,
+                                                            RobustMode robust,
+                                                            const SampleSelection& samples) {
+  ParameterDerivatives derivatives(moves.run().session);
+  NoiseDerivatives by_noise(robust);
+  run_filter(moves, noise, robust, samples, derivatives, by_noise);
+  return {derivatives.sums(), by_noise.slope()};
+}
+
+std::vector<InnovationSums> innovations_by_stretch(const Moves& moves, const NoiseModel& noise,
+                                                   RobustMode robust, const SampleSelection& samples,
+                                                   int stretches) {
+  ByStretch by_stretch(moves.run(), samples, stretches);
+  run_filter(moves, noise, robust, samples, by_stretch);
+  return by_stretch.sums();
 }
 
 std::vector<Eigen::Vector3d> standardised_innovations(const Moves& moves, const NoiseModel& noise,
                                                       RobustMode robust, const SampleSelection& samples) {
   Standardiser standardiser;
-  filter_run(moves, noise, robust, TruthUse::values, samples, standardiser);
+  run_filter(moves, noise, robust, samples, standardiser);
   return std::move(standardiser.innovations);
 }
 
-Information expected_information(const Moves& moves, const NoiseModel& noise) {
-  ParameterDerivatives derivatives;
-  filter_run(moves, noise, RobustMode::none, TruthUse::times, {}, derivatives);
+Information expected_information(const Moves& moves, const NoiseModel& noise,
+                                 const SampleSelection& samples) {
+  ParameterDerivatives derivatives(moves.run().session);
+  Accumulator* const accumulator = &derivatives;
+  filter_run(moves, noise, RobustMode::none, TruthUse::times, samples, {&accumulator, 1});
   return derivatives.sums().information;
 }
 

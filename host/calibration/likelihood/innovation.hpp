@@ -3,9 +3,11 @@
 #include <Eigen/Core>
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "host/calibration/likelihood/moves.hpp"
+#include "host/calibration/likelihood/noise_slope.hpp"
 #include "host/calibration/likelihood/robust_mode.hpp"
 #include "host/calibration/likelihood/sample_selection.hpp"
 #include "host/calibration/likelihood/unknowns.hpp"
@@ -46,12 +48,24 @@ InnovationSums mean_of(std::span<const InnovationSums> passes);
 InnovationSums innovations(const Moves& moves, const NoiseModel& noise, RobustMode robust = RobustMode::none,
                            const SampleSelection& samples = {});
 
+/// The same, and in the same pass what it says of the noise.
+std::pair<InnovationSums, NoiseSlope> innovations_and_noise(const Moves& moves, const NoiseModel& noise,
+                                                            RobustMode robust = RobustMode::none,
+                                                            const SampleSelection& samples = {});
+
+/// The same pass with sums for each of so many stretches of the run, all of the same length of the wheels' path. They add up to those of
+/// the whole run. Only their information and gradient are computed.
+std::vector<InnovationSums> innovations_by_stretch(const Moves& moves, const NoiseModel& noise,
+                                                   RobustMode robust, const SampleSelection& samples,
+                                                   int stretches);
+
 /// The innovations themselves, in order: ahead of the robot, to its left and in heading, made independent and
 /// of variance 1 by the covariance that the filter expects. Without headings the last component is 0.
 std::vector<Eigen::Vector3d> standardised_innovations(const Moves& moves, const NoiseModel& noise,
                                                       RobustMode robust, const SampleSelection& samples);
 
 /// The Fisher information of a run with exactly these unknowns. Only the times of its truth samples matter.
-Information expected_information(const Moves& moves, const NoiseModel& noise);
+Information expected_information(const Moves& moves, const NoiseModel& noise,
+                                 const SampleSelection& samples = {});
 
 }  // namespace astro::calibration

@@ -48,29 +48,32 @@ class KalmanFilter {
  public:
   /// All references must outlive the filter.
   KalmanFilter(const Moves& moves, const NoiseModel& noise, RobustMode robust, TruthUse truth,
-               Accumulator& accumulator)
+               std::span<Accumulator* const> accumulators)
       : u_(moves.unknowns()),
         noise_(noise),
         robust_(robust),
         truth_(truth),
         has_headings_(moves.run().has_headings),
-        accumulator_(accumulator),
+        accumulators_(accumulators),
         x_m_(u_[kStartX]),
         y_m_(u_[kStartY]),
         theta_rad_(u_[kStartTheta]),
         heading_(theta_rad_) {}
 
   void predict(const Move& move) {
-    const Direction middle = heading_.turned(move.half_cosine, move.half_sine);
-    const double c = middle.cosine, s = middle.sine;
-    const Prediction step{
-        move, c, s, move.chord_m * c, move.chord_m * s, noise_.K_m * rotated(move.slip_per_K, c, s)};
+    const double c = heading_.cosine, s = heading_.sine;
+    const Prediction step{move,
+                          c,
+                          s,
+                          c * move.x_m - s * move.y_m,
+                          s * move.x_m + c * move.y_m,
+                          noise_.K_m * rotated(move.slip_per_K, c, s)};
     x_m_ += step.dx_m;
     y_m_ += step.dy_m;
     theta_rad_ += move.turn_rad;
-    heading_ = middle.turned(move.half_cosine, move.half_sine);
+    heading_ = heading_.turned(move.cosine, move.sine);
     covariance_ = sheared(covariance_, -step.dy_m, step.dx_m) + step.slip_covariance;
-    accumulator_.predict(step);
+    for (Accumulator* each : accumulators_) each->predict(step);
   }
 
   void update(const BodySample& sample, Motion motion) {
@@ -90,7 +93,7 @@ class KalmanFilter {
     down_weight(step, slip);
     const Matrix3 ph = step.with_state(covariance_);
     step.gain = product(ph, step.weight);
-    accumulator_.update(step, motion);
+    for (Accumulator* each : accumulators_) each->update(step, motion);
 
     const Vector3 correction = product(step.gain, step.innovation);
     x_m_ += correction[0];
@@ -135,7 +138,7 @@ class KalmanFilter {
   const RobustMode robust_;
   const TruthUse truth_;
   const bool has_headings_;
-  Accumulator& accumulator_;
+  const std::span<Accumulator* const> accumulators_;
   double x_m_, y_m_, theta_rad_;
   Direction heading_;  // of theta_rad_
   Symmetric3 covariance_;
@@ -156,13 +159,14 @@ Matrix3 Update::with_state(const Symmetric3& p) const {
 }
 
 void filter_run(const Moves& moves, const NoiseModel& noise, RobustMode robust, TruthUse truth,
-                const SampleSelection& samples, Accumulator& accumulator) {
-  KalmanFilter filter(moves, noise, robust, truth, accumulator);
+                const SampleSelection& samples, std::span<Accumulator* const> accumulators) {
+  KalmanFilter filter(moves, noise, robust, truth, accumulators);
   const PreparedRun& run = moves.run();
   std::array<double, 4> spent_s{};  // by Motion
-  for (std::size_t i = 0; i < run.truth.size(); ++i) {
-    for (const Move& move : moves.before(i)) filter.predict(move);
-    spent_s[static_cast<std::size_t>(run.motion[i])] += moves.duration_s(i);
+  for (const Leg& leg : moves.legs()) {
+    if (leg.moved) filter.predict(leg.move);
+    for (std::size_t motion = 0; motion < spent_s.size(); ++motion) spent_s[motion] += leg.spent_s[motion];
+    const std::size_t i = leg.sample;
     if (!samples.takes(run.path_m, i)) continue;
     const auto most = std::max_element(spent_s.begin(), spent_s.end());
     filter.update(run.truth[i], *most > 0 ? static_cast<Motion>(most - spent_s.begin()) : run.motion[i]);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "host/calibration/likelihood/huber.hpp"
 #include "host/calibration/likelihood/matrix3.hpp"
 #include "host/calibration/likelihood/moves.hpp"
@@ -19,11 +21,11 @@ namespace astro::calibration {
 /// One prediction step.
 struct Prediction {
   const Move& move;
-  double cosine = 1, sine = 0;  // of the heading in the middle of the arc
+  double cosine = 1, sine = 0;  // of the heading at the beginning
   double dx_m = 0, dy_m = 0;    // in the tracker's frame
   Symmetric3 slip_covariance;   // that the step adds
 
-  /// A change of the pose from the frame of the arc into the tracker's.
+  /// A change of the pose from the frame of the move into the tracker's.
   Vector3 turned(const Vector3& v) const {
     return {cosine * v[0] - sine * v[1], sine * v[0] + cosine * v[1], v[2]};
   }
@@ -73,9 +75,9 @@ class Accumulator {
   ~Accumulator() = default;
 };
 
-/// Runs the filter along a drive: predicts over its moves and updates with the selected truth samples, each with the motion
-/// that took most of the time since the one before.
+/// Runs the filter along a drive: predicts over its legs and updates with the selected truth samples, each with the motion
+/// that took most of the time since the one before. Precondition: a leg ends at each of them.
 void filter_run(const Moves& moves, const NoiseModel& noise, RobustMode robust, TruthUse truth,
-                const SampleSelection& samples, Accumulator& accumulator);
+                const SampleSelection& samples, std::span<Accumulator* const> accumulators);
 
 }  // namespace astro::calibration

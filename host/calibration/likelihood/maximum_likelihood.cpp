@@ -12,6 +12,7 @@
 #include "host/calibration/likelihood/agreement.hpp"
 #include "host/calibration/likelihood/ml_fit.hpp"
 #include "host/calibration/likelihood/start_values.hpp"
+#include "host/calibration/preparation/courses.hpp"
 #include "host/calibration/preparation/sessions.hpp"
 
 namespace astro::calibration {
@@ -19,7 +20,6 @@ namespace {
 
 // A factor with a larger relative standard error counts as unobserved.
 constexpr double kOpen = 0.05;
-constexpr double kUnlikely = 1e-3;
 constexpr double kShowsE = 0.05;  // an e with a larger standard error is not worth a word
 
 // Rounding can turn an infinite variance into one that is not positive.
@@ -27,19 +27,8 @@ double root(double variance) {
   return variance > 0 ? std::sqrt(variance) : std::numeric_limits<double>::infinity();
 }
 
-/// The runs whose disagreement has a probability below one in a thousand among so many runs.
-std::vector<bool> outliers(std::span<const Disagreement> found) {
-  const double typical = typical_dispersion(found);
-  std::vector<bool> outlier;
-  for (const Disagreement& run : found)
-    outlier.push_back(chi_square_tail(run.chi_square / typical, run.degrees_of_freedom) *
-                          static_cast<double>(found.size()) <
-                      kUnlikely);
-  return outlier;
-}
-
 std::vector<RunFit> summarise_runs(const MlFit& fit, std::span<const Disagreement> found,
-                                   const std::vector<bool>& outlier, const Pool& pool, double dispersion) {
+                                   const std::vector<bool>& outlier, const Pool& pool, double widening) {
   const std::vector<std::vector<SlipEvent>> slip_events = find_slip_events(fit.runs(), fit.unknowns());
   std::vector<RunFit> summaries;
   for (std::size_t i = 0; i < fit.runs().size(); ++i) {
@@ -52,7 +41,7 @@ std::vector<RunFit> summarise_runs(const MlFit& fit, std::span<const Disagreemen
     if (!fit.fixed().clock) {
       run.clock_offset_s = fit.unknowns()[i][kClockOffset];
       run.clock_offset_se_s = root(
-          clock_offset_variance(fit.sums()[i], dispersion * pool.covariance(prepared.session), fit.fixed()));
+          clock_offset_variance(fit.sums()[i], widening * pool.covariance(prepared.session), fit.fixed()));
     }
     run.chi_square = fit.sums()[i].chi_square;
     run.degrees_of_freedom = fit.sums()[i].degrees_of_freedom;
@@ -91,8 +80,8 @@ std::optional<KindFit> summarise_kind(const MlFit& fit, Motion motion) {
   return kind;
 }
 
-std::optional<CurvatureEffect> summarise_curvature(const MlFit& fit, double dispersion) {
-  const double standard_error = std::sqrt(dispersion) * fit.e().standard_error;
+std::optional<CurvatureEffect> summarise_curvature(const MlFit& fit, double widening) {
+  const double standard_error = std::sqrt(widening) * fit.e().standard_error;
   if (!(standard_error > 0 && standard_error < kShowsE)) return {};
   return CurvatureEffect{fit.e().value, standard_error, !fit.fixed().e};
 }
@@ -118,6 +107,17 @@ std::vector<Reduced> all_reduced(std::span<const InnovationSums> sums, const Fix
   return runs;
 }
 
+/// A model that needs truth to be thinned does not know all errors, so it is not trusted.
+double widening(const MlFit& fit, const std::vector<bool>& outlier) {
+  constexpr int kStretches = 4;  // a side of a square: what a spin winds up and lets go of cancels within it
+  const std::vector<int> courses = find_courses(fit.runs());
+  const std::vector<std::vector<InnovationSums>> stretches = fit.sums_by_stretch(kStretches);
+  std::vector<RunInStretches> runs;
+  for (std::size_t i = 0; i < courses.size(); ++i)
+    runs.push_back({reduced(fit.sums()[i], stretches[i], fit.fixed()), courses[i], outlier[i]});
+  return clustered_dispersion(runs, fit.fixed(), fit.spacing_m() == 0);
+}
+
 MlEstimate summarise(const MlFit& fit) {
   const Pool pool = pool_of(fit.sums(), fit.fixed());
   const std::vector<Disagreement> found =
@@ -131,27 +131,28 @@ MlEstimate summarise(const MlFit& fit) {
   MlEstimate estimate;
   estimate.dispersion = dispersion(usual);
   estimate.factors = factors_of(fit.unknowns().front());
-  estimate.covariance = estimate.dispersion * pool.factor_covariance();
+  estimate.widening = std::max(estimate.dispersion, widening(fit, outlier));
+  estimate.covariance = estimate.widening * pool.factor_covariance();
   estimate.se = errors_of(estimate.covariance, estimate.factors);
   require_observed(estimate.se, estimate.factors);
   for (int session = 0; session < session_count(fit.runs()); ++session)
     for (std::size_t i = 0; i < fit.runs().size(); ++i) {
       if (fit.runs()[i].session != session) continue;
       estimate.sessions.push_back(
-          summarise_session(fit.unknowns()[i], estimate.dispersion * pool.covariance(session), fit.fixed()));
+          summarise_session(fit.unknowns()[i], estimate.widening * pool.covariance(session), fit.fixed()));
       break;
     }
   estimate.noise = fit.noise();
   estimate.spacing_m = fit.spacing_m();
   estimate.iterations = fit.iterations();
-  estimate.runs = summarise_runs(fit, found, outlier, pool, estimate.dispersion);
+  estimate.runs = summarise_runs(fit, found, outlier, pool, estimate.widening);
   for (const RunFit& run : estimate.runs) {
     estimate.chi_square += run.chi_square;
     estimate.degrees_of_freedom += run.degrees_of_freedom;
   }
   for (const Motion motion : {Motion::rest, Motion::line, Motion::arc, Motion::spin})
     if (const auto kind = summarise_kind(fit, motion)) estimate.kinds.push_back(*kind);
-  estimate.curvature = summarise_curvature(fit, estimate.dispersion);
+  estimate.curvature = summarise_curvature(fit, estimate.widening);
   std::vector<ClockFit> clocks;
   for (const Unknowns& u : fit.unknowns()) clocks.push_back({u[kClockOffset], u[kSkew]});
   estimate.eccentricities = find_eccentricities(fit.runs(), clocks, estimate.factors);
@@ -160,7 +161,7 @@ MlEstimate summarise(const MlFit& fit) {
 
 /// The covariance of the factors if all unknowns of the runs were at these values: the Cramer-Rao bound.
 FactorCovariance bound_of(const PreparedRuns& prepared, const WheelFactors& factors, const LeverArm& lever,
-                          const NoiseModel& noise, bool clock_known) {
+                          const NoiseModel& noise, bool clock_known, double spacing_m) {
   FixedParameters fixed;
   fixed.clock = clock_known;
   fixed.e = factors.e == 0;
@@ -174,7 +175,9 @@ FactorCovariance bound_of(const PreparedRuns& prepared, const WheelFactors& fact
     u[kClockOffset] = prepared.clocks[i].offset_s;
     InnovationSums sums;
     sums.session = prepared.runs[i].session;
-    sums.information = expected_information(Moves(prepared.runs[i], u), noise);
+    const SampleSelection samples = selection_of(prepared.runs[i].path_m, spacing_m);
+    sums.information =
+        expected_information(Moves(prepared.runs[i], u, kUsualKappa0, {samples}), noise, samples);
     pool.add(reduced(sums, fixed, 0));
   }
   return pool.factor_covariance();
@@ -190,10 +193,10 @@ MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& loa
   // fit. Not checked without headings: the lever arm is not known yet, and without it spins show nothing.
   if (std::any_of(prepared.runs.begin(), prepared.runs.end(),
                   [](const PreparedRun& run) { return run.has_headings; }))
-    require_observed(
-        errors_of(bound_of(prepared, {loaded.c_r, loaded.c_l, loaded.b_m}, {}, {}, options.clock_known),
-                  loaded),
-        loaded);
+    require_observed(errors_of(bound_of(prepared, {loaded.c_r, loaded.c_l, loaded.b_m}, {}, {},
+                                        options.clock_known, kRoughSpacing * loaded.b_m),
+                               loaded),
+                     loaded);
   MlEstimate estimate = summarise(MlFit(prepared, loaded, options));
   estimate.left_out = prepared.left_out;
   return estimate;
@@ -204,7 +207,7 @@ FactorCovariance cramer_rao_bound(std::span<const Trajectory> runs, const WheelF
   // Samples that the estimator does not use must not improve the bound.
   const PreparedRuns prepared = prepare(runs, factors, options.clock_known, Density::independent);
   const FactorCovariance covariance =
-      bound_of(prepared, factors, lever, options.noise.value(), options.clock_known);
+      bound_of(prepared, factors, lever, options.noise.value(), options.clock_known, 0);
   require_observed(errors_of(covariance, factors), factors);
   return covariance;
 }

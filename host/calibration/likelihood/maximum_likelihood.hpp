@@ -105,9 +105,8 @@ struct MlEstimate {
   std::vector<KindFit> kinds;                // only those that occur, in the order of Motion
   std::optional<CurvatureEffect> curvature;  // nothing if the runs hardly show it
   Eccentricities eccentricities;             // of the wheels; not corrected for
-  /// How much more the runs that are no outliers scatter than their noise explains, as a factor on variances.
-  /// The covariance and all standard errors of factors include it. 1 if they do not scatter more.
-  double dispersion = 1;
+  double dispersion = 1;                     // of the runs that are no outliers (agreement.hpp)
+  double widening = 1;  // of variances, in all standard errors: the dispersion or more (clustered_dispersion)
   double chi_square = 0;
   int degrees_of_freedom = 0;
   int iterations = 0;

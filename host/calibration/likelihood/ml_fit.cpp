@@ -16,13 +16,13 @@
 namespace astro::calibration {
 namespace {
 
-constexpr int kMostSteps = 30, kMostRounds = 6, kMostScorings = 20;
-// If the cost falls by less, the parameters move by less than a twentieth of their standard errors.
-constexpr double kSettled = 1e-3;
-constexpr double kNoiseSettled = 0.01;  // of the logarithms of the variances
+constexpr int kMostSteps = 30, kMostRounds = 40;
+// The last step is within a thirtieth of the standard errors and is made, so that what is left is far less.
+constexpr Settled kSettled{1e-3, 0.002}, kRoughly{1, 0.1};
 constexpr double kLargestNoiseStep = 2;
+// If the cost is to fall by more, or by more than before while it is not near, a step of the unknowns may have to be damped.
+constexpr double kFar = 1e4, kNear = 100;
 constexpr double kLargestK_m = 1e-2;
-constexpr int kFewestSamples = 20;  // of a run
 constexpr int kMostPhases = 4;
 // e is estimated if it is so many standard errors from zero, if these are small, and if tyres can explain it: wheels out of round
 // would ask for an e of 2 or 3 to bend what should be lines.
@@ -32,13 +32,16 @@ constexpr double kShown = 2, kUncertainE = 0.02, kLargestE = 0.2;
 // multiple of that, or the samples would fall upon the same place of every corner.
 constexpr double kLeastSpacing = 1.25;  // wheelbases
 
-/// Changes the logarithm of a variance, which is stored as its `power`-th root, within limits. Returns the size
-/// of the actual change.
-double scale_variance(double& value, int power, double change, double least, double most) {
+/// The `power`-th root of a variance of which the logarithm changes by `change`, within limits.
+double scaled(double value, int power, double change, double least, double most) {
   const double step = std::clamp(change, -kLargestNoiseStep, kLargestNoiseStep);
-  const double before = value;
-  value = std::clamp(before * std::exp(step / power), least, most);
-  return std::abs(power * std::log(value / before));
+  return std::clamp(value * std::exp(step / power), least, most);
+}
+
+/// The largest difference of the logarithms of the variances.
+double distance(const NoiseModel& a, const NoiseModel& b) {
+  return std::max({std::abs(std::log(b.K_m / a.K_m)), 2 * std::abs(std::log(b.sigma_xy_m / a.sigma_xy_m)),
+                   2 * std::abs(std::log(b.sigma_theta_rad / a.sigma_theta_rad))});
 }
 
 }  // namespace
@@ -63,7 +66,6 @@ MlFit::MlFit(const PreparedRuns& prepared, const WheelFactors& loaded, const MlO
     else if (fixed_.e)
       u[kE] = 0;
   }
-  moves_ = moves_of(unknowns_);
   fit(options, !start.empty());
   if (!fixed_.factors && !options.with_e)
     fit_e(options);
@@ -72,23 +74,26 @@ MlFit::MlFit(const PreparedRuns& prepared, const WheelFactors& loaded, const MlO
 }
 
 void MlFit::fit(const MlOptions& options, bool started) {
+  passed_ = false;
   robust_ = RobustMode::none;
   noise_ = least_noise_;
-  spacing_m_ = 0;
-  phases_ = 1;
   // The first fit is least squares, because a sample that looks like an outlier to a first guess may be right.
-  if (!started || !options.robust || !options.noise) maximise();
-  require_plausible();
+  if (!started) {
+    choose_samples(kRoughSpacing * loaded_.b_m, 1);
+    maximise(kRoughly);
+    require_plausible();
+  }
+  choose_samples(0, 1);
   if (options.robust) robust_ = RobustMode::tracker_and_wheels;
   if (options.noise) {
-    spacing_m_ = options.spacing_m;
-    phases_ = spacing_m_ > 0 ? kMostPhases : 1;
-    if (options.robust || spacing_m_ > 0) maximise();
+    choose_samples(options.spacing_m, options.spacing_m > 0 ? kMostPhases : 1);
+    maximise(kSettled);
   } else {
-    fit_with_noise();
     find_spacing();
+    fit_with_noise(kSettled);
     widen_uncertain_slip();
   }
+  take_last_step();
   require_plausible();
 }
 
@@ -107,6 +112,7 @@ void MlFit::fit_e(const MlOptions& options) {
     e_ = e_to_first_order();
     if (shown()) return;
     std::tie(unknowns_, moves_, noise_, spacing_m_, phases_, sums_) = std::move(without);
+    passed_ = false;
     e_ = e_to_first_order();
   }
   fixed_.e = true;
@@ -121,9 +127,21 @@ OneUnknown MlFit::e_to_first_order() const {
 std::vector<Moves> MlFit::moves_of(std::span<const Unknowns> unknowns) const {
   std::vector<Moves> moves;
   moves.reserve(runs_.size());
-  for (std::size_t i = 0; i < runs_.size(); ++i)
-    moves.emplace_back(runs_[i], unknowns[i], fixed_.factors ? loaded_.kappa0 : kUsualKappa0);
+  for (std::size_t i = 0; i < runs_.size(); ++i) {
+    std::vector<SampleSelection> selections;
+    for (int phase = 0; phase < phases_ && spacing_m_ > 0; ++phase)
+      selections.push_back(samples_of(runs_[i], phase));
+    moves.emplace_back(runs_[i], unknowns[i], kappa0(), selections);
+  }
   return moves;
+}
+
+void MlFit::choose_samples(double spacing_m, int phases) {
+  if (!moves_.empty() && spacing_m == spacing_m_ && phases == phases_) return;
+  passed_ = false;
+  spacing_m_ = spacing_m;
+  phases_ = phases;
+  moves_ = moves_of(unknowns_);
 }
 
 double MlFit::cost_of(std::span<const InnovationSums> sums, double e) const {
@@ -132,23 +150,59 @@ double MlFit::cost_of(std::span<const InnovationSums> sums, double e) const {
   return cost;
 }
 
-void MlFit::fit_with_noise() {
+/// Noise and unknowns step together, by what one pass says of both: the information about the ones and about the others has no
+/// part in common, so that the steps of both are those of Newton.
+void MlFit::fit_with_noise(const Settled& settled) {
+  double before = std::numeric_limits<double>::infinity();
   for (int round = 0; round < kMostRounds; ++round) {
-    const bool settled = fit_noise();
-    maximise();
-    if (settled) break;
+    require_plausible();
+    if (!passed_) pass_with_noise();
+    const std::vector<Unknowns> steps = gauss_newton_step(sums_, fixed_, 0, unknowns_.front()[kE]);
+    const double expected = fall_of(steps);
+    const NoiseModel noise = next_noise();
+    const double noise_moved = distance(noise_, noise);
+    if (noise_moved < settled.noise && expected < settled.fall) return;
+    noise_ = noise;
+    const bool goes_wrong = expected > kNear && expected > before;
+    before = expected;
+    if (expected < kFar && !goes_wrong)
+      take(steps);
+    else
+      maximise(settled);
+  }
+  maximise(settled);
+}
+
+/// A step that is so small that the next pass would only confirm it: what that would say follows from the last one's information.
+void MlFit::take_last_step() {
+  const std::vector<Unknowns> steps = gauss_newton_step(sums_, fixed_, 0, unknowns_.front()[kE]);
+  if (!(fall_of(steps) < kSettled.fall)) return;
+  take(steps);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const Unknowns change = sums_[i].information * steps[i];
+    sums_[i].cost -= steps[i].dot(2 * sums_[i].gradient - change);
+    sums_[i].gradient -= change;
+  }
+}
+
+void MlFit::take(std::span<const Unknowns> steps) {
+  passed_ = false;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    unknowns_[i] += steps[i];
+    moves_[i].change(unknowns_[i]);
   }
 }
 
 /// Doubles the spacing of the samples until the innovations are independent.
 void MlFit::find_spacing() {
-  while (!innovations_are_independent()) {
-    spacing_m_ = std::max(2 * spacing_m_, kLeastSpacing * loaded_.b_m);
-    fit_with_noise();
+  fit_with_noise(kRoughly);
+  double widest_m = 0;  // further apart than this, each run would have the same few samples
+  for (const PreparedRun& run : runs_) widest_m = std::max(widest_m, widest_spacing_m(run.path_m.back()));
+  while (spacing_m_ < widest_m && !innovations_are_independent()) {
+    choose_samples(std::max(2 * spacing_m_, kLeastSpacing * loaded_.b_m), 1);
+    fit_with_noise(kRoughly);
   }
-  if (spacing_m_ == 0) return;
-  phases_ = kMostPhases;
-  fit_with_noise();
+  if (spacing_m_ > 0) choose_samples(spacing_m_, kMostPhases);
 }
 
 bool MlFit::innovations_are_independent() const {
@@ -160,13 +214,20 @@ bool MlFit::innovations_are_independent() const {
   std::vector<std::vector<Eigen::Vector3d>> spacings(1);
   for (const auto& run : by_run) spacings[0].insert(spacings[0].end(), run.begin(), run.end());
   // What comes and goes within a few samples shows in the sums over neighbours.
-  for (double spacing_m = std::max(2 * spacing_m_, kLeastSpacing / 2 * loaded_.b_m);; spacing_m *= 2) {
+  SampleSelection samples{std::max(2 * spacing_m_, kLeastSpacing / 2 * loaded_.b_m)};
+  std::vector<Moves> moves;
+  for (std::size_t i = 0; i < runs_.size(); ++i)
+    moves.push_back(spacing_m_ == 0 ? moves_[i].joined(samples)
+                                    : Moves(runs_[i], unknowns_[i], kappa0(), {samples}));
+  while (true) {
     std::vector<Eigen::Vector3d>& wider = spacings.emplace_back();
-    for (const Moves& run : moves_) {
-      const auto of_run = standardised_innovations(run, noise_, robust_, {spacing_m, 0});
+    for (const Moves& run : moves) {
+      const auto of_run = standardised_innovations(run, noise_, robust_, samples);
       wider.insert(wider.end(), of_run.begin(), of_run.end());
     }
     if (wider.size() < fewest_innovations(fitted)) break;
+    samples.spacing_m *= 2;
+    for (Moves& run : moves) run = run.joined(samples);
   }
   return hold_over_path(spacings, fitted);
 }
@@ -186,43 +247,67 @@ std::vector<InnovationSums> MlFit::sums_with_full_slip_weight() const {
   return pass(moves_, std::min(robust_, RobustMode::tracker));
 }
 
-NoiseSlope MlFit::noise_slopes() const {
-  NoiseSlope sum;
-  for (const Moves& run : moves_)
+std::vector<std::vector<InnovationSums>> MlFit::sums_by_stretch(int stretches) const {
+  std::vector<std::vector<InnovationSums>> sums;
+  for (const Moves& run : moves_) {
+    std::vector<std::vector<InnovationSums>> passes(static_cast<std::size_t>(stretches));
     for (int phase = 0; phase < phases_; ++phase) {
-      const NoiseSlope part = noise_slope(run, noise_, robust_, samples_of(run.run(), phase));
-      sum.gradient += part.gradient / phases_;
-      sum.curvature += part.curvature / phases_;
+      const auto pass = innovations_by_stretch(run, noise_, robust_, samples_of(run.run(), phase), stretches);
+      for (std::size_t k = 0; k < pass.size(); ++k) passes[k].push_back(pass[k]);
     }
-  // Without headings nothing determines their noise. This keeps it where it is.
-  sum.curvature.diagonal().array() += 1e-9;
-  return sum;
+    std::vector<InnovationSums>& of_run = sums.emplace_back();
+    for (const auto& of_stretch : passes) of_run.push_back(mean_of(of_stretch));
+  }
+  return sums;
+}
+
+void MlFit::pass_with_noise() {
+  ++iterations_;
+  sums_.clear();
+  noise_slope_ = {};
+  for (const Moves& run : moves_) {
+    std::vector<InnovationSums> passes;
+    for (int phase = 0; phase < phases_; ++phase) {
+      const auto [of_run, of_noise] =
+          innovations_and_noise(run, noise_, robust_, samples_of(run.run(), phase));
+      passes.push_back(of_run);
+      noise_slope_.gradient += of_noise.gradient / phases_;
+      noise_slope_.curvature += of_noise.curvature / phases_;
+    }
+    sums_.push_back(mean_of(passes));
+  }
+  passed_ = true;
+  // Without headings nothing determines their noise, and only rounding would move it.
+  if (fixed_.lever_yaw) {
+    noise_slope_.gradient[2] = 0;
+    noise_slope_.curvature.row(2).setZero();
+    noise_slope_.curvature.col(2).setZero();
+  }
+  noise_slope_.curvature.diagonal().array() += 1e-9;
 }
 
 /// Thinned truth begins at several samples (phases), so that the result does not depend on one of them. Their
-/// likelihoods are averaged, not added, because all of them contain the same slip. A short run is thinned
-/// less.
+/// likelihoods are averaged, not added, because all of them contain the same slip.
 SampleSelection MlFit::samples_of(const PreparedRun& run, int phase) const {
-  const double spacing_m = std::min(spacing_m_, run.path_m.back() / kFewestSamples);
-  return {spacing_m, phase * spacing_m / phases_};
+  return selection_of(run.path_m, spacing_m_, static_cast<double>(phase) / phases_);
 }
 
-void MlFit::maximise() {
+/// Of the unknowns, with the noise held.
+void MlFit::maximise(const Settled& settled) {
   double damping = 0;
+  passed_ = false;
   sums_ = pass(moves_, robust_);
   for (int step = 0; step < kMostSteps; ++step) {
-    ++iterations_;
     const std::vector<Unknowns> steps = gauss_newton_step(sums_, fixed_, damping, unknowns_.front()[kE]);
-    double expected = 0;
+    // A damped step is small because of the damping, so it does not show convergence.
+    if (damping == 0 && fall_of(steps) < settled.fall) return;
+    ++iterations_;
     std::vector<Unknowns> next = unknowns_;
-    for (std::size_t i = 0; i < next.size(); ++i) {
-      next[i] += steps[i];
-      expected += steps[i].dot(sums_[i].gradient);
-    }
+    for (std::size_t i = 0; i < next.size(); ++i) next[i] += steps[i];
     std::vector<Moves> moves = moves_of(next);
     std::vector<InnovationSums> sums = pass(moves, robust_);
     const double fall = cost_of(sums_, unknowns_.front()[kE]) - cost_of(sums, next.front()[kE]);
-    if (fall > -kSettled) {
+    if (fall > -kSettled.fall) {
       unknowns_ = std::move(next);
       moves_ = std::move(moves);
       sums_ = std::move(sums);
@@ -231,25 +316,22 @@ void MlFit::maximise() {
       damping = std::max(10 * damping, 1e-3);
       if (damping > 1e6) return;
     }
-    // A damped step is small because of the damping, so it does not show convergence.
-    if (damping == 0 && (expected < kSettled || std::abs(fall) < kSettled)) return;
   }
 }
 
-/// Fisher's scoring in the logarithms of the variances; true if they hardly changed.
-bool MlFit::fit_noise() {
-  double first = 0;
-  for (int step = 0; step < kMostScorings; ++step) {
-    const NoiseSlope slope = noise_slopes();
-    const Eigen::Vector3d change = -slope.curvature.ldlt().solve(slope.gradient);
-    const double moved =
-        std::max({scale_variance(noise_.K_m, 1, change[0], 1e-13, kLargestK_m),
-                  scale_variance(noise_.sigma_xy_m, 2, change[1], least_noise_.sigma_xy_m / 2, 1),
-                  scale_variance(noise_.sigma_theta_rad, 2, change[2], least_noise_.sigma_theta_rad / 2, 1)});
-    if (step == 0) first = moved;
-    if (moved < kNoiseSettled) break;
-  }
-  return first < kNoiseSettled;
+/// By how much -2 log likelihood falls with these steps if it is as curved as the information says.
+double MlFit::fall_of(std::span<const Unknowns> steps) const {
+  double fall = 0;
+  for (std::size_t i = 0; i < steps.size(); ++i) fall += steps[i].dot(sums_[i].gradient);
+  return fall;
+}
+
+/// By one step of Fisher's scoring in the logarithms of the variances.
+NoiseModel MlFit::next_noise() const {
+  const Eigen::Vector3d change = -noise_slope_.curvature.ldlt().solve(noise_slope_.gradient);
+  return {scaled(noise_.K_m, 1, change[0], 1e-13, kLargestK_m),
+          scaled(noise_.sigma_xy_m, 2, change[1], least_noise_.sigma_xy_m / 2, 1),
+          scaled(noise_.sigma_theta_rad, 2, change[2], least_noise_.sigma_theta_rad / 2, 1)};
 }
 
 /// The covariance of the factors treats K as known. If the data hardly determine K (good tyres, a short drive;
@@ -258,7 +340,8 @@ bool MlFit::fit_noise() {
 void MlFit::widen_uncertain_slip() {
   constexpr double kSurelyKnown = 0.1;  // variance of log K: K is known to a third
   constexpr double kRise = 2.7;
-  if (2 * noise_slopes().curvature.inverse()(0, 0) < kSurelyKnown) return;
+  if (!passed_) pass_with_noise();
+  if (2 * noise_slope_.curvature.inverse()(0, 0) < kSurelyKnown) return;
   double least = std::numeric_limits<double>::infinity();
   while (true) {
     const double cost = cost_of(sums_, unknowns_.front()[kE]) + log_determinant(sums_, fixed_);
@@ -266,7 +349,7 @@ void MlFit::widen_uncertain_slip() {
     // Written with !(x <= limit) so that a NaN also ends the loop.
     if (!(cost <= least + kRise && noise_.K_m < kLargestK_m)) return;
     noise_.K_m *= 2;
-    maximise();
+    maximise(kSettled);
   }
 }
 

@@ -20,7 +20,13 @@ enum class Held {
   factors_and_sessions,  // also the lever arms and the skews, which must be in the start values
 };
 
-/// Gauss-Newton, damped if necessary. If the noise is not given, it is fitted in alternation with the unknowns,
+/// Where a search ends: by how much -2 log likelihood would fall with the next step, and how far the logarithms of the variances
+/// would go.
+struct Settled {
+  double fall = 0, noise = 0;
+};
+
+/// Gauss-Newton, damped where the unknowns are far off. If the noise is not given, it steps together with the unknowns,
 /// and truth is thinned until the innovations are independent (whiteness.hpp). If it is not said whether e is to be estimated, that is
 /// done only where the runs show it.
 ///
@@ -37,6 +43,8 @@ class MlFit {
   const std::vector<InnovationSums>& sums() const { return sums_; }
   /// At the same unknowns, but without down-weighting slips, however unlikely they are.
   std::vector<InnovationSums> sums_with_full_slip_weight() const;
+  /// Of each run by its stretches, whose information and gradient add up to those of sums() (innovations_by_stretch).
+  std::vector<std::vector<InnovationSums>> sums_by_stretch(int stretches) const;
   const NoiseModel& noise() const { return noise_; }
   const FixedParameters& fixed() const { return fixed_; }
   /// The way of the wheels between the truth samples that the filter uses; of short runs less. 0: it uses all.
@@ -49,14 +57,19 @@ class MlFit {
   void fit(const MlOptions& options, bool started);
   void fit_e(const MlOptions& options);
   OneUnknown e_to_first_order() const;
+  double kappa0() const { return fixed_.factors ? loaded_.kappa0 : kUsualKappa0; }
   std::vector<Moves> moves_of(std::span<const Unknowns> unknowns) const;
+  void choose_samples(double spacing_m, int phases);
   SampleSelection samples_of(const PreparedRun& run, int phase) const;
   double cost_of(std::span<const InnovationSums> sums, double e) const;
   std::vector<InnovationSums> pass(std::span<const Moves> moves, RobustMode robust) const;
-  NoiseSlope noise_slopes() const;
-  void maximise();
-  bool fit_noise();
-  void fit_with_noise();
+  void pass_with_noise();
+  void take_last_step();
+  void take(std::span<const Unknowns> steps);
+  double fall_of(std::span<const Unknowns> steps) const;
+  void maximise(const Settled& settled);
+  NoiseModel next_noise() const;
+  void fit_with_noise(const Settled& settled);
   void find_spacing();
   bool innovations_are_independent() const;
   void widen_uncertain_slip();
@@ -65,10 +78,12 @@ class MlFit {
   const std::vector<PreparedRun>& runs_;
   WheelFactors loaded_;
   std::vector<Unknowns> unknowns_;
-  std::vector<Moves> moves_;  // with these unknowns: what the noise and the spacing are tried on
+  std::vector<Moves> moves_;  // with these unknowns, between the samples that the filter uses
   FixedParameters fixed_;
   NoiseModel noise_;
   NoiseModel least_noise_;
+  NoiseSlope noise_slope_;  // of the last pass with noise
+  bool passed_ = false;     // sums_ and noise_slope_ are of these unknowns, noise and samples
   RobustMode robust_ = RobustMode::none;
   double spacing_m_ = 0;
   int phases_ = 1;  // passes along each run, each beginning at another sample

@@ -48,14 +48,22 @@ struct Turn {
 Turn turn_of(double right_m, double left_m, double b_m, double e, double kappa0) {
   const double difference_m = right_m - left_m, sum_m = right_m + left_m;
   const double along = kappa0 * std::abs(sum_m) / 2, across = std::abs(difference_m);
-  const double g = along / (along + across), about_m = b_m * (1 + e * g), rad = difference_m / about_m;
+  const double all = along + across, g = all > 0 ? along / all : 1;
+  const double per_m = 1 / (b_m * (1 + e * g)), rad = difference_m * per_m;
+  Turn turn{rad, per_m, -per_m, -rad / b_m, -rad * g * b_m * per_m};
+  if (e == 0 || all == 0) return turn;
   // g grows with the sum and falls with the difference.
-  const double squared = (along + across) * (along + across);
-  const double g_by_sum = std::copysign(kappa0 / 2 * across / squared, sum_m);
-  const double g_by_difference = -std::copysign(along / squared, difference_m);
-  const double by_g = -rad * e * b_m / about_m;
-  return {rad, 1 / about_m + by_g * (g_by_sum + g_by_difference),
-          -1 / about_m + by_g * (g_by_sum - g_by_difference), -rad / b_m, -rad * g * b_m / about_m};
+  const double g_by_sum = std::copysign(kappa0 / 2 * across / (all * all), sum_m);
+  const double g_by_difference = -std::copysign(along / (all * all), difference_m);
+  const double by_g = -rad * e * b_m * per_m;
+  turn.by_right += by_g * (g_by_sum + g_by_difference);
+  turn.by_left += by_g * (g_by_sum - g_by_difference);
+  return turn;
+}
+
+/// v in the frame of an arc's chord, given in the robot's frame at its beginning; cosine and sine of half the turn.
+Vector3 turned(const Vector3& v, double c, double s) {
+  return {c * v[0] - s * v[1], s * v[0] + c * v[1], v[2]};
 }
 
 Move move_between(const Moment& from, const WheelState& was, const Moment& to, const WheelState& is,
@@ -64,18 +72,22 @@ Move move_between(const Moment& from, const WheelState& was, const Moment& to, c
   const double by_left_m = u[kCLeft] * left_m, by_right_m = u[kCRight] * right_m;
   const double centre_m = (by_left_m + by_right_m) / 2;
   const Turn turn = turn_of(by_right_m, by_left_m, u[kB], u[kE], kappa0);
-  Move move;
-  move.turn_rad = turn.rad;
-  const Sinc chord = sinc_with_slope(move.turn_rad / 2);
-  move.chord_m = centre_m * chord.value;
-  const double half_rad = move.turn_rad / 2;
-  move.half_sine = half_rad * chord.value;
-  move.half_cosine =
-      std::abs(half_rad) < 1 ? std::sqrt(1 - move.half_sine * move.half_sine) : std::cos(half_rad);
-  const Vector3 by_turn{centre_m * chord.slope / 2, move.chord_m / 2, 1};
-  const Vector3 by_centre{chord.value, 0, 0};
+  const double half_rad = turn.rad / 2;
+  const Sinc chord = sinc_with_slope(half_rad);
+  const double chord_m = centre_m * chord.value;
+  const double s = half_rad * chord.value;
+  const double c = std::abs(half_rad) < 1 ? std::sqrt(1 - s * s) : std::cos(half_rad);
+  // An arc's derivatives are simple along its chord, which has the heading of the arc's middle.
+  const Vector3 by_turn = turned({centre_m * chord.slope / 2, chord_m / 2, 1}, c, s);
+  const Vector3 by_centre{c * chord.value, s * chord.value, 0};
   const Vector3 by_left = sum(0.5, by_centre, turn.by_left, by_turn);
   const Vector3 by_right = sum(0.5, by_centre, turn.by_right, by_turn);
+  Move move;
+  move.x_m = chord_m * c;
+  move.y_m = chord_m * s;
+  move.turn_rad = turn.rad;
+  move.cosine = c * c - s * s;
+  move.sine = 2 * c * s;
   add_square(move.slip_per_K, std::abs(left_m), by_left);
   add_square(move.slip_per_K, std::abs(right_m), by_right);
   const auto velocity = [&](const WheelState& wheels) {
@@ -91,15 +103,55 @@ Move move_between(const Moment& from, const WheelState& was, const Moment& to, c
   return move;
 }
 
+void add(Leg& leg, const Move& move) {
+  leg.move = leg.moved ? joined(leg.move, move) : move;
+  leg.moved = true;
+}
+
 }  // namespace
 
-Moves::Moves(const PreparedRun& run, const Unknowns& u, double kappa0) : run_(&run), unknowns_(u) {
+Move joined(const Move& first, const Move& second) {
+  const double c = first.cosine, s = first.sine;
+  const double x_m = c * second.x_m - s * second.y_m, y_m = s * second.x_m + c * second.y_m;
+  Move both;
+  both.x_m = first.x_m + x_m;
+  both.y_m = first.y_m + y_m;
+  both.turn_rad = first.turn_rad + second.turn_rad;
+  both.cosine = c * second.cosine - s * second.sine;
+  both.sine = s * second.cosine + c * second.sine;
+  both.slip_per_K = sheared(first.slip_per_K, -y_m, x_m) + rotated(second.slip_per_K, c, s);
+  for (std::size_t i = 0; i < both.by.size(); ++i) {
+    const Vector3& a = first.by[i];
+    const Vector3 b = turned(second.by[i], c, s);
+    both.by[i] = {a[0] - y_m * a[2] + b[0], a[1] + x_m * a[2] + b[1], a[2] + b[2]};
+  }
+  return both;
+}
+
+Moves::Moves(const PreparedRun& run, const Unknowns& unknowns, double kappa0,
+             std::vector<SampleSelection> selections)
+    : run_(&run), kappa0_(kappa0), selections_(std::move(selections)) {
+  if (selections_.empty()) legs_.reserve(run.truth.size());
+  change(unknowns);
+}
+
+bool Moves::takes(std::size_t sample) const {
+  return selections_.empty() ||
+         std::any_of(selections_.begin(), selections_.end(),
+                     [&](const SampleSelection& selection) { return selection.takes(run_->path_m, sample); });
+}
+
+void Moves::change(const Unknowns& unknowns) {
+  unknowns_ = unknowns;
+  legs_.clear();  // keeps its memory, which for every truth sample of a long run is megabytes
+  const Unknowns& u = unknowns_;
+  const PreparedRun& run = *run_;
   const WheelPath wheels(run.source->wheels);
   const auto moment = [&](double truth_time_s) {
     const double since_middle_s = truth_time_s - run.clock_middle_s;
     return Moment{truth_time_s + u[kClockOffset] + u[kSkew] * since_middle_s, since_middle_s};
   };
-  moves_.reserve(run.truth.size());
+  Leg leg;
   Moment from = moment(run.truth.front().time_s);
   WheelState was = wheels.at(from.time_s);
   for (std::size_t i = 0; i < run.truth.size(); ++i) {
@@ -112,13 +164,31 @@ Moves::Moves(const PreparedRun& run, const Unknowns& u, double kappa0) : run_(&r
                       begin.by_skew_s + part * (end.by_skew_s - begin.by_skew_s)};
       const WheelState is = wheels.at(to.time_s);
       if (is.left_m != was.left_m || is.right_m != was.right_m)
-        moves_.push_back(move_between(from, was, to, is, u, kappa0));
+        add(leg, move_between(from, was, to, is, u, kappa0_));
       from = to;
       was = is;
     }
-    ends_.push_back(moves_.size());
-    durations_s_.push_back(duration_s);
+    leg.spent_s[static_cast<std::size_t>(run.motion[i])] += duration_s;
+    if (!takes(i)) continue;
+    leg.sample = i;
+    legs_.push_back(leg);
+    leg = {};
   }
+}
+
+Moves Moves::joined(const SampleSelection& selection) const {
+  Moves out(*this, {selection}, Empty());
+  Leg leg;
+  for (const Leg& part : legs_) {
+    if (part.moved) add(leg, part.move);
+    for (std::size_t motion = 0; motion < leg.spent_s.size(); ++motion)
+      leg.spent_s[motion] += part.spent_s[motion];
+    if (!out.takes(part.sample)) continue;
+    leg.sample = part.sample;
+    out.legs_.push_back(leg);
+    leg = {};
+  }
+  return out;
 }
 
 }  // namespace astro::calibration

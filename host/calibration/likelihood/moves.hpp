@@ -3,51 +3,71 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "host/calibration/likelihood/matrix3.hpp"
+#include "host/calibration/likelihood/sample_selection.hpp"
 #include "host/calibration/likelihood/unknowns.hpp"
 #include "host/calibration/preparation/prepared_run.hpp"
 
-/// What the wheels alone say of a drive, given its unknowns: the arcs between its truth samples. Several passes of the filter
-/// share it.
+/// What the wheels alone say of a drive, given its unknowns: how the robot moved between its truth samples. Several passes of
+/// the filter share it.
 namespace astro::calibration {
 
 /// The unknowns by which the wheels' path differs, in the order of Move::by.
 inline constexpr std::array kMoveUnknowns{kCRight, kCLeft, kB, kE, kSkew, kClockOffset};
 
-/// An arc of the robot. Its frame has the x axis along the chord, so the heading in the middle of the arc turns it into the
-/// tracker's frame.
+/// A change of the robot's pose, in the robot's frame at its beginning.
 struct Move {
-  double chord_m = 0;  // negative backwards
-  double turn_rad = 0;
-  double half_cosine = 1, half_sine = 0;  // of half the turn
-  Symmetric3 slip_per_K;                  // covariance of the pose's change that slip causes, for K = 1 m
-  /// Derivatives of the pose's change by each of kMoveUnknowns.
+  double x_m = 0, y_m = 0, turn_rad = 0;
+  double cosine = 1, sine = 0;  // of the turn
+  Symmetric3 slip_per_K;        // covariance of the change that slip causes, for K = 1 m
+  /// Derivatives of the change by each of kMoveUnknowns.
   std::array<Vector3, kMoveUnknowns.size()> by{};
+};
+
+/// What a robot does that moves by `first` and then by `second`.
+Move joined(const Move& first, const Move& second);
+
+/// The way from the truth sample of the leg before to another one.
+struct Leg {
+  std::size_t sample = 0;  // of truth, at its end
+  bool moved = false;      // else the wheels stood
+  Move move;
+  std::array<double, 4> spent_s{};  // in each Motion, on the robot's clock
 };
 
 class Moves {
  public:
-  /// Of arcs that last kLongestStep_s at most. The run must outlive this.
-  Moves(const PreparedRun& run, const Unknowns& unknowns, double kappa0 = kUsualKappa0);
+  /// A leg to each truth sample that one of `selections` takes; without selections to every truth sample. The wheels' path is made of
+  /// arcs that end at each truth sample and last kLongestStep_s at most, whatever is selected. The run must outlive this.
+  Moves(const PreparedRun& run, const Unknowns& unknowns, double kappa0 = kUsualKappa0,
+        std::vector<SampleSelection> selections = {});
+
+  /// The same legs with other unknowns.
+  void change(const Unknowns& unknowns);
+  /// The same way in the legs to the truth samples that `selection` takes. Precondition: one of these legs ends at each of them.
+  Moves joined(const SampleSelection& selection) const;
 
   const PreparedRun& run() const { return *run_; }
   const Unknowns& unknowns() const { return unknowns_; }
-  /// The moves that end at a truth sample and begin at the one before; none where the wheels stood.
-  std::span<const Move> before(std::size_t sample) const {
-    const std::size_t begin = sample == 0 ? 0 : ends_[sample - 1];
-    return std::span(moves_).subspan(begin, ends_[sample] - begin);
-  }
-  /// Time on the robot's clock between a truth sample and the one before.
-  double duration_s(std::size_t sample) const { return durations_s_[sample]; }
+  std::span<const Leg> legs() const { return legs_; }
 
  private:
+  struct Empty {};
+  Moves(const Moves& like, std::vector<SampleSelection> selections, Empty)
+      : run_(like.run_),
+        kappa0_(like.kappa0_),
+        selections_(std::move(selections)),
+        unknowns_(like.unknowns_) {}
+  bool takes(std::size_t sample) const;
+
   const PreparedRun* run_;
+  double kappa0_;
+  std::vector<SampleSelection> selections_;
   Unknowns unknowns_;
-  std::vector<Move> moves_;
-  std::vector<std::size_t> ends_;  // of each truth sample: one behind its last move
-  std::vector<double> durations_s_;
+  std::vector<Leg> legs_;
 };
 
 }  // namespace astro::calibration

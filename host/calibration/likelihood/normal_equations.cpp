@@ -72,6 +72,20 @@ Reduced reduced(const InnovationSums& sums, const FixedParameters& fixed, double
   return reduced(parts_of(sums, fixed, damping), sums.session);
 }
 
+std::vector<Reduced> reduced(const InnovationSums& run, std::span<const InnovationSums> stretches,
+                             const FixedParameters& fixed) {
+  const Parts whole = parts_of(run, fixed, 0);
+  const Mixed weighted = whole.mixed * solved(whole.own).inverse;
+  std::vector<Reduced> out;
+  for (const InnovationSums& stretch : stretches) {
+    const Parts part = parts_of(stretch, fixed, 0);
+    const SharedInformation crossed = weighted * part.mixed.transpose();
+    out.push_back({part.shared - crossed - crossed.transpose() + weighted * part.own * weighted.transpose(),
+                   part.shared_gradient - weighted * part.own_gradient, run.session});
+  }
+  return out;
+}
+
 void Pool::add(const Reduced& run, double sign) {
   while (static_cast<int>(sessions_.size()) <= run.session)
     sessions_.push_back(

@@ -33,6 +33,11 @@ struct Reduced {
 };
 Reduced reduced(const InnovationSums& sums, const FixedParameters& fixed, double damping);
 
+/// What the stretches of a run say (innovations_by_stretch), with the run's own unknowns eliminated as from the whole run, so that they add up
+/// to `reduced` of it.
+std::vector<Reduced> reduced(const InnovationSums& run, std::span<const InnovationSums> stretches,
+                             const FixedParameters& fixed);
+
 /// What several runs say together. An unknown that they do not observe (the lever arm in lines, the skew in one short run) keeps
 /// the wide variance of a weak prior, so that the others can be determined.
 class Pool {

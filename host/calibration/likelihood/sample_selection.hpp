@@ -1,10 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <span>
 
 namespace astro::calibration {
+
+/// In wheelbases of the wheels' path: enough samples for a first guess at everything but the noise.
+inline constexpr double kRoughSpacing = 0.25;
 
 /// Which truth samples of a run the filter uses. The others only say how the robot moved in between.
 ///
@@ -23,5 +27,14 @@ struct SampleSelection {
     return knot(sample) > knot(sample - 1);
   }
 };
+
+/// The widest spacing for a run whose wheels go this far: some twenty samples. A short run is thinned less than others.
+inline double widest_spacing_m(double path_m) { return path_m / 20; }
+
+/// Of a run, beginning at a part of the spacing.
+inline SampleSelection selection_of(std::span<const double> path_m, double spacing_m, double begin = 0) {
+  const double of_run_m = std::min(spacing_m, widest_spacing_m(path_m.back()));
+  return {of_run_m, begin * of_run_m};
+}
 
 }  // namespace astro::calibration

@@ -88,22 +88,31 @@ class Moments {
     return static_cast<std::size_t>(std::clamp(samples, static_cast<double>(kFewestSamples), 1e3));
   }
 
-  /// Samples before and after a sample, the nearest ones first.
+  /// Neighbouring samples begin..end-1.
+  struct Range {
+    std::size_t begin, end;
+
+    std::size_t size() const { return end - begin; }
+  };
+  /// Samples before and after a sample.
   struct Windows {
-    std::vector<std::size_t> before, after;
+    Range before, after;
   };
 
   Windows windows_about(std::size_t at, double gap) const {
-    const double time_s = run_.truth[at].time_s, near_s = gap * window_s_;
-    const double far_s = near_s + kReach * window_s_;
-    Windows found;
-    for (std::size_t k = at;
-         k-- > 0 && run_.truth[k].time_s > time_s - far_s && found.before.size() < most();)
-      if (run_.truth[k].time_s < time_s - near_s) found.before.push_back(k);
-    for (std::size_t k = at;
-         k < run_.truth.size() && run_.truth[k].time_s < time_s + far_s && found.after.size() < most(); ++k)
-      if (run_.truth[k].time_s >= time_s + near_s) found.after.push_back(k);
-    return found;
+    const auto time_s = [&](std::size_t k) { return run_.truth[k].time_s - run_.truth[at].time_s; };
+    const double near_s = gap * window_s_, far_s = near_s + kReach * window_s_;
+    const std::size_t most_samples = most();
+    Range before{at, at}, after{at, at};
+    while (before.end > 0 && time_s(before.end - 1) >= -near_s) --before.end;
+    before.begin = before.end;
+    while (before.begin > 0 && time_s(before.begin - 1) > -far_s && before.size() < most_samples)
+      --before.begin;
+    while (after.begin < run_.truth.size() && time_s(after.begin) < near_s) ++after.begin;
+    after.end = after.begin;
+    while (after.end < run_.truth.size() && time_s(after.end) < far_s && after.size() < most_samples)
+      ++after.end;
+    return {before, after};
   }
 
   struct Position {
@@ -119,10 +128,10 @@ class Moments {
   }
 
   template <class Value>
-  static double middle(const std::vector<std::size_t>& samples, Value value) {
+  static double middle(const Range& samples, Value value) {
     std::vector<double> values;
     values.reserve(samples.size());
-    for (const std::size_t k : samples) values.push_back(value(k));
+    for (std::size_t k = samples.begin; k < samples.end; ++k) values.push_back(value(k));
     return median_of(std::move(values));
   }
 

@@ -1,6 +1,6 @@
 #include "host/calibration/motion/wheel_path.hpp"
 
-#include <algorithm>
+#include "host/calibration/motion/interval_near.hpp"
 
 namespace astro::calibration {
 namespace {
@@ -9,9 +9,8 @@ struct Value {
   double travel_m, rate_mps;
 };
 
-// Cubic Hermite over an interval of `span_s`, from its ends' values and rates.
-Value hermite(double from_m, double to_m, double from_mps, double to_mps, double span_s, double s) {
-  const double rise = (to_m - from_m) / span_s;
+// Cubic Hermite over an interval of `span_s`, from its ends' values and rates; `rise` is the mean rate in between.
+Value hermite(double from_m, double rise, double from_mps, double to_mps, double span_s, double s) {
   const double a = from_mps + to_mps - 2 * rise, b = 3 * rise - 2 * from_mps - to_mps;
   return {from_m + span_s * s * (from_mps + s * (b + s * a)), from_mps + s * (2 * b + s * 3 * a)};
 }
@@ -19,15 +18,7 @@ Value hermite(double from_m, double to_m, double from_mps, double to_mps, double
 }  // namespace
 
 std::size_t WheelPath::interval_of(double time_s) const {
-  const auto holds = [&](std::size_t i) {
-    return i + 1 < samples_.size() && samples_[i].time_s <= time_s && time_s < samples_[i + 1].time_s;
-  };
-  for (std::size_t i = last_; i < last_ + 4; ++i)
-    if (holds(i)) return last_ = i;
-  const auto next =
-      std::upper_bound(samples_.begin() + 1, samples_.end() - 1, time_s,
-                       [](double time, const WheelSample& sample) { return time < sample.time_s; });
-  return last_ = static_cast<std::size_t>(next - samples_.begin()) - 1;
+  return interval_near(last_, samples_, time_s, [](const WheelSample& sample) { return sample.time_s; });
 }
 
 WheelState WheelPath::at(double time_s) const {
@@ -38,12 +29,17 @@ WheelState WheelPath::at(double time_s) const {
   const WheelSample &a = samples_[i], &b = samples_[i + 1];
   const WheelSample& before = samples_[i > 0 ? i - 1 : i];
   const WheelSample& after = samples_[i + 2 < samples_.size() ? i + 2 : i + 1];
-  const double span_s = b.time_s - a.time_s, s = (time_s - a.time_s) / span_s;
-  const double in_s = b.time_s - before.time_s, out_s = after.time_s - a.time_s;
-  const Value left = hermite(a.left_m, b.left_m, (b.left_m - before.left_m) / in_s,
-                             (after.left_m - a.left_m) / out_s, span_s, s);
-  const Value right = hermite(a.right_m, b.right_m, (b.right_m - before.right_m) / in_s,
-                              (after.right_m - a.right_m) / out_s, span_s, s);
+  const double span_s = b.time_s - a.time_s;
+  // A fit asks a million times; a division costs as much as the rest of a wheel's cubic.
+  const double per_span = 1 / span_s, per_in = 1 / (b.time_s - before.time_s),
+               per_out = 1 / (after.time_s - a.time_s);
+  const double s = per_span * (time_s - a.time_s);
+  const auto of = [&](double WheelSample::*travel_m) {
+    return hermite(a.*travel_m, per_span * (b.*travel_m - a.*travel_m),
+                   per_in * (b.*travel_m - before.*travel_m), per_out * (after.*travel_m - a.*travel_m),
+                   span_s, s);
+  };
+  const Value left = of(&WheelSample::left_m), right = of(&WheelSample::right_m);
   return {left.travel_m, right.travel_m, left.rate_mps, right.rate_mps};
 }
 

@@ -93,18 +93,27 @@ MotionExtent extent_between(const WheelState& a, const WheelState& b, const Whee
   return {std::abs(left + right) / 2, std::abs(right - left) / factors.b_m};
 }
 
-/// Within so much of a moment.
-MotionExtent extent_around(const WheelPath& path, double time_s, double half_window_s,
-                           const WheelFactors& factors) {
-  return extent_between(path.at(time_s - half_window_s), path.at(time_s + half_window_s), factors);
-}
+/// The wheels within so much of a moment. A path of its own for each end, because a path finds times near its last one at once.
+class Around {
+ public:
+  Around(std::span<const WheelSample> wheels, double half_window_s)
+      : begin_(wheels), end_(wheels), half_window_s_(half_window_s) {}
 
-Motion motion_at(const WheelPath& path, double time_s, const WheelFactors& factors) {
+  MotionExtent operator()(double time_s, const WheelFactors& factors) const {
+    return extent_between(begin_.at(time_s - half_window_s_), end_.at(time_s + half_window_s_), factors);
+  }
+
+ private:
+  WheelPath begin_, end_;
+  double half_window_s_;
+};
+
+Motion motion_at(const Around& near, const Around& wide, double time_s, const WheelFactors& factors) {
   const double wheelbase_m = factors.b_m;
-  const MotionExtent now = extent_around(path, time_s, kWindow_s, factors);
+  const MotionExtent now = near(time_s, factors);
   if (now.distance_m + now.rotation_rad * wheelbase_m / 2 < 2 * kWindow_s * kSlowest_mps) return Motion::rest;
   if (now.distance_m < now.rotation_rad * wheelbase_m / 4) return Motion::spin;
-  const MotionExtent longer = extent_around(path, time_s, kLongWindow_s, factors);
+  const MotionExtent longer = wide(time_s, factors);
   return longer.distance_m > 10 * wheelbase_m * longer.rotation_rad ? Motion::line : Motion::arc;
 }
 
@@ -170,10 +179,11 @@ std::vector<double> way_of_wheels(const PreparedRun& run, const ClockFit& clock)
 
 void classify_motion(PreparedRun& run, const ClockFit& clock, const WheelFactors& factors) {
   const WheelPath path(run.source->wheels);
+  const Around near(run.source->wheels, kWindow_s), wide(run.source->wheels, kLongWindow_s);
   WheelState before;
   for (std::size_t i = 0; i < run.truth.size(); ++i) {
     const double u = clock.robot_time_s(run.truth[i].time_s, run.clock_middle_s);
-    run.motion.push_back(motion_at(path, u, factors));
+    run.motion.push_back(motion_at(near, wide, u, factors));
     const WheelState now = path.at(u);
     if (i > 0) {
       const MotionExtent moved = extent_between(before, now, factors);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 namespace astro::calibration {
@@ -58,6 +59,102 @@ TEST(Disagreement, IsChiSquareOfThree) {
     mean += disagreements(equal_runs(5, 1, random), {}).front().chi_square / 1000;
   EXPECT_NEAR(mean, 3, 4 * 2.45 / std::sqrt(1000));
   EXPECT_EQ(disagreements(equal_runs(1, 1, random), {}).front().degrees_of_freedom, 0);
+}
+
+/// Runs of one course in stretches of equal information, with scores of variance 1 in units of the noise, and the errors that the noise does not know:
+/// one for each run and one for each place of the course.
+struct Clustered {
+  std::vector<RunInStretches> runs;
+  double error = 0;  // of the estimate: chi-square of 3 if the noise explains it
+};
+
+Clustered clustered(int runs, double of_run, double of_place, std::mt19937_64& random) {
+  constexpr int kStretches = 8;
+  constexpr double kRoot = 1e4;  // of the information
+  std::normal_distribution<double> normal;
+  const auto three = [&](double size) -> Eigen::Vector3d {
+    return size * Eigen::Vector3d(normal(random), normal(random), normal(random));
+  };
+  std::vector<Eigen::Vector3d> places;
+  for (int k = 0; k < kStretches; ++k) places.push_back(three(of_place));
+  Clustered all;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int i = 0; i < runs; ++i) {
+    all.runs.emplace_back();
+    const Eigen::Vector3d whole = three(of_run);
+    for (const Eigen::Vector3d& place : places) {
+      const Eigen::Vector3d score = three(1) + whole + place;
+      sum += score;
+      Reduced stretch{SharedInformation::Identity() * kRoot * kRoot, SharedVector::Zero()};
+      stretch.gradient.head<3>() = kRoot * score;
+      all.runs.back().stretches.push_back(stretch);
+    }
+  }
+  all.error = sum.squaredNorm() / (runs * kStretches);
+  for (RunInStretches& run : all.runs)  // at the optimum they cancel
+    for (Reduced& stretch : run.stretches) stretch.gradient.head<3>() -= kRoot * sum / (runs * kStretches);
+  return all;
+}
+
+/// Squares of the errors over what is claimed, on average.
+double claimed(int runs, double of_run, double of_place, bool trusted) {
+  std::mt19937_64 random(4);
+  constexpr int kTrials = 400;
+  double mean = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const Clustered all = clustered(runs, of_run, of_place, random);
+    mean += all.error / clustered_dispersion(all.runs, {}, trusted) / kTrials;
+  }
+  return mean;
+}
+
+// 3 +- 3 standard deviations of the mean of 400 chi-squares of 3.
+constexpr double kChance = 3 * 2.45 / 20;
+
+TEST(ClusteredDispersion, LeavesATrustedNoiseModelAloneWhereItHolds) {
+  std::mt19937_64 random(5);
+  for (const int count : {2, 6}) {
+    int widened = 0;
+    for (int trial = 0; trial < 1000; ++trial)
+      widened += clustered_dispersion(clustered(count, 0, 0, random).runs, {}, true) > 1;
+    EXPECT_LT(widened, 20 + 3 * 4.5) << "two tests of one in a hundred; " << count << " runs";
+    EXPECT_NEAR(claimed(count, 0, 0, true), 3, kChance);
+  }
+}
+
+TEST(ClusteredDispersion, MakesClaimsHoldWhereErrorsLastForARun) {
+  EXPECT_NEAR(claimed(6, 0, 0, false), 3 - 0.3, kChance) << "at least 1 where chance says less";
+  EXPECT_NEAR(claimed(10, 0.7, 0, false), 3, 1) << "without it 15";
+}
+
+TEST(ClusteredDispersion, MakesClaimsHoldWhereErrorsReturnAtTheSamePlaces) {
+  EXPECT_NEAR(claimed(6, 0, 0.7, false), 3, 1) << "without it 12";
+  EXPECT_NEAR(claimed(6, 0, 0.7, true), 3, 1);
+  std::mt19937_64 random(6);
+  double runs = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<Reduced> whole;
+    for (const RunInStretches& run : clustered(6, 0, 0.7, random).runs) {
+      whole.push_back(run.stretches.front());
+      for (std::size_t k = 1; k < run.stretches.size(); ++k) {
+        whole.back().information += run.stretches[k].information;
+        whole.back().gradient += run.stretches[k].gradient;
+      }
+    }
+    runs += scatter(disagreements(whole, {})).ratio() / 200;
+  }
+  EXPECT_NEAR(runs, 1, 3 * std::sqrt(2.0 / 15 / 200)) << "between runs such errors do not show";
+}
+
+TEST(ClusteredDispersion, DoesNotCountAnOutlier) {
+  std::mt19937_64 random(7);
+  Clustered all = clustered(6, 0, 0, random);
+  for (Reduced& stretch : all.runs[2].stretches) stretch.gradient[0] += 4e4;
+  for (RunInStretches& run : all.runs)
+    for (Reduced& stretch : run.stretches) stretch.gradient[0] -= 4e4 / 6;
+  EXPECT_GT(clustered_dispersion(all.runs, {}, true), 2);
+  all.runs[2].outlier = true;
+  EXPECT_EQ(clustered_dispersion(all.runs, {}, true), 1);
 }
 
 }  // namespace

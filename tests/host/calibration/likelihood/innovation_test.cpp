@@ -172,7 +172,7 @@ TEST_P(Innovations, FallWithTheNoiseAsTheSlopeSays) {
                            scene.noise.sigma_theta_rad / 1.5};
     Unknowns u = scene.unknowns;
     u.segment<3>(kStartX).setZero();
-    const NoiseSlope slope = noise_slope(Moves(scene.run, u), noise, {});
+    const NoiseSlope slope = innovations_and_noise(Moves(scene.run, u), noise).second;
     const auto cost = [&](double K, double xy, double theta) {
       return innovations(Moves(scene.run, u),
                          {noise.K_m * std::exp(K), noise.sigma_xy_m * std::exp(xy / 2),
@@ -192,6 +192,24 @@ TEST_P(Innovations, FallWithTheNoiseAsTheSlopeSays) {
 }
 
 INSTANTIATE_TEST_SUITE_P(WithAndWithoutHeadings, Innovations, testing::Bool());
+
+TEST(Innovations, OfTheStretchesOfARunAddUpToThoseOfTheRun) {
+  const Scene scene = ::astro::calibration::scene(true);
+  const Moves moves(scene.run, scene.unknowns);
+  const InnovationSums whole = innovations(moves, scene.noise);
+  const std::vector<InnovationSums> stretches =
+      innovations_by_stretch(moves, scene.noise, RobustMode::none, {}, 3);
+  ASSERT_EQ(stretches.size(), 3U);
+  Information information = Information::Zero();
+  Unknowns gradient = Unknowns::Zero();
+  for (const InnovationSums& stretch : stretches) {
+    EXPECT_GT(stretch.information.norm(), 0.01 * whole.information.norm());
+    information += stretch.information;
+    gradient += stretch.gradient;
+  }
+  EXPECT_LT((information - whole.information).norm(), 1e-12 * whole.information.norm());
+  EXPECT_LT((gradient - whole.gradient).norm(), 1e-9 * whole.gradient.norm());
+}
 
 }  // namespace
 }  // namespace astro::calibration

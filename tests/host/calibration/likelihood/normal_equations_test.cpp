@@ -73,6 +73,24 @@ void expect_steps(const std::vector<Unknowns>& steps, const Vector& expected) {
       EXPECT_NEAR(steps[static_cast<std::size_t>(run)][i], expected[place(run, i)], 1e-5) << run << ' ' << i;
 }
 
+TEST(NormalEquations, OfTheStretchesOfARunAddUpToThoseOfTheRun) {
+  const std::vector<InnovationSums> stretches = random_sums();
+  InnovationSums whole;
+  for (const InnovationSums& stretch : stretches) {
+    whole.information += stretch.information;
+    whole.gradient += stretch.gradient;
+  }
+  const Reduced expected = reduced(whole, kAllFree, 0);
+  Reduced sum{SharedInformation::Zero(), SharedVector::Zero()};
+  for (const Reduced& stretch : reduced(whole, stretches, kAllFree)) {
+    sum.information += stretch.information;
+    sum.gradient += stretch.gradient;
+  }
+  // Each counts the weak prior of the clock offset, 1e-2 beside 1e9.
+  EXPECT_LT((sum.information - expected.information).norm(), 1e-9 * expected.information.norm());
+  EXPECT_LT((sum.gradient - expected.gradient).norm(), 1e-9 * expected.gradient.norm());
+}
+
 TEST(NormalEquations, StepWhereOneDenseLeastSquaresWould) {
   const std::vector<InnovationSums> sums = random_sums();
   const Dense all = dense(sums);
