@@ -6,6 +6,7 @@
 #include "host/commands/calibrate/calibration_output.hpp"
 #include "host/commands/calibrate/ml_option.hpp"
 #include "host/commands/shared/import_options.hpp"
+#include "host/commands/shared/session_option.hpp"
 #include "host/experiment/analysis/calibration.hpp"
 
 namespace astro::commands {
@@ -24,6 +25,7 @@ void add_calibrate_bag(console::Command calibrate) {
   add_bag_choices(command, options->import);
   add_tracker_choices(command, options->import);
   add_geometry_choices(command, options->import);
+  add_session_flag(command, options->import.session_per_folder);
   add_output(command, options->output);
   add_ml(command, options->ml);
   command.footer(

@@ -6,9 +6,11 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 #include <vector>
 
 #include "host/base/error.hpp"
+#include "host/base/text/columns.hpp"
 #include "host/commands/shared/damaged_option.hpp"
 #include "host/commands/shared/import_options.hpp"
 #include "host/commands/shared/robot_view.hpp"
@@ -17,7 +19,10 @@
 #include "host/console/wrong_usage.hpp"
 #include "host/experiment/analysis/dead_reckoning.hpp"
 #include "host/experiment/analysis/json.hpp"
+#include "host/experiment/analysis/likelihood_sentences.hpp"
 #include "host/experiment/analysis/squares.hpp"
+#include "host/experiment/files/factors_json.hpp"
+#include "host/experiment/files/folder_sessions.hpp"
 
 namespace astro::commands {
 namespace {
@@ -59,6 +64,7 @@ experiment::RunSet read_drives(const CheckOptions& options) {
     return experiment::read_run_set(options.folder, options.without, damage);
   });
   warn_of_recordings(set.runs);
+  if (options.import.session_per_folder) set.sessions = experiment::sessions_by_folder(set, options.folder);
   return set;
 }
 
@@ -82,6 +88,16 @@ std::vector<std::string> row(const std::string& name, std::size_t runs, double f
   return {name, milli(final_m), milli(std::abs(heading_rad)), milli(path_m)};
 }
 
+/// Those that have one wheelbase need no words.
+std::string wheelbases_of(const std::vector<DeadReckoning>& all) {
+  std::string text;
+  for (const auto& [by, errors] : all)
+    if (by.factors.e != 0)
+      text += wrapped(
+          fmt::format("{}: e = {:.4f}, {}.", by.name, by.factors.e, experiment::wheelbases_text(by.factors)));
+  return text;
+}
+
 std::string text_of(const std::vector<DeadReckoning>& all, bool runs) {
   std::vector<std::vector<std::string>> rows{{"", "end mm", "heading mrad", "path mm"}};
   for (const DeadReckoning& one : all) {
@@ -93,11 +109,10 @@ std::string text_of(const std::vector<DeadReckoning>& all, bool runs) {
       rows.push_back(row("  " + run.name, 1, run.final_m, run.final_heading_rad, run.path_rms_m));
   }
   const std::size_t count = all.front().errors.runs.size();
-  return console::wrapped(
-             fmt::format("Odometry less ground truth over {} drive{}, root mean squares: at the end, and "
-                         "all along the path.",
-                         count, count == 1 ? "" : "s")) +
-         console::table(rows);
+  return wrapped(fmt::format("Odometry less ground truth over {} drive{}, root mean squares: at the end, and "
+                             "all along the path.",
+                             count, count == 1 ? "" : "s")) +
+         console::table(rows) + wheelbases_of(all);
 }
 
 nlohmann::json json_of(const std::vector<DeadReckoning>& all) {
@@ -109,15 +124,13 @@ nlohmann::json json_of(const std::vector<DeadReckoning>& all) {
                       {"end_m", run.final_m},
                       {"heading_rad", experiment::number(run.final_heading_rad)},
                       {"path_m", run.path_rms_m}});
-    json.push_back({{"by", one.by.name},
-                    {"c_R", one.by.factors.c_r},
-                    {"c_L", one.by.factors.c_l},
-                    {"b_m", one.by.factors.b_m},
-                    {"e", one.by.factors.e},
-                    {"end_m", one.errors.final_rms_m},
-                    {"heading_rad", experiment::number(one.errors.final_heading_rms_rad)},
-                    {"path_m", one.errors.path_rms_m},
-                    {"runs", runs}});
+    nlohmann::json entry = experiment::to_json(one.by.factors);
+    entry.update({{"by", one.by.name},
+                  {"end_m", one.errors.final_rms_m},
+                  {"heading_rad", experiment::number(one.errors.final_heading_rms_rad)},
+                  {"path_m", one.errors.path_rms_m},
+                  {"runs", runs}});
+    json.push_back(std::move(entry));
   }
   return json;
 }

@@ -11,7 +11,9 @@
 #include "host/commands/calibrate/ml_option.hpp"
 #include "host/commands/shared/damaged_option.hpp"
 #include "host/commands/shared/method_option.hpp"
+#include "host/commands/shared/session_option.hpp"
 #include "host/experiment/analysis/calibration.hpp"
+#include "host/experiment/files/folder_sessions.hpp"
 #include "host/experiment/files/run_set.hpp"
 
 namespace astro::commands {
@@ -25,16 +27,20 @@ struct RunsOptions {
   std::vector<std::string> without;
   MlOption ml;
   MethodOption method;
-  bool damaged = false;
+  bool damaged = false, session_per_folder = false;
 };
 
 experiment::Calibration calibrate_runs(const RunsOptions& options) {
   const experiment::MethodChoice method = options.method.choice();
-  const experiment::RunSet set = read_recordings(options.damaged, [&](recording::Damage damage) {
+  experiment::RunSet set = read_recordings(options.damaged, [&](recording::Damage damage) {
     return experiment::read_run_set(options.folder, options.without, damage);
   });
   warn_of_recordings(set.runs);
+  if (options.session_per_folder) set.sessions = experiment::sessions_by_folder(set, options.folder);
   experiment::Calibration found = experiment::calibrate(set, method, options.ml.choice());
+  if (found.ml() == nullptr && options.session_per_folder)
+    throw Error(fmt::format("--session-per-folder is of maximum likelihood, and this is {}: leave it out",
+                            found.method()));
   if (found.ml() == nullptr && options.ml.given())
     throw Error(
         fmt::format("--K, --sigma-xy, --sigma-theta and --clock are of maximum likelihood, and this "
@@ -60,6 +66,7 @@ void add_calibrate_runs(console::Command calibrate) {
   command.add_option("--without", options->without, "a recording to leave out, by its name (repeatable)")
       .one_each_time();
   add_damaged_flag(command, options->damaged);
+  add_session_flag(command, options->session_per_folder);
   command.footer(
       "ml finds c_R, c_L and b themselves, from runs of one phase or of several. The\n"
       "other methods find how they differ from the loaded ones, from the\n"

@@ -50,6 +50,8 @@ void add_report(console::Command app) {
     if (files == !options->results.folders.empty())
       throw console::WrongUsage("name either folders of recordings, or --wheels and --truth of each drive");
     if (!files) refuse_choices_without_drives(options->import);
+    if (!files && options->import.session_per_folder)
+      throw console::WrongUsage("--session-per-folder goes with --wheels and --truth");
     if (!files && !options->with.empty()) throw console::WrongUsage("--with goes with --wheels and --truth");
     std::filesystem::path out = options->out;
     if (out.empty()) out = files ? "report.html" : options->results.folders.front() / "report.html";

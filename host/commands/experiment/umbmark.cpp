@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "host/base/error.hpp"
+#include "host/base/text/columns.hpp"
 #include "host/commands/base/flags.hpp"
 #include "host/commands/base/remedies.hpp"
 #include "host/commands/experiment/commands.hpp"
@@ -194,15 +195,15 @@ void conclude(const experiment::Results& results, const std::filesystem::path& r
     json["report"] = report.string();
     print_json(json);
   } else {
-    for (const std::string& square : results.left_out()) print(console::wrapped(square + '.'));
+    for (const std::string& square : results.left_out()) print(wrapped(square + '.'));
     write(console::table(experiment::before_after_table(results)) + '\n');
-    if (results.phases.size() > 1) write(console::wrapped(results.verdict()));
+    if (results.phases.size() > 1) write(wrapped(results.verdict()));
     if (const experiment::Calibration* const found = results.latest();
         found != nullptr && found->ml() != nullptr)
-      write(console::wrapped(experiment::wheelbase_sentence(*found)));
+      write(wrapped(experiment::wheelbase_sentence(*found)));
     if (not_loaded != nullptr)
-      write(console::wrapped(experiment::judgement_sentence(not_loaded->judgement) +
-                             " It was not loaded; --force loads it all the same."));
+      write(wrapped(experiment::judgement_sentence(not_loaded->judgement) +
+                    " It was not loaded; --force loads it all the same."));
     print("Report: " + report.string());
   }
   if (not_loaded != nullptr) console::answer_no();

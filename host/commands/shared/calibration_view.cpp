@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/base/text/columns.hpp"
 #include "host/base/text/degrees.hpp"
 #include "host/base/text/shown.hpp"
 #include "host/commands/base/remedies.hpp"
@@ -71,7 +72,7 @@ std::string scale_text(const Calibration& calibration) {
 
 std::string left_out_text(const Calibration& calibration) {
   std::string text;
-  for (const std::string& square : calibration.left_out) text += console::wrapped(square + '.');
+  for (const std::string& square : calibration.left_out) text += wrapped(square + '.');
   return text;
 }
 
@@ -111,7 +112,7 @@ std::string motions_text(const calibration::MlEstimate& estimate) {
 
 std::string verdict_text(const MlResult& ml) {
   std::string text;
-  for (const Remark& remark : experiment::verdict(ml)) text += console::wrapped(in_words(remark) + '.');
+  for (const Remark& remark : experiment::verdict(ml)) text += wrapped(in_words(remark) + '.');
   return text;
 }
 
@@ -120,7 +121,7 @@ std::string ml_text(const Calibration& found) {
   std::string text;
   for (const std::string& sentence : {experiment::lever_sentence(ml), experiment::clock_sentence(ml),
                                       experiment::wheelbase_sentence(found), experiment::noise_sentence(ml)})
-    text += console::wrapped(sentence);
+    text += wrapped(sentence);
   text += '\n' + runs_text(ml) + '\n' + motions_text(ml.estimate) + '\n';
   text += verdict_text(ml);
   return text;
@@ -133,26 +134,24 @@ std::string calibration_text(const Calibration& calibration) {
   if (calibration.squares) text += squares_text(*calibration.squares) + '\n';
   if (const calibration::Estimate* estimate = calibration.end_poses()) text += end_pose_text(*estimate);
   const MlResult* ml = calibration.ml();
-  if (ml != nullptr) text += console::wrapped(experiment::extent_sentence(*ml));
+  if (ml != nullptr) text += wrapped(experiment::extent_sentence(*ml));
   text += factors_text(calibration);
   text += ml != nullptr ? '\n' + ml_text(calibration)
-                        : console::wrapped(scale_text(calibration)) + left_out_text(calibration);
-  return text + '\n' + console::wrapped(experiment::judgement_sentence(calibration.judgement));
+                        : wrapped(scale_text(calibration)) + left_out_text(calibration);
+  return text + '\n' + wrapped(experiment::judgement_sentence(calibration.judgement));
 }
 
 std::string calibration_summary(const Calibration& calibration) {
   const MlResult* ml = calibration.ml();
   if (ml == nullptr)
     return fmt::format("calibrated by {}:\n", calibration.method()) + left_out_text(calibration) +
-           console::wrapped(scale_text(calibration)) +
-           console::wrapped(experiment::judgement_sentence(calibration.judgement));
+           wrapped(scale_text(calibration)) + wrapped(experiment::judgement_sentence(calibration.judgement));
   std::string text =
-      console::wrapped(experiment::extent_sentence(*ml)) +
-      console::wrapped("Standard errors: " + experiment::described(experiment::precision_of(calibration)) +
-                       ".") +
-      console::wrapped(experiment::wheelbase_sentence(calibration));
+      wrapped(experiment::extent_sentence(*ml)) +
+      wrapped("Standard errors: " + experiment::described(experiment::precision_of(calibration)) + ".") +
+      wrapped(experiment::wheelbase_sentence(calibration));
   text += verdict_text(*ml);
-  return text + console::wrapped(experiment::judgement_sentence(calibration.judgement));
+  return text + wrapped(experiment::judgement_sentence(calibration.judgement));
 }
 
 }  // namespace astro::commands

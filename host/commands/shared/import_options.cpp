@@ -8,10 +8,12 @@
 
 #include "host/base/text/numbers.hpp"
 #include "host/commands/base/remedies.hpp"
+#include "host/commands/shared/session_option.hpp"
 #include "host/commands/shared/unused_choices.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
 #include "host/console/wrong_usage.hpp"
+#include "host/experiment/files/folder_sessions.hpp"
 
 namespace astro::commands {
 namespace {
@@ -158,6 +160,7 @@ void add_import(console::Command command, ImportOptions& options) {
   add_body_choice(command, options);
   add_tracker_choices(command, options);
   add_geometry_choices(command, options);
+  add_session_flag(command, options.session_per_folder);
 }
 
 experiment::RunSet read_drive_files(const ImportOptions& options) {
@@ -169,6 +172,8 @@ experiment::RunSet read_drive_files(const ImportOptions& options) {
   for (std::size_t i = 0; i < options.wheels.size(); ++i)
     files.push_back({options.wheels[i], options.truth[i]});
   experiment::ImportedDrives drives = experiment::import_drives(files, choices_of(options));
+  if (options.session_per_folder)
+    drives.set.sessions = experiment::sessions_by_folder(options.wheels, options.truth);
   for (std::size_t i = 0; i < drives.reports.size(); ++i) {
     console::say(drives.set.names[i] + ": " + drives.reports[i].summary);
     for (const Remark& remark : drives.reports[i].remarks)

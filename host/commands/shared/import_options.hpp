@@ -16,7 +16,7 @@ struct ImportOptions {
   recording::WheelTable table;
   std::string wheels_topic, truth_topic, body, up, unit, mirrored = "auto", controller;
   std::vector<std::string> joints, frames;
-  bool swap_wheels = false;
+  bool swap_wheels = false, session_per_folder = false;
   std::filesystem::path robot_file;
   std::optional<double> wheel_diameter_m, counts_per_turn, wheelbase_m;
 
@@ -33,7 +33,7 @@ void add_body_choice(console::Command command, ImportOptions& options);
 void add_tracker_choices(console::Command command, ImportOptions& options);
 void add_geometry_choices(console::Command command, ImportOptions& options);
 
-/// All of the above.
+/// All of the above, and --session-per-folder.
 void add_import(console::Command command, ImportOptions& options);
 
 /// Reads them, and says about each drive what was found and inferred. Throws console::WrongUsage if the numbers of files

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "host/base/error.hpp"
+#include "host/base/text/columns.hpp"
 #include "host/base/text/numbers.hpp"
 #include "host/console/console.hpp"
 #include "host/console/terminal.hpp"
@@ -83,8 +84,8 @@ std::string parameter_table(const robot::RemoteParameters& robot, std::size_t co
   std::string text;
   for (std::size_t at = 0, end; (end = whole.find('\n', at)) != std::string::npos; at = end + 1) {
     const std::string line = whole.substr(at, end - at);
-    const std::string head = console::clipped(line, columns);
-    text += (head.size() == line.size() ? line : console::clipped(line, columns - 1) + "…") + '\n';
+    const std::string head = clipped(line, columns);
+    text += (head.size() == line.size() ? line : clipped(line, columns - 1) + "…") + '\n';
   }
   return text;
 }

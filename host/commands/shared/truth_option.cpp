@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host/base/error.hpp"
+#include "host/base/text/columns.hpp"
 #include "host/commands/base/remedies.hpp"
 #include "host/commands/shared/press_enter.hpp"
 #include "host/console/console.hpp"
@@ -53,7 +54,7 @@ std::string in_words(const truth::Question& question) {
     case truth::AnswerKind::file_corrected_or_kept:
       return text + " Press Enter once the file is corrected, or to keep it as it is: ";
     case truth::AnswerKind::right_or_entered_again:
-      return console::wrapped(text) + "  yes: it is right; Enter: enter it again: ";
+      return wrapped(text) + "  yes: it is right; Enter: enter it again: ";
     default:
       return text;
   }

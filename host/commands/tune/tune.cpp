@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "host/base/error.hpp"
+#include "host/base/text/columns.hpp"
 #include "host/commands/base/flags.hpp"
 #include "host/commands/tune/commands.hpp"
 #include "host/commands/tune/tune_json.hpp"
@@ -103,8 +104,7 @@ void write_report(const TuneOptions& options, const TuneResult& result, const ro
 void conclude(const TuneOptions& options, const TuneResult& result) {
   const std::string path = std::filesystem::absolute(options.out).string();
   if (!options.json)
-    return print(fmt::format("{}\n{}{}\nReport: {}", step_after_in_words(result),
-                             console::wrapped(verdict(result)),
+    return print(fmt::format("{}\n{}{}\nReport: {}", step_after_in_words(result), wrapped(verdict(result)),
                              result.uploaded ? "The new values are loaded." : "Nothing was loaded.", path));
   Json json = to_json(result);
   json["report"] = path;

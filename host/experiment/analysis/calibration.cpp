@@ -66,6 +66,16 @@ calibration::WheelFactors last_loaded(Phases phases) {
   return loaded_factors(*last);
 }
 
+std::vector<std::string> session_names(std::span<const calibration::Trajectory> runs,
+                                       const calibration::MlEstimate& estimate) {
+  std::vector<std::string> names(estimate.sessions.size());
+  for (const calibration::RunFit& fit : estimate.runs) {
+    const auto run = std::ranges::find(runs, fit.name, &calibration::Trajectory::name);
+    if (run != runs.end()) names.at(static_cast<std::size_t>(fit.session)) = run->session;
+  }
+  return names;
+}
+
 Calibration by_ml(Phases phases, const MlChoice& choice) {
   const std::vector<calibration::Trajectory> runs = all_trajectories(phases);
   const Recordings& first = *phases.front();
@@ -78,6 +88,7 @@ Calibration by_ml(Phases phases, const MlChoice& choice) {
   ml.options.noise = choice.noise;
   ml.options.with_e = choice.with_e;
   ml.estimate = calibration::estimate_ml(runs, result.loaded, ml.options);
+  ml.session_names = session_names(runs, ml.estimate);
   result.factors = ml.estimate.factors;
   const calibration::MlErrors& se = ml.estimate.se;
   result.se = {

@@ -37,6 +37,7 @@ struct FactorErrors {
 struct MlResult {
   calibration::MlOptions options;
   calibration::MlEstimate estimate;
+  std::vector<std::string> session_names = {};  // of each in the estimate; "": it was found from the data
 };
 
 struct Calibration {

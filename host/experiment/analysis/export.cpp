@@ -9,6 +9,8 @@
 
 #include "common/params/table.hpp"
 #include "host/base/error.hpp"
+#include "host/base/text/columns.hpp"
+#include "host/experiment/files/curvature_named.hpp"
 #include "host/experiment/files/number_named.hpp"
 #include "host/experiment/files/toml_file.hpp"
 
@@ -58,20 +60,8 @@ toml::table extended(const fs::path& path, const std::optional<DiffDrive>& param
 
 /// The remedy's value is the multiplier for arcs.
 std::string comment(const Remark& note) {
-  std::string text = "#", word;
-  std::size_t column = 1;
-  std::istringstream words(note.fact + ". For arcs wheel_separation_multiplier would be " +
-                           note.remedy.value + ".");
-  while (words >> word) {
-    constexpr std::size_t kColumns = 78;
-    if (column + 1 + word.size() > kColumns) {
-      text += "\n#";
-      column = 1;
-    }
-    text += ' ' + word;
-    column += 1 + word.size();
-  }
-  return text + '\n';
+  return wrapped(note.fact + ". For arcs wheel_separation_multiplier would be " + note.remedy.value + ".",
+                 kTextColumns, "# ");
 }
 
 std::string value_text(const toml::node& node) {
@@ -134,7 +124,7 @@ DiffDrive diff_drive(const ParameterFile& file, const NominalSizes& nominal) {
 }
 
 std::optional<Remark> single_wheelbase(const ParameterFile& file, const DiffDrive& parameters) {
-  const double e = number_named(file.parameters, "e").value_or(0);
+  const double e = with_curvature_named({}, file.parameters, "the calibration").e;
   if (e == 0) return std::nullopt;
   const double b_m = factor(file, "b");
   return Remark{fmt::format("diff_drive_controller knows one wheelbase, and this robot has two: spins turn "

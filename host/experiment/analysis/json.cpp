@@ -5,6 +5,7 @@
 #include "host/base/text/degrees.hpp"
 #include "host/experiment/analysis/judgement_sentences.hpp"
 #include "host/experiment/analysis/likelihood_json.hpp"
+#include "host/experiment/files/factors_json.hpp"
 
 namespace astro::experiment {
 namespace {
@@ -97,14 +98,6 @@ nlohmann::json to_json(const calibration::ExperimentSummary& summary) {
           {"se_E_max_syst_m", number(summary.se_E_max_syst_m)},
           {"cw", to_json(summary.cw)},
           {"ccw", to_json(summary.ccw)}};
-}
-
-nlohmann::json to_json(const calibration::WheelFactors& factors) {
-  return {{"c_R", factors.c_r},
-          {"c_L", factors.c_l},
-          {"b_m", factors.b_m},
-          {"e", factors.e},
-          {"kappa0", factors.kappa0}};
 }
 
 nlohmann::json to_json(const Calibration& calibration) {

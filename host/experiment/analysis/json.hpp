@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "host/calibration/motion/wheel_factors.hpp"
 #include "host/experiment/analysis/calibration.hpp"
 
 /// The keys under which --json prints results; numbers that do not exist are null.
@@ -13,9 +12,6 @@ nlohmann::json to_json(const calibration::ClusterSummary& cluster);
 
 /// The keys that all methods share (factors, their errors, the loaded factors, squares), and those of the method.
 nlohmann::json to_json(const Calibration& calibration);
-
-/// {"c_R", "c_L", "b_m", "e", "kappa0"}
-nlohmann::json to_json(const calibration::WheelFactors& factors);
 
 /// Null where the value is not finite: JSON has no NaN.
 nlohmann::json number(double value);

@@ -32,6 +32,7 @@ nlohmann::json run_json(const calibration::RunFit& run) {
           {"clock_offset_se_s", number(run.clock_offset_se_s)},
           {"chi_square", number(run.chi_square)},
           {"degrees_of_freedom", run.degrees_of_freedom},
+          {"session", run.session},
           {"disagreement", number(run.disagreement)},
           {"disagreement_dof", run.disagreement_dof},
           {"outlier", run.outlier},
@@ -74,8 +75,9 @@ nlohmann::json eccentricity_json(const calibration::Eccentricity& wheel) {
           {"significant", wheel.significant}};
 }
 
-nlohmann::json session_json(const calibration::SessionFit& session) {
-  return {{"lever_arm", lever_json(session.lever)},
+nlohmann::json session_json(const std::string& name, const calibration::SessionFit& session) {
+  return {{"name", name.empty() ? nlohmann::json() : nlohmann::json(name)},
+          {"lever_arm", lever_json(session.lever)},
           {"lever_arm_se", lever_json(session.lever_se)},
           {"clock_skew", number(session.clock_skew)},
           {"clock_skew_se", number(session.clock_skew_se)}};
@@ -99,6 +101,7 @@ nlohmann::json to_json(const MlResult& ml) {
       {"chi_square", number(estimate.chi_square)},
       {"degrees_of_freedom", estimate.degrees_of_freedom},
       {"dispersion", number(estimate.dispersion)},
+      {"widening", number(estimate.widening)},
       {"iterations", estimate.iterations},
       {"curvature", curvature_json(estimate.curvature)},
       {"eccentricity",
@@ -106,8 +109,9 @@ nlohmann::json to_json(const MlResult& ml) {
         {"right", eccentricity_json(estimate.eccentricities.right)}}},
       {"remarks", remark_facts(ml)}};
   json["sessions"] = nlohmann::json::array();
-  for (const calibration::SessionFit& session : estimate.sessions)
-    json["sessions"].push_back(session_json(session));
+  for (std::size_t i = 0; i < estimate.sessions.size(); ++i)
+    json["sessions"].push_back(
+        session_json(i < ml.session_names.size() ? ml.session_names[i] : "", estimate.sessions[i]));
   json["runs"] = nlohmann::json::array();
   for (const calibration::RunFit& run : estimate.runs) json["runs"].push_back(run_json(run));
   json["motions"] = nlohmann::json::array();

@@ -34,8 +34,10 @@ std::string place_text(const calibration::SessionFit& session) {
   return text;
 }
 
-/// The runs of a session: "run 1 and run 2", or the first and how many more.
-std::string runs_text(const MlResult& ml, int session) {
+/// The name of a session, or its runs: "run 1 and run 2", or the first and how many more.
+std::string session_text(const MlResult& ml, int session) {
+  const auto i = static_cast<std::size_t>(session);
+  if (i < ml.session_names.size() && !ml.session_names[i].empty()) return "'" + ml.session_names[i] + "'";
   std::vector<std::string> names;
   for (const calibration::RunFit& run : ml.estimate.runs)
     if (run.session == session) names.push_back(run.name);
@@ -77,7 +79,7 @@ std::string lever_sentence(const MlResult& ml) {
                         i == 0                     ? ""
                         : i + 1 == sessions.size() ? " and"
                                                    : ",",
-                        runs_text(ml, static_cast<int>(i)), place_text(sessions[i]));
+                        session_text(ml, static_cast<int>(i)), place_text(sessions[i]));
   return text + '.';
 }
 
@@ -91,6 +93,11 @@ std::string clock_sentence(const MlResult& ml) {
   return fmt::format(
       "The robot's clock runs {} than that of the ground truth{}; the offset was found for each run.",
       fmt::join(rates, " and "), rates.size() > 1 ? ", in the order of the sessions" : "");
+}
+
+std::string wheelbases_text(const calibration::WheelFactors& factors) {
+  return fmt::format("spins turn about b = {:.3f} mm, gentle arcs about b (1 + e) = {:.3f} mm",
+                     1000 * factors.b_m, 1000 * factors.b_m * (1 + factors.e));
 }
 
 std::string wheelbase_sentence(const Calibration& found) {
@@ -115,11 +122,10 @@ std::string wheelbase_sentence(const Calibration& found) {
            reset;
   const calibration::WheelFactors& factors = found.factors;
   return fmt::format(
-      "Spins turn about b = {:.3f} mm, gentle arcs about b (1 + e) = {:.3f} mm: e = {}. With the wheelbase "
-      "of "
-      "spins alone, odometry would turn a gentle arc up to {:.1f} % too {}.",
-      1000 * factors.b_m, 1000 * factors.b_m * (1 + factors.e), with_error(factors.e, found.se.e, 4),
-      100 * std::abs(factors.e), factors.e > 0 ? "far" : "little");
+      "The robot has two wheelbases (e = {}): {}. With that of spins alone, odometry would turn a gentle arc "
+      "up to {:.1f} % too {}.",
+      with_error(factors.e, found.se.e, 4), wheelbases_text(factors), 100 * std::abs(factors.e),
+      factors.e > 0 ? "far" : "little");
 }
 
 std::string noise_sentence(const MlResult& ml) {

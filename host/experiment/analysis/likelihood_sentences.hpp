@@ -22,6 +22,9 @@ std::string clock_sentence(const MlResult& ml);
 /// was not found again. Precondition: found by maximum likelihood.
 std::string wheelbase_sentence(const Calibration& found);
 
+/// "spins turn about b = 290.000 mm, gentle arcs about b (1 + e) = 298.700 mm".
+std::string wheelbases_text(const calibration::WheelFactors& factors);
+
 /// The noise, given or estimated, how well it explains the runs, and wheels that run out of true.
 std::string noise_sentence(const MlResult& ml);
 

@@ -11,6 +11,8 @@ void Recordings::add(RunSet more) {
                     std::make_move_iterator(more.names.end()));
   set_.runs.insert(set_.runs.end(), std::make_move_iterator(more.runs.begin()),
                    std::make_move_iterator(more.runs.end()));
+  set_.sessions.insert(set_.sessions.end(), std::make_move_iterator(more.sessions.begin()),
+                       std::make_move_iterator(more.sessions.end()));
   squares_.reset();
 }
 

@@ -9,6 +9,7 @@
 #include "host/experiment/analysis/json.hpp"
 #include "host/experiment/analysis/judgement_sentences.hpp"
 #include "host/experiment/files/experiment_folder.hpp"
+#include "host/experiment/files/factors_json.hpp"
 #include "host/experiment/files/robot_identity.hpp"
 #include "host/recording/files/run_folder.hpp"
 #include "host/report/sections/comparison.hpp"

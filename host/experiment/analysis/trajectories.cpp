@@ -117,6 +117,7 @@ void extend_trajectories(std::vector<calibration::Trajectory>& trajectories, con
   for (std::size_t i = trajectories.size(); i < set.runs.size(); ++i) {
     calibration::Trajectory trajectory = trajectory_of(set.runs[i], set.names[i]);
     require_comparable(set.runs.front().info, set.names.front(), set.runs[i].info, set.names[i]);
+    if (!set.sessions.empty()) trajectory.session = set.sessions[i];
     trajectories.push_back(std::move(trajectory));
   }
 }

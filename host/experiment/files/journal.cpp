@@ -7,6 +7,7 @@
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
 #include "host/base/formats/json_weight.hpp"
+#include "host/experiment/files/factors_json.hpp"
 
 namespace astro::experiment {
 namespace {
@@ -32,14 +33,6 @@ Plan drivable_plan(const nlohmann::json& json, const std::string& damaged) {
   } catch (const Error& error) {
     throw Error(damaged + " (" + error.what() + ")", {Help::calibrate_recordings});
   }
-}
-
-/// Older versions have no e.
-calibration::WheelFactors factors_in(const nlohmann::json& json) {
-  calibration::WheelFactors factors{json.at("c_R"), json.at("c_L"), json.at("b_m")};
-  factors.e = json.value("e", factors.e);
-  factors.kappa0 = json.value("kappa0", factors.kappa0);
-  return factors;
 }
 
 }  // namespace
@@ -76,12 +69,7 @@ Journal read_journal(const std::filesystem::path& folder) {
 
 void write_journal(const std::filesystem::path& folder, const Journal& journal) {
   nlohmann::json loaded = nlohmann::json::object();
-  for (const auto& [phase, factors] : journal.loaded)
-    loaded[phase] = {{"c_R", factors.c_r},
-                     {"c_L", factors.c_l},
-                     {"b_m", factors.b_m},
-                     {"e", factors.e},
-                     {"kappa0", factors.kappa0}};
+  for (const auto& [phase, factors] : journal.loaded) loaded[phase] = to_json(factors);
   const nlohmann::json json = {{"format", kFormat},
                                {"started_at", journal.started_at},
                                {"plan", journal.plan},

@@ -10,10 +10,12 @@
 
 namespace astro::experiment {
 
-/// Recordings that are calibrated together: names[i] is the name of runs[i].
+/// Recordings that are calibrated together: names[i] is the name of runs[i], and sessions[i] that of its session
+/// (calibration::Trajectory::session). No sessions: they are found from the data.
 struct RunSet {
   std::vector<std::string> names;
   std::vector<recording::Run> runs;
+  std::vector<std::string> sessions = {};
 };
 
 /// All recordings below `folder` in natural order, named by their path in it without the extension

@@ -72,6 +72,11 @@ TEST_F(DeadReckonings, TakeEFromTheFileAndNoneWhereItHasNone) {
   EXPECT_EQ(factors({{"e", -0.02}, {"kappa0", 0.5}}).e, -0.02);
   EXPECT_EQ(factors({{"e", -0.02}, {"kappa0", 0.5}}).kappa0, 0.5);
   EXPECT_THAT([&] { factors({{"e", 3.0}}); }, ThrowsMessage<Error>(HasSubstr("e = 3, which no robot has")));
+  EXPECT_THAT(
+      [&] {
+        factors({{"e", std::string("0.02")}});
+      },
+      ThrowsMessage<Error>(HasSubstr("e = '0.02', which is text and no number")));
   EXPECT_THAT([&] { factors({{"kappa0", 0.0}}); }, ThrowsMessage<Error>(HasSubstr("kappa0 = 0")));
 }
 

@@ -177,5 +177,20 @@ TEST_F(RunSets, RefuseNamesThatNobodyOrMoreThanOneHas) {
               ThrowsMessage<Error>(HasSubstr("after/square-cw-1 or before/square-cw-1")));
 }
 
+TEST(Trajectories, AreOfTheSessionsThatTheirSetNames) {
+  const auto drive = [] {
+    recording::Run run = followed_run();
+    add_odometry(run, 0, 0, 0);
+    return run;
+  };
+  Recordings recordings(RunSet{{"one", "two"}, {drive(), drive()}, {"monday", "tuesday"}});
+  recordings.add(RunSet{{"three"}, {drive()}, {"monday"}});
+  std::vector<std::string> sessions;
+  for (const calibration::Trajectory& run : recordings.trajectories()) sessions.push_back(run.session);
+  EXPECT_THAT(sessions, ElementsAre("monday", "tuesday", "monday"));
+  // Nothing is said: the estimator finds them.
+  EXPECT_EQ(trajectories_of(RunSet{{"one"}, {drive()}}).front().session, "");
+}
+
 }  // namespace
 }  // namespace astro::experiment

@@ -5,9 +5,11 @@
 #include <fstream>
 #include <map>
 
+#include "host/experiment/analysis/report_input.hpp"
 #include "host/recording/files/run_file.hpp"
 #include "host/robot/parameters/upload.hpp"
 #include "host/truth/manual/manual_source.hpp"
+#include "tests/host/experiment/files/older_journal.hpp"
 #include "tests/support/base/remarks.hpp"
 #include "tests/support/robots/desk.hpp"
 
@@ -394,6 +396,43 @@ TEST_F(Resume, RefusesARobotWhoseParametersChangedInTheMiddleOfAPhase) {
   robot::upload(desk_.client, {{"c_R", 1.001}});
   EXPECT_THAT([&] { run(small_plan()); },
               ThrowsMessage<Error>(HasSubstr("phase 'before' of this experiment began")));
+}
+
+/// Squares hardly show an e, so the calibration between the phases has none.
+TEST_F(Resume, ARobotWithAnEGoesOnWithItUntilACalibrationResetsIt) {
+  robot::upload(desk_.client, {{"e", 0.02}, {"kappa0", 0.2}});
+  interrupt_in_run(2);
+  const calibration::WheelFactors before = read_journal(folder_.path()).loaded.at("before");
+  EXPECT_NEAR(before.e, 0.02, 1e-8);
+  EXPECT_NEAR(before.kappa0, 0.2, 1e-8);
+  const Results results = run(small_plan());
+  ASSERT_EQ(results.phases.size(), 2U);
+  EXPECT_NEAR(results.before().squares().loaded.e, 0.02, 1e-8);
+  EXPECT_EQ(results.after().squares().loaded.e, 0);
+  EXPECT_THAT(report_input(results).method, HasSubstr("The loaded e = 0.0200 becomes 0."));
+}
+
+TEST_F(Resume, RefusesARobotWhoseEChangedInTheMiddleOfAPhase) {
+  interrupt_in_run(2);
+  robot::upload(desk_.client, {{"e", 0.02}});
+  EXPECT_THAT([&] { run(small_plan()); },
+              support::ThrowsTelling(
+                  testing::ContainsRegex("the robot holds .* e 0.02.*, but phase 'before' .* began with"),
+                  Help::load_factors_or_choose_other_out_folder));
+}
+
+TEST_F(Resume, AnExperimentFromBeforeThereWasAnEGoesOnWithoutOne) {
+  interrupt_in_run(2);
+  test::make_older_than_e(folder_.path());
+  EXPECT_EQ(run(small_plan()).phases.size(), 2U);
+}
+
+TEST_F(Resume, AnExperimentFromBeforeThereWasAnEIsRefusedIfTheRobotHoldsOneByNow) {
+  interrupt_in_run(2);
+  test::make_older_than_e(folder_.path());
+  robot::upload(desk_.client, {{"e", 0.02}});
+  EXPECT_THAT([&] { run(small_plan()); },
+              support::ThrowsTelling(HasSubstr("e 0.02"), Help::load_factors_or_choose_other_out_folder));
 }
 
 TEST_F(Resume, SaysThatADamagedJournalCannotBeResumed) {

@@ -37,6 +37,18 @@ TEST_F(RobotFile, OfExportedParametersHasTheirSizesAndFactors) {
   EXPECT_EQ(robot.c_l, 0.999);
 }
 
+TEST_F(RobotFile, MayHaveACurvatureEffect) {
+  const auto robot = [&](const std::string& more) {
+    return read_robot_file(file("astro.toml", "[parameters]\nwheel_diameter = 0.072\nb = 0.29\n" + more))
+        .factors();
+  };
+  EXPECT_EQ(robot("e = -0.02\nkappa0 = 0.3\n").e, -0.02);
+  EXPECT_EQ(robot("e = -0.02\nkappa0 = 0.3\n").kappa0, 0.3);
+  EXPECT_EQ(robot("").e, 0);
+  EXPECT_EQ(robot("").kappa0, calibration::kUsualKappa0);
+  EXPECT_THROW(robot("e = 3\n"), Error);
+}
+
 TEST_F(RobotFile, MayBeACalibrationThatTheRobotCarries) {
   const RobotGeometry robot =
       read_robot_file(file("calib.toml",

@@ -46,6 +46,20 @@ TEST_F(CutShort, KilledWhileHoldingAVelocityTheRobotStopsByItsCommandTimeOut) {
   EXPECT_EQ(info()["faults"], json::array({"command_timeout"}));
 }
 
+TEST_F(CutShort, AHostThatIsHeldUpLosesItsRobotUnlessTheTimeOutIsLonger) {
+  for (const bool forgiving : {false, true}) {
+    if (forgiving) support::forgive_late_hosts(simulator_);
+    Program program = drive({"line", "2", "--speed", "0.4"});
+    ASSERT_TRUE(has_gone(0.2)) << program.err();
+    program.send(SIGSTOP);
+    const std::int64_t held_us = now_us();
+    EXPECT_TRUE(support::eventually([&] { return now_us() > held_us + 400'000; }));
+    program.send(SIGCONT);
+    EXPECT_EQ(program.wait(), forgiving ? 0 : 1) << program.err();
+    EXPECT_EQ(info()["faults"], forgiving ? json::array() : json::array({"link_lost"}));
+  }
+}
+
 TEST_F(CutShort, InterruptedTheRobotRampsToRestAndIsDisarmed) {
   for (const int signal : {SIGINT, SIGTERM}) {
     Program program = drive({"line", "20", "--speed", "0.4", "--json"});

@@ -137,5 +137,15 @@ TEST(GoldenCommandLine, CentresOfGravity) {
   EXPECT_GT(result["standard_errors"]["b_m"], 0);
 }
 
+TEST(EndPoses, KeepTheEThatWasLoaded) {
+  const nlohmann::json without = calibrate({}), with = calibrate({"--e", "0.02"});
+  EXPECT_EQ(without["e"], 0);
+  EXPECT_EQ(with["e"], 0.02);
+  EXPECT_EQ(with["carried"]["e"], 0.02);
+  // A closed square consists of lines and spins, for which e is nothing.
+  for (const char* factor : {"c_R", "c_L", "b_m"}) EXPECT_EQ(with[factor], without[factor]) << factor;
+  EXPECT_EQ(support::astrolabe({"calibrate", "end-poses", "--e", "0.3"}).code, 2);
+}
+
 }  // namespace
 }  // namespace astro

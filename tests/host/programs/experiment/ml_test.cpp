@@ -6,8 +6,8 @@
 #include <fstream>
 #include <memory>
 #include <numbers>
-#include <sstream>
 
+#include "tests/support/base/columns.hpp"
 #include "tests/support/base/json.hpp"
 #include "tests/support/programs/program.hpp"
 
@@ -102,12 +102,7 @@ TEST_F(Ml, IsReadableOnEightyColumns) {
   for (const char* word : {"c_R", "c_L", "b mm", "E_d", "E_b", "tracked body", "ppm", "offset ms",
                            "square-cw-2", "disagrees", "rest", "line", "spin", "agree"})
     EXPECT_THAT(outcome.out, HasSubstr(word));
-  std::istringstream lines(outcome.out);
-  for (std::string line; std::getline(lines, line);) {
-    const auto width = std::count_if(line.begin(), line.end(),
-                                     [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
-    EXPECT_LE(width, 80) << line;
-  }
+  EXPECT_LE(support::widest_line(outcome.out), 80U) << outcome.out;
 }
 
 TEST_F(Ml, TakesRunsOfSeveralPhasesTogether) {
@@ -118,6 +113,17 @@ TEST_F(Ml, TakesRunsOfSeveralPhasesTogether) {
   const Outcome umbmark = runs({"--method", "umbmark"}, "");
   EXPECT_EQ(umbmark.code, 1);
   EXPECT_THAT(umbmark.err, HasSubstr("different c_R, c_L or b"));
+}
+
+TEST_F(Ml, TakesEachPhaseForASessionIfAFolderIsOne) {
+  const nlohmann::json found = json_of({}, ""), named = json_of({"--session-per-folder"}, "");
+  EXPECT_EQ(found["sessions"].size(), 1U);
+  ASSERT_EQ(named["sessions"].size(), 2U);
+  EXPECT_EQ(named["sessions"][0]["name"], "after");
+  EXPECT_EQ(named["sessions"][1]["name"], "before");
+  const Outcome umbmark = runs({"--method", "umbmark", "--session-per-folder"});
+  EXPECT_EQ(umbmark.code, 1);
+  EXPECT_THAT(umbmark.err, HasSubstr("--session-per-folder is of maximum likelihood"));
 }
 
 TEST_F(Ml, LeavesOutWhatIsNamed) {
@@ -141,7 +147,8 @@ TEST_F(Ml, IsCheckedOnDrivesThatItHasNotSeen) {
   EXPECT_LT(judged[1]["end_m"].get<double>(), judged[0]["end_m"].get<double>() / 2);
   EXPECT_EQ(judged[1]["runs"][0]["name"], "square-ccw-1");
 
-  const Outcome text = astrolabe({"calibrate", "check", out() + "/after", "--with", file, "--runs"});
+  const Outcome text =
+      astrolabe({"calibrate", "check", out() + "/after", "--with", file, "--runs", "--session-per-folder"});
   EXPECT_EQ(text.code, 0) << text.err;
   EXPECT_THAT(text.out,
               AllOf(HasSubstr("over 2 drives"), HasSubstr("heading mrad"), HasSubstr("square-cw-1")));

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <fstream>
 #include <map>
-#include <sstream>
 
 #include "host/base/text/degrees.hpp"
 #include "host/recording/run/planar_pose.hpp"
 #include "host/truth/live/socket_source.hpp"
+#include "tests/support/base/columns.hpp"
 #include "tests/support/base/json.hpp"
 #include "tests/support/programs/program.hpp"
 #include "tests/support/programs/tmux_program.hpp"
@@ -90,10 +90,7 @@ class Tape : public testing::Test {
   }
 
   static void expect_80_columns(const std::string& text) {
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);)
-      EXPECT_LE(std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; }), 80)
-          << line;
+    EXPECT_LE(support::widest_line(text), 80U) << text;
   }
 
   Robot robot_;

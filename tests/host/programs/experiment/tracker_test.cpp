@@ -14,6 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using support::astrolabe;
+using support::PatientSimulator;
 using support::Simulator;
 using testing::HasSubstr;
 
@@ -52,9 +53,9 @@ TEST(TrackerOnTheNetwork, IsNotServedFasterThanTime) {
 }
 
 TEST(TrackerOnTheNetwork, GivesTheFactorsThatTheSimulatorsOwnTruthGives) {
-  Simulator simulator({"--vrpn-port", "0", "--natnet-port", "0", "--tracker-latency", "0.03",
-                       "--tracker-ahead", "0.08", "--tracker-left", "-0.03", "--tracker-drops", "0.1",
-                       "--slip", "2.645e-6", "--true-ed", "1.00416", "--seed", "5"});
+  PatientSimulator simulator({"--vrpn-port", "0", "--natnet-port", "0", "--tracker-latency", "0.03",
+                              "--tracker-ahead", "0.08", "--tracker-left", "-0.03", "--tracker-drops", "0.1",
+                              "--slip", "2.645e-6", "--true-ed", "1.00416", "--seed", "5"});
   ASSERT_TRUE(support::eventually([&] { return !address_of(simulator, "natnet").empty(); }));
   Recorder tracked(simulator, address_of(simulator), "vrpn"), own(simulator, "sim", "sim"),
       optitrack(simulator, address_of(simulator, "natnet"), "natnet");
@@ -100,7 +101,7 @@ struct WholeExperiment {
     return address_of(simulator, protocol);
   }
 
-  Simulator simulator;
+  PatientSimulator simulator;
   support::Program program;
 };
 

@@ -191,6 +191,10 @@ TEST_F(Params, ARefusedSetNamesTheRuleTheLimitAndItsUnit) {
                 "one count moves a wheel by 31.4 m, and that has to be from 1e-09 m to 0.125 m"},
         Refused{{"counts_per_motor_rev=1", "gear_numerator=30", "b=0.05"},
                 "one count turns the robot by 86.4 degrees, and has to turn it by less than 22.5 degrees"},
+        Refused{
+            {"counts_per_motor_rev=1", "gear_numerator=30", "e=-0.2", "b=0.05"},
+            "one count turns the robot by 108 degrees, and has to turn it by less than 22.5 degrees; that "
+            "follows from b = 0.05 m, e = -0.2"},
         Refused{{"robot_name=caf\xc3\xa9"}, "1 to 24 characters of printable ASCII"},
         Refused{{"speed_limit=20"}, "speed_limit = 20 m/s is out of range: 0.01 m/s to 10 m/s"}}) {
     Words words{"set"};

@@ -3,8 +3,8 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
+#include "tests/support/base/columns.hpp"
 #include "tests/support/base/json.hpp"
 #include "tests/support/programs/program.hpp"
 
@@ -24,25 +24,13 @@ Words study(const Words& more) {
   return words;
 }
 
-// Columns on a terminal: bytes that do not continue a character of UTF-8.
-std::size_t widest_line(const std::string& text) {
-  std::istringstream lines(text);
-  std::string line;
-  std::size_t widest = 0;
-  while (std::getline(lines, line))
-    widest = std::max(widest, static_cast<std::size_t>(std::count_if(line.begin(), line.end(), [](char c) {
-                        return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-                      })));
-  return widest;
-}
-
 TEST(StudyCommand, PrintsEveryMethodAndTheBoundWithin80Columns) {
   const Outcome outcome = astrolabe(study({}));
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   for (const char* row : {"\nuncalibrated", "\numbmark thesis", "\numbmark average", "\nextended published",
                           "\nextended exact", "\nml ", "\nCramer-Rao bound", "\nml over the bound"})
     EXPECT_THAT(outcome.out, HasSubstr(row));
-  EXPECT_LE(widest_line(outcome.out), 80U);
+  EXPECT_LE(support::widest_line(outcome.out), 80U);
   EXPECT_EQ(outcome.err, "") << "progress is for terminals";
 }
 
@@ -74,7 +62,7 @@ TEST(StudyCommand, ShowsEOnlyIfTheRobotHasOneOrDrivesCircles) {
   const Outcome text = astrolabe(study(options));
   ASSERT_EQ(text.code, 0) << text.err;
   EXPECT_THAT(text.out, HasSubstr("\n1 + 1 circles of 2 turns, radius 0.5 m; e 0.02\n"));
-  EXPECT_LE(widest_line(text.out), 80U);
+  EXPECT_LE(support::widest_line(text.out), 80U);
   Words as_json = options;
   as_json.push_back("--json");
   const json result = support::parse_json(astrolabe(study(as_json)).out);
@@ -93,7 +81,7 @@ TEST(StudyCommand, WindsUpTheKinematicRobotAlone) {
   ASSERT_EQ(text.code, 0) << text.err;
   EXPECT_THAT(text.out,
               HasSubstr("\nspins wind up 6 mrad; a stand of 1 s after each, a line of 0.3 m at the end\n"));
-  EXPECT_LE(widest_line(text.out), 80U);
+  EXPECT_LE(support::widest_line(text.out), 80U);
   EXPECT_EQ(support::parse_json(astrolabe(study({"--windup", "6", "--json"})).out)["setup"]["windup_rad"],
             0.006);
   const Outcome simulator = astrolabe(study({"--windup", "6", "--model", "simulator"}));
@@ -105,7 +93,7 @@ TEST(StudyCommand, DrivesTheSimulatedRobotIfAsked) {
   const Outcome text = astrolabe(study({"--model", "simulator"}));
   ASSERT_EQ(text.code, 0) << text.err;
   EXPECT_THAT(text.out, testing::StartsWith("simulated robot"));
-  EXPECT_LE(widest_line(text.out), 80U);
+  EXPECT_LE(support::widest_line(text.out), 80U);
   const Outcome outcome = astrolabe(study({"--model", "simulator", "--json", "--jobs", "2"}));
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const json result = json::parse(outcome.out);
