@@ -69,7 +69,10 @@ PathErrors path_errors(const MlFit& fit, const WheelFactors& factors) {
 
 PathErrors path_errors(std::span<const Trajectory> runs, const WheelFactors& factors,
                        const MlOptions& options) {
-  const PreparedRuns prepared = prepare(runs, factors, options.clock_known, Density::independent);
+  PreparedRuns prepared = prepare(runs, factors, options.clock_known, Density::independent);
+  // The factors are given, so what a spin winds up cannot pass for another wheelbase, and samples in spins show lever arm and
+  // clock best.
+  for (PreparedRun& run : prepared.runs) run.knots_m = run.path_m;
   PathErrors errors = path_errors(MlFit(prepared, factors, options, Held::factors), factors);
   errors.left_out = prepared.left_out;
   return errors;

@@ -137,7 +137,7 @@ class ByStretch final : public Accumulator {
       : sums_(static_cast<std::size_t>(count)) {
     const double length_m = run.path_m.back();
     for (std::size_t i = 0; i < run.truth.size(); ++i)
-      if (samples.takes(run.path_m, i))
+      if (samples.takes(run.knots_m, i))
         stretch_.push_back(length_m > 0 ? std::min(sums_.size() - 1,
                                                    static_cast<std::size_t>(run.path_m[i] / length_m * count))
                                         : 0);

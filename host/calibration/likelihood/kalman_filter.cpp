@@ -167,7 +167,7 @@ void filter_run(const Moves& moves, const NoiseModel& noise, RobustMode robust, 
     if (leg.moved) filter.predict(leg.move);
     for (std::size_t motion = 0; motion < spent_s.size(); ++motion) spent_s[motion] += leg.spent_s[motion];
     const std::size_t i = leg.sample;
-    if (!samples.takes(run.path_m, i)) continue;
+    if (!samples.takes(run.knots_m, i)) continue;
     const auto most = std::max_element(spent_s.begin(), spent_s.end());
     filter.update(run.truth[i], *most > 0 ? static_cast<Motion>(most - spent_s.begin()) : run.motion[i]);
     spent_s.fill(0);

@@ -137,8 +137,9 @@ Moves::Moves(const PreparedRun& run, const Unknowns& unknowns, double kappa0,
 
 bool Moves::takes(std::size_t sample) const {
   return selections_.empty() ||
-         std::any_of(selections_.begin(), selections_.end(),
-                     [&](const SampleSelection& selection) { return selection.takes(run_->path_m, sample); });
+         std::any_of(selections_.begin(), selections_.end(), [&](const SampleSelection& selection) {
+           return selection.takes(run_->knots_m, sample);
+         });
 }
 
 void Moves::change(const Unknowns& unknowns) {

@@ -13,6 +13,7 @@
 #include "host/calibration/motion/wheel_path.hpp"
 #include "host/calibration/preparation/handedness.hpp"
 #include "host/calibration/preparation/sessions.hpp"
+#include "host/calibration/preparation/wheel_way.hpp"
 
 namespace astro::calibration {
 namespace {
@@ -154,29 +155,6 @@ double net_rotation_rad(const PreparedRun& run, const WheelPath& path, const Clo
   return sum_rad;
 }
 
-/// A standing wheel may flicker between two counts for minutes; that is no way.
-constexpr double kFlicker_m = 2e-3;
-
-/// The way of the wheels to each sample of truth, the mean of both. In a spin it grows as well.
-std::vector<double> way_of_wheels(const PreparedRun& run, const ClockFit& clock) {
-  const WheelPath path(run.source->wheels);
-  std::vector<double> way_m;
-  WheelState counted;
-  double sum_m = 0;
-  for (const BodySample& sample : run.truth) {
-    const WheelState now = path.at(clock.robot_time_s(sample.time_s, run.clock_middle_s));
-    if (way_m.empty()) counted = now;
-    const double moved_m =
-        (std::abs(now.left_m - counted.left_m) + std::abs(now.right_m - counted.right_m)) / 2;
-    if (moved_m > kFlicker_m) {
-      sum_m += moved_m;
-      counted = now;
-    }
-    way_m.push_back(sum_m);
-  }
-  return way_m;
-}
-
 void classify_motion(PreparedRun& run, const ClockFit& clock, const WheelFactors& factors) {
   const WheelPath path(run.source->wheels);
   const Around near(run.source->wheels, kWindow_s), wide(run.source->wheels, kLongWindow_s);
@@ -275,6 +253,7 @@ PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& loade
     PreparedRun ready = cropped(run, clock, density);
     classify_motion(ready, clock, loaded);
     ready.path_m = way_of_wheels(ready, clock);
+    ready.knots_m = way_of_knots(ready, loaded.b_m);
     require_motion(ready);
     require_handedness(ready, clock, loaded);
     prepared.runs.push_back(std::move(ready));

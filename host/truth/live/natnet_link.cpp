@@ -123,7 +123,7 @@ void NatNetLink::ask(microseconds now) {
 std::string NatNetLink::why_silent() const {
   std::string why = answered_ ? stream_.why_silent() : "nothing answers there as a NatNet server";
   if (why.empty()) return why;
-  if (answered_ && !why_no_data_.empty()) why += " (" + why_no_data_ + ")";
+  if (answered_ && !stream_.has_frames() && !why_no_data_.empty()) why += " (" + why_no_data_ + ")";
   if (from_elsewhere_ > 0)
     why += fmt::format("; frames from {} ({} so far) are not read, because {} was asked", elsewhere_,
                        from_elsewhere_, server().address.host());

@@ -29,6 +29,8 @@ class NatNetStream {
   /// A frame has come whose bodies have no names yet: the models have to be asked for.
   bool needs_names() const { return needs_names_; }
 
+  bool has_frames() const { return frames_; }
+
   /// Why nothing has come of this body: a clause; "" if something has.
   std::string why_silent() const;
   /// The bodies that are in the frames.

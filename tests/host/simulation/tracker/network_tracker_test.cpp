@@ -5,11 +5,13 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "host/base/error.hpp"
 #include "host/truth/live/live_source.hpp"
 #include "host/truth/live/natnet_link.hpp"
 #include "host/truth/live/vrpn_link.hpp"
+#include "host/truth/natnet/packet.hpp"
 #include "host/truth/vrpn/tracker.hpp"
 
 namespace astro::simulation {
@@ -433,6 +435,22 @@ TEST(NetworkTracker, ANatNetBodyThatItDoesNotKnowIsNamedWithThoseThatItDoes) {
     EXPECT_THAT(error.what(), testing::EndsWith(": it knows no 'ROBOT'; it tracks 'ASTRO'"));
   }
   EXPECT_THAT(open(lab, natnet_url_of(lab, ""))->description(), HasSubstr("'ASTRO'")) << "the only one";
+}
+
+/// The frames of this server come to the client's other socket, so that the port is no reason for anything.
+TEST(NetworkTracker, ThePortForDataIsNotBlamedWhereFramesCome) {
+  std::optional<net::Socket> taken;
+  try {
+    taken = net::bind_udp(net::Address::loopback(truth::natnet::kDataPort));
+  } catch (const Error&) {  // by somebody else, which does as well
+  }
+  Lab lab(with_natnet());
+  truth::NatNetLink link(natnet_url_of(lab, "/ROBOT"));
+  for (microseconds now{0}; now < std::chrono::seconds(2); now += milliseconds(10)) {
+    lab.pass(milliseconds(10));
+    link.work(now);
+  }
+  EXPECT_EQ(link.why_silent(), "it knows no 'ROBOT'; it tracks 'ASTRO'");
 }
 
 TEST(NetworkTracker, ANatNetServerIgnoresWhoeverHasNotConnectedAndWhatIsNone) {
