@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
-
 #include "host/base/error.hpp"
 #include "host/base/text/columns.hpp"
 #include "host/base/text/numbers.hpp"
@@ -20,22 +18,9 @@ bool is_changed(const robot::ParameterRow& row) {
   return !is_text(row) && row.active.raw != row.default_value;
 }
 
-// The fewest digits that give the same raw value: a gain of 0.9 is stored as 0.899993896484375.
-std::string number(const robot::ParameterRow& row, std::int32_t raw) {
-  const double value = robot::to_real(row, raw);
-  for (int digits = 1; digits < 17; ++digits) {
-    const std::string text = fmt::format("{:.{}g}", value, digits);
-    const double rounded = std::strtod(text.c_str(), nullptr);
-    const bool allowed =
-        rounded >= robot::to_real(row, row.minimum) && rounded <= robot::to_real(row, row.maximum);
-    if (allowed && robot::to_raw(row, rounded).raw == raw) return fmt::format("{}", rounded);
-  }
-  return fmt::format("{}", value);
-}
-
 std::string limits(const robot::ParameterRow& row) {
   if (is_text(row)) return fmt::format("{} to {} characters", row.minimum, row.maximum);
-  return fmt::format("{} to {}", number(row, row.minimum), number(row, row.maximum));
+  return fmt::format("{} to {}", robot::shortest(row, row.minimum), robot::shortest(row, row.maximum));
 }
 
 std::string unit(const robot::ParameterRow& row) { return row.unit == "1" ? "" : row.unit; }
@@ -43,7 +28,7 @@ std::string unit(const robot::ParameterRow& row) { return row.unit == "1" ? "" :
 }  // namespace
 
 std::string plain(const robot::ParameterRow& row) {
-  return is_text(row) ? row.active.text : number(row, row.active.raw);
+  return is_text(row) ? row.active.text : robot::shortest(row, row.active.raw);
 }
 
 Json to_json(const robot::Value& value) {
@@ -70,7 +55,7 @@ Json to_json(const robot::ParameterRow& row) {
 }
 
 std::string explanation(const robot::ParameterRow& row) {
-  const std::string standard = is_text(row) ? "" : ", default " + number(row, row.default_value);
+  const std::string standard = is_text(row) ? "" : ", default " + robot::shortest(row, row.default_value);
   const std::string of = unit(row).empty() ? "" : unit(row) + ", ";
   return fmt::format("{}{}{}: {}", of, limits(row), standard, row.doc);
 }

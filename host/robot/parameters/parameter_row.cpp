@@ -1,6 +1,9 @@
 #include "host/robot/parameters/parameter_row.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <cstdlib>
 
 #include "host/base/error.hpp"
 #include "host/base/text/numbers.hpp"
@@ -27,6 +30,11 @@ double to_steps(const ParameterRow& row, double value) {
   }
 }
 
+std::string with_unit(const ParameterRow& row, const std::string& number) {
+  const bool plain = row.unit.empty() || row.unit == "1";
+  return number + (plain ? "" : " " + row.unit);
+}
+
 RawValue raw_number(const ParameterRow& row, double value) {
   const std::string what = row.name + " = " + describe(row, value);
   if (!std::isfinite(value)) throw Error(what + " is not a number");
@@ -34,8 +42,7 @@ RawValue raw_number(const ParameterRow& row, double value) {
   if (whole && value != std::nearbyint(value)) throw Error(what + " is not possible: it takes whole numbers");
   const double steps = std::round(to_steps(row, value));
   if (steps < row.minimum || steps > row.maximum) {
-    throw Error(what + " is out of range: " + describe(row, to_real(row, row.minimum)) + " to " +
-                describe(row, to_real(row, row.maximum)));
+    throw Error(what + " is out of range: " + range_of(row));
   }
   return {static_cast<std::int32_t>(steps), {}};
 }
@@ -82,8 +89,21 @@ RawValue to_raw(const ParameterRow& row, const Value& value) {
 
 std::string describe(const ParameterRow& row, const Value& value) {
   if (const auto* text = std::get_if<std::string>(&value)) return "'" + *text + "'";
-  const bool plain = row.unit.empty() || row.unit == "1";
-  return to_text(std::get<double>(value)) + (plain ? "" : " " + row.unit);
+  return with_unit(row, to_text(std::get<double>(value)));
+}
+
+std::string shortest(const ParameterRow& row, std::int32_t raw) {
+  const double value = to_real(row, raw);
+  for (int digits = 1; digits < 17; ++digits) {
+    const double rounded = std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr);
+    const bool allowed = rounded >= to_real(row, row.minimum) && rounded <= to_real(row, row.maximum);
+    if (allowed && to_raw(row, rounded).raw == raw) return fmt::format("{}", rounded);
+  }
+  return fmt::format("{}", value);
+}
+
+std::string range_of(const ParameterRow& row) {
+  return with_unit(row, shortest(row, row.minimum)) + " to " + with_unit(row, shortest(row, row.maximum));
 }
 
 }  // namespace astro::robot

@@ -40,6 +40,12 @@ Value to_value(const ParameterRow& row, const RawValue& raw);
 /// allow: not a number, out of range, a fraction for an integer or flag, a number for a text and the reverse.
 RawValue to_raw(const ParameterRow& row, const Value& value);
 
+/// The fewest digits that the robot stores as this raw number: 0.9 for a gain of 0.899993896484375. Not for texts.
+std::string shortest(const ParameterRow& row, std::int32_t raw);
+
+/// "0.05 m to 2 m". Not for texts.
+std::string range_of(const ParameterRow& row);
+
 /// "0.29 m", "'astro'": shortest digits that give the same double again.
 std::string describe(const ParameterRow& row, const Value& value);
 

@@ -72,7 +72,7 @@ std::string limits_rule(const ParameterRow& row) {
   const double staged = to_real(row, row.staged.raw), least = to_real(row, row.minimum),
                greatest = to_real(row, row.maximum);
   if (staged >= least && staged <= greatest) return "";
-  return "it has to be from " + describe(row, least) + " to " + describe(row, greatest);
+  return "it has to be from " + range_of(row);
 }
 
 }  // namespace

@@ -77,6 +77,13 @@ TEST(ParameterRow, OutOfRangeNamesParameterValueUnitAndLimits) {
   EXPECT_THAT(why_not(r, 1e300), HasSubstr("out of range"));
 }
 
+TEST(ParameterRow, LimitsHaveTheDigitsThatPeopleWrite) {
+  const auto r = row(ParameterKind::binary_scaled, -30, -214'748'365, 214'748'365);
+  EXPECT_EQ(range_of(r), "-0.2 m to 0.2 m");
+  EXPECT_EQ(why_not(r, 0.33), "p = 0.33 m is out of range: -0.2 m to 0.2 m");
+  EXPECT_EQ(why_not(r, -0.2), "taken");
+}
+
 TEST(ParameterRow, RefusesWhatIsNoValueOfItsKind) {
   EXPECT_THAT(why_not(row(ParameterKind::integer, 0, 0, 9), std::nan("")), HasSubstr("is not a number"));
   EXPECT_THAT(why_not(row(ParameterKind::integer, 0, 0, 9), HUGE_VAL), HasSubstr("is not a number"));
