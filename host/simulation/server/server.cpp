@@ -22,8 +22,9 @@ using namespace std::chrono_literals;
 
 constexpr std::uintmax_t kMostFlashBytes = std::uintmax_t{8} << 20;  // the largest of a Teensy's family
 constexpr std::uint64_t kRunAhead_us = 100'000;  // virtual time that may pass after bytes from the host
-constexpr auto kBusyTimeout = 200ms;  // real time that a host may take no bytes before it counts as hanging
-constexpr auto kSilenceTimeout = 1s;  // real time that a host may send nothing before time goes on without it
+// Real time that a host may take no bytes, or send none, before time goes on without it. On a busy machine a program
+// gets no turn for some hundred milliseconds, and a robot that stops by its own time-out then surprises its owner.
+constexpr auto kPatience = 1s;
 constexpr int kStepsPerPoll = 50;     // virtual ms between two checks of the host while running ahead
 
 sim::Config with_flash(sim::Config config, const fs::path& path) {
@@ -137,7 +138,7 @@ bool Server::runs_ahead(bool host_is_behind) {
   if (robot_->now_us() - last_heard_us_ >= kRunAhead_us) {
     // Virtual time waits for a host that is late because its machine is busy, but not for one that hangs or
     // has gone.
-    if (connected() && Clock::now() - heard_at_ < kSilenceTimeout) pace_.restart(Clock::now() + Pace::kStep);
+    if (connected() && Clock::now() - heard_at_ < kPatience) pace_.restart(Clock::now() + Pace::kStep);
     return false;
   }
   if (!host_is_behind) {
@@ -145,7 +146,7 @@ bool Server::runs_ahead(bool host_is_behind) {
     return true;
   }
   // Virtual time waits for a host that is busy, but not for one that hangs.
-  if (Clock::now() - behind_since_ < kBusyTimeout) pace_.restart(Clock::now() + Pace::kStep);
+  if (Clock::now() - behind_since_ < kPatience) pace_.restart(Clock::now() + Pace::kStep);
   return false;
 }
 

@@ -47,8 +47,10 @@ TEST_P(Killed, LeavesOldOrNewAndARobotAtRestAndCanBeRepeated) {
                                     << (harm == Harm::killed_amid ? "amid" : "before") << " call " << at
                                     << " of " << calls << ": " << outcome.calls.back()
                                     << "; ASTRO_SEED=" << seed);
-    // It may make fewer calls this time.
-    EXPECT_TRUE(outcome.was_hit || outcome.code == 0) << outcome.err;
+    // It may make fewer calls this time. And a traced program on a busy machine may keep the robot waiting for so long that
+    // it stops by itself, as it should.
+    const bool kept_waiting = outcome.err.find("command_timeout") != std::string::npos;
+    EXPECT_TRUE(outcome.was_hit || outcome.code == 0 || kept_waiting) << outcome.err;
     hits += outcome.was_hit ? 1 : 0;
     expect_old_or_new(disturbed, place, outcome.code == 0);
     expect_repeatable(disturbed, place);
