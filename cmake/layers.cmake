@@ -57,6 +57,7 @@ set(ASTRO_LAYERS
   "host/robot/port              : host/base"
   "host/robot/sharing           : common host/base host/robot/arbitration host/robot/port"
   "host/ros2                    : host/base host/recording/run"
+  "host/ros2/dds                : host/base"
   "host/simulation/robot        : firmware/app hal/sim host/recording/run host/robot/port host/truth/source"
   "host/simulation/server       : host/base host/recording/run host/simulation/robot host/simulation/tracker"
   "host/simulation/study        : host/base host/calibration host/experiment host/recording/run host/robot/motion host/robot/parameters host/simulation/robot"
@@ -87,6 +88,7 @@ set(ASTRO_OUTSIDE
   "CLI/                     : host/console"
   "Eigen/                   : host/calibration host/motor/model host/simulation/study host/truth/floor"
   "boost/                   : host/robot/port host/robot/sharing"
+  "fastdds/ fastrtps/       : host/ros2/dds"
   "fmt/                     : host"
   "lz4frame.h zstd.h        : host/recording/mcap"
   "nlohmann/                : host/commands host/experiment host/report host/simulation/study"
@@ -100,8 +102,8 @@ set(ASTRO_OUTSIDE
   "asm/ sys/ fcntl.h poll.h signal.h spawn.h termios.h time.h unistd.h : host/base host/commands host/console host/programs host/recording/files host/robot/port host/robot/sharing host/simulation/server host/truth/live"
   "arpa/ netinet/ netdb.h   : host/base/net"
   "csignal                  : host/console"
-  "chrono ctime             : host/base host/commands host/console host/emulator/robot host/experiment host/recording/files host/robot host/simulation host/truth"
-  "atomic condition_variable future mutex shared_mutex stop_token thread : host/commands host/console host/robot/client host/robot/port host/robot/sharing host/simulation/server host/simulation/study host/truth/live"
+  "chrono ctime             : host/base host/commands host/console host/emulator/robot host/experiment host/recording/files host/robot host/ros2 host/simulation host/truth"
+  "atomic condition_variable future mutex shared_mutex stop_token thread : host/commands host/console host/robot/client host/robot/port host/robot/sharing host/ros2/dds host/simulation/server host/simulation/study host/truth/live"
 
   # Files, and what is printed.
   "filesystem               : host/base host/commands host/console host/emulator host/experiment host/programs host/recording/bag host/recording/files host/recording/foreign host/report host/robot/port host/simulation/server host/truth/bags host/truth/files host/truth/live"

@@ -1,0 +1,157 @@
+#include "host/ros2/dds/fast_dds.hpp"
+
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <functional>
+
+#include "host/base/error.hpp"
+#include "tests/support/ros2/domain.hpp"
+
+namespace astro::ros2::dds {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+using testing::ElementsAre;
+
+constexpr auto kLong = std::chrono::seconds(10);  // only a failure waits so long
+
+std::unique_ptr<Participant> open(const std::string& name = "test", const std::string& user_data = "") {
+  return open_fast_dds({support::test_domain()}, name, user_data);
+}
+
+Topic topic_of(const std::string& type = "test_msgs::msg::dds_::A_") { return {"rt/a", type}; }
+
+/// Both DDS threads and the other participant's work on; here is nothing to do but wait.
+bool eventually(Participant& participant, const std::function<bool()>& done) {
+  const auto begin = steady_clock::now();
+  while (!done()) {
+    if (steady_clock::now() - begin > kLong) return false;
+    participant.wait(milliseconds(5));
+  }
+  return true;
+}
+
+Bytes payload(std::uint8_t what) { return {0, 1, 0, 0, what, 0, 0, 0}; }
+
+std::vector<Bytes> payloads(const std::vector<Sample>& samples) {
+  std::vector<Bytes> all;
+  for (const Sample& sample : samples) all.push_back(sample.payload);
+  return all;
+}
+
+TEST(FastDds, BytesComeToAnotherParticipantAsTheyWereWritten) {
+  const auto here = open(), there = open();
+  const auto writer = here->create_writer(topic_of());
+  const auto reader = there->create_reader(topic_of());
+  ASSERT_TRUE(eventually(*there, [&] { return !writer->readers().empty() && !reader->writers().empty(); }));
+  EXPECT_THAT(writer->readers(), ElementsAre(reader->guid()));
+  EXPECT_THAT(reader->writers(), ElementsAre(writer->guid()));
+  Bytes large = payload(1);
+  large.resize(200'000, 7);
+  writer->write(payload(1));
+  writer->write(large);
+  std::vector<Sample> samples;
+  ASSERT_TRUE(eventually(*there, [&] {
+    for (Sample& sample : reader->take()) samples.push_back(std::move(sample));
+    return samples.size() == 2;
+  }));
+  EXPECT_THAT(payloads(samples), ElementsAre(payload(1), large));
+  EXPECT_EQ(samples[0].id, (SampleId{writer->guid(), 1}));
+  EXPECT_EQ(samples[1].id, (SampleId{writer->guid(), 2}));
+  EXPECT_FALSE(samples[0].related);
+}
+
+TEST(FastDds, WhoComesLateGetsTheLastSampleOfALatchedTopicAndNothingOfAnother) {
+  const auto here = open();
+  Topic latched = topic_of();
+  latched.qos = {true, true, 1};
+  Topic passing = topic_of();
+  passing.name = "rt/b";
+  const auto first = here->create_writer(latched), second = here->create_writer(passing);
+  first->write(payload(1));
+  first->write(payload(2));
+  second->write(payload(3));
+  const auto there = open();
+  const auto reader = there->create_reader(latched), other = there->create_reader(passing);
+  std::vector<Sample> samples;
+  ASSERT_TRUE(eventually(*there, [&] {
+    for (Sample& sample : reader->take()) samples.push_back(std::move(sample));
+    return !samples.empty() && !other->writers().empty();
+  }));
+  EXPECT_THAT(payloads(samples), ElementsAre(payload(2)));
+  second->write(payload(4));
+  std::vector<Sample> passed;
+  ASSERT_TRUE(eventually(*there, [&] { return !(passed = other->take()).empty(); }));
+  EXPECT_THAT(payloads(passed), ElementsAre(payload(4)));
+}
+
+TEST(FastDds, AReplyCarriesWhatItAnswers) {
+  const auto here = open(), there = open();
+  const auto writer = here->create_writer(topic_of());
+  const auto reader = there->create_reader(topic_of());
+  ASSERT_TRUE(eventually(*there, [&] { return !writer->readers().empty() && !reader->writers().empty(); }));
+  const SampleId request{reader->guid(), (std::int64_t{3} << 32) + 5};
+  writer->write(payload(1), request);
+  std::vector<Sample> samples;
+  ASSERT_TRUE(eventually(*there, [&] { return !(samples = reader->take()).empty(); }));
+  EXPECT_EQ(samples[0].related, request);
+}
+
+TEST(FastDds, OneTopicUnderTwoTypesComesToTheReaderOfEach) {
+  const auto here = open(), there = open();
+  const Topic a = topic_of(), b = topic_of("test_msgs::msg::dds_::B_");
+  const auto reads_a = here->create_reader(a), reads_b = here->create_reader(b);
+  const auto writes_a = there->create_writer(a), writes_b = there->create_writer(b);
+  ASSERT_TRUE(eventually(*here, [&] {
+    return reads_a->writers().size() == 1 && reads_b->writers().size() == 1 &&
+           writes_a->readers().size() == 1 && writes_b->readers().size() == 1;
+  }));
+  writes_a->write(payload(1));
+  writes_b->write(payload(2));
+  std::vector<Sample> from_a, from_b;
+  ASSERT_TRUE(eventually(*here, [&] { return !(from_a = reads_a->take()).empty(); }));
+  ASSERT_TRUE(eventually(*here, [&] { return !(from_b = reads_b->take()).empty(); }));
+  EXPECT_THAT(payloads(from_a), ElementsAre(payload(1)));
+  EXPECT_THAT(payloads(from_b), ElementsAre(payload(2)));
+}
+
+TEST(FastDds, WhatEndpointsShowOfThemselvesIsSeenUntilTheyGo) {
+  const auto here = open();
+  auto there = open();
+  Topic shown = topic_of();
+  shown.user_data = "clientid=1.2;";
+  auto writer = there->create_writer(shown);
+  const auto reader = here->create_reader(topic_of());
+  ASSERT_TRUE(eventually(*here, [&] { return reader->writers().size() == 1; }));
+  EXPECT_EQ(here->user_data_of(writer->guid()), "clientid=1.2;");
+  const Guid gone = writer->guid();
+  writer.reset();
+  EXPECT_TRUE(
+      eventually(*here, [&] { return reader->writers().empty() && here->user_data_of(gone).empty(); }));
+}
+
+TEST(FastDds, ParticipantsOfAnotherDomainOrOfNoRangeAreNotMet) {
+  const auto here = open();
+  const auto elsewhere = open_fast_dds({support::test_domain() + 1}, "test", "");
+  const auto hidden = open_fast_dds({support::test_domain(), Range::off}, "test", "");
+  const auto there = open();
+  const auto writer = here->create_writer(topic_of());
+  const auto far = elsewhere->create_reader(topic_of()), unseen = hidden->create_reader(topic_of());
+  const auto reader = there->create_reader(topic_of());
+  ASSERT_TRUE(eventually(*there, [&] { return !writer->readers().empty(); }));
+  EXPECT_THAT(writer->readers(), ElementsAre(reader->guid())) << "the others were there before it";
+}
+
+TEST(FastDds, APeerWithoutAnAddressIsNamed) {
+  try {
+    open_fast_dds({support::test_domain(), Range::localhost, {"no such host"}}, "test", "");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "ROS_STATIC_PEERS names 'no such host', which has no IPv4 address");
+  }
+}
+
+}  // namespace
+}  // namespace astro::ros2::dds
