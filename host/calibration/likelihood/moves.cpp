@@ -128,6 +128,15 @@ Move joined(const Move& first, const Move& second) {
   return both;
 }
 
+Move move_of(double nominal_right_m, double nominal_left_m, const WheelFactors& factors) {
+  Unknowns unknowns = Unknowns::Zero();
+  unknowns.head<kFactors>() << factors.c_r, factors.c_l, factors.b_m, factors.e;
+  WheelState end;
+  end.right_m = nominal_right_m;
+  end.left_m = nominal_left_m;
+  return move_between({}, {}, {}, end, unknowns, factors.kappa0);
+}
+
 Moves::Moves(const PreparedRun& run, const Unknowns& unknowns, double kappa0,
              std::vector<SampleSelection> selections)
     : run_(&run), kappa0_(kappa0), selections_(std::move(selections)) {

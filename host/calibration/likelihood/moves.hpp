@@ -30,6 +30,10 @@ struct Move {
 /// What a robot does that moves by `first` and then by `second`.
 Move joined(const Move& first, const Move& second);
 
+/// The arc of a robot with these factors, of which the wheels' nominal travels are given. Its derivatives by skew and offset of
+/// the clocks are zero.
+Move move_of(double nominal_right_m, double nominal_left_m, const WheelFactors& factors);
+
 /// The way from the truth sample of the leg before to another one.
 struct Leg {
   std::size_t sample = 0;  // of truth, at its end
