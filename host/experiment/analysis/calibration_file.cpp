@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <sstream>
 
 #include "host/base/error.hpp"
@@ -47,6 +48,12 @@ std::string covariance_lines(const calibration::FactorCovariance& covariance) {
     text += fmt::format("  [{}, {}, {}, {}],\n", real_text(covariance(i, 0)), real_text(covariance(i, 1)),
                         real_text(covariance(i, 2)), real_text(covariance(i, 3)));
   return text + "]\n\n";
+}
+
+std::string slip_lines(double K_m) {
+  return fmt::format(
+      "# Variance of a wheel's slip for each metre that it turns, in m^2/m.\n[slip]\nK = {}\n\n",
+      real_text(K_m));
 }
 
 std::string nominal_lines(const NominalWheel& wheel) {
@@ -141,6 +148,13 @@ calibration::FactorCovariance covariance_of(const toml::table& file, const fs::p
   return covariance;
 }
 
+double slip_of(const toml::table& file, const fs::path& path) {
+  const double K_m = file["slip"]["K"].value_or(-1.0);
+  if (!(K_m >= 0) || !std::isfinite(K_m))
+    throw Error("'" + path.string() + "': [slip] needs a K of 0 or more, in metres");
+  return K_m;
+}
+
 }  // namespace
 
 void write_calibration(const fs::path& path, const Calibration& calibration) {
@@ -149,7 +163,8 @@ void write_calibration(const fs::path& path, const Calibration& calibration) {
   text += "# Spins turn about b, gentle arcs about b (1 + e).\n[parameters]\n" + factor_lines(factors);
   const FactorErrors& se = calibration.se;
   text += "[standard_errors]\n" + factor_lines(se.c_r, se.c_l, se.b_m, se.e) + '\n';
-  if (const MlResult* ml = calibration.ml()) text += covariance_lines(ml->estimate.covariance);
+  if (const MlResult* ml = calibration.ml())
+    text += covariance_lines(ml->estimate.covariance) + slip_lines(ml->estimate.noise.K_m);
   if (calibration.wheel) text += nominal_lines(*calibration.wheel);
   if (!calibration.robot.id.empty()) text += robot_lines(calibration.robot);
   text += "# The factors that were loaded in the robot while it drove.\n[carried]\n" + factor_lines(loaded);
@@ -192,6 +207,7 @@ ParameterFile read_parameter_file(const fs::path& path) {
   result.verdict = verdict_named(file["verdict"]["verdict"].value_or(std::string()));
   result.verdict_sentence = file["verdict"]["sentence"].value_or(std::string());
   if (file.contains("nominal")) result.wheel = wheel_of(file, path);
+  if (file.contains("slip")) result.slip_K_m = slip_of(file, path);
   if (file.contains("covariance")) result.covariance = covariance_of(file, path);
   return result;
 }

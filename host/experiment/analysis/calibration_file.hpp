@@ -14,9 +14,9 @@ namespace astro::experiment {
 
 using ParameterValues = std::map<std::string, robot::Value>;
 
-/// Writes [parameters] c_R, c_L, b, e, kappa0; [standard_errors] and, from maximum likelihood, [covariance]; [nominal],
-/// the wheel that c_R and c_L refer to (without counts if the recordings had none), and [robot], where they are known;
-/// [loaded]; [calibration] with how it was found; [verdict] whether it is better.
+/// Writes [parameters] c_R, c_L, b, e, kappa0; [standard_errors] and, from maximum likelihood, [covariance] and [slip];
+/// [nominal], the wheel that c_R and c_L refer to (without counts if the recordings had none), and [robot], where they are known;
+/// [carried]; [calibration] with how it was found; [verdict] whether it is better.
 void write_calibration(const std::filesystem::path& path, const Calibration& calibration);
 
 /// Writes parameters alone.
@@ -24,7 +24,7 @@ void write_parameters(const std::filesystem::path& path, const ParameterValues& 
 
 struct ParameterFile {
   ParameterValues parameters;
-  /// The factors loaded in the robot when the calibration was driven; empty in a file without [loaded].
+  /// The factors loaded in the robot when the calibration was driven; empty in a file without [carried].
   std::map<std::string, double> loaded;
   /// Of c_R, c_L, b and e; NaN where the method or the data could not tell, empty in a file that no calibration
   /// wrote.
@@ -34,6 +34,8 @@ struct ParameterFile {
   std::optional<NominalWheel> wheel;  // [nominal]
   /// Of c_R, c_L, b and e; that of e is zero in a file of a version that did not know it; none in a file without [covariance].
   std::optional<calibration::FactorCovariance> covariance;
+  /// Variance of a wheel's slip for each metre that it turns, m^2/m; none in a file without [slip].
+  std::optional<double> slip_K_m;
   RobotIdentity robot;                                           // [robot]
   std::string method;                                            // "" in a file that no calibration wrote
   calibration::Verdict verdict = calibration::Verdict::unknown;  // [verdict]

@@ -49,6 +49,7 @@ TEST_F(CalibrationFile, KeepsAnEstimateFromEndPosesToTheLastBit) {
   EXPECT_FALSE(read.absolute);
   EXPECT_FALSE(read.wheel.has_value());
   EXPECT_FALSE(read.covariance.has_value());
+  EXPECT_FALSE(read.slip_K_m.has_value());
 }
 
 TEST_F(CalibrationFile, KeepsCovarianceAndNominalWheelOfMaximumLikelihood) {
@@ -62,6 +63,7 @@ TEST_F(CalibrationFile, KeepsCovarianceAndNominalWheelOfMaximumLikelihood) {
   write_calibration(path, found);
   const ParameterFile read = read_parameter_file(path);
   EXPECT_EQ(read.covariance, ml.estimate.covariance);
+  EXPECT_EQ(read.slip_K_m, ml.estimate.noise.K_m);
   EXPECT_EQ(read.wheel, found.wheel);
   EXPECT_TRUE(read.absolute);
   EXPECT_EQ(read.method, "ml");
@@ -102,6 +104,9 @@ TEST_F(CalibrationFile, SaysWhatIsDamaged) {
     const auto path = file("[parameters]\nc_R = 1.0\n" + more);
     EXPECT_THAT([&] { read_parameter_file(path); }, ThrowsMessage<Error>(HasSubstr(what)));
   };
+  refuses("[slip]\nK = -1e-6\n", "[slip] needs a K of 0 or more");
+  refuses("[slip]\n", "[slip] needs a K");
+  refuses("[slip]\nK = nan\n", "[slip] needs a K");
   refuses("[covariance]\nmatrix = [[1.0, 2.0], [3.0, 4.0]]\n", "[covariance] needs a matrix");
   refuses("[nominal]\nwheel_diameter = 0.0\ncounts_per_wheel_turn = 1.0\n", "[nominal] needs");
 }
