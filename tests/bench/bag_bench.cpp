@@ -16,7 +16,7 @@
 #include "host/experiment/import/wheel_file.hpp"
 #include "host/recording/bag/bag.hpp"
 #include "host/recording/bag/sqlite.hpp"
-#include "host/ros2/stamped_pose.hpp"
+#include "host/ros2/recorded/stamped_pose.hpp"
 #include "tests/host/experiment/import/file_samples.hpp"
 
 namespace {

@@ -18,7 +18,7 @@
 #include "host/recording/bag/db3_writer.hpp"
 #include "host/recording/files/run_writer.hpp"
 #include "host/recording/mcap/writer.hpp"
-#include "host/ros2/stamped_pose.hpp"
+#include "host/ros2/recorded/stamped_pose.hpp"
 
 namespace {
 

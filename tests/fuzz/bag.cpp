@@ -6,8 +6,8 @@
 #include "host/recording/foreign/pose_topics.hpp"
 #include "host/recording/mcap/compression.hpp"
 #include "host/recording/mcap/writer.hpp"
-#include "host/ros2/joint_state.hpp"
-#include "host/ros2/stamped_pose.hpp"
+#include "host/ros2/recorded/joint_state.hpp"
+#include "host/ros2/recorded/stamped_pose.hpp"
 #include "tests/fuzz/input_file.hpp"
 #include "tests/fuzz/target.hpp"
 

@@ -1,9 +1,9 @@
 // ROS 2 messages.
-#include "host/ros2/cdr.hpp"
-#include "host/ros2/joint_state.hpp"
-#include "host/ros2/ros_messages.hpp"
-#include "host/ros2/stamped_pose.hpp"
-#include "host/ros2/text_message.hpp"
+#include "host/ros2/cdr/cdr.hpp"
+#include "host/ros2/recorded/joint_state.hpp"
+#include "host/ros2/recorded/ros_messages.hpp"
+#include "host/ros2/recorded/stamped_pose.hpp"
+#include "host/ros2/recorded/text_message.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace astro::fuzz {

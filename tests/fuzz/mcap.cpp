@@ -5,7 +5,7 @@
 #include "host/recording/mcap/reader.hpp"
 #include "host/recording/mcap/writer.hpp"
 #include "host/recording/run/run_metadata.hpp"
-#include "host/ros2/ros_messages.hpp"
+#include "host/ros2/recorded/ros_messages.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace astro::fuzz {

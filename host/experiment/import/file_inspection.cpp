@@ -11,8 +11,8 @@
 #include "host/experiment/import/wheel_file.hpp"
 #include "host/recording/bag/bag_files.hpp"
 #include "host/recording/files/run_file.hpp"
-#include "host/ros2/joint_state.hpp"
-#include "host/ros2/ros_messages.hpp"
+#include "host/ros2/recorded/joint_state.hpp"
+#include "host/ros2/recorded/ros_messages.hpp"
 #include "host/truth/bags/bag_truth.hpp"
 #include "host/truth/files/tracker_file.hpp"
 

@@ -9,7 +9,7 @@
 #include "host/recording/bag/bag.hpp"
 #include "host/recording/bag/bag_files.hpp"
 #include "host/recording/files/run_file.hpp"
-#include "host/ros2/ros_messages.hpp"
+#include "host/ros2/recorded/ros_messages.hpp"
 
 namespace astro::experiment {
 namespace {

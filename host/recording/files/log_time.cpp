@@ -5,7 +5,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/utc.hpp"
-#include "host/ros2/ros_messages.hpp"
+#include "host/ros2/recorded/ros_messages.hpp"
 
 namespace astro::recording {
 

@@ -4,10 +4,10 @@
 #include "host/recording/bag/db3_writer.hpp"
 #include "host/recording/files/log_time.hpp"
 #include "host/recording/files/robot_messages.hpp"
-#include "host/ros2/joint_state.hpp"
-#include "host/ros2/ros_messages.hpp"
-#include "host/ros2/stamped_pose.hpp"
-#include "host/ros2/text_message.hpp"
+#include "host/ros2/recorded/joint_state.hpp"
+#include "host/ros2/recorded/ros_messages.hpp"
+#include "host/ros2/recorded/stamped_pose.hpp"
+#include "host/ros2/recorded/text_message.hpp"
 
 namespace astro::recording {
 namespace {

@@ -12,7 +12,7 @@
 #include "host/recording/mcap/reader.hpp"
 #include "host/recording/run/planar_pose.hpp"
 #include "host/recording/run/run_metadata.hpp"
-#include "host/ros2/ros_messages.hpp"
+#include "host/ros2/recorded/ros_messages.hpp"
 
 namespace astro::recording {
 namespace {

@@ -11,7 +11,7 @@
 #include "host/recording/foreign/stamp_count.hpp"
 #include "host/recording/foreign/time_order.hpp"
 #include "host/recording/foreign/unclear_choice.hpp"
-#include "host/ros2/joint_state.hpp"
+#include "host/ros2/recorded/joint_state.hpp"
 
 namespace astro::recording {
 namespace {

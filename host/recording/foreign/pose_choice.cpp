@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "host/recording/foreign/unclear_choice.hpp"
-#include "host/ros2/stamped_pose.hpp"
+#include "host/ros2/recorded/stamped_pose.hpp"
 
 namespace astro::recording {
 namespace {

@@ -10,7 +10,7 @@
 #include "host/recording/foreign/pose_choice.hpp"
 #include "host/recording/foreign/sample_limit.hpp"
 #include "host/recording/foreign/time_order.hpp"
-#include "host/ros2/stamped_pose.hpp"
+#include "host/ros2/recorded/stamped_pose.hpp"
 
 namespace astro::recording {
 namespace {

@@ -51,6 +51,8 @@ class CdrReader {
   }
 
   bool ok() const { return ok_ && cursor_.ok(); }
+  /// The caller has seen what no such message has.
+  void refuse() { ok_ = false; }
   std::size_t left() const { return cursor_.left(); }
 
   template <Number T>

@@ -1,21 +1,11 @@
-#include "host/ros2/joint_state.hpp"
+#include "host/ros2/recorded/joint_state.hpp"
 
-#include "host/ros2/cdr.hpp"
-#include "host/ros2/message_definitions.hpp"
-#include "host/ros2/ros_stamp.hpp"
+#include "host/ros2/cdr/codec.hpp"
+#include "host/ros2/cdr/ros_stamp.hpp"
+#include "host/ros2/messages/sensors.hpp"
 
 namespace astro::ros2 {
 namespace {
-
-constexpr RosType kJointStateType{
-    "sensor_msgs/msg/JointState",
-    "std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\n"
-    "float64[] effort\n" ASTRO_MSG_HEADER};
-
-void put_list(CdrWriter& out, const std::vector<double>& list) {
-  out.number(static_cast<std::uint32_t>(list.size()));
-  for (const double value : list) out.number(value);
-}
 
 /// Whether the list is empty or has one number for each joint.
 bool take_list(CdrReader& in, std::size_t joints, std::vector<double>& list) {
@@ -28,16 +18,14 @@ bool take_list(CdrReader& in, std::size_t joints, std::vector<double>& list) {
 
 }  // namespace
 
-const RosType& joint_state_type() { return kJointStateType; }
+const RosType& joint_state_type() {
+  static const RosType type = ros_type<msg::JointState>();
+  return type;
+}
 
 Bytes encode_joint_state(const JointState& state) {
-  CdrWriter out;
-  put_time_ns(out, state.time_ns);
-  out.string("");
-  out.number(static_cast<std::uint32_t>(state.names.size()));
-  for (const std::string& name : state.names) out.string(name);
-  for (const auto* list : {&state.positions, &state.velocities, &state.efforts}) put_list(out, *list);
-  return out.bytes();
+  return encode(msg::JointState{
+      {msg::to_time(state.time_ns), ""}, state.names, state.positions, state.velocities, state.efforts});
 }
 
 std::optional<JointState> decode_joint_state(ByteView message) {

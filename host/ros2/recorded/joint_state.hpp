@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "host/base/bytes.hpp"
-#include "host/ros2/ros_messages.hpp"
+#include "host/ros2/recorded/ros_messages.hpp"
 
 namespace astro::ros2 {
 

@@ -5,6 +5,8 @@
 
 #include "host/base/bytes.hpp"
 #include "host/recording/run/run.hpp"
+#include "host/ros2/messages/geometry.hpp"
+#include "host/ros2/types/type_description.hpp"
 
 /// The samples of a run as ROS 2 messages. Times are the robot's clock in `header.stamp`, which takes +-2^31
 /// s and whole nanoseconds. Poses are planar: z = 0, orientation (0, 0, sin(theta/2), cos(theta/2)).
@@ -15,6 +17,12 @@ struct RosType {
   std::string_view name;        // "nav_msgs/msg/Odometry"
   std::string_view definition;  // ros2msg: the .msg text, then those it refers to
 };
+
+/// Valid as long as the program.
+template <Message M>
+RosType ros_type() {
+  return {M::kType, definition_of<M>()};
+}
 
 const RosType& odometry_type();      // nav_msgs/msg/Odometry
 const RosType& pose_stamped_type();  // geometry_msgs/msg/PoseStamped
@@ -28,6 +36,11 @@ struct WheelCounts {
   std::int64_t time_us = 0;
   std::int32_t left = 0, right = 0;
 };
+
+/// On the floor, with this heading; NaN makes an orientation of NaNs.
+msg::Pose planar_pose(double x_m, double y_m, double theta_rad);
+/// The rotation about z, in (-pi, pi].
+double heading_of(const msg::Quaternion& orientation);
 
 /// Whether header.stamp can hold this time.
 bool fits_stamp(std::int64_t time_us);

@@ -1,21 +1,12 @@
-#include "host/ros2/stamped_pose.hpp"
+#include "host/ros2/recorded/stamped_pose.hpp"
 
 #include <algorithm>
 
-#include "host/ros2/cdr.hpp"
-#include "host/ros2/message_definitions.hpp"
-#include "host/ros2/ros_stamp.hpp"
+#include "host/ros2/cdr/codec.hpp"
+#include "host/ros2/cdr/ros_stamp.hpp"
 
 namespace astro::ros2 {
 namespace {
-
-constexpr RosType kTfMessageType{
-    "tf2_msgs/msg/TFMessage",
-    "geometry_msgs/TransformStamped[] transforms\n" ASTRO_MSG_RULE
-    "MSG: geometry_msgs/TransformStamped\nstd_msgs/Header header\nstring child_frame_id\n"
-    "geometry_msgs/Transform transform\n" ASTRO_MSG_HEADER ASTRO_MSG_RULE
-    "MSG: geometry_msgs/Transform\ngeometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion "
-    "rotation\n" ASTRO_MSG_VECTOR3 ASTRO_MSG_QUATERNION};
 
 constexpr std::size_t kCovarianceCells = 36, kTwistNumbers = 6, kPoseNumbers = 7;
 constexpr std::size_t kLeastTransformBytes = 2 * sizeof(std::uint32_t) + kPoseNumbers * sizeof(double);
@@ -63,14 +54,19 @@ const PoseType* pose_type(std::string_view name) {
 
 }  // namespace
 
-const RosType& tf_message_type() { return kTfMessageType; }
+const RosType& tf_message_type() {
+  static const RosType type = ros_type<msg::TFMessage>();
+  return type;
+}
 
-bool holds_poses(std::string_view type) { return type == kTfMessageType.name || pose_type(type) != nullptr; }
+bool holds_poses(std::string_view type) {
+  return type == msg::TFMessage::kType || pose_type(type) != nullptr;
+}
 
 std::optional<std::vector<StampedPose>> poses_in(std::string_view type, ByteView message) {
   CdrReader in(message);
   std::vector<StampedPose> poses;
-  if (type == kTfMessageType.name) {
+  if (type == msg::TFMessage::kType) {
     poses = take_transforms(in);
     if (poses.size() > kMostTransforms) return std::nullopt;
   } else if (const PoseType* single = pose_type(type)) {
@@ -84,16 +80,12 @@ std::optional<std::vector<StampedPose>> poses_in(std::string_view type, ByteView
 }
 
 Bytes encode_tf(const std::vector<StampedPose>& transforms) {
-  CdrWriter out;
-  out.number(static_cast<std::uint32_t>(transforms.size()));
-  for (const StampedPose& pose : transforms) {
-    put_time_ns(out, pose.time_ns);
-    out.string(pose.frame);
-    out.string(pose.child_frame);
-    for (const double number : {pose.x_m, pose.y_m, pose.z_m, pose.qx, pose.qy, pose.qz, pose.qw})
-      out.number(number);
-  }
-  return out.bytes();
+  msg::TFMessage message;
+  for (const StampedPose& pose : transforms)
+    message.transforms.push_back({{msg::to_time(pose.time_ns), pose.frame},
+                                  pose.child_frame,
+                                  {{pose.x_m, pose.y_m, pose.z_m}, {pose.qx, pose.qy, pose.qz, pose.qw}}});
+  return encode(message);
 }
 
 }  // namespace astro::ros2

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host/base/bytes.hpp"
-#include "host/ros2/ros_messages.hpp"
+#include "host/ros2/recorded/ros_messages.hpp"
 
 /// Poses in space in ROS 2 messages: of the five types in which trackers, filters and robots publish them, the time,
 /// the frames and the pose. Covariances and twists are checked for length and left out.

@@ -1,27 +1,20 @@
-#include "host/ros2/text_message.hpp"
+#include "host/ros2/recorded/text_message.hpp"
 
-#include "host/ros2/cdr.hpp"
+#include "host/ros2/cdr/codec.hpp"
+#include "host/ros2/messages/text.hpp"
 
 namespace astro::ros2 {
-namespace {
-
-constexpr RosType kStringType{"std_msgs/msg/String", "string data\n"};
-
-}  // namespace
-
-const RosType& string_type() { return kStringType; }
-
-Bytes encode_text(std::string_view text) {
-  CdrWriter out;
-  out.string(text);
-  return out.bytes();
+const RosType& string_type() {
+  static const RosType type = ros_type<msg::String>();
+  return type;
 }
 
-std::optional<std::string> decode_text(ByteView message) {
-  CdrReader in(message);
-  const std::string_view text = in.string();
-  if (!in.ok()) return std::nullopt;
-  return std::string(text);
+Bytes encode_text(std::string_view text) { return encode(msg::String{std::string(text)}); }
+
+std::optional<std::string> decode_text(ByteView bytes) {
+  auto message = decode<msg::String>(bytes);
+  if (!message) return std::nullopt;
+  return std::move(message->data);
 }
 
 }  // namespace astro::ros2

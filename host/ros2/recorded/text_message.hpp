@@ -4,7 +4,7 @@
 #include <string>
 
 #include "host/base/bytes.hpp"
-#include "host/ros2/ros_messages.hpp"
+#include "host/ros2/recorded/ros_messages.hpp"
 
 /// std_msgs/msg/String, the type in which a robot's description (URDF) is published.
 namespace astro::ros2 {

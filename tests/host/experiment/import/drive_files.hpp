@@ -11,9 +11,8 @@
 
 #include "host/calibration/motion/trajectory.hpp"
 #include "host/recording/bag/db3_writer.hpp"
-#include "host/ros2/cdr.hpp"
-#include "host/ros2/joint_state.hpp"
-#include "host/ros2/message_definitions.hpp"
+#include "host/ros2/cdr/cdr.hpp"
+#include "host/ros2/recorded/joint_state.hpp"
 
 /// Writes a drive as other programs do: wheels as counts, angles or metres, truth as the trackers' formats.
 namespace astro::test {

@@ -13,8 +13,8 @@
 #include "host/recording/files/run_file.hpp"
 #include "host/recording/mcap/compression.hpp"
 #include "host/recording/mcap/records.hpp"
-#include "host/ros2/joint_state.hpp"
-#include "host/ros2/stamped_pose.hpp"
+#include "host/ros2/recorded/joint_state.hpp"
+#include "host/ros2/recorded/stamped_pose.hpp"
 #include "tests/host/experiment/import/drive_files.hpp"
 #include "tests/support/base/gzip.hpp"
 

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "host/ros2/stamped_pose.hpp"
+#include "host/ros2/recorded/stamped_pose.hpp"
 #include "tests/host/recording/bag/made_bags.hpp"
 
 // Bags that other programs wrote, beside a developer's checkout. The figures come from the command sqlite3 and from the

@@ -8,7 +8,7 @@
 #include "host/recording/mcap/compression.hpp"
 #include "host/recording/mcap/reader.hpp"
 #include "host/recording/mcap/writer.hpp"
-#include "host/ros2/ros_messages.hpp"
+#include "host/ros2/recorded/ros_messages.hpp"
 #include "tests/host/recording/support.hpp"
 #include "tests/support/base/bounded.hpp"
 

@@ -8,7 +8,7 @@
 #include "host/recording/foreign/joint_wheels.hpp"
 #include "host/recording/foreign/pose_topics.hpp"
 #include "host/recording/yaml/yaml_scalars.hpp"
-#include "host/ros2/text_message.hpp"
+#include "host/ros2/recorded/text_message.hpp"
 #include "tests/host/recording/bag/made_bags.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 

@@ -4,7 +4,7 @@
 
 #include "host/recording/foreign/diff_drive_yaml.hpp"
 #include "host/recording/foreign/unclear_choice.hpp"
-#include "host/ros2/joint_state.hpp"
+#include "host/ros2/recorded/joint_state.hpp"
 #include "tests/host/recording/bag/made_bags.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "host/base/files.hpp"
 #include "host/recording/mcap/reader.hpp"
-#include "host/ros2/ros_messages.hpp"
+#include "host/ros2/recorded/ros_messages.hpp"
 
 namespace astro::recording {
 namespace {

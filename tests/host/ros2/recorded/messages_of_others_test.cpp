@@ -2,10 +2,10 @@
 
 #include <random>
 
-#include "host/ros2/cdr.hpp"
-#include "host/ros2/joint_state.hpp"
-#include "host/ros2/stamped_pose.hpp"
-#include "host/ros2/text_message.hpp"
+#include "host/ros2/cdr/cdr.hpp"
+#include "host/ros2/recorded/joint_state.hpp"
+#include "host/ros2/recorded/stamped_pose.hpp"
+#include "host/ros2/recorded/text_message.hpp"
 
 namespace astro::ros2 {
 namespace {

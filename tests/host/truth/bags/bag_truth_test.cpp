@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "host/ros2/stamped_pose.hpp"
+#include "host/ros2/recorded/stamped_pose.hpp"
 #include "tests/host/recording/bag/made_bags.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 
