@@ -1,7 +1,7 @@
 #pragma once
 
-#include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "host/calibration/likelihood/matrix3.hpp"
+#include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "host/calibration/likelihood/moves.hpp"
 
 namespace astro::calibration {

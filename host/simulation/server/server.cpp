@@ -25,7 +25,7 @@ constexpr std::uint64_t kRunAhead_us = 100'000;  // virtual time that may pass a
 // Real time that a host may take no bytes, or send none, before time goes on without it. On a busy machine a program
 // gets no turn for some hundred milliseconds, and a robot that stops by its own time-out then surprises its owner.
 constexpr auto kPatience = 1s;
-constexpr int kStepsPerPoll = 50;     // virtual ms between two checks of the host while running ahead
+constexpr int kStepsPerPoll = 50;  // virtual ms between two checks of the host while running ahead
 
 sim::Config with_flash(sim::Config config, const fs::path& path) {
   config.flash = load_flash(path);
