@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "host/ros2/messages/parameters.hpp"
+
+namespace astro::ros2 {
+
+/// As rcl_interfaces/msg/ParameterType numbers them.
+enum class ParameterType : std::uint8_t { not_set = 0, boolean = 1, integer = 2, real = 3, text = 4 };
+
+/// The parameters of a node, as ROS 2 shows them, whatever stands behind them.
+class ParameterTable {
+ public:
+  ParameterTable() = default;
+  ParameterTable(const ParameterTable&) = delete;
+  ParameterTable& operator=(const ParameterTable&) = delete;
+  virtual ~ParameterTable() = default;
+
+  /// Names, types, ranges and what they mean; empty while they are not known.
+  virtual std::vector<msg::ParameterDescriptor> descriptors() = 0;
+  /// Nothing if there is no such parameter.
+  virtual std::optional<msg::ParameterValue> value(std::string_view name) = 0;
+  /// All of them or none. The reason of a refusal names the parameter.
+  virtual msg::SetParametersResult set(std::span<const msg::Parameter> parameters) = 0;
+};
+
+}  // namespace astro::ros2
