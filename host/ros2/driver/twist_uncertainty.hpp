@@ -1,0 +1,31 @@
+#pragma once
+
+#include "host/ros2/driver/odometry_geometry.hpp"
+
+namespace astro::ros2 {
+
+/// Covariance of the speed v (m/s) and the yaw rate omega (rad/s) of the base.
+struct TwistCovariance {
+  double vv = 0, vw = 0, ww = 0;
+};
+
+/// Variance of a speed that the robot's observer (common/control/observer.hpp) makes of whole counts, in (m/s)^2.
+///
+///     var = 0.0158 (w q)^2
+///
+/// The observer turns the counted position into a speed by H(s) = s w^2 / (s + w)^2 with its bandwidth w. Rounding to counts of
+/// length q adds a sawtooth to the position, which at a constant speed has the frequency f = speed / q and the amplitudes
+/// q / (pi m) at m f. With x = 2 pi f / w the speed then ripples by
+///
+///     var = (w q)^2 / (2 pi^2)  sum over m of x^2 / (1 + m^2 x^2)^2
+///
+/// which is largest for x = 0.85. That largest value is stated at every speed, because speeds change.
+double count_ripple_variance(const OdometryGeometry& geometry);
+
+/// Of the robot's observed velocity as a measurement of the mean velocity over `period_s`, the time between two messages:
+/// the ripple of the counts, slip of variance K |speed| / period for each wheel, and the factors' covariance. The ripple of
+/// both wheels and their slip are independent.
+TwistCovariance twist_covariance(double v_mps, double omega_radps, double period_s,
+                                 const OdometryGeometry& geometry, const calibration::OdometryErrors& errors);
+
+}  // namespace astro::ros2
