@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "common/kinematics/geometry.hpp"
 #include "host/calibration/motion/arc.hpp"
 
 namespace astro::ros2 {
@@ -26,9 +27,9 @@ ByFactors by_factors(double right_mps, double left_mps, const calibration::Wheel
 }  // namespace
 
 double count_ripple_variance(const OdometryGeometry& geometry) {
-  constexpr double kLargest = 0.0158;
-  const double speed_mps = geometry.observer_bandwidth_radps * geometry.count_m;
-  return kLargest * speed_mps * speed_mps;
+  constexpr double kLargest = 0.0158;  // 0.312 / (2 pi^2)
+  const double w = geometry.observer_bandwidth_radps, speed_mps = w * geometry.count_m;
+  return kLargest * speed_mps * speed_mps / (1 - w / kTickHz);
 }
 
 TwistCovariance twist_covariance(double v_mps, double omega_radps, double period_s,

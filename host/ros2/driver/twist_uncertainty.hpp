@@ -11,15 +11,16 @@ struct TwistCovariance {
 
 /// Variance of a speed that the robot's observer (common/control/observer.hpp) makes of whole counts, in (m/s)^2.
 ///
-///     var = 0.0158 (w q)^2
+///     var = 0.0158 (w q)^2 / (1 - w T)
 ///
-/// The observer turns the counted position into a speed by H(s) = s w^2 / (s + w)^2 with its bandwidth w. Rounding to counts of
-/// length q adds a sawtooth to the position, which at a constant speed has the frequency f = speed / q and the amplitudes
-/// q / (pi m) at m f. With x = 2 pi f / w the speed then ripples by
+/// The observer has both poles at p = 1 - w T, for its bandwidth w and the tick T, and turns the counted position into a speed
+/// by H(z) = w^2 T (1 - 1/z) / (1 - p/z)^2. Rounding to counts of length q adds a sawtooth to the position, which at a constant
+/// speed has the frequency f = speed / q and at m f the amplitude q / (pi m). With X = p (2 sin(pi f T m) / (w T))^2, nearly
+/// p (2 pi f m / w)^2, the speed ripples by
 ///
-///     var = (w q)^2 / (2 pi^2)  sum over m of x^2 / (1 + m^2 x^2)^2
+///     var = (w q)^2 / (2 pi^2 p)  sum over m of X / (m (1 + X))^2
 ///
-/// which is largest for x = 0.85. That largest value is stated at every speed, because speeds change.
+/// whose sum is at most 0.312. That largest value is stated at every speed, because speeds change.
 double count_ripple_variance(const OdometryGeometry& geometry);
 
 /// Of the robot's observed velocity as a measurement of the mean velocity over `period_s`, the time between two messages:
