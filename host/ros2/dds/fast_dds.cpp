@@ -38,7 +38,8 @@ namespace rtps = eprosima::fastrtps::rtps;
 
 constexpr std::uint32_t kFirstAllocation = 1024;  // grows with larger samples
 constexpr std::uint32_t kLargestSample = 1 << 20;
-constexpr std::uint32_t kParticipants = 32;  // of one computer, that are looked for without multicast
+constexpr std::size_t kLongestUserData = 1024;  // of an endpoint; those of ROS 2 take some 200 bytes
+constexpr std::uint32_t kParticipants = 32;     // of one computer, that are looked for without multicast
 // With the default of 3 s every other start finds its peers only after 2 s.
 constexpr double kAnnouncementPeriod_s = 0.5;
 constexpr std::uint32_t kMulticastPort = 7400, kPortsPerDomain = 250;
@@ -211,7 +212,9 @@ class FastReader : public Reader, fast::DataReaderListener {
  public:
   FastReader(fast::Subscriber& subscriber, fast::Topic* topic, const Topic& wanted, Bell& bell)
       : subscriber_(subscriber), bell_(bell) {
-    const fast::DataReaderQos qos = with(fast::DATAREADER_QOS_DEFAULT, wanted);
+    fast::DataReaderQos qos = with(fast::DATAREADER_QOS_DEFAULT, wanted);
+    // What a stranger has blown up is given back when it has been taken.
+    qos.endpoint().history_memory_policy = rtps::DYNAMIC_RESERVE_MEMORY_MODE;
     const fast::StatusMask mask = fast::StatusMask::subscription_matched()
                                   << fast::StatusMask::data_available();
     reader_ = subscriber_.create_datareader(topic, qos, this, mask);
@@ -228,13 +231,15 @@ class FastReader : public Reader, fast::DataReaderListener {
     std::vector<Sample> samples;
     Payload payload;
     fast::SampleInfo info;
-    while (reader_->take_next_sample(&payload, &info) == ReturnCode_t::RETCODE_OK) {
+    while (samples.size() < kMostAtOnce) {
+      if (reader_->take_next_sample(&payload, &info) != ReturnCode_t::RETCODE_OK) return samples;
       if (!info.valid_data) continue;
       Sample sample{std::move(payload.in), to_sample_id(info.sample_identity), std::nullopt};
       if (info.related_sample_identity.writer_guid() != rtps::GUID_t::unknown())
         sample.related = to_sample_id(info.related_sample_identity);
       samples.push_back(std::move(sample));
     }
+    bell_.ring();  // for the rest
     return samples;
   }
   Guid guid() const override { return to_guid(reader_->guid()); }
@@ -272,7 +277,7 @@ class Others : public fast::DomainParticipantListener {
     const std::lock_guard lock(mutex_);
     if (removed)
       user_data_.erase(endpoint);
-    else if (!data.getValue().empty())
+    else if (!data.getValue().empty() && data.getValue().size() <= kLongestUserData)
       user_data_[endpoint] = std::string(data.getValue().begin(), data.getValue().end());
   }
 
