@@ -57,8 +57,13 @@ msg::DiagnosticStatus robot_status(const DriverState& state, const FaultHelp& he
   } else {
     const protocol::StateGroup& at = state.telemetry->state;
     const bool faulted = at.latched_faults != 0;
-    status.say(faulted ? kError : kOk, faulted ? "fault: " + robot::fault_names(at.latched_faults)
-                                               : std::string(protocol::name(at.mode)));
+    status.say(faulted               ? kError
+               : state.other_factors ? kWarn
+                                     : kOk,
+               faulted ? "fault: " + robot::fault_names(at.latched_faults)
+               : state.other_factors
+                   ? "the robot holds other factors than the calibration whose covariance is published"
+                   : std::string(protocol::name(at.mode)));
     status.add("mode", std::string(protocol::name(at.mode)));
     status.add("battery", fmt::format("{:.2f} V", 1e-3 * state.telemetry->battery.mv));
     add_faults(status, at.latched_faults, help);

@@ -33,6 +33,7 @@ struct DriverState {
   CommandCounts commands;
   bool armed_here = false;
   std::string odometry_event;
+  bool other_factors = false;  // the robot holds others than those whose covariance is published
 };
 
 /// Three statuses: the robot, its link, and the commands of others.

@@ -156,6 +156,8 @@ DriverState Driver::state() {
     state.why_no_robot = options_.words(link_.why());
     return state;
   }
+  state.other_factors =
+      options_.calibrated && !same(*options_.calibrated, odometry_.track().geometry().factors);
   const robot::Client& client = session->client();
   state.port = client.name();
   state.telemetry = newest_;
@@ -168,12 +170,18 @@ DriverState Driver::state() {
   return state;
 }
 
+void Driver::note_link(const std::string& sentence) {
+  if (std::exchange(noticed_, sentence) != sentence) options_.notice(sentence);
+}
+
 void Driver::report() {
   constexpr std::int64_t kBetweenLooks_ns = 20'000'000;  // a hundredth of the work, and nobody reads faster
   const std::int64_t look_ns = utc_.steady().count() * 1000;
   if (look_ns - looked_ns_ < kBetweenLooks_ns) return;
   looked_ns_ = look_ns;
-  msg::DiagnosticArray now = diagnostics(state(), options_.fault_help);
+  const DriverState state = this->state();
+  note_link(state.why_no_robot.empty() ? "connected to the robot at " + state.port : state.why_no_robot);
+  msg::DiagnosticArray now = diagnostics(state, options_.fault_help);
   if (look_ns - reported_ns_ < kSecond_ns && !says_more(now, reported_)) return;
   reported_ns_ = look_ns;
   publications_.diagnostics.publish(now, msg::nanoseconds(now.header.stamp));

@@ -23,10 +23,14 @@ struct DriverOptions {
   double rate_hz = 50;         // of telemetry; up to 1000. The period is rounded to whole milliseconds.
   microseconds cmd_vel_timeout = std::chrono::milliseconds(500);
   std::optional<calibration::OdometryErrors> errors;  // otherwise those of an uncalibrated robot
+  /// The factors that `errors` are those of: if the robot has others, /diagnostics say so.
+  std::optional<calibration::WheelFactors> calibrated;
   FaultHelp fault_help = [](Fault) { return std::string_view(); };
   std::function<std::string(const Error&)> words = [](const Error& error) {
     return std::string(error.what());
   };
+  /// Sentences about the link that are worth showing.
+  std::function<void(const std::string&)> notice = [](const std::string&) {};
   HostClock clock = HostClock::of_system();
 };
 
@@ -64,6 +68,7 @@ class Driver {
   void publish(const protocol::Telemetry& telemetry, std::int64_t time_ns);
   void describe_robot(RobotSession& session);
   void lose(const Error& why);
+  void note_link(const std::string& sentence);
   void report();
   DriverState state();
   Moment moment() const { return {utc_.steady(), utc_.now_ns()}; }
@@ -79,6 +84,7 @@ class Driver {
   Publications publications_;
   RobotModel model_;
   std::optional<protocol::Telemetry> newest_;                      // of this session
+  std::string noticed_;                                            // the last sentence
   bool restarted_ = false;                                         // the robot, in the session before
   std::int64_t published_ns_ = 0;                                  // since 1970
   std::int64_t battery_ns_ = 0, looked_ns_ = 0, reported_ns_ = 0;  // on the steady clock

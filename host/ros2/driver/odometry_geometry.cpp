@@ -1,5 +1,6 @@
 #include "host/ros2/driver/odometry_geometry.hpp"
 
+#include <cmath>
 #include <numbers>
 
 #include "host/base/error.hpp"
@@ -19,6 +20,12 @@ OdometryGeometry OdometryGeometry::of(const std::map<std::string, double>& param
   return {{number("c_R"), number("c_L"), number("b"), number("e"), number("kappa0")},
           std::numbers::pi * number("wheel_diameter") / counts_per_turn,
           number("observer_bandwidth")};
+}
+
+bool same(const calibration::WheelFactors& a, const calibration::WheelFactors& b) {
+  constexpr double kRounding = 1e-8;  // b is held in nanometres
+  return std::abs(a.c_r - b.c_r) < kRounding && std::abs(a.c_l - b.c_l) < kRounding &&
+         std::abs(a.b_m - b.b_m) < kRounding && std::abs(a.e - b.e) < kRounding;
 }
 
 calibration::OdometryErrors uncalibrated_errors(double wheelbase_m) {

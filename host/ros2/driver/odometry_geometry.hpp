@@ -18,6 +18,9 @@ struct OdometryGeometry {
   static OdometryGeometry of(const std::map<std::string, double>& parameters);
 };
 
+/// Whether both are the same but for what the robot rounds them to.
+bool same(const calibration::WheelFactors& a, const calibration::WheelFactors& b);
+
 /// The errors of a robot that nobody has calibrated: its wheels slip as those of the thesis's robot; c_R and c_L are each
 /// known to 0.5 %, b to 1 % and e to 0.02.
 ///
