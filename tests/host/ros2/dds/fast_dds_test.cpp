@@ -80,7 +80,7 @@ TEST(FastDds, WhoComesLateGetsTheLastSampleOfALatchedTopicAndNothingOfAnother) {
   std::vector<Sample> samples;
   ASSERT_TRUE(eventually(*there, [&] {
     for (Sample& sample : reader->take()) samples.push_back(std::move(sample));
-    return !samples.empty() && !other->writers().empty();
+    return !samples.empty() && !other->writers().empty() && !second->readers().empty();
   }));
   EXPECT_THAT(payloads(samples), ElementsAre(payload(2)));
   second->write(payload(4));
