@@ -6,10 +6,10 @@
 #include "host/recording/run/run.hpp"
 #include "host/robot/client/client.hpp"
 #include "host/ros2/driver/names.hpp"
-#include "host/ros2/driver/twist_uncertainty.hpp"
 #include "host/ros2/messages/odometry.hpp"
 #include "host/ros2/messages/sensors.hpp"
 #include "host/ros2/messages/telemetry.hpp"
+#include "host/ros2/odometry/twist_uncertainty.hpp"
 #include "host/ros2/recorded/robot_model.hpp"
 
 /// What the robot measured in one tick, as messages. Frames by REP 105: odom -> base_footprint -> base_link -> wheels.

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "host/ros2/driver/odometry_track.hpp"
 #include "host/ros2/driver/robot_session.hpp"
+#include "host/ros2/odometry/odometry_track.hpp"
 
 namespace astro::ros2 {
 

@@ -45,9 +45,10 @@ Driver::Driver(std::vector<Middleware*> middlewares, OpenPort open, DriverOption
                     describe_robot(session);
                   },
                   [this](const Error& why) { lose(why); }),
-      publications_(middlewares_, names_) {
-  subscribe();
-  serve_all();
+      publications_(middlewares_, names_),
+      requests_(middlewares_, names_,
+                {link_, driving_, odometry_, [this] { return moment(); },
+                 [this](const Error& why) { lose(why); }, options_.words}) {
   for (Middleware* each : middlewares_) each->serve_parameters(parameters_);
 }
 

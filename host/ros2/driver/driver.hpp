@@ -11,9 +11,9 @@
 #include "host/ros2/driver/diagnostics.hpp"
 #include "host/ros2/driver/driving.hpp"
 #include "host/ros2/driver/publications.hpp"
+#include "host/ros2/driver/requests.hpp"
 #include "host/ros2/driver/robot_link.hpp"
 #include "host/ros2/driver/robot_parameter_table.hpp"
-#include "host/ros2/messages/services.hpp"
 
 namespace astro::ros2 {
 
@@ -52,16 +52,6 @@ class Driver {
   void end();
 
  private:
-  using Work = std::function<std::string(RobotSession&)>;
-
-  void serve_all();
-  void serve(std::string_view name, Work work);
-  void subscribe();
-  template <Message M, class Take>
-  void subscribe_to(std::string_view name, int depth, bool reliable, Take take);
-  msg::Trigger::Response attempt(const Work& work);
-  void set_pose(const std::optional<msg::PoseWithCovarianceStamped>& message);
-
   void attend(RobotSession& session, microseconds most);
   void begin(RobotSession& session);
   void take(RobotSession& session, const protocol::Telemetry& telemetry);
@@ -82,6 +72,7 @@ class Driver {
   ContinuousOdometry odometry_;
   RobotParameterTable parameters_;
   Publications publications_;
+  Requests requests_;
   RobotModel model_;
   std::optional<protocol::Telemetry> newest_;                      // of this session
   std::string noticed_;                                            // the last sentence

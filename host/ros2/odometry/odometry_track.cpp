@@ -1,4 +1,4 @@
-#include "host/ros2/driver/odometry_track.hpp"
+#include "host/ros2/odometry/odometry_track.hpp"
 
 #include <cmath>
 #include <numbers>

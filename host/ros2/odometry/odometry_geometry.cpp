@@ -1,4 +1,4 @@
-#include "host/ros2/driver/odometry_geometry.hpp"
+#include "host/ros2/odometry/odometry_geometry.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/ros2/driver/odometry_geometry.hpp"
+#include "host/ros2/odometry/odometry_geometry.hpp"
 
 namespace astro::ros2 {
 

@@ -1,4 +1,4 @@
-#include "host/ros2/driver/twist_uncertainty.hpp"
+#include "host/ros2/odometry/twist_uncertainty.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "host/recording/run/run.hpp"
-#include "host/ros2/driver/odometry_geometry.hpp"
+#include "host/ros2/odometry/odometry_geometry.hpp"
 
 namespace astro::ros2 {
 
