@@ -9,6 +9,7 @@ set(count 0)
 set(format_constants
   "host/recording/files/run_writer.cpp:astrolabe"         # the writing library, in the header of an MCAP file
   "host/recording/run/run_metadata.hpp:astrolabe.run"     # the metadata record of a run
+  "host/ros2/messages/telemetry.hpp:astrolabe_msgs/msg/Telemetry"
   "host/ros2/recorded/ros_messages.cpp:astrolabe_msgs/msg/WheelCounts"
   "host/robot/port/ports.cpp:astrolabe-"                  # the folder of simulated ports
   "host/robot/sharing/port_socket.cpp:astrolabe-"         # the socket of a shared port

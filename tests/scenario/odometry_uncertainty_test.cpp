@@ -8,7 +8,7 @@
 #include <random>
 
 #include "host/calibration/likelihood/pose_uncertainty.hpp"
-#include "host/experiment/drive/record_run.hpp"
+#include "host/recording/run/telemetry_sample.hpp"
 #include "tests/support/robots/desk.hpp"
 
 /// The uncertainty that odometry states is that which it has: over many robots, each of which differs from its parameters as a
@@ -65,7 +65,7 @@ class Drive {
                  (config.counts_per_motor_rev * config.gear_ratio)),
         random_(seed),
         subscription_(desk_.client.on<protocol::Telemetry>(
-            [this](const protocol::Telemetry& telemetry) { take(experiment::to_sample(telemetry)); })) {
+            [this](const protocol::Telemetry& telemetry) { take(recording::to_sample(telemetry)); })) {
     const sim::Pose truth = desk_.robot->board().truth();
     desk_.client.request(protocol::SetPose{});
     start_ = truth;

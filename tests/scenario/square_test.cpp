@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "host/base/text/sense.hpp"
-#include "host/experiment/drive/record_run.hpp"
 #include "host/recording/run/planar_pose.hpp"
+#include "host/recording/run/telemetry_sample.hpp"
 #include "host/robot/motion/drive.hpp"
 #include "host/robot/motion/paths.hpp"
 #include "tests/support/robots/desk.hpp"
@@ -32,7 +32,7 @@ PlanarPose odometry(Desk& desk) {
       desk.client.on<protocol::Telemetry>([&](const protocol::Telemetry& telemetry) { newest = telemetry; });
   desk.client.request(protocol::SetTelemetry{10, protocol::Telemetry::kPose});
   desk.client.pump_until([&] { return newest.has_value(); }, std::chrono::seconds(1));
-  const recording::OdometrySample sample = experiment::to_sample(newest.value());
+  const recording::OdometrySample sample = recording::to_sample(newest.value());
   return {sample.x_m, sample.y_m, sample.theta_rad};
 }
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "host/experiment/drive/record_run.hpp"
+#include "host/recording/run/telemetry_sample.hpp"
 
 namespace astro::commands {
 
@@ -14,7 +14,7 @@ OdometryWatch::OdometryWatch(robot::Client& client, std::uint16_t period_ms, Lis
     : client_(client),
       subscription_(client.on<Telemetry>([this, hear = std::move(listener)](const Telemetry& telemetry) {
         if ((telemetry.fields & Telemetry::kPose) == 0) return;
-        newest_ = experiment::to_sample(telemetry);
+        newest_ = recording::to_sample(telemetry);
         hear(newest_);
       })) {
   client_.request(SetTelemetry{period_ms, fields});

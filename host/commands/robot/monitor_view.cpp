@@ -8,7 +8,7 @@
 #include "host/base/text/shown.hpp"
 #include "host/console/console.hpp"
 #include "host/console/terminal.hpp"
-#include "host/experiment/drive/record_run.hpp"
+#include "host/recording/run/telemetry_sample.hpp"
 
 namespace astro::commands {
 namespace {
@@ -57,7 +57,7 @@ Json wheel(std::int32_t set_umps, std::int32_t is_umps, std::int16_t drive, std:
 }  // namespace
 
 std::string monitor_picture(const std::string& robot, const Telemetry& telemetry, const LinkFigures& link) {
-  const recording::OdometrySample at = experiment::to_sample(telemetry);
+  const recording::OdometrySample at = recording::to_sample(telemetry);
   return fmt::format("\n  {}   running for {}\n\n", robot, duration_in_words(telemetry.device_time_us)) +
          fmt::format("  mode      {}\n", mode_in_words(telemetry.state)) +
          fmt::format("  faults    {}\n", faults_in_words(telemetry.state.latched_faults)) +
@@ -72,7 +72,7 @@ std::string monitor_picture(const std::string& robot, const Telemetry& telemetry
 
 std::string monitor_line(const Telemetry& telemetry, const LinkFigures& link) {
   if (!link.lost.empty()) return "link LOST: " + link.lost;
-  const recording::OdometrySample at = experiment::to_sample(telemetry);
+  const recording::OdometrySample at = recording::to_sample(telemetry);
   const std::uint32_t faults = telemetry.state.latched_faults;
   return fmt::format("{}{}  {:.2f} V  {}", mode_in_words(telemetry.state),
                      faults == 0 ? "" : ", " + faults_in_words(faults), telemetry.battery.mv / 1e3,
@@ -80,7 +80,7 @@ std::string monitor_line(const Telemetry& telemetry, const LinkFigures& link) {
 }
 
 Json to_json(const Telemetry& telemetry) {
-  const recording::OdometrySample at = experiment::to_sample(telemetry);
+  const recording::OdometrySample at = recording::to_sample(telemetry);
   return {{"time_s", static_cast<double>(telemetry.device_time_us) / 1e6},
           {"mode", std::string(protocol::name(telemetry.state.mode))},
           {"segment", telemetry.state.tag},

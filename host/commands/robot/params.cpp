@@ -17,6 +17,7 @@
 #include "host/console/terminal.hpp"
 #include "host/console/wrong_usage.hpp"
 #include "host/experiment/analysis/calibration_file.hpp"
+#include "host/experiment/import/robot_geometry.hpp"
 #include "host/robot/parameters/upload.hpp"
 
 namespace astro::commands {
@@ -30,6 +31,7 @@ struct ParamsOptions {
   ConnectionOptions connection;
   std::vector<std::string> words;
   std::filesystem::path file;
+  std::string controller;  // in a file of ROS 2 with several
   bool json = false, yes = false, force = false, try_out = false;
 };
 
@@ -141,9 +143,17 @@ void export_to_file(const ParamsOptions& options, RemoteParameters& robot) {
   console::say(fmt::format("{} parameters are in {}", values.size(), options.file.string()));
 }
 
+/// What a file says is to be loaded, of either kind.
+experiment::ParameterFile importable(const ParamsOptions& options) {
+  if (!experiment::is_controller_file(options.file)) return experiment::read_parameter_file(options.file);
+  experiment::ParameterFile file;
+  file.parameters =
+      experiment::parameters_of(experiment::read_robot_file(options.file, options.controller), options.file);
+  return file;
+}
+
 void import_from_file(robot::Client& client, const ParamsOptions& options, const RemoteParameters& robot) {
-  const LoadResult loaded = load_parameters(client, robot, experiment::read_parameter_file(options.file),
-                                            {options.yes, options.force});
+  const LoadResult loaded = load_parameters(client, robot, importable(options), {options.yes, options.force});
   if (loaded.report && loaded.report->active != robot::ActiveSet::new_set)
     throw Error(loaded.report->remark());
   if (loaded.report) console::say(in_words(loaded.report->remark()));
@@ -202,11 +212,16 @@ void add_writers(console::Command params, const std::shared_ptr<ParamsOptions>& 
                      "astrolabe params set kp=50 --try"});
 
   const console::Command file =
-      add(params, "import", "load values from a TOML file, all together or not at all", options,
-          import_from_file);
-  file.add_option("file", options->file, "of 'params export', or a calibration").required().type_name("");
-  console::examples(
-      file, {"astrolabe params import astro.toml", "astrolabe params import astro.toml --yes --json"});
+      add(params, "import", "load values from a file, all together or not at all", options, import_from_file);
+  file.add_option("file", options->file,
+                  "of 'params export', a calibration, or parameters of ROS 2's\ndiff_drive_controller (YAML)")
+      .required()
+      .type_name("");
+  file.add_option("--controller", options->controller, "the controller in a YAML file with several")
+      .type_name("NAME");
+  console::examples(file,
+                    {"astrolabe params import astro.toml", "astrolabe params import astro.toml --yes --json",
+                     "astrolabe params import diff_drive.yaml"});
   add_force(file, options->force);
   for (const console::Command command : {some, file}) {
     add_yes_flag(command, options);

@@ -47,10 +47,14 @@ void add_connection(console::Command command, ConnectionOptions& options) {
       .check(console::whole(1, 20'000'000));
 }
 
+std::unique_ptr<robot::Transport> open_port(const ConnectionOptions& options) {
+  return robot::open_shared_port(options.port.empty() ? only_robot(options.baud) : options.port, options.baud,
+                                 [](const Remark& remark) { console::say(in_words(remark)); });
+}
+
 std::unique_ptr<robot::Client> connect(ConnectionOptions& options) {
   if (options.port.empty()) options.port = only_robot(options.baud);
-  auto client = std::make_unique<robot::Client>(robot::open_shared_port(
-      options.port, options.baud, [](const Remark& remark) { console::say(in_words(remark)); }));
+  auto client = std::make_unique<robot::Client>(open_port(options));
   client->connect();
   return client;
 }

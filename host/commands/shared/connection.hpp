@@ -18,6 +18,10 @@ struct ConnectionOptions {
 
 void add_connection(console::Command command, ConnectionOptions& options);
 
+/// Opens the port, shared with other programs. Without --port that of the only robot found, which may be another one each
+/// time; throws astro::Error as connect() does.
+std::unique_ptr<robot::Transport> open_port(const ConnectionOptions& options);
+
 /// Connects to a robot and returns after its answer. Without --port it takes the only robot found; if there
 /// is none or several, it throws astro::Error with one sentence that lists them. Sets `options.port` to the
 /// port used.

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <deque>
 #include <exception>
-#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "host/base/error.hpp"
+#include "host/recording/run/telemetry_sample.hpp"
 
 namespace astro::experiment {
 namespace {
@@ -59,7 +59,7 @@ class Collector {
         sink_(sink),
         moved_(std::move(moved)),
         subscription_(client.on<Telemetry>([this](const Telemetry& telemetry) {
-          take(to_sample(telemetry));
+          take(recording::to_sample(telemetry));
           if (++count_.odometry % kSamplesPerLook == 0) look();
         })) {
     truth_.poll();  // discards samples from before this run
@@ -126,22 +126,6 @@ class Collector {
 };
 
 }  // namespace
-
-recording::OdometrySample to_sample(const Telemetry& telemetry) {
-  constexpr double kMetre = 0x1p-40;
-  constexpr double kTurn = 0x1p-64;
-  recording::OdometrySample sample;
-  sample.time_us = static_cast<std::int64_t>(telemetry.device_time_us);
-  sample.x_m = static_cast<double>(telemetry.pose.x) * kMetre;
-  sample.y_m = static_cast<double>(telemetry.pose.y) * kMetre;
-  sample.theta_rad =
-      2 * std::numbers::pi * (telemetry.pose.turns + static_cast<double>(telemetry.pose.theta) * kTurn);
-  sample.v_mps = telemetry.twist.v_umps * 1e-6;
-  sample.omega_radps = telemetry.twist.omega_uradps * 1e-6;
-  sample.left_counts = telemetry.counts.left;
-  sample.right_counts = telemetry.counts.right;
-  return sample;
-}
 
 robot::Path path_of(const Plan& plan, const RunSpec& spec) {
   const robot::PathLimits limits{plan.speed_mps, plan.yaw_rate_radps};

@@ -61,7 +61,4 @@ struct Recorded {
 Recorded record_until(robot::Client& client, truth::Source& truth, const SampleSink& sink,
                       const std::function<bool()>& done);
 
-/// From the robot's fixed point to metres and radians.
-recording::OdometrySample to_sample(const protocol::Telemetry& telemetry);
-
 }  // namespace astro::experiment

@@ -9,7 +9,6 @@
 #include "host/base/bytes.hpp"
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
-#include "host/experiment/analysis/calibration_file.hpp"
 #include "host/experiment/files/curvature_named.hpp"
 #include "host/recording/foreign/diff_drive_yaml.hpp"
 
@@ -99,6 +98,15 @@ RobotGeometry read_robot_file(const fs::path& path, const std::string& node) {
   const Bytes bytes = load_file(path, kMaxSettingsBytes);
   const std::string_view text = as_text(bytes);
   return looks_like_yaml(text) ? of_controller(text, path, node) : of_parameters(path);
+}
+
+ParameterValues parameters_of(const RobotGeometry& geometry, const fs::path& path) {
+  if (!geometry.wheelbase_m)
+    throw Error("'" + path.string() + "' has no wheel_separation", {Help::name_other_file});
+  ParameterValues values{
+      {"c_R", geometry.c_r}, {"c_L", geometry.c_l}, {"b", *geometry.wheelbase_m}, {"e", geometry.e}};
+  if (geometry.wheel_diameter_m) values["wheel_diameter"] = *geometry.wheel_diameter_m;
+  return values;
 }
 
 RobotGeometry complete_geometry(RobotGeometry geometry, recording::WheelUnit unit) {

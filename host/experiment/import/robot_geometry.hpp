@@ -5,6 +5,7 @@
 #include <string>
 
 #include "host/calibration/motion/wheel_factors.hpp"
+#include "host/experiment/analysis/calibration_file.hpp"
 #include "host/recording/foreign/joint_names.hpp"
 #include "host/recording/foreign/wheel_track.hpp"
 
@@ -37,6 +38,10 @@ bool is_controller_file(const std::filesystem::path& path);
 ///
 /// Throws astro::Error naming the file if it cannot be read, and recording::UnclearChoice for the node.
 RobotGeometry read_robot_file(const std::filesystem::path& path, const std::string& node = {});
+
+/// The parameters with which a robot makes the same of its counts as the program whose geometry this is: c_R, c_L, b, e, and
+/// wheel_diameter if it is known. Throws astro::Error naming the file if the wheelbase is not known.
+ParameterValues parameters_of(const RobotGeometry& geometry, const std::filesystem::path& path);
 
 /// The same if it has what travel in this unit needs: a wheelbase, the diameter (also that which metres assume, because c_R
 /// and c_L refer to it), and for counts how many make a turn. Throws astro::Error that names what is missing.

@@ -15,6 +15,7 @@
 #include "host/commands/drive/commands.hpp"
 #include "host/commands/experiment/commands.hpp"
 #include "host/commands/robot/commands.hpp"
+#include "host/commands/ros2/commands.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/commands/simulate/commands.hpp"
 #include "host/commands/truth/commands.hpp"
@@ -36,7 +37,7 @@ void add_commands(Command app) {
        {add_umbmark, add_calibrate, add_upload,  add_record,  add_compare,      add_report, add_sim,
         add_ports,   add_info,      add_params,  add_drive,   add_stop,         add_pause,  add_resume,
         add_faults,  add_reboot,    add_flash,   add_monitor, add_check_wiring, add_tune,   add_plan,
-        add_study,   add_export,    add_inspect, add_truth})
+        add_study,   add_export,    add_inspect, add_truth,   add_ros2})
     add(app);
 }
 

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <string>
-
 #include "host/base/bytes.hpp"
 #include "host/recording/run/run.hpp"
+#include "host/ros2/recorded/robot_model.hpp"
 
 namespace astro::recording {
 
@@ -12,11 +11,11 @@ namespace astro::recording {
 /// them there is no description, and only the base moves.
 class RobotMessages {
  public:
-  explicit RobotMessages(const RunInfo& info);
+  explicit RobotMessages(const RunInfo& info) : model_(info.parameters) {}
 
-  bool knows_sizes() const { return radius_m_ > 0 && separation_m_ > 0 && radians_per_count_ > 0; }
+  bool knows_sizes() const { return model_.complete(); }
 
-  /// URDF as a std_msgs/msg/String: a base between two wheels. Precondition: knows_sizes().
+  /// URDF as a std_msgs/msg/String. Precondition: knows_sizes().
   Bytes description() const;
 
   /// Takes the next sample. Counts may wrap at 2^32.
@@ -27,7 +26,7 @@ class RobotMessages {
   Bytes joints() const;
 
  private:
-  double radius_m_ = 0, separation_m_ = 0, radians_per_count_ = 0;
+  ros2::RobotModel model_;
   OdometrySample sample_;
   bool any_ = false;
   std::int64_t left_counts_ = 0, right_counts_ = 0;  // since the first sample

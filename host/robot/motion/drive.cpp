@@ -30,14 +30,14 @@ std::int32_t micro(double value, const char* what) {
   return static_cast<std::int32_t>(steps);
 }
 
+}  // namespace
+
 Fault first_fault(std::uint32_t mask) {
   for (unsigned i = 1; i < 32; ++i) {
     if (((mask >> i) & 1U) != 0) return static_cast<Fault>(i);
   }
   return Fault::none;
 }
-
-}  // namespace
 
 DriveSession::DriveSession(Client& client, DriveHooks hooks) : client_(client), hooks_(std::move(hooks)) {
   on_done_ = client_.on<SegmentDone>([this](const SegmentDone& done) {
@@ -104,11 +104,10 @@ void DriveSession::wait_until_free() {
 }
 
 void DriveSession::arm() {
-  constexpr std::uint32_t kLeftBehind = bit(Fault::command_timeout) | bit(Fault::link_lost);
   const FaultReport report = client_.request(GetFaults{});
-  if ((report.latched & ~kLeftBehind) != 0) {
+  if ((report.latched & ~kFaultsLeftBehind) != 0) {
     throw DriveFault("the robot is not armed because of a latched fault: " + fault_names(report.latched),
-                     first_fault(report.latched & ~kLeftBehind));
+                     first_fault(report.latched & ~kFaultsLeftBehind));
   }
   if (report.latched != 0) {
     wait_until_power_off();  // if its host died a moment ago, it is still ramping down

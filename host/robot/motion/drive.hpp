@@ -13,6 +13,13 @@
 
 namespace astro::robot {
 
+/// Faults that a program leaves behind that ended or lost its link while the robot drove. Whoever arms the robot next may clear
+/// them; any other fault is for people.
+inline constexpr std::uint32_t kFaultsLeftBehind = bit(Fault::command_timeout) | bit(Fault::link_lost);
+
+/// The first fault of a mask of latched ones; none if it is 0.
+Fault first_fault(std::uint32_t mask);
+
 /// The robot stopped because of a fault, or cannot be armed because of a latched one.
 class DriveFault : public Error {
  public:

@@ -61,10 +61,12 @@ Discovery discovery_from(const DiscoveryWishes& wishes,
     discovery.range = range_named(text);
   else if (variable("ROS_LOCALHOST_ONLY") == "0")
     discovery.range = Range::subnet;  // somebody asked for it, in the words of ROS 2 Humble
-  if (only_localhost(variable("ROS_LOCALHOST_ONLY"))) discovery.range = Range::localhost;
+  const bool only_here = only_localhost(variable("ROS_LOCALHOST_ONLY"));
+  if (only_here) discovery.range = Range::localhost;
   discovery.domain = wishes.domain.value_or(discovery.domain);
   discovery.range = wishes.range.value_or(discovery.range);
-  if (discovery.range != Range::off) discovery.peers = peers_in(variable("ROS_STATIC_PEERS"));
+  const bool peers_count = discovery.range != Range::off && (!only_here || wishes.range);
+  if (peers_count) discovery.peers = peers_in(variable("ROS_STATIC_PEERS"));
   return discovery;
 }
 

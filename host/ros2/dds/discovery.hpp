@@ -31,10 +31,11 @@ struct DiscoveryWishes {
 };
 
 /// As ROS 2 reads ROS_DOMAIN_ID, ROS_AUTOMATIC_DISCOVERY_RANGE, ROS_STATIC_PEERS and ROS_LOCALHOST_ONLY, of which the last one
-/// wins; but where nothing is said, the range is this computer. A wish wins over all of them. `variable` returns "" for one
-/// that is not set.
+/// wins: with it there are no peers either. But where nothing is said, the range is this computer. A wish wins over all of
+/// them. `variable` returns "" for one that is not set.
 ///
 /// Throws astro::Error naming the variable for a value that ROS 2 does not know.
+/// Source  rcl: init.c, discovery_options.c.
 Discovery discovery_from(const DiscoveryWishes& wishes,
                          const std::function<std::string(const char*)>& variable);
 

@@ -3,7 +3,6 @@
 #include <fastdds/rtps/common/WriteParams.h>
 #include <fastdds/rtps/participant/ParticipantDiscoveryInfo.h>
 #include <fastdds/rtps/reader/ReaderDiscoveryInfo.h>
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
 #include <fastrtps/utils/IPLocator.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
@@ -29,6 +28,7 @@
 #include <utility>
 
 #include "host/base/error.hpp"
+#include "host/ros2/dds/fast_transport.hpp"
 
 namespace astro::ros2::dds {
 namespace {
@@ -38,9 +38,15 @@ namespace rtps = eprosima::fastrtps::rtps;
 
 constexpr std::uint32_t kFirstAllocation = 1024;  // grows with larger samples
 constexpr std::uint32_t kLargestSample = 1 << 20;
-constexpr std::uint32_t kParticipants = 32;  // of one computer, that are looked for without multicast
+constexpr std::size_t kLongestUserData = 1024;  // of an endpoint; those of ROS 2 take some 200 bytes
+constexpr std::uint32_t kParticipants = 32;     // of one computer, that are looked for without multicast
 // With the default of 3 s every other start finds its peers only after 2 s.
 constexpr double kAnnouncementPeriod_s = 0.5;
+// At first more often: others answer the first one that they get.
+constexpr std::uint32_t kFirstAnnouncements = 10;
+constexpr double kFirstAnnouncementPeriod_s = 0.05;
+// A sample that a reader missed, because it had not yet found the writer, comes again after this time; the default is 3 s.
+constexpr double kHeartbeatPeriod_s = 0.1;
 constexpr std::uint32_t kMulticastPort = 7400, kPortsPerDomain = 250;
 constexpr const char* kMulticastAddress = "239.255.0.1";  // these three are DDSI-RTPS's defaults
 constexpr const char* kLoopback = "127.0.0.1";
@@ -177,6 +183,7 @@ class FastWriter : public Writer, fast::DataWriterListener {
   FastWriter(fast::Publisher& publisher, fast::Topic* topic, const Topic& wanted) : publisher_(publisher) {
     fast::DataWriterQos qos = with(fast::DATAWRITER_QOS_DEFAULT, wanted);
     qos.publish_mode().kind = fast::SYNCHRONOUS_PUBLISH_MODE;
+    qos.reliable_writer_qos().times.heartbeatPeriod = eprosima::fastrtps::Duration_t(kHeartbeatPeriod_s);
     qos.writer_data_lifecycle().autodispose_unregistered_instances = false;
     writer_ = publisher_.create_datawriter(topic, qos, this, fast::StatusMask::publication_matched());
     if (writer_ == nullptr) throw Error("DDS makes no writer of the topic " + wanted.name);
@@ -211,7 +218,9 @@ class FastReader : public Reader, fast::DataReaderListener {
  public:
   FastReader(fast::Subscriber& subscriber, fast::Topic* topic, const Topic& wanted, Bell& bell)
       : subscriber_(subscriber), bell_(bell) {
-    const fast::DataReaderQos qos = with(fast::DATAREADER_QOS_DEFAULT, wanted);
+    fast::DataReaderQos qos = with(fast::DATAREADER_QOS_DEFAULT, wanted);
+    // What a stranger has blown up is given back when it has been taken.
+    qos.endpoint().history_memory_policy = rtps::DYNAMIC_RESERVE_MEMORY_MODE;
     const fast::StatusMask mask = fast::StatusMask::subscription_matched()
                                   << fast::StatusMask::data_available();
     reader_ = subscriber_.create_datareader(topic, qos, this, mask);
@@ -228,13 +237,15 @@ class FastReader : public Reader, fast::DataReaderListener {
     std::vector<Sample> samples;
     Payload payload;
     fast::SampleInfo info;
-    while (reader_->take_next_sample(&payload, &info) == ReturnCode_t::RETCODE_OK) {
+    while (samples.size() < kMostAtOnce) {
+      if (reader_->take_next_sample(&payload, &info) != ReturnCode_t::RETCODE_OK) return samples;
       if (!info.valid_data) continue;
       Sample sample{std::move(payload.in), to_sample_id(info.sample_identity), std::nullopt};
       if (info.related_sample_identity.writer_guid() != rtps::GUID_t::unknown())
         sample.related = to_sample_id(info.related_sample_identity);
       samples.push_back(std::move(sample));
     }
+    bell_.ring();  // for the rest
     return samples;
   }
   Guid guid() const override { return to_guid(reader_->guid()); }
@@ -272,7 +283,7 @@ class Others : public fast::DomainParticipantListener {
     const std::lock_guard lock(mutex_);
     if (removed)
       user_data_.erase(endpoint);
-    else if (!data.getValue().empty())
+    else if (!data.getValue().empty() && data.getValue().size() <= kLongestUserData)
       user_data_[endpoint] = std::string(data.getValue().begin(), data.getValue().end());
   }
 
@@ -300,20 +311,19 @@ std::vector<rtps::Locator_t> locators_of_peers(const std::vector<std::string>& p
 }
 
 fast::DomainParticipantQos qos_of(const Discovery& discovery, const std::string& name,
-                                  const std::string& user_data) {
+                                  const std::string& user_data, std::shared_ptr<const Gate> gate) {
   fast::DomainParticipantQos qos;
   qos.name(name.c_str());
   qos.user_data().data_vec(octets(user_data));
-  auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
-  udp->maxInitialPeersRange = kParticipants;
   const bool here_alone = discovery.range != Range::subnet && discovery.peers.empty();
-  if (here_alone) udp->interfaceWhiteList.emplace_back(kLoopback);
   qos.transport().use_builtin_transports =
       false;  // shared memory would leave files behind when a program dies
-  qos.transport().user_transports.push_back(udp);
+  qos.transport().user_transports.push_back(gated_udp(here_alone, std::move(gate)));
   auto& builtin = qos.wire_protocol().builtin;
   builtin.discovery_config.leaseDuration_announcementperiod =
       eprosima::fastrtps::Duration_t(kAnnouncementPeriod_s);
+  builtin.discovery_config.initial_announcements = {
+      kFirstAnnouncements, eprosima::fastrtps::Duration_t(kFirstAnnouncementPeriod_s)};
   if (discovery.range == Range::off)
     builtin.discovery_config.discoveryProtocol = rtps::DiscoveryProtocol_t::NONE;
   // A list that is not empty replaces multicast.
@@ -334,9 +344,11 @@ class OneParticipant {
  public:
   OneParticipant(const Discovery& discovery, const std::string& name, const std::string& user_data,
                  Others& others) {
+    const auto gate = std::make_shared<Gate>();
     participant_ = fast::DomainParticipantFactory::get_instance()->create_participant(
-        static_cast<std::uint32_t>(discovery.domain), qos_of(discovery, name, user_data), &others,
+        static_cast<std::uint32_t>(discovery.domain), qos_of(discovery, name, user_data, gate), &others,
         fast::StatusMask::none());
+    gate->open();
     if (participant_ == nullptr)
       throw Error("DDS makes no participant in domain " + std::to_string(discovery.domain));
     publisher_ = participant_->create_publisher(fast::PUBLISHER_QOS_DEFAULT);

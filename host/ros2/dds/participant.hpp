@@ -70,7 +70,10 @@ class Reader {
  public:
   virtual ~Reader() = default;
 
-  /// What has come since the last call, oldest first.
+  /// So that a writer that never pauses does not keep its reader.
+  static constexpr std::size_t kMostAtOnce = 1000;
+
+  /// What has come since the last call, oldest first. If more than kMostAtOnce has come, wait() does not wait for the rest.
   virtual std::vector<Sample> take() = 0;
 
   virtual Guid guid() const = 0;
@@ -87,7 +90,7 @@ class Participant {
   virtual std::unique_ptr<Reader> create_reader(const Topic& topic) = 0;
 
   virtual Guid guid() const = 0;
-  /// Of an endpoint of somebody else; "" if it is not known or shows none.
+  /// Of an endpoint of somebody else; "" if it is not known, or shows none or more than anybody means to.
   virtual std::string user_data_of(const Guid& endpoint) const = 0;
   /// Waits until a sample has come to any reader, or until the time is over.
   virtual void wait(std::chrono::microseconds timeout) = 0;

@@ -28,7 +28,8 @@ const RosType& odometry_type();      // nav_msgs/msg/Odometry
 const RosType& pose_stamped_type();  // geometry_msgs/msg/PoseStamped
 const RosType& wheel_counts_type();  // astrolabe_msgs/msg/WheelCounts: stamp, left, right
 
-inline constexpr std::string_view kOdomFrame = "odom", kBaseFrame = "base_link", kTruthFrame = "truth";
+inline constexpr std::string_view kOdomFrame = "odom", kFootprintFrame = "base_footprint",
+                                  kBaseFrame = "base_link", kTruthFrame = "truth";
 
 /// Running encoder counts at one instant. No ROS type holds integer counts that wrap, so this type is our
 /// own.

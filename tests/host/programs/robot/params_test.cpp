@@ -264,5 +264,22 @@ TEST(Flash, KeepsParametersThroughAReboot) {
   EXPECT_EQ(support::astrolabe({"params", "get", "b", "--port", simulator.port()}).out, "0.2886\n");
 }
 
+TEST_F(Params, OfRos2sDiffDriveControllerComeBackAsTheyWereExported) {
+  const std::string calibration = file(), yaml = (simulator_.folder() / "wheels.yaml").string();
+  std::ofstream(calibration)
+      << "[parameters]\nc_R = 1.002\nc_L = 0.998\nb = 0.2886\n[nominal]\nwheel_diameter = 0.072\n"
+         "[carried]\nc_R = 1.0\nc_L = 1.0\nb = 0.29\n";
+  const Outcome exported = support::astrolabe({"calibrate", "export", calibration, "--to", yaml,
+                                               "--wheel-radius", "0.0361", "--wheel-separation", "0.3"});
+  ASSERT_EQ(exported.code, 0) << exported.err;
+  const Outcome imported = params({"import", yaml, "--yes"});
+  ASSERT_EQ(imported.code, 0) << imported.err;
+  // The same travel for each count: the factor times the diameter. Both are held in steps of 1e-9.
+  const double diameter = std::stod(get("wheel_diameter"));
+  EXPECT_NEAR(std::stod(get("c_R")) * diameter, 1.002 * 0.072, 2e-9);
+  EXPECT_NEAR(std::stod(get("c_L")) * diameter, 0.998 * 0.072, 2e-9);
+  EXPECT_NEAR(std::stod(get("b")), 0.2886, 2e-9);
+}
+
 }  // namespace
 }  // namespace astro

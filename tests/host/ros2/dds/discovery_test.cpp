@@ -46,6 +46,14 @@ TEST(Discovery, TheVariableOfHumbleWins) {
   EXPECT_EQ(from({{"ROS_LOCALHOST_ONLY", "0"}, {"ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF"}}).range, Range::off);
 }
 
+TEST(Discovery, WhoAsksForThisComputerAloneInTheWordsOfHumbleHasNoPeers) {
+  const Variables variables{{"ROS_LOCALHOST_ONLY", "1"}, {"ROS_STATIC_PEERS", "192.168.0.1"}};
+  EXPECT_THAT(from(variables).peers, IsEmpty()) << "with a peer, sockets would be open to the network";
+  EXPECT_THAT(from(variables, {.domain = {}, .range = Range::subnet}).peers, ElementsAre("192.168.0.1"))
+      << "the wish has taken the variable's place";
+  EXPECT_THAT(from({{"ROS_LOCALHOST_ONLY", "0"}, {"ROS_STATIC_PEERS", "a"}}).peers, ElementsAre("a"));
+}
+
 TEST(Discovery, AWishWinsOverAll) {
   const Discovery discovery =
       from({{"ROS_LOCALHOST_ONLY", "1"}, {"ROS_DOMAIN_ID", "7"}, {"ROS_STATIC_PEERS", "a"}}, {3, Range::off});

@@ -2,8 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <chrono>
 #include <functional>
+#include <thread>
 
 #include "host/base/error.hpp"
 #include "tests/support/ros2/domain.hpp"
@@ -78,7 +80,7 @@ TEST(FastDds, WhoComesLateGetsTheLastSampleOfALatchedTopicAndNothingOfAnother) {
   std::vector<Sample> samples;
   ASSERT_TRUE(eventually(*there, [&] {
     for (Sample& sample : reader->take()) samples.push_back(std::move(sample));
-    return !samples.empty() && !other->writers().empty();
+    return !samples.empty() && !other->writers().empty() && !second->readers().empty();
   }));
   EXPECT_THAT(payloads(samples), ElementsAre(payload(2)));
   second->write(payload(4));
@@ -142,6 +144,86 @@ TEST(FastDds, ParticipantsOfAnotherDomainOrOfNoRangeAreNotMet) {
   const auto reader = there->create_reader(topic_of());
   ASSERT_TRUE(eventually(*there, [&] { return !writer->readers().empty(); }));
   EXPECT_THAT(writer->readers(), ElementsAre(reader->guid())) << "the others were there before it";
+}
+
+TEST(FastDds, ASampleThatIsTooLargeIsSkippedAndThoseAfterItAreNot) {
+  const auto here = open(), there = open();
+  const auto writer = here->create_writer(topic_of());
+  const auto reader = there->create_reader(topic_of());
+  ASSERT_TRUE(eventually(*there, [&] { return !writer->readers().empty() && !reader->writers().empty(); }));
+  Bytes too_large = payload(1);
+  too_large.resize(3'000'000);
+  writer->write(payload(2));
+  writer->write(too_large);
+  writer->write(payload(3));
+  std::vector<Sample> samples;
+  ASSERT_TRUE(eventually(*there, [&] {
+    for (Sample& sample : reader->take()) samples.push_back(std::move(sample));
+    return samples.size() == 2;
+  }));
+  EXPECT_THAT(payloads(samples), ElementsAre(payload(2), payload(3)));
+}
+
+TEST(FastDds, AsManySamplesAreKeptAsTheDepthSays) {
+  Topic deep = topic_of();
+  deep.qos = {true, true, 1000};  // more than Fast DDS keeps of its own accord
+  const auto here = open();
+  const auto writer = here->create_writer(deep);
+  for (int i = 0; i < 1500; ++i) writer->write(payload(static_cast<std::uint8_t>(i % 251)));
+  const auto there = open();
+  const auto reader = there->create_reader(deep);
+  std::vector<Sample> samples;
+  ASSERT_TRUE(eventually(*there, [&] {
+    for (Sample& sample : reader->take()) samples.push_back(std::move(sample));
+    return samples.size() >= 1000;
+  }));
+  EXPECT_EQ(samples.size(), 1000U);
+  EXPECT_EQ(samples.front().id.number, 501);
+}
+
+TEST(FastDds, OneTakeEndsHoweverMuchComes) {
+  Topic all = topic_of();
+  all.qos = {true, true, 0};
+  const auto here = open(), there = open();
+  const auto writer = here->create_writer(all);
+  const auto reader = there->create_reader(all);
+  ASSERT_TRUE(eventually(*there, [&] { return !writer->readers().empty() && !reader->writers().empty(); }));
+  for (std::size_t i = 0; i < 2 * Reader::kMostAtOnce; ++i) writer->write(payload(1));
+  std::size_t taken = 0;
+  ASSERT_TRUE(eventually(*there, [&] {
+    const std::size_t now = reader->take().size();
+    EXPECT_LE(now, Reader::kMostAtOnce);
+    taken += now;
+    return taken == 2 * Reader::kMostAtOnce;
+  }));
+}
+
+// Under AddressSanitizer it would be seen if a listener were called after its reader has gone.
+TEST(FastDds, ReadersMayGoWhileSamplesCome) {
+  const auto here = open(), there = open();
+  const auto writer = here->create_writer(topic_of());
+  std::atomic<bool> done = false;
+  std::thread flood([&] {
+    while (!done) writer->write(payload(1));
+  });
+  std::size_t met = 0;
+  for (int i = 0; i < 50; ++i) {
+    const auto reader = there->create_reader(topic_of());
+    eventually(*there, [&] { return !reader->take().empty(); }) ? ++met : met;
+  }
+  done = true;
+  flood.join();
+  EXPECT_EQ(met, 50U);
+}
+
+TEST(FastDds, OfAnEndpointThatShowsVeryMuchNothingIsKept) {
+  const auto here = open(), there = open();
+  Topic shown = topic_of();
+  shown.user_data = "clientid=1;" + std::string(4000, 'x');
+  const auto writer = there->create_writer(shown);
+  const auto reader = here->create_reader(topic_of());
+  ASSERT_TRUE(eventually(*here, [&] { return reader->writers().size() == 1; }));
+  EXPECT_EQ(here->user_data_of(writer->guid()), "");
 }
 
 TEST(FastDds, APeerWithoutAnAddressIsNamed) {

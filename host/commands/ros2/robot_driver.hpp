@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "host/commands/shared/connection.hpp"
+#include "host/console/command_line.hpp"
+#include "host/ros2/driver/driver.hpp"
+
+/// What commands have in common that show a robot by ROS 2's messages, whatever carries them.
+namespace astro::commands {
+
+struct RobotDriverOptions {
+  ConnectionOptions connection;
+  std::string node_namespace;
+  double rate_hz = 50, cmd_vel_timeout_s = 0.5;
+  std::filesystem::path calibration;
+};
+
+/// --port, --baud, --namespace, --rate, --cmd-vel-timeout and --calibration.
+void add_robot_driver_options(console::Command command, RobotDriverOptions& options);
+
+/// Serves a robot on these middlewares until Ctrl-C, and throws Interrupted then; a robot that was armed by others through them
+/// is at rest and disarmed. `node`: the name under which it reports. Throws astro::Error if the calibration cannot be used.
+void drive_robot(const std::vector<ros2::Middleware*>& middlewares, const RobotDriverOptions& options,
+                 const std::string& node);
+
+}  // namespace astro::commands

@@ -1,0 +1,84 @@
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <memory>
+#include <optional>
+
+#include "host/commands/ros2/commands.hpp"
+#include "host/commands/ros2/robot_driver.hpp"
+#include "host/console/console.hpp"
+#include "host/console/options.hpp"
+#include "host/ros2/node/node.hpp"
+
+namespace astro::commands {
+namespace {
+
+struct Ros2Options {
+  RobotDriverOptions driver;
+  std::string node = "astrolabe", range, distribution;
+  int domain = -1;  // that of the environment
+};
+
+std::string variable(const char* name) {
+  const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): no other thread runs yet
+  return value == nullptr ? "" : value;
+}
+
+ros2::GidSize gid_size(const Ros2Options& options) {
+  const std::string distribution =
+      options.distribution.empty() ? variable("ROS_DISTRO") : options.distribution;
+  return distribution == "humble" ? ros2::GidSize::humble : ros2::GidSize::iron_and_later;
+}
+
+const char* in_words(ros2::dds::Range range) {
+  switch (range) {
+    case ros2::dds::Range::off:
+      return "nobody sees it";
+    case ros2::dds::Range::localhost:
+      return "this computer only";
+    default:
+      return "all computers of the network";
+  }
+}
+
+void run(const Ros2Options& options) {
+  ros2::dds::DiscoveryWishes wishes;
+  if (options.domain >= 0) wishes.domain = options.domain;
+  if (!options.range.empty()) wishes.range = ros2::dds::range_in(options.range);
+  const ros2::dds::Discovery discovery = ros2::dds::discovery_from(wishes, variable);
+  const std::string& space = options.driver.node_namespace;
+  const ros2::NodeName name{options.node, space.starts_with('/') ? space : '/' + space};
+  const auto node = ros2::open_node({name, gid_size(options)}, discovery);
+  console::say(fmt::format("node {} in domain {}: {}; Ctrl-C ends it", ros2::full_name(name),
+                           discovery.domain, in_words(discovery.range)));
+  drive_robot({node.get()}, options.driver, options.node);
+}
+
+}  // namespace
+
+void add_ros2(console::Command app) {
+  const auto options = std::make_shared<Ros2Options>();
+  const console::Command command =
+      app.add_subcommand("ros2", "make the robot a node of ROS 2: odometry, /cmd_vel, services, parameters");
+  add_robot_driver_options(command, options->driver);
+  command.add_option("--node-name", options->node, "name of the node")
+      .type_name("NAME")
+      .capture_default_str();
+  command.add_option("--domain", options->domain, "domain of DDS (default: ROS_DOMAIN_ID, otherwise 0)")
+      .type_name("N")
+      .check(console::whole(0, ros2::dds::kMostDomains));
+  command
+      .add_option("--range", options->range,
+                  "which computers see the node (default: as\nROS_AUTOMATIC_DISCOVERY_RANGE or "
+                  "ROS_LOCALHOST_ONLY\nsay, otherwise localhost)")
+      .one_of({"off", "localhost", "subnet"});
+  command
+      .add_option("--distro", options->distribution,
+                  "ROS 2 of the other nodes, humble or later: jazzy\n(default: ROS_DISTRO, otherwise jazzy)")
+      .one_of({"humble", "jazzy"});
+  console::examples(command, {"astrolabe ros2", "astrolabe ros2 --port /dev/ttyACM0 --calibration calib.toml",
+                              "astrolabe ros2 --namespace left --range subnet --rate 100"});
+  command.callback([options] { run(*options); });
+}
+
+}  // namespace astro::commands

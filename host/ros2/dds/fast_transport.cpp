@@ -1,0 +1,61 @@
+#include "host/ros2/dds/fast_transport.hpp"
+
+#include <fastdds/rtps/network/SenderResource.h>
+#include <fastdds/rtps/transport/ChainingTransport.h>
+#include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+
+#include <utility>
+
+namespace astro::ros2::dds {
+namespace {
+
+namespace transport = eprosima::fastdds::rtps;
+namespace rtps = eprosima::fastrtps::rtps;
+
+constexpr std::uint32_t kParticipants = 32;  // of one computer, that are looked for without multicast
+
+struct GatedDescriptor : transport::ChainingTransportDescriptor {
+  GatedDescriptor(std::shared_ptr<transport::TransportDescriptorInterface> udp,
+                  std::shared_ptr<const Gate> its_gate)
+      : ChainingTransportDescriptor(std::move(udp)), gate(std::move(its_gate)) {}
+
+  transport::TransportInterface* create_transport() const override;
+
+  std::shared_ptr<const Gate> gate;
+};
+
+class GatedTransport : public transport::ChainingTransport {
+ public:
+  explicit GatedTransport(const GatedDescriptor& descriptor)
+      : ChainingTransport(descriptor), descriptor_(descriptor) {}
+
+  transport::TransportDescriptorInterface* get_configuration() override { return &descriptor_; }
+
+  bool send(rtps::SenderResource* sender, const rtps::octet* bytes, std::uint32_t size,
+            rtps::LocatorsIterator* begin, rtps::LocatorsIterator* end,
+            const std::chrono::steady_clock::time_point& until) override {
+    return !descriptor_.gate->is_open() || sender->send(bytes, size, begin, end, until);
+  }
+  void receive(transport::TransportReceiverInterface* receiver, const rtps::octet* bytes, std::uint32_t size,
+               const rtps::Locator_t& here, const rtps::Locator_t& there) override {
+    receiver->OnDataReceived(bytes, size, here, there);
+  }
+
+ private:
+  GatedDescriptor descriptor_;
+};
+
+transport::TransportInterface* GatedDescriptor::create_transport() const { return new GatedTransport(*this); }
+
+}  // namespace
+
+std::shared_ptr<transport::TransportDescriptorInterface> gated_udp(bool loopback_alone,
+                                                                   std::shared_ptr<const Gate> gate) {
+  auto udp = std::make_shared<transport::UDPv4TransportDescriptor>();
+  udp->maxInitialPeersRange = kParticipants;
+  if (loopback_alone) udp->interfaceWhiteList.emplace_back("127.0.0.1");
+  return std::make_shared<GatedDescriptor>(std::move(udp), std::move(gate));
+}
+
+}  // namespace astro::ros2::dds

@@ -1,0 +1,109 @@
+#include "host/ros2/driver/continuous_odometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "host/base/error.hpp"
+#include "host/recording/run/telemetry_sample.hpp"
+
+namespace astro::ros2 {
+
+using calibration::Symmetric3;
+
+namespace {
+
+constexpr double kFarthest_m = 4e6;  // what the robot can hold
+
+std::int64_t position(double metres) {
+  if (!(std::abs(metres) <= kFarthest_m)) throw Error("a position must be a number within 4000 km");
+  return std::llround(std::ldexp(metres, 40));
+}
+
+/// 2^-64 turn.
+std::uint64_t angle(double theta_rad) {
+  const double turns = theta_rad / (2 * std::numbers::pi);
+  return static_cast<std::uint64_t>(std::ldexp(turns - std::floor(turns), 64));
+}
+
+double in_seconds(microseconds time) { return 1e-6 * static_cast<double>(time.count()); }
+
+}  // namespace
+
+void ContinuousOdometry::begin(RobotSession& session, bool restarted) {
+  note_parameters(session);
+  restarted_ = restarted_ || restarted;
+  first_ = true;
+  ignore_until_us_ = 0;
+}
+
+void ContinuousOdometry::note_parameters(RobotSession& session) {
+  track_.set_geometry(OdometryGeometry::of(session.numbers()));
+}
+
+void ContinuousOdometry::set_pose(RobotSession& session, double x_m, double y_m, double theta_rad,
+                                  const Symmetric3& covariance) {
+  if (!std::isfinite(theta_rad)) throw Error("a heading must be a number");
+  put(session, {position(x_m), position(y_m), angle(theta_rad)}, theta_rad, covariance);
+  restoring_ = false;
+  event_ = "the pose was set";
+}
+
+void ContinuousOdometry::put(RobotSession& session, const protocol::SetPose& pose, double theta_rad,
+                             const Symmetric3& covariance) {
+  session.ask(pose);
+  // A sample may be under way that is older than the answer.
+  ignore_until_us_ = session.device_now_us();
+  track_.restart(theta_rad, covariance);
+}
+
+bool ContinuousOdometry::take(RobotSession& session, const protocol::Telemetry& telemetry) {
+  if (telemetry.device_time_us <= ignore_until_us_) return false;
+  if (std::exchange(first_, false) && pose_) restoring_ = has_restarted(session, telemetry);
+  if (restoring_) {
+    restore(session, telemetry);
+    return false;
+  }
+  restarted_ = false;
+  sample_ = recording::to_sample(telemetry);
+  if (!track_.take(sample_)) event_ = "another program has set the pose";
+  pose_ = telemetry.pose;
+  seen_at_ = session.client().now();
+  seen_device_us_ = telemetry.device_time_us;
+  return true;
+}
+
+/// The clock of a robot that has restarted is behind that of one that has not.
+bool ContinuousOdometry::has_restarted(RobotSession& session, const protocol::Telemetry& telemetry) const {
+  constexpr double kSlowest = 0.95, kLate_s = 0.5;  // a poor oscillator; a sample that waited
+  const double since_s = in_seconds(session.client().now() - seen_at_);
+  const double expected_s = 1e-6 * static_cast<double>(seen_device_us_) + kSlowest * since_s - kLate_s;
+  return restarted_ || 1e-6 * static_cast<double>(telemetry.device_time_us) < expected_s;
+}
+
+void ContinuousOdometry::restore(RobotSession& session, const protocol::Telemetry& telemetry) {
+  constexpr microseconds kBetweenTries = std::chrono::milliseconds(100);
+  const microseconds now = session.client().now();
+  if (now < next_try_) return;
+  next_try_ = now + kBetweenTries;
+  const double running_s = 1e-6 * static_cast<double>(telemetry.device_time_us);
+  const Symmetric3 unseen = rolled_unseen(std::max(0.0, in_seconds(now - seen_at_) - running_s));
+  try {
+    put(session, {pose_->x, pose_->y, pose_->theta}, sample_.theta_rad, track_.covariance() + unseen);
+  } catch (const robot::RobotRefused&) {
+    return;  // it still rolls
+  }
+  restoring_ = restarted_ = false;
+  event_ = "the robot has restarted: its odometry continues from the last pose, with a larger covariance";
+}
+
+/// A robot without power rolls on from its last speed; a robot at rest may have been pushed by a hand at its switch.
+Symmetric3 ContinuousOdometry::rolled_unseen(double until_restart_s) const {
+  constexpr double kLongest_s = 2, kRoll_s = 1, kPush_m = 0.01, kPush_rad = 0.02;
+  const double moved_s = std::min(until_restart_s, kLongest_s) + kRoll_s;
+  const double way_m = std::abs(sample_.v_mps) * moved_s + kPush_m;
+  const double turn_rad = std::abs(sample_.omega_radps) * moved_s + kPush_rad;
+  return {way_m * way_m, 0, 0, way_m * way_m, 0, turn_rad * turn_rad};
+}
+
+}  // namespace astro::ros2

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/ros2/driver/base_messages.hpp"
+#include "host/ros2/driver/continuous_odometry.hpp"
+#include "host/ros2/driver/diagnostics.hpp"
+#include "host/ros2/driver/driving.hpp"
+#include "host/ros2/driver/publications.hpp"
+#include "host/ros2/driver/requests.hpp"
+#include "host/ros2/driver/robot_link.hpp"
+#include "host/ros2/driver/robot_parameter_table.hpp"
+
+namespace astro::ros2 {
+
+struct DriverOptions {
+  std::string node = "robot";  // its name in /diagnostics
+  std::string node_namespace;  // "" or "left"
+  double rate_hz = 50;         // of telemetry; up to 1000. The period is rounded to whole milliseconds.
+  microseconds cmd_vel_timeout = std::chrono::milliseconds(500);
+  std::optional<calibration::OdometryErrors> errors;  // otherwise those of an uncalibrated robot
+  /// The factors that `errors` are those of: if the robot has others, /diagnostics say so.
+  std::optional<calibration::WheelFactors> calibrated;
+  FaultHelp fault_help = [](Fault) { return std::string_view(); };
+  std::function<std::string(const Error&)> words = [](const Error& error) {
+    return std::string(error.what());
+  };
+  /// Sentences about the link that are worth showing.
+  std::function<void(const std::string&)> notice = [](const std::string&) {};
+  HostClock clock = HostClock::of_system();
+};
+
+/// A robot as ROS 2 knows it (host/ros2/README.md), on any number of middlewares at once. It bears that there is no robot, that
+/// the link is lost and comes back, and that the robot restarts; it says so in /diagnostics and publishes no odometry meanwhile.
+///
+/// Threads  one: that which calls step(). Nothing in it waits longer than about half a second.
+class Driver {
+ public:
+  /// The middlewares must outlive the driver, and be polled by nobody else.
+  Driver(std::vector<Middleware*> middlewares, OpenPort open, DriverOptions options);
+  Driver(const Driver&) = delete;
+  Driver& operator=(const Driver&) = delete;
+
+  /// Answers what has come from others, and passes on what has come from the robot; waits up to `most` if there is nothing.
+  void step(microseconds most = std::chrono::milliseconds(10));
+
+  /// Brings a robot that was armed here to rest and disarms it. Throws astro::Error if the robot does not confirm it.
+  void end();
+
+ private:
+  void attend(RobotSession& session, microseconds most);
+  void begin(RobotSession& session);
+  void take(RobotSession& session, const protocol::Telemetry& telemetry);
+  void publish(const protocol::Telemetry& telemetry, std::int64_t time_ns);
+  void describe_robot(RobotSession& session);
+  void lose(const Error& why);
+  void note_link(const std::string& sentence);
+  void report();
+  DriverState state();
+  Moment moment() const { return {utc_.steady(), utc_.now_ns()}; }
+
+  std::vector<Middleware*> middlewares_;
+  DriverOptions options_;
+  Names names_;
+  UtcMap utc_;
+  RobotLink link_;
+  Driving driving_;
+  ContinuousOdometry odometry_;
+  RobotParameterTable parameters_;
+  Publications publications_;
+  Requests requests_;
+  RobotModel model_;
+  std::optional<protocol::Telemetry> newest_;                      // of this session
+  std::string noticed_;                                            // the last sentence
+  bool restarted_ = false;                                         // the robot, in the session before
+  std::int64_t published_ns_ = 0;                                  // since 1970
+  std::int64_t battery_ns_ = 0, looked_ns_ = 0, reported_ns_ = 0;  // on the steady clock
+  msg::DiagnosticArray reported_;
+};
+
+}  // namespace astro::ros2

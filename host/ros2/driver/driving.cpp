@@ -1,0 +1,123 @@
+#include "host/ros2/driver/driving.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/robot/motion/drive.hpp"
+#include "host/robot/motion/other_program.hpp"
+
+namespace astro::ros2 {
+
+using protocol::ErrorCode;
+using std::chrono::milliseconds;
+
+namespace {
+
+double number(RobotSession& session, const char* name, double otherwise) {
+  const auto found = session.numbers().find(name);
+  return found == session.numbers().end() ? otherwise : found->second;
+}
+
+/// So often that the robot may miss three in a row.
+microseconds refresh_of(RobotSession& session) {
+  constexpr double kSlowest_ms = 50;
+  const double timeout_ms = number(session, "command_timeout", 0);
+  return microseconds(
+      std::llround(1e3 * (timeout_ms > 0 ? std::min(timeout_ms / 4, kSlowest_ms) : kSlowest_ms)));
+}
+
+bool beyond_limits(RobotSession& session, const protocol::Velocity& velocity) {
+  return std::abs(1e-6 * velocity.v_umps) > number(session, "speed_limit", HUGE_VAL) ||
+         std::abs(1e-6 * velocity.omega_uradps) > number(session, "yaw_rate_limit", HUGE_VAL);
+}
+
+/// Whether the robot has come to rest soon enough that whoever waits does not wait in vain.
+bool comes_to_rest(RobotSession& session) {
+  for (int i = 0; i < 12; ++i) {
+    if (!protocol::gives_power(session.ask(protocol::GetStatus{}).mode)) return true;
+    session.client().pump(milliseconds(50));
+  }
+  return false;
+}
+
+std::string why_not(RobotSession& session, const robot::RobotRefused& refused) {
+  const robot::PortUsers users = robot::port_users(session.client());
+  if (refused.code() == ErrorCode::busy && users.driver_pid != 0)
+    return "the robot drives for " + robot::another_program(users.driver_pid, users.driver_command);
+  if (refused.code() == ErrorCode::not_armed && users.stopper_pid != 0)
+    return "the robot was stopped by " + robot::another_program(users.stopper_pid, users.stopper_command);
+  return refused.what();
+}
+
+}  // namespace
+
+std::string Driving::arm(RobotSession& session) {
+  const std::uint32_t latched = session.ask(protocol::GetFaults{}).latched;
+  if ((latched & ~robot::kFaultsLeftBehind) != 0)
+    throw robot::DriveFault(
+        "the robot is not armed because of a latched fault: " + robot::fault_names(latched),
+        robot::first_fault(latched & ~robot::kFaultsLeftBehind));
+  if (latched != 0) {
+    if (!comes_to_rest(session)) throw Error("the robot is not armed yet: it still ramps to rest");
+    session.ask(protocol::ClearFaults{});
+  }
+  try {
+    session.ask(protocol::Arm{});
+  } catch (const robot::RobotRefused& refused) {
+    throw Error(why_not(session, refused));
+  }
+  command_.clear();
+  armed_ = true;
+  return latched == 0
+             ? "armed"
+             : "armed; cleared " + robot::fault_names(latched) + ", which an earlier drive left behind";
+}
+
+void Driving::disarm(RobotSession& session) {
+  session.ask(protocol::Disarm{});
+  release();
+}
+
+void Driving::stop(RobotSession& session) {
+  command_.clear();
+  session.ask(protocol::Stop{});
+}
+
+void Driving::release() {
+  command_.clear();
+  armed_ = false;
+}
+
+void Driving::step(RobotSession& session, microseconds now) {
+  switch (command_.due(now, refresh_of(session))) {
+    case VelocityCommand::Due::nothing:
+      return;
+    case VelocityCommand::Due::stop:
+      if (armed_) session.ask(protocol::Stop{});
+      return;
+    case VelocityCommand::Due::velocity:
+      send(session, now);
+  }
+}
+
+void Driving::send(RobotSession& session, microseconds now) {
+  if (!armed_) {
+    command_.clear();
+    return ignore("the robot is not armed", now);
+  }
+  try {
+    session.ask(command_.velocity());
+    counts_.reduced = beyond_limits(session, command_.velocity());
+  } catch (const robot::RobotRefused& refused) {
+    release();
+    ignore(why_not(session, refused), now);
+  }
+}
+
+void Driving::ignore(const std::string& why, microseconds now) {
+  ++counts_.ignored;
+  counts_.last_reason = why;
+  counts_.ignored_at = now;
+}
+
+}  // namespace astro::ros2

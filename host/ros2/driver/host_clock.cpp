@@ -1,0 +1,38 @@
+#include "host/ros2/driver/host_clock.hpp"
+
+#include <chrono>
+
+namespace astro::ros2 {
+
+using std::chrono::duration_cast;
+using std::chrono::nanoseconds;
+using std::chrono::steady_clock;
+using std::chrono::system_clock;
+
+HostClock HostClock::of_system() {
+  return {[] { return duration_cast<microseconds>(steady_clock::now().time_since_epoch()); },
+          [] { return duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count(); }};
+}
+
+std::int64_t UtcMap::utc_ns(std::int64_t steady_us) {
+  const microseconds now = clock_.steady();
+  if (!measured_ || now - *measured_ >= std::chrono::seconds(1)) measure(now);
+  return steady_us * 1000 + offset_ns_;
+}
+
+/// Of a few readings the fastest one counts: whatever interrupts the program between two clocks only adds time.
+void UtcMap::measure(microseconds now) {
+  constexpr int kReadings = 5;
+  microseconds best = microseconds::max();
+  for (int i = 0; i < kReadings; ++i) {
+    const microseconds before = clock_.steady();
+    const std::int64_t utc_ns = clock_.utc_ns();
+    const microseconds took = clock_.steady() - before;
+    if (took >= best) continue;
+    best = took;
+    offset_ns_ = utc_ns - (before + took / 2).count() * 1000;
+  }
+  measured_ = now;
+}
+
+}  // namespace astro::ros2

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "host/base/microseconds.hpp"
+
+namespace astro::ros2 {
+
+/// The clocks of this computer, or of a test.
+struct HostClock {
+  std::function<microseconds()> steady;  // the one by which the robot's transport tells the time
+  std::function<std::int64_t()> utc_ns;  // since 1970
+
+  static HostClock of_system();
+};
+
+/// Times of the steady clock as time since 1970. The offset between both is measured once a second, so that stamps follow the
+/// system's clock when it is corrected, and do not tremble with every reading.
+class UtcMap {
+ public:
+  explicit UtcMap(HostClock clock) : clock_(std::move(clock)) {}
+
+  std::int64_t utc_ns(std::int64_t steady_us);
+  std::int64_t now_ns() const { return clock_.utc_ns(); }
+  microseconds steady() const { return clock_.steady(); }
+
+ private:
+  void measure(microseconds now);
+
+  HostClock clock_;
+  std::optional<microseconds> measured_;
+  std::int64_t offset_ns_ = 0;
+};
+
+}  // namespace astro::ros2

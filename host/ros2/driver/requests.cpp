@@ -1,0 +1,84 @@
+#include "host/ros2/driver/requests.hpp"
+
+#include "host/ros2/cdr/codec.hpp"
+#include "host/ros2/driver/pose_message.hpp"
+#include "host/ros2/recorded/ros_messages.hpp"
+
+namespace astro::ros2 {
+
+Requests::Requests(std::span<Middleware* const> middlewares, const Names& names, Robot robot)
+    : middlewares_(middlewares), names_(names), robot_(std::move(robot)) {
+  subscribe_all();
+  serve_all();
+}
+
+void Requests::serve_all() {
+  serve("arm", [this](RobotSession& session) { return robot_.driving.arm(session); });
+  serve("disarm", [this](RobotSession& session) { return robot_.driving.disarm(session), "disarmed"; });
+  serve("stop", [this](RobotSession& session) { return robot_.driving.stop(session), "ramps to rest"; });
+  serve("emergency_stop", [this](RobotSession& session) {
+    robot_.driving.release();
+    session.ask(protocol::EmergencyStop{});
+    return "the motors are off";
+  });
+  serve("clear_faults",
+        [](RobotSession& session) { return session.ask(protocol::ClearFaults{}), "cleared"; });
+  serve("pause", [](RobotSession& session) { return session.ask(protocol::Pause{}), "paused"; });
+  serve("resume", [](RobotSession& session) { return session.ask(protocol::Resume{}), "resumed"; });
+  serve("reset_odometry", [this](RobotSession& session) {
+    robot_.odometry.set_pose(session, 0, 0, 0, {});
+    return "the pose is zero";
+  });
+}
+
+void Requests::serve(std::string_view name, Work work) {
+  using Trigger = msg::Trigger;
+  const ServiceDescription service{names_.absolute(name), Trigger::kType, message_type<Trigger::Request>(),
+                                   message_type<Trigger::Response>()};
+  const auto answer = [this, work = std::move(work)](ByteView request) -> std::optional<Bytes> {
+    if (!decode<Trigger::Request>(request)) return std::nullopt;
+    return encode(attempt(work));
+  };
+  for (Middleware* each : middlewares_) each->serve(service, answer);
+}
+
+msg::Trigger::Response Requests::attempt(const Work& work) {
+  RobotSession* session = robot_.link.session();
+  if (session == nullptr) return {false, "there is no robot: " + robot_.words(robot_.link.why())};
+  try {
+    return {true, work(*session)};
+  } catch (const robot::LinkLost& error) {
+    robot_.lose(error);
+    return {false, robot_.words(error)};
+  } catch (const Error& error) {
+    return {false, robot_.words(error)};
+  }
+}
+
+template <Message M, class Take>
+void Requests::subscribe(std::string_view name, int depth, bool reliable, Take take) {
+  const TopicDescription topic{names_.absolute(name), message_type<M>(), reliable, false, depth};
+  for (Middleware* each : middlewares_)
+    each->subscribe(topic, [take](ByteView bytes) { take(decode<M>(bytes)); });
+}
+
+/// Velocities are taken as they come, from publishers of either kind: one that was lost is older than the next one, and must
+/// not come late.
+void Requests::subscribe_all() {
+  const auto take_velocity = [this](const auto& twist) { robot_.driving.take(twist, robot_.now()); };
+  subscribe<msg::Twist>("cmd_vel", 1, false, take_velocity);
+  subscribe<msg::TwistStamped>("cmd_vel", 1, false, take_velocity);
+  subscribe<msg::PoseWithCovarianceStamped>("set_pose", 10, true,
+                                            [this](const auto& pose) { set_pose(pose); });
+}
+
+void Requests::set_pose(const std::optional<msg::PoseWithCovarianceStamped>& message) {
+  const auto outcome = attempt([&](RobotSession& session) {
+    const PlanarPose pose = planar(message, names_.frame(kOdomFrame));
+    robot_.odometry.set_pose(session, pose.x_m, pose.y_m, pose.theta_rad, pose.covariance);
+    return "set";
+  });
+  if (!outcome.success) robot_.odometry.note("a pose was not set: " + outcome.message);
+}
+
+}  // namespace astro::ros2

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "host/robot/client/client.hpp"
+#include "host/robot/parameters/parameters.hpp"
+
+namespace astro::ros2 {
+
+/// One connection to a robot, from the handshake until it is lost: its parameters and the stream of its telemetry. Requests
+/// are given up after half a second, so that whoever waits for the driver waits no longer.
+class RobotSession {
+ public:
+  /// Shakes hands, reads the parameter table and asks for telemetry. Throws astro::Error with the reason if no robot answers,
+  /// or another one than `known`.
+  RobotSession(std::unique_ptr<robot::Transport> transport, const std::optional<protocol::HelloReply>& known,
+               std::uint16_t telemetry_period_ms);
+
+  template <protocol::Request M>
+  typename M::Reply ask(const M& message) {
+    return client_->request(message, kPatience);
+  }
+
+  /// Waits until telemetry or an event has come, at most this long.
+  void pump(microseconds most);
+  /// The next sample of telemetry in the order in which they came.
+  std::optional<protocol::Telemetry> take_sample();
+
+  /// The robot's clock in microseconds, read just now.
+  std::uint64_t device_now_us() { return ask(protocol::Ping{}).device_time_us; }
+  /// If none came for some periods, asks for telemetry again.
+  void keep_telemetry();
+
+  bool restarted() const { return restarted_; }
+  /// True once after a fault was raised.
+  bool take_fault() { return std::exchange(fault_, false); }
+
+  robot::Client& client() { return *client_; }
+  robot::RemoteParameters& parameters() { return *parameters_; }
+  const std::map<std::string, double>& numbers() const { return numbers_; }
+  /// After the parameters have changed.
+  void note_parameters() { numbers_ = parameters_->numbers(); }
+  microseconds telemetry_age() const { return client_->now() - telemetry_at_; }
+
+ private:
+  static constexpr robot::RetryPolicy kPatience{std::chrono::milliseconds(60), 8};
+
+  void ask_for_telemetry();
+
+  std::unique_ptr<robot::Client> client_;
+  std::uint16_t period_ms_;
+  std::optional<robot::RemoteParameters> parameters_;
+  std::map<std::string, double> numbers_;
+  std::deque<protocol::Telemetry> samples_;
+  microseconds telemetry_at_{}, asked_at_{};
+  bool restarted_ = false, fault_ = false;
+  robot::Subscription on_telemetry_, on_fault_, on_boot_;
+};
+
+}  // namespace astro::ros2

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "common/protocol/motion.hpp"
+#include "host/base/microseconds.hpp"
+#include "host/ros2/messages/geometry.hpp"
+
+namespace astro::ros2 {
+
+/// One moment on both clocks of this computer.
+struct Moment {
+  microseconds steady{};
+  std::int64_t utc_ns = 0;
+};
+
+/// The velocity that others command, by the rules of diff_drive_controller:
+///   - a velocity holds for the time-out from its stamp, one without a stamp (0, or a Twist) from when it came;
+///   - NaN and infinity are refused, and so is a stamp that is older than the time-out or later than now by more than
+///     kFutureTolerance, which means that the clocks of both computers differ;
+///   - of the six components, those that a differential drive cannot do are ignored.
+class VelocityCommand {
+ public:
+  static constexpr microseconds kFutureTolerance = std::chrono::milliseconds(100);
+
+  explicit VelocityCommand(microseconds timeout) : timeout_(timeout) {}
+
+  /// Each returns why it refuses the velocity, and then has changed nothing.
+  std::optional<std::string> take(const msg::Twist& twist, const Moment& now);
+  std::optional<std::string> take(const msg::TwistStamped& twist, const Moment& now);
+  void clear() { held_.reset(); }
+
+  /// What the robot is to be told at this moment.
+  enum class Due { nothing, velocity, stop };
+  /// `velocity` for a new one, and again `refresh` after it was sent last; `stop` once, when it is over.
+  Due due(microseconds now, microseconds refresh);
+  /// Precondition: due() said `velocity`.
+  const protocol::Velocity& velocity() const { return held_->velocity; }
+
+ private:
+  struct Held {
+    protocol::Velocity velocity;
+    microseconds until{};
+    std::optional<microseconds> sent;
+  };
+
+  std::optional<std::string> hold(const msg::Twist& twist, microseconds until);
+
+  microseconds timeout_;
+  std::optional<Held> held_;
+};
+
+}  // namespace astro::ros2

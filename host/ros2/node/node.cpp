@@ -1,0 +1,104 @@
+#include "host/ros2/node/node.hpp"
+
+#include <fmt/format.h>
+
+#include <list>
+#include <utility>
+
+#include "host/ros2/dds/fast_dds.hpp"
+#include "host/ros2/node/parameter_services.hpp"
+#include "host/ros2/node/service.hpp"
+
+namespace astro::ros2 {
+namespace {
+
+dds::Topic wire_topic(const TopicDescription& topic) {
+  return {wire_name_of_topic(topic.name),
+          dds_type_name(topic.type.name),
+          {.reliable = topic.reliable, .transient_local = topic.latched, .depth = topic.depth},
+          "typehash=" + std::string(topic.type.hash) + ';'};
+}
+
+class NodePublisher : public Publisher {
+ public:
+  NodePublisher(std::unique_ptr<dds::Writer> writer, DiscoveryInfo& info)
+      : info_(info), writer_(std::move(writer)) {
+    info_.add_writer(writer_->guid());
+  }
+  ~NodePublisher() override { info_.remove_writer(writer_->guid()); }
+  NodePublisher(const NodePublisher&) = delete;
+  NodePublisher& operator=(const NodePublisher&) = delete;
+
+  void publish(ByteView message, std::int64_t /*time_ns: DDS stamps what it sends by itself*/) override {
+    writer_->write(message);
+  }
+  bool has_subscribers() const override { return !writer_->readers().empty(); }
+
+ private:
+  DiscoveryInfo& info_;
+  std::unique_ptr<dds::Writer> writer_;
+};
+
+struct Subscription {
+  std::unique_ptr<dds::Reader> reader;
+  Middleware::OnMessage on_message;
+};
+
+class Node : public Middleware {
+ public:
+  Node(const NodeOptions& options, std::unique_ptr<dds::Participant> participant)
+      : name_(valid(options.name)),
+        participant_(std::move(participant)),
+        info_(*participant_, name_, options.gid_size) {}
+
+  std::unique_ptr<Publisher> advertise(const TopicDescription& topic) override {
+    return std::make_unique<NodePublisher>(participant_->create_writer(wire_topic(topic)), info_);
+  }
+  void subscribe(const TopicDescription& topic, OnMessage on_message) override {
+    subscriptions_.push_back({participant_->create_reader(wire_topic(topic)), std::move(on_message)});
+    info_.add_reader(subscriptions_.back().reader->guid());
+  }
+  void serve(const ServiceDescription& service, OnRequest on_request) override {
+    services_.emplace_back(*participant_, service, next_service_id(), std::move(on_request));
+    info_.add_reader(services_.back().reader());
+    info_.add_writer(services_.back().writer());
+  }
+  void serve_parameters(ParameterTable& table) override {
+    parameters_.push_back(std::make_unique<ParameterServices>(*this, table, full_name(name_)));
+  }
+
+  void poll() override {
+    info_.publish_changes();
+    for (Subscription& subscription : subscriptions_)
+      for (const dds::Sample& sample : subscription.reader->take()) subscription.on_message(sample.payload);
+    for (Service& service : services_) service.poll(Service::Clock::now());
+  }
+  void wait(std::chrono::microseconds timeout) override { participant_->wait(timeout); }
+
+ private:
+  std::string next_service_id() {
+    return fmt::format("{:02x}.{}", fmt::join(participant_->guid().bytes, "."), services_.size());
+  }
+
+  const NodeName name_;
+  std::unique_ptr<dds::Participant> participant_;
+  DiscoveryInfo info_;
+  // Lists, so that a callback may subscribe and serve, too.
+  std::list<Subscription> subscriptions_;
+  std::list<Service> services_;
+  std::list<std::unique_ptr<ParameterServices>> parameters_;
+};
+
+}  // namespace
+
+std::unique_ptr<Middleware> open_node(const NodeOptions& options, const dds::Discovery& discovery) {
+  const std::string name = full_name(valid(options.name));
+  return open_node(options, dds::open_fast_dds(discovery, name, kParticipantUserData));
+}
+
+std::unique_ptr<Middleware> open_node(const NodeOptions& options,
+                                      std::unique_ptr<dds::Participant> participant) {
+  return std::make_unique<Node>(options, std::move(participant));
+}
+
+}  // namespace astro::ros2

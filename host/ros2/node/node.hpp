@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+
+#include "host/ros2/dds/discovery.hpp"
+#include "host/ros2/dds/participant.hpp"
+#include "host/ros2/middleware/middleware.hpp"
+#include "host/ros2/node/discovery_info.hpp"
+#include "host/ros2/node/names.hpp"
+
+namespace astro::ros2 {
+
+struct NodeOptions {
+  NodeName name;
+  GidSize gid_size = GidSize::iron_and_later;
+};
+
+/// A ROS 2 node on DDS, which the tools and nodes of others see as one of theirs, whichever RMW they use. All its callbacks
+/// come from poll(); endpoints that were made or have gone are announced there, too.
+///
+/// Throws astro::Error if a name is not valid or the network does not allow it.
+std::unique_ptr<Middleware> open_node(const NodeOptions& options, const dds::Discovery& discovery);
+
+/// On a participant of any kind; its user data should be kParticipantUserData.
+std::unique_ptr<Middleware> open_node(const NodeOptions& options,
+                                      std::unique_ptr<dds::Participant> participant);
+
+inline constexpr const char* kParticipantUserData = "enclave=/;";  // of a node without security
+
+}  // namespace astro::ros2

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "host/ros2/middleware/middleware.hpp"
+#include "host/ros2/node/parameter_answers.hpp"
+
+namespace astro::ros2 {
+
+/// The six services by which others see and change the parameters of a node, and the topic on which they are told of changes.
+class ParameterServices {
+ public:
+  /// In one request. A longer list is no request of anybody who means it.
+  static constexpr std::size_t kMostNames = 1000;
+
+  /// `middleware` and `table` must outlive it. `node`: its full name, "/robot".
+  ParameterServices(Middleware& middleware, ParameterTable& table, const std::string& node);
+  ParameterServices(const ParameterServices&) = delete;
+  ParameterServices& operator=(const ParameterServices&) = delete;
+
+ private:
+  template <class Service>
+  void serve(Middleware& middleware, const std::string& name);
+  void tell(std::span<const msg::Parameter> changed);
+
+  std::string node_;
+  std::unique_ptr<Publisher> events_;
+  ParameterAnswers answers_;
+};
+
+}  // namespace astro::ros2

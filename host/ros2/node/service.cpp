@@ -1,0 +1,70 @@
+#include "host/ros2/node/service.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "host/ros2/node/names.hpp"
+
+namespace astro::ros2 {
+namespace {
+
+dds::Topic topic_of(std::string name, const MessageType& type, const std::string& id) {
+  return {std::move(name),
+          dds_type_name(type.name),
+          {.reliable = true, .transient_local = false, .depth = Service::kDepth},
+          "serviceid=" + id + ";typehash=" + std::string(type.hash) + ';'};
+}
+
+}  // namespace
+
+Service::Service(dds::Participant& participant, const ServiceDescription& service, const std::string& id,
+                 Middleware::OnRequest on_request)
+    : participant_(participant),
+      on_request_(std::move(on_request)),
+      writer_(participant.create_writer(topic_of(wire_name_of_replies(service.name), service.response, id))),
+      reader_(participant.create_reader(topic_of(wire_name_of_requests(service.name), service.request, id))) {
+}
+
+void Service::poll(Clock::time_point now) {
+  for (const dds::Sample& sample : reader_->take()) answer(sample, now);
+  send_held(now);
+}
+
+void Service::answer(const dds::Sample& sample, Clock::time_point now) {
+  std::optional<Call> call = read_call(sample, participant_.user_data_of(sample.id.writer));
+  if (!call) return;
+  std::optional<Bytes> response = on_request_(call->request);
+  if (!response) return;
+  if (held_.size() == kMostHeld) held_.pop_front();
+  held_.push_back({std::move(call->caller), std::move(*response), now + kHeldFor});
+}
+
+void Service::send_held(Clock::time_point now) {
+  if (held_.empty()) return;
+  const std::vector<dds::Guid> readers = writer_->readers();
+  std::erase_if(held_, [&](const Reply& reply) {
+    const bool found = is_found(reply, readers);
+    if (found) send(reply);
+    return found || now >= reply.until;
+  });
+}
+
+bool Service::is_found(const Reply& reply, const std::vector<dds::Guid>& readers) const {
+  if (const auto* fast = std::get_if<FastCaller>(&reply.caller))
+    return !is_reader(fast->id.writer) ||  // an old client, which does not say which reader it has
+           std::find(readers.begin(), readers.end(), fast->id.writer) != readers.end();
+  const std::string& client_id = std::get<CycloneCaller>(reply.caller).client_id;
+  return std::any_of(readers.begin(), readers.end(), [&](const dds::Guid& reader) {
+    return value_in(participant_.user_data_of(reader), "clientid") == client_id;
+  });
+}
+
+void Service::send(const Reply& reply) {
+  if (const auto* fast = std::get_if<FastCaller>(&reply.caller))
+    writer_->write(reply.response, fast->id);
+  else
+    writer_->write(cyclone_reply(std::get<CycloneCaller>(reply.caller), reply.response));
+}
+
+}  // namespace astro::ros2

@@ -1,0 +1,184 @@
+#include <cmath>
+#include <numbers>
+
+#include "tests/host/programs/ros2/robot_among_peers.hpp"
+
+namespace astro {
+namespace {
+
+using support::eventually;
+using support::number_in;
+using support::PeerKind;
+using support::PeerProgram;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class Ros2 : public support::RobotAmongPeers {
+ protected:
+  Ros2() { start_robot(); }
+
+  struct Pose {
+    double x_m = 0, y_m = 0, heading_rad = 0;
+  };
+  static Pose pose(PeerProgram& peer) {
+    const std::string line = next(peer, "/odom");
+    return {number_in(line, "x"), number_in(line, "y"), number_in(line, "heading")};
+  }
+  static void command(PeerProgram& peer, const std::string& kind, double v_mps, double omega_radps) {
+    ask(peer, kind + " /cmd_vel " + std::to_string(v_mps) + ' ' + std::to_string(omega_radps),
+        "sent /cmd_vel");
+  }
+  /// Turns to where the corner is, and drives there.
+  static bool drive_to(PeerProgram& peer, const std::string& kind, double x_m, double y_m) {
+    return eventually(
+        [&] {
+          const Pose at = pose(peer);
+          const double left_m = std::hypot(x_m - at.x_m, y_m - at.y_m);
+          if (left_m < 0.02) return true;
+          const double turn_rad =
+              std::remainder(std::atan2(y_m - at.y_m, x_m - at.x_m) - at.heading_rad, 2 * std::numbers::pi);
+          command(peer, kind, std::abs(turn_rad) < 0.1 ? std::min(0.5, left_m) : 0,
+                  std::clamp(2 * turn_rad, -1.5, 1.5));
+          return false;
+        },
+        std::chrono::seconds(60));
+  }
+};
+
+TEST_F(Ros2, PeersOfBothKindsSeeWhatTheRobotDoes) {
+  for (const PeerKind kind : kinds()) {
+    PeerProgram peer(kind, support::test_domain());
+    for (const auto& [topic, type] :
+         {std::pair("/odom", "odometry"), std::pair("/tf", "transforms"),
+          std::pair("/joint_states", "joints"), std::pair("/battery_state", "battery"),
+          std::pair("/diagnostics", "diagnostics"), std::pair("/tf_static", "transforms latched"),
+          std::pair("/robot_description", "text latched")})
+      subscribe(peer, topic, type);
+    EXPECT_THAT(next(peer, "/odom"), AllOf(HasSubstr("frame=odom"), HasSubstr("child=base_footprint")));
+    EXPECT_THAT(next(peer, "/tf"), HasSubstr("odom>base_footprint"));
+    EXPECT_THAT(next(peer, "/joint_states"), HasSubstr("left_wheel_joint:"));
+    EXPECT_NEAR(number_in(next(peer, "/battery_state"), "voltage"), 12, 0.3);
+    EXPECT_THAT(next(peer, "/diagnostics"), HasSubstr("connected"));
+    // Published before this peer was there.
+    EXPECT_TRUE(eventually([&] { return !peer.lines("got /tf_static").empty(); }));
+    EXPECT_TRUE(eventually([&] { return !peer.lines("got /robot_description").empty(); }));
+  }
+}
+
+TEST_F(Ros2, PeersOfBothKindsDriveASquareByBothKindsOfCommand) {
+  const std::vector<std::pair<double, double>> corners{{0.5, 0}, {0.5, 0.5}, {0, 0.5}, {0, 0}};
+  for (const PeerKind kind : kinds()) {
+    for (const char* command : {"twist", "twist_stamped"}) {
+      PeerProgram peer(kind, support::test_domain());
+      subscribe(peer, "/odom", "odometry");
+      next(peer, "/odom");
+      EXPECT_THAT(call(peer, "/arm"), HasSubstr("yes"));
+      for (const auto& [x_m, y_m] : corners) ASSERT_TRUE(drive_to(peer, command, x_m, y_m)) << command;
+      EXPECT_THAT(call(peer, "/stop"), HasSubstr("yes"));
+      EXPECT_TRUE(eventually([&] { return std::abs(number_in(next(peer, "/odom"), "v")) < 0.005; }));
+      EXPECT_THAT(call(peer, "/disarm"), HasSubstr("yes"));
+      const Pose at = pose(peer);
+      EXPECT_LT(std::hypot(at.x_m, at.y_m), 0.1);
+    }
+  }
+}
+
+TEST_F(Ros2, EachServiceAnswersPeersOfBothKindsInTurnAHundredTimes) {
+  std::vector<std::unique_ptr<PeerProgram>> peers;
+  for (const PeerKind kind : kinds())
+    peers.push_back(std::make_unique<PeerProgram>(kind, support::test_domain()));
+  subscribe(*peers[0], "/odom", "odometry");
+  next(*peers[0], "/odom");
+  // In an order in which the robot can do what is asked; resume is refused while it is not armed, and says so.
+  const std::vector<std::pair<std::string, std::string>> services{
+      {"/arm", "yes"},         {"/stop", "yes"},           {"/pause", "yes"},          {"/resume", "yes"},
+      {"/disarm", "yes"},      {"/reset_odometry", "yes"}, {"/emergency_stop", "yes"}, {"/arm", "no"},
+      {"/clear_faults", "yes"}};
+  for (int i = 0; i < 100; ++i)
+    for (const auto& [service, answer] : services)
+      for (const auto& peer : peers)
+        ASSERT_THAT(call(*peer, service), HasSubstr(' ' + answer)) << service << i;
+}
+
+TEST_F(Ros2, PeersOfBothKindsSetAndReadParametersAndThePose) {
+  for (const PeerKind kind : kinds()) {
+    PeerProgram peer(kind, support::test_domain());
+    subscribe(peer, "/odom", "odometry");
+    next(peer, "/odom");
+    const std::string value = kind == PeerKind::fast ? "1.0025" : "0.9975";
+    EXPECT_THAT(ask(peer, "set /astrolabe c_R " + value, "set c_R"), HasSubstr("yes"));
+    EXPECT_NEAR(std::stod(ask(peer, "get /astrolabe c_R", "value c_R yes").substr(12)), std::stod(value),
+                1e-9);
+    EXPECT_THAT(ask(peer, "set /astrolabe c_R 7.0", "set c_R no"), HasSubstr("0.5 to 1.5"));
+    EXPECT_THAT(ask(peer, "describe /astrolabe b", "described b"), HasSubstr("Wheelbase"));
+    EXPECT_THAT(ask(peer, "list /astrolabe", "names /astrolabe"), AllOf(HasSubstr("kappa0"), HasSubstr("b")));
+    ask(peer, "pose /set_pose 1 2 0.5", "sent /set_pose");
+    EXPECT_TRUE(eventually([&] { return std::abs(pose(peer).y_m - 2) < 1e-6; }));
+    EXPECT_NEAR(pose(peer).heading_rad, 0.5, 1e-6);
+    call(peer, "/reset_odometry");
+  }
+}
+
+TEST_F(Ros2, ThePtyGoesAndComesBackFiveTimesAndTheNodeStays) {
+  PeerProgram peer(PeerKind::fast, support::test_domain());
+  subscribe(peer, "/odom", "odometry");
+  subscribe(peer, "/diagnostics", "diagnostics");
+  for (int i = 0; i < 5; ++i) {
+    next(peer, "/odom");
+    EXPECT_THAT(call(peer, "/arm"), HasSubstr("yes"));
+    ask(peer, "drive /cmd_vel twist 0.3 0.2 1", "sent /cmd_vel");
+    const Pose before = pose(peer);
+    robot_->send(SIGKILL);
+    robot_->wait();
+    const std::size_t until_here = peer.lines("got /diagnostics").size();
+    EXPECT_TRUE(eventually([&] {
+      const auto said = peer.lines("got /diagnostics");
+      return said.size() > until_here && said.back().find("no robot") != std::string::npos;
+    }));
+    EXPECT_THAT(call(peer, "/arm"), HasSubstr("no robot"));
+    start_robot();  // a robot that has restarted
+    const Pose after = pose(peer);
+    // It drove until it was killed, a message or two after the one that was seen.
+    EXPECT_LT(std::hypot(after.x_m - before.x_m, after.y_m - before.y_m), 0.3);
+    EXPECT_TRUE(node_->running());
+  }
+}
+
+TEST_F(Ros2, ARobotWhoseNodeIsKilledStopsByItself) {
+  PeerProgram peer(PeerKind::fast, support::test_domain());
+  subscribe(peer, "/odom", "odometry");
+  next(peer, "/odom");
+  EXPECT_THAT(call(peer, "/arm"), HasSubstr("yes"));
+  ask(peer, "drive /cmd_vel twist 0.4 0 1", "sent /cmd_vel");
+  node_->send(SIGKILL);
+  node_->wait();
+  const auto mode = [&] {
+    const auto outcome = support::astrolabe({"info", "--json", "--port", port()});
+    return outcome.out;
+  };
+  EXPECT_TRUE(eventually([&] { return mode().find("command_timeout") != std::string::npos; }));
+}
+
+TEST_F(Ros2, CtrlCBringsTheRobotToRestAndEnds) {
+  PeerProgram peer(PeerKind::fast, support::test_domain());
+  subscribe(peer, "/odom", "odometry");
+  next(peer, "/odom");
+  EXPECT_THAT(call(peer, "/arm"), HasSubstr("yes"));
+  ask(peer, "drive /cmd_vel twist 0.4 0 1", "sent /cmd_vel");
+  node_->send(SIGINT);
+  EXPECT_EQ(node_->wait(), 130);
+  const auto info = support::astrolabe({"info", "--json", "--port", port()});
+  EXPECT_THAT(info.out, AllOf(HasSubstr("disarmed"), testing::Not(HasSubstr("command_timeout"))));
+}
+
+TEST_F(Ros2, WrongNamesAreRefusedInOneSentence) {
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"--node-name", "1st"}, std::vector<std::string>{"--namespace", "a//b"}}) {
+    start_node(options);
+    EXPECT_EQ(node_->wait(), 1);
+    EXPECT_THAT(node_->err(), HasSubstr("astrolabe: "));
+  }
+}
+
+}  // namespace
+}  // namespace astro

@@ -1,0 +1,205 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+#include "host/ros2/recorded/ros_messages.hpp"
+#include "tests/support/ros2/robot_on_ros.hpp"
+
+namespace astro::ros2 {
+namespace {
+
+using protocol::Mode;
+using support::RobotOnRos;
+using testing::HasSubstr;
+
+class Link : public testing::Test {
+ protected:
+  bool publishes() { return !bench.ros.take<msg::Odometry>("/odom").empty(); }
+  bool comes_back() {
+    bench.ros.take<msg::Odometry>("/odom");
+    return bench.run_until([&] { return !bench.ros.published["/odom"].messages.empty(); });
+  }
+  msg::Odometry odometry() {
+    EXPECT_TRUE(comes_back());
+    return bench.ros.newest<msg::Odometry>("/odom");
+  }
+  static double distance(const msg::Odometry& a, const msg::Odometry& b) {
+    return std::hypot(a.pose.pose.position.x - b.pose.pose.position.x,
+                      a.pose.pose.position.y - b.pose.pose.position.y);
+  }
+  RobotOnRos bench;
+};
+
+TEST_F(Link, WithoutARobotAtTheStartTheNodeWaitsForOne) {
+  bench.cable.pull();
+  bench.run_ms(3000);
+  EXPECT_FALSE(publishes());
+  EXPECT_EQ(bench.status("robot").level, std::byte{3});
+  EXPECT_EQ(bench.status("link").level, std::byte{2});
+  EXPECT_THAT(bench.status("link").message, HasSubstr("there is no port"));
+  bench.cable.plug_in();
+  EXPECT_TRUE(comes_back());
+  bench.run_ms(1100);
+  EXPECT_EQ(bench.status("link").level, std::byte{0});
+}
+
+TEST_F(Link, WhileTheCableIsPulledNoOdometryComesAndDiagnosticsSayWhy) {
+  EXPECT_TRUE(comes_back());
+  bench.cable.pull();
+  bench.run_ms(50);
+  publishes();
+  bench.run_ms(2000);
+  EXPECT_FALSE(publishes());
+  EXPECT_EQ(bench.status("robot").level, std::byte{3});
+  EXPECT_THAT(bench.status("link").message, HasSubstr("there is no port"));
+}
+
+TEST_F(Link, AfterThePullTheRobotIsNotArmedAgain) {
+  EXPECT_TRUE(comes_back());
+  bench.call("/arm");
+  bench.drive_ms(500, 0.3, 0);
+  bench.cable.pull();
+  bench.run_ms(50);
+  bench.cable.plug_in();  // before the robot noticed anything
+  EXPECT_TRUE(comes_back());
+  bench.drive_ms(3000, 0.3, 0);
+  EXPECT_FALSE(bench.moves());
+  EXPECT_THAT(bench.diagnosed("commands", "last ignored because"), HasSubstr("not armed"));
+  EXPECT_TRUE(bench.call("/arm").success);
+  bench.drive_ms(500, 0.3, 0);
+  EXPECT_EQ(bench.mode(), Mode::velocity);
+}
+
+TEST_F(Link, AHundredPullsWhileItDrivesEachStopTheRobotAndEachIsRecoveredWithoutAJump) {
+  constexpr unsigned kSeed = 20261124;
+  std::mt19937 random(kSeed);
+  std::uniform_int_distribution<int> before(50, 600), away(250, 3000);
+  std::uniform_real_distribution<double> v_mps(-0.4, 0.5), omega_radps(-1, 1);
+  EXPECT_TRUE(comes_back());
+  double worst_m = 0;
+  int longest_ms = 0;
+  for (int i = 0; i < 100; ++i) {
+    ASSERT_TRUE(bench.run_until([&] { return bench.call("/arm").success; })) << i;
+    const double v = v_mps(random), omega = omega_radps(random);
+    bench.drive_ms(before(random), v, omega);
+    bench.cable.pull();
+    for (int ms = 0; ms < away(random); ms += 50) {
+      bench.say_velocity(v, omega);  // it goes on
+      bench.run_ms(50);
+    }
+    // By its own time-out, and its ramp from at most 0.5 m/s at 0.5 m/s^2.
+    int stops_ms = 0;
+    while (bench.moves() && stops_ms < 1500) bench.silence_ms(1), ++stops_ms;
+    ASSERT_FALSE(bench.moves()) << i;
+    longest_ms = std::max(longest_ms, stops_ms);
+    const sim::Pose truth = bench.robot->board().truth();
+    bench.cable.plug_in();
+    const msg::Odometry odometry = this->odometry();
+    const double off_m =
+        std::hypot(odometry.pose.pose.position.x - truth.x_m, odometry.pose.pose.position.y - truth.y_m);
+    worst_m = std::max(worst_m, off_m);
+    bench.drive_ms(200, 0.3, 0);
+    ASSERT_FALSE(bench.moves()) << i;
+  }
+  std::printf("100 pulls, seed %u: all stopped, all recovered; odometry at most %.2f mm off\n", kSeed,
+              1e3 * worst_m);
+  // Without slip odometry is off by the rounding of counts and of the robot's arcs: 0.1 mm a drive.
+  EXPECT_LT(worst_m, 0.01);
+}
+
+TEST_F(Link, AfterARestartOdometryContinuesFromTheLastPoseWithALargerCovariance) {
+  EXPECT_TRUE(comes_back());
+  bench.call("/arm");
+  bench.drive_ms(2000, 0.3, 0.4);
+  bench.run_ms(2000);
+  const msg::Odometry before = odometry();
+  bench.robot->restart(hal::ResetCause::software);
+  const msg::Odometry after = odometry();
+  EXPECT_LT(distance(before, after), 1e-6);
+  EXPECT_NEAR(heading_of(before.pose.pose.orientation), heading_of(after.pose.pose.orientation), 1e-6);
+  EXPECT_GE(after.pose.covariance[0], before.pose.covariance[0] + 0.01 * 0.01);
+  EXPECT_GE(after.pose.covariance[35], before.pose.covariance[35] + 0.02 * 0.02);
+  bench.run_ms(1100);
+  EXPECT_THAT(bench.diagnosed("robot", "odometry"), HasSubstr("has restarted"));
+  EXPECT_EQ(bench.mode(), Mode::disarmed);
+}
+
+TEST_F(Link, ARestartBehindAPulledCableIsFoundByTheRobotsClock) {
+  EXPECT_TRUE(comes_back());
+  bench.call("/arm");
+  bench.drive_ms(2000, 0.3, 0.4);
+  bench.run_ms(2000);
+  const msg::Odometry before = odometry();
+  bench.cable.pull();
+  bench.run_ms(500);
+  bench.robot->restart(hal::ResetCause::power_on);
+  bench.run_ms(500);
+  bench.cable.plug_in();
+  const msg::Odometry after = odometry();
+  EXPECT_LT(distance(before, after), 1e-6);
+  EXPECT_GE(after.pose.covariance[0], before.pose.covariance[0] + 0.01 * 0.01);
+}
+
+TEST_F(Link, ARobotThatRestartsWhileItRollsIsAtMostAsFarOffAsItSays) {
+  EXPECT_TRUE(comes_back());
+  bench.call("/arm");
+  bench.drive_ms(2000, 0.5, 0);
+  bench.robot->restart(hal::ResetCause::watchdog);
+  bench.run_ms(4000);
+  const msg::Odometry after = odometry();
+  const double off_m = std::abs(bench.robot->board().truth().x_m - after.pose.pose.position.x);
+  EXPECT_LT(off_m, 2 * std::sqrt(after.pose.covariance[0]));
+  EXPECT_FALSE(bench.moves());
+}
+
+TEST_F(Link, AnotherRobotAtThePortIsNotTakenForTheFirst) {
+  EXPECT_TRUE(comes_back());
+  auto config = RobotOnRos::quiet();
+  config.seed = 77;
+  const auto first = bench.robot;
+  const auto other = std::make_shared<simulation::VirtualRobot>(config, simulation::MocapConfig{});
+  bench.ros.on_wait = [&](microseconds most) {
+    for (int i = 0; i < most.count() / 1000; ++i) first->step();
+  };
+  bench.cable.pull();
+  bench.run_ms(100);
+  bench.cable.exchange_robot(other);
+  bench.cable.plug_in();
+  publishes();
+  bench.run_ms(2000);
+  EXPECT_FALSE(publishes());
+  EXPECT_THAT(bench.status("link").message, HasSubstr("another robot"));
+  bench.cable.exchange_robot(first);
+  EXPECT_TRUE(comes_back());
+}
+
+TEST_F(Link, EndsWithoutARobotAndWithoutAnError) {
+  bench.cable.pull();
+  bench.run_ms(100);
+  EXPECT_NO_THROW(bench.driver->end());
+}
+
+TEST_F(Link, SeveralMiddlewaresGetTheSameAndMayAllCommand) {
+  test::FakeMiddleware second;
+  DriverOptions options;
+  options.clock = {[this] { return bench.now(); }, [this] { return bench.utc_ns(); }};
+  bench.driver.reset();
+  bench.ros.published.clear();
+  Driver driver(
+      {&bench.ros, &second}, [this] { return bench.cable.open(); }, options);
+  const auto run_ms = [&](int ms) {
+    const microseconds until = bench.now() + std::chrono::milliseconds(ms);
+    while (bench.now() < until) driver.step();
+  };
+  run_ms(500);
+  EXPECT_EQ(bench.ros.take<msg::Odometry>("/odom"), second.take<msg::Odometry>("/odom"));
+  EXPECT_TRUE(second.call<msg::Trigger>("/arm").success);
+  bench.say_velocity(0.2, 0);
+  run_ms(100);
+  EXPECT_EQ(bench.mode(), Mode::velocity);
+}
+
+}  // namespace
+}  // namespace astro::ros2

@@ -1,0 +1,144 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/ros2/robot_on_ros.hpp"
+
+namespace astro::ros2 {
+namespace {
+
+using support::RobotOnRos;
+using testing::HasSubstr;
+
+class Parameters : public testing::Test {
+ protected:
+  Parameters() { bench.run_ms(300); }
+  ParameterTable& table() { return *bench.ros.parameters; }
+  double real(std::string_view name) { return table().value(name).value().double_value; }
+  msg::ParameterDescriptor descriptor(std::string_view name) {
+    for (const auto& each : table().descriptors())
+      if (each.name == name) return each;
+    ADD_FAILURE() << "no descriptor of " << name;
+    return {};
+  }
+  static msg::ParameterValue whole(std::int64_t value) {
+    msg::ParameterValue parameter;
+    parameter.type = static_cast<std::uint8_t>(ParameterType::integer);
+    parameter.integer_value = value;
+    return parameter;
+  }
+  msg::SetParametersResult set(std::initializer_list<msg::Parameter> parameters) {
+    return table().set({parameters.begin(), parameters.size()});
+  }
+  RobotOnRos bench;
+};
+
+TEST_F(Parameters, AreTheRobotsWithTypesRangesAndUnits) {
+  const auto b = descriptor("b");
+  EXPECT_EQ(b.type, static_cast<std::uint8_t>(ParameterType::real));
+  EXPECT_THAT(b.description, testing::AllOf(HasSubstr("Wheelbase"), HasSubstr("[m]")));
+  EXPECT_EQ(b.floating_point_range, (msg::FloatingPointRange{0.05, 2, 0}));
+  const auto timeout = descriptor("command_timeout");
+  EXPECT_EQ(timeout.integer_range, (msg::IntegerRange{0, 60'000, 1}));
+  EXPECT_EQ(descriptor("robot_name").type, static_cast<std::uint8_t>(ParameterType::text));
+  EXPECT_EQ(real("c_R"), 1);
+  EXPECT_EQ(table().value("robot_name").value().string_value, "ASTRO");
+  EXPECT_EQ(table().value("command_timeout").value().integer_value, 200);
+  EXPECT_FALSE(table().value("no_such_parameter"));
+}
+
+TEST_F(Parameters, EveryDescriptorHasAValueOfItsType) {
+  for (const auto& each : table().descriptors())
+    EXPECT_EQ(table().value(each.name).value().type, each.type) << each.name;
+  EXPECT_GT(table().descriptors().size(), 40);
+}
+
+TEST_F(Parameters, ASetIsPutInForceAsAWholeAndReadBack) {
+  EXPECT_TRUE(set({{"c_R", to_parameter(1.002)}, {"b", to_parameter(0.2886)}}).successful);
+  EXPECT_NEAR(real("c_R"), 1.002, 1e-9);
+  EXPECT_NEAR(real("b"), 0.2886, 1e-12);
+  robot::Client other(std::make_unique<simulation::InProcessTransport>(bench.robot, 1));
+  other.connect();
+  EXPECT_NEAR(robot::RemoteParameters::fetch(other).number("c_R"), 1.002, 1e-9);
+}
+
+TEST_F(Parameters, OneBadValueRefusesTheWholeSetAndIsNamed) {
+  const auto result = set({{"c_R", to_parameter(1.002)}, {"b", to_parameter(5)}});
+  EXPECT_FALSE(result.successful);
+  EXPECT_THAT(result.reason, testing::AllOf(HasSubstr("b = 5 m"), HasSubstr("0.05 m to 2 m")));
+  EXPECT_EQ(real("c_R"), 1);
+  // What was staged then is not in the next set.
+  EXPECT_TRUE(set({{"kp", to_parameter(50)}}).successful);
+  EXPECT_EQ(real("c_R"), 1);
+}
+
+TEST_F(Parameters, ARuleBetweenTwoIsNamedByTheRobot) {
+  const auto result = set({{"over_speed", to_parameter(0.5)}});
+  EXPECT_FALSE(result.successful);
+  EXPECT_THAT(result.reason, testing::AllOf(HasSubstr("over_speed"), HasSubstr("speed_limit")));
+}
+
+TEST_F(Parameters, AreRefusedWhileTheRobotDrives) {
+  bench.call("/arm");
+  bench.drive_ms(500, 0.3, 0);
+  const auto result = set({{"c_R", to_parameter(1.002)}});
+  EXPECT_FALSE(result.successful);
+  EXPECT_THAT(result.reason, HasSubstr("moving"));
+}
+
+TEST_F(Parameters, AreRefusedInAnotherTypeButAWholeNumberMayStandForARealOne) {
+  EXPECT_THAT(set({{"c_R", to_parameter(std::string("1"))}}).reason, HasSubstr("c_R"));
+  EXPECT_TRUE(set({{"c_R", whole(1)}}).successful);
+  EXPECT_FALSE(set({{"command_timeout", to_parameter(0.3)}}).successful);
+  EXPECT_FALSE(set({{"c_R", to_parameter(std::nan(""))}}).successful);
+  EXPECT_THAT(set({{"nonsense", to_parameter(1)}}).reason, HasSubstr("nonsense"));
+}
+
+TEST_F(Parameters, OfTheNodeCanBeReadAndNotSet) {
+  EXPECT_EQ(table().value("odom_frame_id").value().string_value, "odom");
+  EXPECT_EQ(real("cmd_vel_timeout"), 0.5);
+  EXPECT_EQ(real("publish_rate"), 50);
+  EXPECT_TRUE(descriptor("publish_rate").read_only);
+  EXPECT_THAT(set({{"publish_rate", to_parameter(10)}}).reason, HasSubstr("publish_rate"));
+}
+
+TEST_F(Parameters, ThatAnotherProgramChangesAreSeenAfterASecond) {
+  real("c_R");
+  robot::Client other(std::make_unique<simulation::InProcessTransport>(bench.robot, 1));
+  other.connect();
+  auto parameters = robot::RemoteParameters::fetch(other);
+  parameters.stage("c_R", 1.003);
+  parameters.commit();
+  bench.run_ms(1100);
+  EXPECT_NEAR(real("c_R"), 1.003, 1e-9);
+}
+
+TEST_F(Parameters, NewSizesAreInTheNextDescription) {
+  bench.ros.take<msg::String>("/robot_description");
+  EXPECT_TRUE(set({{"b", to_parameter(0.4)}}).successful);
+  EXPECT_THAT(bench.ros.newest<msg::String>("/robot_description").data, HasSubstr("0 0.2 0.036"));
+}
+
+TEST_F(Parameters, KeepThePoseAndItsCovarianceWhenTheyChange) {
+  bench.call("/arm");
+  bench.drive_ms(3000, 0.3, 0.2);
+  bench.run_ms(2500);
+  const auto before = bench.ros.newest<msg::Odometry>("/odom");
+  EXPECT_TRUE(set({{"c_R", to_parameter(1.004)}}).successful);
+  bench.run_ms(100);
+  const auto after = bench.ros.newest<msg::Odometry>("/odom");
+  EXPECT_EQ(after.pose.pose, before.pose.pose);
+  EXPECT_NEAR(after.pose.covariance[0], before.pose.covariance[0], 1e-9);
+}
+
+TEST_F(Parameters, WithoutARobotOnlyThoseOfTheNodeAreThere) {
+  bench.cable.pull();
+  bench.run_ms(100);
+  EXPECT_EQ(table().descriptors().size(), 4);
+  EXPECT_FALSE(table().value("c_R"));
+  EXPECT_FALSE(set({{"c_R", to_parameter(1.0)}}).successful);
+}
+
+}  // namespace
+}  // namespace astro::ros2

@@ -1,0 +1,197 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "host/ros2/recorded/ros_messages.hpp"
+#include "tests/support/ros2/robot_on_ros.hpp"
+
+namespace astro::ros2 {
+namespace {
+
+using protocol::Mode;
+using support::RobotOnRos;
+using testing::HasSubstr;
+
+class Services : public testing::Test {
+ protected:
+  Services() { bench.run_ms(300); }
+  msg::PoseWithCovarianceStamped pose(double x_m, double y_m, double theta_rad) {
+    msg::PoseWithCovarianceStamped message;
+    message.header.frame_id = "odom";
+    message.pose.pose = planar_pose(x_m, y_m, theta_rad);
+    message.pose.covariance[0] = message.pose.covariance[7] = 0.04;
+    message.pose.covariance[35] = 0.01;
+    return message;
+  }
+  msg::Odometry odometry() {
+    bench.ros.take<msg::Odometry>("/odom");
+    bench.run_ms(60);
+    return bench.ros.newest<msg::Odometry>("/odom");
+  }
+  RobotOnRos bench;
+};
+
+TEST_F(Services, ArmAndDisarm) {
+  EXPECT_EQ(bench.call("/arm"), (msg::Trigger::Response{true, "armed"}));
+  EXPECT_EQ(bench.mode(), Mode::idle);
+  EXPECT_TRUE(bench.call("/disarm").success);
+  EXPECT_EQ(bench.mode(), Mode::disarmed);
+}
+
+TEST_F(Services, ArmClearsWhatADeadDriveLeftBehindAndSaysSo) {
+  bench.call("/arm");
+  bench.drive_ms(500, 0.2, 0);
+  bench.silence_ms(2000);
+  ASSERT_EQ(bench.mode(), Mode::fault);
+  bench.run_ms(100);
+  const auto answer = bench.call("/arm");
+  EXPECT_TRUE(answer.success);
+  EXPECT_THAT(answer.message, HasSubstr("cleared command_timeout"));
+  EXPECT_EQ(bench.mode(), Mode::idle);
+}
+
+TEST_F(Services, ArmRefusesAnyOtherFaultByItsName) {
+  bench.call("/emergency_stop");
+  EXPECT_EQ(bench.mode(), Mode::fault);
+  const auto answer = bench.call("/arm");
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message, HasSubstr("emergency_stop"));
+  EXPECT_TRUE(bench.call("/clear_faults").success);
+  EXPECT_TRUE(bench.call("/arm").success);
+}
+
+TEST_F(Services, EmergencyStopOpensTheBridgesAtOnce) {
+  bench.call("/arm");
+  bench.drive_ms(500, 0.3, 0);
+  EXPECT_TRUE(bench.call("/emergency_stop").success);
+  EXPECT_EQ(bench.robot->board().motors().state(), sim::Bridge::coast);
+}
+
+TEST_F(Services, StopRampsToRestAndTheNextVelocityDrivesAgain) {
+  bench.call("/arm");
+  bench.drive_ms(500, 0.3, 0);
+  EXPECT_TRUE(bench.call("/stop").success);
+  EXPECT_TRUE(bench.run_until([&] { return bench.mode() == Mode::idle; }));
+  bench.drive_ms(100, 0.3, 0);
+  EXPECT_EQ(bench.mode(), Mode::velocity);
+}
+
+TEST_F(Services, PauseAndResumeTheDriveOfAnotherProgram) {
+  robot::Client other(std::make_unique<simulation::InProcessTransport>(bench.robot, 1));
+  other.connect();
+  other.request(protocol::Arm{});
+  other.request(protocol::AddSegment{protocol::SegmentKind::line, 1, 1'000'000'000, 0, 0, 0, 0});
+  for (int i = 0; i < 10; ++i) bench.run_ms(50), other.pump({});
+  ASSERT_EQ(bench.mode(), Mode::segment);
+  EXPECT_TRUE(bench.call("/pause").success);
+  for (int i = 0; i < 40; ++i) bench.run_ms(50), other.pump({});
+  EXPECT_EQ(bench.mode(), Mode::paused);
+  EXPECT_TRUE(bench.call("/resume").success);
+  for (int i = 0; i < 10; ++i) bench.run_ms(50), other.pump({});
+  EXPECT_EQ(bench.mode(), Mode::segment);
+}
+
+TEST_F(Services, ResetOdometryPutsThePoseAndItsCovarianceToZero) {
+  bench.call("/arm");
+  bench.drive_ms(1000, 0.3, 0.5);
+  bench.run_ms(2000);
+  EXPECT_TRUE(bench.call("/reset_odometry").success);
+  const msg::Odometry now = odometry();
+  EXPECT_EQ(now.pose.pose, planar_pose(0, 0, 0));
+  EXPECT_LT(now.pose.covariance[0], 1e-8);  // a count
+}
+
+TEST_F(Services, ResetOdometryIsRefusedWhileTheRobotMoves) {
+  bench.call("/arm");
+  bench.drive_ms(1000, 0.3, 0);
+  const auto answer = bench.call("/reset_odometry");
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message, HasSubstr("moving"));
+  EXPECT_GT(odometry().pose.pose.position.x, 0.1);
+}
+
+TEST_F(Services, SetPosePutsTheRobotThereWithTheCovarianceOfTheMessage) {
+  bench.ros.say("/set_pose", pose(3, -2, 2.5));
+  const msg::Odometry now = odometry();
+  EXPECT_NEAR(now.pose.pose.position.x, 3, 1e-9);
+  EXPECT_NEAR(now.pose.pose.position.y, -2, 1e-9);
+  EXPECT_NEAR(heading_of(now.pose.pose.orientation), 2.5, 1e-9);
+  EXPECT_NEAR(now.pose.covariance[0], 0.04, 1e-6);
+  EXPECT_NEAR(now.pose.covariance[35], 0.01, 1e-6);
+}
+
+TEST_F(Services, NoOldPoseIsPublishedAfterOneWasSet) {
+  DriverOptions options;
+  options.rate_hz = 1000;
+  RobotOnRos fast(RobotOnRos::quiet(), options);
+  fast.run_ms(300);
+  fast.ros.take<msg::Odometry>("/odom");
+  fast.ros.say("/set_pose", pose(3, -2, 2.5));
+  fast.run_ms(100);
+  bool there = false;
+  for (const auto& each : fast.ros.take<msg::Odometry>("/odom")) {
+    there = there || each.pose.pose.position.x > 1;
+    EXPECT_EQ(each.pose.covariance[0] > 0.01, each.pose.pose.position.x > 1);
+    EXPECT_EQ(each.pose.pose.position.x > 1, there);
+  }
+  EXPECT_TRUE(there);
+}
+
+TEST_F(Services, AnErrorOfTheHeadingThatWasSetTurnsIntoOneOfThePlace) {
+  bench.ros.say("/set_pose", pose(0, 0, 0));
+  bench.run_ms(100);
+  bench.call("/arm");
+  bench.drive_ms(3000, 0.5, 0);
+  bench.run_ms(2500);
+  const msg::Odometry now = odometry();
+  const double way_m = now.pose.pose.position.x;
+  EXPECT_NEAR(now.pose.covariance[7], 0.04 + 0.01 * way_m * way_m, 0.002);
+  EXPECT_NEAR(now.pose.covariance[0], 0.04, 0.001);
+}
+
+TEST_F(Services, SetPoseRefusesWhatIsNoPoseInItsFrame) {
+  std::vector<std::pair<const char*, msg::PoseWithCovarianceStamped>> bad(6, {"", pose(1, 1, 0)});
+  bad[0].first = "frame", bad[0].second.header.frame_id = "map";
+  bad[1].first = "NaN", bad[1].second.pose.pose.position.x = std::nan("");
+  bad[2].first = "length 0", bad[2].second.pose.pose.orientation = {0, 0, 0, 0};
+  bad[3].first = "covariance", bad[3].second.pose.covariance[0] = -1;
+  bad[4].first = "covariance", bad[4].second.pose.covariance[1] = 1;
+  bad[5].first = "covariance", bad[5].second.pose.covariance[35] = std::nan("");
+  for (const auto& [why, message] : bad) {
+    bench.ros.say("/set_pose", message);
+    EXPECT_EQ(odometry().pose.pose.position.x, 0) << why;
+    bench.run_ms(1100);
+    EXPECT_THAT(bench.diagnosed("robot", "odometry"), HasSubstr(why));
+  }
+}
+
+TEST_F(Services, SayThatThereIsNoRobot) {
+  bench.cable.pull();
+  bench.run_ms(100);
+  for (const auto& [name, service] : bench.ros.services) {
+    const microseconds before = bench.now();
+    const auto answer = bench.call(name);
+    EXPECT_FALSE(answer.success) << name;
+    EXPECT_THAT(answer.message, HasSubstr("no robot")) << name;
+    EXPECT_LT(bench.now() - before, std::chrono::seconds(1));
+  }
+}
+
+TEST_F(Services, APoseThatAnotherProgramSetsIsNoticed) {
+  bench.call("/arm");
+  bench.drive_ms(2000, 0.3, 0);
+  bench.run_ms(2500);
+  bench.call("/disarm");
+  robot::Client other(std::make_unique<simulation::InProcessTransport>(bench.robot, 1));
+  other.connect();
+  other.request(protocol::SetPose{});
+  const msg::Odometry now = odometry();
+  EXPECT_EQ(now.pose.pose.position.x, 0);
+  EXPECT_LT(now.pose.covariance[0], 1e-8);
+  bench.run_ms(1100);
+  EXPECT_THAT(bench.diagnosed("robot", "odometry"), HasSubstr("another program"));
+}
+
+}  // namespace
+}  // namespace astro::ros2

@@ -1,0 +1,201 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "host/ros2/recorded/ros_messages.hpp"
+#include "tests/support/ros2/robot_on_ros.hpp"
+
+namespace astro::ros2 {
+namespace {
+
+using support::RobotOnRos;
+using testing::ElementsAre;
+
+/// On an arc to the left.
+class DrivingRobot : public testing::Test {
+ protected:
+  DrivingRobot() {
+    EXPECT_TRUE(bench.run_until([&] { return !bench.ros.published["/odom"].messages.empty(); }));
+    EXPECT_TRUE(bench.call("/arm").success);
+    bench.drive_ms(3000, 0.3, 0.5);
+  }
+  RobotOnRos bench;
+};
+
+TEST_F(DrivingRobot, OdometryIsWhereTheRobotIs) {
+  const auto odometry = bench.ros.newest<msg::Odometry>("/odom");
+  const sim::Pose truth = bench.robot->board().truth();
+  // Without slip odometry and truth differ by what the robot does in a period and by rounding to counts.
+  EXPECT_NEAR(odometry.pose.pose.position.x, truth.x_m, 0.01);
+  EXPECT_NEAR(odometry.pose.pose.position.y, truth.y_m, 0.01);
+  EXPECT_NEAR(heading_of(odometry.pose.pose.orientation), truth.theta_rad, 0.02);
+  EXPECT_EQ(odometry.pose.pose.position.z, 0);
+  EXPECT_NEAR(odometry.twist.twist.linear.x, 0.3, 0.01);
+  EXPECT_NEAR(odometry.twist.twist.angular.z, 0.5, 0.03);
+  EXPECT_EQ(odometry.twist.twist.linear.y, 0);
+}
+
+TEST_F(DrivingRobot, FramesAreThoseOfRep105) {
+  const auto odometry = bench.ros.newest<msg::Odometry>("/odom");
+  EXPECT_EQ(odometry.header.frame_id, "odom");
+  EXPECT_EQ(odometry.child_frame_id, "base_footprint");
+  const auto moving = bench.ros.newest<msg::TFMessage>("/tf").transforms;
+  ASSERT_EQ(moving.size(), 3);
+  EXPECT_EQ(moving[0].header.frame_id, "odom");
+  EXPECT_EQ(moving[0].child_frame_id, "base_footprint");
+  EXPECT_EQ(moving[1].header.frame_id, "base_link");
+  EXPECT_EQ(moving[1].child_frame_id, "left_wheel");
+  EXPECT_EQ(moving[2].child_frame_id, "right_wheel");
+  const auto fixed = bench.ros.newest<msg::TFMessage>("/tf_static").transforms;
+  ASSERT_EQ(fixed.size(), 1);
+  EXPECT_EQ(fixed[0].header.frame_id, "base_footprint");
+  EXPECT_EQ(fixed[0].child_frame_id, "base_link");
+  EXPECT_EQ(fixed[0].transform, msg::Transform());
+}
+
+TEST_F(DrivingRobot, TransformsSayWhatOdometrySays) {
+  const auto odometry = bench.ros.newest<msg::Odometry>("/odom");
+  const auto base = bench.ros.newest<msg::TFMessage>("/tf").transforms.at(0);
+  EXPECT_EQ(base.header.stamp, odometry.header.stamp);
+  EXPECT_EQ(base.transform.translation.x, odometry.pose.pose.position.x);
+  EXPECT_EQ(base.transform.translation.y, odometry.pose.pose.position.y);
+  EXPECT_EQ(base.transform.rotation, odometry.pose.pose.orientation);
+}
+
+TEST_F(DrivingRobot, StampsAreWhenTheRobotMeasured) {
+  bench.ros.take<msg::Odometry>("/odom");
+  bench.say_velocity(0.3, 0.5);
+  bench.run_ms(300);
+  std::int64_t before_ns = 0;
+  for (const auto& odometry : bench.ros.take<msg::Odometry>("/odom")) {
+    const std::int64_t stamp_ns = msg::nanoseconds(odometry.header.stamp);
+    if (before_ns != 0) {
+      EXPECT_NEAR(1e-9 * static_cast<double>(stamp_ns - before_ns), 0.020, 0.001);  // 50 Hz
+    }
+    before_ns = stamp_ns;
+  }
+  // The last one was measured within the last period, and a round trip takes a few ticks.
+  EXPECT_LE(before_ns, bench.utc_ns());
+  EXPECT_GE(before_ns, bench.utc_ns() - 25'000'000);
+}
+
+TEST_F(DrivingRobot, JointsTurnAsTheWheelsDo) {
+  bench.ros.take<msg::JointState>("/joint_states");
+  bench.drive_ms(1000, 0.3, 0.5);
+  const auto all = bench.ros.take<msg::JointState>("/joint_states");
+  ASSERT_GT(all.size(), 45);
+  const msg::JointState &first = all.front(), &last = all.back();
+  EXPECT_THAT(first.name, ElementsAre("left_wheel_joint", "right_wheel_joint"));
+  const double seconds =
+      1e-9 * static_cast<double>(msg::nanoseconds(last.header.stamp) - msg::nanoseconds(first.header.stamp));
+  for (const std::size_t i : {0, 1}) {
+    const double rim_mps = 0.3 + (i == 0 ? -1 : 1) * 0.5 * 0.29 / 2;
+    EXPECT_NEAR(last.velocity[i], rim_mps / 0.036, 0.3);
+    EXPECT_NEAR((last.position[i] - first.position[i]) / seconds, rim_mps / 0.036, 0.05);
+  }
+}
+
+TEST_F(DrivingRobot, DescriptionHasTheSizesOfTheRobot) {
+  const std::string urdf = bench.ros.newest<msg::String>("/robot_description").data;
+  EXPECT_THAT(urdf, testing::HasSubstr("<link name=\"base_footprint\"/>"));
+  EXPECT_THAT(urdf, testing::HasSubstr("<origin xyz=\"0 0.145 0.036\"/>"));
+}
+
+TEST_F(DrivingRobot, TelemetrySaysWhatTheControllerDoes) {
+  const auto telemetry = bench.ros.newest<msg::Telemetry>("/telemetry");
+  EXPECT_EQ(telemetry.mode, "velocity");
+  EXPECT_EQ(telemetry.faults, "");
+  EXPECT_NEAR(telemetry.right_setpoint, 0.3 + 0.5 * 0.145, 1e-3);
+  EXPECT_NEAR(telemetry.left_setpoint, 0.3 - 0.5 * 0.145, 1e-3);
+  EXPECT_NEAR(telemetry.right_speed, telemetry.right_setpoint, 0.01);
+  EXPECT_GT(telemetry.right_duty, telemetry.left_duty);
+  EXPECT_NEAR(telemetry.linear_speed, 0.3, 0.01);
+  EXPECT_GT(telemetry.right_counts, telemetry.left_counts);
+  EXPECT_GT(telemetry.x_deviation, 0);
+}
+
+TEST_F(DrivingRobot, BatteryIsInVoltsAndWhatIsNotMeasuredIsNan) {
+  const auto battery = bench.ros.newest<msg::BatteryState>("/battery_state");
+  EXPECT_NEAR(battery.voltage, 12, 0.3);
+  EXPECT_TRUE(std::isnan(battery.percentage));
+  EXPECT_TRUE(std::isnan(battery.current));
+  EXPECT_TRUE(battery.present);
+}
+
+TEST_F(DrivingRobot, DiagnosticsComeOnceASecondAndSayThatAllIsWell) {
+  bench.diagnostics();
+  int messages = 0;
+  for (int i = 0; i < 5; ++i) {
+    bench.drive_ms(1000, 0.3, 0.5);
+    messages += static_cast<int>(bench.ros.take<msg::DiagnosticArray>("/diagnostics").size());
+  }
+  EXPECT_NEAR(messages, 5, 1);
+  bench.drive_ms(1000, 0.3, 0.5);
+  for (const char* each : {"robot", "link", "commands"})
+    EXPECT_EQ(bench.status(each).level, std::byte{0}) << bench.status(each).message;
+  EXPECT_EQ(bench.diagnosed("robot", "mode"), "velocity");
+  EXPECT_EQ(bench.diagnosed("commands", "velocities ignored"), "0");
+}
+
+TEST_F(DrivingRobot, CovarianceOfThePoseIsRowMajorAndGrows) {
+  const auto first = bench.ros.newest<msg::Odometry>("/odom").pose.covariance;
+  bench.drive_ms(3000, 0.3, 0.5);
+  const auto last = bench.ros.newest<msg::Odometry>("/odom").pose.covariance;
+  for (std::size_t row = 0; row < 6; ++row)
+    for (std::size_t column = 0; column < 6; ++column)
+      EXPECT_EQ(last[6 * row + column], last[6 * column + row]);
+  for (const std::size_t i : {0, 7, 35}) EXPECT_GT(last[i], first[i]);
+  for (const std::size_t i : {14, 21, 28}) EXPECT_EQ(last[i], kNotMeasured);
+}
+
+TEST(Driver, PublishesAtTheChosenRate) {
+  for (const double rate_hz : {10.0, 100.0, 1000.0}) {
+    DriverOptions options;
+    options.rate_hz = rate_hz;
+    RobotOnRos bench(RobotOnRos::quiet(), options);
+    bench.run_ms(1000);
+    bench.ros.take<msg::Odometry>("/odom");
+    bench.run_ms(1000);
+    EXPECT_NEAR(static_cast<double>(bench.ros.take<msg::Odometry>("/odom").size()), rate_hz,
+                1 + 0.01 * rate_hz);
+  }
+}
+
+TEST(Driver, InANamespaceHasItsTopicsAndFramesThere) {
+  DriverOptions options;
+  options.node_namespace = "/left";
+  RobotOnRos bench(RobotOnRos::quiet(), options);
+  bench.run_ms(500);
+  const auto odometry = bench.ros.newest<msg::Odometry>("/left/odom");
+  EXPECT_EQ(odometry.header.frame_id, "left/odom");
+  EXPECT_EQ(odometry.child_frame_id, "left/base_footprint");
+  EXPECT_EQ(bench.ros.newest<msg::TFMessage>("/tf").transforms.at(2).child_frame_id, "left/right_wheel");
+  EXPECT_THAT(bench.ros.newest<msg::String>("/left/robot_description").data,
+              testing::HasSubstr("\"left/base_link\""));
+  EXPECT_TRUE(bench.ros.services.contains("/left/arm"));
+}
+
+TEST(Driver, EncodesNothingForNobody) {
+  RobotOnRos bench;
+  bench.ros.anybody_listens = false;
+  bench.run_ms(500);
+  EXPECT_TRUE(bench.ros.published["/odom"].messages.empty());
+  EXPECT_FALSE(bench.ros.published["/tf_static"].messages.empty());  // for whoever comes later
+}
+
+TEST(Driver, StampsFollowTheSystemsClockWhenItIsCorrected) {
+  RobotOnRos bench;
+  bench.run_ms(1000);
+  for (const std::int64_t hours : {1, -2}) {
+    bench.utc_steps_ns = hours * 3'600'000'000'000;
+    bench.run_ms(2000);
+    const auto odometry = bench.ros.newest<msg::Odometry>("/odom");
+    EXPECT_NEAR(1e-9 * static_cast<double>(bench.utc_ns() + bench.utc_steps_ns -
+                                           msg::nanoseconds(odometry.header.stamp)),
+                0, 0.05);
+  }
+}
+
+}  // namespace
+}  // namespace astro::ros2

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <algorithm>
+#include <list>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include "host/ros2/dds/participant.hpp"
+
+namespace astro::ros2::dds {
+
+/// A participant without a network: the test puts samples into its readers and sees what its writers have written.
+class FakeWire {
+  template <class Ends>
+  static auto& with_name(Ends& ends, const std::string& topic) {
+    const auto found =
+        std::find_if(ends.begin(), ends.end(), [&](auto& end) { return end.topic.name == topic; });
+    if (found == ends.end()) throw std::runtime_error("nothing of the name " + topic);
+    return *found;
+  }
+
+ public:
+  struct Written {
+    Bytes payload;
+    std::optional<SampleId> related;
+  };
+  struct WriterEnd {
+    Topic topic;
+    Guid guid;
+    std::vector<Written> written{};
+    std::vector<Guid> readers{};  // that have found it
+    bool gone = false;
+  };
+  struct ReaderEnd {
+    Topic topic;
+    Guid guid;
+    std::vector<Sample> waiting{};
+  };
+
+  WriterEnd& writer_of(const std::string& topic) { return with_name(writers, topic); }
+  ReaderEnd& reader_of(const std::string& topic) { return with_name(readers, topic); }
+
+  std::list<WriterEnd> writers;
+  std::list<ReaderEnd> readers;
+  std::map<Guid, std::string> user_data;  // of endpoints of others
+};
+
+/// Of an endpoint: all bytes are `number`, but for the last, its kind.
+inline Guid guid_of(std::uint8_t number, std::uint8_t kind) {
+  Guid guid;
+  guid.bytes.fill(number);
+  guid.bytes.back() = kind;
+  return guid;
+}
+
+inline constexpr std::uint8_t kWriterKind = 0x03, kReaderKind = 0x04, kParticipantKind = 0xC1;
+
+class FakeParticipant : public Participant {
+ public:
+  explicit FakeParticipant(FakeWire& wire) : wire_(wire) {}
+
+  std::unique_ptr<Writer> create_writer(const Topic& topic) override {
+    return std::make_unique<FakeWriter>(wire_.writers.emplace_back(topic, guid_of(next_++, kWriterKind)));
+  }
+  std::unique_ptr<Reader> create_reader(const Topic& topic) override {
+    return std::make_unique<FakeReader>(wire_.readers.emplace_back(topic, guid_of(next_++, kReaderKind)));
+  }
+  Guid guid() const override { return guid_of(1, kParticipantKind); }
+  std::string user_data_of(const Guid& endpoint) const override {
+    const auto found = wire_.user_data.find(endpoint);
+    return found == wire_.user_data.end() ? "" : found->second;
+  }
+  void wait(std::chrono::microseconds) override {}
+
+ private:
+  class FakeWriter : public Writer {
+   public:
+    explicit FakeWriter(FakeWire::WriterEnd& end) : end_(end) {}
+    ~FakeWriter() override { end_.gone = true; }
+    Guid guid() const override { return end_.guid; }
+    std::vector<Guid> readers() const override { return end_.readers; }
+
+   private:
+    void send(ByteView payload, const SampleId* related) override {
+      end_.written.push_back({{payload.begin(), payload.end()}, {}});
+      if (related != nullptr) end_.written.back().related = *related;
+    }
+    FakeWire::WriterEnd& end_;
+  };
+  class FakeReader : public Reader {
+   public:
+    explicit FakeReader(FakeWire::ReaderEnd& end) : end_(end) {}
+    std::vector<Sample> take() override { return std::exchange(end_.waiting, {}); }
+    Guid guid() const override { return end_.guid; }
+    std::vector<Guid> writers() const override { return {}; }
+
+   private:
+    FakeWire::ReaderEnd& end_;
+  };
+
+  FakeWire& wire_;
+  std::uint8_t next_ = 2;
+};
+
+}  // namespace astro::ros2::dds

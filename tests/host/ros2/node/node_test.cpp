@@ -1,0 +1,168 @@
+#include "host/ros2/node/node.hpp"
+
+#include <gmock/gmock.h>
+
+#include <random>
+
+#include "host/base/error.hpp"
+#include "host/ros2/cdr/codec.hpp"
+#include "host/ros2/messages/geometry.hpp"
+#include "host/ros2/messages/parameter_services.hpp"
+#include "host/ros2/messages/services.hpp"
+#include "host/ros2/node/parameter_services.hpp"
+#include "tests/host/ros2/node/fake_participant.hpp"
+#include "tests/host/ros2/node/parameters_of.hpp"
+
+namespace astro::ros2 {
+namespace {
+
+using dds::guid_of;
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::SizeIs;
+using testing::UnorderedElementsAre;
+
+constexpr auto kLater = GidSize::iron_and_later;
+
+class NodeOnAFakeWire : public testing::Test {
+ protected:
+  void put(const std::string& topic, Bytes payload, dds::Guid writer = guid_of(0x71, 3)) {
+    wire_.reader_of(topic).waiting.push_back({std::move(payload), {writer, 1}, std::nullopt});
+  }
+  std::vector<dds::FakeWire::Written>& written(const std::string& topic) {
+    return wire_.writer_of(topic).written;
+  }
+  std::optional<msg::ParticipantEntitiesInfo<16>> announced() {
+    node_->poll();
+    const auto& all = written("ros_discovery_info");
+    return all.empty() ? std::nullopt : decode<msg::ParticipantEntitiesInfo<16>>(all.back().payload);
+  }
+
+  dds::FakeWire wire_;
+  std::unique_ptr<Middleware> node_ =
+      open_node({{"robot", "/hall"}, kLater}, std::make_unique<dds::FakeParticipant>(wire_));
+};
+
+TEST_F(NodeOnAFakeWire, ATopicHasItsNameItsTypeItsHashAndItsQualityOnTheWire) {
+  const auto publisher = node_->advertise({"/tf_static", message_type<msg::TFMessage>(), true, true, 1});
+  const dds::Topic& topic = wire_.writer_of("rt/tf_static").topic;
+  EXPECT_EQ(topic.type, "tf2_msgs::msg::dds_::TFMessage_");
+  EXPECT_EQ(topic.user_data,
+            "typehash=RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087;");
+  EXPECT_TRUE(topic.qos.reliable);
+  EXPECT_TRUE(topic.qos.transient_local);
+  EXPECT_EQ(topic.qos.depth, 1);
+  EXPECT_FALSE(publisher->has_subscribers());
+  wire_.writer_of("rt/tf_static").readers.push_back(guid_of(9, 4));
+  EXPECT_TRUE(publisher->has_subscribers());
+  publisher->publish(encode(msg::TFMessage{}), 0);
+  EXPECT_EQ(written("rt/tf_static").at(0).payload, encode(msg::TFMessage{}));
+}
+
+TEST_F(NodeOnAFakeWire, MessagesComeInPollUnderTheTypeOfTheirReader) {
+  std::vector<std::string> came;
+  node_->subscribe({"/cmd_vel", message_type<msg::Twist>()}, [&](ByteView) { came.emplace_back("Twist"); });
+  node_->subscribe({"/cmd_vel", message_type<msg::TwistStamped>()},
+                   [&](ByteView) { came.emplace_back("TwistStamped"); });
+  ASSERT_THAT(wire_.readers, SizeIs(2));
+  wire_.readers.back().waiting.push_back({encode(msg::TwistStamped{}), {}, {}});
+  EXPECT_THAT(came, IsEmpty());
+  node_->poll();
+  EXPECT_THAT(came, ElementsAre("TwistStamped"));
+}
+
+TEST_F(NodeOnAFakeWire, AnnouncesTheEndpointsOfTopicsAndServicesAsLongAsTheyAreThere) {
+  auto publisher = node_->advertise({"/odom", message_type<msg::Twist>()});
+  node_->subscribe({"/cmd_vel", message_type<msg::Twist>()}, [](ByteView) {});
+  node_->subscribe({"/cmd_vel", message_type<msg::TwistStamped>()}, [](ByteView) {});
+  node_->serve({"/arm", msg::Trigger::kType, message_type<msg::Trigger::Request>(),
+                message_type<msg::Trigger::Response>()},
+               [](ByteView) { return std::nullopt; });
+  auto info = announced();
+  ASSERT_TRUE(info);
+  ASSERT_THAT(info->node_entities_info_seq, SizeIs(1));
+  const auto& node = info->node_entities_info_seq[0];
+  EXPECT_EQ(node.node_name.text, "robot");
+  EXPECT_EQ(node.node_namespace.text, "/hall");
+  EXPECT_THAT(node.reader_gid_seq, SizeIs(3)) << "both of /cmd_vel, and the requests";
+  EXPECT_THAT(node.writer_gid_seq, SizeIs(2))
+      << "/odom and the replies; ros_discovery_info is not the node's";
+  publisher.reset();
+  info = announced();
+  EXPECT_THAT(info->node_entities_info_seq[0].writer_gid_seq, SizeIs(1));
+}
+
+TEST_F(NodeOnAFakeWire, AHandlerMaySubscribeAndServeInPoll) {
+  node_->subscribe({"/a", message_type<msg::Twist>()}, [&](ByteView) {
+    node_->subscribe({"/b", message_type<msg::Twist>()}, [](ByteView) {});
+  });
+  for (int i = 0; i < 3; ++i) put("rt/a", encode(msg::Twist{}));
+  node_->poll();
+  EXPECT_THAT(wire_.readers, SizeIs(4));
+}
+
+TEST_F(NodeOnAFakeWire, ServesParametersUnderItsFullNameAndTellsOfChanges) {
+  NumbersTable table({{"b", 0.2}});
+  node_->serve_parameters(table);
+  for (const char* name : {"get_parameters", "get_parameter_types", "set_parameters",
+                           "set_parameters_atomically", "describe_parameters", "list_parameters"})
+    EXPECT_NO_THROW(wire_.reader_of(std::string("rq/hall/robot/") + name + "Request")) << name;
+  put("rq/hall/robot/set_parametersRequest", encode(msg::SetParameters::Request{{{"b", real(0.25)}}}));
+  node_->poll();
+  const auto reply =
+      decode<msg::SetParameters::Response>(written("rr/hall/robot/set_parametersReply").at(0).payload);
+  ASSERT_TRUE(reply);
+  EXPECT_TRUE(reply->results.at(0).successful);
+  const auto event = decode<msg::ParameterEvent>(written("rt/parameter_events").at(0).payload);
+  ASSERT_TRUE(event);
+  EXPECT_EQ(event->node, "/hall/robot");
+  EXPECT_THAT(event->changed_parameters, ElementsAre(msg::Parameter{"b", real(0.25)}));
+  EXPECT_GT(event->stamp.sec, 1'700'000'000) << "seconds since 1970";
+}
+
+TEST_F(NodeOnAFakeWire, BadNamesAreRefused) {
+  const auto open = [&](const NodeName& name) {
+    return open_node({name, kLater}, std::make_unique<dds::FakeParticipant>(wire_));
+  };
+  EXPECT_THROW(open({"two words", "/"}), Error);
+  EXPECT_THROW(open({"robot", "hall"}), Error);
+  EXPECT_THROW(open_node({{"a/b"}, kLater}, dds::Discovery{}), Error);
+  EXPECT_THROW(node_->advertise({"odom", message_type<msg::Twist>()}), Error);
+}
+
+/// Whatever strangers send to any of its services, a node neither fails nor answers with more than it was asked for.
+TEST_F(NodeOnAFakeWire, BearsAnyBytesAsRequestsForParameters) {
+  NumbersTable table({{"b", 0.2}, {"a.c", 1}});
+  node_->serve_parameters(table);
+  const dds::Guid cyclone = guid_of(0x81, 3);
+  wire_.user_data[cyclone] = "clientid=1;";
+  const Bytes honest = encode(msg::SetParameters::Request{{{"b", real(0.25)}, {"a.c", real(2)}}});
+  constexpr unsigned kSeed = 20261124;
+  std::mt19937 random(kSeed);
+  for (int round = 0; round < 3000; ++round) {
+    Bytes bytes = honest;
+    for (unsigned i = 0; i < random() % 8; ++i)
+      bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
+    bytes.resize(random() % 4 == 0 ? random() % bytes.size() : bytes.size());
+    for (auto& reader : wire_.readers)
+      reader.waiting.push_back({bytes, {random() % 2 == 0 ? cyclone : guid_of(0x71, 3), 1}, std::nullopt});
+    ASSERT_NO_THROW(node_->poll()) << "seed " << kSeed << " round " << round;
+  }
+}
+
+TEST_F(NodeOnAFakeWire, ARequestForVeryManyNamesIsNotAnswered) {
+  NumbersTable table({{"b", 0.2}});
+  node_->serve_parameters(table);
+  const auto replies = [&](std::size_t names) {
+    put("rq/hall/robot/describe_parametersRequest",
+        encode(msg::DescribeParameters::Request{std::vector<std::string>(names, "b")}));
+    node_->poll();
+    return written("rr/hall/robot/describe_parametersReply").size();
+  };
+  EXPECT_EQ(replies(ParameterServices::kMostNames), 1U);
+  EXPECT_EQ(replies(ParameterServices::kMostNames + 1), 1U);
+  EXPECT_EQ(replies(100'000), 1U);
+}
+
+}  // namespace
+}  // namespace astro::ros2

@@ -1,0 +1,92 @@
+#include "host/ros2/node/parameter_answers.hpp"
+
+#include <gmock/gmock.h>
+
+#include "tests/host/ros2/node/parameters_of.hpp"
+
+namespace astro::ros2 {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+class Answers : public testing::Test {
+ protected:
+  msg::ListParametersResult list(std::vector<std::string> prefixes, std::uint64_t depth) {
+    return answers_.to(msg::ListParameters::Request{std::move(prefixes), depth}).result;
+  }
+
+  NumbersTable table_{{{"b", 0.2}, {"limits.speed", 1}, {"limits.turn.left", 2}, {"limits.turn.right", 3}}};
+  std::vector<std::vector<msg::Parameter>> changes_;
+  ParameterAnswers answers_{table_, [this](std::span<const msg::Parameter> changed) {
+                              changes_.emplace_back(changed.begin(), changed.end());
+                            }};
+};
+
+TEST_F(Answers, AllValuesThatAreAskedForOrNoneIfOneNameIsUnknown) {
+  using Get = msg::GetParameters::Request;
+  EXPECT_THAT(answers_.to(Get{{"limits.speed", "b", "b"}}).values,
+              ElementsAre(real(1), real(0.2), real(0.2)));
+  EXPECT_THAT(answers_.to(Get{{"b", "c"}}).values, IsEmpty());
+  EXPECT_THAT(answers_.to(Get{}).values, IsEmpty());
+}
+
+TEST_F(Answers, TypesAndDescriptionsByTheSameRule) {
+  EXPECT_THAT(answers_.to(msg::GetParameterTypes::Request{{"b", "limits.speed"}}).types, ElementsAre(3, 3));
+  EXPECT_THAT(answers_.to(msg::GetParameterTypes::Request{{"b", "c"}}).types, IsEmpty());
+  const auto described = answers_.to(msg::DescribeParameters::Request{{"b"}}).descriptors;
+  ASSERT_THAT(described, SizeIs(1));
+  EXPECT_EQ(described[0].description, "the number b");
+  EXPECT_EQ(described[0].floating_point_range->to_value, 1e6);
+  EXPECT_THAT(answers_.to(msg::DescribeParameters::Request{{"c", "b"}}).descriptors, IsEmpty());
+}
+
+// Prefixes and depths as rclcpp's test_node_parameters.cpp has them.
+TEST_F(Answers, NamesByPrefixAndDepth) {
+  EXPECT_THAT(list({}, 0).names, ElementsAre("b", "limits.speed", "limits.turn.left", "limits.turn.right"));
+  EXPECT_THAT(list({}, 0).prefixes, ElementsAre("limits", "limits.turn"));
+  EXPECT_THAT(list({}, 1).names, ElementsAre("b"));
+  EXPECT_THAT(list({}, 1).prefixes, IsEmpty());
+  EXPECT_THAT(list({}, 2).names, ElementsAre("b", "limits.speed"));
+  EXPECT_THAT(list({"limits"}, 0).names,
+              ElementsAre("limits.speed", "limits.turn.left", "limits.turn.right"));
+  EXPECT_THAT(list({"limits"}, 1).names, ElementsAre("limits.speed"));
+  EXPECT_THAT(list({"limits.turn", "b"}, 1).names, ElementsAre("b", "limits.turn.left", "limits.turn.right"));
+  EXPECT_THAT(list({"limits.speed"}, 1).names, ElementsAre("limits.speed")) << "a prefix may be a whole name";
+  EXPECT_THAT(list({"limit"}, 0).names, IsEmpty()) << "a prefix is whole words";
+  EXPECT_THAT(list({""}, 0).names, IsEmpty());
+}
+
+TEST_F(Answers, EachParameterIsSetAlone) {
+  const auto results =
+      answers_.to(msg::SetParameters::Request{{{"b", real(0.3)}, {"c", real(1)}, {"limits.speed", real(5)}}})
+          .results;
+  ASSERT_THAT(results, SizeIs(3));
+  EXPECT_TRUE(results[0].successful);
+  EXPECT_FALSE(results[1].successful);
+  EXPECT_THAT(results[1].reason, testing::HasSubstr("'c'"));
+  EXPECT_TRUE(results[2].successful);
+  EXPECT_EQ(table_.value("limits.speed"), real(5));
+}
+
+TEST_F(Answers, AtomicallyAllOrNoneAreSet) {
+  using Set = msg::SetParametersAtomically::Request;
+  const auto refused = answers_.to(Set{{{"b", real(0.5)}, {"limits.speed", real(2e6)}}}).result;
+  EXPECT_FALSE(refused.successful);
+  EXPECT_THAT(refused.reason, testing::HasSubstr("'limits.speed'"));
+  EXPECT_EQ(table_.value("b"), real(0.2));
+  EXPECT_THAT(changes_, IsEmpty());
+  EXPECT_TRUE(answers_.to(Set{{{"b", real(0.5)}, {"limits.speed", real(2)}}}).result.successful);
+  EXPECT_THAT(changes_, ElementsAre(SizeIs(2))) << "what changes at once is told at once";
+}
+
+TEST_F(Answers, ChangesAreToldWithTheValuesThatTheTableHasNow) {
+  answers_.to(msg::SetParameters::Request{{{"b", real(0.3)}, {"c", real(1)}}});
+  EXPECT_THAT(changes_, ElementsAre(ElementsAre(msg::Parameter{"b", real(0.3F)})));
+  answers_.to(msg::SetParametersAtomically::Request{});
+  EXPECT_THAT(changes_, SizeIs(1)) << "nothing was set";
+}
+
+}  // namespace
+}  // namespace astro::ros2

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "host/ros2/middleware/parameter_table.hpp"
+
+namespace astro::ros2 {
+
+inline msg::ParameterValue real(double value) {
+  msg::ParameterValue result;
+  result.type = static_cast<std::uint8_t>(ParameterType::real);
+  result.double_value = value;
+  return result;
+}
+
+/// Numbers up to a million, kept as floats are: what is read back is not to the bit what was set.
+class NumbersTable : public ParameterTable {
+ public:
+  explicit NumbersTable(std::map<std::string, double, std::less<>> values) : values_(std::move(values)) {}
+
+  std::vector<msg::ParameterDescriptor> descriptors() override {
+    std::vector<msg::ParameterDescriptor> all;
+    for (const auto& [name, value] : values_) {
+      all.emplace_back().name = name;
+      all.back().type = static_cast<std::uint8_t>(ParameterType::real);
+      all.back().description = "the number " + name;
+      all.back().floating_point_range = {0, 1e6, 0};
+    }
+    return all;
+  }
+  std::optional<msg::ParameterValue> value(std::string_view name) override {
+    const auto found = values_.find(name);
+    if (found == values_.end()) return std::nullopt;
+    return real(found->second);
+  }
+  msg::SetParametersResult set(std::span<const msg::Parameter> parameters) override {
+    for (const msg::Parameter& each : parameters)
+      if (!values_.contains(each.name) || !(each.value.double_value <= 1e6))
+        return {false, "the parameter '" + each.name + "' is refused"};
+    for (const msg::Parameter& each : parameters)
+      values_[each.name] = static_cast<float>(each.value.double_value);
+    return {true, ""};
+  }
+
+ private:
+  std::map<std::string, double, std::less<>> values_;
+};
+
+}  // namespace astro::ros2
