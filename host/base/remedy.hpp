@@ -129,6 +129,7 @@ enum class Help : std::uint8_t {
   exchange_wheels_or_give_up,
   exchange_wheels_or_change_up,
   say_axis_in_address,  // {axis}
+  look_on_other_computers,
   give_wheel_diameter,
   give_counts_per_turn,
   give_wheelbase,

@@ -165,7 +165,7 @@ void add_record(console::Command app) {
   add_connection(command, options->connection);
   command
       .add_option("--truth", options->truth.source,
-                  "sim, none, or a tracker: vrpn://HOST/BODY,\nnatnet://HOST/BODY")
+                  "sim, none, or a tracker: vrpn://HOST/BODY,\nnatnet://HOST/BODY, ros2:/TOPIC")
       .type_name("SOURCE")
       .check(truth_source({"sim", "none"}))
       .capture_default_str();
@@ -186,6 +186,7 @@ void add_record(console::Command app) {
       "Examples:\n"
       "  astrolabe record --out drive.mcap\n"
       "  astrolabe record --lines 3 --spins 2 --circles 2 --truth sim --out programme\n"
+      "  astrolabe record --port /dev/ttyACM0 --truth ros2:/vrpn_mocap/robot/pose --out drive.mcap\n"
       "  astrolabe record --port /dev/ttyACM0 --seconds 30 --out drive.mcap --csv drive");
   command.callback([options] { options->runs.named() ? drive(*options) : listen(*options); });
 }

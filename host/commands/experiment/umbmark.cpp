@@ -51,7 +51,8 @@ void add_options(console::Command command, UmbmarkOptions& options) {
   add_connection(command, options.connection);
   command
       .add_option("--truth", options.truth.source,
-                  "sim, manual (tape measure), file, or a tracker:\nvrpn://HOST/BODY, natnet://HOST/BODY")
+                  "sim, manual (tape measure), file, or a tracker:\nvrpn://HOST/BODY, natnet://HOST/BODY, "
+                  "ros2:/TOPIC")
       .type_name("SOURCE")
       .check(truth_source({"sim", "manual", "file"}))
       .required();
@@ -264,6 +265,7 @@ void add_umbmark(console::Command app) {
       "Examples:\n"
       "  astrolabe umbmark --truth sim --out my-experiment\n"
       "  astrolabe umbmark --port /dev/ttyACM0 --truth vrpn://lab-pc:3883/ASTRO --out my-experiment\n"
+      "  astrolabe umbmark --port /dev/ttyACM0 --truth ros2:/vrpn_mocap/robot/pose --out my-experiment\n"
       "  astrolabe umbmark --port /dev/ttyACM0 --truth manual --runs 5 --side 3 --out my-experiment\n"
       "  astrolabe umbmark --truth sim --until 0.05% --out my-experiment\n"
       "  astrolabe umbmark --port P --truth sim --runs 5 --side 3 --out DIR --yes --json");

@@ -185,18 +185,18 @@ void add_tracker_options(console::Command command, simulation::NetworkTrackerCon
       .check(console::whole(0, 65'535));
   command
       .add_option("--tracker-latency", tracker.faults.latency_s,
-                  "--vrpn-port, --natnet-port: from the exposure until a pose leaves, s")
+                  "of what goes to the network: from the exposure until a pose leaves, s")
       .type_name("S")
       .capture_default_str()
       .check(console::between(0, 1, "s"));
   command
       .add_option("--tracker-drops", tracker.faults.dropped,
-                  "--vrpn-port, --natnet-port: share of the poses that are lost")
+                  "of what goes to the network: share of the poses that are lost")
       .type_name("SHARE")
       .capture_default_str()
       .check(console::between(0, 1, ""));
   command.add_flag("--tracker-for-all", tracker.everywhere,
-                   "--vrpn-port, --natnet-port: also for other computers");
+                   "what goes to the network goes also to other computers");
 }
 
 }  // namespace

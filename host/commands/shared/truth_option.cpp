@@ -21,11 +21,11 @@ std::unique_ptr<truth::Source> open_tracker(const std::string& address) {
   return source;
 }
 
-/// "sim, manual, vrpn://HOST/BODY or natnet://HOST/BODY"
+/// "sim, manual, vrpn://HOST/BODY, natnet://HOST/BODY or ros2:/TOPIC"
 std::string choice_of(const std::vector<std::string>& words) {
   std::string choice;
   for (const std::string& word : words) choice += word + ", ";
-  return choice + "vrpn://HOST/BODY or natnet://HOST/BODY";
+  return choice + "vrpn://HOST/BODY, natnet://HOST/BODY or ros2:/TOPIC";
 }
 
 }  // namespace

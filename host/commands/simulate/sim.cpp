@@ -1,15 +1,44 @@
+#include <fmt/format.h>
+
+#include <cstdlib>
 #include <memory>
 
 #include "host/commands/serving/served_robot_options.hpp"
 #include "host/commands/simulate/commands.hpp"
+#include "host/console/console.hpp"
 #include "host/console/options.hpp"
+#include "host/console/wrong_usage.hpp"
+#include "host/ros2/types/topic_name.hpp"
+#include "host/simulation/ros2/ros_pose_publisher.hpp"
 
 namespace astro::commands {
 namespace {
 
-void run(const SimOptions& wanted) {
-  SimOptions options = wanted;
+struct Options : SimOptions {
+  std::string ros_topic;  // "": not in ROS 2
+};
+
+std::string variable(const char* name) {
+  const char* const value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+void publish_in_ros2(Options& options) {
+  if (options.server.fast)
+    throw console::WrongUsage(
+        "with --fast virtual time runs ahead of the clocks that a tracker's clients go by: leave it out, or "
+        "--ros2-topic");
+  ros2::dds::DiscoveryWishes wishes;
+  if (options.server.tracker.everywhere) wishes.range = ros2::dds::Range::subnet;
+  const ros2::dds::Discovery discovery = ros2::dds::discovery_from(wishes, variable);
+  options.server.tracker.also = std::make_shared<simulation::RosPosePublisher>(options.ros_topic, discovery);
+  console::say(fmt::format("its pose is at ros2:{}?domain={}", options.ros_topic, discovery.domain));
+}
+
+void run(const Options& wanted) {
+  Options options = wanted;
   prepare(options, sim::Flash::kBytes);
+  if (!options.ros_topic.empty()) publish_in_ros2(options);
   simulation::Server server(options.robot, options.mocap, options.server);
   serve(server, "a simulated robot");
 }
@@ -17,13 +46,22 @@ void run(const SimOptions& wanted) {
 }  // namespace
 
 void add_sim(console::Command app) {
-  const auto options = std::make_shared<SimOptions>();
+  const auto options = std::make_shared<Options>();
   const console::Command command = app.add_subcommand(
       "sim", "run a simulated robot behind a pseudo terminal, with virtual cameras beside it");
   add_sim_options(command, *options);
-  console::examples(command,
-                    {"astrolabe sim", "astrolabe sim --pty /tmp/astro --fast",
-                     "astrolabe sim --true-ed 1 --true-wheelbase 0.29 --slip 0 --flash astro.flash"});
+  command
+      .add_option("--ros2-topic", options->ros_topic,
+                  "the same in ROS 2, as geometry_msgs/PoseStamped on this topic")
+      .type_name("TOPIC")
+      .check([](const std::string& topic) {
+        return ros2::is_topic_name(topic) ? ""
+                                          : "'" + topic + "' is not the full name of a topic, as /ASTRO/pose";
+      });
+  console::examples(
+      command,
+      {"astrolabe sim", "astrolabe sim --pty /tmp/astro --fast", "astrolabe sim --ros2-topic /ASTRO/pose",
+       "astrolabe sim --true-ed 1 --true-wheelbase 0.29 --slip 0 --flash astro.flash"});
   command.callback([options] { run(*options); });
 }
 

@@ -8,7 +8,8 @@ void add_truth(console::Command app) {
   const console::Command command = app.add_subcommand("truth", "look at sources of ground truth");
   command.require_subcommand(1, 1);
   add_truth_watch(command);
-  console::examples(command, {"astrolabe truth watch vrpn://lab-pc:3883/ASTRO"});
+  console::examples(command, {"astrolabe truth watch vrpn://lab-pc:3883/ASTRO",
+                              "astrolabe truth watch ros2:/vrpn_mocap/robot/pose"});
 }
 
 }  // namespace astro::commands

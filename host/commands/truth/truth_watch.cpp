@@ -47,7 +47,10 @@ class Watch {
   truth::TrackerReport report() { return watch_.report(truth::LiveSource::steady_now().count()); }
   /// What is being watched, once something has come.
   std::string about() const { return fmt::format("'{}' {}", link_->body(), link_->way()); }
-  std::string why_silent() const { return link_->why_silent(); }
+  /// `fact` with the reason why nothing comes, and what would help.
+  Remark silence(const std::string& fact) const {
+    return {fmt::format("{}: {}", fact, link_->why_silent()), link_->remedy()};
+  }
 
  private:
   std::unique_ptr<truth::TrackerLink> link_;
@@ -66,14 +69,14 @@ void run(const WatchOptions& options) {
     watch.listen_until(begin + second * seconds(1));
     const truth::TrackerReport report = watch.report();
     if (report.poses == 0) {
-      console::say(fmt::format("nothing comes from {}: {}", url.place(), watch.why_silent()));
+      console::say(in_words(watch.silence("nothing comes from " + url.place())));
       continue;
     }
     if (!std::exchange(seen, true)) console::say(watch.about());
     if (report.objection && !std::exchange(objected, true)) console::say(in_words(*report.objection));
     print(options.json ? to_json(report).dump() : line_of(report));
   }
-  if (!seen) throw Error(fmt::format("no ground truth came from {}: {}", url.place(), watch.why_silent()));
+  if (!seen) throw Error(watch.silence("no ground truth came from " + url.place()));
 }
 
 }  // namespace
@@ -84,7 +87,8 @@ void add_truth_watch(console::Command truth) {
       truth.add_subcommand("watch", "show each second what a tracker sent in the last three");
   command
       .add_option("address", options->address,
-                  "vrpn://HOST[:PORT]/BODY or natnet://HOST[:PORT]/BODY,\nwith ?up=y if its y axis points up")
+                  "vrpn://HOST[:PORT]/BODY, natnet://HOST[:PORT]/BODY or\nros2:/TOPIC, with ?up=y if its y "
+                  "axis points up")
       .type_name("URL")
       .required();
   command.add_option("--seconds", options->seconds, "end after this time (default: at Ctrl-C)")
@@ -95,9 +99,14 @@ void add_truth_watch(console::Command truth) {
       "Hz: frames per second. jitter: of the tracker's own times / of their arrival. gap: the longest\n"
       "without the body. missing: frames that did not come. lost: frames without the body. noise:\n"
       "standard deviation of the position and the heading while the body stands.\n"
+      "ros2:/TOPIC has PoseStamped, PoseWithCovarianceStamped, TransformStamped, Odometry or transforms;\n"
+      "?child=FRAME names one of several bodies, &parent=FRAME the tracker's frame, &domain=N the ROS\n"
+      "domain; &range=subnet looks at other computers, too. ROS_DOMAIN_ID and its like are obeyed.\n"
       "Examples:\n"
       "  astrolabe truth watch vrpn://lab-pc:3883/ASTRO\n"
-      "  astrolabe truth watch 'vrpn://lab-pc/ASTRO?up=y' --seconds 10 --json");
+      "  astrolabe truth watch 'vrpn://lab-pc/ASTRO?up=y' --seconds 10 --json\n"
+      "  astrolabe truth watch ros2:/vrpn_mocap/robot/pose\n"
+      "  astrolabe truth watch 'ros2:/tf?parent=world&child=robot&range=subnet'");
   command.callback([options] { run(*options); });
 }
 

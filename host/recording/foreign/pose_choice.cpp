@@ -1,32 +1,13 @@
 #include "host/recording/foreign/pose_choice.hpp"
 
 #include <algorithm>
-#include <initializer_list>
 #include <string>
-#include <string_view>
 
 #include "host/recording/foreign/unclear_choice.hpp"
-#include "host/ros2/recorded/stamped_pose.hpp"
+#include "host/ros2/recorded/estimates.hpp"
 
 namespace astro::recording {
 namespace {
-
-bool names_any(const std::string& topic, std::initializer_list<std::string_view> words) {
-  std::string lower = topic;
-  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return std::ranges::any_of(words,
-                             [&](std::string_view word) { return lower.find(word) != std::string::npos; });
-}
-
-/// Of tracking systems, and what simulators call the true pose. A "tracker" may as well be a controller that tracks a
-/// path, so the word tells two topics apart and makes no odometry true.
-bool speaks_of_truth(const PoseStream& stream) {
-  return names_any(stream.topic, {"mocap", "vrpn", "optitrack", "vicon", "qualisys", "natnet", "truth"});
-}
-
-bool speaks_of_tracker(const PoseStream& stream) {
-  return speaks_of_truth(stream) || names_any(stream.topic, {"tracker"});
-}
 
 std::vector<std::string> names_of(std::span<const PoseStream* const> streams) {
   std::vector<std::string> names;
@@ -51,7 +32,7 @@ const PoseStream* recognised(std::span<const PoseStream* const> streams, bool na
   const auto no_estimate = [](const PoseStream& stream) { return !is_estimate(stream); };
   if (named && streams.size() == 1) return streams.front();
   if (const PoseStream* one =
-          only(streams, [&](const auto& at) { return speaks_of_tracker(at) && no_estimate(at); }))
+          only(streams, [&](const auto& at) { return ros2::speaks_of_tracker(at.topic) && no_estimate(at); }))
     return one;
   return only(streams, no_estimate);
 }
@@ -77,13 +58,7 @@ const PoseStream* recognised(std::span<const PoseStream* const> streams, bool na
 
 }  // namespace
 
-bool is_estimate(const PoseStream& stream) {
-  if (speaks_of_truth(stream)) return false;
-  return stream.type == "nav_msgs/msg/Odometry" || stream.type == ros2::tf_message_type().name ||
-         stream.type == "geometry_msgs/msg/PoseWithCovarianceStamped" ||
-         names_any(stream.topic,
-                   {"odom", "amcl", "slam", "ekf", "localization", "estimat", "filtered", "goal"});
-}
+bool is_estimate(const PoseStream& stream) { return ros2::may_be_estimate(stream.topic, stream.type); }
 
 const PoseStream& chosen_stream(const std::filesystem::path& path, std::span<const PoseStream> streams,
                                 const PoseSelection& selection, std::vector<Remark>& remarks) {

@@ -38,8 +38,9 @@ namespace rtps = eprosima::fastrtps::rtps;
 
 constexpr std::uint32_t kFirstAllocation = 1024;  // grows with larger samples
 constexpr std::uint32_t kLargestSample = 1 << 20;
-constexpr std::size_t kLongestUserData = 1024;  // of an endpoint; those of ROS 2 take some 200 bytes
-constexpr std::uint32_t kParticipants = 32;     // of one computer, that are looked for without multicast
+constexpr std::ptrdiff_t kGuidPrefixBytes = 12;  // the same for all endpoints of a participant
+constexpr std::size_t kLongestUserData = 1024;   // of an endpoint; those of ROS 2 take some 200 bytes
+constexpr std::uint32_t kParticipants = 32;      // of one computer, that are looked for without multicast
 // With the default of 3 s every other start finds its peers only after 2 s.
 constexpr double kAnnouncementPeriod_s = 0.5;
 // At first more often: others answer the first one that they get.
@@ -263,32 +264,47 @@ class FastReader : public Reader, fast::DataReaderListener {
   Matched writers_;
 };
 
-/// What others show of their endpoints.
+/// The endpoints of others, and what they show of themselves.
 class Others : public fast::DomainParticipantListener {
  public:
   std::string user_data_of(const Guid& endpoint) const {
     const std::lock_guard lock(mutex_);
-    const auto found = user_data_.find(endpoint);
-    return found == user_data_.end() ? "" : found->second;
+    const auto found = known_.find(endpoint);
+    return found == known_.end() ? "" : found->second.user_data;
+  }
+  std::vector<RemoteEndpoint> endpoints() const {
+    const std::lock_guard lock(mutex_);
+    std::vector<RemoteEndpoint> all;
+    for (const auto& [guid, known] : known_) all.push_back(known.endpoint);
+    return all;
   }
 
  private:
+  struct Known {
+    RemoteEndpoint endpoint;
+    std::string user_data;
+  };
+
   void on_publisher_discovery(fast::DomainParticipant*, rtps::WriterDiscoveryInfo&& found) override {
-    note(to_guid(found.info.guid()), found.status == found.REMOVED_WRITER, found.info.m_qos.m_userData);
+    note(found.info, true, found.status == found.REMOVED_WRITER);
   }
   void on_subscriber_discovery(fast::DomainParticipant*, rtps::ReaderDiscoveryInfo&& found) override {
-    note(to_guid(found.info.guid()), found.status == found.REMOVED_READER, found.info.m_qos.m_userData);
+    note(found.info, false, found.status == found.REMOVED_READER);
   }
-  void note(const Guid& endpoint, bool removed, const fast::UserDataQosPolicy& data) {
+  template <class FastInfo>
+  void note(const FastInfo& info, bool writes, bool removed) {
+    const Guid guid = to_guid(info.guid());
+    const auto& data = info.m_qos.m_userData.getValue();
     const std::lock_guard lock(mutex_);
     if (removed)
-      user_data_.erase(endpoint);
-    else if (!data.getValue().empty() && data.getValue().size() <= kLongestUserData)
-      user_data_[endpoint] = std::string(data.getValue().begin(), data.getValue().end());
+      known_.erase(guid);
+    else
+      known_[guid] = {{guid, writes, info.topicName().to_string(), info.typeName().to_string()},
+                      data.size() <= kLongestUserData ? std::string(data.begin(), data.end()) : ""};
   }
 
   mutable std::mutex mutex_;
-  std::map<Guid, std::string> user_data_;
+  std::map<Guid, Known> known_;
 };
 
 rtps::Locator_t locator_of(const std::string& address, std::uint32_t port) {
@@ -375,7 +391,7 @@ class OneParticipant {
     if (topic == nullptr) throw Error("DDS refuses the topic " + wanted.name);
     return topic;
   }
-  fast::DomainParticipant& operator*() { return *participant_; }
+  Guid guid() const { return to_guid(participant_->guid()); }
   fast::Publisher& publisher() { return *publisher_; }
   fast::Subscriber& subscriber() { return *subscriber_; }
 
@@ -402,14 +418,26 @@ class FastParticipant : public Participant {
     return std::make_unique<FastReader>(one.subscriber(), one.topic(topic), topic, bell_);
   }
   Guid guid() const override { return guid_; }
+  std::vector<RemoteEndpoint> remote_endpoints() const override {
+    std::vector<RemoteEndpoint> all = others_.endpoints();
+    std::erase_if(all, [&](const RemoteEndpoint& at) { return is_own(at.guid); });
+    return all;
+  }
   std::string user_data_of(const Guid& endpoint) const override { return others_.user_data_of(endpoint); }
   void wait(std::chrono::microseconds timeout) override { bell_.wait(timeout); }
 
  private:
   OneParticipant& add() {
     participants_.emplace_back(discovery_, name_, user_data_, others_);
-    if (participants_.size() == 1) guid_ = to_guid((*participants_.front()).guid());
+    if (participants_.size() == 1) guid_ = participants_.front().guid();
     return participants_.back();
+  }
+  /// Several participants of ours find one another.
+  bool is_own(const Guid& endpoint) const {
+    return std::ranges::any_of(participants_, [&](const OneParticipant& one) {
+      return std::equal(endpoint.bytes.begin(), endpoint.bytes.begin() + kGuidPrefixBytes,
+                        one.guid().bytes.begin());
+    });
   }
   OneParticipant& for_topic(const Topic& topic) {
     const auto found = std::find_if(participants_.begin(), participants_.end(),

@@ -49,6 +49,13 @@ struct Sample {
   std::optional<SampleId> related;  // with which the writer sent it
 };
 
+/// A writer or a reader of somebody else, as it has announced itself.
+struct RemoteEndpoint {
+  Guid guid;
+  bool writes = false;
+  std::string topic, type;
+};
+
 class Writer {
  public:
   virtual ~Writer() = default;
@@ -90,6 +97,8 @@ class Participant {
   virtual std::unique_ptr<Reader> create_reader(const Topic& topic) = 0;
 
   virtual Guid guid() const = 0;
+  /// Of others, that are known now, of whatever topic. It takes a moment after the start until they are.
+  virtual std::vector<RemoteEndpoint> remote_endpoints() const = 0;
   /// Of an endpoint of somebody else; "" if it is not known, or shows none or more than anybody means to.
   virtual std::string user_data_of(const Guid& endpoint) const = 0;
   /// Waits until a sample has come to any reader, or until the time is over.

@@ -96,4 +96,15 @@ std::string dds_type_name(std::string_view type) {
   return name.insert(name.rfind("::") + 2, "dds_::") + '_';
 }
 
+std::optional<std::string> ros_type_name(std::string_view dds_name) {
+  constexpr std::string_view kMiddle = "::msg::dds_::";
+  const std::size_t middle = dds_name.find(kMiddle);
+  if (middle == 0 || middle == std::string_view::npos || !dds_name.ends_with('_')) return std::nullopt;
+  const std::string_view package = dds_name.substr(0, middle);
+  dds_name.remove_prefix(middle + kMiddle.size());
+  if (dds_name.size() < 2) return std::nullopt;
+  dds_name.remove_suffix(1);
+  return fmt::format("{}/msg/{}", package, dds_name);
+}
+
 }  // namespace astro::ros2

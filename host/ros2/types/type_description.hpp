@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -136,5 +137,8 @@ const std::string& hash_of() {
 
 /// The name of a message type on the wire: "nav_msgs::msg::dds_::Odometry_" for "nav_msgs/msg/Odometry".
 std::string dds_type_name(std::string_view type);
+
+/// The other way round; nothing if it is no message type of ROS 2. The name may come from anybody.
+std::optional<std::string> ros_type_name(std::string_view dds_name);
 
 }  // namespace astro::ros2

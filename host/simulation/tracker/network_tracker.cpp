@@ -18,7 +18,7 @@ std::int64_t time_of_day_us() {
 }  // namespace
 
 NetworkTracker::NetworkTracker(const NetworkTrackerConfig& config)
-    : tracker_(config.faults), now_us_(time_of_day_us()) {
+    : tracker_(config.faults), also_(config.also), now_us_(time_of_day_us()) {
   if (config.vrpn_port) vrpn_.emplace(address_of(config, *config.vrpn_port), config.body);
   if (config.natnet_port)
     natnet_.emplace(address_of(config, *config.natnet_port), config.body, config.natnet_version);
@@ -30,6 +30,7 @@ void NetworkTracker::step(const std::vector<recording::TruthSample>& seen) {
   while (const auto frame = tracker_.next(now_us_)) {
     if (vrpn_) vrpn_->send(*frame);
     if (natnet_) natnet_->send(*frame, now_us_);
+    if (also_) also_->send(*frame);
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ struct NetworkTrackerConfig {
   bool everywhere = false;  // also other computers may connect
   std::string body = "ASTRO";
   TrackingFaults faults;
+  std::shared_ptr<FrameSink> also;  // where else frames go; nothing: nowhere
 };
 
 /// The tracking software beside a simulated robot: what its cameras see goes out by the protocols that are
@@ -39,6 +41,7 @@ class NetworkTracker {
 
  private:
   VirtualTracker tracker_;
+  std::shared_ptr<FrameSink> also_;
   std::optional<VrpnServer> vrpn_;
   std::optional<NatNetServer> natnet_;
   std::int64_t now_us_;

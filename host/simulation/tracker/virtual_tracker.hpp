@@ -24,6 +24,18 @@ struct TrackedFrame {
   truth::Pose3 pose;
 };
 
+/// Takes frames as they leave the tracker.
+class FrameSink {
+ public:
+  FrameSink() = default;
+  FrameSink(const FrameSink&) = delete;
+  FrameSink& operator=(const FrameSink&) = delete;
+  virtual ~FrameSink() = default;
+
+  /// Never waits.
+  virtual void send(const TrackedFrame& frame) = 0;
+};
+
 /// Makes frames in space of a robot's poses on the floor: with z up, at the height of its markers, with the
 /// small tilt of an uneven floor. They come out after the latency; some are lost. Deterministic.
 class VirtualTracker {

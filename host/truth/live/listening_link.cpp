@@ -38,8 +38,8 @@ void ListeningLink::listen(const std::stop_token& stop) {
 }
 
 ListeningLink::News ListeningLink::news_of_link() {
-  return {link_->take(), link_->why_silent(), link_->body(),
-          link_->way(),  link_->bodies(),     link_->connections()};
+  return {link_->take(),   link_->why_silent(), link_->body(),       link_->way(),
+          link_->remedy(), link_->bodies(),     link_->connections()};
 }
 
 void ListeningLink::publish(News news) {

@@ -8,6 +8,7 @@
 #include "host/base/error.hpp"
 #include "host/truth/live/listening_link.hpp"
 #include "host/truth/live/natnet_link.hpp"
+#include "host/truth/live/ros_link.hpp"
 #include "host/truth/live/vrpn_link.hpp"
 
 namespace astro::truth {
@@ -33,6 +34,7 @@ constexpr int kMostRounds = 64;
 }  // namespace
 
 std::unique_ptr<TrackerLink> open_link(const TrackerUrl& url) {
+  if (url.scheme == "ros2") return std::make_unique<RosLink>(url);
   if (url.scheme == "natnet") return std::make_unique<NatNetLink>(url);
   return std::make_unique<VrpnLink>(url);
 }
@@ -68,7 +70,8 @@ void LiveSource::listen(Need need) {
   while (std::ranges::none_of(held_, enough) ||
          now_().count() - recent_.front().arrival_us < kListening.count()) {
     if (now_() - begin >= kPoseTimeout && std::ranges::none_of(held_, enough))
-      throw Error(fmt::format("no ground truth comes from {}: {}", url_.place(), why_missing()));
+      throw Error(fmt::format("no ground truth comes from {}: {}", url_.place(), why_missing()),
+                  link_->remedy());
     link_->wait(kStep);
     work(now_());
   }
@@ -147,7 +150,8 @@ std::vector<recording::TruthSample> LiveSource::poll() {
   if (const auto objection = up_axis_.objection()) throw Error(*objection);
   if (now - heard_at_ >= kGone)
     throw Error(fmt::format("no ground truth has come from {} for {} s: {}", url_.place(),
-                            std::chrono::duration_cast<seconds>(kGone).count(), why_missing()));
+                            std::chrono::duration_cast<seconds>(kGone).count(), why_missing()),
+                link_->remedy());
   return std::exchange(samples_, {});
 }
 

@@ -17,7 +17,8 @@
 
 namespace astro::truth {
 
-/// The link for the URL's scheme. Throws astro::Error if the host's name is unknown.
+/// The link for the URL's scheme. Throws astro::Error if the host's name is unknown, or if a variable of ROS 2 in the
+/// environment has a value that cannot be.
 std::unique_ptr<TrackerLink> open_link(const TrackerUrl& url);
 
 /// A tracker on the network as a source of ground truth. Its times are on this computer's steady clock, and never run

@@ -1,14 +1,16 @@
 #include "host/truth/live/tracker_url.hpp"
 
 #include <charconv>
+#include <set>
 
 #include "host/base/error.hpp"
 #include "host/base/text/numbers.hpp"
+#include "host/ros2/types/topic_name.hpp"
 
 namespace astro::truth {
 namespace {
 
-constexpr std::string_view kMark = "://";
+constexpr std::string_view kMark = "://", kRos = "ros2:";
 
 /// Takes what comes before the first of `ends` off the front of the text.
 std::string_view take_until(std::string_view& text, std::string_view ends) {
@@ -23,6 +25,7 @@ class Parser {
 
   TrackerUrl parse() {
     TrackerUrl url;
+    if (left_.starts_with(kRos)) return parse_ros();
     url.scheme = take_until(left_, ":");
     left_.remove_prefix(kMark.size());
     take_place(url);
@@ -36,6 +39,49 @@ class Parser {
   }
 
  private:
+  TrackerUrl parse_ros() {
+    TrackerUrl url;
+    url.scheme = take_until(left_, ":");
+    left_.remove_prefix(1);
+    if (left_.starts_with("//"))
+      fail("a topic of ROS 2 is on no host, so it has one slash in front, as ros2:/mocap/robot/pose");
+    url.topic = take_until(left_, "?");
+    if (!ros2::is_topic_name(url.topic))
+      fail("'" + url.topic + "' is not the full name of a topic, as /mocap/robot/pose");
+    std::set<std::string_view> given;
+    while (!left_.empty()) {
+      left_.remove_prefix(1);
+      const std::string_view option = take_until(left_, "&");
+      const std::string_view name = option.substr(0, option.find('='));
+      if (name.size() == option.size() || !take_ros_option(url, name, option.substr(name.size() + 1)))
+        fail("'" + std::string(option) +
+             "' is none of child=FRAME, parent=FRAME, up=y, up=z, domain=0 to 232, range=localhost and "
+             "range=subnet");
+      if (!given.insert(name).second) fail("it has " + std::string(name) + "= twice");
+    }
+    return url;
+  }
+
+  /// Returns false if there is no such option, or not with this value.
+  bool take_ros_option(TrackerUrl& url, std::string_view name, std::string_view value) const {
+    if (name == "child") return !(url.body = decoded(value)).empty();
+    if (name == "parent") return !(url.parent = decoded(value)).empty();
+    if (name == "up") {
+      const auto up = up_axis_named(value);
+      url.up = up.value_or(url.up);
+      return up.has_value();
+    }
+    if (name == "domain") {
+      const auto domain = unsigned_in(value);
+      if (!domain || *domain > ros2::dds::kMostDomains) return false;
+      url.where.domain = static_cast<int>(*domain);
+      return true;
+    }
+    if (name != "range") return false;
+    url.where.range = ros2::dds::range_in(std::string(value));
+    return url.where.range && *url.where.range != ros2::dds::Range::off;
+  }
+
   [[noreturn]] void fail(const std::string& why) const {
     throw Error("'" + std::string(whole_) + "' is not the address of a tracker: " + why);
   }
@@ -96,18 +142,19 @@ TrackerUrl TrackerUrl::with_usual_port(std::uint16_t usual) const {
 }
 
 std::string TrackerUrl::place() const {
+  if (!topic.empty()) return "ROS 2";
   const std::string name = host.find(':') == std::string::npos ? host : "[" + host + "]";
   return port == 0 ? name : name + ":" + std::to_string(port);
 }
 
 bool is_tracker_url(std::string_view text) {
-  return text.starts_with("vrpn://") || text.starts_with("natnet://");
+  return text.starts_with("vrpn://") || text.starts_with("natnet://") || text.starts_with(kRos);
 }
 
 TrackerUrl tracker_url_in(std::string_view text) {
   if (!is_tracker_url(text))
     throw Error("'" + std::string(text) +
-                "' is not the address of a tracker: it begins with neither vrpn:// nor natnet://");
+                "' is not the address of a tracker: it begins with none of vrpn://, natnet:// and ros2:/");
   return Parser(text).parse();
 }
 

@@ -134,6 +134,40 @@ TEST(FastDds, WhatEndpointsShowOfThemselvesIsSeenUntilTheyGo) {
       eventually(*here, [&] { return reader->writers().empty() && here->user_data_of(gone).empty(); }));
 }
 
+TEST(FastDds, TheEndpointsOfOthersAreKnownByTopicAndTypeAndItsOwnAreNot) {
+  const auto here = open(), there = open();
+  const auto own = here->create_writer(topic_of()),
+             beside = here->create_writer(topic_of("test_msgs::msg::dds_::B_"));
+  auto writer = there->create_writer(topic_of());
+  const auto reader = there->create_reader({"rt/c", "test_msgs::msg::dds_::C_"});
+  std::vector<RemoteEndpoint> known;
+  ASSERT_TRUE(eventually(*here, [&] { return (known = here->remote_endpoints()).size() == 2; }));
+  if (!known[0].writes) std::swap(known[0], known[1]);
+  EXPECT_EQ(known[0].guid, writer->guid());
+  EXPECT_TRUE(known[0].writes);
+  EXPECT_EQ(known[0].topic, "rt/a");
+  EXPECT_EQ(known[0].type, "test_msgs::msg::dds_::A_");
+  EXPECT_EQ(known[1].guid, reader->guid());
+  EXPECT_FALSE(known[1].writes);
+  EXPECT_EQ(known[1].topic, "rt/c");
+  writer.reset();
+  EXPECT_TRUE(eventually(*here, [&] { return here->remote_endpoints().size() == 1; }));
+}
+
+TEST(FastDds, ASampleThatIsTooLargeIsLeftOutAndThoseBehindItCome) {
+  const auto here = open(), there = open();
+  const auto writer = here->create_writer(topic_of());
+  const auto reader = there->create_reader(topic_of());
+  ASSERT_TRUE(eventually(*there, [&] { return !writer->readers().empty() && !reader->writers().empty(); }));
+  Bytes huge = payload(1);
+  huge.resize((1 << 20) + 1);
+  writer->write(huge);
+  writer->write(payload(2));
+  std::vector<Sample> samples;
+  ASSERT_TRUE(eventually(*there, [&] { return !(samples = reader->take()).empty(); }));
+  EXPECT_THAT(payloads(samples), ElementsAre(payload(2)));
+}
+
 TEST(FastDds, ParticipantsOfAnotherDomainOrOfNoRangeAreNotMet) {
   const auto here = open();
   const auto elsewhere = open_fast_dds({support::test_domain() + 1}, "test", "");

@@ -67,6 +67,7 @@ class FakeParticipant : public Participant {
     return std::make_unique<FakeReader>(wire_.readers.emplace_back(topic, guid_of(next_++, kReaderKind)));
   }
   Guid guid() const override { return guid_of(1, kParticipantKind); }
+  std::vector<RemoteEndpoint> remote_endpoints() const override { return {}; }
   std::string user_data_of(const Guid& endpoint) const override {
     const auto found = wire_.user_data.find(endpoint);
     return found == wire_.user_data.end() ? "" : found->second;

@@ -135,5 +135,13 @@ TEST(DdsTypeName, IsThatOfTheMiddlewaresOfRos2) {
   EXPECT_EQ(dds_type_name(msg::Trigger::Request::kType), "std_srvs::srv::dds_::Trigger_Request_");
 }
 
+TEST(DdsTypeName, OnTheWireLeadsBackToTheMessage) {
+  for (const std::string_view type : {msg::Odometry::kType, msg::PoseStamped::kType, msg::TFMessage::kType})
+    EXPECT_EQ(ros_type_name(dds_type_name(type)), type);
+  for (const char* other : {"", "_", "::msg::dds_::A_", "a::msg::dds_::_", "a::msg::dds_::",
+                            "a::msg::dds_::A", "std_srvs::srv::dds_::Trigger_Request_", "Odometry"})
+    EXPECT_EQ(ros_type_name(other), std::nullopt) << other;
+}
+
 }  // namespace
 }  // namespace astro::ros2

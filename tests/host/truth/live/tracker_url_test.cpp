@@ -65,13 +65,46 @@ TEST(TrackerUrl, WhatIsWrongIsNamed) {
   EXPECT_THAT(complaint_about("vrpn://[::1/A"), HasSubstr("bracket"));
   for (const char* body : {"%", "%4", "%zz", "a%"})
     EXPECT_THAT(complaint_about(std::string("vrpn://h/") + body), HasSubstr("hexadecimal")) << body;
-  EXPECT_THAT(complaint_about("http://h/A"), HasSubstr("neither vrpn:// nor natnet://"));
+  EXPECT_THAT(complaint_about("http://h/A"), HasSubstr("none of vrpn://, natnet:// and ros2:/"));
+}
+
+TEST(TrackerUrl, ATopicOfRos2HasFramesAndADomainInPlaceOfAHost) {
+  const TrackerUrl url =
+      tracker_url_in("ros2:/tf?parent=world&child=my%26robot/base&up=y&domain=7&range=subnet");
+  EXPECT_EQ(url.scheme, "ros2");
+  EXPECT_EQ(url.topic, "/tf");
+  EXPECT_EQ(url.parent, "world");
+  EXPECT_EQ(url.body, "my&robot/base");
+  EXPECT_EQ(url.up, UpAxis::y);
+  EXPECT_EQ(url.where.domain, 7);
+  EXPECT_EQ(url.where.range, ros2::dds::Range::subnet);
+  EXPECT_EQ(url.place(), "ROS 2");
+  const TrackerUrl usual = tracker_url_in("ros2:/vrpn_mocap/robot_1/pose");
+  EXPECT_EQ(usual.topic, "/vrpn_mocap/robot_1/pose");
+  EXPECT_EQ(usual.body + usual.parent, "");
+  EXPECT_EQ(usual.up, UpAxis::z);
+  EXPECT_FALSE(usual.where.domain || usual.where.range) << "the environment says them";
+}
+
+TEST(TrackerUrl, WhatIsWrongWithATopicIsNamed) {
+  for (const char* host : {"ros2://lab-pc/tf", "ros2:///tf", "ros2://"})
+    EXPECT_THAT(complaint_about(host), HasSubstr("a topic of ROS 2 is on no host")) << host;
+  for (const char* topic : {"", "tf", "/", "/tf/", "/a//b", "/1a", "/a b", "/a%20b", "~/pose", "/a#b"})
+    EXPECT_THAT(complaint_about(std::string("ros2:") + topic),
+                HasSubstr("'" + std::string(topic) + "' is not the full name of a topic"));
+  for (const char* option : {"", "up=x", "up", "down=z", "domain=233", "domain=-1", "domain=", "range=off",
+                             "range=", "child=", "parent=", "=y", "up=y?child=a"})
+    EXPECT_THAT(complaint_about(std::string("ros2:/tf?") + option),
+                HasSubstr("'" + std::string(option) + "' is none of child=FRAME"));
+  EXPECT_THAT(complaint_about("ros2:/tf?up=y&up=z"), HasSubstr("it has up= twice"));
+  EXPECT_THAT(complaint_about("ros2:/tf?child=%4"), HasSubstr("hexadecimal"));
 }
 
 TEST(TrackerUrl, IsToldFromTheNamesOfOtherSources) {
   EXPECT_TRUE(is_tracker_url("vrpn://h"));
   EXPECT_TRUE(is_tracker_url("natnet://h"));
-  for (const char* text : {"sim", "manual", "vrpn", "vrpn:/h", "/home/vrpn://"})
+  EXPECT_TRUE(is_tracker_url("ros2:/tf"));
+  for (const char* text : {"sim", "manual", "vrpn", "vrpn:/h", "ros2", "/home/vrpn://"})
     EXPECT_FALSE(is_tracker_url(text)) << text;
 }
 
