@@ -151,10 +151,11 @@ constexpr Sentence kSentences[] = {
      "up"},
     {Help::exchange_wheels_or_change_up,
      ": give --swap-wheels if left and right are exchanged, or another axis to --up"},
-    {Help::say_axis_in_address, ": if {0} points up, end the tracker's address with ?up={0}"},
+    {Help::say_axis_in_address, ": if {0} points up, put up={0} behind the ? of the tracker's address"},
     {Help::look_on_other_computers,
-     "; only this computer is looked at: for others end the tracker's address with ?range=subnet, or set "
-     "ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET"},
+     "; only this computer is looked at: for others put range=subnet behind the ? of the tracker's address, "
+     "or "
+     "set ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET"},
     {Help::give_wheel_diameter, ": give --wheel-diameter, or a file with --robot"},
     {Help::give_counts_per_turn, ": give --counts-per-turn, or a file with --robot"},
     {Help::give_wheelbase, ": give --wheelbase, or a file with --robot"},

@@ -174,8 +174,10 @@ TEST(TrackerOnTheNetwork, IsWatchedLive) {
   EXPECT_NEAR(report["noise_at_rest"]["heading_rad"].get<double>(), 1e-3, 2e-4);
 }
 
-TEST(TrackerOnTheNetwork, IsWatchedLiveInRos2) {
+TEST(TrackerOnTheNetwork, IsWatchedLiveInRos2AlsoIfItListensOnAllNetworks) {
+  setenv("ROS_STATIC_PEERS", "127.0.0.1", 1);
   Simulator simulator({"--ros2-topic", own_topic("watched")});
+  unsetenv("ROS_STATIC_PEERS");  // the watching program listens on loopback alone
   const support::Outcome outcome =
       astrolabe({"truth", "watch", "ros2:/watched/pose", "--seconds", "4", "--json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;

@@ -306,7 +306,7 @@ TEST(RosLink, ASourceWithoutAPublisherSaysWhereElseOneMayBe) {
   } catch (const Error& error) {
     EXPECT_THAT(commands::in_words(error),
                 testing::AllOf(HasSubstr("no ground truth comes from ROS 2: nobody publishes /pose"),
-                               HasSubstr("end the tracker's address with ?range=subnet")));
+                               HasSubstr("put range=subnet behind the ?")));
   }
 }
 
