@@ -196,6 +196,16 @@ TEST(TrackerOnTheNetwork, ATopicThatNobodyPublishesIsAnErrorThatListsThoseThatAr
                         "(geometry_msgs/msg/PoseStamped); only this computer is looked at"));
 }
 
+TEST(TrackerOnTheNetwork, WhatTheRobotsOwnNodePublishesIsRefused) {
+  Simulator simulator({"--ros2-topic", own_topic("tracker")});
+  const support::Program node({ASTROLABE_PROGRAM, "ros2", "--port", simulator.port()});
+  for (const char* address : {"ros2:/odom", "ros2:/tf?parent=odom&child=base_link"}) {
+    const support::Outcome outcome = astrolabe({"truth", "watch", address, "--seconds", "10"});
+    EXPECT_EQ(outcome.code, 1) << address;
+    EXPECT_THAT(outcome.err, HasSubstr("they are what the robot computes from its own wheels")) << address;
+  }
+}
+
 TEST(TrackerOnTheNetwork, AWatchOfNothingEndsWithTheReason) {
   const support::Outcome outcome =
       astrolabe({"truth", "watch", "vrpn://127.0.0.1:1/ASTRO", "--seconds", "1"});
