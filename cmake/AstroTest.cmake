@@ -60,6 +60,8 @@ function(astro_test name)
   # RapidCheck: the same cases each time.
   set(environment "RC_PARAMS=seed=20240711")
   if(ASTROLABE_SANITIZE)
+    # Debian's libfastrtps deletes its endpoints as another type than it has made.
+    list(APPEND environment "ASAN_OPTIONS=new_delete_type_mismatch=0")
     if(arg_PLAIN)
       set_target_properties(${name}.test PROPERTIES EXCLUDE_FROM_ALL TRUE)
       return()

@@ -97,36 +97,47 @@ std::vector<rtps::Locator_t> locators_of_peers(const std::vector<std::string>& p
   return locators;
 }
 
+/// Where we can be reached without multicast, which a list that is not empty replaces. Loopback besides all interfaces, of which
+/// it is none: a peer that keeps to it does not send to the addresses of others.
+void listen_without_multicast(fast::WireProtocolConfigQos& wire) {
+  for (const rtps::Locator_t& locator : {rtps::Locator_t(), locator_of(kLoopback, 0)}) {
+    wire.builtin.metatrafficUnicastLocatorList.push_back(locator);
+    wire.default_unicast_locator_list.push_back(locator);
+  }
+}
+
+/// Where others are looked for. Multicast has to be named if anything is.
+rtps::LocatorList_t places_of(const Discovery& discovery) {
+  rtps::LocatorList_t places;
+  if (discovery.range == Range::localhost) places.push_back(locator_of(kLoopback, 0));
+  for (const rtps::Locator_t& peer : locators_of_peers(discovery.peers)) places.push_back(peer);
+  if (discovery.range == Range::subnet && !discovery.peers.empty())
+    places.push_back(locator_of(
+        kMulticastAddress, kMulticastPort + kPortsPerDomain * static_cast<std::uint32_t>(discovery.domain)));
+  return places;
+}
+
+void set_times(rtps::DiscoverySettings& settings) {
+  settings.leaseDuration_announcementperiod = eprosima::fastrtps::Duration_t(kAnnouncementPeriod_s);
+  settings.initial_announcements = {kFirstAnnouncements,
+                                    eprosima::fastrtps::Duration_t(kFirstAnnouncementPeriod_s)};
+}
+
 fast::DomainParticipantQos qos_of(const Discovery& discovery, const std::string& name,
                                   const std::string& user_data, std::shared_ptr<const Gate> gate) {
   fast::DomainParticipantQos qos;
   qos.name(name.c_str());
   qos.user_data().data_vec(octets(user_data));
   const bool here_alone = discovery.range != Range::subnet && discovery.peers.empty();
-  qos.transport().use_builtin_transports =
-      false;  // shared memory would leave files behind when a program dies
+  // The transports that are built in have shared memory, which would leave files behind when a program dies.
+  qos.transport().use_builtin_transports = false;
   qos.transport().user_transports.push_back(gated_udp(here_alone, std::move(gate)));
-  auto& builtin = qos.wire_protocol().builtin;
-  builtin.discovery_config.leaseDuration_announcementperiod =
-      eprosima::fastrtps::Duration_t(kAnnouncementPeriod_s);
-  builtin.discovery_config.initial_announcements = {
-      kFirstAnnouncements, eprosima::fastrtps::Duration_t(kFirstAnnouncementPeriod_s)};
+  rtps::BuiltinAttributes& builtin = qos.wire_protocol().builtin;
+  set_times(builtin.discovery_config);
   if (discovery.range == Range::off)
     builtin.discovery_config.discoveryProtocol = rtps::DiscoveryProtocol_t::NONE;
-  // A list that is not empty replaces multicast.
-  if (discovery.range != Range::subnet) {
-    // Loopback besides all interfaces, of which it is none: a peer that keeps to it does not send to the addresses of others.
-    for (const rtps::Locator_t& locator : {rtps::Locator_t(), locator_of(kLoopback, 0)}) {
-      builtin.metatrafficUnicastLocatorList.push_back(locator);
-      qos.wire_protocol().default_unicast_locator_list.push_back(locator);
-    }
-  }
-  if (discovery.range == Range::localhost) builtin.initialPeersList.push_back(locator_of(kLoopback, 0));
-  for (const rtps::Locator_t& peer : locators_of_peers(discovery.peers))
-    builtin.initialPeersList.push_back(peer);
-  if (discovery.range == Range::subnet && !discovery.peers.empty())
-    builtin.initialPeersList.push_back(locator_of(
-        kMulticastAddress, kMulticastPort + kPortsPerDomain * static_cast<std::uint32_t>(discovery.domain)));
+  if (discovery.range != Range::subnet) listen_without_multicast(qos.wire_protocol());
+  builtin.initialPeersList = places_of(discovery);
   return qos;
 }
 

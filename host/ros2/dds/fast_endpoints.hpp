@@ -7,9 +7,10 @@
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 
+#include <chrono>
 #include <condition_variable>
+#include <map>
 #include <mutex>
-#include <set>
 
 #include "host/ros2/dds/fast_types.hpp"
 
@@ -22,18 +23,22 @@ class Matched {
   void note(const Guid& other, int change) {
     const std::lock_guard lock(mutex_);
     if (change > 0)
-      guids_.insert(other);
+      since_.emplace(other, std::chrono::steady_clock::now());
     else
-      guids_.erase(other);
+      since_.erase(other);
   }
-  std::vector<Guid> all() const {
+  /// Those that were found at least so long ago.
+  std::vector<Guid> all(std::chrono::milliseconds ago = {}) const {
     const std::lock_guard lock(mutex_);
-    return {guids_.begin(), guids_.end()};
+    std::vector<Guid> guids;
+    for (const auto& [guid, since] : since_)
+      if (std::chrono::steady_clock::now() - since >= ago) guids.push_back(guid);
+    return guids;
   }
 
  private:
   mutable std::mutex mutex_;
-  std::set<Guid> guids_;
+  std::map<Guid, std::chrono::steady_clock::time_point> since_;
 };
 
 /// Lets the one thread that uses a participant sleep until something has come.
@@ -59,6 +64,9 @@ class Bell {
 };
 
 /// Throws astro::Error if Fast DDS refuses it.
+///
+/// A reader counts from its first heartbeat on, which Fast DDS sends 12 ms after it has found it: a volatile reader of CycloneDDS
+/// takes what the first heartbeat names, and has not come before it, for older than itself, and never asks for it.
 class FastWriter : public Writer, fast::DataWriterListener {
  public:
   FastWriter(fast::Publisher& publisher, fast::Topic* topic, const Topic& wanted);
@@ -67,11 +75,13 @@ class FastWriter : public Writer, fast::DataWriterListener {
   FastWriter& operator=(const FastWriter&) = delete;
 
   Guid guid() const override { return to_guid(writer_->guid()); }
-  std::vector<Guid> readers() const override { return readers_.all(); }
+  std::vector<Guid> readers() const override { return readers_.all(kSettling); }
 
  private:
   void send(ByteView payload, const SampleId* related) override;
   void on_publication_matched(fast::DataWriter*, const fast::PublicationMatchedStatus& status) override;
+
+  static constexpr std::chrono::milliseconds kSettling{50};
 
   fast::Publisher& publisher_;
   fast::DataWriter* writer_;

@@ -34,7 +34,7 @@ struct SampleId {
 struct Qos {
   bool reliable = true;
   bool transient_local = false;  // whoever comes later gets the last `depth` samples
-  int depth = 10;                // samples that are kept; 0: all
+  int depth = 10;                // samples that are kept; 0: all, up to 5000
 };
 
 struct Topic {
@@ -66,7 +66,7 @@ class Writer {
   void write(ByteView payload, const SampleId& related) { send(payload, &related); }
 
   virtual Guid guid() const = 0;
-  /// Readers that get what is written. They come and go by themselves.
+  /// Readers that get what is written from now on. They come and go by themselves.
   virtual std::vector<Guid> readers() const = 0;
 
  private:

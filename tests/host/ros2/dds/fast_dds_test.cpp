@@ -215,6 +215,20 @@ TEST(FastDds, AsManySamplesAreKeptAsTheDepthSays) {
   EXPECT_EQ(samples.front().id.number, 501);
 }
 
+TEST(FastDds, AReaderThatIsNotAskedKeepsNoMoreThanItsDepth) {
+  const auto here = open(), there = open();
+  const auto writer = here->create_writer(topic_of());
+  const auto reader = there->create_reader(topic_of());
+  ASSERT_TRUE(eventually(*there, [&] { return !writer->readers().empty() && !reader->writers().empty(); }));
+  for (int i = 0; i < 1000; ++i) writer->write(payload(static_cast<std::uint8_t>(i % 251)));
+  std::vector<Sample> samples;
+  ASSERT_TRUE(eventually(*there, [&] {
+    samples = reader->take();
+    return !samples.empty() && samples.back().id.number == 1000;
+  }));
+  EXPECT_THAT(samples, testing::SizeIs(topic_of().qos.depth));
+}
+
 TEST(FastDds, OneTakeEndsHoweverMuchComes) {
   Topic all = topic_of();
   all.qos = {true, true, 0};

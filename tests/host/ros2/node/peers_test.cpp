@@ -183,7 +183,7 @@ TEST_F(NodeAmongPeers, BothCallServicesInTheMannerOfTheirRmwInterleavedAHundredT
     ASSERT_TRUE(eventually(*node, [&] { return answered(i + 1); }));
   }
   for (PeerProgram* peer : peers) {
-    EXPECT_THAT(peer->lines("error"), testing::IsEmpty());
+    EXPECT_THAT(peer->lines("error"), testing::IsEmpty()) << (peer == peers[0] ? "Fast DDS" : "CycloneDDS");
     EXPECT_THAT(peer->lines("reply /hall/count yes call "), SizeIs(kCalls));
     const auto switched = peer->lines("reply /hall/enable");
     ASSERT_THAT(switched, SizeIs(kCalls));
