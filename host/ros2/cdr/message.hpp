@@ -30,6 +30,8 @@ struct Field {
   Type Struct::*member;
   std::string_view name;
 };
+template <class Struct, class Type>  // clang 14 does not deduce it from an aggregate
+Field(Type Struct::*, std::string_view) -> Field<Struct, Type>;
 
 template <class T>
 concept Message = requires {

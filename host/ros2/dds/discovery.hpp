@@ -17,7 +17,7 @@ enum class Range {
 struct Discovery {
   int domain = 0;
   Range range = Range::localhost;
-  /// Hosts that are asked as well, whatever the range: names or IPv4 addresses. With any of them this computer listens on all of its
+  /// Hosts that are asked as well, whatever the range: names or IPv4 addresses. With any of them this computer hears all of its
   /// networks.
   std::vector<std::string> peers{};
 };

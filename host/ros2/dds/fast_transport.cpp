@@ -16,12 +16,13 @@ namespace rtps = eprosima::fastrtps::rtps;
 constexpr std::uint32_t kParticipants = 32;  // of one computer, that are looked for without multicast
 
 struct GatedDescriptor : transport::ChainingTransportDescriptor {
-  GatedDescriptor(std::shared_ptr<transport::TransportDescriptorInterface> udp,
+  GatedDescriptor(std::shared_ptr<transport::TransportDescriptorInterface> udp, bool alone,
                   std::shared_ptr<const Gate> its_gate)
-      : ChainingTransportDescriptor(std::move(udp)), gate(std::move(its_gate)) {}
+      : ChainingTransportDescriptor(std::move(udp)), here_alone(alone), gate(std::move(its_gate)) {}
 
   transport::TransportInterface* create_transport() const override;
 
+  bool here_alone;
   std::shared_ptr<const Gate> gate;
 };
 
@@ -39,10 +40,20 @@ class GatedTransport : public transport::ChainingTransport {
   }
   void receive(transport::TransportReceiverInterface* receiver, const rtps::octet* bytes, std::uint32_t size,
                const rtps::Locator_t& here, const rtps::Locator_t& there) override {
-    receiver->OnDataReceived(bytes, size, here, there);
+    if (may_talk_to(there)) receiver->OnDataReceived(bytes, size, here, there);
+  }
+  bool is_locator_allowed(const rtps::Locator_t& locator) const override {
+    return may_talk_to(locator) && ChainingTransport::is_locator_allowed(locator);
+  }
+  bool transform_remote_locator(const rtps::Locator_t& there, rtps::Locator_t& result) const override {
+    return may_talk_to(there) && ChainingTransport::transform_remote_locator(there, result);
   }
 
  private:
+  bool may_talk_to(const rtps::Locator_t& there) const {
+    return !descriptor_.here_alone || is_local_locator(there);
+  }
+
   GatedDescriptor descriptor_;
 };
 
@@ -50,12 +61,11 @@ transport::TransportInterface* GatedDescriptor::create_transport() const { retur
 
 }  // namespace
 
-std::shared_ptr<transport::TransportDescriptorInterface> gated_udp(bool loopback_alone,
+std::shared_ptr<transport::TransportDescriptorInterface> gated_udp(bool here_alone,
                                                                    std::shared_ptr<const Gate> gate) {
   auto udp = std::make_shared<transport::UDPv4TransportDescriptor>();
   udp->maxInitialPeersRange = kParticipants;
-  if (loopback_alone) udp->interfaceWhiteList.emplace_back("127.0.0.1");
-  return std::make_shared<GatedDescriptor>(std::move(udp), std::move(gate));
+  return std::make_shared<GatedDescriptor>(std::move(udp), here_alone, std::move(gate));
 }
 
 }  // namespace astro::ros2::dds

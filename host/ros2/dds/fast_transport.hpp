@@ -17,12 +17,16 @@ class Gate {
   std::atomic<bool> open_ = false;
 };
 
-/// UDP over IPv4, on the loopback interface alone or on all. Nothing is sent before the gate opens.
+/// UDP over IPv4. Nothing is sent before the gate opens.
 ///
 /// Fast DDS 2.9 announces a participant and only then begins to receive. On this computer the answer comes within a fraction
 /// of a millisecond and would be lost, and CycloneDDS answers a second time only after 1 s. With the gate shut until the
 /// participant has been made, it is the announcement after it that is answered.
+///
+/// `here_alone`: datagrams of other computers are dropped unread, and none is sent to them. The sockets are bound to all
+/// interfaces all the same, because a CycloneDDS that uses a network card, as it does by default, sends nothing to 127.0.0.1.
+/// Linux itself drops what comes from outside under an address of this computer.
 std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface> gated_udp(
-    bool loopback_alone, std::shared_ptr<const Gate> gate);
+    bool here_alone, std::shared_ptr<const Gate> gate);
 
 }  // namespace astro::ros2::dds

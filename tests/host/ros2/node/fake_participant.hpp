@@ -61,10 +61,12 @@ class FakeParticipant : public Participant {
   explicit FakeParticipant(FakeWire& wire) : wire_(wire) {}
 
   std::unique_ptr<Writer> create_writer(const Topic& topic) override {
-    return std::make_unique<FakeWriter>(wire_.writers.emplace_back(topic, guid_of(next_++, kWriterKind)));
+    wire_.writers.push_back({topic, guid_of(next_++, kWriterKind)});
+    return std::make_unique<FakeWriter>(wire_.writers.back());
   }
   std::unique_ptr<Reader> create_reader(const Topic& topic) override {
-    return std::make_unique<FakeReader>(wire_.readers.emplace_back(topic, guid_of(next_++, kReaderKind)));
+    wire_.readers.push_back({topic, guid_of(next_++, kReaderKind)});
+    return std::make_unique<FakeReader>(wire_.readers.back());
   }
   Guid guid() const override { return guid_of(1, kParticipantKind); }
   std::string user_data_of(const Guid& endpoint) const override {

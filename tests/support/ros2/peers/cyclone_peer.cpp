@@ -1,7 +1,8 @@
 // A peer on Eclipse CycloneDDS, an implementation of DDS that shares no code with Fast DDS; bytes are read and written by code
 // that idlc made. Services are called in the manner of rmw_cyclonedds.
 //
-//   cyclone_peer DOMAIN [humble]     humble: ros_discovery_info is read with identifiers of 24 bytes
+//   cyclone_peer DOMAIN [humble]     humble: ros_discovery_info is read with identifiers of 24 bytes, and the loopback interface
+//                                    is used as for ROS_LOCALHOST_ONLY=1
 #include <dds/dds.h>
 #include <dds/ddsrt/log.h>
 #include <unistd.h>
@@ -21,18 +22,22 @@
 namespace astro::support {
 namespace {
 
-/// Loopback without multicast, as ROS 2's range LOCALHOST sets CycloneDDS up.
-constexpr const char* kConfiguration =
-    "<CycloneDDS><Domain>"
-    "<General><Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>"
-    "<AllowMulticast>false</AllowMulticast></General>"
+/// As rmw_cyclonedds sets CycloneDDS up for ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST: on a network card, without multicast.
+constexpr const char* kLocalhost =
+    "<CycloneDDS><Domain><General><AllowMulticast>false</AllowMulticast></General>"
     "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32</"
     "MaxAutoParticipantIndex>"
-    "<Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery>"
-    "</Domain></CycloneDDS>";
+    "<Peers><Peer address=\"localhost\"/></Peers></Discovery></Domain></CycloneDDS>";
+/// As that of Humble does for ROS_LOCALHOST_ONLY=1: on the loopback interface.
+constexpr const char* kLocalhostOfHumble =
+    "<CycloneDDS><Domain><General><Interfaces><NetworkInterface "
+    "address=\"127.0.0.1\"/></Interfaces></General>"
+    "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32</"
+    "MaxAutoParticipantIndex>"
+    "</Discovery></Domain></CycloneDDS>";
+constexpr dds_duration_t kLongest = DDS_SECS(10);
 // All replies of a service reach all its clients; those of others must not push out one's own on a busy machine.
 constexpr int kDepth = 1000;
-constexpr dds_duration_t kLongest = DDS_SECS(10);
 
 /// What goes wrong, but not a line for each reply to a client of the other kind, which CycloneDDS cannot read.
 void log(void*, const dds_log_data_t* data) {
@@ -375,10 +380,11 @@ class CyclonePeer : public Peer {
 }  // namespace astro::support
 
 int main(int count, char** arguments) {
+  using namespace astro::support;
   if (count < 2) return 2;
-  dds_set_log_sink(astro::support::log, nullptr);
-  setenv("CYCLONEDDS_URI", astro::support::kConfiguration, 1);
-  astro::support::CyclonePeer peer(std::atoi(arguments[1]),
-                                   count > 2 && std::strcmp(arguments[2], "humble") == 0);
-  return astro::support::run(peer);
+  const bool humble = count > 2 && std::strcmp(arguments[2], "humble") == 0;
+  dds_set_log_sink(log, nullptr);
+  setenv("CYCLONEDDS_URI", humble ? kLocalhostOfHumble : kLocalhost, 1);
+  CyclonePeer peer(std::atoi(arguments[1]), humble);
+  return run(peer);
 }

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/DataWriterListener.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+
+#include <condition_variable>
+#include <mutex>
+#include <set>
+
+#include "host/ros2/dds/fast_types.hpp"
+
+/// Writers and readers on Fast DDS. Its threads note what has happened; all else is done by the one thread of the caller.
+namespace astro::ros2::dds {
+
+/// Endpoints that have found one of ours. Fast DDS reports them in its own threads.
+class Matched {
+ public:
+  void note(const Guid& other, int change) {
+    const std::lock_guard lock(mutex_);
+    if (change > 0)
+      guids_.insert(other);
+    else
+      guids_.erase(other);
+  }
+  std::vector<Guid> all() const {
+    const std::lock_guard lock(mutex_);
+    return {guids_.begin(), guids_.end()};
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::set<Guid> guids_;
+};
+
+/// Lets the one thread that uses a participant sleep until something has come.
+class Bell {
+ public:
+  void ring() {
+    {
+      const std::lock_guard lock(mutex_);
+      rung_ = true;
+    }
+    condition_.notify_one();
+  }
+  void wait(std::chrono::microseconds timeout) {
+    std::unique_lock lock(mutex_);
+    condition_.wait_for(lock, timeout, [&] { return rung_; });
+    rung_ = false;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable condition_;
+  bool rung_ = false;
+};
+
+/// Throws astro::Error if Fast DDS refuses it.
+class FastWriter : public Writer, fast::DataWriterListener {
+ public:
+  FastWriter(fast::Publisher& publisher, fast::Topic* topic, const Topic& wanted);
+  ~FastWriter() override;
+  FastWriter(const FastWriter&) = delete;
+  FastWriter& operator=(const FastWriter&) = delete;
+
+  Guid guid() const override { return to_guid(writer_->guid()); }
+  std::vector<Guid> readers() const override { return readers_.all(); }
+
+ private:
+  void send(ByteView payload, const SampleId* related) override;
+  void on_publication_matched(fast::DataWriter*, const fast::PublicationMatchedStatus& status) override;
+
+  fast::Publisher& publisher_;
+  fast::DataWriter* writer_;
+  Matched readers_;
+};
+
+/// Throws astro::Error if Fast DDS refuses it. `bell` must outlive it.
+class FastReader : public Reader, fast::DataReaderListener {
+ public:
+  FastReader(fast::Subscriber& subscriber, fast::Topic* topic, const Topic& wanted, Bell& bell);
+  ~FastReader() override;
+  FastReader(const FastReader&) = delete;
+  FastReader& operator=(const FastReader&) = delete;
+
+  std::vector<Sample> take() override;
+  Guid guid() const override { return to_guid(reader_->guid()); }
+  std::vector<Guid> writers() const override { return writers_.all(); }
+
+ private:
+  void on_data_available(fast::DataReader*) override { bell_.ring(); }
+  void on_subscription_matched(fast::DataReader*, const fast::SubscriptionMatchedStatus& status) override;
+
+  fast::Subscriber& subscriber_;
+  Bell& bell_;
+  fast::DataReader* reader_;
+  Matched writers_;
+};
+
+}  // namespace astro::ros2::dds

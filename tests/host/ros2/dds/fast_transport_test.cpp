@@ -1,0 +1,67 @@
+#include "host/ros2/dds/fast_transport.hpp"
+
+#include <fastdds/rtps/transport/ChainingTransport.h>
+#include <fastrtps/utils/IPLocator.h>
+#include <gmock/gmock.h>
+
+namespace astro::ros2::dds {
+namespace {
+
+namespace transport = eprosima::fastdds::rtps;
+using eprosima::fastrtps::rtps::IPLocator;
+using eprosima::fastrtps::rtps::Locator_t;
+
+Locator_t at(const std::string& address) {
+  Locator_t locator;
+  IPLocator::setIPv4(locator, address);
+  locator.port = 7410;
+  return locator;
+}
+
+class Count : public transport::TransportReceiverInterface {
+ public:
+  void OnDataReceived(const eprosima::fastrtps::rtps::octet*, std::uint32_t, const Locator_t&,
+                      const Locator_t&) override {
+    ++datagrams;
+  }
+  int datagrams = 0;
+};
+
+class Transport : public testing::Test {
+ protected:
+  std::unique_ptr<transport::ChainingTransport> open(bool here_alone) {
+    auto* made = gated_udp(here_alone, std::make_shared<Gate>())->create_transport();
+    std::unique_ptr<transport::ChainingTransport> opened(dynamic_cast<transport::ChainingTransport*>(made));
+    EXPECT_TRUE(opened->init());
+    return opened;
+  }
+  /// Whether a datagram from there is read.
+  static bool reads(transport::ChainingTransport& transport, const std::string& address) {
+    Count count;
+    transport.receive(&count, nullptr, 0, at("127.0.0.1"), at(address));
+    return count.datagrams == 1;
+  }
+  static bool writes(transport::ChainingTransport& transport, const std::string& address) {
+    Locator_t result;
+    return transport.transform_remote_locator(at(address), result);
+  }
+};
+
+// 203.0.113.0/24 is for documentation; no interface has such an address.
+TEST_F(Transport, AloneItNeitherReadsDatagramsOfOtherComputersNorWritesToThem) {
+  const auto alone = open(true);
+  EXPECT_TRUE(reads(*alone, "127.0.0.1"));
+  EXPECT_TRUE(writes(*alone, "127.0.0.1"));
+  EXPECT_FALSE(reads(*alone, "203.0.113.7"));
+  EXPECT_FALSE(writes(*alone, "203.0.113.7"));
+}
+
+TEST_F(Transport, WithTheNetworkItDoesBoth) {
+  const auto wide = open(false);
+  EXPECT_TRUE(reads(*wide, "127.0.0.1"));
+  EXPECT_TRUE(reads(*wide, "203.0.113.7"));
+  EXPECT_TRUE(writes(*wide, "203.0.113.7"));
+}
+
+}  // namespace
+}  // namespace astro::ros2::dds
