@@ -52,12 +52,12 @@ class RobotAmongPeers : public testing::Test {
   }
   /// Waits for a message that is later than those that have come.
   static std::string next(PeerProgram& peer, const std::string& topic) {
-    const std::size_t before = peer.lines("got " + topic).size();
-    if (!eventually([&] { return peer.lines("got " + topic).size() > before; })) {
+    const std::size_t before = peer.lines("got " + topic + ' ').size();
+    if (!eventually([&] { return peer.lines("got " + topic + ' ').size() > before; })) {
       ADD_FAILURE() << "nothing came on " << topic;
       return "";
     }
-    return peer.lines("got " + topic).back();
+    return peer.lines("got " + topic + ' ').back();
   }
   static void subscribe(PeerProgram& peer, const std::string& topic, const std::string& kind) {
     ask(peer, "sub " + topic + ' ' + kind, "subscribed " + topic);
