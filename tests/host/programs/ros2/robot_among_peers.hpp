@@ -19,8 +19,9 @@ class RobotAmongPeers : public testing::Test {
 
   void start_node(const std::vector<std::string>& options = {}) {
     node_.reset();
+    const std::string at = node_port_.empty() ? port() : node_port_;
     std::vector<std::string> words{
-        ASTROLABE_PROGRAM, "ros2", "--port", port(), "--domain", std::to_string(test_domain())};
+        ASTROLABE_PROGRAM, "ros2", "--port", at, "--domain", std::to_string(test_domain())};
     words.insert(words.end(), options.begin(), options.end());
     node_ = std::make_unique<Program>(words);
   }
@@ -64,6 +65,7 @@ class RobotAmongPeers : public testing::Test {
   }
 
   test::TemporaryFolder folder_;
+  std::string node_port_;  // "": the robot's
   std::unique_ptr<Program> robot_, node_;
 };
 

@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "tests/host/programs/ros2/robot_among_peers.hpp"
+#include "tests/support/links/pty_cable.hpp"
 
 namespace astro {
 namespace {
@@ -119,6 +120,37 @@ TEST_F(Ros2, PeersOfBothKindsSetAndReadParametersAndThePose) {
     EXPECT_NEAR(pose(peer).heading_rad, 0.5, 1e-6);
     call(peer, "/reset_odometry");
   }
+}
+
+TEST_F(Ros2, TwentyPulledCablesStopTheRobotAndAreRecoveredWithoutAJump) {
+  ASSERT_TRUE(eventually([&] { return std::filesystem::exists(port()); }));
+  node_port_ = (folder_.path() / "cable").string();
+  test::PtyCable cable(port(), node_port_);
+  start_node();
+  PeerProgram peer(PeerKind::fast, support::test_domain());
+  subscribe(peer, "/odom", "odometry");
+  double worst_m = 0;
+  for (int i = 0; i < 20; ++i) {
+    next(peer, "/odom");
+    ASSERT_THAT(call(peer, "/arm"), HasSubstr("yes")) << i;
+    ask(peer, "drive /cmd_vel twist 0.3 0.5 0.5", "sent /cmd_vel");
+    const Pose before = pose(peer);
+    cable.pull();
+    // It goes on being told to drive, and stops by its own time-out and a ramp from 0.3 m/s at 0.5 m/s^2: 0.8 s in all.
+    ask(peer, "drive /cmd_vel twist 0.3 0.5 1.2", "sent /cmd_vel");
+    cable.plug_in();
+    const Pose after = pose(peer);
+    EXPECT_LT(std::abs(number_in(next(peer, "/odom"), "v")), 0.01) << i;
+    worst_m = std::max(worst_m, std::hypot(after.x_m - before.x_m, after.y_m - before.y_m));
+    // Not without being armed again.
+    ask(peer, "drive /cmd_vel twist 0.3 0.5 0.2", "sent /cmd_vel");
+    EXPECT_LT(std::abs(number_in(next(peer, "/odom"), "v")), 0.01) << i;
+  }
+  std::printf("20 pulls: at most %.0f mm between the last message before and the first one after\n",
+              1e3 * worst_m);
+  // What it can have driven since the message before the pull: 0.3 m/s for some periods, 0.25 s and half of 0.6 s.
+  EXPECT_LT(worst_m, 0.3);
+  EXPECT_TRUE(node_->running());
 }
 
 TEST_F(Ros2, ThePtyGoesAndComesBackFiveTimesAndTheNodeStays) {
