@@ -12,8 +12,9 @@ using std::chrono::milliseconds;
 namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
-// A command must not wait behind a sleep that is longer than a control tick of the robot.
-constexpr microseconds kTick = milliseconds(1);
+// While velocities drive the robot, none of them waits behind a sleep that is longer than a control tick. Otherwise only
+// services wait, and processor time counts more.
+constexpr microseconds kTick = milliseconds(1), kIdle = milliseconds(5);
 
 std::uint16_t period_ms(double rate_hz) {
   return static_cast<std::uint16_t>(std::clamp(std::lround(1000 / rate_hz), 1L, 60'000L));
@@ -57,7 +58,7 @@ void Driver::step(microseconds most) {
   try {
     if (link_.seek()) begin(*link_.session());
     if (RobotSession* session = link_.session())
-      attend(*session, std::min(most, kTick));
+      attend(*session, std::min(most, driving_.armed() ? kTick : kIdle));
     else if (!middlewares_.empty())
       middlewares_.front()->wait(most);
   } catch (const Error& error) {

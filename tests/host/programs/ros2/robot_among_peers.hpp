@@ -19,8 +19,9 @@ class RobotAmongPeers : public testing::Test {
 
   void start_node(const std::vector<std::string>& options = {}) {
     node_.reset();
+    const std::string at = node_port_.empty() ? port() : node_port_;
     std::vector<std::string> words{
-        ASTROLABE_PROGRAM, "ros2", "--port", port(), "--domain", std::to_string(test_domain())};
+        ASTROLABE_PROGRAM, "ros2", "--port", at, "--domain", std::to_string(test_domain())};
     words.insert(words.end(), options.begin(), options.end());
     node_ = std::make_unique<Program>(words);
   }
@@ -52,18 +53,19 @@ class RobotAmongPeers : public testing::Test {
   }
   /// Waits for a message that is later than those that have come.
   static std::string next(PeerProgram& peer, const std::string& topic) {
-    const std::size_t before = peer.lines("got " + topic).size();
-    if (!eventually([&] { return peer.lines("got " + topic).size() > before; })) {
+    const std::size_t before = peer.lines("got " + topic + ' ').size();
+    if (!eventually([&] { return peer.lines("got " + topic + ' ').size() > before; })) {
       ADD_FAILURE() << "nothing came on " << topic;
       return "";
     }
-    return peer.lines("got " + topic).back();
+    return peer.lines("got " + topic + ' ').back();
   }
   static void subscribe(PeerProgram& peer, const std::string& topic, const std::string& kind) {
     ask(peer, "sub " + topic + ' ' + kind, "subscribed " + topic);
   }
 
   test::TemporaryFolder folder_;
+  std::string node_port_;  // "": the robot's
   std::unique_ptr<Program> robot_, node_;
 };
 

@@ -184,8 +184,9 @@ class CyclonePeer : public Peer {
     message.twist.angular.z = w_radps;
     return publish(topic, geometry_msgs_msg_dds__TwistStamped__desc, &message);
   }
-  bool pose(const std::string& topic, double x_m, double y_m, double heading_rad) override {
-    std::string frame = "map";
+  bool pose(const std::string& topic, const std::string& in_frame, double x_m, double y_m,
+            double heading_rad) override {
+    std::string frame = in_frame;
     geometry_msgs_msg_dds__PoseWithCovarianceStamped_ message{};
     message.header.frame_id = frame.data();
     message.pose.pose = {{x_m, y_m, 0}, {0, 0, std::sin(heading_rad / 2), std::cos(heading_rad / 2)}};

@@ -105,9 +105,10 @@ class FastPeer : public Peer {
     return publish(
         topic, msg::TwistStamped{{msg::to_time(stamp_ns), "base_link"}, {{v_mps, 0, 0}, {0, 0, w_radps}}});
   }
-  bool pose(const std::string& topic, double x_m, double y_m, double heading_rad) override {
+  bool pose(const std::string& topic, const std::string& frame, double x_m, double y_m,
+            double heading_rad) override {
     msg::PoseWithCovarianceStamped message;
-    message.header.frame_id = "map";
+    message.header.frame_id = frame;
     message.pose.pose = {{x_m, y_m, 0}, {0, 0, std::sin(heading_rad / 2), std::cos(heading_rad / 2)}};
     return publish(topic, message);
   }

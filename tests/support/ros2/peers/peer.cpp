@@ -133,7 +133,7 @@ class Session {
   void pose(Words& words) {
     const std::string topic = next(words);
     const double x = next<double>(words), y = next<double>(words), heading = next<double>(words);
-    sent(topic, peer_.pose(topic, x, y, heading));
+    sent(topic, peer_.pose(topic, next(words, std::string("map")), x, y, heading));
   }
 
   static void answer(const std::string& what, const std::string& name, const std::optional<Answer>& answer) {

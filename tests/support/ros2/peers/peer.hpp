@@ -31,7 +31,8 @@ class Peer {
   virtual bool twist(const std::string& topic, double v_mps, double w_radps) = 0;
   virtual bool twist_stamped(const std::string& topic, double v_mps, double w_radps,
                              std::int64_t stamp_ns) = 0;
-  virtual bool pose(const std::string& topic, double x_m, double y_m, double heading_rad) = 0;
+  virtual bool pose(const std::string& topic, const std::string& frame, double x_m, double y_m,
+                    double heading_rad) = 0;
 
   virtual std::optional<Answer> trigger(const std::string& service) = 0;
   virtual std::optional<Answer> set_bool(const std::string& service, bool data) = 0;
