@@ -31,7 +31,7 @@ struct Field {
   std::string_view name;
 };
 template <class Struct, class Type>  // clang 14 does not deduce it from an aggregate
-Field(Type Struct::*, std::string_view) -> Field<Struct, Type>;
+Field(Type Struct::*, std::string_view)->Field<Struct, Type>;
 
 template <class T>
 concept Message = requires {
