@@ -15,8 +15,9 @@
 namespace astro::calibration {
 namespace {
 
-// Once per turn first, then what is compared with it. Multiples of gears (1/2, 2) and a wheel of another size (near 1) are left out.
-constexpr std::array kPerTurn{1.0, 0.6, 0.7, 0.8, 1.25, 1.4, 1.6};
+constexpr double kOnce = 1;
+// What is compared with it. Multiples of gears (1/2, 2) and a wheel of another size (near 1) are left out.
+constexpr std::array kPerTurn{0.6, 0.7, 0.8, 1.25, 1.4, 1.6};
 constexpr double kFewestTurns = 10;
 constexpr double kShown = 4;  // standard errors
 
@@ -64,8 +65,14 @@ std::vector<Pair> pairs_of(const PreparedRun& run, const ClockFit& clock, const 
 using Wave =
     Eigen::Vector4d;  // cosine and sine of the left wheel's travel, then of the right one's, in metres
 
-std::optional<Wave> wave_of(const std::vector<Pair>& pairs, double per_turn, double turn_m,
-                            const WheelFactors& factors) {
+struct WaveFit {
+  Wave wave;
+  Eigen::Matrix4d normal_inverse;  // its covariance for noise of variance 1
+  double explained = 0;            // sum of the squares of the gains that it explains
+};
+
+std::optional<WaveFit> wave_of(const std::vector<Pair>& pairs, double per_turn, double turn_m,
+                               const WheelFactors& factors) {
   Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
   Wave right_side = Wave::Zero();
   const double per_metre = 2 * std::numbers::pi * per_turn / turn_m;
@@ -85,43 +92,63 @@ std::optional<Wave> wave_of(const std::vector<Pair>& pairs, double per_turn, dou
   // On one long line both wheels turn alike, and nothing tells their waves apart.
   const auto pivots = ldlt.vectorD().array();
   if (!(pivots.minCoeff() > 1e-3 * pivots.maxCoeff())) return {};
-  return ldlt.solve(right_side);
+  const Wave wave = ldlt.solve(right_side);
+  return WaveFit{wave, ldlt.solve(Eigen::Matrix4d::Identity()), wave.dot(right_side)};
 }
 
-/// The waves of one run, at each of kPerTurn.
-using Waves = std::array<Wave, kPerTurn.size()>;
+/// What one run shows once per turn, left and right, with the squares that noise alone would have there.
+struct RunWaves {
+  Wave wave;
+  std::array<double, 2> noise_m2{};
+};
 
-std::optional<Waves> waves_of(const PreparedRun& run, const ClockFit& clock, const WheelFactors& factors) {
+/// The noise is that of the other waves. If a quarter turn of the robot is nearly whole turns of a wheel, both wheels lead and lag alike
+/// on all sides of a square, but only once per turn; so what the others explain is also brought to once per turn by how well the run
+/// shows each, and the larger one counts.
+std::optional<RunWaves> waves_of(const PreparedRun& run, const ClockFit& clock, const WheelFactors& factors) {
   const double turn_m = run.source->wheel_turn_m;
   if (!(turn_m > 0) || !run.has_headings || run.distance_m < kFewestTurns * turn_m) return {};
   const std::vector<Pair> pairs = pairs_of(run, clock, factors);
-  Waves waves;
-  for (std::size_t i = 0; i < kPerTurn.size(); ++i) {
-    const auto wave = wave_of(pairs, kPerTurn[i], turn_m, factors);
-    if (!wave) return {};
-    waves[i] = *wave;
+  const std::optional<WaveFit> once = wave_of(pairs, kOnce, turn_m, factors);
+  if (!once) return {};
+  double explained = 0;  // by each of the four numbers of a wave
+  RunWaves out{once->wave};
+  for (const double per_turn : kPerTurn) {
+    const std::optional<WaveFit> other = wave_of(pairs, per_turn, turn_m, factors);
+    if (!other) return {};
+    explained += other->explained / 4 / static_cast<double>(kPerTurn.size());
+    for (const int wheel : {0, 1})
+      out.noise_m2[static_cast<std::size_t>(wheel)] +=
+          other->wave.segment<2>(2 * wheel).squaredNorm() / static_cast<double>(kPerTurn.size());
   }
-  return waves;
+  for (const int wheel : {0, 1}) {
+    double& noise_m2 = out.noise_m2[static_cast<std::size_t>(wheel)];
+    noise_m2 = std::max(noise_m2, explained * once->normal_inverse.diagonal().segment<2>(2 * wheel).sum());
+  }
+  return out;
 }
 
-Eccentricity of_wheel(const std::vector<Waves>& runs, int wheel) {
+/// The mean over the runs, weighted by how well each shows the wheel.
+Eccentricity of_wheel(const std::vector<RunWaves>& runs, int wheel) {
   Eccentricity out;
-  double square_m2 = 0, noise_m2 = 0;
-  const auto count = static_cast<double>(runs.size());
-  for (const Waves& waves : runs) {
-    const auto of = [&](std::size_t i) { return Eigen::Vector2d(waves[i].segment<2>(2 * wheel)); };
-    square_m2 += of(0).squaredNorm() / count;
-    for (std::size_t i = 1; i < waves.size(); ++i)
-      noise_m2 += of(i).squaredNorm() / count / static_cast<double>(waves.size() - 1);
-    out.phases_rad.push_back(std::atan2(of(0)[1], of(0)[0]));
+  double weights = 0, squares = 0, noise = 0, spread = 0;
+  for (const RunWaves& run : runs) {
+    const Eigen::Vector2d wave = run.wave.segment<2>(2 * wheel);
+    const double noise_m2 = run.noise_m2[static_cast<std::size_t>(wheel)];
+    const double weight = 1 / (noise_m2 * noise_m2);
+    weights += weight;
+    squares += weight * wave.squaredNorm();
+    noise += weight * noise_m2;
+    spread += weight * weight * noise_m2;
+    out.phases_rad.push_back(std::atan2(wave[1], wave[0]));
   }
-  // Of noise alone the square would be that of the others. Each of its two directions has half of it.
-  out.amplitude_m = std::sqrt(std::max(0.0, square_m2 - noise_m2));
+  // Of noise alone the square would be `noise`. Each of its two directions has half of it.
+  out.amplitude_m = runs.empty() ? 0 : std::sqrt(std::max(0.0, squares - noise) / weights);
   out.standard_error_m =
-      runs.empty() ? std::numeric_limits<double>::infinity() : std::sqrt(noise_m2 / 2 / count);
-  // Of a mean over runs noise alone exceeds its expectation by its root over the number of runs, as a chi-square does.
-  out.significant = out.amplitude_m > kShown * out.standard_error_m &&
-                    square_m2 > (1 + (kShown + 1) / std::sqrt(count)) * noise_m2;
+      runs.empty() ? std::numeric_limits<double>::infinity() : std::sqrt(spread / 2) / weights;
+  // The square of noise alone has the standard deviation of its mean, as a chi-square of two has.
+  out.significant =
+      out.amplitude_m > kShown * out.standard_error_m && squares > noise + (kShown + 1) * std::sqrt(weights);
   return out;
 }
 
@@ -129,7 +156,7 @@ Eccentricity of_wheel(const std::vector<Waves>& runs, int wheel) {
 
 Eccentricities find_eccentricities(std::span<const PreparedRun> runs, std::span<const ClockFit> clocks,
                                    const WheelFactors& factors) {
-  std::vector<Waves> found;
+  std::vector<RunWaves> found;
   for (std::size_t i = 0; i < runs.size(); ++i)
     if (const auto waves = waves_of(runs[i], clocks[i], factors)) found.push_back(*waves);
   return {of_wheel(found, 0), of_wheel(found, 1)};

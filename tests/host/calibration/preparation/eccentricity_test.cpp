@@ -51,6 +51,23 @@ TEST(Eccentricity, IsNotFoundWhereThereIsNone) {
   }
 }
 
+// A quarter turn of the reference robot is 2.01 turns of its wheels, so that on all sides of a square both wheels stand alike.
+TEST(Eccentricity, IsNotFoundWhereBothWheelsStandAlikeOnAllSides) {
+  DriveModel model = astro_drive();
+  model.noise.sigma_xy_m = 2e-4;
+  model.noise.sigma_theta_rad = 1e-3;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    std::vector<Trajectory> runs = squares(model, 6, 3, seed);
+    for (Trajectory& run : runs) run.wheel_turn_m = std::numbers::pi * 0.072;
+    const Eccentricities found = estimate_ml(runs, model.loaded).eccentricities;
+    std::printf("left %.3f +- %.3f mm, right %.3f +- %.3f mm\n", 1e3 * found.left.amplitude_m,
+                1e3 * found.left.standard_error_m, 1e3 * found.right.amplitude_m,
+                1e3 * found.right.standard_error_m);
+    EXPECT_FALSE(found.left.significant) << "seed " << seed;
+    EXPECT_FALSE(found.right.significant) << "seed " << seed;
+  }
+}
+
 TEST(Eccentricity, IsNotLookedForWithoutTheTurnOfTheWheels) {
   const DriveModel model = astro_drive();
   const Eccentricities found = estimate_ml(squares(model, 2), model.loaded).eccentricities;
