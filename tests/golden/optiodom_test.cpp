@@ -240,8 +240,14 @@ TEST_F(Optiodom, SquaresAloneHoldForAnotherSet) {
   std::vector<Trajectory> unseen;
   for (int run = 1; run <= 6; ++run) unseen.push_back(raw_optiodom_run(kTest, run));
   const PathErrors errors = path_errors(unseen, found.factors);
-  std::printf("end %.1f mm, heading %.1f mrad, path %.1f mm (bars 23.5 / 16 / 17.2)\n",
-              1e3 * errors.final_rms_m, 1e3 * errors.final_heading_rms_rad, 1e3 * errors.path_rms_m);
+  ASSERT_TRUE(found.curvature);
+  std::printf("e %.3f +- %.3f; end %.1f mm, heading %.1f mrad, path %.1f mm (bars 23.5 / 16 / 17.2)\n",
+              found.curvature->e, found.curvature->standard_error, 1e3 * errors.final_rms_m,
+              1e3 * errors.final_heading_rms_rad, 1e3 * errors.path_rms_m);
+  // By the noise alone it would be 2.4 standard errors, but squares show that there is more than noise.
+  EXPECT_LT(found.curvature->e, 2 * found.curvature->standard_error);
+  EXPECT_FALSE(found.curvature->estimated);
+  EXPECT_EQ(found.factors.e, 0);
   EXPECT_LE(errors.final_rms_m, 0.0235);
   EXPECT_LE(errors.final_heading_rms_rad, 0.016);
   EXPECT_LE(errors.path_rms_m, 0.0172);

@@ -183,6 +183,18 @@ FactorCovariance bound_of(const PreparedRuns& prepared, const WheelFactors& fact
   return pool.factor_covariance();
 }
 
+/// An e that the noise alone would allow is not taken for shown if the widened errors, which the estimate claims, do not.
+MlEstimate estimate_with_what_is_shown(const PreparedRuns& prepared, const WheelFactors& loaded,
+                                       MlOptions options) {
+  MlEstimate estimate = summarise(MlFit(prepared, loaded, options));
+  const OneUnknown e{estimate.factors.e, estimate.se.e};
+  if (options.with_e || e.value == 0 || is_shown(e)) return estimate;
+  options.with_e = false;
+  estimate = summarise(MlFit(prepared, loaded, options));
+  estimate.curvature = CurvatureEffect{e.value, e.standard_error, false};
+  return estimate;
+}
+
 }  // namespace
 
 MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& loaded,
@@ -197,7 +209,7 @@ MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& loa
                                         options.clock_known, kRoughSpacing * loaded.b_m),
                                loaded),
                      loaded);
-  MlEstimate estimate = summarise(MlFit(prepared, loaded, options));
+  MlEstimate estimate = estimate_with_what_is_shown(prepared, loaded, options);
   estimate.left_out = prepared.left_out;
   return estimate;
 }

@@ -35,7 +35,7 @@ struct MlOptions {
   /// With a given noise model: only truth samples so far apart on the way of the wheels count, because closer ones are not
   /// independent (MlEstimate::spacing_m). Without one it is found.
   double spacing_m = 0;
-  /// Whether e is estimated. Not said: if the runs show that it is not zero.
+  /// Whether e is estimated. Not said: if the runs show by two standard errors that it is not zero.
   std::optional<bool> with_e = {};
   /// Huber's loss for slips and for truth samples. Off: least squares, for comparison.
   bool robust = true;
@@ -80,7 +80,7 @@ struct KindFit {
 
 /// Whether gentle arcs turn about another wheelbase than spins.
 struct CurvatureEffect {
-  double e = 0, standard_error = 0;  // if it is not estimated: to first order
+  double e = 0, standard_error = 0;  // what the runs show, also if it is too little to be estimated
   bool estimated = false;            // else the factors have e = 0
 };
 

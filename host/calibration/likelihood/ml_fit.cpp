@@ -46,6 +46,11 @@ double distance(const NoiseModel& a, const NoiseModel& b) {
 
 }  // namespace
 
+bool is_shown(const OneUnknown& e) {
+  return std::abs(e.value) > kShown * e.standard_error && e.standard_error < kUncertainE &&
+         std::abs(e.value) < kLargestE;
+}
+
 MlFit::MlFit(const PreparedRuns& prepared, const WheelFactors& loaded, const MlOptions& options, Held held,
              std::span<const Unknowns> start)
     : runs_(prepared.runs),
@@ -100,17 +105,13 @@ void MlFit::fit(const MlOptions& options, bool started) {
 /// The wheelbase is one number until the runs show that it is not: an e that is only noise would widen the errors of b and
 /// gain nothing.
 void MlFit::fit_e(const MlOptions& options) {
-  const auto shown = [&] {
-    return std::abs(e_.value) > kShown * e_.standard_error && e_.standard_error < kUncertainE &&
-           std::abs(e_.value) < kLargestE;
-  };
   fixed_.e = false;
   e_ = e_to_first_order();
-  if (shown()) {
+  if (is_shown(e_)) {
     auto without = std::tuple(unknowns_, moves_, noise_, spacing_m_, phases_, sums_);
     fit(options, true);
     e_ = e_to_first_order();
-    if (shown()) return;
+    if (is_shown(e_)) return;
     std::tie(unknowns_, moves_, noise_, spacing_m_, phases_, sums_) = std::move(without);
     passed_ = false;
     e_ = e_to_first_order();

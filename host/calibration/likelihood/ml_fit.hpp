@@ -26,9 +26,12 @@ struct Settled {
   double fall = 0, noise = 0;
 };
 
+/// Whether an e is that of tyres: two standard errors from zero, known to two hundredths, and no larger than tyres can make it.
+bool is_shown(const OneUnknown& e);
+
 /// Gauss-Newton, damped where the unknowns are far off. If the noise is not given, it steps together with the unknowns,
 /// and truth is thinned until the innovations are independent (whiteness.hpp). If it is not said whether e is to be estimated, that is
-/// done only where the runs show it.
+/// done only where the runs show it by their noise (is_shown).
 ///
 /// Throws astro::Error for factors that no robot has, and what start_values throws.
 class MlFit {
