@@ -9,11 +9,18 @@
 namespace astro::calibration {
 namespace {
 
-// If leaving the run out widens the covariance by less than this part in some direction, the run does not
-// observe that direction.
-constexpr double kSilent = 1e-4;
+// If leaving the run out widens the covariance by less than this part in some direction, the run does not observe that direction.
+// Between samples that are close to each other counts flicker, because they are whole numbers. On the lines of a square that looks
+// like curves, so that such a run seems to know e to some ten-thousandths of what circles know of it.
+constexpr double kSilent = 1e-4, kSilentAmongFlicker = 1e-3;
+constexpr double kSilentShare = 0.05;  // of what an average run says: never more, however many runs there are
 
-Disagreement disagreement(const Reduced& run, const Pool& all) {
+double silent_part(bool truth_is_spaced, std::size_t runs) {
+  if (truth_is_spaced) return kSilent;
+  return std::min(kSilentAmongFlicker, kSilentShare / static_cast<double>(runs));
+}
+
+Disagreement disagreement(const Reduced& run, const Pool& all, double silent) {
   Pool without = all;
   without.take_out(run);
   const FactorMatrix before = all.factor_covariance();
@@ -29,7 +36,7 @@ Disagreement disagreement(const Reduced& run, const Pool& all) {
   for (int i = 0; i < kFactors; ++i) {
     const double variance = eigen.eigenvalues()[i];
     if (variance > 1e8) return {};
-    if (variance < kSilent) continue;
+    if (variance < silent) continue;
     found.chi_square += parts[i] * parts[i] / variance;
     ++found.degrees_of_freedom;
   }
@@ -79,12 +86,14 @@ std::vector<Reduced> by_place(std::span<const RunInStretches> runs) {
 
 }  // namespace
 
-std::vector<Disagreement> disagreements(std::span<const Reduced> runs, const FixedParameters& fixed) {
+std::vector<Disagreement> disagreements(std::span<const Reduced> runs, const FixedParameters& fixed,
+                                        bool truth_is_spaced) {
   if (runs.size() < 2) return std::vector<Disagreement>(runs.size());
   Pool all(fixed);
   for (const Reduced& run : runs) all.add(run);
+  const double silent = silent_part(truth_is_spaced, runs.size());
   std::vector<Disagreement> found;
-  for (const Reduced& run : runs) found.push_back(disagreement(run, all));
+  for (const Reduced& run : runs) found.push_back(disagreement(run, all, silent));
   return found;
 }
 
@@ -115,7 +124,7 @@ double dispersion(std::span<const Disagreement> runs) {
 }
 
 double clustered_dispersion(std::span<const RunInStretches> runs, const FixedParameters& fixed,
-                            bool trusted) {
+                            bool truth_is_spaced) {
   const std::vector<RunInStretches> usual = usual_ones(runs, fixed);
   if (usual.size() < 2) return 1;
   std::vector<Reduced> whole, single;
@@ -123,10 +132,12 @@ double clustered_dispersion(std::span<const RunInStretches> runs, const FixedPar
     whole.push_back(sum_of(run.stretches));
     single.insert(single.end(), run.stretches.begin(), run.stretches.end());
   }
-  const Scatter by_run = scatter(disagreements(whole, fixed));
-  const Scatter at_places = scatter(disagreements(by_place(usual), fixed));
-  if (trusted && !by_run.significant() && !at_places.significant()) return 1;
-  const Scatter alone = scatter(disagreements(single, fixed));
+  const auto scatter_of = [&](std::span<const Reduced> parts) {
+    return scatter(disagreements(parts, fixed, truth_is_spaced));
+  };
+  const Scatter by_run = scatter_of(whole), at_places = scatter_of(by_place(usual));
+  if (!truth_is_spaced && !by_run.significant() && !at_places.significant()) return 1;
+  const Scatter alone = scatter_of(single);
   for (const Scatter& each : {by_run, at_places, alone})
     if (each.degrees_of_freedom == 0) return std::max(1.0, by_run.ratio());
   return std::max(1.0, by_run.ratio() + at_places.ratio() - alone.ratio());

@@ -14,7 +14,9 @@ struct Disagreement {
   double chi_square = 0;
   int degrees_of_freedom = 0;  // 0: nothing to compare, or the others alone do not observe a factor
 };
-std::vector<Disagreement> disagreements(std::span<const Reduced> runs, const FixedParameters& fixed);
+/// `truth_is_spaced`: the runs use truth samples that were thinned (MlEstimate::spacing_m).
+std::vector<Disagreement> disagreements(std::span<const Reduced> runs, const FixedParameters& fixed,
+                                        bool truth_is_spaced = false);
 
 /// All disagreements together: chi-square if the noise explains them. Each run is compared with all others: n comparisons, of which n - 1
 /// are independent.
@@ -55,11 +57,12 @@ struct RunInStretches {
 /// with sums of squares over runs, over places of the course (the stretches there of all its runs together) and over single stretches,
 /// which the first two both contain. Each is taken as its ratio to what the noise explains (Scatter), so the result is a factor as Birge's is.
 ///
-/// At least 1, so that runs that happen to agree claim no more than the noise allows. If the noise model is `trusted`, 1 unless the
-/// scatter of runs or that of places is significant.
+/// At least 1, so that runs that happen to agree claim no more than the noise allows. Unless `truth_is_spaced`, because there are errors
+/// that the noise model does not know, it is 1 if neither the scatter of runs nor that of places is significant.
 ///
 /// Source  Cameron, Gelbach & Miller 2011, Journal of Business & Economic Statistics 29(2), eq. 2.11.
-double clustered_dispersion(std::span<const RunInStretches> runs, const FixedParameters& fixed, bool trusted);
+double clustered_dispersion(std::span<const RunInStretches> runs, const FixedParameters& fixed,
+                            bool truth_is_spaced);
 
 /// Probability that a chi-square variable with `degrees_of_freedom` exceeds `value`; 1 for 0 degrees. Exact up to 3, Wilson and
 /// Hilferty's approximation above.

@@ -107,7 +107,6 @@ std::vector<Reduced> all_reduced(std::span<const InnovationSums> sums, const Fix
   return runs;
 }
 
-/// A model that needs truth to be thinned does not know all errors, so it is not trusted.
 double widening(const MlFit& fit, const std::vector<bool>& outlier) {
   constexpr int kStretches = 4;  // a side of a square: what a spin winds up and lets go of cancels within it
   const std::vector<int> courses = find_courses(fit.runs());
@@ -115,13 +114,13 @@ double widening(const MlFit& fit, const std::vector<bool>& outlier) {
   std::vector<RunInStretches> runs;
   for (std::size_t i = 0; i < courses.size(); ++i)
     runs.push_back({reduced(fit.sums()[i], stretches[i], fit.fixed()), courses[i], outlier[i]});
-  return clustered_dispersion(runs, fit.fixed(), fit.spacing_m() == 0);
+  return clustered_dispersion(runs, fit.fixed(), fit.spacing_m() > 0);
 }
 
 MlEstimate summarise(const MlFit& fit) {
   const Pool pool = pool_of(fit.sums(), fit.fixed());
-  const std::vector<Disagreement> found =
-      disagreements(all_reduced(fit.sums_with_full_slip_weight(), fit.fixed()), fit.fixed());
+  const std::vector<Disagreement> found = disagreements(
+      all_reduced(fit.sums_with_full_slip_weight(), fit.fixed()), fit.fixed(), fit.spacing_m() > 0);
   const std::vector<bool> outlier = outliers(found);
   // An outlier is down-weighted in the result, so it does not count here. Slips in all runs do.
   std::vector<Disagreement> usual;

@@ -96,14 +96,16 @@ Clustered clustered(int runs, double of_run, double of_place, std::mt19937_64& r
   return all;
 }
 
+constexpr bool kAll = false, kSpaced = true;  // the truth that is used
+
 /// Squares of the errors over what is claimed, on average.
-double claimed(int runs, double of_run, double of_place, bool trusted) {
+double claimed(int runs, double of_run, double of_place, bool truth_is_spaced) {
   std::mt19937_64 random(4);
   constexpr int kTrials = 400;
   double mean = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
     const Clustered all = clustered(runs, of_run, of_place, random);
-    mean += all.error / clustered_dispersion(all.runs, {}, trusted) / kTrials;
+    mean += all.error / clustered_dispersion(all.runs, {}, truth_is_spaced) / kTrials;
   }
   return mean;
 }
@@ -111,25 +113,40 @@ double claimed(int runs, double of_run, double of_place, bool trusted) {
 // 3 +- 3 standard deviations of the mean of 400 chi-squares of 3.
 constexpr double kChance = 3 * 2.45 / 20;
 
-TEST(ClusteredDispersion, LeavesATrustedNoiseModelAloneWhereItHolds) {
+// Circles find e, and the flicker of counts on the lines of squares says that it is something else.
+TEST(Disagreement, IsNotAboutWhatARunHardlyObservesAmongCloseSamples) {
+  constexpr double kShare = 3e-4, kRoot = 1e4;
+  std::vector<Reduced> runs(6, {SharedInformation::Identity() * kRoot * kRoot, SharedVector::Zero()});
+  runs[0].information(kB, kB) *= kShare * static_cast<double>(runs.size());
+  runs[0].gradient[kB] = 10 * kRoot * std::sqrt(kShare);
+  runs[1].gradient[kB] = -runs[0].gradient[kB];
+  const Disagreement close = disagreements(runs, {}, kAll).front(),
+                     spaced = disagreements(runs, {}, kSpaced).front();
+  EXPECT_EQ(close.degrees_of_freedom, 2);
+  EXPECT_EQ(spaced.degrees_of_freedom, 3);
+  EXPECT_LT(close.chi_square, 0.1);
+  EXPECT_GT(spaced.chi_square, 10);
+}
+
+TEST(ClusteredDispersion, LeavesANoiseModelAloneThatHoldsForAllTruth) {
   std::mt19937_64 random(5);
   for (const int count : {2, 6}) {
     int widened = 0;
     for (int trial = 0; trial < 1000; ++trial)
-      widened += clustered_dispersion(clustered(count, 0, 0, random).runs, {}, true) > 1;
+      widened += clustered_dispersion(clustered(count, 0, 0, random).runs, {}, kAll) > 1;
     EXPECT_LT(widened, 20 + 3 * 4.5) << "two tests of one in a hundred; " << count << " runs";
-    EXPECT_NEAR(claimed(count, 0, 0, true), 3, kChance);
+    EXPECT_NEAR(claimed(count, 0, 0, kAll), 3, kChance);
   }
 }
 
 TEST(ClusteredDispersion, MakesClaimsHoldWhereErrorsLastForARun) {
-  EXPECT_NEAR(claimed(6, 0, 0, false), 3 - 0.3, kChance) << "at least 1 where chance says less";
-  EXPECT_NEAR(claimed(10, 0.7, 0, false), 3, 1) << "without it 15";
+  EXPECT_NEAR(claimed(6, 0, 0, kSpaced), 3 - 0.3, kChance) << "at least 1 where chance says less";
+  EXPECT_NEAR(claimed(10, 0.7, 0, kSpaced), 3, 1) << "without it 15";
 }
 
 TEST(ClusteredDispersion, MakesClaimsHoldWhereErrorsReturnAtTheSamePlaces) {
-  EXPECT_NEAR(claimed(6, 0, 0.7, false), 3, 1) << "without it 12";
-  EXPECT_NEAR(claimed(6, 0, 0.7, true), 3, 1);
+  EXPECT_NEAR(claimed(6, 0, 0.7, kSpaced), 3, 1) << "without it 12";
+  EXPECT_NEAR(claimed(6, 0, 0.7, kAll), 3, 1);
   std::mt19937_64 random(6);
   double runs = 0;
   for (int trial = 0; trial < 200; ++trial) {
@@ -152,9 +169,9 @@ TEST(ClusteredDispersion, DoesNotCountAnOutlier) {
   for (Reduced& stretch : all.runs[2].stretches) stretch.gradient[0] += 4e4;
   for (RunInStretches& run : all.runs)
     for (Reduced& stretch : run.stretches) stretch.gradient[0] -= 4e4 / 6;
-  EXPECT_GT(clustered_dispersion(all.runs, {}, true), 2);
+  EXPECT_GT(clustered_dispersion(all.runs, {}, kAll), 2);
   all.runs[2].outlier = true;
-  EXPECT_EQ(clustered_dispersion(all.runs, {}, true), 1);
+  EXPECT_EQ(clustered_dispersion(all.runs, {}, kAll), 1);
 }
 
 }  // namespace
