@@ -86,15 +86,26 @@ double worst_relative_error(const std::vector<Row>& rows, const std::vector<std:
   return worst;
 }
 
+/// `title` and the parts, of which the fourth stands on a line of its own, because it has no room on the first.
+std::string listed(const std::string& title, const std::vector<std::string>& parts) {
+  std::string text = title;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    text += (i == 0 ? " " : i < 3 ? ", " : ",\n" + std::string(title.size() + 1, ' ')) + parts[i];
+  return text + '\n';
+}
+
 std::string ml_text(const Summary& summary) {
+  constexpr std::array kNames{"E_d", "b/S", "S", "e"};  // as in ml_over_bound
+  std::vector<std::string> ratios, means;
+  for (std::size_t i = 0; i < summary.ml_over_bound.size(); ++i) {
+    const auto& [ratio, of_ratio] = summary.ml_over_bound[i];
+    const auto& [mean, of_mean] = summary.ml_mean_errors[i];
+    ratios.push_back(fmt::format("{} {:.3f} ± {:.3f}", kNames[i], ratio, of_ratio));
+    means.push_back(fmt::format("{} {:+.2f} ± {:.2f}", kNames[i], 1e4 * mean, 1e4 * of_mean));
+  }
   std::string text;
-  if (const auto& ratios = summary.ml_over_bound; !ratios.empty())
-    text += fmt::format("ml over the bound: E_d {:.3f} ± {:.3f}, b/S {:.3f} ± {:.3f}, S {:.3f} ± {:.3f}\n",
-                        ratios[0].value, ratios[0].se, ratios[1].value, ratios[1].se, ratios[2].value,
-                        ratios[2].se) +
-            (ratios.size() > 3
-                 ? fmt::format("                   e {:.3f} ± {:.3f}\n", ratios[3].value, ratios[3].se)
-                 : "");
+  if (!ratios.empty())
+    text += listed("ml over the bound:", ratios) + listed("mean errors of ml, x1e-4:", means);
   if (const auto& consistency = summary.ml_covariance)
     text += fmt::format("chi-square of ml's errors by its own covariance: {:.3f} ± {:.3f}, expected {:.4g}\n",
                         consistency->mean, consistency->se, consistency->expected);
@@ -145,14 +156,17 @@ std::string study_text(const Summary& summary) {
 json study_json(const Summary& summary) {
   const TrialSetup& setup = summary.setup;
   json result = {
-      {"setup", to_json(setup)},     {"methods", json::array()}, {"bound", row_json(summary.bound, setup)},
-      {"ml_over_bound", json()},     {"ml_covariance", json()},  {"ml_median_K_m", json()},
-      {"failures", summary.failures}};
+      {"setup", to_json(setup)}, {"methods", json::array()},    {"bound", row_json(summary.bound, setup)},
+      {"ml_over_bound", json()}, {"ml_mean_errors", json()},    {"ml_covariance", json()},
+      {"ml_median_K_m", json()}, {"failures", summary.failures}};
   for (const Row& row : summary.methods) result["methods"].push_back(row_json(row, setup));
   if (summary.ml_median_K_m) result["ml_median_K_m"] = *summary.ml_median_K_m;
-  for (std::size_t i = 0; i < summary.ml_over_bound.size(); ++i)
-    result["ml_over_bound"][kColumns[i].key] = {{"value", summary.ml_over_bound[i].value},
-                                                {"se", summary.ml_over_bound[i].se}};
+  for (std::size_t i = 0; i < summary.ml_over_bound.size(); ++i) {
+    const auto& ratio = summary.ml_over_bound[i];
+    const auto& mean = summary.ml_mean_errors[i];
+    result["ml_over_bound"][kColumns[i].key] = {{"value", ratio.value}, {"se", ratio.se}};
+    result["ml_mean_errors"][kColumns[i].key] = {{"value", mean.value}, {"se", mean.se}};
+  }
   if (const auto& consistency = summary.ml_covariance)
     result["ml_covariance"] = {{"trials", consistency->trials},
                                {"mean", consistency->mean},

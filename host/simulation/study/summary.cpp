@@ -17,12 +17,8 @@ constexpr int kDraws = 20000;                           // leaves a Monte Carlo 
 constexpr std::uint64_t kDrawSeed = 2'000'000'000'000;  // different from the seeds of the trials
 
 /// Mean of some numbers and its standard error (NaN for one number).
-struct Mean {
-  double value = 0, se = 0;
-};
-
 template <class Read>
-Mean mean_of(std::size_t count, Read read) {
+MeanError mean_of(std::size_t count, Read read) {
   const auto n = static_cast<double>(count);
   double sum = 0, squares = 0;
   for (std::size_t i = 0; i < count; ++i) sum += read(i);
@@ -79,7 +75,7 @@ std::optional<CovarianceConsistency> covariance_consistency(const std::vector<Tr
     unknowns += trial.ml_unknowns;
   }
   if (values.empty()) return std::nullopt;
-  const Mean mean = mean_of(values.size(), [&](std::size_t i) { return values[i]; });
+  const MeanError mean = mean_of(values.size(), [&](std::size_t i) { return values[i]; });
   // The standard error of a mean of chi-squares with so many degrees of freedom, because a few trials often show
   // too little scatter.
   const auto count = static_cast<double>(values.size());
@@ -96,6 +92,18 @@ std::optional<double> median_K_m(const std::vector<Trial>& trials) {
   return calibration::median_of(std::move(values));
 }
 
+/// What maximum likelihood leaves of each factor, beside the bound and on average.
+void add_ml(const std::vector<Errors>& errors, Summary& summary) {
+  const Row& row = summary.methods.back();
+  for (const Figure figure : {kE_d, kB_over_S, kScale, kCurvature}) {
+    if (figure == kCurvature && summary.setup.e == 0) continue;
+    const double ratio = row.rms[figure] / summary.bound.rms[figure];
+    summary.ml_over_bound.push_back({ratio, ratio / std::sqrt(2.0 * row.trials)});
+    summary.ml_mean_errors.push_back(
+        mean_of(errors.size(), [&](std::size_t i) { return errors[i][figure]; }));
+  }
+}
+
 }  // namespace
 
 Row row_of(const std::string& name, const std::vector<Errors>& errors) {
@@ -103,7 +111,8 @@ Row row_of(const std::string& name, const std::vector<Errors>& errors) {
   row.name = name;
   row.trials = static_cast<int>(errors.size());
   for (std::size_t f = 0; f < kFigures; ++f) {
-    const Mean square = mean_of(errors.size(), [&](std::size_t i) { return errors[i][f] * errors[i][f]; });
+    const MeanError square =
+        mean_of(errors.size(), [&](std::size_t i) { return errors[i][f] * errors[i][f]; });
     row.rms[f] = std::sqrt(square.value);
     row.se[f] = row.rms[f] > 0 ? square.se / (2 * row.rms[f]) : 0;
   }
@@ -137,15 +146,7 @@ Summary summarize(const TrialSetup& setup, const DriveSource& source, const std:
     if (const std::string failure = failure_of(method, trials); !failure.empty())
       summary.failures.push_back(failure);
   }
-  if (!summary.methods.empty() && summary.methods.back().name == kMethods[kMl]) {
-    const Row& last = summary.methods.back();
-    for (const Figure figure : {kE_d, kB_over_S, kScale, kCurvature}) {
-      if (figure == kCurvature && setup.e == 0) continue;
-      summary.ml_over_bound.push_back(
-          {last.rms[figure] / summary.bound.rms[figure],
-           last.rms[figure] / summary.bound.rms[figure] / std::sqrt(2.0 * last.trials)});
-    }
-  }
+  if (const std::vector<Errors> errors = answers_of(kMl, trials); !errors.empty()) add_ml(errors, summary);
   summary.ml_covariance = covariance_consistency(trials);
   summary.ml_median_K_m = median_K_m(trials);
   return summary;

@@ -25,6 +25,11 @@ struct Ratio {
   double value = 0, se = 0;
 };
 
+/// The mean of a signed error over trials, with its standard error (NaN for a single answer): a bias if it is far from zero.
+struct MeanError {
+  double value = 0, se = 0;
+};
+
 /// Mean of Trial::ml_chi_square over trials: `expected` if the covariance is consistent with the errors, more if it
 /// is too small. Expected is the mean number of unknowns, 3 without e and 4 with it.
 struct CovarianceConsistency {
@@ -38,6 +43,7 @@ struct Summary {
   Row bound;
   /// Of E_d, b / S and S, and of e if the robot has one; empty without an answer of maximum likelihood.
   std::vector<Ratio> ml_over_bound;
+  std::vector<MeanError> ml_mean_errors;  // of the same figures; found less true, relative
   std::optional<CovarianceConsistency> ml_covariance;
   std::optional<double> ml_median_K_m;  // nothing if maximum likelihood did not estimate it
   std::vector<std::string> failures;    // a sentence for each method that failed

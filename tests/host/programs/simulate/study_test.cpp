@@ -27,8 +27,9 @@ Words study(const Words& more) {
 TEST(StudyCommand, PrintsEveryMethodAndTheBoundWithin80Columns) {
   const Outcome outcome = astrolabe(study({}));
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  for (const char* row : {"\nuncalibrated", "\numbmark thesis", "\numbmark average", "\nextended published",
-                          "\nextended exact", "\nml ", "\nCramer-Rao bound", "\nml over the bound"})
+  for (const char* row :
+       {"\nuncalibrated", "\numbmark thesis", "\numbmark average", "\nextended published", "\nextended exact",
+        "\nml ", "\nCramer-Rao bound", "\nml over the bound", "\nmean errors of ml"})
     EXPECT_THAT(outcome.out, HasSubstr(row));
   EXPECT_LE(support::widest_line(outcome.out), 80U);
   EXPECT_EQ(outcome.err, "") << "progress is for terminals";
@@ -71,6 +72,7 @@ TEST(StudyCommand, ShowsEOnlyIfTheRobotHasOneOrDrivesCircles) {
   EXPECT_NEAR(result["methods"][0]["rms"]["e"].get<double>(), 0.02, 1e-12) << "what was not calibrated";
   EXPECT_GT(result["bound"]["rms"]["e"], 0);
   EXPECT_GT(result["ml_over_bound"]["e"]["value"], 0);
+  EXPECT_TRUE(result["ml_mean_errors"]["e"]["value"].is_number());
   EXPECT_FALSE(
       support::parse_json(astrolabe(study({"--circles", "1", "--json"})).out)["ml_over_bound"].contains("e"))
       << "there is none, and the bound knows";

@@ -116,11 +116,25 @@ TEST(StudySummary, SetsMaximumLikelihoodBesideTheBound) {
     EXPECT_DOUBLE_EQ(summary.ml_over_bound[f].value, 1e-3 / summary.bound.rms[f]);
 }
 
+TEST(StudySummary, TellsABiasOfMaximumLikelihoodFromItsScatter) {
+  Trial more, less;
+  more.errors.fill(all(3e-3));
+  less.errors.fill(all(-1e-3));
+  const Summary summary = summarize(small_setup(), KinematicSource(), {more, less});
+  ASSERT_EQ(summary.ml_mean_errors.size(), 3U);
+  for (const MeanError& mean : summary.ml_mean_errors) {
+    EXPECT_DOUBLE_EQ(mean.value, 1e-3);
+    EXPECT_DOUBLE_EQ(mean.se, 2e-3)
+        << "two answers 4e-3 apart: their scatter is 4e-3 / root 2, that of their mean half of 4e-3";
+  }
+}
+
 TEST(StudySummary, WithoutAnAnswerOfMaximumLikelihoodHasNoRatio) {
   Trial one;
   one.errors[0] = all(1e-3);
   const Summary summary = summarize(small_setup(), KinematicSource(), {one});
   EXPECT_TRUE(summary.ml_over_bound.empty());
+  EXPECT_TRUE(summary.ml_mean_errors.empty());
   EXPECT_FALSE(summary.ml_covariance.has_value());
 }
 
