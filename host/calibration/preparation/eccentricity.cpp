@@ -102,24 +102,29 @@ struct RunWaves {
   std::array<double, 2> noise_m2{};
 };
 
-/// The noise is what the other waves explain, which is brought to once per turn by how well the run shows each: if a quarter turn of
-/// the robot is nearly whole turns of a wheel, both wheels lead and lag alike on all sides of a square, and only once per turn.
+/// The noise is that of the other waves. If a quarter turn of the robot is nearly whole turns of a wheel, both wheels lead and lag alike
+/// on all sides of a square, but only once per turn; so what the others explain is also brought to once per turn by how well the run
+/// shows each, and the larger one counts.
 std::optional<RunWaves> waves_of(const PreparedRun& run, const ClockFit& clock, const WheelFactors& factors) {
   const double turn_m = run.source->wheel_turn_m;
   if (!(turn_m > 0) || !run.has_headings || run.distance_m < kFewestTurns * turn_m) return {};
   const std::vector<Pair> pairs = pairs_of(run, clock, factors);
   const std::optional<WaveFit> once = wave_of(pairs, kOnce, turn_m, factors);
   if (!once) return {};
-  double variance = 0;  // of one of the four numbers of a wave, for a normal matrix of 1
+  double explained = 0;  // by each of the four numbers of a wave
+  RunWaves out{once->wave};
   for (const double per_turn : kPerTurn) {
     const std::optional<WaveFit> other = wave_of(pairs, per_turn, turn_m, factors);
     if (!other) return {};
-    variance += other->explained / (4 * static_cast<double>(kPerTurn.size()));
+    explained += other->explained / 4 / static_cast<double>(kPerTurn.size());
+    for (const int wheel : {0, 1})
+      out.noise_m2[static_cast<std::size_t>(wheel)] +=
+          other->wave.segment<2>(2 * wheel).squaredNorm() / static_cast<double>(kPerTurn.size());
   }
-  RunWaves out{once->wave};
-  for (const int wheel : {0, 1})
-    out.noise_m2[static_cast<std::size_t>(wheel)] =
-        variance * once->normal_inverse.diagonal().segment<2>(2 * wheel).sum();
+  for (const int wheel : {0, 1}) {
+    double& noise_m2 = out.noise_m2[static_cast<std::size_t>(wheel)];
+    noise_m2 = std::max(noise_m2, explained * once->normal_inverse.diagonal().segment<2>(2 * wheel).sum());
+  }
   return out;
 }
 

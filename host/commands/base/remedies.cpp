@@ -116,8 +116,9 @@ constexpr Sentence kSentences[] = {
     {Help::export_orientation_or_mount_off_axis,
      ": export the orientation of the body, too, or mount it away from the axis"},
     {Help::check_run_and_wiring,
-     ": check that they belong to the same drive, and with 'astrolabe check-wiring' that no encoder is "
-     "reversed"},
+     ": check that they belong to the same drive, with 'astrolabe check-wiring' that no encoder is "
+     "reversed, and in files of other programs whether each row of the wheels is the travel since the row "
+     "before (--per-interval)"},
     {Help::settle_clock,
      ": record wheels and ground truth from the rest before the drive to the rest after it, or give the "
      "truth the robot's times and --clock known"},
