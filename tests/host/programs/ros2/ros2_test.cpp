@@ -178,6 +178,34 @@ TEST_F(Ros2, ThePtyGoesAndComesBackFiveTimesAndTheNodeStays) {
   }
 }
 
+TEST_F(Ros2, WhileAnotherProgramDrivesArmIsRefusedAndSaysWhich) {
+  PeerProgram peer(PeerKind::fast, support::test_domain());
+  subscribe(peer, "/odom", "odometry");
+  next(peer, "/odom");
+  support::Program other(
+      {ASTROLABE_PROGRAM, "drive", "velocity", "0.1", "0", "--for", "60", "--port", port()});
+  EXPECT_TRUE(eventually([&] { return number_in(next(peer, "/odom"), "v") > 0.05; }));
+  EXPECT_THAT(call(peer, "/arm"), AllOf(HasSubstr("no"), HasSubstr("drive velocity")));
+  EXPECT_GT(number_in(next(peer, "/odom"), "v"), 0.05);
+  // What stops is taken from everybody.
+  EXPECT_THAT(call(peer, "/stop"), HasSubstr("yes"));
+  EXPECT_EQ(other.wait(), 1);
+  EXPECT_TRUE(eventually([&] { return call(peer, "/arm").find("yes") != std::string::npos; }));
+}
+
+TEST_F(Ros2, AnotherProgramStopsTheRobotAndItStaysStopped) {
+  PeerProgram peer(PeerKind::fast, support::test_domain());
+  subscribe(peer, "/odom", "odometry");
+  subscribe(peer, "/diagnostics", "diagnostics");
+  next(peer, "/odom");
+  EXPECT_THAT(call(peer, "/arm"), HasSubstr("yes"));
+  ask(peer, "drive /cmd_vel twist 0.3 0 0.5", "sent /cmd_vel");
+  EXPECT_EQ(support::astrolabe({"stop", "--port", port()}).code, 0);
+  ask(peer, "drive /cmd_vel twist 0.3 0 1.5", "sent /cmd_vel");
+  EXPECT_LT(std::abs(number_in(next(peer, "/odom"), "v")), 0.01);
+  EXPECT_TRUE(eventually([&] { return next(peer, "/diagnostics").find("ignored") != std::string::npos; }));
+}
+
 TEST_F(Ros2, ARobotWhoseNodeIsKilledStopsByItself) {
   PeerProgram peer(PeerKind::fast, support::test_domain());
   subscribe(peer, "/odom", "odometry");
