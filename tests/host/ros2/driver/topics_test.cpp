@@ -184,6 +184,19 @@ TEST(Driver, EncodesNothingForNobody) {
   EXPECT_FALSE(bench.ros.published["/tf_static"].messages.empty());  // for whoever comes later
 }
 
+TEST(Driver, WarnsIfTheRobotHoldsOtherFactorsThanTheCalibrationWhoseCovarianceItPublishes) {
+  DriverOptions options;
+  options.calibrated = calibration::WheelFactors{1, 1, 0.29};
+  RobotOnRos bench(RobotOnRos::quiet(), options);
+  bench.run_ms(1500);
+  EXPECT_EQ(bench.status("robot").level, std::byte{0});
+  const msg::Parameter other{"c_R", to_parameter(1.001)};
+  EXPECT_TRUE(bench.ros.parameters->set({&other, 1}).successful);
+  bench.run_ms(1100);
+  EXPECT_EQ(bench.status("robot").level, std::byte{1});
+  EXPECT_THAT(bench.status("robot").message, testing::HasSubstr("other factors"));
+}
+
 TEST(Driver, StampsFollowTheSystemsClockWhenItIsCorrected) {
   RobotOnRos bench;
   bench.run_ms(1000);
