@@ -140,7 +140,7 @@ calibration::FactorCovariance covariance_of(const toml::table& file, const fs::p
       const auto entry =
           file["covariance"]["matrix"][static_cast<std::size_t>(row)][static_cast<std::size_t>(column)]
               .value<double>();
-      if (!entry)
+      if (!entry || !std::isfinite(*entry))
         throw Error("'" + path.string() +
                     "': [covariance] needs a matrix of four rows of four numbers, or three of three");
       covariance(row, column) = *entry;

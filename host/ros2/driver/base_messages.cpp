@@ -18,7 +18,7 @@ void put_symmetric(Matrix6& matrix, std::size_t a, std::size_t b, double value) 
 
 Matrix6 unmeasured_space() {
   Matrix6 matrix{};
-  for (const std::size_t i : {2, 3, 4}) matrix[7 * i] = kNotMeasured;
+  for (const std::size_t i : {2U, 3U, 4U}) matrix[7 * i] = kNotMeasured;
   return matrix;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/robot/motion/rest.hpp"
+#include "host/ros2/recorded/ros_messages.hpp"
 
 namespace astro::ros2 {
 

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <fstream>
 #include <numbers>
 
 #include "tests/host/programs/ros2/robot_among_peers.hpp"
@@ -178,6 +179,34 @@ TEST_F(Ros2, ThePtyGoesAndComesBackFiveTimesAndTheNodeStays) {
   }
 }
 
+TEST_F(Ros2, WhileAnotherProgramDrivesArmIsRefusedAndSaysWhich) {
+  PeerProgram peer(PeerKind::fast, support::test_domain());
+  subscribe(peer, "/odom", "odometry");
+  next(peer, "/odom");
+  support::Program other(
+      {ASTROLABE_PROGRAM, "drive", "velocity", "0.1", "0", "--for", "60", "--port", port()});
+  EXPECT_TRUE(eventually([&] { return number_in(next(peer, "/odom"), "v") > 0.05; }));
+  EXPECT_THAT(call(peer, "/arm"), AllOf(HasSubstr("no"), HasSubstr("drive velocity")));
+  EXPECT_GT(number_in(next(peer, "/odom"), "v"), 0.05);
+  // What stops is taken from everybody.
+  EXPECT_THAT(call(peer, "/stop"), HasSubstr("yes"));
+  EXPECT_EQ(other.wait(), 1);
+  EXPECT_TRUE(eventually([&] { return call(peer, "/arm").find("yes") != std::string::npos; }));
+}
+
+TEST_F(Ros2, AnotherProgramStopsTheRobotAndItStaysStopped) {
+  PeerProgram peer(PeerKind::fast, support::test_domain());
+  subscribe(peer, "/odom", "odometry");
+  subscribe(peer, "/diagnostics", "diagnostics");
+  next(peer, "/odom");
+  EXPECT_THAT(call(peer, "/arm"), HasSubstr("yes"));
+  ask(peer, "drive /cmd_vel twist 0.3 0 0.5", "sent /cmd_vel");
+  EXPECT_EQ(support::astrolabe({"stop", "--port", port()}).code, 0);
+  ask(peer, "drive /cmd_vel twist 0.3 0 1.5", "sent /cmd_vel");
+  EXPECT_LT(std::abs(number_in(next(peer, "/odom"), "v")), 0.01);
+  EXPECT_TRUE(eventually([&] { return next(peer, "/diagnostics").find("ignored") != std::string::npos; }));
+}
+
 TEST_F(Ros2, ARobotWhoseNodeIsKilledStopsByItself) {
   PeerProgram peer(PeerKind::fast, support::test_domain());
   subscribe(peer, "/odom", "odometry");
@@ -203,6 +232,32 @@ TEST_F(Ros2, CtrlCBringsTheRobotToRestAndEnds) {
   EXPECT_EQ(node_->wait(), 130);
   const auto info = support::astrolabe({"info", "--json", "--port", port()});
   EXPECT_THAT(info.out, AllOf(HasSubstr("disarmed"), testing::Not(HasSubstr("command_timeout"))));
+}
+
+TEST_F(Ros2, TheCovarianceOfACalibrationIsThatOfItsFactorsOnly) {
+  const std::string file = (folder_.path() / "calib.toml").string();
+  std::ofstream(file) << "[parameters]\nc_R = 1.002\nc_L = 0.998\nb = 0.2886\n";
+  start_node({"--calibration", file});
+  EXPECT_EQ(node_->wait(), 1);
+  EXPECT_THAT(node_->err(), HasSubstr("how well its factors are known"));
+
+  std::ofstream(file, std::ios::app)
+      << "[covariance]\nmatrix = [[1e-8, 0, 0, 0], [0, 1e-8, 0, 0], [0, 0, 1e-8, 0], "
+         "[0, 0, 0, 0]]\n[slip]\nK = 1e-6\n";
+  start_node({"--calibration", file});
+  PeerProgram peer(PeerKind::fast, support::test_domain());
+  subscribe(peer, "/diagnostics", "diagnostics");
+  // The robot was never loaded with that calibration.
+  EXPECT_TRUE(
+      eventually([&] { return next(peer, "/diagnostics").find("other factors") != std::string::npos; }));
+  ASSERT_EQ(
+      support::astrolabe({"params", "set", "c_R=1.002", "c_L=0.998", "b=0.2886", "--yes", "--port", port()})
+          .code,
+      0);
+  node_->send(SIGINT);
+  node_->wait();
+  start_node({"--calibration", file});
+  EXPECT_TRUE(eventually([&] { return next(peer, "/diagnostics").find("disarmed") != std::string::npos; }));
 }
 
 TEST_F(Ros2, WrongNamesAreRefusedInOneSentence) {

@@ -89,7 +89,7 @@ TEST_F(DrivingRobot, JointsTurnAsTheWheelsDo) {
   EXPECT_THAT(first.name, ElementsAre("left_wheel_joint", "right_wheel_joint"));
   const double seconds =
       1e-9 * static_cast<double>(msg::nanoseconds(last.header.stamp) - msg::nanoseconds(first.header.stamp));
-  for (const std::size_t i : {0, 1}) {
+  for (const std::size_t i : {0U, 1U}) {
     const double rim_mps = 0.3 + (i == 0 ? -1 : 1) * 0.5 * 0.29 / 2;
     EXPECT_NEAR(last.velocity[i], rim_mps / 0.036, 0.3);
     EXPECT_NEAR((last.position[i] - first.position[i]) / seconds, rim_mps / 0.036, 0.05);
@@ -145,8 +145,8 @@ TEST_F(DrivingRobot, CovarianceOfThePoseIsRowMajorAndGrows) {
   for (std::size_t row = 0; row < 6; ++row)
     for (std::size_t column = 0; column < 6; ++column)
       EXPECT_EQ(last[6 * row + column], last[6 * column + row]);
-  for (const std::size_t i : {0, 7, 35}) EXPECT_GT(last[i], first[i]);
-  for (const std::size_t i : {14, 21, 28}) EXPECT_EQ(last[i], kNotMeasured);
+  for (const std::size_t i : {0U, 7U, 35U}) EXPECT_GT(last[i], first[i]);
+  for (const std::size_t i : {14U, 21U, 28U}) EXPECT_EQ(last[i], kNotMeasured);
 }
 
 TEST(Driver, PublishesAtTheChosenRate) {
@@ -182,6 +182,19 @@ TEST(Driver, EncodesNothingForNobody) {
   bench.run_ms(500);
   EXPECT_TRUE(bench.ros.published["/odom"].messages.empty());
   EXPECT_FALSE(bench.ros.published["/tf_static"].messages.empty());  // for whoever comes later
+}
+
+TEST(Driver, WarnsIfTheRobotHoldsOtherFactorsThanTheCalibrationWhoseCovarianceItPublishes) {
+  DriverOptions options;
+  options.calibrated = calibration::WheelFactors{1, 1, 0.29};
+  RobotOnRos bench(RobotOnRos::quiet(), options);
+  bench.run_ms(1500);
+  EXPECT_EQ(bench.status("robot").level, std::byte{0});
+  const msg::Parameter other{"c_R", to_parameter(1.001)};
+  EXPECT_TRUE(bench.ros.parameters->set({&other, 1}).successful);
+  bench.run_ms(1100);
+  EXPECT_EQ(bench.status("robot").level, std::byte{1});
+  EXPECT_THAT(bench.status("robot").message, testing::HasSubstr("other factors"));
 }
 
 TEST(Driver, StampsFollowTheSystemsClockWhenItIsCorrected) {
