@@ -27,7 +27,7 @@ namespace {
 constexpr const char* kUserDataAtFirst = "starting;";  // never sent
 constexpr std::size_t kLongestUserData = 1024;         // of an endpoint; those of ROS 2 take some 200 bytes
 // With the default of 3 s every other start finds its peers only after 2 s.
-constexpr double kAnnouncementPeriod_s = 0.5;
+constexpr double kAnnouncementPeriod_s = 0.2;
 // At first more often: others answer the first one that they get.
 constexpr std::uint32_t kFirstAnnouncements = 10;
 constexpr double kFirstAnnouncementPeriod_s = 0.05;
