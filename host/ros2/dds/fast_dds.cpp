@@ -24,10 +24,11 @@
 namespace astro::ros2::dds {
 namespace {
 
-constexpr std::ptrdiff_t kGuidPrefixBytes = 12;  // the same for all endpoints of a participant
-constexpr std::size_t kLongestUserData = 1024;   // of an endpoint; those of ROS 2 take some 200 bytes
+constexpr std::ptrdiff_t kGuidPrefixBytes = 12;        // the same for all endpoints of a participant
+constexpr const char* kUserDataAtFirst = "starting;";  // never sent
+constexpr std::size_t kLongestUserData = 1024;         // of an endpoint; those of ROS 2 take some 200 bytes
 // With the default of 3 s every other start finds its peers only after 2 s.
-constexpr double kAnnouncementPeriod_s = 0.5;
+constexpr double kAnnouncementPeriod_s = 0.2;
 // At first more often: others answer the first one that they get.
 constexpr std::uint32_t kFirstAnnouncements = 10;
 constexpr double kFirstAnnouncementPeriod_s = 0.05;
@@ -124,10 +125,10 @@ void set_times(rtps::DiscoverySettings& settings) {
 }
 
 fast::DomainParticipantQos qos_of(const Discovery& discovery, const std::string& name,
-                                  const std::string& user_data, std::shared_ptr<const Gate> gate) {
+                                  std::shared_ptr<const Gate> gate) {
   fast::DomainParticipantQos qos;
   qos.name(name.c_str());
-  qos.user_data().data_vec(octets(user_data));
+  qos.user_data().data_vec(octets(kUserDataAtFirst));
   const bool here_alone = discovery.range != Range::subnet && discovery.peers.empty();
   // The transports that are built in have shared memory, which would leave files behind when a program dies.
   qos.transport().use_builtin_transports = false;
@@ -148,11 +149,15 @@ class OneParticipant {
                  Others& others) {
     const auto gate = std::make_shared<Gate>();
     participant_ = fast::DomainParticipantFactory::get_instance()->create_participant(
-        static_cast<std::uint32_t>(discovery.domain), qos_of(discovery, name, user_data, gate), &others,
+        static_cast<std::uint32_t>(discovery.domain), qos_of(discovery, name, gate), &others,
         fast::StatusMask::none());
-    gate->open();
     if (participant_ == nullptr)
       throw Error("DDS makes no participant in domain " + std::to_string(discovery.domain));
+    gate->open();
+    // A change is announced at once: those that we hear of have to know us before we tell them of endpoints.
+    fast::DomainParticipantQos qos = participant_->get_qos();
+    qos.user_data().data_vec(octets(user_data));
+    participant_->set_qos(qos);
     publisher_ = participant_->create_publisher(fast::PUBLISHER_QOS_DEFAULT);
     subscriber_ = participant_->create_subscriber(fast::SUBSCRIBER_QOS_DEFAULT);
   }

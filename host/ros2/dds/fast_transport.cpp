@@ -40,7 +40,7 @@ class GatedTransport : public transport::ChainingTransport {
   }
   void receive(transport::TransportReceiverInterface* receiver, const rtps::octet* bytes, std::uint32_t size,
                const rtps::Locator_t& here, const rtps::Locator_t& there) override {
-    if (may_talk_to(there)) receiver->OnDataReceived(bytes, size, here, there);
+    if (descriptor_.gate->is_open() && may_talk_to(there)) receiver->OnDataReceived(bytes, size, here, there);
   }
   bool is_locator_allowed(const rtps::Locator_t& locator) const override {
     return may_talk_to(locator) && ChainingTransport::is_locator_allowed(locator);

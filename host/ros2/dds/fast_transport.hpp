@@ -7,7 +7,7 @@
 
 namespace astro::ros2::dds {
 
-/// Until it is opened, what is sent is dropped.
+/// Until it is opened, what is sent or comes is dropped.
 class Gate {
  public:
   void open() { open_ = true; }
@@ -17,7 +17,7 @@ class Gate {
   std::atomic<bool> open_ = false;
 };
 
-/// UDP over IPv4. Nothing is sent before the gate opens.
+/// UDP over IPv4. Nothing is sent or read before the gate opens.
 ///
 /// Fast DDS 2.9 announces a participant and only then begins to receive. On this computer the answer comes within a fraction
 /// of a millisecond and would be lost, and CycloneDDS answers a second time only after 1 s. With the gate shut until the

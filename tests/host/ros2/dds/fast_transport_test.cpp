@@ -30,11 +30,12 @@ class Count : public transport::TransportReceiverInterface {
 class Transport : public testing::Test {
  protected:
   std::unique_ptr<transport::ChainingTransport> open(bool here_alone) {
-    auto* made = gated_udp(here_alone, std::make_shared<Gate>())->create_transport();
+    auto* made = gated_udp(here_alone, gate_)->create_transport();
     std::unique_ptr<transport::ChainingTransport> opened(dynamic_cast<transport::ChainingTransport*>(made));
     EXPECT_TRUE(opened->init());
     return opened;
   }
+  Transport() { gate_->open(); }
   /// Whether a datagram from there is read.
   static bool reads(transport::ChainingTransport& transport, const std::string& address) {
     Count count;
@@ -45,6 +46,8 @@ class Transport : public testing::Test {
     Locator_t result;
     return transport.transform_remote_locator(at(address), result);
   }
+
+  std::shared_ptr<Gate> gate_ = std::make_shared<Gate>();
 };
 
 // 203.0.113.0/24 is for documentation; no interface has such an address.
@@ -54,6 +57,14 @@ TEST_F(Transport, AloneItNeitherReadsDatagramsOfOtherComputersNorWritesToThem) {
   EXPECT_TRUE(writes(*alone, "127.0.0.1"));
   EXPECT_FALSE(reads(*alone, "203.0.113.7"));
   EXPECT_FALSE(writes(*alone, "203.0.113.7"));
+}
+
+TEST_F(Transport, NothingIsReadBeforeTheGateOpens) {
+  gate_ = std::make_shared<Gate>();
+  const auto alone = open(true);
+  EXPECT_FALSE(reads(*alone, "127.0.0.1"));
+  gate_->open();
+  EXPECT_TRUE(reads(*alone, "127.0.0.1"));
 }
 
 TEST_F(Transport, WithTheNetworkItDoesBoth) {

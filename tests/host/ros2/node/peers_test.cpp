@@ -273,6 +273,20 @@ TEST_F(NodeAmongPeers, BothSeeTheHashesOfTypes) {
   }
 }
 
+TEST_F(NodeAmongPeers, ShowsThatItBelongsToAnEnclave) {
+  const auto node = open();
+  const auto odom = node->advertise({"/odom", message_type<msg::Odometry>()});
+  PeerProgram* peer = start(PeerKind::cyclone);
+  if (peer == nullptr) GTEST_SKIP();
+  peer->say("sub /odom odometry");
+  ASSERT_TRUE(eventually(*node, [&] {
+    odom->publish(encode(odometry(1)), 0);
+    return !peer->lines("got /odom").empty();
+  }));
+  ask(*node, *peer, "participants", "participants");
+  EXPECT_THAT(peer->lines("participant "), testing::Contains("participant enclave=/;"));
+}
+
 TEST_F(NodeAmongPeers, ASubscriberThatHangsDoesNotHoldThePublisherUp) {
   const auto node = open();
   const auto odom = node->advertise({"/odom", message_type<msg::Odometry>()});

@@ -168,6 +168,22 @@ class CyclonePeer : public Peer {
     return writers;
   }
 
+  std::vector<std::string> participants() override {
+    std::vector<std::string> shown;
+    const dds_entity_t reader =
+        checked(dds_create_reader(participant_, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, nullptr));
+    take_each(reader, [&](const void* sample) {
+      void* data = nullptr;
+      std::size_t size = 0;
+      dds_qget_userdata(static_cast<const dds_builtintopic_participant_t*>(sample)->qos, &data, &size);
+      shown.emplace_back(static_cast<char*>(data), size);
+      dds_free(data);
+      return false;
+    });
+    dds_delete(reader);
+    return shown;
+  }
+
   bool twist(const std::string& topic, double v_mps, double w_radps) override {
     geometry_msgs_msg_dds__Twist_ message{};
     message.linear.x = v_mps;

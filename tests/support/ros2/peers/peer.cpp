@@ -70,6 +70,7 @@ class Session {
     const std::map<std::string, std::function<void(Words&)>> verbs{
         {"sub", [&](Words& rest) { subscribe(rest); }},
         {"writers", [&](Words& rest) { writers(rest); }},
+        {"participants", [&](Words&) { participants(); }},
         {"twist", [&](Words& rest) { publish(rest, false); }},
         {"twist_stamped", [&](Words& rest) { publish(rest, true); }},
         {"drive", [&](Words& rest) { drive(rest); }},
@@ -101,6 +102,10 @@ class Session {
     for (const std::string& writer : peer_.writers_of(topic))
       print(fmt::format("writer {} {}", topic, writer));
     print("writers " + topic);
+  }
+  void participants() {
+    for (const std::string& each : peer_.participants()) print("participant " + each);
+    print("participants");
   }
   bool send(const std::string& topic, bool stamped, double v, double w, double age_s) {
     using std::chrono::system_clock;

@@ -27,6 +27,8 @@ class Peer {
   virtual bool subscribe(const std::string& topic, const std::string& kind, bool latched) = 0;
   /// The writers of a topic that has been subscribed: "GUID user_data".
   virtual std::vector<std::string> writers_of(const std::string& topic) = 0;
+  /// What participants show of themselves; nothing for a peer that cannot see it.
+  virtual std::vector<std::string> participants() { return {}; }
   /// False if nobody reads the topic, after a wait: what is written before a reader has been found would be lost.
   virtual bool twist(const std::string& topic, double v_mps, double w_radps) = 0;
   virtual bool twist_stamped(const std::string& topic, double v_mps, double w_radps,
