@@ -197,6 +197,9 @@ enum class Help : std::uint8_t {
   add_turns,
   add_lines,
   drive_two_circles,
+  // viewers
+  allow_origin,  // {origin}
+  choose_other_tcp_port,
   // the terminal
   answer_at_terminal,
   answer_in_lines,

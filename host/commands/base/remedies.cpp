@@ -234,6 +234,8 @@ constexpr Sentence kSentences[] = {
     {Help::add_turns, ": add squares, spins or circles"},
     {Help::add_lines, ": add squares, lines or circles"},
     {Help::drive_two_circles, ": drive two"},
+    {Help::allow_origin, "; --allow-origin '{}' allows it"},
+    {Help::choose_other_tcp_port, ": choose another port with --listen"},
     {Help::answer_at_terminal, ": answer at a terminal, or pipe all answers in"},
     {Help::answer_in_lines, ": give one answer in each line"},
     {Help::agree_beforehand, ": give --yes to agree beforehand"},

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/ros2/middleware/middleware.hpp"
+
+/// What a server offers to all its clients. Ids count from 1 in the order in which things were added.
+namespace astro::ros2::foxglove {
+
+/// One message of one channel; all clients share it.
+struct Sample {
+  std::int64_t time_ns = 0;
+  Bytes payload;
+};
+using SharedSample = std::shared_ptr<const Sample>;
+
+/// A topic that the robot publishes.
+struct Channel {
+  std::uint32_t id = 0;
+  TopicDescription topic;
+  std::deque<SharedSample> kept;                  // latched: the last `depth`
+  std::shared_ptr<std::atomic<int>> subscribers;  // read by the publisher, in another thread
+};
+
+/// A topic that clients may publish.
+struct Inlet {
+  std::uint32_t id = 0;
+  TopicDescription topic;
+};
+
+struct Service {
+  std::uint32_t id = 0;
+  ServiceDescription service;
+};
+
+struct Catalogue {
+  std::string name;        // of the server, for people
+  std::string session_id;  // another one after each start, so that a client knows that ids have changed
+  std::vector<Channel> channels;
+  std::vector<Inlet> inlets;
+  std::vector<Service> services;
+  bool takes_messages = false;  // whether inlets may ever come
+  bool has_parameters = false;
+};
+
+/// The element with this id, or nullptr.
+template <class T>
+auto* find(T& list, std::uint32_t id) {
+  return id == 0 || id > list.size() ? nullptr : &list[id - 1];
+}
+
+}  // namespace astro::ros2::foxglove

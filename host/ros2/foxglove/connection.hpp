@@ -1,0 +1,44 @@
+#pragma once
+
+#include <boost/asio/ip/tcp.hpp>
+#include <functional>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "host/base/remedy.hpp"
+#include "host/ros2/foxglove/hub.hpp"
+
+namespace astro::ros2::foxglove {
+
+/// What connections have in common. It must outlive them, but for the calls that a connection may still make when it ends.
+struct ConnectionRules {
+  std::vector<std::string> origins;  // that are allowed beside the usual ones (origin.hpp)
+  std::set<std::string> refused;     // origins that were reported; a page may try again and again
+  std::size_t most_clients = 16;
+  Hub* hub = nullptr;
+  std::function<void(Remark)> notice;
+};
+
+/// One TCP connection: HTTP, which must ask for a WebSocket with the right subprotocol from an allowed origin, then a client of the
+/// hub until either side ends it.
+///
+/// Bounds   5 s for the request and 8 KiB for its header; a client's messages may have 1 MiB. Who does not answer a ping within 15 s
+///          is disconnected, and so is one whose queue overflows. Beyond most_clients the answer is 503.
+/// Threads  one, the one that runs the socket's io_context.
+class Connection {
+ public:
+  virtual ~Connection() = default;
+
+  virtual void start() = 0;
+  /// Sends what waits in the client's queue, as far as the network takes it.
+  virtual void send_waiting() = 0;
+  /// Says goodbye to the client.
+  virtual void close() = 0;
+  virtual bool ended() const = 0;
+};
+
+std::shared_ptr<Connection> make_connection(boost::asio::ip::tcp::socket socket, ConnectionRules& rules);
+
+}  // namespace astro::ros2::foxglove

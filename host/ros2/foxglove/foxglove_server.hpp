@@ -1,0 +1,72 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/ros2/foxglove/request_queue.hpp"
+#include "host/ros2/foxglove/server.hpp"
+#include "host/ros2/middleware/middleware.hpp"
+
+namespace astro::ros2::foxglove {
+
+struct Settings {
+  std::string name;  // of the robot, for people
+  Address address{};
+  std::vector<std::string> origins{};  // of web pages that may connect beside the usual ones (origin.hpp)
+  /// Whether viewers may publish, call any service and set parameters. Otherwise they may look, and call `always_served`.
+  bool allow_commands = false;
+  std::vector<std::string> always_served{};  // names of services: those that stop the robot
+  /// Who came, went and was refused; called inside poll().
+  std::function<void(const Remark&)> notice = [](const Remark&) {};
+};
+
+/// The middleware for viewers that speak the Foxglove WebSocket protocol. It serves them from the first poll() on, so that they
+/// find everything that was advertised before.
+///
+/// Topics are carried as they are, CDR with the definition in text; their reliability makes no difference, because a client that
+/// reads too slowly loses the oldest messages of topics that are not latched (ClientQueue).
+class FoxgloveServer : public Middleware {
+ public:
+  /// Throws astro::Error if the address cannot be had.
+  explicit FoxgloveServer(Settings settings);
+  ~FoxgloveServer() override;
+
+  std::uint16_t port() const { return server_->port(); }
+
+  std::unique_ptr<Publisher> advertise(const TopicDescription& topic) override;
+  /// Nothing comes if commands are not allowed.
+  void subscribe(const TopicDescription& topic, OnMessage on_message) override;
+  /// Not offered if commands are not allowed, unless it is one of `always_served`.
+  void serve(const ServiceDescription& service, OnRequest on_request) override;
+  void serve_parameters(ParameterTable& table) override;
+  void poll() override;
+  void wait(std::chrono::microseconds timeout) override { requests_.wait(timeout); }
+
+ private:
+  void take(const MessageArrived& arrived);
+  void take(const CallArrived& arrived);
+  void take(const ParametersAsked& asked);
+  void take(const ParametersGiven& given);
+  void take(const NoticeArrived& arrived);
+  std::vector<msg::Parameter> values_of(std::vector<std::string> names);
+  std::string refusal_of(std::span<const msg::Parameter> parameters);
+  void tell_changes();
+
+  Settings settings_;
+  RequestQueue requests_;
+  std::vector<OnMessage> on_message_;  // by inlet, from 1
+  std::vector<OnRequest> on_request_;  // by service, from 1
+  std::uint32_t channels_ = 0;
+  ParameterTable* table_ = nullptr;
+  std::map<std::string, msg::ParameterValue> told_;  // the values that viewers were told last
+  std::chrono::steady_clock::time_point compare_at_{};
+  std::shared_ptr<std::atomic<bool>> watched_ = std::make_shared<std::atomic<bool>>(false);
+  std::unique_ptr<Server> server_;  // last: its thread uses the others
+};
+
+}  // namespace astro::ros2::foxglove

@@ -1,0 +1,47 @@
+#include "host/ros2/foxglove/request_queue.hpp"
+
+#include <algorithm>
+
+namespace astro::ros2::foxglove {
+
+void RequestQueue::push(Request request) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!make_room(request)) return;
+    requests_.push_back(std::move(request));
+  }
+  came_.notify_one();
+}
+
+/// Removes the oldest message of the same topic if there are too many. False: the request is left out.
+bool RequestQueue::make_room(const Request& request) {
+  if (std::holds_alternative<NoticeArrived>(request))
+    return static_cast<std::size_t>(
+               std::count_if(requests_.begin(), requests_.end(), [](const Request& each) {
+                 return std::holds_alternative<NoticeArrived>(each);
+               })) < kMostNotices;
+  const auto* message = std::get_if<MessageArrived>(&request);
+  if (message == nullptr) return true;
+  const auto is_same = [&](const Request& each) {
+    const auto* other = std::get_if<MessageArrived>(&each);
+    return other != nullptr && other->inlet == message->inlet;
+  };
+  if (static_cast<std::size_t>(std::count_if(requests_.begin(), requests_.end(), is_same)) >= kMostMessages)
+    requests_.erase(std::find_if(requests_.begin(), requests_.end(), is_same));
+  return true;
+}
+
+std::optional<Request> RequestQueue::pop() {
+  const std::lock_guard lock(mutex_);
+  if (requests_.empty()) return std::nullopt;
+  Request next = std::move(requests_.front());
+  requests_.pop_front();
+  return next;
+}
+
+void RequestQueue::wait(std::chrono::microseconds timeout) {
+  std::unique_lock lock(mutex_);
+  came_.wait_for(lock, timeout, [this] { return !requests_.empty(); });
+}
+
+}  // namespace astro::ros2::foxglove

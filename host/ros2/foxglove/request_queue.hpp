@@ -1,0 +1,34 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <optional>
+
+#include "host/ros2/foxglove/requests.hpp"
+
+namespace astro::ros2::foxglove {
+
+/// What waits for the robot's thread. Any thread pushes, one takes.
+///
+/// Bounds  questions: each client has a bounded number of them (Session). Messages: of one topic the last 10, because of what
+///         somebody commands the newest counts. Notices: 32.
+class RequestQueue {
+ public:
+  static constexpr std::size_t kMostMessages = 10, kMostNotices = 32;
+
+  void push(Request request);
+  std::optional<Request> pop();
+  /// Returns when something waits, or at the latest after `timeout`.
+  void wait(std::chrono::microseconds timeout);
+
+ private:
+  bool make_room(const Request& request);
+
+  std::mutex mutex_;
+  std::condition_variable came_;
+  std::deque<Request> requests_;
+};
+
+}  // namespace astro::ros2::foxglove

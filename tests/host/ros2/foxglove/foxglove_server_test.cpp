@@ -1,0 +1,389 @@
+#include "host/ros2/foxglove/foxglove_server.hpp"
+
+#include <gmock/gmock.h>
+
+#include <map>
+
+#include "host/base/error.hpp"
+#include "host/ros2/cdr/codec.hpp"
+#include "host/ros2/messages/geometry.hpp"
+#include "host/ros2/messages/services.hpp"
+#include "host/ros2/messages/text.hpp"
+#include "tests/host/ros2/foxglove/viewer.hpp"
+#include "tests/support/base/json.hpp"
+
+namespace astro::ros2::foxglove {
+namespace {
+
+using nlohmann::json;
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+using support::parse_json;
+using support::Viewer;
+using support::ViewerRequest;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr auto kLong = std::chrono::seconds(20);  // only a failure waits so long
+
+/// One real parameter between 0 and 2, and a text.
+class SmallTable : public ParameterTable {
+ public:
+  std::vector<msg::ParameterDescriptor> descriptors() override {
+    return {{"b", static_cast<std::uint8_t>(ParameterType::real), "", "", false, false, {}, {}},
+            {"name", static_cast<std::uint8_t>(ParameterType::text), "", "", true, false, {}, {}}};
+  }
+  std::optional<msg::ParameterValue> value(std::string_view name) override {
+    msg::ParameterValue value;
+    if (name == "b") {
+      value.type = static_cast<std::uint8_t>(ParameterType::real);
+      value.double_value = b;
+    } else if (name == "name") {
+      value.type = static_cast<std::uint8_t>(ParameterType::text);
+      value.string_value = "ASTRO";
+    } else {
+      return std::nullopt;
+    }
+    return value;
+  }
+  msg::SetParametersResult set(std::span<const msg::Parameter> parameters) override {
+    for (const msg::Parameter& each : parameters) {
+      const double wanted = static_cast<ParameterType>(each.value.type) == ParameterType::integer
+                                ? static_cast<double>(each.value.integer_value)
+                                : each.value.double_value;
+      if (wanted > 2) return {false, each.name + " is above 2"};
+      b = wanted;
+    }
+    return {true, ""};
+  }
+
+  double b = 0.2;
+};
+
+/// A server with topics, services and parameters, and its thread, which is the test's own.
+class FoxgloveServerOnLoopback : public testing::Test {
+ protected:
+  FoxgloveServer& start(bool allow_commands = true) {
+    Settings settings;
+    settings.name = "robot";
+    settings.address.port = 0;
+    settings.allow_commands = allow_commands;
+    settings.always_served = {"/emergency_stop"};
+    settings.origins = {"https://viewer.example"};
+    settings.notice = [this](const Remark& remark) { notices_.push_back(remark); };
+    server_ = std::make_unique<FoxgloveServer>(std::move(settings));
+    fast_ = server_->advertise({"/fast", message_type<msg::String>()});
+    TopicDescription latched{"/model", message_type<msg::String>()};
+    latched.latched = true;
+    latched.depth = 1;
+    model_ = server_->advertise(latched);
+    server_->subscribe({"/cmd_vel", message_type<msg::Twist>()},
+                       [this](ByteView bytes) { commands_.emplace_back(bytes.begin(), bytes.end()); });
+    for (const char* name : {"/arm", "/emergency_stop"})
+      server_->serve({name, msg::Trigger::kType, message_type<msg::Trigger::Request>(),
+                      message_type<msg::Trigger::Response>()},
+                     [name](ByteView request) -> std::optional<Bytes> {
+                       if (!decode<msg::Trigger::Request>(request)) return std::nullopt;
+                       return encode(msg::Trigger::Response{true, name});
+                     });
+    server_->serve_parameters(table_);
+    server_->poll();
+    return *server_;
+  }
+
+  template <class Condition>
+  bool eventually(Condition condition) {
+    const auto end = steady_clock::now() + kLong;
+    while (!condition()) {
+      if (steady_clock::now() > end) return false;
+      server_->poll();
+    }
+    return true;
+  }
+
+  /// The next text with this "op"; null if none comes.
+  json hear(Viewer& viewer, const std::string& op) {
+    json found;
+    eventually([&] {
+      const auto message = viewer.receive(milliseconds(5));
+      if (!message || !message->is_text) return false;
+      json text = parse_json(std::string(as_text(message->bytes)));
+      if (text["op"] != op) return false;
+      found = std::move(text);
+      return true;
+    });
+    return found;
+  }
+  /// The next binary frame; empty if none comes.
+  Bytes hear_binary(Viewer& viewer) {
+    Bytes found;
+    eventually([&] {
+      const auto message = viewer.receive(milliseconds(5));
+      if (message && !message->is_text) found = message->bytes;
+      return !found.empty();
+    });
+    return found;
+  }
+
+  /// The subprotocol that was agreed on, or the HTTP status of the refusal.
+  std::string status_of(const ViewerRequest& request) {
+    const support::HttpAnswer answer = support::ask(server_->port(), request);
+    return answer.status == 101 ? answer.subprotocol : std::to_string(answer.status);
+  }
+
+  SmallTable table_;
+  std::vector<Remark> notices_;
+  std::vector<Bytes> commands_;
+  std::unique_ptr<FoxgloveServer> server_;
+  std::unique_ptr<Publisher> fast_, model_;
+};
+
+Bytes text_message(const std::string& text) { return encode(msg::String{text}); }
+
+TEST_F(FoxgloveServerOnLoopback, AgreesOnEitherSubprotocolAndRefusesOthers) {
+  start();
+  EXPECT_EQ(status_of({"", "foxglove.websocket.v1"}), "foxglove.websocket.v1");
+  EXPECT_EQ(status_of({"", "foxglove.sdk.v1"}), "foxglove.sdk.v1");
+  EXPECT_EQ(status_of({"", "foxglove.websocket.v1, foxglove.sdk.v1"}), "foxglove.sdk.v1");
+  EXPECT_EQ(status_of({"", "mqtt"}), "400");
+  EXPECT_EQ(status_of({"", ""}), "400");
+}
+
+TEST_F(FoxgloveServerOnLoopback, TellsABrowserThatItIsNoWebPage) {
+  start();
+  ViewerRequest page;
+  page.upgrade = false;
+  EXPECT_EQ(status_of(page), "426");
+}
+
+TEST_F(FoxgloveServerOnLoopback, EndsConnectionsThatAskForNothingSensible) {
+  start();
+  EXPECT_EQ(support::answer_to(server_->port(), "\x16\x03\x01 this is not HTTP\r\n\r\n"), "");
+  EXPECT_EQ(support::answer_to(server_->port(), "GET / HTTP/1.1\r\nX: " + std::string(10'000, 'x')), "");
+  const auto begin = steady_clock::now();
+  EXPECT_EQ(support::answer_to(server_->port(), "GET / HT"), "") << "and then nothing more";
+  EXPECT_LT(steady_clock::now() - begin, kLong);
+}
+
+TEST_F(FoxgloveServerOnLoopback, RefusesPagesOfOtherOriginsAndSaysWhichOnes) {
+  start();
+  EXPECT_EQ(status_of({"https://app.foxglove.dev"}), "foxglove.sdk.v1");
+  EXPECT_EQ(status_of({"https://viewer.example"}), "foxglove.sdk.v1");
+  EXPECT_EQ(status_of({"https://evil.example"}), "403");
+  EXPECT_EQ(status_of({"null"}), "403");
+  const auto refused = [&] {
+    return std::find_if(notices_.begin(), notices_.end(),
+                        [](const Remark& each) { return each.remedy.value == "https://evil.example"; });
+  };
+  ASSERT_TRUE(eventually([&] { return refused() != notices_.end(); }));
+  EXPECT_EQ(refused()->remedy.help, Help::allow_origin);
+}
+
+TEST_F(FoxgloveServerOnLoopback, RefusesMoreViewersThanItServes) {
+  start();
+  std::vector<Viewer> viewers;
+  for (int i = 0; i < 16; ++i) {
+    viewers.emplace_back(server_->port());
+    ASSERT_EQ(hear(viewers.back(), "serverInfo")["name"], "robot");
+  }
+  EXPECT_EQ(status_of({}), "503");
+  viewers.pop_back();
+  EXPECT_TRUE(eventually([&] { return status_of({}) == "foxglove.sdk.v1"; }));
+}
+
+TEST_F(FoxgloveServerOnLoopback, ALateViewerGetsTheLatchedMessageAndThenWhatIsPublished) {
+  start();
+  EXPECT_FALSE(fast_->has_subscribers());
+  EXPECT_TRUE(model_->has_subscribers()) << "somebody may come later";
+  fast_->publish(text_message("before anybody came"), 1);
+  model_->publish(text_message("old model"), 1);
+  model_->publish(text_message("model"), 2);
+  Viewer viewer(server_->port());
+  const json channels = hear(viewer, "advertise")["channels"];
+  ASSERT_EQ(channels.size(), 2U);
+  EXPECT_EQ(channels[0]["schema"], "string data\n");
+  viewer.send(R"({"op":"subscribe","subscriptions":[{"id":7,"channelId":1},{"id":8,"channelId":2}]})");
+  Bytes model{1, 8, 0, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0};
+  append(model, text_message("model"));
+  EXPECT_EQ(hear_binary(viewer), model);
+  EXPECT_TRUE(eventually([&] { return fast_->has_subscribers(); }));
+  fast_->publish(text_message("now"), 0x0102030405060708);
+  Bytes now{1, 7, 0, 0, 0, 8, 7, 6, 5, 4, 3, 2, 1};
+  append(now, text_message("now"));
+  EXPECT_EQ(hear_binary(viewer), now);
+}
+
+TEST_F(FoxgloveServerOnLoopback, CountsTheSubscribersOfThoseWhoHaveLeftNoMore) {
+  start();
+  {
+    Viewer viewer(server_->port());
+    viewer.send(R"({"op":"subscribe","subscriptions":[{"id":7,"channelId":1}]})");
+    ASSERT_TRUE(eventually([&] { return fast_->has_subscribers(); }));
+  }
+  EXPECT_TRUE(eventually([&] { return !fast_->has_subscribers(); }));
+}
+
+TEST_F(FoxgloveServerOnLoopback, CommandsReachTheRobotIfTheyAreAllowed) {
+  start();
+  Viewer viewer(server_->port());
+  EXPECT_THAT(hear(viewer, "serverInfo")["capabilities"], testing::Contains("clientPublish"));
+  viewer.send(
+      R"({"op":"advertise","channels":[{"id":1,"topic":"/cmd_vel","encoding":"cdr","schemaName":"geometry_msgs/msg/Twist"}]})");
+  Bytes frame{1, 1, 0, 0, 0};
+  append(frame, encode(msg::Twist{{0.5, 0, 0}, {0, 0, 1}}));
+  viewer.send(frame);
+  ASSERT_TRUE(eventually([&] { return !commands_.empty(); }));
+  EXPECT_EQ(decode<msg::Twist>(commands_.at(0)), (msg::Twist{{0.5, 0, 0}, {0, 0, 1}}));
+}
+
+TEST_F(FoxgloveServerOnLoopback, OtherwiseViewersMayOnlyLookAndStop) {
+  start(false);
+  Viewer viewer(server_->port());
+  EXPECT_THAT(hear(viewer, "serverInfo")["capabilities"], testing::Not(testing::Contains("clientPublish")));
+  const json services = hear(viewer, "advertiseServices")["services"];
+  ASSERT_EQ(services.size(), 1U);
+  EXPECT_EQ(services[0]["name"], "/emergency_stop");
+  viewer.send(
+      R"({"op":"advertise","channels":[{"id":1,"topic":"/cmd_vel","encoding":"cdr","schemaName":"geometry_msgs/msg/Twist"}]})");
+  EXPECT_THAT(hear(viewer, "status")["message"], HasSubstr("does not take '/cmd_vel'"));
+  viewer.send(R"({"op":"setParameters","parameters":[{"name":"b","value":1}],"id":"q"})");
+  EXPECT_THAT(hear(viewer, "status")["message"], HasSubstr("may not change"));
+  EXPECT_EQ(hear(viewer, "parameterValues")["parameters"][0]["value"], 0.2);
+  EXPECT_EQ(table_.b, 0.2);
+}
+
+TEST_F(FoxgloveServerOnLoopback, AServiceAnswersOrSaysThatTheBytesAreNoRequest) {
+  start();
+  Viewer viewer(server_->port());
+  hear(viewer, "advertiseServices");
+  viewer.send(Bytes{2, 2, 0, 0, 0, 9, 0, 0, 0, 3, 0, 0, 0, 'c', 'd', 'r', 0, 1, 0, 0, 0});
+  Bytes answer{3, 2, 0, 0, 0, 9, 0, 0, 0, 3, 0, 0, 0, 'c', 'd', 'r'};
+  append(answer, encode(msg::Trigger::Response{true, "/emergency_stop"}));
+  EXPECT_EQ(hear_binary(viewer), answer);
+  viewer.send(Bytes{2, 2, 0, 0, 0, 10, 0, 0, 0, 3, 0, 0, 0, 'c', 'd', 'r', 9, 9});
+  const json failure = hear(viewer, "serviceCallFailure");
+  EXPECT_EQ(failure["callId"], 10);
+  EXPECT_THAT(failure["message"], HasSubstr("no request"));
+}
+
+TEST_F(FoxgloveServerOnLoopback, ParametersAreReadSetAndRefused) {
+  start();
+  Viewer viewer(server_->port());
+  viewer.send(R"({"op":"getParameters","parameterNames":[],"id":"all"})");
+  json values = hear(viewer, "parameterValues");
+  EXPECT_EQ(values["id"], "all");
+  EXPECT_EQ(values["parameters"],
+            parse_json(R"([{"name":"b","value":0.2,"type":"float64"},{"name":"name","value":"ASTRO"}])"));
+  viewer.send(R"({"op":"setParameters","parameters":[{"name":"b","value":1}],"id":"set"})");
+  values = hear(viewer, "parameterValues");
+  EXPECT_EQ(values["id"], "set");
+  EXPECT_EQ(values["parameters"][0]["value"], 1.0);
+  EXPECT_EQ(table_.b, 1.0) << "a whole number for a real parameter";
+  viewer.send(R"({"op":"setParameters","parameters":[{"name":"b","value":3.5}],"id":"bad"})");
+  EXPECT_EQ(hear(viewer, "status")["message"], "b is above 2");
+  EXPECT_EQ(hear(viewer, "parameterValues")["parameters"][0]["value"], 1.0);
+}
+
+TEST_F(FoxgloveServerOnLoopback, WhoWatchesAParameterHearsOfChangesByOthers) {
+  start();
+  Viewer watcher(server_->port()), other(server_->port());
+  watcher.send(R"({"op":"subscribeParameterUpdates","parameterNames":["b"]})");
+  EXPECT_EQ(hear(watcher, "parameterValues")["parameters"][0]["value"], 0.2);
+  other.send(R"({"op":"setParameters","parameters":[{"name":"b","value":1.5}]})");
+  EXPECT_EQ(hear(watcher, "parameterValues")["parameters"][0]["value"], 1.5);
+  table_.b = 1.75;  // as another program would
+  EXPECT_EQ(hear(watcher, "parameterValues")["parameters"][0]["value"], 1.75);
+}
+
+TEST_F(FoxgloveServerOnLoopback, ASlowViewerLosesTheOldestMessagesAndAFastOneNone) {
+  start();
+  Viewer fast(server_->port()), slow(server_->port(), {"", "foxglove.sdk.v1", 4096});
+  for (Viewer* each : {&fast, &slow}) {
+    hear(*each, "advertise");
+    each->send(R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":1}]})");
+    each->send(R"({"op":"getParameters","parameterNames":[],"id":"subscribed"})");
+    hear(*each, "parameterValues");
+  }
+  // More than the queue (4 MiB), the batch and the system's buffers (hundreds of KiB) hold together.
+  constexpr int kMessages = 800;
+  const std::string filling(30'000, 'x');
+  steady_clock::duration longest{};
+  for (int i = 0; i < kMessages; ++i) {
+    const auto begin = steady_clock::now();
+    fast_->publish(text_message(filling), i);
+    longest = std::max(longest, steady_clock::now() - begin);
+    const Bytes got = hear_binary(fast);
+    ASSERT_EQ(load<std::int64_t>(got, 5), i) << "the fast one loses none";
+  }
+  EXPECT_LT(longest, std::chrono::seconds(1)) << "publish() does not wait; a busy machine may";
+  std::vector<std::int64_t> got;
+  std::string warning;
+  ASSERT_TRUE(eventually([&] {
+    const auto message = slow.receive(milliseconds(5));
+    if (message && message->is_text)
+      warning = parse_json(std::string(as_text(message->bytes))).value("message", "");
+    if (message && !message->is_text) got.push_back(load<std::int64_t>(message->bytes, 5));
+    return !got.empty() && got.back() == kMessages - 1 && !warning.empty();
+  })) << "the newest message reaches also the slow one";
+  EXPECT_TRUE(std::is_sorted(got.begin(), got.end()));
+  EXPECT_LT(got.size(), kMessages / 2U);
+  EXPECT_THAT(warning, HasSubstr("messages were dropped"));
+}
+
+TEST_F(FoxgloveServerOnLoopback, AViewerThatOnlyAsksAndNeverReadsIsDisconnected) {
+  start();
+  Viewer silent(server_->port(), {"", "foxglove.sdk.v1", 4096});
+  silent.send(R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":2}]})");
+  const Bytes model = text_message(std::string(200'000, 'm'));
+  EXPECT_TRUE(eventually([&] {
+    model_->publish(model, 1);
+    try {
+      silent.send(R"({"op":"fly"})");
+      return false;
+    } catch (const std::exception&) {  // the other end is closed
+      return true;
+    }
+  }));
+}
+
+TEST_F(FoxgloveServerOnLoopback, AMessageBeyondTheBoundEndsTheConnectionAndNoOther) {
+  start();
+  Viewer large(server_->port()), other(server_->port());
+  large.send(Bytes((1 << 20) + 1, 1));
+  EXPECT_TRUE(eventually([&] {
+    large.receive(milliseconds(5));
+    return large.ended();
+  }));
+  other.send(R"({"op":"getParameters","parameterNames":["b"]})");
+  EXPECT_EQ(hear(other, "parameterValues")["parameters"].size(), 1U);
+}
+
+TEST_F(FoxgloveServerOnLoopback, ItsEndIsToldToTheViewers) {
+  start();
+  Viewer viewer(server_->port());
+  hear(viewer, "serverInfo");
+  fast_.reset();
+  model_.reset();
+  const auto begin = steady_clock::now();
+  server_.reset();
+  EXPECT_LT(steady_clock::now() - begin, std::chrono::seconds(5));
+  while (!viewer.ended()) viewer.receive(milliseconds(100));
+}
+
+TEST_F(FoxgloveServerOnLoopback, APortInUseIsNamed) {
+  start();
+  Settings second;
+  second.address.port = server_->port();
+  try {
+    FoxgloveServer server(second);
+    ADD_FAILURE() << "two servers at one port";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr(std::to_string(second.address.port)));
+    EXPECT_EQ(error.remedy().help, Help::choose_other_tcp_port);
+  }
+  second.address.ip = "nowhere";
+  EXPECT_THROW(FoxgloveServer{second}, Error);
+}
+
+}  // namespace
+}  // namespace astro::ros2::foxglove

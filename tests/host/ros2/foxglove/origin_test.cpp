@@ -1,0 +1,35 @@
+#include "host/ros2/foxglove/origin.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace astro::ros2::foxglove {
+namespace {
+
+TEST(Origin, ProgramsFoxgloveAndThisComputerMayConnect) {
+  for (const char* origin :
+       {"", "https://app.foxglove.dev", "https://studio.foxglove.dev", "http://localhost",
+        "http://localhost:8080", "https://127.0.0.1:1", "http://[::1]:65535"})
+    EXPECT_TRUE(origin_is_allowed(origin, {})) << origin;
+}
+
+TEST(Origin, OtherPagesMayNot) {
+  for (const char* origin :
+       {"null", "file://", "http://app.foxglove.dev", "https://app.foxglove.dev.evil.com", "https://evil.com",
+        "https://evil.com/https://app.foxglove.dev", "http://localhost.evil.com",
+        "http://localhost:80.evil.com", "http://localhost:", "http://127.0.0.1.evil.com", "http://127.0.0.10",
+        "localhost", "ftp://localhost", "https://app.foxglove.dev:444", "http://localhost@evil.com",
+        "http://localhost:808080"})
+    EXPECT_FALSE(origin_is_allowed(origin, {})) << origin;
+}
+
+TEST(Origin, ThoseThatSomebodyAllowsMay) {
+  const std::vector<std::string> allowed{"https://viewer.example:8443", "file://"};
+  EXPECT_TRUE(origin_is_allowed("https://viewer.example:8443", allowed));
+  EXPECT_TRUE(origin_is_allowed("file://", allowed));
+  EXPECT_FALSE(origin_is_allowed("https://viewer.example", allowed));
+}
+
+}  // namespace
+}  // namespace astro::ros2::foxglove
