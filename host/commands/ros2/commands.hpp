@@ -2,12 +2,13 @@
 
 #include "host/console/command_line.hpp"
 
-/// The subcommand that makes a robot a node of ROS 2: a file named after it.
+/// The subcommands that show a robot by ROS 2's messages: to nodes of ROS 2, and to viewers. Each is a file named after it.
 ///
 /// Output  what happens to the robot's link on stderr.
 /// Errors  as host/commands/robot/commands.hpp. Ctrl-C ends with 130; a robot that was armed by the node is at rest then.
 namespace astro::commands {
 
 void add_ros2(console::Command app);
+void add_serve(console::Command app);
 
 }  // namespace astro::commands

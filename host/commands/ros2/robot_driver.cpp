@@ -63,10 +63,13 @@ void add_robot_driver_options(console::Command command, RobotDriverOptions& opti
 }
 
 void drive_robot(const std::vector<ros2::Middleware*>& middlewares, const RobotDriverOptions& options,
-                 const std::string& node) {
+                 const std::string& node, const std::function<void(ros2::Driver&)>& beside) {
   const auto open = [connection = options.connection] { return open_port(connection); };
   ros2::Driver driver(middlewares, open, driver_options(options, node));
-  while (!console::interrupted()) driver.step();
+  while (!console::interrupted()) {
+    driver.step();
+    beside(driver);
+  }
   driver.end();
   console::check_interrupt();
 }

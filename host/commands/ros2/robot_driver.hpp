@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "host/commands/shared/connection.hpp"
@@ -21,8 +22,10 @@ struct RobotDriverOptions {
 void add_robot_driver_options(console::Command command, RobotDriverOptions& options);
 
 /// Serves a robot on these middlewares until Ctrl-C, and throws Interrupted then; a robot that was armed by others through them
-/// is at rest and disarmed. `node`: the name under which it reports. Throws astro::Error if the calibration cannot be used.
-void drive_robot(const std::vector<ros2::Middleware*>& middlewares, const RobotDriverOptions& options,
-                 const std::string& node);
+/// is at rest and disarmed. `node`: the name under which it reports. `beside` is called again and again, and must not wait.
+/// Throws astro::Error if the calibration cannot be used.
+void drive_robot(
+    const std::vector<ros2::Middleware*>& middlewares, const RobotDriverOptions& options,
+    const std::string& node, const std::function<void(ros2::Driver&)>& beside = [](ros2::Driver&) {});
 
 }  // namespace astro::commands

@@ -3,11 +3,14 @@
 #include <cstdlib>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "host/commands/ros2/commands.hpp"
+#include "host/commands/ros2/foxglove_options.hpp"
 #include "host/commands/ros2/robot_driver.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
+#include "host/ros2/foxglove/foxglove_server.hpp"
 #include "host/ros2/node/node.hpp"
 
 namespace astro::commands {
@@ -15,6 +18,7 @@ namespace {
 
 struct Ros2Options {
   RobotDriverOptions driver;
+  FoxgloveOptions viewers;
   std::string node = "astrolabe", range, distribution;
   int domain = -1;  // that of the environment
 };
@@ -51,7 +55,13 @@ void run(const Ros2Options& options) {
   const auto node = ros2::open_node({name, gid_size(options)}, discovery);
   console::say(fmt::format("node {} in domain {}: {}; Ctrl-C ends it", ros2::full_name(name),
                            discovery.domain, in_words(discovery.range)));
-  drive_robot({node.get()}, options.driver, options.node);
+  std::vector<ros2::Middleware*> middlewares{node.get()};
+  std::optional<ros2::foxglove::FoxgloveServer> server;
+  if (options.viewers.wanted) {
+    middlewares.push_back(&server.emplace(foxglove_settings(options.viewers, options.node, space)));
+    console::say(foxglove_announcement(options.viewers, server->port()));
+  }
+  drive_robot(middlewares, options.driver, options.node);
 }
 
 }  // namespace
@@ -61,6 +71,7 @@ void add_ros2(console::Command app) {
   const console::Command command =
       app.add_subcommand("ros2", "make the robot a node of ROS 2: odometry, /cmd_vel, services, parameters");
   add_robot_driver_options(command, options->driver);
+  add_foxglove_options(command, options->viewers);
   command.add_option("--node-name", options->node, "name of the node")
       .type_name("NAME")
       .capture_default_str();
@@ -76,7 +87,8 @@ void add_ros2(console::Command app) {
       .add_option("--distro", options->distribution,
                   "ROS 2 of the other nodes, humble or later: jazzy\n(default: ROS_DISTRO, otherwise jazzy)")
       .one_of({"humble", "jazzy"});
-  console::examples(command, {"astrolabe ros2", "astrolabe ros2 --port /dev/ttyACM0 --calibration calib.toml",
+  console::examples(command, {"astrolabe ros2", "astrolabe ros2 --foxglove",
+                              "astrolabe ros2 --port /dev/ttyACM0 --calibration calib.toml",
                               "astrolabe ros2 --namespace left --range subnet --rate 100"});
   command.callback([options] { run(*options); });
 }

@@ -133,6 +133,14 @@ void Driver::lose(const Error& why) {
   driving_.release();
 }
 
+std::optional<std::int64_t> Driver::utc_of_robot_ns(std::int64_t device_time_us) {
+  RobotSession* session = link_.session();
+  if (session == nullptr) return std::nullopt;
+  const auto at = session->client().clock().to_host(static_cast<std::uint64_t>(device_time_us));
+  if (!at) return std::nullopt;
+  return utc_.utc_ns(at->us);
+}
+
 void Driver::end() {
   RobotSession* session = link_.session();
   if (session == nullptr || !driving_.armed()) return;

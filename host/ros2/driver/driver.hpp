@@ -48,6 +48,11 @@ class Driver {
   /// Answers what has come from others, and passes on what has come from the robot; waits up to `most` if there is nothing.
   void step(microseconds most = std::chrono::milliseconds(10));
 
+  /// Times of the robot's clock and of this computer's steady clock, in microseconds, as nanoseconds since 1970, as in the stamps of
+  /// what is published. Nothing while there is no robot, or no round trip has shown yet when that was.
+  std::optional<std::int64_t> utc_of_robot_ns(std::int64_t device_time_us);
+  std::int64_t utc_of_host_ns(std::int64_t steady_us) { return utc_.utc_ns(steady_us); }
+
   /// Brings a robot that was armed here to rest and disarms it. Throws astro::Error if the robot does not confirm it.
   void end();
 

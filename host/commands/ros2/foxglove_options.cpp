@@ -1,0 +1,100 @@
+#include "host/commands/ros2/foxglove_options.hpp"
+
+#include <fmt/format.h>
+
+#include "host/base/error.hpp"
+#include "host/base/text/numbers.hpp"
+#include "host/commands/base/remedies.hpp"
+#include "host/console/console.hpp"
+#include "host/ros2/driver/names.hpp"
+
+namespace astro::commands {
+namespace {
+
+bool is_loopback(const std::string& ip) { return ip.starts_with("127.") || ip == "::1"; }
+
+/// As a URL has it.
+std::string host_of(const std::string& ip) {
+  if (ip == "127.0.0.1") return "localhost";
+  if (ip == "0.0.0.0" || ip == "::") return "THIS-COMPUTER";
+  return ip.find(':') == std::string::npos ? ip : '[' + ip + ']';
+}
+
+std::string check_address(const std::string& word) {
+  try {
+    foxglove_address_in(word);
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
+ros2::foxglove::Address foxglove_address_in(const std::string& word) {
+  ros2::foxglove::Address address;
+  const std::size_t colon = word.rfind(':');
+  std::string_view digits(word);
+  if (colon != std::string::npos) digits.remove_prefix(colon + 1);
+  const auto port = take_number<std::uint16_t>(digits);
+  if (!port || !digits.empty())
+    throw Error("'" + word + "' is not PORT or ADDRESS:PORT, with a port up to 65535");
+  address.port = *port;
+  if (colon != std::string::npos) address.ip = word.substr(0, colon);
+  if (address.ip.starts_with('[') && address.ip.ends_with(']'))
+    address.ip = address.ip.substr(1, address.ip.size() - 2);
+  return address;
+}
+
+void add_foxglove_options(console::Command command, FoxgloveOptions& options) {
+  const console::Option wanted = command.add_flag("--foxglove", options.wanted,
+                                                  "serve viewers that speak the Foxglove WebSocket protocol");
+  command
+      .add_option("--listen", options.listen,
+                  "where viewers connect; without an address from this computer\nalone")
+      .type_name("[ADDRESS:]PORT")
+      .capture_default_str()
+      .check(check_address)
+      .needs(wanted);
+  command
+      .add_option(
+          "--allow-origin", options.origins,
+          "web pages that may connect, beside Foxglove's own and those\nof this computer; may be repeated")
+      .type_name("SCHEME://HOST[:PORT]")
+      .one_each_time()
+      .needs(wanted);
+  command
+      .add_flag(
+          "--allow-commands", options.allow_commands,
+          "viewers may arm and drive the robot and set its parameters;\notherwise they look, and can stop it")
+      .needs(wanted);
+}
+
+std::string foxglove_announcement(const FoxgloveOptions& options, std::uint16_t port) {
+  const std::string ip = foxglove_address_in(options.listen).ip;
+  const std::string place = fmt::format("{}:{}", host_of(ip), port);
+  std::string text = fmt::format(
+      "viewers: ws://{0} in Foxglove, or https://app.foxglove.dev/?ds=foxglove-websocket&ds.url=ws://{0}",
+      place);
+  if (!is_loopback(ip))
+    text += fmt::format("\nWARNING: other computers can connect, without a password; whoever does can {}",
+                        options.allow_commands ? "DRIVE THE ROBOT" : "see and stop the robot");
+  else if (options.allow_commands)
+    text += "\nviewers may arm and drive the robot";
+  return text;
+}
+
+ros2::foxglove::Settings foxglove_settings(const FoxgloveOptions& options, const std::string& name,
+                                           const std::string& node_namespace) {
+  const ros2::Names names(node_namespace);
+  ros2::foxglove::Settings settings;
+  settings.name = name;
+  settings.address = foxglove_address_in(options.listen);
+  settings.origins = options.origins;
+  settings.allow_commands = options.allow_commands;
+  settings.always_served = {names.absolute("emergency_stop"), names.absolute("stop")};
+  settings.notice = [](const Remark& remark) { console::say(in_words(remark)); };
+  return settings;
+}
+
+}  // namespace astro::commands
