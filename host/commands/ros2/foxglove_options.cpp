@@ -50,13 +50,10 @@ void add_foxglove_options(console::Command command, FoxgloveOptions& options) {
   const console::Option wanted = command.add_flag("--foxglove", options.wanted,
                                                   "serve viewers that speak the Foxglove WebSocket protocol");
   command
-      .add_option_function(
-          "--listen",
-          [&options](const std::vector<std::string>& words) {
-            options.address = foxglove_address_in(words.at(0));
-          },
-          "where viewers connect (default: 8765, from this computer alone)")
+      .add_option("--listen", options.listen,
+                  "where viewers connect; without an address from this computer\nalone")
       .type_name("[ADDRESS:]PORT")
+      .capture_default_str()
       .check(check_address)
       .needs(wanted);
   command
@@ -74,11 +71,12 @@ void add_foxglove_options(console::Command command, FoxgloveOptions& options) {
 }
 
 std::string foxglove_announcement(const FoxgloveOptions& options, std::uint16_t port) {
-  const std::string place = fmt::format("{}:{}", host_of(options.address.ip), port);
+  const std::string ip = foxglove_address_in(options.listen).ip;
+  const std::string place = fmt::format("{}:{}", host_of(ip), port);
   std::string text = fmt::format(
       "viewers: ws://{0} in Foxglove, or https://app.foxglove.dev/?ds=foxglove-websocket&ds.url=ws://{0}",
       place);
-  if (!is_loopback(options.address.ip))
+  if (!is_loopback(ip))
     text += fmt::format("\nWARNING: other computers can connect, without a password; whoever does can {}",
                         options.allow_commands ? "DRIVE THE ROBOT" : "see and stop the robot");
   else if (options.allow_commands)
@@ -91,7 +89,7 @@ ros2::foxglove::Settings foxglove_settings(const FoxgloveOptions& options, const
   const ros2::Names names(node_namespace);
   ros2::foxglove::Settings settings;
   settings.name = name;
-  settings.address = options.address;
+  settings.address = foxglove_address_in(options.listen);
   settings.origins = options.origins;
   settings.allow_commands = options.allow_commands;
   settings.always_served = {names.absolute("emergency_stop"), names.absolute("stop")};

@@ -11,7 +11,7 @@ namespace astro::commands {
 /// Where viewers that speak Foxglove's protocol connect, and what they may do.
 struct FoxgloveOptions {
   bool wanted = false;
-  ros2::foxglove::Address address{};
+  std::string listen = "8765";  // see foxglove_address_in
   std::vector<std::string> origins;
   bool allow_commands = false;
 };

@@ -13,9 +13,9 @@ using testing::Not;
 
 std::string announcement(const std::string& listen, bool allow_commands) {
   FoxgloveOptions options;
-  options.address = foxglove_address_in(listen);
+  options.listen = listen;
   options.allow_commands = allow_commands;
-  return foxglove_announcement(options, options.address.port);
+  return foxglove_announcement(options, foxglove_address_in(listen).port);
 }
 
 TEST(FoxgloveOptions, AnAddressIsAPortOrHasOne) {

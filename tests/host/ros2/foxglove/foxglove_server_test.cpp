@@ -156,6 +156,15 @@ TEST_F(FoxgloveServerOnLoopback, TellsABrowserThatItIsNoWebPage) {
   EXPECT_EQ(status_of(page), "426");
 }
 
+TEST_F(FoxgloveServerOnLoopback, EndsConnectionsThatAskForNothingSensible) {
+  start();
+  EXPECT_EQ(support::answer_to(server_->port(), "\x16\x03\x01 this is not HTTP\r\n\r\n"), "");
+  EXPECT_EQ(support::answer_to(server_->port(), "GET / HTTP/1.1\r\nX: " + std::string(10'000, 'x')), "");
+  const auto begin = steady_clock::now();
+  EXPECT_EQ(support::answer_to(server_->port(), "GET / HT"), "") << "and then nothing more";
+  EXPECT_LT(steady_clock::now() - begin, kLong);
+}
+
 TEST_F(FoxgloveServerOnLoopback, RefusesPagesOfOtherOriginsAndSaysWhichOnes) {
   start();
   EXPECT_EQ(status_of({"https://app.foxglove.dev"}), "foxglove.sdk.v1");

@@ -2,6 +2,8 @@
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/read.hpp>
+#include <boost/asio/write.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/read.hpp>
@@ -37,6 +39,17 @@ HttpAnswer ask(std::uint16_t port, const ViewerRequest& request) {
   http::read_header(socket, buffer, parser);
   return {static_cast<int>(parser.get().result_int()),
           std::string(parser.get()[http::field::sec_websocket_protocol])};
+}
+
+std::string answer_to(std::uint16_t port, const std::string& bytes) {
+  asio::io_context io;
+  tcp::socket socket(io);
+  socket.connect({asio::ip::address_v4::loopback(), port});
+  beast::error_code error;
+  asio::write(socket, asio::buffer(bytes), error);
+  std::string answer;
+  asio::read(socket, asio::dynamic_buffer(answer), error);  // ends with an error: that it is closed
+  return answer;
 }
 
 struct Viewer::State {

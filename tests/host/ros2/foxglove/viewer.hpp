@@ -27,6 +27,9 @@ struct HttpAnswer {
 /// Asks for a connection, and closes it at once.
 HttpAnswer ask(std::uint16_t port, const ViewerRequest& request);
 
+/// What comes after these bytes, until the other side ends the connection.
+std::string answer_to(std::uint16_t port, const std::string& bytes);
+
 /// A WebSocket client in tests, on Beast's client side. It reads only when it is asked.
 class Viewer {
  public:
