@@ -37,6 +37,7 @@ Driver::Driver(std::vector<Middleware*> middlewares, OpenPort open, DriverOption
       options_(std::move(options)),
       names_(options_.node_namespace),
       utc_(options_.clock),
+      polled_(utc_.steady()),
       link_(std::move(open), options_.clock, period_ms(options_.rate_hz)),
       driving_(options_.cmd_vel_timeout),
       odometry_(options_.errors),
@@ -54,7 +55,9 @@ Driver::Driver(std::vector<Middleware*> middlewares, OpenPort open, DriverOption
 }
 
 void Driver::step(microseconds most) {
+  const microseconds asked = utc_.steady();
   for (Middleware* each : middlewares_) each->poll();
+  polled_ = asked;
   try {
     if (link_.seek()) begin(*link_.session());
     if (RobotSession* session = link_.session())
