@@ -72,6 +72,7 @@ void Driver::step(microseconds most) {
 
 void Driver::begin(RobotSession& session) {
   newest_.reset();
+  driving_.begin(session);
   odometry_.begin(session, std::exchange(restarted_, false));
   describe_robot(session);
 }
@@ -134,7 +135,7 @@ void Driver::lose(const Error& why) {
     link_.lose(why);
   }
   newest_.reset();
-  driving_.release();
+  driving_.lose();
 }
 
 std::optional<std::int64_t> Driver::utc_of_robot_ns(std::int64_t device_time_us) {

@@ -72,6 +72,22 @@ TEST_F(Link, AfterThePullTheRobotIsNotArmedAgain) {
   EXPECT_EQ(bench.mode(), Mode::velocity);
 }
 
+TEST_F(Link, ARobotWithoutATimeOutOfItsOwnIsStoppedOnceTheLinkIsBack) {
+  EXPECT_TRUE(comes_back());
+  msg::Parameter timeout{"command_timeout", {}};
+  timeout.value.type = static_cast<std::uint8_t>(ParameterType::integer);  // 0: none
+  ASSERT_TRUE(bench.ros.parameters->set({&timeout, 1}).successful);
+  bench.call("/arm");
+  bench.drive_ms(500, 0.3, 0);
+  bench.cable.pull();
+  bench.run_ms(2000);
+  ASSERT_TRUE(bench.moves());
+  bench.cable.plug_in();
+  EXPECT_TRUE(comes_back());
+  bench.run_ms(1500);  // a ramp from 0.3 m/s at 0.5 m/s^2
+  EXPECT_FALSE(bench.moves());
+}
+
 TEST_F(Link, AHundredPullsWhileItDrivesEachStopTheRobotAndEachIsRecoveredWithoutAJump) {
   constexpr unsigned kSeed = 20261124;
   std::mt19937 random(kSeed);
