@@ -163,6 +163,18 @@ TEST(Driver, PublishesAtTheChosenRate) {
   }
 }
 
+TEST(Driver, VelocitiesThatFlowDoNotKeepTheRobotsClockFromBeingMeasured) {
+  RobotOnRos bench;
+  bench.run_ms(300);
+  EXPECT_TRUE(bench.call("/arm").success);
+  for (int i = 0; i < 3000; ++i) {
+    bench.say_velocity(0.1, 0.5);
+    bench.run_ms(20);
+  }
+  // "< 0.002 s": half of the best round trip, and what the clocks may drift between two round trips.
+  EXPECT_LT(std::stod(bench.diagnosed("link", "error of stamps").substr(2)), 0.005);
+}
+
 TEST(Driver, InANamespaceHasItsTopicsAndFramesThere) {
   DriverOptions options;
   options.node_namespace = "/left";
