@@ -14,6 +14,7 @@ using std::chrono::milliseconds;
 namespace {
 
 constexpr microseconds kKeepAlive = milliseconds(50);  // a quarter of the shortest time-out of a moving robot
+constexpr microseconds kMapClock = milliseconds(200);
 constexpr microseconds kPingTimeout = RetryPolicy().timeout;
 constexpr int kLostPings = RetryPolicy().tries;
 constexpr std::uint64_t kRestarted_us =
@@ -173,12 +174,15 @@ void Client::note_answer() {
 
 void Client::forget() {
   ping_.reset();
+  last_ping_ = now();
   clock_.reset();
   device_us_ = answered_device_us_ = 0;
   lost_pings_ = 0;
 }
 
-microseconds Client::next_ping() const { return ping_ ? ping_->at + kPingTimeout : last_sent_ + kKeepAlive; }
+microseconds Client::next_ping() const {
+  return ping_ ? ping_->at + kPingTimeout : std::min(last_sent_ + kKeepAlive, last_ping_ + kMapClock);
+}
 
 void Client::keep_alive() {
   if (ping_ && now() >= next_ping()) {
@@ -195,6 +199,7 @@ void Client::keep_alive() {
   const std::uint16_t id = next_id();
   ++counts_.pings;
   ping_ = Sent{id, now()};
+  last_ping_ = now();
   send(protocol::Frame(protocol::Ping{}, id).bytes());
 }
 

@@ -32,7 +32,9 @@ namespace astro::robot {
 /// Time     All from Transport::now(); waits only inside Transport::read().
 /// Alive    While pump() runs, a Ping is sent 50 ms after the last request by the host's clock, or 50 ms
 ///          after the last answer by the robot's clock, because a simulator in fast motion stops its clock to
-///          wait for us. If the caller neither pumps nor requests, a moving robot stops by its own time-out.
+///          wait for us. A program that sends velocities makes no such pause, but only Pings map the clock, so
+///          one is sent at the latest 200 ms after the one before. If the caller neither pumps nor requests,
+///          a moving robot stops by its own time-out.
 /// Errors   LinkLost: gone, silent or restarted. RobotRefused: ErrorReply. Error: the answer makes no sense.
 class Client {
  public:
@@ -129,7 +131,7 @@ class Client {
   std::vector<std::uint8_t> reply_;  // to it; empty until it arrives
   std::optional<Sent> ping_;         // under way
   int lost_pings_ = 0;               // in a row
-  microseconds last_sent_{};
+  microseconds last_sent_{}, last_ping_{};
   std::uint64_t device_us_ = 0;           // newest seen
   std::uint64_t answered_device_us_ = 0;  // newest seen when the last answer came
   bool connecting_ = false;

@@ -94,11 +94,9 @@ msg::JointState joints(const BaseState& state, const protocol::Telemetry& teleme
 }
 
 msg::BatteryState battery(std::int64_t time_ns, double voltage_V, const Names& names) {
-  constexpr std::uint8_t kDischarging = 2;
   msg::BatteryState message;
   message.header = {msg::to_time(time_ns), names.frame(kBaseFrame)};
   message.voltage = static_cast<float>(voltage_V);
-  message.power_supply_status = kDischarging;
   message.present = true;
   return message;
 }

@@ -38,6 +38,7 @@ Driver::Driver(std::vector<Middleware*> middlewares, OpenPort open, DriverOption
       options_(std::move(options)),
       names_(options_.node_namespace),
       utc_(options_.clock),
+      polled_(utc_.steady()),
       link_(std::move(open), options_.clock, period_ms(options_.rate_hz)),
       driving_(options_.cmd_vel_timeout),
       odometry_(options_.errors),
@@ -55,7 +56,9 @@ Driver::Driver(std::vector<Middleware*> middlewares, OpenPort open, DriverOption
 }
 
 void Driver::step(microseconds most) {
+  const microseconds asked = utc_.steady();
   for (Middleware* each : middlewares_) each->poll();
+  polled_ = asked;
   try {
     if (link_.seek()) begin(*link_.session());
     if (RobotSession* session = link_.session())
@@ -70,6 +73,7 @@ void Driver::step(microseconds most) {
 
 void Driver::begin(RobotSession& session) {
   newest_.reset();
+  driving_.begin(session);
   odometry_.begin(session, std::exchange(restarted_, false));
   describe_robot(session);
 }
@@ -132,7 +136,7 @@ void Driver::lose(const Error& why) {
     link_.lose(why);
   }
   newest_.reset();
-  driving_.release();
+  driving_.lose();
 }
 
 std::optional<std::int64_t> Driver::utc_of_robot_ns(std::int64_t device_time_us) {

@@ -66,12 +66,13 @@ class Driver {
   void note_link(const std::string& sentence);
   void report();
   DriverState state();
-  Moment moment() const { return {utc_.steady(), utc_.now_ns()}; }
+  Moment moment() const { return {utc_.steady(), utc_.now_ns(), utc_.steady() - polled_}; }
 
   std::vector<Middleware*> middlewares_;
   DriverOptions options_;
   Names names_;
   UtcMap utc_;
+  microseconds polled_;  // when the middlewares were asked before: whatever they bring now has come since
   RobotLink link_;
   Driving driving_;
   ContinuousOdometry odometry_;

@@ -88,6 +88,17 @@ void Driving::release() {
   armed_ = false;
 }
 
+void Driving::lose() {
+  left_armed_ = left_armed_ || armed_;
+  release();
+}
+
+void Driving::begin(RobotSession& session) {
+  if (!left_armed_) return;
+  session.ask(protocol::Stop{});
+  left_armed_ = false;
+}
+
 void Driving::step(RobotSession& session, microseconds now) {
   switch (command_.due(now, refresh_of(session))) {
     case VelocityCommand::Due::nothing:

@@ -31,6 +31,11 @@ class Driving {
   void stop(RobotSession& session);
   /// The robot is not armed for this node any more.
   void release();
+  /// The link was lost.
+  void lose();
+  /// A new connection begins. A robot that was armed here when the last one was lost is told to stop: with a command_timeout of 0
+  /// it has driven on.
+  void begin(RobotSession& session);
   bool armed() const { return armed_; }
 
   /// A velocity has come: a Twist or a TwistStamped, as bytes.
@@ -52,6 +57,7 @@ class Driving {
 
   VelocityCommand command_;
   bool armed_ = false;
+  bool left_armed_ = false;  // when the link was lost, and not told to stop since
   CommandCounts counts_;
 };
 

@@ -1,6 +1,7 @@
 #include "host/ros2/driver/host_clock.hpp"
 
 #include <chrono>
+#include <cstdlib>
 
 namespace astro::ros2 {
 
@@ -16,8 +17,14 @@ HostClock HostClock::of_system() {
 
 std::int64_t UtcMap::utc_ns(std::int64_t steady_us) {
   const microseconds now = clock_.steady();
-  if (!measured_ || now - *measured_ >= std::chrono::seconds(1)) measure(now);
+  if (!measured_ || now - *measured_ >= std::chrono::seconds(1) || was_set(now)) measure(now);
   return steady_us * 1000 + offset_ns_;
+}
+
+/// A program that is interrupted between both readings measures in vain, which does no harm.
+bool UtcMap::was_set(microseconds now) const {
+  constexpr std::int64_t kStep_ns = 50'000'000;
+  return std::abs(clock_.utc_ns() - now.count() * 1000 - offset_ns_) > kStep_ns;
 }
 
 /// Of a few readings the fastest one counts: whatever interrupts the program between two clocks only adds time.

@@ -17,7 +17,7 @@ struct HostClock {
 };
 
 /// Times of the steady clock as time since 1970. The offset between both is measured once a second, so that stamps follow the
-/// system's clock when it is corrected, and do not tremble with every reading.
+/// system's clock when it is slewed, and do not tremble with every reading; and at once when that clock was set.
 class UtcMap {
  public:
   explicit UtcMap(HostClock clock) : clock_(std::move(clock)) {}
@@ -27,6 +27,7 @@ class UtcMap {
   microseconds steady() const { return clock_.steady(); }
 
  private:
+  bool was_set(microseconds now) const;
   void measure(microseconds now);
 
   HostClock clock_;

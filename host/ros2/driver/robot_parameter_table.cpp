@@ -164,8 +164,6 @@ void RobotParameterTable::put_in_force(RobotSession& session, std::span<const ms
   robot.commit();
   of_ = nullptr;
   refresh(session);
-  session.note_parameters();
-  changed_(session);
   for (const msg::Parameter& each : parameters) {
     const ParameterRow& row = robot.row(each.name);
     if (row.active != robot::to_raw(row, wanted(row, each.value)))

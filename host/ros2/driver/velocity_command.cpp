@@ -28,7 +28,9 @@ std::string text_of(microseconds time) { return to_text(1e-6 * static_cast<doubl
 }  // namespace
 
 std::optional<std::string> VelocityCommand::take(const msg::Twist& twist, const Moment& now) {
-  return hold(twist, now.steady + timeout_);
+  if (now.waited >= timeout_)
+    return "it may have waited for " + text_of(now.waited) + "; the time-out is " + text_of(timeout_);
+  return hold(twist, now.steady + timeout_ - now.waited);
 }
 
 std::optional<std::string> VelocityCommand::take(const msg::TwistStamped& twist, const Moment& now) {

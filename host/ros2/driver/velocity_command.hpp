@@ -14,10 +14,12 @@ namespace astro::ros2 {
 struct Moment {
   microseconds steady{};
   std::int64_t utc_ns = 0;
+  microseconds waited{};  // at most: what has come may have waited so long until somebody took it
 };
 
 /// The velocity that others command, by the rules of diff_drive_controller:
-///   - a velocity holds for the time-out from its stamp, one without a stamp (0, or a Twist) from when it came;
+///   - a velocity holds for the time-out from its stamp, one without a stamp (0, or a Twist) from the earliest moment at which it
+///     can have come; one that may have waited longer than the time-out is refused;
 ///   - NaN and infinity are refused, and so is a stamp that is older than the time-out or later than now by more than
 ///     kFutureTolerance, which means that the clocks of both computers differ;
 ///   - of the six components, those that a differential drive cannot do are ignored.

@@ -132,11 +132,12 @@ class Simulator {
 };
 
 /// The robot bears it if its host is silent for 10 s instead of 0.2 s.
-inline void forgive_late_hosts(const Simulator& simulator) {
-  const Outcome outcome =
-      astrolabe({"params", "set", "command_timeout=10000", "--yes", "--port", simulator.port()});
+inline void forgive_late_hosts(const std::string& port) {
+  const Outcome outcome = astrolabe({"params", "set", "command_timeout=10000", "--yes", "--port", port});
   if (outcome.code != 0) throw std::runtime_error("the time-out cannot be set: " + outcome.err);
 }
+
+inline void forgive_late_hosts(const Simulator& simulator) { forgive_late_hosts(simulator.port()); }
 
 /// For drives of many seconds in real time that claim nothing of time-outs: a busy machine may hold up their host for longer
 /// than the 0.2 s after which a robot on a path stops by itself.

@@ -71,6 +71,8 @@ TEST_F(Ros2, PeersOfBothKindsSeeWhatTheRobotDoes) {
 
 TEST_F(Ros2, PeersOfBothKindsDriveASquareByBothKindsOfCommand) {
   const std::vector<std::pair<double, double>> corners{{0.3, 0}, {0.3, 0.3}, {0, 0.3}, {0, 0}};
+  ASSERT_TRUE(eventually([&] { return std::filesystem::exists(port()); }));
+  support::forgive_late_hosts(port());
   for (const PeerKind kind : kinds()) {
     for (const char* command : {"twist", "twist_stamped"}) {
       PeerProgram peer(kind, support::test_domain());

@@ -113,6 +113,17 @@ TEST_F(KeepAlive, ReportsARobotThatSendsButNoLongerHears) {
   EXPECT_THROW(client.pump(seconds(30)), LinkLost);
 }
 
+TEST_F(KeepAlive, RequestsThatFlowDoNotKeepTheRobotsClockFromBeingMapped) {
+  for (int i = 0; i < 500; ++i) {
+    client.request(Velocity{100, 0});
+    client.pump(milliseconds(20));
+  }
+  EXPECT_GE(client.counts().pings, 45U);  // every 200 ms
+  const auto mapped = client.clock().to_host(link.robot.device_us);
+  ASSERT_TRUE(mapped);
+  EXPECT_LT(mapped->bound_us, 20'000);  // a round trip, and what an unknown drift makes of 200 ms
+}
+
 TEST_F(KeepAlive, MapsTheRobotsClockOnTheWay) {
   client.pump(seconds(5));
   const auto mapped = client.clock().to_host(link.robot.device_us);

@@ -226,7 +226,8 @@ TEST(FastDds, AReaderThatIsNotAskedKeepsNoMoreThanItsDepth) {
     samples = reader->take();
     return !samples.empty() && samples.back().id.number == 1000;
   }));
-  EXPECT_THAT(samples, testing::SizeIs(topic_of().qos.depth));
+  // Fewer if an earlier look came between two of the last ones.
+  EXPECT_THAT(samples, testing::SizeIs(testing::Le(static_cast<std::size_t>(topic_of().qos.depth))));
 }
 
 TEST(FastDds, OneTakeEndsHoweverMuchComes) {

@@ -77,6 +77,24 @@ TEST_F(Commands, ARobotWhoseDriverDiesStopsByItsOwnTimeOut) {
   EXPECT_EQ(bench.mode(), Mode::fault);
 }
 
+TEST_F(Commands, ATwistThatCameWhileTheDriverWasBusyHoldsNoLonger) {
+  arm();
+  bench.say_velocity(0.3, 0);
+  bench.silence_ms(300);  // as while parameters are committed
+  bench.run_ms(190);
+  EXPECT_EQ(bench.mode(), Mode::velocity);
+  EXPECT_TRUE(bench.run_until([&] { return bench.mode() == Mode::stopping; }, 20));
+}
+
+TEST_F(Commands, ATwistThatMayHaveWaitedForTheTimeOutMovesNothing) {
+  arm();
+  bench.say_velocity(0.3, 0);
+  bench.silence_ms(600);
+  bench.run_ms(100);
+  EXPECT_EQ(bench.mode(), Mode::idle);
+  EXPECT_THAT(bench.diagnosed("commands", "last ignored because"), HasSubstr("waited"));
+}
+
 TEST_F(Commands, AnOldStampMovesNothing) {
   arm();
   say_stamped(0.3, bench.utc_ns() - 501'000'000);

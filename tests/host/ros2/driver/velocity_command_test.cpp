@@ -63,6 +63,21 @@ TEST_F(Command, AfterTheTimeOutStopIsDueOnce) {
   EXPECT_EQ(due(milliseconds(501)), Due::nothing);
 }
 
+TEST_F(Command, WithoutAStampHoldsFromTheEarliestMomentAtWhichItCanHaveCome) {
+  Moment after_work = kNow;
+  after_work.waited = milliseconds(300);
+  EXPECT_EQ(command.take(twist(0.25, 0), after_work), std::nullopt);
+  EXPECT_EQ(due(milliseconds(199)), Due::velocity);
+  EXPECT_EQ(due(milliseconds(200)), Due::stop);
+}
+
+TEST_F(Command, WithoutAStampIsRefusedIfItMayHaveWaitedForTheTimeOut) {
+  Moment after_work = kNow;
+  after_work.waited = milliseconds(500);
+  EXPECT_THAT(command.take(twist(0.25, 0), after_work).value_or(""), HasSubstr("waited for 0.5 s"));
+  EXPECT_EQ(due(milliseconds(0)), Due::nothing);
+}
+
 TEST_F(Command, NanAndInfinityAreRefusedInAnyComponent) {
   for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
     for (double msg::Vector3::*component : {&msg::Vector3::x, &msg::Vector3::y, &msg::Vector3::z}) {
