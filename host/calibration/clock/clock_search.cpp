@@ -37,14 +37,14 @@ class Search {
       : motion_(motion),
         truth_is_longer_(motion.truth_span_s() > motion.wheel_span_s()),
         shorter_s_(std::min(motion.truth_span_s(), motion.wheel_span_s())),
-        finest_s_(motion.finest_bin_s()) {}
+        finest_s_(motion.finest_bin_s()),
+        finest_(motion.match(finest_s_)) {}
 
   Candidate nearby(double skew) const {
-    const MotionMatch match = motion_.match(finest_s_);
     Candidate best;
     for (double offset_s = -kNearby_s; offset_s <= kNearby_s; offset_s += finest_s_)
-      best = std::min(best, tried(match, {middle_s(), middle_s() - offset_s, skew}), better);
-    return polished(match, best, false);
+      best = std::min(best, tried(finest_, {middle_s(), middle_s() - offset_s, skew}), better);
+    return polished(finest_, best, false);
   }
 
   /// Local maxima of the correlation over the offset, separated by valleys; the best first.
@@ -137,7 +137,7 @@ class Search {
   std::vector<Candidate> refined(std::vector<Candidate> found, double bin_s, bool free_skew) const {
     while (true) {
       bin_s = std::max(finest_s_, bin_s / 2);
-      const MotionMatch match = motion_.match(bin_s);
+      const MotionMatch match = bin_s == finest_s_ ? finest_ : motion_.match(bin_s);
       for (Candidate& candidate : found) {
         const ClockGuess around = candidate.guess;
         candidate = tried(match, around);
@@ -172,6 +172,7 @@ class Search {
   const RecordedMotion& motion_;
   bool truth_is_longer_;
   double shorter_s_, finest_s_;
+  MotionMatch finest_;  // with bins of finest_s_
 };
 
 ClockFit fit_of(const Search& search, const Candidate& found) {

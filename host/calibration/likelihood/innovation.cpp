@@ -134,7 +134,7 @@ class ParameterDerivatives final : public Accumulator {
 class ByStretch final : public Accumulator {
  public:
   ByStretch(const PreparedRun& run, const SampleSelection& samples, int count)
-      : sums_(static_cast<std::size_t>(count)) {
+      : sums_(static_cast<std::size_t>(count)), derivatives_(run.session) {
     const double length_m = run.path_m.back();
     for (std::size_t i = 0; i < run.truth.size(); ++i)
       if (samples.takes(run.knots_m, i))
@@ -156,6 +156,7 @@ class ByStretch final : public Accumulator {
     finish();
     return sums_;
   }
+  InnovationSums of_whole_run() const { return derivatives_.sums(); }
 
  private:
   /// What was added since the last call belongs to the current stretch.
@@ -169,7 +170,7 @@ class ByStretch final : public Accumulator {
   std::vector<InnovationSums> sums_;
   std::vector<std::size_t> stretch_;  // of each truth sample that the filter takes
   std::size_t next_ = 0, current_ = 0;
-  ParameterDerivatives derivatives_{0};
+  ParameterDerivatives derivatives_;
   InnovationSums before_;
 };
 
@@ -236,6 +237,14 @@ std::pair<InnovationSums, NoiseSlope> innovations_and_noise(const Moves& moves, 
   NoiseDerivatives by_noise(robust);
   run_filter(moves, noise, robust, samples, derivatives, by_noise);
   return {derivatives.sums(), by_noise.slope()};
+}
+
+NoisePass innovations_and_noise(const Moves& moves, const NoiseModel& noise, RobustMode robust,
+                                const SampleSelection& samples, int stretches) {
+  ByStretch by_stretch(moves.run(), samples, stretches);
+  NoiseDerivatives by_noise(robust);
+  run_filter(moves, noise, robust, samples, by_stretch, by_noise);
+  return {by_stretch.of_whole_run(), by_stretch.sums(), by_noise.slope()};
 }
 
 std::vector<InnovationSums> innovations_by_stretch(const Moves& moves, const NoiseModel& noise,

@@ -53,6 +53,15 @@ std::pair<InnovationSums, NoiseSlope> innovations_and_noise(const Moves& moves, 
                                                             RobustMode robust = RobustMode::none,
                                                             const SampleSelection& samples = {});
 
+/// The same, and what innovations_by_stretch says.
+struct NoisePass {
+  InnovationSums sums;
+  std::vector<InnovationSums> stretches;
+  NoiseSlope slope;
+};
+NoisePass innovations_and_noise(const Moves& moves, const NoiseModel& noise, RobustMode robust,
+                                const SampleSelection& samples, int stretches);
+
 /// The same pass with sums for each of so many stretches of the run, all of the same length of the wheels' path. They add up to those of
 /// the whole run. Only their information and gradient are computed.
 std::vector<InnovationSums> innovations_by_stretch(const Moves& moves, const NoiseModel& noise,

@@ -108,9 +108,8 @@ std::vector<Reduced> all_reduced(std::span<const InnovationSums> sums, const Fix
 }
 
 double widening(const MlFit& fit, const std::vector<bool>& outlier) {
-  constexpr int kStretches = 4;  // a side of a square: what a spin winds up and lets go of cancels within it
   const std::vector<int> courses = find_courses(fit.runs());
-  const std::vector<std::vector<InnovationSums>> stretches = fit.sums_by_stretch(kStretches);
+  const std::vector<std::vector<InnovationSums>> stretches = fit.sums_by_stretch();
   std::vector<RunInStretches> runs;
   for (std::size_t i = 0; i < courses.size(); ++i)
     runs.push_back({reduced(fit.sums()[i], stretches[i], fit.fixed()), courses[i], outlier[i]});

@@ -24,6 +24,7 @@ constexpr double kLargestNoiseStep = 2;
 constexpr double kFar = 1e4, kNear = 100;
 constexpr double kLargestK_m = 1e-2;
 constexpr int kMostPhases = 4;
+constexpr int kStretches = 4;  // a side of a square: what a spin winds up and lets go of cancels within it
 // e is estimated if it is so many standard errors from zero, if these are small, and if tyres can explain it: wheels out of round
 // would ask for an e of 2 or 3 to bend what should be lines.
 constexpr double kShown = 2, kUncertainE = 0.02, kLargestE = 0.2;
@@ -42,6 +43,24 @@ double scaled(double value, int power, double change, double least, double most)
 double distance(const NoiseModel& a, const NoiseModel& b) {
   return std::max({std::abs(std::log(b.K_m / a.K_m)), 2 * std::abs(std::log(b.sigma_xy_m / a.sigma_xy_m)),
                    2 * std::abs(std::log(b.sigma_theta_rad / a.sigma_theta_rad))});
+}
+
+/// What the next pass would say after a small step, by the last one's information.
+void make_step(InnovationSums& sums, const Unknowns& step) {
+  const Unknowns change = sums.information * step;
+  sums.cost -= step.dot(2 * sums.gradient - change);
+  sums.gradient -= change;
+}
+
+/// Of each stretch over several passes along one run.
+std::vector<InnovationSums> mean_of_stretches(std::span<const std::vector<InnovationSums>> passes) {
+  std::vector<InnovationSums> means;
+  for (std::size_t k = 0; k < passes.front().size(); ++k) {
+    std::vector<InnovationSums> of_stretch;
+    for (const std::vector<InnovationSums>& pass : passes) of_stretch.push_back(pass[k]);
+    means.push_back(mean_of(of_stretch));
+  }
+  return means;
 }
 
 }  // namespace
@@ -80,6 +99,8 @@ MlFit::MlFit(const PreparedRuns& prepared, const WheelFactors& loaded, const MlO
 
 void MlFit::fit(const MlOptions& options, bool started) {
   passed_ = false;
+  moves_.clear();  // those of a fit before lack its last step
+  last_steps_.clear();
   robust_ = RobustMode::none;
   noise_ = least_noise_;
   // The first fit is least squares, because a sample that looks like an outlier to a first guess may be right.
@@ -108,11 +129,12 @@ void MlFit::fit_e(const MlOptions& options) {
   fixed_.e = false;
   e_ = e_to_first_order();
   if (is_shown(e_)) {
-    auto without = std::tuple(unknowns_, moves_, noise_, spacing_m_, phases_, sums_);
+    auto without = std::tuple(unknowns_, moves_, last_steps_, noise_, spacing_m_, phases_, sums_, stretches_);
     fit(options, true);
     e_ = e_to_first_order();
     if (is_shown(e_)) return;
-    std::tie(unknowns_, moves_, noise_, spacing_m_, phases_, sums_) = std::move(without);
+    std::tie(unknowns_, moves_, last_steps_, noise_, spacing_m_, phases_, sums_, stretches_) =
+        std::move(without);
     passed_ = false;
     e_ = e_to_first_order();
   }
@@ -178,11 +200,11 @@ void MlFit::fit_with_noise(const Settled& settled) {
 void MlFit::take_last_step() {
   const std::vector<Unknowns> steps = gauss_newton_step(sums_, fixed_, 0, unknowns_.front()[kE]);
   if (!(fall_of(steps) < kSettled.fall)) return;
-  take(steps);
+  passed_ = false;
+  last_steps_ = steps;
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    const Unknowns change = sums_[i].information * steps[i];
-    sums_[i].cost -= steps[i].dot(2 * sums_[i].gradient - change);
-    sums_[i].gradient -= change;
+    unknowns_[i] += steps[i];
+    make_step(sums_[i], steps[i]);
   }
 }
 
@@ -245,19 +267,26 @@ std::vector<InnovationSums> MlFit::pass(std::span<const Moves> moves, RobustMode
 }
 
 std::vector<InnovationSums> MlFit::sums_with_full_slip_weight() const {
-  return pass(moves_, std::min(robust_, RobustMode::tracker));
+  std::vector<InnovationSums> sums = pass(moves_, std::min(robust_, RobustMode::tracker));
+  for (std::size_t i = 0; i < last_steps_.size(); ++i) make_step(sums[i], last_steps_[i]);
+  return sums;
 }
 
-std::vector<std::vector<InnovationSums>> MlFit::sums_by_stretch(int stretches) const {
+std::vector<std::vector<InnovationSums>> MlFit::sums_by_stretch() const {
+  std::vector<std::vector<InnovationSums>> sums = stretches_.empty() ? stretches_anew() : stretches_;
+  for (std::size_t i = 0; i < last_steps_.size(); ++i)
+    for (InnovationSums& stretch : sums[i]) make_step(stretch, last_steps_[i]);
+  return sums;
+}
+
+std::vector<std::vector<InnovationSums>> MlFit::stretches_anew() const {
   std::vector<std::vector<InnovationSums>> sums;
   for (const Moves& run : moves_) {
-    std::vector<std::vector<InnovationSums>> passes(static_cast<std::size_t>(stretches));
-    for (int phase = 0; phase < phases_; ++phase) {
-      const auto pass = innovations_by_stretch(run, noise_, robust_, samples_of(run.run(), phase), stretches);
-      for (std::size_t k = 0; k < pass.size(); ++k) passes[k].push_back(pass[k]);
-    }
-    std::vector<InnovationSums>& of_run = sums.emplace_back();
-    for (const auto& of_stretch : passes) of_run.push_back(mean_of(of_stretch));
+    std::vector<std::vector<InnovationSums>> passes;
+    for (int phase = 0; phase < phases_; ++phase)
+      passes.push_back(
+          innovations_by_stretch(run, noise_, robust_, samples_of(run.run(), phase), kStretches));
+    sums.push_back(mean_of_stretches(passes));
   }
   return sums;
 }
@@ -265,17 +294,21 @@ std::vector<std::vector<InnovationSums>> MlFit::sums_by_stretch(int stretches) c
 void MlFit::pass_with_noise() {
   ++iterations_;
   sums_.clear();
+  stretches_.clear();
   noise_slope_ = {};
   for (const Moves& run : moves_) {
     std::vector<InnovationSums> passes;
+    std::vector<std::vector<InnovationSums>> in_stretches;
     for (int phase = 0; phase < phases_; ++phase) {
-      const auto [of_run, of_noise] =
-          innovations_and_noise(run, noise_, robust_, samples_of(run.run(), phase));
+      const auto [of_run, of_stretches, of_noise] =
+          innovations_and_noise(run, noise_, robust_, samples_of(run.run(), phase), kStretches);
       passes.push_back(of_run);
+      in_stretches.push_back(of_stretches);
       noise_slope_.gradient += of_noise.gradient / phases_;
       noise_slope_.curvature += of_noise.curvature / phases_;
     }
     sums_.push_back(mean_of(passes));
+    stretches_.push_back(mean_of_stretches(in_stretches));
   }
   passed_ = true;
   // Without headings nothing determines their noise, and only rounding would move it.
@@ -297,6 +330,7 @@ SampleSelection MlFit::samples_of(const PreparedRun& run, int phase) const {
 void MlFit::maximise(const Settled& settled) {
   double damping = 0;
   passed_ = false;
+  stretches_.clear();
   sums_ = pass(moves_, robust_);
   for (int step = 0; step < kMostSteps; ++step) {
     const std::vector<Unknowns> steps = gauss_newton_step(sums_, fixed_, damping, unknowns_.front()[kE]);

@@ -47,7 +47,7 @@ class MlFit {
   /// At the same unknowns, but without down-weighting slips, however unlikely they are.
   std::vector<InnovationSums> sums_with_full_slip_weight() const;
   /// Of each run by its stretches, whose information and gradient add up to those of sums() (innovations_by_stretch).
-  std::vector<std::vector<InnovationSums>> sums_by_stretch(int stretches) const;
+  std::vector<std::vector<InnovationSums>> sums_by_stretch() const;
   const NoiseModel& noise() const { return noise_; }
   const FixedParameters& fixed() const { return fixed_; }
   /// The way of the wheels between the truth samples that the filter uses; of short runs less. 0: it uses all.
@@ -62,6 +62,7 @@ class MlFit {
   OneUnknown e_to_first_order() const;
   double kappa0() const { return fixed_.factors ? loaded_.kappa0 : kUsualKappa0; }
   std::vector<Moves> moves_of(std::span<const Unknowns> unknowns) const;
+  std::vector<std::vector<InnovationSums>> stretches_anew() const;
   void choose_samples(double spacing_m, int phases);
   SampleSelection samples_of(const PreparedRun& run, int phase) const;
   double cost_of(std::span<const InnovationSums> sums, double e) const;
@@ -81,7 +82,10 @@ class MlFit {
   const std::vector<PreparedRun>& runs_;
   WheelFactors loaded_;
   std::vector<Unknowns> unknowns_;
-  std::vector<Moves> moves_;  // with these unknowns, between the samples that the filter uses
+  /// With these unknowns, between the samples that the filter uses. They lack the last steps: what a pass along them says is
+  /// carried on by its information.
+  std::vector<Moves> moves_;
+  std::vector<Unknowns> last_steps_;  // of each run, if they were made
   FixedParameters fixed_;
   NoiseModel noise_;
   NoiseModel least_noise_;
@@ -92,6 +96,7 @@ class MlFit {
   int phases_ = 1;  // passes along each run, each beginning at another sample
   OneUnknown e_;
   std::vector<InnovationSums> sums_;
+  std::vector<std::vector<InnovationSums>> stretches_;  // of the last pass, if that was with noise
   int iterations_ = 0;
 };
 

@@ -45,8 +45,8 @@ class Moments {
                               ? wrapped_rad
                               : robot_[k - 1].turn_rad + std::remainder(wrapped_rad - robot_[k - 1].turn_rad,
                                                                         2 * std::numbers::pi);
-      robot_.push_back({truth.x_m - c * u[kLeverX] + s * u[kLeverY],
-                        truth.y_m - s * u[kLeverX] - c * u[kLeverY], turn, std::cos(turn), std::sin(turn)});
+      robot_.push_back(
+          {truth.x_m - c * u[kLeverX] + s * u[kLeverY], truth.y_m - s * u[kLeverX] - c * u[kLeverY], turn});
     }
   }
 
@@ -124,7 +124,8 @@ class Moments {
     const BodySample &was = odometry_[from], &is = odometry_[to];
     const Placed& robot = robot_[from];
     const double dx = is.x_m - was.x_m, dy = is.y_m - was.y_m;
-    return {robot.x_m + robot.cosine * dx - robot.sine * dy, robot.y_m + robot.sine * dx + robot.cosine * dy};
+    const double c = std::cos(robot.turn_rad), s = std::sin(robot.turn_rad);
+    return {robot.x_m + c * dx - s * dy, robot.y_m + s * dx + c * dy};
   }
 
   template <class Value>
@@ -137,7 +138,7 @@ class Moments {
 
   /// The robot's true pose, and the rotation from odometry to truth there.
   struct Placed {
-    double x_m, y_m, turn_rad, cosine, sine;
+    double x_m, y_m, turn_rad;
   };
 
   const PreparedRun& run_;

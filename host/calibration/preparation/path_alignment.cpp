@@ -4,36 +4,24 @@
 #include <cmath>
 
 #include "host/calibration/motion/arc.hpp"
-#include "host/calibration/motion/wheel_path.hpp"
 
 namespace astro::calibration {
 
-std::vector<WheelStep> wheel_steps(const WheelPath& path, double from_s, double to_s) {
-  const int count = std::max(1, static_cast<int>(std::ceil((to_s - from_s) / kLongestStep_s)));
-  std::vector<WheelStep> steps;
-  WheelState before = path.at(from_s);
-  for (int i = 1; i <= count; ++i) {
-    const WheelState now = path.at(from_s + (to_s - from_s) * i / count);
-    steps.push_back({now.left_m - before.left_m, now.right_m - before.right_m});
-    before = now;
-  }
-  return steps;
-}
-
 std::vector<BodySample> dead_reckoned(const PreparedRun& run, const ClockFit& clock,
                                       const WheelFactors& factors) {
-  const WheelPath path(run.source->wheels);
   std::vector<BodySample> poses;
+  if (run.truth.empty()) return poses;
+  poses.reserve(run.truth.size());
+  const auto robot_s = [&](const BodySample& sample) {
+    return clock.robot_time_s(sample.time_s, run.clock_middle_s);
+  };
+  WheelWalk walk(run.source->wheels, robot_s(run.truth.front()));
   BodySample pose{0, 0, 0, 0};
-  double before_s = 0;
   for (const BodySample& sample : run.truth) {
-    const double now_s = clock.robot_time_s(sample.time_s, run.clock_middle_s);
     if (!poses.empty())
-      for (const WheelStep& step : wheel_steps(path, before_s, now_s))
-        advance(pose, step.right, step.left, factors);
+      walk.go(robot_s(sample), [&](const WheelStep& step) { advance(pose, step.right, step.left, factors); });
     pose.time_s = sample.time_s;
     poses.push_back(pose);
-    before_s = now_s;
   }
   return poses;
 }

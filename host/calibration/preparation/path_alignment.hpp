@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <span>
 #include <vector>
 
+#include "host/calibration/motion/arc.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
 #include "host/calibration/motion/wheel_path.hpp"
 #include "host/calibration/preparation/preparation.hpp"
@@ -11,8 +14,31 @@
 /// Dead-reckoned paths, and their rigid alignment with truth.
 namespace astro::calibration {
 
-/// Travel of the wheels from one robot's time to another, in steps short enough to be arcs of constant twist.
-std::vector<WheelStep> wheel_steps(const WheelPath& path, double from_s, double to_s);
+/// The wheels' path from moment to moment of the robot's clock.
+class WheelWalk {
+ public:
+  /// The samples must outlive this.
+  WheelWalk(std::span<const WheelSample> wheels, double begin_s)
+      : path_(wheels), at_s_(begin_s), at_(path_.at(begin_s)) {}
+
+  /// On to another moment: calls `visit` with the travel of the wheels in steps short enough to be arcs of constant twist.
+  template <class Visit>
+  void go(double to_s, Visit visit) {
+    const double from_s = at_s_;
+    const int count = std::max(1, static_cast<int>(std::ceil((to_s - from_s) / kLongestStep_s)));
+    for (int i = 1; i <= count; ++i) {
+      const WheelState now = path_.at(i == count ? to_s : from_s + (to_s - from_s) * i / count);
+      visit(WheelStep{now.left_m - at_.left_m, now.right_m - at_.right_m});
+      at_ = now;
+    }
+    at_s_ = to_s;
+  }
+
+ private:
+  WheelPath path_;
+  double at_s_;
+  WheelState at_;
+};
 
 /// Dead reckoning by `factors` at the times of the prepared truth, from pose (0, 0, 0) at the first.
 std::vector<BodySample> dead_reckoned(const PreparedRun& run, const ClockFit& clock,

@@ -4,7 +4,6 @@
 #include <numbers>
 #include <utility>
 
-#include "host/calibration/motion/wheel_path.hpp"
 #include "host/calibration/preparation/path_alignment.hpp"
 
 namespace astro::calibration {
@@ -24,20 +23,21 @@ RelativePose closed_piece(const BodySample& from, const BodySample& to, std::vec
 }  // namespace
 
 std::vector<RelativePose> pieces_of(const PreparedRun& run, const ClockFit& clock, double wheelbase_m) {
-  const WheelPath path(run.source->wheels);
   std::vector<RelativePose> pieces;
+  if (run.truth.empty()) return pieces;
+  const auto robot_s = [&](std::size_t i) {
+    return clock.robot_time_s(run.truth[i].time_s, run.clock_middle_s);
+  };
+  WheelWalk walk(run.source->wheels, robot_s(0));
   std::vector<WheelStep> steps;
   std::size_t from = 0;
-  double travelled_m = 0, turned_rad = 0, before_s = 0;
-  for (std::size_t i = 0; i < run.truth.size(); ++i) {
-    const double now_s = clock.robot_time_s(run.truth[i].time_s, run.clock_middle_s);
-    if (i > 0)
-      for (const WheelStep& step : wheel_steps(path, before_s, now_s)) {
-        steps.push_back(step);
-        travelled_m += (step.left + step.right) / 2;
-        turned_rad += (step.right - step.left) / wheelbase_m;
-      }
-    before_s = now_s;
+  double travelled_m = 0, turned_rad = 0;
+  for (std::size_t i = 1; i < run.truth.size(); ++i) {
+    walk.go(robot_s(i), [&](const WheelStep& step) {
+      steps.push_back(step);
+      travelled_m += (step.left + step.right) / 2;
+      turned_rad += (step.right - step.left) / wheelbase_m;
+    });
     if (std::abs(travelled_m) < kLeast_m && std::abs(turned_rad) < kLeast_rad) continue;
     if (std::abs(turned_rad) < kSurely_rad)
       pieces.push_back(closed_piece(run.truth[from], run.truth[i], std::move(steps)));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "host/base/error.hpp"
 #include "host/base/text/degrees.hpp"
@@ -140,12 +141,12 @@ PreparedRun cropped(const Trajectory& run, const ClockFit& clock, Density densit
 }
 
 /// Sum of the net rotation of each second: includes arcs of any radius, excludes counts that flicker on a line.
-double net_rotation_rad(const PreparedRun& run, const WheelPath& path, const ClockFit& clock,
+double net_rotation_rad(const PreparedRun& run, std::span<const WheelState> wheels,
                         const WheelFactors& factors) {
   double sum_rad = 0;
   WheelState before;
   for (std::size_t i = 0, from = 0; i < run.truth.size(); ++i) {
-    const WheelState now = path.at(clock.robot_time_s(run.truth[i].time_s, run.clock_middle_s));
+    const WheelState& now = wheels[i];
     if (i == 0) before = now;
     if (run.truth[i].time_s - run.truth[from].time_s < 1 && i + 1 < run.truth.size()) continue;
     sum_rad += extent_between(before, now, factors).rotation_rad;
@@ -155,24 +156,20 @@ double net_rotation_rad(const PreparedRun& run, const WheelPath& path, const Clo
   return sum_rad;
 }
 
-void classify_motion(PreparedRun& run, const ClockFit& clock, const WheelFactors& factors) {
-  const WheelPath path(run.source->wheels);
+void classify_motion(PreparedRun& run, std::span<const WheelState> wheels, const ClockFit& clock,
+                     const WheelFactors& factors) {
   const Around near(run.source->wheels, kWindow_s), wide(run.source->wheels, kLongWindow_s);
-  WheelState before;
   for (std::size_t i = 0; i < run.truth.size(); ++i) {
     const double u = clock.robot_time_s(run.truth[i].time_s, run.clock_middle_s);
     run.motion.push_back(motion_at(near, wide, u, factors));
-    const WheelState now = path.at(u);
-    if (i > 0) {
-      const MotionExtent moved = extent_between(before, now, factors);
-      MotionExtent& extent = run.extent[static_cast<std::size_t>(run.motion[i])];
-      extent.distance_m += moved.distance_m;
-      extent.rotation_rad += moved.rotation_rad;
-    }
-    before = now;
+    if (i == 0) continue;
+    const MotionExtent moved = extent_between(wheels[i - 1], wheels[i], factors);
+    MotionExtent& extent = run.extent[static_cast<std::size_t>(run.motion[i])];
+    extent.distance_m += moved.distance_m;
+    extent.rotation_rad += moved.rotation_rad;
   }
   for (const MotionExtent& extent : run.extent) run.distance_m += extent.distance_m;
-  run.rotation_rad = net_rotation_rad(run, path, clock, factors);
+  run.rotation_rad = net_rotation_rad(run, wheels, factors);
 }
 
 void require_motion(const PreparedRun& run) {
@@ -251,8 +248,9 @@ PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& loade
       before = clock;
     }
     PreparedRun ready = cropped(run, clock, density);
-    classify_motion(ready, clock, loaded);
-    ready.path_m = way_of_wheels(ready, clock);
+    const std::vector<WheelState> wheels = wheels_at_truth(ready, clock);
+    classify_motion(ready, wheels, clock, loaded);
+    ready.path_m = way_of_wheels(wheels);
     ready.knots_m = way_of_knots(ready, loaded.b_m);
     require_motion(ready);
     require_handedness(ready, clock, loaded);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include "host/calibration/motion/wheel_path.hpp"
 
 namespace astro::calibration {
 namespace {
@@ -19,13 +18,21 @@ bool turns_or_stands(Motion motion) { return motion == Motion::spin || motion ==
 
 }  // namespace
 
-std::vector<double> way_of_wheels(const PreparedRun& run, const ClockFit& clock) {
+std::vector<WheelState> wheels_at_truth(const PreparedRun& run, const ClockFit& clock) {
   const WheelPath path(run.source->wheels);
+  std::vector<WheelState> wheels;
+  wheels.reserve(run.truth.size());
+  for (const BodySample& sample : run.truth)
+    wheels.push_back(path.at(clock.robot_time_s(sample.time_s, run.clock_middle_s)));
+  return wheels;
+}
+
+std::vector<double> way_of_wheels(std::span<const WheelState> wheels) {
   std::vector<double> way_m;
+  way_m.reserve(wheels.size());
   WheelState counted;
   double sum_m = 0;
-  for (const BodySample& sample : run.truth) {
-    const WheelState now = path.at(clock.robot_time_s(sample.time_s, run.clock_middle_s));
+  for (const WheelState& now : wheels) {
     if (way_m.empty()) counted = now;
     const double moved_m =
         (std::abs(now.left_m - counted.left_m) + std::abs(now.right_m - counted.right_m)) / 2;

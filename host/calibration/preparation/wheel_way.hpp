@@ -1,15 +1,20 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "host/calibration/clock/clock_search.hpp"
+#include "host/calibration/motion/wheel_path.hpp"
 #include "host/calibration/preparation/prepared_run.hpp"
 
 namespace astro::calibration {
 
+/// The wheels at each sample of truth.
+std::vector<WheelState> wheels_at_truth(const PreparedRun& run, const ClockFit& clock);
+
 /// The way of the wheels from the first sample of truth to each, in metres: the mean of both wheels, which grows in a spin as
-/// well. One entry a sample.
-std::vector<double> way_of_wheels(const PreparedRun& run, const ClockFit& clock);
+/// well. `wheels`: those of wheels_at_truth.
+std::vector<double> way_of_wheels(std::span<const WheelState> wheels);
 
 /// The way by which samples are chosen (SampleSelection): that of the wheels, but held where tyres are being wound up.
 ///
