@@ -10,6 +10,7 @@
 
 #include "host/base/error.hpp"
 #include "host/calibration/likelihood/agreement.hpp"
+#include "host/calibration/likelihood/expected_bound.hpp"
 #include "host/calibration/likelihood/ml_fit.hpp"
 #include "host/calibration/likelihood/start_values.hpp"
 #include "host/calibration/preparation/courses.hpp"
@@ -157,28 +158,22 @@ MlEstimate summarise(const MlFit& fit) {
   return estimate;
 }
 
-/// The covariance of the factors if all unknowns of the runs were at these values: the Cramer-Rao bound.
-FactorCovariance bound_of(const PreparedRuns& prepared, const WheelFactors& factors, const LeverArm& lever,
-                          const NoiseModel& noise, bool clock_known, double spacing_m) {
-  FixedParameters fixed;
-  fixed.clock = clock_known;
-  fixed.e = factors.e == 0;
-  fixed.lever_yaw = std::none_of(prepared.runs.begin(), prepared.runs.end(),
-                                 [](const PreparedRun& run) { return run.has_headings; });
-  Pool pool(fixed);
+bool are_observed(const MlErrors& se, const WheelFactors& factors) {
+  return se.scale < kOpen && se.E_d < kOpen && se.b_m < kOpen * factors.b_m;
+}
+
+/// Checked with the usual noise before the fit, because factors that the runs do not observe diverge in a fit. What the first
+/// runs show is shown by all of them, so that mostly one of them is enough.
+void require_observable(const PreparedRuns& prepared, const WheelFactors& loaded, bool clock_known) {
+  ExpectedBound bound(prepared.runs, {loaded.c_r, loaded.c_l, loaded.b_m}, {}, {}, clock_known,
+                      kRoughSpacing * loaded.b_m);
+  MlErrors se;
   for (std::size_t i = 0; i < prepared.runs.size(); ++i) {
-    Unknowns u = Unknowns::Zero();
-    u.head<kShared>() << factors.c_r, factors.c_l, factors.b_m, factors.e, lever.x_m, lever.y_m,
-        lever.yaw_rad, prepared.clocks[i].skew;
-    u[kClockOffset] = prepared.clocks[i].offset_s;
-    InnovationSums sums;
-    sums.session = prepared.runs[i].session;
-    const SampleSelection samples = selection_of(prepared.runs[i].path_m, spacing_m);
-    sums.information =
-        expected_information(Moves(prepared.runs[i], u, kUsualKappa0, {samples}), noise, samples);
-    pool.add(reduced(sums, fixed, 0));
+    bound.add(prepared.runs[i], prepared.clocks[i]);
+    se = errors_of(bound.covariance(), loaded);
+    if (are_observed(se, loaded)) return;
   }
-  return pool.factor_covariance();
+  require_observed(se, loaded);
 }
 
 /// An e that the noise alone would allow is not taken for shown if the widened errors, which the estimate claims, do not.
@@ -199,14 +194,10 @@ MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& loa
                        const MlOptions& options) {
   const PreparedRuns prepared = prepare(runs, loaded, options.clock_known, Density::independent);
   require_variety(prepared);
-  // Checked with the usual noise before the fit, because factors that the runs do not observe diverge in a
-  // fit. Not checked without headings: the lever arm is not known yet, and without it spins show nothing.
+  // Not without headings: the lever arm is not known yet, and without it spins show nothing.
   if (std::any_of(prepared.runs.begin(), prepared.runs.end(),
                   [](const PreparedRun& run) { return run.has_headings; }))
-    require_observed(errors_of(bound_of(prepared, {loaded.c_r, loaded.c_l, loaded.b_m}, {}, {},
-                                        options.clock_known, kRoughSpacing * loaded.b_m),
-                               loaded),
-                     loaded);
+    require_observable(prepared, loaded, options.clock_known);
   MlEstimate estimate = estimate_with_what_is_shown(prepared, loaded, options);
   estimate.left_out = prepared.left_out;
   return estimate;
@@ -216,10 +207,10 @@ FactorCovariance cramer_rao_bound(std::span<const Trajectory> runs, const WheelF
                                   const LeverArm& lever, const MlOptions& options) {
   // Samples that the estimator does not use must not improve the bound.
   const PreparedRuns prepared = prepare(runs, factors, options.clock_known, Density::independent);
-  const FactorCovariance covariance =
-      bound_of(prepared, factors, lever, options.noise.value(), options.clock_known, 0);
-  require_observed(errors_of(covariance, factors), factors);
-  return covariance;
+  ExpectedBound bound(prepared.runs, factors, lever, options.noise.value(), options.clock_known, 0);
+  for (std::size_t i = 0; i < prepared.runs.size(); ++i) bound.add(prepared.runs[i], prepared.clocks[i]);
+  require_observed(errors_of(bound.covariance(), factors), factors);
+  return bound.covariance();
 }
 
 MlErrors errors_of(const FactorCovariance& covariance, const WheelFactors& factors) {
@@ -240,7 +231,7 @@ MlErrors errors_of(const FactorCovariance& covariance, const WheelFactors& facto
 }
 
 void require_observed(const MlErrors& se, const WheelFactors& factors) {
-  if (se.scale < kOpen && se.E_d < kOpen && se.b_m < kOpen * factors.b_m) return;
+  if (are_observed(se, factors)) return;
   throw Error(fmt::format("the runs do not separate c_R, c_L and b (standard errors {:.2g}, {:.2g} and "
                           "{:.2g} m), because all "
                           "of them move alike",
