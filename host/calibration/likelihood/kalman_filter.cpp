@@ -149,12 +149,6 @@ class KalmanFilter {
 
 }  // namespace
 
-Symmetric3 Update::seen(const Symmetric3& p) const {
-  Symmetric3 out = sheared(p, -lever_y_m, lever_x_m);
-  if (!has_heading) out.xt = out.yt = out.tt = 0;
-  return out;
-}
-
 Matrix3 Update::with_state(const Symmetric3& p) const {
   Matrix3 out = times_shear(p, -lever_y_m, lever_x_m);
   if (!has_heading) out[0][2] = out[1][2] = out[2][2] = 0;

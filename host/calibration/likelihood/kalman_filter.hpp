@@ -51,7 +51,12 @@ struct Update {
 
   int components() const { return has_heading ? 3 : 2; }
   /// H p H' with the measurement's Jacobian H by the state.
-  Symmetric3 seen(const Symmetric3& p) const;
+  template <class Number>
+  SymmetricOf<Number> seen(const SymmetricOf<Number>& p) const {
+    SymmetricOf<Number> out = sheared(p, -lever_y_m, lever_x_m);
+    if (!has_heading) out.xt = out.yt = out.tt = Number{};
+    return out;
+  }
   /// p H'.
   Matrix3 with_state(const Symmetric3& p) const;
 };

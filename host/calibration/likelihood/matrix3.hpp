@@ -9,46 +9,63 @@
 /// or the identity but for two entries. Eigen's general products compute these entries, too, and take three times as long.
 namespace astro::calibration {
 
-using Vector3 = std::array<double, 3>;
-using Matrix3 = std::array<Vector3, 3>;  // rows
+/// Two numbers that are computed side by side, in the time of one. The entries of matrices may be of this kind.
+using Pair = double __attribute__((vector_size(2 * sizeof(double))));
 
-struct Symmetric3 {
-  double xx = 0, xy = 0, xt = 0, yy = 0, yt = 0, tt = 0;
+template <class Number>
+using VectorOf = std::array<Number, 3>;
+template <class Number>
+using MatrixOf = std::array<VectorOf<Number>, 3>;  // rows
+using Vector3 = VectorOf<double>;
+using Matrix3 = MatrixOf<double>;
 
-  Symmetric3& operator+=(const Symmetric3& other) {
+template <class Number>
+struct SymmetricOf {
+  Number xx{}, xy{}, xt{}, yy{}, yt{}, tt{};
+
+  SymmetricOf& operator+=(const SymmetricOf& other) {
     xx += other.xx, xy += other.xy, xt += other.xt;
     yy += other.yy, yt += other.yt, tt += other.tt;
     return *this;
   }
-  Symmetric3& operator*=(double factor) {
+  SymmetricOf& operator*=(double factor) {
     xx *= factor, xy *= factor, xt *= factor;
     yy *= factor, yt *= factor, tt *= factor;
     return *this;
   }
-  Matrix3 full() const { return {{{xx, xy, xt}, {xy, yy, yt}, {xt, yt, tt}}}; }
+  MatrixOf<Number> full() const { return {{{xx, xy, xt}, {xy, yy, yt}, {xt, yt, tt}}}; }
 };
+
+using Symmetric3 = SymmetricOf<double>;
 
 inline Symmetric3 operator+(Symmetric3 a, const Symmetric3& b) { return a += b; }
 inline Symmetric3 operator*(double factor, Symmetric3 a) { return a *= factor; }
 
-inline double dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+template <class A, class B>
+auto dot(const VectorOf<A>& a, const VectorOf<B>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
-inline Vector3 product(const Symmetric3& a, const Vector3& v) {
+template <class A, class B>
+VectorOf<decltype(A() * B())> product(const SymmetricOf<A>& a, const VectorOf<B>& v) {
   return {a.xx * v[0] + a.xy * v[1] + a.xt * v[2], a.xy * v[0] + a.yy * v[1] + a.yt * v[2],
           a.xt * v[0] + a.yt * v[1] + a.tt * v[2]};
 }
 
-inline Vector3 product(const Matrix3& a, const Vector3& v) {
+template <class B>
+VectorOf<B> product(const Matrix3& a, const VectorOf<B>& v) {
   return {dot(a[0], v), dot(a[1], v), dot(a[2], v)};
 }
 
-inline Matrix3 product(const Matrix3& a, const Symmetric3& b) {
+template <class B>
+MatrixOf<B> product(const Matrix3& a, const SymmetricOf<B>& b) {
   // A row of the product is b times the row, because b is symmetric.
   return {product(b, a[0]), product(b, a[1]), product(b, a[2])};
 }
 
 /// a b' where that is known to be symmetric.
-inline Symmetric3 symmetric_product(const Matrix3& a, const Matrix3& b) {
+template <class A>
+SymmetricOf<A> symmetric_product(const MatrixOf<A>& a, const Matrix3& b) {
   return {dot(a[0], b[0]), dot(a[0], b[1]), dot(a[0], b[2]),
           dot(a[1], b[1]), dot(a[1], b[2]), dot(a[2], b[2])};
 }
@@ -61,8 +78,9 @@ inline double trace_of_product(const Symmetric3& a, const Symmetric3& b) {
 /// F p F' with F = (1 0 x; 0 1 y; 0 0 1). An error of the heading moves a point at (a, b) from the robot's centre by (-b, a)
 /// for each radian. So this with (x, y) = (-b, a) is the covariance of that point's place and the heading, if p is that of the
 /// centre's.
-inline Symmetric3 sheared(const Symmetric3& p, double x, double y) {
-  const double xt = p.xt + x * p.tt, yt = p.yt + y * p.tt;
+template <class Number>
+SymmetricOf<Number> sheared(const SymmetricOf<Number>& p, double x, double y) {
+  const Number xt = p.xt + x * p.tt, yt = p.yt + y * p.tt;
   return {p.xx + x * (p.xt + xt), p.xy + x * p.yt + y * xt, xt, p.yy + y * (p.yt + yt), yt, p.tt};
 }
 

@@ -8,9 +8,12 @@ namespace {
 // threshold, a few samples far out would decide the variance.
 double bounded_variance(const Update& step) { return step.has_heading ? 0.99287 : 0.99; }
 
+Pair by_K(double value) { return Pair{value, 0}; }
+Pair by_xy(double value) { return Pair{0, value}; }
+
 /// -H v: a change of the state lessens the innovation.
-Vector3 seen(const Vector3& v, const Update& step) {
-  return {-v[0] + step.lever_y_m * v[2], -v[1] - step.lever_x_m * v[2], step.has_heading ? -v[2] : 0};
+VectorOf<Pair> seen(const VectorOf<Pair>& v, const Update& step) {
+  return {-v[0] + step.lever_y_m * v[2], -v[1] - step.lever_x_m * v[2], step.has_heading ? -v[2] : Pair{}};
 }
 
 /// H' v.
@@ -28,24 +31,31 @@ Matrix3 left_over(const Update& step) {
   return out;
 }
 
-double trace(const Matrix3& a) { return a[0][0] + a[1][1] + a[2][2]; }
+Pair trace(const MatrixOf<Pair>& a) { return a[0][0] + a[1][1] + a[2][2]; }
 
-/// Of a b.
-double trace_of_product(const Matrix3& a, const Matrix3& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < 3; ++i) sum += a[i][0] * b[0][i] + a[i][1] * b[1][i] + a[i][2] * b[2][i];
-  return sum;
+/// Of a a, for each one of the pair.
+Pair trace_of_square(const MatrixOf<Pair>& a) {
+  return a[0][0] * a[0][0] + a[1][1] * a[1][1] + a[2][2] * a[2][2] +
+         2.0 * (a[0][1] * a[1][0] + a[0][2] * a[2][0] + a[1][2] * a[2][1]);
+}
+
+Pair swapped(const Pair& pair) { return Pair{pair[1], pair[0]}; }
+
+/// Of the product of both matrices of the pair.
+double trace_of_product(const MatrixOf<Pair>& a) {
+  const Pair diagonal = a[0][0] * swapped(a[0][0]) + a[1][1] * swapped(a[1][1]) + a[2][2] * swapped(a[2][2]);
+  const Pair rest = a[0][1] * swapped(a[1][0]) + a[0][2] * swapped(a[2][0]) + a[1][2] * swapped(a[2][1]);
+  return diagonal[0] + rest[0] + rest[1];
 }
 
 }  // namespace
 
 void NoiseDerivatives::predict(const Prediction& step) {
-  for (std::size_t i = 0; i < kFollowed; ++i) {
-    covariance_[i] = sheared(covariance_[i], -step.dy_m, step.dx_m);
-    state_[i][0] -= step.dy_m * state_[i][2];
-    state_[i][1] += step.dx_m * state_[i][2];
-  }
-  covariance_[0] += step.slip_covariance;
+  covariance_ = sheared(covariance_, -step.dy_m, step.dx_m);
+  state_[0] -= step.dy_m * state_[2];
+  state_[1] += step.dx_m * state_[2];
+  const Symmetric3& slip = step.slip_covariance;
+  covariance_ += {by_K(slip.xx), by_K(slip.xy), by_K(slip.xt), by_K(slip.yy), by_K(slip.yt), by_K(slip.tt)};
 }
 
 void NoiseDerivatives::update(const Update& step, Motion) {
@@ -59,55 +69,55 @@ void NoiseDerivatives::update(const Update& step, Motion) {
 void NoiseDerivatives::correct(const Update& step) {
   const Matrix3 left = left_over(step);
   const Vector3 weighted = product(step.weight, step.innovation), back = carried_back(weighted, step);
-  for (std::size_t i = 0; i < kFollowed; ++i) {
-    covariance_[i] *= step.loss.slip;
-    const Vector3 by_gain = product(covariance_[i], back);
-    for (std::size_t k = 0; k < 3; ++k) state_[i][k] += by_gain[k];
-    state_[i] = product(left, state_[i]);
-    covariance_[i] = symmetric_product(product(left, covariance_[i]), left);
-  }
+  covariance_ *= step.loss.slip;
+  const VectorOf<Pair> by_gain = product(covariance_, back);
+  for (std::size_t i = 0; i < 3; ++i) state_[i] += by_gain[i];
+  state_ = product(left, state_);
+  covariance_ = symmetric_product(product(left, covariance_), left);
   // Of the tracker, only the position's variance is among the noises that are followed.
   const double xy = step.loss.tracker * step.tracker_covariance.xx;
   const Matrix3& k = step.gain;
   const auto both = [&](std::size_t i, std::size_t j) {
-    return xy * (k[i][0] * k[j][0] + k[i][1] * k[j][1]);
+    return by_xy(xy * (k[i][0] * k[j][0] + k[i][1] * k[j][1]));
   };
-  for (std::size_t i = 0; i < 3; ++i) state_[1][i] -= xy * (k[i][0] * weighted[0] + k[i][1] * weighted[1]);
-  covariance_[1] += Symmetric3{both(0, 0), both(0, 1), both(0, 2), both(1, 1), both(1, 2), both(2, 2)};
+  for (std::size_t i = 0; i < 3; ++i)
+    state_[i] -= by_xy(xy * (k[i][0] * weighted[0] + k[i][1] * weighted[1]));
+  covariance_ += {both(0, 0), both(0, 1), both(0, 2), both(1, 1), both(1, 2), both(2, 2)};
 }
 
 /// With S the innovation's covariance and A_i = S^-1 dS/d(noise i), the gradient has the traces of A_i and the expected curvature
 /// those of A_i A_k.
 void NoiseDerivatives::add(const Update& step) {
   const Symmetric3& weight = step.expected_weight;
-  const Vector3 v0 = seen(state_[0], step), v1 = seen(state_[1], step);
-  const Symmetric3 s0 = step.seen(covariance_[0]);
-  Symmetric3 s1 = step.seen(covariance_[1]);
-  s1.xx += step.tracker_covariance.xx;
-  s1.yy += step.tracker_covariance.xx;
-  const Matrix3 a0 = product(weight.full(), s0), a1 = product(weight.full(), s1);
+  const VectorOf<Pair> v = seen(state_, step);
+  SymmetricOf<Pair> s = step.seen(covariance_);
+  s.xx += by_xy(step.tracker_covariance.xx);
+  s.yy += by_xy(step.tracker_covariance.xx);
+  const MatrixOf<Pair> a = product(weight.full(), s);
   const Vector3 weighted = product(weight, step.innovation);
-  const Vector3 weighted_v0 = product(weight, v0), weighted_v1 = product(weight, v1);
+  const VectorOf<Pair> weighted_v = product(weight, v);
   const double trust = step.is_outlier ? huber_limit(step) / step.expected_chi_square : 1;
   const double bounded = robust_ == RobustMode::none ? 1 : bounded_variance(step);
 
-  const double trace0 = bounded * trace(a0), trace1 = bounded * trace(a1),
-               traces = bounded * step.components();
-  traces_.add(trace0, trace1, traces);
-  gradient_.add(trace0 + trust * (2 * dot(weighted, v0) - dot(weighted, product(s0, weighted))),
-                trace1 + trust * (2 * dot(weighted, v1) - dot(weighted, product(s1, weighted))),
-                traces - trust * step.expected_chi_square);
-  K_K_ += bounded * trace_of_product(a0, a0) + 2 * trust * dot(weighted_v0, v0);
-  K_xy_ += bounded * trace_of_product(a0, a1) + 2 * trust * dot(weighted_v0, v1);
-  xy_xy_ += bounded * trace_of_product(a1, a1) + 2 * trust * dot(weighted_v1, v1);
+  const Pair traces = bounded * trace(a);
+  traces_ += traces;
+  gradient_ += traces + trust * (2.0 * dot(weighted, v) - dot(weighted, product(s, weighted)));
+  const double all = bounded * step.components();
+  all_traces_ += all;
+  all_gradients_ += all - trust * step.expected_chi_square;
+  squares_ += bounded * trace_of_square(a) + 2.0 * trust * dot(weighted_v, v);
+  const Pair crossed =
+      weighted_v[0] * swapped(v[0]) + weighted_v[1] * swapped(v[1]) + weighted_v[2] * swapped(v[2]);
+  K_xy_ += bounded * trace_of_product(a) + 2 * trust * crossed[0];
 }
 
 NoiseSlope NoiseDerivatives::slope() const {
-  const double K_theta = traces_.K - K_K_ - K_xy_, xy_theta = traces_.xy - K_xy_ - xy_xy_;
+  const double K_K = squares_[0], xy_xy = squares_[1];
+  const double K_theta = traces_[0] - K_K - K_xy_, xy_theta = traces_[1] - K_xy_ - xy_xy;
+  const double theta_theta = all_traces_ - traces_[0] - traces_[1] - K_theta - xy_theta;
   NoiseSlope out;
-  out.gradient = gradient_.all();
-  out.curvature << K_K_, K_xy_, K_theta, K_xy_, xy_xy_, xy_theta, K_theta, xy_theta,
-      traces_.all()[2] - K_theta - xy_theta;
+  out.gradient << gradient_[0], gradient_[1], all_gradients_ - gradient_[0] - gradient_[1];
+  out.curvature << K_K, K_xy_, K_theta, K_xy_, xy_xy, xy_theta, K_theta, xy_theta, theta_theta;
   return out;
 }
 

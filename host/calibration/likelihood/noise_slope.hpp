@@ -1,8 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
-#include <cstddef>
 
 #include "host/calibration/likelihood/kalman_filter.hpp"
 
@@ -31,23 +29,18 @@ class NoiseDerivatives final : public Accumulator {
   NoiseSlope slope() const;
 
  private:
-  static constexpr std::size_t kFollowed = 2;  // K, sigma_xy^2
-  /// One number for each of these noises, and what they and that of sigma_theta^2 add up to.
-  struct PerNoise {
-    double K = 0, xy = 0, sum = 0;
-
-    void add(double by_K, double by_xy, double of_all) { K += by_K, xy += by_xy, sum += of_all; }
-    Eigen::Vector3d all() const { return {K, xy, sum - K - xy}; }
-  };
-
   void add(const Update& step);
   void correct(const Update& step);
 
   const RobustMode robust_;
-  std::array<Vector3, kFollowed> state_{};
-  std::array<Symmetric3, kFollowed> covariance_{};
-  PerNoise gradient_, traces_;             // traces: each row of the curvature adds up to its own
-  double K_K_ = 0, K_xy_ = 0, xy_xy_ = 0;  // of the curvature
+  // Pairs: by K and by sigma_xy^2.
+  VectorOf<Pair> state_{};
+  SymmetricOf<Pair> covariance_;
+  Pair gradient_{}, traces_{};
+  double all_gradients_ = 0,
+         all_traces_ = 0;  // by all three noises together; each row of the curvature adds up to its trace
+  Pair squares_{};         // of the curvature: K with K, sigma_xy^2 with sigma_xy^2
+  double K_xy_ = 0;
 };
 
 }  // namespace astro::calibration
