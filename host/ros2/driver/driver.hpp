@@ -37,7 +37,7 @@ struct DriverOptions {
 /// A robot as ROS 2 knows it (host/ros2/README.md), on any number of middlewares at once. It bears that there is no robot, that
 /// the link is lost and comes back, and that the robot restarts; it says so in /diagnostics and publishes no odometry meanwhile.
 ///
-/// Threads  one: that which calls step(). Nothing in it waits longer than about half a second.
+/// Threads  one: that which calls step(). A robot that falls silent keeps it for half a second, and for two within a commit of parameters.
 class Driver {
  public:
   /// The middlewares must outlive the driver, and be polled by nobody else.
