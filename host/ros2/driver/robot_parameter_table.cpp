@@ -135,7 +135,8 @@ std::optional<msg::ParameterValue> RobotParameterTable::value(std::string_view n
     return value_of(session->parameters().row(name));
   } catch (const robot::LinkLost& error) {
     lost_(error);
-  } catch (const robot::RobotRefused&) {  // firmware that has no such parameter any more
+  } catch (
+      const Error&) {  // other firmware at the same port: it refuses, or answers what cannot be understood
   }
   return std::nullopt;
 }
