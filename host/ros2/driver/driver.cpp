@@ -42,7 +42,8 @@ Driver::Driver(std::vector<Middleware*> middlewares, OpenPort open, DriverOption
       link_(std::move(open), options_.clock, period_ms(options_.rate_hz)),
       driving_(options_.cmd_vel_timeout),
       odometry_(options_.errors),
-      parameters_([this] { return link_.session(); }, fixed_parameters(options_, names_),
+      parameters_([this] { return link_.session(); }, [this] { return driving_.armed(); },
+                  fixed_parameters(options_, names_),
                   [this](RobotSession& session) {
                     odometry_.note_parameters(session);
                     describe_robot(session);
