@@ -47,11 +47,11 @@ ros2::foxglove::Address foxglove_address_in(const std::string& word) {
 }
 
 void add_foxglove_options(console::Command command, FoxgloveOptions& options) {
-  const console::Option wanted = command.add_flag("--foxglove", options.wanted,
-                                                  "serve viewers that speak the Foxglove WebSocket protocol");
+  const console::Option wanted = command.add_flag(
+      "--foxglove", options.wanted, "serve viewers that speak the Foxglove\nWebSocket protocol");
   command
       .add_option("--listen", options.listen,
-                  "where viewers connect; without an address from this computer\nalone")
+                  "where viewers connect; without an address\nfrom this computer alone")
       .type_name("[ADDRESS:]PORT")
       .capture_default_str()
       .check(check_address)
@@ -59,14 +59,14 @@ void add_foxglove_options(console::Command command, FoxgloveOptions& options) {
   command
       .add_option(
           "--allow-origin", options.origins,
-          "web pages that may connect, beside Foxglove's own and those\nof this computer; may be repeated")
+          "web pages that may connect, beside Foxglove's\nown and those of this computer; may be repeated")
       .type_name("SCHEME://HOST[:PORT]")
       .one_each_time()
       .needs(wanted);
   command
-      .add_flag(
-          "--allow-commands", options.allow_commands,
-          "viewers may arm and drive the robot and set its parameters;\notherwise they look, and can stop it")
+      .add_flag("--allow-commands", options.allow_commands,
+                "viewers may arm and drive the robot and set\nits parameters; otherwise they look, and "
+                "can\nstop it")
       .needs(wanted);
 }
 

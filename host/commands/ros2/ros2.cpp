@@ -75,13 +75,14 @@ void add_ros2(console::Command app) {
   command.add_option("--node-name", options->node, "name of the node")
       .type_name("NAME")
       .capture_default_str();
-  command.add_option("--domain", options->domain, "domain of DDS (default: ROS_DOMAIN_ID, otherwise 0)")
+  command.add_option("--domain", options->domain, "domain of DDS (default: ROS_DOMAIN_ID,\notherwise 0)")
       .type_name("N")
       .check(console::whole(0, ros2::dds::kMostDomains));
   command
-      .add_option("--range", options->range,
-                  "which computers see the node (default: as\nROS_AUTOMATIC_DISCOVERY_RANGE or "
-                  "ROS_LOCALHOST_ONLY\nsay, otherwise localhost)")
+      .add_option(
+          "--range", options->range,
+          "which computers see the node (default: as\nROS_AUTOMATIC_DISCOVERY_RANGE or\nROS_LOCALHOST_ONLY "
+          "say, otherwise localhost)")
       .one_of({"off", "localhost", "subnet"});
   command
       .add_option("--distro", options->distribution,

@@ -53,7 +53,8 @@ void add_serve(console::Command app) {
   add_robot_driver_options(command, options->driver);
   command
       .add_option("--truth", options->truth.source,
-                  "ground truth beside odometry, as /truth: sim,\nvrpn://HOST/BODY or natnet://HOST/BODY")
+                  "ground truth beside odometry, as /truth: sim,\nvrpn://HOST/BODY, natnet://HOST/BODY "
+                  "or\nros2:/TOPIC")
       .type_name("SOURCE")
       .check(truth_source({"sim", "none"}));
   console::examples(command,

@@ -28,21 +28,21 @@ ParameterRow describe_row(const ParameterInfo& info) {
 
 }  // namespace
 
-RemoteParameters RemoteParameters::fetch(Client& client) {
-  RemoteParameters parameters(client);
+RemoteParameters RemoteParameters::fetch(Client& client, int tries) {
+  RemoteParameters parameters(client, tries);
   if (client.robot().parameter_count > kMostParameters)
     throw Error("the robot at " + client.name() + " says that it has " +
                 std::to_string(client.robot().parameter_count) + " parameters, more than " +
                 std::to_string(kMostParameters) + ": its firmware is damaged or not Astrolabe's");
   for (std::uint16_t index = 0; index < client.robot().parameter_count; ++index) {
-    parameters.rows_.push_back(describe_row(client.request(GetParameterInfo{index})));
+    parameters.rows_.push_back(describe_row(parameters.ask(GetParameterInfo{index})));
     parameters.read_value(parameters.rows_.back());
   }
   return parameters;
 }
 
 void RemoteParameters::read_value(ParameterRow& row) {
-  const ParameterValue held = client_->request(GetParameter{row.id});
+  const ParameterValue held = ask(GetParameter{row.id});
   row.active = {held.active, std::string(held.active_text.view())};
   row.staged = {held.staged, std::string(held.staged_text.view())};
 }
@@ -87,7 +87,7 @@ void RemoteParameters::stage(std::string_view name, const Value& value) {
   const RawValue raw = to_raw(row, value);
   if (!opened_) revert();
   try {
-    client_->request(StageParameter{row.id, raw.raw, Text<24>(raw.text)});
+    ask(StageParameter{row.id, raw.raw, Text<24>(raw.text)});
   } catch (const RobotRefused& refused) {
     if (refused.code() == ErrorCode::staging_lost) throw;
     throw RobotRefused(row.name + " = " + describe(row, to_value(row, raw)), refused.code(),
@@ -103,7 +103,7 @@ template <class Request>
 void RemoteParameters::put_in_force(const Request& request) {
   if (!opened_) revert();
   try {
-    client_->request(request);
+    ask(request);
   } catch (const RobotRefused& refused) {
     const auto bad =
         std::find_if(rows_.begin(), rows_.end(), [&](const auto& r) { return r.id == refused.detail(); });
@@ -122,13 +122,13 @@ void RemoteParameters::save() {
 }
 
 void RemoteParameters::revert() {
-  client_->request(RevertParameters{});
+  ask(RevertParameters{});
   opened_ = true;
   for (ParameterRow& row : rows_) row.staged = row.active;
 }
 
 void RemoteParameters::defaults() {
-  client_->request(DefaultParameters{});
+  ask(DefaultParameters{});
   opened_ = true;
   refresh();
 }

@@ -20,8 +20,8 @@ class RemoteParameters {
   static constexpr std::uint16_t kMostParameters = 512;
 
   /// Two requests per parameter. The Client must outlive the result. Throws Error if the robot claims more
-  /// than kMostParameters.
-  static RemoteParameters fetch(Client& client);
+  /// than kMostParameters. `tries`: how often each request is sent, now and later, before the link counts as lost.
+  static RemoteParameters fetch(Client& client, int tries = RetryPolicy().tries);
 
   const std::vector<ParameterRow>& rows() const { return rows_; }
   const ParameterRow* find(std::string_view name) const;
@@ -61,13 +61,18 @@ class RemoteParameters {
   void refresh();
 
  private:
-  explicit RemoteParameters(Client& client) : client_(&client) {}
+  RemoteParameters(Client& client, int tries) : client_(&client), tries_(tries) {}
+  template <protocol::Request M>
+  typename M::Reply ask(const M& message) const {
+    return client_->request(message, {retry_policy_for<M>().timeout, tries_});
+  }
   void read_value(ParameterRow& row);
   template <class Request>
   void put_in_force(const Request& request);
   ParameterRow& mutable_row(std::string_view name);
 
   Client* client_;
+  int tries_;
   std::vector<ParameterRow> rows_;
   bool opened_ = false;
 };

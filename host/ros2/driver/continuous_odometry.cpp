@@ -52,9 +52,9 @@ void ContinuousOdometry::set_pose(RobotSession& session, double x_m, double y_m,
 void ContinuousOdometry::put(RobotSession& session, const protocol::SetPose& pose, double theta_rad,
                              const Symmetric3& covariance) {
   session.ask(pose);
+  track_.restart(theta_rad, covariance);  // whatever becomes of the link from here on
   // A sample may be under way that is older than the answer.
   ignore_until_us_ = session.device_now_us();
-  track_.restart(theta_rad, covariance);
 }
 
 bool ContinuousOdometry::take(RobotSession& session, const protocol::Telemetry& telemetry) {

@@ -42,7 +42,8 @@ Driver::Driver(std::vector<Middleware*> middlewares, OpenPort open, DriverOption
       link_(std::move(open), options_.clock, period_ms(options_.rate_hz)),
       driving_(options_.cmd_vel_timeout),
       odometry_(options_.errors),
-      parameters_([this] { return link_.session(); }, fixed_parameters(options_, names_),
+      parameters_([this] { return link_.session(); }, [this] { return driving_.armed(); },
+                  fixed_parameters(options_, names_),
                   [this](RobotSession& session) {
                     odometry_.note_parameters(session);
                     describe_robot(session);
@@ -197,7 +198,9 @@ void Driver::report() {
   const DriverState state = this->state();
   note_link(state.why_no_robot.empty() ? "connected to the robot at " + state.port : state.why_no_robot);
   msg::DiagnosticArray now = diagnostics(state, options_.fault_help);
-  if (look_ns - reported_ns_ < kSecond_ns && !says_more(now, reported_)) return;
+  // A sentence may hold a figure that changes all the time, as the age of a stamp.
+  const std::int64_t since_ns = look_ns - reported_ns_;
+  if (since_ns < kSecond_ns / 5 || (since_ns < kSecond_ns && !says_more(now, reported_))) return;
   reported_ns_ = look_ns;
   publications_.diagnostics.publish(now, msg::nanoseconds(now.header.stamp));
   reported_ = std::move(now);

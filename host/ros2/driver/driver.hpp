@@ -34,10 +34,11 @@ struct DriverOptions {
   HostClock clock = HostClock::of_system();
 };
 
-/// A robot as ROS 2 knows it (host/ros2/README.md), on any number of middlewares at once. It bears that there is no robot, that
-/// the link is lost and comes back, and that the robot restarts; it says so in /diagnostics and publishes no odometry meanwhile.
+/// A robot as ROS 2 knows it (host/ros2/README.md), on any number of middlewares at once. It goes on while there is no
+/// robot, while the link is lost, and after the robot has restarted; it says so in /diagnostics and publishes no odometry meanwhile.
 ///
-/// Threads  one: that which calls step(). Nothing in it waits longer than about half a second.
+/// Threads  one: that which calls step(). A robot that falls silent keeps it for half a second, and for two within a commit of
+///          parameters.
 class Driver {
  public:
   /// The middlewares must outlive the driver, and be polled by nobody else.

@@ -34,7 +34,7 @@ void Requests::serve_all() {
 void Requests::serve(std::string_view name, Work work) {
   using Trigger = msg::Trigger;
   const ServiceDescription service{names_.absolute(name), Trigger::kType, message_type<Trigger::Request>(),
-                                   message_type<Trigger::Response>()};
+                                   message_type<Trigger::Response>(), name == "emergency_stop"};
   const auto answer = [this, work = std::move(work)](ByteView request) -> std::optional<Bytes> {
     if (!decode<Trigger::Request>(request)) return std::nullopt;
     return encode(attempt(work));

@@ -12,7 +12,8 @@ using robot::ParameterRow;
 
 namespace {
 
-/// Other programs may change the robot's parameters, too, so values are read again after this.
+/// Other programs may change the robot's parameters, too, so values are read again after this; not while the robot is armed,
+/// because on a slow line the whole table takes as long as the robot's own time-out.
 constexpr microseconds kFresh = std::chrono::seconds(1);
 
 ParameterType type_of(const ParameterRow& row) {
@@ -117,7 +118,7 @@ std::vector<msg::ParameterDescriptor> RobotParameterTable::descriptors() {
 
 void RobotParameterTable::refresh(RobotSession& session) {
   const microseconds now = session.client().now();
-  if (of_ == &session && now - read_at_ < kFresh) return;
+  if (of_ == &session && (busy_() || now - read_at_ < kFresh)) return;
   const auto before = session.numbers();
   session.parameters().refresh();
   session.note_parameters();
@@ -135,7 +136,8 @@ std::optional<msg::ParameterValue> RobotParameterTable::value(std::string_view n
     return value_of(session->parameters().row(name));
   } catch (const robot::LinkLost& error) {
     lost_(error);
-  } catch (const robot::RobotRefused&) {  // firmware that has no such parameter any more
+  } catch (
+      const Error&) {  // other firmware at the same port: it refuses, or answers what cannot be understood
   }
   return std::nullopt;
 }

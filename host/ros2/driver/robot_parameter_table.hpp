@@ -22,11 +22,14 @@ class RobotParameterTable : public ParameterTable {
  public:
   /// The session now, or null.
   using Session = std::function<RobotSession*()>;
+  /// Whether the robot is in use, so that its link has no time for a table of values that nobody can change meanwhile.
+  using Busy = std::function<bool()>;
 
   /// `changed` is called after values were put in force; `lost` if the link is lost meanwhile.
-  RobotParameterTable(Session session, std::vector<FixedParameter> fixed,
+  RobotParameterTable(Session session, Busy busy, std::vector<FixedParameter> fixed,
                       std::function<void(RobotSession&)> changed, std::function<void(const Error&)> lost)
       : session_(std::move(session)),
+        busy_(std::move(busy)),
         fixed_(std::move(fixed)),
         changed_(std::move(changed)),
         lost_(std::move(lost)) {}
@@ -41,6 +44,7 @@ class RobotParameterTable : public ParameterTable {
   const FixedParameter* fixed(std::string_view name) const;
 
   Session session_;
+  Busy busy_;
   std::vector<FixedParameter> fixed_;
   std::function<void(RobotSession&)> changed_;
   std::function<void(const Error&)> lost_;

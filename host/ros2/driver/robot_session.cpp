@@ -29,7 +29,7 @@ RobotSession::RobotSession(std::unique_ptr<robot::Transport> transport,
     if (samples_.size() == kMostSamples) samples_.pop_front();
     samples_.push_back(sample);
   });
-  parameters_.emplace(robot::RemoteParameters::fetch(*client_));
+  parameters_.emplace(robot::RemoteParameters::fetch(*client_, kPatience.tries));
   note_parameters();
   ask_for_telemetry();
   telemetry_at_ = client_->now();

@@ -12,7 +12,8 @@
 namespace astro::ros2 {
 
 /// One connection to a robot, from the handshake until it is lost: its parameters and the stream of its telemetry. Requests
-/// are given up after half a second, so that whoever waits for the driver waits no longer.
+/// are given up after half a second, and a commit of parameters, for which the robot may have to erase flash, after two, so that
+/// whoever waits for the driver waits no longer.
 class RobotSession {
  public:
   /// Shakes hands, reads the parameter table and asks for telemetry. Throws astro::Error with the reason if no robot answers,

@@ -72,6 +72,7 @@ void FoxgloveServer::serve(const ServiceDescription& description, OnRequest on_r
     return;
   on_request_.push_back(std::move(on_request));
   Service service{static_cast<std::uint32_t>(on_request_.size()), description};
+  if (description.urgent) urgent_.insert(service.id);
   server_->post([service = std::move(service)](Hub& hub) { hub.add(service); });
 }
 
@@ -82,10 +83,14 @@ void FoxgloveServer::serve_parameters(ParameterTable& table) {
 
 void FoxgloveServer::poll() {
   server_->start();
-  // What comes meanwhile waits for the next call, so that this one ends.
-  std::vector<Request> requests;
-  while (auto request = requests_.pop()) requests.push_back(std::move(*request));
-  for (const Request& request : requests) std::visit([this](const auto& each) { take(each); }, request);
+  const auto is_urgent = [this](const Request& request) {
+    const auto* call = std::get_if<CallArrived>(&request);
+    return call != nullptr && urgent_.contains(call->service);
+  };
+  // As many as wait now, so that this call ends; an urgent one that comes meanwhile goes first all the same.
+  for (std::size_t left = requests_.size(); left > 0; --left)
+    if (const auto request = requests_.pop(is_urgent))
+      std::visit([this](const auto& each) { take(each); }, *request);
   if (table_ != nullptr && steady_clock::now() >= compare_at_) {
     tell_changes();
     compare_at_ = steady_clock::now() + kComparePeriod;

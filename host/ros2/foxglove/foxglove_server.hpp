@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -61,6 +62,7 @@ class FoxgloveServer : public Middleware {
   RequestQueue requests_;
   std::vector<OnMessage> on_message_;  // by inlet, from 1
   std::vector<OnRequest> on_request_;  // by service, from 1
+  std::set<std::uint32_t> urgent_;     // services
   std::uint32_t channels_ = 0;
   ParameterTable* table_ = nullptr;
   std::map<std::string, msg::ParameterValue> told_;  // the values that viewers were told last

@@ -32,4 +32,11 @@ bool origin_is_allowed(std::string_view origin, std::span<const std::string> all
          is_this_computer(origin) || std::find(allowed.begin(), allowed.end(), origin) != allowed.end();
 }
 
+bool origin_can_be_proposed(std::string_view origin) {
+  constexpr std::size_t kLongest = 100;
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.:/_[]-";
+  return origin.size() <= kLongest && origin.find("://") != std::string_view::npos &&
+         origin.find_first_not_of(kPlain) == std::string_view::npos;
+}
+
 }  // namespace astro::ros2::foxglove

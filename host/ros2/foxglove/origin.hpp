@@ -15,4 +15,9 @@ namespace astro::ros2::foxglove {
 /// Refused   all others, also "null", which pages from files and from sandboxes share.
 bool origin_is_allowed(std::string_view origin, std::span<const std::string> allowed);
 
+/// Whether a page's origin may be shown to a person as something to allow: it is written as a browser writes it, in letters,
+/// digits and .:/_[]- alone, so that a stranger cannot have anything else pasted into a shell. "null" may not: all pages in
+/// sandboxes have it.
+bool origin_can_be_proposed(std::string_view origin);
+
 }  // namespace astro::ros2::foxglove

@@ -31,12 +31,19 @@ bool RequestQueue::make_room(const Request& request) {
   return true;
 }
 
-std::optional<Request> RequestQueue::pop() {
+std::optional<Request> RequestQueue::pop(const std::function<bool(const Request&)>& goes_first) {
   const std::lock_guard lock(mutex_);
   if (requests_.empty()) return std::nullopt;
-  Request next = std::move(requests_.front());
-  requests_.pop_front();
+  auto taken = std::find_if(requests_.begin(), requests_.end(), goes_first);
+  if (taken == requests_.end()) taken = requests_.begin();
+  Request next = std::move(*taken);
+  requests_.erase(taken);
   return next;
+}
+
+std::size_t RequestQueue::size() const {
+  const std::lock_guard lock(mutex_);
+  return requests_.size();
 }
 
 void RequestQueue::wait(std::chrono::microseconds timeout) {

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <functional>
 #include <mutex>
 #include <optional>
 
@@ -19,14 +20,16 @@ class RequestQueue {
   static constexpr std::size_t kMostMessages = 10, kMostNotices = 32;
 
   void push(Request request);
-  std::optional<Request> pop();
+  /// The oldest one for which `goes_first` is true, otherwise the oldest.
+  std::optional<Request> pop(const std::function<bool(const Request&)>& goes_first);
+  std::size_t size() const;
   /// Returns when something waits, or at the latest after `timeout`.
   void wait(std::chrono::microseconds timeout);
 
  private:
   bool make_room(const Request& request);
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable came_;
   std::deque<Request> requests_;
 };

@@ -124,6 +124,9 @@ void Session::take(const ServiceCall& message) {
     return refuse(fmt::format("there is no service {}", message.service));
   if (message.encoding != kEncoding)
     return refuse(fmt::format("requests come as '{}', not as '{}'", kEncoding, message.encoding));
+  if (message.data.size() > kLongestQuestion)
+    return refuse(
+        fmt::format("a request has at most {} bytes, this one {}", kLongestQuestion, message.data.size()));
   if (!admit_question()) return refuse("the robot has not answered earlier questions yet");
   sink_(CallArrived{id_, message.service, message.call, Bytes(message.data.begin(), message.data.end())});
 }

@@ -24,6 +24,7 @@ class Session {
  public:
   static constexpr std::size_t kMostAdvertised = 256;
   static constexpr int kMostQuestions = 64;
+  static constexpr std::size_t kLongestQuestion = 16 * 1024;  // in bytes; so 1 MiB waits for a client at most
 
   /// `catalogue` must outlive it. What the client asks of the robot goes to `sink`.
   Session(ClientId id, const Catalogue& catalogue, RequestSink sink);

@@ -42,6 +42,7 @@ struct ServiceDescription {
   std::string name;       // absolute: "/arm"
   std::string_view type;  // "std_srvs/srv/Trigger"
   MessageType request, response;
+  bool urgent = false;  // answered before all others that wait, whatever came first
 };
 
 class Publisher {

@@ -71,11 +71,21 @@ class Node : public Middleware {
     info_.publish_changes();
     for (Subscription& subscription : subscriptions_)
       for (const dds::Sample& sample : subscription.reader->take()) subscription.on_message(sample.payload);
-    for (Service& service : services_) service.poll(Service::Clock::now());
+    for (Service& service : services_) {
+      service.collect();
+      do {
+        poll_urgent();
+      } while (service.answer_next(Service::Clock::now()));
+      service.send_replies(Service::Clock::now());
+    }
   }
   void wait(std::chrono::microseconds timeout) override { participant_->wait(timeout); }
 
  private:
+  void poll_urgent() {
+    for (Service& service : services_)
+      if (service.urgent()) service.poll(Service::Clock::now());
+  }
   std::string next_service_id() {
     return fmt::format("{:02x}.{}", fmt::join(participant_->guid().bytes, "."), services_.size());
   }

@@ -83,6 +83,11 @@ msg::ListParameters::Response ParameterAnswers::to(const msg::ListParameters::Re
 
 msg::SetParameters::Response ParameterAnswers::to(const msg::SetParameters::Request& request) {
   msg::SetParameters::Response response;
+  // A robot writes its flash once for each set, so all of them are tried as one; if that is refused, they do not belong together.
+  if (request.parameters.size() > 1 && set(request.parameters).successful) {
+    response.results.assign(request.parameters.size(), {true, ""});
+    return response;
+  }
   for (const msg::Parameter& each : request.parameters) response.results.push_back(set({&each, 1}));
   return response;
 }

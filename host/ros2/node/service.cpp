@@ -23,12 +23,26 @@ Service::Service(dds::Participant& participant, const ServiceDescription& servic
     : participant_(participant),
       on_request_(std::move(on_request)),
       writer_(participant.create_writer(topic_of(wire_name_of_replies(service.name), service.response, id))),
-      reader_(participant.create_reader(topic_of(wire_name_of_requests(service.name), service.request, id))) {
-}
+      reader_(participant.create_reader(topic_of(wire_name_of_requests(service.name), service.request, id))),
+      urgent_(service.urgent) {}
 
 void Service::poll(Clock::time_point now) {
-  for (const dds::Sample& sample : reader_->take()) answer(sample, now);
-  send_held(now);
+  collect();
+  while (answer_next(now)) {
+  }
+  send_replies(now);
+}
+
+void Service::collect() {
+  for (dds::Sample& sample : reader_->take()) waiting_.push_back(std::move(sample));
+}
+
+bool Service::answer_next(Clock::time_point now) {
+  if (waiting_.empty()) return false;
+  const dds::Sample sample = std::move(waiting_.front());
+  waiting_.pop_front();
+  answer(sample, now);
+  return true;
 }
 
 void Service::answer(const dds::Sample& sample, Clock::time_point now) {
@@ -40,7 +54,7 @@ void Service::answer(const dds::Sample& sample, Clock::time_point now) {
   held_.push_back({std::move(call->caller), std::move(*response), now + kHeldFor});
 }
 
-void Service::send_held(Clock::time_point now) {
+void Service::send_replies(Clock::time_point now) {
   if (held_.empty()) return;
   const std::vector<dds::Guid> readers = writer_->readers();
   std::erase_if(held_, [&](const Reply& reply) {

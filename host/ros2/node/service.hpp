@@ -31,6 +31,14 @@ class Service {
   /// Answers what has come, and sends the replies that can be sent.
   void poll(Clock::time_point now);
 
+  /// The same step by step, so that something else can be done between two requests, each of which may take long.
+  void collect();
+  /// False if none of what was collected waits any more.
+  bool answer_next(Clock::time_point now);
+  void send_replies(Clock::time_point now);
+
+  bool urgent() const { return urgent_; }
+
   dds::Guid reader() const { return reader_->guid(); }
   dds::Guid writer() const { return writer_->guid(); }
 
@@ -42,7 +50,6 @@ class Service {
   };
 
   void answer(const dds::Sample& sample, Clock::time_point now);
-  void send_held(Clock::time_point now);
   bool is_found(const Reply& reply, const std::vector<dds::Guid>& readers) const;
   void send(const Reply& reply);
 
@@ -50,7 +57,9 @@ class Service {
   Middleware::OnRequest on_request_;
   std::unique_ptr<dds::Writer> writer_;  // before the reader: who finds the reader will be answered
   std::unique_ptr<dds::Reader> reader_;
+  std::deque<dds::Sample> waiting_;  // collected
   std::deque<Reply> held_;
+  bool urgent_;
 };
 
 }  // namespace astro::ros2

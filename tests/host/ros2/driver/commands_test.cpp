@@ -119,6 +119,18 @@ TEST_F(Commands, ADamagedMessageMovesNothing) {
   EXPECT_THAT(bench.diagnosed("commands", "last ignored because"), HasSubstr("damaged"));
 }
 
+TEST_F(Commands, AReasonThatChangesAllTheTimeIsToldFiveTimesASecondAtMost) {
+  bench.run_ms(500);
+  bench.ros.take<msg::DiagnosticArray>("/diagnostics");
+  for (int i = 0; i < 50; ++i) {
+    say_stamped(0.3, bench.utc_ns() - 1'000'000'000 - i * 20'000'000);  // later than the last, by ever more
+    bench.run_ms(20);
+  }
+  const std::size_t told = bench.ros.take<msg::DiagnosticArray>("/diagnostics").size();
+  EXPECT_GE(told, 2U);
+  EXPECT_LE(told, 6U);
+}
+
 TEST_F(Commands, BeyondTheLimitsTheRobotKeepsTheCurvatureAndDiagnosticsSayIt) {
   arm();
   bench.drive_ms(4000, 3, 3);  // limits: 0.75 m/s, 2 rad/s

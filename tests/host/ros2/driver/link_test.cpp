@@ -197,23 +197,24 @@ TEST_F(Link, EndsWithoutARobotAndWithoutAnError) {
 }
 
 TEST_F(Link, SeveralMiddlewaresGetTheSameAndMayAllCommand) {
-  test::FakeMiddleware second;
+  test::FakeMiddleware first, second;  // those of the rig still hold what its own driver had them call
   DriverOptions options;
   options.clock = {[this] { return bench.now(); }, [this] { return bench.utc_ns(); }};
   bench.driver.reset();
-  bench.ros.published.clear();
   Driver driver(
-      {&bench.ros, &second}, [this] { return bench.cable.open(); }, options);
+      {&first, &second}, [this] { return bench.cable.open(); }, options);
   const auto run_ms = [&](int ms) {
     const microseconds until = bench.now() + std::chrono::milliseconds(ms);
     while (bench.now() < until) driver.step();
   };
   run_ms(500);
-  const auto first_got = bench.ros.take<msg::Odometry>("/odom");
+  const auto first_got = first.take<msg::Odometry>("/odom");
   EXPECT_FALSE(first_got.empty());
   EXPECT_EQ(first_got, second.take<msg::Odometry>("/odom"));
   EXPECT_TRUE(second.call<msg::Trigger>("/arm").success);
-  bench.say_velocity(0.2, 0);
+  msg::Twist twist;
+  twist.linear.x = 0.2;
+  first.say("/cmd_vel", twist);
   run_ms(100);
   EXPECT_EQ(bench.mode(), Mode::velocity);
 }

@@ -114,6 +114,18 @@ TEST_F(Parameters, ThatAnotherProgramChangesAreSeenAfterASecond) {
   EXPECT_NEAR(real("c_R"), 1.003, 1e-9);
 }
 
+TEST_F(Parameters, AreNotReadAgainWhileTheRobotIsArmed) {
+  real("c_R");
+  bench.call("/arm");
+  bench.run_ms(1500);
+  const microseconds before = bench.now();
+  real("c_R");
+  EXPECT_EQ(bench.now(), before) << "a request to the robot takes time";
+  bench.call("/disarm");
+  real("c_R");
+  EXPECT_GT(bench.now(), before);
+}
+
 TEST_F(Parameters, NewSizesAreInTheNextDescription) {
   bench.ros.take<msg::String>("/robot_description");
   EXPECT_TRUE(set({{"b", to_parameter(0.4)}}).successful);

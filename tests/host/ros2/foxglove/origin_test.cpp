@@ -31,5 +31,15 @@ TEST(Origin, ThoseThatSomebodyAllowsMay) {
   EXPECT_FALSE(origin_is_allowed("https://viewer.example", allowed));
 }
 
+TEST(Origin, NothingThatAShellWouldObeyIsProposed) {
+  for (const char* origin : {"https://viewer.example:8443", "http://[fe80::1]:80", "file://"})
+    EXPECT_TRUE(origin_can_be_proposed(origin)) << origin;
+  for (const std::string& origin :
+       {std::string("https://x'; touch /tmp/pwned; '"), std::string("https://x y"),
+        std::string("https://$(x)"), std::string("https://x\ty"), std::string("null"), std::string(),
+        "https://" + std::string(100, 'a')})
+    EXPECT_FALSE(origin_can_be_proposed(origin)) << origin;
+}
+
 }  // namespace
 }  // namespace astro::ros2::foxglove

@@ -71,6 +71,25 @@ TEST_F(NodeOnAFakeWire, MessagesComeInPollUnderTheTypeOfTheirReader) {
   EXPECT_THAT(came, ElementsAre("TwistStamped"));
 }
 
+TEST_F(NodeOnAFakeWire, AnUrgentServiceIsAnsweredBetweenOthersThatWaitLonger) {
+  std::string order;
+  const auto serve = [&](const char* name, bool urgent, const std::function<void()>& work) {
+    node_->serve({name, msg::Trigger::kType, message_type<msg::Trigger::Request>(),
+                  message_type<msg::Trigger::Response>(), urgent},
+                 [work](ByteView) { return work(), std::optional<Bytes>(); });
+  };
+  const dds::Sample request{encode(msg::Trigger::Request{}), {}, {}};
+  // It comes while the first of three other requests is being answered.
+  serve("/arm", false, [&] {
+    if (order.empty()) wire_.reader_of("rq/emergency_stopRequest").waiting.push_back(request);
+    order += 'a';
+  });
+  serve("/emergency_stop", true, [&] { order += 'E'; });
+  wire_.reader_of("rq/armRequest").waiting.assign(3, request);
+  node_->poll();
+  EXPECT_EQ(order, "aEaa");
+}
+
 TEST_F(NodeOnAFakeWire, AnnouncesTheEndpointsOfTopicsAndServicesAsLongAsTheyAreThere) {
   auto publisher = node_->advertise({"/odom", message_type<msg::Twist>()});
   node_->subscribe({"/cmd_vel", message_type<msg::Twist>()}, [](ByteView) {});

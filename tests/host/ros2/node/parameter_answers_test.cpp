@@ -58,7 +58,7 @@ TEST_F(Answers, NamesByPrefixAndDepth) {
   EXPECT_THAT(list({""}, 0).names, IsEmpty());
 }
 
-TEST_F(Answers, EachParameterIsSetAlone) {
+TEST_F(Answers, OneThatIsRefusedDoesNotKeepOthersFromBeingSet) {
   const auto results =
       answers_.to(msg::SetParameters::Request{{{"b", real(0.3)}, {"c", real(1)}, {"limits.speed", real(5)}}})
           .results;
@@ -68,6 +68,15 @@ TEST_F(Answers, EachParameterIsSetAlone) {
   EXPECT_THAT(results[1].reason, testing::HasSubstr("'c'"));
   EXPECT_TRUE(results[2].successful);
   EXPECT_EQ(table_.value("limits.speed"), real(5));
+}
+
+TEST_F(Answers, ThoseThatGoTogetherAreSetAtOnceBecauseARobotWritesItsFlashForEachSet) {
+  const auto results =
+      answers_.to(msg::SetParameters::Request{{{"b", real(0.5)}, {"limits.speed", real(2)}}}).results;
+  EXPECT_THAT(results, testing::Each(msg::SetParametersResult{true, ""}));
+  EXPECT_THAT(results, SizeIs(2));
+  EXPECT_EQ(table_.sets, 1);
+  EXPECT_THAT(changes_, ElementsAre(SizeIs(2)));
 }
 
 TEST_F(Answers, AtomicallyAllOrNoneAreSet) {

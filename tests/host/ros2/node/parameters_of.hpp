@@ -35,6 +35,7 @@ class NumbersTable : public ParameterTable {
     return real(found->second);
   }
   msg::SetParametersResult set(std::span<const msg::Parameter> parameters) override {
+    ++sets;
     for (const msg::Parameter& each : parameters)
       if (!values_.contains(each.name) || !(each.value.double_value <= 1e6))
         return {false, "the parameter '" + each.name + "' is refused"};
@@ -42,6 +43,8 @@ class NumbersTable : public ParameterTable {
       values_[each.name] = static_cast<float>(each.value.double_value);
     return {true, ""};
   }
+
+  int sets = 0;  // how often one was tried
 
  private:
   std::map<std::string, double, std::less<>> values_;
