@@ -59,17 +59,18 @@ void NoiseDerivatives::predict(const Prediction& step) {
 }
 
 void NoiseDerivatives::update(const Update& step, Motion) {
-  add(step);
-  correct(step);
+  const Vector3 weighted = product(step.expected_weight, step.innovation);
+  add(step, weighted);
+  correct(step, step.is_outlier ? product(step.weight, step.innovation) : weighted);
 }
 
 /// The derivative P of the state's covariance by one noise, and T of the tracker's, become (I - K H) P (I - K H)' + K T K' with the
 /// gain K, because at the best gain the covariance does not change with it. The gain changes by ((I - K H) P H' - K T) S^-1,
 /// where S is the innovation's covariance. The factors of Huber's loss are held.
-void NoiseDerivatives::correct(const Update& step) {
+void NoiseDerivatives::correct(const Update& step, const Vector3& weighted) {
   const Matrix3 left = left_over(step);
-  const Vector3 weighted = product(step.weight, step.innovation), back = carried_back(weighted, step);
-  covariance_ *= step.loss.slip;
+  const Vector3 back = carried_back(weighted, step);
+  if (step.is_outlier) covariance_ *= step.loss.slip;
   const VectorOf<Pair> by_gain = product(covariance_, back);
   for (std::size_t i = 0; i < 3; ++i) state_[i] += by_gain[i];
   state_ = product(left, state_);
@@ -87,14 +88,13 @@ void NoiseDerivatives::correct(const Update& step) {
 
 /// With S the innovation's covariance and A_i = S^-1 dS/d(noise i), the gradient has the traces of A_i and the expected curvature
 /// those of A_i A_k.
-void NoiseDerivatives::add(const Update& step) {
+void NoiseDerivatives::add(const Update& step, const Vector3& weighted) {
   const Symmetric3& weight = step.expected_weight;
   const VectorOf<Pair> v = seen(state_, step);
   SymmetricOf<Pair> s = step.seen(covariance_);
   s.xx += by_xy(step.tracker_covariance.xx);
   s.yy += by_xy(step.tracker_covariance.xx);
   const MatrixOf<Pair> a = product(weight.full(), s);
-  const Vector3 weighted = product(weight, step.innovation);
   const VectorOf<Pair> weighted_v = product(weight, v);
   const double trust = step.is_outlier ? huber_limit(step) / step.expected_chi_square : 1;
   const double bounded = robust_ == RobustMode::none ? 1 : bounded_variance(step);

@@ -29,8 +29,9 @@ class NoiseDerivatives final : public Accumulator {
   NoiseSlope slope() const;
 
  private:
-  void add(const Update& step);
-  void correct(const Update& step);
+  // `weighted`: the innovation times the weight that it has before Huber's loss in add(), and after it in correct().
+  void add(const Update& step, const Vector3& weighted);
+  void correct(const Update& step, const Vector3& weighted);
 
   const RobustMode robust_;
   // Pairs: by K and by sigma_xy^2.

@@ -41,11 +41,21 @@ double quantile(std::vector<double> values, double fraction) {
   return values[std::min(index, values.size() - 1)];
 }
 
+/// What `predicted` says, without the steps: to copy them costs more than to follow them.
+RelativePose sensor_pose(const RelativePose& piece, const RelativePoseFit& fit) {
+  const Displacement robot = displacement(piece, {-fit.r_left / fit.b_m, fit.r_right / fit.b_m});
+  const double c = std::cos(robot.theta_rad), s = std::sin(robot.theta_rad);
+  const double dx = fit.b_m * robot.x_m + (c - 1) * fit.sensor.x_m - s * fit.sensor.y_m;
+  const double dy = fit.b_m * robot.y_m + s * fit.sensor.x_m + (c - 1) * fit.sensor.y_m;
+  const double cy = std::cos(fit.sensor.yaw_rad), sy = std::sin(fit.sensor.yaw_rad);
+  return {{}, cy * dx + sy * dy, cy * dy - sy * dx, robot.theta_rad};
+}
+
 std::vector<RelativePose> without_worst(std::vector<RelativePose> pieces, const RelativePoseFit& fit,
                                         double fraction) {
   std::vector<double> position, heading;
   for (const RelativePose& piece : pieces) {
-    const RelativePose expected = predicted(piece, fit);
+    const RelativePose expected = sensor_pose(piece, fit);
     position.push_back(std::hypot(expected.x_m - piece.x_m, expected.y_m - piece.y_m));
     heading.push_back(std::abs(std::remainder(expected.theta_rad - piece.theta_rad, 2 * std::numbers::pi)));
   }
@@ -120,12 +130,9 @@ std::optional<RelativePoseFit> fit_relative_poses_trimmed(std::span<const Relati
 }
 
 RelativePose predicted(const RelativePose& piece, const RelativePoseFit& fit) {
-  const Displacement robot = displacement(piece, {-fit.r_left / fit.b_m, fit.r_right / fit.b_m});
-  const double c = std::cos(robot.theta_rad), s = std::sin(robot.theta_rad);
-  const double dx = fit.b_m * robot.x_m + (c - 1) * fit.sensor.x_m - s * fit.sensor.y_m;
-  const double dy = fit.b_m * robot.y_m + s * fit.sensor.x_m + (c - 1) * fit.sensor.y_m;
-  const double cy = std::cos(fit.sensor.yaw_rad), sy = std::sin(fit.sensor.yaw_rad);
-  return {piece.steps, cy * dx + sy * dy, cy * dy - sy * dx, robot.theta_rad};
+  RelativePose pose = sensor_pose(piece, fit);
+  pose.steps = piece.steps;
+  return pose;
 }
 
 }  // namespace astro::calibration
