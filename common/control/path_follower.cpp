@@ -27,8 +27,7 @@ constexpr std::int32_t kClose_urad = 1'000;
 
 // The high word is in 2^-28 m.
 constexpr std::int32_t um_from_60(std::int64_t metres_60) {
-  return static_cast<std::int32_t>(mul_add(1 << 27, static_cast<std::int32_t>(metres_60 >> 32), 1'000'000) >>
-                                   28);
+  return mul_rounded<28>(static_cast<std::int32_t>(metres_60 >> 32), 1'000'000);
 }
 
 }  // namespace

@@ -50,6 +50,26 @@ constexpr std::int64_t mul_add(std::int64_t sum, std::int32_t a, std::int32_t b)
   return sum + std::int64_t{a} * b;
 }
 
+/// The low 32 bits of round(a * b / 2^Bits), ties upward. The right shift leaves the rounding bit in the carry, so that it
+/// takes three instructions; adding half a unit first takes a pair of registers to hold it, and six.
+template <int Bits>
+constexpr std::int32_t mul_rounded(std::int32_t a, std::int32_t b) {
+  static_assert(Bits > 0 && Bits < 32);
+#if ASTRO_ON_CORTEX_M7
+  if (!std::is_constant_evaluated()) {
+    std::int32_t low = 0, high = 0;
+    asm("smull %[low], %[high], %[a], %[b]\n\t"
+        "lsrs %[low], %[low], %[down]\n\t"
+        "adc %[low], %[low], %[high], lsl %[up]"
+        : [low] "=&r"(low), [high] "=&r"(high)
+        : [a] "r"(a), [b] "r"(b), [down] "I"(Bits), [up] "I"(32 - Bits)
+        : "cc");
+    return low;
+  }
+#endif
+  return static_cast<std::int32_t>((std::int64_t{a} * b + (std::int64_t{1} << (Bits - 1))) >> Bits);
+}
+
 /// value * 2^bits, and 0 from 32 bits on, where the language leaves a shift undefined.
 constexpr std::uint32_t shift_left(std::uint32_t value, int bits) {
 #if ASTRO_ON_CORTEX_M7

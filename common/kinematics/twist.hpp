@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "common/fixed/multiply.hpp"
 #include "common/fixed/saturate.hpp"
 #include "common/kinematics/geometry.hpp"
 
@@ -33,8 +34,7 @@ inline std::int32_t half_base_30(const Geometry& geometry, const BodyTwist& twis
 /// more than 1.6 m and e is not 0: omega is below 1,700 rad/s, since half the wheelbase may then be up to 1.2 m.
 constexpr WheelSpeeds to_wheels(std::int32_t half_base_30, const BodyTwist& twist) {
   // With e = 0, b is at most 2 m, so that half of it times omega is no more than omega.
-  const auto half =
-      static_cast<std::int32_t>(mul_add(std::int64_t{1} << 29, half_base_30, twist.omega_uradps) >> 30);
+  const std::int32_t half = mul_rounded<30>(half_base_30, twist.omega_uradps);
   return {subtract_saturated(twist.v_umps, half), add_saturated(twist.v_umps, half)};
 }
 inline WheelSpeeds to_wheels(const Geometry& geometry, const BodyTwist& twist) {

@@ -40,6 +40,32 @@ TEST(MulHigh, RoundsTiesUpwardAlsoBelowZero) {
   EXPECT_EQ(mul_high(-(std::int32_t{1} << 30), 2), 0);
 }
 
+template <int Bits>
+void expect_rounded(std::int32_t a, std::int32_t b) {
+  const Int128 expected = (Int128{a} * b + (Int128{1} << (Bits - 1))) >> Bits;
+  if (expected < kLeast32 || expected > kMost32) return;  // the low 32 bits are not the number
+  ASSERT_EQ(mul_rounded<Bits>(a, b), static_cast<std::int32_t>(expected))
+      << a << " * " << b << " / 2^" << Bits;
+}
+
+TEST(MulRounded, IsTheProductRoundedWithTiesUpward) {
+  EXPECT_EQ(mul_rounded<30>(1 << 29, 1), 1);
+  EXPECT_EQ(mul_rounded<30>(1 << 29, -1), 0);
+  EXPECT_EQ(mul_rounded<30>((1 << 29) + 1, -1), -1);
+  EXPECT_EQ(mul_rounded<1>(3, 3), 5);
+  EXPECT_EQ(mul_rounded<31>(kLeast32, kLeast32 + 1), kMost32);
+  EXPECT_EQ(mul_rounded<30>(1 << 30, kLeast32), kLeast32);
+  tests::Seeded random(33);
+  for (int i = 0; i < 100'000; ++i) {
+    const auto a = static_cast<std::int32_t>(random.any_size(31)),
+               b = static_cast<std::int32_t>(random.any_size(31));
+    expect_rounded<1>(a, b);
+    expect_rounded<28>(a, b);
+    expect_rounded<30>(a, b);
+    expect_rounded<31>(a, b);
+  }
+}
+
 TEST(ShiftLeft, ByAllBitsLeavesNothing) {
   EXPECT_EQ(shift_left(5, 0), 5U);
   EXPECT_EQ(shift_left(5, 31), 0x8000'0000U);

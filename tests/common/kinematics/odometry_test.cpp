@@ -213,6 +213,29 @@ TEST(Odometry, ChangingTheGeometryOnTheWayMovesNothingAndThenCounts) {
   EXPECT_PRED_FORMAT3(tests::near, tests::heading_rad(odometry.pose()), exact.pose().theta_rad, 1e-13L);
 }
 
+TEST(Odometry, ChangingTheCurvatureEffectOnTheWayMovesNothingAndThenCounts) {
+  ParameterSet set = tests::calibrated_astro();
+  const Geometry without = make_geometry(set);
+  set.set(Param::e, 32'212'255);  // 0.03
+  const Geometry with = make_geometry(set);
+  tests::Seeded random(13);
+  Odometry odometry(without);
+  Int128 expected = 0;
+  for (int change = 0; change < 100; ++change) {
+    const Geometry& geometry = change % 2 == 0 ? with : without;
+    const Pose before = odometry.pose();
+    odometry.set_geometry(geometry);
+    ASSERT_EQ(odometry.pose(), before);
+    expected = continuous(before);
+    for (const Counts& step : random_steps(random, 100)) {
+      odometry.advance(step.left, step.right, {400'000, 500'000});
+      expected += Int128{geometry.right.turn} * step.right - Int128{geometry.left.turn} * step.left;
+    }
+    // Nothing of e is left where it is 0 again, to the last bit.
+    ASSERT_EQ(continuous(odometry.pose()) == expected, !geometry.effective_base.varies()) << change;
+  }
+}
+
 TEST(Odometry, WithoutACurvatureEffectDoesNotReadTheSpeeds) {
   tests::Seeded random(11);
   Odometry with_speeds(astro_geometry()), without(astro_geometry());

@@ -67,7 +67,10 @@ class TickCost : public testing::Test {
   robot::Client client_{std::make_unique<emulator::PortTransport>(robot_, emulator::Port::serial)};
 };
 
-TEST_F(TickCost, OfControlOdometryAndSafetyIsWithin350InstructionsAroundASquare) { expect_within(350); }
+// 350 are promised. Before there was a curvature effect it took 342, and whoever has none does not pay for it.
+TEST_F(TickCost, OfControlOdometryAndSafetyIsWithinThe342InstructionsItTookBeforeTheCurvatureEffect) {
+  expect_within(342);
+}
 
 // Two divisions more, each with what brings its numbers to their best scale.
 TEST_F(TickCost, WithACurvatureEffectIsWithin400Instructions) {
