@@ -34,6 +34,9 @@ class Socket {
   int descriptor_ = -1;
 };
 
+/// Whether it is an address in digits, of either family: "192.168.1.7", "::1".
+bool is_address(const std::string& text);
+
 /// An address on the network, of either family.
 struct Address {
   sockaddr_storage storage{};

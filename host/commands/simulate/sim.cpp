@@ -1,14 +1,14 @@
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <memory>
 
+#include "host/base/environment.hpp"
 #include "host/commands/serving/served_robot_options.hpp"
 #include "host/commands/simulate/commands.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
 #include "host/console/wrong_usage.hpp"
-#include "host/ros2/types/topic_name.hpp"
+#include "host/ros2/types/names.hpp"
 #include "host/simulation/ros2/ros_pose_publisher.hpp"
 
 namespace astro::commands {
@@ -18,11 +18,6 @@ struct Options : SimOptions {
   std::string ros_topic;  // "": not in ROS 2
 };
 
-std::string variable(const char* name) {
-  const char* const value = std::getenv(name);
-  return value == nullptr ? "" : value;
-}
-
 void publish_in_ros2(Options& options) {
   if (options.server.fast)
     throw console::WrongUsage(
@@ -30,7 +25,7 @@ void publish_in_ros2(Options& options) {
         "--ros2-topic");
   ros2::dds::DiscoveryWishes wishes;
   if (options.server.tracker.everywhere) wishes.range = ros2::dds::Range::subnet;
-  const ros2::dds::Discovery discovery = ros2::dds::discovery_from(wishes, variable);
+  const ros2::dds::Discovery discovery = ros2::dds::discovery_from(wishes, environment_variable);
   options.server.tracker.also = std::make_shared<simulation::RosPosePublisher>(options.ros_topic, discovery);
   console::say(fmt::format("its pose is at ros2:{}?domain={}", options.ros_topic, discovery.domain));
 }
@@ -55,8 +50,8 @@ void add_sim(console::Command app) {
                   "the same in ROS 2, as geometry_msgs/PoseStamped on this topic")
       .type_name("TOPIC")
       .check([](const std::string& topic) {
-        return ros2::is_topic_name(topic) ? ""
-                                          : "'" + topic + "' is not the full name of a topic, as /ASTRO/pose";
+        return ros2::is_full_name(topic) ? ""
+                                         : "'" + topic + "' is not the full name of a topic, as /ASTRO/pose";
       });
   console::examples(
       command,

@@ -5,7 +5,7 @@
 
 #include "host/ros2/dds/participant.hpp"
 #include "host/ros2/messages/graph.hpp"
-#include "host/ros2/node/names.hpp"
+#include "host/ros2/types/names.hpp"
 
 /// The topic ros_discovery_info, on which each participant says which nodes it has and which endpoints belong to them. From it
 /// come `ros2 node list` and `ros2 node info`.

@@ -6,7 +6,7 @@
 #include "host/ros2/dds/participant.hpp"
 #include "host/ros2/middleware/middleware.hpp"
 #include "host/ros2/node/discovery_info.hpp"
-#include "host/ros2/node/names.hpp"
+#include "host/ros2/types/names.hpp"
 
 namespace astro::ros2 {
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/ros2/node/names.hpp"
+#include "host/ros2/types/names.hpp"
 
 namespace astro::ros2 {
 namespace {

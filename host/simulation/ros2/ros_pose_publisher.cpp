@@ -5,7 +5,7 @@
 #include "host/ros2/dds/fast_dds.hpp"
 #include "host/ros2/messages/geometry.hpp"
 #include "host/ros2/messages/graph.hpp"
-#include "host/ros2/types/topic_name.hpp"
+#include "host/ros2/types/names.hpp"
 #include "host/ros2/types/type_description.hpp"
 
 namespace astro::simulation {
@@ -24,9 +24,9 @@ RosPosePublisher::RosPosePublisher(const std::string& topic, const dds::Discover
   const BlockedSignals blocked;
   participant_ = dds::open_fast_dds(discovery, "virtual_tracker", "enclave=/;");
   nodes_ = participant_->create_writer({"ros_discovery_info", ros2::dds_type_name(Info::kType), kLatched});
-  poses_ =
-      participant_->create_writer({ros2::dds_topic_name(topic), ros2::dds_type_name(msg::PoseStamped::kType),
-                                   kReliable, "typehash=" + ros2::hash_of<msg::PoseStamped>() + ";"});
+  poses_ = participant_->create_writer({ros2::wire_name_of_topic(topic),
+                                        ros2::dds_type_name(msg::PoseStamped::kType), kReliable,
+                                        "typehash=" + ros2::hash_of<msg::PoseStamped>() + ";"});
   nodes_->write(ros2::encode(
       Info{{participant_->guid().bytes}, {{{"/"}, {"virtual_tracker"}, {}, {{poses_->guid().bytes}}}}}));
 }

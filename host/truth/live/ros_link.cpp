@@ -3,16 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <set>
 #include <utility>
 
 #include "host/base/blocked_signals.hpp"
+#include "host/base/environment.hpp"
 #include "host/base/error.hpp"
 #include "host/ros2/dds/fast_dds.hpp"
 #include "host/ros2/recorded/estimates.hpp"
 #include "host/ros2/recorded/stamped_pose.hpp"
-#include "host/ros2/types/topic_name.hpp"
+#include "host/ros2/types/names.hpp"
 #include "host/ros2/types/type_description.hpp"
 
 namespace astro::truth {
@@ -32,11 +32,6 @@ constexpr dds::Qos kBestEffort{false, false, 100}, kLatched{true, true, 100}, kN
 const char* kNodesTopic = "ros_discovery_info";
 const char* kNodesType = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_";
 
-std::string variable(const char* name) {
-  const char* const value = std::getenv(name);
-  return value == nullptr ? "" : value;
-}
-
 /// The message type of an endpoint, if it can hold poses.
 std::optional<std::string> pose_type_of(const dds::RemoteEndpoint& endpoint) {
   auto type = ros2::ros_type_name(endpoint.type);
@@ -54,7 +49,8 @@ std::string range_in_words(const dds::Discovery& discovery) {
 
 }  // namespace
 
-RosLink::RosLink(const TrackerUrl& url) : RosLink(url, dds::discovery_from(url.where, variable)) {}
+RosLink::RosLink(const TrackerUrl& url)
+    : RosLink(url, dds::discovery_from(url.where, environment_variable)) {}
 
 RosLink::RosLink(const TrackerUrl& url, const dds::Discovery& discovery)
     : topic_(url.topic), discovery_(discovery), stream_({url.topic, url.parent, url.body}) {
@@ -77,7 +73,7 @@ void RosLink::look_around() {
   others_ = participant_->remote_endpoints();
   std::set<std::string> types;
   for (const dds::RemoteEndpoint& other : others_)
-    if (other.writes && other.topic == ros2::dds_topic_name(topic_))
+    if (other.writes && other.topic == ros2::wire_name_of_topic(topic_))
       if (const auto type = pose_type_of(other)) types.insert(*type);
   if (!types.empty() && !types.contains(type_)) open_reader(*types.begin());
 }
@@ -86,11 +82,11 @@ void RosLink::open_reader(const std::string& type) {
   const BlockedSignals blocked;
   type_ = type;
   const std::string type_on_wire = ros2::dds_type_name(type);
-  reader_ = participant_->create_reader({ros2::dds_topic_name(topic_), type_on_wire, kBestEffort});
+  reader_ = participant_->create_reader({ros2::wire_name_of_topic(topic_), type_on_wire, kBestEffort});
   fixed_reader_.reset();
   if (type == ros2::tf_message_type().name)
     fixed_reader_ =
-        participant_->create_reader({ros2::dds_topic_name(topic_ + "_static"), type_on_wire, kLatched});
+        participant_->create_reader({ros2::wire_name_of_topic(topic_ + "_static"), type_on_wire, kLatched});
 }
 
 void RosLink::read(microseconds now) {
@@ -141,7 +137,7 @@ std::vector<std::string> RosLink::pose_topics() const {
 std::string RosLink::why_silent() const {
   if (publisher_) return "";
   const auto published = std::ranges::find_if(others_, [&](const dds::RemoteEndpoint& other) {
-    return other.writes && other.topic == ros2::dds_topic_name(topic_);
+    return other.writes && other.topic == ros2::wire_name_of_topic(topic_);
   });
   if (published == others_.end()) {
     const std::vector<std::string> topics = pose_topics();
@@ -157,7 +153,7 @@ std::string RosLink::why_silent() const {
 
 Remedy RosLink::remedy() const {
   const bool nobody = std::ranges::none_of(others_, [&](const dds::RemoteEndpoint& other) {
-    return other.writes && other.topic == ros2::dds_topic_name(topic_);
+    return other.writes && other.topic == ros2::wire_name_of_topic(topic_);
   });
   const bool here_alone = discovery_.range != dds::Range::subnet && discovery_.peers.empty();
   return nobody && here_alone ? Remedy{Help::look_on_other_computers} : Remedy{};

@@ -5,7 +5,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/text/numbers.hpp"
-#include "host/ros2/types/topic_name.hpp"
+#include "host/ros2/types/names.hpp"
 
 namespace astro::truth {
 namespace {
@@ -46,7 +46,7 @@ class Parser {
     if (left_.starts_with("//"))
       fail("a topic of ROS 2 is on no host, so it has one slash in front, as ros2:/mocap/robot/pose");
     url.topic = take_until(left_, "?");
-    if (!ros2::is_topic_name(url.topic))
+    if (!ros2::is_full_name(url.topic))
       fail("'" + url.topic + "' is not the full name of a topic, as /mocap/robot/pose");
     std::set<std::string_view> given;
     while (!left_.empty()) {

@@ -1,4 +1,4 @@
-#include "host/ros2/node/names.hpp"
+#include "host/ros2/types/names.hpp"
 
 #include <gmock/gmock.h>
 
@@ -33,6 +33,13 @@ TEST(Names, ThatRos2WouldRefuseAreRefused) {
   for (const char* name : {"", "~", "a//b", "a/", "2d"}) EXPECT_THROW(resolved(name, kRobot), Error) << name;
   EXPECT_THROW(wire_name_of_topic('/' + std::string(kLongestTopicName, 'a')), Error);
   EXPECT_NO_THROW(wire_name_of_topic('/' + std::string(kLongestTopicName - 1, 'a')));
+}
+
+TEST(Names, FullOnesAreToldFromOthers) {
+  for (const char* name : {"/tf", "/vrpn_mocap/robot_1/pose", "/_a/B9"})
+    EXPECT_TRUE(is_full_name(name)) << name;
+  for (const char* name : {"", "/", "tf", "/tf/", "//tf", "/a//b", "/1a", "/a b", "~/pose", "/\xC3\xA9"})
+    EXPECT_FALSE(is_full_name(name)) << name;
 }
 
 TEST(Names, OfNodesAndNamespacesAreJudgedAlike) {

@@ -1,4 +1,4 @@
-#include "host/ros2/node/names.hpp"
+#include "host/ros2/types/names.hpp"
 
 #include <fmt/format.h>
 
@@ -30,6 +30,10 @@ bool is_absolute(std::string_view text) {
   return true;
 }
 
+constexpr const char* kWordRule =
+    "has to be letters, digits and underscores, and must not begin with a digit";
+constexpr const char* kPathRule = "it has to begin with a /, and what is between two of them ";
+
 [[noreturn]] void refuse(std::string_view what, std::string_view text, const std::string& rule) {
   throw Error(fmt::format("the {} is '{}': {}", what, text, rule));
 }
@@ -39,26 +43,22 @@ void require_length(std::string_view what, std::string_view text, std::size_t lo
     refuse(what, text, fmt::format("it must not have more than {} characters", longest));
 }
 
-constexpr const char* kWordRule =
-    "has to be letters, digits and underscores, and must not begin with a digit";
-
 std::string on_wire(std::string_view prefix, std::string_view name, std::string_view suffix) {
   require_length("name", name, kLongestTopicName);
-  if (!is_absolute(name))
-    refuse("name", name,
-           fmt::format("it has to begin with a /, and what is between two of them {}", kWordRule));
+  if (!is_absolute(name)) refuse("name", name, std::string(kPathRule) + kWordRule);
   return fmt::format("{}{}{}", prefix, name, suffix);
 }
 
 }  // namespace
+
+bool is_full_name(std::string_view name) { return name.size() <= kLongestTopicName && is_absolute(name); }
 
 NodeName valid(NodeName node) {
   require_length("name of the node", node.name, kLongestNodeName);
   if (!is_word(node.name)) refuse("name of the node", node.name, fmt::format("it {}", kWordRule));
   require_length("namespace", node.name_space, kLongestNamespace);
   if (node.name_space != "/" && !is_absolute(node.name_space))
-    refuse("namespace", node.name_space,
-           fmt::format("it has to begin with a /, and what is between two of them {}", kWordRule));
+    refuse("namespace", node.name_space, std::string(kPathRule) + kWordRule);
   return node;
 }
 

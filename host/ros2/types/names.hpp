@@ -17,6 +17,9 @@ struct NodeName {
   std::string name_space = "/";  // "/" or absolute: "/hall/left"
 };
 
+/// Whether it is the full name of a topic or a service: "/mocap/robot/pose".
+bool is_full_name(std::string_view name);
+
 /// Returns the same node if both names are valid.
 NodeName valid(NodeName node);
 
