@@ -1,146 +1,25 @@
 #include "host/ros2/dds/fast_dds.hpp"
 
-#include <fastdds/rtps/participant/ParticipantDiscoveryInfo.h>
-#include <fastdds/rtps/reader/ReaderDiscoveryInfo.h>
-#include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
-#include <fastrtps/utils/IPLocator.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
-#include <fastdds/dds/domain/DomainParticipantListener.hpp>
 #include <fastdds/dds/log/Log.hpp>
 #include <fastdds/dds/log/StdoutErrConsumer.hpp>
 
 #include <algorithm>
 #include <list>
 #include <map>
-#include <mutex>
-#include <set>
 #include <utility>
 
 #include "host/base/error.hpp"
 #include "host/ros2/dds/fast_endpoints.hpp"
-#include "host/ros2/dds/fast_transport.hpp"
+#include "host/ros2/dds/fast_others.hpp"
+#include "host/ros2/dds/fast_settings.hpp"
 
 namespace astro::ros2::dds {
 namespace {
 
 constexpr std::ptrdiff_t kGuidPrefixBytes = 12;        // the same for all endpoints of a participant
 constexpr const char* kUserDataAtFirst = "starting;";  // never sent
-constexpr std::size_t kLongestUserData = 1024;         // of an endpoint; those of ROS 2 take some 200 bytes
-// With the default of 3 s every other start finds its peers only after 2 s.
-constexpr double kAnnouncementPeriod_s = 0.2;
-// At first more often: others answer the first one that they get.
-constexpr std::uint32_t kFirstAnnouncements = 10;
-constexpr double kFirstAnnouncementPeriod_s = 0.05;
-constexpr std::uint32_t kMulticastPort = 7400, kPortsPerDomain = 250;
-constexpr const char* kMulticastAddress = "239.255.0.1";  // these three are DDSI-RTPS's defaults
-constexpr const char* kLoopback = "127.0.0.1";
-
-/// The endpoints of others, and what they show of themselves.
-class Others : public fast::DomainParticipantListener {
- public:
-  std::string user_data_of(const Guid& endpoint) const {
-    const std::lock_guard lock(mutex_);
-    const auto found = known_.find(endpoint);
-    return found == known_.end() ? "" : found->second.user_data;
-  }
-  std::vector<RemoteEndpoint> endpoints() const {
-    const std::lock_guard lock(mutex_);
-    std::vector<RemoteEndpoint> all;
-    for (const auto& [guid, known] : known_) all.push_back(known.endpoint);
-    return all;
-  }
-
- private:
-  struct Known {
-    RemoteEndpoint endpoint;
-    std::string user_data;
-  };
-
-  void on_publisher_discovery(fast::DomainParticipant*, rtps::WriterDiscoveryInfo&& found) override {
-    note(found.info, true, found.status == found.REMOVED_WRITER);
-  }
-  void on_subscriber_discovery(fast::DomainParticipant*, rtps::ReaderDiscoveryInfo&& found) override {
-    note(found.info, false, found.status == found.REMOVED_READER);
-  }
-  template <class FastInfo>
-  void note(const FastInfo& info, bool writes, bool removed) {
-    const Guid guid = to_guid(info.guid());
-    const auto& data = info.m_qos.m_userData.getValue();
-    const std::lock_guard lock(mutex_);
-    if (removed)
-      known_.erase(guid);
-    else
-      known_[guid] = {{guid, writes, info.topicName().to_string(), info.typeName().to_string()},
-                      data.size() <= kLongestUserData ? std::string(data.begin(), data.end()) : ""};
-  }
-
-  mutable std::mutex mutex_;
-  std::map<Guid, Known> known_;
-};
-
-rtps::Locator_t locator_of(const std::string& address, std::uint32_t port) {
-  rtps::Locator_t locator;  // UDP over IPv4
-  rtps::IPLocator::setIPv4(locator, address);
-  locator.port = port;
-  return locator;
-}
-
-std::vector<rtps::Locator_t> locators_of_peers(const std::vector<std::string>& peers) {
-  std::vector<rtps::Locator_t> locators;
-  for (const std::string& peer : peers) {
-    const std::set<std::string> addresses = rtps::IPLocator::isIPv4(peer)
-                                                ? std::set<std::string>{peer}
-                                                : rtps::IPLocator::resolveNameDNS(peer).first;
-    if (addresses.empty()) throw Error("ROS_STATIC_PEERS names '" + peer + "', which has no IPv4 address");
-    for (const std::string& address : addresses) locators.push_back(locator_of(address, 0));
-  }
-  return locators;
-}
-
-/// Where we can be reached without multicast, which a list that is not empty replaces. Loopback besides all interfaces, of which
-/// it is none: a peer that keeps to it does not send to the addresses of others.
-void listen_without_multicast(fast::WireProtocolConfigQos& wire) {
-  for (const rtps::Locator_t& locator : {rtps::Locator_t(), locator_of(kLoopback, 0)}) {
-    wire.builtin.metatrafficUnicastLocatorList.push_back(locator);
-    wire.default_unicast_locator_list.push_back(locator);
-  }
-}
-
-/// Where others are looked for. Multicast has to be named if anything is.
-rtps::LocatorList_t places_of(const Discovery& discovery) {
-  rtps::LocatorList_t places;
-  if (discovery.range == Range::localhost) places.push_back(locator_of(kLoopback, 0));
-  for (const rtps::Locator_t& peer : locators_of_peers(discovery.peers)) places.push_back(peer);
-  if (discovery.range == Range::subnet && !discovery.peers.empty())
-    places.push_back(locator_of(
-        kMulticastAddress, kMulticastPort + kPortsPerDomain * static_cast<std::uint32_t>(discovery.domain)));
-  return places;
-}
-
-void set_times(rtps::DiscoverySettings& settings) {
-  settings.leaseDuration_announcementperiod = eprosima::fastrtps::Duration_t(kAnnouncementPeriod_s);
-  settings.initial_announcements = {kFirstAnnouncements,
-                                    eprosima::fastrtps::Duration_t(kFirstAnnouncementPeriod_s)};
-}
-
-fast::DomainParticipantQos qos_of(const Discovery& discovery, const std::string& name,
-                                  std::shared_ptr<const Gate> gate) {
-  fast::DomainParticipantQos qos;
-  qos.name(name.c_str());
-  qos.user_data().data_vec(octets(kUserDataAtFirst));
-  const bool here_alone = discovery.range != Range::subnet && discovery.peers.empty();
-  // The transports that are built in have shared memory, which would leave files behind when a program dies.
-  qos.transport().use_builtin_transports = false;
-  qos.transport().user_transports.push_back(gated_udp(here_alone, std::move(gate)));
-  rtps::BuiltinAttributes& builtin = qos.wire_protocol().builtin;
-  set_times(builtin.discovery_config);
-  if (discovery.range == Range::off)
-    builtin.discovery_config.discoveryProtocol = rtps::DiscoveryProtocol_t::NONE;
-  if (discovery.range != Range::subnet) listen_without_multicast(qos.wire_protocol());
-  builtin.initialPeersList = places_of(discovery);
-  return qos;
-}
 
 /// Of Fast DDS, with one type for each topic.
 class OneParticipant {
@@ -148,14 +27,15 @@ class OneParticipant {
   OneParticipant(const Discovery& discovery, const std::string& name, const std::string& user_data,
                  Others& others) {
     const auto gate = std::make_shared<Gate>();
+    fast::DomainParticipantQos qos = participant_settings(discovery, name, gate);
+    qos.user_data().data_vec(octets(kUserDataAtFirst));
     participant_ = fast::DomainParticipantFactory::get_instance()->create_participant(
-        static_cast<std::uint32_t>(discovery.domain), qos_of(discovery, name, gate), &others,
-        fast::StatusMask::none());
+        static_cast<std::uint32_t>(discovery.domain), qos, &others, fast::StatusMask::none());
     if (participant_ == nullptr)
       throw Error("DDS makes no participant in domain " + std::to_string(discovery.domain));
     gate->open();
     // A change is announced at once: those that we hear of have to know us before we tell them of endpoints.
-    fast::DomainParticipantQos qos = participant_->get_qos();
+    qos = participant_->get_qos();
     qos.user_data().data_vec(octets(user_data));
     participant_->set_qos(qos);
     publisher_ = participant_->create_publisher(fast::PUBLISHER_QOS_DEFAULT);
