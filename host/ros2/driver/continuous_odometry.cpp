@@ -44,7 +44,13 @@ void ContinuousOdometry::note_parameters(RobotSession& session) {
 void ContinuousOdometry::set_pose(RobotSession& session, double x_m, double y_m, double theta_rad,
                                   const Symmetric3& covariance) {
   if (!std::isfinite(theta_rad)) throw Error("a heading must be a number");
-  put(session, {position(x_m), position(y_m), angle(theta_rad)}, theta_rad, covariance);
+  unanswered_.reset();
+  try {
+    put(session, {position(x_m), position(y_m), angle(theta_rad)}, theta_rad, covariance);
+  } catch (const robot::LinkLost&) {
+    unanswered_ = {x_m, y_m, theta_rad, covariance};
+    throw;
+  }
   restoring_ = false;
   event_ = "the pose was set";
 }
@@ -66,11 +72,22 @@ bool ContinuousOdometry::take(RobotSession& session, const protocol::Telemetry& 
   }
   restarted_ = false;
   sample_ = recording::to_sample(telemetry);
+  settle_unanswered();
   if (!track_.take(sample_)) event_ = "another program has set the pose";
   pose_ = telemetry.pose;
   seen_at_ = session.client().now();
   seen_device_us_ = telemetry.device_time_us;
   return true;
+}
+
+/// A robot that took the pose stands there, because it takes none while it moves and nobody has armed it since.
+void ContinuousOdometry::settle_unanswered() {
+  constexpr double kThere_m = 1e-3, kThere_rad = 5e-3;  // flickering counts
+  const auto put = std::exchange(unanswered_, std::nullopt);
+  if (!put || std::hypot(sample_.x_m - put->x_m, sample_.y_m - put->y_m) > kThere_m) return;
+  if (std::abs(std::remainder(sample_.theta_rad - put->theta_rad, 2 * std::numbers::pi)) > kThere_rad) return;
+  track_.restart(put->theta_rad, put->covariance);
+  event_ = "the pose was set";
 }
 
 /// The clock of a robot that has restarted is behind that of one that has not.
@@ -94,6 +111,7 @@ void ContinuousOdometry::restore(RobotSession& session, const protocol::Telemetr
     return;  // it still rolls
   }
   restoring_ = restarted_ = false;
+  unanswered_.reset();
   event_ = "the robot has restarted: its odometry continues from the last pose, with a larger covariance";
 }
 

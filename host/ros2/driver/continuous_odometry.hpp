@@ -35,7 +35,15 @@ class ContinuousOdometry {
   const OdometryTrack& track() const { return track_; }
   /// The last thing that happened to the pose beside motion, as a clause; "" if nothing has.
   const std::string& event() const { return event_; }
-  void note(const std::string& event) { event_ = event; }
+
+  /// A pose that somebody wanted to set and that was not.
+  struct RefusedPose {
+    std::string why;
+    microseconds at;  // on the host's clock
+  };
+  void refuse(const RefusedPose& pose) { refused_pose_ = pose; }
+  /// The newest one.
+  const std::optional<RefusedPose>& refused_pose() const { return refused_pose_; }
 
  private:
   bool has_restarted(RobotSession& session, const protocol::Telemetry& telemetry) const;
@@ -46,6 +54,14 @@ class ContinuousOdometry {
 
   OdometryTrack track_;
   recording::OdometrySample sample_;
+  /// A pose whose request went out, and whose answer did not come: nobody knows yet whether the robot has it.
+  struct Unanswered {
+    double x_m, y_m, theta_rad;
+    calibration::Symmetric3 covariance;
+  };
+  void settle_unanswered();
+
+  std::optional<Unanswered> unanswered_;
   std::optional<protocol::PoseGroup> pose_;  // of the newest sample; nothing before the first
   microseconds seen_at_{};                   // that sample, on the clock of the host
   std::uint64_t seen_device_us_ = 0;
@@ -54,6 +70,7 @@ class ContinuousOdometry {
   bool restoring_ = false;
   microseconds next_try_{};
   std::string event_;
+  std::optional<RefusedPose> refused_pose_;
 };
 
 }  // namespace astro::ros2

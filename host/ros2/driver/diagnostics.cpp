@@ -50,20 +50,21 @@ msg::DiagnosticStatus robot_status(const DriverState& state, const FaultHelp& he
     status.add("firmware", robot::firmware_version(*state.robot));
   }
   if (!state.odometry_event.empty()) status.add("odometry", state.odometry_event);
+  if (state.refused_pose) status.add("last pose refused because", state.refused_pose->why);
   if (!state.why_no_robot.empty()) {
     status.say(kStale, "no robot: " + state.why_no_robot);
   } else if (!state.telemetry || state.telemetry_age > kSilent) {
     status.say(kStale, "the robot sends no telemetry");
   } else {
     const protocol::StateGroup& at = state.telemetry->state;
-    const bool faulted = at.latched_faults != 0;
-    status.say(faulted               ? kError
-               : state.other_factors ? kWarn
-                                     : kOk,
-               faulted ? "fault: " + robot::fault_names(at.latched_faults)
-               : state.other_factors
-                   ? "the robot holds other factors than the calibration whose covariance is published"
-                   : std::string(protocol::name(at.mode)));
+    if (at.latched_faults != 0)
+      status.say(kError, "fault: " + robot::fault_names(at.latched_faults));
+    else if (state.refused_pose && state.now - state.refused_pose->at < kRecently)
+      status.say(kWarn, "a pose was not set: " + state.refused_pose->why);
+    else if (state.other_factors)
+      status.say(kWarn, "the robot holds other factors than the calibration whose covariance is published");
+    else
+      status.say(kOk, std::string(protocol::name(at.mode)));
     status.add("mode", std::string(protocol::name(at.mode)));
     status.add("battery", fmt::format("{:.2f} V", 1e-3 * state.telemetry->battery.mv));
     add_faults(status, at.latched_faults, help);

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "host/ros2/driver/continuous_odometry.hpp"
 #include "host/ros2/driver/driving.hpp"
 #include "host/ros2/messages/diagnostics.hpp"
 
@@ -33,6 +34,7 @@ struct DriverState {
   CommandCounts commands;
   bool armed_here = false;
   std::string odometry_event;
+  std::optional<ContinuousOdometry::RefusedPose> refused_pose;
   bool other_factors = false;  // the robot holds others than those whose covariance is published
 };
 

@@ -52,7 +52,7 @@ Driver::Driver(std::vector<Middleware*> middlewares, OpenPort open, DriverOption
       publications_(middlewares_, names_),
       requests_(middlewares_, names_,
                 {link_, driving_, odometry_, [this] { return moment(); },
-                 [this](const Error& why) { lose(why); }, options_.words}) {
+                 [this](const Error& why) { lose(why); }, options_.words, options_.notice}) {
   for (Middleware* each : middlewares_) each->serve_parameters(parameters_);
 }
 
@@ -70,6 +70,20 @@ void Driver::step(microseconds most) {
     lose(error);
   }
   report();
+}
+
+void Driver::run(const std::function<bool()>& goes_on) {
+  try {
+    while (goes_on()) step();
+  } catch (...) {
+    try {
+      end();
+    } catch (const Error& error) {
+      options_.notice(options_.words(error));
+    }
+    throw;
+  }
+  end();
 }
 
 void Driver::begin(RobotSession& session) {
@@ -167,6 +181,7 @@ DriverState Driver::state() {
   state.commands = driving_.counts();
   state.armed_here = driving_.armed();
   state.odometry_event = odometry_.event();
+  state.refused_pose = odometry_.refused_pose();
   RobotSession* session = link_.session();
   if (session == nullptr) {
     state.why_no_robot = options_.words(link_.why());

@@ -49,6 +49,10 @@ class Driver {
   /// Answers what has come from others, and passes on what has come from the robot; waits up to `most` if there is nothing.
   void step(microseconds most = std::chrono::milliseconds(10));
 
+  /// Steps while `goes_on` says so. However that ends, a robot that was armed here is at rest and disarmed then. Throws what
+  /// `goes_on`, a middleware or end() throws: the first of them.
+  void run(const std::function<bool()>& goes_on);
+
   /// Times of the robot's clock and of this computer's steady clock, in microseconds, as nanoseconds since 1970, as in the stamps of
   /// what is published. Nothing while there is no robot, or no round trip has shown yet when that was.
   std::optional<std::int64_t> utc_of_robot_ns(std::int64_t device_time_us);

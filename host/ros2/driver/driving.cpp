@@ -104,10 +104,19 @@ void Driving::step(RobotSession& session, microseconds now) {
     case VelocityCommand::Due::nothing:
       return;
     case VelocityCommand::Due::stop:
-      if (armed_) session.ask(protocol::Stop{});
-      return;
+      return send_stop(session, now);
     case VelocityCommand::Due::velocity:
-      send(session, now);
+      return send(session, now);
+  }
+}
+
+void Driving::send_stop(RobotSession& session, microseconds now) {
+  if (!armed_) return;
+  try {
+    session.ask(protocol::Stop{});
+  } catch (const robot::RobotRefused& refused) {  // it is in other hands, or at rest with a fault
+    release();
+    ignore(why_not(session, refused), now);
   }
 }
 

@@ -53,6 +53,7 @@ class Driving {
 
  private:
   void send(RobotSession& session, microseconds now);
+  void send_stop(RobotSession& session, microseconds now);
   void ignore(const std::string& why, microseconds now);
 
   VelocityCommand command_;

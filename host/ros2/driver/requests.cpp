@@ -78,7 +78,13 @@ void Requests::set_pose(const std::optional<msg::PoseWithCovarianceStamped>& mes
     robot_.odometry.set_pose(session, pose.x_m, pose.y_m, pose.theta_rad, pose.covariance);
     return "set";
   });
-  if (!outcome.success) robot_.odometry.note("a pose was not set: " + outcome.message);
+  if (outcome.success) return;
+  constexpr microseconds kSameAgain = std::chrono::seconds(10);  // whoever repeats it is answered once
+  const microseconds now = robot_.now().steady;
+  const auto last = robot_.odometry.refused_pose();
+  robot_.odometry.refuse({outcome.message, now});
+  if (!last || last->why != outcome.message || now - last->at > kSameAgain)
+    robot_.notice("a pose was not set: " + outcome.message);
 }
 
 }  // namespace astro::ros2

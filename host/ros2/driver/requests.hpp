@@ -27,6 +27,7 @@ class Requests {
     std::function<Moment()> now;
     std::function<void(const Error&)> lose;          // the link was lost meanwhile
     std::function<std::string(const Error&)> words;  // for people
+    std::function<void(const std::string&)> notice;  // a sentence that is worth showing
   };
 
   Requests(std::span<Middleware* const> middlewares, const Names& names, Robot robot);

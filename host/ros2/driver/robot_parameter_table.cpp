@@ -61,12 +61,25 @@ msg::ParameterValue value_of(const ParameterRow& row) {
   return value;
 }
 
+std::string in_words(ParameterType type) {
+  switch (type) {
+    case ParameterType::text:
+      return "a text";
+    case ParameterType::integer:
+      return "a whole number";
+    case ParameterType::boolean:
+      return "true or false";
+    default:
+      return "a number";
+  }
+}
+
 /// A whole number also stands for a real one, because people leave out the point.
 robot::Value wanted(const ParameterRow& row, const msg::ParameterValue& value) {
   const auto given = static_cast<ParameterType>(value.type);
   const bool whole_for_real = type_of(row) == ParameterType::real && given == ParameterType::integer;
   if (given != type_of(row) && !whole_for_real)
-    throw Error(row.name + " is of another type: see its description");
+    throw Error(row.name + " has to be " + in_words(type_of(row)));
   switch (given) {
     case ParameterType::text:
       return value.string_value;

@@ -19,7 +19,9 @@ OdometryGeometry OdometryGeometry::of(const std::map<std::string, double>& param
       number("counts_per_motor_rev") * number("gear_numerator") / number("gear_denominator");
   return {{number("c_R"), number("c_L"), number("b"), number("e"), number("kappa0")},
           std::numbers::pi * number("wheel_diameter") / counts_per_turn,
-          number("observer_bandwidth")};
+          number("observer_bandwidth"),
+          number("speed_limit"),
+          number("yaw_rate_limit")};
 }
 
 bool same(const calibration::WheelFactors& a, const calibration::WheelFactors& b) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <string>
 
@@ -11,8 +12,9 @@ namespace astro::ros2 {
 /// What the robot's odometry makes of counts, from its parameters.
 struct OdometryGeometry {
   calibration::WheelFactors factors;
-  double count_m = 0;                   // nominal travel of a wheel for one count
-  double observer_bandwidth_radps = 0;  // of the observer of wheel speeds
+  double count_m = 0;                                       // nominal travel of a wheel for one count
+  double observer_bandwidth_radps = 0;                      // of the observer of wheel speeds
+  double fastest_mps = HUGE_VAL, fastest_radps = HUGE_VAL;  // the robot's limits
 
   /// By name, as robot::RemoteParameters::numbers() gives them. Throws astro::Error if one is missing.
   static OdometryGeometry of(const std::map<std::string, double>& parameters);

@@ -14,7 +14,8 @@ namespace {
 
 /// Between samples that follow one another the path is an arc, and a robot is where that arc ends, to less than this.
 constexpr double kJump_m = 0.02, kJump_rad = 0.05;
-constexpr std::int64_t kGap_us = 250'000;  // after a longer one nobody knows the path
+constexpr double kGap_s = 0.25;       // after a longer one nobody knows the path
+constexpr double kBeyondLimit = 1.5;  // a robot that overshoots its limits, or is pushed
 
 }  // namespace
 
@@ -49,12 +50,24 @@ bool OdometryTrack::take(const recording::OdometrySample& sample) {
 }
 
 bool OdometryTrack::follows(const recording::OdometrySample& sample, double right_m, double left_m) const {
-  if (sample.time_us - last_->time_us > kGap_us) return true;
+  const double gap_s = 1e-6 * static_cast<double>(sample.time_us - last_->time_us);
   recording::OdometrySample expected = *last_;
   calibration::advance(expected, right_m, left_m, geometry_.factors);
   const double turn_rad = std::remainder(sample.theta_rad - expected.theta_rad, 2 * std::numbers::pi);
-  return std::hypot(sample.x_m - expected.x_m, sample.y_m - expected.y_m) < kJump_m &&
-         std::abs(turn_rad) < kJump_rad;
+  if (std::abs(turn_rad) >= kJump_rad + possible_turn_rad(gap_s)) return false;
+  if (gap_s > kGap_s) expected = *last_;
+  return std::hypot(sample.x_m - expected.x_m, sample.y_m - expected.y_m) < kJump_m + possible_way_m(gap_s);
+}
+
+/// How far from where it was a robot can be after a gap; within a short one the arc says it.
+double OdometryTrack::possible_way_m(double gap_s) const {
+  return gap_s > kGap_s ? kBeyondLimit * geometry_.fastest_mps * gap_s : 0;
+}
+
+/// The heading follows from the counts alone, whatever the path, but for what curvature does to the wheelbase.
+double OdometryTrack::possible_turn_rad(double gap_s) const {
+  if (geometry_.factors.e == 0 || gap_s <= kGap_s) return 0;
+  return kBeyondLimit * std::abs(geometry_.factors.e) * geometry_.fastest_radps * gap_s;
 }
 
 Symmetric3 OdometryTrack::covariance() const {

@@ -37,6 +37,8 @@ class OdometryTrack {
 
  private:
   bool follows(const recording::OdometrySample& sample, double right_m, double left_m) const;
+  double possible_way_m(double gap_s) const;
+  double possible_turn_rad(double gap_s) const;
 
   std::optional<calibration::OdometryErrors> stated_errors_;
   calibration::OdometryErrors errors_;

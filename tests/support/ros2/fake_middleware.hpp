@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/base/error.hpp"
 #include "host/ros2/cdr/codec.hpp"
 #include "host/ros2/middleware/middleware.hpp"
 
@@ -45,8 +46,11 @@ class FakeMiddleware : public ros2::Middleware {
   void serve_parameters(ros2::ParameterTable& table) override { parameters = &table; }
   void poll() override {
     for (; !waiting_.empty(); waiting_.pop_front()) waiting_.front()();
+    if (std::exchange(fails_, false)) throw Error("the middleware has failed");
   }
   void wait(microseconds timeout) override { on_wait(timeout); }
+
+  void fail_at_next_poll() { fails_ = true; }
 
   /// Another node publishes; the driver gets it at the next poll().
   template <ros2::Message M>
@@ -108,6 +112,7 @@ class FakeMiddleware : public ros2::Middleware {
   std::deque<Subscription> subscriptions_;
   std::map<std::string, OnRequest> requests_;
   std::deque<std::function<void()>> waiting_;
+  bool fails_ = false;
 };
 
 }  // namespace astro::test

@@ -19,6 +19,9 @@ class Cable {
 
   void pull() { ++pulls_; }
   void plug_in() { plugged_for_ = pulls_; }
+  /// As a bad line does: it stays open, and nothing comes through one way.
+  void lose_requests(bool lose) { loses_requests_ = lose; }
+  void lose_answers(bool lose) { loses_answers_ = lose; }
   void exchange_robot(std::shared_ptr<simulation::VirtualRobot> robot) { robot_ = std::move(robot); }
 
   std::unique_ptr<robot::Transport> open() {
@@ -35,11 +38,12 @@ class Cable {
         : InProcessTransport(std::move(robot)), cable_(cable), opened_at_(cable.pulls_) {}
     void write(std::span<const std::uint8_t> bytes) override {
       require_whole();
-      InProcessTransport::write(bytes);
+      if (!cable_.loses_requests_) InProcessTransport::write(bytes);
     }
     std::size_t read(std::span<std::uint8_t> into, microseconds timeout) override {
       require_whole();
-      return InProcessTransport::read(into, timeout);
+      const std::size_t count = InProcessTransport::read(into, timeout);
+      return cable_.loses_answers_ ? 0 : count;
     }
 
    private:
@@ -54,6 +58,7 @@ class Cable {
 
   std::shared_ptr<simulation::VirtualRobot> robot_;
   int pulls_ = 0, plugged_for_ = 0;
+  bool loses_requests_ = false, loses_answers_ = false;
 };
 
 /// A simulated robot, its driver and a middleware without a wire, in virtual time.

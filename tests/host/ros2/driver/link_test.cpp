@@ -190,6 +190,30 @@ TEST_F(Link, AnotherRobotAtThePortIsNotTakenForTheFirst) {
   EXPECT_TRUE(comes_back());
 }
 
+TEST_F(Link, ARobotIsAtRestAndDisarmedWhenAMiddlewareFails) {
+  EXPECT_TRUE(comes_back());
+  msg::Parameter timeout{"command_timeout", {}};
+  timeout.value.type = static_cast<std::uint8_t>(ParameterType::integer);  // 0: it would drive on for ever
+  ASSERT_TRUE(bench.ros.parameters->set({&timeout, 1}).successful);
+  bench.call("/arm");
+  bench.drive_ms(500, 0.3, 0);
+  ASSERT_TRUE(bench.moves());
+  bench.ros.fail_at_next_poll();
+  EXPECT_THROW(bench.driver->run([] { return true; }), Error);
+  EXPECT_FALSE(bench.moves());
+  EXPECT_EQ(bench.mode(), Mode::disarmed);
+}
+
+TEST_F(Link, ARobotIsAtRestAndDisarmedWhenItsDriverIsToldToEnd) {
+  EXPECT_TRUE(comes_back());
+  bench.call("/arm");
+  bench.drive_ms(500, 0.3, 0);
+  int steps = 20;
+  bench.driver->run([&] { return --steps > 0; });
+  EXPECT_FALSE(bench.moves());
+  EXPECT_EQ(bench.mode(), Mode::disarmed);
+}
+
 TEST_F(Link, EndsWithoutARobotAndWithoutAnError) {
   bench.cable.pull();
   bench.run_ms(100);

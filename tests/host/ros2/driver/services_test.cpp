@@ -29,7 +29,12 @@ class Services : public testing::Test {
     bench.run_ms(60);
     return bench.ros.newest<msg::Odometry>("/odom");
   }
-  RobotOnRos bench;
+  std::vector<std::string> notices;
+  RobotOnRos bench{RobotOnRos::quiet(), [this] {
+                     DriverOptions options;
+                     options.notice = [this](const std::string& sentence) { notices.push_back(sentence); };
+                     return options;
+                   }()};
 };
 
 TEST_F(Services, ArmAndDisarm) {
@@ -37,6 +42,11 @@ TEST_F(Services, ArmAndDisarm) {
   EXPECT_EQ(bench.mode(), Mode::idle);
   EXPECT_TRUE(bench.call("/disarm").success);
   EXPECT_EQ(bench.mode(), Mode::disarmed);
+}
+
+TEST_F(Services, OnlyTheEmergencyStopIsAnsweredBeforeThoseThatWait) {
+  for (const auto& [name, service] : bench.ros.services)
+    EXPECT_EQ(service.urgent, name == "/emergency_stop") << name;
 }
 
 TEST_F(Services, ArmClearsWhatADeadDriveLeftBehindAndSaysSo) {
@@ -162,8 +172,49 @@ TEST_F(Services, SetPoseRefusesWhatIsNoPoseInItsFrame) {
     bench.ros.say("/set_pose", message);
     EXPECT_EQ(odometry().pose.pose.position.x, 0) << why;
     bench.run_ms(1100);
-    EXPECT_THAT(bench.diagnosed("robot", "odometry"), HasSubstr(why));
+    EXPECT_THAT(bench.diagnosed("robot", "last pose refused because"), HasSubstr(why));
+    EXPECT_EQ(bench.status("robot").level, std::byte{1});
+    EXPECT_THAT(bench.status("robot").message, HasSubstr("a pose was not set"));
+    EXPECT_THAT(notices.back(), AllOf(HasSubstr("a pose was not set"), HasSubstr(why)));
   }
+  bench.run_ms(3000);
+  EXPECT_EQ(bench.status("robot").level, std::byte{0});
+}
+
+TEST_F(Services, WhoSetsARefusedPoseAgainAndAgainIsToldOnce) {
+  auto refused = pose(1, 1, 0);
+  refused.header.frame_id = "map";
+  notices.clear();
+  for (int i = 0; i < 20; ++i) {
+    bench.ros.say("/set_pose", refused);
+    bench.run_ms(100);
+  }
+  EXPECT_EQ(notices.size(), 1U);
+}
+
+TEST_F(Services, APoseWhoseAnswerWasLostIsSetWithItsCovarianceOnceTheRobotShowsIt) {
+  ASSERT_EQ(odometry().pose.pose.position.x, 0);
+  bench.cable.lose_answers(true);
+  bench.ros.say("/set_pose", pose(1, 2, 0.5));
+  bench.run_ms(1500);
+  bench.cable.lose_answers(false);
+  bench.run_ms(1500);
+  const msg::Odometry now = odometry();
+  EXPECT_NEAR(now.pose.pose.position.x, 1, 1e-9);
+  EXPECT_NEAR(now.pose.covariance[0], 0.04, 0.001);
+  EXPECT_THAT(bench.diagnosed("robot", "odometry"), HasSubstr("the pose was set"));
+}
+
+TEST_F(Services, APoseWhoseRequestWasLostIsNotSetAndItsCovarianceStays) {
+  ASSERT_EQ(odometry().pose.pose.position.x, 0);
+  bench.cable.lose_requests(true);
+  bench.ros.say("/set_pose", pose(1, 2, 0.5));
+  bench.run_ms(1500);
+  bench.cable.lose_requests(false);
+  bench.run_ms(1500);
+  const msg::Odometry now = odometry();
+  EXPECT_EQ(now.pose.pose.position.x, 0);
+  EXPECT_LT(now.pose.covariance[0], 1e-6);
 }
 
 TEST_F(Services, SayThatThereIsNoRobot) {
@@ -190,6 +241,26 @@ TEST_F(Services, APoseThatAnotherProgramSetsIsNoticed) {
   EXPECT_EQ(now.pose.pose.position.x, 0);
   EXPECT_LT(now.pose.covariance[0], 1e-8);
   bench.run_ms(1100);
+  EXPECT_THAT(bench.diagnosed("robot", "odometry"), HasSubstr("another program"));
+}
+
+TEST_F(Services, APoseThatAnotherProgramSetsWhileTheCableIsPulledIsNoticed) {
+  bench.call("/arm");
+  bench.drive_ms(2000, 0.3, 0);
+  bench.run_ms(2500);
+  bench.call("/disarm");
+  const double x_m = odometry().pose.pose.position.x;
+  EXPECT_GT(x_m, 0.5);
+  bench.cable.pull();
+  bench.run_ms(500);
+  robot::Client other(std::make_unique<simulation::InProcessTransport>(bench.robot, 1));
+  other.connect();
+  protocol::SetPose turned;
+  turned.theta = std::uint64_t{1} << 62;  // at the same place, a quarter turn round
+  turned.x = std::llround(std::ldexp(x_m, 40));
+  other.request(turned);
+  bench.cable.plug_in();
+  bench.run_ms(1500);
   EXPECT_THAT(bench.diagnosed("robot", "odometry"), HasSubstr("another program"));
 }
 
