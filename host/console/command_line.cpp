@@ -1,6 +1,7 @@
 #include "host/console/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <type_traits>
 #include <utility>
 
@@ -27,7 +28,13 @@ Option Option::transform(Check transform) const {
 }
 
 Option Option::one_of(const std::vector<std::string>& words) const {
-  return Option(option_->check(CLI::IsMember(words)));
+  std::string choice;
+  for (const std::string& word : words) choice += (choice.empty() ? "" : "|") + word;
+  option_->type_name(choice);
+  return check([words, choice](const std::string& word) {
+    if (std::find(words.begin(), words.end(), word) != words.end()) return std::string();
+    return "'" + word + "' is none of " + choice;
+  });
 }
 
 Option Option::delimiter(char between) const { return Option(option_->delimiter(between)); }

@@ -129,7 +129,8 @@ std::string what_is_wrong(const CommandContext& context, const CLI::ParseError& 
     return fmt::format("'{}' needs a command", context.path);
   const std::string said = error.what();
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr && said.find(": ") != std::string::npos)
-    return said.substr(0, said.find(": ")) + " needs a value";
+    return said.substr(0, said.find(": ")) +
+           (said.find("At Most") != std::string::npos ? " is given more than once" : " needs a value");
   return said;
 }
 

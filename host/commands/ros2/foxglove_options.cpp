@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include "host/base/error.hpp"
+#include "host/base/net/socket.hpp"
 #include "host/base/text/numbers.hpp"
 #include "host/commands/base/remedies.hpp"
 #include "host/console/console.hpp"
 #include "host/ros2/driver/names.hpp"
+#include "host/ros2/foxglove/origin.hpp"
 
 namespace astro::commands {
 namespace {
@@ -18,6 +20,12 @@ std::string host_of(const std::string& ip) {
   if (ip == "127.0.0.1") return "localhost";
   if (ip == "0.0.0.0" || ip == "::") return "THIS-COMPUTER";
   return ip.find(':') == std::string::npos ? ip : '[' + ip + ']';
+}
+
+std::string check_origin(const std::string& word) {
+  if (ros2::foxglove::is_origin(word)) return "";
+  return "'" + word +
+         "' is no origin as a browser names it: scheme://host or scheme://host:port, without a path";
 }
 
 std::string check_address(const std::string& word) {
@@ -40,9 +48,13 @@ ros2::foxglove::Address foxglove_address_in(const std::string& word) {
   if (!port || !digits.empty())
     throw Error("'" + word + "' is not PORT or ADDRESS:PORT, with a port up to 65535");
   address.port = *port;
-  if (colon != std::string::npos) address.ip = word.substr(0, colon);
-  if (address.ip.starts_with('[') && address.ip.ends_with(']'))
-    address.ip = address.ip.substr(1, address.ip.size() - 2);
+  if (colon == std::string::npos) return address;
+  std::string ip = word.substr(0, colon);
+  if (ip == "localhost") return address;
+  if (ip.starts_with('[') && ip.ends_with(']')) ip = ip.substr(1, ip.size() - 2);
+  if (!net::is_address(ip))
+    throw Error("'" + ip + "' is no address of a network, as 192.168.1.7, [::1] or 0.0.0.0 for all of them");
+  address.ip = std::move(ip);
   return address;
 }
 
@@ -62,6 +74,7 @@ void add_foxglove_options(console::Command command, FoxgloveOptions& options) {
           "web pages that may connect, beside Foxglove's\nown and those of this computer; may be repeated")
       .type_name("SCHEME://HOST[:PORT]")
       .one_each_time()
+      .check(check_origin)
       .needs(wanted);
   command
       .add_flag("--allow-commands", options.allow_commands,

@@ -19,7 +19,7 @@ struct FoxgloveOptions {
 /// Adds --foxglove, and --listen, --allow-origin and --allow-commands, which need it.
 void add_foxglove_options(console::Command command, FoxgloveOptions& options);
 
-/// "8765", "0.0.0.0:8765" or "[::1]:8765". Throws astro::Error that names the word otherwise.
+/// "8765", "localhost:8765", "0.0.0.0:8765" or "[::1]:8765". Throws astro::Error that names the word otherwise.
 ros2::foxglove::Address foxglove_address_in(const std::string& word);
 
 /// Where a browser finds it, and what anybody should know who can be reached by others.

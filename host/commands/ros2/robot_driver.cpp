@@ -31,6 +31,13 @@ void take_calibration(const std::filesystem::path& path, ros2::DriverOptions& op
                                                  number_of(file, "b", 0), number_of(file, "e", 0)};
 }
 
+/// Who called a service can call another one.
+std::string words_for_nodes(const Error& error) {
+  if (error.remedy().help == Help::clear_faults)
+    return std::string(error.what()) + "; remove its cause, then call clear_faults";
+  return in_words(error);
+}
+
 ros2::DriverOptions driver_options(const RobotDriverOptions& options, const std::string& node) {
   ros2::DriverOptions driver;
   driver.node = node;
@@ -38,7 +45,7 @@ ros2::DriverOptions driver_options(const RobotDriverOptions& options, const std:
   driver.rate_hz = options.rate_hz;
   driver.cmd_vel_timeout = microseconds(std::llround(1e6 * options.cmd_vel_timeout_s));
   driver.fault_help = fault_help;
-  driver.words = [](const Error& error) { return in_words(error); };
+  driver.words = words_for_nodes;
   driver.notice = [](const std::string& sentence) { console::say(sentence); };
   if (!options.calibration.empty()) take_calibration(options.calibration, driver);
   return driver;
@@ -46,10 +53,26 @@ ros2::DriverOptions driver_options(const RobotDriverOptions& options, const std:
 
 }  // namespace
 
+std::string absolute_namespace(const std::string& space) {
+  return space.starts_with('/') ? space : '/' + space;
+}
+
+std::string what_is_wrong(const ros2::NodeName& node) {
+  try {
+    ros2::valid(node);
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
 void add_robot_driver_options(console::Command command, RobotDriverOptions& options) {
   add_connection(command, options.connection);
   command.add_option("--namespace", options.node_namespace, "namespace of the node; its frames begin with it")
-      .type_name("NAME");
+      .type_name("NAME")
+      .check([](const std::string& space) {
+        return what_is_wrong({"robot", absolute_namespace(space)});
+      });
   console::add_ranged(command, "--rate", options.rate_hz,
                       "messages of odometry a second; the period is whole\nmilliseconds", "HZ", 1, 1000,
                       "Hz");
@@ -66,11 +89,10 @@ void drive_robot(const std::vector<ros2::Middleware*>& middlewares, const RobotD
                  const std::string& node, const std::function<void(ros2::Driver&)>& beside) {
   const auto open = [connection = options.connection] { return open_port(connection); };
   ros2::Driver driver(middlewares, open, driver_options(options, node));
-  while (!console::interrupted()) {
-    driver.step();
+  driver.run([&] {
     beside(driver);
-  }
-  driver.end();
+    return !console::interrupted();
+  });
   console::check_interrupt();
 }
 

@@ -7,6 +7,7 @@
 #include "host/commands/shared/connection.hpp"
 #include "host/console/command_line.hpp"
 #include "host/ros2/driver/driver.hpp"
+#include "host/ros2/types/names.hpp"
 
 /// What commands have in common that show a robot by ROS 2's messages, whatever carries them.
 namespace astro::commands {
@@ -17,6 +18,12 @@ struct RobotDriverOptions {
   double rate_hz = 50, cmd_vel_timeout_s = 0.5;
   std::filesystem::path calibration;
 };
+
+/// "/left" for "left" and "/left".
+std::string absolute_namespace(const std::string& space);
+
+/// One sentence if ROS 2 would refuse a node of this name in this namespace, or "".
+std::string what_is_wrong(const ros2::NodeName& node);
 
 /// --port, --baud, --namespace, --rate, --cmd-vel-timeout and --calibration.
 void add_robot_driver_options(console::Command command, RobotDriverOptions& options);

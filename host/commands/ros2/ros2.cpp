@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "host/base/environment.hpp"
 #include "host/commands/ros2/commands.hpp"
 #include "host/commands/ros2/foxglove_options.hpp"
 #include "host/commands/ros2/robot_driver.hpp"
@@ -23,15 +23,11 @@ struct Ros2Options {
   int domain = -1;  // that of the environment
 };
 
-std::string variable(const char* name) {
-  const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): no other thread runs yet
-  return value == nullptr ? "" : value;
-}
-
 ros2::GidSize gid_size(const Ros2Options& options) {
   const std::string distribution =
-      options.distribution.empty() ? variable("ROS_DISTRO") : options.distribution;
-  return distribution == "humble" ? ros2::GidSize::humble : ros2::GidSize::iron_and_later;
+      options.distribution.empty() ? environment_variable("ROS_DISTRO") : options.distribution;
+  const bool old = distribution == "foxy" || distribution == "galactic" || distribution == "humble";
+  return old ? ros2::GidSize::humble : ros2::GidSize::iron_and_later;
 }
 
 const char* in_words(ros2::dds::Range range) {
@@ -49,9 +45,9 @@ void run(const Ros2Options& options) {
   ros2::dds::DiscoveryWishes wishes;
   if (options.domain >= 0) wishes.domain = options.domain;
   if (!options.range.empty()) wishes.range = ros2::dds::range_in(options.range);
-  const ros2::dds::Discovery discovery = ros2::dds::discovery_from(wishes, variable);
+  const ros2::dds::Discovery discovery = ros2::dds::discovery_from(wishes, environment_variable);
   const std::string& space = options.driver.node_namespace;
-  const ros2::NodeName name{options.node, space.starts_with('/') ? space : '/' + space};
+  const ros2::NodeName name{options.node, absolute_namespace(space)};
   const auto node = ros2::open_node({name, gid_size(options)}, discovery);
   console::say(fmt::format("node {} in domain {}: {}; Ctrl-C ends it", ros2::full_name(name),
                            discovery.domain, in_words(discovery.range)));
@@ -74,7 +70,10 @@ void add_ros2(console::Command app) {
   add_foxglove_options(command, options->viewers);
   command.add_option("--node-name", options->node, "name of the node")
       .type_name("NAME")
-      .capture_default_str();
+      .capture_default_str()
+      .check([](const std::string& word) {
+        return what_is_wrong({word, "/"});
+      });
   command.add_option("--domain", options->domain, "domain of DDS (default: ROS_DOMAIN_ID,\notherwise 0)")
       .type_name("N")
       .check(console::whole(0, ros2::dds::kMostDomains));

@@ -1,5 +1,6 @@
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "host/commands/ros2/commands.hpp"
 #include "host/commands/ros2/foxglove_options.hpp"
@@ -20,23 +21,29 @@ struct ServeOptions {
   TruthOption truth{"none", {}, {}};
 };
 
-void require_viewers(const ServeOptions& options) {
-  if (!options.viewers.wanted) throw console::WrongUsage("serve what? --foxglove serves viewers");
-  const std::string& port = options.driver.connection.port;
-  if (!port.empty() && port.find_first_not_of("0123456789") == std::string::npos)
-    throw console::WrongUsage("--port is the robot's; --listen " + port + " is where viewers connect");
+/// No port of a robot is a bare number, and other servers of viewers have theirs at --port.
+void take_viewers_port(ServeOptions& options) {
+  std::string& port = options.driver.connection.port;
+  if (port.empty() || port.find_first_not_of("0123456789") != std::string::npos) return;
+  options.viewers.listen = std::exchange(port, "");
+  foxglove_address_in(options.viewers.listen);
 }
 
 void run(ServeOptions& options) {
-  require_viewers(options);
+  if (!options.viewers.wanted) throw console::WrongUsage("serve what? --foxglove serves viewers");
+  take_viewers_port(options);
   ConnectionOptions& connection = options.driver.connection;
   if (connection.port.empty() && options.truth.source == "sim") connect(connection);  // finds the only robot
   std::unique_ptr<truth::Source> source;
   if (options.truth.source != "none") source = open_truth(options.truth, connection.port);
+  TruthTopic::Open open_again;  // trackers are found again by themselves
+  if (options.truth.source == "sim")
+    open_again = [option = options.truth, port = connection.port] { return open_truth(option, port); };
   ros2::foxglove::FoxgloveServer server(
       foxglove_settings(options.viewers, "Astrolabe", options.driver.node_namespace));
   std::optional<TruthTopic> truth;
-  if (source) truth.emplace(server, std::move(source));
+  if (source)
+    truth.emplace(server, ros2::Names(options.driver.node_namespace), std::move(source), open_again);
   console::say(foxglove_announcement(options.viewers, server.port()));
   drive_robot({&server}, options.driver, "astrolabe", [&](ros2::Driver& driver) {
     if (truth) truth->step(driver);
@@ -53,7 +60,7 @@ void add_serve(console::Command app) {
   add_robot_driver_options(command, options->driver);
   command
       .add_option("--truth", options->truth.source,
-                  "ground truth beside odometry, as /truth: sim,\nvrpn://HOST/BODY, natnet://HOST/BODY "
+                  "ground truth beside odometry, as truth: sim,\nvrpn://HOST/BODY, natnet://HOST/BODY "
                   "or\nros2:/TOPIC")
       .type_name("SOURCE")
       .check(truth_source({"sim", "none"}));

@@ -15,15 +15,20 @@ constexpr std::chrono::seconds kRest{1};  // before a source that has failed is 
 
 }  // namespace
 
-TruthTopic::TruthTopic(ros2::Middleware& middleware, std::unique_ptr<truth::Source> source)
-    : source_(std::move(source)),
-      publisher_(middleware.advertise({"/truth", ros2::message_type<ros2::msg::PoseStamped>()})) {}
+TruthTopic::TruthTopic(ros2::Middleware& middleware, const ros2::Names& names,
+                       std::unique_ptr<truth::Source> source, Open open)
+    : open_(std::move(open)),
+      source_(std::move(source)),
+      publisher_(
+          middleware.advertise({names.absolute("truth"), ros2::message_type<ros2::msg::PoseStamped>()})) {}
 
 void TruthTopic::step(ros2::Driver& driver) {
   if (steady_clock::now() < ask_at_) return;
   try {
+    if (!source_) source_ = open_();
     publish(driver);
   } catch (const Error& error) {
+    if (open_) source_.reset();
     if (!std::exchange(lost_, true)) console::say(in_words(error));
     ask_at_ = steady_clock::now() + kRest;
   }

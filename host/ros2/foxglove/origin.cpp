@@ -32,6 +32,14 @@ bool origin_is_allowed(std::string_view origin, std::span<const std::string> all
          is_this_computer(origin) || std::find(allowed.begin(), allowed.end(), origin) != allowed.end();
 }
 
+bool is_origin(std::string_view origin) {
+  const std::size_t colon = origin.find("://");
+  if (colon == std::string_view::npos) return origin == "null";
+  if (origin == "file://") return true;
+  const std::string_view host = origin.substr(colon + 3);
+  return colon > 0 && !host.empty() && host.find_first_of("/?# \t") == std::string_view::npos;
+}
+
 bool origin_can_be_proposed(std::string_view origin) {
   constexpr std::size_t kLongest = 100;
   constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.:/_[]-";

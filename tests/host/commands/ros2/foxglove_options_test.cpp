@@ -24,7 +24,10 @@ TEST(FoxgloveOptions, AnAddressIsAPortOrHasOne) {
   EXPECT_EQ(foxglove_address_in("0.0.0.0:80").ip, "0.0.0.0");
   EXPECT_EQ(foxglove_address_in("[::1]:80").ip, "::1");
   EXPECT_EQ(foxglove_address_in("[::1]:80").port, 80);
-  for (const char* wrong : {"", "65536", "-1", "localhost", "localhost:", "127.0.0.1", "80x"})
+  EXPECT_EQ(foxglove_address_in("localhost:80").ip, "127.0.0.1");
+  EXPECT_EQ(foxglove_address_in("localhost:80").port, 80);
+  for (const char* wrong :
+       {"", "65536", "-1", "localhost", "localhost:", "127.0.0.1", "80x", "lab:80", "1.2.3:80"})
     EXPECT_THROW(foxglove_address_in(wrong), Error) << wrong;
 }
 

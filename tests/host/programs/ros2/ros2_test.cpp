@@ -266,8 +266,8 @@ TEST_F(Ros2, WrongNamesAreRefusedInOneSentence) {
   for (const std::vector<std::string>& options :
        {std::vector<std::string>{"--node-name", "1st"}, std::vector<std::string>{"--namespace", "a//b"}}) {
     start_node(options);
-    EXPECT_EQ(node_->wait(), 1);
-    EXPECT_THAT(node_->err(), HasSubstr("astrolabe: "));
+    EXPECT_EQ(node_->wait(), 2);
+    EXPECT_THAT(node_->err(), HasSubstr("astrolabe: " + options[0]));
   }
 }
 

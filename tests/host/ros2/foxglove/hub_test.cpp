@@ -234,7 +234,15 @@ TEST_F(HubOfARobot, RefusesCallsThatMakeNoSense) {
   EXPECT_EQ(first_status(session), "there is no service 2");
   session.receive(false, call(1, 3, "json"));
   EXPECT_THAT(first_status(session), HasSubstr("not as 'json'"));
+  Bytes longest = call(1, 3);
+  longest.resize(longest.size() + Session::kLongestQuestion - 5);  // 5 bytes are there
+  Bytes too_long = longest;
+  too_long.push_back(0);
+  session.receive(false, too_long);
+  EXPECT_THAT(first_status(session), HasSubstr("at most 16384 bytes, this one 16385"));
   EXPECT_TRUE(asked_.empty());
+  session.receive(false, longest);
+  EXPECT_EQ(asked_.size(), 1U);
 }
 
 TEST_F(HubOfARobot, BearsNoMoreQuestionsOfAClientThanTheRobotAnswers) {

@@ -31,6 +31,14 @@ TEST(Origin, ThoseThatSomebodyAllowsMay) {
   EXPECT_FALSE(origin_is_allowed("https://viewer.example", allowed));
 }
 
+TEST(Origin, IsASchemeAndAHostWithoutAPath) {
+  for (const char* origin : {"https://viewer.example:8443", "http://[fe80::1]:80", "file://", "null"})
+    EXPECT_TRUE(is_origin(origin)) << origin;
+  for (const char* word :
+       {"", "foo", "viewer.example", "https://", "://x", "https://viewer.example/", "https://a b"})
+    EXPECT_FALSE(is_origin(word)) << word;
+}
+
 TEST(Origin, NothingThatAShellWouldObeyIsProposed) {
   for (const char* origin : {"https://viewer.example:8443", "http://[fe80::1]:80", "file://"})
     EXPECT_TRUE(origin_can_be_proposed(origin)) << origin;
