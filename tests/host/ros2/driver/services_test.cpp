@@ -87,6 +87,15 @@ TEST_F(Services, StopRampsToRestAndTheNextVelocityDrivesAgain) {
   EXPECT_EQ(bench.mode(), Mode::velocity);
 }
 
+TEST_F(Services, PauseIsRefusedWhileVelocitiesDriveAndSaysWhy) {
+  bench.call("/arm");
+  bench.drive_ms(500, 0.3, 0);
+  const auto answer = bench.call("/pause");
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message, HasSubstr("only a path can be paused"));
+  EXPECT_TRUE(bench.moves());
+}
+
 TEST_F(Services, PauseAndResumeTheDriveOfAnotherProgram) {
   robot::Client other(std::make_unique<simulation::InProcessTransport>(bench.robot, 1));
   other.connect();
