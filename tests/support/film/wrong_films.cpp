@@ -50,7 +50,7 @@ const std::map<std::string, Flaw>& flaws() {
       {"out-of-picture",
        {"the robot drives out of the picture",
         [](FilmSetup& setup) {
-          setup.camera = [from = turned(setup.camera(0), 0, -0.40)](double) { return from; };
+          setup.camera = [from = turned(setup.camera(0), 0, 0.46)](double) { return from; };
         }}},
       {"stabilised", {"the picture glides, as with stabilisation", stabilise}},
       {"moved-camera", {"somebody touches the camera in the middle of the drive", jolt}},

@@ -155,6 +155,17 @@ TEST_P(FilmSet, HasAllTagsInThePictureUnlessThatIsItsFlaw) {
       ASSERT_TRUE(in_picture(seen_at(setup.lens, setup.camera(0), corner), setup.lens)) << time_s;
 }
 
+TEST(WrongFilm, OutOfPictureLosesTheRobotInTheMiddleOfTheDrive) {
+  const FilmCase film = film_case("out-of-picture");
+  const FilmSetup& setup = film.setup;
+  const auto seen = [&](double time_s) {
+    const FloorPose tag = setup.scene.robots[0].tag_at(time_s);
+    return in_picture(seen_at(setup.lens, setup.camera(0), {tag.x_m, tag.y_m, 0.12}), setup.lens);
+  };
+  EXPECT_TRUE(seen(setup.begin_s));
+  EXPECT_FALSE(seen(setup.end_s));
+}
+
 TEST_P(FilmSet, RecordsTheRunsThatItShows) {
   const FilmCase film = film_case(GetParam());
   for (const recording::Run& run : film.drives.runs) {
