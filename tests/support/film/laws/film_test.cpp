@@ -155,6 +155,29 @@ TEST_P(FilmSet, HasAllTagsInThePictureUnlessThatIsItsFlaw) {
       ASSERT_TRUE(in_picture(seen_at(setup.lens, setup.camera(0), corner), setup.lens)) << time_s;
 }
 
+/// Of the first picture, which is not encoded.
+std::multiset<int> ids_at_begin_of(const std::string& name) {
+  const FilmSetup setup = film_case(name).setup;
+  const int width = setup.lens.width_px, height = setup.lens.height_px;
+  std::vector<std::uint8_t> picture(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  Renderer renderer(setup.scene, setup.lens, setup.blur_px, setup.sensor, setup.seed);
+  renderer.render(setup.camera(0), setup.shutter, setup.begin_s, picture.data());
+  std::multiset<int> ids;
+  for (const ReadTag& tag : read_tags(picture, width, height)) ids.insert(tag.id);
+  return ids;
+}
+
+TEST(GoodFilm, ShowsLibapriltagTheRobotsTagAndSixOnTheFloor) {
+  for (const std::string& name : good_film_names())
+    EXPECT_THAT(ids_at_begin_of(name), testing::ElementsAre(0, 1, 2, 3, 4, 5, 6)) << name;
+}
+
+TEST(WrongFilm, ShowsLibapriltagItsFlaw) {
+  EXPECT_THAT(ids_at_begin_of("mirrored-print"), testing::IsEmpty());
+  EXPECT_THAT(ids_at_begin_of("two-robots"), testing::ElementsAre(0, 0, 1, 2, 3, 4, 5, 6));
+  EXPECT_EQ(ids_at_begin_of("blurred").count(0), 0U);
+}
+
 TEST(WrongFilm, OutOfPictureLosesTheRobotInTheMiddleOfTheDrive) {
   const FilmCase film = film_case("out-of-picture");
   const FilmSetup& setup = film.setup;
