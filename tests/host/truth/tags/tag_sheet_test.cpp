@@ -27,21 +27,21 @@ class Picture {
  public:
   explicit Picture(const TagSheet& sheet, const Paper& paper = kA4)
       : width_(px(paper.width_mm)), height_(px(paper.height_mm)) {
-    cairo_surface_t* const surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_);
-    cairo_t* const context = cairo_create(surface);
-    cairo_set_source_rgb(context, 1, 1, 1);
-    cairo_paint(context);
+    const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface(
+        cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_), &cairo_surface_destroy);
+    const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> context(cairo_create(surface.get()),
+                                                                     &cairo_destroy);
+    cairo_set_source_rgb(context.get(), 1, 1, 1);
+    cairo_paint(context.get());
     {
-      Canvas canvas(context, kPixelsPerMm);
+      Canvas canvas(context.get(), kPixelsPerMm);
       draw(canvas, sheet, paper);
     }
-    cairo_surface_flush(surface);
-    const unsigned char* const data = cairo_image_surface_get_data(surface);
-    const int stride = cairo_image_surface_get_stride(surface);
+    cairo_surface_flush(surface.get());
+    const unsigned char* const data = cairo_image_surface_get_data(surface.get());
+    const int stride = cairo_image_surface_get_stride(surface.get());
     for (int row = 0; row < height_; ++row)
       for (int column = 0; column < width_; ++column) grey_.push_back(data[row * stride + 4 * column]);
-    cairo_destroy(context);
-    cairo_surface_destroy(surface);
   }
 
   std::vector<ReadTag> tags() const { return support::read_tags(grey_, width_, height_); }
