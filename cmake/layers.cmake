@@ -27,7 +27,7 @@ set(ASTRO_LAYERS
   "host/commands/serving        : host/base host/commands/base host/console host/robot/port host/simulation/server"
   "host/commands/shared         : common host/base host/calibration/end_poses host/commands/base host/console host/experiment host/recording host/robot host/truth"
   "host/commands/simulate       : host/base host/calibration/motion host/commands/base host/commands/serving host/commands/shared host/console host/ros2/dds host/ros2/types host/simulation/ros2 host/simulation/study"
-  "host/commands/truth          : host/base host/commands/base host/commands/shared host/console host/experiment/import host/truth/live"
+  "host/commands/truth          : host/base host/commands/base host/commands/shared host/console host/experiment/import host/truth/live host/truth/tags"
   "host/commands/tune           : host/base host/commands/base host/commands/shared host/console host/experiment/drive host/motor host/report host/robot/client host/robot/parameters"
   "host/console                 : host/base"
   "host/emulator/chip           : hal/sim hal/teensy40/registers host/emulator/core"
@@ -80,6 +80,7 @@ set(ASTRO_LAYERS
   "host/truth/natnet            : host/base host/truth/source"
   "host/truth/ros2              : host/base host/ros2/cdr host/ros2/messages host/ros2/recorded host/truth/source"
   "host/truth/source            : host/base host/recording/run"
+  "host/truth/tags              : host/base"
   "host/truth/vrpn              : host/base host/truth/source"
   "tests                        : common hal firmware host"
 )
@@ -98,7 +99,9 @@ set(ASTRO_ON_ROBOT_FORBIDDEN
 set(ASTRO_OUTSIDE
   "CLI/                     : host/console"
   "Eigen/                   : host/calibration host/motor/model host/simulation/study host/truth/floor"
+  "apriltag/                : host/truth/tags"
   "boost/                   : host/robot/port host/robot/sharing host/ros2/foxglove"
+  "cairo/                   : host/truth/tags"
   "fastdds/ fastrtps/       : host/ros2/dds"
   "fmt/                     : host"
   "lz4frame.h zstd.h        : host/recording/mcap"

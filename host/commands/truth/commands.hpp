@@ -12,5 +12,6 @@ namespace astro::commands {
 
 void add_truth(console::Command app);
 void add_inspect(console::Command app);
+void add_tags(console::Command app);
 
 }  // namespace astro::commands

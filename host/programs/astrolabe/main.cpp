@@ -37,7 +37,7 @@ void add_commands(Command app) {
        {add_umbmark, add_calibrate, add_upload,  add_record,  add_compare,      add_report, add_sim,
         add_ports,   add_info,      add_params,  add_drive,   add_stop,         add_pause,  add_resume,
         add_faults,  add_reboot,    add_flash,   add_monitor, add_check_wiring, add_tune,   add_plan,
-        add_study,   add_export,    add_inspect, add_truth,   add_ros2,         add_serve})
+        add_study,   add_export,    add_inspect, add_truth,   add_tags,         add_ros2,   add_serve})
     add(app);
 }
 
