@@ -74,6 +74,10 @@ set(ASTRO_LAYERS
   "host/simulation/tracker      : host/base host/recording/run host/truth/natnet host/truth/source host/truth/vrpn"
   "host/truth/bags              : host/base host/recording/foreign host/truth/files host/truth/source"
   "host/truth/files             : host/base host/truth/manual host/truth/source"
+  "host/truth/film/camera       : host/truth/film/tags"
+  "host/truth/film/tags         : host/truth/film/video"
+  "host/truth/film/track        : host/base host/truth/film/camera host/truth/film/tags host/truth/film/video"
+  "host/truth/film/video        : host/base"
   "host/truth/floor             : host/base host/calibration/clock host/calibration/motion host/recording/run host/truth/files host/truth/source"
   "host/truth/live              : host/base host/ros2/dds host/ros2/recorded host/ros2/types host/truth/natnet host/truth/ros2 host/truth/source host/truth/vrpn"
   "host/truth/manual            : host/base host/recording/run host/truth/source"
@@ -96,8 +100,9 @@ set(ASTRO_ON_ROBOT_FORBIDDEN
 # with values and is free for all; any other header needs a line. So what a room can do beyond values in, values out is
 # read off here: host/calibration, host/motor/model and host/robot/arbitration are on no line but those of Eigen and fmt.
 set(ASTRO_OUTSIDE
+  "apriltag/                : host/truth/film/tags"
   "CLI/                     : host/console"
-  "Eigen/                   : host/calibration host/motor/model host/simulation/study host/truth/floor"
+  "Eigen/                   : host/calibration host/motor/model host/simulation/study host/truth/film host/truth/floor"
   "boost/                   : host/robot/port host/robot/sharing host/ros2/foxglove"
   "fastdds/ fastrtps/       : host/ros2/dds"
   "fmt/                     : host"
@@ -111,14 +116,14 @@ set(ASTRO_OUTSIDE
   "zlib.h                   : host/recording/mcap host/truth/files"
 
   # The operating system.
-  "asm/ sys/ fcntl.h poll.h signal.h spawn.h termios.h time.h unistd.h : host/base host/commands host/console host/programs host/recording/files host/robot/port host/robot/sharing host/simulation/server host/truth/live"
+  "asm/ sys/ fcntl.h poll.h signal.h spawn.h termios.h time.h unistd.h : host/base host/commands host/console host/programs host/recording/files host/robot/port host/robot/sharing host/simulation/server host/truth/film/video host/truth/live"
   "arpa/ netinet/ netdb.h   : host/base/net"
   "csignal                  : host/console"
   "chrono ctime             : host/base host/commands host/console host/emulator/robot host/experiment host/recording/files host/robot host/ros2 host/simulation host/truth"
   "atomic condition_variable future mutex shared_mutex stop_token thread : host/commands host/console host/robot/client host/robot/port host/robot/sharing host/ros2/dds host/ros2/foxglove host/simulation/server host/simulation/study host/truth/live"
 
   # Files, and what is printed.
-  "filesystem               : host/base host/commands host/console host/emulator host/experiment host/programs host/recording/bag host/recording/files host/recording/foreign host/report host/robot/port host/simulation/server host/truth/bags host/truth/files host/truth/live"
+  "filesystem               : host/base host/commands host/console host/emulator host/experiment host/programs host/recording/bag host/recording/files host/recording/foreign host/report host/robot/port host/simulation/server host/truth/bags host/truth/film host/truth/files host/truth/live"
   "fstream                  : host/base host/emulator/core host/recording/bag host/robot/port host/robot/sharing host/simulation/server"
   "iostream                 : host/commands"
   "cstdio                   : host/commands host/console host/programs"
