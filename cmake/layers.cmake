@@ -27,7 +27,7 @@ set(ASTRO_LAYERS
   "host/commands/serving        : host/base host/commands/base host/console host/robot/port host/simulation/server"
   "host/commands/shared         : common host/base host/calibration/end_poses host/commands/base host/console host/experiment host/recording host/robot host/truth"
   "host/commands/simulate       : host/base host/calibration/motion host/commands/base host/commands/serving host/commands/shared host/console host/ros2/dds host/ros2/types host/simulation/ros2 host/simulation/study"
-  "host/commands/truth          : host/base host/commands/base host/commands/shared host/console host/experiment/import host/truth/live"
+  "host/commands/truth          : host/base host/commands/base host/commands/shared host/console host/experiment/import host/report host/truth/film host/truth/live"
   "host/commands/tune           : host/base host/commands/base host/commands/shared host/console host/experiment/drive host/motor host/report host/robot/client host/robot/parameters"
   "host/console                 : host/base"
   "host/emulator/chip           : hal/sim hal/teensy40/registers host/emulator/core"
@@ -75,6 +75,7 @@ set(ASTRO_LAYERS
   "host/truth/bags              : host/base host/recording/foreign host/truth/files host/truth/source"
   "host/truth/files             : host/base host/truth/manual host/truth/source"
   "host/truth/film/camera       : host/truth/film/tags"
+  "host/truth/film/preview      : host/truth/film/camera host/truth/film/track host/truth/film/video"
   "host/truth/film/tags         : host/truth/film/video"
   "host/truth/film/track        : host/base host/truth/film/camera host/truth/film/tags host/truth/film/video"
   "host/truth/film/video        : host/base"
@@ -113,7 +114,7 @@ set(ASTRO_OUTSIDE
   "toml++/                  : host/experiment"
   "unicorn/ elf.h cxxabi.h  : host/emulator/core"
   "yaml.h                   : host/recording/yaml"
-  "zlib.h                   : host/recording/mcap host/truth/files"
+  "zlib.h                   : host/recording/mcap host/truth/film/preview host/truth/files"
 
   # The operating system.
   "asm/ sys/ fcntl.h poll.h signal.h spawn.h termios.h time.h unistd.h : host/base host/commands host/console host/programs host/recording/files host/robot/port host/robot/sharing host/simulation/server host/truth/film/video host/truth/live"

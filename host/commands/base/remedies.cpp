@@ -147,7 +147,7 @@ constexpr Sentence kSentences[] = {
      ": lay the robot's tag flat on top of it, with a white margin all around, and film it from above in "
      "even "
      "light"},
-    {Help::name_robot_tag, ": if that is on the robot, give its number, {}, as the robot's tag"},
+    {Help::name_robot_tag, ": if that is on the robot, give --robot-tag {}"},
     {Help::film_floor_tags,
      ": tape four to six tags flat to the floor around the field, with numbers of their own, and have all of "
      "them "
@@ -166,7 +166,9 @@ constexpr Sentence kSentences[] = {
      ": put the phone on a shelf or a tripod where nothing touches it, switch stabilisation off, and film "
      "again"},
     {Help::measure_distance,
-     "; measure one, best from the centre of one floor tag to that of another three metres away"},
+     "; measure one, best from the centre of one floor tag to that of another three metres away, and give it "
+     "with "
+     "--tape"},
     {Help::name_wheel_columns,
      ": describe the columns with --wheel-columns, such as time_s,left_counts,right_counts (also ..._rad, "
      "..._m; "
