@@ -125,7 +125,7 @@ set(ASTRO_OUTSIDE
 
   # Files, and what is printed.
   "filesystem               : host/base host/commands host/console host/emulator host/experiment host/programs host/recording/bag host/recording/files host/recording/foreign host/report host/robot/port host/simulation/server host/truth/bags host/truth/film host/truth/files host/truth/live"
-  "fstream                  : host/base host/emulator/core host/recording/bag host/robot/port host/robot/sharing host/simulation/server"
+  "fstream                  : host/base host/emulator/core host/truth/film/video host/recording/bag host/robot/port host/robot/sharing host/simulation/server"
   "iostream                 : host/commands"
   "cstdio                   : host/commands host/console host/programs"
 )

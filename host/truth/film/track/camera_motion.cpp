@@ -157,9 +157,11 @@ CameraMotion camera_motion(const std::vector<FloorLook>& looks, const std::vecto
   for (std::size_t i = 0; i < raw.size(); ++i) {
     squares += (raw[i].shift_px - found.course[i].shift_px).squaredNorm();
     const double off = (found.course[i].shift_px - found.course.front().shift_px).norm();
-    if (off <= found.most_px) continue;
-    found.most_px = off;
-    found.most_at_s = raw[i].pts_s;
+    found.most_px = std::max(found.most_px, off);
+  }
+  for (const PictureMotion& motion : found.course) {
+    found.most_at_s = motion.pts_s;
+    if ((motion.shift_px - found.course.front().shift_px).norm() >= found.most_px / 2) break;
   }
   found.shake_px = std::sqrt(squares / static_cast<double>(raw.size()));
   return found;

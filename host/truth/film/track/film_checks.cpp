@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "host/base/error.hpp"
 #include "host/truth/film/track/film_diagnosis.hpp"
@@ -44,18 +45,41 @@ double typical(std::vector<double> values) {
   return *middle;
 }
 
-/// A robot that stands there after the jump as well as before was elsewhere; one wrong picture is no jump.
+/// By how much the pose at `to` misses what a speed makes of that at `from`.
+struct Miss {
+  double way_m, turn_rad;
+};
+Miss miss_of(const FilmPose& from, const FilmPose& to, const RobotVelocity& speed) {
+  const double dt_s = to.time_s - from.time_s;
+  return {std::hypot(to.pose.x_m - from.pose.x_m - speed.x_mps * dt_s, to.pose.y_m - from.pose.y_m - speed.y_mps * dt_s),
+          std::abs(std::remainder(to.pose.theta_rad - from.pose.theta_rad - speed.omega_radps * dt_s,
+                                  2 * std::numbers::pi))};
+}
+
+RobotVelocity mean_speed(const FilmPose& from, const FilmPose& to) {
+  const double dt_s = to.time_s - from.time_s;
+  return {(to.pose.x_m - from.pose.x_m) / dt_s, (to.pose.y_m - from.pose.y_m) / dt_s,
+          (to.pose.theta_rad - from.pose.theta_rad) / dt_s};
+}
+
+/// Where the robot is elsewhere in the next picture than both its speed before and its speed after would bring it, for good: one
+/// wrong picture is no jump. Where it was hidden for long nothing is said.
 std::optional<double> jump_in(const std::vector<FilmPose>& poses) {
-  constexpr double kMost_mps = 5, kSlack_m = 0.08;
-  constexpr std::size_t kBehind = 3;
-  for (std::size_t i = 1; i + kBehind < poses.size(); ++i) {
-    const auto leaps = [&](std::size_t from, std::size_t to) {
-      const RobotPose &a = poses[from].pose, &b = poses[to].pose;
-      return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m) >
-             kSlack_m + kMost_mps * (poses[to].time_s - poses[from].time_s);
+  constexpr double kLeap_m = 0.04, kLeap_mps = 0.5, kLeap_rad = 0.15, kLeap_radps = 2, kHidden_s = 0.7;
+  constexpr std::size_t kAround = 4;
+  for (std::size_t i = kAround; i + kAround < poses.size(); ++i) {
+    const FilmPose &from = poses[i - 1], &to = poses[i];
+    const double dt_s = to.time_s - from.time_s;
+    if (dt_s > kHidden_s) continue;
+    const RobotVelocity before = mean_speed(poses[i - kAround], from), after = mean_speed(to, poses[i + kAround - 1]);
+    const auto leaps = [&](const FilmPose& a, const FilmPose& b) {
+      const double span_s = b.time_s - a.time_s;
+      const auto beyond = [&](const Miss& miss) {
+        return miss.way_m > kLeap_m + kLeap_mps * span_s || miss.turn_rad > kLeap_rad + kLeap_radps * span_s;
+      };
+      return beyond(miss_of(a, b, before)) && beyond(miss_of(a, b, after));
     };
-    const std::size_t before = i >= kBehind ? i - kBehind : 0;
-    if (leaps(i - 1, i) && leaps(before, i) && leaps(i - 1, i + kBehind)) return poses[i].pts_s;
+    if (leaps(from, to) && leaps(poses[i - 2], poses[i + 1])) return to.pts_s;
   }
   return std::nullopt;
 }
@@ -92,9 +116,9 @@ void refuse_survey(const fs::path& film, const FilmInfo& info, const FloorSurvey
   for (const FilmFigures::Length& tape : figures.tapes)
     for (const int id : {tape.from, tape.to})
       if (std::none_of(survey.floor.begin(), survey.floor.end(),
-                       [&](const SeenFloorTag& t) { return t.id == id; }))
-        throw Error(fmt::format("{}: a length to floor tag {} is given, which is not seen", quoted(film), id),
-                    {Help::film_floor_tags});
+                       [&](const SeenFloorTag& tag) { return tag.id == id; }))
+        refuse_missing(film, info, [&](int other) { return other == id; },
+                       fmt::format("floor tag {}, to which a length is given,", id), Help::film_floor_tags);
 }
 
 void refuse_sightings(const fs::path& film, const FilmInfo& info, const FilmSightings& sightings) {
@@ -138,7 +162,7 @@ void refuse_motion(const fs::path& film, const CameraMotion& motion) {
         {Help::film_from_fixed_camera});
   if (motion.most_px > kMoves_px)
     throw Error(
-        fmt::format("{}: the camera was moved: at {:.1f} s the floor tags are {:.0f} px from where they were",
+        fmt::format("{}: the camera was moved: from about {:.1f} s on the floor tags are {:.0f} px from where they were",
                     quoted(film), motion.most_at_s, motion.most_px),
         {Help::film_from_fixed_camera});
 }
@@ -191,7 +215,7 @@ std::vector<Remark> remarks_on(const FilmTrack& track, const FloorSurvey& survey
     all.push_back({fmt::format("the robot's tag is only {:.0f} px high where it is farthest", least),
                    {Help::film_nearer}});
   if (track.motion.most_px > kSags_px)
-    all.push_back({fmt::format("the camera sagged by {:.1f} px up to {:.1f} s, which was taken out",
+    all.push_back({fmt::format("the camera sagged by {:.1f} px, half of it by {:.1f} s, which was taken out",
                                track.motion.most_px, track.motion.most_at_s),
                    {Help::film_from_fixed_camera}});
   if (seen.longest_gap_s > 0.5)

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <map>
 #include <sstream>
 
@@ -39,8 +40,15 @@ double number_of(const Fields& fields, const std::string& name) {
   return std::isfinite(value) && value > -1e9 && value < 1e9 ? value : 0;
 }
 
+/// The first box of MP4 and MOV says which of them it is; ffprobe believes the name of the file.
+bool begins_as_film(const std::filesystem::path& film) {
+  std::array<char, 8> head{};
+  std::ifstream(film, std::ios::binary).read(head.data(), head.size());
+  return std::string_view(head.data() + 4, 4) == "ftyp";
+}
+
 [[noreturn]] void refuse(const std::filesystem::path& film, const std::string& why) {
-  if (why.find("moov atom not found") != std::string::npos)
+  if (why.find("moov atom not found") != std::string::npos && begins_as_film(film))
     throw Error("'" + film.string() +
                     "' is a truncated film: its table of pictures, which a camera writes last, is missing",
                 {Help::take_original_film});
