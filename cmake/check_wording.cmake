@@ -17,6 +17,8 @@ set(format_constants
   "host/simulation/server/pty.cpp:astrolabe-pty-{:016x}"  # the lock of a simulated port
   "host/simulation/server/truth_server.cpp:astrolabe-mocap 1\\n"
   "host/simulation/study/shard_file.cpp:astrolabe study 3"
+  "host/truth/film/video/frame_stream.cpp:-i"              # arguments of ffmpeg
+  "host/truth/film/video/frame_stream.cpp:-f"
   "host/truth/live/socket_source.cpp:astrolabe-mocap 1")
 
 # A subcommand is a file of its name: calibrate_runs.cpp is `calibrate runs`, check_wiring.cpp is `check-wiring`.

@@ -27,7 +27,7 @@ set(ASTRO_LAYERS
   "host/commands/serving        : host/base host/commands/base host/console host/robot/port host/simulation/server"
   "host/commands/shared         : common host/base host/calibration/end_poses host/commands/base host/console host/experiment host/recording host/robot host/truth"
   "host/commands/simulate       : host/base host/calibration/motion host/commands/base host/commands/serving host/commands/shared host/console host/ros2/dds host/ros2/types host/simulation/ros2 host/simulation/study"
-  "host/commands/truth          : host/base host/commands/base host/commands/shared host/console host/experiment/import host/truth/live host/truth/tags"
+  "host/commands/truth          : host/base host/commands/base host/commands/shared host/console host/experiment/import host/report host/truth/film host/truth/live host/truth/tags"
   "host/commands/tune           : host/base host/commands/base host/commands/shared host/console host/experiment/drive host/motor host/report host/robot/client host/robot/parameters"
   "host/console                 : host/base"
   "host/emulator/chip           : hal/sim hal/teensy40/registers host/emulator/core"
@@ -74,6 +74,11 @@ set(ASTRO_LAYERS
   "host/simulation/tracker      : host/base host/recording/run host/truth/natnet host/truth/source host/truth/vrpn"
   "host/truth/bags              : host/base host/recording/foreign host/truth/files host/truth/source"
   "host/truth/files             : host/base host/truth/manual host/truth/source"
+  "host/truth/film/camera       : host/truth/film/tags"
+  "host/truth/film/preview      : host/truth/film/camera host/truth/film/track host/truth/film/video"
+  "host/truth/film/tags         : host/truth/film/video"
+  "host/truth/film/track        : host/base host/truth/film/camera host/truth/film/tags host/truth/film/video"
+  "host/truth/film/video        : host/base"
   "host/truth/floor             : host/base host/calibration/clock host/calibration/motion host/recording/run host/truth/files host/truth/source"
   "host/truth/live              : host/base host/ros2/dds host/ros2/recorded host/ros2/types host/truth/natnet host/truth/ros2 host/truth/source host/truth/vrpn"
   "host/truth/manual            : host/base host/recording/run host/truth/source"
@@ -97,9 +102,9 @@ set(ASTRO_ON_ROBOT_FORBIDDEN
 # with values and is free for all; any other header needs a line. So what a room can do beyond values in, values out is
 # read off here: host/calibration, host/motor/model and host/robot/arbitration are on no line but those of Eigen and fmt.
 set(ASTRO_OUTSIDE
+  "apriltag/                : host/truth/film/tags host/truth/tags"
   "CLI/                     : host/console"
-  "Eigen/                   : host/calibration host/motor/model host/simulation/study host/truth/floor"
-  "apriltag/                : host/truth/tags"
+  "Eigen/                   : host/calibration host/motor/model host/simulation/study host/truth/film host/truth/floor"
   "boost/                   : host/robot/port host/robot/sharing host/ros2/foxglove"
   "cairo/                   : host/truth/tags"
   "fastdds/ fastrtps/       : host/ros2/dds"
@@ -111,18 +116,18 @@ set(ASTRO_OUTSIDE
   "toml++/                  : host/experiment"
   "unicorn/ elf.h cxxabi.h  : host/emulator/core"
   "yaml.h                   : host/recording/yaml"
-  "zlib.h                   : host/recording/mcap host/truth/files"
+  "zlib.h                   : host/recording/mcap host/truth/film/preview host/truth/files"
 
   # The operating system.
-  "asm/ sys/ fcntl.h poll.h signal.h spawn.h termios.h time.h unistd.h : host/base host/commands host/console host/programs host/recording/files host/robot/port host/robot/sharing host/simulation/server host/truth/live"
+  "asm/ sys/ fcntl.h poll.h signal.h spawn.h termios.h time.h unistd.h : host/base host/commands host/console host/programs host/recording/files host/robot/port host/robot/sharing host/simulation/server host/truth/film/video host/truth/live"
   "arpa/ netinet/ netdb.h   : host/base/net"
   "csignal                  : host/console"
   "chrono ctime             : host/base host/commands host/console host/emulator/robot host/experiment host/recording/files host/robot host/ros2 host/simulation host/truth"
   "atomic condition_variable future mutex shared_mutex stop_token thread : host/commands host/console host/robot/client host/robot/port host/robot/sharing host/ros2/dds host/ros2/foxglove host/simulation/server host/simulation/study host/truth/live"
 
   # Files, and what is printed.
-  "filesystem               : host/base host/commands host/console host/emulator host/experiment host/programs host/recording/bag host/recording/files host/recording/foreign host/report host/robot/port host/simulation/server host/truth/bags host/truth/files host/truth/live"
-  "fstream                  : host/base host/emulator/core host/recording/bag host/robot/port host/robot/sharing host/simulation/server"
+  "filesystem               : host/base host/commands host/console host/emulator host/experiment host/programs host/recording/bag host/recording/files host/recording/foreign host/report host/robot/port host/simulation/server host/truth/bags host/truth/film host/truth/files host/truth/live"
+  "fstream                  : host/base host/emulator/core host/truth/film/video host/recording/bag host/robot/port host/robot/sharing host/simulation/server"
   "iostream                 : host/commands"
   "cstdio                   : host/commands host/console host/programs"
 )

@@ -118,6 +118,23 @@ enum class Help : std::uint8_t {
   export_as_table,
   export_in_one_frame,
   unpack_first,
+  // films
+  install_film_reader,
+  name_film,
+  take_original_film,
+  film_uncut,
+  film_mirrored_not,
+  film_one_robot,
+  film_robot_tag,
+  name_robot_tag,  // {id}
+  film_floor_tags,
+  film_more_floor_tags,
+  lay_floor_tags_flat,
+  film_nearer,
+  film_sharper,
+  film_whole_field,
+  film_from_fixed_camera,
+  measure_distance,
   // recordings of other programs
   name_wheel_columns,
   name_wheel_joints,

@@ -133,6 +133,42 @@ constexpr Sentence kSentences[] = {
     {Help::export_in_one_frame,
      ": export positions and orientations with the same axes, and do not change them afterwards"},
     {Help::unpack_first, ": unpack it with 'gzip -d' first"},
+    {Help::install_film_reader, ": install ffmpeg ('apt install ffmpeg'), which has it"},
+    {Help::name_film, ": name the film that the phone recorded (MP4 or MOV)"},
+    {Help::take_original_film,
+     ": copy the original file from the phone once more, not one that a messenger or an editor wrote; if "
+     "that is "
+     "it, film again and end the recording before the phone is moved"},
+    {Help::film_uncut, ": film everything in one go, and take the file as the phone wrote it"},
+    {Help::film_mirrored_not,
+     ": film with the rear camera without a mirror effect, and print the tags as they are, not mirrored"},
+    {Help::film_one_robot, ": film with one robot, and one print of its tag, in the picture"},
+    {Help::film_robot_tag,
+     ": lay the robot's tag flat on top of it, with a white margin all around, and film it from above in "
+     "even "
+     "light"},
+    {Help::name_robot_tag, ": if that is on the robot, give --robot-tag {}"},
+    {Help::film_floor_tags,
+     ": tape four to six tags flat to the floor around the field, with numbers of their own, and have all of "
+     "them "
+     "in the picture"},
+    {Help::film_more_floor_tags, ": four to six around the field check one another"},
+    {Help::lay_floor_tags_flat, ": tape them flat to one level floor, all of one size, and film again"},
+    {Help::film_nearer,
+     ": film from nearer or more from above, in 1080p or better, or print larger tags: 30 px of height in "
+     "the "
+     "farthest corner are good"},
+    {Help::film_sharper,
+     ": clean the lens, lock the focus on the floor, give more light, and film again at the highest quality"},
+    {Help::film_whole_field,
+     ": choose the place of the phone so that the robot's tag stays in the picture all the time"},
+    {Help::film_from_fixed_camera,
+     ": put the phone on a shelf or a tripod where nothing touches it, switch stabilisation off, and film "
+     "again"},
+    {Help::measure_distance,
+     "; measure one, best from the centre of one floor tag to that of another three metres away, and give it "
+     "with "
+     "--tape"},
     {Help::name_wheel_columns,
      ": describe the columns with --wheel-columns, such as time_s,left_counts,right_counts (also ..._rad, "
      "..._m; "

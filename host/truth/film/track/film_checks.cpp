@@ -1,0 +1,234 @@
+#include "host/truth/film/track/film_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "host/base/error.hpp"
+#include "host/truth/film/track/film_diagnosis.hpp"
+
+namespace astro::film {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kSmall_px = 18, kUneasy_px = 28;  // the shortest side of a tag
+constexpr double kBlurred_px = 1.45;               // standard deviation of an edge; a sharp lens has 0.7
+constexpr double kShakes_px = 0.7, kMoves_px = 6, kSags_px = 0.5;
+
+std::string quoted(const fs::path& film) { return "'" + film.string() + "'"; }
+
+[[noreturn]] void refuse_missing(const fs::path& film, const FilmInfo& info,
+                                 const std::function<bool(int)>& wanted, const std::string& whose,
+                                 Help otherwise) {
+  const TagDiagnosis why = why_no_tag(film, info, wanted);
+  switch (why.problem) {
+    case TagProblem::mirrored:
+      throw Error(fmt::format("{}: {} is a mirror image", quoted(film), whose), {Help::film_mirrored_not});
+    case TagProblem::too_small:
+      throw Error(fmt::format("{}: {} is too small in the picture: {:.0f} px, and 20 are needed",
+                              quoted(film), whose, why.side_px),
+                  {Help::film_nearer});
+    case TagProblem::blurred:
+      throw Error(fmt::format("{}: {} is blurred", quoted(film), whose), {Help::film_sharper});
+    case TagProblem::none_there:
+      break;
+  }
+  throw Error(fmt::format("{}: {} is not seen", quoted(film), whose), {otherwise});
+}
+
+double typical(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// By how much the pose at `to` misses what a speed makes of that at `from`.
+struct Miss {
+  double way_m, turn_rad;
+};
+Miss miss_of(const FilmPose& from, const FilmPose& to, const RobotVelocity& speed) {
+  const double dt_s = to.time_s - from.time_s;
+  return {std::hypot(to.pose.x_m - from.pose.x_m - speed.x_mps * dt_s, to.pose.y_m - from.pose.y_m - speed.y_mps * dt_s),
+          std::abs(std::remainder(to.pose.theta_rad - from.pose.theta_rad - speed.omega_radps * dt_s,
+                                  2 * std::numbers::pi))};
+}
+
+RobotVelocity mean_speed(const FilmPose& from, const FilmPose& to) {
+  const double dt_s = to.time_s - from.time_s;
+  return {(to.pose.x_m - from.pose.x_m) / dt_s, (to.pose.y_m - from.pose.y_m) / dt_s,
+          (to.pose.theta_rad - from.pose.theta_rad) / dt_s};
+}
+
+/// Where the robot is elsewhere in the next picture than both its speed before and its speed after would bring it, for good: one
+/// wrong picture is no jump. Where it was hidden for long nothing is said.
+std::optional<double> jump_in(const std::vector<FilmPose>& poses) {
+  constexpr double kLeap_m = 0.04, kLeap_mps = 0.5, kLeap_rad = 0.15, kLeap_radps = 2, kHidden_s = 0.7;
+  constexpr std::size_t kAround = 4;
+  for (std::size_t i = kAround; i + kAround < poses.size(); ++i) {
+    const FilmPose &from = poses[i - 1], &to = poses[i];
+    const double dt_s = to.time_s - from.time_s;
+    if (dt_s > kHidden_s) continue;
+    const RobotVelocity before = mean_speed(poses[i - kAround], from), after = mean_speed(to, poses[i + kAround - 1]);
+    const auto leaps = [&](const FilmPose& a, const FilmPose& b) {
+      const double span_s = b.time_s - a.time_s;
+      const auto beyond = [&](const Miss& miss) {
+        return miss.way_m > kLeap_m + kLeap_mps * span_s || miss.turn_rad > kLeap_rad + kLeap_radps * span_s;
+      };
+      return beyond(miss_of(a, b, before)) && beyond(miss_of(a, b, after));
+    };
+    if (leaps(from, to) && leaps(poses[i - 2], poses[i + 1])) return to.pts_s;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void refuse_survey(const fs::path& film, const FilmInfo& info, const FloorSurvey& survey,
+                   const FilmFigures& figures) {
+  if (survey.pictures == 0)
+    throw Error(quoted(film) + " is a truncated film: no picture of it can be decoded",
+                {Help::take_original_film});
+  const std::string robot = fmt::format("the robot's tag (tag36h11, id {})", figures.robot_id);
+  const auto is_robot = [&](int id) { return id == figures.robot_id; };
+  if (survey.two_robots_s)
+    throw Error(fmt::format("{}: {} is at two places at {:.1f} s", quoted(film), robot, *survey.two_robots_s),
+                {Help::film_one_robot});
+  if (survey.floor.empty() && survey.robot.empty())
+    refuse_missing(
+        film, info, [](int) { return true; }, "the tag", Help::film_robot_tag);
+  if (survey.robot.empty()) {
+    if (!survey.moving.empty())
+      throw Error(
+          fmt::format("{}: {} is not seen, but id {} moves", quoted(film), robot, survey.moving.front()),
+          {Help::name_robot_tag, std::to_string(survey.moving.front())});
+    refuse_missing(film, info, is_robot, robot, Help::film_robot_tag);
+  }
+  if (survey.floor.empty())
+    refuse_missing(
+        film, info, [&](int id) { return !is_robot(id); }, "a tag on the floor", Help::film_floor_tags);
+  if (survey.floor.size() == 1)
+    throw Error(
+        fmt::format("{}: only one tag on the floor is seen, id {}", quoted(film), survey.floor.front().id),
+        {Help::film_floor_tags});
+  for (const FilmFigures::Length& tape : figures.tapes)
+    for (const int id : {tape.from, tape.to})
+      if (std::none_of(survey.floor.begin(), survey.floor.end(),
+                       [&](const SeenFloorTag& tag) { return tag.id == id; }))
+        refuse_missing(film, info, [&](int other) { return other == id; },
+                       fmt::format("floor tag {}, to which a length is given,", id), Help::film_floor_tags);
+}
+
+void refuse_sightings(const fs::path& film, const FilmInfo& info, const FilmSightings& sightings) {
+  constexpr double kLess_s = 1;
+  const double decoded_s = sightings.last_s - sightings.first_s;
+  if (info.duration_s - decoded_s > kLess_s + 0.02 * info.duration_s)
+    throw Error(fmt::format("{} is a truncated film: pictures end after {:.1f} of {:.1f} s", quoted(film),
+                            decoded_s, info.duration_s),
+                {Help::take_original_film});
+  if (sightings.two_robots_s)
+    throw Error(fmt::format("{}: the robot's tag is at two places at {:.1f} s", quoted(film),
+                            *sightings.two_robots_s),
+                {Help::film_one_robot});
+  constexpr std::size_t kLeast = 30;
+  if (sightings.robot.size() < kLeast)
+    throw Error(fmt::format("{}: the robot's tag is seen in {} of {} pictures only", quoted(film),
+                            sightings.robot.size(), sightings.pictures),
+                {Help::film_whole_field});
+  std::vector<double> sides, widths;
+  for (const RobotTagSeen& one : sightings.robot) {
+    sides.push_back(shortest_side(one.corners));
+    widths.push_back(one.edge_width_px);
+  }
+  if (const double side = typical(sides); side < kSmall_px)
+    throw Error(fmt::format("{}: the robot's tag is too small in the picture: {:.0f} px, and 20 are needed",
+                            quoted(film), side),
+                {Help::film_nearer});
+  if (const double width = typical(widths); width > kBlurred_px)
+    throw Error(fmt::format("{}: the picture is blurred: the edges of the robot's tag are {:.1f} px wide",
+                            quoted(film), 2 * width),
+                {Help::film_sharper});
+}
+
+void refuse_motion(const fs::path& film, const CameraMotion& motion) {
+  if (motion.shake_px > kShakes_px)
+    throw Error(
+        fmt::format(
+            "{}: the picture shakes by {:.1f} px (the camera is not fixed, or its stabilisation moves the "
+            "picture)",
+            quoted(film), motion.shake_px),
+        {Help::film_from_fixed_camera});
+  if (motion.most_px > kMoves_px)
+    throw Error(
+        fmt::format("{}: the camera was moved: from about {:.1f} s on the floor tags are {:.0f} px from where they were",
+                    quoted(film), motion.most_at_s, motion.most_px),
+        {Help::film_from_fixed_camera});
+}
+
+void refuse_track(const fs::path& film, const FilmTrack& track) {
+  constexpr double kFlat_px = 3;
+  const auto worst = std::max_element(
+      track.floor.begin(), track.floor.end(),
+      [](const FloorTagReport& a, const FloorTagReport& b) { return a.misfit_px < b.misfit_px; });
+  if (worst->misfit_px > kFlat_px)
+    throw Error(
+        fmt::format(
+            "{}: the floor tags do not lie flat on one floor, or differ in size: tag {} is {:.1f} px off",
+            quoted(film), worst->id, worst->misfit_px),
+        {Help::lay_floor_tags_flat});
+  if (track.found.poses.size() * 2 < track.sightings.robot.size() || track.found.corner_px > 1)
+    throw Error(fmt::format("{}: the corners of the robot's tag fit no square on a flat floor ({:.1f} px)",
+                            quoted(film), track.found.corner_px),
+                {Help::film_sharper});
+  if (const auto at = jump_in(track.found.poses))
+    throw Error(fmt::format("{}: the film is cut: the robot jumps at {:.2f} s", quoted(film), *at),
+                {Help::film_uncut});
+}
+
+std::vector<Remark> remarks_on(const FilmTrack& track, const FloorSurvey& survey) {
+  constexpr double kRough_px = 0.5;
+  std::vector<Remark> all;
+  const FilmSightings& seen = track.sightings;
+  if (!track.figures.scale_measured())
+    all.push_back(
+        {"nobody measured a distance, so the scale is not found: what the film shows is the ratio of the "
+         "wheels "
+         "and of the wheelbase to them",
+         {Help::measure_distance}});
+  if (track.floor.size() < 4)
+    all.push_back({fmt::format("only {} tags on the floor are seen", track.floor.size()),
+                   {Help::film_more_floor_tags}});
+  for (const FloorTagReport& tag : track.floor) {
+    if (tag.misfit_px > kRough_px)
+      all.push_back(
+          {fmt::format("floor tag {} is {:.1f} px off the plane of the others", tag.id, tag.misfit_px),
+           {Help::lay_floor_tags_flat}});
+    if (tag.side_px < kSmall_px)
+      all.push_back(
+          {fmt::format("floor tag {} is only {:.0f} px high", tag.id, tag.side_px), {Help::film_nearer}});
+  }
+  std::vector<double> sides;
+  for (const RobotTagSeen& one : seen.robot) sides.push_back(shortest_side(one.corners));
+  if (const double least = *std::min_element(sides.begin(), sides.end()); least < kUneasy_px)
+    all.push_back({fmt::format("the robot's tag is only {:.0f} px high where it is farthest", least),
+                   {Help::film_nearer}});
+  if (track.motion.most_px > kSags_px)
+    all.push_back({fmt::format("the camera sagged by {:.1f} px, half of it by {:.1f} s, which was taken out",
+                               track.motion.most_px, track.motion.most_at_s),
+                   {Help::film_from_fixed_camera}});
+  if (seen.longest_gap_s > 0.5)
+    all.push_back(
+        {fmt::format("no pictures for {:.1f} s from {:.1f} s on", seen.longest_gap_s, seen.gap_at_s), {}});
+  if (seen.unordered > 0)
+    all.push_back({fmt::format("{} pictures have no later time than the one before", seen.unordered),
+                   {Help::take_original_film}});
+  if (!seen.complaint.empty())
+    all.push_back({"the decoder complains:" + seen.complaint, {Help::take_original_film}});
+  for (const int id : survey.moving)
+    all.push_back({fmt::format("tag {} moves, and is neither the robot's nor on the floor", id), {}});
+  return all;
+}
+
+}  // namespace astro::film

@@ -1,0 +1,67 @@
+#include "host/truth/film/track/film_diagnosis.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "host/truth/film/tags/detector.hpp"
+#include "host/truth/film/video/frame_stream.hpp"
+
+namespace astro::film {
+namespace {
+
+constexpr int kPictures = 6;
+constexpr std::size_t kMostPixels = std::size_t{6} << 20;  // of an enlarged picture: more is no small picture
+
+GrayFrame mirrored(const GrayFrame& frame) {
+  GrayFrame other = frame;
+  for (int y = 0; y < frame.height; ++y) {
+    const auto row = other.pixels.begin() + static_cast<long>(y) * frame.width;
+    std::reverse(row, row + frame.width);
+  }
+  return other;
+}
+
+/// Twice as large, bilinear.
+GrayFrame enlarged(const GrayFrame& frame) {
+  GrayFrame other{2 * frame.width, 2 * frame.height, {}, frame.pts_s, frame.key};
+  other.pixels.resize(4 * frame.pixels.size());
+  for (int y = 0; y < other.height; ++y)
+    for (int x = 0; x < other.width; ++x) {
+      const int left = x / 2, top = y / 2;
+      const int right = std::min(left + x % 2, frame.width - 1),
+                bottom = std::min(top + y % 2, frame.height - 1);
+      const int sum =
+          frame.at(left, top) + frame.at(right, top) + frame.at(left, bottom) + frame.at(right, bottom);
+      other.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(other.width) +
+                   static_cast<std::size_t>(x)] = static_cast<std::uint8_t>((sum + 2) / 4);
+    }
+  return other;
+}
+
+std::optional<double> side_of(TagDetector& detector, const GrayFrame& frame, double decimate,
+                              const std::function<bool(int)>& wanted) {
+  for (const DetectedTag& tag : detector.detect(frame, whole_of(frame), decimate))
+    if (wanted(tag.id)) return shortest_side(tag.corners);
+  return std::nullopt;
+}
+
+}  // namespace
+
+TagDiagnosis why_no_tag(const std::filesystem::path& film, const FilmInfo& info,
+                        const std::function<bool(int)>& wanted) {
+  FrameStream stream(film, info, FrameStream::Pictures::key_only);
+  TagDetector detector;
+  GrayFrame frame;
+  TagDiagnosis found;
+  for (int i = 0; i < kPictures && stream.next(frame); ++i) {
+    if (side_of(detector, mirrored(frame), 1, wanted)) return {TagProblem::mirrored, 0};
+    for (const double coarse : {2.0, 3.0, 4.0})
+      if (const auto side = side_of(detector, frame, coarse, wanted)) found = {TagProblem::blurred, *side};
+    if (found.problem != TagProblem::none_there || 4 * frame.pixels.size() > 4 * kMostPixels) continue;
+    if (const auto side = side_of(detector, enlarged(frame), 1, wanted))
+      found = {TagProblem::too_small, *side / 2};
+  }
+  return found;
+}
+
+}  // namespace astro::film

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace astro::film {
+
+/// What a person says about the printed tags. What is not given is assumed as the sheets are printed, and then the scale
+/// counts as not measured.
+struct FilmFigures {
+  int robot_id = 0;
+  std::optional<double> robot_side_m, floor_side_m;  // of the black squares
+  std::optional<double> robot_height_m;              // of the robot's tag above the floor
+  struct Length {
+    int from = 0, to = 0;  // ids of floor tags
+    double length_m = 0;   // from centre to centre
+  };
+  std::vector<Length> tapes;
+  double readout_s = 0.02;  // from the first row to the last; negative if the last row is read first
+
+  /// A distance that fixes the scale. The height of a tag alone fixes none.
+  bool scale_measured() const { return robot_side_m || floor_side_m || !tapes.empty(); }
+};
+
+}  // namespace astro::film

@@ -1,0 +1,84 @@
+#include "host/truth/film/track/film_track.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/truth/film/camera/scale_error.hpp"
+#include "host/truth/film/track/film_checks.hpp"
+#include "host/truth/film/track/film_diagnosis.hpp"
+#include "host/truth/film/track/floor_survey.hpp"
+#include "host/truth/film/track/scene_search.hpp"
+
+namespace astro::film {
+namespace {
+
+constexpr double kSurveyPart = 0.1;  // of the work
+
+Progress part_of(const Progress& progress, double from, double to) {
+  if (!progress) return {};
+  return [=](double done) { progress(from + (to - from) * done); };
+}
+
+void steady(FilmSightings& sightings, const CameraMotion& motion) {
+  for (RobotTagSeen& one : sightings.robot) one.corners = motion.steadied(one.pts_s, one.corners);
+}
+
+std::vector<SeenFloorTag> on_average(const std::vector<SeenFloorTag>& floor, const CameraMotion& motion) {
+  std::vector<SeenFloorTag> means = floor;
+  for (std::size_t i = 0; i < means.size(); ++i) means[i].corners = motion.means[i];
+  return means;
+}
+
+std::vector<FloorTagReport> report_on(const FilmTrack& track) {
+  std::vector<FloorTagReport> all;
+  const double looks = std::max(1.0, static_cast<double>(track.sightings.looks.size()));
+  for (std::size_t i = 0; i < track.scene.tags.size(); ++i) {
+    const TagCorners model = floor_corners(track.scene, i), &seen = track.motion.means[i];
+    double squares = 0;
+    for (std::size_t k = 0; k < 4; ++k) squares += (model[k] - seen[k]).squaredNorm();
+    all.push_back({track.scene.tags[i].id, shortest_side(seen),
+                   static_cast<double>(track.motion.seen[i]) / looks, std::sqrt(squares / 8)});
+  }
+  return all;
+}
+
+double scale_sigma_of(const FilmTrack& track) {
+  constexpr std::size_t kPlaces = 200;
+  std::vector<Eigen::Vector2d> pixels;
+  const std::vector<RobotTagSeen>& robot = track.sightings.robot;
+  for (std::size_t i = 0; i < robot.size(); i += robot.size() / kPlaces + 1)
+    pixels.push_back(center_of(robot[i].corners));
+  return scale_error(track.scene, figures_with_errors(track.figures), track.covariance, pixels);
+}
+
+}  // namespace
+
+FilmTrack follow_film(const std::filesystem::path& film, const FilmFigures& figures,
+                      const Progress& progress) {
+  FilmTrack track;
+  track.figures = figures;
+  track.info = read_film_info(film);
+  const FloorSurvey survey =
+      survey_floor(film, track.info, figures.robot_id, part_of(progress, 0, kSurveyPart));
+  refuse_survey(film, track.info, survey, figures);
+  track.sightings = watch_film(film, track.info, figures.robot_id, survey, part_of(progress, kSurveyPart, 1));
+  refuse_sightings(film, track.info, track.sightings);
+  std::vector<TagCorners> start;
+  for (const SeenFloorTag& tag : survey.floor) start.push_back(tag.corners);
+  track.motion = camera_motion(track.sightings.looks, start);
+  refuse_motion(film, track.motion);
+  steady(track.sightings, track.motion);
+  SceneFit fit =
+      find_scene(track.info, on_average(survey.floor, track.motion), track.sightings.robot, figures);
+  track.scene = std::move(fit.scene);
+  track.covariance = std::move(fit.covariance);
+  track.floor_rms_px = fit.floor_rms_px;
+  track.found = film_poses(track.scene, track.sightings.robot);
+  track.floor = report_on(track);
+  refuse_track(film, track);
+  track.scale_sigma = scale_sigma_of(track);
+  track.remarks = remarks_on(track, survey);
+  return track;
+}
+
+}  // namespace astro::film

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <vector>
+
+#include "host/base/remedy.hpp"
+#include "host/truth/film/camera/scene.hpp"
+#include "host/truth/film/track/camera_motion.hpp"
+#include "host/truth/film/track/film_figures.hpp"
+#include "host/truth/film/track/film_poses.hpp"
+#include "host/truth/film/track/film_sightings.hpp"
+#include "host/truth/film/video/film_info.hpp"
+
+/// A film of a robot with a tag on it, between tags on the floor: from the file to the robot's path.
+namespace astro::film {
+
+/// One floor tag as the film shows it.
+struct FloorTagReport {
+  int id = 0;
+  double side_px = 0;     // its shortest side
+  double seen_share = 0;  // of the looks at the floor
+  double misfit_px = 0;   // rms of its corners, per coordinate, about the scene
+};
+
+struct FilmTrack {
+  FilmInfo info;
+  FilmFigures figures;
+  Scene scene;
+  Eigen::MatrixXd covariance;  // of the scene's parameters
+  /// The standard error of the common factor of all distances (camera/scale_error.hpp). If nobody measured a distance, it is that
+  /// of tags printed in a size that nobody checked.
+  double scale_sigma = 0;
+  std::vector<FloorTagReport> floor;
+  double floor_rms_px = 0;
+  CameraMotion motion;
+  FilmSightings sightings;  // with the corners that a camera at rest would have seen
+  FilmPoses found;          // with the readout of the figures
+  std::vector<Remark> remarks;
+};
+
+/// Follows the robot through the whole film.
+///
+/// Cost    about half the length of a 1080p30 film on one core, beside the decoder.
+/// Memory  one picture, and some hundred bytes for each.
+/// Errors  astro::Error that says what is wrong with the film: not a film, truncated, cut, no tag of the robot or of the floor,
+///         a tag too small, blurred or mirrored, two robots, a camera that moves; and what `progress` throws.
+FilmTrack follow_film(const std::filesystem::path& film, const FilmFigures& figures,
+                      const Progress& progress = {});
+
+}  // namespace astro::film

@@ -1,0 +1,127 @@
+#include "host/truth/film/video/child_process.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <utility>
+
+#include "host/base/error.hpp"
+
+namespace astro::film {
+namespace {
+
+constexpr std::size_t kLongestLine = 4096;
+
+struct Pipe {
+  std::array<int, 2> ends{-1, -1};
+  Pipe() {
+    if (pipe2(ends.data(), O_CLOEXEC) != 0)
+      throw Error("no pipe to another program: too many files are open");
+  }
+};
+
+void close_once(int& descriptor) {
+  if (descriptor >= 0) close(std::exchange(descriptor, -1));
+}
+
+}  // namespace
+
+ChildProcess::ChildProcess(std::vector<std::string> words, Line line) : line_(std::move(line)) {
+  const Pipe output, errors;
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, output.ends[1], STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, errors.ends[1], STDERR_FILENO);
+  const int failure = posix_spawnp(&pid_, arguments[0], &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  close(output.ends[1]);
+  close(errors.ends[1]);
+  output_ = output.ends[0];
+  words_ = errors.ends[0];
+  if (failure == 0) return;
+  pid_ = -1;
+  close_once(output_);
+  close_once(words_);
+  throw Error("the program '" + words[0] + "', which reads films, " +
+                  (failure == ENOENT ? "is not installed" : "cannot be started"),
+              {Help::install_film_reader});
+}
+
+ChildProcess::~ChildProcess() {
+  close_once(output_);
+  close_once(words_);
+  if (pid_ <= 0) return;
+  kill(pid_, SIGKILL);
+  wait();
+}
+
+int ChildProcess::wait() {
+  int status = 0;
+  pid_t ended = -1;
+  do ended = waitpid(pid_, &status, 0);
+  while (ended < 0 && errno == EINTR);
+  const bool known = ended == std::exchange(pid_, -1);
+  return known ? status : SIGKILL;
+}
+
+void ChildProcess::end_words() {
+  close_once(words_);
+  if (!unfinished_.empty()) line_(unfinished_);
+  unfinished_.clear();
+}
+
+void ChildProcess::take_words() {
+  std::array<char, 4096> buffer;
+  const ssize_t count = ::read(words_, buffer.data(), buffer.size());
+  if (count < 0 && errno == EINTR) return;
+  if (count <= 0) return end_words();
+  for (const char c : std::string_view(buffer.data(), static_cast<std::size_t>(count))) {
+    if (c != '\n' && c != '\r') {
+      if (unfinished_.size() < kLongestLine) unfinished_ += c;
+      continue;
+    }
+    if (!unfinished_.empty()) line_(unfinished_);
+    unfinished_.clear();
+  }
+}
+
+void ChildProcess::wait_for_streams() {
+  while (true) {
+    std::array<pollfd, 2> states{pollfd{words_, POLLIN, 0}, pollfd{output_, POLLIN, 0}};
+    if (poll(states.data(), states.size(), -1) < 0) continue;
+    if (states[0].revents != 0) take_words();
+    if (states[1].revents != 0 || output_ < 0) return;
+  }
+}
+
+std::size_t ChildProcess::read(std::span<std::uint8_t> bytes) {
+  std::size_t filled = 0;
+  while (filled < bytes.size() && output_ >= 0) {
+    wait_for_streams();
+    const ssize_t count = ::read(output_, bytes.data() + filled, bytes.size() - filled);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) close_once(output_);
+    if (count > 0) filled += static_cast<std::size_t>(count);
+  }
+  return filled;
+}
+
+bool ChildProcess::finish() {
+  std::array<std::uint8_t, 4096> rest;
+  while (read(rest) == rest.size()) continue;
+  while (words_ >= 0) take_words();
+  const int status = wait();
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+}  // namespace astro::film

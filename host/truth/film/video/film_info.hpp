@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+namespace astro::film {
+
+/// What the container of a film says.
+struct FilmInfo {
+  int width = 0, height = 0;  // as the sensor is read: not turned upright
+  int rotation_deg = 0;       // by which a player turns it
+  std::string codec;
+  double frames_per_s = 0;  // on average; frames come at uneven times
+  double duration_s = 0;    // 0: not stated
+  std::size_t frames = 0;   // 0: not stated
+};
+
+/// Reads it with ffprobe.
+///
+/// Errors  astro::Error: no such file, not a film, a recording that was never completed, no ffprobe.
+FilmInfo read_film_info(const std::filesystem::path& film);
+
+/// How ffmpeg and ffprobe are given a file: never as an option or an address, whatever its name.
+std::string as_input(const std::filesystem::path& film);
+
+}  // namespace astro::film
