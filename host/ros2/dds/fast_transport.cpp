@@ -53,6 +53,10 @@ class GatedTransport : public transport::ChainingTransport {
   bool transform_remote_locator(const rtps::Locator_t& there, rtps::Locator_t& result) const override {
     return may_talk_to(there) && ChainingTransport::transform_remote_locator(there, result);
   }
+  /// Others announce what they like, and Fast DDS 2.9 aborts here for an address of another kind.
+  bool is_local_locator(const rtps::Locator_t& locator) const override {
+    return IsLocatorSupported(locator) && ChainingTransport::is_local_locator(locator);
+  }
 
  private:
   bool may_talk_to(const rtps::Locator_t& there) const {

@@ -22,15 +22,21 @@ bool read_bits(RtpsFields& fields, std::uint64_t first, std::uint64_t largest) {
   return fields.ok() && first <= largest - bits;
 }
 
-bool read_sequence_numbers(RtpsFields& fields, std::int64_t lowest) {
+struct Range {
+  std::int64_t lowest = 1, highest = INT64_MAX;
+};
+
+/// A set whose first number lies in the range.
+bool read_sequence_numbers(RtpsFields& fields, Range range) {
   const std::int64_t first = fields.sequence_number();
-  return first >= lowest && read_bits(fields, static_cast<std::uint64_t>(first), INT64_MAX);
+  return first >= range.lowest && first <= range.highest &&
+         read_bits(fields, static_cast<std::uint64_t>(first), INT64_MAX);
 }
 
 /// Fast DDS begins with a set from 0, although the standard begins with 1.
 bool is_acknowledgement(RtpsFields fields) {
   fields.take(2 * kEntity);
-  if (!read_sequence_numbers(fields, 0)) return false;
+  if (!read_sequence_numbers(fields, {.lowest = 0})) return false;
   fields.take(kCount);
   return fields.ok();
 }
@@ -44,7 +50,9 @@ bool is_heartbeat(RtpsFields fields) {
 
 bool is_gap(RtpsFields fields) {
   fields.take(2 * kEntity);
-  return fields.sequence_number() >= 1 && read_sequence_numbers(fields, 1);
+  const std::int64_t first = fields.sequence_number();
+  if (first < 1 || first > INT64_MAX - kLongestGap) return false;
+  return read_sequence_numbers(fields, {1, first + kLongestGap});
 }
 
 bool is_missing_fragments(RtpsFields fields) {

@@ -85,6 +85,19 @@ TEST_F(Transport, OfADatagramItReadsThePartThatIsSound) {
   EXPECT_EQ(size_read(*alone, "127.0.0.1", ByteView(gap).first(gap.size() - 1)), 0U);
 }
 
+// A participant may announce any address; of a kind unlike UDP over IPv4 Fast DDS 2.9 aborts.
+TEST_F(Transport, AnAddressOfAnotherKindIsNotOfThisComputer) {
+  Locator_t shared_memory = at("127.0.0.1"), result;
+  shared_memory.kind = LOCATOR_KIND_SHM;
+  for (const bool here_alone : {true, false}) {
+    const auto opened = open(here_alone);
+    EXPECT_TRUE(opened->is_local_locator(at("127.0.0.1")));
+    EXPECT_FALSE(opened->is_local_locator(shared_memory));
+    EXPECT_FALSE(opened->is_locator_allowed(shared_memory));
+    EXPECT_FALSE(opened->transform_remote_locator(shared_memory, result));
+  }
+}
+
 TEST_F(Transport, WithTheNetworkItDoesBoth) {
   const auto wide = open(false);
   EXPECT_TRUE(reads(*wide, "127.0.0.1"));

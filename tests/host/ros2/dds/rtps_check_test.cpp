@@ -205,10 +205,24 @@ TEST(Heartbeat, NamesAFirstNumberThatIsNotBehindTheLastOne) {
 TEST(Sets, HoldNoMoreThan256NumbersAndNoneAboveTheLargest) {
   EXPECT_TRUE(accepts(kAcknowledgement, kEntities + kOne + words({256}) + Bytes(32) + words({7})));
   EXPECT_FALSE(accepts(kAcknowledgement, kEntities + kOne + words({257}) + Bytes(36) + words({7})));
-  EXPECT_FALSE(accepts(kGap, kEntities + kOne + words({0x7fff'ffff, 0xffff'ffff, 1, 0})));
-  EXPECT_TRUE(accepts(kGap, kEntities + kOne + words({0x7fff'ffff, 0xffff'fffe, 1, 0})));
+  EXPECT_FALSE(accepts(kAcknowledgement, kEntities + words({0x7fff'ffff, 0xffff'ffff, 1, 0, 7})));
+  EXPECT_TRUE(accepts(kAcknowledgement, kEntities + words({0x7fff'ffff, 0xffff'fffe, 1, 0, 7})));
   EXPECT_FALSE(accepts(kMissing, kEntities + kOne + words({0xffff'ffff, 1, 0, 7})));
   EXPECT_FALSE(accepts(kMissing, kEntities + kOne + words({1, 257}) + Bytes(36) + words({7})));
+}
+
+TEST(Gap, IsNoLongerThanItMayBe) {
+  const auto gap = [](std::int64_t first, std::int64_t set) {
+    const auto half = [](std::int64_t number, int shift) {
+      return static_cast<std::uint32_t>(number >> shift);
+    };
+    return accepts(kGap,
+                   kEntities + words({half(first, 32), half(first, 0), half(set, 32), half(set, 0), 0}));
+  };
+  EXPECT_TRUE(gap(5, 5 + kLongestGap));
+  EXPECT_FALSE(gap(5, 6 + kLongestGap));
+  EXPECT_TRUE(gap(5, 1)) << "of the set alone";
+  EXPECT_FALSE(gap(INT64_MAX, INT64_MAX));
 }
 
 TEST(Fragments, BeginWithOne) {
