@@ -37,6 +37,7 @@ set(ASTRO_LAYERS
   "host/experiment/analysis     : common host/base host/calibration host/experiment/files host/recording host/report/sections host/robot/parameters"
   "host/experiment/drive        : host/base host/calibration/end_poses host/experiment/analysis host/experiment/files host/recording host/robot host/truth/source"
   "host/experiment/files        : common host/base host/calibration host/recording"
+  "host/experiment/film         : host/base host/calibration/likelihood host/experiment/analysis host/experiment/files host/recording/run host/truth/film"
   "host/experiment/import       : common host/base host/calibration/motion host/experiment/analysis host/experiment/files host/recording host/report/sections host/ros2/recorded host/truth/bags host/truth/files host/truth/floor"
   "host/motor/bench             : common host/base host/motor/model host/motor/wiring host/robot"
   "host/motor/model             : host/base"

@@ -121,6 +121,7 @@ enum class Help : std::uint8_t {
   // films
   install_film_reader,
   name_film,
+  name_film_of_runs,
   take_original_film,
   film_uncut,
   film_mirrored_not,

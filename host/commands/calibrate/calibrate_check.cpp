@@ -65,6 +65,7 @@ experiment::RunSet read_drives(const CheckOptions& options) {
   });
   warn_of_recordings(set.runs);
   if (options.import.session_per_folder) set.sessions = experiment::sessions_by_folder(set, options.folder);
+  give_films(set, options.import);
   return set;
 }
 

@@ -10,6 +10,7 @@
 #include "host/commands/calibrate/calibration_output.hpp"
 #include "host/commands/calibrate/ml_option.hpp"
 #include "host/commands/shared/damaged_option.hpp"
+#include "host/commands/shared/film_truth.hpp"
 #include "host/commands/shared/method_option.hpp"
 #include "host/commands/shared/session_option.hpp"
 #include "host/experiment/analysis/calibration.hpp"
@@ -27,6 +28,7 @@ struct RunsOptions {
   std::vector<std::string> without;
   MlOption ml;
   MethodOption method;
+  FilmTruthOption film;
   bool damaged = false, session_per_folder = false;
 };
 
@@ -37,6 +39,7 @@ experiment::Calibration calibrate_runs(const RunsOptions& options) {
   });
   warn_of_recordings(set.runs);
   if (options.session_per_folder) set.sessions = experiment::sessions_by_folder(set, options.folder);
+  give_truth(set, options.film);
   experiment::Calibration found = experiment::calibrate(set, method, options.ml.choice());
   if (found.ml() == nullptr && options.session_per_folder)
     throw Error(fmt::format("--session-per-folder is of maximum likelihood, and this is {}: leave it out",
@@ -67,6 +70,7 @@ void add_calibrate_runs(console::Command calibrate) {
       .one_each_time();
   add_damaged_flag(command, options->damaged);
   add_session_flag(command, options->session_per_folder);
+  add_film_truth(command, options->film);
   command.footer(
       "ml finds c_R, c_L and b themselves, from runs of one phase or of several. The\n"
       "other methods find how they differ from the loaded ones, from the\n"
@@ -74,7 +78,9 @@ void add_calibrate_runs(console::Command calibrate) {
       "Examples:\n"
       "  astrolabe calibrate runs my-experiment/before --out calib.toml\n"
       "  astrolabe calibrate runs my-experiment --without before/square-cw-3\n"
-      "  astrolabe calibrate runs my-experiment/before --method umbmark --angles average --json");
+      "  astrolabe calibrate runs my-experiment/before --method umbmark --angles average --json\n"
+      "  astrolabe calibrate runs drives --truth film:drives.mp4 --tag-side 120.1mm --tag-height 121mm \\\n"
+      "    --floor-tag-side 160mm --tape 1:4=3.46 --out calib.toml");
   command.callback([options] { put_out(calibrate_runs(*options), options->output); });
 }
 

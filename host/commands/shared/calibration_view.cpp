@@ -84,6 +84,11 @@ std::string end_pose_text(const calibration::Estimate& estimate) {
        {"R", fmt::format("{:.3f} m", estimate.radius_m)}});
 }
 
+std::string sentence_on_scale(const Calibration& found) {
+  const std::string sentence = experiment::scale_sentence(found);
+  return sentence.empty() ? "" : wrapped(sentence);
+}
+
 std::string runs_text(const MlResult& ml) {
   Rows rows{{"run", "metres", "degrees", "chi²/dof", "disagrees"}};
   if (!ml.options.clock_known) rows[0].push_back("offset ms");
@@ -136,6 +141,7 @@ std::string calibration_text(const Calibration& calibration) {
   const MlResult* ml = calibration.ml();
   if (ml != nullptr) text += wrapped(experiment::extent_sentence(*ml));
   text += factors_text(calibration);
+  if (ml != nullptr) text += sentence_on_scale(calibration);
   text += ml != nullptr ? '\n' + ml_text(calibration)
                         : wrapped(scale_text(calibration)) + left_out_text(calibration);
   return text + '\n' + wrapped(experiment::judgement_sentence(calibration.judgement));
@@ -149,7 +155,7 @@ std::string calibration_summary(const Calibration& calibration) {
   std::string text =
       wrapped(experiment::extent_sentence(*ml)) +
       wrapped("Standard errors: " + experiment::described(experiment::precision_of(calibration)) + ".") +
-      wrapped(experiment::wheelbase_sentence(calibration));
+      wrapped(experiment::wheelbase_sentence(calibration)) + sentence_on_scale(calibration);
   text += verdict_text(*ml);
   return text + wrapped(experiment::judgement_sentence(calibration.judgement));
 }

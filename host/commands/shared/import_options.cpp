@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <utility>
 
 #include "host/base/text/numbers.hpp"
 #include "host/commands/base/remedies.hpp"
+#include "host/commands/shared/film_truth.hpp"
 #include "host/commands/shared/session_option.hpp"
 #include "host/commands/shared/unused_choices.hpp"
 #include "host/console/console.hpp"
@@ -94,7 +96,8 @@ void add_drive_files(console::Command command, ImportOptions& options) {
       .one_each_time();
   command
       .add_option("--truth", options.truth,
-                  "its ground truth: Motive, Vicon, TUM or plain CSV\n(also .gz), or a bag")
+                  "its ground truth: Motive, Vicon, TUM or plain CSV\n(also .gz), a bag, or film:FILE, a "
+                  "phone film of\nprinted tags, one for all drives or one for each")
       .type_name("FILE")
       .one_each_time();
 }
@@ -160,10 +163,58 @@ void add_import(console::Command command, ImportOptions& options) {
   add_body_choice(command, options);
   add_tracker_choices(command, options);
   add_geometry_choices(command, options);
+  add_film_options(command, options.film_figures, "film: ");
   add_session_flag(command, options.session_per_folder);
 }
 
+std::vector<std::filesystem::path> ImportOptions::films() const {
+  std::vector<std::filesystem::path> found;
+  for (const std::filesystem::path& one : truth)
+    if (const auto film = film_named(one.string());
+        film && std::find(found.begin(), found.end(), *film) == found.end())
+      found.push_back(*film);
+  return found;
+}
+
+void give_films(experiment::RunSet& set, const ImportOptions& options) {
+  const std::vector<std::filesystem::path> films = options.films();
+  require_film_for(options.film_figures, !films.empty());
+  if (!films.empty()) give_truth(set, follow_films(films, options.film_figures), options.film_figures);
+}
+
+namespace {
+
+void say_drives(const experiment::ImportedDrives& drives) {
+  for (std::size_t i = 0; i < drives.reports.size(); ++i) {
+    console::say(drives.set.names[i] + ": " + drives.reports[i].summary);
+    for (const Remark& remark : drives.reports[i].remarks)
+      console::say(drives.set.names[i] + ": " + in_words(remark));
+  }
+}
+
+/// The wheels of all drives, and films that show them.
+experiment::RunSet read_filmed_drives(const ImportOptions& options) {
+  const auto is_film = [](const std::filesystem::path& one) { return film_named(one.string()).has_value(); };
+  if (!std::all_of(options.truth.begin(), options.truth.end(), is_film))
+    throw console::WrongUsage(
+        "films and other files of ground truth cannot be mixed: give all --truth as film:FILE, or none");
+  if (options.wheels.empty())
+    throw console::WrongUsage("a film shows no wheels: give --wheels of each drive as well");
+  if (!options.up.empty() || !options.unit.empty() || options.mirrored != "auto" || !options.body.empty())
+    throw console::WrongUsage("--up, --truth-unit, --truth-mirrored and --body do not apply to films");
+  refuse_unused_choices(options);
+  experiment::ImportedDrives drives = experiment::import_wheels(options.wheels, choices_of(options));
+  say_drives(drives);
+  if (options.session_per_folder) drives.set.sessions = experiment::sessions_by_folder(options.wheels);
+  give_films(drives.set, options);
+  return std::move(drives.set);
+}
+
+}  // namespace
+
 experiment::RunSet read_drive_files(const ImportOptions& options) {
+  require_film_for(options.film_figures, !options.films().empty());
+  if (!options.films().empty()) return read_filmed_drives(options);
   if (options.wheels.size() != options.truth.size())
     throw console::WrongUsage(fmt::format("there are {} --wheels and {} --truth: each drive needs both",
                                           options.wheels.size(), options.truth.size()));
@@ -174,11 +225,7 @@ experiment::RunSet read_drive_files(const ImportOptions& options) {
   experiment::ImportedDrives drives = experiment::import_drives(files, choices_of(options));
   if (options.session_per_folder)
     drives.set.sessions = experiment::sessions_by_folder(options.wheels, options.truth);
-  for (std::size_t i = 0; i < drives.reports.size(); ++i) {
-    console::say(drives.set.names[i] + ": " + drives.reports[i].summary);
-    for (const Remark& remark : drives.reports[i].remarks)
-      console::say(drives.set.names[i] + ": " + in_words(remark));
-  }
+  say_drives(drives);
   return std::move(drives.set);
 }
 

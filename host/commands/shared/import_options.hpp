@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host/commands/shared/film_options.hpp"
 #include "host/console/command_line.hpp"
 #include "host/experiment/import/import_drives.hpp"
 
@@ -18,9 +19,13 @@ struct ImportOptions {
   std::vector<std::string> joints, frames;
   bool swap_wheels = false, session_per_folder = false;
   std::filesystem::path robot_file;
+  FilmOptions film_figures;  // of truths that are films
   std::optional<double> wheel_diameter_m, counts_per_turn, wheelbase_m;
 
-  bool given() const { return !wheels.empty() || !truth.empty(); }
+  /// The truths that are films ("film:FILE").
+  std::vector<std::filesystem::path> films() const;
+  /// Whether drives of other programs are named. A film alone may be the truth of recordings in a folder.
+  bool given() const { return !wheels.empty() || truth.size() > films().size(); }
 };
 
 /// --wheels and --truth, each as often as there are drives.
@@ -32,6 +37,9 @@ void add_bag_choices(console::Command command, ImportOptions& options);
 void add_body_choice(console::Command command, ImportOptions& options);
 void add_tracker_choices(console::Command command, ImportOptions& options);
 void add_geometry_choices(console::Command command, ImportOptions& options);
+
+/// Films as the truth of recordings of this project; nothing if none is named. Throws as commands::give_truth does.
+void give_films(experiment::RunSet& set, const ImportOptions& options);
 
 /// All of the above, and --session-per-folder.
 void add_import(console::Command command, ImportOptions& options);

@@ -76,6 +76,34 @@ std::vector<std::string> session_names(std::span<const calibration::Trajectory> 
   return names;
 }
 
+double truth_scale_sigma(Phases phases) {
+  double most = 0;
+  for (const auto& phase : phases)
+    for (const recording::Run& run : phase->runs()) most = std::max(most, run.info.truth_scale_sigma);
+  return most;
+}
+
+/// What multiplies all lengths of the truth multiplies all three factors alike.
+void add_scale_error(double sigma, const calibration::WheelFactors& loaded,
+                     calibration::MlEstimate& estimate) {
+  calibration::WheelFactors& factors = estimate.factors;
+  const Eigen::Vector4d lengths(factors.c_r, factors.c_l, factors.b_m, 0);
+  if (std::isfinite(sigma)) {
+    estimate.covariance += sigma * sigma * lengths * lengths.transpose();
+  } else {
+    // Nothing is known of the scale: it stays, and with it goes what the drives seem to know of it.
+    const double keep = (loaded.c_r + loaded.c_l) / (factors.c_r + factors.c_l);
+    Eigen::Matrix4d jacobian = Eigen::Matrix4d::Identity();
+    jacobian -= lengths * Eigen::RowVector4d(1, 1, 0, 0) / (factors.c_r + factors.c_l);
+    jacobian.topRows<3>() *= keep;
+    factors.c_r *= keep;
+    factors.c_l *= keep;
+    factors.b_m *= keep;
+    estimate.covariance = jacobian * estimate.covariance * jacobian.transpose();
+  }
+  estimate.se = calibration::errors_of(estimate.covariance, factors);
+}
+
 Calibration by_ml(Phases phases, const MlChoice& choice) {
   const std::vector<calibration::Trajectory> runs = all_trajectories(phases);
   const Recordings& first = *phases.front();
@@ -89,16 +117,19 @@ Calibration by_ml(Phases phases, const MlChoice& choice) {
   ml.options.with_e = choice.with_e;
   ml.estimate = calibration::estimate_ml(runs, result.loaded, ml.options);
   ml.session_names = session_names(runs, ml.estimate);
+  result.judgement = calibration::cross_validate(runs, result.loaded, ml.estimate, ml.options);
+  result.truth_scale_sigma = truth_scale_sigma(phases);
+  if (result.truth_scale_sigma > 0) add_scale_error(result.truth_scale_sigma, result.loaded, ml.estimate);
   result.factors = ml.estimate.factors;
   const calibration::MlErrors& se = ml.estimate.se;
   result.se = {
       se.c_r,  se.c_l, se.b_m, se.E_d * result.loaded.c_l / result.loaded.c_r, se.b_m / result.loaded.b_m,
       se.scale};
+  if (std::isinf(result.truth_scale_sigma)) result.se.scale = FactorErrors::kUnknown;
   if (ml.estimate.factors.e != 0) result.se.e = se.e;
   result.robot = identity_of(first.runs().front().info);
   result.wheel = nominal_wheel(first.runs().front().info, first.names().front());
   result.squares = summary_of_squares(*phases.back());
-  result.judgement = calibration::cross_validate(runs, result.loaded, ml.estimate, ml.options);
   result.detail = std::move(ml);
   return result;
 }

@@ -51,6 +51,9 @@ struct Calibration {
   /// End errors of the squares among the runs, if squares of one kind were driven in both directions.
   std::optional<calibration::ExperimentSummary> squares;
   std::variant<calibration::Estimate, MlResult> detail;
+  /// Standard error of the common factor of all lengths in the truth, which maximum likelihood does not know: it is part of
+  /// the errors of c_R, c_L, b and S. Infinite: nobody measured a length, so S is as loaded, and only E_d and b / S are found.
+  double truth_scale_sigma = 0;
   /// The scale from measured lines, in `factors` already; none without lines, and none of maximum likelihood.
   std::optional<calibration::LineScale> line_scale;
   std::vector<std::string> left_out;  // squares that end poses do not use: which, and why

@@ -115,6 +115,9 @@ nlohmann::json to_json(const Calibration& calibration) {
   if (calibration.squares) add_squares(json, *calibration.squares);
   if (const calibration::Estimate* estimate = calibration.end_poses()) add_end_poses(json, *estimate);
   if (calibration.line_scale) json["lines"] = calibration.line_scale->lines;
+  if (calibration.truth_scale_sigma > 0)
+    json["truth_scale"] = {{"measured", std::isfinite(calibration.truth_scale_sigma)},
+                           {"standard_error", number(calibration.truth_scale_sigma)}};
   if (!calibration.left_out.empty()) json["left_out"] = calibration.left_out;
   if (const MlResult* ml = calibration.ml()) json.update(to_json(*ml));
   json["verdict"] = judgement_json(calibration.judgement);

@@ -95,6 +95,20 @@ std::string clock_sentence(const MlResult& ml) {
       fmt::join(rates, " and "), rates.size() > 1 ? ", in the order of the sessions" : "");
 }
 
+std::string scale_sentence(const Calibration& found) {
+  if (found.truth_scale_sigma == 0) return "";
+  if (std::isinf(found.truth_scale_sigma))
+    return "Nobody measured a distance in the film, so the scale is not found: S is as loaded. E_d and b / S "
+           "are found all the "
+           "same.";
+  return fmt::format(
+      "The scale of the film is known to {:.2g} %, which is part of the errors of c_R, c_L, b and S; E_d and "
+      "b / S "
+      "do not depend on it (b / S {} mm).",
+      100 * found.truth_scale_sigma,
+      with_error(1000 * found.factors.b_m / found.scale(), 1000 * found.ml()->estimate.se.b_over_scale_m, 3));
+}
+
 std::string wheelbases_text(const calibration::WheelFactors& factors) {
   return fmt::format("spins turn about b = {:.3f} mm, gentle arcs about b (1 + e) = {:.3f} mm",
                      1000 * factors.b_m, 1000 * factors.b_m * (1 + factors.e));

@@ -18,6 +18,9 @@ std::string lever_sentence(const MlResult& ml);
 /// The clock of the truth: known, or its skew.
 std::string clock_sentence(const MlResult& ml);
 
+/// How well the scale of the ground truth is known; "" where it is taken for exact. Precondition: found by maximum likelihood.
+std::string scale_sentence(const Calibration& found);
+
 /// Whether gentle arcs turn about another wheelbase than spins, what that is worth, and what becomes of a loaded e that
 /// was not found again. Precondition: found by maximum likelihood.
 std::string wheelbase_sentence(const Calibration& found);

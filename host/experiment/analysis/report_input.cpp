@@ -55,7 +55,7 @@ std::string ml_text(const Calibration& calibration) {
       " All recordings up to then count, not only the squares. The factors are absolute: they refer to "
       "the nominal wheel, whatever was loaded in the robot while it drove.\n\n" +
       lever_sentence(ml) + ' ' + clock_sentence(ml) + "\n\n" + wheelbase_sentence(calibration) + ' ' +
-      noise_sentence(ml) + "\n\n";
+      scale_sentence(calibration) + ' ' + noise_sentence(ml) + "\n\n";
   for (const Remark& remark : verdict(ml)) text += remark.fact + ". ";
   return text;
 }

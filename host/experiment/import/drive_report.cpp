@@ -92,7 +92,7 @@ report::ReportInput outline(const RunSet& set, const Calibration& found, const s
                       {"b", "m", found.loaded.b_m, factors.b_m, se.b_m}};
   if (with_e) input.parameters.push_back({"e", "", found.loaded.e, factors.e, se.e});
   input.method = extent_sentence(ml) + ' ' + lever_sentence(ml) + ' ' + clock_sentence(ml) + "\n\n" +
-                 wheelbase_sentence(found) + ' ' + noise_sentence(ml);
+                 wheelbase_sentence(found) + ' ' + scale_sentence(found) + ' ' + noise_sentence(ml);
   return input;
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "host/base/error.hpp"
+#include "host/experiment/import/wheel_run.hpp"
 
 namespace astro::experiment {
 namespace {
@@ -75,6 +76,22 @@ PairedDrive paired(const std::string& name, const DriveFiles& files, const Impor
 }
 
 }  // namespace
+
+ImportedDrives import_wheels(std::span<const fs::path> wheels, const ImportChoices& choices) {
+  std::vector<DriveFiles> files;
+  for (const fs::path& path : wheels) files.push_back({path, {}});
+  refuse_twins(files);
+  ImportedDrives drives;
+  drives.set.names = names_of(files);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    WheelRun made =
+        run_of_wheels(drives.set.names[i], read_wheels(files[i].wheels, choices.wheels), choices.geometry);
+    refuse_copy(made.run, drives.set.runs, drives.set.names[i], drives.set.names);
+    drives.set.runs.push_back(std::move(made.run));
+    drives.reports.push_back({{}, std::move(made.summary), std::move(made.remarks)});
+  }
+  return drives;
+}
 
 ImportedDrives import_drives(std::span<const DriveFiles> files, const ImportChoices& choices) {
   refuse_twins(files);

@@ -33,4 +33,7 @@ struct ImportedDrives {
 /// Throws what read_wheels, read_truth and pair_up throw, and astro::Error if two pairs are the same files.
 ImportedDrives import_drives(std::span<const DriveFiles> files, const ImportChoices& choices);
 
+/// The same of drives whose truth comes from elsewhere: runs without truth.
+ImportedDrives import_wheels(std::span<const std::filesystem::path> wheels, const ImportChoices& choices);
+
 }  // namespace astro::experiment

@@ -40,6 +40,9 @@ struct RunInfo {
   std::string started_at;    // ISO 8601, UTC
   std::string truth_source;  // "sim", "manual", "file", "" if none
   std::string truth_clock;   // "robot"; "host": mapped from the recording computer's
+  /// Standard error of the common factor of all lengths in the truth, which no drive shows: 0 where a tracker is calibrated;
+  /// infinite where nobody measured a length.
+  double truth_scale_sigma = 0;
   /// The parameters that were loaded in the robot while it drove, SI values by table name: c_R, c_L, b, ...
   std::map<std::string, double> parameters;
 };

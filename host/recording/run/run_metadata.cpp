@@ -25,9 +25,10 @@ constexpr std::array<std::pair<std::string_view, std::string RunInfo::*>, 9> kTe
     {"truth_clock", &RunInfo::truth_clock},
 }};
 
-constexpr std::array<std::pair<std::string_view, double RunInfo::*>, 2> kNumbers{{
+constexpr std::array<std::pair<std::string_view, double RunInfo::*>, 3> kNumbers{{
     {"size_m", &RunInfo::size_m},
     {"speed_mps", &RunInfo::speed_mps},
+    {"truth_scale_sigma", &RunInfo::truth_scale_sigma},
 }};
 
 constexpr std::array<std::pair<std::string_view, std::optional<double> RunRecord::*>, 2> kHeadings{{
@@ -92,6 +93,7 @@ mcap::Map to_map(const RunRecord& record) {
       {"index", std::to_string(record.info.index)}};
   for (const auto& [key, member] : kTexts) map[std::string(key)] = record.info.*member;
   for (const auto& [key, member] : kNumbers) map[std::string(key)] = to_text(record.info.*member);
+  if (record.info.truth_scale_sigma == 0) map.erase("truth_scale_sigma");  // of most recordings
   for (const auto& [key, member] : kHeadings) {
     if (record.*member) map[std::string(key)] = to_text(*(record.*member));
   }

@@ -1,0 +1,167 @@
+#include "host/experiment/film/film_truth.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "host/base/error.hpp"
+#include "host/experiment/film/readout_search.hpp"
+
+namespace astro::experiment {
+namespace {
+
+constexpr double kInFilm = 0.6;  // the likeness of a run that a film shows; 0.97 and more without trouble
+constexpr double kMargin_s = 0.3;
+
+/// Which film shows a run, and where.
+struct Shown {
+  std::size_t film = 0;
+  Placement place;
+};
+
+std::vector<std::size_t> order_of(const RunSet& set) {
+  std::vector<std::size_t> order(set.runs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return set.runs[a].info.started_at < set.runs[b].info.started_at;
+  });
+  return order;
+}
+
+std::vector<Shown> shown_runs(const RunSet& set, const std::vector<NamedFilm>& films) {
+  std::vector<MotionRates> rates;
+  for (const recording::Run& run : set.runs) rates.push_back(rates_of(run));
+  const std::vector<std::size_t> order = order_of(set);
+  std::vector<Shown> best(set.runs.size());
+  for (std::size_t film = 0; film < films.size(); ++film) {
+    const std::vector<Placement> places = place_runs(rates, rates_of(films[film].track.found.poses), order);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (places[i].likeness > best[i].place.likeness) best[i] = {film, places[i]};
+  }
+  return best;
+}
+
+template <class Value>
+void keep_at(std::vector<Value>& list, const std::vector<std::size_t>& kept) {
+  if (list.empty()) return;
+  std::vector<Value> result;
+  for (const std::size_t i : kept) result.push_back(std::move(list[i]));
+  list = std::move(result);
+}
+
+/// Takes out what no film shows.
+void leave_out_unseen(RunSet& set, std::vector<Shown>& shown, FilmReport& report) {
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    if (shown[i].place.likeness >= kInFilm)
+      kept.push_back(i);
+    else
+      report.remarks.push_back({fmt::format("'{}' is not in the film, and was left out", set.names[i])});
+  }
+  if (kept.empty())
+    throw Error(
+        fmt::format(
+            "none of the {} runs is in the film: the robot there never turns and drives as its wheels did",
+            set.runs.size()),
+        {Help::name_film_of_runs});
+  keep_at(set.names, kept);
+  keep_at(set.runs, kept);
+  keep_at(set.sessions, kept);
+  keep_at(shown, kept);
+}
+
+std::vector<recording::TruthSample> cut_for(const recording::Run& run,
+                                            const std::vector<film::FilmPose>& poses, double offset_s) {
+  const double from_s = 1e-6 * static_cast<double>(run.odometry.front().time_us) - kMargin_s;
+  const double to_s = 1e-6 * static_cast<double>(run.odometry.back().time_us) + kMargin_s;
+  std::vector<recording::TruthSample> samples;
+  for (const film::FilmPose& pose : poses) {
+    const double time_s = pose.time_s + offset_s;
+    if (time_s < from_s || time_s > to_s) continue;
+    samples.push_back({std::llround(1e6 * time_s), pose.pose.x_m, pose.pose.y_m, pose.pose.theta_rad});
+  }
+  return samples;
+}
+
+/// Where a readout moves all poses of a film by one time, the offset takes that back, so that runs keep their margins.
+void give_truth(RunSet& set, const std::vector<NamedFilm>& films, const std::vector<Shown>& shown,
+                double readout_s) {
+  std::vector<std::vector<film::FilmPose>> poses;
+  for (const NamedFilm& film : films) {
+    film::Scene scene = film.track.scene;
+    if (scene.readout_s == readout_s) {
+      poses.push_back(film.track.found.poses);
+      continue;
+    }
+    scene.readout_s = readout_s;
+    poses.push_back(film::film_poses(scene, film.track.sightings.robot).poses);
+  }
+  for (std::size_t i = 0; i < set.runs.size(); ++i) {
+    recording::Run& run = set.runs[i];
+    run.truth = cut_for(run, poses[shown[i].film], shown[i].place.offset_s);
+    run.info.truth_source = "film";
+    run.info.truth_clock = "film";
+    const film::FilmTrack& track = films[shown[i].film].track;
+    run.info.truth_scale_sigma =
+        track.figures.scale_measured() ? track.scale_sigma : std::numeric_limits<double>::infinity();
+  }
+}
+
+void say_places(const RunSet& set, const std::vector<NamedFilm>& films, const std::vector<Shown>& shown,
+                FilmReport& report) {
+  for (std::size_t i = 0; i < set.runs.size(); ++i) {
+    const recording::Run& run = set.runs[i];
+    report.runs.push_back(
+        {set.names[i], films[shown[i].film].name, shown[i].place,
+         1e-6 * static_cast<double>(run.odometry.front().time_us) - shown[i].place.offset_s,
+         1e-6 * static_cast<double>(run.odometry.back().time_us) - shown[i].place.offset_s});
+    if (shown[i].place.ambiguous)
+      report.remarks.push_back({fmt::format(
+          "'{}' fits at several places in the film, and is taken in the order of the runs", set.names[i])});
+  }
+}
+
+}  // namespace
+
+FilmReport attach_films(RunSet& set, const std::vector<NamedFilm>& films, std::optional<double> readout_s) {
+  FilmReport report;
+  for (std::size_t i = 0; i < set.runs.size(); ++i)
+    if (set.runs[i].odometry.empty())
+      throw Error(fmt::format("the recording '{}' holds no odometry", set.names[i]),
+                  {Help::leave_run_out, set.names[i]});
+  std::vector<Shown> shown = shown_runs(set, films);
+  leave_out_unseen(set, shown, report);
+  say_places(set, films, shown, report);
+  const double usual_s = films.front().track.scene.readout_s;
+  report.readout_s = readout_s.value_or(usual_s);
+  if (!readout_s) {
+    const auto found = find_readout(
+        [&](double tried_s) {
+          RunSet with = set;
+          give_truth(with, films, shown, tried_s);
+          return with;
+        },
+        usual_s);
+    if (found) {
+      report.readout_s = found->seconds;
+      report.readout_sigma_s = found->sigma_s;
+    } else {
+      report.remarks.push_back(
+          {fmt::format("the runs hardly show how long the camera reads a picture, and {:.0f} ms are taken",
+                       1e3 * usual_s)});
+    }
+  }
+  give_truth(set, films, shown, report.readout_s);
+  report.scale_measured = true;
+  for (const Shown& one : shown) {
+    const film::FilmTrack& track = films[one.film].track;
+    report.scale_measured = report.scale_measured && track.figures.scale_measured();
+    report.scale_sigma = std::max(report.scale_sigma, track.scale_sigma);
+  }
+  return report;
+}
+
+}  // namespace astro::experiment
