@@ -8,6 +8,10 @@ namespace astro::ros2::dds {
 /// The largest sample that may come in fragments, since memory is set aside for all of it with the first one.
 inline constexpr std::uint32_t kLargestFragmentedSample = 1 << 20;
 
+/// The largest sequence number of a writer, since Fast DDS counts up to the first one that it hears of. A writer of a thousand
+/// samples a second gets there after 12 days.
+inline constexpr std::int64_t kLargestNumber = 1 << 30;
+
 /// The longest gap of sequence numbers, since memory is taken for each of them. A gap spans at most what its writer keeps.
 inline constexpr std::int64_t kLongestGap = 1 << 16;
 

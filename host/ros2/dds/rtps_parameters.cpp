@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint16_t kSentinel = 0x0001;
 constexpr std::size_t kLocator = 24, kGuid = 16, kDuration = 8, kWord = 4;
 
-enum class Value { any, text, texts, text_pairs, octets };
+enum class Value { any, text, texts, text_pairs, octets, shorts, token };
 
 struct Parameter {
   std::uint16_t id;
@@ -63,7 +63,10 @@ constexpr Parameter kParameters[] = {
     {0x0062, kWord, Value::text},        // entity name
     {0x0070, kGuid},                     // key hash
     {0x0071, kWord},                     // status
+    {0x0073, kWord, Value::shorts},      // representations of data
     {0x0083, 24},                        // related sample's identity
+    {0x1001, kWord, Value::token},       // identity
+    {0x1002, kWord, Value::token},       // permissions
     {0x800f, 24},                        // the same in the words of eProsima
 };
 static_assert(std::is_sorted(std::begin(kParameters), std::end(kParameters),
@@ -74,11 +77,39 @@ void read_text(RtpsFields& fields) {
   fields.take(fields.u32());
 }
 
+void read_texts(RtpsFields& fields, std::uint64_t per_entry) {
+  fields.align();
+  const std::uint64_t texts = per_entry * fields.u32();
+  for (std::uint64_t i = 0; i < texts && fields.ok(); ++i) read_text(fields);
+}
+
+/// A text, properties and binary properties. In CDR a text has the form of a sequence of bytes.
+void read_token(RtpsFields& fields) {
+  read_text(fields);
+  read_texts(fields, 2);
+  read_texts(fields, 2);
+}
+
 bool is_a(Value value, RtpsFields fields) {
-  if (value == Value::text || value == Value::octets) read_text(fields);
-  if (value == Value::texts || value == Value::text_pairs) {
-    const std::uint64_t texts = std::uint64_t{fields.u32()} * (value == Value::texts ? 1 : 2);
-    for (std::uint64_t i = 0; i < texts && fields.ok(); ++i) read_text(fields);
+  switch (value) {
+    case Value::any:
+      break;
+    case Value::text:
+    case Value::octets:
+      read_text(fields);
+      break;
+    case Value::texts:
+      read_texts(fields, 1);
+      break;
+    case Value::text_pairs:
+      read_texts(fields, 2);
+      break;
+    case Value::shorts:
+      fields.take(std::size_t{2} * fields.u32());
+      break;
+    case Value::token:
+      read_token(fields);
+      break;
   }
   return fields.ok();
 }

@@ -14,29 +14,24 @@ constexpr std::uint32_t kMostInSet = 256;
 
 bool has(std::uint8_t flags, int bit) { return (flags >> bit & 1) != 0; }
 
-/// Reads the bits of a set whose first number has been read. They must not pass the largest number.
-bool read_bits(RtpsFields& fields, std::uint64_t first, std::uint64_t largest) {
+bool is_number(std::int64_t number) { return number >= 1 && number <= kLargestNumber; }
+
+/// A fragment of one byte at least.
+bool is_fragment(std::uint32_t number) { return number >= 1 && number <= kLargestFragmentedSample; }
+
+/// Reads the bits of a set whose first number has been read.
+bool read_bits(RtpsFields& fields) {
   const std::uint32_t bits = fields.u32();
   if (bits > kMostInSet) return false;
   fields.take(std::size_t{4} * ((bits + 31) / 32));
-  return fields.ok() && first <= largest - bits;
-}
-
-struct Range {
-  std::int64_t lowest = 1, highest = INT64_MAX;
-};
-
-/// A set whose first number lies in the range.
-bool read_sequence_numbers(RtpsFields& fields, Range range) {
-  const std::int64_t first = fields.sequence_number();
-  return first >= range.lowest && first <= range.highest &&
-         read_bits(fields, static_cast<std::uint64_t>(first), INT64_MAX);
+  return fields.ok();
 }
 
 /// Fast DDS begins with a set from 0, although the standard begins with 1.
 bool is_acknowledgement(RtpsFields fields) {
   fields.take(2 * kEntity);
-  if (!read_sequence_numbers(fields, {.lowest = 0})) return false;
+  const std::int64_t first = fields.sequence_number();
+  if ((first != 0 && !is_number(first)) || !read_bits(fields)) return false;
   fields.take(kCount);
   return fields.ok();
 }
@@ -45,28 +40,26 @@ bool is_heartbeat(RtpsFields fields) {
   fields.take(2 * kEntity);
   const std::int64_t first = fields.sequence_number(), last = fields.sequence_number();
   fields.take(kCount);
-  return fields.ok() && first >= 1 && last >= first - 1;
+  return fields.ok() && is_number(first) && last >= first - 1 && last <= kLargestNumber;
 }
 
 bool is_gap(RtpsFields fields) {
   fields.take(2 * kEntity);
   const std::int64_t first = fields.sequence_number();
-  if (first < 1 || first > INT64_MAX - kLongestGap) return false;
-  return read_sequence_numbers(fields, {1, first + kLongestGap});
+  const std::int64_t set = fields.sequence_number();
+  return is_number(first) && is_number(set) && set - first <= kLongestGap && read_bits(fields);
 }
 
 bool is_missing_fragments(RtpsFields fields) {
   fields.take(2 * kEntity);
-  if (fields.sequence_number() < 1) return false;
-  const std::uint32_t first = fields.u32();
-  if (first < 1 || !read_bits(fields, first, UINT32_MAX)) return false;
+  if (!is_number(fields.sequence_number()) || !is_fragment(fields.u32()) || !read_bits(fields)) return false;
   fields.take(kCount);
   return fields.ok();
 }
 
 bool is_heartbeat_of_fragments(RtpsFields fields) {
   fields.take(2 * kEntity);
-  const bool numbered = fields.sequence_number() >= 1 && fields.u32() >= 1;
+  const bool numbered = is_number(fields.sequence_number()) && is_fragment(fields.u32());
   fields.take(kCount);
   return numbered && fields.ok();
 }
@@ -95,7 +88,7 @@ bool read_head(RtpsFields& fields, std::size_t known, Head& head) {
   head.inline_qos = fields.offset() + to_inline_qos;
   fields.take(kEntity);
   head.writer = fields.take(kEntity);
-  return fields.sequence_number() >= 1 && to_inline_qos >= known && to_inline_qos % 4 == 0;
+  return is_number(fields.sequence_number()) && to_inline_qos >= known && to_inline_qos % 4 == 0;
 }
 
 /// Nothing if there is no room for it.

@@ -87,6 +87,23 @@ TEST(Parameter, HoldsAllItsTexts) {
   EXPECT_FALSE(accepts(kProperties, words({0xffff'ffff})));
 }
 
+TEST(Parameter, HoldsAllItsNumbers) {
+  constexpr std::uint16_t kRepresentations = 0x73;
+  EXPECT_TRUE(accepts(kRepresentations, words({2, 0})));
+  EXPECT_FALSE(accepts(kRepresentations, words({3, 0})));
+  EXPECT_FALSE(accepts(kRepresentations, words({0xffff'ffff, 0})));
+}
+
+TEST(Parameter, HoldsAllPropertiesOfItsToken) {
+  for (const std::uint16_t id : {std::uint16_t{0x1001}, std::uint16_t{0x1002}}) {
+    EXPECT_TRUE(accepts(id, words({1, 0, 0, 0})));
+    EXPECT_TRUE(accepts(id, words({1, 0, 1, 1, 0, 1, 0, 0})));
+    EXPECT_FALSE(accepts(id, words({1, 0, 0xffff'ffff, 0})));
+    EXPECT_FALSE(accepts(id, words({1, 0, 0, 1})));
+    EXPECT_FALSE(accepts(id, words({1, 0, 0})));
+  }
+}
+
 TEST(ParameterListPayload, IsAListAndNothingBehindIt) {
   const Bytes little = words({0x300, kSentinel}), big{0, 2, 0, 0, 0, kSentinel, 0, 0};
   EXPECT_TRUE(is_parameter_list_payload(little));
