@@ -122,6 +122,7 @@ enum class Help : std::uint8_t {
   install_film_reader,
   name_film,
   name_film_of_runs,
+  resume_with_film,
   take_original_film,
   film_uncut,
   film_mirrored_not,

@@ -136,6 +136,7 @@ constexpr Sentence kSentences[] = {
     {Help::install_film_reader, ": install ffmpeg ('apt install ffmpeg'), which has it"},
     {Help::name_film, ": name the film that the phone recorded (MP4 or MOV)"},
     {Help::name_film_of_runs, ": name the film that shows these runs"},
+    {Help::resume_with_film, ": the same command with --truth film:FILE goes on with it"},
     {Help::take_original_film,
      ": copy the original file from the phone once more, not one that a messenger or an editor wrote; if "
      "that is "

@@ -1,6 +1,8 @@
 #include <memory>
 
 #include "host/commands/experiment/commands.hpp"
+#include "host/commands/shared/damaged_option.hpp"
+#include "host/commands/shared/film_truth.hpp"
 #include "host/commands/shared/import_options.hpp"
 #include "host/commands/shared/results_option.hpp"
 #include "host/commands/shared/robot_view.hpp"
@@ -15,8 +17,25 @@ namespace astro::commands {
 
 namespace {
 
-report::ReportInput of_drives(const ImportOptions& import, const std::filesystem::path& with) {
-  const experiment::RunSet set = read_drive_files(import);
+/// Recordings of this project whose truth is a film.
+experiment::RunSet read_filmed(const ResultsOption& results, const ImportOptions& import) {
+  experiment::RunSet all;
+  for (const std::filesystem::path& folder : results.folders) {
+    experiment::RunSet set = read_recordings(results.damaged, [&](recording::Damage damage) {
+      return experiment::read_run_set(folder, {}, damage);
+    });
+    const std::string before = results.folders.size() > 1 ? folder.filename().string() + "/" : "";
+    for (std::size_t i = 0; i < set.runs.size(); ++i) {
+      all.names.push_back(before + set.names[i]);
+      all.runs.push_back(std::move(set.runs[i]));
+    }
+  }
+  warn_of_recordings(all.runs);
+  give_films(all, import);
+  return all;
+}
+
+report::ReportInput of_drives(const experiment::RunSet& set, const std::filesystem::path& with) {
   const experiment::Calibration found =
       experiment::calibrate(set, {experiment::MethodChoice::Family::ml, {}});
   if (with.empty()) return experiment::drive_report(set, found);
@@ -44,6 +63,7 @@ void add_report(console::Command app) {
       "Examples:\n"
       "  astrolabe report my-experiment\n"
       "  astrolabe report --wheels ticks.csv --truth take.csv --robot robot.toml --with calib.toml\n"
+      "  astrolabe report drives --truth film:drives.mp4 --tag-height 121mm --tape 1:4=3.46\n"
       "  astrolabe report monday/before friday/after --out report.html");
   command.callback([options] {
     const bool files = options->import.given();
@@ -52,11 +72,20 @@ void add_report(console::Command app) {
     if (!files) refuse_choices_without_drives(options->import);
     if (!files && options->import.session_per_folder)
       throw console::WrongUsage("--session-per-folder goes with --wheels and --truth");
-    if (!files && !options->with.empty()) throw console::WrongUsage("--with goes with --wheels and --truth");
+    const bool films = !options->import.films().empty();
+    if (!files) require_film_for(options->import.film_figures, films);
+    if (!files && !films && !options->with.empty())
+      throw console::WrongUsage("--with goes with --wheels and --truth");
     std::filesystem::path out = options->out;
     if (out.empty()) out = files ? "report.html" : options->results.folders.front() / "report.html";
-    report::write_report(out, files ? of_drives(options->import, options->with)
-                                    : experiment::report_input(read_results(options->results)));
+    report::ReportInput input;
+    if (files)
+      input = of_drives(read_drive_files(options->import), options->with);
+    else if (films)
+      input = of_drives(read_filmed(options->results, options->import), options->with);
+    else
+      input = experiment::report_input(read_results(options->results));
+    report::write_report(out, input);
     print_path(std::filesystem::absolute(out));
   });
 }

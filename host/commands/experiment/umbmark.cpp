@@ -9,10 +9,12 @@
 #include "host/commands/base/flags.hpp"
 #include "host/commands/base/remedies.hpp"
 #include "host/commands/experiment/commands.hpp"
+#include "host/commands/experiment/film_dialogue.hpp"
 #include "host/commands/experiment/tape_briefing.hpp"
 #include "host/commands/experiment/tape_dialogue.hpp"
 #include "host/commands/shared/calibration_view.hpp"
 #include "host/commands/shared/connection.hpp"
+#include "host/commands/shared/film_truth.hpp"
 #include "host/commands/shared/limit_notes.hpp"
 #include "host/commands/shared/method_option.hpp"
 #include "host/commands/shared/parameter_load.hpp"
@@ -43,6 +45,8 @@ struct UmbmarkOptions {
   MethodOption method;
   experiment::Until until;
   console::Option until_option, truth_folder, unit_option, angle_unit_option;
+  std::optional<std::filesystem::path> film;  // --truth film:FILE
+  FilmOptions film_figures;
   bool yes = false, force = false, json = false, no_extras = false, pause = false;
 };
 
@@ -51,10 +55,11 @@ void add_options(console::Command command, UmbmarkOptions& options) {
   add_connection(command, options.connection);
   command
       .add_option("--truth", options.truth.source,
-                  "sim, manual (tape measure), file, or a tracker:\nvrpn://HOST/BODY, natnet://HOST/BODY, "
-                  "ros2:/TOPIC")
+                  "sim, manual (tape measure), film or film:FILE (a phone\nfilms a printed tag), file, or a "
+                  "tracker:\n"
+                  "vrpn://HOST/BODY, natnet://HOST/BODY, ros2:/TOPIC")
       .type_name("SOURCE")
-      .check(truth_source({"sim", "manual", "file"}))
+      .check(truth_source({"sim", "manual", "file", "film"}))
       .required();
   options.truth_folder = command.add_option("--truth-folder", options.truth.folder,
                                             "--truth file: where the CSV of each run appears;\n"
@@ -68,6 +73,7 @@ void add_options(console::Command command, UmbmarkOptions& options) {
       command.add_option("--angle-unit", options.angle_unit, "--truth manual: of headings typed without one")
           .one_of({"deg", "rad"})
           .capture_default_str();
+  add_film_options(command, options.film_figures, "--truth film: ");
   command.add_option("--out", options.out, "folder of the experiment; the same folder again continues it")
       .required();
   command.add_option("--runs", plan.runs, "squares in each direction, before and after")
@@ -153,6 +159,10 @@ experiment::ExperimentHooks hooks_for(const UmbmarkOptions& options, console::Pr
     return true;
   };
   hooks.doubt = [ask](const experiment::DoubtfulRun& run) { return ask_about(ask, run); };
+  hooks.give_truth = [&options, &progress](const std::string& phase, experiment::RunSet& set) {
+    progress.clear();
+    take_films(phase, set, {options.film, options.film_figures});
+  };
   hooks.calibrated = [&progress](const experiment::Calibration& found, const auto& changes) {
     progress.clear();
     console::say('\n' + calibration_summary(found));
@@ -211,6 +221,9 @@ void conclude(const experiment::Results& results, const std::filesystem::path& r
 }
 
 void run(UmbmarkOptions& options) {
+  options.film = film_named(options.truth.source);
+  if (options.film) options.truth.source = "film";
+  require_film_for(options.film_figures, options.truth.source == "film");
   options.plan.order = experiment::order_named(options.order);
   options.plan.method = options.method.choice();
   options.plan.extras = !options.no_extras;
@@ -234,6 +247,7 @@ void run(UmbmarkOptions& options) {
   if (options.no_extras && options.truth.source != "manual")
     console::say("squares alone do not show e (whether gentle arcs turn about another wheelbase than spins)");
   if (options.truth.source == "manual") brief(options);
+  if (options.truth.source == "film") console::say(film_briefing());
   console::Progress progress("driving");
   const auto truth = open_truth(options.truth, options.connection.port, [&](const truth::Question& question) {
     progress.clear();

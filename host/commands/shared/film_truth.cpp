@@ -20,7 +20,7 @@ constexpr std::string_view kPrefix = "film:";
 void say_report(const experiment::FilmReport& report) {
   for (const auto& run : report.runs)
     console::say(fmt::format("{}: {:.2f} to {:.2f} s of '{}' (turning and driving agree by {:.3f})", run.run,
-                             run.from_s, run.to_s, run.film, run.place.likeness));
+                             run.from_s, run.to_s, run.film, run.place.likeness.visible));
   if (report.readout_sigma_s)
     console::say(fmt::format("the camera reads a picture in {:.1f} ± {:.1f} ms{}, as the odometry shows",
                              1e3 * std::abs(report.readout_s), 1e3 * *report.readout_sigma_s,

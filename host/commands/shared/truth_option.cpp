@@ -5,11 +5,13 @@
 #include "host/base/error.hpp"
 #include "host/base/text/columns.hpp"
 #include "host/commands/base/remedies.hpp"
+#include "host/commands/shared/film_truth.hpp"
 #include "host/commands/shared/press_enter.hpp"
 #include "host/console/console.hpp"
 #include "host/truth/files/file_source.hpp"
 #include "host/truth/live/live_source.hpp"
 #include "host/truth/live/socket_source.hpp"
+#include "host/truth/source/later_source.hpp"
 #include "host/truth/source/no_source.hpp"
 
 namespace astro::commands {
@@ -32,7 +34,8 @@ std::string choice_of(const std::vector<std::string>& words) {
 
 console::Check truth_source(std::vector<std::string> words) {
   return [words = std::move(words)](const std::string& word) -> std::string {
-    if (std::find(words.begin(), words.end(), word) != words.end()) return "";
+    const std::string kind = film_named(word) ? "film" : word;
+    if (std::find(words.begin(), words.end(), kind) != words.end()) return "";
     if (!truth::is_tracker_url(word))
       return "'" + word + "' is not a source of ground truth: choose " + choice_of(words);
     try {
@@ -77,6 +80,7 @@ std::unique_ptr<truth::Source> open_truth(const TruthOption& option, const std::
   if (option.source == "sim") return std::make_unique<truth::SocketSource>(truth::mocap_socket_of(port));
   if (option.source == "manual") return std::make_unique<truth::ManualSource>(asking, option.units);
   if (option.source == "file") return std::make_unique<truth::FileSource>(option.folder, asking);
+  if (option.source == "film") return std::make_unique<truth::LaterSource>("film");
   if (option.source == "none") return std::make_unique<truth::NoSource>();
   if (truth::is_tracker_url(option.source)) return open_tracker(option.source);
   throw Error("'" + option.source + "' is not a source of ground truth: choose sim, manual, file or none");

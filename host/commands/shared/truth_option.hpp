@@ -17,6 +17,7 @@ namespace astro::commands {
 ///   sim     the virtual cameras beside the port of an 'astrolabe sim'
 ///   manual  a person with a tape measure is asked after each run
 ///   file    each run's ground truth is read from a CSV that another program wrote
+///   film    a phone films the robot's tag, and the film is taken once all runs of a phase are driven (umbmark only)
 ///   none    nothing (record only)
 struct TruthOption {
   std::string source;

@@ -53,6 +53,7 @@ class Session {
     for (std::size_t i = 0; i < phases.size(); ++i) {
       current_.start();
       drive_phase(i);
+      take_later_truth(i);
       read_phase(i);
       if (i + 1 < phases.size() && !calibrate(i)) break;
     }
@@ -206,6 +207,13 @@ class Session {
     std::vector<std::shared_ptr<const Recordings>> phases = finished_;
     phases.push_back(current_.recordings());
     return calibrate_after(phases, journal_.plan.method, ml_choice(journal_.plan));
+  }
+
+  void take_later_truth(std::size_t phase) {
+    const Plan& plan = journal_.plan;
+    if (plan.truth != "film") return;
+    const std::vector<RunSpec> specs = runs_of_phase(plan, phase, squares_in_phase(folder_, plan, phase));
+    if (complete_later(folder_, specs, plan.truth, hooks_.give_truth)) current_.start();
   }
 
   void read_phase(std::size_t phase) {

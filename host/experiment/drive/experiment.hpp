@@ -8,6 +8,7 @@
 #include "host/experiment/analysis/results.hpp"
 #include "host/experiment/drive/change_guard.hpp"
 #include "host/experiment/drive/doubtful_run.hpp"
+#include "host/experiment/drive/later_truth.hpp"
 #include "host/experiment/drive/record_run.hpp"
 
 namespace astro::experiment {
@@ -42,6 +43,8 @@ struct ExperimentHooks {
   /// A run whose ground truth comes from a person or a file does not fit the others; it may be an earlier one. Not called
   /// again for a run that is said to be right.
   std::function<Redo(const DoubtfulRun&)> doubt = [](const DoubtfulRun&) { return Redo::no; };
+  /// All runs of a phase are driven, and their truth comes now, for all of them (later_truth.hpp).
+  GiveTruth give_truth = [](const std::string&, RunSet&) {};
   /// A calibration was found, and would change these parameters of the robot. Called before anything is decided.
   std::function<void(const Calibration&, const std::vector<Change>&)> calibrated =
       [](const Calibration&, const std::vector<Change>&) {};

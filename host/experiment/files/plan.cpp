@@ -34,7 +34,7 @@ void check_until(const Plan& plan) {
   need(plan.method.family != MethodChoice::Family::end_poses,
        "only maximum likelihood knows its precision as it goes",
        {Help::drop_precision_or_method, std::string(name_of(plan.method))});
-  need(plan.truth != "manual" && plan.truth != "file",
+  need(plan.truth != "manual" && plan.truth != "file" && plan.truth != "film",
        "a precision can only be driven for with ground truth along the whole drive",
        {Help::count_runs_or_change_truth, plan.truth});
 }

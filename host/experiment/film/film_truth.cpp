@@ -13,7 +13,8 @@
 namespace astro::experiment {
 namespace {
 
-constexpr double kInFilm = 0.6;  // the likeness of a run that a film shows; 0.97 and more without trouble
+// A run that a film shows is alike to 0.999; another drive of the same programme has its turns elsewhere.
+constexpr double kAlike = 0.97, kShown = 0.5;
 constexpr double kMargin_s = 0.3;
 
 /// Which film shows a run, and where.
@@ -31,17 +32,34 @@ std::vector<std::size_t> order_of(const RunSet& set) {
   return order;
 }
 
-std::vector<Shown> shown_runs(const RunSet& set, const std::vector<NamedFilm>& films) {
+bool is_shown(const Shown& one) {
+  const Likeness& alike = one.place.likeness;
+  return alike.visible >= kAlike && alike.shown >= kShown;
+}
+
+std::vector<Shown> shown_runs(const RunSet& set, const std::vector<NamedFilm>& films, bool exchanged) {
   std::vector<MotionRates> rates;
-  for (const recording::Run& run : set.runs) rates.push_back(rates_of(run));
+  for (const recording::Run& run : set.runs) {
+    rates.push_back(rates_of(run));
+    if (exchanged)
+      for (MotionRate& bin : rates.back().bins) bin.turn = -bin.turn;
+  }
   const std::vector<std::size_t> order = order_of(set);
   std::vector<Shown> best(set.runs.size());
   for (std::size_t film = 0; film < films.size(); ++film) {
     const std::vector<Placement> places = place_runs(rates, rates_of(films[film].track.found.poses), order);
     for (std::size_t i = 0; i < places.size(); ++i)
-      if (places[i].likeness > best[i].place.likeness) best[i] = {film, places[i]};
+      if (places[i].likeness.all > best[i].place.likeness.all) best[i] = {film, places[i]};
   }
   return best;
+}
+
+/// Wheels that are exchanged turn the other way; the estimator has the words for that.
+std::vector<Shown> shown_runs(const RunSet& set, const std::vector<NamedFilm>& films) {
+  std::vector<Shown> shown = shown_runs(set, films, false);
+  if (std::any_of(shown.begin(), shown.end(), is_shown)) return shown;
+  std::vector<Shown> mirrored = shown_runs(set, films, true);
+  return std::any_of(mirrored.begin(), mirrored.end(), is_shown) ? mirrored : shown;
 }
 
 template <class Value>
@@ -56,7 +74,7 @@ void keep_at(std::vector<Value>& list, const std::vector<std::size_t>& kept) {
 void leave_out_unseen(RunSet& set, std::vector<Shown>& shown, FilmReport& report) {
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < shown.size(); ++i) {
-    if (shown[i].place.likeness >= kInFilm)
+    if (is_shown(shown[i]))
       kept.push_back(i);
     else
       report.remarks.push_back({fmt::format("'{}' is not in the film, and was left out", set.names[i])});

@@ -41,7 +41,7 @@ MotionRates rates_of_places(const std::vector<Place>& places) {
     const Place a = between(places[from - 1], places[from], begin_s),
                 b = between(places[to - 1], places[to], end_s);
     const double dt_s = 2 * kHalfWindow_s;
-    rates.bins[i] = {static_cast<float>(kTurnArm_m * std::abs(b.theta_rad - a.theta_rad) / dt_s),
+    rates.bins[i] = {static_cast<float>(kTurnArm_m * (b.theta_rad - a.theta_rad) / dt_s),
                      static_cast<float>(kSpeedWeight * std::hypot(b.x_m - a.x_m, b.y_m - a.y_m) / dt_s),
                      true};
   }
@@ -67,35 +67,40 @@ MotionRates rates_of(const recording::Run& run) {
   return rates_of_places(places);
 }
 
-double likeness(const MotionRates& run, const MotionRates& film, double offset_s) {
+Likeness likeness(const MotionRates& run, const MotionRates& film, double offset_s) {
   const double shift = (run.first_s - offset_s - film.first_s) / MotionRates::kBin_s;
   const double whole = std::floor(shift);
   const float part = static_cast<float>(shift - whole);
   const auto first = static_cast<std::ptrdiff_t>(whole), size = static_cast<std::ptrdiff_t>(film.bins.size());
-  float both = 0, squares = 0;
-  double both_sum = 0, squares_sum = 0;  // in blocks, because a long sum of floats loses digits
+  float both = 0, run_squares = 0, film_squares = 0, shown = 0;
+  double sums[4] = {};  // in blocks, because a long sum of floats loses digits
+  const auto add_block = [&] {
+    std::size_t k = 0;
+    for (float* const value : {&both, &run_squares, &film_squares, &shown})
+      sums[k++] += static_cast<double>(std::exchange(*value, 0.0F));
+  };
   for (std::size_t i = 0; i < run.bins.size(); ++i) {
     const MotionRate& a = run.bins[i];
     if (!a.known) continue;
-    squares += a.turn * a.turn + a.speed * a.speed;
+    const float square = a.turn * a.turn + a.speed * a.speed;
+    run_squares += square;
+    if (i % 256 == 255) add_block();
     const std::ptrdiff_t at = first + static_cast<std::ptrdiff_t>(i);
-    if (at >= 0 && at + 1 < size) {
-      const MotionRate &low = film.bins[static_cast<std::size_t>(at)],
-                       &high = film.bins[static_cast<std::size_t>(at + 1)];
-      if (low.known && high.known) {
-        const float turn = low.turn + part * (high.turn - low.turn),
-                    speed = low.speed + part * (high.speed - low.speed);
-        squares += turn * turn + speed * speed;
-        both += a.turn * turn + a.speed * speed;
-      }
-    }
-    if (i % 256 != 255) continue;
-    both_sum += static_cast<double>(std::exchange(both, 0.0F));
-    squares_sum += static_cast<double>(std::exchange(squares, 0.0F));
+    if (at < 0 || at + 1 >= size) continue;
+    const MotionRate &low = film.bins[static_cast<std::size_t>(at)],
+                     &high = film.bins[static_cast<std::size_t>(at + 1)];
+    if (!low.known || !high.known) continue;
+    const float turn = low.turn + part * (high.turn - low.turn),
+                speed = low.speed + part * (high.speed - low.speed);
+    film_squares += turn * turn + speed * speed;
+    both += a.turn * turn + a.speed * speed;
+    shown += square;
   }
-  both_sum += static_cast<double>(both);
-  squares_sum += static_cast<double>(squares);
-  return squares_sum > 0 ? 2 * both_sum / squares_sum : 0;
+  add_block();
+  const auto [product, run_all, film_all, run_shown] = sums;
+  if (!(run_all > 0)) return {};
+  return {2 * product / (run_all + film_all),
+          run_shown + film_all > 0 ? 2 * product / (run_shown + film_all) : 0, run_shown / run_all};
 }
 
 }  // namespace astro::experiment

@@ -9,7 +9,7 @@
 /// What a film and a robot's odometry have in common before their clocks are known: how fast the robot turns and drives.
 namespace astro::experiment {
 
-/// A moment's rates, both in m/s and without sign: half a turn a second counts as 0.47 m/s.
+/// A moment's rates, both in m/s: half a turn a second to the left counts as 0.47 m/s; the speed has no sign.
 struct MotionRate {
   float turn = 0, speed = 0;
   bool known = false;
@@ -30,8 +30,13 @@ MotionRates rates_of(const std::vector<film::FilmPose>& poses);
 /// Of a run, by the robot's times in seconds.
 MotionRates rates_of(const recording::Run& run);
 
-/// How alike both are if the robot's time is the film's plus `offset_s`: at most 1. What of the run the film does not show counts
-/// as unlike.
-double likeness(const MotionRates& run, const MotionRates& film, double offset_s);
+struct Likeness {
+  double all = 0;      // at most 1; what of the run the film does not show counts as unlike
+  double visible = 0;  // of what the film shows
+  double shown = 0;    // part of the run's motion that the film shows
+};
+
+/// How alike both are if the robot's time is the film's plus `offset_s`.
+Likeness likeness(const MotionRates& run, const MotionRates& film, double offset_s);
 
 }  // namespace astro::experiment

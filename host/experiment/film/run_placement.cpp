@@ -28,7 +28,7 @@ double refined(std::span<const MotionRates* const> runs, const MotionRates& film
                double reach_s) {
   const auto value = [&](double offset_s) {
     double sum = 0;
-    for (const MotionRates* run : runs) sum += likeness(*run, film, offset_s);
+    for (const MotionRates* run : runs) sum += likeness(*run, film, offset_s).all;
     return sum;
   };
   double best_s = rough_s, step = reach_s / 4;
@@ -52,10 +52,10 @@ std::vector<Placement> places_of(const MotionRates& run, const MotionRates& film
   for (double offset_s = range.from; offset_s <= range.to; offset_s += kStep_s)
     all.push_back({offset_s, likeness(run, film, offset_s)});
   std::sort(all.begin(), all.end(),
-            [](const Placement& a, const Placement& b) { return a.likeness > b.likeness; });
+            [](const Placement& a, const Placement& b) { return a.likeness.all > b.likeness.all; });
   std::vector<Placement> peaks;
   for (const Placement& one : all) {
-    if (one.likeness < all.front().likeness - kWorse || peaks.size() >= kMostPlaces) break;
+    if (one.likeness.all < all.front().likeness.all - kWorse || peaks.size() >= kMostPlaces) break;
     if (std::none_of(peaks.begin(), peaks.end(), [&](const Placement& peak) {
           return std::abs(peak.offset_s - one.offset_s) < kApart_s;
         }))
@@ -92,7 +92,7 @@ std::vector<Placement> placed_together(std::span<const MotionRates> runs, const 
   double best_s = from, most = -1;
   for (double offset_s = from; offset_s <= to; offset_s += kStep_s) {
     double sum = 0;
-    for (const MotionRates& run : runs) sum += likeness(run, film, offset_s);
+    for (const MotionRates& run : runs) sum += likeness(run, film, offset_s).all;
     if (sum <= most) continue;
     most = sum;
     best_s = offset_s;
@@ -129,7 +129,7 @@ std::vector<Placement> placed_in_order(std::span<const MotionRates> runs,
       for (std::size_t p = 0; k > 0 && p < steps[k - 1].size(); ++p)
         if (end(k - 1, p) <= begin(k, c) + kOverlap_s && steps[k - 1][p].sum > step.sum)
           step = {steps[k - 1][p].sum, p};
-      steps[k].push_back({step.sum + candidates[order[k]][c].likeness, step.before});
+      steps[k].push_back({step.sum + candidates[order[k]][c].likeness.all, step.before});
     }
   std::vector<Placement> places(runs.size());
   std::size_t at = 0;
@@ -137,8 +137,9 @@ std::vector<Placement> placed_in_order(std::span<const MotionRates> runs,
     if (steps.back()[c].sum > steps.back()[at].sum) at = c;
   for (std::size_t k = order.size(); k-- > 0;) {
     places[order[k]] = candidates[order[k]][at];
-    places[order[k]].ambiguous = candidates[order[k]].size() > 1 &&
-                                 candidates[order[k]][1].likeness > candidates[order[k]][0].likeness - kRival;
+    places[order[k]].ambiguous =
+        candidates[order[k]].size() > 1 &&
+        candidates[order[k]][1].likeness.all > candidates[order[k]][0].likeness.all - kRival;
     at = steps[k][at].before;
   }
   return places;
@@ -146,7 +147,7 @@ std::vector<Placement> placed_in_order(std::span<const MotionRates> runs,
 
 double mean_likeness(const std::vector<Placement>& places) {
   double sum = 0;
-  for (const Placement& place : places) sum += place.likeness / static_cast<double>(places.size());
+  for (const Placement& place : places) sum += place.likeness.all / static_cast<double>(places.size());
   return sum;
 }
 
@@ -162,7 +163,7 @@ std::vector<Placement> place_runs(std::span<const MotionRates> runs, const Motio
   for (const MotionRates& run : runs) {
     candidates.push_back(places_of(run, film));
     if (candidates.back().empty()) candidates.back().push_back({});
-    alone += candidates.back().front().likeness / static_cast<double>(runs.size());
+    alone += candidates.back().front().likeness.all / static_cast<double>(runs.size());
   }
   if (one_after_the_other(runs)) {
     std::vector<Placement> together = placed_together(runs, film);

@@ -10,7 +10,7 @@ namespace astro::experiment {
 /// Where in a film a run is: robot's time = film's time + offset_s.
 struct Placement {
   double offset_s = 0;
-  double likeness = 0;     // of the rates there
+  Likeness likeness = {};  // of the rates there
   bool ambiguous = false;  // another place fits as well, and only the order of the runs decided
 };
 

@@ -1,0 +1,87 @@
+#include "host/commands/experiment/film_dialogue.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "host/base/error.hpp"
+#include "host/base/interrupted.hpp"
+#include "host/base/text/columns.hpp"
+#include "host/base/text/trimmed.hpp"
+#include "host/commands/base/remedies.hpp"
+#include "host/commands/shared/film_truth.hpp"
+#include "host/console/console.hpp"
+
+namespace astro::commands {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Paths between commas, perhaps in quotes as a file manager pastes them.
+std::vector<fs::path> paths_in(const std::string& answer) {
+  std::vector<fs::path> paths;
+  for (std::size_t from = 0; from <= answer.size();) {
+    const std::size_t comma = std::min(answer.find(',', from), answer.size());
+    std::string word(trimmed(answer.substr(from, comma - from)));
+    if (word.size() > 1 && (word.front() == '\'' || word.front() == '"') && word.back() == word.front())
+      word = word.substr(1, word.size() - 2);
+    if (!word.empty()) paths.emplace_back(word);
+    from = comma + 1;
+  }
+  return paths;
+}
+
+/// False, after saying why, if the films do not show the runs.
+bool taken(const std::vector<fs::path>& paths, experiment::RunSet& set, const FilmOptions& figures) {
+  try {
+    experiment::RunSet with = set;
+    give_truth(with, follow_films(paths, figures), figures);
+    set = std::move(with);
+    return true;
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const Error& error) {
+    console::say(wrapped(in_words(error) + '.'));
+    return false;
+  }
+}
+
+}  // namespace
+
+std::string film_briefing() {
+  return wrapped(
+             "The phone films the tag on the robot all the time: put it on a shelf or a tripod 2 m high or "
+             "higher, looking down "
+             "by 35 degrees or more, so that the whole field and all tags on the floor are in the picture. "
+             "1080p, stabilisation "
+             "off, focus and exposure locked. Begin to film before the first run, and do not touch the phone "
+             "until all runs of "
+             "the phase are driven; then stop filming, copy the file to this computer, and name it when "
+             "asked.") +
+         "'astrolabe truth film FILE' looks at a film alone.\n";
+}
+
+void take_films(const std::string& phase, experiment::RunSet& set, const FilmRequest& request) {
+  if (request.file && fs::exists(*request.file) && taken({*request.file}, set, request.figures)) return;
+  while (true) {
+    std::string answer;
+    try {
+      answer = console::ask(
+          fmt::format("the film of the {} run{} of phase '{}' that have none (several: separated by commas; "
+                      "Enter: later): ",
+                      set.runs.size(), set.runs.size() == 1 ? "" : "s", phase));
+    } catch (const Interrupted&) {
+      throw;
+    } catch (const Error&) {
+      answer.clear();  // nobody is there
+    }
+    const std::vector<fs::path> paths = paths_in(answer);
+    if (paths.empty())
+      throw Error(fmt::format("all runs of phase '{}' are driven, but their film is missing", phase),
+                  {Help::resume_with_film});
+    if (taken(paths, set, request.figures)) return;
+  }
+}
+
+}  // namespace astro::commands

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "host/commands/shared/film_options.hpp"
+#include "host/experiment/files/run_set.hpp"
+
+/// What is said to, and asked of, a person who films an experiment.
+namespace astro::commands {
+
+/// Before the first run: how to film.
+std::string film_briefing();
+
+struct FilmRequest {
+  std::optional<std::filesystem::path> file;  // taken without a question, if it is there
+  FilmOptions figures;
+};
+
+/// Gives the runs of a phase the truth of the film that shows them, or of several. Asks for it until one of them is in the film; what
+/// is wrong with a film is said. Throws astro::Error if nobody can be asked or the answer is empty: the same command goes on later.
+void take_films(const std::string& phase, experiment::RunSet& set, const FilmRequest& request);
+
+}  // namespace astro::commands
