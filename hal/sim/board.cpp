@@ -26,9 +26,12 @@ Board::Board(const Config& config)
 void Board::advance_tick() {
   clock_.advance_us(kTick_us);
   world_us_ += kTick_us;
-  if (wall_) [[unlikely]]
+  const Drive drive = motors_.at_wheels(battery_);
+  if (wall_) [[unlikely]] {
     lean_on_wall();
-  const Pair wheels_rad = drivetrain_.advance_tick(motors_.at_wheels(battery_));
+    note_stalls(drive);
+  }
+  const Pair wheels_rad = drivetrain_.advance_tick(drive);
   battery_.observe(drivetrain_.bus_V());
   if (!on_stand_)
     chassis_.jump(restart_slip_.advance(wheels_rad[0] * radius_m_[0], wheels_rad[1] * radius_m_[1]));
@@ -48,6 +51,7 @@ void Board::lean_on_wall() {
   const WallForce wall = wall_->force(chassis_.pose(), (ground_mps[0] + ground_mps[1]) / 2,
                                       (ground_mps[1] - ground_mps[0]) / wheelbase_m_);
   pressing_N_ = wall.pressing_N;
+  wall_record_.hardest_N = std::max(wall_record_.hardest_N, pressing_N_);
   const Pair on_tyre_N{wall.forward_N / 2 - wall.turning_Nm / wheelbase_m_,
                        wall.forward_N / 2 + wall.turning_Nm / wheelbase_m_};
   for (const Side side : {Side::left, Side::right}) {
@@ -58,6 +62,15 @@ void Board::lean_on_wall() {
     WheelLoad load = load_[k];
     load.torque_Nm += held_N * radius_m_[k];
     drivetrain_.set_load(side, load);
+  }
+}
+
+void Board::note_stalls(const Drive& drive) {
+  constexpr double kStands_mps = 0.001;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const bool stands = std::abs(drivetrain_.speed_radps()[k]) * radius_m_[k] < kStands_mps;
+    stalled_ticks_[k] = stands && !drive.open[k] && drive.duty[k] != 0 ? stalled_ticks_[k] + 1 : 0;
+    wall_record_.longest_stall_ticks = std::max(wall_record_.longest_stall_ticks, stalled_ticks_[k]);
   }
 }
 

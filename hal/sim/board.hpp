@@ -23,6 +23,13 @@
 /// Cost    advance_tick() about 100 ns while driving, 40 ns at rest; no heap after construction.
 namespace astro::sim {
 
+/// What a robot in a world with a wall has done since it was made.
+struct WallRecord {
+  double hardest_N = 0;  // the most that it pressed on the wall
+  int longest_stall_ticks =
+      0;  // the longest time that a wheel stood, slower than 1 mm/s, with voltage on its motor
+};
+
 class Board {
  public:
   static constexpr std::uint64_t kTick_us = 1000;
@@ -75,9 +82,11 @@ class Board {
   /// The wall, if there is one, and how hard the robot pressed on it in the last tick.
   const std::optional<Wall>& wall() const { return wall_; }
   double pressing_N() const { return pressing_N_; }
+  const WallRecord& wall_record() const { return wall_record_; }
 
  private:
   void lean_on_wall();
+  void note_stalls(const Drive& drive);
   void roll(const Pair& wheels_rad);
 
   Pair radius_m_;
@@ -99,6 +108,8 @@ class Board {
   std::array<WheelLoad, 2> load_{};  // without the wall's part
   Pair skids_{};  // sign of the wheel's rotation that moves nothing, because its tyre skids
   double pressing_N_ = 0;
+  WallRecord wall_record_;
+  std::array<int, 2> stalled_ticks_{};
 };
 
 static_assert(hal::Board<Board>, "this port no longer satisfies hal/interface");

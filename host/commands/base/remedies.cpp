@@ -217,6 +217,8 @@ constexpr Sentence kSentences[] = {
     {Help::count_runs_or_change_truth,
      ": give --runs in place of --until, or another source than --truth {}"},
     {Help::keep_order, ": leave out --order"},
+    {Help::check_wall,
+     ": see that the wall is straight and firm, the front of the robot flat, and the floor free and clean"},
     {Help::drop_precision_or_method, ": leave out --until or --method {}"},
     {Help::stop_simulator_or_choose_other_path, ": stop it or choose another --pty"},
     {Help::choose_other_path, ": choose another path for --pty"},
