@@ -219,6 +219,8 @@ constexpr Sentence kSentences[] = {
     {Help::keep_order, ": leave out --order"},
     {Help::check_wall,
      ": see that the wall is straight and firm, the front of the robot flat, and the floor free and clean"},
+    {Help::face_wall_and_resume,
+     ": put it in front of the wall, facing it, with nothing in its way; the same command goes on"},
     {Help::drop_precision_or_method, ": leave out --until or --method {}"},
     {Help::stop_simulator_or_choose_other_path, ": stop it or choose another --pty"},
     {Help::choose_other_path, ": choose another path for --pty"},

@@ -55,7 +55,8 @@ void WallDriver::drive(std::span<const Leg> legs, const calibration::WheelFactor
   } catch (const Interrupted&) {
     watch_.seen = [](const WheelMoment&) {};
     if (!guard.pushes()) throw;
-    throw RanIntoSomething("the robot ran into something on its way, and was stopped");
+    throw RanIntoSomething("the robot ran into something on its way, and was stopped",
+                           {Help::face_wall_and_resume});
   } catch (...) {
     watch_.seen = [](const WheelMoment&) {};
     throw;

@@ -33,6 +33,9 @@ class TmuxProgram {
     tmux("send-keys Enter");
   }
 
+  /// A key by tmux's name for it, as C-c.
+  void key(const std::string& name) const { tmux("send-keys " + name); }
+
   /// All that was shown, from the first line on.
   std::string seen() const { return tmux("capture-pane -p -S -"); }
 
@@ -58,7 +61,9 @@ class TmuxProgram {
     const auto end = std::chrono::steady_clock::now() + limit;
     while (std::chrono::steady_clock::now() < end) {
       const std::string state = tmux("display -p '#{pane_dead} #{pane_dead_status}'");
-      if (state.starts_with("1 ")) return std::stoi(state.substr(2));
+      // tmux knows that a program has ended a moment before it knows how.
+      if (state.starts_with("1 ") && state.size() > 2 && state[2] >= '0' && state[2] <= '9')
+        return std::stoi(state.substr(2));
       poll(nullptr, 0, 10);
     }
     return -1;
