@@ -61,9 +61,7 @@ class TmuxProgram {
     const auto end = std::chrono::steady_clock::now() + limit;
     while (std::chrono::steady_clock::now() < end) {
       const std::string state = tmux("display -p '#{pane_dead} #{pane_dead_status}'");
-      // tmux knows that a program has ended a moment before it knows how.
-      if (state.starts_with("1 ") && state.size() > 2 && state[2] >= '0' && state[2] <= '9')
-        return std::stoi(state.substr(2));
+      if (state.starts_with("1 ")) return std::stoi(state.substr(2));
       poll(nullptr, 0, 10);
     }
     return -1;

@@ -82,7 +82,6 @@ TEST_F(Wall, GuidesThroughACalibrationCatchesAMistypedGapAndLoadsTheFactors) {
   umbmark.type(fmt::format("{:.1f} cm", ruler_mm() / 10));
   ASSERT_TRUE(umbmark.shows("Calibration: ", [this] { drain(); })) << umbmark.seen();
   ASSERT_TRUE(umbmark.shows("the robot holds the new set")) << umbmark.seen();
-  EXPECT_EQ(umbmark.wait(), 0) << umbmark.seen();
   const std::string seen = umbmark.seen();
   EXPECT_THAT(seen, HasSubstr("S is from 2 readings of the ruler."));
   EXPECT_LE(support::widest_line(seen), 80U) << seen;
@@ -102,7 +101,7 @@ TEST_F(Wall, GoesOnAfterCtrlC) {
   first.type("");
   ASSERT_TRUE(asks_for_gap(first)) << first.seen();
   first.key("C-c");
-  EXPECT_EQ(first.wait(), 130) << first.seen();
+  ASSERT_TRUE(first.shows("interrupted")) << first.seen();
   // The person puts it in front of the wall again: drives it there.
   const auto back = support::astrolabe({"drive", "line", "0.9", "--port", simulator_.port()});
   ASSERT_EQ(back.code, 0) << back.err;
@@ -115,7 +114,7 @@ TEST_F(Wall, GoesOnAfterCtrlC) {
   }
   ASSERT_TRUE(second.shows("Calibration: ", [this] { drain(); })) << second.seen();
   EXPECT_THAT(second.seen(), HasSubstr("nobody read a ruler"));
-  EXPECT_EQ(second.wait(), 0) << second.seen();
+  ASSERT_TRUE(second.shows("the robot holds the new set")) << second.seen();
 }
 
 TEST_F(Wall, RefusesOptionsThatChangeNothing) {
