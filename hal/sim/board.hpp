@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "hal/interface/board.hpp"
 #include "hal/sim/battery.hpp"
 #include "hal/sim/chassis.hpp"
@@ -12,6 +14,7 @@
 #include "hal/sim/restart_slip.hpp"
 #include "hal/sim/slip.hpp"
 #include "hal/sim/system.hpp"
+#include "hal/sim/wall.hpp"
 
 /// The simulated robot as a board. Its owner runs it: after each control tick of the firmware, advance_tick()
 /// moves the world on by 1 ms. Everything follows from the configuration, the seed and the calls, so the same
@@ -19,6 +22,13 @@
 ///
 /// Cost    advance_tick() about 100 ns while driving, 40 ns at rest; no heap after construction.
 namespace astro::sim {
+
+/// What a robot in a world with a wall has done since it was made.
+struct WallRecord {
+  double hardest_N = 0;  // the most that it pressed on the wall
+  int longest_stall_ticks =
+      0;  // the longest time that a wheel stood, slower than 1 mm/s, with voltage on its motor
+};
 
 class Board {
  public:
@@ -64,9 +74,19 @@ class Board {
   void place(const Pose& pose) { chassis_.place(pose); }
 
   const Drivetrain& drivetrain() const { return drivetrain_; }
-  void set_load(Side side, const WheelLoad& load) { drivetrain_.set_load(side, load); }
+  void set_load(Side side, const WheelLoad& load) {
+    load_[at(side)] = load;
+    drivetrain_.set_load(side, load);
+  }
+
+  /// The wall, if there is one, and how hard the robot pressed on it in the last tick.
+  const std::optional<Wall>& wall() const { return wall_; }
+  double pressing_N() const { return pressing_N_; }
+  const WallRecord& wall_record() const { return wall_record_; }
 
  private:
+  void lean_on_wall();
+  void note_stalls(const Drive& drive);
   void roll(const Pair& wheels_rad);
 
   Pair radius_m_;
@@ -83,6 +103,13 @@ class Board {
   RestartSlip restart_slip_;
   Chassis chassis_;
   std::uint64_t world_us_ = 0;
+  std::optional<Wall> wall_;
+  double wheelbase_m_, grip_N_;
+  std::array<WheelLoad, 2> load_{};  // without the wall's part
+  Pair skids_{};  // sign of the wheel's rotation that moves nothing, because its tyre skids
+  double pressing_N_ = 0;
+  WallRecord wall_record_;
+  std::array<int, 2> stalled_ticks_{};
 };
 
 static_assert(hal::Board<Board>, "this port no longer satisfies hal/interface");

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 /// A simulated robot: its geometry as designed and as built, its noise, its wiring, its supply.
@@ -25,6 +26,22 @@ struct Wiring {
   bool left_channel_lost = false, right_channel_lost = false;
 };
 
+/// The outline of the body over the floor, by the point midway between the wheels.
+struct Body {
+  double ahead_m = 0.1625, behind_m = 0.1625, width_m = 0.337;
+  double front_turned_rad = 0;  // a front that is not mounted square to the axle; counter-clockwise positive
+};
+
+/// A straight wall (wall.hpp).
+struct WallConfig {
+  double x_m = 0.5, y_m = 0;           // a point of it
+  double out_rad = 3.141592653589793;  // the direction in which it faces, into the room
+  double stiffness_Npm = 1e4;          // of wall and body at a corner: 1 mm under 10 N
+  double damping_Nspm = 100;
+  double friction = 0.3;    // along the wall
+  double unevenness_m = 0;  // standard deviation of the surface, at points 0.1 m apart
+};
+
 struct Config {
   // As designed: the parameters of an uncalibrated robot.
   double nominal_diameter_m = 0.072;
@@ -42,6 +59,10 @@ struct Config {
   double body_kg = 4.7;
   double yaw_inertia_kgm2 = 0.0858;  // uniform 0.325 m x 0.337 m plate of 4.7 kg: m (a^2 + b^2) / 12
   bool on_stand = false;             // the wheels are off the ground and only move themselves
+  Body body;
+  std::optional<WallConfig> wall;
+  double grip_N =
+      13.0;  // the most a tyre can push before it skids, counted only against a wall: 0.8 of a third of the weight
   Wiring wiring;
 
   // Noise: the travel of each wheel has variance slip_m * |distance|. The default gives the scatter of the

@@ -195,6 +195,8 @@ enum class Help : std::uint8_t {
   count_runs,
   count_runs_or_change_truth,  // {source}
   keep_order,
+  check_wall,
+  face_wall_and_resume,
   drop_precision_or_method,  // {method}
   // simulations
   stop_simulator_or_choose_other_path,

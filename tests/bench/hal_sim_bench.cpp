@@ -51,6 +51,14 @@ void pivot_on_one_wheel(benchmark::State& state) {
 }
 BENCHMARK(pivot_on_one_wheel);
 
+void press_on_wall(benchmark::State& state) {
+  Config config;
+  config.wall = WallConfig{.x_m = 0.1625};
+  Board board(config);
+  run(state, board, {4000, 4000}, {4010, 4005});
+}
+BENCHMARK(press_on_wall);
+
 void at_rest(benchmark::State& state) {
   Board board(Config{});
   run(state, board, {0, 0}, {0, 0});

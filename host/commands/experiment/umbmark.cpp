@@ -12,6 +12,8 @@
 #include "host/commands/experiment/film_dialogue.hpp"
 #include "host/commands/experiment/tape_briefing.hpp"
 #include "host/commands/experiment/tape_dialogue.hpp"
+#include "host/commands/experiment/umbmark_options.hpp"
+#include "host/commands/experiment/wall_umbmark.hpp"
 #include "host/commands/shared/calibration_view.hpp"
 #include "host/commands/shared/connection.hpp"
 #include "host/commands/shared/film_truth.hpp"
@@ -35,84 +37,6 @@
 
 namespace astro::commands {
 namespace {
-
-struct UmbmarkOptions {
-  ConnectionOptions connection;
-  TruthOption truth;
-  experiment::Plan plan;
-  std::filesystem::path out;
-  std::string order = "alternating", unit, angle_unit = "deg";
-  MethodOption method;
-  experiment::Until until;
-  console::Option until_option, truth_folder, unit_option, angle_unit_option;
-  std::optional<std::filesystem::path> film;  // --truth film:FILE
-  FilmOptions film_figures;
-  bool yes = false, force = false, json = false, no_extras = false, pause = false;
-};
-
-void add_options(console::Command command, UmbmarkOptions& options) {
-  experiment::Plan& plan = options.plan;
-  add_connection(command, options.connection);
-  command
-      .add_option("--truth", options.truth.source,
-                  "sim, manual (tape measure), film or film:FILE (a phone\nfilms a printed tag), file, or a "
-                  "tracker:\n"
-                  "vrpn://HOST/BODY, natnet://HOST/BODY, ros2:/TOPIC")
-      .type_name("SOURCE")
-      .check(truth_source({"sim", "manual", "file", "film"}))
-      .required();
-  options.truth_folder = command.add_option("--truth-folder", options.truth.folder,
-                                            "--truth file: where the CSV of each run appears;\n"
-                                            "default: OUT/truth");
-  options.unit_option =
-      command
-          .add_option("--unit", options.unit,
-                      "--truth manual: of lengths typed without one; asked for if\nnot given")
-          .one_of({"mm", "cm", "m"});
-  options.angle_unit_option =
-      command.add_option("--angle-unit", options.angle_unit, "--truth manual: of headings typed without one")
-          .one_of({"deg", "rad"})
-          .capture_default_str();
-  add_film_options(command, options.film_figures, "--truth film: ");
-  command.add_option("--out", options.out, "folder of the experiment; the same folder again continues it")
-      .required();
-  command.add_option("--runs", plan.runs, "squares in each direction, before and after")
-      .capture_default_str();
-  options.until_option = command
-                             .add_option("--until", options.until.target,
-                                         "drive squares until E_d, the scale and b have\n"
-                                         "standard errors below this, 0.05% or 0.0005;\n"
-                                         "--runs then counts the squares after")
-                             .transform(console::fraction());
-  command.add_option("--max-runs", options.until.most, "--until: the most squares in each direction")
-      .needs(options.until_option)
-      .capture_default_str();
-  command.add_option("--side", plan.side_m, "side of the square, m").capture_default_str();
-  command.add_option("--speed", plan.speed_mps, "m/s").capture_default_str();
-  command.add_option("--yaw-rate", plan.yaw_rate_radps, "of the turns, rad/s").capture_default_str();
-  command.add_option("--order", options.order, "of the directions")
-      .one_of({"alternating", "cw-first", "ccw-first"})
-      .capture_default_str();
-  command
-      .add_option("--rounds", plan.rounds,
-                  "calibrate, upload and drive again so often, or until a\n"
-                  "calibration is not shown to be better")
-      .capture_default_str();
-  command.add_option("--line", plan.line_m, "length of the straight line, m").capture_default_str();
-  command
-      .add_option("--circle", plan.circle_radius_m, "radius of the circles, m; with the squares they show e")
-      .capture_default_str();
-  command.add_flag("--no-extras", options.no_extras,
-                   "squares only, no line and circles: whether gentle arcs\nturn about another wheelbase (e) "
-                   "is not looked for");
-  add_method(command, options.method, {"auto", "ml", "umbmark", "extended", "least-squares", "robust"},
-             "auto: ml (maximum likelihood over whole drives)\n"
-             "with ground truth along the way, else robust");
-  command.add_flag("--pause", options.pause, "wait for Enter before each run (always with --truth manual)");
-  command.add_flag("--yes,-y", options.yes, "upload without asking what is better, or cannot be judged");
-  add_force(command, options.force);
-  command.add_flag("--json", options.json, "print the result as one JSON object");
-}
 
 /// How much of the present phase has been driven.
 struct PhaseProgress {
@@ -182,20 +106,28 @@ experiment::ExperimentHooks hooks_for(const UmbmarkOptions& options, console::Pr
   return hooks;
 }
 
-/// An option that changes nothing with another source is a mistake.
-void require_truth(const UmbmarkOptions& options, const console::Option& option, const std::string& name,
-                   const std::string& source) {
-  if (option.count() > 0 && options.truth.source != source)
-    throw console::WrongUsage(name + " is of --truth " + source + ", and this is --truth " +
-                              options.truth.source);
+truth::LengthUnit length_unit(const UmbmarkOptions& options) {
+  return options.unit.empty() ? ask_length_unit(console::ask)
+                              : truth::length_unit_named(options.unit).value();
 }
 
 /// Before the first run: what there is to measure, and in which unit.
 void brief(UmbmarkOptions& options) {
   console::say(tape_briefing(options.plan, options.out));
   options.truth.units.angle = truth::angle_unit_named(options.angle_unit).value();
-  options.truth.units.length =
-      options.unit.empty() ? ask_length_unit(console::ask) : truth::length_unit_named(options.unit).value();
+  options.truth.units.length = length_unit(options);
+}
+
+/// Laps in front of a wall in place of squares, with the options that mean the same.
+void run_with_wall(UmbmarkOptions& options) {
+  experiment::WallPlan& plan = options.wall.plan;
+  if (options.line.count() > 0) plan.line_m = options.plan.line_m;
+  if (options.speed.count() > 0) plan.speed_mps = options.plan.speed_mps;
+  if (options.yaw_rate.count() > 0) plan.yaw_rate_radps = options.plan.yaw_rate_radps;
+  if (options.until_option.count() > 0)
+    plan.targets = {options.until.target, options.until.target, options.until.target};
+  run_wall(options.connection, plan,
+           {options.out, truth::length_unit_named(options.unit), options.yes, options.force, options.json});
 }
 
 /// Prints what came out. An experiment that ends before its last phase does so because the drives speak against loading.
@@ -224,15 +156,14 @@ void run(UmbmarkOptions& options) {
   options.film = film_named(options.truth.source);
   if (options.film) options.truth.source = "film";
   require_film_for(options.film_figures, options.truth.source == "film");
+  refuse_options_of_other_truth(options);
+  if (options.truth.source == "wall") return run_with_wall(options);
   options.plan.order = experiment::order_named(options.order);
   options.plan.method = options.method.choice();
   options.plan.extras = !options.no_extras;
   options.plan.truth = options.truth.source;
   if (options.until_option.count() > 0) options.plan.until = options.until;
   options.plan.check();
-  require_truth(options, options.truth_folder, "--truth-folder", "file");
-  require_truth(options, options.unit_option, "--unit", "manual");
-  require_truth(options, options.angle_unit_option, "--angle-unit", "manual");
   if (options.truth_folder.count() > 0 && !std::filesystem::is_directory(options.truth.folder))
     throw Error(fmt::format("--truth-folder: there is no folder '{}': make it, or name another",
                             options.truth.folder.string()));
@@ -266,7 +197,7 @@ void add_umbmark(console::Command app) {
   const auto options = std::make_shared<UmbmarkOptions>();
   const console::Command command = app.add_subcommand(
       "umbmark", "the whole experiment: squares, calibration, upload, squares again, report");
-  add_options(command, *options);
+  add_umbmark_options(command, *options);
   command.footer(
       "Ctrl-C stops the robot; the same command goes on from the last recorded run.\n"
       "--truth file reads a CSV per run: before-square-cw-1.csv, before-line-1.csv, ...\n"
@@ -281,6 +212,7 @@ void add_umbmark(console::Command app) {
       "  astrolabe umbmark --port /dev/ttyACM0 --truth vrpn://lab-pc:3883/ASTRO --out my-experiment\n"
       "  astrolabe umbmark --port /dev/ttyACM0 --truth ros2:/vrpn_mocap/robot/pose --out my-experiment\n"
       "  astrolabe umbmark --port /dev/ttyACM0 --truth manual --runs 5 --side 3 --out my-experiment\n"
+      "  astrolabe umbmark --port /dev/ttyACM0 --truth wall --out my-experiment\n"
       "  astrolabe umbmark --truth sim --until 0.05% --out my-experiment\n"
       "  astrolabe umbmark --port P --truth sim --runs 5 --side 3 --out DIR --yes --json");
   command.callback([options] { run(*options); });

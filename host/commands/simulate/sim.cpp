@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "host/base/environment.hpp"
+#include "host/base/text/numbers.hpp"
 #include "host/commands/serving/served_robot_options.hpp"
 #include "host/commands/simulate/commands.hpp"
 #include "host/console/console.hpp"
@@ -45,6 +46,17 @@ void add_sim(console::Command app) {
   const console::Command command = app.add_subcommand(
       "sim", "run a simulated robot behind a pseudo terminal, with virtual cameras beside it");
   add_sim_options(command, *options);
+  command
+      .add_option_function(
+          "--wall",
+          [options](const std::vector<std::string>& words) {
+            const double gap_m = *number_in(words.front());
+            options->robot.wall =
+                sim::WallConfig{.x_m = options->robot.body.ahead_m + gap_m, .unevenness_m = 3e-4};
+          },
+          "a straight wall across its way, so many m before its front")
+      .type_name("M")
+      .check(console::between(0, 100, "m"));
   command
       .add_option("--ros2-topic", options->ros_topic,
                   "the same in ROS 2, as geometry_msgs/PoseStamped on this topic")

@@ -186,6 +186,34 @@ void write_parameters(const fs::path& path, const ParameterValues& values) {
   save(path, text.str());
 }
 
+void write_parameter_file(const fs::path& path, const ParameterFile& file) {
+  const auto section = [](const char* name, const std::map<std::string, double>& numbers) {
+    std::string text = fmt::format("[{}]\n", name);
+    for (const auto& [key, value] : numbers) text += fmt::format("{} = {}\n", key, real_text(value));
+    return text + '\n';
+  };
+  std::ostringstream text;
+  text << "# Found by Astrolabe, to be uploaded to the robot that drove.\n\n[parameters]\n";
+  for (const auto& [name, value] : file.parameters) {
+    if (const double* number = std::get_if<double>(&value)) {
+      text << fmt::format("{} = {}\n", name, real_text(*number));
+    } else {
+      text << name << " = " << toml::value(plain_text(std::get<std::string>(value))) << '\n';
+    }
+  }
+  text << '\n' << section("standard_errors", file.standard_errors);
+  if (file.covariance) text << covariance_lines(*file.covariance);
+  if (file.slip_K_m) text << slip_lines(*file.slip_K_m);
+  if (file.wheel) text << nominal_lines(*file.wheel);
+  if (!file.robot.id.empty()) text << robot_lines(file.robot);
+  text << "# The factors that were loaded in the robot while it drove.\n"
+       << section("carried", file.loaded) << "[calibration]\nmethod = \"" << plain_text(file.method)
+       << "\"\nabsolute = " << (file.absolute ? "true" : "false")
+       << "\n\n# On drives that the calibration had not seen.\n[verdict]\nverdict = \""
+       << name_of(file.verdict) << "\"\nsentence = " << toml::value(file.verdict_sentence) << '\n';
+  save(path, text.str());
+}
+
 ParameterFile read_parameter_file(const fs::path& path) {
   if (fs::is_directory(path)) fail_for_folder(path);
   const toml::table file = parse_toml(path);

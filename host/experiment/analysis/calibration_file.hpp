@@ -42,6 +42,9 @@ struct ParameterFile {
   std::string verdict_sentence;                                  // "" in a file without one
 };
 
+/// Writes what read_parameter_file reads: for calibrations that are no Calibration, because they were not found from recordings.
+void write_parameter_file(const std::filesystem::path& path, const ParameterFile& file);
+
 /// Throws astro::Error naming the file, and the line where TOML knows it: no such file, not TOML, no
 /// [parameters], a value that is neither number nor text, a damaged [covariance] or [nominal].
 ParameterFile read_parameter_file(const std::filesystem::path& path);

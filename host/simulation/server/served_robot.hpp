@@ -18,6 +18,9 @@ class ServedRobot {
   /// Virtual time; may restart at 0 with the robot.
   virtual std::uint64_t now_us() = 0;
 
+  /// Whether it drives by what its host has to repeat, velocities or voltages, and stops by itself if nothing comes in time.
+  virtual bool awaits_commands() { return false; }
+
   // The robot's ports, numbered from 0: `pty` of ServerConfig leads to port 0, `second_pty` to port 1.
 
   /// Number of bytes that write() can take now.

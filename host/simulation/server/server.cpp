@@ -22,10 +22,14 @@ using namespace std::chrono_literals;
 
 constexpr std::uintmax_t kMostFlashBytes = std::uintmax_t{8} << 20;  // the largest of a Teensy's family
 constexpr std::uint64_t kRunAhead_us = 100'000;  // virtual time that may pass after bytes from the host
+// The same while the robot awaits commands. A sign of life between two of them lets time pass once more, and even two of them must not
+// take the robot to its command time-out of 200 ms. More than 50 ms, after which hosts give a sign of life by the robot's clock.
+constexpr std::uint64_t kRunAheadOfCommands_us = 60'000;
 // Real time that a host may take no bytes, or send none, before time goes on without it. On a busy machine a program
 // gets no turn for some hundred milliseconds, and a robot that stops by its own time-out then surprises its owner.
 constexpr auto kPatience = 1s;
 constexpr int kStepsPerPoll = 50;  // virtual ms between two checks of the host while running ahead
+constexpr int kStepsPerPollOfCommands = 10;
 
 sim::Config with_flash(sim::Config config, const fs::path& path) {
   config.flash = load_flash(path);
@@ -39,6 +43,11 @@ class ServedVirtualRobot : public ServedRobot {
   ServedVirtualRobot(const sim::Config& config, const MocapConfig& mocap) : robot_(config, mocap) {}
 
   void step() override { robot_.step(); }
+  bool awaits_commands() override {
+    const auto hold = robot_.board().hold_tick();
+    const protocol::Mode mode = robot_.robot().drive(hold).mode();
+    return mode == protocol::Mode::velocity || mode == protocol::Mode::wheels;
+  }
   std::uint64_t now_us() override { return robot_.now_us(); }
   std::size_t room(int port) override { return robot_.board().ports().host_room(port); }
   void write(int port, std::span<const std::uint8_t> bytes) override {
@@ -91,7 +100,8 @@ void Server::run(const std::function<bool()>& stop) {
     receive();
     const bool host_is_behind = transmit();
     if (runs_ahead(host_is_behind)) {
-      for (int i = 0; i < kStepsPerPoll; ++i) step();
+      const int steps = robot_->awaits_commands() ? kStepsPerPollOfCommands : kStepsPerPoll;
+      for (int i = 0; i < steps; ++i) step();
       pace_.restart(Clock::now() + Pace::kStep);
     } else if (pace_.due(Clock::now())) {
       step();
@@ -135,7 +145,8 @@ bool Server::connected() const {
 
 bool Server::runs_ahead(bool host_is_behind) {
   if (!config_.fast) return false;
-  if (robot_->now_us() - last_heard_us_ >= kRunAhead_us) {
+  const std::uint64_t most_us = robot_->awaits_commands() ? kRunAheadOfCommands_us : kRunAhead_us;
+  if (robot_->now_us() - last_heard_us_ >= most_us) {
     // Virtual time waits for a host that is late because its machine is busy, but not for one that hangs or
     // has gone.
     if (connected() && Clock::now() - heard_at_ < kPatience) pace_.restart(Clock::now() + Pace::kStep);

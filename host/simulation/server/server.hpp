@@ -35,7 +35,7 @@ std::vector<std::uint8_t> load_flash(const std::filesystem::path& path);
 /// A simulated robot behind a pty, for as long as the process lives.
 ///
 /// Real time: one virtual millisecond per real millisecond. Fast: virtual time runs ahead as long as a host
-/// sends something at least every 100 virtual ms (its client pings by the robot's clock) and reads what it is
+/// sends something at least every 100 virtual ms, or 60 while it drives by repeated commands (its client pings by the robot's clock) and reads what it is
 /// sent; otherwise it falls back to real time, so that the robot's command time-out still notices a host that
 /// dies.
 class Server {

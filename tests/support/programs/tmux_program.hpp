@@ -33,6 +33,9 @@ class TmuxProgram {
     tmux("send-keys Enter");
   }
 
+  /// A key by tmux's name for it, as C-c.
+  void key(const std::string& name) const { tmux("send-keys " + name); }
+
   /// All that was shown, from the first line on.
   std::string seen() const { return tmux("capture-pane -p -S -"); }
 

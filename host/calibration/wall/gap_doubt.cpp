@@ -1,0 +1,65 @@
+#include "host/calibration/wall/gap_doubt.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace astro::calibration {
+namespace {
+
+using Mistake = GapDoubt::Mistake;
+
+std::string mm(double length_m) { return fmt::format("{:.0f} mm", 1000 * length_m); }
+
+/// The digits of a whole number of millimetres, without one of them, or with two neighbours exchanged.
+bool is_slip_of_digits(double read_m, double expected_m, double allowed_m) {
+  const std::string typed = fmt::format("{:.0f}", 1000 * read_m);
+  const auto fits = [&](const std::string& digits) {
+    return !digits.empty() && std::abs(std::stod(digits) / 1000 - expected_m) <= allowed_m;
+  };
+  for (std::size_t i = 0; i < typed.size(); ++i) {
+    std::string exchanged = typed;
+    if (i + 1 < typed.size()) std::swap(exchanged[i], exchanged[i + 1]);
+    if (fits(exchanged)) return true;
+  }
+  for (std::size_t i = 0; i <= typed.size(); ++i)  // one is missing
+    for (char digit = '0'; digit <= '9'; ++digit) {
+      std::string longer = typed;
+      if (fits(longer.insert(i, 1, digit))) return true;
+    }
+  return false;
+}
+
+}  // namespace
+
+std::optional<GapDoubt> doubt_about_gap(double read_m, double expected_m, double known, double axle_m,
+                                        double length_m) {
+  const double allowed_m = 0.005 + 3 * known * expected_m;
+  const auto fits = [&](double gap_m) { return std::abs(gap_m - expected_m) <= allowed_m; };
+  if (fits(read_m)) return std::nullopt;
+  const std::string facts = fmt::format("{} was read, and by its wheels the robot has backed off by {}",
+                                        mm(read_m), mm(expected_m));
+  for (const double times : {10.0, 100.0, 1000.0}) {
+    for (const double factor : {times, 1 / times})
+      if (fits(read_m * factor))
+        return GapDoubt{Mistake::other_unit,
+                        facts + fmt::format("; {} would fit, in another unit", mm(read_m * factor))};
+  }
+  constexpr double kPlace_m = 0.01;  // how well somebody hits a middle or a rear that is not marked
+  const double more_m = read_m - expected_m;
+  if (std::abs(more_m - axle_m) <= allowed_m + kPlace_m)
+    return GapDoubt{Mistake::to_the_axle,
+                    facts + "; it would fit if it was measured to the axle, not to the front"};
+  if (std::abs(more_m - length_m) <= allowed_m + kPlace_m)
+    return GapDoubt{Mistake::to_the_rear,
+                    facts + "; it would fit if it was measured to the rear, not to the front"};
+  if (is_slip_of_digits(read_m, expected_m, allowed_m))
+    return GapDoubt{Mistake::digit_dropped,
+                    facts + "; a missing digit or two that are exchanged would explain it"};
+  return GapDoubt{Mistake::unknown, facts};
+}
+
+}  // namespace astro::calibration

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "host/calibration/judgement/before_after.hpp"
+#include "host/calibration/wall/wall_estimate.hpp"
+
+/// Whether the factors from a wall are better than the loaded ones, judged on ways that they have not seen: each stretch between two squarings,
+/// and each gap, is predicted with the loaded factors and with factors found from all others.
+namespace astro::calibration {
+
+struct WallJudgement {
+  int stretches = 0, better_on = 0;
+  double loaded_rad = 0,
+         found_rad = 0;                // root mean square error of the headings at the ends of the stretches
+  Verdict verdict = Verdict::unknown;  // of stretches and gaps
+
+  /// "Better: on 12 of 14 ways that they had not seen ... the heading at their ends is off by 24 mrad instead of 98 mrad."
+  std::string sentence() const;
+};
+
+WallJudgement judge_wall(const WallDrive& drive, const WallEstimate& found, const WheelFactors& loaded);
+
+}  // namespace astro::calibration

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+
+#include "host/calibration/motion/wheel_factors.hpp"
+#include "host/calibration/wall/drive_against_wall.hpp"
+
+/// The common scale of both wheels from gaps that somebody read: the robot stands flush, backs straight off, and the gap between wall
+/// and front is what it has driven, along a slight arc if its wheels differ.
+namespace astro::calibration {
+
+/// How far a robot with these factors has backed off square to the wall. Exact for an arc of constant curvature that begins flush.
+double backed_off_m(const WheelTravel& since_squaring, const WheelFactors& factors);
+
+struct WallScale {
+  double scale = 1, se = 0;  // absolute: (c_R + c_L) / 2
+  int readings = 0;
+};
+
+/// `factors`: E_d and b / S of the robot; its own scale does not count. Nothing without a reading. The standard error has slip, the readings' own error,
+/// and that of the contact, which all readings share and which only another distance tells apart from the scale.
+std::optional<WallScale> scale_of_gaps(const WallDrive& drive, const WheelFactors& factors,
+                                       const WallNoise& noise);
+
+}  // namespace astro::calibration

@@ -1,0 +1,142 @@
+#include "host/commands/experiment/wall_dialogue.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "host/base/text/columns.hpp"
+#include "host/base/text/shown.hpp"
+#include "host/base/text/trimmed.hpp"
+#include "host/console/console.hpp"
+#include "host/experiment/analysis/likelihood_sentences.hpp"
+
+namespace astro::commands {
+namespace {
+
+constexpr const char* kDrawing = R"(
+     wall  =========================================
+                  |         the ruler lies here: from the
+                  | gap     wall to the front of the robot,
+                  |         square to the wall
+               +--+--+
+               |  ^  |      the robot faces the wall, a hand's
+             []|  :  |[]    breadth in front of it; by eye is
+               +-----+      enough
+)";
+
+double depth_m(const experiment::WallPlan& plan) {
+  const experiment::BodySize& body = plan.body;
+  const double turning_m = 2 * (body.turning_gap_m() + body.front_to_axle_m);
+  return std::max(plan.line_m + turning_m, plan.readings > 0 ? plan.gap_m + body.length_m : 0.0);
+}
+
+std::string percent(double ratio) { return fmt::format("{:.3f} %", 100 * ratio); }
+
+std::string in_minutes(double minutes) {
+  return minutes <= 1 ? "a minute" : fmt::format("{:.0f} minutes", std::ceil(minutes));
+}
+
+std::string ruler_text(const experiment::WallPlan& plan) {
+  if (plan.readings == 0) return "Without a ruler the scale of the wheels stays as it is.";
+  const char* times = plan.readings == 1 ? "once" : plan.readings == 2 ? "twice" : nullptr;
+  return fmt::format("It asks {} for the gap between the wall and its front, of about {:g} m.",
+                     times != nullptr ? times : fmt::format("{} times", plan.readings), plan.gap_m);
+}
+
+}  // namespace
+
+std::string wall_briefing(const experiment::WallPlan& plan, const calibration::WallCourse& course,
+                          double driven_s) {
+  const double minutes = std::min(plan.most_minutes, course.time_s / 60) - driven_s / 60;
+  const std::string text = fmt::format(
+      "The robot squares itself against a straight, firm wall, with a push of at most {:g} N; backs off, "
+      "drives laps, and comes back, again "
+      "and again. It needs {:.1f} m of free, clean floor in front of the wall and a metre to each side, and "
+      "about {}. {} "
+      "Nobody may touch it while it drives; Ctrl-C stops it, and the same command goes on.",
+      plan.push.force_N, depth_m(plan), in_minutes(minutes), ruler_text(plan));
+  return wrapped(text) + kDrawing;
+}
+
+void ask_facing_wall(const AskLine& ask) {
+  press_enter(ask, "Put the robot in front of the wall, facing it, step aside and press Enter ");
+}
+
+std::optional<double> ask_gap(const AskLine& ask, double expected_m, truth::LengthUnit unit) {
+  const std::string question = fmt::format(
+      "Gap between the wall and the front of the robot, {} (by its wheels {};\n'none': not measured; the "
+      "robot "
+      "drives on after Enter): ",
+      truth::name_of(unit), truth::shown(expected_m, unit));
+  std::string prompt = question;
+  while (true) {
+    const std::string line = ask(prompt), answer(trimmed(line));
+    if (answer == "none") return std::nullopt;
+    const auto gap_m = truth::length_m_in(answer, unit);
+    if (gap_m && *gap_m > 0) return gap_m;
+    prompt = fmt::format("'{}' is not a length in a known unit; write it with a decimal point.\n{}", answer,
+                         question);
+  }
+}
+
+bool ask_gap_is_right(const AskLine& ask, const calibration::GapDoubt& doubt) {
+  const std::string prompt = wrapped(doubt.why + '.') + "  yes: it is right; Enter: enter it again: ";
+  const std::string answer =
+      enter_or(ask, prompt, [](const std::string& word) { return word == "y" || word == "yes"; });
+  return !answer.empty();
+}
+
+std::string title_of(const calibration::WallMove& move) {
+  using Kind = calibration::WallMove::Kind;
+  const char* way = move.turns > 0 ? "counter-clockwise" : "clockwise";
+  const int turns = std::abs(move.turns);
+  switch (move.kind) {
+    case Kind::repeat:
+      return "squaring once more";
+    case Kind::gap:
+      return fmt::format("{:g} m off for the ruler", move.away_m);
+    case Kind::laps:
+      return fmt::format("{} lap{} {}", turns, turns == 1 ? "" : "s", way);
+    default:
+      return fmt::format("{} turn{} {}", turns, turns == 1 ? "" : "s", way);
+  }
+}
+
+std::string wall_result_text(const experiment::WallResult& result) {
+  using experiment::with_error;
+  const calibration::WallEstimate& found = result.estimate;
+  const calibration::WheelFactors& factors = found.factors;
+  const auto deviation = [&](int index) { return std::sqrt(found.covariance(index, index)); };
+  std::vector<std::vector<std::string>> rows{
+      {"", "", "standard error"},
+      {"c_R", with_error(factors.c_r, deviation(0), 8), percent(deviation(0) / factors.c_r)},
+      {"c_L", with_error(factors.c_l, deviation(1), 8), percent(deviation(1) / factors.c_l)},
+      {"b mm", with_error(1000 * factors.b_m, 1000 * deviation(2), 4), percent(deviation(2) / factors.b_m)},
+      {"E_d", with_error(found.E_d, found.se.E_d, 7), percent(found.se.E_d)},
+      {"b/S mm", with_error(1000 * found.b_per_scale_m, 1000 * found.b_per_scale_m * found.se.b, 4),
+       percent(found.se.b)}};
+  if (found.scale)
+    rows.push_back({"S", with_error(found.scale->scale, found.scale->se, 8), percent(found.scale->se)});
+  const std::string scale = found.scale
+                                ? fmt::format("S is from {} reading{} of the ruler.", found.scale->readings,
+                                              found.scale->readings == 1 ? "" : "s")
+                                : std::string("S is as loaded: nobody read a ruler.");
+  const std::string driven = fmt::format(
+      "{} ways between {} squarings, {:.1f} minutes of driving. A squaring is off by {:.1f} mrad; the wheels "
+      "slip by {:.1f} mm on a metre. {} e is as loaded: "
+      "laps do not show it.",
+      found.stretches.size(), found.stretches.size() + result.journal.drive.size(),
+      result.journal.driven_s / 60, 1000 * found.noise.squaring_rad, 1000 * std::sqrt(found.noise.K_m),
+      scale);
+  std::string text = console::table(rows) + '\n' + wrapped(driven);
+  if (!result.reached)
+    text += wrapped(fmt::format(
+        "The wanted precision (E_d {}, b {}) was not reached in {:g} minutes; more time would help.",
+        percent(result.journal.plan.targets.E_d), percent(result.journal.plan.targets.b),
+        result.journal.plan.most_minutes));
+  return text;
+}
+
+}  // namespace astro::commands

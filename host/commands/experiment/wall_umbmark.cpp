@@ -1,0 +1,116 @@
+#include "host/commands/experiment/wall_umbmark.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "host/base/text/columns.hpp"
+#include "host/calibration/wall/wall_judgement.hpp"
+#include "host/commands/base/remedies.hpp"
+#include "host/commands/experiment/tape_dialogue.hpp"
+#include "host/commands/experiment/wall_dialogue.hpp"
+#include "host/commands/shared/parameter_load.hpp"
+#include "host/commands/shared/robot_view.hpp"
+#include "host/console/console.hpp"
+#include "host/console/interrupt.hpp"
+#include "host/console/program.hpp"
+#include "host/experiment/analysis/judgement_sentences.hpp"
+#include "host/experiment/wall/wall_calibration.hpp"
+#include "host/experiment/wall/wall_experiment.hpp"
+
+namespace astro::commands {
+namespace {
+
+using experiment::WallHooks;
+using experiment::WallResult;
+
+WallHooks hooks_for(truth::LengthUnit unit, console::Progress& progress) {
+  const AskLine ask = [&progress](const std::string& prompt) {
+    progress.clear();
+    return console::ask_before_acting(prompt);
+  };
+  WallHooks hooks;
+  hooks.drive.interrupted = console::interrupted;
+  hooks.drive.notice = [&progress](const Remark& remark) {
+    progress.clear();
+    console::say(in_words(remark));
+  };
+  hooks.placed = [ask] { ask_facing_wall(ask); };
+  hooks.read_gap = [ask, unit](double expected_m) { return ask_gap(ask, expected_m, unit); };
+  hooks.is_right = [ask](const calibration::GapDoubt& doubt) { return ask_gap_is_right(ask, doubt); };
+  hooks.move_started = [&progress](const calibration::WallMove& move, int number, int total) {
+    progress.show(static_cast<double>(number - 1) / total,
+                  fmt::format("{} of about {}: {}", number, total, title_of(move)));
+  };
+  return hooks;
+}
+
+/// False if the factors are not loaded because the ways speak against it, which is an answer and no error.
+bool load(robot::Client& client, const experiment::ParameterFile& file, const WallSettings& settings) {
+  const bool nobody_to_ask = settings.yes || !console::stdin_is_terminal();
+  if (experiment::advises_against(file.verdict) && nobody_to_ask && !settings.force) return false;
+  const LoadResult loaded =
+      load_parameters(client, robot::RemoteParameters::fetch(client), file, {settings.yes, settings.force});
+  if (loaded.report && loaded.report->active != robot::ActiveSet::new_set)
+    throw Error(loaded.report->remark());
+  if (loaded.report) console::say(in_words(loaded.report->remark()));
+  return true;
+}
+
+void brief(const experiment::WallPlan& plan, robot::Client& client, const WallSettings& settings) {
+  const experiment::WallRobot robot = experiment::wall_robot_of(robot::RemoteParameters::fetch(client));
+  const auto journal = experiment::read_wall_journal(settings.out);
+  const auto course = calibration::plan_course(experiment::wishes_of(plan, robot), robot.loaded);
+  console::say(wall_briefing(plan, course, journal ? journal->driven_s : 0));
+}
+
+}  // namespace
+
+void add_wall_options(console::Command command, WallOptions& options) {
+  experiment::WallPlan& plan = options.plan;
+  const auto add = [&](const std::string& name, auto& value, const std::string& what) {
+    options.own.emplace_back(name,
+                             command.add_option(name, value, "--truth wall: " + what).capture_default_str());
+  };
+  add("--readings", plan.readings, "how often somebody reads the ruler;\n0: the scale stays as it is");
+  add("--gap", plan.gap_m, "the gap that the ruler shows, m");
+  add("--minutes", plan.most_minutes, "the most of driving");
+  add("--push", plan.push.force_N, "the hardest push against the wall, N");
+  add("--stall-torque", plan.push.stall_Nm, "of a motor at its wheel, N m");
+  add("--stall-voltage", plan.push.stall_V, "at which it has that torque, V");
+  add("--front-to-axle", plan.body.front_to_axle_m, "from the front to the axle, m");
+  add("--robot-length", plan.body.length_m, "m");
+  add("--robot-width", plan.body.width_m, "m");
+}
+
+void run_wall(ConnectionOptions& connection, const experiment::WallPlan& plan, const WallSettings& settings) {
+  plan.check();
+  const auto client = connect(connection);
+  brief(plan, *client, settings);
+  const truth::LengthUnit unit = settings.unit       ? *settings.unit
+                                 : plan.readings > 0 ? ask_length_unit(console::ask)
+                                                     : truth::LengthUnit::mm;
+  console::Progress progress("driving");
+  const WallResult result =
+      experiment::run_wall_experiment(*client, plan, settings.out, hooks_for(unit, progress));
+  progress.clear();
+  const auto judgement =
+      calibration::judge_wall(result.journal.drive, result.estimate, result.journal.loaded);
+  const experiment::ParameterFile file = experiment::parameter_file_of(result, judgement);
+  const std::filesystem::path path = std::filesystem::absolute(settings.out / "calib.toml");
+  experiment::write_parameter_file(path, file);
+  if (settings.json) {
+    nlohmann::json json = to_json(result, judgement);
+    json["calibration"] = path.string();
+    print_json(json);
+  } else {
+    write(wall_result_text(result) + wrapped(judgement.sentence()));
+    print("Calibration: " + path.string());
+  }
+  if (load(*client, file, settings)) return;
+  console::say(wrapped("It was not loaded; --force loads it all the same."));
+  console::answer_no();
+}
+
+}  // namespace astro::commands

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/commands/shared/connection.hpp"
+#include "host/console/command_line.hpp"
+#include "host/experiment/wall/wall_journal.hpp"
+#include "host/truth/manual/reading.hpp"
+
+/// `umbmark --truth wall`: the calibration with a wall and a ruler, which drives laps in place of squares.
+namespace astro::commands {
+
+struct WallOptions {
+  experiment::WallPlan plan;
+  std::vector<std::pair<std::string, console::Option>> own;  // which no other truth has
+};
+
+/// Those of a wall alone.
+void add_wall_options(console::Command command, WallOptions& options);
+
+/// What umbmark has for every truth.
+struct WallSettings {
+  std::filesystem::path out;
+  std::optional<truth::LengthUnit> unit;  // asked for if a ruler is read
+  bool yes = false, force = false, json = false;
+};
+
+/// Drives, estimates, writes `out`/calib.toml, and loads it if it is agreed. Throws as run_wall_experiment and load_parameters do.
+void run_wall(ConnectionOptions& connection, const experiment::WallPlan& plan, const WallSettings& settings);
+
+}  // namespace astro::commands

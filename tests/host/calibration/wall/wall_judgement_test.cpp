@@ -1,0 +1,45 @@
+#include "host/calibration/wall/wall_judgement.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/host/calibration/wall/synthetic_robot.hpp"
+
+namespace astro::calibration {
+namespace {
+
+WallJudgement judged(const WheelFactors& actual, const WheelFactors& loaded, std::uint64_t seed) {
+  SyntheticRobot robot(actual, WallNoise{}, seed);
+  for (const WallMove& move : plan_course({}, loaded).moves) robot.drive(move, loaded);
+  return judge_wall(robot.drive_so_far(), estimate_wall(robot.drive_so_far(), loaded), loaded);
+}
+
+TEST(WallJudgement, FindsFactorsBetterThatAreHalfAPercentFromTheLoadedOnes) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const WallJudgement judgement = judged(factors_with(1.005, 0.2885, 1.005), kNominal, seed);
+    EXPECT_EQ(judgement.verdict, Verdict::better) << seed;
+    EXPECT_LT(judgement.found_rad, judgement.loaded_rad);
+    EXPECT_GT(judgement.better_on, judgement.stretches / 2);
+    EXPECT_EQ(judgement.sentence().rfind("Better: on ", 0), 0U) << judgement.sentence();
+  }
+}
+
+TEST(WallJudgement, SeldomFindsFactorsBetterWhereTheLoadedOnesAreRight) {
+  int better = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed)
+    better += judged(kNominal, kNominal, seed).verdict == Verdict::better ? 1 : 0;
+  EXPECT_LE(better, 6) << "judge_gains: below 1.5 %; of 100, five standard deviations more";
+}
+
+TEST(WallJudgement, SeesAnotherScaleInTheGaps) {
+  const WallJudgement judgement = judged(factors_with(1, 0.29, 1.02), kNominal, 1);
+  EXPECT_EQ(judgement.verdict, Verdict::better) << judgement.sentence();
+}
+
+TEST(WallJudgement, SaysThatItKnowsTooLittle) {
+  const WallJudgement judgement = judge_wall({}, estimate_wall({}, kNominal), kNominal);
+  EXPECT_EQ(judgement.verdict, Verdict::unknown);
+  EXPECT_EQ(judgement.sentence(), "Too few ways were driven to judge the new factors.");
+}
+
+}  // namespace
+}  // namespace astro::calibration

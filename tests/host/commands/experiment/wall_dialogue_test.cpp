@@ -1,0 +1,72 @@
+#include "host/commands/experiment/wall_dialogue.hpp"
+
+#include <gmock/gmock.h>
+
+#include <functional>
+
+#include "host/calibration/wall/wall_plan.hpp"
+#include "tests/support/base/columns.hpp"
+#include "tests/support/base/person.hpp"
+
+namespace astro::commands {
+namespace {
+
+using calibration::WallMove;
+using support::Person;
+using testing::HasSubstr;
+
+calibration::WallCourse course() { return calibration::plan_course({}, {1, 1, 0.29}); }
+
+TEST(WallDialogue, SaysHowHardAndHowLongAndHowMuchFloorInEightyColumns) {
+  const std::string text = wall_briefing({}, course(), 0);
+  for (const char* word :
+       {"at most\n12 N", "3.7 m", "10\nminutes", "asks twice", "2 m", "Ctrl-C", "wall  ====", "gap"})
+    EXPECT_THAT(text, HasSubstr(word));
+  EXPECT_LE(support::widest_line(text), 80U) << text;
+}
+
+TEST(WallDialogue, SaysWhatIsLeftOfAnEarlierStart) {
+  EXPECT_THAT(wall_briefing({}, course(), 400), HasSubstr("about 4"));
+}
+
+TEST(WallDialogue, SaysThatTheScaleStaysWithoutARuler) {
+  experiment::WallPlan plan;
+  plan.readings = 0;
+  EXPECT_THAT(wall_briefing(plan, course(), 0), HasSubstr("Without a ruler"));
+}
+
+TEST(WallDialogue, LetsTheRobotDriveOnEnterAlone) {
+  Person person({"wait", "y", " "});
+  ask_facing_wall(std::ref(person));
+  EXPECT_EQ(person.asked.size(), 3U);
+}
+
+TEST(WallDialogue, AsksForAGapUntilItIsALength) {
+  Person person({"", "two", "-5", "1998.5", "199.8 cm", "none"});
+  EXPECT_NEAR(*ask_gap(std::ref(person), 2.0, truth::LengthUnit::mm), 1.9985, 1e-12);
+  EXPECT_EQ(person.asked.size(), 4U);
+  EXPECT_THAT(person.asked[0], HasSubstr("by its wheels 2000.0 mm"));
+  EXPECT_THAT(person.asked[2], testing::StartsWith("'two' is not a length"));
+  EXPECT_NEAR(*ask_gap(std::ref(person), 2.0, truth::LengthUnit::mm), 1.998, 1e-12);
+  EXPECT_FALSE(ask_gap(std::ref(person), 2.0, truth::LengthUnit::mm).has_value());
+}
+
+TEST(WallDialogue, TakesEnterForANoAboutADoubtfulGap) {
+  Person person({"perhaps", "", "y", "yes"});
+  const calibration::GapDoubt doubt{calibration::GapDoubt::Mistake::other_unit, "200 mm was read"};
+  EXPECT_FALSE(ask_gap_is_right(std::ref(person), doubt));
+  EXPECT_TRUE(ask_gap_is_right(std::ref(person), doubt));
+  EXPECT_TRUE(ask_gap_is_right(std::ref(person), doubt));
+  EXPECT_THAT(person.asked[0], HasSubstr("200 mm was read"));
+}
+
+TEST(WallDialogue, NamesEveryMove) {
+  using Kind = WallMove::Kind;
+  EXPECT_EQ(title_of({Kind::repeat, 0.08, 0, 0}), "squaring once more");
+  EXPECT_EQ(title_of({Kind::gap, 2, 0, 0}), "2 m off for the ruler");
+  EXPECT_EQ(title_of({Kind::laps, 0.2, -2, 3}), "2 laps clockwise");
+  EXPECT_EQ(title_of({Kind::spin, 0.2, 1, 0}), "1 turn counter-clockwise");
+}
+
+}  // namespace
+}  // namespace astro::commands
