@@ -51,7 +51,8 @@ struct Miss {
 };
 Miss miss_of(const FilmPose& from, const FilmPose& to, const RobotVelocity& speed) {
   const double dt_s = to.time_s - from.time_s;
-  return {std::hypot(to.pose.x_m - from.pose.x_m - speed.x_mps * dt_s, to.pose.y_m - from.pose.y_m - speed.y_mps * dt_s),
+  return {std::hypot(to.pose.x_m - from.pose.x_m - speed.x_mps * dt_s,
+                     to.pose.y_m - from.pose.y_m - speed.y_mps * dt_s),
           std::abs(std::remainder(to.pose.theta_rad - from.pose.theta_rad - speed.omega_radps * dt_s,
                                   2 * std::numbers::pi))};
 }
@@ -71,7 +72,8 @@ std::optional<double> jump_in(const std::vector<FilmPose>& poses) {
     const FilmPose &from = poses[i - 1], &to = poses[i];
     const double dt_s = to.time_s - from.time_s;
     if (dt_s > kHidden_s) continue;
-    const RobotVelocity before = mean_speed(poses[i - kAround], from), after = mean_speed(to, poses[i + kAround - 1]);
+    const RobotVelocity before = mean_speed(poses[i - kAround], from),
+                        after = mean_speed(to, poses[i + kAround - 1]);
     const auto leaps = [&](const FilmPose& a, const FilmPose& b) {
       const double span_s = b.time_s - a.time_s;
       const auto beyond = [&](const Miss& miss) {
@@ -117,8 +119,9 @@ void refuse_survey(const fs::path& film, const FilmInfo& info, const FloorSurvey
     for (const int id : {tape.from, tape.to})
       if (std::none_of(survey.floor.begin(), survey.floor.end(),
                        [&](const SeenFloorTag& tag) { return tag.id == id; }))
-        refuse_missing(film, info, [&](int other) { return other == id; },
-                       fmt::format("floor tag {}, to which a length is given,", id), Help::film_floor_tags);
+        refuse_missing(
+            film, info, [&](int other) { return other == id; },
+            fmt::format("floor tag {}, to which a length is given,", id), Help::film_floor_tags);
 }
 
 void refuse_sightings(const fs::path& film, const FilmInfo& info, const FilmSightings& sightings) {
@@ -161,10 +164,10 @@ void refuse_motion(const fs::path& film, const CameraMotion& motion) {
             quoted(film), motion.shake_px),
         {Help::film_from_fixed_camera});
   if (motion.most_px > kMoves_px)
-    throw Error(
-        fmt::format("{}: the camera was moved: from about {:.1f} s on the floor tags are {:.0f} px from where they were",
-                    quoted(film), motion.most_at_s, motion.most_px),
-        {Help::film_from_fixed_camera});
+    throw Error(fmt::format("{}: the camera was moved: from about {:.1f} s on the floor tags are {:.0f} px "
+                            "from where they were",
+                            quoted(film), motion.most_at_s, motion.most_px),
+                {Help::film_from_fixed_camera});
 }
 
 void refuse_track(const fs::path& film, const FilmTrack& track) {
