@@ -28,8 +28,8 @@ struct CameraMotion {
   std::vector<TagCorners> means;      // of each tag
   std::vector<std::size_t> seen;      // in how many looks
   std::vector<PictureMotion> course;  // smoothed; empty if there are too few looks
-  double most_px = 0;  // of the smoothed shift, against the beginning
-  double most_at_s = 0;  // when it was half that far for the first time
+  double most_px = 0;                 // of the smoothed shift, against the beginning
+  double most_at_s = 0;               // when it was half that far for the first time
   double shake_px = 0;                // rms of what smoothing takes away
 
   /// The corners as a camera that stands would have seen them.
