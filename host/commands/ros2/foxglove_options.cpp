@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "host/base/error.hpp"
 #include "host/base/net/socket.hpp"
 #include "host/base/text/numbers.hpp"
 #include "host/commands/base/remedies.hpp"
 #include "host/console/console.hpp"
+#include "host/console/wrong_usage.hpp"
 #include "host/ros2/driver/names.hpp"
 #include "host/ros2/foxglove/origin.hpp"
 
@@ -61,13 +64,14 @@ ros2::foxglove::Address foxglove_address_in(const std::string& word) {
 void add_foxglove_options(console::Command command, FoxgloveOptions& options) {
   const console::Option wanted = command.add_flag(
       "--foxglove", options.wanted, "serve viewers that speak the Foxglove\nWebSocket protocol");
-  command
-      .add_option("--listen", options.listen,
-                  "where viewers connect; without an address\nfrom this computer alone")
-      .type_name("[ADDRESS:]PORT")
-      .capture_default_str()
-      .check(check_address)
-      .needs(wanted);
+  options.listening = command
+                          .add_option("--listen", options.listen,
+                                      "where viewers connect; without an address\nfrom this computer alone. "
+                                      "--port with a bare\nnumber says the same")
+                          .type_name("[ADDRESS:]PORT")
+                          .capture_default_str()
+                          .check(check_address)
+                          .needs(wanted);
   command
       .add_option(
           "--allow-origin", options.origins,
@@ -81,6 +85,16 @@ void add_foxglove_options(console::Command command, FoxgloveOptions& options) {
                 "viewers may arm and drive the robot and set\nits parameters; otherwise they look, and "
                 "can\nstop it")
       .needs(wanted);
+}
+
+void take_viewers_port(std::string& port, FoxgloveOptions& options) {
+  if (port.empty() || port.find_first_not_of("0123456789") != std::string::npos) return;
+  if (options.listening.count() > 0)
+    throw console::WrongUsage("--port " + port +
+                              " and --listen both say where viewers connect: leave one out");
+  if (const std::string wrong = check_address(port); !wrong.empty())
+    throw console::WrongUsage("--port: " + wrong);
+  options.listen = std::exchange(port, "");
 }
 
 std::string foxglove_announcement(const FoxgloveOptions& options, std::uint16_t port) {

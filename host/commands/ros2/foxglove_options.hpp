@@ -12,12 +12,17 @@ namespace astro::commands {
 struct FoxgloveOptions {
   bool wanted = false;
   std::string listen = "8765";  // see foxglove_address_in
+  console::Option listening;    // that option
   std::vector<std::string> origins;
   bool allow_commands = false;
 };
 
 /// Adds --foxglove, and --listen, --allow-origin and --allow-commands, which need it.
 void add_foxglove_options(console::Command command, FoxgloveOptions& options);
+
+/// A bare number as the robot's port is that of the viewers, as other servers of viewers have it: no port of a robot is one. Takes
+/// it away from `port`. Throws WrongUsage if it is none, or --listen is given, too.
+void take_viewers_port(std::string& port, FoxgloveOptions& options);
 
 /// "8765", "localhost:8765", "0.0.0.0:8765" or "[::1]:8765". Throws astro::Error that names the word otherwise.
 ros2::foxglove::Address foxglove_address_in(const std::string& word);

@@ -30,27 +30,34 @@ ros2::GidSize gid_size(const Ros2Options& options) {
   return old ? ros2::GidSize::humble : ros2::GidSize::iron_and_later;
 }
 
-const char* in_words(ros2::dds::Range range) {
-  switch (range) {
+const char* who_sees_it(const ros2::dds::Discovery& discovery) {
+  switch (discovery.range) {
     case ros2::dds::Range::off:
       return "nobody sees it";
     case ros2::dds::Range::localhost:
-      return "this computer only";
+      return discovery.peers.empty() ? "this computer only" : "this computer and the static peers";
     default:
       return "all computers of the network";
   }
 }
 
-void run(const Ros2Options& options) {
+void say_twin(const std::string& name) {
+  console::say("WARNING: another node is called " + name +
+               ", too: each answers what the other is asked; end one, or give it another --node-name or "
+               "--namespace");
+}
+
+void run(Ros2Options& options) {
+  if (options.viewers.wanted) take_viewers_port(options.driver.connection.port, options.viewers);
   ros2::dds::DiscoveryWishes wishes;
   if (options.domain >= 0) wishes.domain = options.domain;
   if (!options.range.empty()) wishes.range = ros2::dds::range_in(options.range);
   const ros2::dds::Discovery discovery = ros2::dds::discovery_from(wishes, environment_variable);
   const std::string& space = options.driver.node_namespace;
   const ros2::NodeName name{options.node, absolute_namespace(space)};
-  const auto node = ros2::open_node({name, gid_size(options)}, discovery);
+  const auto node = ros2::open_node({name, gid_size(options), say_twin}, discovery);
   console::say(fmt::format("node {} in domain {}: {}; Ctrl-C ends it", ros2::full_name(name),
-                           discovery.domain, in_words(discovery.range)));
+                           discovery.domain, who_sees_it(discovery)));
   std::vector<ros2::Middleware*> middlewares{node.get()};
   std::optional<ros2::foxglove::FoxgloveServer> server;
   if (options.viewers.wanted) {
@@ -82,7 +89,10 @@ void add_ros2(console::Command app) {
           "--range", options->range,
           "which computers see the node (default: as\nROS_AUTOMATIC_DISCOVERY_RANGE or\nROS_LOCALHOST_ONLY "
           "say, otherwise localhost)")
-      .one_of({"off", "localhost", "subnet"});
+      .type_name("off|localhost|subnet")
+      .check([](const std::string& word) {
+        return ros2::dds::range_in(word) ? "" : "'" + word + "' is none of off, localhost and subnet";
+      });
   command
       .add_option("--distro", options->distribution,
                   "ROS 2 of the other nodes, humble or later: jazzy\n(default: ROS_DISTRO, otherwise jazzy)")

@@ -1,6 +1,5 @@
 #include <memory>
 #include <optional>
-#include <utility>
 
 #include "host/commands/ros2/commands.hpp"
 #include "host/commands/ros2/foxglove_options.hpp"
@@ -21,17 +20,9 @@ struct ServeOptions {
   TruthOption truth{"none", {}, {}};
 };
 
-/// No port of a robot is a bare number, and other servers of viewers have theirs at --port.
-void take_viewers_port(ServeOptions& options) {
-  std::string& port = options.driver.connection.port;
-  if (port.empty() || port.find_first_not_of("0123456789") != std::string::npos) return;
-  options.viewers.listen = std::exchange(port, "");
-  foxglove_address_in(options.viewers.listen);
-}
-
 void run(ServeOptions& options) {
   if (!options.viewers.wanted) throw console::WrongUsage("serve what? --foxglove serves viewers");
-  take_viewers_port(options);
+  take_viewers_port(options.driver.connection.port, options.viewers);
   ConnectionOptions& connection = options.driver.connection;
   if (connection.port.empty() && options.truth.source == "sim") connect(connection);  // finds the only robot
   std::unique_ptr<truth::Source> source;
@@ -64,9 +55,9 @@ void add_serve(console::Command app) {
                   "or\nros2:/TOPIC")
       .type_name("SOURCE")
       .check(truth_source({"sim", "none"}));
-  console::examples(command,
-                    {"astrolabe serve --foxglove", "astrolabe serve --foxglove --truth sim --rate 200",
-                     "astrolabe serve --foxglove --allow-commands --listen 192.168.1.7:8765"});
+  console::examples(command, {"astrolabe serve --foxglove", "astrolabe serve --foxglove --port 8766",
+                              "astrolabe serve --foxglove --truth sim --rate 200",
+                              "astrolabe serve --foxglove --allow-commands --listen 192.168.1.7:8765"});
   command.callback([options] { run(*options); });
 }
 

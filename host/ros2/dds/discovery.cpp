@@ -56,14 +56,16 @@ std::optional<Range> range_in(std::string text) {
 Discovery discovery_from(const DiscoveryWishes& wishes,
                          const std::function<std::string(const char*)>& variable) {
   Discovery discovery;
-  if (const std::string text = variable("ROS_DOMAIN_ID"); !text.empty()) discovery.domain = domain_in(text);
+  if (wishes.domain)
+    discovery.domain = *wishes.domain;
+  else if (const std::string text = variable("ROS_DOMAIN_ID"); !text.empty())
+    discovery.domain = domain_in(text);
   if (const std::string text = variable("ROS_AUTOMATIC_DISCOVERY_RANGE"); !text.empty())
     discovery.range = range_named(text);
   else if (variable("ROS_LOCALHOST_ONLY") == "0")
     discovery.range = Range::subnet;  // somebody asked for it, in the words of ROS 2 Humble
   const bool only_here = only_localhost(variable("ROS_LOCALHOST_ONLY"));
   if (only_here) discovery.range = Range::localhost;
-  discovery.domain = wishes.domain.value_or(discovery.domain);
   discovery.range = wishes.range.value_or(discovery.range);
   const bool peers_count = discovery.range != Range::off && (!only_here || wishes.range);
   if (peers_count) discovery.peers = peers_in(variable("ROS_STATIC_PEERS"));

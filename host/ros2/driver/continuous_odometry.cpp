@@ -90,9 +90,16 @@ void ContinuousOdometry::settle_unanswered() {
   event_ = "the pose was set";
 }
 
-/// The clock of a robot that has restarted is behind that of one that has not.
+/// The clock of a robot that has restarted is behind that of one that has not. It need not be if this computer slept meanwhile,
+/// whose clock then stood; but then the robot's counts and its pose are zero, and both were not.
 bool ContinuousOdometry::has_restarted(RobotSession& session, const protocol::Telemetry& telemetry) const {
-  constexpr double kSlowest = 0.95, kLate_s = 0.5;  // a poor oscillator; a sample that waited
+  constexpr double kSlowest = 0.999,
+                   kLate_s = 0.5;  // ten times worse than a poor crystal; a sample that waited
+  const recording::OdometrySample now = recording::to_sample(telemetry);
+  const auto is_new = [](const recording::OdometrySample& at) {
+    return at.left_counts == 0 && at.right_counts == 0 && at.x_m == 0 && at.y_m == 0 && at.theta_rad == 0;
+  };
+  if (is_new(now) && !is_new(sample_)) return true;
   const double since_s = in_seconds(session.client().now() - seen_at_);
   const double expected_s = 1e-6 * static_cast<double>(seen_device_us_) + kSlowest * since_s - kLate_s;
   return restarted_ || 1e-6 * static_cast<double>(telemetry.device_time_us) < expected_s;

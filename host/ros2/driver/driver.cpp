@@ -165,8 +165,12 @@ std::optional<std::int64_t> Driver::utc_of_robot_ns(std::int64_t device_time_us)
 void Driver::end() {
   RobotSession* session = link_.session();
   if (session == nullptr || !driving_.armed()) return;
-  driving_.stop(*session);
-  const bool rests = robot::wait_until_power_off(session->client());
+  bool rests = false;
+  try {
+    driving_.stop(*session);
+    rests = robot::wait_until_power_off(session->client());
+  } catch (const Error&) {  // then it is disarmed all the same
+  }
   driving_.disarm(*session);
   if (!rests) throw Error("the robot did not come to rest and was disarmed: it may roll on");
 }

@@ -6,6 +6,17 @@
 
 namespace astro::ros2 {
 
+namespace {
+
+/// An armed robot without a path takes a Pause, too, and then drives by the next velocity; whoever asked would rely on it.
+void require_path(RobotSession& session) {
+  const protocol::Status status = session.ask(protocol::GetStatus{});
+  if (status.mode == protocol::Mode::idle && status.queued_segments == 0)
+    throw Error("no path is driven that could be paused; what stops velocities is stop or disarm");
+}
+
+}  // namespace
+
 Requests::Requests(std::span<Middleware* const> middlewares, const Names& names, Robot robot)
     : middlewares_(middlewares), names_(names), robot_(std::move(robot)) {
   subscribe_all();
@@ -23,7 +34,10 @@ void Requests::serve_all() {
   });
   serve("clear_faults",
         [](RobotSession& session) { return session.ask(protocol::ClearFaults{}), "cleared"; });
-  serve("pause", [](RobotSession& session) { return session.ask(protocol::Pause{}), "paused"; });
+  serve("pause", [](RobotSession& session) {
+    require_path(session);
+    return session.ask(protocol::Pause{}), "paused";
+  });
   serve("resume", [](RobotSession& session) { return session.ask(protocol::Resume{}), "resumed"; });
   serve("reset_odometry", [this](RobotSession& session) {
     robot_.odometry.set_pose(session, 0, 0, 0, {});

@@ -32,6 +32,8 @@ const json& member(const json& object, const char* name) {
 const json& list(const json& object, const char* name) {
   const json& value = member(object, name);
   if (!value.is_array()) throw Error(fmt::format("'{}' is not a list", name));
+  if (value.size() > kMostListed)
+    throw Error(fmt::format("'{}' has more than {} entries", name, kMostListed));
   return value;
 }
 

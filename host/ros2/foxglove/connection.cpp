@@ -167,18 +167,19 @@ class WebSocketConnection : public Connection, public std::enable_shared_from_th
     });
     rules_.notice({fmt::format("a viewer has connected from {}", peer_)});
     send_waiting();
-    read();
+    if (!ended_) read();
   }
 
   void read() {
     stream_.async_read(buffer_, [self = shared_from_this()](error_code error, std::size_t) {
-      if (error) return self->end();
+      // What was received before the client was cut counts no more.
+      if (error || self->ended_) return self->end();
       const auto bytes = self->buffer_.cdata();
       self->session_->receive(self->stream_.got_text(),
                               {static_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
       self->buffer_.clear();
       self->send_waiting();
-      self->read();
+      if (!self->ended_) self->read();
     });
   }
 

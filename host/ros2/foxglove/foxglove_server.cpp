@@ -14,6 +14,9 @@ using std::chrono::steady_clock;
 
 /// Parameters also change by other programs, which nobody reports.
 constexpr std::chrono::seconds kComparePeriod{1};
+/// A poll() begins no question after this, so that a thousand of them do not keep the robot's thread.
+constexpr std::chrono::milliseconds kShare{2};
+enum Rank : int { kUrgent, kMessage, kQuestion };
 
 std::string new_session_id() {
   std::random_device random;
@@ -83,19 +86,30 @@ void FoxgloveServer::serve_parameters(ParameterTable& table) {
 
 void FoxgloveServer::poll() {
   server_->start();
-  const auto is_urgent = [this](const Request& request) {
-    const auto* call = std::get_if<CallArrived>(&request);
-    return call != nullptr && urgent_.contains(call->service);
-  };
-  // As many as wait now, so that this call ends; an urgent one that comes meanwhile goes first all the same.
-  for (std::size_t left = requests_.size(); left > 0; --left)
-    if (const auto request = requests_.pop(is_urgent))
-      std::visit([this](const auto& each) { take(each); }, *request);
+  answer_waiting();
   if (table_ != nullptr && steady_clock::now() >= compare_at_) {
     tell_changes();
     compare_at_ = steady_clock::now() + kComparePeriod;
   }
   server_->flush();
+}
+
+/// What stops the robot, then messages, of which only the newest are kept and none may wait until it is stale, then questions.
+int FoxgloveServer::rank(const Request& request) const {
+  if (std::holds_alternative<MessageArrived>(request)) return kMessage;
+  const auto* call = std::get_if<CallArrived>(&request);
+  return call != nullptr && urgent_.contains(call->service) ? kUrgent : kQuestion;
+}
+
+/// As many as wait now, so that this call ends, and questions only as long as the robot and other middlewares can wait.
+void FoxgloveServer::answer_waiting() {
+  const auto until = steady_clock::now() + kShare;
+  const auto rank_of = [this](const Request& request) { return rank(request); };
+  for (std::size_t left = requests_.size(); left > 0; --left) {
+    const auto request = requests_.pop(rank_of, steady_clock::now() < until ? kQuestion : kMessage);
+    if (!request) return;
+    std::visit([this](const auto& each) { take(each); }, *request);
+  }
 }
 
 void FoxgloveServer::take(const MessageArrived& arrived) { on_message_[arrived.inlet - 1](arrived.message); }

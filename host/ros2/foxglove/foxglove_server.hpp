@@ -49,6 +49,8 @@ class FoxgloveServer : public Middleware {
   void wait(std::chrono::microseconds timeout) override { requests_.wait(timeout); }
 
  private:
+  int rank(const Request& request) const;
+  void answer_waiting();
   void take(const MessageArrived& arrived);
   void take(const CallArrived& arrived);
   void take(const ParametersAsked& asked);

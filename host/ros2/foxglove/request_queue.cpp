@@ -31,11 +31,11 @@ bool RequestQueue::make_room(const Request& request) {
   return true;
 }
 
-std::optional<Request> RequestQueue::pop(const std::function<bool(const Request&)>& goes_first) {
+std::optional<Request> RequestQueue::pop(const std::function<int(const Request&)>& rank, int last) {
   const std::lock_guard lock(mutex_);
-  if (requests_.empty()) return std::nullopt;
-  auto taken = std::find_if(requests_.begin(), requests_.end(), goes_first);
-  if (taken == requests_.end()) taken = requests_.begin();
+  const auto taken = std::min_element(requests_.begin(), requests_.end(),
+                                      [&](const Request& a, const Request& b) { return rank(a) < rank(b); });
+  if (taken == requests_.end() || rank(*taken) > last) return std::nullopt;
   Request next = std::move(*taken);
   requests_.erase(taken);
   return next;

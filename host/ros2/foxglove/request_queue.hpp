@@ -20,8 +20,8 @@ class RequestQueue {
   static constexpr std::size_t kMostMessages = 10, kMostNotices = 32;
 
   void push(Request request);
-  /// The oldest one for which `goes_first` is true, otherwise the oldest.
-  std::optional<Request> pop(const std::function<bool(const Request&)>& goes_first);
+  /// Of the requests of the lowest rank the oldest; nothing if its rank is above `last`.
+  std::optional<Request> pop(const std::function<int(const Request&)>& rank, int last);
   std::size_t size() const;
   /// Returns when something waits, or at the latest after `timeout`.
   void wait(std::chrono::microseconds timeout);

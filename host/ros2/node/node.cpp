@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <list>
 #include <utility>
 
 #include "host/ros2/dds/fast_dds.hpp"
 #include "host/ros2/node/parameter_services.hpp"
 #include "host/ros2/node/service.hpp"
+#include "host/ros2/node/twin_watch.hpp"
 
 namespace astro::ros2 {
 namespace {
@@ -48,6 +50,7 @@ class Node : public Middleware {
  public:
   Node(const NodeOptions& options, std::unique_ptr<dds::Participant> participant)
       : name_(valid(options.name)),
+        on_twin_(options.on_twin),
         participant_(std::move(participant)),
         info_(*participant_, name_, options.gid_size) {}
 
@@ -71,17 +74,45 @@ class Node : public Middleware {
     info_.publish_changes();
     for (Subscription& subscription : subscriptions_)
       for (const dds::Sample& sample : subscription.reader->take()) subscription.on_message(sample.payload);
-    for (Service& service : services_) {
-      service.collect();
-      do {
-        poll_urgent();
-      } while (service.answer_next(Service::Clock::now()));
-      service.send_replies(Service::Clock::now());
-    }
+    for (Service& service : services_) service.collect();
+    const auto until = Service::Clock::now() + kShare;
+    do {
+      poll_urgent();
+      left_ = answer_one();
+    } while (left_ && Service::Clock::now() < until);
+    for (Service& service : services_) service.send_replies(Service::Clock::now());
+    watch_for_twin(TwinWatch::Clock::now());
   }
-  void wait(std::chrono::microseconds timeout) override { participant_->wait(timeout); }
+  void wait(std::chrono::microseconds timeout) override {
+    participant_->wait(left_ ? std::chrono::microseconds::zero() : timeout);
+  }
 
  private:
+  /// A poll() begins no call after this, so that many that wait do not keep the robot's thread.
+  static constexpr std::chrono::milliseconds kShare{5};
+
+  /// Each node serves its parameters under its full name.
+  void watch_for_twin(TwinWatch::Clock::time_point now) {
+    constexpr std::chrono::seconds kBetweenLooks{1};
+    if (now < look_at_) return;
+    look_at_ = now + kBetweenLooks;
+    const std::string name = full_name(name_);
+    const std::string replies = wire_name_of_replies(name + "/get_parameters");
+    const std::vector<dds::RemoteEndpoint> others = participant_->remote_endpoints();
+    const bool is_there =
+        std::ranges::any_of(others, [&](const auto& each) { return each.writes && each.topic == replies; });
+    if (twin_.note(is_there, now)) on_twin_(name);
+  }
+
+  /// Services take turns. False if no call waits.
+  bool answer_one() {
+    for (std::size_t i = 0; i < services_.size(); ++i) {
+      Service& service = services_.front();
+      services_.splice(services_.end(), services_, services_.begin());
+      if (service.answer_next(Service::Clock::now())) return true;
+    }
+    return false;
+  }
   void poll_urgent() {
     for (Service& service : services_)
       if (service.urgent()) service.poll(Service::Clock::now());
@@ -91,11 +122,15 @@ class Node : public Middleware {
   }
 
   const NodeName name_;
+  std::function<void(const std::string&)> on_twin_;
+  TwinWatch twin_;
+  TwinWatch::Clock::time_point look_at_{};
   std::unique_ptr<dds::Participant> participant_;
   DiscoveryInfo info_;
   // Lists, so that a callback may subscribe and serve, too.
   std::list<Subscription> subscriptions_;
   std::list<Service> services_;
+  bool left_ = false;  // calls may wait that came before
   std::list<std::unique_ptr<ParameterServices>> parameters_;
 };
 

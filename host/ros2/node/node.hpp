@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <string>
 
 #include "host/ros2/dds/discovery.hpp"
 #include "host/ros2/dds/participant.hpp"
@@ -13,6 +15,8 @@ namespace astro::ros2 {
 struct NodeOptions {
   NodeName name;
   GidSize gid_size = GidSize::iron_and_later;
+  /// Called from poll() if another node of the same full name is there and stays; with that name.
+  std::function<void(const std::string&)> on_twin = [](const std::string&) {};
 };
 
 /// A ROS 2 node on DDS, which the tools and nodes of others see as one of theirs, whichever RMW they use. All its callbacks

@@ -20,6 +20,14 @@ Discovery from(const Variables& variables, const DiscoveryWishes& wishes = {}) {
   });
 }
 
+TEST(Discovery, AWishMakesAWrongVariableHarmless) {
+  const auto variable = [](const char* name) {
+    return std::string(name) == "ROS_DOMAIN_ID" ? std::string("abc") : std::string();
+  };
+  EXPECT_EQ(discovery_from({.domain = 5, .range = {}}, variable).domain, 5);
+  EXPECT_THROW(discovery_from({}, variable), Error);
+}
+
 TEST(Discovery, IsDomainZeroOfThisComputerUnlessSomebodyAsks) {
   const Discovery discovery = from({});
   EXPECT_EQ(discovery.domain, 0);

@@ -157,6 +157,36 @@ TEST_F(Link, ARestartBehindAPulledCableIsFoundByTheRobotsClock) {
   EXPECT_GE(after.pose.covariance[0], before.pose.covariance[0] + 0.01 * 0.01);
 }
 
+TEST_F(Link, ARestartSoonAfterAStartIsFoundAlsoAfterALongGap) {
+  EXPECT_TRUE(comes_back());
+  bench.call("/arm");
+  bench.drive_ms(1500, 0.3, 0.4);
+  bench.run_ms(1500);
+  const msg::Odometry before = odometry();
+  bench.cable.pull();
+  bench.run_ms(500);
+  bench.robot->restart(hal::ResetCause::power_on);
+  bench.silence_ms(120'000);
+  bench.cable.plug_in();
+  const msg::Odometry after = odometry();
+  EXPECT_LT(distance(before, after), 1e-6);
+  EXPECT_GE(after.pose.covariance[0], before.pose.covariance[0] + 0.01 * 0.01);
+}
+
+TEST_F(Link, ARobotThatRanOnThroughALongGapIsNotTakenForOneThatHasRestarted) {
+  EXPECT_TRUE(comes_back());
+  bench.call("/arm");
+  bench.drive_ms(1500, 0.3, 0.4);
+  bench.run_ms(1500);
+  const msg::Odometry before = odometry();
+  bench.cable.pull();
+  bench.silence_ms(120'000);
+  bench.cable.plug_in();
+  const msg::Odometry after = odometry();
+  EXPECT_LT(distance(before, after), 1e-6);
+  EXPECT_NEAR(after.pose.covariance[0], before.pose.covariance[0], 1e-9);
+}
+
 TEST_F(Link, ARobotThatRestartsWhileItRollsIsAtMostAsFarOffAsItSays) {
   EXPECT_TRUE(comes_back());
   bench.call("/arm");

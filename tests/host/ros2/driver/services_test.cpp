@@ -96,6 +96,13 @@ TEST_F(Services, PauseIsRefusedWhileVelocitiesDriveAndSaysWhy) {
   EXPECT_TRUE(bench.moves());
 }
 
+TEST_F(Services, PauseWithoutAPathIsRefusedAndNotBelievedToHoldTheRobot) {
+  bench.call("/arm");
+  const auto answer = bench.call("/pause");
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message, HasSubstr("no path"));
+}
+
 TEST_F(Services, PauseAndResumeTheDriveOfAnotherProgram) {
   robot::Client other(std::make_unique<simulation::InProcessTransport>(bench.robot, 1));
   other.connect();

@@ -118,6 +118,9 @@ TEST(ClientMessages, LongNamesDeepValuesAndHugeTextsAreRefused) {
   EXPECT_THAT(complaint_about(R"({"op":"getParameters","parameterNames":[")" + name + R"("]})"),
               HasSubstr("longer than 255"));
   EXPECT_THAT(complaint_about(std::string(200'000, '[')), HasSubstr("nested deeper"));
+  std::string many = R"({"op":"getParameters","parameterNames":["a")";
+  for (std::size_t i = 0; i < kMostListed; ++i) many += R"(,"a")";
+  EXPECT_THAT(complaint_about(many + "]}"), HasSubstr("more than 1000 entries"));
   EXPECT_THAT(complaint_about(std::string(kLongestText + 1, ' ')), HasSubstr("longer than"));
 }
 

@@ -236,6 +236,51 @@ TEST_F(FoxgloveServerOnLoopback, CommandsReachTheRobotIfTheyAreAllowed) {
   EXPECT_EQ(decode<msg::Twist>(commands_.at(0)), (msg::Twist{{0.5, 0, 0}, {0, 0, 1}}));
 }
 
+TEST_F(FoxgloveServerOnLoopback, AFloodOfMessagesWhoseAnswersNobodyReadsEndsItsOwnConnectionAlone) {
+  start();
+  Viewer other(server_->port());
+  for (int i = 0; i < 3; ++i) support::flood(server_->port(), "{}", 400'000);
+  EXPECT_EQ(hear(other, "serverInfo")["name"], "robot");
+}
+
+/// A table that takes a millisecond for each value.
+class SlowTable : public SmallTable {
+ public:
+  std::optional<msg::ParameterValue> value(std::string_view name) override {
+    const auto until = steady_clock::now() + milliseconds(1);
+    while (steady_clock::now() < until) continue;
+    ++asked;
+    return SmallTable::value(name);
+  }
+  int asked = 0;
+};
+
+TEST_F(FoxgloveServerOnLoopback, ManyQuestionsKeepTheRobotNoLongerThanAShareAndNoMessageWaitsForThem) {
+  start();
+  SlowTable slow;
+  server_->serve_parameters(slow);
+  Viewer viewer(server_->port());
+  viewer.send(
+      R"({"op":"advertise","channels":[{"id":1,"topic":"/cmd_vel","encoding":"cdr","schemaName":"geometry_msgs/msg/Twist"}]})");
+  constexpr int kQuestions = 60;
+  for (int i = 0; i < kQuestions; ++i)
+    viewer.send(R"({"op":"getParameters","parameterNames":["b"],"id":"q"})");
+  Bytes frame{1, 1, 0, 0, 0};
+  append(frame, encode(msg::Twist{}));
+  viewer.send(frame);
+  viewer.send(R"({"op":"nonsense"})");  // which is answered at once, so that all of it has come
+  while (true) {
+    const auto message = viewer.receive(kLong);
+    ASSERT_TRUE(message);
+    if (message->is_text && parse_json(std::string(as_text(message->bytes)))["op"] == "status") break;
+  }
+  server_->poll();
+  EXPECT_EQ(commands_.size(), 1U) << "although it came last";
+  EXPECT_GE(slow.asked, 1);
+  EXPECT_LE(slow.asked, 2) << "each takes 1 ms, and none begins after 2 ms";
+  EXPECT_TRUE(eventually([&] { return slow.asked == kQuestions; }));
+}
+
 TEST_F(FoxgloveServerOnLoopback, OtherwiseViewersMayOnlyLookAndStop) {
   start(false);
   Viewer viewer(server_->port());

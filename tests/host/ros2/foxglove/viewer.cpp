@@ -3,6 +3,7 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/read.hpp>
+#include <boost/asio/read_until.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/empty_body.hpp>
@@ -50,6 +51,24 @@ std::string answer_to(std::uint16_t port, const std::string& bytes) {
   std::string answer;
   asio::read(socket, asio::dynamic_buffer(answer), error);  // ends with an error: that it is closed
   return answer;
+}
+
+void flood(std::uint16_t port, const std::string& text, std::size_t times) {
+  const std::string handshake =
+      "GET / HTTP/1.1\r\nHost: robot\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+      "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\nSec-WebSocket-Version: 13\r\n"
+      "Sec-WebSocket-Protocol: foxglove.sdk.v1\r\n\r\n";
+  asio::io_context io;
+  tcp::socket socket(io);
+  socket.connect({asio::ip::address_v4::loopback(), port});
+  beast::error_code error;  // that it is closed
+  asio::write(socket, asio::buffer(handshake), error);
+  std::string answer;
+  asio::read_until(socket, asio::dynamic_buffer(answer), "\r\n\r\n", error);
+  std::string bytes;
+  const std::string masked_with_zeros{'\x81', static_cast<char>(0x80 | text.size()), 0, 0, 0, 0};
+  for (std::size_t i = 0; i < times; ++i) bytes += masked_with_zeros + text;
+  asio::write(socket, asio::buffer(bytes), error);
 }
 
 struct Viewer::State {

@@ -30,6 +30,10 @@ HttpAnswer ask(std::uint16_t port, const ViewerRequest& request);
 /// What comes after these bytes, until the other side ends the connection.
 std::string answer_to(std::uint16_t port, const std::string& bytes);
 
+/// Shakes hands, says `text` (at most 125 characters) so many times in large pieces and reads nothing; returns when all is said or
+/// the other side has ended the connection.
+void flood(std::uint16_t port, const std::string& text, std::size_t times);
+
 /// A WebSocket client in tests, on Beast's client side. It reads only when it is asked.
 class Viewer {
  public:

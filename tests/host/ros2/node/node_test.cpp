@@ -90,6 +90,26 @@ TEST_F(NodeOnAFakeWire, AnUrgentServiceIsAnsweredBetweenOthersThatWaitLonger) {
   EXPECT_EQ(order, "aEaa");
 }
 
+TEST_F(NodeOnAFakeWire, CallsThatTakeLongTakeTurnsAndLeaveTimeForOthersBetweenThem) {
+  std::string order;
+  for (const char* name : {"/a", "/b"})
+    node_->serve({name, msg::Trigger::kType, message_type<msg::Trigger::Request>(),
+                  message_type<msg::Trigger::Response>()},
+                 [&order, name](ByteView) {
+                   const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(6);
+                   while (std::chrono::steady_clock::now() < until) continue;
+                   order += name[1];
+                   return std::optional<Bytes>();
+                 });
+  const dds::Sample request{encode(msg::Trigger::Request{}), {}, {}};
+  wire_.reader_of("rq/aRequest").waiting.assign(3, request);
+  wire_.reader_of("rq/bRequest").waiting.assign(3, request);
+  node_->poll();
+  EXPECT_EQ(order.size(), 1U) << "no call begins 5 ms after the first";
+  for (int i = 0; i < 5; ++i) node_->poll();
+  EXPECT_EQ(order, "ababab");
+}
+
 TEST_F(NodeOnAFakeWire, AnnouncesTheEndpointsOfTopicsAndServicesAsLongAsTheyAreThere) {
   auto publisher = node_->advertise({"/odom", message_type<msg::Twist>()});
   node_->subscribe({"/cmd_vel", message_type<msg::Twist>()}, [](ByteView) {});
