@@ -7,6 +7,8 @@
 
 #include <utility>
 
+#include "host/ros2/dds/rtps_check.hpp"
+
 namespace astro::ros2::dds {
 namespace {
 
@@ -40,13 +42,20 @@ class GatedTransport : public transport::ChainingTransport {
   }
   void receive(transport::TransportReceiverInterface* receiver, const rtps::octet* bytes, std::uint32_t size,
                const rtps::Locator_t& here, const rtps::Locator_t& there) override {
-    if (descriptor_.gate->is_open() && may_talk_to(there)) receiver->OnDataReceived(bytes, size, here, there);
+    if (!descriptor_.gate->is_open() || !may_talk_to(there)) return;
+    const ByteView sound = sound_part({bytes, size});
+    if (!sound.empty())
+      receiver->OnDataReceived(bytes, static_cast<std::uint32_t>(sound.size()), here, there);
   }
   bool is_locator_allowed(const rtps::Locator_t& locator) const override {
     return may_talk_to(locator) && ChainingTransport::is_locator_allowed(locator);
   }
   bool transform_remote_locator(const rtps::Locator_t& there, rtps::Locator_t& result) const override {
     return may_talk_to(there) && ChainingTransport::transform_remote_locator(there, result);
+  }
+  /// Others announce what they like, and Fast DDS 2.9 aborts here for an address of another kind.
+  bool is_local_locator(const rtps::Locator_t& locator) const override {
+    return IsLocatorSupported(locator) && ChainingTransport::is_local_locator(locator);
   }
 
  private:

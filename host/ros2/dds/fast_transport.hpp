@@ -17,7 +17,8 @@ class Gate {
   std::atomic<bool> open_ = false;
 };
 
-/// UDP over IPv4. Nothing is sent or read before the gate opens.
+/// UDP over IPv4. Nothing is sent or read before the gate opens, and of what comes Fast DDS reads what is sound
+/// (`rtps_check.hpp`).
 ///
 /// Fast DDS 2.9 announces a participant and only then begins to receive. On this computer the answer comes within a fraction
 /// of a millisecond and would be lost, and CycloneDDS answers a second time only after 1 s. With the gate shut until the
