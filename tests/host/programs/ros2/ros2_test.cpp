@@ -95,9 +95,10 @@ TEST_F(Ros2, EachServiceAnswersPeersOfBothKindsInTurnAHundredTimes) {
     peers.push_back(std::make_unique<PeerProgram>(kind, support::test_domain()));
   subscribe(*peers[0], "/odom", "odometry");
   next(*peers[0], "/odom");
-  // In an order in which the robot can do what is asked; resume is refused while it is not armed, and says so.
+  // In an order in which the robot can do what is asked; what it cannot do is refused and says so: a pause without a path, and to
+  // arm with a fault.
   const std::vector<std::pair<std::string, std::string>> services{
-      {"/arm", "yes"},         {"/stop", "yes"},           {"/pause", "yes"},          {"/resume", "yes"},
+      {"/arm", "yes"},         {"/stop", "yes"},           {"/pause", "no no path"},   {"/resume", "yes"},
       {"/disarm", "yes"},      {"/reset_odometry", "yes"}, {"/emergency_stop", "yes"}, {"/arm", "no"},
       {"/clear_faults", "yes"}};
   for (int i = 0; i < 100; ++i)

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <csignal>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -182,12 +183,20 @@ TEST(Serve, EndsAtCtrlCAndTellsItsViewers) {
   EXPECT_TRUE(watcher.hears([&] { return watcher.viewer().ended(); }));
 }
 
-TEST(Serve, SaysWhichPortIsWhich) {
-  const support::Outcome outcome = support::astrolabe({"serve", "--foxglove", "--port", "8765"});
-  EXPECT_EQ(outcome.code, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("--listen 8765"));
-  EXPECT_EQ(support::astrolabe({"serve"}).code, 2);
-  EXPECT_EQ(support::astrolabe({"serve", "--foxglove", "--listen", "nowhere:70000"}).code, 2);
+TEST(Serve, ABareNumberAsThePortIsThatOfTheViewers) {
+  support::Program program({ASTROLABE_PROGRAM, "serve", "--foxglove", "--port", "0"});  // any that is free
+  EXPECT_TRUE(eventually([&] { return program.err().find("ws://localhost:") != std::string::npos; }));
+  program.send(SIGINT);
+  EXPECT_EQ(program.wait(), 130);
+}
+
+TEST(Serve, WrongPortsAreRefusedAsWrongUsage) {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"serve"},
+        {"serve", "--foxglove", "--listen", "nowhere:70000"},
+        {"serve", "--foxglove", "--port", "99999"},
+        {"serve", "--foxglove", "--port", "8765", "--listen", "8766"}})
+    EXPECT_EQ(support::astrolabe(words).code, 2) << words.back();
 }
 
 }  // namespace

@@ -276,7 +276,6 @@ TEST_F(FoxgloveServerOnLoopback, ManyQuestionsKeepTheRobotNoLongerThanAShareAndN
   }
   server_->poll();
   EXPECT_EQ(commands_.size(), 1U) << "although it came last";
-  EXPECT_GE(slow.asked, 1);
   EXPECT_LE(slow.asked, 2) << "each takes 1 ms, and none begins after 2 ms";
   EXPECT_TRUE(eventually([&] { return slow.asked == kQuestions; }));
 }
