@@ -19,8 +19,8 @@ inline constexpr std::int64_t kLongestGap = 1 << 16;
 ///
 /// A datagram is dropped unless it has RTPS's header of major version 2 and whole submessages to its last byte, each of them
 /// with the fields that the standard gives its kind: sequence numbers and fragments from 1, a first one not behind the last
-/// one, sets of 256 numbers at most, gaps that are not too long, inline QoS and a payload inside the submessage, and parameter lists in the payloads of
-/// discovery (`rtps_parameters.hpp`). Submessages that the standard leaves undefined are passed on.
+/// one, sets of 256 numbers at most, gaps that are not too long, inline QoS and a payload inside the submessage, and parameter
+/// lists in the payloads of discovery (`rtps_parameters.hpp`). Submessages that the standard leaves undefined are passed on.
 ///
 /// The part ends before the first submessage of a vendor (0x80 and above). Every datagram of Fast DDS ends with such a one, for
 /// its statistics; Debian's Fast DDS aborts at one that is not last or has another length.

@@ -22,6 +22,9 @@ class Cable {
   /// As a bad line does: it stays open, and nothing comes through one way.
   void lose_requests(bool lose) { loses_requests_ = lose; }
   void lose_answers(bool lose) { loses_answers_ = lose; }
+  /// The host's computer slept so long, and its clock stood.
+  void sleep(microseconds time) { slept_ += time; }
+  microseconds slept() const { return slept_; }
   void exchange_robot(std::shared_ptr<simulation::VirtualRobot> robot) { robot_ = std::move(robot); }
 
   std::unique_ptr<robot::Transport> open() {
@@ -46,6 +49,8 @@ class Cable {
       return cable_.loses_answers_ ? 0 : count;
     }
 
+    microseconds now() const override { return InProcessTransport::now() - cable_.slept_; }
+
    private:
     void require_whole() const {
       if (cable_.pulls_ != opened_at_) throw robot::LinkLost("the cable was pulled");
@@ -58,6 +63,7 @@ class Cable {
 
   std::shared_ptr<simulation::VirtualRobot> robot_;
   int pulls_ = 0, plugged_for_ = 0;
+  microseconds slept_{};
   bool loses_requests_ = false, loses_answers_ = false;
 };
 
@@ -81,7 +87,9 @@ class RobotOnRos {
     return config;
   }
 
-  microseconds now() const { return microseconds(static_cast<std::int64_t>(robot->board().world_us())); }
+  microseconds now() const {
+    return microseconds(static_cast<std::int64_t>(robot->board().world_us())) - cable.slept();
+  }
   std::int64_t utc_ns() const { return kStart_ns + now().count() * 1000; }
 
   /// The driver works; time passes.
@@ -92,6 +100,12 @@ class RobotOnRos {
   /// Time passes without the driver.
   void silence_ms(int ms) {
     for (int i = 0; i < ms; ++i) robot->step();
+  }
+  /// Time passes while the host's computer sleeps; of its clocks only that of the system goes on.
+  void sleep_ms(int ms) {
+    silence_ms(ms);
+    cable.sleep(std::chrono::milliseconds(ms));
+    utc_steps_ns += std::int64_t{1'000'000} * ms;
   }
   /// The driver works until a condition holds; false if it does not within `limit_ms`.
   template <class Condition>

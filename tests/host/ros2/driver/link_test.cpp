@@ -25,6 +25,20 @@ class Link : public testing::Test {
     EXPECT_TRUE(comes_back());
     return bench.ros.newest<msg::Odometry>("/odom");
   }
+  /// Drives a bend for so long and comes to rest; the odometry then.
+  msg::Odometry driven_ms(int ms) {
+    EXPECT_TRUE(comes_back());
+    bench.call("/arm");
+    bench.drive_ms(ms, 0.3, 0.4);
+    bench.run_ms(ms);
+    return odometry();
+  }
+  /// The robot continues from there, and more uncertain by what a hand at its switch may have pushed it.
+  void expect_continued(const msg::Odometry& before) {
+    const msg::Odometry after = odometry();
+    EXPECT_LT(distance(before, after), 1e-6);
+    EXPECT_GE(after.pose.covariance[0], before.pose.covariance[0] + 0.01 * 0.01);
+  }
   static double distance(const msg::Odometry& a, const msg::Odometry& b) {
     return std::hypot(a.pose.pose.position.x - b.pose.pose.position.x,
                       a.pose.pose.position.y - b.pose.pose.position.y);
@@ -125,11 +139,7 @@ TEST_F(Link, AHundredPullsWhileItDrivesEachStopTheRobotAndEachIsRecoveredWithout
 }
 
 TEST_F(Link, AfterARestartOdometryContinuesFromTheLastPoseWithALargerCovariance) {
-  EXPECT_TRUE(comes_back());
-  bench.call("/arm");
-  bench.drive_ms(2000, 0.3, 0.4);
-  bench.run_ms(2000);
-  const msg::Odometry before = odometry();
+  const msg::Odometry before = driven_ms(2000);
   bench.robot->restart(hal::ResetCause::software);
   const msg::Odometry after = odometry();
   EXPECT_LT(distance(before, after), 1e-6);
@@ -141,44 +151,55 @@ TEST_F(Link, AfterARestartOdometryContinuesFromTheLastPoseWithALargerCovariance)
   EXPECT_EQ(bench.mode(), Mode::disarmed);
 }
 
-TEST_F(Link, ARestartBehindAPulledCableIsFoundByTheRobotsClock) {
-  EXPECT_TRUE(comes_back());
-  bench.call("/arm");
-  bench.drive_ms(2000, 0.3, 0.4);
-  bench.run_ms(2000);
-  const msg::Odometry before = odometry();
+TEST_F(Link, ARestartBehindAPulledCableIsFound) {
+  const msg::Odometry before = driven_ms(2000);
   bench.cable.pull();
   bench.run_ms(500);
   bench.robot->restart(hal::ResetCause::power_on);
   bench.run_ms(500);
   bench.cable.plug_in();
-  const msg::Odometry after = odometry();
-  EXPECT_LT(distance(before, after), 1e-6);
-  EXPECT_GE(after.pose.covariance[0], before.pose.covariance[0] + 0.01 * 0.01);
+  expect_continued(before);
+}
+
+// Its counts and its pose are not zero then.
+TEST_F(Link, ARestartIsFoundByTheRobotsClockIfTheRobotHasMovedSince) {
+  const msg::Odometry before = driven_ms(2000);
+  bench.cable.pull();
+  bench.run_ms(500);
+  bench.robot->restart(hal::ResetCause::power_on);
+  bench.silence_ms(100);
+  robot::Client other(std::make_unique<simulation::InProcessTransport>(bench.robot, 1));
+  other.connect();
+  other.request(protocol::Arm{});
+  other.request(protocol::Velocity{200'000, 300'000});
+  bench.silence_ms(2000);  // its time-out ends that
+  EXPECT_FALSE(bench.moves());
+  bench.cable.plug_in();
+  expect_continued(before);
+}
+
+TEST_F(Link, ARestartWhileTheComputerSleptIsFoundByCountsAndPoseOfZero) {
+  const msg::Odometry before = driven_ms(2000);
+  bench.cable.pull();
+  bench.run_ms(500);
+  bench.robot->restart(hal::ResetCause::power_on);
+  bench.sleep_ms(120'000);
+  bench.cable.plug_in();
+  expect_continued(before);
 }
 
 TEST_F(Link, ARestartSoonAfterAStartIsFoundAlsoAfterALongGap) {
-  EXPECT_TRUE(comes_back());
-  bench.call("/arm");
-  bench.drive_ms(1500, 0.3, 0.4);
-  bench.run_ms(1500);
-  const msg::Odometry before = odometry();
+  const msg::Odometry before = driven_ms(1500);
   bench.cable.pull();
   bench.run_ms(500);
   bench.robot->restart(hal::ResetCause::power_on);
   bench.silence_ms(120'000);
   bench.cable.plug_in();
-  const msg::Odometry after = odometry();
-  EXPECT_LT(distance(before, after), 1e-6);
-  EXPECT_GE(after.pose.covariance[0], before.pose.covariance[0] + 0.01 * 0.01);
+  expect_continued(before);
 }
 
 TEST_F(Link, ARobotThatRanOnThroughALongGapIsNotTakenForOneThatHasRestarted) {
-  EXPECT_TRUE(comes_back());
-  bench.call("/arm");
-  bench.drive_ms(1500, 0.3, 0.4);
-  bench.run_ms(1500);
-  const msg::Odometry before = odometry();
+  const msg::Odometry before = driven_ms(1500);
   bench.cable.pull();
   bench.silence_ms(120'000);
   bench.cable.plug_in();

@@ -29,6 +29,17 @@ class Services : public testing::Test {
     bench.run_ms(60);
     return bench.ros.newest<msg::Odometry>("/odom");
   }
+  /// Sets a pose while `lose` keeps one way of the line from carrying anything; the odometry once the line is good again.
+  msg::Odometry set_pose_over_a_bad_line(void (support::Cable::*lose)(bool)) {
+    EXPECT_EQ(odometry().pose.pose.position.x, 0);
+    (bench.cable.*lose)(true);
+    bench.ros.say("/set_pose", pose(1, 2, 0.5));
+    bench.run_ms(1500);
+    (bench.cable.*lose)(false);
+    bench.run_ms(1500);
+    return odometry();
+  }
+
   std::vector<std::string> notices;
   RobotOnRos bench{RobotOnRos::quiet(), [this] {
                      DriverOptions options;
@@ -209,26 +220,14 @@ TEST_F(Services, WhoSetsARefusedPoseAgainAndAgainIsToldOnce) {
 }
 
 TEST_F(Services, APoseWhoseAnswerWasLostIsSetWithItsCovarianceOnceTheRobotShowsIt) {
-  ASSERT_EQ(odometry().pose.pose.position.x, 0);
-  bench.cable.lose_answers(true);
-  bench.ros.say("/set_pose", pose(1, 2, 0.5));
-  bench.run_ms(1500);
-  bench.cable.lose_answers(false);
-  bench.run_ms(1500);
-  const msg::Odometry now = odometry();
+  const msg::Odometry now = set_pose_over_a_bad_line(&support::Cable::lose_answers);
   EXPECT_NEAR(now.pose.pose.position.x, 1, 1e-9);
   EXPECT_NEAR(now.pose.covariance[0], 0.04, 0.001);
   EXPECT_THAT(bench.diagnosed("robot", "odometry"), HasSubstr("the pose was set"));
 }
 
 TEST_F(Services, APoseWhoseRequestWasLostIsNotSetAndItsCovarianceStays) {
-  ASSERT_EQ(odometry().pose.pose.position.x, 0);
-  bench.cable.lose_requests(true);
-  bench.ros.say("/set_pose", pose(1, 2, 0.5));
-  bench.run_ms(1500);
-  bench.cable.lose_requests(false);
-  bench.run_ms(1500);
-  const msg::Odometry now = odometry();
+  const msg::Odometry now = set_pose_over_a_bad_line(&support::Cable::lose_requests);
   EXPECT_EQ(now.pose.pose.position.x, 0);
   EXPECT_LT(now.pose.covariance[0], 1e-6);
 }

@@ -279,7 +279,7 @@ TEST_F(NodeAmongPeers, ShowsThatItBelongsToAnEnclave) {
   const auto node = open();
   const auto odom = node->advertise({"/odom", message_type<msg::Odometry>()});
   PeerProgram* peer = start(PeerKind::cyclone);
-  if (peer == nullptr) GTEST_SKIP();
+  if (peer == nullptr) GTEST_SKIP() << "CycloneDDS is not installed";
   peer->say("sub /odom odometry");
   ASSERT_TRUE(eventually(*node, [&] {
     odom->publish(encode(odometry(1)), 0);
