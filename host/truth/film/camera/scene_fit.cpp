@@ -60,10 +60,12 @@ const FloorTag* tag_of(const Scene& scene, int id) {
   return nullptr;
 }
 
-/// Priors and tapes, in standard errors.
+/// Priors, tapes and what tags have in common, in standard errors.
 VectorXd prior_residual(const Scene& scene, const Problem& problem,
                         const std::vector<SceneParameter>& parameters) {
-  std::vector<double> all;
+  // One lens and one tone curve move the edges of all tags, and only focus and motion differ between them.
+  constexpr double kEdgesDiffer_px = 0.15;
+  std::vector<double> all{(scene.robot_shift_px - scene.floor_shift_px) / kEdgesDiffer_px};
   for (std::size_t i = 0; i < parameters.size(); ++i)
     if (parameters[i].prior_sigma > 0)
       all.push_back((parameter_value(scene, i) - parameters[i].prior_mean) / parameters[i].prior_sigma);
@@ -87,6 +89,29 @@ double cost_of(const State& state, const Problem& problem, const std::vector<Sce
 
 RobotPose stepped(RobotPose pose, const Eigen::Vector3d& step) {
   return {pose.x_m + step[0], pose.y_m + step[1], pose.theta_rad + step[2]};
+}
+
+/// How the residuals of a picture change with its pose.
+PoseJacobian by_pose_of(const Scene& scene, const Problem& problem, const RobotSighting& one) {
+  constexpr double kStep = 1e-6;  // m and rad
+  PoseJacobian jacobian;
+  for (Index i = 0; i < 3; ++i) {
+    const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(i);
+    jacobian.col(i) = (robot_residual(scene, problem, one, stepped(one.pose, step)) -
+                       robot_residual(scene, problem, one, stepped(one.pose, -step))) /
+                      (2 * kStep);
+  }
+  return jacobian;
+}
+
+/// The poses that fit a scene best. Those of a joint step are right to the first order only, and its second order, a common factor
+/// of all places, costs more than the step gains where the focal length hardly shows.
+void settle_poses(State& state, const Problem& problem) {
+  for (RobotSighting& one : state.robot) {
+    const PoseJacobian by_pose = by_pose_of(state.scene, problem, one);
+    const Residual r = robot_residual(state.scene, problem, one, one.pose);
+    one.pose = stepped(one.pose, -(by_pose.transpose() * by_pose).ldlt().solve(by_pose.transpose() * r));
+  }
 }
 
 /// Normal equations with the pictures' blocks kept apart.
@@ -151,18 +176,11 @@ void add_floor(Equations& to, const State& state, const Problem& problem,
 
 void add_robot(Equations& to, const State& state, const Problem& problem,
                const std::vector<SceneParameter>& parameters, const std::vector<Neighbours>& neighbours) {
-  constexpr double kStep = 1e-6;  // m and rad
   const auto columns = static_cast<Index>(std::count_if(
       parameters.begin(), parameters.end(), [](const SceneParameter& p) { return p.only_tag < 0; }));
   for (const RobotSighting& one : state.robot) {
     const Residual r = robot_residual(state.scene, problem, one, one.pose);
-    PoseJacobian by_pose;
-    for (Index i = 0; i < 3; ++i) {
-      const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(i);
-      by_pose.col(i) = (robot_residual(state.scene, problem, one, stepped(one.pose, step)) -
-                        robot_residual(state.scene, problem, one, stepped(one.pose, -step))) /
-                       (2 * kStep);
-    }
+    const PoseJacobian by_pose = by_pose_of(state.scene, problem, one);
     MatrixXd jacobian = MatrixXd::Zero(8, columns);
     for (Index i = 0; i < columns; ++i) {
       const auto at = static_cast<std::size_t>(i);
@@ -250,6 +268,7 @@ SceneFit fit_scene(const Scene& start, const std::vector<TagCorners>& floor, std
   while (fit.iterations < kMostIterations && !fit.converged) {
     ++fit.iterations;
     State next = after_step(state, equations, lambda);
+    settle_poses(next, problem);
     const double next_cost = cost_of(next, problem, parameters);
     if (!(next_cost < cost)) {  // also if it is no number
       fit.converged = lambda > 1e6;

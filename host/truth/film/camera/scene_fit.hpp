@@ -19,8 +19,9 @@ struct RobotSighting {
 struct CornerErrors {
   double floor_px = 0.03;  // averages over the whole film
   /// Larger than they are: errors of corners live for as long as the codec keeps a block, and are alike in all pictures of one
-  /// heading. Trusted fully, the shape of one small tag would bend the camera.
-  double robot_px = 0.2;
+  /// heading. So that 700 pictures together count about as much as one floor tag; trusted more, the shape of one small tag
+  /// would bend the camera.
+  double robot_px = 0.6;
 };
 
 struct SceneFit {
