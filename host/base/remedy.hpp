@@ -135,6 +135,8 @@ enum class Help : std::uint8_t {
   film_nearer,
   film_sharper,
   film_whole_field,
+  film_obliquely,
+  film_to_the_end,
   film_from_fixed_camera,
   measure_distance,
   // recordings of other programs

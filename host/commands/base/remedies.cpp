@@ -164,6 +164,11 @@ constexpr Sentence kSentences[] = {
      ": clean the lens, lock the focus on the floor, give more light, and film again at the highest quality"},
     {Help::film_whole_field,
      ": choose the place of the phone so that the robot's tag stays in the picture all the time"},
+    {Help::film_obliquely,
+     ": film from the side, looking down by 35 to 60 degrees, if wheels and wheelbase have to be right by "
+     "more"},
+    {Help::film_to_the_end,
+     ": start the film two seconds before the first drive, and end it two seconds after the last"},
     {Help::film_from_fixed_camera,
      ": put the phone on a shelf or a tripod where nothing touches it, switch stabilisation off, and film "
      "again"},

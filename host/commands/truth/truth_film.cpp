@@ -1,9 +1,11 @@
 #include "host/commands/truth/truth_film.hpp"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "host/base/bytes.hpp"
+#include "host/base/error.hpp"
 #include "host/base/files.hpp"
 #include "host/commands/base/flags.hpp"
 #include "host/commands/shared/film_options.hpp"
@@ -13,6 +15,7 @@
 #include "host/console/interrupt.hpp"
 #include "host/report/page/page.hpp"
 #include "host/truth/film/preview/preview.hpp"
+#include "host/truth/film/track/film_checks.hpp"
 
 namespace astro::commands {
 namespace {
@@ -57,6 +60,8 @@ void run(const TruthFilmOptions& options) {
     print_json(to_json(track));
   else
     write(film_text(track));
+  // All the same it is printed, so that a person sees where that was.
+  if (const std::optional<Remark> gone = film::departure(options.film, track)) throw Error(*gone);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "host/base/error.hpp"
 #include "host/experiment/film/readout_search.hpp"
+#include "host/experiment/film/run_coverage.hpp"
 
 namespace astro::experiment {
 namespace {
@@ -32,10 +33,8 @@ std::vector<std::size_t> order_of(const RunSet& set) {
   return order;
 }
 
-bool is_shown(const Shown& one) {
-  const Likeness& alike = one.place.likeness;
-  return alike.visible >= kAlike && alike.shown >= kShown;
-}
+bool is_alike(const Shown& one) { return one.place.likeness.visible >= kAlike; }
+bool is_shown(const Shown& one) { return is_alike(one) && one.place.likeness.shown >= kShown; }
 
 std::vector<Shown> shown_runs(const RunSet& set, const std::vector<NamedFilm>& films, bool exchanged) {
   std::vector<MotionRates> rates;
@@ -70,15 +69,28 @@ void keep_at(std::vector<Value>& list, const std::vector<std::size_t>& kept) {
   list = std::move(result);
 }
 
-/// Takes out what no film shows.
-void leave_out_unseen(RunSet& set, std::vector<Shown>& shown, FilmReport& report) {
+/// Takes out what no film shows, and what it shows in part only.
+void leave_out_unseen(RunSet& set, std::vector<Shown>& shown, const std::vector<NamedFilm>& films,
+                      FilmReport& report) {
   std::vector<std::size_t> kept;
+  std::optional<Remark> reason;
   for (std::size_t i = 0; i < shown.size(); ++i) {
-    if (is_shown(shown[i]))
+    const Shown& one = shown[i];
+    const std::optional<Lack> lack =
+        is_alike(one) ? lack_of(window_of(set.runs[i], one.place.offset_s), films[one.film].track)
+                      : std::nullopt;
+    if (is_shown(one) && !(lack && lack->left_picture)) {
       kept.push_back(i);
-    else
+      if (lack) report.remarks.push_back({fmt::format("'{}': {}", set.names[i], lack->what), {lack->help}});
+    } else if (lack) {
+      report.remarks.push_back(
+          {fmt::format("'{}' was left out: {}", set.names[i], lack->what), {lack->help}});
+      if (!reason) reason = Remark{fmt::format("'{}': {}", set.names[i], lack->what), {lack->help}};
+    } else {
       report.remarks.push_back({fmt::format("'{}' is not in the film, and was left out", set.names[i])});
+    }
   }
+  if (kept.empty() && reason) throw Error(*reason);
   if (kept.empty())
     throw Error(
         fmt::format(
@@ -131,11 +143,9 @@ void give_truth(RunSet& set, const std::vector<NamedFilm>& films, const std::vec
 void say_places(const RunSet& set, const std::vector<NamedFilm>& films, const std::vector<Shown>& shown,
                 FilmReport& report) {
   for (std::size_t i = 0; i < set.runs.size(); ++i) {
-    const recording::Run& run = set.runs[i];
+    const RunWindow window = window_of(set.runs[i], shown[i].place.offset_s);
     report.runs.push_back(
-        {set.names[i], films[shown[i].film].name, shown[i].place,
-         1e-6 * static_cast<double>(run.odometry.front().time_us) - shown[i].place.offset_s,
-         1e-6 * static_cast<double>(run.odometry.back().time_us) - shown[i].place.offset_s});
+        {set.names[i], films[shown[i].film].name, shown[i].place, window.from_s, window.to_s});
     if (shown[i].place.ambiguous)
       report.remarks.push_back({fmt::format(
           "'{}' fits at several places in the film, and is taken in the order of the runs", set.names[i])});
@@ -151,7 +161,7 @@ FilmReport attach_films(RunSet& set, const std::vector<NamedFilm>& films, std::o
       throw Error(fmt::format("the recording '{}' holds no odometry", set.names[i]),
                   {Help::leave_run_out, set.names[i]});
   std::vector<Shown> shown = shown_runs(set, films);
-  leave_out_unseen(set, shown, report);
+  leave_out_unseen(set, shown, films, report);
   say_places(set, films, shown, report);
   const double usual_s = films.front().track.scene.readout_s;
   report.readout_s = readout_s.value_or(usual_s);

@@ -33,10 +33,11 @@ struct FilmReport {
 };
 
 /// Gives each run the poses of the film that shows it, on the robot's clock to some 10 ms, with a margin of 0.3 s at either end;
-/// whatever truth it had is replaced. Runs that no film shows are taken out of the set, and a remark says so. The readout of the
+/// whatever truth it had is replaced. Runs that no film shows, of which it shows less than half, or in which the robot drives out of
+/// the picture are taken out of the set, and a remark says so. The readout of the
 /// camera is given, or found from the odometry: with the right one, wheels and film agree best.
 ///
-/// Errors  astro::Error if no run is in any film, and what trajectories_of and calibration::estimate_ml throw while the
+/// Errors  astro::Error if no run is left, with what the film lacks of the first, and what trajectories_of and calibration::estimate_ml throw while the
 ///         readout is searched for.
 /// Cost    about ten calibrations.
 FilmReport attach_films(RunSet& set, const std::vector<NamedFilm>& films, std::optional<double> readout_s);

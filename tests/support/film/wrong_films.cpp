@@ -44,9 +44,9 @@ void add_second_robot(FilmSetup& setup) {
 const std::map<std::string, Flaw>& flaws() {
   static const std::map<std::string, Flaw> all{
       {"tag-too-small",
-       {"the robot's tag is 35 mm and shows as 15 pixels",
-        [](FilmSetup& setup) { setup.scene.robots.front().paper = TagPaper(0, 0.035); }}},
-      {"blurred", {"the camera is out of focus", [](FilmSetup& setup) { setup.blur_px = 7; }}},
+       {"the robot's tag is 45 mm and shows as 13 pixels",
+        [](FilmSetup& setup) { setup.scene.robots.front().paper = TagPaper(0, 0.045); }}},
+      {"blurred", {"the camera is out of focus", [](FilmSetup& setup) { setup.blur_px = 5; }}},
       {"out-of-picture",
        {"the robot drives out of the picture",
         [](FilmSetup& setup) {
@@ -83,9 +83,7 @@ std::optional<FilmCase> wrong_film(const std::string& name) {
   for (const auto& more : {robot::spin(0.25, {0.4, 1.5}), robot::line(0.3, {0.4, 1.5})})
     path.insert(path.end(), more.begin(), more.end());
   FilmCase film = staged(name, found->second.what, 7, {free_wish("drive-1", path)}, tags_around(false));
-  film.setup.lens = main_lens();
-  if (name == "stabilised")
-    film.setup.lens = at_720p(film.setup.lens);  // each of its pictures has another floor
+  film.setup.lens = at_720p(main_lens());
   film.setup.camera = [camera = on_shelf()](double) { return camera; };
   found->second.spoil(film.setup);
   return film;

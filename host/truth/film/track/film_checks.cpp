@@ -45,6 +45,12 @@ double typical(std::vector<double> values) {
   return *middle;
 }
 
+bool drives(const FilmPose& pose) {
+  constexpr double kDrives_mps = 0.03, kTurns_radps = 0.1;
+  return std::hypot(pose.velocity.x_mps, pose.velocity.y_mps) > kDrives_mps ||
+         std::abs(pose.velocity.omega_radps) > kTurns_radps;
+}
+
 /// By how much the pose at `to` misses what a speed makes of that at `from`.
 struct Miss {
   double way_m, turn_rad;
@@ -131,7 +137,8 @@ void refuse_survey(const fs::path& film, const FilmInfo& info, const FloorSurvey
             fmt::format("floor tag {}, to which a length is given,", id), Help::film_floor_tags);
 }
 
-void refuse_sightings(const fs::path& film, const FilmInfo& info, const FilmSightings& sightings) {
+void refuse_sightings(const fs::path& film, const FilmInfo& info, const FloorSurvey& survey,
+                      const FilmSightings& sightings) {
   constexpr double kLess_s = 1;
   const double decoded_s = sightings.last_s - sightings.first_s;
   if (info.duration_s - decoded_s > kLess_s + 0.02 * info.duration_s)
@@ -142,12 +149,9 @@ void refuse_sightings(const fs::path& film, const FilmInfo& info, const FilmSigh
     throw Error(fmt::format("{}: the robot's tag is at two places at {:.1f} s", quoted(film),
                             *sightings.two_robots_s),
                 {Help::film_one_robot});
-  constexpr std::size_t kLeast = 30;
-  if (sightings.robot.size() < kLeast)
-    throw Error(fmt::format("{}: the robot's tag is seen in {} of {} pictures only", quoted(film),
-                            sightings.robot.size(), sightings.pictures),
-                {Help::film_whole_field});
+  // One that is too small to be followed was seen in the survey, which looks closer.
   std::vector<double> sides, widths;
+  for (const auto& one : survey.robot) sides.push_back(shortest_side(one.corners));
   for (const RobotTagSeen& one : sightings.robot) {
     sides.push_back(shortest_side(one.corners));
     widths.push_back(one.edge_width_px);
@@ -156,6 +160,11 @@ void refuse_sightings(const fs::path& film, const FilmInfo& info, const FilmSigh
     throw Error(fmt::format("{}: the robot's tag is too small in the picture: {:.0f} px, and 20 are needed",
                             quoted(film), side),
                 {Help::film_nearer});
+  constexpr std::size_t kLeast = 30;
+  if (sightings.robot.size() < kLeast)
+    throw Error(fmt::format("{}: the robot's tag is seen in {} of {} pictures only", quoted(film),
+                            sightings.robot.size(), sightings.pictures),
+                {Help::film_whole_field});
   if (const double width = typical(widths); width > kBlurred_px)
     throw Error(fmt::format("{}: the picture is blurred: the edges of the robot's tag are {:.1f} px wide",
                             quoted(film), 2 * width),
@@ -197,8 +206,38 @@ void refuse_track(const fs::path& film, const FilmTrack& track) {
                 {Help::film_uncut});
 }
 
+/// At the end the robot still drives: the film was stopped too early.
+bool drives_at_end(const FilmTrack& track) {
+  const FilmPose& last = track.found.poses.back();
+  return track.sightings.last_s - last.pts_s < 0.2 && drives(last);
+}
+
+/// Before the tag is seen first and after it is seen last nobody need drive.
+void say_hidden(const FilmTrack& track, std::vector<Remark>& to) {
+  constexpr std::size_t kMost = 5;
+  std::size_t said = 0, more = 0;
+  for (const HiddenSpan& span : track.hidden) {
+    if (span.from_s == track.sightings.first_s || span.to_s == track.sightings.last_s) continue;
+    if (++said > kMost) {
+      ++more;
+      continue;
+    }
+    const std::string when = fmt::format("from {:.1f} to {:.1f} s", span.from_s, span.to_s);
+    if (span.left_picture)
+      to.push_back({"the robot's tag is out of the picture " + when, {Help::film_whole_field}});
+    else
+      to.push_back({"the robot's tag is hidden " + when, {}});
+  }
+  if (more > 0) to.push_back({fmt::format("and {} times more", more), {}});
+}
+
+/// Part by which the focal length may be wrong.
+double focal_length_error(const FilmTrack& track) {
+  return std::sqrt(track.covariance(0, 0)) / track.scene.camera.f_px;
+}
+
 std::vector<Remark> remarks_on(const FilmTrack& track, const FloorSurvey& survey) {
-  constexpr double kRough_px = 0.5;
+  constexpr double kRough_px = 0.5, kRoughScale = 2.5e-3, kRoughFocus = 0.02;
   std::vector<Remark> all;
   const FilmSightings& seen = track.sightings;
   if (!track.figures.scale_measured())
@@ -224,6 +263,17 @@ std::vector<Remark> remarks_on(const FilmTrack& track, const FloorSurvey& survey
   if (const double least = *std::min_element(sides.begin(), sides.end()); least < kUneasy_px)
     all.push_back({fmt::format("the robot's tag is only {:.0f} px high where it is farthest", least),
                    {Help::film_nearer}});
+  if (track.figures.scale_measured() && track.scale_sigma > kRoughScale &&
+      focal_length_error(track) > kRoughFocus)
+    all.push_back(
+        {fmt::format(
+             "the camera looks down so steeply that its focal length hardly shows, and the scale is found to "
+             "{:.1f} % only",
+             100 * track.scale_sigma),
+         {Help::film_obliquely}});
+  say_hidden(track, all);
+  if (drives_at_end(track))
+    all.push_back({"the robot still drives when the film ends", {Help::film_to_the_end}});
   if (track.motion.most_px > kSags_px)
     all.push_back({fmt::format("the camera sagged by {:.1f} px, half of it by {:.1f} s, which was taken out",
                                track.motion.most_px, track.motion.most_at_s),
@@ -239,6 +289,19 @@ std::vector<Remark> remarks_on(const FilmTrack& track, const FloorSurvey& survey
   for (const int id : survey.moving)
     all.push_back({fmt::format("tag {} moves, and is neither the robot's nor on the floor", id), {}});
   return all;
+}
+
+std::optional<Remark> departure(const fs::path& film, const FilmTrack& track) {
+  constexpr double kLong_s = 1, kJust_s = 0.2;
+  for (const HiddenSpan& span : track.hidden) {
+    if (!span.left_picture || span.to_s - span.from_s < kLong_s) continue;
+    for (const FilmPose& pose : track.found.poses)
+      if (pose.pts_s <= span.from_s && pose.pts_s > span.from_s - kJust_s && drives(pose))
+        return Remark{fmt::format("{}: the robot drives out of the picture at {:.1f} s, for {:.1f} s",
+                                  quoted(film), span.from_s, span.to_s - span.from_s),
+                      {Help::film_whole_field}};
+  }
+  return std::nullopt;
 }
 
 }  // namespace astro::film

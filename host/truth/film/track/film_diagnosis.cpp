@@ -1,6 +1,8 @@
 #include "host/truth/film/track/film_diagnosis.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <optional>
 
 #include "host/truth/film/tags/detector.hpp"
@@ -45,6 +47,30 @@ std::optional<double> side_of(TagDetector& detector, const GrayFrame& frame, dou
   return std::nullopt;
 }
 
+/// Steps of brightness over one pixel and over sixteen: of a sharp picture the greatest are about equal, of one that is out of focus
+/// those over one pixel are far smaller.
+bool is_blurred(const GrayFrame& frame) {
+  constexpr int kFar_px = 16;
+  constexpr double kGreatest = 0.002;  // part of the picture that the greatest steps take: some tags' edges
+  constexpr int kContrast = 50;        // less shows nothing, or is noise
+  constexpr double kSoft =
+      0.2;  // of a lens with 0.7 px it is 0.55; of one with 2 px, at which tags are read no more, 0.2
+  std::array<std::size_t, 256> near{}, far{};
+  for (int y = 0; y < frame.height; ++y)
+    for (int x = 0; x + kFar_px < frame.width; ++x) {
+      ++near[static_cast<std::size_t>(std::abs(frame.at(x, y) - frame.at(x + 1, y)))];
+      ++far[static_cast<std::size_t>(std::abs(frame.at(x, y) - frame.at(x + kFar_px, y)))];
+    }
+  const auto greatest = [&](const std::array<std::size_t, 256>& steps) {
+    const double part = kGreatest * static_cast<double>(frame.pixels.size());
+    std::size_t count = 0;
+    int step = 255;
+    while (step > 0 && static_cast<double>(count += steps[static_cast<std::size_t>(step)]) < part) --step;
+    return step;
+  };
+  return greatest(far) >= kContrast && greatest(near) < kSoft * greatest(far);
+}
+
 }  // namespace
 
 TagDiagnosis why_no_tag(const std::filesystem::path& film, const FilmInfo& info,
@@ -53,7 +79,9 @@ TagDiagnosis why_no_tag(const std::filesystem::path& film, const FilmInfo& info,
   TagDetector detector;
   GrayFrame frame;
   TagDiagnosis found;
+  bool blurred = false;
   for (int i = 0; i < kPictures && stream.next(frame); ++i) {
+    blurred = blurred || (is_blurred(frame) && detector.detect(frame, whole_of(frame), 1).empty());
     if (side_of(detector, mirrored(frame), 1, wanted)) return {TagProblem::mirrored, 0};
     for (const double coarse : {2.0, 3.0, 4.0})
       if (const auto side = side_of(detector, frame, coarse, wanted)) found = {TagProblem::blurred, *side};
@@ -61,6 +89,7 @@ TagDiagnosis why_no_tag(const std::filesystem::path& film, const FilmInfo& info,
     if (const auto side = side_of(detector, enlarged(frame), 1, wanted))
       found = {TagProblem::too_small, *side / 2};
   }
+  if (found.problem == TagProblem::none_there && blurred) found.problem = TagProblem::blurred;
   return found;
 }
 

@@ -62,7 +62,7 @@ FilmTrack follow_film(const std::filesystem::path& film, const FilmFigures& figu
       survey_floor(film, track.info, figures.robot_id, part_of(progress, 0, kSurveyPart));
   refuse_survey(film, track.info, survey, figures);
   track.sightings = watch_film(film, track.info, figures.robot_id, survey, part_of(progress, kSurveyPart, 1));
-  refuse_sightings(film, track.info, track.sightings);
+  refuse_sightings(film, track.info, survey, track.sightings);
   std::vector<TagCorners> start;
   for (const SeenFloorTag& tag : survey.floor) start.push_back(tag.corners);
   track.motion = camera_motion(track.sightings.looks, start);
@@ -75,6 +75,7 @@ FilmTrack follow_film(const std::filesystem::path& film, const FilmFigures& figu
   track.floor_rms_px = fit.floor_rms_px;
   track.found = film_poses(track.scene, track.sightings.robot);
   track.floor = report_on(track);
+  track.hidden = hidden_spans(track.sightings, track.info);
   refuse_track(film, track);
   track.scale_sigma = scale_sigma_of(track);
   track.remarks = remarks_on(track, survey);

@@ -10,6 +10,7 @@
 #include "host/truth/film/track/film_figures.hpp"
 #include "host/truth/film/track/film_poses.hpp"
 #include "host/truth/film/track/film_sightings.hpp"
+#include "host/truth/film/track/hidden_spans.hpp"
 #include "host/truth/film/video/film_info.hpp"
 
 /// A film of a robot with a tag on it, between tags on the floor: from the file to the robot's path.
@@ -36,6 +37,7 @@ struct FilmTrack {
   CameraMotion motion;
   FilmSightings sightings;  // with the corners that a camera at rest would have seen
   FilmPoses found;          // with the readout of the figures
+  std::vector<HiddenSpan> hidden;
   std::vector<Remark> remarks;
 };
 
