@@ -23,9 +23,9 @@ struct WallMove {
   bool operator==(const WallMove&) const = default;
 };
 
-/// Wanted standard errors: of E_d, of b / S (relative) and of S.
+/// Wanted standard errors, of E_d and of b / S (relative). That of S is what the readings of the ruler leave.
 struct WallTargets {
-  double E_d = 2e-4, b = 1e-3, scale = 1e-3;
+  double E_d = 2e-4, b = 1e-3;
 };
 
 struct WallWishes {

@@ -32,11 +32,20 @@ std::vector<fs::path> paths_in(const std::string& answer) {
   return paths;
 }
 
+/// The robot drives the same in each phase, so that the film of another one would fit.
+void refuse_other(const experiment::NamedFilm& film, const FilmRequest& request) {
+  if (std::find(request.others.begin(), request.others.end(), film.track.fingerprint()) !=
+      request.others.end())
+    throw Error("'" + film.name + "' shows the runs of an earlier phase", {Help::name_film_of_runs});
+}
+
 /// False, after saying why, if the films do not show the runs.
-bool taken(const std::vector<fs::path>& paths, experiment::RunSet& set, const FilmOptions& figures) {
+bool taken(const std::vector<fs::path>& paths, experiment::RunSet& set, const FilmRequest& request) {
   try {
     experiment::RunSet with = set;
-    give_truth(with, follow_films(paths, figures), figures);
+    const std::vector<experiment::NamedFilm> films = follow_films(paths, request.figures);
+    for (const experiment::NamedFilm& film : films) refuse_other(film, request);
+    give_truth(with, films, request.figures);
     set = std::move(with);
     return true;
   } catch (const Interrupted&) {
@@ -63,7 +72,7 @@ std::string film_briefing() {
 }
 
 void take_films(const std::string& phase, experiment::RunSet& set, const FilmRequest& request) {
-  if (request.file && fs::exists(*request.file) && taken({*request.file}, set, request.figures)) return;
+  if (request.file && fs::exists(*request.file) && taken({*request.file}, set, request)) return;
   while (true) {
     std::string answer;
     try {
@@ -80,7 +89,7 @@ void take_films(const std::string& phase, experiment::RunSet& set, const FilmReq
     if (paths.empty())
       throw Error(fmt::format("all runs of phase '{}' are driven, but their film is missing", phase),
                   {Help::resume_with_film});
-    if (taken(paths, set, request.figures)) return;
+    if (taken(paths, set, request)) return;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "host/commands/shared/film_options.hpp"
 #include "host/experiment/files/run_set.hpp"
@@ -16,6 +17,7 @@ std::string film_briefing();
 struct FilmRequest {
   std::optional<std::filesystem::path> file;  // taken without a question, if it is there
   FilmOptions figures;
+  std::vector<std::string> others;  // films that show the runs of other phases
 };
 
 /// Gives the runs of a phase the truth of the film that shows them, or of several. Asks for it until one of them is in the film; what

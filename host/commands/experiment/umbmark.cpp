@@ -83,9 +83,10 @@ experiment::ExperimentHooks hooks_for(const UmbmarkOptions& options, console::Pr
     return true;
   };
   hooks.doubt = [ask](const experiment::DoubtfulRun& run) { return ask_about(ask, run); };
-  hooks.give_truth = [&options, &progress](const std::string& phase, experiment::RunSet& set) {
+  hooks.give_truth = [&options, &progress](const std::string& phase, experiment::RunSet& set,
+                                           const std::vector<std::string>& others) {
     progress.clear();
-    take_films(phase, set, {options.film, options.film_figures});
+    take_films(phase, set, {options.film, options.film_figures, others});
   };
   hooks.calibrated = [&progress](const experiment::Calibration& found, const auto& changes) {
     progress.clear();
@@ -124,8 +125,7 @@ void run_with_wall(UmbmarkOptions& options) {
   if (options.line.count() > 0) plan.line_m = options.plan.line_m;
   if (options.speed.count() > 0) plan.speed_mps = options.plan.speed_mps;
   if (options.yaw_rate.count() > 0) plan.yaw_rate_radps = options.plan.yaw_rate_radps;
-  if (options.until_option.count() > 0)
-    plan.targets = {options.until.target, options.until.target, options.until.target};
+  if (options.until_option.count() > 0) plan.targets = {options.until.target, options.until.target};
   run_wall(options.connection, plan,
            {options.out, truth::length_unit_named(options.unit), options.yes, options.force, options.json});
 }

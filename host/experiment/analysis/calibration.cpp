@@ -83,6 +83,16 @@ double truth_scale_sigma(Phases phases) {
   return most;
 }
 
+/// All three in one ratio, so that their scale is that of `scaled`.
+calibration::WheelFactors with_scale_of(const calibration::WheelFactors& scaled,
+                                        calibration::WheelFactors factors) {
+  const double keep = (scaled.c_r + scaled.c_l) / (factors.c_r + factors.c_l);
+  factors.c_r *= keep;
+  factors.c_l *= keep;
+  factors.b_m *= keep;
+  return factors;
+}
+
 /// What multiplies all lengths of the truth multiplies all three factors alike.
 void add_scale_error(double sigma, const calibration::WheelFactors& loaded,
                      calibration::MlEstimate& estimate) {
@@ -96,9 +106,7 @@ void add_scale_error(double sigma, const calibration::WheelFactors& loaded,
     Eigen::Matrix4d jacobian = Eigen::Matrix4d::Identity();
     jacobian -= lengths * Eigen::RowVector4d(1, 1, 0, 0) / (factors.c_r + factors.c_l);
     jacobian.topRows<3>() *= keep;
-    factors.c_r *= keep;
-    factors.c_l *= keep;
-    factors.b_m *= keep;
+    factors = with_scale_of(loaded, factors);
     estimate.covariance = jacobian * estimate.covariance * jacobian.transpose();
   }
   estimate.se = calibration::errors_of(estimate.covariance, factors);
@@ -117,8 +125,12 @@ Calibration by_ml(Phases phases, const MlChoice& choice) {
   ml.options.with_e = choice.with_e;
   ml.estimate = calibration::estimate_ml(runs, result.loaded, ml.options);
   ml.session_names = session_names(runs, ml.estimate);
-  result.judgement = calibration::cross_validate(runs, result.loaded, ml.estimate, ml.options);
   result.truth_scale_sigma = truth_scale_sigma(phases);
+  // Where nobody measured a length the loaded scale stays, and is not what the loaded factors are judged by.
+  const calibration::WheelFactors compared = std::isinf(result.truth_scale_sigma)
+                                                 ? with_scale_of(ml.estimate.factors, result.loaded)
+                                                 : result.loaded;
+  result.judgement = calibration::cross_validate(runs, compared, ml.estimate, ml.options);
   if (result.truth_scale_sigma > 0) add_scale_error(result.truth_scale_sigma, result.loaded, ml.estimate);
   result.factors = ml.estimate.factors;
   const calibration::MlErrors& se = ml.estimate.se;

@@ -213,7 +213,10 @@ class Session {
     const Plan& plan = journal_.plan;
     if (plan.truth != "film") return;
     const std::vector<RunSpec> specs = runs_of_phase(plan, phase, squares_in_phase(folder_, plan, phase));
-    if (complete_later(folder_, specs, plan.truth, hooks_.give_truth)) current_.start();
+    std::vector<std::string> others;
+    for (const auto& recordings : finished_)
+      for (const recording::Run& run : recordings->runs()) others.push_back(run.info.truth_film);
+    if (complete_later(folder_, specs, plan.truth, others, hooks_.give_truth)) current_.start();
   }
 
   void read_phase(std::size_t phase) {

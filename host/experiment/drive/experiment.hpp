@@ -44,7 +44,7 @@ struct ExperimentHooks {
   /// again for a run that is said to be right.
   std::function<Redo(const DoubtfulRun&)> doubt = [](const DoubtfulRun&) { return Redo::no; };
   /// All runs of a phase are driven, and their truth comes now, for all of them (later_truth.hpp).
-  GiveTruth give_truth = [](const std::string&, RunSet&) {};
+  GiveTruth give_truth = [](const std::string&, RunSet&, const std::vector<std::string>&) {};
   /// A calibration was found, and would change these parameters of the robot. Called before anything is decided.
   std::function<void(const Calibration&, const std::vector<Change>&)> calibrated =
       [](const Calibration&, const std::vector<Change>&) {};

@@ -22,11 +22,12 @@ RunSet without_truth(const std::filesystem::path& folder, const std::vector<RunS
 }  // namespace
 
 bool complete_later(const std::filesystem::path& folder, const std::vector<RunSpec>& specs,
-                    const std::string& source, const GiveTruth& give) {
+                    const std::string& source, const std::vector<std::string>& others,
+                    const GiveTruth& give) {
   RunSet set = without_truth(folder, specs, source);
   if (set.runs.empty()) return false;
   while (!set.runs.empty()) {
-    give(specs.front().phase, set);
+    give(specs.front().phase, set, others);
     for (std::size_t i = 0; i < set.runs.size(); ++i) {
       if (set.runs[i].truth.empty()) continue;
       std::filesystem::path file = folder / set.names[i];

@@ -47,8 +47,11 @@ std::vector<Shown> shown_runs(const RunSet& set, const std::vector<NamedFilm>& f
   std::vector<Shown> best(set.runs.size());
   for (std::size_t film = 0; film < films.size(); ++film) {
     const std::vector<Placement> places = place_runs(rates, rates_of(films[film].track.found.poses), order);
-    for (std::size_t i = 0; i < places.size(); ++i)
-      if (places[i].likeness.all > best[i].place.likeness.all) best[i] = {film, places[i]};
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const double likeness = places[i].likeness.all, before = best[i].place.likeness.all;
+      if (likeness > before) best[i] = {film, places[i]};
+      if (film > 0 && std::abs(likeness - before) < kRival) best[i].place.ambiguous = true;
+    }
   }
   return best;
 }
@@ -116,11 +119,13 @@ std::vector<recording::TruthSample> cut_for(const recording::Run& run,
   return samples;
 }
 
-/// Where a readout moves all poses of a film by one time, the offset takes that back, so that runs keep their margins.
+/// A readout moves all poses of a film by some 10 ms, which the margins of the runs bear.
 void give_truth(RunSet& set, const std::vector<NamedFilm>& films, const std::vector<Shown>& shown,
                 double readout_s) {
   std::vector<std::vector<film::FilmPose>> poses;
+  std::vector<std::string> fingerprints;
   for (const NamedFilm& film : films) {
+    fingerprints.push_back(film.track.fingerprint());
     film::Scene scene = film.track.scene;
     if (scene.readout_s == readout_s) {
       poses.push_back(film.track.found.poses);
@@ -135,6 +140,7 @@ void give_truth(RunSet& set, const std::vector<NamedFilm>& films, const std::vec
     run.info.truth_source = "film";
     run.info.truth_clock = "film";
     const film::FilmTrack& track = films[shown[i].film].track;
+    run.info.truth_film = fingerprints[shown[i].film];
     run.info.truth_scale_sigma =
         track.figures.scale_measured() ? track.scale_sigma : std::numeric_limits<double>::infinity();
   }
@@ -148,7 +154,8 @@ void say_places(const RunSet& set, const std::vector<NamedFilm>& films, const st
         {set.names[i], films[shown[i].film].name, shown[i].place, window.from_s, window.to_s});
     if (shown[i].place.ambiguous)
       report.remarks.push_back({fmt::format(
-          "'{}' fits at several places in the film, and is taken in the order of the runs", set.names[i])});
+          "'{}' fits at several places in what was filmed, and is taken in the order of the runs",
+          set.names[i])});
   }
 }
 

@@ -10,7 +10,6 @@ namespace {
 
 constexpr double kStep_s = MotionRates::kBin_s;
 constexpr double kApart_s = 2;       // places that are nearer are one
-constexpr double kRival = 0.02;      // by so little less alike is as good
 constexpr double kPlausible = 0.85;  // of the likeness that runs have each for itself
 constexpr std::size_t kMostPlaces = 24;
 
@@ -67,6 +66,10 @@ std::vector<Placement> places_of(const MotionRates& run, const MotionRates& film
     peak.likeness = likeness(run, film, peak.offset_s);
   }
   return peaks;
+}
+
+bool has_rival(const std::vector<Placement>& places) {
+  return places.size() > 1 && places[1].likeness.all > places[0].likeness.all - kRival;
 }
 
 bool one_after_the_other(std::span<const MotionRates> runs) {
@@ -137,9 +140,7 @@ std::vector<Placement> placed_in_order(std::span<const MotionRates> runs,
     if (steps.back()[c].sum > steps.back()[at].sum) at = c;
   for (std::size_t k = order.size(); k-- > 0;) {
     places[order[k]] = candidates[order[k]][at];
-    places[order[k]].ambiguous =
-        candidates[order[k]].size() > 1 &&
-        candidates[order[k]][1].likeness.all > candidates[order[k]][0].likeness.all - kRival;
+    places[order[k]].ambiguous = has_rival(candidates[order[k]]);
     at = steps[k][at].before;
   }
   return places;
@@ -168,6 +169,7 @@ std::vector<Placement> place_runs(std::span<const MotionRates> runs, const Motio
   if (one_after_the_other(runs)) {
     std::vector<Placement> together = placed_together(runs, film);
     // A clock that started again between two runs shows here: together they fit badly.
+    if (runs.size() == 1) together.front().ambiguous = has_rival(candidates.front());
     if (mean_likeness(together) > kPlausible * alone || runs.size() == 1) return together;
   }
   return placed_in_order(runs, candidates, order);

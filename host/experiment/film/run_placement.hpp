@@ -7,6 +7,9 @@
 
 namespace astro::experiment {
 
+/// A place that is by so little less alike fits as well.
+inline constexpr double kRival = 0.02;
+
 /// Where in a film a run is: robot's time = film's time + offset_s.
 struct Placement {
   double offset_s = 0;

@@ -76,9 +76,17 @@ class Square {
     const std::uint64_t from_us = watch_.now().time_us, next_us = from_us + kStep_us;
     session_.set_wheel_voltages(voltage_V[0], voltage_V[1]);
     client_.pump_until([&] { return watch_.now().time_us >= next_us; }, 60ms);
+    if (watch_.now().time_us == from_us) require_telemetry(from_us);
     step_s_ = 1e-6 * static_cast<double>(watch_.now().time_us - from_us);
     touch_.longest_stall_s = std::max(touch_.longest_stall_s, stall_.longest_s());
     return stall_.longest_s() < kStall_s - kStep_s;
+  }
+
+  /// Nobody knows what the robot does, so nothing renews its voltage any more, and soon it is taken away.
+  void require_telemetry(std::uint64_t from_us) {
+    if (client_.pump_until([&] { return watch_.now().time_us > from_us; }, 240ms)) return;
+    session_.set_wheel_voltages(0, 0);
+    throw robot::LinkLost(client_.name() + " sends no more telemetry while it pushes against the wall");
   }
 
   /// Each wheel at the creeping speed, as long as the push allows. A wheel that stands under the full push while the other one turns is
@@ -127,7 +135,9 @@ class Square {
     const std::string which = has_turned(1)   ? "the left wheel does"
                               : has_turned(0) ? "the right wheel does"
                                               : "the wheels do";
-    throw NotFlush(which + " not turn on the voltage of the set force");
+    throw NotFlush(
+        which + " not turn on the voltage of the set force, unless the robot touches the wall already",
+        {Help::face_wall_and_resume});
   }
 
   void pause() {

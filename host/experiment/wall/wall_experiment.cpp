@@ -149,6 +149,9 @@ class Experiment {
     series().squarings.push_back(flush);
     if (const auto doubt = calibration::doubt_about_squaring(series(), estimate_, further_m)) {
       series().squarings.pop_back();
+      // A gap that was read on that way is of a robot that somebody moved.
+      std::erase_if(series().readings,
+                    [&](const auto& reading) { return reading.squaring + 1 == series().squarings.size(); });
       if (++doubts_ == kDoubtsInARow) throw Error(doubt->fact, {Help::check_wall});
       hooks_.drive.notice({doubt->fact + "; that way does not count, and is driven again"});
       journal_.drive.push_back({{flush}, {}});

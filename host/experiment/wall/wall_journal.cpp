@@ -41,7 +41,6 @@ WheelTravel travel_in(const json& value) {
 json object(const WallPlan& plan) {
   return {{"E_d", plan.targets.E_d},
           {"b", plan.targets.b},
-          {"scale", plan.targets.scale},
           {"line_m", plan.line_m},
           {"readings", plan.readings},
           {"gap_m", plan.gap_m},
@@ -58,7 +57,7 @@ json object(const WallPlan& plan) {
 
 WallPlan plan_in(const json& value) {
   WallPlan plan;
-  plan.targets = {finite(value.at("E_d")), finite(value.at("b")), finite(value.at("scale"))};
+  plan.targets = {finite(value.at("E_d")), finite(value.at("b"))};
   plan.line_m = finite(value.at("line_m"));
   plan.readings = value.at("readings").get<int>();
   plan.gap_m = finite(value.at("gap_m"));
@@ -147,7 +146,7 @@ void WallPlan::check() const {
           fmt::format(
               "a body {:g} m long and {:g} m wide with the axle {:g} m behind its front is no small robot",
               body.length_m, body.width_m, body.front_to_axle_m));
-  for (const double target : {targets.E_d, targets.b, targets.scale})
+  for (const double target : {targets.E_d, targets.b})
     require(within(target, 1e-6, 0.1),
             fmt::format("a standard error of {:g} is not between 0.000001 and 0.1", target));
 }

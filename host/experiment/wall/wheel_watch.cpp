@@ -65,7 +65,8 @@ const WheelMoment& WheelWatch::fresh() {
 void WheelWatch::wait_until_wheels_stand() {
   fresh();
   const std::uint64_t from_us = now_.time_us;
-  client_.pump_until([&] { return now_.time_us >= std::max(from_us, moved_us_) + kStood_us; }, 3s);
+  if (!client_.pump_until([&] { return now_.time_us >= std::max(from_us, moved_us_) + kStood_us; }, 3s))
+    fresh();
 }
 
 }  // namespace astro::experiment

@@ -13,7 +13,7 @@ namespace {
 constexpr int kFormat = 1;
 constexpr std::string_view kParameterPrefix = "parameter.";
 
-constexpr std::array<std::pair<std::string_view, std::string RunInfo::*>, 9> kTexts{{
+constexpr std::array<std::pair<std::string_view, std::string RunInfo::*>, 10> kTexts{{
     {"kind", &RunInfo::kind},
     {"phase", &RunInfo::phase},
     {"robot_name", &RunInfo::robot_name},
@@ -23,6 +23,7 @@ constexpr std::array<std::pair<std::string_view, std::string RunInfo::*>, 9> kTe
     {"started_at", &RunInfo::started_at},
     {"truth_source", &RunInfo::truth_source},
     {"truth_clock", &RunInfo::truth_clock},
+    {"truth_film", &RunInfo::truth_film},
 }};
 
 constexpr std::array<std::pair<std::string_view, double RunInfo::*>, 3> kNumbers{{
@@ -93,7 +94,9 @@ mcap::Map to_map(const RunRecord& record) {
       {"index", std::to_string(record.info.index)}};
   for (const auto& [key, member] : kTexts) map[std::string(key)] = record.info.*member;
   for (const auto& [key, member] : kNumbers) map[std::string(key)] = to_text(record.info.*member);
-  if (record.info.truth_scale_sigma == 0) map.erase("truth_scale_sigma");  // of most recordings
+  // Of most recordings.
+  if (record.info.truth_film.empty()) map.erase("truth_film");
+  if (record.info.truth_scale_sigma == 0) map.erase("truth_scale_sigma");
   for (const auto& [key, member] : kHeadings) {
     if (record.*member) map[std::string(key)] = to_text(*(record.*member));
   }

@@ -84,6 +84,7 @@ std::optional<FilmCase> wrong_film(const std::string& name) {
     path.insert(path.end(), more.begin(), more.end());
   FilmCase film = staged(name, found->second.what, 7, {free_wish("drive-1", path)}, tags_around(false));
   film.setup.lens = at_720p(main_lens());
+  film.setup.clock.fps = 15;
   film.setup.camera = [camera = on_shelf()](double) { return camera; };
   found->second.spoil(film.setup);
   return film;

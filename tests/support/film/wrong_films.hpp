@@ -8,7 +8,7 @@
 
 namespace astro::support::film {
 
-/// Films of 9 s, each with one flaw.
+/// Films of 9 s in 720p with 15 frames a second, each with one flaw.
 std::vector<std::string> wrong_film_names();
 
 /// Nothing if there is none of that name. film_case() has them, too.

@@ -166,7 +166,7 @@ Scene moved(const Scene& scene, const Eigen::VectorXd& change) {
   to.camera.cy_px += at(kCy);
   to.camera.k1 += at(kK1);
   to.camera.k2 += at(kK2);
-  to.camera.rotation = rotation_by({at(kTurn), at(kTurn + 1), at(kTurn + 2)}) * scene.camera.rotation;
+  to.camera.rotation = rotation_by({at(kTurn), at(kTurn + 1), at(kTurn + 2)}) * to.camera.rotation;
   to.camera.position_m += Vector3d(at(kPosition), at(kPosition + 1), at(kPosition + 2));
   to.floor_side_m += at(kFloorSide);
   to.floor_shift_px += at(kFloorShift);

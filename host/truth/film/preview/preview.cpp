@@ -33,7 +33,9 @@ std::vector<std::uint8_t> preview_png(const std::filesystem::path& film, const F
     outline(canvas, corners, kFloor);
     canvas.number(corners[2] + Eigen::Vector2d(6, -6), scene.tags[i].id, kFloor);
   }
-  if (!poses.empty()) outline(canvas, robot_corners(scene, poses.front().pose, {}, {}), kRobot);
+  if (!poses.empty())
+    outline(canvas, robot_corners(scene, poses.front().pose, {}, track.sightings.robot.front().corners),
+            kRobot);
   return canvas.png();
 }
 

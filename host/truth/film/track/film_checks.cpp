@@ -145,6 +145,11 @@ void refuse_sightings(const fs::path& film, const FilmInfo& info, const FloorSur
     throw Error(fmt::format("{} is a truncated film: pictures end after {:.1f} of {:.1f} s", quoted(film),
                             decoded_s, info.duration_s),
                 {Help::take_original_film});
+  constexpr double kLongestGap_s = 600;
+  if (sightings.longest_gap_s > kLongestGap_s)
+    throw Error(fmt::format("{}: its times are wrong: no pictures for {:.0f} s from {:.1f} s on",
+                            quoted(film), sightings.longest_gap_s, sightings.gap_at_s),
+                {Help::take_original_film});
   if (sightings.two_robots_s)
     throw Error(fmt::format("{}: the robot's tag is at two places at {:.1f} s", quoted(film),
                             *sightings.two_robots_s),
@@ -212,12 +217,22 @@ bool drives_at_end(const FilmTrack& track) {
   return track.sightings.last_s - last.pts_s < 0.2 && drives(last);
 }
 
-/// Before the tag is seen first and after it is seen last nobody need drive.
+/// The robot drives when its tag leaves the picture.
+bool drives_out(const FilmTrack& track, const HiddenSpan& span) {
+  constexpr double kJust_s = 0.2;
+  return span.left_picture &&
+         std::any_of(track.found.poses.begin(), track.found.poses.end(), [&](const FilmPose& pose) {
+           return pose.pts_s <= span.from_s && pose.pts_s > span.from_s - kJust_s && drives(pose);
+         });
+}
+
+/// Before the tag is seen first and after it is seen last, a robot that stands is none of anybody's business.
 void say_hidden(const FilmTrack& track, std::vector<Remark>& to) {
   constexpr std::size_t kMost = 5;
   std::size_t said = 0, more = 0;
   for (const HiddenSpan& span : track.hidden) {
-    if (span.from_s == track.sightings.first_s || span.to_s == track.sightings.last_s) continue;
+    const bool at_end = span.from_s == track.sightings.first_s || span.to_s == track.sightings.last_s;
+    if (at_end && !drives_out(track, span)) continue;
     if (++said > kMost) {
       ++more;
       continue;
@@ -292,15 +307,12 @@ std::vector<Remark> remarks_on(const FilmTrack& track, const FloorSurvey& survey
 }
 
 std::optional<Remark> departure(const fs::path& film, const FilmTrack& track) {
-  constexpr double kLong_s = 1, kJust_s = 0.2;
-  for (const HiddenSpan& span : track.hidden) {
-    if (!span.left_picture || span.to_s - span.from_s < kLong_s) continue;
-    for (const FilmPose& pose : track.found.poses)
-      if (pose.pts_s <= span.from_s && pose.pts_s > span.from_s - kJust_s && drives(pose))
-        return Remark{fmt::format("{}: the robot drives out of the picture at {:.1f} s, for {:.1f} s",
-                                  quoted(film), span.from_s, span.to_s - span.from_s),
-                      {Help::film_whole_field}};
-  }
+  constexpr double kLong_s = 1;
+  for (const HiddenSpan& span : track.hidden)
+    if (span.to_s - span.from_s > kLong_s && drives_out(track, span))
+      return Remark{fmt::format("{}: the robot drives out of the picture at {:.1f} s, for {:.1f} s",
+                                quoted(film), span.from_s, span.to_s - span.from_s),
+                    {Help::film_whole_field}};
   return std::nullopt;
 }
 

@@ -12,7 +12,7 @@ namespace astro::film {
 namespace {
 
 constexpr int kPictures = 6;
-constexpr std::size_t kMostPixels = std::size_t{6} << 20;  // of an enlarged picture: more is no small picture
+constexpr std::size_t kMostPixels = std::size_t{6} << 20;  // a larger picture need not be enlarged
 
 GrayFrame mirrored(const GrayFrame& frame) {
   GrayFrame other = frame;
@@ -85,7 +85,7 @@ TagDiagnosis why_no_tag(const std::filesystem::path& film, const FilmInfo& info,
     if (side_of(detector, mirrored(frame), 1, wanted)) return {TagProblem::mirrored, 0};
     for (const double coarse : {2.0, 3.0, 4.0})
       if (const auto side = side_of(detector, frame, coarse, wanted)) found = {TagProblem::blurred, *side};
-    if (found.problem != TagProblem::none_there || 4 * frame.pixels.size() > 4 * kMostPixels) continue;
+    if (found.problem != TagProblem::none_there || frame.pixels.size() > kMostPixels) continue;
     if (const auto side = side_of(detector, enlarged(frame), 1, wanted))
       found = {TagProblem::too_small, *side / 2};
   }

@@ -40,11 +40,11 @@ FilmSightings watch_film(const std::filesystem::path& film, const FilmInfo& info
     if (!note_time(all, frame.pts_s)) continue;
     watch.take(frame);
     if (const auto tag = tracker.find(frame))
-      all.robot.push_back({frame.pts_s, tag->corners, tag->edge_width_px, tag->contrast});
+      all.robot.push_back({frame.pts_s, tag->corners, tag->edge_width_px});
     if (tracker.twice() && !all.two_robots_s) all.two_robots_s = frame.pts_s;
-    if (progress && info.duration_s > 0)
-      progress(std::clamp((frame.pts_s - all.first_s) / info.duration_s, 0.0, 1.0));
+    if (progress) progress(info.part(frame.pts_s - all.first_s));
   }
+  if (progress) progress(1);  // an interrupt ends the decoder as well, which looks like the end of the film
   all.looks = watch.looks();
   all.complaint = stream.complaint();
   return all;

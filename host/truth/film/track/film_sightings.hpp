@@ -14,7 +14,7 @@ namespace astro::film {
 struct RobotTagSeen {
   double pts_s = 0;
   TagCorners corners;
-  double edge_width_px = 0, contrast = 0;
+  double edge_width_px = 0;
 };
 
 /// What all pictures of a film show, one after the other.

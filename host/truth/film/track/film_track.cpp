@@ -1,7 +1,10 @@
 #include "host/truth/film/track/film_track.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "host/truth/film/camera/scale_error.hpp"
 #include "host/truth/film/track/film_checks.hpp"
@@ -80,6 +83,20 @@ FilmTrack follow_film(const std::filesystem::path& film, const FilmFigures& figu
   track.scale_sigma = scale_sigma_of(track);
   track.remarks = remarks_on(track, survey);
   return track;
+}
+
+std::string FilmTrack::fingerprint() const {
+  // FNV-1a over hundredths of pixels and whole milliseconds.
+  std::uint64_t hash = 0xcbf29ce484222325;
+  const auto take = [&](double value) {
+    auto rest = static_cast<std::uint64_t>(std::llround(value));
+    for (int i = 0; i < 4; ++i, rest >>= 8) hash = (hash ^ (rest & 0xff)) * 0x100000001b3;
+  };
+  for (const RobotTagSeen& one : sightings.robot) {
+    take(1e3 * one.pts_s);
+    for (const Eigen::Vector2d& corner : one.corners) take(1e2 * corner.x()), take(1e2 * corner.y());
+  }
+  return fmt::format("{:016x}", hash);
 }
 
 }  // namespace astro::film

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "host/base/remedy.hpp"
@@ -39,6 +40,9 @@ struct FilmTrack {
   FilmPoses found;          // with the readout of the figures
   std::vector<HiddenSpan> hidden;
   std::vector<Remark> remarks;
+
+  /// Tells this film from any other, whatever its name: a hash of what it shows.
+  std::string fingerprint() const;
 };
 
 /// Follows the robot through the whole film.

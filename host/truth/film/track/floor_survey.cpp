@@ -77,8 +77,7 @@ FloorSurvey survey_floor(const std::filesystem::path& film, const FilmInfo& info
     if (!first_s) first_s = frame.pts_s;
     ++survey.pictures;
     take(frame, detector.detect(frame, whole_of(frame), 1), robot_id, survey, sightings);
-    if (progress && info.duration_s > 0)
-      progress(std::clamp((frame.pts_s - *first_s) / info.duration_s, 0.0, 1.0));
+    if (progress) progress(info.part(frame.pts_s - *first_s));
   }
   sort_out(sightings, survey);
   return survey;

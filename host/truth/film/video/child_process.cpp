@@ -18,22 +18,27 @@ namespace {
 
 constexpr std::size_t kLongestLine = 4096;
 
+void close_once(int& descriptor) {
+  if (descriptor >= 0) close(std::exchange(descriptor, -1));
+}
+
 struct Pipe {
   std::array<int, 2> ends{-1, -1};
   Pipe() {
     if (pipe2(ends.data(), O_CLOEXEC) != 0)
       throw Error("no pipe to another program: too many files are open");
   }
+  ~Pipe() {
+    for (int& end : ends) close_once(end);
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
 };
-
-void close_once(int& descriptor) {
-  if (descriptor >= 0) close(std::exchange(descriptor, -1));
-}
 
 }  // namespace
 
 ChildProcess::ChildProcess(std::vector<std::string> words, Line line) : line_(std::move(line)) {
-  const Pipe output, errors;
+  Pipe output, errors;
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -44,14 +49,12 @@ ChildProcess::ChildProcess(std::vector<std::string> words, Line line) : line_(st
   posix_spawn_file_actions_adddup2(&actions, errors.ends[1], STDERR_FILENO);
   const int failure = posix_spawnp(&pid_, arguments[0], &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
-  close(output.ends[1]);
-  close(errors.ends[1]);
-  output_ = output.ends[0];
-  words_ = errors.ends[0];
-  if (failure == 0) return;
+  if (failure == 0) {
+    output_ = std::exchange(output.ends[0], -1);
+    words_ = std::exchange(errors.ends[0], -1);
+    return;
+  }
   pid_ = -1;
-  close_once(output_);
-  close_once(words_);
   throw Error("the program '" + words[0] + "', which reads films, " +
                   (failure == ENOENT ? "is not installed" : "cannot be started"),
               {Help::install_film_reader});
@@ -98,7 +101,10 @@ void ChildProcess::take_words() {
 void ChildProcess::wait_for_streams() {
   while (true) {
     std::array<pollfd, 2> states{pollfd{words_, POLLIN, 0}, pollfd{output_, POLLIN, 0}};
-    if (poll(states.data(), states.size(), -1) < 0) continue;
+    if (poll(states.data(), states.size(), -1) < 0) {
+      if (errno == EINTR) continue;
+      throw Error("another program's words cannot be waited for: too little memory");
+    }
     if (states[0].revents != 0) take_words();
     if (states[1].revents != 0 || output_ < 0) return;
   }

@@ -29,7 +29,8 @@ Fields fields_in(const std::string& text) {
   Fields fields;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);)
-    if (const std::size_t sign = line.find('='); sign != std::string::npos)
+    // A container that states the length of the film only as a whole says N/A for the stream.
+    if (const std::size_t sign = line.find('='); sign != std::string::npos && line.substr(sign + 1) != "N/A")
       fields.emplace(line.substr(0, sign), line.substr(sign + 1));
   return fields;
 }

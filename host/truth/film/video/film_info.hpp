@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -14,6 +15,11 @@ struct FilmInfo {
   double frames_per_s = 0;  // on average; frames come at uneven times
   double duration_s = 0;    // 0: not stated
   std::size_t frames = 0;   // 0: not stated
+
+  /// The part of the film that `seconds` are; 0 if nobody states its length.
+  double part(double seconds) const {
+    return duration_s > 0 ? std::clamp(seconds / duration_s, 0.0, 1.0) : 0;
+  }
 };
 
 /// Reads it with ffprobe.

@@ -17,7 +17,7 @@ namespace astro::film {
 /// and film at uneven rates, so a frame's number says nothing about its time.
 ///
 /// Memory  one picture, whatever the length of the film.
-/// Errors  astro::Error if ffmpeg is not installed or decodes nothing.
+/// Errors  astro::Error if ffmpeg is not installed or reports no times. A film of which nothing can be decoded has no pictures.
 class FrameStream {
  public:
   enum class Pictures : std::uint8_t { all, key_only };

@@ -47,7 +47,7 @@ TEST(WallPlan, TakesMoreMovesForMorePrecisionAndForMoreSlip) {
 
 TEST(WallPlan, TurnsOnTheSpotOnlyIfLapsDoNotShowB) {
   WallWishes wishes;
-  wishes.targets = {1e-3, 1e-4, 1e-3};
+  wishes.targets = {1e-3, 1e-4};
   const WallCourse course = plan_course(wishes, kNominal);
   EXPECT_GT(count(course, Kind::spin), 0);
   EXPECT_LE(course.expected.b, 1e-4);

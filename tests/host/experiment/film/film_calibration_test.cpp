@@ -83,6 +83,13 @@ TEST(FilmCalibration, FindsWhatTheTruePosesFind) {
   EXPECT_NEAR(unscaled.factors.b_m / unscaled.scale(), found.factors.b_m / found.scale(), 1e-9);
   EXPECT_NEAR(unscaled.scale_change(), 1, 1e-12);
   EXPECT_TRUE(std::isnan(unscaled.se.scale));
+
+  // Sheets that were printed too small make all lengths of the film wrong, and say nothing about the wheels.
+  for (recording::Run& run : set.runs)
+    for (recording::TruthSample& sample : run.truth) sample.x_m *= 0.97, sample.y_m *= 0.97;
+  const Calibration small = calibrate(set, {MethodChoice::Family::ml, {}});
+  EXPECT_NEAR(small.E_d(), found.E_d(), 1e-6);
+  EXPECT_NEAR(small.judgement.in_use().path_m, 0.97 * unscaled.judgement.in_use().path_m, 1e-3);
 }
 
 }  // namespace

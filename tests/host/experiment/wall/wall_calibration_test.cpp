@@ -14,7 +14,7 @@ TEST(WallCalibration, IsTheSameAfterItWasWrittenAndRead) {
   const support::TemporaryFolder folder;
   support::WallDesk desk(support::robot_before_a_wall(21));
   WallPlan plan;
-  plan.targets = {2e-3, 5e-3, 5e-3};
+  plan.targets = {2e-3, 5e-3};
   plan.line_m = 2;
   const WallResult result = run_wall_experiment(desk.desk.client, plan, folder.path(), desk.hooks());
   const auto judgement =
@@ -46,7 +46,7 @@ TEST(WallCalibration, IsNotAbsoluteWithoutARuler) {
   const support::TemporaryFolder folder;
   support::WallDesk desk(support::robot_before_a_wall(22));
   WallPlan plan;
-  plan.targets = {2e-3, 5e-3, 5e-3};
+  plan.targets = {2e-3, 5e-3};
   plan.readings = 0;
   const WallResult result = run_wall_experiment(desk.desk.client, plan, folder.path(), desk.hooks());
   const auto judgement =

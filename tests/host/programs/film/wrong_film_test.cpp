@@ -1,0 +1,90 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+
+#include "tests/support/film/wrong_films.hpp"
+#include "tests/support/programs/program.hpp"
+
+// Each way in which a film can be wrong ends in one sentence that says what to film differently, and in nothing written.
+namespace astro {
+namespace {
+
+using support::Outcome;
+using testing::AllOf;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+struct Sentence {
+  const char* fact;
+  const char* remedy;
+};
+
+const std::map<std::string, Sentence>& sentences() {
+  static const std::map<std::string, Sentence> all{
+      {"blurred", {"the tag is blurred", "lock the focus on the floor"}},
+      {"cut-film", {"the film is cut: the robot jumps at", "film everything in one go"}},
+      {"ends-too-early", {"'drive-1': the film ends", "end it two seconds after the last"}},
+      {"mirrored-print", {"is a mirror image", "print the tags as they are"}},
+      {"moved-camera", {"the camera was moved", "on a shelf or a tripod"}},
+      {"out-of-picture", {"out of the picture", "stays in the picture all the time"}},
+      {"stabilised", {"stabilisation moves the picture", "switch stabilisation off"}},
+      {"tag-too-small", {"the robot's tag is too small in the picture", "print larger tags"}},
+      {"two-robots", {"is at two places at", "film with one robot"}},
+  };
+  return all;
+}
+
+class WrongFilm : public testing::TestWithParam<std::string> {};
+
+TEST_P(WrongFilm, IsRefusedWithWhatToFilmDifferently) {
+  const Sentence& sentence = sentences().at(GetParam());
+  const test::TemporaryFolder temporary;
+  const fs::path folder = temporary.path(), film = folder / "film.mp4", factors = folder / "factors.toml";
+  support::film::wrong_film(GetParam())->write(folder);
+  const Outcome outcome = support::astrolabe({"calibrate", "runs", (folder / "runs").string(), "--truth",
+                                              "film:" + film.string(), "--out", factors.string()});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr(sentence.fact), HasSubstr(sentence.remedy)));
+  EXPECT_FALSE(fs::exists(factors));
+}
+
+// Where nobody says when the robot's runs are, only a robot that drives out of the picture is known to be wrong.
+TEST(WrongFilmAlone, ShowsThatTheRobotDrivesOutOfThePicture) {
+  const test::TemporaryFolder folder;
+  support::film::wrong_film("out-of-picture")->write(folder.path());
+  const Outcome outcome = support::astrolabe({"truth", "film", (folder.path() / "film.mp4").string()});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("the robot drives out of the picture at"));
+  EXPECT_THAT(outcome.out, HasSubstr("is out of the picture from"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, WrongFilm, testing::ValuesIn(support::film::wrong_film_names()),
+                         [](const auto& test) {
+                           std::string name = test.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST(NoFilm, WithoutItsReaderSaysWhatToInstall) {
+  const test::TemporaryFolder folder;
+  const fs::path film = folder.path() / "film.mp4";
+  std::ofstream(film) << "not looked at";
+  support::Program program(
+      {"/usr/bin/env", "PATH=/nowhere", ASTROLABE_PROGRAM, "truth", "film", film.string()});
+  EXPECT_EQ(program.wait(), 1);
+  EXPECT_THAT(program.err(), HasSubstr("apt install ffmpeg"));
+}
+
+TEST(NoFilm, IsATextFile) {
+  const test::TemporaryFolder folder;
+  const fs::path film = folder.path() / "film.mp4";
+  std::ofstream(film) << "time_s,x_m,y_m\n0,0,0\n";
+  const Outcome outcome = support::astrolabe({"truth", "film", film.string()});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("film.mp4"), HasSubstr("MP4 or MOV")));
+}
+
+}  // namespace
+}  // namespace astro
