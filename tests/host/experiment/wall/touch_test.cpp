@@ -156,32 +156,6 @@ TEST_F(Touching, AHostThatDiesLeavesNoMotorStalledForASecond) {
   }
 }
 
-// The link lives, but nobody sees any more what the wheels do.
-TEST_F(Touching, TakesTheVoltageAwayIfNoTelemetryComesAnyMore) {
-  for (int at_ms = 7000; at_ms < 9000; at_ms += 197) {
-    begin(facing(0.1));
-    const std::uint64_t end_us = board().world_us() + static_cast<std::uint64_t>(at_ms) * 1000;
-    WheelWatch watch(desk->client, robot.count_m);
-    bool silent = false;
-    robot::DriveHooks hooks;
-    hooks.interrupted = [&] {
-      if (!silent && board().world_us() >= end_us) {
-        silent = true;
-        desk->client.request(protocol::SetTelemetry{0, 0});
-      }
-      return false;
-    };
-    {
-      robot::DriveSession session(desk->client, hooks);
-      EXPECT_THROW(square_against_wall(session, watch, desk->client, robot, push_V, 0.3), robot::LinkLost)
-          << at_ms;
-    }
-    EXPECT_EQ(mode(), protocol::Mode::disarmed);
-    EXPECT_LE(board().wall_record().longest_stall_ticks, 1000) << at_ms;
-    EXPECT_LE(board().wall_record().hardest_N, PushLimit{}.force_N) << at_ms;
-  }
-}
-
 TEST_F(Touching, PushesNoHarderForALargerLimitThanTheLimit) {
   for (const double force_N : {9.0, 10.0, 11.0, 12.0, 14.0, 16.0, 20.0, 24.0}) {
     begin(facing(0.05), 0.1);
