@@ -21,10 +21,12 @@
 namespace {
 
 namespace fs = std::filesystem;
-using namespace astro;                 // NOLINT(google-build-using-namespace)
-using namespace astro::support::film;  // NOLINT(google-build-using-namespace)
+using namespace astro;  // NOLINT(google-build-using-namespace): outside of it stands main() alone
+using namespace astro::support::film;  // NOLINT(google-build-using-namespace): this file is all films
 
 constexpr double kBar = 2.5;
+constexpr double kLeast = 16.8,
+                 kMost = 47.0;  // of chi-square with 30 degrees of freedom, 2.5 % on either side
 
 struct Misses {
   Eigen::Vector3d relative, in_errors;  // of E_d, b / S, S
@@ -79,9 +81,9 @@ int main(int count, char** words) {
       worst = std::max(worst, misses.in_errors.cwiseAbs().maxCoeff());
       sum += misses.in_errors.squaredNorm();
     }
-    fmt::print("worst {:.2f} standard errors (at most {}); sum of squares {:.1f} of 30 (16.8 to 47.0)\n",
-               worst, kBar, sum);
-    return worst <= kBar ? 0 : 1;
+    fmt::print("worst {:.2f} standard errors (at most {}); sum of squares {:.1f} of 30 ({} to {})\n", worst,
+               kBar, sum, kLeast, kMost);
+    return worst <= kBar && kLeast <= sum && sum <= kMost ? 0 : 1;
   } catch (const std::exception& error) {
     fmt::print(stderr, "film_calibration: {}\n", error.what());
     return 1;

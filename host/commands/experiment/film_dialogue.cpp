@@ -34,8 +34,7 @@ std::vector<fs::path> paths_in(const std::string& answer) {
 
 /// The robot drives the same in each phase, so that the film of another one would fit.
 void refuse_other(const experiment::NamedFilm& film, const FilmRequest& request) {
-  if (std::find(request.others.begin(), request.others.end(), film.track.fingerprint()) !=
-      request.others.end())
+  if (std::find(request.others.begin(), request.others.end(), film.track.fingerprint) != request.others.end())
     throw Error("'" + film.name + "' shows the runs of an earlier phase", {Help::name_film_of_runs});
 }
 

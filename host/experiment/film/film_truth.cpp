@@ -123,9 +123,7 @@ std::vector<recording::TruthSample> cut_for(const recording::Run& run,
 void give_truth(RunSet& set, const std::vector<NamedFilm>& films, const std::vector<Shown>& shown,
                 double readout_s) {
   std::vector<std::vector<film::FilmPose>> poses;
-  std::vector<std::string> fingerprints;
   for (const NamedFilm& film : films) {
-    fingerprints.push_back(film.track.fingerprint());
     film::Scene scene = film.track.scene;
     if (scene.readout_s == readout_s) {
       poses.push_back(film.track.found.poses);
@@ -140,7 +138,7 @@ void give_truth(RunSet& set, const std::vector<NamedFilm>& films, const std::vec
     run.info.truth_source = "film";
     run.info.truth_clock = "film";
     const film::FilmTrack& track = films[shown[i].film].track;
-    run.info.truth_film = fingerprints[shown[i].film];
+    run.info.truth_film = track.fingerprint;
     run.info.truth_scale_sigma =
         track.figures.scale_measured() ? track.scale_sigma : std::numeric_limits<double>::infinity();
   }

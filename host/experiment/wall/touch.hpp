@@ -12,8 +12,8 @@
 ///
 /// Force  open loop, by voltages, never more than push_voltage_V: whatever the robot meets, and whatever the link does, its motors cannot push
 ///        harder. If the voltages stop coming, the robot's own time-out opens the bridges after 200 ms.
-/// Time   without telemetry for 0.3 s the voltage is taken away; a wheel that stands has voltage for kStall_s at most; then both wheels rest for kPause_s with their motors shorted, and the
-///        robot pushes again. It is flush when two pushes in a row end at the same place. With the time-out of 200 ms no motor is stalled for
+/// Time   a wheel that stands has voltage for kStall_s at most; then both wheels rest for kPause_s with their motors shorted, and the
+///        robot pushes again. Without telemetry nothing renews the voltage, and after 0.3 s it is taken away. The robot is flush when two pushes in a row end at the same place. With the time-out of 200 ms no motor is stalled for
 ///        more than 0.9 s even if the host dies at the worst moment.
 /// Speed  kCreep_mps. The blow of the body adds to the push: its mass and that of the rotors, 9 kg of the reference robot, at 15 mm/s have a thousandth of a
 ///        joule, which a front that gives way by 1 mm under 20 N takes up with 6 N, before the voltage rises to the push.

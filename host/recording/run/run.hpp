@@ -40,8 +40,8 @@ struct RunInfo {
   std::string started_at;    // ISO 8601, UTC
   std::string truth_source;  // "sim", "manual", "file", "" if none
   std::string truth_clock;   // "robot"; "host": mapped from the recording computer's
-  std::string truth_film =
-      {};  // which film the truth is from, by its content (film_track.hpp); "" if from none
+  /// Which film the truth is from, by its content (film_track.hpp); "" if from none.
+  std::string truth_film = {};
   /// Standard error of the common factor of all lengths in the truth, which no drive shows: 0 where a tracker is calibrated;
   /// infinite where nobody measured a length.
   double truth_scale_sigma = 0;

@@ -226,7 +226,7 @@ bool drives_out(const FilmTrack& track, const HiddenSpan& span) {
          });
 }
 
-/// Before the tag is seen first and after it is seen last, a robot that stands is none of anybody's business.
+/// Before the tag is seen first and after it is seen last, nothing is said of a robot that stands.
 void say_hidden(const FilmTrack& track, std::vector<Remark>& to) {
   constexpr std::size_t kMost = 5;
   std::size_t said = 0, more = 0;

@@ -54,6 +54,20 @@ double scale_sigma_of(const FilmTrack& track) {
   return scale_error(track.scene, figures_with_errors(track.figures), track.covariance, pixels);
 }
 
+std::string fingerprint_of(const FilmSightings& sightings) {
+  // FNV-1a over hundredths of pixels and whole milliseconds.
+  std::uint64_t hash = 0xcbf29ce484222325;
+  const auto take = [&](double value) {
+    auto rest = static_cast<std::uint64_t>(std::llround(value));
+    for (int i = 0; i < 4; ++i, rest >>= 8) hash = (hash ^ (rest & 0xff)) * 0x100000001b3;
+  };
+  for (const RobotTagSeen& one : sightings.robot) {
+    take(1e3 * one.pts_s);
+    for (const Eigen::Vector2d& corner : one.corners) take(1e2 * corner.x()), take(1e2 * corner.y());
+  }
+  return fmt::format("{:016x}", hash);
+}
+
 }  // namespace
 
 FilmTrack follow_film(const std::filesystem::path& film, const FilmFigures& figures,
@@ -70,6 +84,7 @@ FilmTrack follow_film(const std::filesystem::path& film, const FilmFigures& figu
   for (const SeenFloorTag& tag : survey.floor) start.push_back(tag.corners);
   track.motion = camera_motion(track.sightings.looks, start);
   refuse_motion(film, track.motion);
+  track.fingerprint = fingerprint_of(track.sightings);
   steady(track.sightings, track.motion);
   SceneFit fit =
       find_scene(track.info, on_average(survey.floor, track.motion), track.sightings.robot, figures);
@@ -83,20 +98,6 @@ FilmTrack follow_film(const std::filesystem::path& film, const FilmFigures& figu
   track.scale_sigma = scale_sigma_of(track);
   track.remarks = remarks_on(track, survey);
   return track;
-}
-
-std::string FilmTrack::fingerprint() const {
-  // FNV-1a over hundredths of pixels and whole milliseconds.
-  std::uint64_t hash = 0xcbf29ce484222325;
-  const auto take = [&](double value) {
-    auto rest = static_cast<std::uint64_t>(std::llround(value));
-    for (int i = 0; i < 4; ++i, rest >>= 8) hash = (hash ^ (rest & 0xff)) * 0x100000001b3;
-  };
-  for (const RobotTagSeen& one : sightings.robot) {
-    take(1e3 * one.pts_s);
-    for (const Eigen::Vector2d& corner : one.corners) take(1e2 * corner.x()), take(1e2 * corner.y());
-  }
-  return fmt::format("{:016x}", hash);
 }
 
 }  // namespace astro::film

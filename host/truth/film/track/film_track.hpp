@@ -40,9 +40,7 @@ struct FilmTrack {
   FilmPoses found;          // with the readout of the figures
   std::vector<HiddenSpan> hidden;
   std::vector<Remark> remarks;
-
-  /// Tells this film from any other, whatever its name: a hash of what it shows.
-  std::string fingerprint() const;
+  std::string fingerprint;  // tells this film from any other, whatever its name: a hash of what it shows
 };
 
 /// Follows the robot through the whole film.

@@ -10,8 +10,8 @@ namespace astro::film {
 /// Where a film does not show the robot's tag, by the times of the pictures.
 struct HiddenSpan {
   double from_s = 0, to_s = 0;
-  bool left_picture =
-      false;  // the tag was last seen, or seen again, at the border of the picture; false: something covers it
+  /// The tag was last seen, or seen again, at the border of the picture. Otherwise something covers it.
+  bool left_picture = false;
 };
 
 /// All that last longer than half a second: also before the tag is seen first, and after it is seen last.

@@ -156,6 +156,46 @@ TEST_F(Touching, AHostThatDiesLeavesNoMotorStalledForASecond) {
   }
 }
 
+// The link lives, but nobody sees any more what the wheels do: the robot's own time-out takes the voltage away, or the host does
+// where somebody has made the robot patient.
+TEST_F(Touching, TakesTheVoltageAwayIfNoTelemetryComesAnyMore) {
+  constexpr int kWithoutAnyTimeout = 10'000;
+  for (const bool patient : {false, true}) {
+    for (int at_ms = 3000; at_ms < 7700; at_ms += 197) {  // creeping, and from 6.7 s on at the wall
+      begin(facing(0.1));
+      if (patient) {
+        auto parameters = robot::RemoteParameters::fetch(desk->client);
+        parameters.stage("command_timeout", double{kWithoutAnyTimeout});
+        parameters.apply();
+      }
+      WheelWatch watch(desk->client, robot.count_m);
+      const std::uint64_t end_us = board().world_us() + static_cast<std::uint64_t>(at_ms) * 1000;
+      bool silent = false;
+      robot::DriveHooks hooks;
+      hooks.interrupted = [&] {
+        if (!silent && board().world_us() >= end_us) {
+          silent = true;
+          desk->client.request(protocol::SetTelemetry{0, 0});
+        }
+        return false;
+      };
+      {
+        robot::DriveSession session(desk->client, hooks);
+        const auto square = [&] { square_against_wall(session, watch, desk->client, robot, push_V, 0.3); };
+        if (patient)
+          EXPECT_THROW(square(), robot::LinkLost) << at_ms;
+        else
+          EXPECT_THROW(square(), robot::DriveFault) << at_ms;
+      }
+      EXPECT_TRUE(silent);
+      EXPECT_EQ(mode(), patient ? protocol::Mode::disarmed : protocol::Mode::fault) << at_ms;
+      EXPECT_EQ(board().motors().state(), sim::Bridge::coast) << at_ms;
+      EXPECT_LE(board().wall_record().longest_stall_ticks, 1000) << at_ms;
+      EXPECT_LE(board().wall_record().hardest_N, PushLimit{}.force_N) << at_ms;
+    }
+  }
+}
+
 TEST_F(Touching, PushesNoHarderForALargerLimitThanTheLimit) {
   for (const double force_N : {9.0, 10.0, 11.0, 12.0, 14.0, 16.0, 20.0, 24.0}) {
     begin(facing(0.05), 0.1);
