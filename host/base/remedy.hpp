@@ -139,6 +139,9 @@ enum class Help : std::uint8_t {
   film_to_the_end,
   film_from_fixed_camera,
   measure_distance,
+  measure_figure_again,  // {option}
+  correct_tape,          // {ids}
+  give_tag_height,
   // recordings of other programs
   name_wheel_columns,
   name_wheel_joints,
@@ -199,6 +202,8 @@ enum class Help : std::uint8_t {
   keep_order,
   check_wall,
   face_wall_and_resume,
+  read_calibration_of_wall,  // {file}
+  load_later,                // {file}
   drop_precision_or_method,  // {method}
   // simulations
   stop_simulator_or_choose_other_path,

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "host/base/error.hpp"
+#include "host/base/interrupted.hpp"
 #include "host/base/text/columns.hpp"
 #include "host/base/text/plain_text.hpp"
 #include "host/console/interrupt.hpp"
@@ -38,6 +39,21 @@ std::string one_line(std::string_view sentence) {
 void to_stderr(std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);
+}
+
+/// Breaks sentences at blanks where a terminal would break them anywhere. Rows of a table, which have more than one blank in a row, stay.
+std::string fitted_to_terminal(const std::string& text) {
+  if (!stderr_is_terminal()) return text;
+  const std::size_t columns = terminal_size(STDERR_FILENO).columns;
+  std::string fitted;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::string_view line = std::string_view(text).substr(at, end - at);
+    const bool breaks = columns_of(line) > columns && line.find("  ") == std::string_view::npos;
+    fitted += breaks ? wrapped(line, columns) : std::string(line) + '\n';
+    at = end + 1;
+  }
+  return fitted;
 }
 
 constexpr std::size_t kLongestAnswer = 65536;
@@ -98,14 +114,16 @@ bool stdin_is_terminal() { return isatty(STDIN_FILENO) == 1; }
 bool stdout_is_terminal() { return isatty(STDOUT_FILENO) == 1; }
 bool stderr_is_terminal() { return isatty(STDERR_FILENO) == 1; }
 
-void say(std::string_view line) { to_stderr(plain_text(line) + '\n'); }
+void say(std::string_view line) { to_stderr(fitted_to_terminal(plain_text(line) + '\n')); }
 
 void set_program_name(const char* name) { program_name = name; }
 
 void complain(std::string_view sentence) {
   const bool colour = obeys_escapes(STDERR_FILENO);
-  to_stderr(fmt::format("{}{}:{} {}\n", colour ? "\033[31m" : "", program_name, colour ? "\033[0m" : "",
-                        one_line(sentence)));
+  std::string text = fitted_to_terminal(fmt::format("{}: {}\n", program_name, one_line(sentence)));
+  const std::size_t name = std::string_view(program_name).size() + 1;
+  if (colour) text = "\033[31m" + text.substr(0, name) + "\033[0m" + text.substr(name);
+  to_stderr(text);
 }
 
 std::string in_words(const std::filesystem::filesystem_error& error) {
@@ -119,8 +137,16 @@ void complain_without_memory(const char* sentence) {
 std::string ask(const std::string& prompt) {
   to_stderr(plain_text(prompt));
   std::size_t end = 0;
+  const auto arrives = [] {
+    try {
+      return await_input(read_ahead);
+    } catch (const Interrupted&) {
+      to_stderr("\n");  // ends the line of the question, as below
+      throw;
+    }
+  };
   while ((end = read_ahead.find('\n')) == std::string::npos)
-    if (!await_input(read_ahead)) {
+    if (!arrives()) {
       if (read_ahead.empty()) {
         to_stderr("\n");  // ends the line of the question, which is on the screen already
         throw Error("the input ended where an answer was expected", {Help::answer_at_terminal});

@@ -16,6 +16,8 @@ std::string mm(double length_m) { return fmt::format("{:.0f} mm", 1000 * length_
 
 /// The digits of a whole number of millimetres, without one of them, or with two neighbours exchanged.
 bool is_slip_of_digits(double read_m, double expected_m, double allowed_m) {
+  constexpr double kMost_m = 1000;  // with a digit more than any gap
+  if (read_m > kMost_m) return false;
   const std::string typed = fmt::format("{:.0f}", 1000 * read_m);
   const auto fits = [&](const std::string& digits) {
     return !digits.empty() && std::abs(std::stod(digits) / 1000 - expected_m) <= allowed_m;
@@ -33,33 +35,46 @@ bool is_slip_of_digits(double read_m, double expected_m, double allowed_m) {
   return false;
 }
 
+bool is_possible(double read_m, const ExpectedGap& expected) {
+  constexpr double kLeast = 0.8, kMost = 1.25;  // of the nominal diameter
+  return read_m >= kLeast * expected.nominal_m && read_m <= kMost * expected.nominal_m;
+}
+
+std::string facts_of(double read_m, const ExpectedGap& expected) {
+  if (expected.read_before)
+    return fmt::format("{} was read, where {} would be right by the reading before", mm(read_m),
+                       mm(expected.gap_m));
+  return fmt::format("{} was read, and by its wheels the robot has backed off by {}", mm(read_m),
+                     mm(expected.gap_m));
+}
+
 }  // namespace
 
-std::optional<GapDoubt> doubt_about_gap(double read_m, double expected_m, double known, double axle_m,
+std::optional<GapDoubt> doubt_about_gap(double read_m, const ExpectedGap& expected, double axle_m,
                                         double length_m) {
-  const double allowed_m = 0.005 + 3 * known * expected_m;
-  const auto fits = [&](double gap_m) { return std::abs(gap_m - expected_m) <= allowed_m; };
-  if (fits(read_m)) return std::nullopt;
-  const std::string facts = fmt::format("{} was read, and by its wheels the robot has backed off by {}",
-                                        mm(read_m), mm(expected_m));
+  const double allowed_m = 0.005 + 3 * expected.known * expected.gap_m;
+  const auto fits = [&](double gap_m) { return std::abs(gap_m - expected.gap_m) <= allowed_m; };
+  const bool possible = is_possible(read_m, expected);
+  if (possible && fits(read_m)) return std::nullopt;
+  const std::string facts = facts_of(read_m, expected);
+  const auto doubt = [&](Mistake mistake, const std::string& explanation) {
+    return GapDoubt{mistake, read_m, possible, facts + explanation};
+  };
   for (const double times : {10.0, 100.0, 1000.0}) {
     for (const double factor : {times, 1 / times})
       if (fits(read_m * factor))
-        return GapDoubt{Mistake::other_unit,
-                        facts + fmt::format("; {} would fit, in another unit", mm(read_m * factor))};
+        return doubt(Mistake::other_unit,
+                     fmt::format("; {} would fit, in another unit", mm(read_m * factor)));
   }
   constexpr double kPlace_m = 0.01;  // how well somebody hits a middle or a rear that is not marked
-  const double more_m = read_m - expected_m;
+  const double more_m = read_m - expected.gap_m;
   if (std::abs(more_m - axle_m) <= allowed_m + kPlace_m)
-    return GapDoubt{Mistake::to_the_axle,
-                    facts + "; it would fit if it was measured to the axle, not to the front"};
+    return doubt(Mistake::to_the_axle, "; it would fit if it was measured to the axle, not to the front");
   if (std::abs(more_m - length_m) <= allowed_m + kPlace_m)
-    return GapDoubt{Mistake::to_the_rear,
-                    facts + "; it would fit if it was measured to the rear, not to the front"};
-  if (is_slip_of_digits(read_m, expected_m, allowed_m))
-    return GapDoubt{Mistake::digit_dropped,
-                    facts + "; a missing digit or two that are exchanged would explain it"};
-  return GapDoubt{Mistake::unknown, facts};
+    return doubt(Mistake::to_the_rear, "; it would fit if it was measured to the rear, not to the front");
+  if (is_slip_of_digits(read_m, expected.gap_m, allowed_m))
+    return doubt(Mistake::digit_dropped, "; a missing digit or two that are exchanged would explain it");
+  return doubt(Mistake::unknown, "");
 }
 
 }  // namespace astro::calibration

@@ -6,6 +6,14 @@
 /// Whether a gap that somebody read can be right, and which mistake would explain it.
 namespace astro::calibration {
 
+/// What a gap is expected to be.
+struct ExpectedGap {
+  double gap_m = 0;          // by the wheels, with all that is known of them
+  double known = 0.01;       // relative standard error of that: 1 % if nobody has read a gap before
+  double nominal_m = 0;      // by wheels of their nominal diameter
+  bool read_before = false;  // what is known of them comes from an earlier reading
+};
+
 struct GapDoubt {
   enum class Mistake {
     unknown,
@@ -15,12 +23,15 @@ struct GapDoubt {
     digit_dropped,  // a digit is missing or exchanged
   };
   Mistake mistake = Mistake::unknown;
-  std::string why;  // one clause: what was read, what is expected, and what would explain it
+  double read_m = 0;
+  /// Wheels whose diameter is wrong by more than a fifth are no matter of a calibration: such a gap is a mistake, whatever its reader says.
+  bool possible = true;
+  std::string
+      why;  // a sentence without its full stop: what was read, what is expected, and what would explain it
 };
 
-/// A gap is expected to be `expected_m`, within `known` of it (1 % if the scale of the robot is not known, its standard error if it
-/// is) and 5 mm. `axle_m`: from the front to the axle; `length_m`: of the robot.
-std::optional<GapDoubt> doubt_about_gap(double read_m, double expected_m, double known, double axle_m,
+/// A gap is expected within 5 mm and three standard errors. `axle_m`: from the front to the axle; `length_m`: of the robot.
+std::optional<GapDoubt> doubt_about_gap(double read_m, const ExpectedGap& expected, double axle_m,
                                         double length_m);
 
 }  // namespace astro::calibration

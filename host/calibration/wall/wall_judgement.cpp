@@ -39,6 +39,9 @@ void add_gaps(const WallDrive& drive, const WallEstimate& found, const WheelFact
                                  std::pow(found.noise.contact_m, 2);
       const double loaded_m = reading.gap_m - (loaded.c_r + loaded.c_l) / 2 * driven_m;
       const double found_m = reading.gap_m - scale->scale * driven_m;
+      const bool left_out =
+          found.scale->left_out > 0 && std::abs(found_m) > WallScale::kContradictory * std::sqrt(variance_m2);
+      if (left_out) continue;
       gains.push_back((loaded_m * loaded_m - found_m * found_m) / variance_m2);
     }
   }
@@ -70,6 +73,9 @@ WallJudgement judge_wall(const WallDrive& drive, const WallEstimate& found, cons
   judgement.found_rad = std::sqrt(judgement.found_rad / count);
   add_gaps(drive, found, loaded, gains);
   judgement.verdict = judge_gains(gains);
+  judgement.readings_contradict = found.scale && found.scale->contradictory();
+  if (judgement.readings_contradict && judgement.verdict == Verdict::better)
+    judgement.verdict = Verdict::undecided;
   return judgement;
 }
 
@@ -78,11 +84,13 @@ std::string WallJudgement::sentence() const {
   const char* what = verdict == Verdict::better  ? "Better"
                      : verdict == Verdict::worse ? "Worse"
                                                  : "Not shown to be better";
+  const char* scale = readings_contradict
+                          ? " But the readings of the ruler contradict each other, so the scale is not known."
+                          : "";
   return fmt::format(
       "{}: on {} of {} ways that they had not seen the new factors fit better, and the heading at their ends "
-      "is off by {:.0f} "
-      "mrad instead of {:.0f} mrad.",
-      what, better_on, stretches, 1000 * found_rad, 1000 * loaded_rad);
+      "is off by {:.0f} mrad instead of {:.0f} mrad.{}",
+      what, better_on, stretches, 1000 * found_rad, 1000 * loaded_rad, scale);
 }
 
 }  // namespace astro::calibration

@@ -12,8 +12,10 @@ namespace astro::calibration {
 struct WallJudgement {
   int stretches = 0, better_on = 0;
   double loaded_rad = 0,
-         found_rad = 0;                // root mean square error of the headings at the ends of the stretches
-  Verdict verdict = Verdict::unknown;  // of stretches and gaps
+         found_rad = 0;  // root mean square error of the headings at the ends of the stretches
+  Verdict verdict =
+      Verdict::unknown;  // of stretches and gaps; never better if readings contradict each other
+  bool readings_contradict = false;
 
   /// "Better: on 12 of 14 ways that they had not seen ... the heading at their ends is off by 24 mrad instead of 98 mrad."
   std::string sentence() const;

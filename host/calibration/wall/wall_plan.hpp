@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "host/calibration/wall/wall_estimate.hpp"
@@ -49,6 +50,7 @@ struct WallCourse {
 /// two at a time, one way round and then the other, until E_d is known; turns on the spot if b is not known by then. Of both as many as the targets need by
 /// the estimator's own covariance, but at most kMostMoves: `expected` then says what is reached.
 inline constexpr int kMostMoves = 200;
+inline constexpr std::size_t kFirstMoves = 5;  // before the gaps
 WallCourse plan_course(const WallWishes& wishes, const WheelFactors& loaded);
 
 /// The move of laps number `index` from 0 of a course: every other one is clockwise.

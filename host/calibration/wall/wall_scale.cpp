@@ -2,6 +2,10 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "host/calibration/motion/arc.hpp"
@@ -35,6 +39,63 @@ std::vector<Backing> backings_of(const WallDrive& drive, const WheelFactors& fac
   return backings;
 }
 
+struct Line {
+  double scale = 1, se = 0, chi_square = 0;
+};
+
+/// gap = scale * driven by generalised least squares.
+Line fitted(const std::vector<Backing>& backings, double contact_m) {
+  const auto count = static_cast<Eigen::Index>(backings.size());
+  Eigen::VectorXd driven_m(count), gap_m(count);
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Constant(count, count, contact_m * contact_m);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Backing& backing = backings[static_cast<std::size_t>(i)];
+    driven_m[i] = backing.driven_m;
+    gap_m[i] = backing.gap_m;
+    covariance(i, i) += backing.variance_m2;
+  }
+  const Eigen::LLT<Eigen::MatrixXd> llt(covariance);
+  const Eigen::VectorXd weighted = llt.solve(driven_m);
+  const double information = weighted.dot(driven_m), scale = weighted.dot(gap_m) / information;
+  const Eigen::VectorXd residual = gap_m - scale * driven_m;
+  return {scale, 1 / std::sqrt(information), residual.dot(llt.solve(residual))};
+}
+
+double scatter_of(const std::vector<Backing>& backings, const Line& line) {
+  if (backings.size() < 2) return 1;
+  return std::max(1.0, std::sqrt(line.chi_square / static_cast<double>(backings.size() - 1)));
+}
+
+/// All but the reading that fits the others worst.
+std::vector<Backing> without_worst(const std::vector<Backing>& backings, double contact_m) {
+  std::vector<Backing> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < backings.size(); ++i) {
+    std::vector<Backing> others = backings;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    const double chi_square = fitted(others, contact_m).chi_square;
+    if (chi_square >= least) continue;
+    least = chi_square;
+    best = std::move(others);
+  }
+  return best;
+}
+
+/// The readings without those that contradict them, if most agree; otherwise all.
+std::vector<Backing> agreeing(const std::vector<Backing>& all, double contact_m) {
+  constexpr double kLimit = WallScale::kContradictory * WallScale::kContradictory;
+  std::vector<Backing> kept = all;
+  while (true) {
+    const Line line = fitted(kept, contact_m);
+    std::vector<Backing> others = without_worst(kept, contact_m);
+    const bool most = 2 * others.size() > all.size();
+    if (most && line.chi_square - fitted(others, contact_m).chi_square >= kLimit)
+      kept = std::move(others);
+    else
+      return scatter_of(kept, line) > WallScale::kContradictory ? all : kept;
+  }
+}
+
 }  // namespace
 
 double backed_off_m(const WheelTravel& since_squaring, const WheelFactors& factors) {
@@ -44,21 +105,13 @@ double backed_off_m(const WheelTravel& since_squaring, const WheelFactors& facto
 
 std::optional<WallScale> scale_of_gaps(const WallDrive& drive, const WheelFactors& factors,
                                        const WallNoise& noise) {
-  const std::vector<Backing> backings = backings_of(drive, without_scale(factors), noise);
-  if (backings.empty()) return std::nullopt;
-  const auto count = static_cast<Eigen::Index>(backings.size());
-  Eigen::VectorXd driven_m(count), gap_m(count);
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Constant(count, count, noise.contact_m * noise.contact_m);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Backing& backing = backings[static_cast<std::size_t>(i)];
-    driven_m[i] = backing.driven_m;
-    gap_m[i] = backing.gap_m;
-    covariance(i, i) += backing.variance_m2;
-  }
-  const Eigen::LLT<Eigen::MatrixXd> llt(covariance);
-  const Eigen::VectorXd weighted = llt.solve(driven_m);
-  const double information = weighted.dot(driven_m);
-  return WallScale{weighted.dot(gap_m) / information, 1 / std::sqrt(information), static_cast<int>(count)};
+  const std::vector<Backing> all = backings_of(drive, without_scale(factors), noise);
+  if (all.empty()) return std::nullopt;
+  const std::vector<Backing> kept = agreeing(all, noise.contact_m);
+  const Line line = fitted(kept, noise.contact_m);
+  const double scatter = scatter_of(kept, line);
+  return WallScale{line.scale, scatter * line.se, static_cast<int>(kept.size()),
+                   static_cast<int>(all.size() - kept.size()), scatter};
 }
 
 }  // namespace astro::calibration

@@ -14,11 +14,19 @@ double backed_off_m(const WheelTravel& since_squaring, const WheelFactors& facto
 
 struct WallScale {
   double scale = 1, se = 0;  // absolute: (c_R + c_L) / 2
-  int readings = 0;
+  int readings = 0;          // that it is from
+  int left_out = 0;          // readings that the others contradict
+  /// How much more the readings scatter than their errors say, 1 or more; `se` has it (Birge's ratio).
+  double scatter = 1;
+
+  /// The readings contradict each other, and nothing shows which of them is wrong.
+  bool contradictory() const { return scatter > kContradictory; }
+  static constexpr double kContradictory = 4;
 };
 
 /// `factors`: E_d and b / S of the robot; its own scale does not count. Nothing without a reading. The standard error has slip, the readings' own error,
-/// and that of the contact, which all readings share and which only another distance tells apart from the scale.
+/// and that of the contact, which all readings share and which only another distance tells apart from the scale. Readings that are four standard
+/// errors from what the others say are left out, if most agree.
 std::optional<WallScale> scale_of_gaps(const WallDrive& drive, const WheelFactors& factors,
                                        const WallNoise& noise);
 

@@ -176,6 +176,9 @@ constexpr Sentence kSentences[] = {
      "; measure one, best from the centre of one floor tag to that of another three metres away, and give it "
      "with "
      "--tape"},
+    {Help::measure_figure_again, ": measure it again, or leave {} out"},
+    {Help::correct_tape, ": correct --tape {}=..., or leave it out"},
+    {Help::give_tag_height, ": measure it and give it with --tag-height"},
     {Help::name_wheel_columns,
      ": describe the columns with --wheel-columns, such as time_s,left_counts,right_counts (also ..._rad, "
      "..._m; "
@@ -264,6 +267,8 @@ constexpr Sentence kSentences[] = {
      ": see that the wall is straight and firm, the front of the robot flat, and the floor free and clean"},
     {Help::face_wall_and_resume,
      ": put it in front of the wall, facing it, with nothing in its way; the same command goes on"},
+    {Help::read_calibration_of_wall, ": what came out of it is in '{}'"},
+    {Help::load_later, "; 'astrolabe upload {}' loads it later"},
     {Help::drop_precision_or_method, ": leave out --until or --method {}"},
     {Help::stop_simulator_or_choose_other_path, ": stop it or choose another --pty"},
     {Help::choose_other_path, ": choose another path for --pty"},

@@ -26,10 +26,25 @@ constexpr const char* kDrawing = R"(
                +-----+      enough
 )";
 
+/// With what the robot may go further as its wheels are larger than it believes.
 double depth_m(const experiment::WallPlan& plan) {
+  constexpr double kFurther = 1.05;
   const experiment::BodySize& body = plan.body;
   const double turning_m = 2 * (body.turning_gap_m() + body.front_to_axle_m);
-  return std::max(plan.line_m + turning_m, plan.readings > 0 ? plan.gap_m + body.length_m : 0.0);
+  return kFurther * std::max(plan.line_m + turning_m, plan.readings > 0 ? plan.gap_m + body.length_m : 0.0);
+}
+
+std::string scale_text(const std::optional<calibration::WallScale>& scale) {
+  if (!scale) return "S is as loaded: nobody read a ruler.";
+  if (scale->readings == 1) return "S is from one reading of the ruler, which nothing else checks.";
+  std::string text = fmt::format("S is from {} readings of the ruler.", scale->readings);
+  if (scale->left_out > 0)
+    text += fmt::format(" {} that these contradict {} left out.", scale->left_out,
+                        scale->left_out == 1 ? "was" : "were");
+  if (scale->contradictory())
+    text += fmt::format(" They contradict each other: they scatter {:.0f} times as much as they should.",
+                        scale->scatter);
+  return text;
 }
 
 std::string percent(double ratio) { return fmt::format("{:.3f} %", 100 * ratio); }
@@ -38,31 +53,42 @@ std::string in_minutes(double minutes) {
   return minutes <= 1 ? "a minute" : fmt::format("{:.0f} minutes", std::ceil(minutes));
 }
 
-std::string ruler_text(const experiment::WallPlan& plan) {
-  if (plan.readings == 0) return "Without a ruler the scale of the wheels stays as it is.";
-  const char* times = plan.readings == 1 ? "once" : plan.readings == 2 ? "twice" : nullptr;
-  return fmt::format("It asks {} for the gap between the wall and its front, of about {:g} m.",
-                     times != nullptr ? times : fmt::format("{} times", plan.readings), plan.gap_m);
+std::string ruler_text(const experiment::WallPlan& plan, int readings) {
+  if (plan.readings == 0) return "Without a ruler the scale of the wheels stays as it is. ";
+  if (readings == 0) return "";
+  const char* times = readings == 1 ? "once" : readings == 2 ? "twice" : nullptr;
+  return fmt::format("It asks {} for the gap between the wall and its front, of about {:g} m. ",
+                     times != nullptr ? times : fmt::format("{} times", readings), plan.gap_m);
 }
 
 }  // namespace
 
 std::string wall_briefing(const experiment::WallPlan& plan, const calibration::WallCourse& course,
-                          double driven_s) {
+                          int readings, double driven_s) {
   const double minutes = std::min(plan.most_minutes, course.time_s / 60) - driven_s / 60;
   const std::string text = fmt::format(
       "The robot squares itself against a straight, firm wall, with a push of at most {:g} N; backs off, "
       "drives laps, and comes back, again "
       "and again. It needs {:.1f} m of free, clean floor in front of the wall and a metre to each side, and "
-      "about {}. {} "
+      "about {}. {}"
       "Nobody may touch it while it drives; Ctrl-C stops it, and the same command goes on.",
-      plan.push.force_N, depth_m(plan), in_minutes(minutes), ruler_text(plan));
+      plan.push.force_N, depth_m(plan), in_minutes(minutes), ruler_text(plan, readings));
   return wrapped(text) + kDrawing;
 }
 
 void ask_facing_wall(const AskLine& ask) {
   press_enter(ask, "Put the robot in front of the wall, facing it, step aside and press Enter ");
 }
+
+namespace {
+
+constexpr const char* kNoLength = "'{}' is not a length in a known unit; write it with a decimal point.\n{}";
+constexpr double kLongest_m =
+    1e5;  // 100 m in millimetres, taken for metres: the doubt about it names the unit
+
+bool is_length(const std::optional<double>& gap_m) { return gap_m && *gap_m > 0 && *gap_m < kLongest_m; }
+
+}  // namespace
 
 std::optional<double> ask_gap(const AskLine& ask, double expected_m, truth::LengthUnit unit) {
   const std::string question = fmt::format(
@@ -74,18 +100,26 @@ std::optional<double> ask_gap(const AskLine& ask, double expected_m, truth::Leng
   while (true) {
     const std::string line = ask(prompt), answer(trimmed(line));
     if (answer == "none") return std::nullopt;
-    const auto gap_m = truth::length_m_in(answer, unit);
-    if (gap_m && *gap_m > 0) return gap_m;
-    prompt = fmt::format("'{}' is not a length in a known unit; write it with a decimal point.\n{}", answer,
-                         question);
+    if (const auto gap_m = truth::length_m_in(answer, unit); is_length(gap_m)) return gap_m;
+    prompt = fmt::format(kNoLength, answer, question);
   }
 }
 
-bool ask_gap_is_right(const AskLine& ask, const calibration::GapDoubt& doubt) {
-  const std::string prompt = wrapped(doubt.why + '.') + "  yes: it is right; Enter: enter it again: ";
-  const std::string answer =
-      enter_or(ask, prompt, [](const std::string& word) { return word == "y" || word == "yes"; });
-  return !answer.empty();
+std::optional<double> ask_gap_again(const AskLine& ask, const calibration::GapDoubt& doubt,
+                                    truth::LengthUnit unit) {
+  const std::string why = doubt.why + (doubt.possible ? "." : ". No wheel is that far off its diameter.");
+  const std::string question =
+      wrapped(why) +
+      fmt::format("  Read it again, {}{}: ", truth::name_of(unit),
+                  doubt.possible ? " ('yes': it is right; 'none': not measured)" : " ('none': not measured)");
+  std::string prompt = question;
+  while (true) {
+    const std::string line = ask(prompt), answer(trimmed(line));
+    if (answer == "none") return std::nullopt;
+    if (doubt.possible && (answer == "y" || answer == "yes")) return doubt.read_m;
+    if (const auto gap_m = truth::length_m_in(answer, unit); is_length(gap_m)) return gap_m;
+    prompt = fmt::format(kNoLength, answer, question);
+  }
 }
 
 std::string title_of(const calibration::WallMove& move) {
@@ -110,7 +144,7 @@ std::string wall_result_text(const experiment::WallResult& result) {
   const calibration::WheelFactors& factors = found.factors;
   const auto deviation = [&](int index) { return std::sqrt(found.covariance(index, index)); };
   std::vector<std::vector<std::string>> rows{
-      {"", "", "standard error"},
+      {"", "", "± of it"},
       {"c_R", with_error(factors.c_r, deviation(0), 8), percent(deviation(0) / factors.c_r)},
       {"c_L", with_error(factors.c_l, deviation(1), 8), percent(deviation(1) / factors.c_l)},
       {"b mm", with_error(1000 * factors.b_m, 1000 * deviation(2), 4), percent(deviation(2) / factors.b_m)},
@@ -119,23 +153,20 @@ std::string wall_result_text(const experiment::WallResult& result) {
        percent(found.se.b)}};
   if (found.scale)
     rows.push_back({"S", with_error(found.scale->scale, found.scale->se, 8), percent(found.scale->se)});
-  const std::string scale = found.scale
-                                ? fmt::format("S is from {} reading{} of the ruler.", found.scale->readings,
-                                              found.scale->readings == 1 ? "" : "s")
-                                : std::string("S is as loaded: nobody read a ruler.");
   const std::string driven = fmt::format(
       "{} ways between {} squarings, {:.1f} minutes of driving. A squaring is off by {:.1f} mrad; the wheels "
       "slip by {:.1f} mm on a metre. {} e is as loaded: "
       "laps do not show it.",
       found.stretches.size(), found.stretches.size() + result.journal.drive.size(),
       result.journal.driven_s / 60, 1000 * found.noise.squaring_rad, 1000 * std::sqrt(found.noise.K_m),
-      scale);
+      scale_text(found.scale));
   std::string text = console::table(rows) + '\n' + wrapped(driven);
   if (!result.reached)
-    text += wrapped(fmt::format(
-        "The wanted precision (E_d {}, b {}) was not reached in {:g} minutes; more time would help.",
-        percent(result.journal.plan.targets.E_d), percent(result.journal.plan.targets.b),
-        result.journal.plan.most_minutes));
+    text +=
+        wrapped(fmt::format("The wanted precision (E_d {}, b {}) was not reached in {:g} minutes; more of "
+                            "them, with --minutes and another --out, would help.",
+                            percent(result.journal.plan.targets.E_d), percent(result.journal.plan.targets.b),
+                            result.journal.plan.most_minutes));
   return text;
 }
 

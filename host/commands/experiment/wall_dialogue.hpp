@@ -12,10 +12,10 @@
 /// What a person with a wall and a ruler is told and asked.
 namespace astro::commands {
 
-/// Before the first move: what the robot will do, for how long, how much floor it needs, and where to put robot and ruler. `driven_s`: of an
-/// earlier start of the same calibration. Lines of at most 80 columns.
+/// Before the first move: what the robot will do, for how long, how much floor it needs, and where to put robot and ruler. `readings`: how many gaps are still to be
+/// read; `driven_s`: of an earlier start of the same calibration. Lines of at most 80 columns.
 std::string wall_briefing(const experiment::WallPlan& plan, const calibration::WallCourse& course,
-                          double driven_s);
+                          int readings, double driven_s);
 
 /// Waits for Enter alone: the robot faces the wall.
 void ask_facing_wall(const AskLine& ask);
@@ -23,8 +23,9 @@ void ask_facing_wall(const AskLine& ask);
 /// The gap between wall and front, in m; "none" if it was not measured. Asks until it is one of both.
 std::optional<double> ask_gap(const AskLine& ask, double expected_m, truth::LengthUnit unit);
 
-/// Whether a gap that looks wrong is right; only "y" and "yes" say so.
-bool ask_gap_is_right(const AskLine& ask, const calibration::GapDoubt& doubt);
+/// The gap once more, after a doubt: a length, or "yes" that what was read is right, if it is possible.
+std::optional<double> ask_gap_again(const AskLine& ask, const calibration::GapDoubt& doubt,
+                                    truth::LengthUnit unit);
 
 /// "2 laps counter-clockwise", for a progress bar.
 std::string title_of(const calibration::WallMove& move);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "host/base/interrupted.hpp"
 #include "host/base/text/columns.hpp"
 #include "host/calibration/wall/wall_judgement.hpp"
 #include "host/commands/base/remedies.hpp"
@@ -18,6 +19,7 @@
 #include "host/experiment/analysis/judgement_sentences.hpp"
 #include "host/experiment/wall/wall_calibration.hpp"
 #include "host/experiment/wall/wall_experiment.hpp"
+#include "host/experiment/wall/wall_programme.hpp"
 
 namespace astro::commands {
 namespace {
@@ -38,7 +40,9 @@ WallHooks hooks_for(truth::LengthUnit unit, console::Progress& progress) {
   };
   hooks.placed = [ask] { ask_facing_wall(ask); };
   hooks.read_gap = [ask, unit](double expected_m) { return ask_gap(ask, expected_m, unit); };
-  hooks.is_right = [ask](const calibration::GapDoubt& doubt) { return ask_gap_is_right(ask, doubt); };
+  hooks.read_again = [ask, unit](const calibration::GapDoubt& doubt) {
+    return ask_gap_again(ask, doubt, unit);
+  };
   hooks.move_started = [&progress](const calibration::WallMove& move, int number, int total) {
     progress.show(static_cast<double>(number - 1) / total,
                   fmt::format("{} of about {}: {}", number, total, title_of(move)));
@@ -47,22 +51,40 @@ WallHooks hooks_for(truth::LengthUnit unit, console::Progress& progress) {
 }
 
 /// False if the factors are not loaded because the ways speak against it, which is an answer and no error.
-bool load(robot::Client& client, const experiment::ParameterFile& file, const WallSettings& settings) {
+bool load(robot::Client& client, const experiment::ParameterFile& file, const std::filesystem::path& path,
+          const WallSettings& settings) {
   const bool nobody_to_ask = settings.yes || !console::stdin_is_terminal();
   if (experiment::advises_against(file.verdict) && nobody_to_ask && !settings.force) return false;
   const LoadResult loaded =
       load_parameters(client, robot::RemoteParameters::fetch(client), file, {settings.yes, settings.force});
+  if (loaded.declined) throw Error("nothing was changed", {Help::load_later, path.string()});
   if (loaded.report && loaded.report->active != robot::ActiveSet::new_set)
     throw Error(loaded.report->remark());
   if (loaded.report) console::say(in_words(loaded.report->remark()));
   return true;
 }
 
-void brief(const experiment::WallPlan& plan, robot::Client& client, const WallSettings& settings) {
+/// Says what the robot will do, and returns how many gaps somebody has to read.
+int brief(const experiment::WallPlan& plan, robot::Client& client, const WallSettings& settings) {
   const experiment::WallRobot robot = experiment::wall_robot_of(robot::RemoteParameters::fetch(client));
   const auto journal = experiment::read_wall_journal(settings.out);
+  if (journal) {
+    const auto estimate = calibration::estimate_wall(journal->drive, journal->loaded);
+    if (!experiment::next_move(*journal, estimate, robot)) return 0;
+  }
+  const int readings = journal ? experiment::gaps_left(*journal) : plan.readings;
   const auto course = calibration::plan_course(experiment::wishes_of(plan, robot), robot.loaded);
-  console::say(wall_briefing(plan, course, journal ? journal->driven_s : 0));
+  console::say(wall_briefing(plan, course, readings, journal ? journal->driven_s : 0));
+  return readings;
+}
+
+WallResult drive(robot::Client& client, const experiment::WallPlan& plan, const WallSettings& settings,
+                 const WallHooks& hooks) {
+  try {
+    return experiment::run_wall_experiment(client, plan, settings.out, hooks);
+  } catch (const Interrupted&) {
+    throw Interrupted("interrupted; the same command goes on with what was driven");
+  }
 }
 
 }  // namespace
@@ -87,13 +109,12 @@ void add_wall_options(console::Command command, WallOptions& options) {
 void run_wall(ConnectionOptions& connection, const experiment::WallPlan& plan, const WallSettings& settings) {
   plan.check();
   const auto client = connect(connection);
-  brief(plan, *client, settings);
-  const truth::LengthUnit unit = settings.unit       ? *settings.unit
-                                 : plan.readings > 0 ? ask_length_unit(console::ask)
-                                                     : truth::LengthUnit::mm;
+  const int readings = brief(plan, *client, settings);
+  const truth::LengthUnit unit = settings.unit  ? *settings.unit
+                                 : readings > 0 ? ask_length_unit(console::ask)
+                                                : truth::LengthUnit::mm;
   console::Progress progress("driving");
-  const WallResult result =
-      experiment::run_wall_experiment(*client, plan, settings.out, hooks_for(unit, progress));
+  const WallResult result = drive(*client, plan, settings, hooks_for(unit, progress));
   progress.clear();
   const auto judgement =
       calibration::judge_wall(result.journal.drive, result.estimate, result.journal.loaded);
@@ -108,7 +129,7 @@ void run_wall(ConnectionOptions& connection, const experiment::WallPlan& plan, c
     write(wall_result_text(result) + wrapped(judgement.sentence()));
     print("Calibration: " + path.string());
   }
-  if (load(*client, file, settings)) return;
+  if (load(*client, file, path, settings)) return;
   console::say(wrapped("It was not loaded; --force loads it all the same."));
   console::answer_no();
 }

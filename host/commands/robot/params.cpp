@@ -154,6 +154,7 @@ experiment::ParameterFile importable(const ParamsOptions& options) {
 
 void import_from_file(robot::Client& client, const ParamsOptions& options, const RemoteParameters& robot) {
   const LoadResult loaded = load_parameters(client, robot, importable(options), {options.yes, options.force});
+  if (loaded.declined) throw Error("nothing was changed");
   if (loaded.report && loaded.report->active != robot::ActiveSet::new_set)
     throw Error(loaded.report->remark());
   if (loaded.report) console::say(in_words(loaded.report->remark()));

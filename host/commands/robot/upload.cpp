@@ -43,6 +43,7 @@ void run(UploadOptions& options) {
   const auto client = connect(options.connection);
   const robot::RemoteParameters robot = robot::RemoteParameters::fetch(*client);
   const LoadResult loaded = load_parameters(*client, robot, file, {options.yes, options.force});
+  if (loaded.declined) throw Error("nothing was changed");
   const robot::UploadReport report =
       loaded.report.value_or(robot::UploadReport{robot::ActiveSet::new_set, false, {}});
   if (loaded.report || options.json) print_report(report, options.json);

@@ -67,8 +67,11 @@ LoadResult load_parameters(robot::Client& client, const robot::RemoteParameters&
     console::say(note);
   const bool advised_against = experiment::advises_against(file.verdict);
   if (advised_against) console::say("warning: " + file.verdict_sentence);
-  if (!agreed_to_load(file.verdict, options))
-    throw Error("nothing was changed", {advised_against ? Help::override_advice : Help::none});
+  if (!agreed_to_load(file.verdict, options)) {
+    if (advised_against) throw Error("nothing was changed", {Help::override_advice});
+    loaded.declined = true;
+    return loaded;
+  }
   loaded.report = robot::upload(client, values);
   return loaded;
 }

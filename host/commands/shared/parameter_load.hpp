@@ -19,13 +19,14 @@ bool agreed_to_load(calibration::Verdict verdict, const LoadOptions& options);
 
 struct LoadResult {
   std::vector<experiment::Change> changes;    // empty: the robot held these values already
-  std::optional<robot::UploadReport> report;  // none without changes
+  std::optional<robot::UploadReport> report;  // none without changes, and if a person declined
+  bool declined = false;
 };
 
 /// Loads the parameters of a file (a calibration or a robot's whole table) into the robot; the only function
 /// that does so. Shows old and new values side by side, refuses what experiment::objections name, or warns of each with
 /// `force`, warns about values far from the present ones, asks as agreed_to_load does, and uploads. Throws astro::Error if
-/// nothing was loaded.
+/// nothing was loaded, unless a person who was asked declined.
 LoadResult load_parameters(robot::Client& client, const robot::RemoteParameters& robot,
                            const experiment::ParameterFile& file, const LoadOptions& options);
 

@@ -17,6 +17,10 @@ constexpr int kFormat = 2;  // 1 meant end poses by "auto"
 std::filesystem::path file_in(const std::filesystem::path& folder) { return folder / "experiment.json"; }
 
 [[noreturn]] void fail_no_experiment(const std::filesystem::path& folder) {
+  if (std::filesystem::exists(folder / "wall.json"))
+    throw Error(fmt::format("'{}' holds a calibration against a wall, which has no runs to report on",
+                            folder.string()),
+                {Help::read_calibration_of_wall, (folder / "calib.toml").string()});
   const std::string why = !std::filesystem::exists(folder) ? "does not exist"
                           : !std::filesystem::is_directory(folder)
                               ? "is a file"

@@ -6,7 +6,9 @@
 #include <chrono>
 #include <cmath>
 #include <string>
+#include <utility>
 
+#include "host/base/text/degrees.hpp"
 #include "host/experiment/wall/stall_clock.hpp"
 
 namespace astro::experiment {
@@ -22,7 +24,9 @@ constexpr double kStarted_m = 0.001;   // a wheel that has rolled so far turns
 constexpr double kSettled_s = 0.15;    // both wheels stand under the full push for so long
 constexpr double kSame_m = 0.0005;     // two pushes that end so close ended at the same place
 constexpr int kMostPushes = 20;
-constexpr double kPushing_s = 30;  // besides the way there
+constexpr double kBackwards_m = 0.005;  // more than play, or a rotor that settles
+constexpr double kMostTurn_rad = 0.5;   // a robot that faces the wall by eye turns less
+constexpr double kPushing_s = 30;       // besides the way there
 constexpr double kSpeedGain_Vspm = 10, kIntegral_Vpm = 150;
 constexpr double kIntegralAtWall_Vpm = 500;  // there is nothing to overshoot, and time is short
 
@@ -140,6 +144,21 @@ class Square {
         {Help::face_wall_and_resume});
   }
 
+  /// With a motor or an encoder that is reversed the regulator drives its wheel away from what it wants, ever faster.
+  void require_sense() {
+    const calibration::WheelTravel since = watch_.travel() - start_;
+    touched_ = touched_ || stall_.longest_s() >= kStands_s;
+    if (!touched_ && touch_.pushes == 1)
+      for (const auto& [name, way_m] : {std::pair("left", since.left_m), std::pair("right", since.right_m)})
+        if (way_m < -kBackwards_m)
+          fail(fmt::format("by its encoder the {} wheel turns backwards on a forward voltage", name),
+               Help::check_wiring);
+    const double turned_rad = (since.right_m - since.left_m) / robot_.loaded.b_m;
+    if (std::abs(turned_rad) > kMostTurn_rad)
+      fail(fmt::format("the robot has turned by {:.0f} degrees against the wall and is not flush",
+                       degrees(std::abs(turned_rad))));
+  }
+
   void pause() {
     integral_V_ = {};
     const std::uint64_t end_us = watch_.now().time_us + static_cast<std::uint64_t>(1e6 * kPause_s);
@@ -160,6 +179,7 @@ class Square {
       const bool still =
           std::max(std::abs(watch_.now().speed_mps[0]), std::abs(watch_.now().speed_mps[1])) < kStands_mps;
       settled_s = pressed && still ? settled_s + step_s_ : 0;
+      require_sense();
       if (crept_m() > within_m) fail("no wall was touched within " + in_mm(within_m));
       if (watch_.now().time_us > end_us_)
         fail(fmt::format("the robot was not flush after {:.0f} s", time_s_));
@@ -168,9 +188,9 @@ class Square {
     return settled_s >= kSettled_s;
   }
 
-  [[noreturn]] void fail(const std::string& why) {
+  [[noreturn]] void fail(const std::string& why, Help help = Help::face_wall_and_resume) {
     pause();
-    throw NotFlush(why, {Help::face_wall_and_resume});
+    throw NotFlush(why, {help});
   }
   static std::string in_mm(double length_m) { return fmt::format("{:.0f} mm", 1000 * length_m); }
 
@@ -190,6 +210,7 @@ class Square {
   Wheels integral_V_{};
   std::array<bool, 2> rests_{};
   bool rested_ = false;  // in this push
+  bool touched_ = false;
   double time_s_ = 0;
   std::uint64_t end_us_ = 0;
   Touch touch_;

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "host/base/folder_lock.hpp"
+#include "host/experiment/wall/wall_programme.hpp"
 #include "host/robot/parameters/parameters.hpp"
 
 namespace astro::experiment {
@@ -21,6 +23,7 @@ using Kind = calibration::WallMove::Kind;
 
 constexpr double kFurthestStart_m = 0.8;
 constexpr int kDoubtsInARow = 3;
+constexpr double kFurther = 0.05;  // part by which a scale that was found changes distances
 
 class Experiment {
  public:
@@ -46,7 +49,7 @@ class Experiment {
       write_wall_journal(folder_, journal_);
       hooks_.squared(estimate_);
     }
-    return {estimate_, journal_, robot_, is_precise()};
+    return {estimate_, journal_, robot_, is_precise(estimate_, journal_.plan.targets)};
   }
 
  private:
@@ -57,31 +60,10 @@ class Experiment {
   double robot_s() const { return 1e-6 * static_cast<double>(driver_.robot_us()); }
   WallSeries& series() { return journal_.drive.back(); }
 
-  /// With so few stretches K is hardly known, and a drive that happened to slip little must not end too early: what counts are the errors for a K
-  /// that is one standard error larger.
-  bool is_precise() const {
-    const calibration::WallTargets& wanted = journal_.plan.targets;
-    const auto stretches = static_cast<double>(std::max<std::size_t>(estimate_.stretches.size(), 1));
-    const double surely = std::sqrt(1 + std::sqrt(2 / stretches));
-    return estimate_.se.E_d * surely <= wanted.E_d && estimate_.se.b * surely <= wanted.b;
-  }
-  /// The moves that are driven whatever the precision: the repetitions, the first laps and the gaps.
-  std::size_t fixed_moves() const { return 5 + static_cast<std::size_t>(journal_.plan.readings); }
   int total() const { return static_cast<int>(std::max(course_.moves.size(), journal_.moves.size() + 1)); }
 
-  std::optional<WallMove> next() const {
-    const std::size_t driven = journal_.moves.size();
-    if (driven < fixed_moves()) return course_.moves[driven];
-    if (is_precise()) return std::nullopt;
-    const calibration::WallWishes wishes = wishes_of(journal_.plan, robot_);
-    const int more = static_cast<int>(driven - fixed_moves());
-    const bool laps = estimate_.se.E_d > journal_.plan.targets.E_d;
-    WallMove move = laps ? calibration::laps_number(more, wishes) : calibration::spin_number(more, wishes);
-    for (; move.turns != 0; move.turns -= move.turns > 0 ? 1 : -1)  // fewer turns may still be in time
-      if (journal_.driven_s + calibration::time_of(move, wishes) <= 60 * journal_.plan.most_minutes)
-        return move;
-    return std::nullopt;
-  }
+  std::optional<WallMove> next() const { return next_move(journal_, estimate_, robot_); }
+  bool readings_contradict() const { return estimate_.scale && estimate_.scale->contradictory(); }
 
   void begin_series() {
     hooks_.placed();
@@ -91,9 +73,23 @@ class Experiment {
     journal_.drive.push_back({{flush}, {}});
   }
 
+  calibration::WheelFactors factors_to_drive_by() const {
+    calibration::WheelFactors factors = estimate_.factors;
+    const double loaded = (robot_.loaded.c_r + robot_.loaded.c_l) / 2,
+                 found = (factors.c_r + factors.c_l) / 2;
+    const double part = std::clamp(found / loaded, 1 - kFurther, 1 + kFurther) * loaded / found;
+    factors.c_r *= part;
+    factors.c_l *= part;
+    factors.b_m *= part;
+    return factors;
+  }
+
   void drive(const WallMove& move) {
-    const calibration::WheelFactors factors = estimate_.factors;
+    const calibration::WheelFactors factors = factors_to_drive_by();
     if (move.kind == Kind::gap) {
+      if (readings_contradict())
+        hooks_.drive.notice(
+            {"the readings of the ruler contradict each other; another one shows which is wrong"});
       driver_.drive(std::array{Leg{-move.away_m, 0}}, factors);
       read_gap();
     } else {
@@ -130,18 +126,22 @@ class Experiment {
   void read_gap() {
     const double began_s = robot_s();
     const WheelTravel travel = driver_.travel();
-    const double expected_m =
-        calibration::backed_off_m(travel - series().squarings.back(), estimate_.factors);
-    constexpr double kUnknownScale = 0.01;
-    const double known = estimate_.scale ? estimate_.scale->se : kUnknownScale;
-    while (const auto gap_m = hooks_.read_gap(expected_m)) {
-      const BodySize& body = journal_.plan.body;
-      const auto doubt =
-          calibration::doubt_about_gap(*gap_m, expected_m, known, body.front_to_axle_m, body.length_m);
-      if (doubt && !hooks_.is_right(*doubt)) continue;
-      series().readings.push_back({travel, *gap_m, series().squarings.size() - 1});
-      break;
+    const WheelTravel since = travel - series().squarings.back();
+    calibration::ExpectedGap expected;
+    expected.gap_m = calibration::backed_off_m(since, estimate_.factors);
+    expected.nominal_m = expected.gap_m * 2 / (estimate_.factors.c_r + estimate_.factors.c_l);
+    expected.read_before = estimate_.scale.has_value();
+    if (estimate_.scale) expected.known = estimate_.scale->se;
+    const BodySize& body = journal_.plan.body;
+    auto gap_m = hooks_.read_gap(expected.gap_m);
+    while (gap_m) {
+      const auto doubt = calibration::doubt_about_gap(*gap_m, expected, body.front_to_axle_m, body.length_m);
+      if (!doubt) break;
+      const auto again_m = hooks_.read_again(*doubt);
+      if (doubt->possible && again_m == gap_m) break;
+      gap_m = again_m;
     }
+    if (gap_m) series().readings.push_back({travel, *gap_m, series().squarings.size() - 1});
     waited_s_ = robot_s() - began_s;
   }
 
@@ -175,23 +175,10 @@ class Experiment {
 
 }  // namespace
 
-calibration::WallWishes wishes_of(const WallPlan& plan, const WallRobot& robot) {
-  calibration::WallWishes wishes;
-  wishes.targets = plan.targets;
-  wishes.line_m = plan.line_m;
-  wishes.turning_m = plan.body.turning_gap_m();
-  wishes.readings = plan.readings;
-  wishes.gap_m = plan.gap_m;
-  wishes.speed_mps = std::min(plan.speed_mps, robot.speed_limit_mps);
-  wishes.yaw_rate_radps = std::min(plan.yaw_rate_radps, robot.yaw_rate_limit_radps);
-  wishes.acceleration_mps2 = robot.acceleration_mps2;
-  wishes.yaw_acceleration_radps2 = robot.yaw_acceleration_radps2;
-  return wishes;
-}
-
 WallResult run_wall_experiment(robot::Client& client, const WallPlan& plan,
                                const std::filesystem::path& folder, const WallHooks& hooks) {
   plan.check();
+  const FolderLock lock(folder);  // two programs would drive into each other's series
   const WallRobot robot = wall_robot_of(robot::RemoteParameters::fetch(client));
   const double push_V = push_voltage_V(plan.push, robot);
   return Experiment(client, robot, push_V, folder,

@@ -28,14 +28,36 @@ json numbers(const WheelTravel& travel) {
   return {travel.right_m, travel.left_m, travel.right_path_m, travel.left_path_m};
 }
 
-double finite(const json& value) {
+/// What no program writes; the file was changed or damaged.
+void expect(bool holds, const char* what) {
+  if (!holds) throw Error(what);
+}
+
+double within(const json& value, double least, double most, const char* what) {
   const auto number = value.get<double>();
-  if (!std::isfinite(number)) throw Error("a number is not finite");
+  expect(number >= least && number <= most, what);
   return number;
 }
 
+double finite(const json& value) { return within(value, -1e6, 1e6, "a number is out of range"); }
+
+int whole(const json& value, int least, int most, const char* what) {
+  expect(value.is_number_integer(), what);
+  const auto number = value.get<std::int64_t>();
+  expect(number >= least && number <= most, what);
+  return static_cast<int>(number);
+}
+
 WheelTravel travel_in(const json& value) {
+  expect(value.size() == 4, "a travel has not four numbers");
   return {finite(value.at(0)), finite(value.at(1)), finite(value.at(2)), finite(value.at(3))};
+}
+
+/// Whether wheels can have rolled like this in between: paths only grow, and no travel is longer than its path.
+bool is_way(const WheelTravel& way) {
+  constexpr double kRounding_m = 1e-9;
+  return way.path_m() > 0 && std::abs(way.right_m) <= way.right_path_m + kRounding_m &&
+         std::abs(way.left_m) <= way.left_path_m + kRounding_m;
 }
 
 json object(const WallPlan& plan) {
@@ -59,7 +81,7 @@ WallPlan plan_in(const json& value) {
   WallPlan plan;
   plan.targets = {finite(value.at("E_d")), finite(value.at("b"))};
   plan.line_m = finite(value.at("line_m"));
-  plan.readings = value.at("readings").get<int>();
+  plan.readings = whole(value.at("readings"), 0, 1000, "the number of readings is out of range");
   plan.gap_m = finite(value.at("gap_m"));
   plan.speed_mps = finite(value.at("speed_mps"));
   plan.yaw_rate_radps = finite(value.at("yaw_rate_radps"));
@@ -82,12 +104,21 @@ json object(const WallSeries& series) {
 
 WallSeries series_in(const json& value) {
   WallSeries series;
-  for (const json& travel : value.at("squarings")) series.squarings.push_back(travel_in(travel));
+  for (const json& travel : value.at("squarings")) {
+    const WheelTravel squaring = travel_in(travel);
+    expect(series.squarings.empty() || is_way(squaring - series.squarings.back()),
+           "no wheels roll like that between two squarings");
+    series.squarings.push_back(squaring);
+  }
+  expect(!series.squarings.empty(), "a series has no squaring");
   for (const json& reading : value.at("readings")) {
-    series.readings.push_back({travel_in(reading.at("travel")), finite(reading.at("gap_m")),
-                               reading.at("squaring").get<std::size_t>()});
-    if (series.readings.back().squaring >= series.squarings.size())
-      throw Error("a gap belongs to no squaring");
+    const int squaring = whole(reading.at("squaring"), 0, static_cast<int>(series.squarings.size()) - 1,
+                               "a gap belongs to no squaring");
+    series.readings.push_back({travel_in(reading.at("travel")),
+                               within(reading.at("gap_m"), 1e-3, 100, "a gap is out of range"),
+                               static_cast<std::size_t>(squaring)});
+    expect(is_way(series.readings.back().travel - series.squarings[series.readings.back().squaring]),
+           "no wheels roll like that between a squaring and a gap");
   }
   return series;
 }
@@ -100,23 +131,37 @@ json object(const WallMove& move) {
 }
 
 WallMove move_in(const json& value) {
-  const int kind = value.at("kind").get<int>();
-  if (kind < 0 || kind > static_cast<int>(WallMove::Kind::spin)) throw Error("a move is of no kind");
-  return {static_cast<WallMove::Kind>(kind), finite(value.at("away_m")), value.at("turns").get<int>(),
-          finite(value.at("line_m"))};
+  const int kind = whole(value.at("kind"), 0, static_cast<int>(WallMove::Kind::spin), "a move is of no kind");
+  return {static_cast<WallMove::Kind>(kind), within(value.at("away_m"), 0, 100, "a move is too long"),
+          whole(value.at("turns"), -1000, 1000, "a move has too many turns"),
+          within(value.at("line_m"), 0, 100, "a move is too long")};
+}
+
+calibration::WheelFactors loaded_in(const json& value) {
+  const calibration::WheelFactors loaded = factors_in(value);
+  for (const double c : {loaded.c_r, loaded.c_l})
+    expect(c >= 0.5 && c <= 1.5, "a loaded wheel factor is out of range");
+  expect(loaded.b_m >= 0.01 && loaded.b_m <= 5, "the loaded wheelbase is out of range");
+  return loaded;
 }
 
 WallJournal journal_in(const json& value) {
+  constexpr double kWeek_s = 604800;
   WallJournal journal;
   journal.plan = plan_in(value.at("plan"));
   value.at("robot").at("id").get_to(journal.robot.id);
   value.at("robot").at("name").get_to(journal.robot.name);
   value.at("started_at").get_to(journal.started_at);
-  journal.count_m = finite(value.at("count_m"));
-  journal.loaded = factors_in(value.at("loaded"));
-  for (const json& series : value.at("series")) journal.drive.push_back(series_in(series));
+  journal.count_m = within(value.at("count_m"), 1e-9, 1, "the travel of a count is out of range");
+  journal.loaded = loaded_in(value.at("loaded"));
+  std::size_t stretches = 0;
+  for (const json& series : value.at("series")) {
+    journal.drive.push_back(series_in(series));
+    stretches += journal.drive.back().squarings.size() - 1;
+  }
   for (const json& move : value.at("moves")) journal.moves.push_back(move_in(move));
-  journal.driven_s = finite(value.at("driven_s"));
+  expect(stretches == journal.moves.size(), "it has not as many moves as ways between squarings");
+  journal.driven_s = within(value.at("driven_s"), 0, kWeek_s, "the time of driving is out of range");
   return journal;
 }
 
@@ -157,15 +202,17 @@ std::optional<WallJournal> read_wall_journal(const std::filesystem::path& folder
   const Bytes bytes = load_file(path, kMaxSettingsBytes);
   const std::string damaged = "'" + path.string() + "' is damaged";
   if (!json_fits_memory(as_text(bytes))) throw Error(damaged, {Help::choose_other_out_folder});
+  json value;
   try {
-    const auto value = json::parse(bytes.begin(), bytes.end());
-    if (value.at("format") != kFormat)
-      throw Error("'" + path.string() + "' was written by another version of Astrolabe",
-                  {Help::use_same_version});
-    return journal_in(value);
+    value = json::parse(bytes.begin(), bytes.end());
+    if (value.at("format") == kFormat) return journal_in(value);
   } catch (const json::exception&) {
     throw Error(damaged, {Help::choose_other_out_folder});
+  } catch (const Error& error) {
+    throw Error(damaged + " (" + error.what() + ")", {Help::choose_other_out_folder});
   }
+  throw Error("'" + path.string() + "' was written by another version of Astrolabe",
+              {Help::use_same_version});
 }
 
 void write_wall_journal(const std::filesystem::path& folder, const WallJournal& journal) {

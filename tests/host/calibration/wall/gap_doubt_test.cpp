@@ -9,8 +9,8 @@ using Mistake = GapDoubt::Mistake;
 
 constexpr double kExpected_m = 2.013, kKnown = 0.01, kAxle_m = 0.1625, kLength_m = 0.325;
 
-std::optional<GapDoubt> doubt(double read_m) {
-  return doubt_about_gap(read_m, kExpected_m, kKnown, kAxle_m, kLength_m);
+std::optional<GapDoubt> doubt(double read_m, double known = kKnown, bool read_before = false) {
+  return doubt_about_gap(read_m, {kExpected_m, known, kExpected_m, read_before}, kAxle_m, kLength_m);
 }
 
 void expect(double read_m, Mistake mistake) {
@@ -36,9 +36,9 @@ TEST(GapDoubt, NamesTheMistakeThatExplainsAReading) {
 }
 
 TEST(GapDoubt, IsStricterOnceTheScaleIsKnown) {
-  EXPECT_FALSE(doubt_about_gap(2.04, kExpected_m, 0.01, kAxle_m, kLength_m).has_value());
-  EXPECT_TRUE(doubt_about_gap(2.04, kExpected_m, 0.001, kAxle_m, kLength_m).has_value());
-  const auto exchanged = doubt_about_gap(2.103, kExpected_m, 0.001, kAxle_m, kLength_m);
+  EXPECT_FALSE(doubt(2.04, 0.01).has_value());
+  EXPECT_TRUE(doubt(2.04, 0.001).has_value());
+  const auto exchanged = doubt(2.103, 0.001);
   ASSERT_TRUE(exchanged.has_value());
   EXPECT_EQ(exchanged->mistake, Mistake::digit_dropped) << "2103 for 2013";
 }
@@ -48,6 +48,31 @@ TEST(GapDoubt, SaysWhatWasReadAndWhatWasDriven) {
   ASSERT_TRUE(found.has_value());
   EXPECT_NE(found->why.find("201 mm was read"), std::string::npos) << found->why;
   EXPECT_NE(found->why.find("backed off by 2013 mm"), std::string::npos) << found->why;
+}
+
+TEST(GapDoubt, NamesTheReadingBeforeIfThatIsWhatContradicts) {
+  const auto found = doubt(1.9, 0.0005, true);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_NE(found->why.find("where 2013 mm would be right by the reading before"), std::string::npos)
+      << found->why;
+}
+
+TEST(GapDoubt, HoldsNoGapForPossibleThatMakesWheelsAFifthLarger) {
+  for (const double read_m : {0.2013, 1.5, 2.6, 20.13, 2013.0, 1e5}) {
+    ASSERT_TRUE(doubt(read_m).has_value()) << read_m;
+    EXPECT_FALSE(doubt(read_m)->possible) << read_m;
+  }
+  for (const double read_m : {1.7, 2.103, 2.4}) {
+    ASSERT_TRUE(doubt(read_m).has_value()) << read_m;
+    EXPECT_TRUE(doubt(read_m)->possible) << read_m;
+  }
+}
+
+TEST(GapDoubt, MeasuresWhatIsPossibleByTheNominalWheelWhateverWasReadBefore) {
+  // An earlier reading that was wrong in the same way makes this one expected, and no better.
+  const auto found = doubt_about_gap(1.2, {1.2, 0.001, kExpected_m, true}, kAxle_m, kLength_m);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_FALSE(found->possible);
 }
 
 }  // namespace

@@ -60,6 +60,39 @@ TEST(WallEstimate, KeepsTheLoadedScaleWithoutARuler) {
   EXPECT_NEAR(found.E_d, 1.004, 1e-6);
 }
 
+/// Noiseless, with readings that are off by these.
+WallScale scale_of(const std::vector<double>& off_m) {
+  const WheelFactors actual = factors_with(1.004, 0.2885, 1.005);
+  const std::vector<WallMove> moves(off_m.size(), {Kind::gap, 2, 0, 0});
+  WallDrive drive = driven(actual, kNoNoise, 1, moves);
+  for (std::size_t i = 0; i < off_m.size(); ++i) drive[0].readings[i].gap_m += off_m[i];
+  return scale_of_gaps(drive, actual, {}).value();
+}
+
+TEST(WallScale, LeavesOutTheReadingThatTheOthersContradict) {
+  for (const std::vector<double>& off_m : std::vector<std::vector<double>>{
+           {0.027, 0, 0.001}, {0, -0.027, 0.001}, {0, 0.001, 0.06}, {0, 0.02, 0, -0.03, 0.001}}) {
+    const WallScale found = scale_of(off_m);
+    EXPECT_EQ(found.readings, off_m.size() == 3 ? 2 : 3);
+    EXPECT_NEAR(found.scale, 1.005, 0.0005);
+    EXPECT_FALSE(found.contradictory());
+  }
+}
+
+TEST(WallScale, GrowsItsErrorByWhatTheReadingsScatter) {
+  const WallScale agreeing = scale_of({0, 0.002}), apart = scale_of({0, 0.006}),
+                  contradictory = scale_of({0, 0.03});
+  EXPECT_EQ(agreeing.scatter, 1);
+  EXPECT_GT(apart.scatter, 1);
+  EXPECT_FALSE(apart.contradictory());
+  EXPECT_TRUE(contradictory.contradictory());
+  EXPECT_NEAR(contradictory.scale, 1.005 + 0.015 / 2, 1e-4);
+  EXPECT_GT(contradictory.se, 0.006) << "each is 15 mm of 2 m from their mean";
+  const WallScale three = scale_of({0, 0.03, -0.03});
+  EXPECT_EQ(three.left_out, 0) << "none stands out";
+  EXPECT_TRUE(three.contradictory());
+}
+
 TEST(WallEstimate, CountsManyTurnsAfterOneHasTaughtHowLongTheyAre) {
   // Ten turns with a wheelbase that is 8 % off are 0.8 turns too many: counted by the loaded wheelbase they would be eleven.
   const WheelFactors actual = factors_with(1, 0.29 * 0.92, 1);

@@ -18,21 +18,21 @@ using testing::HasSubstr;
 calibration::WallCourse course() { return calibration::plan_course({}, {1, 1, 0.29}); }
 
 TEST(WallDialogue, SaysHowHardAndHowLongAndHowMuchFloorInEightyColumns) {
-  const std::string text = wall_briefing({}, course(), 0);
+  const std::string text = wall_briefing({}, course(), 2, 0);
   for (const char* word :
-       {"at most\n12 N", "3.7 m", "10\nminutes", "asks twice", "2 m", "Ctrl-C", "wall  ====", "gap"})
+       {"at most\n12 N", "3.9 m", "10\nminutes", "asks twice", "2 m", "Ctrl-C", "wall  ====", "gap"})
     EXPECT_THAT(text, HasSubstr(word));
   EXPECT_LE(support::widest_line(text), 80U) << text;
 }
 
 TEST(WallDialogue, SaysWhatIsLeftOfAnEarlierStart) {
-  EXPECT_THAT(wall_briefing({}, course(), 400), HasSubstr("about 4"));
+  EXPECT_THAT(wall_briefing({}, course(), 0, 400), HasSubstr("about 4"));
 }
 
 TEST(WallDialogue, SaysThatTheScaleStaysWithoutARuler) {
   experiment::WallPlan plan;
   plan.readings = 0;
-  EXPECT_THAT(wall_briefing(plan, course(), 0), HasSubstr("Without a ruler"));
+  EXPECT_THAT(wall_briefing(plan, course(), 0, 0), HasSubstr("Without a ruler"));
 }
 
 TEST(WallDialogue, LetsTheRobotDriveOnEnterAlone) {
@@ -51,13 +51,30 @@ TEST(WallDialogue, AsksForAGapUntilItIsALength) {
   EXPECT_FALSE(ask_gap(std::ref(person), 2.0, truth::LengthUnit::mm).has_value());
 }
 
-TEST(WallDialogue, TakesEnterForANoAboutADoubtfulGap) {
-  Person person({"perhaps", "", "y", "yes"});
-  const calibration::GapDoubt doubt{calibration::GapDoubt::Mistake::other_unit, "200 mm was read"};
-  EXPECT_FALSE(ask_gap_is_right(std::ref(person), doubt));
-  EXPECT_TRUE(ask_gap_is_right(std::ref(person), doubt));
-  EXPECT_TRUE(ask_gap_is_right(std::ref(person), doubt));
-  EXPECT_THAT(person.asked[0], HasSubstr("200 mm was read"));
+TEST(WallDialogue, AsksForNoGapThatWasRead) {
+  EXPECT_THAT(wall_briefing({}, course(), 0, 400), testing::Not(HasSubstr("asks")));
+  EXPECT_THAT(wall_briefing({}, course(), 1, 400), HasSubstr("asks once"));
+}
+
+TEST(WallDialogue, TakesAnotherGapOrAYesAfterADoubt) {
+  Person person({"perhaps", "", "1998", "y", "yes", "none"});
+  const calibration::GapDoubt doubt{calibration::GapDoubt::Mistake::unknown, 1.9, true, "1900 mm was read"};
+  EXPECT_NEAR(*ask_gap_again(std::ref(person), doubt, truth::LengthUnit::mm), 1.998, 1e-12);
+  EXPECT_EQ(person.asked.size(), 3U);
+  EXPECT_EQ(ask_gap_again(std::ref(person), doubt, truth::LengthUnit::mm), 1.9);
+  EXPECT_EQ(ask_gap_again(std::ref(person), doubt, truth::LengthUnit::mm), 1.9);
+  EXPECT_FALSE(ask_gap_again(std::ref(person), doubt, truth::LengthUnit::mm).has_value());
+  EXPECT_THAT(person.asked[0], HasSubstr("1900 mm was read"));
+  EXPECT_LE(support::widest_line(person.asked[0]), 80U) << person.asked[0];
+}
+
+TEST(WallDialogue, TakesNoYesForAGapThatCannotBe) {
+  Person person({"yes", "y", "1e308 m", "nan", "1998"});
+  const calibration::GapDoubt doubt{calibration::GapDoubt::Mistake::other_unit, 0.2, false,
+                                    "200 mm was read"};
+  EXPECT_NEAR(*ask_gap_again(std::ref(person), doubt, truth::LengthUnit::mm), 1.998, 1e-12);
+  EXPECT_EQ(person.asked.size(), 5U);
+  EXPECT_THAT(person.asked[0], HasSubstr("No wheel is that far off its diameter"));
 }
 
 TEST(WallDialogue, NamesEveryMove) {

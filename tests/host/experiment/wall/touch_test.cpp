@@ -7,6 +7,9 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "host/base/interrupted.hpp"
 #include "host/experiment/wall/wall_drive.hpp"
@@ -74,6 +77,41 @@ TEST_F(Touching, TurnsARobotFlushFromAnyObliqueStartGently) {
       expect_gentle();
     }
   }
+}
+
+TEST_F(Touching, StopsAtOnceIfAWheelTurnsTheWrongWay) {
+  const std::vector<std::pair<bool sim::Wiring::*, std::string>> wrong{
+      {&sim::Wiring::left_motor_reversed, "left"},
+      {&sim::Wiring::right_motor_reversed, "right"},
+      {&sim::Wiring::left_encoder_reversed, "left"},
+      {&sim::Wiring::right_encoder_reversed, "right"}};
+  for (const auto& [wire, side] : wrong) {
+    sim::Config config = facing(0.2);
+    config.wiring.*wire = true;
+    begin(config);
+    const std::uint64_t began_us = board().world_us();
+    try {
+      touch();
+      ADD_FAILURE() << side;
+    } catch (const NotFlush& error) {
+      EXPECT_THAT(error.what(), HasSubstr("the " + side + " wheel turns backwards"));
+      EXPECT_EQ(error.remedy().help, Help::check_wiring);
+    }
+    EXPECT_LT(board().world_us() - began_us, 1'500'000U) << "the pause with shorted motors included";
+    EXPECT_LT(std::abs(board().truth().theta_rad), 0.15) << side;
+    EXPECT_EQ(mode(), protocol::Mode::disarmed);
+  }
+}
+
+TEST_F(Touching, DoesNotTurnARobotThatDoesNotFaceTheWall) {
+  begin(facing(0.1), 0.9);
+  try {
+    touch();
+    ADD_FAILURE();
+  } catch (const NotFlush& error) {
+    EXPECT_THAT(error.what(), HasSubstr("degrees against the wall"));
+  }
+  EXPECT_LT(std::abs(board().truth().theta_rad - 0.9), 0.6);
 }
 
 TEST_F(Touching, KnowsTheWallByTheWayThatItCrept) {

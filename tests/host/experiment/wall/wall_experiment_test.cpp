@@ -5,10 +5,13 @@
 
 #include <cmath>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "host/base/folder_lock.hpp"
 #include "host/base/interrupted.hpp"
+#include "host/calibration/wall/wall_judgement.hpp"
 #include "host/robot/parameters/upload.hpp"
 #include "tests/support/robots/wall_desk.hpp"
 
@@ -38,6 +41,8 @@ void expect_right(const WallDesk& desk, const calibration::WallEstimate& found) 
     EXPECT_LT(std::abs(desk.scale_error(found)), 5 * found.se.scale);
   }
 }
+
+std::optional<double> confirm(const calibration::GapDoubt& doubt) { return doubt.read_m; }
 
 std::string why_not(WallDesk& desk, const WallPlan& plan, const std::filesystem::path& folder,
                     const WallHooks& hooks) {
@@ -113,7 +118,7 @@ TEST(WallExperiment, DoesNotCountAWayOnWhichTheRobotWasTurned) {
     desk.board().place(pose);
     return std::optional(desk.read_gap_m());
   };
-  hooks.is_right = [](const calibration::GapDoubt&) { return true; };
+  hooks.read_again = confirm;
   const WallResult result = run_wall_experiment(desk.desk.client, quick(), folder.path(), hooks);
   ASSERT_FALSE(notices.empty());
   EXPECT_THAT(notices.front(), HasSubstr("whole turns since it was flush before"));
@@ -142,17 +147,141 @@ TEST(WallExperiment, AsksAgainAboutAGapThatCannotBe) {
   const TemporaryFolder folder;
   WallDesk desk(robot_before_a_wall(8));
   WallHooks hooks = desk.hooks();
-  int asked = 0;
   std::vector<calibration::GapDoubt::Mistake> doubts;
   hooks.read_gap = [&](double expected_m) {
     EXPECT_NEAR(expected_m, quick().gap_m, 0.03);
-    return std::optional(desk.read_gap_m() * (asked++ % 2 == 0 ? 0.1 : 1));
+    return std::optional(desk.read_gap_m() * 0.1);
   };
-  hooks.is_right = [&](const calibration::GapDoubt& doubt) { return doubts.push_back(doubt.mistake), false; };
+  hooks.read_again = [&](const calibration::GapDoubt& doubt) {
+    doubts.push_back(doubt.mistake);
+    return std::optional(desk.read_gap_m());
+  };
   const WallResult result = run_wall_experiment(desk.desk.client, quick(), folder.path(), hooks);
   EXPECT_THAT(doubts, testing::Each(calibration::GapDoubt::Mistake::other_unit));
   EXPECT_EQ(doubts.size(), 2U);
   expect_right(desk, result.estimate);
+}
+
+TEST(WallExperiment, NeverDrivesFurtherForAGapThatWasMisreadAndConfirmed) {
+  // 10 % more is the most that the ruler's unit, its end, or the robot's front explain and that is still held for possible.
+  for (const double times : {0.82, 0.9, 1.1, 1.23}) {
+    const TemporaryFolder folder;
+    WallDesk desk(robot_before_a_wall(13));
+    WallHooks hooks = desk.hooks();
+    double furthest_m = 0;
+    hooks.read_gap = [&](double) { return std::optional(desk.read_gap_m() * times); };
+    hooks.read_again = confirm;
+    hooks.drive.interrupted = [&] {
+      furthest_m = std::max(furthest_m, desk.board().wall()->front_gap_m(desk.board().truth()));
+      return false;
+    };
+    const WallResult result = run_wall_experiment(desk.desk.client, quick(), folder.path(), hooks);
+    EXPECT_NEAR((result.estimate.factors.c_r + result.estimate.factors.c_l) / 2, desk.config.scale * times,
+                0.01);
+    // The line, twice the room to turn in, and 5 % of both, and the wheels' own scale.
+    const double room_m =
+        1.05 * 1.02 * (quick().line_m + 2 * (BodySize{}.turning_gap_m() + BodySize{}.length_m / 2));
+    EXPECT_LT(furthest_m, room_m) << times;
+  }
+}
+
+TEST(WallExperiment, TakesNoGapThatCannotBeHoweverOftenItIsConfirmed) {
+  const TemporaryFolder folder;
+  WallDesk desk(robot_before_a_wall(14));
+  WallHooks hooks = desk.hooks();
+  int confirmed = 0;
+  hooks.read_gap = [&](double) { return std::optional(desk.read_gap_m() / 10); };
+  hooks.read_again = [&](const calibration::GapDoubt& doubt) {
+    EXPECT_FALSE(doubt.possible);
+    return std::optional(++confirmed % 3 == 0 ? desk.read_gap_m() : doubt.read_m);
+  };
+  expect_right(desk, run_wall_experiment(desk.desk.client, quick(), folder.path(), hooks).estimate);
+  EXPECT_EQ(confirmed, 6);
+}
+
+TEST(WallExperiment, AsksForAnotherReadingIfTwoContradictEachOtherAndLeavesTheWrongOneOut) {
+  const TemporaryFolder folder;
+  WallDesk desk(robot_before_a_wall(15));
+  WallHooks hooks = desk.hooks();
+  int asked = 0;
+  std::vector<std::string> notices;
+  hooks.drive.notice = [&](const Remark& remark) { notices.push_back(remark.fact); };
+  hooks.read_gap = [&](double) { return std::optional(desk.read_gap_m() + (asked++ == 0 ? 0.025 : 0)); };
+  hooks.read_again = confirm;
+  const WallResult result = run_wall_experiment(desk.desk.client, quick(), folder.path(), hooks);
+  EXPECT_EQ(asked, 3);
+  EXPECT_THAT(notices, testing::ElementsAre(HasSubstr("contradict each other")));
+  EXPECT_EQ(result.estimate.scale->readings, 2);
+  EXPECT_EQ(result.estimate.scale->left_out, 1);
+  expect_right(desk, result.estimate);
+}
+
+TEST(WallExperiment, HasALargeErrorOfTheScaleIfNoReadingsAgree) {
+  const TemporaryFolder folder;
+  WallDesk desk(robot_before_a_wall(16));
+  WallHooks hooks = desk.hooks();
+  int asked = 0;
+  hooks.read_gap = [&](double) { return std::optional(desk.read_gap_m() + 0.03 * asked++); };
+  hooks.read_again = confirm;
+  const WallResult result = run_wall_experiment(desk.desk.client, quick(), folder.path(), hooks);
+  EXPECT_EQ(asked, 4) << "two more, and no further";
+  EXPECT_TRUE(result.estimate.scale->contradictory());
+  EXPECT_GT(result.estimate.se.scale, 0.01) << "they differ by 3 cm on a metre, four of them";
+  const auto judgement =
+      calibration::judge_wall(result.journal.drive, result.estimate, result.journal.loaded);
+  EXPECT_NE(judgement.verdict, calibration::Verdict::better);
+  EXPECT_THAT(judgement.sentence(), HasSubstr("contradict each other"));
+}
+
+TEST(WallExperiment, LetsOnlyOneProgramDriveInAFolder) {
+  const TemporaryFolder folder;
+  WallDesk desk(robot_before_a_wall(17));
+  const FolderLock other(folder.path());
+  EXPECT_THAT(why_not(desk, quick(), folder.path(), desk.hooks()), HasSubstr("another program"));
+  EXPECT_EQ(desk.board().truth().x_m, 0) << "nothing has moved";
+}
+
+TEST(WallExperiment, RefusesAJournalThatNoProgramWrote) {
+  const TemporaryFolder folder;
+  WallDesk desk(robot_before_a_wall(18));
+  WallHooks hooks = desk.hooks();
+  hooks.drive.interrupted = [&] { return desk.board().world_us() > 100'000'000; };
+  EXPECT_THROW(run_wall_experiment(desk.desk.client, quick(), folder.path(), hooks), Interrupted);
+  std::ifstream file(folder.path() / "wall.json");
+  const nlohmann::json good = nlohmann::json::parse(file);
+  ASSERT_FALSE(good.at("series").at(0).at("readings").empty());
+  const std::vector<std::pair<std::string, nlohmann::json>> wrong{
+      {"/series/0/squarings", nlohmann::json::array()},
+      {"/series/0/squarings/1", good.at("series").at(0).at("squarings").at(0)},
+      {"/series/0/squarings/1/0", 1e300},
+      {"/series/0/squarings/1/2", -1},
+      {"/series/0/squarings/1", {1, 2, 3}},
+      {"/series/0/readings/0/gap_m", 0},
+      {"/series/0/readings/0/gap_m", 1e9},
+      {"/series/0/readings/0/squaring", -1},
+      {"/series/0/readings/0/squaring", 1.5},
+      {"/series/0/readings/0/travel/2", 0},
+      {"/loaded/c_R", 40},
+      {"/loaded/b_m", 0},
+      {"/count_m", 0},
+      {"/moves/0/kind", 9},
+      {"/moves/0/turns", 1e9},
+      {"/moves/0/away_m", 1e9},
+      {"/moves", nlohmann::json::array()},
+      {"/driven_s", -1},
+      {"/driven_s", 1e9},
+      {"/driven_s", nullptr},
+      {"/plan/readings", 2.5},
+      {"/plan/line_m", 0}};
+  for (const auto& [where, value] : wrong) {
+    nlohmann::json bad = good;
+    bad.at(nlohmann::json::json_pointer(where)) = value;
+    std::ofstream(folder.path() / "wall.json") << bad;
+    EXPECT_THAT(why_not(desk, quick(), folder.path(), desk.hooks()), HasSubstr("is damaged"))
+        << where << " = " << value;
+  }
+  std::ofstream(folder.path() / "wall.json") << good;
+  EXPECT_TRUE(read_wall_journal(folder.path()).has_value()) << "as it was written it is good";
 }
 
 TEST(WallExperiment, FindsTheSameFactorsOnARobotThatCarriesOthers) {

@@ -74,9 +74,7 @@ TEST_F(Wall, GuidesThroughACalibrationCatchesAMistypedGapAndLoadsTheFactors) {
   ASSERT_TRUE(asks_for_gap(umbmark)) << umbmark.seen();
   umbmark.type(fmt::format("{:.0f}", ruler_mm() / 10));
   ASSERT_TRUE(umbmark.shows("in another unit")) << umbmark.seen();
-  ASSERT_TRUE(umbmark.shows("Enter: enter it again")) << umbmark.seen();
-  umbmark.type("");
-  ASSERT_TRUE(asks_for_gap(umbmark)) << umbmark.seen();
+  ASSERT_TRUE(umbmark.shows("Read it again, mm")) << umbmark.seen();
   umbmark.type(fmt::format("{:.0f}", ruler_mm()));
   ASSERT_TRUE(asks_for_gap(umbmark)) << umbmark.seen();
   umbmark.type(fmt::format("{:.1f} cm", ruler_mm() / 10));
@@ -101,7 +99,7 @@ TEST_F(Wall, GoesOnAfterCtrlC) {
   first.type("");
   ASSERT_TRUE(asks_for_gap(first)) << first.seen();
   first.key("C-c");
-  ASSERT_TRUE(first.shows("interrupted")) << first.seen();
+  ASSERT_TRUE(first.shows("interrupted; the same command goes on")) << first.seen();
   // The person puts it in front of the wall again: drives it there.
   const auto back = support::astrolabe({"drive", "line", "0.9", "--port", simulator_.port()});
   ASSERT_EQ(back.code, 0) << back.err;
@@ -115,6 +113,21 @@ TEST_F(Wall, GoesOnAfterCtrlC) {
   ASSERT_TRUE(second.shows("Calibration: ", [this] { drain(); })) << second.seen();
   EXPECT_THAT(second.seen(), HasSubstr("nobody read a ruler"));
   ASSERT_TRUE(second.shows("the robot holds the new set")) << second.seen();
+}
+
+TEST_F(Wall, FinishedAsksForNothingMoreAndSaysHowToLoadWhatAPersonDeclined) {
+  TmuxProgram first(command("--readings 0"));
+  ASSERT_TRUE(first.shows("step aside and press Enter")) << first.seen();
+  first.type("");
+  ASSERT_TRUE(first.shows("Load these into the robot?", [this] { drain(); })) << first.seen();
+  first.type("n");
+  ASSERT_TRUE(first.shows("loads it later")) << first.seen();
+  TmuxProgram again(command("--readings 0 --yes"));
+  ASSERT_TRUE(again.shows("the robot holds the new set")) << again.seen();
+  EXPECT_THAT(again.seen(), testing::Not(HasSubstr("in front of")));
+  const auto report = support::astrolabe({"report", out().string()});
+  EXPECT_EQ(report.code, 1);
+  EXPECT_THAT(report.err, HasSubstr("calib.toml"));
 }
 
 TEST_F(Wall, RefusesOptionsThatChangeNothing) {

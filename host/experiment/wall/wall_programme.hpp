@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+
+#include "host/calibration/wall/wall_estimate.hpp"
+#include "host/calibration/wall/wall_plan.hpp"
+#include "host/experiment/wall/wall_journal.hpp"
+
+/// What is driven next in front of a wall.
+namespace astro::experiment {
+
+/// What the plan wishes of plan_course, on this robot.
+calibration::WallWishes wishes_of(const WallPlan& plan, const WallRobot& robot);
+
+/// With so few stretches K is hardly known, and a drive that happened to slip little must not end too early: what counts are the
+/// errors for a K that is one standard error larger.
+bool is_precise(const calibration::WallEstimate& estimate, const calibration::WallTargets& wanted);
+
+/// The repetitions, the first laps and the gaps of plan_course in any case; up to two more gaps if those contradict each other; then laps and
+/// spins until E_d and b are precise. Nothing if that is reached, or the time is over.
+std::optional<calibration::WallMove> next_move(const WallJournal& journal,
+                                               const calibration::WallEstimate& estimate,
+                                               const WallRobot& robot);
+
+/// How many gaps somebody is still asked for, if they agree.
+int gaps_left(const WallJournal& journal);
+
+}  // namespace astro::experiment
