@@ -139,8 +139,8 @@ enum class Help : std::uint8_t {
   film_to_the_end,
   film_from_fixed_camera,
   measure_distance,
-  measure_figure_again,  // {option}
-  correct_tape,          // {ids}
+  measure_figure_again,
+  correct_tape,  // {ids}
   give_tag_height,
   // recordings of other programs
   name_wheel_columns,

@@ -176,7 +176,7 @@ constexpr Sentence kSentences[] = {
      "; measure one, best from the centre of one floor tag to that of another three metres away, and give it "
      "with "
      "--tape"},
-    {Help::measure_figure_again, ": measure it again, or leave {} out"},
+    {Help::measure_figure_again, ": measure that again, or leave it out"},
     {Help::correct_tape, ": correct --tape {}=..., or leave it out"},
     {Help::give_tag_height, ": measure it and give it with --tag-height"},
     {Help::name_wheel_columns,

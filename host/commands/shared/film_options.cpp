@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "host/base/text/numbers.hpp"
 #include "host/console/options.hpp"
 #include "host/truth/manual/reading.hpp"
@@ -23,13 +25,15 @@ console::Check a_length(double least_m, double most_m) {
   };
 }
 
+constexpr double kShortest_m = 0.1, kLongest_m = 100;
+
 /// "1:4=3.46": the distance between the centres of floor tags 1 and 4.
 std::optional<film::FilmFigures::Length> tape_in(const std::string& text) {
   const std::size_t colon = text.find(':'), sign = text.find('=');
   if (colon == std::string::npos || sign == std::string::npos || sign < colon) return std::nullopt;
   const auto from = typed_number(text.substr(0, colon)),
              to = typed_number(text.substr(colon + 1, sign - colon - 1));
-  const auto length = length_in(text.substr(sign + 1), 0.1, 100);
+  const auto length = length_in(text.substr(sign + 1), kShortest_m, kLongest_m);
   const auto is_id = [](const std::optional<double>& id) {
     return id && *id >= 0 && *id <= 586 && *id == static_cast<int>(*id);
   };
@@ -62,7 +66,12 @@ void add_film_options(console::Command command, FilmOptions& options, const std:
                   prefix + "a distance between the centres of two floor tags,\nas 1:4=3.46 (repeatable)")
       .type_name("ID:ID=LENGTH")
       .check([](const std::string& word) -> std::string {
-        return tape_in(word) ? "" : "'" + word + "' is not a distance between two floor tags: write 1:4=3.46";
+        if (tape_in(word)) return "";
+        const std::size_t sign = word.find('=');
+        std::string length = sign == std::string::npos ? "" : word.substr(sign + 1);
+        if (!length.empty() && tape_in(word.substr(0, sign) + "=1"))
+          return a_length(kShortest_m, kLongest_m)(length);
+        return "'" + word + "' is not a distance between two floor tags: write 1:4=3.46";
       })
       .one_each_time();
   command
@@ -72,7 +81,12 @@ void add_film_options(console::Command command, FilmOptions& options, const std:
               "how long the camera reads a picture from its first\nrow to its last, ms; negative from "
               "the last to the first")
       .type_name("MS")
-      .check(console::between(-60, 60, "ms"));
+      .check(console::between(-60, 60, "ms"))
+      .check([](const std::string& word) -> std::string {
+        const auto readout_ms = typed_number(word);
+        if (!readout_ms || *readout_ms == 0 || std::abs(*readout_ms) >= 1) return "";
+        return fmt::format("no camera reads a picture in {} ms: give milliseconds, as 18", word);
+      });
 }
 
 film::FilmFigures figures_of(const FilmOptions& options) {

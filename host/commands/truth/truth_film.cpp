@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "host/base/bytes.hpp"
@@ -35,9 +36,18 @@ void save(const fs::path& path, ByteView bytes) {
   console::say("written to " + path.string());
 }
 
+/// Before minutes of work, not after them.
+void require_different(const std::vector<fs::path>& outputs) {
+  std::set<fs::path> seen;
+  for (const fs::path& path : outputs)
+    if (!path.empty() && !seen.insert(fs::absolute(path).lexically_normal()).second)
+      throw Error("'" + path.string() + "' would be written twice", {Help::name_other_file});
+}
+
 void run(const TruthFilmOptions& options) {
   for (const fs::path& out : {options.preview, options.page, options.csv, options.tum})
     require_no_input(out, {options.film});
+  require_different({options.preview, options.page, options.csv, options.tum});
   if (!options.page.empty()) report::require_replaceable(options.page);
   console::Progress progress("looking at the film");
   const film::FilmTrack track =

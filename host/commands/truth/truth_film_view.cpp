@@ -81,6 +81,36 @@ std::string floor_rows(const FilmTrack& track) {
   return console::table(rows);
 }
 
+std::string figure_name(const FilmTrack& track, const film::FigureCheck& one) {
+  switch (one.kind) {
+    case film::FigureKind::floor_side:
+      return "side of floor tags";
+    case film::FigureKind::robot_side:
+      return "side of robot's tag";
+    case film::FigureKind::robot_height:
+      return "height of robot's tag";
+    default: {
+      const film::FilmFigures::Length& tape = track.figures.tapes[one.tape];
+      return fmt::format("tape {}:{}", tape.from, tape.to);
+    }
+  }
+}
+
+/// What a person measured, beside what the film and the others say without it.
+std::string figure_rows(const FilmTrack& track) {
+  if (track.checked.empty()) return "";
+  Rows rows{{"measured", "mm", "by all else", "off by"}};
+  for (const film::FigureCheck& one : track.checked) {
+    const bool known = std::isfinite(one.by_others.sigma);
+    rows.push_back({figure_name(track, one), fmt::format("{:.1f}", 1e3 * one.measured.value),
+                    known
+                        ? fmt::format("{:.1f} ± {:.1f}", 1e3 * one.by_others.value, 1e3 * one.by_others.sigma)
+                        : std::string("not known"),
+                    known ? fmt::format("{:.1f} std errors", one.off()) : std::string()});
+  }
+  return '\n' + console::table(rows);
+}
+
 }  // namespace
 
 std::vector<std::vector<std::string>> film_table(const FilmTrack& track) {
@@ -91,7 +121,7 @@ std::vector<std::vector<std::string>> film_table(const FilmTrack& track) {
 }
 
 std::string film_text(const FilmTrack& track) {
-  std::string text = console::table(film_table(track), "ll") + '\n' + floor_rows(track);
+  std::string text = console::table(film_table(track), "ll") + '\n' + floor_rows(track) + figure_rows(track);
   if (!track.remarks.empty()) text += '\n';
   for (const Remark& remark : track.remarks) text += wrapped(in_words(remark) + '.');
   return text;
@@ -101,6 +131,13 @@ Json to_json(const FilmTrack& track) {
   const film::Scene& scene = track.scene;
   const film::Camera& c = scene.camera;
   const PoseErrors errors = errors_of(track.found);
+  Json checked = Json::array();
+  for (const film::FigureCheck& one : track.checked)
+    checked.push_back({{"what", figure_name(track, one)},
+                       {"measured_m", one.measured.value},
+                       {"by_others_m", one.by_others.value},
+                       {"by_others_sigma_m", one.by_others.sigma},
+                       {"off", one.off()}});
   Json floor = Json::array(), remarks = Json::array(), rotation = Json::array();
   for (std::size_t i = 0; i < track.floor.size(); ++i)
     floor.push_back({{"id", scene.tags[i].id},
@@ -141,6 +178,7 @@ Json to_json(const FilmTrack& track) {
           {"floor_side_m", scene.floor_side_m},
           {"floor_edge_shift_px", scene.floor_shift_px},
           {"floor_tags", floor},
+          {"measured", checked},
           {"corner_px", track.found.corner_px},
           {"floor_px", track.floor_rms_px},
           {"position_sigma_m", errors.position_m},

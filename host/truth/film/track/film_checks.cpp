@@ -1,6 +1,7 @@
 #include "host/truth/film/track/film_checks.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,10 +21,8 @@ constexpr double kShakes_px = 0.7, kMoves_px = 6, kSags_px = 0.5;
 
 std::string quoted(const fs::path& film) { return "'" + film.string() + "'"; }
 
-[[noreturn]] void refuse_missing(const fs::path& film, const FilmInfo& info,
-                                 const std::function<bool(int)>& wanted, const std::string& whose,
+[[noreturn]] void refuse_missing(const fs::path& film, const TagDiagnosis& why, const std::string& whose,
                                  Help otherwise) {
-  const TagDiagnosis why = why_no_tag(film, info, wanted);
   switch (why.problem) {
     case TagProblem::mirrored:
       throw Error(fmt::format("{}: {} is a mirror image", quoted(film), whose), {Help::film_mirrored_not});
@@ -37,6 +36,12 @@ std::string quoted(const fs::path& film) { return "'" + film.string() + "'"; }
       break;
   }
   throw Error(fmt::format("{}: {} is not seen", quoted(film), whose), {otherwise});
+}
+
+[[noreturn]] void refuse_missing(const fs::path& film, const FilmInfo& info,
+                                 const std::function<bool(int)>& wanted, const std::string& whose,
+                                 Help otherwise) {
+  refuse_missing(film, why_no_tag(film, info, wanted), whose, otherwise);
 }
 
 double typical(std::vector<double> values) {
@@ -92,6 +97,38 @@ std::optional<double> jump_in(const std::vector<FilmPose>& poses) {
   return std::nullopt;
 }
 
+bool lies_on_floor(const FloorSurvey& survey, int id) {
+  return std::any_of(survey.floor.begin(), survey.floor.end(),
+                     [&](const SeenFloorTag& tag) { return tag.id == id; });
+}
+
+/// The only other tag that moves, if the robot's never does.
+std::optional<int> moves_instead(const FloorSurvey& survey) {
+  constexpr double kStill_px = 4;
+  if (survey.robot.empty() || survey.moving.size() != 1) return std::nullopt;
+  const Eigen::Vector2d first = center_of(survey.robot.front().corners);
+  const bool still = std::all_of(survey.robot.begin(), survey.robot.end(), [&](const FloorSurvey::Seen& one) {
+    return (center_of(one.corners) - first).norm() < kStill_px;
+  });
+  return still ? std::optional(survey.moving.front()) : std::nullopt;
+}
+
+[[noreturn]] void refuse_tape(const fs::path& film, const FilmInfo& info, const FloorSurvey& survey,
+                              const FilmFigures& figures, const FilmFigures::Length& tape, int id) {
+  const std::string pair = fmt::format("{}:{}", tape.from, tape.to);
+  if (id == figures.robot_id)
+    throw Error(fmt::format("{}: a distance is given to tag {}, which is the robot's", quoted(film), id),
+                {Help::correct_tape, pair});
+  std::vector<int> seen;
+  for (const SeenFloorTag& tag : survey.floor) seen.push_back(tag.id);
+  const std::string whose = fmt::format("floor tag {}, to which a distance is given,", id);
+  const TagDiagnosis why = why_no_tag(film, info, [&](int other) { return other == id; });
+  if (why.problem == TagProblem::none_there)
+    throw Error(fmt::format("{}: {} is not seen, but {} are", quoted(film), whose, fmt::join(seen, ", ")),
+                {Help::correct_tape, pair});
+  refuse_missing(film, why, whose, Help::film_floor_tags);
+}
+
 }  // namespace
 
 void refuse_survey(const fs::path& film, const FilmInfo& info, const FloorSurvey& survey,
@@ -114,6 +151,9 @@ void refuse_survey(const fs::path& film, const FilmInfo& info, const FloorSurvey
   if (survey.floor.empty() && survey.robot.empty())
     refuse_missing(
         film, info, [](int) { return true; }, "the tag", Help::film_robot_tag);
+  if (const auto other = moves_instead(survey))
+    throw Error(fmt::format("{}: {} lies still, but id {} moves", quoted(film), robot, *other),
+                {Help::name_robot_tag, std::to_string(*other)});
   if (survey.robot.empty()) {
     if (!survey.moving.empty())
       throw Error(
@@ -130,11 +170,7 @@ void refuse_survey(const fs::path& film, const FilmInfo& info, const FloorSurvey
         {Help::film_floor_tags});
   for (const FilmFigures::Length& tape : figures.tapes)
     for (const int id : {tape.from, tape.to})
-      if (std::none_of(survey.floor.begin(), survey.floor.end(),
-                       [&](const SeenFloorTag& tag) { return tag.id == id; }))
-        refuse_missing(
-            film, info, [&](int other) { return other == id; },
-            fmt::format("floor tag {}, to which a length is given,", id), Help::film_floor_tags);
+      if (!lies_on_floor(survey, id)) refuse_tape(film, info, survey, figures, tape, id);
 }
 
 void refuse_sightings(const fs::path& film, const FilmInfo& info, const FloorSurvey& survey,
@@ -166,6 +202,10 @@ void refuse_sightings(const fs::path& film, const FilmInfo& info, const FloorSur
                             quoted(film), side),
                 {Help::film_nearer});
   constexpr std::size_t kLeast = 30;
+  if (sightings.pictures < kLeast)
+    throw Error(
+        fmt::format("{} is too short: {} pictures in {:.1f} s", quoted(film), sightings.pictures, decoded_s),
+        {Help::film_to_the_end});
   if (sightings.robot.size() < kLeast)
     throw Error(fmt::format("{}: the robot's tag is seen in {} of {} pictures only", quoted(film),
                             sightings.robot.size(), sightings.pictures),
@@ -246,6 +286,15 @@ void say_hidden(const FilmTrack& track, std::vector<Remark>& to) {
   if (more > 0) to.push_back({fmt::format("and {} times more", more), {}});
 }
 
+bool ever_moves(const FilmTrack& track) {
+  constexpr double kMoves_m = 0.02, kTurns_rad = 0.05;
+  const RobotPose& first = track.found.poses.front().pose;
+  return std::any_of(track.found.poses.begin(), track.found.poses.end(), [&](const FilmPose& one) {
+    return std::hypot(one.pose.x_m - first.x_m, one.pose.y_m - first.y_m) > kMoves_m ||
+           std::abs(one.pose.theta_rad - first.theta_rad) > kTurns_rad;
+  });
+}
+
 /// Part by which the focal length may be wrong.
 double focal_length_error(const FilmTrack& track) {
   return std::sqrt(track.covariance(0, 0)) / track.scene.camera.f_px;
@@ -278,8 +327,16 @@ std::vector<Remark> remarks_on(const FilmTrack& track, const FloorSurvey& survey
   if (const double least = *std::min_element(sides.begin(), sides.end()); least < kUneasy_px)
     all.push_back({fmt::format("the robot's tag is only {:.0f} px high where it is farthest", least),
                    {Help::film_nearer}});
-  if (track.figures.scale_measured() && track.scale_sigma > kRoughScale &&
-      focal_length_error(track) > kRoughFocus)
+  if (!ever_moves(track))
+    all.push_back(
+        {fmt::format("the robot's tag (id {}) does not move in the whole film", track.figures.robot_id), {}});
+  const bool rough = track.figures.scale_measured() && track.scale_sigma > kRoughScale;
+  if (rough && !track.figures.robot_height_m)
+    all.push_back({fmt::format("nobody gave the height of the robot's tag above the floor, and the scale is "
+                               "found to {:.1f} % only",
+                               100 * track.scale_sigma),
+                   {Help::give_tag_height}});
+  else if (rough && focal_length_error(track) > kRoughFocus)
     all.push_back(
         {fmt::format(
              "the camera looks down so steeply that its focal length hardly shows, and the scale is found to "
@@ -297,8 +354,10 @@ std::vector<Remark> remarks_on(const FilmTrack& track, const FloorSurvey& survey
     all.push_back(
         {fmt::format("no pictures for {:.1f} s from {:.1f} s on", seen.longest_gap_s, seen.gap_at_s), {}});
   if (seen.unordered > 0)
-    all.push_back({fmt::format("{} pictures have no later time than the one before", seen.unordered),
-                   {Help::take_original_film}});
+    all.push_back(
+        {fmt::format("{} pictures are not a millisecond later than the one before, and were left out",
+                     seen.unordered),
+         {Help::take_original_film}});
   if (!seen.complaint.empty())
     all.push_back({"the decoder complains:" + seen.complaint, {Help::take_original_film}});
   for (const int id : survey.moving)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "host/truth/film/camera/frame_pose.hpp"
 
@@ -59,6 +60,14 @@ void drop_misfits(std::vector<FilmPose>& poses) {
   std::erase_if(poses, [&](const FilmPose& pose) { return pose.rms_px > limit; });
 }
 
+/// Rows may be read so that the tag of the next picture is seen before.
+void drop_unordered(std::vector<FilmPose>& poses) {
+  std::vector<FilmPose> ordered;
+  for (const FilmPose& pose : poses)
+    if (ordered.empty() || pose.time_s > ordered.back().time_s) ordered.push_back(pose);
+  poses = std::move(ordered);
+}
+
 void unwrap(std::vector<FilmPose>& poses) {
   for (std::size_t i = 1; i < poses.size(); ++i)
     poses[i].pose.theta_rad =
@@ -82,6 +91,7 @@ FilmPoses film_poses(const Scene& scene, const std::vector<RobotTagSeen>& all) {
     refine(scene, found.poses, seen);
   }
   if (!found.poses.empty()) drop_misfits(found.poses);
+  drop_unordered(found.poses);
   found.dropped = all.size() - found.poses.size();
   unwrap(found.poses);
   add_velocities(found.poses);

@@ -9,11 +9,13 @@
 namespace astro::film {
 namespace {
 
+constexpr double kLeastGap_s = 1e-3;  // at a thousand pictures a second; nearer ones have wrong times
+
 /// Notes the picture's time; false if it is not later than the one before.
 bool note_time(FilmSightings& all, double pts_s) {
   if (all.pictures == 0) all.first_s = all.last_s = pts_s;
   const double gap_s = pts_s - all.last_s;
-  if (++all.pictures > 1 && gap_s <= 0) {
+  if (++all.pictures > 1 && gap_s < kLeastGap_s) {
     ++all.unordered;
     return false;
   }

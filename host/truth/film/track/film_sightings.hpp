@@ -22,7 +22,8 @@ struct FilmSightings {
   std::vector<RobotTagSeen> robot;
   std::vector<FloorLook> looks;
   std::size_t pictures = 0;
-  std::size_t unordered = 0;  // pictures that were not later than the one before, and were left out
+  std::size_t unordered =
+      0;  // pictures less than a millisecond later than the one before, which were left out
   double first_s = 0, last_s = 0;
   double longest_gap_s = 0, gap_at_s = 0;  // between two pictures
   std::optional<double> two_robots_s;

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "host/truth/film/camera/scale_error.hpp"
+#include "host/truth/film/track/figure_doubts.hpp"
 #include "host/truth/film/track/film_checks.hpp"
 #include "host/truth/film/track/film_diagnosis.hpp"
 #include "host/truth/film/track/floor_survey.hpp"
@@ -86,8 +87,15 @@ FilmTrack follow_film(const std::filesystem::path& film, const FilmFigures& figu
   refuse_motion(film, track.motion);
   track.fingerprint = fingerprint_of(track.sightings);
   steady(track.sightings, track.motion);
-  SceneFit fit =
-      find_scene(track.info, on_average(survey.floor, track.motion), track.sightings.robot, figures);
+  const std::vector<SeenFloorTag> floor = on_average(survey.floor, track.motion);
+  const auto fitted = [&](const FilmFigures& with) {
+    return find_scene(track.info, floor, track.sightings.robot, with);
+  };
+  SceneFit fit = fitted(figures);
+  const std::optional<FigureDoubt> doubt = doubt_about_figures(figures, fit, fitted);
+  if (doubt && doubt->gross)
+    throw Error("'" + film.string() + "': " + doubt->remark.fact, doubt->remark.remedy);
+  track.checked = given_figures(figures, fit);
   track.scene = std::move(fit.scene);
   track.covariance = std::move(fit.covariance);
   track.floor_rms_px = fit.floor_rms_px;
@@ -95,8 +103,9 @@ FilmTrack follow_film(const std::filesystem::path& film, const FilmFigures& figu
   track.floor = report_on(track);
   track.hidden = hidden_spans(track.sightings, track.info);
   refuse_track(film, track);
-  track.scale_sigma = scale_sigma_of(track);
+  track.scale_sigma = scale_sigma_of(track) * (doubt ? std::max(1.0, doubt->off) : 1);
   track.remarks = remarks_on(track, survey);
+  if (doubt) track.remarks.insert(track.remarks.begin(), doubt->remark);
   return track;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/base/remedy.hpp"
+#include "host/truth/film/camera/figure_check.hpp"
 #include "host/truth/film/camera/scene.hpp"
 #include "host/truth/film/track/camera_motion.hpp"
 #include "host/truth/film/track/film_figures.hpp"
@@ -31,8 +32,10 @@ struct FilmTrack {
   Scene scene;
   Eigen::MatrixXd covariance;  // of the scene's parameters
   /// The standard error of the common factor of all distances (camera/scale_error.hpp). If nobody measured a distance, it is that
-  /// of tags printed in a size that nobody checked.
+  /// of tags printed in a size that nobody checked. It grows by as much as what was measured contradicts itself.
   double scale_sigma = 0;
+  /// What a person measured, against the film and all else that was measured.
+  std::vector<FigureCheck> checked;
   std::vector<FloorTagReport> floor;
   double floor_rms_px = 0;
   CameraMotion motion;
@@ -48,7 +51,8 @@ struct FilmTrack {
 /// Cost    about half the length of a 1080p30 film on one core, beside the decoder.
 /// Memory  one picture, and some hundred bytes for each.
 /// Errors  astro::Error that says what is wrong with the film: not a film, truncated, cut, no tag of the robot or of the floor,
-///         a tag too small, blurred or mirrored, two robots, a camera that moves; and what `progress` throws.
+///         a tag too small, blurred or mirrored, two robots, a camera that moves, lengths
+///         that contradict each other; and what `progress` throws.
 FilmTrack follow_film(const std::filesystem::path& film, const FilmFigures& figures,
                       const Progress& progress = {});
 

@@ -28,10 +28,13 @@ using Fields = std::map<std::string, std::string>;
 Fields fields_in(const std::string& text) {
   Fields fields;
   std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);)
+  std::string section;
+  for (std::string line; std::getline(lines, line);) {
+    if (line == "[FORMAT]") section = "format.";
     // A container that states the length of the film only as a whole says N/A for the stream.
     if (const std::size_t sign = line.find('='); sign != std::string::npos && line.substr(sign + 1) != "N/A")
-      fields.emplace(line.substr(0, sign), line.substr(sign + 1));
+      fields.emplace(section + line.substr(0, sign), line.substr(sign + 1));
+  }
   return fields;
 }
 
@@ -39,6 +42,13 @@ double number_of(const Fields& fields, const std::string& name) {
   const auto found = fields.find(name);
   const double value = found == fields.end() ? 0 : ratio_in(found->second);
   return std::isfinite(value) && value > -1e9 && value < 1e9 ? value : 0;
+}
+
+/// From the first picture to the end. That of a container that has no more than its whole begins at 0.
+double duration_of(const Fields& fields) {
+  if (const double own_s = number_of(fields, "duration"); own_s > 0) return own_s;
+  return std::max(
+      0.0, number_of(fields, "format.duration") - std::max(0.0, number_of(fields, "format.start_time")));
 }
 
 /// The first box of MP4 and MOV says which of them it is; ffprobe believes the name of the file.
@@ -65,8 +75,8 @@ FilmInfo read_film_info(const std::filesystem::path& film) {
   std::string said;
   ChildProcess probe({"ffprobe", "-loglevel", "error", "-select_streams", "v:0", "-show_entries",
                       "stream=codec_name,width,height,avg_frame_rate,nb_frames,duration:stream_side_data="
-                      "rotation:format=duration",
-                      "-of", "default=noprint_wrappers=1", as_input(film)},
+                      "rotation:format=duration,start_time",
+                      "-of", "default", as_input(film)},
                      [&](std::string_view line) { said.append(line.substr(0, 400)).append("\n"); });
   std::array<std::uint8_t, 8192> buffer;
   const std::size_t count = probe.read(buffer);
@@ -79,7 +89,7 @@ FilmInfo read_film_info(const std::filesystem::path& film) {
   info.rotation_deg = static_cast<int>(std::lround(number_of(fields, "rotation")));
   if (fields.contains("codec_name")) info.codec = fields.at("codec_name");
   info.frames_per_s = number_of(fields, "avg_frame_rate");
-  info.duration_s = number_of(fields, "duration");
+  info.duration_s = duration_of(fields);
   info.frames = static_cast<std::size_t>(std::max(0.0, number_of(fields, "nb_frames")));
   constexpr int kLeast = 64, kMost = 16384;
   if (info.width < kLeast || info.height < kLeast || info.width > kMost || info.height > kMost)

@@ -13,9 +13,11 @@ std::vector<std::string> words_for(const std::filesystem::path& film, FrameStrea
   std::vector<std::string> words{"ffmpeg",     "-hide_banner", "-nostdin", "-nostats",      "-loglevel",
                                  "level+info", "-threads",     "1",        "-noautorotate", "-copyts"};
   if (pictures == FrameStream::Pictures::key_only) words.insert(words.end(), {"-skip_frame", "nokey"});
-  // showinfo reports each picture's time in whole units of the time base, of which rawvideo has nothing.
-  words.insert(words.end(), {"-i", as_input(film), "-map", "0:v:0", "-vf", "showinfo=checksum=0", "-fps_mode",
-                             "passthrough", "-pix_fmt", "gray", "-f", "rawvideo", "pipe:1"});
+  // showinfo reports each picture's time in whole units of the time base, of which rawvideo has nothing. With a time base of one picture
+  // the muxer would complain about films that are a little slower or faster than they say.
+  words.insert(words.end(),
+               {"-i", as_input(film), "-map", "0:v:0", "-vf", "showinfo=checksum=0", "-fps_mode",
+                "passthrough", "-enc_time_base", "-1", "-pix_fmt", "gray", "-f", "rawvideo", "pipe:1"});
   return words;
 }
 
@@ -40,6 +42,7 @@ FrameStream::FrameStream(const std::filesystem::path& film, const FilmInfo& info
 
 void FrameStream::take_line(std::string_view line) {
   if (line.find("showinfo") == std::string_view::npos) {
+    if (line.starts_with("[rawvideo")) return;  // about times, which it does not write
     if (line.find("[error]") != std::string_view::npos || line.find("[fatal]") != std::string_view::npos)
       complaint_ = line.substr(line.rfind(']') + 1);
     return;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
+#include <string>
+#include <vector>
 
 #include "tests/support/film/wrong_films.hpp"
 #include "tests/support/programs/program.hpp"
@@ -36,6 +38,11 @@ const std::map<std::string, Sentence>& sentences() {
   return all;
 }
 
+struct WrongWords {
+  std::vector<std::string> words;
+  const char* fact;
+};
+
 class WrongFilm : public testing::TestWithParam<std::string> {};
 
 TEST_P(WrongFilm, IsRefusedWithWhatToFilmDifferently) {
@@ -60,12 +67,52 @@ TEST(WrongFilmAlone, ShowsThatTheRobotDrivesOutOfThePicture) {
   EXPECT_THAT(outcome.out, HasSubstr("is out of the picture from"));
 }
 
+// A film that is good, and figures that are not.
+TEST(WrongFigures, AreNamedWithWhatTheFilmShows) {
+  const test::TemporaryFolder folder;
+  support::film::wrong_film("ends-too-early")->write(folder.path());
+  const std::string film = (folder.path() / "film.mp4").string();
+  const std::vector<WrongWords> all{
+      {{"--tape", "1:99=3.4"}, "floor tag 99, to which a distance is given, is not seen, but 1, 2"},
+      {{"--tape", "0:1=3.4"}, "a distance is given to tag 0, which is the robot's: correct --tape 0:1"},
+      {{"--tag-side", "0.12", "--floor-tag-side", "0.16", "--tag-height", "0.121", "--tape", "1:4=0.346"},
+       "the distance from floor tag 1 to 4 is 3."}};
+  for (const WrongWords& wrong : all) {
+    std::vector<std::string> words{"truth", "film", film};
+    words.insert(words.end(), wrong.words.begin(), wrong.words.end());
+    const Outcome outcome = support::astrolabe(words);
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_THAT(outcome.err, HasSubstr(wrong.fact));
+  }
+  // Its only key picture does not show that another tag moves.
+  const Outcome of_floor = support::astrolabe({"truth", "film", film, "--robot-tag", "3"});
+  EXPECT_THAT(of_floor.out, HasSubstr("the robot's tag (id 3) does not move in the whole film"));
+}
+
 INSTANTIATE_TEST_SUITE_P(Each, WrongFilm, testing::ValuesIn(support::film::wrong_film_names()),
                          [](const auto& test) {
                            std::string name = test.param;
                            std::replace(name.begin(), name.end(), '-', '_');
                            return name;
                          });
+
+/// Refused before the film is looked at.
+TEST(WrongOptions, OfAFilmSayWhichPartOfThemIsWrong) {
+  const std::vector<WrongWords> all{
+      {{"--tape", "1:4=3457"}, "'3457' is not a length from 0.1 to 100 m"},
+      {{"--tape", "1:4=3,457"}, "'3,457' is not a length"},
+      {{"--tape", "1-4=3.457"}, "'1-4=3.457' is not a distance between two floor tags"},
+      {{"--tape", "1:1=3.457"}, "'1:1=3.457' is not a distance between two floor tags"},
+      {{"--readout", "0.018"}, "no camera reads a picture in 0.018 ms"},
+      {{"--csv", "a", "--tum", "./a"}, "'./a' would be written twice"}};
+  for (const WrongWords& wrong : all) {
+    std::vector<std::string> words{"truth", "film", "film.mp4"};
+    words.insert(words.end(), wrong.words.begin(), wrong.words.end());
+    const Outcome outcome = support::astrolabe(words);
+    EXPECT_NE(outcome.code, 0);
+    EXPECT_THAT(outcome.err, HasSubstr(wrong.fact));
+  }
+}
 
 TEST(NoFilm, WithoutItsReaderSaysWhatToInstall) {
   const test::TemporaryFolder folder;

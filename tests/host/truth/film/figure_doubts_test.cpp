@@ -1,0 +1,139 @@
+#include "host/truth/film/track/figure_doubts.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+
+#include "host/truth/film/track/scene_search.hpp"
+#include "tests/host/truth/film/synthetic_scene.hpp"
+
+// A person measured something wrongly: the film and the other figures show it.
+namespace astro::film {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double kNoise_px = 0.02;
+
+/// What a film of this scene shows, with all rows read at once.
+class Filmed {
+ public:
+  explicit Filmed(Scene scene) : scene_(std::move(scene)) {
+    scene_.readout_s = 0;
+    std::mt19937 random(20261125);
+    for (TagCorners corners : support::seen_floor(scene_)) {
+      support::add_noise(corners, kNoise_px, random);
+      floor_.push_back({scene_.tags[floor_.size()].id, corners});
+    }
+    for (RobotSighting one : support::seen_robot(scene_, 120)) {
+      support::add_noise(one.corners, kNoise_px, random);
+      robot_.push_back({static_cast<double>(robot_.size()) / 30, one.corners, 1});
+    }
+  }
+
+  FilmFigures true_figures() const {
+    FilmFigures figures;
+    figures.floor_side_m = scene_.floor_side_m;
+    figures.robot_side_m = scene_.robot_side_m;
+    figures.robot_height_m = scene_.robot_height_m;
+    figures.readout_s = 0;
+    figures.tapes = {{1, 4, distance_between(scene_, 1, 4).value()}};
+    return figures;
+  }
+  SceneFit fit(const FilmFigures& figures) const {
+    return find_scene({scene_.width_px, scene_.height_px, 0, "", 30, 10, 300}, floor_, robot_, figures);
+  }
+  std::optional<FigureDoubt> doubt(const FilmFigures& figures) const {
+    return doubt_about_figures(figures, fit(figures), [&](const FilmFigures& with) { return fit(with); });
+  }
+
+ private:
+  Scene scene_;
+  std::vector<SeenFloorTag> floor_;
+  std::vector<RobotTagSeen> robot_;
+};
+
+struct Mistake {
+  const char* what;
+  std::function<void(FilmFigures&)> make;
+  const char* sentence;
+  bool gross;
+};
+
+const std::vector<Mistake>& mistakes() {
+  static const std::vector<Mistake> all{
+      {"a digit too many in the height", [](FilmFigures& f) { f.robot_height_m = 0.0121; },
+       "the height of the robot's tag is 1", true},
+      {"a height above the camera", [](FilmFigures& f) { f.robot_height_m = 3; },
+       "the height of the robot's tag is 1", true},
+      {"a tape read at the wrong mark", [](FilmFigures& f) { f.tapes[0].length_m -= 0.06; },
+       "the distance from floor tag 1 to 4 is 3.1", false},
+      {"a tape in another unit", [](FilmFigures& f) { f.tapes[0].length_m /= 10; },
+       "the distance from floor tag 1 to 4 is 3.1", true},
+      {"the white margin counted as part of the floor tags", [](FilmFigures& f) { f.floor_side_m = 0.2; },
+       "and not 200.0 mm", true},
+      {"the white margin counted as part of the robot's tag", [](FilmFigures& f) { f.robot_side_m = 0.15; },
+       "and not 150.0 mm", true},
+      {"sides that are exchanged", [](FilmFigures& f) { std::swap(f.robot_side_m, f.floor_side_m); },
+       "the sides of the robot's tag and of the floor tags, 160.0 mm and 120.0 mm, are exchanged", true},
+  };
+  return all;
+}
+
+TEST(FigureDoubts, HaveNothingAgainstFiguresThatARulerShows) {
+  for (const Scene& scene : {support::phone_scene(), support::ceiling_scene()}) {
+    const Filmed film(scene);
+    EXPECT_FALSE(film.doubt(film.true_figures()).has_value());
+    // Twice the error of a ruler each, in the directions that contradict each other most.
+    FilmFigures rough = film.true_figures();
+    *rough.floor_side_m += 8e-4;
+    *rough.robot_side_m -= 8e-4;
+    *rough.robot_height_m += 4e-3;
+    rough.tapes[0].length_m -= 4e-3;
+    const auto doubt = film.doubt(rough);
+    EXPECT_FALSE(doubt.has_value()) << doubt->remark.fact;
+  }
+}
+
+TEST(FigureDoubts, NameTheFigureThatAllOthersContradict) {
+  const Filmed film(support::phone_scene());
+  for (const Mistake& mistake : mistakes()) {
+    FilmFigures figures = film.true_figures();
+    mistake.make(figures);
+    const auto doubt = film.doubt(figures);
+    ASSERT_TRUE(doubt.has_value()) << mistake.what;
+    EXPECT_THAT(doubt->remark.fact, HasSubstr(mistake.sentence)) << mistake.what;
+    EXPECT_EQ(doubt->gross, mistake.gross) << mistake.what << ": " << doubt->remark.fact;
+  }
+}
+
+TEST(FigureDoubts, KnowTheTapeByThePrintedSizeOfTheTagsIfNothingElseWasMeasured) {
+  const Filmed film(support::phone_scene());
+  FilmFigures figures;
+  figures.readout_s = 0;
+  figures.tapes = {{1, 4, film.true_figures().tapes[0].length_m / 10}};
+  const auto doubt = film.doubt(figures);
+  ASSERT_TRUE(doubt.has_value());
+  EXPECT_THAT(doubt->remark.fact, HasSubstr("the distance from floor tag 1 to 4 is"));
+  EXPECT_TRUE(doubt->gross);
+}
+
+TEST(FigureDoubts, SayThatSeveralMayBeWrongIfTheFilmCannotTell) {
+  // From straight above nothing but the two of them shows the scale.
+  const Filmed film(support::ceiling_scene());
+  FilmFigures figures;
+  figures.readout_s = 0;
+  figures.floor_side_m = film.true_figures().floor_side_m;
+  figures.tapes = {{1, 4, 1.1 * film.true_figures().tapes[0].length_m}};
+  const auto doubt = film.doubt(figures);
+  ASSERT_TRUE(doubt.has_value());
+  EXPECT_THAT(doubt->remark.fact, HasSubstr("contradicts itself"));
+  EXPECT_THAT(doubt->remark.fact, HasSubstr("the side of the floor tags is"));
+  EXPECT_THAT(doubt->remark.fact, HasSubstr("or the distance from floor tag 1 to 4 is"));
+  EXPECT_TRUE(doubt->gross);
+}
+
+}  // namespace
+}  // namespace astro::film
