@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "host/base/error.hpp"
@@ -10,6 +11,7 @@
 #include "host/base/text/columns.hpp"
 #include "host/base/text/trimmed.hpp"
 #include "host/commands/base/remedies.hpp"
+#include "host/commands/experiment/programme_work.hpp"
 #include "host/commands/shared/film_truth.hpp"
 #include "host/console/console.hpp"
 
@@ -57,17 +59,28 @@ bool taken(const std::vector<fs::path>& paths, experiment::RunSet& set, const Fi
 
 }  // namespace
 
-std::string film_briefing() {
+std::string film_briefing(const experiment::Plan& plan, const fs::path& folder) {
+  const ProgrammeWork work = work_of(plan, folder);
+  if (work.left == 0) return "";
+  const DrivenField field = field_of(plan);
   return wrapped(
              "The phone films the tag on the robot all the time: put it on a shelf or a tripod 2 m high or "
-             "higher, looking down "
-             "by 35 degrees or more, so that the whole field and all tags on the floor are in the picture. "
-             "1080p, stabilisation "
-             "off, focus and exposure locked. Begin to film before the first run, and do not touch the phone "
-             "until all runs of "
-             "the phase are driven; then stop filming, copy the file to this computer, and name it when "
-             "asked.") +
-         "'astrolabe truth film FILE' looks at a film alone.\n";
+             "higher, looking down by 35 degrees or more, so that the whole field and all tags on the floor "
+             "are in the picture. 1080p, stabilisation off, focus and exposure locked. Begin to film before "
+             "the first run, and do not touch the phone until all runs of the phase are driven; then stop "
+             "filming, copy the file to this computer, and name it when asked.") +
+         "'astrolabe truth film FILE' looks at a film alone.\n" +
+         wrapped(fmt::format(
+             "{} of {} runs are to be driven, for about {:.0f} minutes. From where it stands now the middle "
+             "of "
+             "the robot drives {:.1f} m ahead and {:.1f} m back, {:.1f} m to the left and {:.1f} m to the "
+             "right; it needs half a metre more on each side.",
+             work.left, work.all, std::ceil(work.driving_s / 60), field.to_ahead_m,
+             std::abs(field.from_ahead_m), field.to_left_m, std::abs(field.from_left_m)));
+}
+
+void ask_filming(const AskLine& ask, const std::string& phase) {
+  press_enter(ask, fmt::format("Begin to film phase '{}', step aside and press Enter ", phase));
 }
 
 void take_films(const std::string& phase, experiment::RunSet& set, const FilmRequest& request) {

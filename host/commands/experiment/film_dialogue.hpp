@@ -6,13 +6,18 @@
 #include <vector>
 
 #include "host/commands/shared/film_options.hpp"
+#include "host/commands/shared/press_enter.hpp"
+#include "host/experiment/files/plan.hpp"
 #include "host/experiment/files/run_set.hpp"
 
 /// What is said to, and asked of, a person who films an experiment.
 namespace astro::commands {
 
-/// Before the first run: how to film.
-std::string film_briefing();
+/// Before the first run: how to film, for how long the robot drives, and where. Nothing if all is driven. Lines of at most 80 columns.
+std::string film_briefing(const experiment::Plan& plan, const std::filesystem::path& folder);
+
+/// Before the first run of a phase: waits for Enter alone, the phone films.
+void ask_filming(const AskLine& ask, const std::string& phase);
 
 struct FilmRequest {
   std::optional<std::filesystem::path> file;  // taken without a question, if it is there

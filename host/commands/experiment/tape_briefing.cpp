@@ -2,19 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <numbers>
-
 #include "host/base/text/columns.hpp"
-#include "host/console/console.hpp"
-#include "host/experiment/drive/record_run.hpp"
-#include "host/experiment/files/experiment_folder.hpp"
+#include "host/commands/experiment/programme_work.hpp"
 
 namespace astro::commands {
 namespace {
 
 constexpr double kMeasuring_s = 120;  // three readings, and carrying the robot back to its mark
-constexpr double kStops_s = 1;        // each segment speeds up and slows down
 
 constexpr const char* kDrawing = R"(
         x, ahead                      heading, counter-clockwise is +
@@ -33,36 +27,6 @@ where the robot points: each run has to begin exactly so. After a run measure to
 the floor under the middle of the axle: x along the line, y across it.
 )";
 
-double driving_s(const experiment::Plan& plan, const experiment::RunSpec& spec) {
-  double time_s = 0;
-  for (const protocol::AddSegment& segment : experiment::path_of(plan, spec)) {
-    const double turned_rad =
-        2 * std::numbers::pi * std::ldexp(std::abs(static_cast<double>(segment.angle)), -32);
-    const double length_m = std::abs(static_cast<double>(segment.length_nm)) * 1e-9;
-    time_s += std::max(length_m / plan.speed_mps, turned_rad / plan.yaw_rate_radps) + kStops_s;
-  }
-  return time_s;
-}
-
-struct Work {
-  int all = 0, left = 0;  // runs
-  double driving_s = 0;   // of those that are left
-
-  double minutes() const { return (driving_s + left * kMeasuring_s) / 60; }
-};
-
-Work work_of(const experiment::Plan& plan, const std::filesystem::path& folder) {
-  Work work;
-  for (std::size_t phase = 0; phase < experiment::phase_names(plan).size(); ++phase)
-    for (const experiment::RunSpec& spec : experiment::runs_of_phase(plan, phase, plan.runs)) {
-      ++work.all;
-      if (std::filesystem::exists(experiment::file_of(folder, spec))) continue;
-      ++work.left;
-      work.driving_s += driving_s(plan, spec);
-    }
-  return work;
-}
-
 /// "before: 5 + 5 squares and 3 lines"
 std::string phase_text(const experiment::Plan& plan, std::size_t phase) {
   const int squares = 2 * plan.runs;
@@ -77,7 +41,8 @@ std::string phase_text(const experiment::Plan& plan, std::size_t phase) {
 }  // namespace
 
 std::string tape_briefing(const experiment::Plan& plan, const std::filesystem::path& folder) {
-  const Work work = work_of(plan, folder);
+  const ProgrammeWork work = work_of(plan, folder);
+  const double minutes = (work.driving_s + work.left * kMeasuring_s) / 60;
   std::string phases;
   for (std::size_t i = 0; i < experiment::phase_names(plan).size(); ++i)
     phases += (i == 0 ? "" : "; ") + phase_text(plan, i);
@@ -86,7 +51,7 @@ std::string tape_briefing(const experiment::Plan& plan, const std::filesystem::p
       "makes {} "
       "readings. It takes about {:.0f} minutes: {:.0f} of driving, and 2 for each run to measure and to "
       "carry the robot back.",
-      work.left, work.all, phases, 3 * work.left, work.minutes(), work.driving_s / 60);
+      work.left, work.all, phases, 3 * work.left, minutes, work.driving_s / 60);
   return wrapped(text) + kDrawing;
 }
 

@@ -3,6 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "host/base/error.hpp"
 #include "host/base/text/columns.hpp"
@@ -73,8 +74,10 @@ experiment::ExperimentHooks hooks_for(const UmbmarkOptions& options, console::Pr
     progress.clear();
     return console::ask_before_acting(prompt);
   };
-  hooks.ready = [pauses, ask](const experiment::RunSpec& spec,
-                              const std::optional<experiment::RunSpec>& last) {
+  const bool films = options.truth.source == "film" && console::stdin_is_terminal();
+  hooks.ready = [pauses, films, ask, phase = std::string()](
+                    const experiment::RunSpec& spec, const std::optional<experiment::RunSpec>& last) mutable {
+    if (films && std::exchange(phase, spec.phase) != spec.phase) ask_filming(ask, spec.phase);
     return pauses ? ask_ready(ask, spec, last) : experiment::Redo::no;
   };
   hooks.put_back = [ask](const experiment::RunSpec& run) {
@@ -178,7 +181,7 @@ void run(UmbmarkOptions& options) {
   if (options.no_extras && options.truth.source != "manual")
     console::say("squares alone do not show e (whether gentle arcs turn about another wheelbase than spins)");
   if (options.truth.source == "manual") brief(options);
-  if (options.truth.source == "film") console::say(film_briefing());
+  if (options.truth.source == "film") console::say(film_briefing(options.plan, options.out));
   console::Progress progress("driving");
   const auto truth = open_truth(options.truth, options.connection.port, [&](const truth::Question& question) {
     progress.clear();

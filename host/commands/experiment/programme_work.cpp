@@ -1,0 +1,72 @@
+#include "host/commands/experiment/programme_work.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "host/experiment/drive/record_run.hpp"
+#include "host/experiment/files/experiment_folder.hpp"
+
+namespace astro::commands {
+namespace {
+
+constexpr double kStops_s = 1;  // each segment speeds up and slows down
+
+double length_m(const protocol::AddSegment& segment) { return 1e-9 * static_cast<double>(segment.length_nm); }
+double turn_rad(const protocol::AddSegment& segment) {
+  return 2 * std::numbers::pi * std::ldexp(static_cast<double>(segment.angle), -32);
+}
+
+double driving_s(const experiment::Plan& plan, const experiment::RunSpec& spec) {
+  double time_s = 0;
+  for (const protocol::AddSegment& segment : experiment::path_of(plan, spec))
+    time_s += std::max(std::abs(length_m(segment)) / plan.speed_mps,
+                       std::abs(turn_rad(segment)) / plan.yaw_rate_radps) +
+              kStops_s;
+  return time_s;
+}
+
+/// A point that drives, and how far it came.
+class Walk {
+ public:
+  void along(const protocol::AddSegment& segment) {
+    constexpr int kSteps = 64;  // chords of an arc: a thousandth shorter at most
+    const double step_m = length_m(segment) / kSteps, step_rad = turn_rad(segment) / kSteps;
+    for (int i = 0; i < kSteps; ++i) {
+      const double middle_rad = heading_rad_ + step_rad / 2;
+      x_m_ += step_m * std::cos(middle_rad);
+      y_m_ += step_m * std::sin(middle_rad);
+      heading_rad_ += step_rad;
+      field_ = {std::min(field_.from_ahead_m, x_m_), std::max(field_.to_ahead_m, x_m_),
+                std::min(field_.from_left_m, y_m_), std::max(field_.to_left_m, y_m_)};
+    }
+  }
+  const DrivenField& field() const { return field_; }
+
+ private:
+  double x_m_ = 0, y_m_ = 0, heading_rad_ = 0;
+  DrivenField field_;
+};
+
+}  // namespace
+
+ProgrammeWork work_of(const experiment::Plan& plan, const std::filesystem::path& folder) {
+  ProgrammeWork work;
+  for (std::size_t phase = 0; phase < experiment::phase_names(plan).size(); ++phase)
+    for (const experiment::RunSpec& spec : experiment::runs_of_phase(plan, phase, plan.runs)) {
+      ++work.all;
+      if (std::filesystem::exists(experiment::file_of(folder, spec))) continue;
+      ++work.left;
+      work.driving_s += driving_s(plan, spec);
+    }
+  return work;
+}
+
+DrivenField field_of(const experiment::Plan& plan) {
+  Walk walk;
+  for (const experiment::RunSpec& spec : experiment::runs_of_phase(plan, 0, plan.runs))
+    for (const protocol::AddSegment& segment : experiment::path_of(plan, spec)) walk.along(segment);
+  return walk.field();
+}
+
+}  // namespace astro::commands

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+
+#include "host/experiment/files/plan.hpp"
+
+/// How long an experiment takes, and how much floor: what a person wants to know before the robot drives.
+namespace astro::commands {
+
+/// The runs of a plan that are not recorded in its folder yet.
+struct ProgrammeWork {
+  int all = 0, left = 0;  // runs
+  double driving_s = 0;   // of those that are left
+};
+ProgrammeWork work_of(const experiment::Plan& plan, const std::filesystem::path& folder);
+
+/// Where the middle of the axle goes in one phase, from where it stands at first and along the way that it points to: metres ahead and
+/// metres to the left, one run behind the other.
+struct DrivenField {
+  double from_ahead_m = 0, to_ahead_m = 0, from_left_m = 0, to_left_m = 0;
+};
+DrivenField field_of(const experiment::Plan& plan);
+
+}  // namespace astro::commands
