@@ -97,31 +97,29 @@ std::string figure_name(const FilmTrack& track, const film::FigureCheck& one) {
 }
 
 /// What a person measured, beside what the film and the others say without it.
-std::string figure_rows(const FilmTrack& track) {
-  if (track.checked.empty()) return "";
-  Rows rows{{"measured", "mm", "by all else", "off by"}};
-  for (const film::FigureCheck& one : track.checked) {
-    const bool known = std::isfinite(one.by_others.sigma);
-    rows.push_back({figure_name(track, one), fmt::format("{:.1f}", 1e3 * one.measured.value),
-                    known
-                        ? fmt::format("{:.1f} ± {:.1f}", 1e3 * one.by_others.value, 1e3 * one.by_others.sigma)
-                        : std::string("not known"),
-                    known ? fmt::format("{:.1f} std errors", one.off()) : std::string()});
-  }
-  return '\n' + console::table(rows);
+Rows figure_rows(const FilmTrack& track) {
+  Rows rows;
+  for (const film::FigureCheck& one : track.checked)
+    rows.push_back({figure_name(track, one),
+                    fmt::format("{:.1f} mm, by all else ", 1e3 * one.measured.value) +
+                        (std::isfinite(one.by_others.sigma)
+                             ? fmt::format("{:.1f} ± {:.1f} ({:.1f} std errors)", 1e3 * one.by_others.value,
+                                           1e3 * one.by_others.sigma, one.off())
+                             : "not known")});
+  return rows;
 }
 
 }  // namespace
 
 std::vector<std::vector<std::string>> film_table(const FilmTrack& track) {
   Rows all = film_rows(track);
-  for (const Rows& more : {camera_rows(track), error_rows(track)})
+  for (const Rows& more : {camera_rows(track), error_rows(track), figure_rows(track)})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }
 
 std::string film_text(const FilmTrack& track) {
-  std::string text = console::table(film_table(track), "ll") + '\n' + floor_rows(track) + figure_rows(track);
+  std::string text = console::table(film_table(track), "ll") + '\n' + floor_rows(track);
   if (!track.remarks.empty()) text += '\n';
   for (const Remark& remark : track.remarks) text += wrapped(in_words(remark) + '.');
   return text;
