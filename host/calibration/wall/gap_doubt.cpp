@@ -36,8 +36,8 @@ bool is_slip_of_digits(double read_m, double expected_m, double allowed_m) {
 }
 
 bool is_possible(double read_m, const ExpectedGap& expected) {
-  constexpr double kLeast = 0.8, kMost = 1.25;  // of the nominal diameter
-  return read_m >= kLeast * expected.nominal_m && read_m <= kMost * expected.nominal_m;
+  constexpr double kFifth = 0.2;
+  return std::abs(read_m / expected.loaded_m - 1) <= kFifth;
 }
 
 std::string facts_of(double read_m, const ExpectedGap& expected) {
@@ -58,7 +58,13 @@ std::optional<GapDoubt> doubt_about_gap(double read_m, const ExpectedGap& expect
   if (possible && fits(read_m)) return std::nullopt;
   const std::string facts = facts_of(read_m, expected);
   const auto doubt = [&](Mistake mistake, const std::string& explanation) {
-    return GapDoubt{mistake, read_m, possible, facts + explanation};
+    const double larger = 100 * (read_m / expected.loaded_m - 1);
+    const std::string impossible =
+        possible || larger > 1000
+            ? ""
+            : fmt::format("; the wheels would be {:.0f} % {} than their diameter, gear and counts say",
+                          std::abs(larger), larger > 0 ? "larger" : "smaller");
+    return GapDoubt{mistake, read_m, possible, facts + explanation + impossible};
   };
   for (const double times : {10.0, 100.0, 1000.0}) {
     for (const double factor : {times, 1 / times})

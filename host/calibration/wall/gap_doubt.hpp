@@ -10,7 +10,7 @@ namespace astro::calibration {
 struct ExpectedGap {
   double gap_m = 0;          // by the wheels, with all that is known of them
   double known = 0.01;       // relative standard error of that: 1 % if nobody has read a gap before
-  double nominal_m = 0;      // by wheels of their nominal diameter
+  double loaded_m = 0;       // by the factors that the robot carries
   bool read_before = false;  // what is known of them comes from an earlier reading
 };
 
@@ -24,7 +24,8 @@ struct GapDoubt {
   };
   Mistake mistake = Mistake::unknown;
   double read_m = 0;
-  /// Wheels whose diameter is wrong by more than a fifth are no matter of a calibration: such a gap is a mistake, whatever its reader says.
+  /// Wheels that are more than a fifth larger or smaller than the robot takes them for are no matter of a calibration: such a gap, or the robot's
+  /// wheel diameter, gear or counts, is a mistake, whatever its reader says.
   bool possible = true;
   std::string
       why;  // a sentence without its full stop: what was read, what is expected, and what would explain it

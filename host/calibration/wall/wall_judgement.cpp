@@ -39,9 +39,6 @@ void add_gaps(const WallDrive& drive, const WallEstimate& found, const WheelFact
                                  std::pow(found.noise.contact_m, 2);
       const double loaded_m = reading.gap_m - (loaded.c_r + loaded.c_l) / 2 * driven_m;
       const double found_m = reading.gap_m - scale->scale * driven_m;
-      const bool left_out =
-          found.scale->left_out > 0 && std::abs(found_m) > WallScale::kContradictory * std::sqrt(variance_m2);
-      if (left_out) continue;
       gains.push_back((loaded_m * loaded_m - found_m * found_m) / variance_m2);
     }
   }
@@ -71,7 +68,7 @@ WallJudgement judge_wall(const WallDrive& drive, const WallEstimate& found, cons
   const double count = std::max(judgement.stretches, 1);
   judgement.loaded_rad = std::sqrt(judgement.loaded_rad / count);
   judgement.found_rad = std::sqrt(judgement.found_rad / count);
-  add_gaps(drive, found, loaded, gains);
+  add_gaps(without_contradicted(drive, found.factors, found.noise), found, loaded, gains);
   judgement.verdict = judge_gains(gains);
   judgement.readings_contradict = found.scale && found.scale->contradictory();
   if (judgement.readings_contradict && judgement.verdict == Verdict::better)

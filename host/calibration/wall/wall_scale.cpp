@@ -24,16 +24,18 @@ WheelFactors without_scale(WheelFactors factors) {
 
 struct Backing {
   double driven_m = 0, gap_m = 0, variance_m2 = 0;
+  std::size_t series = 0, reading = 0;
 };
 
 std::vector<Backing> backings_of(const WallDrive& drive, const WheelFactors& factors,
                                  const WallNoise& noise) {
   std::vector<Backing> backings;
-  for (const WallSeries& series : drive) {
-    for (const GapReading& reading : series.readings) {
-      const WheelTravel since = reading.travel - series.squarings.at(reading.squaring);
+  for (std::size_t s = 0; s < drive.size(); ++s) {
+    for (std::size_t i = 0; i < drive[s].readings.size(); ++i) {
+      const GapReading& reading = drive[s].readings[i];
+      const WheelTravel since = reading.travel - drive[s].squarings.at(reading.squaring);
       backings.push_back({backed_off_m(since, factors), reading.gap_m,
-                          noise.K_m * since.path_m() / 4 + noise.reading_m * noise.reading_m});
+                          noise.K_m * since.path_m() / 4 + noise.reading_m * noise.reading_m, s, i});
     }
   }
   return backings;
@@ -112,6 +114,16 @@ std::optional<WallScale> scale_of_gaps(const WallDrive& drive, const WheelFactor
   const double scatter = scatter_of(kept, line);
   return WallScale{line.scale, scatter * line.se, static_cast<int>(kept.size()),
                    static_cast<int>(all.size() - kept.size()), scatter};
+}
+
+WallDrive without_contradicted(const WallDrive& drive, const WheelFactors& factors, const WallNoise& noise) {
+  WallDrive kept = drive;
+  for (WallSeries& series : kept) series.readings.clear();
+  const std::vector<Backing> all = backings_of(drive, without_scale(factors), noise);
+  if (all.empty()) return kept;
+  for (const Backing& one : agreeing(all, noise.contact_m))
+    kept[one.series].readings.push_back(drive[one.series].readings[one.reading]);
+  return kept;
 }
 
 }  // namespace astro::calibration

@@ -30,4 +30,7 @@ struct WallScale {
 std::optional<WallScale> scale_of_gaps(const WallDrive& drive, const WheelFactors& factors,
                                        const WallNoise& noise);
 
+/// The drive without the readings that most others contradict: those that scale_of_gaps takes.
+WallDrive without_contradicted(const WallDrive& drive, const WheelFactors& factors, const WallNoise& noise);
+
 }  // namespace astro::calibration

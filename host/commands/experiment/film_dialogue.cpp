@@ -59,10 +59,13 @@ bool taken(const std::vector<fs::path>& paths, experiment::RunSet& set, const Fi
 
 }  // namespace
 
-std::string film_briefing(const experiment::Plan& plan, const fs::path& folder) {
+std::string film_briefing(const experiment::Plan& plan, const fs::path& folder, double wheelbase_m) {
   const ProgrammeWork work = work_of(plan, folder);
   if (work.left == 0) return "";
-  const DrivenField field = field_of(plan);
+  bool open_ended = false;
+  for (std::size_t phase = 0; phase < experiment::phase_names(plan).size(); ++phase)
+    open_ended = open_ended || experiment::open_ended(plan, phase);
+  const DrivenField field = field_of(plan, wheelbase_m);
   return wrapped(
              "The phone films the tag on the robot all the time: put it on a shelf or a tripod 2 m high or "
              "higher, looking down by 35 degrees or more, so that the whole field and all tags on the floor "
@@ -71,12 +74,12 @@ std::string film_briefing(const experiment::Plan& plan, const fs::path& folder) 
              "filming, copy the file to this computer, and name it when asked.") +
          "'astrolabe truth film FILE' looks at a film alone.\n" +
          wrapped(fmt::format(
-             "{} of {} runs are to be driven, for about {:.0f} minutes. From where it stands now the middle "
-             "of "
-             "the robot drives {:.1f} m ahead and {:.1f} m back, {:.1f} m to the left and {:.1f} m to the "
-             "right; it needs half a metre more on each side.",
-             work.left, work.all, std::ceil(work.driving_s / 60), field.to_ahead_m,
-             std::abs(field.from_ahead_m), field.to_left_m, std::abs(field.from_left_m)));
+             "{}{} of {} runs are to be driven, for about {:.0f} minutes. From its start mark the middle of "
+             "the robot may drive {:.1f} m ahead and {:.1f} m back, {:.1f} m to the left and {:.1f} m to the "
+             "right, because squares of a robot that nobody has calibrated turn about their start; it needs "
+             "half a metre more on each side.",
+             open_ended ? "At least " : "", work.left, work.all, std::ceil(work.driving_s / 60),
+             field.to_ahead_m, std::abs(field.from_ahead_m), field.to_left_m, std::abs(field.from_left_m)));
 }
 
 void ask_filming(const AskLine& ask, const std::string& phase) {

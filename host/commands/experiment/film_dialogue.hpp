@@ -14,7 +14,8 @@
 namespace astro::commands {
 
 /// Before the first run: how to film, for how long the robot drives, and where. Nothing if all is driven. Lines of at most 80 columns.
-std::string film_briefing(const experiment::Plan& plan, const std::filesystem::path& folder);
+std::string film_briefing(const experiment::Plan& plan, const std::filesystem::path& folder,
+                          double wheelbase_m);
 
 /// Before the first run of a phase: waits for Enter alone, the phone films.
 void ask_filming(const AskLine& ask, const std::string& phase);

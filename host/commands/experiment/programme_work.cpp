@@ -26,26 +26,34 @@ double driving_s(const experiment::Plan& plan, const experiment::RunSpec& spec) 
   return time_s;
 }
 
+/// How a robot misses what it is told.
+struct Miss {
+  double veers_radpm = 0;  // turns on a straight metre
+  double turns = 1;        // real over commanded turn
+};
+
 /// A point that drives, and how far it came.
 class Walk {
  public:
-  void along(const protocol::AddSegment& segment) {
-    constexpr int kSteps = 64;  // chords of an arc: a thousandth shorter at most
-    const double step_m = length_m(segment) / kSteps, step_rad = turn_rad(segment) / kSteps;
+  explicit Walk(const Miss& miss) : miss_(miss) {}
+
+  void along(const protocol::AddSegment& segment, DrivenField& field) {
+    constexpr int kSteps = 64;
+    const double step_m = length_m(segment) / kSteps;
+    const double step_rad = miss_.turns * turn_rad(segment) / kSteps + miss_.veers_radpm * step_m;
     for (int i = 0; i < kSteps; ++i) {
       const double middle_rad = heading_rad_ + step_rad / 2;
-      x_m_ += step_m * std::cos(middle_rad);
+      x_m_ += step_m * std::cos(middle_rad);  // the arc for its chord
       y_m_ += step_m * std::sin(middle_rad);
       heading_rad_ += step_rad;
-      field_ = {std::min(field_.from_ahead_m, x_m_), std::max(field_.to_ahead_m, x_m_),
-                std::min(field_.from_left_m, y_m_), std::max(field_.to_left_m, y_m_)};
+      field = {std::min(field.from_ahead_m, x_m_), std::max(field.to_ahead_m, x_m_),
+               std::min(field.from_left_m, y_m_), std::max(field.to_left_m, y_m_)};
     }
   }
-  const DrivenField& field() const { return field_; }
 
  private:
+  Miss miss_;
   double x_m_ = 0, y_m_ = 0, heading_rad_ = 0;
-  DrivenField field_;
 };
 
 }  // namespace
@@ -62,11 +70,17 @@ ProgrammeWork work_of(const experiment::Plan& plan, const std::filesystem::path&
   return work;
 }
 
-DrivenField field_of(const experiment::Plan& plan) {
-  Walk walk;
-  for (const experiment::RunSpec& spec : experiment::runs_of_phase(plan, 0, plan.runs))
-    for (const protocol::AddSegment& segment : experiment::path_of(plan, spec)) walk.along(segment);
-  return walk.field();
+DrivenField field_of(const experiment::Plan& plan, double wheelbase_m) {
+  constexpr double kWheels = 0.005, kWheelbase = 0.01;
+  DrivenField field;
+  for (const double wheels : {-kWheels, 0.0, kWheels})
+    for (const double base : {-kWheelbase, 0.0, kWheelbase}) {
+      Walk walk({wheels / wheelbase_m, 1 + base});
+      for (const experiment::RunSpec& spec : experiment::runs_of_phase(plan, 0, plan.runs))
+        for (const protocol::AddSegment& segment : experiment::path_of(plan, spec))
+          walk.along(segment, field);
+    }
+  return field;
 }
 
 }  // namespace astro::commands

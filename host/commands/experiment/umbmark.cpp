@@ -181,7 +181,11 @@ void run(UmbmarkOptions& options) {
   if (options.no_extras && options.truth.source != "manual")
     console::say("squares alone do not show e (whether gentle arcs turn about another wheelbase than spins)");
   if (options.truth.source == "manual") brief(options);
-  if (options.truth.source == "film") console::say(film_briefing(options.plan, options.out));
+  if (options.truth.source == "film") {
+    const double wheelbase_m = robot::RemoteParameters::fetch(*client).number("b");
+    const std::string text = film_briefing(options.plan, options.out, wheelbase_m);
+    if (!text.empty()) console::say(text);
+  }
   console::Progress progress("driving");
   const auto truth = open_truth(options.truth, options.connection.port, [&](const truth::Question& question) {
     progress.clear();

@@ -11,6 +11,7 @@
 #include "host/base/text/trimmed.hpp"
 #include "host/console/console.hpp"
 #include "host/experiment/analysis/likelihood_sentences.hpp"
+#include "host/experiment/wall/wall_programme.hpp"
 
 namespace astro::commands {
 namespace {
@@ -28,10 +29,10 @@ constexpr const char* kDrawing = R"(
 
 /// With what the robot may go further as its wheels are larger than it believes.
 double depth_m(const experiment::WallPlan& plan) {
-  constexpr double kFurther = 1.05;
   const experiment::BodySize& body = plan.body;
   const double turning_m = 2 * (body.turning_gap_m() + body.front_to_axle_m);
-  return kFurther * std::max(plan.line_m + turning_m, plan.readings > 0 ? plan.gap_m + body.length_m : 0.0);
+  return (1 + experiment::kFurther) *
+         std::max(plan.line_m + turning_m, plan.readings > 0 ? plan.gap_m + body.length_m : 0.0);
 }
 
 std::string scale_text(const std::optional<calibration::WallScale>& scale) {
@@ -107,7 +108,7 @@ std::optional<double> ask_gap(const AskLine& ask, double expected_m, truth::Leng
 
 std::optional<double> ask_gap_again(const AskLine& ask, const calibration::GapDoubt& doubt,
                                     truth::LengthUnit unit) {
-  const std::string why = doubt.why + (doubt.possible ? "." : ". No wheel is that far off its diameter.");
+  const std::string why = doubt.why + (doubt.possible ? "." : ", which no calibration mends.");
   const std::string question =
       wrapped(why) +
       fmt::format("  Read it again, {}{}: ", truth::name_of(unit),

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -68,11 +69,15 @@ bool load(robot::Client& client, const experiment::ParameterFile& file, const st
 int brief(const experiment::WallPlan& plan, robot::Client& client, const WallSettings& settings) {
   const experiment::WallRobot robot = experiment::wall_robot_of(robot::RemoteParameters::fetch(client));
   const auto journal = experiment::read_wall_journal(settings.out);
+  int readings = plan.readings;
   if (journal) {
-    const auto estimate = calibration::estimate_wall(journal->drive, journal->loaded);
-    if (!experiment::next_move(*journal, estimate, robot)) return 0;
+    const auto next =
+        experiment::next_move(*journal, calibration::estimate_wall(journal->drive, journal->loaded), robot);
+    if (!next) return 0;
+    const bool one_more =
+        next->kind == calibration::WallMove::Kind::gap;  // those that were read contradict each other
+    readings = std::max(experiment::gaps_left(*journal), one_more ? 1 : 0);
   }
-  const int readings = journal ? experiment::gaps_left(*journal) : plan.readings;
   const auto course = calibration::plan_course(experiment::wishes_of(plan, robot), robot.loaded);
   console::say(wall_briefing(plan, course, readings, journal ? journal->driven_s : 0));
   return readings;

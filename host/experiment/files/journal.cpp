@@ -20,7 +20,9 @@ std::filesystem::path file_in(const std::filesystem::path& folder) { return fold
   if (std::filesystem::exists(folder / "wall.json"))
     throw Error(fmt::format("'{}' holds a calibration against a wall, which has no runs to report on",
                             folder.string()),
-                {Help::read_calibration_of_wall, (folder / "calib.toml").string()});
+                std::filesystem::exists(folder / "calib.toml")
+                    ? Remedy{Help::read_calibration_of_wall, (folder / "calib.toml").string()}
+                    : Remedy{});
   const std::string why = !std::filesystem::exists(folder) ? "does not exist"
                           : !std::filesystem::is_directory(folder)
                               ? "is a file"

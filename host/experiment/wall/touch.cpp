@@ -25,8 +25,9 @@ constexpr double kSettled_s = 0.15;    // both wheels stand under the full push 
 constexpr double kSame_m = 0.0005;     // two pushes that end so close ended at the same place
 constexpr int kMostPushes = 20;
 constexpr double kBackwards_m = 0.005;  // more than play, or a rotor that settles
-constexpr double kMostTurn_rad = 0.5;   // a robot that faces the wall by eye turns less
-constexpr double kPushing_s = 30;       // besides the way there
+constexpr double kRunsAway_mps = 1.5 * kCreep_mps;
+constexpr double kMostTurn_rad = 0.5;  // a robot that faces the wall by eye turns less
+constexpr double kPushing_s = 30;      // besides the way there
 constexpr double kSpeedGain_Vspm = 10, kIntegral_Vpm = 150;
 constexpr double kIntegralAtWall_Vpm = 500;  // there is nothing to overshoot, and time is short
 
@@ -144,19 +145,23 @@ class Square {
         {Help::face_wall_and_resume});
   }
 
-  /// With a motor or an encoder that is reversed the regulator drives its wheel away from what it wants, ever faster.
+  /// With a motor or an encoder that is reversed the regulator drives its wheel away from what it wants, ever faster. A wheel that the
+  /// wall rolls back, where the robot turns about a corner, is never faster than it crept.
   void require_sense() {
     const calibration::WheelTravel since = watch_.travel() - start_;
-    touched_ = touched_ || stall_.longest_s() >= kStands_s;
-    if (!touched_ && touch_.pushes == 1)
-      for (const auto& [name, way_m] : {std::pair("left", since.left_m), std::pair("right", since.right_m)})
-        if (way_m < -kBackwards_m)
-          fail(fmt::format("by its encoder the {} wheel turns backwards on a forward voltage", name),
-               Help::check_wiring);
+    const Wheels way_m{since.left_m, since.right_m};
+    for (std::size_t side = 0; side < 2; ++side) {
+      touched_ = touched_ || (has_turned(side) && stall_.stood_s(side) >= kStands_s);
+      if (way_m[side] < -kBackwards_m && watch_.now().speed_mps[side] < -kRunsAway_mps)
+        fail(fmt::format("by its encoder the {} wheel runs backwards on a forward voltage",
+                         side == 0 ? "left" : "right"),
+             Help::check_wiring);
+    }
     const double turned_rad = (since.right_m - since.left_m) / robot_.loaded.b_m;
     if (std::abs(turned_rad) > kMostTurn_rad)
-      fail(fmt::format("the robot has turned by {:.0f} degrees against the wall and is not flush",
-                       degrees(std::abs(turned_rad))));
+      fail(fmt::format("the robot has turned by {:.0f} degrees {}", degrees(std::abs(turned_rad)),
+                       touched_ ? "against the wall and is not flush" : "on its way to the wall"),
+           touched_ ? Help::face_wall_and_resume : Help::check_wiring);
   }
 
   void pause() {

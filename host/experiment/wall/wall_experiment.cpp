@@ -23,7 +23,6 @@ using Kind = calibration::WallMove::Kind;
 
 constexpr double kFurthestStart_m = 0.8;
 constexpr int kDoubtsInARow = 3;
-constexpr double kFurther = 0.05;  // part by which a scale that was found changes distances
 
 class Experiment {
  public:
@@ -77,7 +76,7 @@ class Experiment {
     calibration::WheelFactors factors = estimate_.factors;
     const double loaded = (robot_.loaded.c_r + robot_.loaded.c_l) / 2,
                  found = (factors.c_r + factors.c_l) / 2;
-    const double part = std::clamp(found / loaded, 1 - kFurther, 1 + kFurther) * loaded / found;
+    const double part = std::clamp(found / loaded, 1 / (1 + kFurther), 1 + kFurther) * loaded / found;
     factors.c_r *= part;
     factors.c_l *= part;
     factors.b_m *= part;
@@ -129,7 +128,7 @@ class Experiment {
     const WheelTravel since = travel - series().squarings.back();
     calibration::ExpectedGap expected;
     expected.gap_m = calibration::backed_off_m(since, estimate_.factors);
-    expected.nominal_m = expected.gap_m * 2 / (estimate_.factors.c_r + estimate_.factors.c_l);
+    expected.loaded_m = calibration::backed_off_m(since, journal_.loaded);
     expected.read_before = estimate_.scale.has_value();
     if (estimate_.scale) expected.known = estimate_.scale->se;
     const BodySize& body = journal_.plan.body;

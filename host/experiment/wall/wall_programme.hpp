@@ -9,6 +9,9 @@
 /// What is driven next in front of a wall.
 namespace astro::experiment {
 
+/// Part by which the robot may drive further, or less far, than its own odometry says because of a scale that was found.
+inline constexpr double kFurther = 0.05;
+
 /// What the plan wishes of plan_course, on this robot.
 calibration::WallWishes wishes_of(const WallPlan& plan, const WallRobot& robot);
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "host/base/error.hpp"
+#include "host/base/interrupted.hpp"
 #include "host/truth/film/track/scene_search.hpp"
 
 namespace astro::film {
@@ -86,37 +87,71 @@ double worst(const std::vector<FigureCheck>& checks) {
   return most;
 }
 
-/// By how much what was measured and how the sheets are printed contradict each other, in standard errors.
-double contradiction(const FilmFigures& given, const SceneFit& fit) {
-  return worst(check_figures(fit.scene, figures_with_errors(given), fit.covariance));
-}
-
 /// With a height or a side that is far off, the robot's tag fits no picture, and then says nothing against it.
 bool shows_robot(const SceneFit& fit) {
   constexpr double kFits_px = 1;
   return !fit.robot.empty() && fit.robot_rms_px < kFits_px;
 }
 
-/// Refits with other figures; the scene if those agree.
+/// Refits with other figures; the scene if those agree, and the robot's tag is above the floor.
 std::optional<Scene> agreeing_scene(const FilmFigures& others, const Refit& refit) {
   try {
     const SceneFit fit = refit(others);
-    if (fit.converged && shows_robot(fit) && contradiction(others, fit) < kDoubtful) return fit.scene;
+    if (fit.converged && shows_robot(fit) && fit.scene.robot_height_m >= 0 &&
+        worst(given_figures(others, fit)) < kDoubtful)
+      return fit.scene;
+  } catch (const Interrupted&) {
+    throw;
   } catch (const Error&) {  // no camera fits: these figures explain nothing
   }
   return std::nullopt;
 }
 
-/// A figure that explains the contradiction if it is left out, and what it would be.
-struct Culprit {
+/// A figure with what it would be instead.
+struct Correction {
   FigureCheck figure;
   double value_m;
 };
 
-bool is_gross(const Culprit& culprit) {
+bool is_gross(const FilmFigures& given, const Correction& one) {
   constexpr double kPart = 0.05, kHeight_m = 0.03;
-  const double off_m = std::abs(culprit.figure.measured.value - culprit.value_m);
-  return off_m > (culprit.figure.kind == FigureKind::robot_height ? kHeight_m : kPart * culprit.value_m);
+  const double off_m = std::abs(one.figure.measured.value - one.value_m);
+  const bool far =
+      off_m > (one.figure.kind == FigureKind::robot_height ? kHeight_m : kPart * std::abs(one.value_m));
+  return far && without(given, one.figure).scale_measured();
+}
+
+std::string clause(const FilmFigures& given, const Correction& one) {
+  return fmt::format("{} is {} and not {}", name_of(given, one.figure), length(one.value_m),
+                     length(one.figure.measured.value));
+}
+
+/// What nobody gave, and is not as usual.
+std::optional<FigureDoubt> unusual(const FilmFigures& given, const Refit& refit) {
+  constexpr double kNotable = 1.5;  // standard errors of what is usual
+  if (given.floor_side_m && given.robot_side_m && given.robot_height_m) return std::nullopt;
+  FilmFigures open = given;
+  open.as_usual = false;
+  const auto scene = agreeing_scene(open, refit);
+  if (!scene) return std::nullopt;
+  const Figures usual = figures_with_errors(given);
+  std::vector<std::string> clauses;
+  const auto add = [&](FigureKind kind, const Measured& was) {
+    const Correction one{{kind, 0, was, was, was}, value_in(*scene, given, {kind, 0, was, was, was})};
+    if (!is_given(given, kind) && std::abs(one.value_m - was.value) > kNotable * was.sigma)
+      clauses.push_back(clause(given, one));
+  };
+  add(FigureKind::floor_side, usual.floor_side_m);
+  add(FigureKind::robot_side, usual.robot_side_m);
+  const std::size_t sides = clauses.size();
+  add(FigureKind::robot_height, usual.robot_height_m);
+  if (clauses.empty()) return std::nullopt;
+  return FigureDoubt{
+      {fmt::format("by the film and what was measured, {}, as is usual", fmt::join(clauses, ", ")),
+       {sides == 0 ? Help::give_tag_height : Help::none}},
+      1,
+      false,
+      open};
 }
 
 std::optional<std::string> exchange(const FilmFigures& given, const Refit& refit) {
@@ -135,6 +170,58 @@ std::optional<std::string> exchange(const FilmFigures& given, const Refit& refit
                   "side and height of the robot's tag");
 }
 
+struct Explanation {
+  std::string clause;
+  bool gross;
+};
+
+/// Both sides are wrong by one factor, as a printer scales.
+std::optional<Explanation> printed_smaller(const FilmFigures& given, const Refit& refit) {
+  constexpr double kSame = 0.015;
+  if (!given.floor_side_m || !given.robot_side_m || given.tapes.empty()) return std::nullopt;
+  FilmFigures others = given;
+  others.floor_side_m.reset();
+  others.robot_side_m.reset();
+  const auto scene = agreeing_scene(others, refit);
+  if (!scene) return std::nullopt;
+  const double floor = scene->floor_side_m / *given.floor_side_m,
+               robot = scene->robot_side_m / *given.robot_side_m;
+  if (std::abs(floor - robot) > kSame) return std::nullopt;
+  return Explanation{
+      fmt::format("all tags are printed at {:.1f} % of the sides that were given", 50 * (floor + robot)),
+      false};
+}
+
+std::vector<Explanation> explanations(const FilmFigures& given, const std::vector<FigureCheck>& checks,
+                                      const Refit& refit) {
+  std::vector<Explanation> all;
+  for (const FigureCheck& figure : checks)
+    if (const auto scene = agreeing_scene(without(given, figure), refit)) {
+      const Correction one{figure, value_in(*scene, given, figure)};
+      all.push_back({clause(given, one), is_gross(given, one)});
+    }
+  if (const auto smaller = printed_smaller(given, refit)) all.push_back(*smaller);
+  return all;
+}
+
+/// No single figure explains it.
+FigureDoubt several(const FilmFigures& given, const std::vector<FigureCheck>& checks, double off) {
+  std::vector<std::string> clauses;
+  bool gross = true;
+  for (const FigureCheck& figure : checks) {
+    if (figure.off() < kDoubtful) continue;
+    const Correction one{figure, figure.by_others.value};
+    clauses.push_back(clause(given, one));
+    gross = gross && is_gross(given, one);
+  }
+  return {{fmt::format("at least two of what was measured are wrong; each by all else, {}",
+                       fmt::join(clauses, ", ")),
+           {Help::measure_figure_again}},
+          off,
+          gross,
+          given};
+}
+
 }  // namespace
 
 std::vector<FigureCheck> given_figures(const FilmFigures& given, const SceneFit& fit) {
@@ -145,42 +232,34 @@ std::vector<FigureCheck> given_figures(const FilmFigures& given, const SceneFit&
 
 std::optional<FigureDoubt> doubt_about_figures(const FilmFigures& given, const SceneFit& fit,
                                                const Refit& refit) {
-  const double off = contradiction(given, fit);
-  const bool robot_fits = shows_robot(fit);
-  if (off < kDoubtful && robot_fits) return std::nullopt;
   const std::vector<FigureCheck> checks = given_figures(given, fit);
-  std::vector<Culprit> culprits;
-  for (const FigureCheck& figure : checks)
-    if (const auto scene = agreeing_scene(without(given, figure), refit))
-      culprits.push_back({figure, value_in(*scene, given, figure)});
-  if (const auto exchanged = exchange(given, refit); exchanged && culprits.size() != 1)
-    return FigureDoubt{{*exchanged}, off, true};
-  const auto clause = [&](const Culprit& one) {
-    return fmt::format("{} is {} and not {}", name_of(given, one.figure), length(one.value_m),
-                       length(one.figure.measured.value));
-  };
-  if (culprits.size() == 1) {
-    const Culprit& one = culprits.front();
+  const double off = worst(checks);
+  const bool robot_fits = shows_robot(fit);
+  if (checks.empty() || (off < kDoubtful && robot_fits)) return std::nullopt;
+  if (auto other = unusual(given, refit)) return other;
+  const std::vector<Explanation> all = explanations(given, checks, refit);
+  if (all.size() != 1)
+    if (const auto exchanged = exchange(given, refit)) return FigureDoubt{{*exchanged}, off, true, given};
+  if (all.empty() && (!robot_fits || off < kDoubtful)) return std::nullopt;  // no figure is to blame
+  if (all.empty()) return several(given, checks, off);
+  if (all.size() == 1)
     return FigureDoubt{
-        {"by the film and all else that was measured, " + clause(one), {Help::measure_figure_again}},
+        {"by the film and all else that was measured, " + all.front().clause, {Help::measure_figure_again}},
         off,
-        is_gross(one)};
-  }
-  const bool none = culprits.empty();
-  if (none && !robot_fits) return std::nullopt;  // no figure is to blame
-  if (none)
-    for (const FigureCheck& figure : checks) culprits.push_back({figure, figure.by_others.value});
+        all.front().gross,
+        given};
   std::vector<std::string> clauses;
   bool gross = true;
-  for (const Culprit& one : culprits) {
-    clauses.push_back(clause(one));
-    gross = gross && (none || is_gross(one));
+  for (const Explanation& one : all) {
+    clauses.push_back(one.clause);
+    gross = gross && one.gross;
   }
   return FigureDoubt{
       {fmt::format("what was measured contradicts itself: either {}", fmt::join(clauses, ", or ")),
        {Help::measure_figure_again}},
       off,
-      gross};
+      gross,
+      given};
 }
 
 }  // namespace astro::film

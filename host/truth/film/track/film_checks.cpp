@@ -105,10 +105,14 @@ bool lies_on_floor(const FloorSurvey& survey, int id) {
 /// The only other tag that moves, if the robot's never does.
 std::optional<int> moves_instead(const FloorSurvey& survey) {
   constexpr double kStill_px = 4;
-  if (survey.robot.empty() || survey.moving.size() != 1) return std::nullopt;
-  const Eigen::Vector2d first = center_of(survey.robot.front().corners);
+  constexpr std::size_t kLeast = 3;
+  if (survey.robot.size() < kLeast || survey.moving.size() != 1) return std::nullopt;
+  const TagCorners& first = survey.robot.front().corners;
   const bool still = std::all_of(survey.robot.begin(), survey.robot.end(), [&](const FloorSurvey::Seen& one) {
-    return (center_of(one.corners) - first).norm() < kStill_px;
+    double furthest_px = 0;
+    for (std::size_t i = 0; i < first.size(); ++i)
+      furthest_px = std::max(furthest_px, (one.corners[i] - first[i]).norm());
+    return furthest_px < kStill_px;
   });
   return still ? std::optional(survey.moving.front()) : std::nullopt;
 }

@@ -16,6 +16,9 @@ struct FilmFigures {
     double length_m = 0;   // from centre to centre
   };
   std::vector<Length> tapes;
+  /// What is not given is taken to be about as the sheets are printed, the robot's tag to be about 0.12 m high; false: hardly anything is
+  /// taken of it.
+  bool as_usual = true;
   double readout_s = 0.02;  // from the first row to the last; negative if the last row is read first
 
   /// A distance that fixes the scale. The height of a tag alone fixes none.

@@ -89,13 +89,15 @@ FilmTrack follow_film(const std::filesystem::path& film, const FilmFigures& figu
   steady(track.sightings, track.motion);
   const std::vector<SeenFloorTag> floor = on_average(survey.floor, track.motion);
   const auto fitted = [&](const FilmFigures& with) {
+    if (progress) progress(1);  // may end the work
     return find_scene(track.info, floor, track.sightings.robot, with);
   };
   SceneFit fit = fitted(figures);
   const std::optional<FigureDoubt> doubt = doubt_about_figures(figures, fit, fitted);
   if (doubt && doubt->gross)
     throw Error("'" + film.string() + "': " + doubt->remark.fact, doubt->remark.remedy);
-  track.checked = given_figures(figures, fit);
+  if (doubt && !doubt->figures.as_usual) fit = fitted(track.figures = doubt->figures);
+  track.checked = given_figures(track.figures, fit);
   track.scene = std::move(fit.scene);
   track.covariance = std::move(fit.covariance);
   track.floor_rms_px = fit.floor_rms_px;

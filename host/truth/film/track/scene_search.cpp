@@ -54,13 +54,13 @@ std::vector<RobotSighting> spread(const std::vector<FilmPose>& poses, const std:
 Figures figures_with_errors(const FilmFigures& given) {
   constexpr double kRuler_m = 4e-4, kHeight_m = 2e-3, kTape_m = 2e-3;
   constexpr double kFloorSide_m = 0.16, kRobotSide_m = 0.12, kRobotHeight_m = 0.12;
-  constexpr double kUnknown = 0.05, kUnknownHeight_m = 0.06;
+  const double unknown = given.as_usual ? 0.05 : 0.3, unknown_height_m = given.as_usual ? 0.06 : 0.3;
   const auto side = [&](const std::optional<double>& value, double printed) {
-    return value ? Measured{*value, kRuler_m} : Measured{printed, kUnknown * printed};
+    return value ? Measured{*value, kRuler_m} : Measured{printed, unknown * printed};
   };
   Figures figures{side(given.floor_side_m, kFloorSide_m), side(given.robot_side_m, kRobotSide_m),
                   given.robot_height_m ? Measured{*given.robot_height_m, kHeight_m}
-                                       : Measured{kRobotHeight_m, kUnknownHeight_m}};
+                                       : Measured{kRobotHeight_m, unknown_height_m}};
   for (const FilmFigures::Length& tape : given.tapes)
     figures.tapes.push_back({tape.from, tape.to, {tape.length_m, kTape_m}});
   return figures;

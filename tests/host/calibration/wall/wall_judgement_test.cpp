@@ -35,6 +35,25 @@ TEST(WallJudgement, SeesAnotherScaleInTheGaps) {
   EXPECT_EQ(judgement.verdict, Verdict::better) << judgement.sentence();
 }
 
+/// Of a robot whose scale alone is 1 % off, with this many readings, of which the first is 25 mm off.
+WallJudgement judged_with_a_wrong_gap(int readings) {
+  WallWishes wishes;
+  wishes.readings = readings;
+  const WheelFactors actual = factors_with(1, 0.29, 1.01);
+  SyntheticRobot robot(actual, WallNoise{}, 3);
+  for (const WallMove& move : plan_course(wishes, kNominal).moves) robot.drive(move, kNominal);
+  WallDrive drive = robot.drive_so_far();
+  drive[0].readings[0].gap_m += 0.025;
+  return judge_wall(drive, estimate_wall(drive, kNominal), kNominal);
+}
+
+TEST(WallJudgement, JudgesTheScaleByTheReadingsThatAgree) {
+  EXPECT_EQ(judged_with_a_wrong_gap(3).verdict, Verdict::better);
+  EXPECT_FALSE(judged_with_a_wrong_gap(3).readings_contradict);
+  EXPECT_NE(judged_with_a_wrong_gap(2).verdict, Verdict::better);
+  EXPECT_TRUE(judged_with_a_wrong_gap(2).readings_contradict);
+}
+
 TEST(WallJudgement, SaysThatItKnowsTooLittle) {
   const WallJudgement judgement = judge_wall({}, estimate_wall({}, kNominal), kNominal);
   EXPECT_EQ(judgement.verdict, Verdict::unknown);

@@ -56,7 +56,9 @@ TEST(WallPlan, TurnsOnTheSpotOnlyIfLapsDoNotShowB) {
 TEST(WallPlan, BeginsWithShortMovesForARobotThatNobodyHasCalibrated) {
   const WallCourse course = plan_course({}, kNominal);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(course.moves[i].kind, Kind::repeat);
-  for (std::size_t i = 3; i < 5; ++i) EXPECT_LE(course.moves[i].line_m, 1);
+  for (std::size_t i = 3; i < kFirstMoves; ++i) EXPECT_LE(course.moves[i].line_m, 1);
+  for (std::size_t i = 0; i < kFirstMoves; ++i) EXPECT_NE(course.moves[i].kind, Kind::gap);
+  EXPECT_EQ(course.moves[kFirstMoves].kind, Kind::gap);
   int sum = 0;
   for (const WallMove& move : course.moves) sum += move.turns;
   EXPECT_LE(std::abs(sum), 3) << "about as many turns one way round as the other";

@@ -94,12 +94,40 @@ TEST_F(Touching, StopsAtOnceIfAWheelTurnsTheWrongWay) {
       touch();
       ADD_FAILURE() << side;
     } catch (const NotFlush& error) {
-      EXPECT_THAT(error.what(), HasSubstr("the " + side + " wheel turns backwards"));
+      EXPECT_THAT(error.what(), HasSubstr("the " + side + " wheel runs backwards"));
       EXPECT_EQ(error.remedy().help, Help::check_wiring);
     }
     EXPECT_LT(board().world_us() - began_us, 1'500'000U) << "the pause with shorted motors included";
     EXPECT_LT(std::abs(board().truth().theta_rad), 0.15) << side;
     EXPECT_EQ(mode(), protocol::Mode::disarmed);
+  }
+}
+
+TEST_F(Touching, EndsGentlyIfMotorsOrEncodersAreExchanged) {
+  for (bool sim::Wiring::*wire : {&sim::Wiring::motors_swapped, &sim::Wiring::encoders_swapped})
+    for (const double oblique_rad : {0.0, 0.2}) {
+      sim::Config config = facing(0.1);
+      config.wiring.*wire = true;
+      begin(config, oblique_rad);
+      try {
+        touch();
+      } catch (const NotFlush&) {  // or flush, which a straight approach may bring about
+      }
+      EXPECT_LE(board().wall_record().hardest_N, PushLimit{}.force_N);
+      EXPECT_LT(std::abs(board().truth().theta_rad), 0.8);
+      EXPECT_EQ(mode(), protocol::Mode::disarmed);
+    }
+}
+
+TEST_F(Touching, TurnsARobotWhoseWheelsStandOutsideItsFront) {
+  // The corner that touches is nearer to the middle than its wheel, which the wall therefore rolls back.
+  for (const double oblique_rad : {-0.3, 0.3}) {
+    sim::Config config = facing(0.1);
+    config.body.width_m = 0.2;
+    config.wall = sim::WallConfig{.x_m = config.body.ahead_m + 0.1};
+    begin(config, oblique_rad);
+    touch();
+    EXPECT_NEAR(off_rad(), 0, 0.005) << oblique_rad;
   }
 }
 

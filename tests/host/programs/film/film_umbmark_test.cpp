@@ -9,6 +9,7 @@
 #include "tests/support/base/json.hpp"
 #include "tests/support/film/film_stage.hpp"
 #include "tests/support/programs/program.hpp"
+#include "tests/support/programs/tmux_program.hpp"
 
 // A phone on a tripod films what the simulated robot drives: films are made here of where its cameras saw it.
 namespace astro {
@@ -93,6 +94,20 @@ class FilmedUmbmark : public testing::Test {
   truth::SocketSource cameras_;
   std::vector<recording::TruthSample> seen_;
 };
+
+TEST_F(FilmedUmbmark, WaitsAtATerminalUntilSomebodyFilms) {
+  support::TmuxProgram umbmark(
+      fmt::format("{} umbmark --truth film --port {} --out {} --runs 1 --side 1 --no-extras --yes",
+                  ASTROLABE_PROGRAM, simulator_.port(), out().string()));
+  ASSERT_TRUE(umbmark.shows("Begin to film phase 'before'")) << umbmark.seen();
+  EXPECT_THAT(umbmark.seen(), HasSubstr("4 of 4 runs are to be driven"));
+  EXPECT_THAT(umbmark.seen(), Not(HasSubstr("recorded")));
+  umbmark.type("wait");
+  ASSERT_TRUE(umbmark.shows("'wait' is no answer")) << umbmark.seen();
+  umbmark.type("");
+  ASSERT_TRUE(umbmark.shows("recorded before: square ccw 1", [this] { drain(); })) << umbmark.seen();
+  EXPECT_THAT(umbmark.seen(), HasSubstr("recorded before: square cw 1")) << "and does not ask again";
+}
 
 TEST_F(FilmedUmbmark, TakesAFilmOfEachPhaseAndLoadsTheFactorsThatItShows) {
   const Outcome driven = umbmark("film");

@@ -109,15 +109,91 @@ TEST(FigureDoubts, NameTheFigureThatAllOthersContradict) {
   }
 }
 
-TEST(FigureDoubts, KnowTheTapeByThePrintedSizeOfTheTagsIfNothingElseWasMeasured) {
-  const Filmed film(support::phone_scene());
+FilmFigures nothing_given() {
   FilmFigures figures;
   figures.readout_s = 0;
+  return figures;
+}
+
+TEST(FigureDoubts, KnowATapeByThePrintedSizeOfTheTagsButRefuseNothingForThat) {
+  const Filmed film(support::phone_scene());
+  FilmFigures figures = nothing_given();
   figures.tapes = {{1, 4, film.true_figures().tapes[0].length_m / 10}};
   const auto doubt = film.doubt(figures);
   ASSERT_TRUE(doubt.has_value());
   EXPECT_THAT(doubt->remark.fact, HasSubstr("the distance from floor tag 1 to 4 is"));
-  EXPECT_TRUE(doubt->gross);
+  EXPECT_FALSE(doubt->gross) << "nothing that was measured contradicts it";
+}
+
+TEST(FigureDoubts, HaveNothingAgainstAFilmOfWhichNothingWasMeasured) {
+  for (const double floor_m : {0.08, 0.113, 0.16, 0.2}) {
+    Scene scene = support::phone_scene();
+    scene.floor_side_m = floor_m;
+    scene.robot_side_m = 0.1;
+    EXPECT_FALSE(Filmed(scene).doubt(nothing_given()).has_value()) << floor_m;
+  }
+}
+
+TEST(FigureDoubts, TellARobotThatIsHigherThanUsualFromAWrongSide) {
+  Scene scene = support::phone_scene();
+  scene.robot_height_m = 0.4;
+  const Filmed film(scene);
+  for (const bool with_tape : {true, false}) {
+    FilmFigures figures = film.true_figures();
+    figures.robot_height_m.reset();
+    if (!with_tape) figures.tapes.clear();
+    const auto doubt = film.doubt(figures);
+    ASSERT_TRUE(doubt.has_value());
+    EXPECT_THAT(doubt->remark.fact, HasSubstr("the height of the robot's tag is"));
+    EXPECT_EQ(doubt->remark.remedy.help, Help::give_tag_height);
+    EXPECT_FALSE(doubt->gross);
+    EXPECT_EQ(doubt->off, 1) << "the scale is as certain as without the usual height";
+    EXPECT_NEAR(film.fit(doubt->figures).scene.robot_height_m, 0.4, 0.03);
+  }
+}
+
+TEST(FigureDoubts, TellSheetsOfAnotherSizeFromAWrongTape) {
+  Scene scene = support::phone_scene();
+  scene.floor_side_m *= 0.71;  // A4 printed on A5
+  scene.robot_side_m *= 0.71;
+  const Filmed film(scene);
+  FilmFigures figures = nothing_given();
+  figures.tapes = film.true_figures().tapes;
+  const auto doubt = film.doubt(figures);
+  ASSERT_TRUE(doubt.has_value());
+  EXPECT_THAT(doubt->remark.fact, HasSubstr("the side of the floor tags is 11"));
+  EXPECT_THAT(doubt->remark.fact, testing::Not(HasSubstr("distance")));
+  EXPECT_FALSE(doubt->gross);
+}
+
+TEST(FigureDoubts, TellAPrinterThatScalesFromAWrongTape) {
+  Scene scene = support::phone_scene();
+  scene.floor_side_m *= 0.97;
+  scene.robot_side_m *= 0.97;
+  const Filmed film(scene);
+  FilmFigures figures = film.true_figures();
+  *figures.floor_side_m /= 0.97;
+  *figures.robot_side_m /= 0.97;
+  const auto doubt = film.doubt(figures);
+  ASSERT_TRUE(doubt.has_value());
+  EXPECT_THAT(doubt->remark.fact, HasSubstr("all tags are printed at 97."));
+  EXPECT_THAT(doubt->remark.fact, HasSubstr("or"));
+  EXPECT_FALSE(doubt->gross);
+}
+
+TEST(FigureDoubts, LetTheErrorOfTheScaleGrowForSeveralSmallMistakes) {
+  const Filmed film(support::phone_scene());
+  FilmFigures figures = film.true_figures();
+  const Scene truth = support::phone_scene();
+  for (const auto& [from, to] : {std::pair(2, 3), std::pair(1, 5), std::pair(2, 4)})
+    figures.tapes.push_back({from, to, distance_between(truth, from, to).value()});
+  figures.tapes[1].length_m += 0.02;
+  figures.tapes[3].length_m -= 0.02;
+  const auto doubt = film.doubt(figures);
+  ASSERT_TRUE(doubt.has_value());
+  EXPECT_THAT(doubt->remark.fact, HasSubstr("at least two of what was measured are wrong"));
+  EXPECT_FALSE(doubt->gross);
+  EXPECT_GT(doubt->off, 3.5);
 }
 
 TEST(FigureDoubts, SayThatSeveralMayBeWrongIfTheFilmCannotTell) {
