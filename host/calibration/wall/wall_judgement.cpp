@@ -57,6 +57,9 @@ WallJudgement judge_wall(const WallDrive& drive, const WallEstimate& found, cons
     HeadingFit exact = others;
     exact.covariance.setZero();
     const double variance = heading_variance(stretch.travel, exact, found.noise);
+    // Where few laps were driven, one of them says nothing without the others.
+    constexpr double kVague = 10;
+    if (heading_variance(stretch.travel, others, found.noise) > kVague * variance) continue;
     gains.push_back((by_loaded * by_loaded - by_found * by_found) / variance);
     constexpr double kTells = 0.1;  // standard deviations; a way to and fro tells no factors apart
     if (std::abs(by_loaded - by_found) < kTells * std::sqrt(variance)) continue;
@@ -69,25 +72,25 @@ WallJudgement judge_wall(const WallDrive& drive, const WallEstimate& found, cons
   judgement.loaded_rad = std::sqrt(judgement.loaded_rad / count);
   judgement.found_rad = std::sqrt(judgement.found_rad / count);
   add_gaps(without_contradicted(drive, found.factors, found.noise), found, loaded, gains);
-  judgement.verdict = judge_gains(gains);
+  judgement.verdict = judgement.stretches < WallJudgement::kFewest ? Verdict::unknown : judge_gains(gains);
   judgement.readings_contradict = found.scale && found.scale->contradictory();
-  if (judgement.readings_contradict && judgement.verdict == Verdict::better)
+  if (judgement.readings_contradict && judgement.verdict != Verdict::worse)
     judgement.verdict = Verdict::undecided;
   return judgement;
 }
 
 std::string WallJudgement::sentence() const {
-  if (verdict == Verdict::unknown) return "Too few ways were driven to judge the new factors.";
+  const std::string contradiction =
+      readings_contradict ? " The readings of the ruler contradict each other, so the scale is not known."
+                          : "";
+  if (stretches < kFewest) return "Too few ways were driven to judge the new factors." + contradiction;
   const char* what = verdict == Verdict::better  ? "Better"
                      : verdict == Verdict::worse ? "Worse"
                                                  : "Not shown to be better";
-  const char* scale = readings_contradict
-                          ? " But the readings of the ruler contradict each other, so the scale is not known."
-                          : "";
   return fmt::format(
       "{}: on {} of {} ways that they had not seen the new factors fit better, and the heading at their ends "
       "is off by {:.0f} mrad instead of {:.0f} mrad.{}",
-      what, better_on, stretches, 1000 * found_rad, 1000 * loaded_rad, scale);
+      what, better_on, stretches, 1000 * found_rad, 1000 * loaded_rad, contradiction);
 }
 
 }  // namespace astro::calibration

@@ -17,6 +17,9 @@ struct WallJudgement {
       Verdict::unknown;  // of stretches and gaps; never better if readings contradict each other
   bool readings_contradict = false;
 
+  /// Fewer tell nothing: then the verdict is unknown.
+  static constexpr int kFewest = 3;
+
   /// "Better: on 12 of 14 ways that they had not seen ... the heading at their ends is off by 24 mrad instead of 98 mrad."
   std::string sentence() const;
 };

@@ -26,7 +26,8 @@ constexpr double kSame_m = 0.0005;     // two pushes that end so close ended at 
 constexpr int kMostPushes = 20;
 constexpr double kBackwards_m = 0.005;  // more than play, or a rotor that settles
 constexpr double kRunsAway_mps = 1.5 * kCreep_mps;
-constexpr double kMostTurn_rad = 0.5;  // a robot that faces the wall by eye turns less
+constexpr double kBack_m = 0.05;       // of both wheels: nothing pushes it back so far
+constexpr double kMostTurn_rad = 0.8;  // by eye, or back from laps by a rough wheelbase, it turns less
 constexpr double kPushing_s = 30;      // besides the way there
 constexpr double kSpeedGain_Vspm = 10, kIntegral_Vpm = 150;
 constexpr double kIntegralAtWall_Vpm = 500;  // there is nothing to overshoot, and time is short
@@ -157,6 +158,7 @@ class Square {
                          side == 0 ? "left" : "right"),
              Help::check_wiring);
     }
+    if (crept_m() < -kBack_m) fail("the robot drives backwards on a forward voltage", Help::check_wiring);
     const double turned_rad = (since.right_m - since.left_m) / robot_.loaded.b_m;
     if (std::abs(turned_rad) > kMostTurn_rad)
       fail(fmt::format("the robot has turned by {:.0f} degrees {}", degrees(std::abs(turned_rad)),

@@ -25,7 +25,7 @@ inline constexpr double kStall_s = 0.6, kPause_s = 0.2;
 /// The robot did not become flush: which of these happened is in the sentence.
 ///   no wheel turned on the voltage of the set force
 ///   a wheel ran away backwards on a forward voltage: its motor or its encoder is reversed
-///   the robot has turned by more than half a radian, which no wall does to a robot that faces it
+///   the robot has turned by more than 0.8 rad, which no wall does to a robot that faces it
 ///   nothing was touched within the way that the wall was expected in
 ///   the robot was still turning or sliding after all pushes, or after half a minute
 class NotFlush : public Error {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -98,8 +99,21 @@ class Experiment {
         calibration::approach_margin_m(way_back(move), journal_.plan.body.width_m / 2, estimate_);
     const double left_m = std::min(margin_m, move.away_m);
     if (left_m < move.away_m) driver_.drive(std::array{Leg{move.away_m - left_m, 0}}, factors);
-    const WallDriver::Flush flush = driver_.square(2 * left_m + 0.05);
+    const WallDriver::Flush flush = square_after(move, 2 * left_m + 0.05);
     keep(move, flush.travel, flush.crept_m - left_m);
+  }
+
+  /// Before anything is known of the robot, turns that end far from whole ones are most likely its own.
+  WallDriver::Flush square_after(const WallMove& move, double within_m) {
+    try {
+      return driver_.square(within_m);
+    } catch (const NotFlush& failed) {
+      if (move.turns == 0 || journal_.moves.size() >= calibration::kFirstMoves) throw;
+      throw NotFlush(
+          std::string(failed.what()) +
+              ", perhaps because its wheels or its wheelbase are some percent from what it carries",
+          failed.remedy());
+    }
   }
 
   static std::vector<Leg> legs_away(const WallMove& move) {

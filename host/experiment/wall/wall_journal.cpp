@@ -117,8 +117,11 @@ WallSeries series_in(const json& value) {
     series.readings.push_back({travel_in(reading.at("travel")),
                                within(reading.at("gap_m"), 1e-3, 100, "a gap is out of range"),
                                static_cast<std::size_t>(squaring)});
-    expect(is_way(series.readings.back().travel - series.squarings[series.readings.back().squaring]),
-           "no wheels roll like that between a squaring and a gap");
+    const WheelTravel way = series.readings.back().travel - series.squarings[series.readings.back().squaring];
+    expect(is_way(way), "no wheels roll like that between a squaring and a gap");
+    constexpr double kTimes = 2;  // a path of both wheels is twice the gap
+    const double part = 2 * series.readings.back().gap_m / way.path_m();
+    expect(part > 1 / kTimes && part < kTimes, "a gap is not what the wheels rolled");
   }
   return series;
 }

@@ -16,6 +16,7 @@ namespace astro::film {
 namespace {
 
 constexpr double kDoubtful = 3.5;  // standard errors; one in two thousand figures that are right
+constexpr double kUneasy = 2;      // one in twenty
 
 bool is_given(const FilmFigures& given, FigureKind kind) {
   switch (kind) {
@@ -126,32 +127,23 @@ std::string clause(const FilmFigures& given, const Correction& one) {
                      length(one.figure.measured.value));
 }
 
-/// What nobody gave, and is not as usual.
+/// What nobody gave is not as usual: goes on without what is usual. unusual_sides() speaks of the sides.
 std::optional<FigureDoubt> unusual(const FilmFigures& given, const Refit& refit) {
-  constexpr double kNotable = 1.5;  // standard errors of what is usual
   if (given.floor_side_m && given.robot_side_m && given.robot_height_m) return std::nullopt;
   FilmFigures open = given;
   open.as_usual = false;
   const auto scene = agreeing_scene(open, refit);
   if (!scene) return std::nullopt;
-  const Figures usual = figures_with_errors(given);
-  std::vector<std::string> clauses;
-  const auto add = [&](FigureKind kind, const Measured& was) {
-    const Correction one{{kind, 0, was, was, was}, value_in(*scene, given, {kind, 0, was, was, was})};
-    if (!is_given(given, kind) && std::abs(one.value_m - was.value) > kNotable * was.sigma)
-      clauses.push_back(clause(given, one));
-  };
-  add(FigureKind::floor_side, usual.floor_side_m);
-  add(FigureKind::robot_side, usual.robot_side_m);
-  const std::size_t sides = clauses.size();
-  add(FigureKind::robot_height, usual.robot_height_m);
-  if (clauses.empty()) return std::nullopt;
-  return FigureDoubt{
-      {fmt::format("by the film and what was measured, {}, as is usual", fmt::join(clauses, ", ")),
-       {sides == 0 ? Help::give_tag_height : Help::none}},
-      1,
-      false,
-      open};
+  FigureDoubt doubt{{}, 1, false, open};
+  constexpr double kNotable = 1.5;  // standard errors of what is usual
+  const Measured usual = figures_with_errors(given).robot_height_m;
+  if (!given.robot_height_m && std::abs(scene->robot_height_m - usual.value) > kNotable * usual.sigma)
+    doubt.remark = {
+        fmt::format("by the film and what was measured, the height of the robot's tag is {} and not {}, as "
+                    "is usual",
+                    length(scene->robot_height_m), length(usual.value)),
+        {Help::give_tag_height}};
+  return doubt;
 }
 
 std::optional<std::string> exchange(const FilmFigures& given, const Refit& refit) {
@@ -186,10 +178,11 @@ std::optional<Explanation> printed_smaller(const FilmFigures& given, const Refit
   if (!scene) return std::nullopt;
   const double floor = scene->floor_side_m / *given.floor_side_m,
                robot = scene->robot_side_m / *given.robot_side_m;
-  if (std::abs(floor - robot) > kSame) return std::nullopt;
-  return Explanation{
-      fmt::format("all tags are printed at {:.1f} % of the sides that were given", 50 * (floor + robot)),
-      false};
+  constexpr double kLeast = 0.85, kMost = 1.01;  // printers shrink to fit a page
+  const double mean = (floor + robot) / 2;
+  if (std::abs(floor - robot) > kSame || mean < kLeast || mean > kMost) return std::nullopt;
+  return Explanation{fmt::format("all tags are printed at {:.1f} % of the sides that were given", 100 * mean),
+                     false};
 }
 
 std::vector<Explanation> explanations(const FilmFigures& given, const std::vector<FigureCheck>& checks,
@@ -230,6 +223,24 @@ std::vector<FigureCheck> given_figures(const FilmFigures& given, const SceneFit&
   return checks;
 }
 
+double growth_of_error(const std::vector<FigureCheck>& checks) {
+  const double off = worst(checks);
+  return off > kUneasy ? off : 1;
+}
+
+std::vector<UnusualSide> unusual_sides(const FilmFigures& given, const Scene& scene) {
+  constexpr double kUnusual = 0.03;  // a printer that fits a sheet to the page, or a figure that is wrong
+  const Figures usual = figures_with_errors(FilmFigures{});
+  std::vector<UnusualSide> all;
+  const auto look = [&](FigureKind kind, double usual_m, double found_m) {
+    const UnusualSide side{kind, usual_m, found_m};
+    if (!is_given(given, kind) && side.part() > kUnusual) all.push_back(side);
+  };
+  look(FigureKind::floor_side, usual.floor_side_m.value, scene.floor_side_m);
+  look(FigureKind::robot_side, usual.robot_side_m.value, scene.robot_side_m);
+  return all;
+}
+
 std::optional<FigureDoubt> doubt_about_figures(const FilmFigures& given, const SceneFit& fit,
                                                const Refit& refit) {
   const std::vector<FigureCheck> checks = given_figures(given, fit);
@@ -246,7 +257,7 @@ std::optional<FigureDoubt> doubt_about_figures(const FilmFigures& given, const S
     return FigureDoubt{
         {"by the film and all else that was measured, " + all.front().clause, {Help::measure_figure_again}},
         off,
-        all.front().gross,
+        all.front().gross || !robot_fits,
         given};
   std::vector<std::string> clauses;
   bool gross = true;
@@ -254,6 +265,7 @@ std::optional<FigureDoubt> doubt_about_figures(const FilmFigures& given, const S
     clauses.push_back(one.clause);
     gross = gross && one.gross;
   }
+  gross = gross || !robot_fits;  // with which nothing can be computed
   return FigureDoubt{
       {fmt::format("what was measured contradicts itself: either {}", fmt::join(clauses, ", or ")),
        {Help::measure_figure_again}},

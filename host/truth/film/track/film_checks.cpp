@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "host/base/error.hpp"
+#include "host/truth/film/track/figure_doubts.hpp"
 #include "host/truth/film/track/film_diagnosis.hpp"
 
 namespace astro::film {
@@ -314,6 +315,14 @@ std::vector<Remark> remarks_on(const FilmTrack& track, const FloorSurvey& survey
          "wheels "
          "and of the wheelbase to them",
          {Help::measure_distance}});
+  if (track.figures.scale_measured())
+    for (const UnusualSide& side : unusual_sides(track.figures, track.scene))
+      all.push_back({fmt::format(
+          "nobody gave the side of the {}, which by what was given is {:.1f} mm and not {:.0f} mm: "
+          "either the sheets are of another size, or what was given is wrong, and until it "
+          "is measured the scale is uncertain by {:.1f} %",
+          side.kind == FigureKind::floor_side ? "floor tags" : "robot's tag", 1e3 * side.found_m,
+          1e3 * side.usual_m, 50 * side.part())});
   if (track.floor.size() < 4)
     all.push_back({fmt::format("only {} tags on the floor are seen", track.floor.size()),
                    {Help::film_more_floor_tags}});

@@ -105,9 +105,13 @@ FilmTrack follow_film(const std::filesystem::path& film, const FilmFigures& figu
   track.floor = report_on(track);
   track.hidden = hidden_spans(track.sightings, track.info);
   refuse_track(film, track);
-  track.scale_sigma = scale_sigma_of(track) * (doubt ? std::max(1.0, doubt->off) : 1);
+  track.scale_sigma =
+      scale_sigma_of(track) * std::max(doubt ? doubt->off : 1, growth_of_error(track.checked));
+  if (figures.scale_measured())
+    for (const UnusualSide& side : unusual_sides(figures, track.scene))
+      track.scale_sigma = std::max(track.scale_sigma, side.part() / 2);
   track.remarks = remarks_on(track, survey);
-  if (doubt) track.remarks.insert(track.remarks.begin(), doubt->remark);
+  if (doubt && !doubt->remark.fact.empty()) track.remarks.insert(track.remarks.begin(), doubt->remark);
   return track;
 }
 

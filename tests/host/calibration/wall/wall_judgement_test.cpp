@@ -54,6 +54,20 @@ TEST(WallJudgement, JudgesTheScaleByTheReadingsThatAgree) {
   EXPECT_TRUE(judged_with_a_wrong_gap(2).readings_contradict);
 }
 
+TEST(WallJudgement, CallsNothingWorseOfWhichTwoLapsAreAllThatIsKnown) {
+  // Each way round alone does not tell unequal wheels from another wheelbase.
+  WallWishes wishes;
+  wishes.targets = {0.1, 0.1};
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const WheelFactors actual = factors_with(1.03, 0.2885, 1);
+    SyntheticRobot robot(actual, WallNoise{}, seed);
+    for (const WallMove& move : plan_course(wishes, kNominal).moves) robot.drive(move, kNominal);
+    const WallJudgement judgement =
+        judge_wall(robot.drive_so_far(), estimate_wall(robot.drive_so_far(), kNominal), kNominal);
+    EXPECT_EQ(judgement.verdict, Verdict::unknown) << seed << ": " << judgement.sentence();
+  }
+}
+
 TEST(WallJudgement, SaysThatItKnowsTooLittle) {
   const WallJudgement judgement = judge_wall({}, estimate_wall({}, kNominal), kNominal);
   EXPECT_EQ(judgement.verdict, Verdict::unknown);

@@ -103,6 +103,21 @@ TEST_F(Touching, StopsAtOnceIfAWheelTurnsTheWrongWay) {
   }
 }
 
+TEST_F(Touching, StopsAtOnceIfBothMotorsAreReversed) {
+  for (const double gap_m : {0.02, 0.05, 0.1, 0.15, 0.2}) {
+    for (const double friction_V : {0.0, 0.5}) {  // beyond what the robot knows of
+      sim::Config config = facing(gap_m);
+      config.wiring.left_motor_reversed = config.wiring.right_motor_reversed = true;
+      config.seed = static_cast<std::uint64_t>(1000 * gap_m);
+      begin(config);
+      for (double& kS_V : robot.kS_V) kS_V = std::max(0.0, kS_V - friction_V);
+      EXPECT_THROW(touch(), NotFlush);
+      EXPECT_GT(board().truth().x_m, -0.08) << gap_m;
+      EXPECT_EQ(mode(), protocol::Mode::disarmed);
+    }
+  }
+}
+
 TEST_F(Touching, EndsGentlyIfMotorsOrEncodersAreExchanged) {
   for (bool sim::Wiring::*wire : {&sim::Wiring::motors_swapped, &sim::Wiring::encoders_swapped})
     for (const double oblique_rad : {0.0, 0.2}) {
@@ -132,14 +147,14 @@ TEST_F(Touching, TurnsARobotWhoseWheelsStandOutsideItsFront) {
 }
 
 TEST_F(Touching, DoesNotTurnARobotThatDoesNotFaceTheWall) {
-  begin(facing(0.1), 0.9);
+  begin(facing(0.1), 1.0);
   try {
     touch();
     ADD_FAILURE();
   } catch (const NotFlush& error) {
     EXPECT_THAT(error.what(), HasSubstr("degrees against the wall"));
   }
-  EXPECT_LT(std::abs(board().truth().theta_rad - 0.9), 0.6);
+  EXPECT_LT(std::abs(board().truth().theta_rad - 1.0), 0.9);
 }
 
 TEST_F(Touching, KnowsTheWallByTheWayThatItCrept) {

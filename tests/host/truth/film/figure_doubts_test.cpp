@@ -123,6 +123,12 @@ TEST(FigureDoubts, KnowATapeByThePrintedSizeOfTheTagsButRefuseNothingForThat) {
   ASSERT_TRUE(doubt.has_value());
   EXPECT_THAT(doubt->remark.fact, HasSubstr("the distance from floor tag 1 to 4 is"));
   EXPECT_FALSE(doubt->gross) << "nothing that was measured contradicts it";
+  figures.robot_height_m = film.true_figures().robot_height_m;
+  figures.tapes[0].length_m *= 100;
+  const auto too_long = film.doubt(figures);
+  ASSERT_TRUE(too_long.has_value());
+  EXPECT_THAT(too_long->remark.fact, HasSubstr("the distance from floor tag 1 to 4 is"));
+  EXPECT_TRUE(too_long->gross) << "the robot's tag is not found with it";
 }
 
 TEST(FigureDoubts, HaveNothingAgainstAFilmOfWhichNothingWasMeasured) {
@@ -157,13 +163,51 @@ TEST(FigureDoubts, TellSheetsOfAnotherSizeFromAWrongTape) {
   scene.floor_side_m *= 0.71;  // A4 printed on A5
   scene.robot_side_m *= 0.71;
   const Filmed film(scene);
-  FilmFigures figures = nothing_given();
-  figures.tapes = film.true_figures().tapes;
+  FilmFigures figures = film.true_figures();
+  figures.floor_side_m.reset();
+  figures.robot_side_m.reset();
   const auto doubt = film.doubt(figures);
   ASSERT_TRUE(doubt.has_value());
-  EXPECT_THAT(doubt->remark.fact, HasSubstr("the side of the floor tags is 11"));
-  EXPECT_THAT(doubt->remark.fact, testing::Not(HasSubstr("distance")));
+  EXPECT_EQ(doubt->remark.fact, "");
   EXPECT_FALSE(doubt->gross);
+  const auto sides = unusual_sides(figures, film.fit(doubt->figures).scene);
+  ASSERT_EQ(sides.size(), 2U);
+  for (const UnusualSide& side : sides) EXPECT_NEAR(side.part(), 0.29, 0.01);
+}
+
+TEST(FigureDoubts, LookAtTheSidesThatAWrongHeightBends) {
+  // Nothing that was measured checks the height; but the sheets of both tags come from one printer.
+  const Filmed film(support::phone_scene());
+  FilmFigures figures = nothing_given();
+  figures.robot_height_m = 0.0121;
+  figures.tapes = film.true_figures().tapes;
+  const auto sides = unusual_sides(figures, film.fit(figures).scene);
+  ASSERT_EQ(sides.size(), 1U);
+  EXPECT_EQ(sides[0].kind, FigureKind::robot_side);
+  EXPECT_NEAR(sides[0].part(), 0.055, 0.01);
+  figures.robot_height_m = film.true_figures().robot_height_m;
+  EXPECT_TRUE(unusual_sides(figures, film.fit(figures).scene).empty());
+}
+
+TEST(FigureDoubts, NameATapeThatIsTooLongAlthoughAPrinterCouldScale) {
+  const Filmed film(support::phone_scene());
+  FilmFigures figures = film.true_figures();
+  figures.tapes[0].length_m *= 1.06;
+  const auto doubt = film.doubt(figures);
+  ASSERT_TRUE(doubt.has_value());
+  EXPECT_THAT(doubt->remark.fact,
+              HasSubstr("all else that was measured, the distance from floor tag 1 to 4"));
+  EXPECT_TRUE(doubt->gross);
+}
+
+TEST(FigureDoubts, LetTheErrorGrowFromTwoStandardErrorsOn) {
+  FigureCheck one;
+  one.measured = {1, 0.01};
+  one.by_others = {1.015, 0.01};
+  EXPECT_EQ(growth_of_error({one}), 1);
+  one.by_others.value = 1.04;
+  EXPECT_NEAR(growth_of_error({one, one}), 4 / std::sqrt(2), 1e-9);
+  EXPECT_EQ(growth_of_error({}), 1);
 }
 
 TEST(FigureDoubts, TellAPrinterThatScalesFromAWrongTape) {
