@@ -16,7 +16,7 @@ std::string mm(double length_m) { return fmt::format("{:.0f} mm", 1000 * length_
 
 /// The digits of a whole number of millimetres, without one of them, or with two neighbours exchanged.
 bool is_slip_of_digits(double read_m, double expected_m, double allowed_m) {
-  constexpr double kMost_m = 1000;  // with a digit more than any gap
+  constexpr double kMost_m = 1000;  // no gap, and too many digits to try
   if (read_m > kMost_m) return false;
   const std::string typed = fmt::format("{:.0f}", 1000 * read_m);
   const auto fits = [&](const std::string& digits) {

@@ -27,8 +27,8 @@ struct GapDoubt {
   /// Wheels that are more than a fifth larger or smaller than the robot takes them for are no matter of a calibration: such a gap, or the robot's
   /// wheel diameter, gear or counts, is a mistake, whatever its reader says.
   bool possible = true;
-  std::string
-      why;  // a sentence without its full stop: what was read, what is expected, and what would explain it
+  /// A sentence without its full stop: what was read, what is expected, and what would explain it.
+  std::string why;
 };
 
 /// A gap is expected within 5 mm and three standard errors. `axle_m`: from the front to the axle; `length_m`: of the robot.

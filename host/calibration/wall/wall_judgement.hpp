@@ -11,10 +11,10 @@ namespace astro::calibration {
 
 struct WallJudgement {
   int stretches = 0, better_on = 0;
-  double loaded_rad = 0,
-         found_rad = 0;  // root mean square error of the headings at the ends of the stretches
-  Verdict verdict =
-      Verdict::unknown;  // of stretches and gaps; never better if readings contradict each other
+  /// Root mean square error of the headings at the ends of the stretches.
+  double loaded_rad = 0, found_rad = 0;
+  /// Of stretches and gaps; never better if readings contradict each other.
+  Verdict verdict = Verdict::unknown;
   bool readings_contradict = false;
 
   /// Fewer tell nothing: then the verdict is unknown.

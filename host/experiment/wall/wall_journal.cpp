@@ -28,28 +28,27 @@ json numbers(const WheelTravel& travel) {
   return {travel.right_m, travel.left_m, travel.right_path_m, travel.left_path_m};
 }
 
-/// What no program writes; the file was changed or damaged.
-void expect(bool holds, const char* what) {
+void require(bool holds, const std::string& what) {
   if (!holds) throw Error(what);
 }
 
 double within(const json& value, double least, double most, const char* what) {
   const auto number = value.get<double>();
-  expect(number >= least && number <= most, what);
+  require(number >= least && number <= most, what);
   return number;
 }
 
 double finite(const json& value) { return within(value, -1e6, 1e6, "a number is out of range"); }
 
 int whole(const json& value, int least, int most, const char* what) {
-  expect(value.is_number_integer(), what);
+  require(value.is_number_integer(), what);
   const auto number = value.get<std::int64_t>();
-  expect(number >= least && number <= most, what);
+  require(number >= least && number <= most, what);
   return static_cast<int>(number);
 }
 
 WheelTravel travel_in(const json& value) {
-  expect(value.size() == 4, "a travel has not four numbers");
+  require(value.size() == 4, "a travel has not four numbers");
   return {finite(value.at(0)), finite(value.at(1)), finite(value.at(2)), finite(value.at(3))};
 }
 
@@ -106,11 +105,11 @@ WallSeries series_in(const json& value) {
   WallSeries series;
   for (const json& travel : value.at("squarings")) {
     const WheelTravel squaring = travel_in(travel);
-    expect(series.squarings.empty() || is_way(squaring - series.squarings.back()),
-           "no wheels roll like that between two squarings");
+    require(series.squarings.empty() || is_way(squaring - series.squarings.back()),
+            "no wheels roll like that between two squarings");
     series.squarings.push_back(squaring);
   }
-  expect(!series.squarings.empty(), "a series has no squaring");
+  require(!series.squarings.empty(), "a series has no squaring");
   for (const json& reading : value.at("readings")) {
     const int squaring = whole(reading.at("squaring"), 0, static_cast<int>(series.squarings.size()) - 1,
                                "a gap belongs to no squaring");
@@ -118,10 +117,10 @@ WallSeries series_in(const json& value) {
                                within(reading.at("gap_m"), 1e-3, 100, "a gap is out of range"),
                                static_cast<std::size_t>(squaring)});
     const WheelTravel way = series.readings.back().travel - series.squarings[series.readings.back().squaring];
-    expect(is_way(way), "no wheels roll like that between a squaring and a gap");
+    require(is_way(way), "no wheels roll like that between a squaring and a gap");
     constexpr double kTimes = 2;  // a path of both wheels is twice the gap
     const double part = 2 * series.readings.back().gap_m / way.path_m();
-    expect(part > 1 / kTimes && part < kTimes, "a gap is not what the wheels rolled");
+    require(part > 1 / kTimes && part < kTimes, "a gap is not what the wheels rolled");
   }
   return series;
 }
@@ -143,8 +142,8 @@ WallMove move_in(const json& value) {
 calibration::WheelFactors loaded_in(const json& value) {
   const calibration::WheelFactors loaded = factors_in(value);
   for (const double c : {loaded.c_r, loaded.c_l})
-    expect(c >= 0.5 && c <= 1.5, "a loaded wheel factor is out of range");
-  expect(loaded.b_m >= 0.01 && loaded.b_m <= 5, "the loaded wheelbase is out of range");
+    require(c >= 0.5 && c <= 1.5, "a loaded wheel factor is out of range");
+  require(loaded.b_m >= 0.01 && loaded.b_m <= 5, "the loaded wheelbase is out of range");
   return loaded;
 }
 
@@ -163,13 +162,9 @@ WallJournal journal_in(const json& value) {
     stretches += journal.drive.back().squarings.size() - 1;
   }
   for (const json& move : value.at("moves")) journal.moves.push_back(move_in(move));
-  expect(stretches == journal.moves.size(), "it has not as many moves as ways between squarings");
+  require(stretches == journal.moves.size(), "it has not as many moves as ways between squarings");
   journal.driven_s = within(value.at("driven_s"), 0, kWeek_s, "the time of driving is out of range");
   return journal;
-}
-
-void require(bool holds, const std::string& what) {
-  if (!holds) throw Error(what);
 }
 
 }  // namespace

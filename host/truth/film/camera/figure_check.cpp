@@ -1,25 +1,12 @@
 #include "host/truth/film/camera/figure_check.hpp"
 
 #include <cmath>
-#include <functional>
 #include <limits>
+
+#include "host/truth/film/camera/scene_value.hpp"
 
 namespace astro::film {
 namespace {
-
-using Value = std::function<double(const Scene&)>;
-
-Measured found_value(const Scene& scene, const std::vector<SceneParameter>& parameters,
-                     const Eigen::MatrixXd& covariance, const Value& value) {
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(covariance.rows());
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    Eigen::VectorXd change = Eigen::VectorXd::Zero(covariance.rows());
-    const auto at = static_cast<Eigen::Index>(i);
-    change[at] = parameters[i].step;
-    gradient[at] = (value(moved(scene, change)) - value(moved(scene, -change))) / (2 * parameters[i].step);
-  }
-  return {value(scene), std::sqrt(std::max(0.0, gradient.dot(covariance * gradient)))};
-}
 
 /// Takes a measurement out of what was found with it.
 Measured without(const Measured& measured, const Measured& found) {
@@ -37,23 +24,13 @@ double FigureCheck::off() const {
   return std::abs(measured.value - by_others.value) / std::hypot(measured.sigma, by_others.sigma);
 }
 
-std::optional<double> distance_between(const Scene& scene, int from, int to) {
-  const auto tag = [&](int id) -> const FloorTag* {
-    for (const FloorTag& one : scene.tags)
-      if (one.id == id) return &one;
-    return nullptr;
-  };
-  const FloorTag *a = tag(from), *b = tag(to);
-  if (a == nullptr || b == nullptr) return std::nullopt;
-  return std::hypot(b->x_m - a->x_m, b->y_m - a->y_m);
-}
-
 std::vector<FigureCheck> check_figures(const Scene& scene, const Figures& figures,
                                        const Eigen::MatrixXd& covariance) {
   const std::vector<SceneParameter> parameters = parameters_of(scene, figures);
   std::vector<FigureCheck> all;
-  const auto check = [&](FigureKind kind, std::size_t tape, const Measured& measured, const Value& value) {
-    const Measured found = found_value(scene, parameters, covariance, value);
+  const auto check = [&](FigureKind kind, std::size_t tape, const Measured& measured,
+                         const SceneValue& value) {
+    const Measured found = measured_by(scene, parameters, covariance, value);
     all.push_back({kind, tape, measured, found, without(measured, found)});
   };
   check(FigureKind::floor_side, 0, figures.floor_side_m, [](const Scene& s) { return s.floor_side_m; });

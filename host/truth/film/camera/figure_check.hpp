@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "host/truth/film/camera/scene.hpp"
@@ -27,8 +26,5 @@ struct FigureCheck {
 /// figures. To first order: of a figure that is far off only that something is wrong is sure, not by how much.
 std::vector<FigureCheck> check_figures(const Scene& scene, const Figures& figures,
                                        const Eigen::MatrixXd& covariance);
-
-/// The distance between the centres of two floor tags; nothing if the scene lacks one.
-std::optional<double> distance_between(const Scene& scene, int from, int to);
 
 }  // namespace astro::film

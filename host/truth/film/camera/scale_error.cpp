@@ -1,7 +1,8 @@
 #include "host/truth/film/camera/scale_error.hpp"
 
-#include <algorithm>
 #include <cmath>
+
+#include "host/truth/film/camera/scene_value.hpp"
 
 namespace astro::film {
 namespace {
@@ -34,19 +35,10 @@ double factor(const std::vector<Vector2d>& from, const std::vector<Vector2d>& to
 
 double scale_error(const Scene& scene, const Figures& figures, const Eigen::MatrixXd& covariance,
                    const std::vector<Vector2d>& pixels) {
-  const std::vector<SceneParameter> parameters = parameters_of(scene, figures);
   const std::vector<Vector2d> here = places(scene, pixels);
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(covariance.rows());
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    if (parameters[i].only_tag >= 0) continue;
-    Eigen::VectorXd change = Eigen::VectorXd::Zero(covariance.rows());
-    const auto at = static_cast<Eigen::Index>(i);
-    change[at] = parameters[i].step;
-    const double ahead = factor(here, places(moved(scene, change), pixels));
-    const double behind = factor(here, places(moved(scene, -change), pixels));
-    gradient[at] = (ahead - behind) / (2 * parameters[i].step);
-  }
-  return std::sqrt(std::max(0.0, gradient.dot(covariance * gradient)));
+  return measured_by(scene, parameters_of(scene, figures), covariance,
+                     [&](const Scene& other) { return factor(here, places(other, pixels)); })
+      .sigma;
 }
 
 }  // namespace astro::film

@@ -56,6 +56,17 @@ enum : std::size_t {
 
 }  // namespace
 
+std::optional<double> distance_between(const Scene& scene, int from, int to) {
+  const auto tag = [&](int id) -> const FloorTag* {
+    for (const FloorTag& one : scene.tags)
+      if (one.id == id) return &one;
+    return nullptr;
+  };
+  const FloorTag *a = tag(from), *b = tag(to);
+  if (a == nullptr || b == nullptr) return std::nullopt;
+  return std::hypot(b->x_m - a->x_m, b->y_m - a->y_m);
+}
+
 TagCorners floor_corners(const Scene& scene, std::size_t index) {
   const FloorTag& tag = scene.tags[index];
   TagCorners corners;

@@ -39,6 +39,9 @@ struct RobotVelocity {
   double x_mps = 0, y_mps = 0, omega_radps = 0;
 };
 
+/// The distance between the centres of two floor tags; nothing if the scene lacks one.
+std::optional<double> distance_between(const Scene& scene, int from, int to);
+
 /// Where the corners of floor tag `index` are seen.
 TagCorners floor_corners(const Scene& scene, std::size_t index);
 

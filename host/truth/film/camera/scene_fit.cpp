@@ -54,12 +54,6 @@ double huber_cost(const Residual& r) {
   return rms > kHuber ? 8 * (2 * kHuber * rms - kHuber * kHuber) : r.squaredNorm();
 }
 
-const FloorTag* tag_of(const Scene& scene, int id) {
-  for (const FloorTag& tag : scene.tags)
-    if (tag.id == id) return &tag;
-  return nullptr;
-}
-
 /// Priors, tapes and what tags have in common, in standard errors.
 VectorXd prior_residual(const Scene& scene, const Problem& problem,
                         const std::vector<SceneParameter>& parameters) {
@@ -70,10 +64,8 @@ VectorXd prior_residual(const Scene& scene, const Problem& problem,
     if (parameters[i].prior_sigma > 0)
       all.push_back((parameter_value(scene, i) - parameters[i].prior_mean) / parameters[i].prior_sigma);
   for (const Tape& tape : problem.figures.tapes) {
-    const FloorTag *from = tag_of(scene, tape.from), *to = tag_of(scene, tape.to);
-    if (from == nullptr || to == nullptr) continue;
-    const double length = std::hypot(to->x_m - from->x_m, to->y_m - from->y_m);
-    all.push_back((length - tape.length_m.value) / tape.length_m.sigma);
+    if (const auto length = distance_between(scene, tape.from, tape.to))
+      all.push_back((*length - tape.length_m.value) / tape.length_m.sigma);
   }
   return Eigen::Map<VectorXd>(all.data(), static_cast<Index>(all.size()));
 }

@@ -18,33 +18,32 @@ namespace {
 constexpr double kDoubtful = 3.5;  // standard errors; one in two thousand figures that are right
 constexpr double kUneasy = 2;      // one in twenty
 
-bool is_given(const FilmFigures& given, FigureKind kind) {
+using FigureMember = std::optional<double> FilmFigures::*;
+
+/// Nothing for a tape, of which there may be several.
+FigureMember member_of(FigureKind kind) {
   switch (kind) {
     case FigureKind::floor_side:
-      return given.floor_side_m.has_value();
+      return &FilmFigures::floor_side_m;
     case FigureKind::robot_side:
-      return given.robot_side_m.has_value();
+      return &FilmFigures::robot_side_m;
     case FigureKind::robot_height:
-      return given.robot_height_m.has_value();
+      return &FilmFigures::robot_height_m;
     default:
-      return true;
+      return nullptr;
   }
 }
 
+bool is_given(const FilmFigures& given, FigureKind kind) {
+  const FigureMember member = member_of(kind);
+  return member == nullptr || (given.*member).has_value();
+}
+
 FilmFigures without(FilmFigures given, const FigureCheck& figure) {
-  switch (figure.kind) {
-    case FigureKind::floor_side:
-      given.floor_side_m.reset();
-      break;
-    case FigureKind::robot_side:
-      given.robot_side_m.reset();
-      break;
-    case FigureKind::robot_height:
-      given.robot_height_m.reset();
-      break;
-    default:
-      given.tapes.erase(given.tapes.begin() + static_cast<std::ptrdiff_t>(figure.tape));
-  }
+  if (const FigureMember member = member_of(figure.kind); member != nullptr)
+    (given.*member).reset();
+  else
+    given.tapes.erase(given.tapes.begin() + static_cast<std::ptrdiff_t>(figure.tape));
   return given;
 }
 
@@ -94,13 +93,13 @@ bool shows_robot(const SceneFit& fit) {
   return !fit.robot.empty() && fit.robot_rms_px < kFits_px;
 }
 
-/// Refits with other figures; the scene if those agree, and the robot's tag is above the floor.
-std::optional<Scene> agreeing_scene(const FilmFigures& others, const Refit& refit) {
+/// Refits with other figures; nothing unless those agree, and the robot's tag is above the floor.
+std::optional<SceneFit> agreeing_fit(const FilmFigures& others, const Refit& refit) {
   try {
-    const SceneFit fit = refit(others);
+    SceneFit fit = refit(others);
     if (fit.converged && shows_robot(fit) && fit.scene.robot_height_m >= 0 &&
         worst(given_figures(others, fit)) < kDoubtful)
-      return fit.scene;
+      return fit;
   } catch (const Interrupted&) {
     throw;
   } catch (const Error&) {  // no camera fits: these figures explain nothing
@@ -132,27 +131,26 @@ std::optional<FigureDoubt> unusual(const FilmFigures& given, const Refit& refit)
   if (given.floor_side_m && given.robot_side_m && given.robot_height_m) return std::nullopt;
   FilmFigures open = given;
   open.as_usual = false;
-  const auto scene = agreeing_scene(open, refit);
-  if (!scene) return std::nullopt;
-  FigureDoubt doubt{{}, 1, false, open};
+  const auto fit = agreeing_fit(open, refit);
+  if (!fit) return std::nullopt;
+  FigureDoubt doubt{{}, false, open, fit};
   constexpr double kNotable = 1.5;  // standard errors of what is usual
   const Measured usual = figures_with_errors(given).robot_height_m;
-  if (!given.robot_height_m && std::abs(scene->robot_height_m - usual.value) > kNotable * usual.sigma)
+  if (!given.robot_height_m && std::abs(fit->scene.robot_height_m - usual.value) > kNotable * usual.sigma)
     doubt.remark = {
         fmt::format("by the film and what was measured, the height of the robot's tag is {} and not {}, as "
                     "is usual",
-                    length(scene->robot_height_m), length(usual.value)),
+                    length(fit->scene.robot_height_m), length(usual.value)),
         {Help::give_tag_height}};
   return doubt;
 }
 
 std::optional<std::string> exchange(const FilmFigures& given, const Refit& refit) {
-  const auto try_pair = [&](std::optional<double> FilmFigures::*a, std::optional<double> FilmFigures::*b,
-                            const char* names) -> std::optional<std::string> {
+  const auto try_pair = [&](FigureMember a, FigureMember b, const char* names) -> std::optional<std::string> {
     if (!(given.*a) || !(given.*b)) return std::nullopt;
     FilmFigures other = given;
     std::swap(other.*a, other.*b);
-    if (!agreeing_scene(other, refit)) return std::nullopt;
+    if (!agreeing_fit(other, refit)) return std::nullopt;
     return fmt::format("{}, {} and {}, are exchanged", names, length(*(given.*a)), length(*(given.*b)));
   };
   if (auto sides = try_pair(&FilmFigures::robot_side_m, &FilmFigures::floor_side_m,
@@ -174,10 +172,10 @@ std::optional<Explanation> printed_smaller(const FilmFigures& given, const Refit
   FilmFigures others = given;
   others.floor_side_m.reset();
   others.robot_side_m.reset();
-  const auto scene = agreeing_scene(others, refit);
-  if (!scene) return std::nullopt;
-  const double floor = scene->floor_side_m / *given.floor_side_m,
-               robot = scene->robot_side_m / *given.robot_side_m;
+  const auto fit = agreeing_fit(others, refit);
+  if (!fit) return std::nullopt;
+  const double floor = fit->scene.floor_side_m / *given.floor_side_m,
+               robot = fit->scene.robot_side_m / *given.robot_side_m;
   constexpr double kLeast = 0.85, kMost = 1.01;  // printers shrink to fit a page
   const double mean = (floor + robot) / 2;
   if (std::abs(floor - robot) > kSame || mean < kLeast || mean > kMost) return std::nullopt;
@@ -189,8 +187,8 @@ std::vector<Explanation> explanations(const FilmFigures& given, const std::vecto
                                       const Refit& refit) {
   std::vector<Explanation> all;
   for (const FigureCheck& figure : checks)
-    if (const auto scene = agreeing_scene(without(given, figure), refit)) {
-      const Correction one{figure, value_in(*scene, given, figure)};
+    if (const auto fit = agreeing_fit(without(given, figure), refit)) {
+      const Correction one{figure, value_in(fit->scene, given, figure)};
       all.push_back({clause(given, one), is_gross(given, one)});
     }
   if (const auto smaller = printed_smaller(given, refit)) all.push_back(*smaller);
@@ -198,7 +196,7 @@ std::vector<Explanation> explanations(const FilmFigures& given, const std::vecto
 }
 
 /// No single figure explains it.
-FigureDoubt several(const FilmFigures& given, const std::vector<FigureCheck>& checks, double off) {
+FigureDoubt several(const FilmFigures& given, const std::vector<FigureCheck>& checks) {
   std::vector<std::string> clauses;
   bool gross = true;
   for (const FigureCheck& figure : checks) {
@@ -210,7 +208,6 @@ FigureDoubt several(const FilmFigures& given, const std::vector<FigureCheck>& ch
   return {{fmt::format("at least two of what was measured are wrong; each by all else, {}",
                        fmt::join(clauses, ", ")),
            {Help::measure_figure_again}},
-          off,
           gross,
           given};
 }
@@ -250,28 +247,20 @@ std::optional<FigureDoubt> doubt_about_figures(const FilmFigures& given, const S
   if (auto other = unusual(given, refit)) return other;
   const std::vector<Explanation> all = explanations(given, checks, refit);
   if (all.size() != 1)
-    if (const auto exchanged = exchange(given, refit)) return FigureDoubt{{*exchanged}, off, true, given};
+    if (const auto exchanged = exchange(given, refit)) return FigureDoubt{{*exchanged}, true, given};
   if (all.empty() && (!robot_fits || off < kDoubtful)) return std::nullopt;  // no figure is to blame
-  if (all.empty()) return several(given, checks, off);
-  if (all.size() == 1)
-    return FigureDoubt{
-        {"by the film and all else that was measured, " + all.front().clause, {Help::measure_figure_again}},
-        off,
-        all.front().gross || !robot_fits,
-        given};
+  if (all.empty()) return several(given, checks);
   std::vector<std::string> clauses;
   bool gross = true;
   for (const Explanation& one : all) {
     clauses.push_back(one.clause);
     gross = gross && one.gross;
   }
-  gross = gross || !robot_fits;  // with which nothing can be computed
-  return FigureDoubt{
-      {fmt::format("what was measured contradicts itself: either {}", fmt::join(clauses, ", or ")),
-       {Help::measure_figure_again}},
-      off,
-      gross,
-      given};
+  const std::string fact = all.size() == 1 ? "by the film and all else that was measured, " + clauses.front()
+                                           : fmt::format("what was measured contradicts itself: either {}",
+                                                         fmt::join(clauses, ", or "));
+  // Without the robot's tag nothing can be computed.
+  return FigureDoubt{{fact, {Help::measure_figure_again}}, gross || !robot_fits, given};
 }
 
 }  // namespace astro::film

@@ -32,11 +32,11 @@ struct UnusualSide {
 std::vector<UnusualSide> unusual_sides(const FilmFigures& given, const Scene& scene);
 
 struct FigureDoubt {
-  Remark
-      remark;  // ("" if unusual_sides() says it) which figure it is as far as the film shows it, and what it would be by all else
-  double off = 1;       // by how much more the scale is uncertain: the standard errors of the worst figure
+  /// Which figure it is as far as the film shows it, and what it would be by all else; "" if unusual_sides() says it.
+  Remark remark;
   bool gross = false;   // no measurement is so bad: a mistake, with which nothing should be computed
   FilmFigures figures;  // with which to go on: those that were given, perhaps without what is usual
+  std::optional<SceneFit> fit = {};  // of these, if they are not those that were given
 };
 
 using Refit = std::function<SceneFit(const FilmFigures&)>;

@@ -96,7 +96,8 @@ FilmTrack follow_film(const std::filesystem::path& film, const FilmFigures& figu
   const std::optional<FigureDoubt> doubt = doubt_about_figures(figures, fit, fitted);
   if (doubt && doubt->gross)
     throw Error("'" + film.string() + "': " + doubt->remark.fact, doubt->remark.remedy);
-  if (doubt && !doubt->figures.as_usual) fit = fitted(track.figures = doubt->figures);
+  if (doubt) track.figures = doubt->figures;
+  if (doubt && doubt->fit) fit = *doubt->fit;
   track.checked = given_figures(track.figures, fit);
   track.scene = std::move(fit.scene);
   track.covariance = std::move(fit.covariance);
@@ -105,8 +106,7 @@ FilmTrack follow_film(const std::filesystem::path& film, const FilmFigures& figu
   track.floor = report_on(track);
   track.hidden = hidden_spans(track.sightings, track.info);
   refuse_track(film, track);
-  track.scale_sigma =
-      scale_sigma_of(track) * std::max(doubt ? doubt->off : 1, growth_of_error(track.checked));
+  track.scale_sigma = scale_sigma_of(track) * growth_of_error(track.checked);
   if (figures.scale_measured())
     for (const UnusualSide& side : unusual_sides(figures, track.scene))
       track.scale_sigma = std::max(track.scale_sigma, side.part() / 2);
