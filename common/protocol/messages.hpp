@@ -40,7 +40,7 @@ using Requests =
     MessageList<Hello, Ping, GetStatus, Arm, Disarm, Stop, EmergencyStop, Velocity, AddSegment, SetPose,
                 GetParameterInfo, GetParameter, StageParameter, CommitParameters, RevertParameters,
                 DefaultParameters, SetTelemetry, GetFaults, ClearFaults, Reboot, EnterBootloader,
-                WheelVoltage, Pause, Resume, GetFaultLog, ApplyParameters>;
+                WheelVoltage, Pause, Resume, GetFaultLog, ApplyParameters, Rest>;
 using Replies = MessageList<Ack, ErrorReply, HelloReply, Pong, Status, ParameterInfo, ParameterValue,
                             FaultReport, FaultLogEntry>;
 using Events = MessageList<Telemetry, SegmentDone, FaultRaised, Booted, SegmentStarted, EventsMissed>;

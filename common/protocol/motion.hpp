@@ -15,7 +15,8 @@ struct Arm {
   using Reply = Ack;
   static constexpr std::uint8_t kId = 0x04;
   static constexpr std::string_view kName = "Arm";
-  static constexpr std::string_view kDoc = "Lets the robot drive; refused while a fault is latched.";
+  static constexpr std::string_view kDoc =
+      "Lets the sender drive the robot; refused while a fault is latched or another host drives.";
   static constexpr std::tuple<> kFields{};
   bool operator==(const Arm&) const = default;
 };
@@ -33,9 +34,20 @@ struct Stop {
   using Reply = Ack;
   static constexpr std::uint8_t kId = 0x06;
   static constexpr std::string_view kName = "Stop";
-  static constexpr std::string_view kDoc = "Ramps to rest and empties the queue; the robot stays armed.";
+  static constexpr std::string_view kDoc =
+      "Ramps to rest and empties the queue. The robot stays armed, but moves for nobody until an Arm.";
   static constexpr std::tuple<> kFields{};
   bool operator==(const Stop&) const = default;
+};
+
+struct Rest {
+  using Reply = Ack;
+  static constexpr std::uint8_t kId = 0x1B;
+  static constexpr std::string_view kName = "Rest";
+  static constexpr std::string_view kDoc =
+      "Ramps to rest and empties the queue; the sender, who must be driving, may go on without an Arm.";
+  static constexpr std::tuple<> kFields{};
+  bool operator==(const Rest&) const = default;
 };
 
 struct EmergencyStop {
@@ -113,7 +125,7 @@ struct Pause {
   static constexpr std::uint8_t kId = 0x17;
   static constexpr std::string_view kName = "Pause";
   static constexpr std::string_view kDoc =
-      "Stops on the path; the rest of the segment and the queue wait for Resume.";
+      "Ramps to rest: on a path, where its rest waits for Resume. Until then no velocity moves the robot.";
   static constexpr std::tuple<> kFields{};
   bool operator==(const Pause&) const = default;
 };
@@ -122,7 +134,8 @@ struct Resume {
   using Reply = Ack;
   static constexpr std::uint8_t kId = 0x18;
   static constexpr std::string_view kName = "Resume";
-  static constexpr std::string_view kDoc = "Continues the path after a Pause.";
+  static constexpr std::string_view kDoc =
+      "Ends a Pause and continues the path; refused to the driver if somebody else has paused.";
   static constexpr std::tuple<> kFields{};
   bool operator==(const Resume&) const = default;
 };

@@ -7,14 +7,21 @@
 #include <span>
 #include <type_traits>
 
+#include "common/protocol/driving_rule.hpp"
 #include "common/protocol/messages.hpp"
-#include "firmware/app/hosts/driving_host.hpp"
 #include "firmware/app/hosts/frame_writer.hpp"
 #include "firmware/app/hosts/session.hpp"
 #include "firmware/app/hosts/snapshot.hpp"
 #include "firmware/app/tick/control_tick.hpp"
 
 namespace astro {
+
+/// The sender of a request: the program that has the port open, or an onlooker that shares the port with it.
+struct HostId {
+  int port = 0;
+  bool onlooker = false;
+  bool operator==(const HostId&) const = default;
+};
 
 /// The hosts at all ports: reads their requests, has them carried out, answers, and streams telemetry. It
 /// knows who asks, who drives, and which answers were given last. Main loop only.
@@ -53,7 +60,8 @@ class HostSessions {
   }
 
   Session& session(int port) { return sessions_[port]; }
-  bool drives(const HostId& host) const { return driving_.is(host); }
+  bool drives(const HostId& host) const { return rule_.drives(host); }
+  bool permits(const HostId& host, std::uint8_t message) const { return rule_.permits(host, message); }
 
   /// Frames that were damaged, of all ports.
   std::uint32_t bad_frames() const {
@@ -76,7 +84,7 @@ class HostSessions {
       return;
     }
     const HostId host{port, protocol::from_onlooker(header)};
-    if (driving_.request_arrived(host, header.message_id)) note_sign_of_life();
+    note_arrival(host, header.message_id);
     bool known = false;
     protocol::Requests::visit([&]<protocol::Message M>() {
       if (M::kId != header.message_id) return;
@@ -84,7 +92,7 @@ class HostSessions {
       const auto request = protocol::decode<M>(body);
       if (request) {
         const auto reply = handler.handle(host, *request);
-        if (reply && driving_.request_carried_out(host, header.message_id)) note_sign_of_life();
+        if (reply) rule_.note(host, header.message_id);
         respond(port, header, reply);
       } else {
         respond(port, header, protocol::Answer<typename M::Reply>({ErrorCode::malformed}));
@@ -93,9 +101,15 @@ class HostSessions {
     if (!known) respond(port, header, protocol::Answer<protocol::Ack>({ErrorCode::unknown_message}));
   }
 
-  void note_sign_of_life() {
-    const auto hold = board_.hold_tick();
-    state_.get(hold).drive.host_seen();
+  /// A request of the driver is a sign of life that keeps its drive going; none of an onlooker or at another port is. A
+  /// Hello at the driver's port means that a new program has opened the port, so the one that drove is gone.
+  void note_arrival(const HostId& host, std::uint8_t message) {
+    if (message == protocol::Hello::kId) {
+      if (!host.onlooker && rule_.driver() && rule_.driver()->port == host.port) rule_.end();
+    } else if (rule_.drives(host)) {
+      const auto hold = board_.hold_tick();
+      state_.get(hold).drive.host_seen();
+    }
   }
 
   template <class Reply>
@@ -120,7 +134,7 @@ class HostSessions {
   Board& board_;
   SharedState<Board>& state_;
   Writer writer_;
-  DrivingHost driving_;
+  protocol::DrivingRule<HostId> rule_;
   std::array<Session, Ports::kPorts> sessions_{};
 };
 

@@ -4,7 +4,6 @@
 
 #include "common/fixed/saturate.hpp"
 #include "common/protocol/messages.hpp"
-#include "firmware/app/hosts/driving_host.hpp"
 #include "firmware/app/hosts/host_sessions.hpp"
 #include "firmware/app/hosts/restart.hpp"
 #include "firmware/app/tick/control_tick.hpp"
@@ -46,6 +45,12 @@ class MotionRequests {
     return Ack{};
   }
 
+  Answer handle(const HostId& host, const protocol::Rest& request) {
+    if (!permits(host, request)) return not_permitted();
+    stop();
+    return Ack{};
+  }
+
   Answer handle(const HostId&, const protocol::EmergencyStop&) {
     const auto hold = board_.hold_tick();
     state_.get(hold).drive.emergency_stop();
@@ -53,7 +58,8 @@ class MotionRequests {
     return Ack{};
   }
 
-  Answer handle(const HostId&, const protocol::Velocity& request) {
+  Answer handle(const HostId& host, const protocol::Velocity& request) {
+    if (!permits(host, request)) return not_permitted();
     end_waiting_segments();
     TwistRamp ramp = ramp_from_here();
     Drive::aim(ramp, {request.v_umps, request.omega_uradps}, make_limits(parameters_));
@@ -63,7 +69,8 @@ class MotionRequests {
     return Ack{};
   }
 
-  Answer handle(const HostId&, const protocol::WheelVoltage& request) {
+  Answer handle(const HostId& host, const protocol::WheelVoltage& request) {
+    if (!permits(host, request)) return not_permitted();
     const auto microvolts = [](std::int32_t mv) { return 1000 * clamp_abs<std::int32_t>(mv, 50'000); };
     const auto hold = board_.hold_tick();
     Drive& drive = state_.get(hold).drive;
@@ -74,7 +81,8 @@ class MotionRequests {
     return Ack{};
   }
 
-  Answer handle(const HostId&, const protocol::AddSegment& request) {
+  Answer handle(const HostId& host, const protocol::AddSegment& request) {
+    if (!permits(host, request)) return not_permitted();
     const bool moves = request.kind != protocol::SegmentKind::stop;
     const bool matches = (request.kind != protocol::SegmentKind::line || request.angle == 0) &&
                          (request.kind != protocol::SegmentKind::spin || request.length_nm == 0) &&
@@ -94,12 +102,12 @@ class MotionRequests {
   Answer handle(const HostId&, const protocol::Pause&) {
     const auto hold = board_.hold_tick();
     Drive& drive = state_.get(hold).drive;
-    if (!drive.armed()) return not_ready(drive);
-    if (!drive.pause()) return error(ErrorCode::moving);
+    if (!drive.pause()) return not_ready(drive);
     return Ack{};
   }
 
-  Answer handle(const HostId&, const protocol::Resume&) {
+  Answer handle(const HostId& host, const protocol::Resume& request) {
+    if (!permits(host, request)) return not_permitted();
     const auto hold = board_.hold_tick();
     Drive& drive = state_.get(hold).drive;
     if (!drive.armed()) return not_ready(drive);
@@ -136,6 +144,16 @@ class MotionRequests {
   }
 
   static protocol::ErrorReply error(ErrorCode code, std::uint16_t detail = 0) { return {code, detail}; }
+
+  template <protocol::Request M>
+  bool permits(const HostId& host, const M&) const {
+    return sessions_.permits(host, M::kId);
+  }
+  [[gnu::cold]] protocol::ErrorReply not_permitted() {
+    const auto hold = board_.hold_tick();
+    const Drive& drive = state_.get(hold).drive;
+    return drive.armed() && !drive.faults().any() ? error(ErrorCode::not_armed) : not_ready(drive);
+  }
 
   /// Why a request was refused that needs an armed robot without a latched fault.
   static protocol::ErrorReply not_ready(const Drive& drive) {

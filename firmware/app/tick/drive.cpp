@@ -127,10 +127,21 @@ void Drive::stop() {
   follow_state();
 }
 
+bool Drive::arm() {
+  if (!supervisor_.request(Event::arm)) return false;
+  // A pause without a path has nothing that waits for its end. The robot would take commands and not move.
+  if (state() == State::armed && queue_.empty()) paused_ = false;
+  return true;
+}
+
 bool Drive::pause() {
-  if (!armed() || (gives_power() && !on_path())) return false;
+  if (!armed()) return false;
+  if (on_path()) {
+    follower_.cut_short();
+  } else if (gives_power()) {
+    stop();
+  }
   paused_ = true;
-  if (on_path()) follower_.cut_short();
   return true;
 }
 

@@ -51,10 +51,10 @@ class Drive {
   Output advance(const TickInput& input);
 
   // Requests. Those that return bool return false if they are refused; a refused request changes nothing.
-  bool arm() { return supervisor_.request(Event::arm); }
+  bool arm();
   void disarm();  // opens the bridges at once, empties the queue
   void stop();    // ramps to rest, empties the queue, stays armed
-  bool pause();   // stops on the path and keeps the queue; refused while something else moves the wheels
+  bool pause();   // ramps to rest, on a path as the path goes; keeps what is left of it
   void resume() { paused_ = false; }
   void emergency_stop() { raise(Fault::emergency_stop); }
   bool drive_velocity(const BodyTwist& twist);                  // refused unless armed

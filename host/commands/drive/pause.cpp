@@ -25,7 +25,7 @@ void pause(ConnectionOptions& options) {
   if (status.mode != protocol::Mode::paused)
     throw Error("the robot is not paused but " + std::string(protocol::name(status.mode)) +
                 ", faults: " + faults_in_words(status.latched_faults));
-  console::say("the robot waits on its path until 'astrolabe resume'; 'astrolabe stop' ends the drive");
+  console::say("the robot is at rest until 'astrolabe resume'; 'astrolabe stop' ends the drive");
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ void pause(ConnectionOptions& options) {
 void add_pause(console::Command app) {
   const auto options = std::make_shared<ConnectionOptions>();
   const console::Command command =
-      app.add_subcommand("pause", "let a robot that drives a path come to rest on it");
+      app.add_subcommand("pause", "let the robot come to rest, on its path if it drives one");
   add_connection(command, *options);
   console::examples(command, {"astrolabe pause", "astrolabe pause --port /dev/ttyS0"});
   command.callback([options] { pause(*options); });

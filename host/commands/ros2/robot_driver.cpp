@@ -44,6 +44,7 @@ ros2::DriverOptions driver_options(const RobotDriverOptions& options, const std:
   driver.node_namespace = options.node_namespace;
   driver.rate_hz = options.rate_hz;
   driver.cmd_vel_timeout = microseconds(std::llround(1e6 * options.cmd_vel_timeout_s));
+  driver.velocities_after_stop = options.cmd_vel_after_stop;
   driver.fault_help = fault_help;
   driver.words = words_for_nodes;
   driver.notice = [](const std::string& sentence) { console::say(sentence); };
@@ -78,6 +79,9 @@ void add_robot_driver_options(console::Command command, RobotDriverOptions& opti
                       "Hz");
   console::add_ranged(command, "--cmd-vel-timeout", options.cmd_vel_timeout_s, "how long a velocity holds",
                       "S", 0.02, 10, "s");
+  command.add_flag(
+      "--cmd-vel-after-stop", options.cmd_vel_after_stop,
+      "the next velocity after a stop through this program\ndrives the robot again, without arming it");
   command
       .add_option("--calibration", options.calibration,
                   "calib.toml of the robot: how well its factors are\nknown and how its wheels slip "

@@ -16,6 +16,7 @@ struct RobotDriverOptions {
   ConnectionOptions connection;
   std::string node_namespace;
   double rate_hz = 50, cmd_vel_timeout_s = 0.5;
+  bool cmd_vel_after_stop = false;
   std::filesystem::path calibration;
 };
 
@@ -25,7 +26,7 @@ std::string absolute_namespace(const std::string& space);
 /// One sentence if ROS 2 would refuse a node of this name in this namespace, or "".
 std::string what_is_wrong(const ros2::NodeName& node);
 
-/// --port, --baud, --namespace, --rate, --cmd-vel-timeout and --calibration.
+/// --port, --baud, --namespace, --rate, --cmd-vel-timeout, --cmd-vel-after-stop and --calibration.
 void add_robot_driver_options(console::Command command, RobotDriverOptions& options);
 
 /// Serves a robot on these middlewares until Ctrl-C, and throws Interrupted then; a robot that was armed by others through them

@@ -4,8 +4,7 @@
 
 namespace astro::robot {
 
-using protocol::ErrorCode;
-using protocol::ErrorReply;
+using namespace protocol;  // NOLINT(google-build-using-namespace): this file is all messages
 
 const PortUser* DriverRule::stopper_of(SessionId id) const {
   const auto found = stopped_.find(id);
@@ -13,32 +12,39 @@ const PortUser* DriverRule::stopper_of(SessionId id) const {
 }
 
 std::optional<ErrorReply> DriverRule::refusal(SessionId id, std::uint8_t message) const {
-  if (stopped_.contains(id) && request_rules::sets_in_motion(message) && message != protocol::Arm::kId)
-    return ErrorReply{ErrorCode::not_armed, 0};
-  if (!request_rules::drives(message) || !driver_ || driver_ == id || stopped_.contains(*driver_))
-    return std::nullopt;
-  return ErrorReply{ErrorCode::busy, 0};
+  const bool taken = driver_ && driver_ != id && !(confirmed_ && rule_.stopped());
+  if (message == Arm::kId) return taken ? std::optional(ErrorReply{ErrorCode::busy, 0}) : std::nullopt;
+  if (rule_.permits(id, message)) return std::nullopt;
+  return ErrorReply{taken ? ErrorCode::busy : ErrorCode::not_armed, 0};
 }
 
 void DriverRule::note_request(SessionId id, std::uint8_t message) {
-  if (!request_rules::drives(message) || driver_ == id) return;
+  if (message != Arm::kId || driver_ == id) return;
   driver_ = id;
   confirmed_ = false;
 }
 
-void DriverRule::note_stop(SessionId id, const PortUser& by) {
-  if (driver_ && driver_ != id) stopped_.try_emplace(*driver_, by);
+void DriverRule::note_halt(SessionId id, std::uint8_t message, const PortUser& by) {
+  rule_.note(id, message);
+  if (request_rules::stops(message) && driver_ && driver_ != id) stopped_.try_emplace(*driver_, by);
 }
 
-void DriverRule::note_answer(SessionId id, std::uint8_t request, bool accepted) {
-  using namespace protocol;  // NOLINT(google-build-using-namespace): this function is all messages
-  if (request == Arm::kId && accepted) stopped_.erase(id);
-  if (request_rules::drives(request) && driver_ == id) {
-    confirmed_ = confirmed_ || accepted;
+void DriverRule::note_answer(SessionId id, std::uint8_t request, std::optional<ErrorCode> refused) {
+  if (!refused) rule_.note(id, request);
+  if (request == Arm::kId && driver_ == id) {
+    confirmed_ = confirmed_ || !refused;
+    if (!refused) stopped_.erase(id);
     if (!confirmed_) end_drive();
   }
+  // Somebody at another port of the robot has stopped it.
+  if (refused == ErrorCode::not_armed && rule_.drives(id)) rule_.note(id, Stop::kId);
   const bool disarms = request == Disarm::kId || request == Reboot::kId || request == EnterBootloader::kId;
-  if (disarms && accepted) end_drive();
+  if (disarms && !refused) end_drive();
+}
+
+void DriverRule::end_drive() {
+  driver_.reset();
+  rule_.end();
 }
 
 void DriverRule::release(SessionId id) {

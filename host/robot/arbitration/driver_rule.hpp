@@ -4,24 +4,24 @@
 #include <map>
 #include <optional>
 
-#include "common/protocol/messages.hpp"
+#include "common/protocol/driving_rule.hpp"
 #include "host/robot/arbitration/port_user.hpp"
 
 namespace astro::robot {
 
-/// Which program drives, and whose drive another program stopped.
+/// Which program drives, and whose drive another program stopped: the robot's own rule (protocol::DrivingRule), applied to the
+/// programs at one port, which are one host to the robot.
 ///
-/// Begin  the program that first sends Arm, Velocity, WheelVoltage or AddSegment drives, unless the robot
-///        refuses it. Meanwhile these requests of others are refused as busy.
-/// End    it disarms the robot, says Hello or disconnects, or a fault is raised. Once another program has
-///        stopped it, the next program that asks to drive takes its place.
-/// Stop   a driver that another program stopped gets not_armed for whatever would move the robot, until it
-///        arms the robot again.
+/// Begin  the program that sends Arm drives, unless the robot refuses it. Meanwhile motion requests of others are refused as
+///        busy.
+/// End    it disarms the robot, says Hello or disconnects, or a fault is raised. Once it was stopped, by whomever, the next
+///        program that arms the robot takes its place.
+/// Stop   a driver that was stopped gets not_armed for whatever would move the robot, until it arms the robot again.
 class DriverRule {
  public:
   std::optional<SessionId> driver() const { return driver_; }
   bool drives(SessionId id) const { return driver_ == id; }
-  /// The driver, once the robot has accepted one of its motion requests.
+  /// The driver, once the robot has accepted its Arm.
   std::optional<SessionId> confirmed_driver() const { return confirmed_ ? driver_ : std::nullopt; }
   /// The program that stopped this one's drive; null if none has since it armed the robot.
   const PortUser* stopper_of(SessionId id) const;
@@ -31,12 +31,13 @@ class DriverRule {
 
   /// A request that was not refused is new.
   void note_request(SessionId id, std::uint8_t message);
-  /// A program stops the robot: the driver's next velocity is refused, so that it stays stopped.
-  void note_stop(SessionId id, const PortUser& by);
-  /// The robot has answered a request of this program.
-  void note_answer(SessionId id, std::uint8_t request, bool accepted);
+  /// A program halts the robot. Noted when it asks, not when the robot answers, so that nothing that moves the robot is sent
+  /// after it.
+  void note_halt(SessionId id, std::uint8_t message, const PortUser& by);
+  /// The robot has answered a request of this program, and refused it if there is a code.
+  void note_answer(SessionId id, std::uint8_t request, std::optional<protocol::ErrorCode> refused);
   /// Nobody drives any more.
-  void end_drive() { driver_.reset(); }
+  void end_drive();
   /// This program does not drive any more.
   void release(SessionId id);
   /// The program has disconnected.
@@ -45,8 +46,9 @@ class DriverRule {
   void clear();
 
  private:
-  std::optional<SessionId> driver_;
-  bool confirmed_ = false;                 // the robot has accepted a motion request of the driver
+  protocol::DrivingRule<SessionId> rule_;
+  std::optional<SessionId> driver_;  // from when it asks for it, the rule's from when the robot has agreed
+  bool confirmed_ = false;           // the robot has agreed
   std::map<SessionId, PortUser> stopped_;  // by whom
 };
 

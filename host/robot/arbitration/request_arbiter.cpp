@@ -65,8 +65,10 @@ void RequestArbiter::take(SessionId id, ByteView body, microseconds now) {
   if (answer_here(session, header, body)) return;
   if (const auto refused = driver_.refusal(id, header.message_id))
     return reply_with(session, header, *refused);
-  if (request_rules::stops(header.message_id)) driver_.note_stop(id, session.user());
-  if (request_rules::halts(header.message_id)) cancel_motion(id, header.message_id);
+  if (request_rules::halts(header.message_id)) {
+    driver_.note_halt(id, header.message_id, session.user());
+    cancel_motion(id, header.message_id);
+  }
   if (session.has_under_way(header)) return repeat(session, now);
   begin(session, Exchange(header, body), now);
 }
@@ -201,9 +203,13 @@ void RequestArbiter::take_answer(ByteView body, microseconds now) {
 }
 
 void RequestArbiter::note_answer(const ProgramSession& session, std::uint8_t request, ByteView body) {
-  const bool accepted = body.front() != ErrorReply::kId;
-  driver_.note_answer(session.id(), request, accepted);
-  if (request == CommitParameters::kId && accepted) hello_.reset();  // the robot's name may have changed
+  std::optional<ErrorCode> refused;
+  if (body.front() == ErrorReply::kId) {
+    const auto error = decode<ErrorReply>(body);
+    refused = error.ok() ? error->code : ErrorCode::malformed;
+  }
+  driver_.note_answer(session.id(), request, refused);
+  if (request == CommitParameters::kId && !refused) hello_.reset();  // the robot's name may have changed
   if (request != Hello::kId) return;
   const auto hello = decode<HelloReply>(body);
   if (!hello.ok()) return;

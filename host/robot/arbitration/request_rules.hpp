@@ -17,17 +17,16 @@ constexpr bool is_one_of(std::uint8_t message, const std::array<std::uint8_t, N>
   return std::find(ids.begin(), ids.end(), message) != ids.end();
 }
 
-/// Requests that make their sender the driver.
-constexpr bool drives(std::uint8_t message) {
-  return is_one_of(message, std::array{Arm::kId, Velocity::kId, WheelVoltage::kId, AddSegment::kId});
-}
 constexpr bool stops(std::uint8_t message) {
   return is_one_of(message, std::array{EmergencyStop::kId, Stop::kId, Disarm::kId});
 }
 /// Requests that let the robot come to rest. They never wait for other programs, and they are never answered
 /// from memory.
 constexpr bool halts(std::uint8_t message) { return stops(message) || message == Pause::kId; }
-constexpr bool sets_in_motion(std::uint8_t message) { return drives(message) || message == Resume::kId; }
+constexpr bool sets_in_motion(std::uint8_t message) {
+  return is_one_of(message,
+                   std::array{Arm::kId, Velocity::kId, WheelVoltage::kId, AddSegment::kId, Resume::kId});
+}
 /// A request for motion that must not reach the robot after `halt`, if `halt` was sent later.
 constexpr bool is_cancelled_by(std::uint8_t message, std::uint8_t halt) {
   return stops(halt) ? sets_in_motion(message) : halt == Pause::kId && message == Resume::kId;

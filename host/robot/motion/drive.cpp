@@ -82,7 +82,9 @@ void DriveSession::end() {
 /// A robot that does not come to rest by its ramp is disarmed anyway, which opens its bridges.
 void DriveSession::rest_and_disarm() {
   try {
-    stop();
+    const Restore stopping(stopping_, true);
+    client_.request(Stop{});
+    wait_until_power_off();
   } catch (const LinkLost&) {
     throw;  // it cannot be disarmed either
   } catch (const std::exception&) {
@@ -156,8 +158,10 @@ void DriveSession::ask_for_progress() {
   if (status.latched_faults != 0) fail(first_fault(status.latched_faults));
   if (status.mode == Mode::disarmed) fail_ended("the drive ended early", "disarmed");
   const bool idle = status.mode == Mode::idle && status.queued_segments == 0;
-  if (idle && port_users(client_).stopper_pid != 0) fail_ended("the drive ended early", "stopped");
-  if (idle) done_ = accepted_;
+  if (idle) {
+    command(Rest{});  // refused if somebody has stopped the robot
+    done_ = accepted_;
+  }
   check();
 }
 
@@ -190,7 +194,7 @@ void DriveSession::pump(microseconds duration) {
 
 void DriveSession::stop() {
   const Restore stopping(stopping_, true);
-  client_.request(Stop{});
+  command(Rest{});
   wait_until_power_off();
   aborted_ = 0;  // this stop aborted it
 }

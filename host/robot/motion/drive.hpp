@@ -78,7 +78,8 @@ class DriveSession {
   /// As Client::pump, and throws as run() does.
   void pump(microseconds duration);
 
-  /// Ramps to rest, empties the queue and returns when the robot is at rest.
+  /// Ramps to rest, empties the queue and returns when the robot is at rest; the drive may go on. Throws if somebody else has
+  /// stopped the robot.
   void stop();
 
   /// Ramps to rest and disarms; the drive is over, and nothing else may be called. Throws NotStopped if the

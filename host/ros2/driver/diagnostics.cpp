@@ -98,7 +98,7 @@ msg::DiagnosticStatus command_status(const DriverState& state) {
   if (counts.ignored_at && state.now - *counts.ignored_at < kRecently)
     status.say(kWarn, "a velocity is ignored: " + counts.last_reason);
   else
-    status.say(kOk, state.armed_here ? "armed" : "not armed");
+    status.say(kOk, state.velocities_ignored.empty() ? "armed" : std::string(state.velocities_ignored));
   status.add("velocities received", counts.received);
   status.add("velocities ignored", counts.ignored);
   if (!counts.last_reason.empty()) status.add("last ignored because", counts.last_reason);

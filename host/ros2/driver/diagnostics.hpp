@@ -32,7 +32,7 @@ struct DriverState {
   std::optional<double> stamp_bound_s;  // greatest error of a stamp
   // Always:
   CommandCounts commands;
-  bool armed_here = false;
+  std::string_view velocities_ignored;  // why; "" if they drive the robot
   std::string odometry_event;
   std::optional<ContinuousOdometry::RefusedPose> refused_pose;
   bool other_factors = false;  // the robot holds others than those whose covariance is published

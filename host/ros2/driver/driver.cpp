@@ -28,7 +28,9 @@ std::vector<FixedParameter> fixed_parameters(const DriverOptions& options, const
           {"publish_rate", "messages of odometry a second [Hz]",
            to_parameter(1000.0 / period_ms(options.rate_hz))},
           {"cmd_vel_timeout", "how long a velocity holds [s]",
-           to_parameter(1e-6 * static_cast<double>(options.cmd_vel_timeout.count()))}};
+           to_parameter(1e-6 * static_cast<double>(options.cmd_vel_timeout.count()))},
+          {"cmd_vel_after_stop", "velocities drive the robot again after this node's stop, without arm",
+           to_parameter(options.velocities_after_stop)}};
 }
 
 }  // namespace
@@ -40,7 +42,7 @@ Driver::Driver(std::vector<Middleware*> middlewares, OpenPort open, DriverOption
       utc_(options_.clock),
       polled_(utc_.steady()),
       link_(std::move(open), options_.clock, period_ms(options_.rate_hz)),
-      driving_(options_.cmd_vel_timeout),
+      driving_(options_.cmd_vel_timeout, options_.velocities_after_stop),
       odometry_(options_.errors),
       parameters_([this] { return link_.session(); }, [this] { return driving_.armed(); },
                   fixed_parameters(options_, names_),
@@ -183,7 +185,7 @@ DriverState Driver::state() {
   state.robot = link_.robot();
   state.losses = link_.losses();
   state.commands = driving_.counts();
-  state.armed_here = driving_.armed();
+  state.velocities_ignored = driving_.why_ignored();
   state.odometry_event = odometry_.event();
   state.refused_pose = odometry_.refused_pose();
   RobotSession* session = link_.session();

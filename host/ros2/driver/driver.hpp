@@ -22,6 +22,7 @@ struct DriverOptions {
   std::string node_namespace;  // "" or "left"
   double rate_hz = 50;         // of telemetry; up to 1000. The period is rounded to whole milliseconds.
   microseconds cmd_vel_timeout = std::chrono::milliseconds(500);
+  bool velocities_after_stop = false;                 // see Driving
   std::optional<calibration::OdometryErrors> errors;  // otherwise those of an uncalibrated robot
   /// The factors that `errors` are those of: if the robot has others, /diagnostics say so.
   std::optional<calibration::WheelFactors> calibrated;

@@ -68,6 +68,7 @@ std::string Driving::arm(RobotSession& session) {
   }
   command_.clear();
   armed_ = true;
+  halt_ = Halt::none;
   return latched == 0
              ? "armed"
              : "armed; cleared " + robot::fault_names(latched) + ", which an earlier drive left behind";
@@ -80,7 +81,26 @@ void Driving::disarm(RobotSession& session) {
 
 void Driving::stop(RobotSession& session) {
   command_.clear();
+  if (velocities_after_stop_ && armed_ && halt_ == Halt::none) {
+    try {
+      session.ask(protocol::Rest{});
+      return;
+    } catch (const robot::RobotRefused&) {  // somebody else has stopped the robot
+    }
+  }
   session.ask(protocol::Stop{});
+  halt_ = Halt::stopped;
+}
+
+void Driving::pause(RobotSession& session) {
+  command_.clear();
+  session.ask(protocol::Pause{});
+  if (halt_ == Halt::none) halt_ = Halt::paused;
+}
+
+void Driving::resume(RobotSession& session) {
+  session.ask(protocol::Resume{});
+  if (halt_ == Halt::paused) halt_ = Halt::none;
 }
 
 void Driving::release() {
@@ -104,16 +124,16 @@ void Driving::step(RobotSession& session, microseconds now) {
     case VelocityCommand::Due::nothing:
       return;
     case VelocityCommand::Due::stop:
-      return send_stop(session, now);
+      return send_rest(session, now);
     case VelocityCommand::Due::velocity:
       return send(session, now);
   }
 }
 
-void Driving::send_stop(RobotSession& session, microseconds now) {
+void Driving::send_rest(RobotSession& session, microseconds now) {
   if (!armed_) return;
   try {
-    session.ask(protocol::Stop{});
+    session.ask(protocol::Rest{});
   } catch (const robot::RobotRefused& refused) {  // it is in other hands, or at rest with a fault
     release();
     ignore(why_not(session, refused), now);
@@ -121,9 +141,9 @@ void Driving::send_stop(RobotSession& session, microseconds now) {
 }
 
 void Driving::send(RobotSession& session, microseconds now) {
-  if (!armed_) {
+  if (const std::string_view why = why_ignored(); !why.empty()) {
     command_.clear();
-    return ignore("the robot is not armed", now);
+    return ignore(std::string(why), now);
   }
   try {
     session.ask(command_.velocity());
@@ -131,6 +151,18 @@ void Driving::send(RobotSession& session, microseconds now) {
   } catch (const robot::RobotRefused& refused) {
     release();
     ignore(why_not(session, refused), now);
+  }
+}
+
+std::string_view Driving::why_ignored() const {
+  if (!armed_) return "the robot is not armed";
+  switch (halt_) {
+    case Halt::stopped:
+      return "the robot was stopped and must be armed again";
+    case Halt::paused:
+      return "the robot is paused";
+    default:
+      return "";
   }
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "host/ros2/driver/robot_session.hpp"
 #include "host/ros2/driver/velocity_command.hpp"
@@ -18,17 +19,23 @@ struct CommandCounts {
 };
 
 /// Drives the robot by the velocities that others command, once one of them has armed it through this node. Nothing arms by
-/// itself: a fault, a lost link, a restart or another program that stops the robot ends the permission.
+/// itself: a fault, a lost link, a restart, a stop or another program that stops the robot ends the permission.
 class Driving {
  public:
-  explicit Driving(microseconds cmd_vel_timeout) : command_(cmd_vel_timeout) {}
+  /// With `velocities_after_stop` the next velocity after stop() drives the robot again, unless somebody outside this node has
+  /// stopped it, too.
+  explicit Driving(microseconds cmd_vel_timeout, bool velocities_after_stop = false)
+      : command_(cmd_vel_timeout), velocities_after_stop_(velocities_after_stop) {}
 
   /// Arms the robot; returns what was done. Clears the faults that an earlier drive left behind.
   /// Throws astro::Error for any other latched fault, and if another program drives.
   std::string arm(RobotSession& session);
   void disarm(RobotSession& session);
-  /// Ramps to rest; the robot stays armed, and the next velocity drives it again.
+  /// Ramps to rest, whoever drives. Returns once that is certain: the robot has taken the stop, and moves for nobody until an arm.
   void stop(RobotSession& session);
+  /// Ramps to rest, and keeps what is left of a path. Until resume() or arm() velocities are ignored.
+  void pause(RobotSession& session);
+  void resume(RobotSession& session);
   /// The robot is not armed for this node any more.
   void release();
   /// The link was lost.
@@ -37,6 +44,8 @@ class Driving {
   /// it has driven on.
   void begin(RobotSession& session);
   bool armed() const { return armed_; }
+  /// Why velocities are ignored; "" if they drive the robot.
+  std::string_view why_ignored() const;
 
   /// A velocity has come: a Twist or a TwistStamped, as bytes.
   template <class Message>
@@ -53,11 +62,16 @@ class Driving {
 
  private:
   void send(RobotSession& session, microseconds now);
-  void send_stop(RobotSession& session, microseconds now);
+  void send_rest(RobotSession& session, microseconds now);
   void ignore(const std::string& why, microseconds now);
 
+  /// What keeps velocities from an armed robot.
+  enum class Halt : std::uint8_t { none, stopped, paused };
+
   VelocityCommand command_;
+  bool velocities_after_stop_;
   bool armed_ = false;
+  Halt halt_ = Halt::none;
   bool left_armed_ = false;  // when the link was lost, and not told to stop since
   CommandCounts counts_;
 };

@@ -6,17 +6,6 @@
 
 namespace astro::ros2 {
 
-namespace {
-
-/// An armed robot without a path takes a Pause, too, and then drives by the next velocity; whoever asked would rely on it.
-void require_path(RobotSession& session) {
-  const protocol::Status status = session.ask(protocol::GetStatus{});
-  if (status.mode == protocol::Mode::idle && status.queued_segments == 0)
-    throw Error("no path is driven that could be paused; what stops velocities is stop or disarm");
-}
-
-}  // namespace
-
 Requests::Requests(std::span<Middleware* const> middlewares, const Names& names, Robot robot)
     : middlewares_(middlewares), names_(names), robot_(std::move(robot)) {
   subscribe_all();
@@ -26,7 +15,9 @@ Requests::Requests(std::span<Middleware* const> middlewares, const Names& names,
 void Requests::serve_all() {
   serve("arm", [this](RobotSession& session) { return robot_.driving.arm(session); });
   serve("disarm", [this](RobotSession& session) { return robot_.driving.disarm(session), "disarmed"; });
-  serve("stop", [this](RobotSession& session) { return robot_.driving.stop(session), "ramps to rest"; });
+  serve("stop", [this](RobotSession& session) {
+    return robot_.driving.stop(session), "ramps to rest, and moves for nobody until it is armed again";
+  });
   serve("emergency_stop", [this](RobotSession& session) {
     robot_.driving.release();
     session.ask(protocol::EmergencyStop{});
@@ -34,11 +25,8 @@ void Requests::serve_all() {
   });
   serve("clear_faults",
         [](RobotSession& session) { return session.ask(protocol::ClearFaults{}), "cleared"; });
-  serve("pause", [](RobotSession& session) {
-    require_path(session);
-    return session.ask(protocol::Pause{}), "paused";
-  });
-  serve("resume", [](RobotSession& session) { return session.ask(protocol::Resume{}), "resumed"; });
+  serve("pause", [this](RobotSession& session) { return robot_.driving.pause(session), "paused"; });
+  serve("resume", [this](RobotSession& session) { return robot_.driving.resume(session), "resumed"; });
   serve("reset_odometry", [this](RobotSession& session) {
     robot_.odometry.set_pose(session, 0, 0, 0, {});
     return "the pose is zero";

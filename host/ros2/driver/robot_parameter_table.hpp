@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <functional>
 #include <string>
 #include <vector>
@@ -53,6 +54,13 @@ class RobotParameterTable : public ParameterTable {
 };
 
 msg::ParameterValue to_parameter(double value);
+/// Takes no number for a flag.
+msg::ParameterValue to_parameter(std::same_as<bool> auto value) {
+  msg::ParameterValue parameter;
+  parameter.type = static_cast<std::uint8_t>(ParameterType::boolean);
+  parameter.bool_value = value;
+  return parameter;
+}
 msg::ParameterValue to_parameter(const std::string& value);
 
 }  // namespace astro::ros2

@@ -165,7 +165,7 @@ TEST_F(Parameters, ATimeoutThatIsAppliedWhileDrivingIsRefusedAndOneAppliedAtRest
   ask(protocol::Velocity{100'000, 0});
   stage(Param::command_timeout, 200);
   EXPECT_EQ(refusal(protocol::ApplyParameters{}).code(), ErrorCode::moving);
-  ask(protocol::Stop{});
+  ask(protocol::Rest{});
   run_ms(2000);
   ask(protocol::ApplyParameters{});
   ask(protocol::Velocity{100'000, 0});

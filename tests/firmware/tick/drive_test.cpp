@@ -240,7 +240,7 @@ TEST_F(Driving, WheelVoltagesEndInABrakeOnStopAndWithAFaultWhenTheyAreNotRepeate
   ask(protocol::Arm{});
   ask(protocol::WheelVoltage{3'000, 3'000});
   run_ms(100);
-  ask(protocol::Stop{});
+  ask(protocol::Rest{});
   run_ms(2);
   EXPECT_EQ(mode(), Mode::idle);
   EXPECT_EQ(board().motors().state(), Bridge::brake);
@@ -327,7 +327,7 @@ TEST_F(Driving, StopEndsAPausedPath) {
   ask(protocol::Pause{});
   run_ms(2000);
   ask(protocol::Stop{});
-  ask(protocol::Resume{});
+  EXPECT_EQ(refusal(protocol::Resume{}).code(), ErrorCode::not_armed);
   run_ms(500);
   EXPECT_EQ(mode(), Mode::idle);
   EXPECT_EQ(drive().queued(), 0U);
@@ -360,11 +360,41 @@ TEST_F(Driving, APoseThatIsSetWhilePausedIsWhereThePathGoesOnHoweverNearItIs) {
   EXPECT_NEAR(y_m(), 0.03, 0.002) << "it goes straight on";
 }
 
-TEST_F(Driving, PauseIsForPaths) {
+TEST_F(Driving, APauseEndsAVelocityAndNoOtherVelocityMovesTheRobotUntilItIsResumed) {
   arm();
   ask(protocol::Velocity{100'000, 0});
+  run_ms(150);
+  ask(protocol::Pause{});
+  EXPECT_EQ(refusal(protocol::Velocity{100'000, 0}).code(), ErrorCode::not_armed);
+  run_ms(1000);
+  EXPECT_EQ(mode(), Mode::paused);
+  ask(protocol::Resume{});
   run_ms(100);
-  EXPECT_EQ(refusal(protocol::Pause{}).code(), ErrorCode::moving);
+  EXPECT_EQ(mode(), Mode::idle) << "there is no path to continue";
+  ask(protocol::Velocity{100'000, 0});
+  EXPECT_EQ(mode(), Mode::velocity);
+}
+
+TEST_F(Driving, ARobotThatWasPausedWithoutAPathIsReadyOnceItIsArmedAgain) {
+  arm();
+  ask(protocol::Pause{});
+  run_ms(10);
+  ASSERT_EQ(mode(), Mode::paused);
+  arm();
+  add(robot::line(0.1));
+  EXPECT_TRUE(until_rest());
+  EXPECT_NEAR(x_m(), 0.1, 0.002);
+}
+
+TEST_F(Driving, ARestEndsAVelocityAndTheNextOneDrivesAgain) {
+  arm();
+  ask(protocol::Velocity{300'000, 0});
+  run_ms(100);
+  ask(protocol::Rest{});
+  run_ms(2000);
+  EXPECT_EQ(mode(), Mode::idle);
+  ask(protocol::Velocity{300'000, 0});
+  EXPECT_EQ(mode(), Mode::velocity);
 }
 
 TEST_F(Driving, AStopSegmentStandsForItsTime) {

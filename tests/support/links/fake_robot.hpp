@@ -44,6 +44,7 @@ class FakeRobot {
   std::optional<protocol::ErrorReply> refuse_next;  // whatever the next new request is
   std::uint16_t greatest_request_id = 0;
   bool mute_events = false;
+  bool stopped = false;          // since it was armed
   bool never_rests = false;      // Stop leaves it in the ramp
   bool staging_is_ours = false;  // false again once another session has opened the staging area
 
@@ -228,6 +229,7 @@ class FakeRobot {
   Refusal carry_out(const protocol::Arm&) {
     if (latched != 0) return no(protocol::ErrorCode::faulted, static_cast<std::uint16_t>(first_fault_));
     mode = protocol::Mode::idle;
+    stopped = false;
     return {};
   }
   Refusal carry_out(const protocol::Disarm&) {
@@ -235,22 +237,31 @@ class FakeRobot {
     if (mode != protocol::Mode::fault) mode = protocol::Mode::disarmed;
     return {};
   }
+  Refusal carry_out(const protocol::Rest&) {
+    if (mode == protocol::Mode::disarmed || stopped) return no(protocol::ErrorCode::not_armed);
+    end_motion();
+    return {};
+  }
   Refusal carry_out(const protocol::Stop&) {
+    stopped = true;
+    end_motion();
+    return {};
+  }
+  void end_motion() {
     if (!queue_.empty()) {
       event(protocol::SegmentDone{queue_.front().tag, protocol::SegmentOutcome::aborted, device_us});
     }
     queue_.clear();
     if (moving()) mode = never_rests ? protocol::Mode::stopping : protocol::Mode::idle;
-    return {};
   }
   Refusal carry_out(const protocol::Velocity&) {
-    if (mode == protocol::Mode::disarmed) return no(protocol::ErrorCode::not_armed);
+    if (mode == protocol::Mode::disarmed || stopped) return no(protocol::ErrorCode::not_armed);
     mode = protocol::Mode::velocity;
     return {};
   }
   Refusal carry_out(const protocol::AddSegment& segment) {
     if (latched != 0) return no(protocol::ErrorCode::faulted, static_cast<std::uint16_t>(first_fault_));
-    if (mode == protocol::Mode::disarmed) return no(protocol::ErrorCode::not_armed);
+    if (mode == protocol::Mode::disarmed || stopped) return no(protocol::ErrorCode::not_armed);
     if (queue_.size() == kQueue) return no(protocol::ErrorCode::queue_full);
     if (queue_.empty()) segment_end_us_ = device_us + kSegment_us;
     queue_.push_back(segment);

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <random>
 
 #include "common/protocol/frame.hpp"
 #include "common/protocol/messages.hpp"
 #include "host/simulation/robot/virtual_robot.hpp"
 #include "tests/support/robots/drive_of.hpp"
+#include "tests/support/robots/halt_witness.hpp"
+#include "tests/support/robots/random.hpp"
 
 namespace astro::support {
 namespace {
@@ -17,21 +18,6 @@ using protocol::Mode;
 
 constexpr int kSilence_ms = 3000;
 constexpr int kUsualTimeout_ms = 200;
-
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  std::int64_t between(std::int64_t low, std::int64_t high) {
-    return std::uniform_int_distribution<std::int64_t>(low, high)(engine_);
-  }
-  double uniform(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(engine_);
-  }
-  bool chance(double probability) { return uniform(0, 1) < probability; }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 // ---- the robot's construction
 
@@ -128,12 +114,14 @@ class Life {
 
   template <protocol::Message M>
   void send(const M& message, int port) {
-    std::array<std::uint8_t, protocol::kMaxBody> body{};
-    std::array<std::uint8_t, protocol::kMaxFrame> out{};
-    const std::uint16_t id = request_id_ = static_cast<std::uint16_t>(request_id_ % 0x7FFF + 1);
-    const std::size_t size = protocol::encode(message, id, body);
-    const std::size_t framed = protocol::encode_frame(std::span(body).first(size), out);
-    robot_.board().ports().host_write(port, std::span(out).first(framed));
+    request_id_ = static_cast<std::uint16_t>(request_id_ % 0x7FFF + 1);
+    // Some requests come from an onlooker at that port.
+    const bool onlooker = random_.chance(0.1);
+    const auto id = static_cast<std::uint16_t>(request_id_ | (onlooker ? protocol::kOnlookerBit : 0));
+    robot_.board().ports().host_write(port, protocol::Frame(message, id).bytes());
+    asked_ = {port, onlooker};
+    asked_id_ = id;
+    asked_message_ = M::kId;
     silent_ms_ = 0;
     step();
   }
@@ -166,6 +154,21 @@ class Life {
     for (std::int64_t i = 0; i < repeats; ++i) {
       send(protocol::Velocity{v, omega}, port_);
       pass(static_cast<int>(random_.between(1, 60)));
+      // Somebody at either port halts the robot, and this host goes on as if nothing had happened.
+      if (random_.chance(0.03)) halt(any_port());
+    }
+  }
+
+  void halt(int port) {
+    switch (random_.between(0, 3)) {
+      case 0:
+        return send(protocol::Stop{}, port);
+      case 1:
+        return send(protocol::Pause{}, port);
+      case 2:
+        return send(protocol::Disarm{}, port);
+      default:
+        return send(protocol::EmergencyStop{}, port);
     }
   }
 
@@ -275,7 +278,8 @@ class Life {
       case 11:
         return send(protocol::Pause{}, any_port());
       case 12:
-        return send(protocol::Resume{}, any_port());
+        return random_.chance(0.8) ? send(protocol::Resume{}, any_port())
+                                   : send(protocol::Rest{}, any_port());
       case 13:
         return random_.chance(0.5) ? send(protocol::Disarm{}, any_port())
                                    : send(protocol::EmergencyStop{}, any_port());
@@ -313,19 +317,36 @@ class Life {
 
   void step() {
     robot_.step();
-    for (int port = 0; port < sim::Ports::kPorts; ++port) {
-      std::array<std::uint8_t, 512> dropped{};
-      while (robot_.board().ports().host_read(port, dropped) == dropped.size()) {
-      }
-    }
+    for (int port = 0; port < sim::Ports::kPorts; ++port) read(port);
     ++report_.ticks;
     report_.powered_ticks += powered() ? 1 : 0;
     report_.faults_seen |= drive_of(robot_).faults().mask();
     look();
   }
 
+  void read(int port) {
+    std::array<std::uint8_t, 512> bytes{};
+    for (std::size_t count = bytes.size(); count == bytes.size();) {
+      count = robot_.board().ports().host_read(port, bytes);
+      for (std::size_t i = 0; i < count; ++i)
+        if (const auto body = framers_[static_cast<std::size_t>(port)].push(bytes[i])) take(port, *body);
+    }
+  }
+
+  void take(int port, std::span<const std::uint8_t> body) {
+    const std::uint16_t id = protocol::peek(body)->request_id;
+    if (port != asked_.port || id == 0 || id != asked_id_) return;  // an event has the id 0
+    const bool taken = body.front() != protocol::ErrorReply::kId;
+    report_.refused_after_halt +=
+        witness_.halted() && !taken && HaltWitness::is_motion(asked_message_) ? 1 : 0;
+    witness_.answered(asked_, asked_message_, taken);
+    asked_id_ = 0;
+  }
+
   void look() {
     const Drive& drive = drive_of(robot_);
+    witness_.look(drive.mode());
+    if (!witness_.violation().empty()) return violate(witness_.violation().c_str());
     const Mode mode = drive.mode();
     ++silent_ms_;
     stopping_silent_ms_ = mode == Mode::stopping ? std::min(stopping_silent_ms_ + 1, silent_ms_) : 0;
@@ -355,6 +376,11 @@ class Life {
   LifeReport report_;
   int port_ = 0;
   std::uint16_t request_id_ = 0;
+  HaltWitness::Host asked_;  // who sent the last request, which has no answer yet unless its id is 0
+  std::uint16_t asked_id_ = 0;
+  std::uint8_t asked_message_ = 0;
+  std::array<protocol::Framer, sim::Ports::kPorts> framers_;
+  HaltWitness witness_;
   int silent_ms_ = 0, stopping_silent_ms_ = 0;
   bool arm_asked_ = false, was_armed_ = false;
 };

@@ -60,12 +60,14 @@ class ADrive : public testing::Test {
  protected:
   ADrive() {
     rule.note_request(kDriver, Arm::kId);
-    rule.note_answer(kDriver, Arm::kId, true);
+    rule.note_answer(kDriver, Arm::kId, std::nullopt);
   }
   std::optional<ErrorCode> refused(SessionId id, std::uint8_t message) const {
     const auto refusal = rule.refusal(id, message);
     return refusal ? std::optional(refusal->code) : std::nullopt;
   }
+  static constexpr std::array kMotion{Velocity::kId, WheelVoltage::kId, AddSegment::kId, Rest::kId,
+                                      Resume::kId};
   DriverRule rule;
 };
 
@@ -81,44 +83,73 @@ TEST_F(ADrive, BelongsToTheFirstAndIsDeniedToOthersWhoMayStillAskAndStop) {
 
 TEST_F(ADrive, IsConfirmedByTheRobotAndGivenBackIfItRefuses) {
   DriverRule fresh;
-  fresh.note_request(kOther, Velocity::kId);
+  fresh.note_request(kOther, Arm::kId);
   EXPECT_EQ(fresh.driver(), kOther);
   EXPECT_EQ(fresh.confirmed_driver(), std::nullopt);
-  fresh.note_answer(kOther, Velocity::kId, false);
+  EXPECT_EQ(fresh.refusal(kOther, Velocity::kId)->code, ErrorCode::not_armed)
+      << "the robot has not agreed yet";
+  fresh.note_answer(kOther, Arm::kId, ErrorCode::faulted);
   EXPECT_EQ(fresh.driver(), std::nullopt);
-  rule.note_answer(kDriver, Velocity::kId, false);
+  rule.note_answer(kDriver, Velocity::kId, ErrorCode::moving);
   EXPECT_EQ(rule.driver(), kDriver) << "one refused velocity does not end a drive";
+  EXPECT_EQ(refused(kDriver, Velocity::kId), std::nullopt);
 }
 
 TEST_F(ADrive, EndsByDisarmRebootAndBootLoaderOfAnybodyOnceTheRobotHasAcceptedThem) {
   for (const std::uint8_t message : {Disarm::kId, Reboot::kId, EnterBootloader::kId}) {
     DriverRule each = rule;
-    each.note_answer(kOther, message, false);
+    each.note_answer(kOther, message, ErrorCode::moving);
     EXPECT_EQ(each.driver(), kDriver);
-    each.note_answer(kOther, message, true);
+    each.note_answer(kOther, message, std::nullopt);
     EXPECT_EQ(each.driver(), std::nullopt);
   }
 }
 
 TEST_F(ADrive, ThatAnotherStoppedResumesOnlyByArming) {
-  rule.note_stop(kOther, {22, "astrolabe stop"});
-  rule.note_stop(kThird, {33, "too late"});
+  rule.note_halt(kOther, Stop::kId, {22, "astrolabe stop"});
+  rule.note_halt(kThird, Stop::kId, {33, "too late"});
   ASSERT_NE(rule.stopper_of(kDriver), nullptr);
   EXPECT_EQ(rule.stopper_of(kDriver)->pid, 22U) << "the first of two";
-  for (const std::uint8_t message : {Velocity::kId, WheelVoltage::kId, AddSegment::kId, Resume::kId})
-    EXPECT_EQ(refused(kDriver, message), ErrorCode::not_armed);
+  for (const std::uint8_t message : kMotion) EXPECT_EQ(refused(kDriver, message), ErrorCode::not_armed);
   EXPECT_EQ(refused(kDriver, Arm::kId), std::nullopt);
   EXPECT_EQ(refused(kOther, Arm::kId), std::nullopt) << "the place is free";
-  rule.note_answer(kDriver, Arm::kId, false);
+  rule.note_answer(kDriver, Arm::kId, ErrorCode::faulted);
   EXPECT_EQ(refused(kDriver, Velocity::kId), ErrorCode::not_armed);
-  rule.note_answer(kDriver, Arm::kId, true);
+  rule.note_answer(kDriver, Arm::kId, std::nullopt);
+  EXPECT_EQ(refused(kDriver, Velocity::kId), std::nullopt);
+  EXPECT_EQ(rule.stopper_of(kDriver), nullptr);
+}
+
+TEST_F(ADrive, ThatTheDriverStoppedItselfResumesOnlyByArmingToo) {
+  rule.note_halt(kDriver, Stop::kId, {11, "astrolabe drive"});
+  EXPECT_EQ(rule.stopper_of(kDriver), nullptr) << "it knows who it was";
+  EXPECT_EQ(refused(kDriver, Velocity::kId), ErrorCode::not_armed);
+  rule.note_answer(kDriver, Arm::kId, std::nullopt);
   EXPECT_EQ(refused(kDriver, Velocity::kId), std::nullopt);
 }
 
-TEST_F(ADrive, ThatTheDriverStopsItselfIsNotHeldAgainstIt) {
-  rule.note_stop(kDriver, {11, "astrolabe drive"});
-  EXPECT_EQ(rule.stopper_of(kDriver), nullptr);
+TEST_F(ADrive, ThatAnotherPausedTakesSegmentsAndNoVelocityUntilAnotherResumes) {
+  rule.note_halt(kOther, Pause::kId, {22, "astrolabe pause"});
+  EXPECT_EQ(refused(kDriver, Velocity::kId), ErrorCode::not_armed);
+  EXPECT_EQ(refused(kDriver, Resume::kId), ErrorCode::not_armed);
+  EXPECT_EQ(refused(kDriver, AddSegment::kId), std::nullopt);
+  EXPECT_EQ(refused(kThird, Arm::kId), ErrorCode::busy) << "a paused path is still somebody's";
+  EXPECT_EQ(refused(kOther, Resume::kId), std::nullopt);
+  rule.note_answer(kOther, Resume::kId, std::nullopt);
   EXPECT_EQ(refused(kDriver, Velocity::kId), std::nullopt);
+}
+
+TEST_F(ADrive, ThatSomebodyAtAnotherPortStoppedIsOverForThisPortToo) {
+  rule.note_answer(kDriver, Velocity::kId, ErrorCode::not_armed);
+  EXPECT_EQ(rule.driver(), kDriver) << "its frames still keep the armed robot alive";
+  EXPECT_EQ(refused(kDriver, AddSegment::kId), ErrorCode::not_armed);
+  EXPECT_EQ(refused(kOther, Arm::kId), std::nullopt);
+}
+
+TEST_F(ADrive, OfAProgramThatHasGoneIsNobodyElses) {
+  rule.remove(kDriver);
+  EXPECT_EQ(refused(kOther, Velocity::kId), ErrorCode::not_armed) << "the robot may still be armed";
+  EXPECT_EQ(refused(kOther, Arm::kId), std::nullopt);
 }
 
 // ---- the staging area

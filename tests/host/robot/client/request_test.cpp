@@ -46,7 +46,7 @@ TEST_F(Request, IsCarriedOutOnceWhateverHappensToOneFrame) {
       client.request(AddSegment{.kind = SegmentKind::line, .length_nm = 1});
       EXPECT_EQ(link.robot.segments.size(), before + 1) << to_robot << static_cast<int>(fate);
       EXPECT_EQ(client.request(GetParameterInfo{2}).name.view(), "b") << "the next reply is not mistaken";
-      client.request(Stop{});
+      client.request(Rest{});
     }
   }
   EXPECT_EQ(client.counts().repeats, 4U) << "lost and corrupted, each way";
@@ -71,7 +71,7 @@ TEST_F(Request, WorksOverALineThatSpoilsEveryThirdFrame) {
   int frame = 0;
   link.fate = [&](bool, std::uint8_t) { return ++frame % 3 == 0 ? Fate::corrupted : Fate::arrives; };
   for (int i = 0; i < 100; ++i) {
-    client.request(Stop{});
+    client.request(Rest{});
     client.request(AddSegment{.kind = SegmentKind::line, .tag = static_cast<std::uint16_t>(i)});
   }
   ASSERT_EQ(link.robot.segments.size(), 100U);

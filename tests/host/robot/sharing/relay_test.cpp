@@ -187,9 +187,13 @@ TEST_F(SharedPort, ARepeatedVelocityDoesNotOvertakeAStop) {
   EXPECT_EQ(rig.robot.mode, Mode::idle);
 }
 
-TEST_F(SharedPort, TheDriversOwnStopIsNobodyElses) {
+TEST_F(SharedPort, AfterItsOwnRestADriverGoesOnAndAfterItsOwnStopItArmsAgain) {
   first.client.request(Arm{});
+  first.client.request(Rest{});
+  EXPECT_EQ(refusal_of(first.client, Velocity{100, 0}), "taken");
   first.client.request(Stop{});
+  EXPECT_EQ(refusal_of(first.client, Velocity{100, 0}), "not_armed");
+  first.client.request(Arm{});
   EXPECT_EQ(refusal_of(first.client, Velocity{100, 0}), "taken");
 }
 
@@ -279,9 +283,10 @@ TEST_F(SharedPort, WhatWasToMoveTheRobotAndHasNotGoneToItWhenAStopComesGoesNoMor
     for (const auto& motion : {Frame(Velocity{100'000, 0}, 2), Frame(line(1, {}).front(), 2),
                                Frame(Resume{}, 2), Frame(Arm{}, 2)}) {
       Relay relay;
+      FakeRobotAt robot(relay);
       const SessionId driver = relay.join({11, "drive"}), other = relay.join({22, "stop"});
       relay.from_session(driver, Frame(Arm{}, 1).bytes(), rig.now);
-      taken_from(relay);
+      robot.answer(rig.now);
       relay.from_session(driver, motion.bytes(), rig.now);
       relay.from_session(driver, Frame(Ping{}, 3).bytes(), rig.now);
       relay.from_session(by_another ? other : driver, Frame(Stop{}, 4).bytes(), rig.now);
@@ -291,11 +296,14 @@ TEST_F(SharedPort, WhatWasToMoveTheRobotAndHasNotGoneToItWhenAStopComesGoesNoMor
 
 TEST(Relay, APauseKeepsItsPlaceOnTheLineSoThatItComesAfterWhatWasSentBeforeIt) {
   Relay relay;
+  FakeRobotAt robot(relay);
   const SessionId driver = relay.join({11, "drive"}), other = relay.join({22, "pause"});
   relay.from_session(driver, Frame(Arm{}, 1).bytes(), milliseconds(0));
+  robot.answer(milliseconds(0));
+  relay.from_session(driver, Frame(Ping{}, 2).bytes(), milliseconds(0));
   relay.from_session(other, Frame(Pause{}, 1).bytes(), milliseconds(0));
-  relay.from_session(driver, Frame(line(1, {}).front(), 2).bytes(), milliseconds(0));
-  EXPECT_THAT(taken_from(relay), testing::ElementsAre(Arm::kId, Pause::kId, AddSegment::kId));
+  relay.from_session(driver, Frame(line(1, {}).front(), 3).bytes(), milliseconds(0));
+  EXPECT_THAT(taken_from(relay), testing::ElementsAre(Ping::kId, Pause::kId, AddSegment::kId));
 }
 
 /// Requests after which a Resume that was sent before must not move the robot.
@@ -324,9 +332,12 @@ TEST(Relay, AResumeThatWaitsItsTurnGoesNoMoreOnceSomebodyHaltsTheRobot) {
 
 /// What comes to the robot when a program repeats its request because the answer was lost, and another one
 /// halts the robot in between.
-std::vector<std::uint8_t> repeated_after(const Frame& halt, const Frame& motion) {
+std::vector<std::uint8_t> repeated_after(const Frame& halt, const Frame& motion, bool needs_arm = false) {
   Relay relay;
+  FakeRobotAt robot(relay);
   const SessionId moves = relay.join({22, "moves"}, false), halts = relay.join({33, "halts"}, false);
+  if (needs_arm) relay.from_session(moves, Frame(Arm{}, 1).bytes(), milliseconds(0));
+  robot.answer(milliseconds(0));
   relay.from_session(moves, motion.bytes(), milliseconds(0));
   taken_from(relay);
   relay.from_session(halts, halt.bytes(), milliseconds(2));
@@ -339,8 +350,9 @@ TEST(Relay, ARequestForMotionThatWasSentBeforeAHaltIsNotRepeatedAfterIt) {
   for (const Frame& halt : requests_to_halt(1))
     EXPECT_THAT(repeated_after(halt, Frame(Resume{}, 7)), testing::IsEmpty());
   for (const Frame& stop : {Frame(Stop{}, 1), Frame(EmergencyStop{}, 1), Frame(Disarm{}, 1)})
-    EXPECT_THAT(repeated_after(stop, Frame(Arm{}, 7)), testing::IsEmpty());
-  EXPECT_THAT(repeated_after(Frame(Pause{}, 1), Frame(line(1, {}).front(), 7)),
+    for (const Frame& motion : {Frame(Arm{}, 7), Frame(Velocity{100'000, 0}, 7)})
+      EXPECT_THAT(repeated_after(stop, motion, true), testing::IsEmpty());
+  EXPECT_THAT(repeated_after(Frame(Pause{}, 1), Frame(line(1, {}).front(), 7), true),
               testing::ElementsAre(AddSegment::kId))
       << "a segment waits in the paused robot";
 }

@@ -26,6 +26,7 @@ constexpr unsigned kSeed = 20261124;
 DriverOptions calibrated(const FactorCovariance& covariance) {
   DriverOptions options;
   options.errors = calibration::OdometryErrors{support::kThesisSlip_m, covariance};
+  options.velocities_after_stop = true;  // the drive stops several times to be compared with the truth
   return options;
 }
 

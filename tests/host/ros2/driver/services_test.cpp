@@ -89,29 +89,117 @@ TEST_F(Services, EmergencyStopOpensTheBridgesAtOnce) {
   EXPECT_EQ(bench.robot->board().motors().state(), sim::Bridge::coast);
 }
 
-TEST_F(Services, StopRampsToRestAndTheNextVelocityDrivesAgain) {
+TEST_F(Services, AStopHoldsAgainstVelocitiesThatGoOnUntilTheRobotIsArmed) {
   bench.call("/arm");
   bench.drive_ms(500, 0.3, 0);
+  EXPECT_TRUE(bench.call("/stop").success);
+  bench.drive_ms(3000, 0.3, 0);
+  EXPECT_EQ(bench.mode(), Mode::idle);
+  EXPECT_FALSE(bench.moves());
+  EXPECT_THAT(bench.status("commands").message, HasSubstr("the robot was stopped and must be armed again"));
+  bench.call("/arm");
+  bench.drive_ms(100, 0.3, 0);
+  EXPECT_EQ(bench.mode(), Mode::velocity);
+}
+
+TEST_F(Services, ARobotThatWasStoppedIsDisarmedAtTheEnd) {
+  bench.call("/arm");
+  bench.drive_ms(500, 0.3, 0);
+  bench.call("/stop");
+  bench.driver->run([] { return false; });
+  EXPECT_EQ(bench.mode(), Mode::disarmed);
+}
+
+class Obliging : public testing::Test {
+ protected:
+  Obliging() {
+    bench.run_ms(300);
+    bench.call("/arm");
+    bench.drive_ms(500, 0.3, 0);
+  }
+
+  RobotOnRos bench{RobotOnRos::quiet(), [] {
+                     DriverOptions options;
+                     options.velocities_after_stop = true;
+                     return options;
+                   }()};
+};
+
+TEST_F(Obliging, NextVelocityAfterAStopDrivesAgain) {
   EXPECT_TRUE(bench.call("/stop").success);
   EXPECT_TRUE(bench.run_until([&] { return bench.mode() == Mode::idle; }));
   bench.drive_ms(100, 0.3, 0);
   EXPECT_EQ(bench.mode(), Mode::velocity);
 }
 
-TEST_F(Services, PauseIsRefusedWhileVelocitiesDriveAndSaysWhy) {
-  bench.call("/arm");
-  bench.drive_ms(500, 0.3, 0);
-  const auto answer = bench.call("/pause");
-  EXPECT_FALSE(answer.success);
-  EXPECT_THAT(answer.message, HasSubstr("only a path can be paused"));
-  EXPECT_TRUE(bench.moves());
+TEST_F(Obliging, NextVelocityDoesNotDriveIfSomebodyElseHasStoppedTheRobotToo) {
+  robot::Client other(std::make_unique<simulation::InProcessTransport>(bench.robot, 1));
+  other.connect();
+  for (const bool before : {true, false}) {
+    if (before) other.request(protocol::Stop{});
+    EXPECT_TRUE(bench.call("/stop").success);
+    if (!before) other.request(protocol::Stop{});
+    bench.drive_ms(3000, 0.3, 0);
+    EXPECT_EQ(bench.mode(), Mode::idle) << before;
+    EXPECT_FALSE(bench.moves()) << before;
+    bench.call("/arm");
+    bench.drive_ms(500, 0.3, 0);
+    EXPECT_EQ(bench.mode(), Mode::velocity) << before;
+  }
 }
 
-TEST_F(Services, PauseWithoutAPathIsRefusedAndNotBelievedToHoldTheRobot) {
+TEST_F(Services, StopHoldsAgainstAProgramAtAnotherPortThatRepeatsItsVelocity) {
+  robot::Client other(std::make_unique<simulation::InProcessTransport>(bench.robot, 1));
+  other.connect();
+  other.request(protocol::Arm{});
+  int refused = 0;
+  const auto goes_on = [&](int ms) {
+    for (int i = 0; i < ms; i += 50) {
+      try {
+        other.request(protocol::Velocity{300'000, 0});
+      } catch (const robot::RobotRefused&) {
+        ++refused;
+      }
+      bench.run_ms(50);
+    }
+  };
+  goes_on(1000);
+  ASSERT_TRUE(bench.moves());
+  EXPECT_TRUE(bench.call("/stop").success);
+  goes_on(3000);
+  EXPECT_EQ(bench.mode(), Mode::idle);
+  EXPECT_FALSE(bench.moves());
+  EXPECT_EQ(refused, 60) << "each";
+}
+
+TEST_F(Services, AStopAtAnotherPortHoldsAgainstVelocitiesThatGoOn) {
   bench.call("/arm");
+  bench.drive_ms(500, 0.3, 0);
+  robot::Client other(std::make_unique<simulation::InProcessTransport>(bench.robot, 1));
+  other.connect();
+  other.request(protocol::Stop{});
+  bench.drive_ms(3000, 0.3, 0);
+  EXPECT_FALSE(bench.moves());
+  EXPECT_THAT(bench.status("commands").message, HasSubstr("a velocity is ignored"));
+}
+
+TEST_F(Services, APauseHoldsAgainstVelocitiesUntilItIsResumed) {
+  bench.call("/arm");
+  bench.drive_ms(500, 0.3, 0);
+  EXPECT_TRUE(bench.call("/pause").success);
+  bench.drive_ms(3000, 0.3, 0);
+  EXPECT_EQ(bench.mode(), Mode::paused);
+  EXPECT_FALSE(bench.moves());
+  EXPECT_THAT(bench.status("commands").message, HasSubstr("the robot is paused"));
+  EXPECT_TRUE(bench.call("/resume").success);
+  bench.drive_ms(100, 0.3, 0);
+  EXPECT_EQ(bench.mode(), Mode::velocity);
+}
+
+TEST_F(Services, PauseNeedsAnArmedRobot) {
   const auto answer = bench.call("/pause");
   EXPECT_FALSE(answer.success);
-  EXPECT_THAT(answer.message, HasSubstr("no path"));
+  EXPECT_THAT(answer.message, HasSubstr("not_armed"));
 }
 
 TEST_F(Services, PauseAndResumeTheDriveOfAnotherProgram) {

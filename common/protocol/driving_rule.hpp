@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "common/protocol/messages.hpp"
+
+namespace astro::protocol {
+
+/// Who may move the robot, and until when: the rule that makes a stop hold. The robot applies it to the hosts at its
+/// ports, and the program that shares a port with others applies it to these.
+///
+///   Arm            makes its sender the driver and ends what is said below
+///   Velocity, WheelVoltage, AddSegment, Rest
+///                  are for the driver alone
+///   Stop, Disarm, EmergencyStop of anybody
+///                  end the driver's permission until an Arm
+///   Pause of anybody
+///                  suspends it: the driver's segments wait behind the paused path, and all else that moves the robot
+///                  is refused, also a Rest, which would end the pause. It ends with a Resume: the driver's own if the
+///                  driver paused, or that of any other host; or with an Arm.
+///
+/// A fault needs no row, because it takes an Arm to drive after one.
+///
+/// `Host` identifies a host and can be compared.
+template <class Host>
+class DrivingRule {
+ public:
+  const std::optional<Host>& driver() const { return driver_; }
+  bool drives(const Host& host) const { return driver_ == host; }
+  /// Somebody has stopped the robot since its driver armed it.
+  bool stopped() const { return stopped_; }
+
+  /// Whether this request of this host may be carried out. True for all that do not move the robot.
+  bool permits(const Host& from, std::uint8_t message) const {
+    switch (message) {
+      case Velocity::kId:
+      case WheelVoltage::kId:
+      case Rest::kId:
+        return drives(from) && !stopped_ && !paused_;
+      case AddSegment::kId:
+        return drives(from) && !stopped_;
+      case Resume::kId:
+        return !drives(from) || (!stopped_ && !paused_by_other_);
+      default:
+        return true;
+    }
+  }
+
+  /// The request was carried out.
+  void note(const Host& from, std::uint8_t message) {
+    switch (message) {
+      case Arm::kId:
+        driver_ = from;
+        stopped_ = paused_ = paused_by_other_ = false;
+        return;
+      case Stop::kId:
+      case Disarm::kId:
+      case EmergencyStop::kId:
+        stopped_ = true;
+        return;
+      case Pause::kId:
+        paused_ = true;
+        paused_by_other_ = paused_by_other_ || !drives(from);
+        return;
+      case Resume::kId:
+        paused_ = paused_by_other_ = false;
+        return;
+      default:
+        return;
+    }
+  }
+
+  /// The driver has gone: nobody may move the robot until somebody arms it.
+  void end() { driver_.reset(); }
+
+ private:
+  std::optional<Host> driver_;
+  bool stopped_ = false;
+  bool paused_ = false, paused_by_other_ = false;
+};
+
+}  // namespace astro::protocol

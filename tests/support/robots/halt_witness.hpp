@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/protocol/messages.hpp"
+
+namespace astro::support {
+
+/// Checks from outside that a stop holds: it sees which requests the robot took, in their order, and its mode after every
+/// millisecond. It goes through the list of what came since the last Arm each time, where the firmware keeps flags.
+class HaltWitness {
+ public:
+  struct Host {
+    int port = -1;
+    bool onlooker = false;
+    bool operator==(const Host&) const = default;
+  };
+
+  static bool is_motion(std::uint8_t message) {
+    using namespace protocol;  // NOLINT(google-build-using-namespace): this function is all messages
+    return message == Velocity::kId || message == WheelVoltage::kId || message == AddSegment::kId ||
+           message == Rest::kId || message == Resume::kId;
+  }
+
+  /// The robot has answered a request.
+  void answered(const Host& from, std::uint8_t message, bool taken) {
+    if (message == protocol::Hello::kId && !from.onlooker && from.port == driver_.port) driver_ = {};
+    if (!taken) return;
+    if (is_motion(message) && !may(from, message))
+      violation_ = "a motion request of a host that may not drive was taken";
+    if (message == protocol::Arm::kId) {
+      driver_ = from;
+      since_.clear();
+    }
+    using namespace protocol;  // NOLINT(google-build-using-namespace): this function is all messages
+    for (const std::uint8_t kept : {Stop::kId, Disarm::kId, EmergencyStop::kId, Pause::kId, Resume::kId})
+      if (message == kept) since_.push_back({from, message});
+    if (message == Arm::kId || message == Pause::kId || message == Resume::kId) rested_ = false;
+  }
+
+  /// After every millisecond.
+  void look(protocol::Mode mode) {
+    using protocol::Mode;
+    const bool on_path = mode == Mode::segment;
+    const bool drives = on_path || mode == Mode::velocity || mode == Mode::wheels;
+    // A path that is paused ramps down in its own mode.
+    if (drives && (stopped() || (paused() && (rested_ || !on_path))) && violation_.empty())
+      violation_ = "the robot drives after a halt that nobody has lifted";
+    rested_ = rested_ || !drives;
+  }
+
+  bool halted() const { return stopped() || paused(); }
+  /// Empty if nothing was violated.
+  const std::string& violation() const { return violation_; }
+
+ private:
+  struct Request {
+    Host from;
+    std::uint8_t message = 0;
+  };
+
+  bool stopped() const {
+    for (const Request& each : since_)
+      if (each.message == protocol::Stop::kId || each.message == protocol::Disarm::kId ||
+          each.message == protocol::EmergencyStop::kId)
+        return true;
+    return false;
+  }
+  /// The pauses since the last Resume.
+  std::vector<Request> pauses() const {
+    std::vector<Request> found;
+    for (const Request& each : since_) {
+      if (each.message == protocol::Resume::kId) found.clear();
+      if (each.message == protocol::Pause::kId) found.push_back(each);
+    }
+    return found;
+  }
+  bool paused() const { return !pauses().empty(); }
+  bool paused_by_another() const {
+    for (const Request& each : pauses())
+      if (each.from != driver_) return true;
+    return false;
+  }
+
+  bool may(const Host& from, std::uint8_t message) const {
+    if (message == protocol::Resume::kId) return from != driver_ || (!stopped() && !paused_by_another());
+    if (from != driver_ || stopped()) return false;
+    return !paused() || message == protocol::AddSegment::kId;
+  }
+
+  Host driver_;
+  std::vector<Request> since_;  // halts and Resumes that were taken since the last Arm, the oldest first
+  bool rested_ = false;         // since the last Arm, Pause or Resume the robot has been seen not to drive
+  std::string violation_;
+};
+
+}  // namespace astro::support
