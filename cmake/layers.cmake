@@ -24,7 +24,7 @@ set(ASTRO_LAYERS
   "host/commands/drive          : common host/base host/commands/base host/commands/shared host/console host/experiment/drive host/recording/run host/robot"
   "host/commands/experiment     : host/base host/calibration/wall host/commands/base host/commands/shared host/commands/simulate host/console host/experiment host/recording/files host/report/sections host/robot host/simulation/study host/truth/manual"
   "host/commands/robot          : common host/base host/commands/base host/commands/shared host/console host/experiment host/recording/run host/robot"
-  "host/commands/ros2           : host/base host/calibration/likelihood host/calibration/motion host/commands/base host/commands/shared host/console host/experiment/analysis host/ros2 host/truth/source"
+  "host/commands/ros2           : host/base host/calibration/likelihood host/calibration/motion host/commands/base host/commands/shared host/console host/experiment/analysis host/recording/yaml host/ros2 host/truth/source"
   "host/commands/serving        : host/base host/commands/base host/console host/robot/port host/simulation/server"
   "host/commands/shared         : common host/base host/calibration/end_poses host/commands/base host/console host/experiment host/recording host/robot host/truth"
   "host/commands/simulate       : host/base host/calibration/motion host/commands/base host/commands/serving host/commands/shared host/console host/ros2/dds host/ros2/types host/simulation/ros2 host/simulation/study"
