@@ -116,6 +116,7 @@ set(ASTRO_OUTSIDE
   "openssl/                 : host/ros2/types"
   "nlohmann/                : host/commands host/experiment host/report host/ros2/foxglove host/simulation/study"
   "sqlite3.h                : host/recording/bag"
+  "tinyxml2.h               : host/recording/foreign"
   "toml++/                  : host/experiment"
   "unicorn/ elf.h cxxabi.h  : host/emulator/core"
   "yaml.h                   : host/recording/yaml"
