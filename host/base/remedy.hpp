@@ -54,6 +54,7 @@ enum class Help : std::uint8_t {
   await_or_end_program,
   await_or_kill_program,  // {process id}
   list_parameters,
+  confirm_values,  // {assignments}
   upload_again,
   upload_again_when_it_answers,
   clear_faults,

@@ -155,7 +155,30 @@ Program::~Program() = default;
 
 void Program::version(const std::string& text) { app_->set_version_flag("--version", text); }
 
-int Program::run(int argc, char** argv) {
+void Program::foreign_words(const std::string& begin, const std::string& end) {
+  foreign_begin_ = begin;
+  foreign_end_ = end;
+}
+
+std::vector<std::string> Program::with_values(int argc, char** argv) const {
+  std::vector<std::string> words;
+  bool inside = false;
+  for (int i = 0; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (!foreign_begin_.empty() && word == (inside ? foreign_end_ : foreign_begin_))
+      inside = !inside;
+    else
+      words.push_back(inside ? foreign_begin_ + '=' + word : word);
+  }
+  return words;
+}
+
+int Program::run(int count, char** given) {
+  std::vector<std::string> words = with_values(count, given);
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  const int argc = static_cast<int>(pointers.size());
+  char** argv = pointers.data();
   try {
     app_->parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {  // --help, --version

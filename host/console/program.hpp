@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "host/console/command_line.hpp"
 
@@ -23,13 +24,19 @@ class Program {
   /// The command to which options and subcommands are added.
   Command command() { return Command(app_.get()); }
   void version(const std::string& text);
+  /// The words between `begin` and `end`, or the last one, look like options and are those of another program. Each becomes a value
+  /// of an option whose name is `begin`, which a command has or has not.
+  void foreign_words(const std::string& begin, const std::string& end);
 
   /// Returns the exit code: 0, what answer_no() says, or 2 after a sentence on stderr. Exceptions of the callbacks
   /// pass through.
   int run(int argc, char** argv);
 
  private:
+  std::vector<std::string> with_values(int argc, char** argv) const;
+
   std::unique_ptr<CLI::App> app_;
+  std::string foreign_begin_, foreign_end_;
 };
 
 }  // namespace astro::console

@@ -56,6 +56,7 @@ constexpr Sentence kSentences[] = {
     {Help::await_or_end_program, ": let it go on, or end it"},
     {Help::await_or_kill_program, ": let it go on, or end it with 'kill -9 {}'"},
     {Help::list_parameters, ": 'astrolabe params list' shows those it has"},
+    {Help::confirm_values, "; 'astrolabe params set {}' asks before it sets them"},
     {Help::upload_again, ": upload again"},
     {Help::upload_again_when_it_answers, ": upload again once it answers"},
     {Help::clear_faults, "; remove its cause, then run 'astrolabe faults --clear'"},

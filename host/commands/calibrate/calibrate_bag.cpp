@@ -29,7 +29,9 @@ void add_calibrate_bag(console::Command calibrate) {
   add_output(command, options->output);
   add_ml(command, options->ml);
   command.footer(
+      "Sizes that are not given are those of the robot_description (URDF) that was recorded in the bag.\n"
       "Examples:\n"
+      "  astrolabe calibrate bag drive1 drive2 --out calib.toml\n"
       "  astrolabe calibrate bag drive1 drive2 --robot diff_drive.yaml --out calib.toml\n"
       "  astrolabe calibrate bag drive.mcap --wheels-topic /joint_states --truth-topic /tracker/pose \\\n"
       "    --wheel-diameter 0.066 --wheelbase 0.16\n"

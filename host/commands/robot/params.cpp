@@ -23,8 +23,8 @@
 namespace astro::commands {
 namespace {
 
-using experiment::Change;
 using experiment::ParameterValues;
+using robot::Change;
 using robot::RemoteParameters;
 
 struct ParamsOptions {
@@ -75,7 +75,7 @@ void get(const ParamsOptions& options, RemoteParameters& robot) {
 /// Puts all values in force or none: checks, stages, commits and reads them back.
 void load(robot::Client& client, const ParamsOptions& options, RemoteParameters& robot,
           const ParameterValues& values) {
-  const std::vector<Change> changes = experiment::changes(robot, values);
+  const std::vector<Change> changes = robot::changes(robot, values);
   if (changes.empty()) {
     // They may only have been tried; then they are not in the flash yet.
     for (const auto& [name, value] : values) robot.stage(name, value);
@@ -107,7 +107,7 @@ ParameterValues assignments(const RemoteParameters& robot, const std::vector<std
 void set(robot::Client& client, const ParamsOptions& options, RemoteParameters& robot) {
   const ParameterValues values = assignments(robot, options.words);
   if (!options.try_out) return load(client, options, robot, values);
-  const std::vector<Change> changes = experiment::changes(robot, values);
+  const std::vector<Change> changes = robot::changes(robot, values);
   if (options.try_out && !agreed(robot, changes, options.yes, changes.size()))
     throw Error("nothing was changed");
   for (const auto& [name, value] : values) robot.stage(name, value);

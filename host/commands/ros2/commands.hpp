@@ -8,6 +8,9 @@
 /// Errors  as host/commands/robot/commands.hpp. Ctrl-C ends with 130; a robot that was armed by the node is at rest then.
 namespace astro::commands {
 
+/// What launch files of ROS 2 put before their arguments, which end with -- or the command line.
+inline constexpr const char* kRosArguments = "--ros-args";
+
 void add_ros2(console::Command app);
 void add_serve(console::Command app);
 

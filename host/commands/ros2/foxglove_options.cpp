@@ -10,7 +10,6 @@
 #include "host/commands/base/remedies.hpp"
 #include "host/console/console.hpp"
 #include "host/console/wrong_usage.hpp"
-#include "host/ros2/driver/names.hpp"
 #include "host/ros2/foxglove/origin.hpp"
 
 namespace astro::commands {
@@ -112,8 +111,7 @@ std::string foxglove_announcement(const FoxgloveOptions& options, std::uint16_t 
 }
 
 ros2::foxglove::Settings foxglove_settings(const FoxgloveOptions& options, const std::string& name,
-                                           const std::string& node_namespace) {
-  const ros2::Names names(node_namespace);
+                                           const ros2::Names& names) {
   ros2::foxglove::Settings settings;
   settings.name = name;
   settings.address = foxglove_address_in(options.listen);

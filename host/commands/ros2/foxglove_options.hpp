@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "host/console/command_line.hpp"
+#include "host/ros2/driver/names.hpp"
 #include "host/ros2/foxglove/foxglove_server.hpp"
 
 namespace astro::commands {
@@ -30,8 +31,8 @@ ros2::foxglove::Address foxglove_address_in(const std::string& word);
 /// Where a browser finds it, and what anybody should know who can be reached by others.
 std::string foxglove_announcement(const FoxgloveOptions& options, std::uint16_t port);
 
-/// `name`: what viewers call the robot. Services that stop the robot are served to every viewer.
+/// `name`: what viewers call the robot. Services that stop the robot are served to every viewer, under their `names`.
 ros2::foxglove::Settings foxglove_settings(const FoxgloveOptions& options, const std::string& name,
-                                           const std::string& node_namespace);
+                                           const ros2::Names& names);
 
 }  // namespace astro::commands

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "host/commands/shared/connection.hpp"
@@ -17,8 +18,18 @@ struct RobotDriverOptions {
   std::string node_namespace;
   double rate_hz = 50, cmd_vel_timeout_s = 0.5;
   bool cmd_vel_after_stop = false;
+  ros2::CommandType cmd_vel_type = ros2::CommandType::both;  // viewers publish either
   std::filesystem::path calibration;
+  ros2::NameChoices names;
+  bool odom_tf = true, use_sim_time = false;
+  std::vector<ros2::msg::Parameter> robot_parameters;
 };
+
+ros2::Names names_of(const RobotDriverOptions& options);
+
+/// What a launch file sets: parameters of the node take the place of options, others may be those of the robot. Throws
+/// console::WrongUsage for a value that is not possible.
+void take_parameters(const std::vector<ros2::msg::Parameter>& parameters, RobotDriverOptions& options);
 
 /// "/left" for "left" and "/left".
 std::string absolute_namespace(const std::string& space);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "host/commands/ros2/commands.hpp"
 #include "host/commands/ros2/foxglove_options.hpp"
 #include "host/commands/ros2/robot_driver.hpp"
+#include "host/commands/ros2/ros_arguments.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
 #include "host/ros2/foxglove/foxglove_server.hpp"
@@ -19,15 +21,23 @@ namespace {
 struct Ros2Options {
   RobotDriverOptions driver;
   FoxgloveOptions viewers;
-  std::string node = "astrolabe", range, distribution;
+  std::string node = "astrolabe", range, distribution, cmd_vel_type;
   int domain = -1;  // that of the environment
+  std::vector<std::string> ros_arguments;
 };
 
-ros2::GidSize gid_size(const Ros2Options& options) {
+bool others_are_of_humble(const Ros2Options& options) {
   const std::string distribution =
       options.distribution.empty() ? environment_variable("ROS_DISTRO") : options.distribution;
-  const bool old = distribution == "foxy" || distribution == "galactic" || distribution == "humble";
-  return old ? ros2::GidSize::humble : ros2::GidSize::iron_and_later;
+  return distribution == "foxy" || distribution == "galactic" || distribution == "humble";
+}
+
+/// What the others' navigation and controllers send unless somebody changes it (host/ros2/README.md has them).
+ros2::CommandType cmd_vel_type(const Ros2Options& options) {
+  const auto& names = ros2::kCommandTypeNames;
+  const auto chosen = std::ranges::find(names, options.cmd_vel_type);
+  if (chosen != names.end()) return static_cast<ros2::CommandType>(chosen - names.begin());
+  return others_are_of_humble(options) ? ros2::CommandType::twist : ros2::CommandType::twist_stamped;
 }
 
 const char* who_sees_it(const ros2::dds::Discovery& discovery) {
@@ -47,24 +57,39 @@ void say_twin(const std::string& name) {
                "--namespace");
 }
 
+void say_foreign_type(const std::string& topic, const std::string& type) {
+  std::string sentence = fmt::format("WARNING: a node publishes {} as {}, which is not taken", topic, type);
+  for (const auto word : {name(ros2::CommandType::twist_stamped), name(ros2::CommandType::twist)})
+    if (type == fmt::format("geometry_msgs/msg/{}", word))
+      sentence += fmt::format(": --cmd-vel {} takes it", word);
+  console::say(sentence);
+}
+
 void run(Ros2Options& options) {
   if (options.viewers.wanted) take_viewers_port(options.driver.connection.port, options.viewers);
   ros2::dds::DiscoveryWishes wishes;
   if (options.domain >= 0) wishes.domain = options.domain;
   if (!options.range.empty()) wishes.range = ros2::dds::range_in(options.range);
   const ros2::dds::Discovery discovery = ros2::dds::discovery_from(wishes, environment_variable);
-  const std::string& space = options.driver.node_namespace;
-  const ros2::NodeName name{options.node, absolute_namespace(space)};
-  const auto node = ros2::open_node({name, gid_size(options), say_twin}, discovery);
+  options.driver.cmd_vel_type = cmd_vel_type(options);
+  const RosArguments ros =
+      ros_arguments(options.ros_arguments, {options.node, absolute_namespace(options.driver.node_namespace)});
+  const ros2::NodeName& name = ros.node;
+  options.driver.node_namespace = name.name_space;
+  options.driver.names.renamed = ros.renamed;
+  take_parameters(ros.parameters, options.driver);
+  const auto gid_size = others_are_of_humble(options) ? ros2::GidSize::humble : ros2::GidSize::iron_and_later;
+  const auto node = ros2::open_node({name, gid_size, say_twin, say_foreign_type}, discovery);
   console::say(fmt::format("node {} in domain {}: {}; Ctrl-C ends it", ros2::full_name(name),
                            discovery.domain, who_sees_it(discovery)));
   std::vector<ros2::Middleware*> middlewares{node.get()};
   std::optional<ros2::foxglove::FoxgloveServer> server;
   if (options.viewers.wanted) {
-    middlewares.push_back(&server.emplace(foxglove_settings(options.viewers, options.node, space)));
+    middlewares.push_back(
+        &server.emplace(foxglove_settings(options.viewers, name.name, names_of(options.driver))));
     console::say(foxglove_announcement(options.viewers, server->port()));
   }
-  drive_robot(middlewares, options.driver, options.node);
+  drive_robot(middlewares, options.driver, name.name);
 }
 
 }  // namespace
@@ -94,10 +119,24 @@ void add_ros2(console::Command app) {
         return ros2::dds::range_in(word) ? "" : "'" + word + "' is none of off, localhost and subnet";
       });
   command
+      .add_option(
+          "--cmd-vel", options->cmd_vel_type,
+          "type of /cmd_vel; with both, ROS 2's own tools\nneither record nor show the topic (default:\n"
+          "TwistStamped; of Humble Twist)")
+      .one_of({ros2::kCommandTypeNames.begin(), ros2::kCommandTypeNames.end()});
+  command
       .add_option("--distro", options->distribution,
                   "ROS 2 of the other nodes, humble or later: jazzy\n(default: ROS_DISTRO, otherwise jazzy)")
       .one_of({"humble", "jazzy"});
+  command
+      .add_option(
+          kRosArguments, options->ros_arguments,
+          "as launch files pass them, up to a -- or the end:\n-r FROM:=TO, -r __node:=NAME, -r __ns:=/NAME,\n"
+          "-p NAME:=VALUE, --params-file FILE")
+      .type_name("... [--]")
+      .one_each_time();
   console::examples(command, {"astrolabe ros2", "astrolabe ros2 --foxglove",
+                              "astrolabe ros2 --ros-args -r __ns:=/left -r /tf:=tf -p publish_rate:=30",
                               "astrolabe ros2 --port /dev/ttyACM0 --calibration calib.toml",
                               "astrolabe ros2 --namespace left --range subnet --rate 100"});
   command.callback([options] { run(*options); });

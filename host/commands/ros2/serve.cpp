@@ -31,10 +31,9 @@ void run(ServeOptions& options) {
   if (options.truth.source == "sim")
     open_again = [option = options.truth, port = connection.port] { return open_truth(option, port); };
   ros2::foxglove::FoxgloveServer server(
-      foxglove_settings(options.viewers, "Astrolabe", options.driver.node_namespace));
+      foxglove_settings(options.viewers, "Astrolabe", names_of(options.driver)));
   std::optional<TruthTopic> truth;
-  if (source)
-    truth.emplace(server, ros2::Names(options.driver.node_namespace), std::move(source), open_again);
+  if (source) truth.emplace(server, names_of(options.driver), std::move(source), open_again);
   console::say(foxglove_announcement(options.viewers, server.port()));
   drive_robot({&server}, options.driver, "astrolabe", [&](ros2::Driver& driver) {
     if (truth) truth->step(driver);

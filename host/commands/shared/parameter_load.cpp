@@ -20,17 +20,13 @@ void save_tried_values(robot::RemoteParameters robot, const experiment::Paramete
 
 }  // namespace
 
-bool warn_of_far_changes(const robot::RemoteParameters& robot,
-                         const std::vector<experiment::Change>& changes) {
-  const std::vector<std::string> far = experiment::far_changes(robot, changes);
+bool warn_of_far_changes(const robot::RemoteParameters& robot, const std::vector<robot::Change>& changes) {
+  const std::vector<std::string> far = robot::far_changes(robot, changes);
   for (const std::string& clause : far) console::say("warning: " + clause);
-  for (const experiment::Change& change : changes)
-    if (change.name == "command_timeout" && change.after == robot::Value(0.0))
-      console::say("warning: with command_timeout = 0 a robot keeps driving if its host disappears");
   return !far.empty();
 }
 
-bool agreed(const robot::RemoteParameters& robot, const std::vector<experiment::Change>& changes, bool yes,
+bool agreed(const robot::RemoteParameters& robot, const std::vector<robot::Change>& changes, bool yes,
             std::size_t unasked) {
   console::say(console::table(experiment::side_by_side(changes), "llrrr"));
   const bool far = warn_of_far_changes(robot, changes);
@@ -50,7 +46,7 @@ bool agreed_to_load(calibration::Verdict verdict, const LoadOptions& options) {
 LoadResult load_parameters(robot::Client& client, const robot::RemoteParameters& robot,
                            const experiment::ParameterFile& file, const LoadOptions& options) {
   const experiment::ParameterValues values = experiment::understood_by(robot.rows(), file.parameters);
-  LoadResult loaded{experiment::changes(robot, values), std::nullopt};
+  LoadResult loaded{robot::changes(robot, values), std::nullopt};
   if (loaded.changes.empty()) {
     save_tried_values(robot, values);
     return loaded;

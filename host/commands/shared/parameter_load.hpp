@@ -18,7 +18,7 @@ struct LoadOptions {
 bool agreed_to_load(calibration::Verdict verdict, const LoadOptions& options);
 
 struct LoadResult {
-  std::vector<experiment::Change> changes;    // empty: the robot held these values already
+  std::vector<robot::Change> changes;         // empty: the robot held these values already
   std::optional<robot::UploadReport> report;  // none without changes, and if a person declined
   bool declined = false;
 };
@@ -33,11 +33,10 @@ LoadResult load_parameters(robot::Client& client, const robot::RemoteParameters&
 /// For values that a person typed: shows before and after, warns about values far from the present ones, and
 /// asks (unless `yes`) if there is such a value or if there are more changes than `unasked`. Returns false if
 /// the person declines.
-bool agreed(const robot::RemoteParameters& robot, const std::vector<experiment::Change>& changes, bool yes,
+bool agreed(const robot::RemoteParameters& robot, const std::vector<robot::Change>& changes, bool yes,
             std::size_t unasked = 1);
 
 /// Prints which of `changes` are far from the robot's present values; returns false if none is.
-bool warn_of_far_changes(const robot::RemoteParameters& robot,
-                         const std::vector<experiment::Change>& changes);
+bool warn_of_far_changes(const robot::RemoteParameters& robot, const std::vector<robot::Change>& changes);
 
 }  // namespace astro::commands

@@ -45,9 +45,9 @@ Json to_json(const robot::ParameterRow& row) {
     json["least_characters"] = row.minimum;
     json["most_characters"] = row.maximum;
   } else {
-    json["default"] = robot::to_real(row, row.default_value);
-    json["minimum"] = robot::to_real(row, row.minimum);
-    json["maximum"] = robot::to_real(row, row.maximum);
+    json["default"] = robot::to_shortest(row, row.default_value);
+    json["minimum"] = robot::to_shortest(row, row.minimum);
+    json["maximum"] = robot::to_shortest(row, row.maximum);
     json["changed"] = is_changed(row);
   }
   json["doc"] = row.doc;
@@ -84,8 +84,8 @@ robot::Value parse_value(const robot::ParameterRow& row, const std::string& text
   return *value;
 }
 
-std::vector<experiment::Change> staged_changes(const robot::RemoteParameters& robot) {
-  std::vector<experiment::Change> list;
+std::vector<robot::Change> staged_changes(const robot::RemoteParameters& robot) {
+  std::vector<robot::Change> list;
   for (const robot::ParameterRow& row : robot.rows())
     if (row.staged != row.active)
       list.push_back(

@@ -29,6 +29,6 @@ std::string explanation(const robot::ParameterRow& row);
 robot::Value parse_value(const robot::ParameterRow& row, const std::string& text);
 
 /// What a commit would change.
-std::vector<experiment::Change> staged_changes(const robot::RemoteParameters& robot);
+std::vector<robot::Change> staged_changes(const robot::RemoteParameters& robot);
 
 }  // namespace astro::commands

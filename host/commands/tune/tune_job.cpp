@@ -80,7 +80,7 @@ TuneResult measure(robot::Client& client, const TuneOptions& options) {
   }
   result.gains = design_for(result.motors, result.before, options.bandwidth_radps());
   result.proposed = proposed_parameters(result.motors, result.gains.design, result.on_stand);
-  result.changes = experiment::changes(robot, values_of(result.proposed));
+  result.changes = robot::changes(robot, values_of(result.proposed));
   result.steps = steps_before_upload(client, result, bounds);
   return result;
 }

@@ -37,7 +37,7 @@ struct TuneResult {
   motor::IdentifiedMotors motors;
   motor::GainDesign gains;
   motor::ControlParameters proposed;
-  std::vector<experiment::Change> changes;  // the proposed parameters that differ from the robot's
+  std::vector<robot::Change> changes;  // the proposed parameters that differ from the robot's
   std::vector<TunedStep> steps;
   double period_s = 0, supply_V = 0;
   bool uploaded = false;

@@ -57,7 +57,7 @@ Json steps_json(const TuneResult& result) {
 
 Json to_json(const TuneResult& result) {
   Json changes = Json::array();
-  for (const experiment::Change& change : result.changes)
+  for (const robot::Change& change : result.changes)
     changes.push_back({{"name", change.name},
                        {"unit", change.unit},
                        {"before", std::get<double>(change.before)},

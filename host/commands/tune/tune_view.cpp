@@ -159,7 +159,7 @@ report::TuningInput report_input(const TuneResult& result, const robot::Client& 
     const auto& [fit, forward_V, backward_V] = result.motors.wheels[at(side)];
     input.motors[at(side)] = {name(side), fit, forward_V.value_or(nan), backward_V.value_or(nan)};
   }
-  for (const experiment::Change& change : result.changes)
+  for (const robot::Change& change : result.changes)
     input.parameters.push_back({change.name, change.unit, std::get<double>(change.before),
                                 std::get<double>(change.after), error_of(result, change.name)});
   input.loop = {

@@ -94,7 +94,7 @@ Json to_json(const WiringVerdict& verdict) {
 bool offer(robot::Client& client, const std::map<std::string, double>& parameters,
            const WiringOptions& options) {
   const experiment::ParameterValues values(parameters.begin(), parameters.end());
-  const auto changes = experiment::changes(robot::RemoteParameters::fetch(client), values);
+  const auto changes = robot::changes(robot::RemoteParameters::fetch(client), values);
   if (changes.empty()) return true;
   console::say(console::table(experiment::side_by_side(changes), "llrrr"));
   if (!options.upload && !(somebody_is_there() && console::confirm("Load these into the robot?")))

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string_view>
 
@@ -15,61 +14,11 @@ namespace astro::experiment {
 namespace {
 
 constexpr double kMostChange = 0.10;
-constexpr double kMostChangeOfE = 0.10;  // tyres have an e of a few hundredths
-
-bool is_factor(std::string_view name) {
-  return name == "c_R" || name == "c_L" || name == "b" || name == "e" || name == "kappa0";
-}
-
-/// e is 0 for many robots and may have either sign, so its change is no ratio.
-bool is_far_e(const Change& change) {
-  const double *before = std::get_if<double>(&change.before), *after = std::get_if<double>(&change.after);
-  constexpr double kRounding = 1e-8;
-  return before != nullptr && after != nullptr && std::abs(*after - *before) > kMostChangeOfE + kRounding;
-}
 
 double relative(const Change& change) {
   const double* before = std::get_if<double>(&change.before);
   const double* after = std::get_if<double>(&change.after);
   return before != nullptr && after != nullptr && *before != 0 ? *after / *before - 1 : 0;
-}
-
-/// A change by this factor or more, up or down, is far.
-double far_factor(std::string_view name) {
-  constexpr std::array kNominalSizes{"wheel_diameter", "counts_per_motor_rev", "gear_numerator",
-                                     "gear_denominator"};
-  constexpr std::array kLimits{
-      "speed_limit",    "yaw_rate_limit",    "acceleration_limit", "yaw_acceleration_limit", "jerk_limit",
-      "yaw_jerk_limit", "motor_voltage_max", "battery_low",        "battery_high",           "over_speed"};
-  const auto among = [name](const auto& names) { return std::ranges::find(names, name) != names.end(); };
-  if (name == "kappa0") return 10;  // drives fit alike with a fifth or with five times as much
-  if (is_factor(name)) return 1 + kMostChange;
-  if (among(kNominalSizes)) return 1.25;
-  return among(kLimits) ? 2 : 3;
-}
-
-std::string times(double ratio) {
-  if (ratio > 1 / 1.5 && ratio < 1.5) return fmt::format("{:+.1f} %", 100 * (ratio - 1));
-  return ratio > 1 ? fmt::format("{:.3g} times as much", ratio) : fmt::format("1/{:.3g} of it", 1 / ratio);
-}
-
-/// Empty if the change is not far.
-std::string far_change(const robot::ParameterRow& row, const Change& change) {
-  const double *before = std::get_if<double>(&change.before), *after = std::get_if<double>(&change.after);
-  if (before == nullptr || after == nullptr || row.name == "telemetry_period")
-    return {};  // this parameter has no effect any more
-  const std::string step =
-      fmt::format("{} would go from {} to {}", row.name, describe(row, *before), describe(row, *after));
-  if (row.name == "e") return is_far_e(change) ? step : "";
-  if (*after == 0) return step;
-  const double usual = *before != 0 ? *before : robot::to_real(row, row.default_value);
-  if (usual == 0) return {};
-  const double ratio = *after / usual, most = far_factor(row.name);
-  if (ratio < 0) return step + ", another sign";
-  constexpr double kRounding =
-      1e-6;  // stored values are rounded, so a change of a tenth may be stored as slightly more
-  if (ratio < most * (1 + kRounding) && ratio > 1 / most * (1 - kRounding)) return {};
-  return fmt::format("{}, {}{}", step, times(ratio), *before != 0 ? "" : " (compared with the default)");
 }
 
 /// The change in percent, or in words if the sign changes: a polarity that goes from -1 to 1 would be -200 %.
@@ -125,25 +74,13 @@ ParameterValues understood_by(std::span<const robot::ParameterRow> robot, Parame
   return values;
 }
 
-std::vector<Change> changes(const robot::RemoteParameters& robot, const ParameterValues& values) {
-  for (const auto& [name, value] : values) robot.row(name);  // throws for names that the robot does not have
-  std::vector<Change> list;
-  for (const robot::ParameterRow& row : robot.rows()) {
-    const auto found = values.find(row.name);
-    if (found == values.end()) continue;
-    const robot::RawValue raw = robot::to_raw(row, found->second);
-    if (raw == row.active) continue;
-    list.push_back({row.name, row.unit, robot::to_value(row, row.active), robot::to_value(row, raw)});
-  }
-  return list;
-}
-
 std::string suspicion(const std::vector<Change>& changes) {
   for (const Change& change : changes) {
-    if (change.name == "e" && is_far_e(change))
+    if (change.name == "e" && robot::is_far_e(change))
       return fmt::format("e would go from {} to {}, and tyres give it a few hundredths at most",
                          shown(change.before), shown(change.after));
-    const bool measured_by_ratio = is_factor(change.name) && change.name != "e" && change.name != "kappa0";
+    const bool measured_by_ratio =
+        robot::is_wheel_factor(change.name) && change.name != "e" && change.name != "kappa0";
     if (measured_by_ratio && std::abs(relative(change)) > kMostChange)
       return fmt::format("{} would change by {:+.1f} %, and a calibration moves it by a few at most",
                          change.name, 100 * relative(change));
@@ -195,7 +132,7 @@ std::string insignificance(const std::vector<Change>& changes,
                            const std::map<std::string, double>& standard_errors) {
   bool any = false;
   for (const Change& change : changes) {
-    if (!is_factor(change.name)) return {};
+    if (!robot::is_wheel_factor(change.name)) return {};
     const auto error = standard_errors.find(change.name);
     if (error == standard_errors.end() || !(error->second > 0)) return {};
     if (std::abs(std::get<double>(change.after) - std::get<double>(change.before)) > 2 * error->second)
@@ -205,15 +142,6 @@ std::string insignificance(const std::vector<Change>& changes,
   return any ? "no factor changes by more than twice its standard error: what is loaded may be as "
                "good"
              : "";
-}
-
-std::vector<std::string> far_changes(const robot::RemoteParameters& robot,
-                                     const std::vector<Change>& changes) {
-  std::vector<std::string> clauses;
-  for (const Change& change : changes)
-    if (std::string clause = far_change(robot.row(change.name), change); !clause.empty())
-      clauses.push_back(std::move(clause));
-  return clauses;
 }
 
 std::vector<std::vector<std::string>> side_by_side(const std::vector<Change>& changes) {

@@ -7,15 +7,11 @@
 
 #include "host/base/remedy.hpp"
 #include "host/experiment/analysis/calibration_file.hpp"
-#include "host/robot/parameters/parameters.hpp"
+#include "host/robot/parameters/far_change.hpp"
 
 namespace astro::experiment {
 
-/// One parameter that an upload would change.
-struct Change {
-  std::string name, unit;
-  robot::Value before, after;
-};
+using robot::Change;
 
 /// The factors in force. A firmware that knows no e has e = 0.
 calibration::WheelFactors loaded_factors(const robot::RemoteParameters& robot);
@@ -23,10 +19,6 @@ calibration::WheelFactors loaded_factors(const robot::RemoteParameters& robot);
 /// The values as the firmware with these rows takes them: one that knows no e turns every arc about b, so e = 0 says nothing new to
 /// it and is left out with kappa0. Throws astro::Error for another e.
 ParameterValues understood_by(std::span<const robot::ParameterRow> robot, ParameterValues values);
-
-/// What `values` would change on the robot, in the order of its table; values that it holds already are left
-/// out. Throws astro::Error for a name that the robot does not have or a value that its table does not allow.
-std::vector<Change> changes(const robot::RemoteParameters& robot, const ParameterValues& values);
 
 /// A wheel factor that changes by more than a tenth is more likely a mistake (units, sides, another robot) than a
 /// calibration: states which one, or "" if there is none. Checks c_R, c_L and b, and e, which may change by a
@@ -51,15 +43,6 @@ std::vector<Remark> objections(const robot::RemoteParameters& robot, const Robot
 /// and of little use. `standard_errors` by name; NaN and those that are missing are unknown.
 std::string insignificance(const std::vector<Change>& changes,
                            const std::map<std::string, double>& standard_errors);
-
-/// Values so far from those on the robot that they are probably a typing error or a wrong unit: a clause for
-/// each, with both values and the unit. A wheel factor is far if it moves by more than a
-/// tenth, e by more than 0.1 (to 0, to the other sign or not), kappa0 by more than ten times, a nominal size by more than a quarter, a limit or a supply voltage if it is halved or doubled, and
-/// any other number if it is three times as much or as little; a changed sign always is, and so is 0 where
-/// there was none, which switches some of them off. A value that comes in place of 0 is compared with the
-/// default.
-std::vector<std::string> far_changes(const robot::RemoteParameters& robot,
-                                     const std::vector<Change>& changes);
 
 /// Old and new side by side, for people.
 std::vector<std::vector<std::string>> side_by_side(const std::vector<Change>& changes);

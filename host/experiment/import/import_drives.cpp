@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "host/base/error.hpp"
+#include "host/experiment/import/described_geometry.hpp"
 #include "host/experiment/import/wheel_run.hpp"
 
 namespace astro::experiment {
@@ -63,12 +64,31 @@ void refuse_copy(const recording::Run& run, std::span<const recording::Run> othe
                   {Help::name_other_file});
 }
 
+/// The robot's description is in the bag of each drive, or in that of an earlier one.
+class Geometry {
+ public:
+  explicit Geometry(const RobotGeometry& given) : given_(given), last_(given) {}
+
+  const RobotGeometry& of(const fs::path& file, ImportedWheels& wheels) {
+    RobotGeometry described = completed_by_description(given_, file, wheels.track, wheels.track.remarks);
+    if (described.wheel_diameter_m != given_.wheel_diameter_m || described.wheelbase_m != given_.wheelbase_m)
+      last_ = std::move(described);
+    return last_;
+  }
+
+ private:
+  const RobotGeometry& given_;
+  RobotGeometry last_;
+};
+
 /// The errors of pairing are about both files.
-PairedDrive paired(const std::string& name, const DriveFiles& files, const ImportChoices& choices) {
+PairedDrive paired(const std::string& name, const DriveFiles& files, const ImportChoices& choices,
+                   Geometry& geometry) {
   ImportedWheels wheels = read_wheels(files.wheels, choices.wheels);
+  const RobotGeometry& sizes = geometry.of(files.wheels, wheels);
   const ImportedTruth truth = read_truth(files.truth, choices.truth);
   try {
-    return pair_up(name, std::move(wheels), truth, choices.geometry, choices.floor);
+    return pair_up(name, std::move(wheels), truth, sizes, choices.floor);
   } catch (const Error& error) {
     throw Error("'" + files.wheels.string() + "' with '" + files.truth.string() + "': " + error.what(),
                 error.remedy());
@@ -81,11 +101,13 @@ ImportedDrives import_wheels(std::span<const fs::path> wheels, const ImportChoic
   std::vector<DriveFiles> files;
   for (const fs::path& path : wheels) files.push_back({path, {}});
   refuse_twins(files);
+  Geometry geometry(choices.geometry);
   ImportedDrives drives;
   drives.set.names = names_of(files);
   for (std::size_t i = 0; i < files.size(); ++i) {
-    WheelRun made =
-        run_of_wheels(drives.set.names[i], read_wheels(files[i].wheels, choices.wheels), choices.geometry);
+    ImportedWheels read = read_wheels(files[i].wheels, choices.wheels);
+    const RobotGeometry& sizes = geometry.of(files[i].wheels, read);
+    WheelRun made = run_of_wheels(drives.set.names[i], std::move(read), sizes);
     refuse_copy(made.run, drives.set.runs, drives.set.names[i], drives.set.names);
     drives.set.runs.push_back(std::move(made.run));
     drives.reports.push_back({{}, std::move(made.summary), std::move(made.remarks)});
@@ -95,10 +117,11 @@ ImportedDrives import_wheels(std::span<const fs::path> wheels, const ImportChoic
 
 ImportedDrives import_drives(std::span<const DriveFiles> files, const ImportChoices& choices) {
   refuse_twins(files);
+  Geometry geometry(choices.geometry);
   ImportedDrives drives;
   drives.set.names = names_of(files);
   for (std::size_t i = 0; i < files.size(); ++i) {
-    PairedDrive drive = paired(drives.set.names[i], files[i], choices);
+    PairedDrive drive = paired(drives.set.names[i], files[i], choices, geometry);
     refuse_copy(drive.run, drives.set.runs, drives.set.names[i], drives.set.names);
     drives.set.runs.push_back(std::move(drive.run));
     drives.reports.push_back(std::move(drive.report));

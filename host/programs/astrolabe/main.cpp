@@ -45,6 +45,7 @@ int run(int argc, char** argv) {
   Program program("astrolabe", "Calibrates the odometry of differential-drive robots.");
   program.version(fmt::format("astrolabe {}.{}.{}", astro::kFirmwareVersion.major,
                               astro::kFirmwareVersion.minor, astro::kFirmwareVersion.patch));
+  program.foreign_words(kRosArguments, "--");
   const Command app = program.command();
   app.require_subcommand(1, 1);
   app.footer("'astrolabe COMMAND --help' shows options and examples.");

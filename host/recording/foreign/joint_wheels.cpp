@@ -99,6 +99,7 @@ class JointWheels {
     if (joints_.left == joints_.right)
       throw UnclearChoice(path_.string() + ": both wheels are the joint " + joints_.left, names,
                           Help::name_wheel_joints);
+    track_.joints = joints_;
     // Other drivers on the same topic may have no clock.
     stamps_ = found.at(joints_.left);
     track_.clock = stamps_.most_are_set() ? WheelClock::stamp : WheelClock::receipt;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/base/remedy.hpp"
+#include "host/recording/foreign/joint_names.hpp"
 
 /// What the wheels of any robot did, as it was recorded and before any geometry is applied.
 namespace astro::recording {
@@ -31,6 +32,7 @@ struct WheelTrack {
   WheelClock clock = WheelClock::file;
   std::vector<WheelSample> samples;
   std::vector<Remark> remarks;  // what was inferred or left out
+  JointPair joints;             // of a bag: those of the wheels
 };
 
 }  // namespace astro::recording

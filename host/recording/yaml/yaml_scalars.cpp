@@ -68,7 +68,7 @@ class Walker {
     switch (event.type) {
       case YAML_SCALAR_EVENT:
         return scalar({reinterpret_cast<const char*>(event.data.scalar.value), event.data.scalar.length},
-                      line);
+                      line, event.data.scalar.style != YAML_PLAIN_SCALAR_STYLE);
       case YAML_ALIAS_EVENT:
         begin_node("?");
         return end_node();
@@ -108,13 +108,13 @@ class Walker {
     levels_.push_back({is_map, true, 0, path_.size()});
   }
 
-  void scalar(std::string_view value, int line) {
+  void scalar(std::string_view value, int line, bool quoted) {
     const bool is_key = at_key();
     begin_node(value);
     if (!is_key) {
       bytes_ += sizeof(YamlScalar) + path_.size() + value.size();
       if (bytes_ > kMostBytes) refuse(line, "this file has more values than any file of parameters");
-      found_.push_back({path_, std::string(value), line});
+      found_.push_back({path_, std::string(value), line, quoted});
     }
     end_node();
   }

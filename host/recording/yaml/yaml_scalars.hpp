@@ -10,7 +10,8 @@ namespace astro::recording {
 /// list are numbered from 0: "left_wheel_names/0".
 struct YamlScalar {
   std::string path, value;
-  int line = 0;  // from 1
+  int line = 0;         // from 1
+  bool quoted = false;  // a text, whatever it looks like
 };
 
 /// All scalars of YAML text in their order. Anchors are read where they stand and aliases are left out, so that text

@@ -58,6 +58,12 @@ RawValue raw_text(const ParameterRow& row, const std::string& text) {
   return {0, text};
 }
 
+/// Whether the robot stores the number as this raw value.
+bool is_stored_as(const ParameterRow& row, double value, std::int32_t raw) {
+  const bool allowed = value >= to_real(row, row.minimum) && value <= to_real(row, row.maximum);
+  return allowed && to_raw(row, value).raw == raw;
+}
+
 }  // namespace
 
 double to_real(const ParameterRow& row, std::int32_t raw) {
@@ -73,7 +79,7 @@ double to_real(const ParameterRow& row, std::int32_t raw) {
 
 Value to_value(const ParameterRow& row, const RawValue& raw) {
   if (row.kind == ParameterKind::text) return raw.text;
-  return to_real(row, raw.raw);
+  return to_shortest(row, raw.raw);
 }
 
 RawValue to_raw(const ParameterRow& row, const Value& value) {
@@ -92,14 +98,17 @@ std::string describe(const ParameterRow& row, const Value& value) {
   return with_unit(row, to_text(std::get<double>(value)));
 }
 
-std::string shortest(const ParameterRow& row, std::int32_t raw) {
-  const double value = to_real(row, raw);
+double to_shortest(const ParameterRow& row, std::int32_t raw) {
+  const double exact = to_real(row, raw);
   for (int digits = 1; digits < 17; ++digits) {
-    const double rounded = std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr);
-    const bool allowed = rounded >= to_real(row, row.minimum) && rounded <= to_real(row, row.maximum);
-    if (allowed && to_raw(row, rounded).raw == raw) return fmt::format("{}", rounded);
+    const double rounded = std::strtod(fmt::format("{:.{}g}", exact, digits).c_str(), nullptr);
+    if (is_stored_as(row, rounded, raw)) return rounded;
   }
-  return fmt::format("{}", value);
+  return exact;
+}
+
+std::string shortest(const ParameterRow& row, std::int32_t raw) {
+  return fmt::format("{}", to_shortest(row, raw));
 }
 
 std::string range_of(const ParameterRow& row) {

@@ -33,14 +33,18 @@ struct ParameterRow {
 /// Exact for raw * 2^exponent; for raw * 10^exponent the double nearest to the decimal number.
 double to_real(const ParameterRow& row, std::int32_t raw);
 
-/// A raw value as people read it.
+/// The number with the fewest digits that the robot stores as this raw one: 1.002 for c_R, which the robot holds as
+/// 1.0020000003278255. What is computed with needs to_real(). Not for texts.
+double to_shortest(const ParameterRow& row, std::int32_t raw);
+
+/// A raw value as people read and wrote it: the shortest number, or the text.
 Value to_value(const ParameterRow& row, const RawValue& raw);
 
 /// Nearest raw value. Throws Error, naming parameter, value, unit and limits, for what the row does not
 /// allow: not a number, out of range, a fraction for an integer or flag, a number for a text and the reverse.
 RawValue to_raw(const ParameterRow& row, const Value& value);
 
-/// The fewest digits that the robot stores as this raw number: 0.9 for a gain of 0.899993896484375. Not for texts.
+/// The same in digits: "0.9" for a gain of 0.899993896484375.
 std::string shortest(const ParameterRow& row, std::int32_t raw);
 
 /// "0.05 m to 2 m". Not for texts.

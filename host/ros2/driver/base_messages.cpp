@@ -50,8 +50,8 @@ double fraction(int value) { return std::ldexp(value, -15); }
 
 msg::Odometry odometry(const BaseState& state, const Names& names) {
   msg::Odometry message;
-  message.header = {msg::to_time(state.time_ns), names.frame(kOdomFrame)};
-  message.child_frame_id = names.frame(kFootprintFrame);
+  message.header = {msg::to_time(state.time_ns), names.odom_frame()};
+  message.child_frame_id = names.base_frame();
   message.pose.pose = planar_pose(state.sample.x_m, state.sample.y_m, state.sample.theta_rad);
   message.pose.covariance = in_space(state.covariance);
   message.twist.twist.linear.x = state.sample.v_mps;
@@ -60,12 +60,15 @@ msg::Odometry odometry(const BaseState& state, const Names& names) {
   return message;
 }
 
-msg::TFMessage transforms(const BaseState& state, const RobotModel& model, const Names& names) {
+msg::TFMessage transforms(const BaseState& state, const RobotModel& model, const Names& names,
+                          bool with_odometry) {
   const msg::Time stamp = msg::to_time(state.time_ns);
   const msg::Pose base = planar_pose(state.sample.x_m, state.sample.y_m, state.sample.theta_rad);
-  msg::TFMessage message{{{{stamp, names.frame(kOdomFrame)},
-                           names.frame(kFootprintFrame),
-                           {{base.position.x, base.position.y, 0}, base.orientation}}}};
+  msg::TFMessage message;
+  if (with_odometry)
+    message.transforms.push_back({{stamp, names.odom_frame()},
+                                  names.base_frame(),
+                                  {{base.position.x, base.position.y, 0}, base.orientation}});
   if (!model.complete()) return message;
   const auto wheel = [&](const char* name, const msg::Transform& at) {
     message.transforms.push_back({{stamp, names.frame(kBaseFrame)}, names.frame(name), at});
@@ -76,7 +79,8 @@ msg::TFMessage transforms(const BaseState& state, const RobotModel& model, const
 }
 
 msg::TFMessage fixed_transforms(std::int64_t time_ns, const Names& names) {
-  return {{{{msg::to_time(time_ns), names.frame(kFootprintFrame)}, names.frame(kBaseFrame), {}}}};
+  if (names.base_frame() == names.frame(kBaseFrame)) return {};
+  return {{{{msg::to_time(time_ns), names.base_frame()}, names.frame(kBaseFrame), {}}}};
 }
 
 msg::JointState joints(const BaseState& state, const protocol::Telemetry& telemetry, const RobotModel& model,

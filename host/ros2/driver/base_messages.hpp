@@ -27,9 +27,10 @@ struct BaseState {
 inline constexpr double kNotMeasured = 1e6;
 
 msg::Odometry odometry(const BaseState& state, const Names& names);
-/// odom -> base_footprint, and base_link -> each wheel if the model is complete.
-msg::TFMessage transforms(const BaseState& state, const RobotModel& model, const Names& names);
-/// base_footprint -> base_link, which is the same place: the floor between the wheels.
+/// odom -> base_footprint unless somebody else publishes it, and base_link -> each wheel if the model is complete.
+msg::TFMessage transforms(const BaseState& state, const RobotModel& model, const Names& names,
+                          bool with_odometry = true);
+/// base_footprint -> base_link, which is the same place: the floor between the wheels. Nothing if odometry is that of base_link.
 msg::TFMessage fixed_transforms(std::int64_t time_ns, const Names& names);
 /// Angles and speeds of the wheels. `factors`: those that the robot's speeds are made with. Precondition: the model is complete.
 msg::JointState joints(const BaseState& state, const protocol::Telemetry& telemetry, const RobotModel& model,

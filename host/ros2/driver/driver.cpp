@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/robot/motion/left_drive.hpp"
 #include "host/robot/motion/rest.hpp"
+#include "host/ros2/cdr/codec.hpp"
+#include "host/ros2/messages/clock.hpp"
 #include "host/ros2/recorded/ros_messages.hpp"
 
 namespace astro::ros2 {
@@ -21,41 +24,59 @@ std::uint16_t period_ms(double rate_hz) {
   return static_cast<std::uint16_t>(std::clamp(std::lround(1000 / rate_hz), 1L, 60'000L));
 }
 
-std::vector<FixedParameter> fixed_parameters(const DriverOptions& options, const Names& names) {
-  return {{"odom_frame_id", "frame of odometry", to_parameter(names.frame(kOdomFrame))},
-          {"base_frame_id", "frame of the robot, on the floor between its wheels",
-           to_parameter(names.frame(kFootprintFrame))},
-          {"publish_rate", "messages of odometry a second [Hz]",
-           to_parameter(1000.0 / period_ms(options.rate_hz))},
-          {"cmd_vel_timeout", "how long a velocity holds [s]",
-           to_parameter(1e-6 * static_cast<double>(options.cmd_vel_timeout.count()))},
-          {"cmd_vel_after_stop", "velocities drive the robot again after this node's stop, without arm",
-           to_parameter(options.velocities_after_stop)}};
-}
-
 }  // namespace
 
 Driver::Driver(std::vector<Middleware*> middlewares, OpenPort open, DriverOptions options)
     : middlewares_(std::move(middlewares)),
       options_(std::move(options)),
-      names_(options_.node_namespace),
+      names_(options_.node_namespace, options_.names),
       utc_(options_.clock),
       polled_(utc_.steady()),
       link_(std::move(open), options_.clock, period_ms(options_.rate_hz)),
       driving_(options_.cmd_vel_timeout, options_.velocities_after_stop),
       odometry_(options_.errors),
-      parameters_([this] { return link_.session(); }, [this] { return driving_.armed(); },
-                  fixed_parameters(options_, names_),
+      parameters_([this] { return link_.session(); }, [this] { return driving_.armed(); }, own_parameters(),
                   [this](RobotSession& session) {
                     odometry_.note_parameters(session);
                     describe_robot(session);
                   },
-                  [this](const Error& why) { lose(why); }),
+                  [this](const Error& why) { lose(why); }, options_.words),
       publications_(middlewares_, names_),
-      requests_(middlewares_, names_,
+      requests_(middlewares_, names_, options_.cmd_vel_type,
                 {link_, driving_, odometry_, [this] { return moment(); },
                  [this](const Error& why) { lose(why); }, options_.words, options_.notice}) {
   for (Middleware* each : middlewares_) each->serve_parameters(parameters_);
+  use_sim_time(options_.use_sim_time);
+}
+
+/// All but one are what the node was made of.
+std::vector<OwnParameter> Driver::own_parameters() {
+  return {
+      {"odom_frame_id", "frame of odometry", to_parameter(names_.odom_frame())},
+      {"base_frame_id", "frame of the robot, on the floor between its wheels",
+       to_parameter(names_.base_frame())},
+      {"enable_odom_tf", "whether /tf has the robot in the frame of odometry", to_flag(options_.odom_tf)},
+      {"publish_rate", "messages of odometry a second [Hz]",
+       to_parameter(1000.0 / period_ms(options_.rate_hz))},
+      {"cmd_vel_timeout", "how long a velocity holds [s]",
+       to_parameter(1e-6 * static_cast<double>(options_.cmd_vel_timeout.count()))},
+      {"cmd_vel_after_stop", "whether velocities drive the robot again after this node's stop, without arm",
+       to_flag(options_.velocities_after_stop)},
+      {"cmd_vel_type", "as what velocities are taken: TwistStamped, Twist or both",
+       to_parameter(std::string(name(options_.cmd_vel_type)))},
+      {"use_sim_time", "whether stamps are the time of /clock", to_flag(options_.use_sim_time),
+       [this](const msg::ParameterValue& value) { use_sim_time(value.bool_value); }}};
+}
+
+void Driver::use_sim_time(bool on) {
+  utc_.simulate(on);
+  if (!on || std::exchange(hears_clock_, true)) return;
+  for (Middleware* each : middlewares_)
+    each->subscribe({names_.absolute("/clock"), message_type<msg::Clock>(), false, false, 1},
+                    [this](ByteView bytes) {
+                      if (const auto told = decode<msg::Clock>(bytes))
+                        utc_.tell(msg::nanoseconds(told->clock));
+                    });
 }
 
 void Driver::step(microseconds most) {
@@ -90,17 +111,26 @@ void Driver::run(const std::function<bool()>& goes_on) {
 
 void Driver::begin(RobotSession& session) {
   newest_.reset();
+  parameters_.begin(session, session.client().now());
   driving_.begin(session);
+  const auto timeout_ms = session.numbers().find("command_timeout");
+  const double left_ms = timeout_ms == session.numbers().end() ? 0 : timeout_ms->second;
+  if (robot::stop_left_drive(session.client(), microseconds(std::llround(1e3 * left_ms))))
+    options_.notice("the robot drove, and no program here drives it: it was stopped");
   odometry_.begin(session, std::exchange(restarted_, false));
   describe_robot(session);
+  if (std::exchange(set_up_, true)) return;
+  if (const std::string why = parameters_.put_at_start(options_.robot_parameters); !why.empty())
+    options_.notice("the robot's parameters were not set: " + why);
 }
 
 void Driver::describe_robot(RobotSession& session) {
   model_ = RobotModel(session.numbers());
   const std::int64_t now_ns = utc_.now_ns();
   if (model_.complete())
-    publications_.robot_description.publish({model_.urdf(names_.prefix(), true)}, now_ns);
-  publications_.tf_static.publish(fixed_transforms(now_ns, names_), now_ns);
+    publications_.robot_description.publish({model_.urdf(names_.prefix(), names_.base_frame())}, now_ns);
+  if (const msg::TFMessage fixed = fixed_transforms(now_ns, names_); !fixed.transforms.empty())
+    publications_.tf_static.publish(fixed, now_ns);
 }
 
 void Driver::attend(RobotSession& session, microseconds most) {
@@ -114,10 +144,10 @@ void Driver::attend(RobotSession& session, microseconds most) {
 
 void Driver::take(RobotSession& session, const protocol::Telemetry& telemetry) {
   newest_ = telemetry;
+  if (!utc_.known()) return;
   const auto at = session.client().clock().to_host(telemetry.device_time_us);
   if (!at) return;  // no round trip has shown yet when that was
-  const std::int64_t now_ns = utc_.now_ns();
-  const std::int64_t time_ns = std::min(utc_.utc_ns(at->us), now_ns);
+  const std::int64_t time_ns = std::min(utc_.utc_ns(at->us), utc_.now_ns());
   if (at->us * 1000 - battery_ns_ >= kSecond_ns) {
     battery_ns_ = at->us * 1000;
     publications_.battery_state.publish(battery(time_ns, 1e-3 * telemetry.battery.mv, names_), time_ns);
@@ -125,7 +155,7 @@ void Driver::take(RobotSession& session, const protocol::Telemetry& telemetry) {
   // The clock's map is corrected with every round trip, and a stamp that goes back a little would be two poses at one time. A
   // stamp that goes back far follows the system's clock, which was set back.
   const bool goes_back = time_ns <= published_ns_ && time_ns > published_ns_ - kSecond_ns / 10;
-  if (!goes_back && odometry_.take(session, telemetry)) publish(telemetry, time_ns);
+  if (odometry_.take(session, telemetry) && !goes_back) publish(telemetry, time_ns);
 }
 
 void Driver::publish(const protocol::Telemetry& telemetry, std::int64_t time_ns) {
@@ -140,7 +170,8 @@ void Driver::publish(const protocol::Telemetry& telemetry, std::int64_t time_ns)
                         track.left_counts(),
                         track.right_counts()};
   publications_.odometry.publish(odometry(state, names_), time_ns);
-  if (publications_.tf.wanted()) publications_.tf.publish(transforms(state, model_, names_), time_ns);
+  if (publications_.tf.wanted())
+    publications_.tf.publish(transforms(state, model_, names_, options_.odom_tf), time_ns);
   if (model_.complete() && publications_.joint_states.wanted())
     publications_.joint_states.publish(joints(state, telemetry, model_, track.geometry().factors), time_ns);
   if (publications_.telemetry.wanted())
@@ -158,7 +189,7 @@ void Driver::lose(const Error& why) {
 
 std::optional<std::int64_t> Driver::utc_of_robot_ns(std::int64_t device_time_us) {
   RobotSession* session = link_.session();
-  if (session == nullptr) return std::nullopt;
+  if (session == nullptr || !utc_.known()) return std::nullopt;
   const auto at = session->client().clock().to_host(static_cast<std::uint64_t>(device_time_us));
   if (!at) return std::nullopt;
   return utc_.utc_ns(at->us);

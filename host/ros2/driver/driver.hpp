@@ -20,9 +20,15 @@ namespace astro::ros2 {
 struct DriverOptions {
   std::string node = "robot";  // its name in /diagnostics
   std::string node_namespace;  // "" or "left"
-  double rate_hz = 50;         // of telemetry; up to 1000. The period is rounded to whole milliseconds.
+  NameChoices names{};
+  bool odom_tf = true;  // whether /tf has odom -> base_footprint, which another node may publish instead
+  bool use_sim_time = false;  // whether stamps are the time of /clock
+  /// Of the robot, to be in force once it was found; names that it does not have are ignored.
+  std::vector<msg::Parameter> robot_parameters{};
+  double rate_hz = 50;  // of telemetry; up to 1000. The period is rounded to whole milliseconds.
   microseconds cmd_vel_timeout = std::chrono::milliseconds(500);
-  bool velocities_after_stop = false;                 // see Driving
+  bool velocities_after_stop = false;  // see Driving
+  CommandType cmd_vel_type = CommandType::twist_stamped;
   std::optional<calibration::OdometryErrors> errors;  // otherwise those of an uncalibrated robot
   /// The factors that `errors` are those of: if the robot has others, /diagnostics say so.
   std::optional<calibration::WheelFactors> calibrated;
@@ -55,9 +61,11 @@ class Driver {
   void run(const std::function<bool()>& goes_on);
 
   /// Times of the robot's clock and of this computer's steady clock, in microseconds, as nanoseconds since 1970, as in the stamps of
-  /// what is published. Nothing while there is no robot, or no round trip has shown yet when that was.
+  /// what is published. Nothing while there is no robot, no round trip has shown yet when that was, or no simulation has told its time.
   std::optional<std::int64_t> utc_of_robot_ns(std::int64_t device_time_us);
-  std::int64_t utc_of_host_ns(std::int64_t steady_us) { return utc_.utc_ns(steady_us); }
+  std::optional<std::int64_t> utc_of_host_ns(std::int64_t steady_us) {
+    return utc_.known() ? std::optional(utc_.utc_ns(steady_us)) : std::nullopt;
+  }
 
   /// Brings a robot that was armed here to rest and disarms it. Throws astro::Error if the robot does not confirm it.
   void end();
@@ -68,6 +76,8 @@ class Driver {
   void take(RobotSession& session, const protocol::Telemetry& telemetry);
   void publish(const protocol::Telemetry& telemetry, std::int64_t time_ns);
   void describe_robot(RobotSession& session);
+  std::vector<OwnParameter> own_parameters();
+  void use_sim_time(bool on);
   void lose(const Error& why);
   void note_link(const std::string& sentence);
   void report();
@@ -88,6 +98,8 @@ class Driver {
   RobotModel model_;
   std::optional<protocol::Telemetry> newest_;                      // of this session
   std::string noticed_;                                            // the last sentence
+  bool hears_clock_ = false;                                       // subscribes to /clock
+  bool set_up_ = false;                                            // the robot has what the options say
   bool restarted_ = false;                                         // the robot, in the session before
   std::int64_t published_ns_ = 0;                                  // since 1970
   std::int64_t battery_ns_ = 0, looked_ns_ = 0, reported_ns_ = 0;  // on the steady clock

@@ -16,6 +16,7 @@ HostClock HostClock::of_system() {
 }
 
 std::int64_t UtcMap::utc_ns(std::int64_t steady_us) {
+  if (simulated_) return told_ns_;
   const microseconds now = clock_.steady();
   if (!measured_ || now - *measured_ >= std::chrono::seconds(1) || was_set(now)) measure(now);
   return steady_us * 1000 + offset_ns_;

@@ -6,9 +6,13 @@
 
 namespace astro::ros2 {
 
-Requests::Requests(std::span<Middleware* const> middlewares, const Names& names, Robot robot)
+Requests::Requests(std::span<Middleware* const> middlewares, const Names& names, CommandType velocities,
+                   Robot robot)
     : middlewares_(middlewares), names_(names), robot_(std::move(robot)) {
-  subscribe_all();
+  subscribe_to_velocities(velocities);
+  for (Middleware* each : middlewares_)
+    subscribe<msg::PoseWithCovarianceStamped>(*each, "set_pose", 10, true,
+                                              [this](const auto& pose) { set_pose(pose); });
   serve_all();
 }
 
@@ -58,25 +62,25 @@ msg::Trigger::Response Requests::attempt(const Work& work) {
 }
 
 template <Message M, class Take>
-void Requests::subscribe(std::string_view name, int depth, bool reliable, Take take) {
-  const TopicDescription topic{names_.absolute(name), message_type<M>(), reliable, false, depth};
-  for (Middleware* each : middlewares_)
-    each->subscribe(topic, [take](ByteView bytes) { take(decode<M>(bytes)); });
+void Requests::subscribe(Middleware& middleware, std::string_view name, int depth, bool reliable, Take take) {
+  middleware.subscribe({names_.absolute(name), message_type<M>(), reliable, false, depth},
+                       [take](ByteView bytes) { take(decode<M>(bytes)); });
 }
 
 /// Velocities are taken as they come, from publishers of either kind: one that was lost is older than the next one, and must
 /// not come late.
-void Requests::subscribe_all() {
+void Requests::subscribe_to_velocities(CommandType type) {
   const auto take_velocity = [this](const auto& twist) { robot_.driving.take(twist, robot_.now()); };
-  subscribe<msg::Twist>("cmd_vel", 1, false, take_velocity);
-  subscribe<msg::TwistStamped>("cmd_vel", 1, false, take_velocity);
-  subscribe<msg::PoseWithCovarianceStamped>("set_pose", 10, true,
-                                            [this](const auto& pose) { set_pose(pose); });
+  for (Middleware* each : middlewares_) {
+    const CommandType taken = each->types_may_share_a_name() ? CommandType::both : type;
+    if (taken != CommandType::twist_stamped) subscribe<msg::Twist>(*each, "cmd_vel", 1, false, take_velocity);
+    if (taken != CommandType::twist) subscribe<msg::TwistStamped>(*each, "cmd_vel", 1, false, take_velocity);
+  }
 }
 
 void Requests::set_pose(const std::optional<msg::PoseWithCovarianceStamped>& message) {
   const auto outcome = attempt([&](RobotSession& session) {
-    const PlanarPose pose = planar(message, names_.frame(kOdomFrame));
+    const PlanarPose pose = planar(message, names_.odom_frame());
     robot_.odometry.set_pose(session, pose.x_m, pose.y_m, pose.theta_rad, pose.covariance);
     return "set";
   });

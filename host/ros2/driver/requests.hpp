@@ -30,16 +30,16 @@ class Requests {
     std::function<void(const std::string&)> notice;  // a sentence that is worth showing
   };
 
-  Requests(std::span<Middleware* const> middlewares, const Names& names, Robot robot);
+  Requests(std::span<Middleware* const> middlewares, const Names& names, CommandType velocities, Robot robot);
 
  private:
   /// Asks the robot; returns what was done, or throws why not.
   using Work = std::function<std::string(RobotSession&)>;
 
-  void subscribe_all();
+  void subscribe_to_velocities(CommandType type);
   void serve_all();
   template <Message M, class Take>
-  void subscribe(std::string_view name, int depth, bool reliable, Take take);
+  void subscribe(Middleware& middleware, std::string_view name, int depth, bool reliable, Take take);
   void serve(std::string_view name, Work work);
   msg::Trigger::Response attempt(const Work& work);
   void set_pose(const std::optional<msg::PoseWithCovarianceStamped>& message);

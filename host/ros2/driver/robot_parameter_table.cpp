@@ -1,9 +1,14 @@
 #include "host/ros2/driver/robot_parameter_table.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cmath>
+#include <map>
+#include <variant>
 
 #include "host/base/error.hpp"
+#include "host/base/text/numbers.hpp"
+#include "host/robot/parameters/far_change.hpp"
 
 namespace astro::ros2 {
 
@@ -35,8 +40,8 @@ msg::ParameterDescriptor describe(const ParameterRow& row) {
   descriptor.type = static_cast<std::uint8_t>(type_of(row));
   descriptor.description = row.doc + (row.unit.empty() || row.unit == "1" ? "" : " [" + row.unit + "]");
   if (type_of(row) == ParameterType::real)
-    descriptor.floating_point_range =
-        msg::FloatingPointRange{robot::to_real(row, row.minimum), robot::to_real(row, row.maximum), 0};
+    descriptor.floating_point_range = msg::FloatingPointRange{robot::to_shortest(row, row.minimum),
+                                                              robot::to_shortest(row, row.maximum), 0};
   if (type_of(row) == ParameterType::integer)
     descriptor.integer_range = msg::IntegerRange{row.minimum, row.maximum, 1};
   return descriptor;
@@ -56,7 +61,7 @@ msg::ParameterValue value_of(const ParameterRow& row) {
       value.bool_value = row.active.raw != 0;
       break;
     default:
-      value.double_value = robot::to_real(row, row.active.raw);
+      value.double_value = robot::to_shortest(row, row.active.raw);
   }
   return value;
 }
@@ -72,6 +77,20 @@ std::string in_words(ParameterType type) {
     default:
       return "a number";
   }
+}
+
+/// Nobody can be asked here, so what a person would have to confirm is refused.
+void require_near(const robot::RemoteParameters& robot, const std::map<std::string, robot::Value>& values) {
+  const std::vector<std::string> far = robot::far_changes(robot, robot::changes(robot, values));
+  if (far.empty()) return;
+  std::string assignments;
+  for (const auto& [name, value] : values) {
+    const auto* number = std::get_if<double>(&value);
+    assignments += (assignments.empty() ? "" : " ") + name + '=' +
+                   (number == nullptr ? '\'' + std::get<std::string>(value) + '\'' : to_text(*number));
+  }
+  throw Error(fmt::format("{}: a person has to confirm that", fmt::join(far, "; ")),
+              {Help::confirm_values, assignments});
 }
 
 /// A whole number also stands for a real one, because people leave out the point.
@@ -94,6 +113,13 @@ robot::Value wanted(const ParameterRow& row, const msg::ParameterValue& value) {
 
 }  // namespace
 
+msg::ParameterValue to_flag(bool value) {
+  msg::ParameterValue parameter;
+  parameter.type = static_cast<std::uint8_t>(ParameterType::boolean);
+  parameter.bool_value = value;
+  return parameter;
+}
+
 msg::ParameterValue to_parameter(double value) {
   msg::ParameterValue parameter;
   parameter.type = static_cast<std::uint8_t>(ParameterType::real);
@@ -108,20 +134,29 @@ msg::ParameterValue to_parameter(const std::string& value) {
   return parameter;
 }
 
-const FixedParameter* RobotParameterTable::fixed(std::string_view name) const {
-  const auto found =
-      std::find_if(fixed_.begin(), fixed_.end(), [&](const auto& one) { return one.name == name; });
-  return found == fixed_.end() ? nullptr : &*found;
+OwnParameter* RobotParameterTable::own(std::string_view name) {
+  const auto found = std::ranges::find(own_, name, &OwnParameter::name);
+  return found == own_.end() ? nullptr : &*found;
+}
+
+/// "" if it can be set, or is none of the node's own.
+std::string RobotParameterTable::why_not_own(const msg::Parameter& wanted) {
+  const OwnParameter* one = own(wanted.name);
+  if (one == nullptr) return "";
+  if (!one->on_set) return wanted.name + " cannot be changed while the node runs";
+  if (wanted.value.type != one->value.type)
+    return wanted.name + " has to be " + in_words(static_cast<ParameterType>(one->value.type));
+  return "";
 }
 
 std::vector<msg::ParameterDescriptor> RobotParameterTable::descriptors() {
   std::vector<msg::ParameterDescriptor> all;
-  for (const FixedParameter& one : fixed_) {
+  for (const OwnParameter& one : own_) {
     msg::ParameterDescriptor descriptor;
     descriptor.name = one.name;
     descriptor.type = one.value.type;
     descriptor.description = one.doc;
-    descriptor.read_only = true;
+    descriptor.read_only = !one.on_set;
     all.push_back(descriptor);
   }
   if (RobotSession* session = session_())
@@ -141,7 +176,7 @@ void RobotParameterTable::refresh(RobotSession& session) {
 }
 
 std::optional<msg::ParameterValue> RobotParameterTable::value(std::string_view name) {
-  if (const FixedParameter* one = fixed(name)) return one->value;
+  if (const OwnParameter* one = own(name)) return one->value;
   RobotSession* session = session_();
   if (session == nullptr || session->parameters().find(name) == nullptr) return std::nullopt;
   try {
@@ -156,32 +191,66 @@ std::optional<msg::ParameterValue> RobotParameterTable::value(std::string_view n
 }
 
 msg::SetParametersResult RobotParameterTable::set(std::span<const msg::Parameter> parameters) {
+  std::vector<msg::Parameter> of_robot;
+  for (const msg::Parameter& each : parameters) {
+    if (const std::string why = why_not_own(each); !why.empty()) return {false, why};
+    if (own(each.name) == nullptr) of_robot.push_back(each);
+  }
+  if (!of_robot.empty())
+    if (const std::string why = why_not_robots(of_robot); !why.empty()) return {false, why};
   for (const msg::Parameter& each : parameters)
-    if (fixed(each.name) != nullptr) return {false, each.name + " cannot be changed while the node runs"};
+    if (OwnParameter* one = own(each.name); one != nullptr && one->value != each.value) {
+      one->value = each.value;
+      one->on_set(one->value);
+    }
+  return {true, ""};
+}
+
+/// Puts them in force; "" if that was done.
+std::string RobotParameterTable::why_not_robots(std::span<const msg::Parameter> parameters) {
   RobotSession* session = session_();
-  if (session == nullptr) return {false, "there is no robot"};
+  if (session == nullptr) return "there is no robot";
   try {
     put_in_force(*session, parameters);
-    return {true, ""};
+    return "";
   } catch (const robot::LinkLost& error) {
     lost_(error);
-    return {false, error.what()};
+    return words_(error);
   } catch (const Error& error) {
-    return {false, error.what()};
+    return words_(error);
   }
+}
+
+std::string RobotParameterTable::put_at_start(std::span<const msg::Parameter> parameters) {
+  RobotSession* session = session_();
+  if (session == nullptr) return "there is no robot";
+  std::vector<msg::Parameter> fresh;
+  try {
+    for (const msg::Parameter& each : parameters) {
+      const ParameterRow* row = session->parameters().find(each.name);
+      if (row != nullptr && robot::to_raw(*row, wanted(*row, each.value)) != row->active)
+        fresh.push_back(each);
+    }
+  } catch (const Error& error) {
+    return words_(error);
+  }
+  return fresh.empty() ? "" : why_not_robots(fresh);
 }
 
 void RobotParameterTable::put_in_force(RobotSession& session, std::span<const msg::Parameter> parameters) {
   robot::RemoteParameters& robot = session.parameters();
+  refresh(session);
+  std::map<std::string, robot::Value> values;
+  for (const msg::Parameter& each : parameters) values[each.name] = wanted(robot.row(each.name), each.value);
+  require_near(robot, values);
   robot.revert();
-  for (const msg::Parameter& each : parameters)
-    robot.stage(each.name, wanted(robot.row(each.name), each.value));
+  for (const auto& [name, value] : values) robot.stage(name, value);
   robot.commit();
   of_ = nullptr;
   refresh(session);
-  for (const msg::Parameter& each : parameters) {
-    const ParameterRow& row = robot.row(each.name);
-    if (row.active != robot::to_raw(row, wanted(row, each.value)))
+  for (const auto& [name, value] : values) {
+    const ParameterRow& row = robot.row(name);
+    if (row.active != robot::to_raw(row, value))
       throw Error(row.name + " was read back as " + robot::describe(row, robot::to_value(row, row.active)));
   }
 }

@@ -1,14 +1,24 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "common/protocol/motion.hpp"
 #include "host/base/microseconds.hpp"
 #include "host/ros2/messages/geometry.hpp"
 
 namespace astro::ros2 {
+
+/// As which type velocities are taken where two types of one name are trouble (Middleware::types_may_share_a_name).
+enum class CommandType { twist_stamped, twist, both };
+inline constexpr std::array<std::string_view, 3> kCommandTypeNames{"TwistStamped", "Twist", "both"};
+constexpr std::string_view name(CommandType type) {
+  return kCommandTypeNames[static_cast<std::size_t>(type)];
+}
 
 /// One moment on both clocks of this computer.
 struct Moment {

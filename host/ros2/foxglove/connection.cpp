@@ -77,6 +77,10 @@ class WebSocketConnection : public Connection, public std::enable_shared_from_th
       stream_.write(std::array{asio::buffer(frame->head), asio::buffer(payload.data(), payload.size())},
                     error);
     }
+    if (session_->queue().empty())
+      stuck_since_.reset();
+    else if (!stuck_since_)
+      stuck_since_ = Clock::now();
     stream_.next_layer().flush();
   }
 
@@ -87,6 +91,20 @@ class WebSocketConnection : public Connection, public std::enable_shared_from_th
   }
 
   bool ended() const override { return ended_; }
+
+  bool watches() const override { return session_ != nullptr && session_->watches(); }
+  Clock::time_point heard_at() const override { return heard_at_; }
+  std::optional<Clock::time_point> stuck_since() const override { return stuck_since_; }
+
+  void dismiss(std::string_view why) override {
+    if (session_ != nullptr)
+      rules_.notice({fmt::format("the viewer at {} was disconnected: {}", peer_, why)});
+    if (session_ == nullptr || stuck_since_) return cut();
+    heard_at_ = Clock::now();  // until it has gone, others are idler
+    stream_.async_close({websocket::close_code::try_again_later, beast::string_view(why.data(), why.size())},
+                        [self = shared_from_this()](error_code) {});
+    stream_.next_layer().finish();
+  }
 
  private:
   static std::string name_of(const asio::ip::tcp::socket& socket) {
@@ -114,8 +132,6 @@ class WebSocketConnection : public Connection, public std::enable_shared_from_th
     if (subprotocol_of(request).empty())
       return refuse(http::status::bad_request,
                     "the subprotocol is neither foxglove.sdk.v1 nor foxglove.websocket.v1");
-    if (rules_.hub->clients() >= rules_.most_clients)
-      return refuse(http::status::service_unavailable, "too many viewers are connected");
     accept(request);
   }
 
@@ -163,7 +179,10 @@ class WebSocketConnection : public Connection, public std::enable_shared_from_th
     buffer_.clear();
     session_ = &rules_.hub->join();
     stream_.next_layer().on_sent([self = weak_from_this()] {
-      if (const auto alive = self.lock()) alive->send_waiting();
+      const auto alive = self.lock();
+      if (!alive) return;
+      alive->stuck_since_.reset();
+      alive->send_waiting();
     });
     rules_.notice({fmt::format("a viewer has connected from {}", peer_)});
     send_waiting();
@@ -174,6 +193,7 @@ class WebSocketConnection : public Connection, public std::enable_shared_from_th
     stream_.async_read(buffer_, [self = shared_from_this()](error_code error, std::size_t) {
       // What was received before the client was cut counts no more.
       if (error || self->ended_) return self->end();
+      self->heard_at_ = Clock::now();
       const auto bytes = self->buffer_.cdata();
       self->session_->receive(self->stream_.got_text(),
                               {static_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
@@ -206,6 +226,8 @@ class WebSocketConnection : public Connection, public std::enable_shared_from_th
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::empty_body>> parser_;
   Session* session_ = nullptr;  // once it is a client
+  Clock::time_point heard_at_ = Clock::now();
+  std::optional<Clock::time_point> stuck_since_;
   bool ended_ = false;
 };
 

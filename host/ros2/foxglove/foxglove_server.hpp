@@ -42,6 +42,8 @@ class FoxgloveServer : public Middleware {
   std::unique_ptr<Publisher> advertise(const TopicDescription& topic) override;
   /// Nothing comes if commands are not allowed.
   void subscribe(const TopicDescription& topic, OnMessage on_message) override;
+  /// A viewer sees of these topics only what it sends itself.
+  bool types_may_share_a_name() const override { return true; }
   /// Not offered if commands are not allowed, unless it is one of `always_served`.
   void serve(const ServiceDescription& service, OnRequest on_request) override;
   void serve_parameters(ParameterTable& table) override;

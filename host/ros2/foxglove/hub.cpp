@@ -26,7 +26,7 @@ void Hub::add(Service service) {
     each.queue().push_text(advertise_services({&catalogue_.services.back(), 1}));
 }
 
-Session& Hub::join() { return sessions_.emplace_back(++last_client_, catalogue_, sink_); }
+Session& Hub::join() { return sessions_.emplace_back(++last_client_, catalogue_, watchers_, sink_); }
 
 void Hub::leave(ClientId id) {
   sessions_.remove_if([id](const Session& each) { return each.id() == id; });

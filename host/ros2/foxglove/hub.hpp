@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <list>
 #include <span>
 #include <string>
@@ -30,7 +31,8 @@ class Hub {
   /// The client gets the list of all that is there. The session stays where it is until it leaves.
   Session& join();
   void leave(ClientId id);
-  std::size_t clients() const { return sessions_.size(); }
+  /// `make_room`: see Watchers.
+  void on_crowd(std::function<void()> make_room) { watchers_.make_room = std::move(make_room); }
 
   void publish(std::uint32_t channel, SharedSample sample);
   /// Answers of the robot; those to clients that have left are dropped.
@@ -51,6 +53,7 @@ class Hub {
 
   Catalogue catalogue_;
   RequestSink sink_;
+  Watchers watchers_;
   std::list<Session> sessions_;
   ClientId last_client_ = 0;
 };

@@ -25,6 +25,8 @@ using asio::ip::tcp;
 using boost::system::error_code;
 
 constexpr std::size_t kMostConnections = 64;  // with those that are not clients yet
+constexpr std::size_t kMostLeaving = 16;      // beyond them: told to go, and not gone yet
+constexpr std::chrono::seconds kStuck{3};     // who has read nothing for so long gives its place away
 constexpr std::size_t kMostTasks = 10'000;
 constexpr std::chrono::milliseconds kReportPeriod{250}, kGoodbyeTime{200}, kRestAfterFailure{100};
 
@@ -52,6 +54,7 @@ class Server::Impl {
       : hub_(std::move(hub)), acceptor_(listening(io_, address)), report_timer_(io_), rest_timer_(io_) {
     rules_.origins = std::move(origins);
     rules_.hub = hub_.get();
+    hub_->on_crowd([this] { dismiss_stuck_watcher(); });
     rules_.notice = [sink = std::move(sink)](Remark remark) { sink(NoticeArrived{std::move(remark)}); };
   }
 
@@ -125,12 +128,34 @@ class Server::Impl {
       if (error == asio::error::operation_aborted) return;
       if (error) return accept_later();  // no descriptor is free, for one
       send_waiting();                    // forgets those that have ended
-      if (connections_.size() < kMostConnections) {
+      if (connections_.size() >= kMostConnections) dismiss_idlest();
+      if (connections_.size() < kMostConnections + kMostLeaving) {
         connections_.push_back(make_connection(std::move(socket), rules_));
         connections_.back()->start();
       }
       accept();
     });
+  }
+
+  /// There is always one, because fewer may watch than may be connected. So whoever wants to stop the robot gets in.
+  void dismiss_idlest() {
+    Connection* idlest = nullptr;
+    for (const auto& each : connections_)
+      if (!each->watches() && (idlest == nullptr || each->heard_at() < idlest->heard_at()))
+        idlest = each.get();
+    if (idlest != nullptr) idlest->dismiss("it watched nothing, and another one wants to connect");
+    std::erase_if(connections_, [](const auto& connection) { return connection->ended(); });
+  }
+
+  /// Another client wants to watch, and the places are taken. Called while the connections are gone through, so none is erased.
+  void dismiss_stuck_watcher() {
+    Connection* stuck = nullptr;
+    for (const auto& each : connections_)
+      if (each->watches() && each->stuck_since() &&
+          (stuck == nullptr || *each->stuck_since() < *stuck->stuck_since()))
+        stuck = each.get();
+    if (stuck != nullptr && Connection::Clock::now() - *stuck->stuck_since() >= kStuck)
+      stuck->dismiss("it did not read what it watched, and another one wants to watch");
   }
 
   void accept_later() {

@@ -25,14 +25,15 @@ std::string viewer(ClientId id) { return fmt::format("viewer {}", id); }
 
 }  // namespace
 
-Session::Session(ClientId id, const Catalogue& catalogue, RequestSink sink)
-    : id_(id), catalogue_(catalogue), sink_(std::move(sink)) {
+Session::Session(ClientId id, const Catalogue& catalogue, Watchers& watchers, RequestSink sink)
+    : id_(id), catalogue_(catalogue), watchers_(watchers), sink_(std::move(sink)) {
   queue_.push_text(server_info(catalogue));
   if (!catalogue.channels.empty()) queue_.push_text(foxglove::advertise(catalogue.channels));
   if (!catalogue.services.empty()) queue_.push_text(advertise_services(catalogue.services));
 }
 
 Session::~Session() {
+  if (watches()) --watchers_.now;
   for (const auto& [channel, subscription] : subscription_of_)
     --*find(catalogue_.channels, channel)->subscribers;
 }
@@ -48,7 +49,16 @@ void Session::receive(bool is_text, ByteView message) {
   }
 }
 
+bool Session::admit_watcher() {
+  if (watches()) return true;
+  if (watchers_.now >= Watchers::kMost) watchers_.make_room();
+  return watchers_.now < Watchers::kMost;
+}
+
 void Session::take(const Subscribe& message) {
+  if (!admit_watcher())
+    return complain(fmt::format("{} viewers watch already, and this one can only ask and stop the robot",
+                                Watchers::kMost));
   for (const Subscribe::Subscription& each : message.subscriptions) subscribe(each);
 }
 
@@ -57,8 +67,10 @@ void Session::subscribe(const Subscribe::Subscription& wanted) {
   if (channel == nullptr) return complain(fmt::format("there is no channel {}", wanted.channel));
   if (channel_of_.contains(wanted.id))
     return complain(fmt::format("there is a subscription {} already", wanted.id));
+  const bool is_first = subscription_of_.empty();
   if (!subscription_of_.emplace(wanted.channel, wanted.id).second)
     return complain(fmt::format("channel {} is subscribed already", wanted.channel));
+  if (is_first) ++watchers_.now;
   channel_of_.emplace(wanted.id, wanted.channel);
   ++*channel->subscribers;
   for (const SharedSample& sample : channel->kept) queue_.push_latched(wanted.id, sample);
@@ -74,6 +86,7 @@ void Session::take(const Unsubscribe& message) {
     --*find(catalogue_.channels, found->second)->subscribers;
     subscription_of_.erase(found->second);
     channel_of_.erase(found);
+    if (!watches()) --watchers_.now;
     queue_.forget(id);
   }
 }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -14,11 +16,20 @@
 
 namespace astro::ros2::foxglove {
 
+/// How many clients subscribe at a time: each of them may have megabytes waiting. All others may still ask, and stop the robot.
+struct Watchers {
+  static constexpr std::size_t kMost = 16;
+
+  std::size_t now = 0;
+  /// Called when one more wants to, for somebody who can end one that does not read what it subscribed.
+  std::function<void()> make_room = [] {};
+};
+
 /// One client: what it subscribes, publishes and watches. Does no I/O and has no clock.
 ///
 /// Errors  what is wrong in a message is said to the client in a `status` (or a serviceCallFailure), and the rest of the message
 ///         counts; the connection stays.
-/// Bounds  a channel is subscribed once; 256 advertised channels; 64 questions to the robot at a time, beyond which a question is
+/// Bounds  a channel is subscribed once, and by no more clients than Watchers allows; 256 advertised channels; 64 questions to the robot at a time, beyond which a question is
 ///         refused. What is sent is bounded by ClientQueue.
 class Session {
  public:
@@ -26,14 +37,16 @@ class Session {
   static constexpr int kMostQuestions = 64;
   static constexpr std::size_t kLongestQuestion = 16 * 1024;  // in bytes; so 1 MiB waits for a client at most
 
-  /// `catalogue` must outlive it. What the client asks of the robot goes to `sink`.
-  Session(ClientId id, const Catalogue& catalogue, RequestSink sink);
+  /// `catalogue` and `watchers` must outlive it. What the client asks of the robot goes to `sink`.
+  Session(ClientId id, const Catalogue& catalogue, Watchers& watchers, RequestSink sink);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
   ClientId id() const { return id_; }
   ClientQueue& queue() { return queue_; }
+  /// Whether it subscribes anything.
+  bool watches() const { return !subscription_of_.empty(); }
 
   /// One WebSocket message of the client: any bytes.
   void receive(bool is_text, ByteView message);
@@ -66,11 +79,13 @@ class Session {
   void take(const ServiceCall& message);
   void subscribe(const Subscribe::Subscription& wanted);
   void advertise(const Advertise::Channel& offered);
+  bool admit_watcher();
   bool admit_question();
   void complain(const std::string& sentence);
 
   ClientId id_;
   const Catalogue& catalogue_;
+  Watchers& watchers_;
   RequestSink sink_;
   ClientQueue queue_;
   std::map<std::uint32_t, std::uint32_t> channel_of_, subscription_of_;  // by subscription, by channel

@@ -74,6 +74,8 @@ class Middleware {
   virtual std::unique_ptr<Publisher> advertise(const TopicDescription& topic) = 0;
   /// Until the middleware ends. One name may be subscribed under several types.
   virtual void subscribe(const TopicDescription& topic, OnMessage on_message) = 0;
+  /// Whether a name under several types troubles nobody. In ROS 2 it does: its tools neither record nor show such a topic.
+  virtual bool types_may_share_a_name() const { return false; }
   virtual void serve(const ServiceDescription& service, OnRequest on_request) = 0;
   /// Lets others read and set parameters; `table` must outlive the middleware.
   virtual void serve_parameters(ParameterTable& table) = 0;

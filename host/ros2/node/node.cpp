@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <list>
+#include <set>
 #include <utility>
 
 #include "host/ros2/dds/fast_dds.hpp"
@@ -42,6 +43,8 @@ class NodePublisher : public Publisher {
 };
 
 struct Subscription {
+  std::string name;
+  dds::Topic topic;
   std::unique_ptr<dds::Reader> reader;
   Middleware::OnMessage on_message;
 };
@@ -51,6 +54,7 @@ class Node : public Middleware {
   Node(const NodeOptions& options, std::unique_ptr<dds::Participant> participant)
       : name_(valid(options.name)),
         on_twin_(options.on_twin),
+        on_foreign_type_(options.on_foreign_type),
         participant_(std::move(participant)),
         info_(*participant_, name_, options.gid_size) {}
 
@@ -58,7 +62,9 @@ class Node : public Middleware {
     return std::make_unique<NodePublisher>(participant_->create_writer(wire_topic(topic)), info_);
   }
   void subscribe(const TopicDescription& topic, OnMessage on_message) override {
-    subscriptions_.push_back({participant_->create_reader(wire_topic(topic)), std::move(on_message)});
+    const dds::Topic on_wire = wire_topic(topic);
+    subscriptions_.push_back(
+        {topic.name, on_wire, participant_->create_reader(on_wire), std::move(on_message)});
     info_.add_reader(subscriptions_.back().reader->guid());
   }
   void serve(const ServiceDescription& service, OnRequest on_request) override {
@@ -81,7 +87,7 @@ class Node : public Middleware {
       left_ = answer_one();
     } while (left_ && Service::Clock::now() < until);
     for (Service& service : services_) service.send_replies(Service::Clock::now());
-    watch_for_twin(TwinWatch::Clock::now());
+    watch_others(TwinWatch::Clock::now());
   }
   void wait(std::chrono::microseconds timeout) override {
     participant_->wait(left_ ? std::chrono::microseconds::zero() : timeout);
@@ -91,14 +97,34 @@ class Node : public Middleware {
   /// A poll() begins no call after this, so that many that wait do not keep the robot's thread.
   static constexpr std::chrono::milliseconds kShare{5};
 
-  /// Each node serves its parameters under its full name.
-  void watch_for_twin(TwinWatch::Clock::time_point now) {
+  void watch_others(TwinWatch::Clock::time_point now) {
     constexpr std::chrono::seconds kBetweenLooks{1};
     if (now < look_at_) return;
     look_at_ = now + kBetweenLooks;
+    const std::vector<dds::RemoteEndpoint> others = participant_->remote_endpoints();
+    watch_for_twin(others, now);
+    watch_for_foreign_types(others);
+    for (const auto& each : parameters_) each->look();
+  }
+  void watch_for_foreign_types(const std::vector<dds::RemoteEndpoint>& others) {
+    constexpr std::size_t kMostTold = 20;
+    for (const Subscription& each : subscriptions_)
+      for (const dds::RemoteEndpoint& other : others) {
+        if (!other.writes || other.topic != each.topic.name || takes(other)) continue;
+        const auto type = ros_type_name(other.type);
+        if (type && told_types_.size() < kMostTold && told_types_.emplace(each.name, *type).second)
+          on_foreign_type_(each.name, *type);
+      }
+  }
+  bool takes(const dds::RemoteEndpoint& other) const {
+    return std::ranges::any_of(subscriptions_, [&](const Subscription& each) {
+      return each.topic.name == other.topic && each.topic.type == other.type;
+    });
+  }
+  /// Each node serves its parameters under its full name.
+  void watch_for_twin(const std::vector<dds::RemoteEndpoint>& others, TwinWatch::Clock::time_point now) {
     const std::string name = full_name(name_);
     const std::string replies = wire_name_of_replies(name + "/get_parameters");
-    const std::vector<dds::RemoteEndpoint> others = participant_->remote_endpoints();
     const bool is_there =
         std::ranges::any_of(others, [&](const auto& each) { return each.writes && each.topic == replies; });
     if (twin_.note(is_there, now)) on_twin_(name);
@@ -123,6 +149,8 @@ class Node : public Middleware {
 
   const NodeName name_;
   std::function<void(const std::string&)> on_twin_;
+  std::function<void(const std::string&, const std::string&)> on_foreign_type_;
+  std::set<std::pair<std::string, std::string>> told_types_;
   TwinWatch twin_;
   TwinWatch::Clock::time_point look_at_{};
   std::unique_ptr<dds::Participant> participant_;

@@ -17,6 +17,10 @@ struct NodeOptions {
   GidSize gid_size = GidSize::iron_and_later;
   /// Called from poll() if another node of the same full name is there and stays; with that name.
   std::function<void(const std::string&)> on_twin = [](const std::string&) {};
+  /// Called from poll() once for each topic that the node subscribes and another node publishes under a type that the node does
+  /// not take, so that nothing of it comes; with topic and type, "/cmd_vel" and "geometry_msgs/msg/Twist".
+  std::function<void(const std::string&, const std::string&)> on_foreign_type = [](const std::string&,
+                                                                                   const std::string&) {};
 };
 
 /// A ROS 2 node on DDS, which the tools and nodes of others see as one of theirs, whichever RMW they use. All its callbacks

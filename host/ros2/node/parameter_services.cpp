@@ -1,6 +1,7 @@
 #include "host/ros2/node/parameter_services.hpp"
 
 #include <chrono>
+#include <utility>
 
 #include "host/ros2/cdr/codec.hpp"
 
@@ -33,9 +34,14 @@ bool too_long(const Request& request) {
 }  // namespace
 
 ParameterServices::ParameterServices(Middleware& middleware, ParameterTable& table, const std::string& node)
-    : node_(node),
+    : table_(table),
+      node_(node),
       events_(middleware.advertise(events_topic())),
-      answers_(table, [this](std::span<const msg::Parameter> changed) { tell(changed); }) {
+      answers_(table, [this](std::span<const msg::Parameter> changed) {
+        msg::ParameterEvent event;
+        event.changed_parameters.assign(changed.begin(), changed.end());
+        tell(std::move(event));
+      }) {
   serve<msg::GetParameters>(middleware, "/get_parameters");
   serve<msg::GetParameterTypes>(middleware, "/get_parameter_types");
   serve<msg::SetParameters>(middleware, "/set_parameters");
@@ -57,11 +63,25 @@ void ParameterServices::serve(Middleware& middleware, const std::string& name) {
   });
 }
 
-void ParameterServices::tell(std::span<const msg::Parameter> changed) {
+void ParameterServices::look() {
+  std::set<std::string> names;
+  for (msg::ParameterDescriptor& each : table_.descriptors()) names.insert(std::move(each.name));
+  if (names == known_) return;
+  msg::ParameterEvent event;
+  for (const std::string& name : names)
+    if (!known_.contains(name))
+      if (auto value = table_.value(name)) event.new_parameters.push_back({name, std::move(*value)});
+  for (const std::string& name : known_)
+    if (!names.contains(name)) event.deleted_parameters.push_back({name, {}});
+  known_ = std::move(names);
+  tell(std::move(event));
+}
+
+void ParameterServices::tell(msg::ParameterEvent event) {
   const std::int64_t time_ns = now_ns();
-  events_->publish(
-      encode(msg::ParameterEvent{msg::to_time(time_ns), node_, {}, {changed.begin(), changed.end()}, {}}),
-      time_ns);
+  event.stamp = msg::to_time(time_ns);
+  event.node = node_;
+  events_->publish(encode(event), time_ns);
 }
 
 }  // namespace astro::ros2

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <set>
 #include <string>
 
 #include "host/ros2/middleware/middleware.hpp"
@@ -19,12 +20,18 @@ class ParameterServices {
   ParameterServices(const ParameterServices&) = delete;
   ParameterServices& operator=(const ParameterServices&) = delete;
 
+  /// Tells which parameters are there now and were not when it was called before, as those of a robot that was found, and which have
+  /// gone.
+  void look();
+
  private:
   template <class Service>
   void serve(Middleware& middleware, const std::string& name);
-  void tell(std::span<const msg::Parameter> changed);
+  void tell(msg::ParameterEvent event);
 
+  ParameterTable& table_;
   std::string node_;
+  std::set<std::string> known_;
   std::unique_ptr<Publisher> events_;
   ParameterAnswers answers_;
 };

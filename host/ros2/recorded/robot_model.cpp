@@ -43,7 +43,7 @@ RobotModel::RobotModel(const std::map<std::string, double>& parameters)
     radians_per_count = 2 * std::numbers::pi / counts_per_turn;
 }
 
-std::string RobotModel::urdf(const std::string& prefix, bool footprint) const {
+std::string RobotModel::urdf(const std::string& prefix, const std::string& root) const {
   const std::string base = prefix + std::string(kBaseFrame);
   const std::string left = prefix + kLeftWheel, right = prefix + kRightWheel;
   // The axle is above the origin of base_link, which is on the floor between the wheels.
@@ -52,7 +52,7 @@ std::string RobotModel::urdf(const std::string& prefix, bool footprint) const {
                            " " + to_text(0.8 * separation_m) + " " + to_text(radius_m) +
                            "\"/></geometry></visual></link>";
   return "<?xml version=\"1.0\"?><robot name=\"robot\">" +
-         (footprint ? footprint_link(prefix + std::string(kFootprintFrame), base) : std::string()) + body +
+         (root.empty() || root == base ? std::string() : footprint_link(root, base)) + body +
          wheel_link(left, radius_m) + wheel_link(right, radius_m) +
          wheel_joint(kLeftJoint, base, left, separation_m / 2, radius_m) +
          wheel_joint(kRightJoint, base, right, -separation_m / 2, radius_m) + "</robot>";

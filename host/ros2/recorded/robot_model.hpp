@@ -23,9 +23,9 @@ struct RobotModel {
 
   bool complete() const { return radius_m > 0 && separation_m > 0 && radians_per_count > 0; }
 
-  /// URDF. `prefix` is put before the names of all links, as before the frames of transforms. With `footprint` the root is
-  /// kFootprintFrame, fixed to the base. Precondition: complete().
-  std::string urdf(const std::string& prefix = {}, bool footprint = false) const;
+  /// URDF. `prefix` is put before the names of all links, as before the frames of transforms. `root`: another link, to which the
+  /// base is fixed; "" or the base itself: none. Precondition: complete().
+  std::string urdf(const std::string& prefix = {}, const std::string& root = {}) const;
 
   /// Of a wheel that has turned by so many counts, in the base's frame.
   msg::Transform left_wheel(double counts) const { return wheel(separation_m / 2, counts); }

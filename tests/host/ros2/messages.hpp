@@ -2,6 +2,7 @@
 
 #include <tuple>
 
+#include "host/ros2/messages/clock.hpp"
 #include "host/ros2/messages/diagnostics.hpp"
 #include "host/ros2/messages/geometry.hpp"
 #include "host/ros2/messages/graph.hpp"
@@ -16,9 +17,9 @@ namespace astro::ros2 {
 
 /// All message types, for claims that hold for each of them.
 using AllMessages =
-    std::tuple<msg::Time, msg::Header, msg::String, msg::Vector3, msg::Point, msg::Quaternion, msg::Pose,
-               msg::PoseStamped, msg::PoseWithCovariance, msg::PoseWithCovarianceStamped, msg::Twist,
-               msg::TwistStamped, msg::TwistWithCovariance, msg::Transform, msg::TransformStamped,
+    std::tuple<msg::Time, msg::Header, msg::Clock, msg::String, msg::Vector3, msg::Point, msg::Quaternion,
+               msg::Pose, msg::PoseStamped, msg::PoseWithCovariance, msg::PoseWithCovarianceStamped,
+               msg::Twist, msg::TwistStamped, msg::TwistWithCovariance, msg::Transform, msg::TransformStamped,
                msg::TFMessage, msg::Odometry, msg::JointState, msg::BatteryState, msg::KeyValue,
                msg::DiagnosticStatus, msg::DiagnosticArray, msg::ParameterValue, msg::Parameter,
                msg::ParameterDescriptor, msg::FloatingPointRange, msg::IntegerRange, msg::SetParametersResult,

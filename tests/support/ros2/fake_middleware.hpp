@@ -29,6 +29,7 @@ class FakeMiddleware : public ros2::Middleware {
   std::map<std::string, ros2::ServiceDescription> services;
   ros2::ParameterTable* parameters = nullptr;
   bool anybody_listens = true;
+  bool types_share_names = false;
   std::function<void(microseconds)> on_wait = [](microseconds) {};
 
   std::unique_ptr<ros2::Publisher> advertise(const ros2::TopicDescription& topic) override {
@@ -39,6 +40,7 @@ class FakeMiddleware : public ros2::Middleware {
     subscribed.push_back(topic);
     subscriptions_.push_back({topic.name, std::string(topic.type.name), std::move(on_message)});
   }
+  bool types_may_share_a_name() const override { return types_share_names; }
   void serve(const ros2::ServiceDescription& service, OnRequest on_request) override {
     services[service.name] = service;
     requests_[service.name] = std::move(on_request);

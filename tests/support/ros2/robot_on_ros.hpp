@@ -72,7 +72,7 @@ class RobotOnRos {
  public:
   static constexpr std::int64_t kStart_ns = 1'790'000'000'000'000'000;  // of the time since 1970
 
-  explicit RobotOnRos(const sim::Config& config = quiet(), ros2::DriverOptions options = {})
+  explicit RobotOnRos(const sim::Config& config = quiet(), ros2::DriverOptions options = of_both_types())
       : robot(std::make_shared<simulation::VirtualRobot>(config, simulation::MocapConfig{})), cable(robot) {
     options.clock = {[this] { return now(); },
                      [this] { return kStart_ns + now().count() * 1000 + utc_steps_ns; }};
@@ -81,6 +81,12 @@ class RobotOnRos {
         std::vector<ros2::Middleware*>{&ros}, [this] { return cable.open(); }, std::move(options));
   }
 
+  /// So that tests may say either.
+  static ros2::DriverOptions of_both_types() {
+    ros2::DriverOptions options;
+    options.cmd_vel_type = ros2::CommandType::both;
+    return options;
+  }
   static sim::Config quiet() {
     sim::Config config;
     config.slip_m = 0;
@@ -130,6 +136,15 @@ class RobotOnRos {
       say_velocity(v_mps, omega_radps);
       run_ms(50);
     }
+  }
+
+  /// Another program sets a parameter of the robot, over its other port.
+  void set_elsewhere(const std::string& name, double value) {
+    robot::Client other(std::make_unique<simulation::InProcessTransport>(robot, 1));
+    other.connect();
+    auto parameters = robot::RemoteParameters::fetch(other);
+    parameters.stage(name, value);
+    parameters.commit();
   }
 
   protocol::Mode mode() { return drive_of(*robot).mode(); }

@@ -26,6 +26,7 @@ class NodeAtUsb : public testing::Test {
  protected:
   NodeAtUsb() {
     DriverOptions options;
+    options.cmd_vel_type = CommandType::twist;
     options.clock = {[this] { return now(); },
                      [this] { return 1'790'000'000'000'000'000 + now().count() * 1000; }};
     ros_.on_wait = [this](microseconds most) { silence_ms(static_cast<int>(most.count() / 1000)); };

@@ -41,8 +41,10 @@ TEST(FoxgloveOptions, WhoCanBeReachedByOthersIsWarned) {
 }
 
 TEST(FoxgloveOptions, ServicesThatStopTheRobotAreForEverybody) {
-  EXPECT_THAT(foxglove_settings({}, "robot", "left").always_served,
+  EXPECT_THAT(foxglove_settings({}, "robot", ros2::Names("left")).always_served,
               ElementsAre("/left/emergency_stop", "/left/stop"));
+  EXPECT_THAT(foxglove_settings({}, "robot", ros2::Names("", {{{"/stop", "/halt"}}})).always_served,
+              ElementsAre("/emergency_stop", "/halt"));
 }
 
 }  // namespace

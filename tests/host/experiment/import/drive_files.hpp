@@ -13,6 +13,7 @@
 #include "host/recording/bag/db3_writer.hpp"
 #include "host/ros2/cdr/cdr.hpp"
 #include "host/ros2/recorded/joint_state.hpp"
+#include "host/ros2/recorded/text_message.hpp"
 
 /// Writes a drive as other programs do: wheels as counts, angles or metres, truth as the trackers' formats.
 namespace astro::test {
@@ -129,13 +130,17 @@ inline Bytes pose_stamped(std::int64_t time_ns, const BodyPose& p) {
 }
 
 /// A folder as `ros2 bag record` makes it: /joint_states and /tracker/pose.
+/// `urdf`: recorded as the robot's description unless it is "".
 inline fs::path write_bag(const fs::path& folder, const calibration::Trajectory& run,
-                          const Frame& frame = z_up) {
+                          const Frame& frame = z_up, const std::string& urdf = {}) {
   constexpr std::int64_t kStart_ns = 1'700'000'000'000'000'000;
   const auto time_ns = [&](double s) { return kStart_ns + std::llround(1e9 * s); };
   recording::Db3Writer bag(folder);
   const int joints = bag.add_topic("/joint_states", "sensor_msgs/msg/JointState", "");
   const int poses = bag.add_topic("/tracker/pose", "geometry_msgs/msg/PoseStamped", "");
+  if (!urdf.empty())
+    bag.write(bag.add_topic("/robot_description", "std_msgs/msg/String", ""), time_ns(0),
+              ros2::encode_text(urdf));
   for (const auto& at : run.wheels)
     bag.write(joints, time_ns(at.time_s),
               ros2::encode_joint_state({time_ns(at.time_s),

@@ -218,6 +218,34 @@ TEST_F(Files, InABagAreCalibratedWithTheControllersParameters) {
               4 * json["standard_errors"]["c_R"].get<double>());
 }
 
+TEST_F(Files, InABagAreCalibratedWithTheDescriptionThatWasRecordedBesideThem) {
+  const auto wheel = [](const std::string& name, const std::string& y) {
+    return "<link name='" + name +
+           "'><visual><geometry><cylinder radius='0.042' length='0.02'/></geometry></visual>"
+           "</link><joint name='" +
+           name + "_joint' type='continuous'><parent link='base'/><child link='" + name +
+           "'/><origin xyz='0 " + y + " 0.042'/><axis xyz='0 1 0'/></joint>";
+  };
+  const std::string urdf =
+      "<robot name='r'>" + wheel("wheel_left", "0.145") + wheel("wheel_right", "-0.145") + "</robot>";
+  std::vector<std::string> words{"calibrate", "bag", "--json"};
+  int i = 0;
+  for (const calibration::Trajectory& run : drives(2)) {
+    // Of the second bag the description was not recorded.
+    const std::string recorded = i++ == 0 ? urdf : "";
+    words.push_back(test::write_bag(at("bag" + std::to_string(i)), run, test::z_up, recorded).string());
+  }
+  const Outcome outcome = astrolabe(words);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("/robot_description has wheels of 0.084 m, 0.29 m apart"));
+  const nlohmann::json json = support::parse_json(outcome.out);
+  EXPECT_NEAR(json["c_R"], calibration::astro_drive().actual.c_r,
+              4 * json["standard_errors"]["c_R"].get<double>());
+  // What a person says counts more.
+  words.insert(words.end(), {"--wheelbase", "0.3", "--wheel-diameter", "0.084"});
+  EXPECT_THAT(astrolabe(words).err, testing::Not(HasSubstr("robot_description")));
+}
+
 TEST_F(Files, AreReportedDriveByDrive) {
   std::vector<std::string> words{"report", "--out", at("report.html")};
   for (const std::string& word : pairs(3)) words.push_back(word);

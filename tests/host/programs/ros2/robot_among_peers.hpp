@@ -17,11 +17,12 @@ class RobotAmongPeers : public testing::Test {
  protected:
   RobotAmongPeers() { start_node(); }
 
-  void start_node(const std::vector<std::string>& options = {}) {
+  void start_node(const std::vector<std::string>& options = {}, const std::string& cmd_vel_type = "both") {
     node_.reset();
     const std::string at = node_port_.empty() ? port() : node_port_;
     std::vector<std::string> words{
-        ASTROLABE_PROGRAM, "ros2", "--port", at, "--domain", std::to_string(test_domain())};
+        ASTROLABE_PROGRAM, "ros2",      "--port", at, "--domain", std::to_string(test_domain()),
+        "--cmd-vel",       cmd_vel_type};
     words.insert(words.end(), options.begin(), options.end());
     node_ = std::make_unique<Program>(words);
   }

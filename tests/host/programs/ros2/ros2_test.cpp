@@ -225,6 +225,60 @@ TEST_F(Ros2, ARobotWhoseNodeIsKilledStopsByItself) {
   EXPECT_TRUE(eventually([&] { return mode().find("command_timeout") != std::string::npos; }));
 }
 
+TEST_F(Ros2, WhatAKilledNodeLeftDrivingWithoutATimeOutIsStoppedByTheNextOne) {
+  ASSERT_EQ(support::astrolabe({"params", "set", "command_timeout=0", "--yes", "--port", port()}).code, 0);
+  PeerProgram peer(PeerKind::fast, support::test_domain());
+  subscribe(peer, "/odom", "odometry");
+  next(peer, "/odom");
+  EXPECT_THAT(call(peer, "/arm"), HasSubstr("yes"));
+  ask(peer, "drive /cmd_vel twist 0.2 0.5 1", "sent /cmd_vel");
+  node_->send(SIGKILL);
+  node_->wait();
+  start_node();
+  EXPECT_TRUE(eventually([&] { return std::abs(number_in(next(peer, "/odom"), "v")) < 0.005; }));
+  EXPECT_THAT(node_->err(), HasSubstr("it was stopped"));
+}
+
+TEST_F(Ros2, ADriveOfAnotherProgramGoesOnWhenANodeStarts) {
+  ASSERT_EQ(support::astrolabe({"params", "set", "command_timeout=0", "--yes", "--port", port()}).code, 0);
+  node_->send(SIGINT);
+  node_->wait();
+  support::Program other(
+      {ASTROLABE_PROGRAM, "drive", "velocity", "0.1", "0.5", "--for", "60", "--port", port()});
+  start_node();
+  PeerProgram peer(PeerKind::fast, support::test_domain());
+  subscribe(peer, "/odom", "odometry");
+  EXPECT_TRUE(eventually([&] { return number_in(next(peer, "/odom"), "v") > 0.05; }));
+  for (int i = 0; i < 50; ++i) ASSERT_GT(number_in(next(peer, "/odom"), "v"), 0.05);
+  EXPECT_TRUE(other.running());
+  EXPECT_THAT(node_->err(), testing::Not(HasSubstr("it was stopped")));
+}
+
+TEST_F(Ros2, AVelocityOfTheOtherTypeIsNamedWithWhatTakesIt) {
+  start_node({}, "TwistStamped");
+  PeerProgram peer(PeerKind::fast, support::test_domain());
+  peer.say("twist /cmd_vel 0 0");  // nobody reads it
+  EXPECT_TRUE(eventually([&] {
+    return node_->err().find(
+               "publishes /cmd_vel as geometry_msgs/msg/Twist, which is not taken: --cmd-vel Twist") !=
+           std::string::npos;
+  }));
+}
+
+TEST_F(Ros2, TheArgumentsOfALaunchFileNameTheNodeItsTopicsAndItsParameters) {
+  start_node({"--ros-args", "-r", "__node:=base", "-r", "__ns:=/left", "-r", "odom:=/hall/odometry", "-p",
+              "c_R:=1.002", "-p", "publish_rate:=20", "--"});
+  PeerProgram peer(PeerKind::fast, support::test_domain());
+  subscribe(peer, "/hall/odometry", "odometry");
+  EXPECT_THAT(next(peer, "/hall/odometry"), HasSubstr("child=left/base_footprint"));
+  EXPECT_THAT(ask(peer, "get /left/base publish_rate", "value publish_rate"), HasSubstr("20"));
+  EXPECT_TRUE(eventually(
+      [&] { return ask(peer, "get /left/base c_R", "value c_R").find("1.002") != std::string::npos; }));
+  start_node({"--ros-args", "-p", "publish_rate:=fast"});
+  EXPECT_EQ(node_->wait(), 2);
+  EXPECT_THAT(node_->err(), HasSubstr("publish_rate has to be a number from 1 to 1000"));
+}
+
 TEST_F(Ros2, CtrlCBringsTheRobotToRestAndEnds) {
   PeerProgram peer(PeerKind::fast, support::test_domain());
   subscribe(peer, "/odom", "odometry");

@@ -69,6 +69,22 @@ TEST(ParameterRow, DecimalValuesReadAsPeopleWroteThem) {
   EXPECT_EQ(to_raw(r, 0.29).raw, 290'000'000);
 }
 
+TEST(ParameterRow, ValuesReadBackAsTheyWereWritten) {
+  const auto q30 = row(ParameterKind::binary_scaled, -30, kLowest, kHighest);
+  EXPECT_EQ(std::get<double>(to_value(q30, to_raw(q30, 1.002))), 1.002);
+  EXPECT_EQ(describe(q30, to_value(q30, to_raw(q30, 1.002))), "1.002 m");
+  EXPECT_NE(to_real(q30, to_raw(q30, 1.002).raw), 1.002)
+      << "what is computed with stays what the robot holds";
+  std::mt19937 random(11);
+  std::uniform_int_distribution<int> any(-1'999'999, 1'999'999);
+  for (int i = 0; i < 10'000; ++i) {
+    const double written = any(random) / 1e6;
+    ASSERT_EQ(std::get<double>(to_value(q30, to_raw(q30, written))), written);
+    const std::int32_t raw = any(random) * 1000;
+    ASSERT_EQ(to_raw(q30, to_shortest(q30, raw)).raw, raw);
+  }
+}
+
 TEST(ParameterRow, OutOfRangeNamesParameterValueUnitAndLimits) {
   const auto r = row(ParameterKind::decimal_scaled, -3, 50, 2000);
   EXPECT_EQ(why_not(r, 3.5), "p = 3.5 m is out of range: 0.05 m to 2 m");

@@ -43,6 +43,27 @@ TEST_F(Commands, ATwistStampedUnderTheSameNameDrivesItToo) {
   EXPECT_NEAR(speed_mps(), 0.3, 0.01);
 }
 
+TEST_F(Commands, TheTopicHasOneTypeUnlessBothAreAskedForOrANameMayHaveSeveral) {
+  const auto types = [](CommandType type, bool viewers) {
+    test::FakeMiddleware ros;
+    ros.types_share_names = viewers;
+    DriverOptions options;
+    options.cmd_vel_type = type;
+    Driver driver(
+        {&ros}, []() -> std::unique_ptr<robot::Transport> { throw Error("no port"); }, options);
+    std::string all;
+    for (const TopicDescription& each : ros.subscribed)
+      if (each.name == "/cmd_vel")
+        all += std::string(each.type.name.substr(each.type.name.rfind('/') + 1)) + ' ';
+    return all;
+  };
+  EXPECT_EQ(DriverOptions().cmd_vel_type, CommandType::twist_stamped);
+  EXPECT_EQ(types(CommandType::twist_stamped, false), "TwistStamped ");
+  EXPECT_EQ(types(CommandType::twist, false), "Twist ");
+  EXPECT_EQ(types(CommandType::both, false), "Twist TwistStamped ");
+  EXPECT_EQ(types(CommandType::twist, true), "Twist TwistStamped ");
+}
+
 TEST_F(Commands, NothingArmsByItselfAndDiagnosticsSayWhyNothingMoves) {
   bench.drive_ms(500, 0.3, 0);
   EXPECT_EQ(bench.mode(), Mode::disarmed);

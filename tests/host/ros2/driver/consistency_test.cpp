@@ -24,7 +24,7 @@ using support::kDrives, support::kLeast, support::kMoments_s, support::kMost;
 constexpr unsigned kSeed = 20261124;
 
 DriverOptions calibrated(const FactorCovariance& covariance) {
-  DriverOptions options;
+  DriverOptions options = support::RobotOnRos::of_both_types();
   options.errors = calibration::OdometryErrors{support::kThesisSlip_m, covariance};
   options.velocities_after_stop = true;  // the drive stops several times to be compared with the truth
   return options;

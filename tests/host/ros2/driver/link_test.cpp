@@ -88,9 +88,7 @@ TEST_F(Link, AfterThePullTheRobotIsNotArmedAgain) {
 
 TEST_F(Link, ARobotWithoutATimeOutOfItsOwnIsStoppedOnceTheLinkIsBack) {
   EXPECT_TRUE(comes_back());
-  msg::Parameter timeout{"command_timeout", {}};
-  timeout.value.type = static_cast<std::uint8_t>(ParameterType::integer);  // 0: none
-  ASSERT_TRUE(bench.ros.parameters->set({&timeout, 1}).successful);
+  bench.set_elsewhere("command_timeout", 0);  // it would drive on for ever
   bench.call("/arm");
   bench.drive_ms(500, 0.3, 0);
   bench.cable.pull();
@@ -100,6 +98,48 @@ TEST_F(Link, ARobotWithoutATimeOutOfItsOwnIsStoppedOnceTheLinkIsBack) {
   EXPECT_TRUE(comes_back());
   bench.run_ms(1500);  // a ramp from 0.3 m/s at 0.5 m/s^2
   EXPECT_FALSE(bench.moves());
+}
+
+/// Another host drives the robot over its other port.
+class OtherHost {
+ public:
+  explicit OtherHost(RobotOnRos& bench)
+      : client_(std::make_unique<simulation::InProcessTransport>(bench.robot, 1)) {
+    client_.connect();
+    client_.request(protocol::Arm{});
+    drive();
+  }
+  void drive() { client_.request(protocol::Velocity{300'000, 0}); }
+
+ private:
+  robot::Client client_;
+};
+
+TEST_F(Link, ARobotThatAKilledProgramLeftDrivingWithoutATimeOutIsStoppedAtTheStart) {
+  for (const double timeout_ms : {0.0, 5000.0}) {
+    RobotOnRos left;
+    left.set_elsewhere("command_timeout", timeout_ms);
+    OtherHost killed(left);
+    left.silence_ms(1000);
+    ASSERT_TRUE(left.moves());
+    left.run_ms(300);
+    EXPECT_EQ(left.mode(), Mode::stopping) << timeout_ms;
+    left.run_ms(1500);
+    EXPECT_FALSE(left.moves());
+    EXPECT_EQ(left.mode(), Mode::idle);
+  }
+}
+
+TEST_F(Link, ARobotThatIsDrivenOverItsOtherPortDrivesOnThroughTheStart) {
+  RobotOnRos driven;
+  driven.set_elsewhere("command_timeout", 1000);  // longer than a node takes to shake hands
+  OtherHost host(driven);
+  for (int i = 0; i < 40; ++i) {
+    driven.run_ms(50);
+    host.drive();  // throws if it was refused
+    ASSERT_EQ(driven.mode(), Mode::velocity);
+  }
+  EXPECT_FALSE(driven.ros.take<msg::Odometry>("/odom").empty());
 }
 
 TEST_F(Link, AHundredPullsWhileItDrivesEachStopTheRobotAndEachIsRecoveredWithoutAJump) {
@@ -243,9 +283,7 @@ TEST_F(Link, AnotherRobotAtThePortIsNotTakenForTheFirst) {
 
 TEST_F(Link, ARobotIsAtRestAndDisarmedWhenAMiddlewareFails) {
   EXPECT_TRUE(comes_back());
-  msg::Parameter timeout{"command_timeout", {}};
-  timeout.value.type = static_cast<std::uint8_t>(ParameterType::integer);  // 0: it would drive on for ever
-  ASSERT_TRUE(bench.ros.parameters->set({&timeout, 1}).successful);
+  bench.set_elsewhere("command_timeout", 0);  // it would drive on for ever
   bench.call("/arm");
   bench.drive_ms(500, 0.3, 0);
   ASSERT_TRUE(bench.moves());
@@ -273,7 +311,7 @@ TEST_F(Link, EndsWithoutARobotAndWithoutAnError) {
 
 TEST_F(Link, SeveralMiddlewaresGetTheSameAndMayAllCommand) {
   test::FakeMiddleware first, second;  // those of the rig still hold what its own driver had them call
-  DriverOptions options;
+  DriverOptions options = RobotOnRos::of_both_types();
   options.clock = {[this] { return bench.now(); }, [this] { return bench.utc_ns(); }};
   bench.driver.reset();
   Driver driver(

@@ -56,8 +56,7 @@ TEST(ReadmeOfRos2, ListsTheServicesThatThereAre) {
 TEST(ReadmeOfRos2, ListsTheParametersOfTheNode) {
   support::RobotOnRos bench;
   std::set<std::string> own;
-  for (const auto& each : bench.ros.parameters->descriptors())
-    if (each.read_only) own.insert('`' + each.name + '`');
+  for (const auto& each : bench.ros.parameters->descriptors()) own.insert('`' + each.name + '`');
   EXPECT_THAT(table("Parameters", 1), ElementsAreArray(own));
 }
 

@@ -42,7 +42,7 @@ class Services : public testing::Test {
 
   std::vector<std::string> notices;
   RobotOnRos bench{RobotOnRos::quiet(), [this] {
-                     DriverOptions options;
+                     DriverOptions options = RobotOnRos::of_both_types();
                      options.notice = [this](const std::string& sentence) { notices.push_back(sentence); };
                      return options;
                    }()};

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/ros2/messages/clock.hpp"
 #include "host/ros2/recorded/ros_messages.hpp"
 #include "tests/support/ros2/robot_on_ros.hpp"
 
@@ -208,6 +209,108 @@ TEST(Driver, WarnsIfTheRobotHoldsOtherFactorsThanTheCalibrationWhoseCovarianceIt
   bench.run_ms(1100);
   EXPECT_EQ(bench.status("robot").level, std::byte{1});
   EXPECT_THAT(bench.status("robot").message, testing::HasSubstr("other factors"));
+}
+
+TEST(Driver, TopicsServicesAndFramesGoByOtherNamesIfTheyAreChosen) {
+  DriverOptions options;
+  options.node_namespace = "left";
+  options.names = {{{"/left/odom", "/hall/odometry"}, {"/tf", "/left/tf"}, {"/left/arm", "/left/ready"}},
+                   "map_of_left",
+                   "left/base_link"};
+  RobotOnRos bench(RobotOnRos::quiet(), options);
+  bench.run_ms(500);
+  const auto odometry = bench.ros.newest<msg::Odometry>("/hall/odometry");
+  EXPECT_EQ(odometry.header.frame_id, "map_of_left");
+  EXPECT_EQ(odometry.child_frame_id, "left/base_link");
+  EXPECT_EQ(bench.ros.newest<msg::TFMessage>("/left/tf").transforms.at(0).child_frame_id, "left/base_link");
+  EXPECT_TRUE(bench.ros.services.contains("/left/ready"));
+  EXPECT_FALSE(bench.ros.services.contains("/left/arm"));
+  // base_link has one parent.
+  EXPECT_TRUE(bench.ros.published["/tf_static"].messages.empty());
+  EXPECT_THAT(bench.ros.newest<msg::String>("/left/robot_description").data,
+              testing::Not(testing::HasSubstr("base_footprint")));
+  EXPECT_EQ(bench.ros.parameters->value("base_frame_id").value().string_value, "left/base_link");
+}
+
+TEST(Driver, LeavesTheTransformOfOdometryToAnotherNodeIfItIsTold) {
+  DriverOptions options;
+  options.odom_tf = false;
+  RobotOnRos bench(RobotOnRos::quiet(), options);
+  bench.run_ms(500);
+  for (const auto& each : bench.ros.newest<msg::TFMessage>("/tf").transforms)
+    EXPECT_EQ(each.header.frame_id, "base_link");
+  EXPECT_FALSE(bench.ros.take<msg::Odometry>("/odom").empty());
+}
+
+TEST(Driver, PutsTheParametersThatItWasGivenInForceOnceTheRobotIsFound) {
+  std::vector<std::string> notices;
+  DriverOptions options;
+  options.robot_parameters = {{"c_R", to_parameter(1.002)}, {"of_another_node", to_parameter(5)}};
+  options.notice = [&](const std::string& sentence) { notices.push_back(sentence); };
+  RobotOnRos bench(RobotOnRos::quiet(), options);
+  bench.run_ms(300);
+  EXPECT_EQ(bench.ros.parameters->value("c_R").value().double_value, 1.002);
+  EXPECT_THAT(notices, testing::Each(testing::HasSubstr("connected")));
+}
+
+TEST(Driver, RefusesAParameterAtTheStartThatAPersonHasToConfirm) {
+  std::string notices;
+  DriverOptions options;
+  options.robot_parameters = {{"b", to_parameter(0.6)}};
+  options.notice = [&](const std::string& sentence) { notices += sentence + '\n'; };
+  RobotOnRos bench(RobotOnRos::quiet(), options);
+  bench.run_ms(300);
+  EXPECT_EQ(bench.ros.parameters->value("b").value().double_value, 0.29);
+  EXPECT_THAT(notices, testing::HasSubstr("b would go from 0.29 m to 0.6 m"));
+}
+
+TEST(Driver, StampsAreTheTimeOfASimulationIfTheyAreToldToBe) {
+  DriverOptions options = RobotOnRos::of_both_types();
+  options.use_sim_time = true;
+  RobotOnRos bench(RobotOnRos::quiet(), options);
+  bench.run_ms(500);
+  EXPECT_TRUE(bench.ros.take<msg::Odometry>("/odom").empty()) << "nobody has told the time";
+  for (int i = 0; i < 10; ++i) {
+    bench.ros.say("/clock", msg::Clock{msg::to_time(7'000'000'000 + i * 100'000'000)});
+    bench.run_ms(50);
+  }
+  const auto told = bench.ros.take<msg::Odometry>("/odom");
+  ASSERT_GE(told.size(), 9U);
+  for (std::size_t i = 1; i < told.size(); ++i)
+    EXPECT_GT(msg::nanoseconds(told[i].header.stamp), msg::nanoseconds(told[i - 1].header.stamp))
+        << "one pose for each time";
+  EXPECT_EQ(msg::nanoseconds(told.back().header.stamp), 7'900'000'000);
+  // Velocities are stamped by the same clock.
+  bench.call("/arm");
+  msg::TwistStamped velocity;
+  velocity.header.stamp = msg::to_time(7'900'000'000);
+  velocity.twist.linear.x = 0.2;
+  bench.ros.say("/cmd_vel", velocity);
+  bench.run_ms(20);
+  EXPECT_EQ(bench.mode(), protocol::Mode::velocity);
+}
+
+TEST(Driver, StampsChangeBetweenTheSystemsTimeAndThatOfASimulationWhileItRuns) {
+  RobotOnRos bench;
+  bench.run_ms(300);
+  const auto use_sim_time = [&](bool on) {
+    const msg::Parameter parameter{"use_sim_time", to_flag(on)};
+    return bench.ros.parameters->set({&parameter, 1}).successful;
+  };
+  EXPECT_FALSE(bench.ros.parameters->value("use_sim_time").value().bool_value);
+  ASSERT_TRUE(use_sim_time(true));
+  bench.ros.take<msg::Odometry>("/odom");
+  bench.run_ms(100);
+  EXPECT_TRUE(bench.ros.take<msg::Odometry>("/odom").empty());
+  bench.ros.say("/clock", msg::Clock{msg::to_time(5'000'000'000)});
+  bench.run_ms(100);
+  EXPECT_EQ(msg::nanoseconds(bench.ros.newest<msg::Odometry>("/odom").header.stamp), 5'000'000'000);
+  ASSERT_TRUE(use_sim_time(false));
+  bench.run_ms(100);
+  EXPECT_NEAR(
+      1e-9 * static_cast<double>(bench.utc_ns() -
+                                 msg::nanoseconds(bench.ros.newest<msg::Odometry>("/odom").header.stamp)),
+      0, 0.05);
 }
 
 TEST(Driver, StampsFollowTheSystemsClockAtOnceWhenItIsSet) {

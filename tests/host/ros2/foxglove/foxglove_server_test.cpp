@@ -140,6 +140,18 @@ class FoxgloveServerOnLoopback : public testing::Test {
 
 Bytes text_message(const std::string& text) { return encode(msg::String{text}); }
 
+/// A call of the only service that viewers have without commands, and its answer.
+Bytes stop_call() {
+  Bytes call{2, 1, 0, 0, 0, 9, 0, 0, 0, 3, 0, 0, 0, 'c', 'd', 'r'};
+  append(call, encode(msg::Trigger::Request{}));
+  return call;
+}
+Bytes stopped() {
+  Bytes answer{3, 1, 0, 0, 0, 9, 0, 0, 0, 3, 0, 0, 0, 'c', 'd', 'r'};
+  append(answer, encode(msg::Trigger::Response{true, "/emergency_stop"}));
+  return answer;
+}
+
 TEST_F(FoxgloveServerOnLoopback, AgreesOnEitherSubprotocolAndRefusesOthers) {
   start();
   EXPECT_EQ(status_of({"", "foxglove.websocket.v1"}), "foxglove.websocket.v1");
@@ -179,16 +191,94 @@ TEST_F(FoxgloveServerOnLoopback, RefusesPagesOfOtherOriginsAndSaysWhichOnes) {
   EXPECT_EQ(refused()->remedy.help, Help::allow_origin);
 }
 
-TEST_F(FoxgloveServerOnLoopback, RefusesMoreViewersThanItServes) {
+TEST_F(FoxgloveServerOnLoopback, HoweverManyIdleViewersThereAreAnotherOneStopsTheRobot) {
+  for (const std::size_t idle : {16U, 64U, 100U}) {
+    start(false);
+    std::vector<Viewer> viewers;
+    for (std::size_t i = 0; i < idle; ++i) viewers.emplace_back(server_->port());
+    Viewer late(server_->port());
+    late.send(stop_call());
+    EXPECT_EQ(hear_binary(late), stopped()) << idle;
+  }
+}
+
+TEST_F(FoxgloveServerOnLoopback, HoweverManyConnectionsSayNothingAnotherOneStopsTheRobot) {
+  start(false);
+  std::vector<std::unique_ptr<support::SilentConnection>> silent;
+  for (int i = 0; i < 100; ++i)
+    silent.push_back(std::make_unique<support::SilentConnection>(server_->port()));
+  Viewer late(server_->port());
+  late.send(stop_call());
+  EXPECT_EQ(hear_binary(late), stopped());
+}
+
+TEST_F(FoxgloveServerOnLoopback, TheIdlestViewerGoesAndIsToldWhy) {
   start();
+  std::vector<Viewer> viewers;
+  for (int i = 0; i < 64; ++i) viewers.emplace_back(server_->port());
+  viewers[0].send(R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":1}]})");
+  viewers[1].send(R"({"op":"getParameters","parameterNames":["b"],"id":"x"})");
+  EXPECT_FALSE(hear(viewers[1], "parameterValues").is_null());
+  EXPECT_TRUE(eventually([&] { return fast_->has_subscribers(); }));
+  Viewer late(server_->port());
+  EXPECT_EQ(hear(late, "serverInfo")["name"], "robot");
+  EXPECT_TRUE(eventually([&] { return viewers[2].receive(milliseconds(5)), viewers[2].ended(); }));
+  EXPECT_THAT(viewers[2].why_it_ended(), HasSubstr("watched nothing"));
+  for (const int stays : {0, 1, 3}) {
+    viewers[stays].receive(milliseconds(20));
+    EXPECT_FALSE(viewers[stays].ended()) << stays;
+  }
+}
+
+TEST_F(FoxgloveServerOnLoopback, SixteenWatchAndAnotherOneMayStopTheRobotAndWatchesOnceOneHasGone) {
+  start(false);
+  const char* const watch =
+      R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":1},{"id":2,"channelId":2}]})";
   std::vector<Viewer> viewers;
   for (int i = 0; i < 16; ++i) {
     viewers.emplace_back(server_->port());
-    ASSERT_EQ(hear(viewers.back(), "serverInfo")["name"], "robot");
+    viewers.back().send(watch);
   }
-  EXPECT_EQ(status_of({}), "503");
+  // They have been taken in order once the last one is answered.
+  viewers.back().send(R"({"op":"getParameters","parameterNames":["b"],"id":"x"})");
+  EXPECT_FALSE(hear(viewers.back(), "parameterValues").is_null());
+  Viewer late(server_->port());
+  late.send(watch);
+  EXPECT_THAT(hear(late, "status")["message"], HasSubstr("16 viewers watch already"));
+  late.send(stop_call());
+  EXPECT_EQ(hear_binary(late), stopped());
   viewers.pop_back();
-  EXPECT_TRUE(eventually([&] { return status_of({}) == "foxglove.sdk.v1"; }));
+  EXPECT_TRUE(eventually([&] {
+    late.send(watch);
+    fast_->publish(text_message("now"), 1);
+    const auto message = late.receive(milliseconds(20));
+    return message && !message->is_text;
+  }));
+}
+
+TEST_F(FoxgloveServerOnLoopback, AWatcherThatReadsNothingGivesItsPlaceToOneThatWantsToWatch) {
+  start();
+  const char* const watch = R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":1}]})";
+  std::vector<Viewer> viewers;
+  ViewerRequest stuck;
+  stuck.receive_buffer = 4096;
+  for (int i = 0; i < 16; ++i) {
+    viewers.emplace_back(server_->port(), i == 5 ? stuck : ViewerRequest{});
+    viewers.back().send(watch);
+  }
+  Viewer late(server_->port());
+  const std::string piece(100'000, 'x');
+  EXPECT_TRUE(eventually([&] {
+    fast_->publish(text_message(piece), 1);
+    for (int i = 0; i < 16; ++i)
+      if (i != 5) viewers[i].receive(milliseconds(1));
+    late.send(watch);
+    const auto message = late.receive(milliseconds(1));
+    return message && !message->is_text;
+  }));
+  EXPECT_TRUE(std::any_of(notices_.begin(), notices_.end(), [](const Remark& each) {
+    return each.fact.find("did not read what it watched") != std::string::npos;
+  }));
 }
 
 TEST_F(FoxgloveServerOnLoopback, ALateViewerGetsTheLatchedMessageAndThenWhatIsPublished) {

@@ -127,5 +127,15 @@ std::optional<Viewer::Message> Viewer::receive(std::chrono::milliseconds timeout
 }
 
 bool Viewer::ended() const { return state_->ended; }
+std::string Viewer::why_it_ended() const { return std::string(state_->stream.reason().reason.c_str()); }
+
+struct SilentConnection::State {
+  asio::io_context io;
+  tcp::socket socket{io};
+};
+SilentConnection::SilentConnection(std::uint16_t port) : state_(std::make_unique<State>()) {
+  state_->socket.connect({asio::ip::address_v4::loopback(), port});
+}
+SilentConnection::~SilentConnection() = default;
 
 }  // namespace astro::support

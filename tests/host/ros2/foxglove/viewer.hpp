@@ -34,6 +34,17 @@ std::string answer_to(std::uint16_t port, const std::string& bytes);
 /// the other side has ended the connection.
 void flood(std::uint16_t port, const std::string& text, std::size_t times);
 
+/// A connection on which nothing is said, until it is destroyed.
+class SilentConnection {
+ public:
+  explicit SilentConnection(std::uint16_t port);
+  ~SilentConnection();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
 /// A WebSocket client in tests, on Beast's client side. It reads only when it is asked.
 class Viewer {
  public:
@@ -53,6 +64,8 @@ class Viewer {
   std::optional<Message> receive(std::chrono::milliseconds timeout);
   /// The connection has ended, as the last receive() has seen.
   bool ended() const;
+  /// What the other side said then.
+  std::string why_it_ended() const;
 
  private:
   struct State;

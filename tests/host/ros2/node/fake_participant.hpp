@@ -44,6 +44,7 @@ class FakeWire {
   std::list<WriterEnd> writers;
   std::list<ReaderEnd> readers;
   std::map<Guid, std::string> user_data;  // of endpoints of others
+  std::vector<RemoteEndpoint> others{};
 };
 
 /// Of an endpoint: all bytes are `number`, but for the last, its kind.
@@ -69,7 +70,7 @@ class FakeParticipant : public Participant {
     return std::make_unique<FakeReader>(wire_.readers.back());
   }
   Guid guid() const override { return guid_of(1, kParticipantKind); }
-  std::vector<RemoteEndpoint> remote_endpoints() const override { return {}; }
+  std::vector<RemoteEndpoint> remote_endpoints() const override { return wire_.others; }
   std::string user_data_of(const Guid& endpoint) const override {
     const auto found = wire_.user_data.find(endpoint);
     return found == wire_.user_data.end() ? "" : found->second;

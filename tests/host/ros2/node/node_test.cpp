@@ -71,6 +71,24 @@ TEST_F(NodeOnAFakeWire, MessagesComeInPollUnderTheTypeOfTheirReader) {
   EXPECT_THAT(came, ElementsAre("TwistStamped"));
 }
 
+TEST_F(NodeOnAFakeWire, APublisherOfATypeThatTheNodeDoesNotTakeIsToldOfOnce) {
+  std::vector<std::string> told;
+  node_ = open_node(
+      {{"robot", "/hall"},
+       kLater,
+       [](const std::string&) {},
+       [&](const std::string& topic, const std::string& type) { told.push_back(topic + ' ' + type); }},
+      std::make_unique<dds::FakeParticipant>(wire_));
+  node_->subscribe({"/cmd_vel", message_type<msg::TwistStamped>()}, [](ByteView) {});
+  for (const char* type : {"geometry_msgs::msg::dds_::Twist_", "geometry_msgs::msg::dds_::TwistStamped_"}) {
+    wire_.others.push_back({guid_of(0x71, 3), true, "rt/cmd_vel", type});
+    wire_.others.push_back({guid_of(0x72, 4), false, "rt/cmd_vel", type});  // who only listens
+    wire_.others.push_back({guid_of(0x73, 3), true, "rt/other", type});
+  }
+  node_->poll();
+  EXPECT_THAT(told, ElementsAre("/cmd_vel geometry_msgs/msg/Twist"));
+}
+
 TEST_F(NodeOnAFakeWire, AnUrgentServiceIsAnsweredBetweenOthersThatWaitLonger) {
   std::string order;
   const auto serve = [&](const char* name, bool urgent, const std::function<void()>& work) {
@@ -157,6 +175,34 @@ TEST_F(NodeOnAFakeWire, ServesParametersUnderItsFullNameAndTellsOfChanges) {
   EXPECT_EQ(event->node, "/hall/robot");
   EXPECT_THAT(event->changed_parameters, ElementsAre(msg::Parameter{"b", real(0.25)}));
   EXPECT_GT(event->stamp.sec, 1'700'000'000) << "seconds since 1970";
+}
+
+/// Those of a robot come when it was found and go with it.
+class ChangingTable : public NumbersTable {
+ public:
+  ChangingTable() : NumbersTable({{"b", 0.2}, {"rate", 50}}) {}
+  std::vector<msg::ParameterDescriptor> descriptors() override {
+    auto all = NumbersTable::descriptors();
+    if (!robot) all.erase(all.begin());
+    return all;
+  }
+  bool robot = false;
+};
+
+TEST_F(NodeOnAFakeWire, TellsOfParametersThatComeAndGo) {
+  ChangingTable table;
+  node_->serve_parameters(table);
+  const auto told = [&]() -> std::optional<msg::ParameterEvent> {
+    written("rt/parameter_events").clear();
+    const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+    while (written("rt/parameter_events").empty() && std::chrono::steady_clock::now() < until) node_->poll();
+    return decode<msg::ParameterEvent>(written("rt/parameter_events").at(0).payload);
+  };
+  EXPECT_THAT(told()->new_parameters, ElementsAre(msg::Parameter{"rate", real(50)}));
+  table.robot = true;
+  EXPECT_THAT(told()->new_parameters, ElementsAre(msg::Parameter{"b", real(0.2)}));
+  table.robot = false;
+  EXPECT_THAT(told()->deleted_parameters, ElementsAre(msg::Parameter{"b", {}}));
 }
 
 TEST_F(NodeOnAFakeWire, BadNamesAreRefused) {

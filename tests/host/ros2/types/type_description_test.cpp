@@ -29,6 +29,7 @@ TEST(TypeHash, OfEachMessageIsThatOfRos2) {
   expect_hash<msg::BatteryState>("4bee5dfce981c98faa6828b868307a0a73f992ed0789f374ee96c8f840e69741");
   expect_hash<msg::DiagnosticArray>("5a8a36efb05fb25070fa0fb3810290c0e6cd4862b54a8fb975a1ee8dc55a333e");
   expect_hash<msg::DiagnosticStatus>("b0e3e692ea2d54a8af2f4ef1930e81556a2db55216b771f8a7d2724ed47bf0e4");
+  expect_hash<msg::Clock>("692f7a66e93a3c83e71765d033b60349ba68023a8c689a79e48078bcb5c58564");
   expect_hash<msg::Log>("e28ce254ca8abc06abf92773b74602cdbf116ed34fbaf294fb9f81da9f318eac");
   expect_hash<msg::ParameterEvent>("043e627780fcad87a22d225bc2a037361dba713fca6a6b9f4b869a5aa0393204");
   expect_hash<msg::ParticipantEntitiesInfo<16>>(
