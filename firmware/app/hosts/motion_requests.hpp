@@ -100,6 +100,7 @@ class MotionRequests {
   }
 
   Answer handle(const HostId&, const protocol::Pause&) {
+    if (drives_without_path()) ramp_to_rest();
     const auto hold = board_.hold_tick();
     Drive& drive = state_.get(hold).drive;
     if (!drive.pause()) return not_ready(drive);
@@ -131,8 +132,23 @@ class MotionRequests {
   using ErrorCode = protocol::ErrorCode;
 
   void stop() {
+    end_waiting_segments();
+    ramp_to_rest();
+  }
+  [[gnu::noinline]] void ramp_to_rest() {
+    TwistRamp ramp = begun_ramp_to_rest();
+    ramp.set_target({});
     const auto hold = board_.hold_tick();
-    state_.get(hold).drive.stop();
+    state_.get(hold).drive.stop(ramp);
+  }
+  TwistRamp begun_ramp_to_rest() {
+    const auto hold = board_.hold_tick();
+    return state_.get(hold).drive.ramp_to_rest();
+  }
+  bool drives_without_path() {
+    const auto hold = board_.hold_tick();
+    const Drive& drive = state_.get(hold).drive;
+    return drive.state() == State::driving && drive.mode() != protocol::Mode::segment;
   }
   void end_waiting_segments() {
     const auto hold = board_.hold_tick();

@@ -89,16 +89,22 @@ void Drive::follow_state() {
     case State::driving:
       return;
     default:
-      end_segments();
-      steering_ = Steering::none;
-      paused_ = false;
+      end_steering();
   }
 }
 
+// The ramp starts without acceleration, so a ramp that was still going up goes down at once.
+BodyTwist Drive::start_of_ramp() const {
+  return steering_ == Steering::path ? to_body(geometry_, wheels_.set_points()) : ramp_.value();
+}
+
 void Drive::begin_ramp() {
-  // The ramp starts without acceleration, so a ramp that was still going up goes down at once.
-  ramp_.set(steering_ == Steering::path ? to_body(geometry_, wheels_.set_points()) : ramp_.value());
+  ramp_.set(start_of_ramp());
   ramp_.set_target({});
+  end_steering();
+}
+
+void Drive::end_steering() {
   end_segments();
   steering_ = Steering::none;
   paused_ = false;
@@ -116,15 +122,32 @@ void Drive::raise(Fault fault) {
   follow_state();
 }
 
-void Drive::stop() {
-  if (state() != State::driving) {
-    end_segments();
-    paused_ = false;
-    return;
+bool Drive::request_stop() {
+  if (state() == State::driving) {
+    // No ramp in open loop: a ramp needs the control loop, which would trust wires that are just being tested.
+    return supervisor_.request(steering_ == Steering::open_loop ? Event::rest : Event::stop);
   }
-  // No ramp in open loop: a ramp needs the control loop, which would trust wires that are just being tested.
-  supervisor_.request(steering_ == Steering::open_loop ? Event::rest : Event::stop);
-  follow_state();
+  end_segments();
+  paused_ = false;
+  return false;
+}
+
+void Drive::stop() {
+  if (request_stop()) follow_state();
+}
+
+TwistRamp Drive::ramp_to_rest() const {
+  TwistRamp ramp = ramp_;
+  ramp.set(start_of_ramp());
+  return ramp;
+}
+
+void Drive::stop(const TwistRamp& planned) {
+  if (!request_stop()) return;
+  if (state() != State::stopping) return follow_state();
+  ramp_ = planned;
+  end_steering();
+  state_is_followed();
 }
 
 bool Drive::arm() {
@@ -138,7 +161,7 @@ bool Drive::pause() {
   if (!armed()) return false;
   if (on_path()) {
     follower_.cut_short();
-  } else if (gives_power()) {
+  } else if (state() == State::driving) {
     stop();
   }
   paused_ = true;

@@ -78,6 +78,12 @@ class Drive {
   /// Sets the ramp's target to `twist`, reduced to the limits.
   static void aim(TwistRamp& ramp, const BodyTwist& twist, const MotionLimits& limits);
   bool drive_velocity(const TwistRamp& planned);
+
+  // So does the ramp to rest. These replace stop(); between them the caller sets the target of the ramp to zero.
+
+  TwistRamp ramp_to_rest() const;
+  void stop(const TwistRamp& planned);
+
   /// Does the longest part of drive_velocity() beforehand, so that each hold is short: ends the segments that
   /// wait in the queue, unless drive_velocity() would be refused.
   void drop_waiting();
@@ -123,7 +129,10 @@ class Drive {
   bool on_path() const { return steering_ == Steering::path && state() == State::driving; }
   void follow_state();
   void state_is_followed() { seen_ = state(); }
+  BodyTwist start_of_ramp() const;
   void begin_ramp();
+  void end_steering();
+  bool request_stop();
   void end_segments();
   void end_waiting();
   void start_path();

@@ -109,6 +109,11 @@ void TickHeld::expect_short_holds(std::int32_t e_30) {
   ask_whatever("stopping");
   pump(2s, "stopping");
 
+  ask(protocol::Arm{}, "armed");
+  ask(protocol::Velocity{300'000, 100'000}, "armed");
+  ask(protocol::Pause{}, "velocity");
+  pump(2s, "stopping");
+  ask(protocol::Resume{}, "paused");
   for (int i = 0; i < 16; ++i) ask(robot::line(0.2).front(), "path");
   pump(300ms, "path");
   ask_whatever("path");
@@ -117,8 +122,12 @@ void TickHeld::expect_short_holds(std::int32_t e_30) {
   ask(protocol::Resume{}, "paused");
   pump(200ms, "path");
   ask(protocol::Velocity{100'000, -100'000}, "path");
-  ask(protocol::Stop{}, "velocity");
+  ask(protocol::Rest{}, "velocity");
   pump(2s, "stopping");
+  for (int i = 0; i < 16; ++i) ask(robot::line(0.2).front(), "path");
+  ask(protocol::Stop{}, "path");
+  pump(2s, "stopping");
+  ask(protocol::Arm{}, "armed");
   for (int i = 0; i < 16; ++i) ask(robot::line(0.2).front(), "path");
   ask(protocol::Disarm{}, "path");
   ask(protocol::Arm{}, "disarmed");

@@ -175,7 +175,7 @@ TEST_F(Parameters, OfTheRobotAreListedAsSoonAsItIsThereAndThoseOfTheNodeBefore) 
   RobotOnRos late;
   late.cable.pull();
   late.run_ms(1000);
-  EXPECT_EQ(late.ros.parameters->descriptors().size(), 7);
+  EXPECT_EQ(late.ros.parameters->descriptors().size(), 8);
   EXPECT_EQ(late.ros.parameters->value("publish_rate").value().double_value, 50);
   late.cable.plug_in();
   EXPECT_TRUE(late.run_until([&] { return late.ros.parameters->descriptors().size() > 40; }, 500));
@@ -184,7 +184,7 @@ TEST_F(Parameters, OfTheRobotAreListedAsSoonAsItIsThereAndThoseOfTheNodeBefore) 
 TEST_F(Parameters, WithoutARobotOnlyThoseOfTheNodeAreThere) {
   bench.cable.pull();
   bench.run_ms(100);
-  EXPECT_EQ(table().descriptors().size(), 7);
+  EXPECT_EQ(table().descriptors().size(), 8);
   EXPECT_FALSE(table().value("c_R"));
   EXPECT_FALSE(set({{"c_R", to_parameter(1.0)}}).successful);
 }

@@ -119,7 +119,7 @@ class Obliging : public testing::Test {
   }
 
   RobotOnRos bench{RobotOnRos::quiet(), [] {
-                     DriverOptions options;
+                     DriverOptions options = RobotOnRos::of_both_types();
                      options.velocities_after_stop = true;
                      return options;
                    }()};
