@@ -17,7 +17,7 @@ set(format_constants
   "host/simulation/server/pty.cpp:astrolabe-pty-{:016x}"  # the lock of a simulated port
   "host/simulation/server/truth_server.cpp:astrolabe-mocap 1\\n"
   "host/simulation/study/shard_file.cpp:astrolabe study 3"
-  "host/truth/film/video/frame_stream.cpp:-i"              # arguments of ffmpeg
+  "host/truth/film/video/film_info.cpp:-i"                # arguments of ffmpeg
   "host/truth/film/video/frame_stream.cpp:-f"
   "host/truth/live/socket_source.cpp:astrolabe-mocap 1")
 
