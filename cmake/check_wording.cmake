@@ -14,10 +14,10 @@ set(format_constants
   "host/robot/port/ports.cpp:astrolabe-"                  # the folder of simulated ports
   "host/robot/sharing/port_socket.cpp:astrolabe-"         # the socket of a shared port
   "host/robot/sharing/relay_server.cpp:astrolabe-relay"   # the thread's name, as `ps` and debuggers show it
-  "host/simulation/server/pty.cpp:astrolabe-pty-{:016x}"  # the lock of a simulated port
+  "host/simulation/server/path_claim.cpp:astrolabe-pty-{:016x}"  # the lock of a simulated port
   "host/simulation/server/truth_server.cpp:astrolabe-mocap 1\\n"
   "host/simulation/study/shard_file.cpp:astrolabe study 3"
-  "host/truth/film/video/frame_stream.cpp:-i"              # arguments of ffmpeg
+  "host/truth/film/video/film_info.cpp:-i"                # arguments of ffmpeg
   "host/truth/film/video/frame_stream.cpp:-f"
   "host/truth/live/socket_source.cpp:astrolabe-mocap 1")
 

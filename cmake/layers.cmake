@@ -79,7 +79,7 @@ set(ASTRO_LAYERS
   "host/truth/files             : host/base host/truth/manual host/truth/source"
   "host/truth/film/camera       : host/truth/film/tags"
   "host/truth/film/preview      : host/truth/film/camera host/truth/film/track host/truth/film/video"
-  "host/truth/film/tags         : host/truth/film/video"
+  "host/truth/film/tags         : host/base host/truth/film/video"
   "host/truth/film/track        : host/base host/truth/film/camera host/truth/film/tags host/truth/film/video"
   "host/truth/film/video        : host/base"
   "host/truth/floor             : host/base host/calibration/clock host/calibration/motion host/recording/run host/truth/files host/truth/source"

@@ -12,7 +12,7 @@ Board::Board(const Config& config)
       motors_(config.wiring),
       battery_(config),
       flash_(config.flash),
-      system_(config.seed, clock_, motors_),
+      system_(identity_of(config), clock_, motors_),
       drivetrain_(config),
       slip_{Slip(config.seed, at(Side::left), config.slip_m),
             Slip(config.seed, at(Side::right), config.slip_m)},

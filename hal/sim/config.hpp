@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "hal/sim/noise.hpp"
+
 /// A simulated robot: its geometry as designed and as built, its noise, its wiring, its supply.
 namespace astro::sim {
 
@@ -69,8 +71,9 @@ struct Config {
   // thesis.
   double slip_m = 2.645e-6;
   double restart_slip_rad =
-      0.0;                 // jump of the heading when the robot starts after a spin and a second's stand
-  std::uint64_t seed = 1;  // also decides the board's unique id
+      0.0;  // jump of the heading when the robot starts after a spin and a second's stand
+  std::uint64_t seed = 1;
+  std::uint64_t serial_number = 0;  // with the seed it decides the board's unique id
 
   // Motor supply seen from the H-bridges: battery, regulator and leads as one source with one resistance.
   double supply_V = 12.0;
@@ -90,6 +93,12 @@ struct Geometry {
 constexpr Geometry true_geometry(const Config& config) {
   const double left_m = 2.0 * config.scale * config.nominal_diameter_m / (1.0 + config.true_ed);
   return {{left_m, config.true_ed * left_m}, config.true_wheelbase_m, config.true_e, config.true_kappa0};
+}
+
+/// What decides the board's unique id.
+constexpr std::uint64_t identity_of(const Config& config) {
+  constexpr std::uint64_t kSerialStream = 0x5E;
+  return config.serial_number == 0 ? config.seed : hash(config.seed, kSerialStream, config.serial_number);
 }
 
 }  // namespace astro::sim

@@ -26,9 +26,10 @@ class Clock {
 /// enter_bootloader() coast and leave a request that the owner of the board takes.
 class System {
  public:
-  System(std::uint64_t seed, const Clock& clock, Motors& motors) : clock_(clock), motors_(motors) {
+  /// `identity`: what decides the unique id.
+  System(std::uint64_t identity, const Clock& clock, Motors& motors) : clock_(clock), motors_(motors) {
     for (std::size_t i = 0; i < id_.size(); ++i)
-      id_[i] = static_cast<std::uint8_t>(hash(seed, kIdStream, i / 8) >> (i % 8 * 8));
+      id_[i] = static_cast<std::uint8_t>(hash(identity, kIdStream, i / 8) >> (i % 8 * 8));
   }
 
   std::array<std::uint8_t, 16> unique_id() noexcept { return id_; }

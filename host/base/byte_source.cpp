@@ -9,16 +9,18 @@
 #include <system_error>
 #include <utility>
 
-#include "host/base/error.hpp"
 #include "host/base/files.hpp"
+#include "host/base/system_error.hpp"
 
 namespace astro {
 namespace {
 
 constexpr std::size_t kWindowBytes = std::size_t{1} << 20;
 
-[[noreturn]] void cannot_read(const std::filesystem::path& path, const std::string& why) {
-  throw Error("cannot read " + path.string() + ": " + why, {Help::check_path});
+std::string cannot_read(const std::filesystem::path& path) { return "cannot read " + path.string(); }
+
+[[noreturn]] void fail(const std::filesystem::path& path, int code) {
+  throw system_error(cannot_read(path), code, {Help::check_permissions_and_disk});
 }
 
 }  // namespace
@@ -27,11 +29,11 @@ FileSource::FileSource(std::filesystem::path path) : path_(std::move(path)) {
   require_file(path_);
   // O_NONBLOCK: opening a pipe that nobody writes to must not wait.
   descriptor_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (descriptor_ < 0) cannot_read(path_, std::generic_category().message(errno));
+  if (descriptor_ < 0) fail(path_, errno);
   struct stat status {};
   if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) {
     ::close(descriptor_);
-    cannot_read(path_, "it is not a regular file");
+    throw Error(cannot_read(path_) + ": it is not a regular file", {Help::check_path});
   }
   size_ = static_cast<std::uint64_t>(status.st_size);
 }
@@ -49,7 +51,8 @@ ByteView FileSource::read(std::uint64_t offset, std::size_t count) {
       if (got < 0 && errno == EINTR) continue;
       if (got <= 0) {
         window_.clear();
-        cannot_read(path_, got < 0 ? std::generic_category().message(errno) : "it became shorter");
+        if (got < 0) fail(path_, errno);
+        throw Error(cannot_read(path_) + ": it became shorter", {Help::check_path});
       }
       done += static_cast<std::size_t>(got);
     }

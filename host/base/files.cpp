@@ -12,13 +12,13 @@
 #include <system_error>
 #include <utility>
 
+#include "host/base/byte_source.hpp"
 #include "host/base/error.hpp"
+#include "host/base/system_error.hpp"
 
 namespace astro {
 namespace fs = std::filesystem;
 namespace {
-
-std::string reason(int code) { return std::generic_category().message(code); }
 
 fs::path part_of(fs::path path) { return path += ".part"; }
 
@@ -46,6 +46,23 @@ void sync_folder(const fs::path& folder) {
   ::close(descriptor);
 }
 
+/// The whole file, of which `judge` sees each block, and what was read before it, before it is added.
+template <class Judge>
+Bytes loaded(const fs::path& path, std::uintmax_t most_bytes, const Judge& judge) {
+  constexpr std::uint64_t kBlock = std::uint64_t{1} << 20;
+  FileSource file(path);
+  if (file.size() > most_bytes) throw too_large(path, file.size(), most_bytes);
+  Bytes bytes;
+  while (bytes.size() < file.size()) {
+    const ByteView block =
+        file.read(bytes.size(), static_cast<std::size_t>(std::min(file.size() - bytes.size(), kBlock)));
+    judge(block, bytes);
+    if (bytes.empty()) bytes.reserve(static_cast<std::size_t>(file.size()));  // of what begins as it should
+    append(bytes, block);
+  }
+  return bytes;
+}
+
 }  // namespace
 
 void require_file(const fs::path& path) {
@@ -65,20 +82,24 @@ void require_file(const fs::path& path) {
 }
 
 Bytes load_file(const fs::path& path, std::uintmax_t most_bytes) {
-  require_file(path);
-  std::error_code error;
-  const std::uintmax_t size = fs::file_size(path, error);
-  if (error) throw Error("cannot read " + path.string() + ": " + error.message());
-  if (size > most_bytes) throw too_large(path, size, most_bytes);
+  return loaded(path, most_bytes, [](ByteView, const Bytes&) {});
+}
 
-  Bytes bytes(static_cast<std::size_t>(size));
-  std::ifstream file(path, std::ios::binary);
-  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!file.is_open() || file.bad()) {
-    throw Error("cannot read " + path.string(), {Help::check_permissions_and_disk});
-  }
-  bytes.resize(static_cast<std::size_t>(file.gcount()));  // a file that shrank meanwhile
-  return bytes;
+Bytes load_text(const fs::path& path, std::size_t longest_line) {
+  std::size_t line_begin = 0;  // of the last line by now
+  return loaded(path, kMaxFileBytes, [&](ByteView block, const Bytes& before) {
+    const std::string_view text = as_text(block);
+    if (const std::size_t zero = text.find('\0'); zero != text.npos)
+      throw Error(
+          path.string() + " is not plain text: byte " + std::to_string(before.size() + zero + 1) + " is zero",
+          {Help::save_as_csv});
+    if (const std::size_t end = text.find_last_of("\r\n"); end != text.npos)
+      line_begin = before.size() + end + 1;
+    if (before.size() + block.size() - line_begin > longest_line)
+      throw Error(path.string() + " is no table: from byte " + std::to_string(line_begin + 1) +
+                      " on, a line has more than " + std::to_string(longest_line) + " bytes",
+                  {Help::save_as_csv});
+  });
 }
 
 void require_own_kind(const fs::path& path, std::string_view mark, const std::string& kind) {
@@ -160,8 +181,9 @@ Remark PartFile::why_not(const std::string& what) const {
   if (errno == ELOOP)
     return {part_.string() + " is a link, and nothing is written through one",
             {Help::remove_or_name_other_file}};
-  return {"cannot " + what + " " + part_.string() + ": " + reason(errno),
-          {Help::check_disk_or_use_other_folder}};
+  const Error why =
+      system_error("cannot " + what + " " + part_.string(), errno, {Help::check_disk_or_use_other_folder});
+  return {why.what(), why.remedy()};
 }
 
 void PartFile::fail(const std::string& what) const { throw Error(why_not(what)); }

@@ -21,6 +21,11 @@ void require_file(const std::filesystem::path& path);
 /// `most_bytes`.
 Bytes load_file(const std::filesystem::path& path, std::uintmax_t most_bytes = kMaxFileBytes);
 
+/// The same of text. What is none is refused where that shows first, before the rest is read: at a NUL byte (UTF-16, a hole in a
+/// sparse file), or in a line of more than kLongestLine bytes. `longest_line`: other than that of a table.
+inline constexpr std::size_t kLongestLine = std::size_t{1} << 20;
+Bytes load_text(const std::filesystem::path& path, std::size_t longest_line = kLongestLine);
+
 /// Before a file is replaced that may be a person's own. Throws astro::Error if there is a file at `path` that is not empty
 /// and does not contain `mark`, which all files contain, near their beginning, that this program writes there; `kind` names
 /// them ("report").

@@ -8,7 +8,7 @@
 #include <string>
 #include <system_error>
 
-#include "host/base/error.hpp"
+#include "host/base/system_error.hpp"
 
 namespace astro {
 
@@ -17,8 +17,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder, error);
   if (error) throw Error("cannot make the folder " + folder.string() + ": " + error.message());
   descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor_ < 0)
-    throw Error("cannot open the folder " + folder.string() + ": " + std::generic_category().message(errno));
+  if (descriptor_ < 0) throw system_error("cannot open the folder " + folder.string(), errno);
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   ::close(descriptor_);
   throw Error("another program records into '" + folder.string() + "'", {Help::wait_or_name_other_folder});

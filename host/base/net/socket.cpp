@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "host/base/error.hpp"
+#include "host/base/system_error.hpp"
 
 namespace astro::net {
 namespace {
@@ -32,6 +33,8 @@ bool poll_for(const Socket& socket, short events, microseconds timeout) {
 
 Socket open_socket(int family, int type) {
   Socket socket(::socket(family, type | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  // Whatever is at the other end, it does not help to try again, or elsewhere.
+  if (!socket && (errno == EMFILE || errno == ENFILE)) throw system_error("no socket can be opened", errno);
   const int kept_bytes = 1 << 20;  // of datagrams that come while nobody reads
   if (type == SOCK_DGRAM)
     ::setsockopt(socket.descriptor(), SOL_SOCKET, SO_RCVBUF, &kept_bytes, sizeof kept_bytes);
@@ -60,8 +63,8 @@ std::string numeric(const Address& address, int flag) {
 }
 
 [[noreturn]] void fail_bound(const Address& local) {
-  throw Error("port " + std::to_string(local.port()) + " of " + local.host() +
-              " cannot be used: " + std::strerror(errno));
+  throw system_error("port " + std::to_string(local.port()) + " of " + local.host() + " cannot be used",
+                     errno);
 }
 
 Socket open_bound(const Address& local, int type) {
@@ -189,8 +192,7 @@ Socket join_multicast(const std::array<std::uint8_t, 4>& group, std::uint16_t po
   membership.imr_interface = reinterpret_cast<const sockaddr_in*>(&local.storage)->sin_addr;
   if (!socket || local.storage.ss_family != AF_INET || ::bind(socket.descriptor(), at.get(), at.size) != 0 ||
       ::setsockopt(socket.descriptor(), IPPROTO_IP, IP_ADD_MEMBERSHIP, &membership, sizeof membership) != 0)
-    throw Error("the multicast group " + at.host() + " cannot be joined at " + local.host() + ": " +
-                std::strerror(errno));
+    throw system_error("the multicast group " + at.host() + " cannot be joined at " + local.host(), errno);
   return socket;
 }
 
@@ -206,7 +208,7 @@ std::optional<Accepted> accept_tcp(const Socket& listener) {
 Socket connect_udp(const Address& to) {
   Socket socket = open_socket(to.storage.ss_family, SOCK_DGRAM);
   if (!socket || ::connect(socket.descriptor(), to.get(), to.size) != 0)
-    throw Error(to.host() + " cannot be reached: " + std::strerror(errno));
+    throw system_error(to.host() + " cannot be reached", errno);
   return socket;
 }
 

@@ -29,13 +29,9 @@ struct EndPosesOptions {
   MethodOption method;
 };
 
-std::string read_text(const fs::path& path) {
-  const Bytes bytes = load_file(path);
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 std::vector<calibration::EndPose> end_poses(const fs::path& file, double side_m) {
-  const std::vector<calibration::EndPose> poses = calibration::read_end_poses(read_text(file), file.string());
+  const std::vector<calibration::EndPose> poses =
+      calibration::read_end_poses(as_text(load_text(file)), file.string());
   for (const calibration::EndPose& pose : poses)
     if (const double off_m = std::hypot(pose.x_m, pose.y_m); side_m > 0 && off_m > side_m)
       throw Error(fmt::format(

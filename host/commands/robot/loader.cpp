@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "host/base/error.hpp"
+#include "host/base/system_error.hpp"
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
 #include "host/robot/motion/drive.hpp"
@@ -51,7 +52,7 @@ class LoaderProcess {
  public:
   explicit LoaderProcess(std::array<std::string, 5> words) {
     std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw Error("no pipe for the loader: too many files are open");
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw system_error("no pipe for the loader can be made", errno);
     std::array<char*, 6> arguments{};
     for (std::size_t i = 0; i < words.size(); ++i) arguments[i] = words[i].data();
     posix_spawn_file_actions_t actions;
@@ -64,7 +65,9 @@ class LoaderProcess {
     words_ = ends[0];
     if (failure == 0) return;
     close(words_);
-    throw Error(fmt::format("'{}' cannot be run: is it a program?", words[0]));
+    if (failure == ENOEXEC || failure == EACCES)
+      throw Error(fmt::format("'{}' cannot be run: is it a program?", words[0]));
+    throw system_error(fmt::format("'{}' cannot be run", words[0]), failure);
   }
   ~LoaderProcess() {
     close(words_);

@@ -138,7 +138,10 @@ void add_robot_options(console::Command command, sim::Config& robot) {
       command, "--restart-slip", robot.restart_slip_rad,
       "unseen turn when the robot starts after a spin and a stand of 1 s or more, in the sense of the spin",
       "RAD", -0.1, 0.1, "rad");
-  command.add_option("--seed", robot.seed, "seed of all noise; also decides the robot's unique id")
+  command
+      .add_option(
+          "--seed", robot.seed,
+          "seed of all noise; with the path of --flash, or else of --pty, it decides the robot's unique id")
       .type_name("N")
       .capture_default_str()
       .check(console::whole(0, std::numeric_limits<std::uint64_t>::max()));
@@ -199,6 +202,16 @@ void add_tracker_options(console::Command command, simulation::NetworkTrackerCon
                    "what goes to the network goes also to other computers");
 }
 
+/// The same at every start, and another one for each robot: it is where the robot keeps its parameters, or else where it is.
+std::uint64_t serial_number_of(const simulation::ServerConfig& server) {
+  const fs::path& place = server.flash.empty() ? server.pty : server.flash;
+  const fs::path folder = fs::weakly_canonical(fs::absolute(place).parent_path());
+  std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a
+  for (const char c : (folder / place.filename()).string())
+    hash = (hash ^ static_cast<std::uint8_t>(c)) * 0x100000001b3;
+  return hash;
+}
+
 }  // namespace
 
 // Wheels and wheelbase have the errors of the robot of the reference measurements.
@@ -221,6 +234,7 @@ void prepare(SimOptions& options, std::size_t flash_bytes) {
   check_folder("--pty", options.server.pty);
   check_folder("--usb-pty", options.server.second_pty);
   check_flash(options.server.flash, flash_bytes);
+  options.robot.serial_number = serial_number_of(options.server);
   remove_dead_link(options.server.pty);
   remove_dead_link(options.server.second_pty);
 }

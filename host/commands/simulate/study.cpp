@@ -7,6 +7,7 @@
 #include <optional>
 #include <thread>
 
+#include "host/base/byte_source.hpp"
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
 #include "host/base/text/degrees.hpp"
@@ -169,8 +170,14 @@ void run(StudyOptions& options) {
 }
 
 simulation::study::ShardFile load(const fs::path& path) {
-  const Bytes bytes = load_file(path);
-  return simulation::study::read_shard_file({reinterpret_cast<const char*>(bytes.data()), bytes.size()},
+  constexpr std::uint64_t kBeginning = 4096;
+  FileSource file(path);
+  const auto beginning = as_text(file.read(0, static_cast<std::size_t>(std::min(file.size(), kBeginning))));
+  // What is no text shows that it is no shard.
+  if (beginning.find('\0') != beginning.npos)
+    return simulation::study::read_shard_file(std::string(beginning), path.string());
+  // JSON may be one line.
+  return simulation::study::read_shard_file(std::string(as_text(load_text(path, kMaxFileBytes))),
                                             path.string());
 }
 

@@ -15,7 +15,7 @@ constexpr Cycles cycles(std::chrono::nanoseconds time) { return static_cast<Cycl
 
 Teensy::Teensy(const std::filesystem::path& hex, const sim::Config& robot, HandOver hand_over)
     : chip_(hand_over),
-      ocotp_(chip_, static_cast<std::uint32_t>(robot.seed)),
+      ocotp_(chip_, static_cast<std::uint32_t>(sim::identity_of(robot))),
       world_(chip_, robot, {pwm_, gpio7_, encoder_wires_, adc_, iomuxc_}) {
   const FirmwareImage image = read_firmware_image(hex);
   std::copy(image.flash.begin(), image.flash.end(), chip_.memory().flash().begin());

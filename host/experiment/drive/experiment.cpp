@@ -66,19 +66,13 @@ class Session {
     announced_ = false;
     if (open_ended(plan, phase)) drive_until_enough(phase, *plan.until);
     const std::vector<RunSpec> specs = runs_of_phase(plan, phase, squares_in_phase(folder_, plan, phase));
-    if (!is_over(phase)) entered_.look_back(specs);
+    if (!is_over(journal_, phase)) entered_.look_back(specs);
     drive_missing(specs);
-  }
-
-  /// Whether the next phase has begun, with other factors in the robot.
-  bool is_over(std::size_t phase) const {
-    const std::vector<std::string> names = phase_names(journal_.plan);
-    return phase + 1 < names.size() && journal_.loaded.contains(names[phase + 1]);
   }
 
   void drive_until_enough(std::size_t phase, const Until& until) {
     const Plan& plan = journal_.plan;
-    if (is_over(phase)) return;  // an earlier session reached the precision
+    if (is_over(journal_, phase)) return;  // an earlier session reached the precision
     for (int squares = squares_in_phase(folder_, plan, phase);; ++squares) {
       const std::vector<RunSpec> specs = squares_of_phase(plan, phase, squares);
       drive_missing(specs);
@@ -148,6 +142,7 @@ class Session {
       run = drive(spec, parameters);
     }
     if (!entered_.keep(spec, run)) return false;
+    require_usable(folder_, journal_, spec, run);
     hooks_.run_finished(spec, run);
     if (truth_.comes_afterwards()) last = spec;
     return true;
@@ -223,6 +218,8 @@ class Session {
     const Plan& plan = journal_.plan;
     current_.read(runs_of_phase(plan, phase, squares_in_phase(folder_, plan, phase)));
     finished_.push_back(current_.recordings());
+    results_of(journal_, finished_,
+               found_);  // what the report cannot use is an error now, before the next phase
   }
 
   /// False if the experiment ends here, because the robot keeps what it carries.

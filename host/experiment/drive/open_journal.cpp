@@ -1,16 +1,88 @@
 #include "host/experiment/drive/open_journal.hpp"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "host/base/error.hpp"
 #include "host/base/utc.hpp"
+#include "host/experiment/analysis/squares.hpp"
+#include "host/experiment/drive/record_run.hpp"
+#include "host/experiment/files/experiment_folder.hpp"
 #include "host/experiment/files/robot_identity.hpp"
+#include "host/experiment/files/same_number.hpp"
+#include "host/recording/files/run_file.hpp"
+#include "host/recording/run/end_error.hpp"
+#include "host/recording/run/run_metadata.hpp"
 #include "host/robot/client/handshake.hpp"
 
 namespace astro::experiment {
 namespace {
 
-void require_same(const std::filesystem::path& folder, const Journal& journal, const Plan& plan,
+namespace fs = std::filesystem;
+
+/// `fact`: what is wrong with a recording.
+Error cannot_go_on(const Journal& journal, std::size_t phase, const fs::path& file, const std::string& fact) {
+  if (!is_over(journal, phase)) return Error(fact, {Help::drive_run_again, file.string()});
+  return Error(
+      fact +
+          "; unless a whole copy takes its place, the experiment cannot go on, because the robot got "
+          "other factors since that run",
+      {Help::choose_other_out_folder});
+}
+
+/// "" if the recording is of this run.
+std::string why_other_run(const Journal& journal, const RunSpec& spec, const recording::RunInfo& info) {
+  const recording::RunInfo expected = info_of(journal.plan, spec);
+  if (info.phase != spec.phase || info.kind != spec.kind || info.direction != spec.direction ||
+      info.index != spec.index || !same_number(info.size_m, expected.size_m))
+    return "is of another run: " + recording::run_name(info);
+  if (const std::string other =
+          different_robots("it", identity_of(info), "the experiment", {journal.robot_name, journal.robot_id});
+      !other.empty())
+    return "is of another robot: " + other;
+  const auto loaded = journal.loaded.find(spec.phase);
+  if (loaded != journal.loaded.end() && !same_factors(loaded->second, loaded_factors(info)))
+    return "was driven with other factors than those with which its phase began";
+  return "";
+}
+
+void require_recorded(const fs::path& folder, const Journal& journal, std::size_t phase,
+                      const RunSpec& spec) {
+  const fs::path file = file_of(folder, spec), driven = file_without_truth(folder, spec);
+  if (fs::exists(file)) {
+    try {
+      require_usable(folder, journal, spec, recording::read_run(file));
+    } catch (const Error& error) {
+      throw cannot_go_on(journal, phase, file, error.what());
+    }
+  } else if (is_over(journal, phase)) {
+    throw cannot_go_on(journal, phase, file, "'" + file.string() + "' is missing");
+  } else if (fs::exists(driven)) {
+    if (const std::string warning = recording::read_run(driven).warning; !warning.empty())
+      throw cannot_go_on(journal, phase, driven, warning);
+  }
+}
+
+/// The squares of a phase, those behind a gap included.
+int last_recorded_square(const fs::path& folder, const Plan& plan, std::size_t phase) {
+  if (!open_ended(plan, phase)) return plan.runs;
+  int last = squares_in_phase(folder, plan, phase);
+  for (int index = last + 1; index <= plan.until->most; ++index)
+    for (const RunSpec& spec : squares_of_phase(plan, phase, index))
+      if (spec.index == index && fs::exists(file_of(folder, spec))) last = index;
+  return last;
+}
+
+void require_recorded(const fs::path& folder, const Journal& journal) {
+  for (std::size_t phase = 0; phase < phase_names(journal.plan).size(); ++phase) {
+    const int squares = last_recorded_square(folder, journal.plan, phase);
+    for (const RunSpec& spec : runs_of_phase(journal.plan, phase, squares))
+      require_recorded(folder, journal, phase, spec);
+  }
+}
+
+void require_same(const fs::path& folder, const Journal& journal, const Plan& plan,
                   const RobotIdentity& identity) {
   Plan same = plan;
   // Nobody chooses these, and an experiment that an older version began goes on with its own.
@@ -27,12 +99,33 @@ void require_same(const std::filesystem::path& folder, const Journal& journal, c
 
 }  // namespace
 
-Journal open_journal(const std::filesystem::path& folder, const Plan& plan, const robot::Client& client) {
+bool is_over(const Journal& journal, std::size_t phase) {
+  const std::vector<std::string> names = phase_names(journal.plan);
+  return phase + 1 < names.size() && journal.loaded.contains(names[phase + 1]);
+}
+
+void require_usable(const fs::path& folder, const Journal& journal, const RunSpec& spec,
+                    const recording::Run& run) {
+  const fs::path file = file_of(folder, spec);
+  const Remedy again{Help::drive_run_again, file.string()};
+  if (!run.warning.empty()) throw Error(run.warning, again);
+  if (const std::string why = why_other_run(journal, spec, run.info); !why.empty())
+    throw Error(file.string() + " " + why, again);
+  if (spec.kind != "square" || (journal.plan.truth == "film" && run.truth.empty())) return;
+  try {
+    recording::ends_of(run);
+  } catch (const Error& error) {
+    throw Error(fmt::format("{} cannot be used: {}", file.string(), error.what()), again);
+  }
+}
+
+Journal open_journal(const fs::path& folder, const Plan& plan, const robot::Client& client) {
   const protocol::HelloReply& robot = client.robot();
   const RobotIdentity identity = identity_of(robot);
   if (has_journal(folder)) {
     Journal journal = read_journal(folder);
     require_same(folder, journal, plan, identity);
+    require_recorded(folder, journal);
     return journal;
   }
   Journal journal;

@@ -21,7 +21,7 @@ bool is_packed_text(const fs::path& path) {
 }
 
 Bytes text_of_file(const fs::path& path) {
-  if (!is_packed_text(path)) return load_file(path);
+  if (!is_packed_text(path)) return load_text(path);
   FileSource file(path);
   return truth::unpacked(file, path.string());
 }

@@ -6,10 +6,12 @@
 #include <filesystem>
 #include <new>
 #include <string>
+#include <system_error>
 
 #include "common/base/version.hpp"
 #include "host/base/error.hpp"
 #include "host/base/interrupted.hpp"
+#include "host/base/system_error.hpp"
 #include "host/commands/base/remedies.hpp"
 #include "host/commands/calibrate/commands.hpp"
 #include "host/commands/drive/commands.hpp"
@@ -55,6 +57,11 @@ int run(int argc, char** argv) {
   return code;
 }
 
+/// A thread, a descriptor, a socket of a library.
+std::string refused_by_system(const std::system_error& error) {
+  return "the system refuses what this program needs: " + astro::system_reason(error.code().value());
+}
+
 /// The terminate handler, for exceptions where none may pass, for example inside the standard library's
 /// folder iterator. It prints the same as main() would, and leaves no core file. An armed robot stops by its
 /// own time-out.
@@ -64,6 +71,8 @@ int run(int argc, char** argv) {
     std::fputs("astrolabe: this should not have happened, please report it: it ended itself\n", stderr);
   } catch (const std::bad_alloc&) {
     complain_without_memory(kNoMemory);
+  } catch (const std::system_error& error) {
+    complain(refused_by_system(error));
   } catch (const std::exception& error) {
     complain(std::string("this should not have happened, please report it: ") + error.what());
   } catch (...) {
@@ -91,6 +100,9 @@ int main(int argc, char** argv) {
     return kFailed;
   } catch (const std::filesystem::filesystem_error& error) {
     complain(in_words(error));
+    return kFailed;
+  } catch (const std::system_error& error) {
+    complain(refused_by_system(error));
     return kFailed;
   } catch (const std::bad_alloc&) {
     complain_without_memory(kNoMemory);

@@ -6,8 +6,10 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/local/stream_protocol.hpp>
 #include <boost/asio/posix/stream_descriptor.hpp>
+#include <boost/system/system_error.hpp>
 #include <thread>
 
+#include "host/base/system_error.hpp"
 #include "host/base/text/numbers.hpp"
 #include "host/robot/port/serial_port.hpp"
 #include "host/robot/port/stream_transport.hpp"
@@ -25,14 +27,21 @@ constexpr microseconds kReopenPause = milliseconds(50);
 
 template <class Stream>
 StreamTransport<Stream>::StreamTransport(std::string name, Opener open, Sentences sentences)
-    : name_(std::move(name)),
-      open_(std::move(open)),
-      sentences_(std::move(sentences)),
-      stream_(open_(context_)) {}
+    : name_(std::move(name)), open_(std::move(open)), sentences_(std::move(sentences)), stream_(opened()) {}
 
 template <class Stream>
 microseconds StreamTransport<Stream>::now() const {
   return std::chrono::duration_cast<microseconds>(std::chrono::steady_clock::now().time_since_epoch());
+}
+
+/// Asio has descriptors of its own, and throws its own exception if it gets none.
+template <class Stream>
+Stream StreamTransport<Stream>::opened() {
+  try {
+    return open_(context_);
+  } catch (const boost::system::system_error& error) {
+    throw system_error("no connection to " + name_ + " can be made", error.code().value());
+  }
 }
 
 template <class Stream>
@@ -100,7 +109,7 @@ void StreamTransport<Stream>::reopen(microseconds timeout) {
   if (reopened_) pause(std::min(*reopened_ + kReopenPause - now(), timeout));
   while (true) {
     try {
-      stream_.emplace(open_(context_));
+      stream_.emplace(opened());
       reopened_ = now();
       return;
     } catch (const Error&) {

@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "host/base/error.hpp"
+#include "host/base/system_error.hpp"
 #include "host/robot/port/serial_port.hpp"
 #include "host/robot/port/terminal_user.hpp"
 
@@ -22,6 +23,8 @@ std::vector<fs::path> entries(const fs::path& folder) {
   std::vector<fs::path> paths;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) paths.push_back(entry.path());
+  if (error == std::errc::too_many_files_open || error == std::errc::too_many_files_open_in_system)
+    throw system_error("the folder '" + folder.string() + "' cannot be listed", error.value());
   std::sort(paths.begin(), paths.end());
   return paths;
 }
@@ -55,8 +58,8 @@ fs::path runtime_folder() {
 fs::path make_runtime_folder() {
   const fs::path folder = runtime_folder();
   if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
-    throw Error("the folder '" + folder.string() + "' cannot be made: " + std::strerror(errno),
-                {Help::set_runtime_folder});
+    throw system_error("the folder '" + folder.string() + "' cannot be made", errno,
+                       {Help::set_runtime_folder});
   struct stat about {};
   if (::lstat(folder.c_str(), &about) != 0 || !S_ISDIR(about.st_mode) || about.st_uid != ::geteuid())
     throw Error("'" + folder.string() + "' is not a folder of this user", {Help::set_runtime_folder});

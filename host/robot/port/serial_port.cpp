@@ -15,6 +15,7 @@
 #include <cstring>
 
 #include "host/base/error.hpp"
+#include "host/base/system_error.hpp"
 #include "host/robot/port/descriptor.hpp"
 #include "host/robot/port/ports.hpp"
 
@@ -28,10 +29,18 @@ std::string ports_here() {
   return list.empty() ? "no serial port and no simulator is here" : "here are " + list;
 }
 
+bool is_link(const std::string& path) {
+  struct stat about {};
+  return ::lstat(path.c_str(), &about) == 0 && S_ISLNK(about.st_mode);
+}
+
 Remark why_not_open(const std::string& path, int error) {
+  constexpr const char* kNothingBehind =
+      " has nothing behind it: the device was unplugged or its simulator has ended";
   switch (error) {
     case ENOENT:
     case ENOTDIR:
+      if (is_link(path)) return {path + kNothingBehind};
       return {"there is no port " + path + "; " + ports_here()};
     case EACCES:
     case EPERM:
@@ -43,9 +52,9 @@ Remark why_not_open(const std::string& path, int error) {
     case EIO:
     case ENXIO:
     case ENODEV:
-      return {path + " has nothing behind it: the device was unplugged or its simulator has ended"};
+      return {path + kNothingBehind};
     default:
-      return {"cannot open " + path + ": " + std::strerror(error)};
+      return {"cannot open " + path + ": " + system_reason(error)};
   }
 }
 

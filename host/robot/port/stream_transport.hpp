@@ -37,6 +37,7 @@ class StreamTransport final : public Transport {
  private:
   template <class Wait>
   bool wait_for(Wait what, microseconds timeout);
+  Stream opened();
   Stream& stream();
   [[noreturn]] void lose(const Remark& why);
   void pause(microseconds duration);

@@ -14,6 +14,7 @@
 #include "common/protocol/codec.hpp"
 #include "common/protocol/framer.hpp"
 #include "host/base/error.hpp"
+#include "host/base/system_error.hpp"
 #include "host/robot/arbitration/relay_messages.hpp"
 
 namespace astro::robot {
@@ -76,7 +77,7 @@ Descriptor listen_at(const std::string& port_key) {
   Descriptor listener = new_socket();
   if (!listener || ::bind(listener.get(), address.get(), address.size()) != 0 ||
       ::listen(listener.get(), kBacklog) != 0)
-    throw Error("the socket for other programs cannot be made: " + std::string(std::strerror(errno)));
+    throw system_error("the socket for other programs cannot be made", errno);
   return listener;
 }
 
@@ -105,7 +106,7 @@ std::string in_words(std::uint32_t pid, std::string_view command) {
 HolderConnection connect_to(const std::string& port_key, microseconds timeout) {
   const SocketAddress address(port_key);
   Descriptor connection = new_socket();
-  if (!connection) return {};
+  if (!connection) throw system_error("the program that holds the port cannot be asked", errno);
   const bool connected = ::connect(connection.get(), address.get(), address.size()) == 0;
   if (!connected && errno != EAGAIN) return {};
   std::optional<PortUser> holder = connected ? peer_of(connection) : PortUser{};

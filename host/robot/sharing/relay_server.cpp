@@ -12,6 +12,7 @@
 
 #include "host/base/blocked_signals.hpp"
 #include "host/base/error.hpp"
+#include "host/base/system_error.hpp"
 #include "host/robot/sharing/background_process.hpp"
 #include "host/robot/sharing/port_socket.hpp"
 
@@ -47,7 +48,7 @@ bool write_all(int descriptor, FrameQueue& queue, bool is_socket) {
 
 RelayServer::RelayServer(SharedLine shared)
     : shared_(std::move(shared)), wake_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
-  if (!wake_) throw Error("the port cannot be served: no descriptor is left");
+  if (!wake_) throw system_error("the port cannot be served", errno);
   constexpr std::array<std::uint8_t, 1> kEndOfWhateverCameBefore{0};
   relay_.to_robot().push(kEndOfWhateverCameBefore);
   start();
@@ -73,7 +74,7 @@ void RelayServer::stop() {
 Descriptor RelayServer::connect_self() {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0, ends.data()) != 0)
-    throw Error("the port cannot be served: no descriptor is left");
+    throw system_error("the port cannot be served", errno);
   Descriptor ours(ends[0]);
   {
     const std::lock_guard lock(mutex_);

@@ -120,7 +120,9 @@ std::unique_ptr<Transport> open_shared_port(const std::string& address, unsigned
   return std::make_unique<Stream>(
       address,
       [port](boost::asio::io_context& context) {
-        stream_protocol::socket socket(context, stream_protocol(), port->open().release());
+        Descriptor line = port->open();
+        stream_protocol::socket socket(context, stream_protocol(), line.get());
+        line.release();
         socket.non_blocking(true);
         return socket;
       },

@@ -3,20 +3,16 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <sys/socket.h>
-#include <sys/un.h>
 #include <termios.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
-#include <cstddef>
 #include <cstdlib>
-#include <cstring>
-#include <functional>
+#include <utility>
 #include <vector>
 
-#include "host/base/error.hpp"
+#include "host/base/system_error.hpp"
 
 namespace astro::simulation {
 namespace {
@@ -24,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& what) {
-  throw Error("no pseudo terminal can be opened: " + what + ": " + std::strerror(errno));
+  throw system_error("no pseudo terminal can be opened: " + what, errno);
 }
 
 int open_master() {
@@ -51,32 +47,26 @@ void make_raw(const std::string& device) {
   close(fd);
 }
 
-// The name of an abstract socket belongs to one process and ends with it, however it ends. Whether the link's
-// target exists is no proof of life, because the terminal number of a dead simulator is soon reused. Returns
-// -1 if another process has the name.
-int try_claim(const fs::path& link) {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  const std::string path = fs::absolute(link).lexically_normal();
-  const std::string name = fmt::format("astrolabe-pty-{:016x}", std::hash<std::string>{}(path));
-  name.copy(address.sun_path + 1, sizeof(address.sun_path) - 1);  // a leading zero byte makes it abstract
-  const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
-  const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  if (fd < 0) fail("socket");
-  if (bind(fd, reinterpret_cast<const sockaddr*>(&address), size) == 0) return fd;
-  if (errno != EADDRINUSE) fail("bind");
-  close(fd);
-  return -1;
+// Names the terminal without opening it: the terminal still knows whether a host has it open.
+int refer_to(const std::string& device) {
+  const int fd = open(device.c_str(), O_PATH | O_CLOEXEC);
+  if (fd < 0) fail(device);
+  return fd;
 }
 
-int claim(const fs::path& link) {
-  if (const int fd = try_claim(link); fd >= 0) return fd;
+PathClaim claim(const fs::path& link) {
+  if (auto claim = PathClaim::of(link)) return std::move(*claim);
   throw Error("'" + link.string() + "' is in use by another simulator",
               {Help::stop_simulator_or_choose_other_path});
 }
 
+/// Whether it is the link of a simulator, which has ended if nobody has claimed the link, or leads nowhere.
 bool left_behind(const fs::path& link) {
-  return fs::is_symlink(link) && fs::read_symlink(link).parent_path() == "/dev/pts";
+  std::error_code error;
+  const fs::path target = fs::read_symlink(link, error);
+  if (error) return false;
+  const bool by_descriptor = target.string().starts_with("/proc/") && target.parent_path().filename() == "fd";
+  return by_descriptor || target.parent_path() == "/dev/pts";  // the latter by earlier versions
 }
 
 /// A link in the runtime folder leads to a terminal, or to the link of a simulator elsewhere. Takes the claim
@@ -88,19 +78,17 @@ bool is_dead(const fs::path& link) {
   const fs::path claimed = left_behind(link) ? link : target;
   if (!fs::exists(fs::symlink_status(claimed, error))) return true;
   if (!left_behind(claimed)) return false;  // not the link of a simulator
-  const int claim = try_claim(claimed);
-  if (claim >= 0) close(claim);
-  return claim >= 0;
+  return PathClaim::of(claimed).has_value();
 }
 
-void make_link(const fs::path& device, const fs::path& link) {
+void make_link(const fs::path& target, const fs::path& link) {
   std::error_code error;
   if (left_behind(link)) {
     fs::remove(link);
   } else if (fs::exists(fs::symlink_status(link))) {
     throw Error("'" + link.string() + "' exists and is not a simulator's", {Help::choose_other_path});
   }
-  fs::create_symlink(device, link, error);
+  fs::create_symlink(target, link, error);
   if (error)
     throw Error("'" + link.string() + "' cannot be made (" + error.message() + ")",
                 {Help::choose_other_path});
@@ -108,22 +96,25 @@ void make_link(const fs::path& device, const fs::path& link) {
 
 }  // namespace
 
-Pty::Pty(fs::path link) : fd_(open_master()), device_(device_of(fd_)) {
-  make_raw(device_);
+Pty::Pty(const fs::path& link) : fd_(open_master()) {
+  const std::string device = device_of(fd_);
+  make_raw(device);
+  reference_ = refer_to(device);
+  target_ = fmt::format("/proc/{}/fd/{}", getpid(), reference_);
   add_link(link);
 }
 
 Pty::~Pty() {
   std::error_code ignored;
   for (const fs::path& link : links_)
-    if (fs::is_symlink(link) && fs::read_symlink(link, ignored) == device_) fs::remove(link, ignored);
-  for (const int claimed : claims_) close(claimed);
+    if (fs::is_symlink(link) && fs::read_symlink(link, ignored) == target_) fs::remove(link, ignored);
+  close(reference_);
   close(fd_);
 }
 
 void Pty::add_link(const fs::path& link) {
   claims_.push_back(claim(link));
-  make_link(device_, link);
+  make_link(target_, link);
   links_.push_back(link);
 }
 

@@ -5,15 +5,20 @@
 #include <span>
 #include <vector>
 
+#include "host/simulation/server/path_claim.hpp"
+
 namespace astro::simulation {
 
 /// The robot's end of a pseudo terminal, and a symlink by which hosts find the other end. Raw from the start:
 /// nothing is echoed or translated, whoever opens it.
+///
+/// The symlink leads to a descriptor of this process, /proc/PID/fd/N, and not to /dev/pts/N: if the process is killed, its link
+/// leads nowhere, although the terminal's number is soon that of another simulator.
 class Pty {
  public:
   /// Throws astro::Error if `link` exists and is no symlink of a simulator that has ended, or cannot be
   /// created.
-  explicit Pty(std::filesystem::path link);
+  explicit Pty(const std::filesystem::path& link);
   ~Pty();
   Pty(const Pty&) = delete;
   Pty& operator=(const Pty&) = delete;
@@ -36,9 +41,10 @@ class Pty {
 
  private:
   int fd_ = -1;
-  std::filesystem::path device_;
+  int reference_ = -1;            // to the hosts' end
+  std::filesystem::path target_;  // of the links
   std::vector<std::filesystem::path> links_;
-  std::vector<int> claims_;  // sockets whose names show that the links are in use
+  std::vector<PathClaim> claims_;  // of the links
 };
 
 /// Removes what killed simulators have left in `folder`: links NAME.pty that no running simulator has

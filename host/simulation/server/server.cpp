@@ -13,6 +13,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
+#include "host/base/system_error.hpp"
 
 namespace astro::simulation {
 namespace {
@@ -85,7 +86,7 @@ Server::Server(std::unique_ptr<ServedRobot> robot, const ServerConfig& config)
   if (!config.second_pty.empty()) truth_->add_link(beside(config.second_pty, ".mocap"));
   const auto content = robot_->flash();
   saved_flash_.assign(content.begin(), content.end());
-  check_flash_can_be_kept();
+  claim_flash();
 }
 
 Server::~Server() {
@@ -183,13 +184,17 @@ void Server::wait() {
   ppoll(hosts.data(), hosts.size(), &timeout, nullptr);
 }
 
-void Server::check_flash_can_be_kept() const {
+void Server::claim_flash() {
   if (config_.flash.empty()) return;
   std::error_code none;
   if (fs::exists(config_.flash, none) && access(config_.flash.c_str(), W_OK) != 0)
     throw Error(fmt::format("the robot's flash '{}' cannot be written: {}", config_.flash.string(),
-                            std::generic_category().message(errno)));
+                            system_reason(errno)));
   const PartFile probe(config_.flash);
+  flash_claim_ = PathClaim::of(config_.flash);
+  if (!flash_claim_)
+    throw Error(fmt::format("the robot's flash '{}' is in use by another simulator", config_.flash.string()),
+                {Help::stop_simulator_or_choose_other_path});
 }
 
 void Server::save_flash() {

@@ -11,6 +11,7 @@
 #include "host/simulation/robot/virtual_robot.hpp"
 #include "host/simulation/server/channel.hpp"
 #include "host/simulation/server/pace.hpp"
+#include "host/simulation/server/path_claim.hpp"
 #include "host/simulation/server/served_robot.hpp"
 #include "host/simulation/server/truth_server.hpp"
 #include "host/simulation/tracker/network_tracker.hpp"
@@ -62,7 +63,7 @@ class Server {
   bool runs_ahead(bool host_is_behind);
   void step();
   void wait();
-  void check_flash_can_be_kept() const;
+  void claim_flash();  // throws if it cannot be kept, or is that of another simulator
   void save_flash();
 
   ServerConfig config_;
@@ -75,6 +76,7 @@ class Server {
   Clock::time_point behind_since_{};  // real time since which the host takes no bytes
   Pace pace_;
   std::vector<std::uint8_t> saved_flash_;
+  std::optional<PathClaim> flash_claim_;  // two robots would take each other's parameters for their own
 };
 
 }  // namespace astro::simulation

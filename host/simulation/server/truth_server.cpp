@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "host/base/error.hpp"
+#include "host/base/system_error.hpp"
 
 namespace astro::simulation {
 namespace {
@@ -27,7 +27,7 @@ int listen_at(const std::filesystem::path& path) {
   const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (fd < 0 || bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0 ||
       listen(fd, 4) != 0)
-    throw Error("the virtual cameras' socket '" + text + "' cannot be made: " + std::strerror(errno));
+    throw system_error("the virtual cameras' socket '" + text + "' cannot be made", errno);
   return fd;
 }
 

@@ -81,7 +81,7 @@ std::vector<double> parts_of(const CsvTable& table, const std::string& name) {
 }
 
 Poses read_poses(const fs::path& path) {
-  const Bytes bytes = load_file(path);
+  const Bytes bytes = load_text(path);
   const std::string name = path.string();
   const CsvTable table = split_csv(as_text(bytes), name);
   const auto x = find(table.header, "x_m", "x_mm", 1e-3);

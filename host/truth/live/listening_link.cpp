@@ -1,9 +1,5 @@
 #include "host/truth/live/listening_link.hpp"
 
-#include <algorithm>
-#include <cstddef>
-#include <iterator>
-
 #include "host/base/blocked_signals.hpp"
 
 namespace astro::truth {
@@ -13,7 +9,6 @@ using std::chrono::milliseconds;
 
 namespace {
 
-constexpr std::size_t kMostKept = 4096;
 constexpr microseconds kTurn =
     milliseconds(20);  // between two looks at what is due, and until the thread can end
 
@@ -38,12 +33,19 @@ void ListeningLink::listen(const std::stop_token& stop) {
 }
 
 ListeningLink::News ListeningLink::news_of_link() {
-  return {link_->take(),   link_->why_silent(), link_->body(),       link_->way(),
-          link_->remedy(), link_->bodies(),     link_->connections()};
+  News news{{},
+            link_->why_silent(),
+            link_->body(),
+            link_->way(),
+            link_->remedy(),
+            link_->bodies(),
+            link_->connections()};
+  for (const Sighting& sighting : link_->take()) news.sightings.push(sighting);
+  return news;
 }
 
 void ListeningLink::publish(News news) {
-  const bool poses = !news.sightings.empty();
+  const bool poses = !news.sightings.all().empty();
   {
     const std::lock_guard lock(mutex_);
     shared_.add(std::move(news));
@@ -60,10 +62,8 @@ void ListeningLink::publish(std::exception_ptr failure) {
 }
 
 void ListeningLink::News::add(News later) {
-  std::vector<Sighting> all =
-      later.connections == connections ? std::move(sightings) : std::vector<Sighting>();
-  all.insert(all.end(), later.sightings.begin(), later.sightings.end());
-  if (all.size() > 2 * kMostKept) all.erase(all.begin(), all.end() - static_cast<std::ptrdiff_t>(kMostKept));
+  Waiting<Sighting> all = later.connections == connections ? std::move(sightings) : Waiting<Sighting>();
+  for (const Sighting& sighting : later.sightings.all()) all.push(sighting);
   *this = std::move(later);
   sightings = std::move(all);
 }
@@ -77,7 +77,7 @@ void ListeningLink::work(microseconds) {
 
 void ListeningLink::wait(microseconds timeout) {
   std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, timeout, [this] { return !shared_.sightings.empty() || failure_; });
+  changed_.wait_for(lock, timeout, [this] { return !shared_.sightings.all().empty() || failure_; });
 }
 
 }  // namespace astro::truth

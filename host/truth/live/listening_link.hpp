@@ -30,7 +30,7 @@ class ListeningLink : public TrackerLink {
 
   void work(std::chrono::microseconds) override;
   void wait(std::chrono::microseconds timeout) override;
-  std::vector<Sighting> take() override { return std::exchange(news_.sightings, {}); }
+  std::vector<Sighting> take() override { return news_.sightings.take(); }
   std::string why_silent() const override { return news_.why_silent; }
   Remedy remedy() const override { return news_.remedy; }
   std::vector<std::string> bodies() const override { return news_.bodies; }
@@ -40,7 +40,7 @@ class ListeningLink : public TrackerLink {
 
  private:
   struct News {
-    std::vector<Sighting> sightings;
+    Waiting<Sighting> sightings;
     std::string why_silent, body, way;
     Remedy remedy;
     std::vector<std::string> bodies;

@@ -48,6 +48,7 @@ LiveSource::LiveSource(const TrackerUrl& url)
 
 LiveSource::LiveSource(TrackerUrl url, std::unique_ptr<TrackerLink> link, Now now)
     : url_(std::move(url)), link_(std::move(link)), now_(std::move(now)), floor_(url_.up), up_axis_(url_.up) {
+  begin_counting();
   listen(Need::any_pose);
 }
 
@@ -55,6 +56,7 @@ void LiveSource::begin_run() {
   held_.clear();
   samples_.clear();
   last_us_.reset();
+  begin_counting();
   listen(Need::body_seen_now);
   up_axis_.forget();  // somebody may have carried the body until now
 }
@@ -67,9 +69,9 @@ void LiveSource::listen(Need need) {
   }
   if (need == Need::body_seen_now) held_.clear();
   const auto enough = [&](const Heard& heard) { return need == Need::any_pose || heard.sample.valid; };
-  while (std::ranges::none_of(held_, enough) ||
+  while (std::ranges::none_of(held_.all(), enough) ||
          now_().count() - recent_.front().arrival_us < kListening.count()) {
-    if (now_() - begin >= kPoseTimeout && std::ranges::none_of(held_, enough))
+    if (now_() - begin >= kPoseTimeout && std::ranges::none_of(held_.all(), enough))
       throw Error(fmt::format("no ground truth comes from {}: {}", url_.place(), why_missing()),
                   link_->remedy());
     link_->wait(kStep);
@@ -105,7 +107,7 @@ void LiveSource::take(const Sighting& sighting) {
   remember(sighting.stamp);
   const Heard heard{sighting.stamp, floor_.take(0, sighting.pose, sighting.tracked)};
   if (heard.sample.valid) up_axis_.take(sighting.pose);
-  if (!mapped_) return held_.push_back(heard);
+  if (!mapped_) return held_.push(heard);
   pass_on(heard);
 }
 
@@ -130,7 +132,21 @@ void LiveSource::settle(microseconds now) {
 
 void LiveSource::pass_on_held() {
   mapped_ = true;
-  for (const Heard& heard : std::exchange(held_, {})) pass_on(heard);
+  for (const Heard& heard : held_.take()) pass_on(heard);
+}
+
+void LiveSource::begin_counting() {
+  passed_on_ = 0;
+  counting_from_ = now_();
+}
+
+/// What came while this program was stopped comes at once, so the rate is that since the run's beginning.
+void LiveSource::require_possible_rate() {
+  constexpr std::int64_t kMostPerSecond = 10'000, kMostAtOnce = 100'000;
+  const std::int64_t passed_s = std::chrono::duration_cast<seconds>(now_() - counting_from_).count();
+  if (++passed_on_ > kMostAtOnce + kMostPerSecond * passed_s)
+    throw Error(fmt::format("more than {} poses per second come from {}, and no tracker measures so fast",
+                            kMostPerSecond, url_.place()));
 }
 
 /// Datagrams may overtake each other; the later ones of them are left out.
@@ -140,6 +156,7 @@ void LiveSource::pass_on(const Heard& heard) {
   if (last_us_ && sample.time_us < *last_us_) return;
   last_us_ = sample.time_us;
   samples_.push_back(sample);
+  require_possible_rate();
 }
 
 std::vector<recording::TruthSample> LiveSource::poll() {
@@ -156,7 +173,7 @@ std::vector<recording::TruthSample> LiveSource::poll() {
 }
 
 std::string LiveSource::why_missing() const {
-  if (!held_.empty())
+  if (!held_.all().empty())
     return fmt::format("'{}' is not seen, or has the same pose again and again", link_->body());
   const std::string why = link_->why_silent();
   return why.empty() ? fmt::format("no more poses of '{}' are sent", link_->body()) : why;

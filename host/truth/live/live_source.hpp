@@ -33,6 +33,7 @@ std::unique_ptr<TrackerLink> open_link(const TrackerUrl& url);
 ///         connects again by itself. The first samples after that come a little later, because the sender's clock may
 ///         be another one. poll() throws once nothing has come for ten seconds. It need not be called while nothing is
 ///         recorded, if begin_run() is called before the next recording.
+/// Bounds  poll() throws if more poses come than any tracker measures, 10,000 per second.
 /// Axes    poll() throws if the drive shows that another axis points up than the URL says.
 class LiveSource : public Source {
  public:
@@ -66,6 +67,8 @@ class LiveSource : public Source {
   void settle(std::chrono::microseconds now);
   void pass_on(const Heard& heard);
   void pass_on_held();
+  void begin_counting();
+  void require_possible_rate();
   std::string why_missing() const;
 
   TrackerUrl url_;
@@ -76,11 +79,13 @@ class LiveSource : public Source {
   std::optional<TrackerClock> clock_;
   bool mapped_ = false;       // otherwise the clock has yet to be chosen or continued, by `recent_`
   std::deque<Stamp> recent_;  // of one clock of the sender
-  std::vector<Heard> held_;   // until it is mapped
+  Waiting<Heard> held_;       // until it is mapped
   int connections_ = 0;
   std::chrono::microseconds heard_at_{};
   std::optional<std::int64_t> last_us_;          // of this run's samples
   std::vector<recording::TruthSample> samples_;  // not yet polled
+  std::int64_t passed_on_ = 0;                   // samples since then
+  std::chrono::microseconds counting_from_{};
 };
 
 }  // namespace astro::truth

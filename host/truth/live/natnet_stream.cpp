@@ -10,8 +10,13 @@ namespace {
 constexpr natnet::Version kOldest{3, 0};
 
 std::string list_of(const natnet::BodyNames& names) {
+  constexpr std::size_t kMostShown = 20;
   std::string list;
-  for (const auto& [id, name] : names) list += (list.empty() ? "'" : ", '") + name + "'";
+  std::size_t shown = 0;
+  for (const auto& [id, name] : names) {
+    if (shown == kMostShown) return list + " and " + std::to_string(names.size() - shown) + " more";
+    list += (shown++ == 0 ? "'" : ", '") + name + "'";
+  }
   return list;
 }
 
@@ -39,6 +44,7 @@ void NatNetStream::take_frame(ByteView payload, std::int64_t arrival_us) {
   frames_ = true;
   needs_names_ = needs_names_ || frame->models_changed;
   in_frames_.clear();
+  bool sighted = false;
   for (const natnet::RigidBody& body : frame->bodies) {
     in_frames_.push_back(body.id);
     const auto name = names_.find(body.id);
@@ -47,9 +53,10 @@ void NatNetStream::take_frame(ByteView payload, std::int64_t arrival_us) {
       continue;
     }
     if (body_.empty()) body_ = name->second;
-    if (name->second != body_) continue;
+    if (name->second != body_ || sighted) continue;  // a frame has one pose of a body
+    sighted = true;
     seen_ = true;
-    sightings_.push_back(
+    sightings_.push(
         {{natnet::exposed_us(*frame, server_->ticks_per_s), arrival_us}, body.pose, body.tracked});
   }
 }

@@ -22,7 +22,7 @@ class NatNetStream {
   void push(ByteView datagram, std::int64_t arrival_us);
 
   /// Since the last call, oldest first.
-  std::vector<Sighting> take() { return std::exchange(sightings_, {}); }
+  std::vector<Sighting> take() { return sightings_.take(); }
 
   /// Nothing until the server has answered: frames cannot be understood before.
   const std::optional<natnet::ServerInfo>& server() const { return server_; }
@@ -45,7 +45,7 @@ class NatNetStream {
   natnet::BodyNames names_;
   std::vector<std::int32_t> in_frames_;  // ids of the last frame
   bool needs_names_ = false, frames_ = false, seen_ = false;
-  std::vector<Sighting> sightings_;
+  Waiting<Sighting> sightings_;
 };
 
 }  // namespace astro::truth

@@ -97,7 +97,7 @@ void RosLink::read(microseconds now) {
     const std::vector<RosPose> poses = stream_.take();
     if (poses.empty() || !is_from_publisher(sample.id.writer, now)) continue;
     for (const RosPose& pose : poses)
-      sightings_.push_back({{pose.time_ns / kNanosPerMicro, now.count()}, pose.pose});
+      sightings_.push({{pose.time_ns / kNanosPerMicro, now.count()}, pose.pose});
   }
 }
 

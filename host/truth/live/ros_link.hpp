@@ -32,7 +32,7 @@ class RosLink : public TrackerLink {
 
   void work(std::chrono::microseconds now) override;
   void wait(std::chrono::microseconds timeout) override { participant_->wait(timeout); }
-  std::vector<Sighting> take() override { return std::exchange(sightings_, {}); }
+  std::vector<Sighting> take() override { return sightings_.take(); }
   std::string why_silent() const override;
   Remedy remedy() const override;
   std::vector<std::string> bodies() const override { return stream_.bodies(); }
@@ -59,7 +59,7 @@ class RosLink : public TrackerLink {
   std::vector<ros2::dds::RemoteEndpoint> others_;  // as of the last look
   std::string type_;                               // under which the topic is read; "": not yet
   RosPoseStream stream_;
-  std::vector<Sighting> sightings_;
+  Waiting<Sighting> sightings_;
   std::optional<Guid> publisher_;  // whose poses are taken
   microseconds look_at_{}, heard_at_{};
   bool heard_since_rival_ = false;

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstddef>
+#include <utility>
+#include <vector>
+
 #include "host/truth/live/stamps.hpp"
 #include "host/truth/source/pose3.hpp"
 
@@ -10,6 +14,26 @@ struct Sighting {
   Stamp stamp;
   Pose3 pose;
   bool tracked = true;  // as far as the tracker says
+};
+
+/// What came of a body and waits to be taken, oldest first.
+///
+/// Bounds  some thousand: of what nobody takes the newest are kept, however fast the tracker sends.
+template <class T>
+class Waiting {
+ public:
+  static constexpr std::size_t kMost = 8192;
+
+  void push(const T& newest) {
+    if (all_.size() >= kMost) all_.erase(all_.begin(), all_.begin() + static_cast<std::ptrdiff_t>(kMost / 2));
+    all_.push_back(newest);
+  }
+  std::vector<T> take() { return std::exchange(all_, {}); }
+  void clear() { all_.clear(); }
+  const std::vector<T>& all() const { return all_; }
+
+ private:
+  std::vector<T> all_;
 };
 
 }  // namespace astro::truth

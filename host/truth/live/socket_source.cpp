@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "host/base/error.hpp"
+#include "host/base/system_error.hpp"
 #include "host/base/text/numbers.hpp"
 
 namespace astro::truth {
@@ -31,9 +32,10 @@ int connect_to(const std::filesystem::path& path) {
   std::strcpy(address.sun_path, text.c_str());
   const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
   if (fd < 0 || connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
-    const std::string reason = std::strerror(errno);
+    const Error why =
+        system_error("no virtual cameras at '" + text + "'", errno, {Help::use_simulated_robot});
     if (fd >= 0) close(fd);
-    throw Error("no virtual cameras at '" + text + "' (" + reason + ")", {Help::use_simulated_robot});
+    throw Error(why);
   }
   return fd;
 }

@@ -10,6 +10,8 @@
 namespace astro::truth {
 namespace {
 
+constexpr std::size_t kMostSeen = 30'000;  // of the fastest tracker in the usual span
+
 /// Whether the mean of a body that stands still could have moved this far, and the scatter about the means of
 /// the first and the second half.
 struct Scatter {
@@ -49,6 +51,7 @@ void TrackerWatch::take(const Sighting& sighting) {
     up_axis_.take(sighting.pose);
   }
   seen_.push_back(seen);
+  if (seen_.size() > kMostSeen) seen_.pop_front();
 }
 
 std::optional<LiveNoise> TrackerWatch::rest() const {

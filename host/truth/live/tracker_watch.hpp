@@ -29,7 +29,8 @@ struct TrackerReport {
   std::optional<Remark> objection;  // to the axis that is taken for up, from all that was seen
 };
 
-/// Keeps the last few seconds of a tracker's poses and sums them up.
+/// Keeps the last few seconds of a tracker's poses and sums them up. Of a tracker that sends faster than any measures, the
+/// last 30,000 poses.
 class TrackerWatch {
  public:
   /// `span_us`: of the arrivals that count.

@@ -7,6 +7,8 @@
 namespace astro::truth {
 namespace {
 
+constexpr std::size_t kMostSenders = 256;
+
 std::string list_of(const std::vector<std::string>& names) {
   constexpr std::size_t kMostShown = 20;
   std::string list;
@@ -30,18 +32,14 @@ void VrpnStream::take_pose(const vrpn::Message& message, std::int64_t arrival_us
   const auto pose = vrpn::pose_in(message.payload);
   if (sender.empty() || !pose || pose->sensor != 0) return;
   if (body_.empty()) body_ = sender;
-  ++poses_.try_emplace(std::string(sender)).first->second;
-  if (sender == body_) sightings_.push_back({{message.time_us, arrival_us}, pose->pose});
-}
-
-std::vector<std::string> VrpnStream::senders() const {
-  std::vector<std::string> names;
-  for (const auto& [name, count] : poses_) names.push_back(name);
-  return names;
+  // The server may give an id another name before each pose.
+  if (senders_.size() < kMostSenders && !senders_.contains(sender)) senders_.emplace(sender);
+  seen_ = seen_ || sender == body_;
+  if (sender == body_) sightings_.push({{message.time_us, arrival_us}, pose->pose});
 }
 
 std::string VrpnStream::why_silent() const {
-  if (poses_.contains(body_)) return "";
+  if (seen_) return "";
   if (!reader_.greeted()) return "it has not answered as a VRPN server";
   const std::vector<std::string> bodies = directory_.bodies();
   if (bodies.empty()) return "it has described no body";
@@ -49,7 +47,7 @@ std::string VrpnStream::why_silent() const {
   const bool known = std::find(bodies.begin(), bodies.end(), body_) != bodies.end();
   if (!known) return "it knows no '" + body_ + "'; it has described " + list_of(bodies);
   return "it knows '" + body_ + "' but sends no pose of it" +
-         (poses_.empty() ? "" : "; it sends poses of " + list_of(senders()));
+         (senders_.empty() ? "" : "; it sends poses of " + list_of(senders()));
 }
 
 }  // namespace astro::truth

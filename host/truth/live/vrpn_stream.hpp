@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,13 +24,13 @@ class VrpnStream {
   void push(ByteView bytes, std::int64_t arrival_us);
 
   /// Since the last call, oldest first.
-  std::vector<Sighting> take() { return std::exchange(sightings_, {}); }
+  std::vector<Sighting> take() { return sightings_.take(); }
 
   /// Why nothing has come of this body although the connection stands: a clause; "" if something has. Lists
   /// the bodies that the server has described, because a name that it does not know is no error to it.
   std::string why_silent() const;
-  /// The bodies that have sent poses. More than one is ambiguous if no name was given.
-  std::vector<std::string> senders() const;
+  /// The bodies that have sent poses, some hundred at most. More than one is ambiguous if no name was given.
+  std::vector<std::string> senders() const { return {senders_.begin(), senders_.end()}; }
   const std::string& body() const { return body_; }
 
  private:
@@ -39,8 +39,9 @@ class VrpnStream {
   std::string body_;
   vrpn::StreamReader reader_;
   vrpn::Directory directory_;
-  std::map<std::string, std::size_t, std::less<>> poses_;  // by sender
-  std::vector<Sighting> sightings_;
+  std::set<std::string, std::less<>> senders_;
+  bool seen_ = false;  // a pose of the body has come
+  Waiting<Sighting> sightings_;
 };
 
 }  // namespace astro::truth

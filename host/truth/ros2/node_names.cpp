@@ -15,7 +15,8 @@ using ros2::msg::kGidBytesOfHumble;
 using InfoOfHumble = ros2::msg::ParticipantEntitiesInfo<kGidBytesOfHumble>;
 using Info = ros2::msg::ParticipantEntitiesInfo<kGidBytes>;
 
-constexpr std::size_t kMostParticipants = 1024;  // whose nodes are kept, whoever announces them
+// What is kept, whoever announces it. A full name of ROS 2 has 255 characters at most.
+constexpr std::size_t kMostParticipants = 1024, kMostEndpoints = 32'768, kLongestFullName = 255;
 
 template <std::size_t N>
 NodeNames::Guid guid_of(const Gid<N>& gid) {
@@ -45,11 +46,16 @@ void NodeNames::note(const Info& info) {
   const Guid participant = guid_of(info.gid);
   if (nodes_.size() >= kMostParticipants && !nodes_.contains(participant)) return;
   auto& names = nodes_[participant];
+  endpoints_ -= names.size();
   names.clear();
-  for (const auto& node : info.node_entities_info_seq)
+  for (const auto& node : info.node_entities_info_seq) {
+    const std::string name = full_name(node.node_namespace.text, node.node_name.text);
+    if (name.size() > kLongestFullName) continue;
     for (const auto* gids : {&node.writer_gid_seq, &node.reader_gid_seq})
       for (const auto& gid : *gids)
-        names[guid_of(gid)] = full_name(node.node_namespace.text, node.node_name.text);
+        if (endpoints_ + names.size() < kMostEndpoints) names[guid_of(gid)] = name;
+  }
+  endpoints_ += names.size();
 }
 
 void NodeNames::take(ByteView message) {

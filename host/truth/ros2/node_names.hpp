@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -10,7 +11,7 @@
 namespace astro::truth {
 
 /// Which node has which writers and readers, as nodes announce it on the topic ros_discovery_info: of ROS 2 Humble and of
-/// later versions, whose identifiers have other lengths.
+/// later versions, whose identifiers have other lengths. Bounds: some thousand participants and some ten thousand endpoints.
 class NodeNames {
  public:
   using Guid = std::array<std::uint8_t, 16>;  // of an endpoint
@@ -27,6 +28,7 @@ class NodeNames {
   void note(const Info& info);
 
   std::map<Guid, std::map<Guid, std::string>> nodes_;  // by participant, by endpoint
+  std::size_t endpoints_ = 0;                          // of all participants
 };
 
 }  // namespace astro::truth

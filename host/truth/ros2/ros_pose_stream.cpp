@@ -11,6 +11,12 @@ namespace {
 
 constexpr std::size_t kMostNames = 256;  // that are kept to be listed
 
+/// Names are kept, so that one that is as long as its message would take its memory for ever.
+bool has_usual_names(const ros2::StampedPose& pose) {
+  constexpr std::size_t kLongestName = 1000;
+  return pose.frame.size() <= kLongestName && pose.child_frame.size() <= kLongestName;
+}
+
 void note(std::set<std::string>& names, const std::string& name) {
   if (names.size() < kMostNames) names.insert(name);
 }
@@ -42,7 +48,7 @@ RosPoseStream::RosPoseStream(RosBody wanted)
 
 void RosPoseStream::push(std::string_view type, ByteView message) {
   const auto poses = ros2::poses_in(type, message);
-  if (!poses) {
+  if (!poses || !std::ranges::all_of(*poses, has_usual_names)) {
     ++unreadable_;
     return;
   }
@@ -51,8 +57,9 @@ void RosPoseStream::push(std::string_view type, ByteView message) {
 }
 
 void RosPoseStream::push_fixed(ByteView message) {
-  if (const auto transforms = ros2::poses_in(ros2::tf_message_type().name, message))
-    for (const ros2::StampedPose& transform : *transforms) tree_.put(transform, true);
+  const auto transforms = ros2::poses_in(ros2::tf_message_type().name, message);
+  if (!transforms || !std::ranges::all_of(*transforms, has_usual_names)) return;
+  for (const ros2::StampedPose& transform : *transforms) tree_.put(transform, true);
 }
 
 /// Takes note of a body, and chooses the first one if none was named.

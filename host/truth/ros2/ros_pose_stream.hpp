@@ -33,7 +33,8 @@ class RosPoseStream {
  public:
   explicit RosPoseStream(RosBody wanted);
 
-  /// A message of the topic, of a type that ros2::holds_poses(). Bytes that are none are counted. Throws astro::Error if its
+  /// A message of the topic, of a type that ros2::holds_poses(). Bytes that are none, or in which a frame
+  /// has a name of more than 1000 bytes, are counted. Throws astro::Error if its
   /// poses are no ground truth.
   void push(std::string_view type, ByteView message);
   /// A message of /tf_static.

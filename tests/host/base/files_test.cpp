@@ -8,6 +8,7 @@
 #include "host/base/folder_lock.hpp"
 #include "host/recording/files/run_folder.hpp"
 #include "tests/host/recording/support.hpp"
+#include "tests/support/base/bounded.hpp"
 #include "tests/support/base/remarks.hpp"
 
 namespace astro::recording {
@@ -55,6 +56,38 @@ TEST(RequireNoInput, KnowsAnInputUnderAnotherName) {
               }),
               HasSubstr("is read, and would be overwritten"));
   EXPECT_EQ(complaint([&] { require_no_input(folder / "new", {folder / "in", {}}); }), "");
+}
+
+TEST(LoadText, RefusesASparseFileOfAGigabyteAtItsFirstHole) {
+  const TempFolder folder;
+  std::ofstream(folder / "sparse.csv") << "ex_mm,ey_mm\n1,2\n";
+  std::filesystem::resize_file(folder / "sparse.csv", std::uintmax_t{1} << 30);
+  const auto taken = astro::support::measured([&] { load_text(folder / "sparse.csv"); });
+  EXPECT_BOUNDED(taken, 0);
+  EXPECT_THAT(taken.complaint, HasSubstr("sparse.csv is not plain text: byte 17 is zero"));
+}
+
+TEST(LoadText, RefusesALineThatIsLongerThanAnyTableHas) {
+  const TempFolder folder;
+  std::ofstream(folder / "long.csv") << "ex_mm\r" << std::string(200 << 20, '1');
+  const auto taken = astro::support::measured([&] { load_text(folder / "long.csv"); });
+  EXPECT_TRUE(taken.ended);
+  if (astro::support::kMeasuresMemory) {
+    EXPECT_LE(taken.peak_bytes, std::size_t{16} << 20);
+  }
+  EXPECT_THAT(taken.complaint,
+              HasSubstr("long.csv is no table: from byte 7 on, a line has more than 1048576"));
+}
+
+TEST(LoadText, IsTheWholeFileHoweverManyBlocksItTakes) {
+  const TempFolder folder;
+  std::string text;
+  while (text.size() < (3U << 20)) text += std::to_string(text.size()) + ",2,3\r\n";
+  std::ofstream(folder / "table.csv", std::ios::binary) << text;
+  EXPECT_EQ(as_text(load_text(folder / "table.csv")), text);
+  EXPECT_EQ(as_text(load_file(folder / "table.csv")), text);
+  EXPECT_THAT(astro::support::told_by([&] { load_file(folder / "table.csv", kMaxSettingsBytes); }),
+              astro::support::Tells(HasSubstr("no file of its kind has more than"), Help::name_right_file));
 }
 
 TEST(PartFile, ReplacesNoRecording) {

@@ -3,7 +3,18 @@
 #include <apriltag/apriltag.h>
 #include <apriltag/tag36h11.h>
 
+#include <algorithm>
+#include <string>
+
+#include "host/base/error.hpp"
+
 namespace astro::film {
+namespace {
+
+// libapriltag counts half pixels in 16 bits, and ends the program for a larger picture.
+constexpr int kLongestSide_px = 32'767;
+
+}  // namespace
 
 struct TagDetector::Library {
   apriltag_family_t* family = tag36h11_create();
@@ -23,6 +34,11 @@ TagDetector::TagDetector() : library_(std::make_unique<Library>()) {
 TagDetector::~TagDetector() = default;
 
 std::vector<DetectedTag> TagDetector::detect(const GrayFrame& frame, const Window& window, double decimate) {
+  if (std::max(window.width, window.height) > kLongestSide_px)
+    throw Error("tags cannot be looked for in a picture of " + std::to_string(window.width) + " x " +
+                std::to_string(window.height) + " pixels");
+  // The library reads beyond a picture that is smaller than one of its tiles.
+  if (std::min(window.width, window.height) < kTagCells * decimate) return {};
   // The library reads only, but its type has no const. Its rows need no copy: the stride is that of the whole picture.
   auto* pixels = const_cast<std::uint8_t*>(frame.row(window.top) + window.left);
   image_u8_t image{window.width, window.height, frame.width, pixels};

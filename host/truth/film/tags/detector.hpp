@@ -33,7 +33,8 @@ class TagDetector {
   TagDetector(const TagDetector&) = delete;
   TagDetector& operator=(const TagDetector&) = delete;
 
-  /// Tags with at most one wrong bit, which hardly any other thing looks like. Corners are in the whole picture's pixels.
+  /// Tags with at most one wrong bit, which hardly any other thing looks like. Corners are in the whole picture's pixels. A
+  /// window of fewer pixels than a tag has cells holds none. Throws astro::Error for one of more than 32767 on a side.
   std::vector<DetectedTag> detect(const GrayFrame& frame, const Window& window, double decimate);
 
  private:

@@ -79,6 +79,7 @@ FloorSurvey survey_floor(const std::filesystem::path& film, const FilmInfo& info
     take(frame, detector.detect(frame, whole_of(frame), 1), robot_id, survey, sightings);
     if (progress) progress(info.part(frame.pts_s - *first_s));
   }
+  if (progress) progress(1);  // an interrupt ends the decoder as well, which looks like the end of the film
   sort_out(sightings, survey);
   return survey;
 }

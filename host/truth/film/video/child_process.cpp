@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "host/base/error.hpp"
+#include "host/base/system_error.hpp"
 
 namespace astro::film {
 namespace {
@@ -26,7 +27,7 @@ struct Pipe {
   std::array<int, 2> ends{-1, -1};
   Pipe() {
     if (pipe2(ends.data(), O_CLOEXEC) != 0)
-      throw Error("no pipe to another program: too many files are open");
+      throw system_error("no pipe to another program can be made", errno);
   }
   ~Pipe() {
     for (int& end : ends) close_once(end);
@@ -37,7 +38,8 @@ struct Pipe {
 
 }  // namespace
 
-ChildProcess::ChildProcess(std::vector<std::string> words, Line line) : line_(std::move(line)) {
+ChildProcess::ChildProcess(std::vector<std::string> words, Line line, std::chrono::milliseconds patience)
+    : name_(words.at(0)), line_(std::move(line)), patience_(patience) {
   Pipe output, errors;
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
@@ -55,9 +57,9 @@ ChildProcess::ChildProcess(std::vector<std::string> words, Line line) : line_(st
     return;
   }
   pid_ = -1;
-  throw Error("the program '" + words[0] + "', which reads films, " +
-                  (failure == ENOENT ? "is not installed" : "cannot be started"),
-              {Help::install_film_reader});
+  const std::string reader = "the program '" + name_ + "', which reads films, ";
+  if (failure == ENOENT) throw Error(reader + "is not installed", {Help::install_film_reader});
+  throw system_error(reader + "cannot be started", failure, {Help::install_film_reader});
 }
 
 ChildProcess::~ChildProcess() {
@@ -68,11 +70,17 @@ ChildProcess::~ChildProcess() {
   wait();
 }
 
+/// A program that has closed both streams may still not end; after the deadline it is ended.
 int ChildProcess::wait() {
+  constexpr int kLook_ms = 2;
   int status = 0;
-  pid_t ended = -1;
-  do ended = waitpid(pid_, &status, 0);
-  while (ended < 0 && errno == EINTR);
+  pid_t ended = 0;
+  for (auto left_ms = patience_.count(); left_ms > 0 && ended == 0; left_ms -= kLook_ms) {
+    ended = waitpid(pid_, &status, WNOHANG);
+    if (ended == 0) poll(nullptr, 0, kLook_ms);
+  }
+  if (ended == 0) kill(pid_, SIGKILL);
+  while (ended == 0 || (ended < 0 && errno == EINTR)) ended = waitpid(pid_, &status, 0);
   const bool known = ended == std::exchange(pid_, -1);
   return known ? status : SIGKILL;
 }
@@ -98,13 +106,21 @@ void ChildProcess::take_words() {
   }
 }
 
+void ChildProcess::fail_silent() const {
+  throw Error("the program '" + name_ + "', which reads films, has neither said anything nor ended for " +
+                  std::to_string(patience_.count()) + " ms",
+              {Help::name_film});
+}
+
 void ChildProcess::wait_for_streams() {
   while (true) {
     std::array<pollfd, 2> states{pollfd{words_, POLLIN, 0}, pollfd{output_, POLLIN, 0}};
-    if (poll(states.data(), states.size(), -1) < 0) {
+    const int ready = poll(states.data(), states.size(), static_cast<int>(patience_.count()));
+    if (ready < 0) {
       if (errno == EINTR) continue;
       throw Error("another program's words cannot be waited for: too little memory");
     }
+    if (ready == 0) fail_silent();
     if (states[0].revents != 0) take_words();
     if (states[1].revents != 0 || output_ < 0) return;
   }
@@ -125,7 +141,7 @@ std::size_t ChildProcess::read(std::span<std::uint8_t> bytes) {
 bool ChildProcess::finish() {
   std::array<std::uint8_t, 4096> rest;
   while (read(rest) == rest.size()) continue;
-  while (words_ >= 0) take_words();
+  while (words_ >= 0) wait_for_streams();
   const int status = wait();
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }

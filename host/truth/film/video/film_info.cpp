@@ -1,11 +1,14 @@
 #include "host/truth/film/video/film_info.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <utility>
 
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
@@ -14,6 +17,8 @@
 
 namespace astro::film {
 namespace {
+
+constexpr std::size_t kMostSaid = 65'536;
 
 /// "30000/1001" or "30"; 0 if it is neither.
 double ratio_in(const std::string& text) {
@@ -68,16 +73,29 @@ bool begins_as_film(const std::filesystem::path& film) {
 
 }  // namespace
 
-std::string as_input(const std::filesystem::path& film) { return "file:" + film.string(); }
+std::vector<std::string> as_input(const std::filesystem::path& film) {
+  constexpr const char* kContainers = "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,mpegts";
+  return {"-protocol_whitelist", "file", "-format_whitelist", kContainers, "-i", "file:" + film.string()};
+}
 
 FilmInfo read_film_info(const std::filesystem::path& film) {
   require_file(film);
   std::string said;
-  ChildProcess probe({"ffprobe", "-loglevel", "error", "-select_streams", "v:0", "-show_entries",
-                      "stream=codec_name,width,height,avg_frame_rate,nb_frames,duration:stream_side_data="
-                      "rotation:format=duration,start_time",
-                      "-of", "default", as_input(film)},
-                     [&](std::string_view line) { said.append(line.substr(0, 400)).append("\n"); });
+  std::vector<std::string> words{
+      "ffprobe",
+      "-loglevel",
+      "error",
+      "-select_streams",
+      "v:0",
+      "-show_entries",
+      "stream=codec_name,width,height,avg_frame_rate,nb_frames,duration:stream_side_data="
+      "rotation:format=duration,start_time",
+      "-of",
+      "default"};
+  for (std::string& word : as_input(film)) words.push_back(std::move(word));
+  ChildProcess probe(std::move(words), [&](std::string_view line) {
+    if (said.size() < kMostSaid) said.append(line.substr(0, 400)).append("\n");
+  });
   std::array<std::uint8_t, 8192> buffer;
   const std::size_t count = probe.read(buffer);
   const bool good = probe.finish();
@@ -91,9 +109,14 @@ FilmInfo read_film_info(const std::filesystem::path& film) {
   info.frames_per_s = number_of(fields, "avg_frame_rate");
   info.duration_s = duration_of(fields);
   info.frames = static_cast<std::size_t>(std::max(0.0, number_of(fields, "nb_frames")));
-  constexpr int kLeast = 64, kMost = 16384;
+  // No phone has more than 8K, 7680 x 4320. To look for tags takes ten bytes for each pixel.
+  constexpr int kLeast = 64, kMost = 8192;
   if (info.width < kLeast || info.height < kLeast || info.width > kMost || info.height > kMost)
-    refuse(film, "size");
+    throw Error(
+        fmt::format("'{}' has pictures of {} x {} pixels, and those with {} to {} pixels on each side can "
+                    "be followed",
+                    film.string(), info.width, info.height, kLeast, kMost),
+        {Help::name_film});
   return info;
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace astro::film {
 
@@ -24,10 +25,12 @@ struct FilmInfo {
 
 /// Reads it with ffprobe.
 ///
-/// Errors  astro::Error: no such file, not a film, a recording that was never completed, no ffprobe.
+/// Errors  astro::Error: no such file, not a film, a recording that was never completed, pictures of a size in which no tag can
+///         be followed, no ffprobe.
 FilmInfo read_film_info(const std::filesystem::path& film);
 
-/// How ffmpeg and ffprobe are given a file: never as an option or an address, whatever its name.
-std::string as_input(const std::filesystem::path& film);
+/// How ffmpeg and ffprobe are given a film: as a file, never as an option or an address, whatever its name; and only if it is a
+/// container that holds pictures. A playlist (HLS, ffconcat) would name other files, pipes and addresses, and have them read.
+std::vector<std::string> as_input(const std::filesystem::path& film);
 
 }  // namespace astro::film

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "host/base/error.hpp"
@@ -15,9 +16,9 @@ std::vector<std::string> words_for(const std::filesystem::path& film, FrameStrea
   if (pictures == FrameStream::Pictures::key_only) words.insert(words.end(), {"-skip_frame", "nokey"});
   // showinfo reports each picture's time in whole units of the time base, of which rawvideo has nothing. With a time base of one picture
   // the muxer would complain about films that are a little slower or faster than they say.
-  words.insert(words.end(),
-               {"-i", as_input(film), "-map", "0:v:0", "-vf", "showinfo=checksum=0", "-fps_mode",
-                "passthrough", "-enc_time_base", "-1", "-pix_fmt", "gray", "-f", "rawvideo", "pipe:1"});
+  for (std::string& word : as_input(film)) words.push_back(std::move(word));
+  words.insert(words.end(), {"-map", "0:v:0", "-vf", "showinfo=checksum=0", "-fps_mode", "passthrough",
+                             "-enc_time_base", "-1", "-pix_fmt", "gray", "-f", "rawvideo", "pipe:1"});
   return words;
 }
 

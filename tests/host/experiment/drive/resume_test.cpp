@@ -435,6 +435,108 @@ TEST_F(Resume, AnExperimentFromBeforeThereWasAnEIsRefusedIfTheRobotHoldsOneByNow
               support::ThrowsTelling(HasSubstr("e 0.02"), Help::load_factors_or_choose_other_out_folder));
 }
 
+/// What can have happened to a recording between two sessions.
+enum class Harm { cut, cut_to_nothing, overwritten, zeroed_inside, of_another_run, removed };
+
+void harm(const fs::path& file, Harm how, const fs::path& other) {
+  const auto size = fs::file_size(file);
+  if (how == Harm::cut) fs::resize_file(file, size / 2);
+  if (how == Harm::cut_to_nothing) fs::resize_file(file, 0);
+  if (how == Harm::overwritten) std::ofstream(file) << "no recording";
+  if (how == Harm::of_another_run) fs::copy_file(other, file, fs::copy_options::overwrite_existing);
+  if (how == Harm::removed) fs::remove(file);
+  if (how != Harm::zeroed_inside) return;
+  std::fstream inside(file, std::ios::in | std::ios::out | std::ios::binary);
+  inside.seekp(static_cast<std::streamoff>(size / 2));
+  inside << std::string(64, '\0');
+}
+
+class HarmedRecording : public Resume {
+ protected:
+  /// Goes on, and expects that this is refused without a metre driven or a parameter changed.
+  void expect_refused(const std::string& named, Help help) {
+    const auto factors = [&] { return loaded_in_robot(); };
+    const auto before = factors();
+    ExperimentHooks hooks;
+    hooks.run_started = [](const RunSpec& spec, int, int) { ADD_FAILURE() << "drives " << spec.title(); };
+    hooks.uploaded = [](const Remark& remark) { ADD_FAILURE() << remark.fact; };
+    for (int session = 0; session < 2; ++session)
+      EXPECT_THAT([&] { run(small_plan(), hooks); }, support::ThrowsTelling(HasSubstr(named), help));
+    EXPECT_EQ(factors(), before);
+  }
+  std::map<std::string, double> loaded_in_robot() {
+    return robot::RemoteParameters::fetch(desk_.client).numbers();
+  }
+};
+
+TEST_F(HarmedRecording, OfThePhaseUnderWayIsNamedBeforeTheRobotDrives) {
+  interrupt_in_run(2);
+  const fs::path first = folder_.path() / "before" / "square-cw-1.mcap", whole = folder_.path() / "whole";
+  fs::copy_file(first, whole);
+  for (const Harm how : {Harm::cut, Harm::cut_to_nothing, Harm::overwritten, Harm::zeroed_inside}) {
+    SCOPED_TRACE(static_cast<int>(how));
+    fs::copy_file(whole, first, fs::copy_options::overwrite_existing);
+    harm(first, how, {});
+    expect_refused("before/square-cw-1.mcap", Help::drive_run_again);
+  }
+  fs::remove(first);
+  EXPECT_EQ(run(small_plan()).phases.size(), 2U) << "what was removed is driven again";
+}
+
+TEST_F(HarmedRecording, OfAPhaseThatIsOverIsNamedBeforeTheRobotDrives) {
+  interrupt_in_run(4);  // the second run of "after"
+  const fs::path first = folder_.path() / "before" / "square-cw-1.mcap", whole = folder_.path() / "whole";
+  fs::copy_file(first, whole);
+  for (const Harm how : {Harm::cut, Harm::cut_to_nothing, Harm::overwritten, Harm::zeroed_inside,
+                         Harm::of_another_run, Harm::removed}) {
+    SCOPED_TRACE(static_cast<int>(how));
+    fs::copy_file(whole, first, fs::copy_options::overwrite_existing);
+    harm(first, how, folder_.path() / "before" / "square-ccw-1.mcap");
+    expect_refused("before/square-cw-1.mcap", Help::choose_other_out_folder);
+  }
+  fs::copy_file(whole, first, fs::copy_options::overwrite_existing);
+  EXPECT_EQ(run(small_plan()).phases.size(), 2U);
+}
+
+TEST_F(HarmedRecording, OfTheDriveWhoseTruthIsMissingIsNamedBeforeAnybodyIsAsked) {
+  Plan plan = small_plan();
+  plan.truth = "manual";
+  truth::ManualSource nobody([](const truth::Question&) -> std::string { throw Error("nobody is there"); });
+  EXPECT_THROW(run_experiment(desk_.client, nobody, plan, folder_.path(), {}), Error);
+  harm(folder_.path() / "before" / "square-cw-1.mcap.no-truth", Harm::cut, {});
+  truth::ManualSource person([](const truth::Question& question) {
+    ADD_FAILURE() << question.text;
+    return "10";
+  });
+  EXPECT_THAT(
+      [&] { run_experiment(desk_.client, person, plan, folder_.path(), {}); },
+      support::ThrowsTelling(HasSubstr("square-cw-1.mcap.no-truth was cut off"), Help::drive_run_again));
+}
+
+/// Ground truth that loses the robot in the first run.
+class TruthThatLosesTheRobot : public TruthThatEnds {
+ public:
+  using TruthThatEnds::TruthThatEnds;
+  std::vector<recording::TruthSample> poll() override {
+    std::vector<recording::TruthSample> samples = TruthThatEnds::poll();
+    for (recording::TruthSample& sample : samples) sample.valid = !lost;
+    return samples;
+  }
+  bool lost = false;
+};
+
+TEST_F(Resume, ASquareWhoseEndTheTrackerDidNotSeeIsNamedBeforeTheNextIsDriven) {
+  TruthThatLosesTheRobot truth(desk_.truth);
+  int driven = 0;
+  ExperimentHooks hooks;
+  hooks.run_started = [&](const RunSpec&, int, int) { ++driven; };
+  hooks.run.segment_done = [&](std::uint16_t) { truth.lost = true; };
+  EXPECT_THAT(
+      [&] { run_experiment(desk_.client, truth, small_plan(), folder_.path(), hooks); },
+      support::ThrowsTelling(HasSubstr("before/square-cw-1.mcap cannot be used"), Help::drive_run_again));
+  EXPECT_EQ(driven, 1);
+}
+
 TEST_F(Resume, SaysThatADamagedJournalCannotBeResumed) {
   interrupt_in_run(2);
   std::ofstream(folder_.path() / "experiment.json") << "{";

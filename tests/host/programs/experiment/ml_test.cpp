@@ -176,18 +176,20 @@ TEST_F(Ml, TakesTheNoiseThatIsGivenWholeOrNotAtAll) {
 }
 
 TEST_F(Ml, IsUploadedWhateverTheRobotCarriesButNotForAnotherWheel) {
-  const std::string file = (simulator_->folder() / "calib.toml").string();
+  const std::string file = (simulator_->folder() / "calib.toml").string(), port = simulator_->port(),
+                    kept = (simulator_->folder() / "kept.toml").string();
   ASSERT_EQ(runs({"--out", file}).code, 0);
-  const Simulator other;
-  EXPECT_EQ(astrolabe({"params", "set", "c_R=1.001", "--port", other.port()}).code, 0);
-  const Outcome outcome = astrolabe({"upload", file, "--port", other.port(), "--yes"});
+  ASSERT_EQ(astrolabe({"params", "export", kept, "--port", port}).code, 0);
+  EXPECT_EQ(astrolabe({"params", "set", "c_R=1.001", "--port", port}).code, 0);
+  const Outcome outcome = astrolabe({"upload", file, "--port", port, "--yes"});
   EXPECT_EQ(outcome.code, 0) << outcome.err << "the factors are absolute";
 
   for (const char* assignment : {"wheel_diameter=0.08", "c_R=1"})
-    EXPECT_EQ(astrolabe({"params", "set", assignment, "--port", other.port()}).code, 0);
-  const Outcome refused = astrolabe({"upload", file, "--port", other.port(), "--yes"});
+    EXPECT_EQ(astrolabe({"params", "set", assignment, "--port", port}).code, 0);
+  const Outcome refused = astrolabe({"upload", file, "--port", port, "--yes"});
   EXPECT_EQ(refused.code, 1);
   EXPECT_THAT(refused.err, AllOf(HasSubstr("0.072 m"), HasSubstr("0.08 m"), HasSubstr("--force")));
+  EXPECT_EQ(astrolabe({"params", "import", kept, "--port", port, "--yes"}).code, 0) << "for the other tests";
 }
 
 TEST_F(Ml, DamagedRecordingsAreUsedOnlyIfThatIsWantedAndThenWarnedOf) {

@@ -144,6 +144,61 @@ TEST_F(Sim, TakesThePlaceOfADeadOneWhoseTerminalIsAnotherProgramsNow) {
   EXPECT_EQ(astrolabe({"info", "--port", path}).code, 0);
 }
 
+std::string id_at(const std::string& port) {
+  const Outcome outcome = astrolabe({"info", "--json", "--port", port});
+  return outcome.code == 0 ? support::parse_json(outcome.out)["id"].get<std::string>() : outcome.err;
+}
+
+TEST_F(Sim, IsAnotherRobotThanOneBesideItAndTheSameAtEachStart) {
+  const Simulator one, other;
+  const std::string id = id_at(one.port());
+  EXPECT_NE(id, id_at(other.port()));
+  const auto path = folder_.path() / "robot.pty";
+  std::string first;
+  for (int start = 0; start < 2; ++start) {
+    support::Program again({ASTROLABE_PROGRAM, "sim", "--pty", path});
+    ASSERT_TRUE(support::eventually([&] { return again.err().find("next") != std::string::npos; }));
+    if (start == 0) first = id_at(path);
+    EXPECT_EQ(id_at(path), first);
+  }
+}
+
+TEST_F(Sim, IsTheRobotOfItsFlashWhichNoOtherOneUsesMeanwhile) {
+  const std::string flash = folder_.path() / "flash", here = folder_.path() / "here.pty",
+                    there = folder_.path() / "there.pty";
+  std::string first;
+  {
+    support::Program robot({ASTROLABE_PROGRAM, "sim", "--pty", here, "--flash", flash});
+    ASSERT_TRUE(support::eventually([&] { return robot.err().find("next") != std::string::npos; }));
+    first = id_at(here);
+    const Outcome second = astrolabe({"sim", "--pty", there, "--flash", flash});
+    EXPECT_EQ(second.code, 1);
+    EXPECT_THAT(second.err, HasSubstr("flash' is in use by another simulator"));
+  }
+  support::Program robot({ASTROLABE_PROGRAM, "sim", "--pty", there, "--flash", flash});
+  ASSERT_TRUE(support::eventually([&] { return robot.err().find("next") != std::string::npos; }))
+      << robot.err();
+  EXPECT_EQ(id_at(there), first);
+}
+
+TEST_F(Sim, ThatWasKilledLeavesNoWayToTheRobotThatGetsItsTerminal) {
+  const std::string dead = folder_.path() / "dead", alive = folder_.path() / "alive";
+  support::Program first({ASTROLABE_PROGRAM, "sim", "--pty", dead});
+  ASSERT_TRUE(support::eventually([&] { return first.err().find("next") != std::string::npos; }));
+  first.send(SIGKILL);
+  first.wait();
+  support::Program second({ASTROLABE_PROGRAM, "sim", "--pty", alive});
+  ASSERT_TRUE(support::eventually([&] { return second.err().find("next") != std::string::npos; }));
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"info", "--port", dead},
+                                                {"params", "set", "b=0.31", "--yes", "--port", dead}}) {
+    const Outcome outcome = astrolabe(words);
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_THAT(outcome.err, HasSubstr(dead + " has nothing behind it"));
+  }
+  EXPECT_EQ(support::parse_json(astrolabe({"ports", "--json"}).out).size(), 1U);
+  EXPECT_THAT(astrolabe({"params", "get", "b", "--port", alive}).out, HasSubstr("0.29"));
+}
+
 TEST_F(Monitor, PrintsOneLineOfJsonPerSample) {
   const Simulator simulator;
   const Outcome outcome = astrolabe({"monitor", "--port", simulator.port(), "--count", "5", "--rate", "50"});

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "host/base/error.hpp"
+#include "tests/support/base/bounded.hpp"
 
 namespace astro::truth {
 namespace {
@@ -33,11 +34,12 @@ struct Lab {
   std::string why = "it sleeps";
   int connections = 1;
   double across_m = 2, height_m = 0.2, across_mps = 0, rise_mps = 0;
+  microseconds period = milliseconds(10);
   std::vector<Sighting> sightings;
 
   void pass(microseconds time) {
     now += time;
-    for (; next + milliseconds(5) <= now; next += milliseconds(10)) {
+    for (; next + milliseconds(5) <= now; next += period) {
       if (!sends) continue;
       const double x_m = 1e-6 * static_cast<double>(next.count());
       across_m += 0.01 * across_mps;
@@ -121,6 +123,44 @@ TEST(LiveSource, WithoutPosesItSaysWhyWithinSixSeconds) {
   const microseconds begin = lab.now;
   EXPECT_EQ(complaint([&] { open(lab); }), "no ground truth comes from lab: it sleeps");
   EXPECT_LE(lab.now - begin, milliseconds(6'100));
+}
+
+TEST(LiveSource, RefusesMorePosesPerSecondThanAnyTrackerMeasures) {
+  Lab lab;
+  const auto source = open(lab);
+  lab.period = microseconds(10);
+  std::size_t came = 0;
+  const auto drive = [&] {
+    for (int i = 0; i < 1000; ++i) {
+      lab.pass(milliseconds(50));
+      came += source->poll().size();
+    }
+  };
+  EXPECT_EQ(complaint(drive),
+            "more than 10000 poses per second come from lab, and no tracker measures so fast");
+  EXPECT_LE(came, 120'000U);
+}
+
+TEST(LiveSource, TakesWhatCameWhileTheProgramWasStopped) {
+  Lab lab;
+  const auto source = open(lab);
+  lab.period = milliseconds(1);
+  lab.pass(seconds(60));
+  EXPECT_EQ(complaint([&] { EXPECT_GE(source->poll().size(), 60'000U); }), "");
+}
+
+TEST(LiveSource, WaitsInBoundedMemoryForABodyThatIsNotSeen) {
+  const auto taken = support::measured([] {
+    Lab lab;
+    const auto source = open(lab);
+    lab.period = microseconds(10);
+    lab.seen = false;
+    EXPECT_THAT(complaint([&] { source->begin_run(); }), HasSubstr("is not seen"));
+  });
+  EXPECT_TRUE(taken.ended);
+  if (support::kMeasuresMemory) {
+    EXPECT_LE(taken.peak_bytes, std::size_t{16} << 20);
+  }
 }
 
 TEST(LiveSource, OfSeveralBodiesOneHasToBeNamed) {

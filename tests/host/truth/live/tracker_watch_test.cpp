@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "tests/support/base/bounded.hpp"
+
 namespace astro::truth {
 namespace {
 
@@ -38,6 +40,20 @@ class Tracker {
   std::normal_distribution<double> normal_;
   double x_m_ = 1, theta_rad_ = 3.1;  // noise passes the half turn
 };
+
+TEST(TrackerWatch, TakesBoundedMemoryFromATrackerThatSendsTenTimesAsFastAsAny) {
+  const auto taken = support::measured([] {
+    TrackerWatch watch(UpAxis::z);
+    for (std::int64_t i = 0; i < 300'000; ++i)
+      watch.take({{10 * i, 10 * i}, {1e-6 * static_cast<double>(i), 0, 0.2, 0, 0, 0, 1}});
+    const TrackerReport report = watch.report(3'000'000);
+    EXPECT_NEAR(report.rate_hz, 100'000, 1);
+  });
+  EXPECT_TRUE(taken.ended);
+  if (support::kMeasuresMemory) {
+    EXPECT_LE(taken.peak_bytes, std::size_t{16} << 20);
+  }
+}
 
 TEST(TrackerWatch, SeesTheRateAndTheNoiseOfABodyThatStands) {
   TrackerWatch watch(UpAxis::z);

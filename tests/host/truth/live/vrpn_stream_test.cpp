@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "host/truth/vrpn/tracker.hpp"
+#include "tests/support/base/bounded.hpp"
 
 namespace astro::truth {
 namespace {
@@ -51,6 +52,42 @@ TEST(VrpnStream, GivesThePosesOfTheNamedBodyWithBothTimes) {
   EXPECT_EQ(sightings[0].stamp.arrival_us, 77);
   EXPECT_THAT(stream.take(), IsEmpty());
   EXPECT_EQ(stream.why_silent(), "");
+}
+
+TEST(VrpnStream, TakesBoundedMemoryFromAServerThatGivesAnIdANewNameBeforeEachPose) {
+  const auto taken = support::measured([] {
+    VrpnStream stream("ASTRO");
+    ServerBytes server(stream);
+    server.greet();
+    for (int i = 0; i < 100'000; ++i) {
+      server.describe(2, std::to_string(i) + std::string(900, 'x'));
+      server.pose(2, i);
+    }
+    server.describe(3, "ASTRO");
+    EXPECT_NE(stream.why_silent(), "");
+    server.pose(3, 1);
+    EXPECT_EQ(stream.why_silent(), "") << "the body is seen, however many others there are";
+    EXPECT_THAT(stream.take(), SizeIs(1));
+  });
+  EXPECT_BOUNDED(taken, 0);
+}
+
+TEST(VrpnStream, KeepsTheNewestPosesIfNobodyTakesThem) {
+  const auto taken = support::measured([] {
+    VrpnStream stream("ASTRO");
+    ServerBytes server(stream);
+    server.greet();
+    server.describe(2, "ASTRO");
+    for (int i = 0; i < 1'000'000; ++i) server.pose(2, i);
+    const auto sightings = stream.take();
+    ASSERT_FALSE(sightings.empty());
+    EXPECT_LE(sightings.size(), Waiting<Sighting>::kMost);
+    EXPECT_EQ(sightings.back().pose.x_m, 999'999);
+  });
+  EXPECT_TRUE(taken.ended);
+  if (support::kMeasuresMemory) {
+    EXPECT_LE(taken.peak_bytes, std::size_t{16} << 20);
+  }
 }
 
 TEST(VrpnStream, LeavesOutOtherMessagesOtherSensorsAndIdsThatNobodyHasDescribed) {

@@ -4,6 +4,7 @@
 
 #include "host/ros2/cdr/codec.hpp"
 #include "host/ros2/messages/graph.hpp"
+#include "tests/support/base/bounded.hpp"
 #include "tests/support/base/mutations.hpp"
 
 namespace astro::truth {
@@ -47,6 +48,28 @@ TEST(NodeNames, WhatAParticipantSaysLaterReplacesWhatItSaid) {
   names.take(announcement<16>());
   names.take(ros2::encode(msg::ParticipantEntitiesInfo<16>{gid<16>(1), {}}));
   EXPECT_EQ(names.node_of(guid(2)), "");
+}
+
+TEST(NodeNames, TakeBoundedMemoryHoweverMuchIsAnnounced) {
+  const auto taken = support::measured([] {
+    NodeNames names;
+    msg::ParticipantEntitiesInfo<16> info{{}, {{{"/lab"}, {std::string(200, 'n')}, {}, {}}}};
+    for (std::uint16_t i = 0; i < 10'000; ++i) {
+      msg::Gid<16> one = gid<16>(1);
+      one.data[1] = static_cast<std::uint8_t>(i);
+      one.data[2] = static_cast<std::uint8_t>(i >> 8U);
+      info.node_entities_info_seq[0].writer_gid_seq.push_back(one);
+    }
+    for (std::uint8_t i = 0; i < 12; ++i) {
+      info.gid = gid<16>(i);
+      names.take(ros2::encode(info));
+    }
+    EXPECT_EQ(names.node_of(gid<16>(1).data), "/lab/" + std::string(200, 'n'));
+  });
+  EXPECT_TRUE(taken.ended);
+  if (support::kMeasuresMemory) {
+    EXPECT_LE(taken.peak_bytes, std::size_t{16} << 20);
+  }
 }
 
 TEST(NodeNames, RandomDamageNeverHarmsThem) {

@@ -8,6 +8,7 @@
 #include "host/ros2/cdr/codec.hpp"
 #include "host/ros2/messages/geometry.hpp"
 #include "host/ros2/messages/odometry.hpp"
+#include "tests/support/base/bounded.hpp"
 #include "tests/support/base/mutations.hpp"
 #include "tests/support/ros2/big_endian.hpp"
 
@@ -69,6 +70,20 @@ void expect_that_it_is_read(const M& message, std::string_view body) {
     RosPoseStream stream({"/topic", "", ""});
     stream.push(M::kType, bytes);
     expect_the_pose(stream, body);
+  }
+}
+
+TEST(RosPoseStream, TakesBoundedMemoryHoweverLongTheNamesOfFramesAre) {
+  const auto taken = support::measured([] {
+    RosPoseStream stream({"/tf", "world", "robot"});
+    for (int i = 0; i < 100; ++i)
+      push(stream, msg::TFMessage{{transform("world", std::to_string(i) + std::string(200'000, 'x'))}});
+    push(stream, msg::TFMessage{{transform()}});
+    expect_the_pose(stream, "robot");
+  });
+  EXPECT_TRUE(taken.ended);
+  if (support::kMeasuresMemory) {
+    EXPECT_LE(taken.peak_bytes, std::size_t{8} << 20);
   }
 }
 
