@@ -103,6 +103,36 @@ TEST(EmulatorProgram, DrivesForOneProgramAtATime) {
   EXPECT_EQ(mode(), "segment") << "and goes on driving for the first";
 }
 
+/// `astrolabe stop` at one port while `astrolabe drive` at another, or the same, repeats its velocity.
+void expect_that_a_stop_ends_a_velocity(const std::string& driver, const std::string& stopper) {
+  const EmulatorProgram emulator;
+  const auto port = [&](const std::string& name) { return name == "usb" ? emulator.usb() : emulator.serial(); };
+  // Not about a host that falls silent, which the driver would do where the machine is busy.
+  ASSERT_EQ(astrolabe({"params", "set", "command_timeout=5000", "--yes", "--port", emulator.usb()}).code, 0);
+  support::Program drive(
+      {ASTROLABE_PROGRAM, "drive", "velocity", "0.5", "0", "--for", "80000", "--port", port(driver)});
+  const auto mode = [&] {
+    const Outcome info = astrolabe({"info", "--port", emulator.usb(), "--json"});
+    return info.code == 0 ? support::parse_json(info.out)["mode"].get<std::string>() : info.err;
+  };
+  ASSERT_TRUE(support::eventually([&] { return mode() == "velocity"; }));
+  const Outcome stop = astrolabe({"stop", "--port", port(stopper)});
+  EXPECT_EQ(stop.code, 0) << stop.err;
+  EXPECT_THAT(stop.err, HasSubstr("the robot is at rest and disarmed"));
+  EXPECT_EQ(drive.wait(), 1);
+  EXPECT_THAT(drive.err(), HasSubstr("stopped the robot"));
+  EXPECT_EQ(mode(), "disarmed");
+}
+
+TEST(EmulatorProgram, AStopThroughTheOtherCableEndsADriveByVelocity) {
+  expect_that_a_stop_ends_a_velocity("serial", "usb");
+  expect_that_a_stop_ends_a_velocity("usb", "serial");
+}
+
+TEST(EmulatorProgram, AStopThroughTheSameCableEndsADriveByVelocity) {
+  expect_that_a_stop_ends_a_velocity("usb", "usb");
+}
+
 TEST(EmulatorProgram, PausedAndResumedFromTheOtherPortADriveEndsWhereItShould) {
   const EmulatorProgram emulator;
   // Longer than a busy machine lets the driver wait, shorter than what is left of the drive after the pause.
