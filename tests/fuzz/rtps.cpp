@@ -1,5 +1,6 @@
 // Datagrams from anybody, judged before Fast DDS reads them.
 #include "host/ros2/dds/rtps_check.hpp"
+#include "host/ros2/dds/rtps_compatibility.hpp"
 #include "tests/fuzz/target.hpp"
 #include "tests/support/ros2/rtps_samples.hpp"
 
@@ -27,6 +28,10 @@ void take(ByteView input) {
   require(sound.empty() || is_chain(sound), "it is whole submessages");
   const ByteView again = ros2::dds::sound_part(sound);
   require(again.size() == sound.size(), "it is sound when it is judged again");
+  ros2::dds::acknowledgements_in(sound);
+  if (const auto changed = ros2::dds::for_fast_dds(sound))
+    require(changed->size() == sound.size() && ros2::dds::sound_part(*changed).size() == sound.size(),
+            "what is changed for Fast DDS is as long and as sound");
 }
 
 std::vector<Bytes> seeds() {

@@ -18,8 +18,7 @@
 namespace astro::ros2::dds {
 namespace {
 
-constexpr std::ptrdiff_t kGuidPrefixBytes = 12;        // the same for all endpoints of a participant
-constexpr const char* kUserDataAtFirst = "starting;";  // never sent
+constexpr std::ptrdiff_t kGuidPrefixBytes = 12;  // the same for all endpoints of a participant
 
 /// Of Fast DDS, with one type for each topic.
 class OneParticipant {
@@ -27,17 +26,13 @@ class OneParticipant {
   OneParticipant(const Discovery& discovery, const std::string& name, const std::string& user_data,
                  Others& others) {
     const auto gate = std::make_shared<Gate>();
-    fast::DomainParticipantQos qos = participant_settings(discovery, name, gate);
-    qos.user_data().data_vec(octets(kUserDataAtFirst));
+    fast::DomainParticipantQos qos = participant_settings(discovery, name, gate, acknowledged_);
+    qos.user_data().data_vec(octets(user_data));
     participant_ = fast::DomainParticipantFactory::get_instance()->create_participant(
         static_cast<std::uint32_t>(discovery.domain), qos, &others, fast::StatusMask::none());
     if (participant_ == nullptr)
       throw Error("DDS makes no participant in domain " + std::to_string(discovery.domain));
     gate->open();
-    // A change is announced at once: those that we hear of have to know us before we tell them of endpoints.
-    qos = participant_->get_qos();
-    qos.user_data().data_vec(octets(user_data));
-    participant_->set_qos(qos);
     publisher_ = participant_->create_publisher(fast::PUBLISHER_QOS_DEFAULT);
     subscriber_ = participant_->create_subscriber(fast::SUBSCRIBER_QOS_DEFAULT);
   }
@@ -63,10 +58,12 @@ class OneParticipant {
     return topic;
   }
   Guid guid() const { return to_guid(participant_->guid()); }
+  AcknowledgedBy& acknowledged() { return *acknowledged_; }
   fast::Publisher& publisher() { return *publisher_; }
   fast::Subscriber& subscriber() { return *subscriber_; }
 
  private:
+  std::shared_ptr<AcknowledgedBy> acknowledged_ = std::make_shared<AcknowledgedBy>();
   fast::DomainParticipant* participant_;
   fast::Publisher* publisher_;
   fast::Subscriber* subscriber_;
@@ -82,7 +79,7 @@ class FastParticipant : public Participant {
 
   std::unique_ptr<Writer> create_writer(const Topic& topic) override {
     OneParticipant& one = for_topic(topic);
-    return std::make_unique<FastWriter>(one.publisher(), one.topic(topic), topic);
+    return std::make_unique<FastWriter>(one.publisher(), one.topic(topic), topic, one.acknowledged());
   }
   std::unique_ptr<Reader> create_reader(const Topic& topic) override {
     OneParticipant& one = for_topic(topic);

@@ -29,8 +29,9 @@ FastQos with(FastQos qos, const Topic& topic) {
 
 }  // namespace
 
-FastWriter::FastWriter(fast::Publisher& publisher, fast::Topic* topic, const Topic& wanted)
-    : publisher_(publisher) {
+FastWriter::FastWriter(fast::Publisher& publisher, fast::Topic* topic, const Topic& wanted,
+                       AcknowledgedBy& acknowledged)
+    : publisher_(publisher), acknowledged_(acknowledged) {
   fast::DataWriterQos qos = with(fast::DATAWRITER_QOS_DEFAULT, wanted);
   qos.publish_mode().kind = fast::SYNCHRONOUS_PUBLISH_MODE;
   qos.reliable_writer_qos().times.heartbeatPeriod = eprosima::fastrtps::Duration_t(kHeartbeatPeriod_s);
@@ -41,6 +42,7 @@ FastWriter::FastWriter(fast::Publisher& publisher, fast::Topic* topic, const Top
 
 FastWriter::~FastWriter() {
   writer_->set_listener(nullptr);
+  for (const Guid& reader : readers_.all()) acknowledged_.forget({reader, guid()});
   publisher_.delete_datawriter(writer_);
 }
 
@@ -51,8 +53,20 @@ void FastWriter::send(ByteView payload, const SampleId* related) {
   writer_->write(&sample, parameters);
 }
 
-void FastWriter::on_publication_matched(fast::DataWriter*, const fast::PublicationMatchedStatus& status) {
-  readers_.note(to_guid(status.last_subscription_handle), status.current_count_change);
+std::vector<Guid> FastWriter::readers() const {
+  return readers_.those([&](const Guid& reader, std::chrono::steady_clock::duration since) {
+    return since >= kWithoutAcknowledgement || acknowledged_.has({reader, guid()});
+  });
+}
+
+void FastWriter::on_publication_matched(fast::DataWriter* writer,
+                                        const fast::PublicationMatchedStatus& status) {
+  const Guid reader = to_guid(status.last_subscription_handle);
+  if (status.current_count_change > 0)
+    acknowledged_.expect({reader, to_guid(writer->guid())});
+  else
+    acknowledged_.forget({reader, to_guid(writer->guid())});
+  readers_.note(reader, status.current_count_change);
 }
 
 FastReader::FastReader(fast::Subscriber& subscriber, fast::Topic* topic, const Topic& wanted, Bell& bell)

@@ -12,6 +12,7 @@
 #include <map>
 #include <mutex>
 
+#include "host/ros2/dds/fast_transport.hpp"
 #include "host/ros2/dds/fast_types.hpp"
 
 /// Writers and readers on Fast DDS. Its threads note what has happened; all else is done by the one thread of the caller.
@@ -27,12 +28,17 @@ class Matched {
     else
       since_.erase(other);
   }
-  /// Those that were found at least so long ago.
-  std::vector<Guid> all(std::chrono::milliseconds ago = {}) const {
+  std::vector<Guid> all() const {
+    return those([](const Guid&, std::chrono::steady_clock::duration) { return true; });
+  }
+  /// `chosen` takes who it is and how long it has been there.
+  template <class Chosen>
+  std::vector<Guid> those(Chosen chosen) const {
     const std::lock_guard lock(mutex_);
+    const auto now = std::chrono::steady_clock::now();
     std::vector<Guid> guids;
     for (const auto& [guid, since] : since_)
-      if (std::chrono::steady_clock::now() - since >= ago) guids.push_back(guid);
+      if (chosen(guid, now - since)) guids.push_back(guid);
     return guids;
   }
 
@@ -63,27 +69,31 @@ class Bell {
   bool rung_ = false;
 };
 
-/// Throws astro::Error if Fast DDS refuses it.
+/// Throws astro::Error if Fast DDS refuses it. `acknowledged` must outlive it.
 ///
-/// A reader counts from its first heartbeat on, which Fast DDS sends 12 ms after it has found it: a volatile reader of CycloneDDS
-/// takes what the first heartbeat names, and has not come before it, for older than itself, and never asks for it.
+/// A reader counts from when it has acknowledged a heartbeat: a volatile reader of CycloneDDS takes all that the first heartbeat
+/// names for older than itself, and never asks for it. One that acknowledges nothing, because it is not reliable, counts after
+/// half a second.
 class FastWriter : public Writer, fast::DataWriterListener {
  public:
-  FastWriter(fast::Publisher& publisher, fast::Topic* topic, const Topic& wanted);
+  FastWriter(fast::Publisher& publisher, fast::Topic* topic, const Topic& wanted,
+             AcknowledgedBy& acknowledged);
   ~FastWriter() override;
   FastWriter(const FastWriter&) = delete;
   FastWriter& operator=(const FastWriter&) = delete;
 
   Guid guid() const override { return to_guid(writer_->guid()); }
-  std::vector<Guid> readers() const override { return readers_.all(kSettling); }
+  std::vector<Guid> readers() const override;
 
  private:
   void send(ByteView payload, const SampleId* related) override;
-  void on_publication_matched(fast::DataWriter*, const fast::PublicationMatchedStatus& status) override;
+  void on_publication_matched(fast::DataWriter* writer,
+                              const fast::PublicationMatchedStatus& status) override;
 
-  static constexpr std::chrono::milliseconds kSettling{50};
+  static constexpr std::chrono::milliseconds kWithoutAcknowledgement{500};
 
   fast::Publisher& publisher_;
+  AcknowledgedBy& acknowledged_;
   fast::DataWriter* writer_;
   Matched readers_;
 };

@@ -15,7 +15,9 @@ namespace {
 constexpr double kAnnouncementPeriod_s = 0.2;
 // At first more often: others answer the first one that they get.
 constexpr std::uint32_t kFirstAnnouncements = 10;
-constexpr double kFirstAnnouncementPeriod_s = 0.05;
+constexpr double kFirstAnnouncementPeriod_s = 0.01;
+// How long others keep one that has died; the default is 20 s.
+constexpr double kLease_s = 5;
 constexpr std::uint32_t kMulticastPort = 7400, kPortsPerDomain = 250;
 constexpr const char* kMulticastAddress = "239.255.0.1";  // these three are DDSI-RTPS's defaults
 constexpr const char* kLoopback = "127.0.0.1";
@@ -60,6 +62,7 @@ rtps::LocatorList_t places_of(const Discovery& discovery) {
 }
 
 void set_times(rtps::DiscoverySettings& settings) {
+  settings.leaseDuration = eprosima::fastrtps::Duration_t(kLease_s);
   settings.leaseDuration_announcementperiod = eprosima::fastrtps::Duration_t(kAnnouncementPeriod_s);
   settings.initial_announcements = {kFirstAnnouncements,
                                     eprosima::fastrtps::Duration_t(kFirstAnnouncementPeriod_s)};
@@ -68,13 +71,14 @@ void set_times(rtps::DiscoverySettings& settings) {
 }  // namespace
 
 fast::DomainParticipantQos participant_settings(const Discovery& discovery, const std::string& name,
-                                                std::shared_ptr<const Gate> gate) {
+                                                std::shared_ptr<const Gate> gate,
+                                                std::shared_ptr<AcknowledgedBy> acknowledged) {
   fast::DomainParticipantQos qos;
   qos.name(name.c_str());
   const bool here_alone = discovery.range != Range::subnet && discovery.peers.empty();
   // The transports that are built in have shared memory, which would leave files behind when a program dies.
   qos.transport().use_builtin_transports = false;
-  qos.transport().user_transports.push_back(gated_udp(here_alone, std::move(gate)));
+  qos.transport().user_transports.push_back(gated_udp(here_alone, std::move(gate), std::move(acknowledged)));
   rtps::BuiltinAttributes& builtin = qos.wire_protocol().builtin;
   set_times(builtin.discovery_config);
   if (discovery.range == Range::off)

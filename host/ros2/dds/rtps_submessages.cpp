@@ -9,8 +9,14 @@
 namespace astro::ros2::dds {
 namespace {
 
-constexpr std::size_t kEntity = 4, kCount = 4, kGuidPrefix = 12;
+constexpr std::size_t kCount = 4;
 constexpr std::uint32_t kMostInSet = 256;
+
+/// A length of zero means all that follows, except for the two kinds that may be empty.
+bool reaches_to_the_end(std::uint16_t length, std::uint8_t id) {
+  return length == 0 && id != static_cast<std::uint8_t>(Kind::pad) &&
+         id != static_cast<std::uint8_t>(Kind::info_timestamp);
+}
 
 bool has(std::uint8_t flags, int bit) { return (flags >> bit & 1) != 0; }
 
@@ -101,12 +107,6 @@ std::optional<ByteView> payload_in(ByteView body, std::endian order, const Head&
   return rest.subspan(*size);
 }
 
-/// Participants, and writers and readers, with the built-in endpoints of the simple discovery protocol.
-bool is_of_discovery(ByteView writer) {
-  constexpr std::uint8_t kWriters[][kEntity] = {{0, 1, 0, 0xc2}, {0, 0, 3, 0xc2}, {0, 0, 4, 0xc2}};
-  return std::ranges::any_of(kWriters, [&](const auto& known) { return std::ranges::equal(writer, known); });
-}
-
 bool is_data(RtpsFields fields, std::uint8_t flags, ByteView body) {
   constexpr std::size_t kKnown = 16, kRepresentation = 4;
   const bool inline_qos = has(flags, 1), data = has(flags, 2), key = has(flags, 3);
@@ -133,6 +133,24 @@ bool is_data_fragment(RtpsFields fields, std::uint8_t flags, ByteView body) {
 }
 
 }  // namespace
+
+std::optional<Submessage> submessage_at(std::size_t begin, ByteView datagram) {
+  if (datagram.size() < begin + kSubmessageHeader) return std::nullopt;
+  const std::uint8_t id = datagram[begin], flags = datagram[begin + 1];
+  RtpsFields fields(datagram.subspan(begin + 2), order_in(flags));
+  const std::uint16_t length = fields.u16();
+  const ByteView rest = fields.rest();
+  const ByteView body =
+      reaches_to_the_end(length, id) ? rest : rest.first(std::min<std::size_t>(length, rest.size()));
+  const bool is_last = body.size() == rest.size();
+  if (body.size() < length || (!is_last && length % 4 != 0)) return std::nullopt;
+  return Submessage{id, flags, body, begin, begin + kSubmessageHeader + body.size()};
+}
+
+bool is_of_discovery(ByteView writer) {
+  constexpr std::uint8_t kWriters[][kEntity] = {{0, 1, 0, 0xc2}, {0, 0, 3, 0xc2}, {0, 0, 4, 0xc2}};
+  return std::ranges::any_of(kWriters, [&](const auto& known) { return std::ranges::equal(writer, known); });
+}
 
 bool is_sound(std::uint8_t id, std::uint8_t flags, ByteView body) {
   const RtpsFields fields(body, order_in(flags));

@@ -5,12 +5,12 @@
 
 namespace astro::ros2 {
 
-/// Decides when a person is told of another node of the same name. One that was killed is seen for as long as its lease lasts, 20 s
-/// unless it says otherwise, and whoever starts a node again after a crash need not be told of it.
+/// Decides when a person is told of another node of the same name. One that was killed is seen for as long as its lease lasts, 5 s
+/// if it was one of these (host/ros2/dds), and whoever starts a node again after a crash need not be told of it.
 class TwinWatch {
  public:
   using Clock = std::chrono::steady_clock;
-  static constexpr std::chrono::seconds kLease{25};
+  static constexpr std::chrono::seconds kLease{8};
 
   /// True once for each time that one has come and stayed.
   bool note(bool is_there, Clock::time_point now) {

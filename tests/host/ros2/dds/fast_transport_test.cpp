@@ -33,7 +33,7 @@ class Sizes : public transport::TransportReceiverInterface {
 class Transport : public testing::Test {
  protected:
   std::unique_ptr<transport::ChainingTransport> open(bool here_alone) {
-    auto* made = gated_udp(here_alone, gate_)->create_transport();
+    auto* made = gated_udp(here_alone, gate_, acknowledged_)->create_transport();
     std::unique_ptr<transport::ChainingTransport> opened(dynamic_cast<transport::ChainingTransport*>(made));
     EXPECT_TRUE(opened->init());
     return opened;
@@ -57,6 +57,7 @@ class Transport : public testing::Test {
   }
 
   std::shared_ptr<Gate> gate_ = std::make_shared<Gate>();
+  std::shared_ptr<AcknowledgedBy> acknowledged_ = std::make_shared<AcknowledgedBy>();
 };
 
 // 203.0.113.0/24 is for documentation; no interface has such an address.
@@ -83,6 +84,31 @@ TEST_F(Transport, OfADatagramItReadsThePartThatIsSound) {
   ASSERT_LT(sound, gap.size()) << "the statistics at its end";
   EXPECT_EQ(size_read(*alone, "127.0.0.1", gap), sound);
   EXPECT_EQ(size_read(*alone, "127.0.0.1", ByteView(gap).first(gap.size() - 1)), 0U);
+}
+
+// Its own group is named in the settings, which come first.
+TEST_F(Transport, MulticastAddressesOfOthersAreNotWrittenTo) {
+  gate_ = std::make_shared<Gate>();
+  const auto wide = open(false);
+  EXPECT_TRUE(writes(*wide, "239.255.0.1"));
+  gate_->open();
+  EXPECT_FALSE(writes(*wide, "239.255.0.1"));
+  EXPECT_TRUE(writes(*wide, "203.0.113.7"));
+}
+
+TEST_F(Transport, AnAcknowledgementIsNotedIfItIsExpected) {
+  const auto alone = open(true);
+  const Bytes bytes = support::bytes_in(support::kCycloneAcknowledgements);
+  const auto all = acknowledgements_in(bytes);
+  ASSERT_FALSE(all.empty());
+  size_read(*alone, "127.0.0.1", bytes);
+  EXPECT_FALSE(acknowledged_->has(all[0]));
+  acknowledged_->expect(all[0]);
+  EXPECT_FALSE(acknowledged_->has(all[0]));
+  size_read(*alone, "127.0.0.1", bytes);
+  EXPECT_TRUE(acknowledged_->has(all[0]));
+  acknowledged_->forget(all[0]);
+  EXPECT_FALSE(acknowledged_->has(all[0]));
 }
 
 // A participant may announce any address; of a kind unlike UDP over IPv4 Fast DDS 2.9 aborts.

@@ -12,28 +12,28 @@ constexpr TwinWatch::Clock::time_point kStart{};
 TEST(TwinWatch, TellsOnceOfATwinThatStays) {
   TwinWatch watch;
   EXPECT_FALSE(watch.note(true, kStart));
-  EXPECT_FALSE(watch.note(true, kStart + seconds(24)));
-  EXPECT_TRUE(watch.note(true, kStart + seconds(25)));
+  EXPECT_FALSE(watch.note(true, kStart + seconds(7)));
+  EXPECT_TRUE(watch.note(true, kStart + seconds(8)));
   EXPECT_FALSE(watch.note(true, kStart + seconds(60)));
 }
 
 TEST(TwinWatch, TellsNothingOfOneThatWasKilledAndWhoseLeaseEnds) {
   TwinWatch watch;
   watch.note(true, kStart);
-  watch.note(true, kStart + seconds(20));
-  watch.note(false, kStart + seconds(21));
-  EXPECT_FALSE(watch.note(true, kStart + seconds(30)));
-  EXPECT_FALSE(watch.note(true, kStart + seconds(54)));
-  EXPECT_TRUE(watch.note(true, kStart + seconds(55)));
+  watch.note(true, kStart + seconds(5));
+  watch.note(false, kStart + seconds(6));
+  EXPECT_FALSE(watch.note(true, kStart + seconds(10)));
+  EXPECT_FALSE(watch.note(true, kStart + seconds(17)));
+  EXPECT_TRUE(watch.note(true, kStart + seconds(18)));
 }
 
 TEST(TwinWatch, TellsAgainOfANewOne) {
   TwinWatch watch;
   watch.note(true, kStart);
-  EXPECT_TRUE(watch.note(true, kStart + seconds(30)));
-  watch.note(false, kStart + seconds(40));
-  watch.note(true, kStart + seconds(50));
-  EXPECT_TRUE(watch.note(true, kStart + seconds(80)));
+  EXPECT_TRUE(watch.note(true, kStart + seconds(8)));
+  watch.note(false, kStart + seconds(10));
+  watch.note(true, kStart + seconds(20));
+  EXPECT_TRUE(watch.note(true, kStart + seconds(28)));
 }
 
 }  // namespace

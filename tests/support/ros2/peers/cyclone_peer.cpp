@@ -1,8 +1,8 @@
 // A peer on Eclipse CycloneDDS, an implementation of DDS that shares no code with Fast DDS; bytes are read and written by code
 // that idlc made. Services are called in the manner of rmw_cyclonedds.
 //
-//   cyclone_peer DOMAIN [humble]     humble: ros_discovery_info is read with identifiers of 24 bytes, and the loopback interface
-//                                    is used as for ROS_LOCALHOST_ONLY=1
+//   cyclone_peer DOMAIN [humble|subnet]    humble: ros_discovery_info is read with identifiers of 24 bytes, and the loopback
+//                                          interface is used as for ROS_LOCALHOST_ONLY=1; subnet: other computers, too
 #include <dds/dds.h>
 #include <dds/ddsrt/log.h>
 #include <unistd.h>
@@ -35,6 +35,10 @@ constexpr const char* kLocalhostOfHumble =
     "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32</"
     "MaxAutoParticipantIndex>"
     "</Discovery></Domain></CycloneDDS>";
+/// As rmw_cyclonedds does for SUBNET, the default of ROS 2.
+constexpr const char* kSubnet =
+    "<CycloneDDS><Domain><Discovery><ParticipantIndex>auto</ParticipantIndex>"
+    "<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex></Discovery></Domain></CycloneDDS>";
 constexpr dds_duration_t kLongest = DDS_SECS(10);
 // All replies of a service reach all its clients; those of others must not push out one's own on a busy machine.
 constexpr int kDepth = 1000;
@@ -401,9 +405,10 @@ class CyclonePeer : public Peer {
 int main(int count, char** arguments) {
   using namespace astro::support;
   if (count < 2) return 2;
-  const bool humble = count > 2 && std::strcmp(arguments[2], "humble") == 0;
+  const std::string_view option = count > 2 ? arguments[2] : "";
+  const bool humble = option == "humble";
   dds_set_log_sink(log, nullptr);
-  setenv("CYCLONEDDS_URI", humble ? kLocalhostOfHumble : kLocalhost, 1);
+  setenv("CYCLONEDDS_URI", option == "subnet" ? kSubnet : humble ? kLocalhostOfHumble : kLocalhost, 1);
   CyclonePeer peer(std::atoi(arguments[1]), humble);
   return run(peer);
 }
