@@ -26,9 +26,12 @@ constexpr std::uint64_t kRunAhead_us = 100'000;  // virtual time that may pass a
 // The same while the robot awaits commands. A sign of life between two of them lets time pass once more, and even two of them must not
 // take the robot to its command time-out of 200 ms. More than 50 ms, after which hosts give a sign of life by the robot's clock.
 constexpr std::uint64_t kRunAheadOfCommands_us = 60'000;
-// Real time that a host may take no bytes, or send none, before time goes on without it. On a busy machine a program
-// gets no turn for some hundred milliseconds, and a robot that stops by its own time-out then surprises its owner.
-constexpr auto kPatience = 1s;
+// The same in real time while the robot drives. The shortest command time-out is 200 ms.
+constexpr std::uint64_t kSilenceOfDriver_us = 150'000;
+// Turns of this server, each of a millisecond at least, for which a host may take no bytes, or send none, before time goes on
+// without it. On a busy machine a program gets no turn for some hundred milliseconds, and a robot that stops by its own time-out
+// then surprises its owner. Turns and not seconds, because a machine that gives the host no time gives this server little, too.
+constexpr int kPatience = 1000;
 constexpr int kStepsPerPoll = 50;  // virtual ms between two checks of the host while running ahead
 constexpr int kStepsPerPollOfCommands = 10;
 
@@ -45,10 +48,9 @@ class ServedVirtualRobot : public ServedRobot {
 
   void step() override { robot_.step(); }
   bool awaits_commands() override {
-    const auto hold = robot_.board().hold_tick();
-    const protocol::Mode mode = robot_.robot().drive(hold).mode();
-    return mode == protocol::Mode::velocity || mode == protocol::Mode::wheels;
+    return mode() == protocol::Mode::velocity || mode() == protocol::Mode::wheels;
   }
+  bool drives() override { return mode() == protocol::Mode::segment || awaits_commands(); }
   std::uint64_t now_us() override { return robot_.now_us(); }
   std::size_t room(int port) override { return robot_.board().ports().host_room(port); }
   void write(int port, std::span<const std::uint8_t> bytes) override {
@@ -61,6 +63,11 @@ class ServedVirtualRobot : public ServedRobot {
   std::span<const std::uint8_t> flash() override { return robot_.board().flash().content(); }
 
  private:
+  protocol::Mode mode() {
+    const auto hold = robot_.board().hold_tick();
+    return robot_.robot().drive(hold).mode();
+  }
+
   VirtualRobot robot_;
 };
 
@@ -124,10 +131,10 @@ void Server::receive() {
   }
   if (!heard) return;
   last_heard_us_ = robot_->now_us();
-  heard_at_ = Clock::now();
+  turns_waited_ = 0;
   // A step now answers the host at once. Except in fast motion it is one of the steps that real time
   // requires.
-  if (!config_.fast && !pace_.may_step_early(heard_at_)) return;
+  if (!config_.fast && !pace_.may_step_early(Clock::now())) return;
   step();
   pace_.stepped();
 }
@@ -144,22 +151,30 @@ bool Server::connected() const {
   return std::any_of(channels_.begin(), channels_.end(), [](const Channel& c) { return c.connected(); });
 }
 
+bool Server::host_is_late() {
+  const std::uint64_t silence_us = robot_->now_us() - last_heard_us_;
+  if (!config_.fast) return silence_us >= kSilenceOfDriver_us && robot_->drives();
+  return silence_us >= (robot_->awaits_commands() ? kRunAheadOfCommands_us : kRunAhead_us);
+}
+
+/// Virtual time waits for a host that is late because its machine is busy, but not for one that hangs or has gone.
+void Server::wait_for_host() {
+  if (!connected() || turns_waited_ >= kPatience) return;
+  const Clock::time_point now = Clock::now();
+  if (now - turn_at_ >= Pace::kStep) {
+    ++turns_waited_;
+    turn_at_ = now;
+  }
+  pace_.restart(now + Pace::kStep);
+}
+
 bool Server::runs_ahead(bool host_is_behind) {
-  if (!config_.fast) return false;
-  const std::uint64_t most_us = robot_->awaits_commands() ? kRunAheadOfCommands_us : kRunAhead_us;
-  if (robot_->now_us() - last_heard_us_ >= most_us) {
-    // Virtual time waits for a host that is late because its machine is busy, but not for one that hangs or
-    // has gone.
-    if (connected() && Clock::now() - heard_at_ < kPatience) pace_.restart(Clock::now() + Pace::kStep);
+  if (host_is_late() || (config_.fast && host_is_behind)) {
+    wait_for_host();
     return false;
   }
-  if (!host_is_behind) {
-    behind_since_ = Clock::now();
-    return true;
-  }
-  // Virtual time waits for a host that is busy, but not for one that hangs.
-  if (Clock::now() - behind_since_ < kPatience) pace_.restart(Clock::now() + Pace::kStep);
-  return false;
+  turns_waited_ = 0;
+  return config_.fast;
 }
 
 void Server::step() {

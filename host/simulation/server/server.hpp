@@ -35,7 +35,8 @@ std::vector<std::uint8_t> load_flash(const std::filesystem::path& path);
 
 /// A simulated robot behind a pty, for as long as the process lives.
 ///
-/// Real time: one virtual millisecond per real millisecond. Fast: virtual time runs ahead as long as a host
+/// Real time: one virtual millisecond per real millisecond; while the robot drives, time waits for a driver that is late, as in
+/// fast motion. Fast: virtual time runs ahead as long as a host
 /// sends something at least every 100 virtual ms, or 60 while it drives by repeated commands (its client pings by the robot's clock) and reads what it is
 /// sent; otherwise it falls back to real time, so that the robot's command time-out still notices a host that
 /// dies.
@@ -60,6 +61,8 @@ class Server {
   /// True if the host has not taken all bytes yet.
   bool transmit();
   bool connected() const;
+  bool host_is_late();
+  void wait_for_host();
   bool runs_ahead(bool host_is_behind);
   void step();
   void wait();
@@ -72,8 +75,8 @@ class Server {
   NetworkTracker tracker_;
   std::optional<TruthServer> truth_;  // after the ptys, whose links show that the paths are free
   std::uint64_t last_heard_us_ = 0;   // virtual
-  Clock::time_point heard_at_{};      // the same in real time
-  Clock::time_point behind_since_{};  // real time since which the host takes no bytes
+  int turns_waited_ = 0;              // since a host was heard, and took what it was sent
+  Clock::time_point turn_at_{};       // when the last of these turns was
   Pace pace_;
   std::vector<std::uint8_t> saved_flash_;
   std::optional<PathClaim> flash_claim_;  // two robots would take each other's parameters for their own

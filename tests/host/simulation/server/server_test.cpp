@@ -59,14 +59,16 @@ TEST(Server, InRealTimeNeverRunsAheadOfTheWallClock) {
   Host host(served);
   const auto wall = steady_clock::now();
   const std::uint64_t start_us = host.device_us();
-  // Without any requests, because each request may cause an early step as its answer.
-  while (steady_clock::now() - wall < milliseconds(400)) ::poll(nullptr, 0, 5);
-  const std::uint64_t passed_us = host.device_us() - start_us;
+  std::uint64_t passed_us = 0;
+  for (; passed_us < 300'000; passed_us = host.device_us() - start_us) {
+    // Without any requests, because each request may cause an early step as its answer.
+    for (const auto begin = steady_clock::now(); steady_clock::now() - begin < milliseconds(400);)
+      ::poll(nullptr, 0, 5);
+  }
   const auto wall_us =
       std::chrono::duration_cast<std::chrono::microseconds>(steady_clock::now() - wall).count();
   constexpr std::int64_t kTwoWords_us = 2 * 1000;
   EXPECT_LE(static_cast<std::int64_t>(passed_us), wall_us + kTwoWords_us);
-  EXPECT_GE(passed_us, 100'000U) << "and it runs, also on a machine with much else to do";
 }
 
 TEST(Server, InRealTimeNeverRunsAheadForAHostThatSpeaksOften) {
@@ -127,6 +129,49 @@ TEST(Server, HasTheFlashInItsFileBeforeTheHostHearsThatItIsKept) {
     std::ifstream file(flash, std::ios::binary);  // at once, because the power may fail now
     EXPECT_EQ(file.get(), byte);
   }
+  stop = true;
+  thread.join();
+}
+
+/// Drives for ever, and remembers when each of its steps was made.
+class Driving : public astro::simulation::ServedRobot {
+ public:
+  void step() override {
+    const auto now = steady_clock::now();
+    const auto gap = now - std::exchange(stepped_at_, now);
+    if (++now_ms_ > 1) longest_gap_ = std::max<steady_clock::duration>(longest_gap_, gap);
+    has_waited = longest_gap_.load() > milliseconds(900);
+  }
+  std::uint64_t now_us() override { return now_ms_ * 1000; }
+  bool drives() override { return true; }
+  std::size_t room(int) override { return 1; }
+  void write(int, std::span<const std::uint8_t>) override { heard = true; }
+  std::size_t read(int, std::span<std::uint8_t>) override { return 0; }
+  std::vector<recording::TruthSample> take_truth() override { return {}; }
+  std::span<const std::uint8_t> flash() override { return {}; }
+
+  std::atomic<bool> heard = false, has_waited = false;
+
+ private:
+  std::uint64_t now_ms_ = 0;
+  steady_clock::time_point stepped_at_{};
+  std::atomic<steady_clock::duration> longest_gap_{};
+};
+
+// The bound below is one that a busy machine only moves further away.
+TEST(Server, InRealTimeWaitsForADriverThatIsLateButNotForEver) {
+  const test::TemporaryFolder folder;
+  auto owned = std::make_unique<Driving>();
+  const Driving& robot = *owned;
+  Server server(std::move(owned), {folder.path() / "robot.pty"});
+  std::atomic<bool> stop = false;
+  std::thread thread([&] { server.run([&] { return stop.load(); }); });
+  const auto host = robot::open_transport(folder.path() / "robot.pty");
+  host->write(std::array{std::uint8_t{'a'}});
+  while (!robot.heard) ::poll(nullptr, 0, 1);
+  const auto end = steady_clock::now() + seconds(60);  // only a failure waits so long
+  while (!robot.has_waited && steady_clock::now() < end) ::poll(nullptr, 0, 5);
+  EXPECT_TRUE(robot.has_waited) << "its time stood still, and went on";
   stop = true;
   thread.join();
 }
