@@ -10,13 +10,9 @@ namespace {
 
 using support::bytes_in;
 using support::words;
+using support::operator+;
 using testing::ElementsAre;
 using testing::IsEmpty;
-
-Bytes operator+(Bytes a, const Bytes& b) {
-  append(a, ByteView(b));
-  return a;
-}
 
 // CycloneDDS's reader 0x204 to the writer 0x903 of Fast DDS, before it has heard of it.
 constexpr std::string_view kHeader = "525450530201011001105eec4d1e36fad7135fec";
