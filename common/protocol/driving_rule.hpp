@@ -18,7 +18,8 @@ namespace astro::protocol {
 ///   Pause of anybody
 ///                  suspends it: the driver's segments wait behind the paused path, and all else that moves the robot
 ///                  is refused, also a Rest, which would end the pause. It ends with a Resume: the driver's own if the
-///                  driver paused, or that of any other host; or with an Arm.
+///                  driver paused, or that of any other host; or with an Arm, after which a path waits for Resume all
+///                  the same. Nobody resumes the path of a driver that has gone.
 ///
 /// A fault needs no row, because it takes an Arm to drive after one.
 ///
@@ -41,7 +42,7 @@ class DrivingRule {
       case AddSegment::kId:
         return drives(from) && !stopped_;
       case Resume::kId:
-        return !drives(from) || (!stopped_ && !paused_by_other_);
+        return driver_ && (!drives(from) || (!stopped_ && !paused_by_other_));
       default:
         return true;
     }

@@ -79,7 +79,7 @@ inline constexpr std::array<std::string_view, 14> kErrorCodeMeanings{
     "no request of this protocol version has this id",
     "the fields do not decode: wrong length, or a value outside its enumeration",
     "the host's Hello named another protocol version; detail: the robot's version",
-    "the sender must arm the robot first: it has not yet, or somebody has stopped or paused the robot since",
+    "the sender does not drive the robot: it must arm it, or somebody has stopped or paused the robot since",
     "a fault is latched; detail: the first fault",
     "the segment queue has no room: send it again after a SegmentDone",
     "the value or the staged set is not valid; detail: id of the offending parameter",

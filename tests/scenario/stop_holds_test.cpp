@@ -9,8 +9,8 @@
 #include "tests/support/robots/drive_of.hpp"
 #include "tests/support/robots/random.hpp"
 
-// A host at one port drives and never stops asking for motion; a host at the other port halts the robot. Whatever the
-// first one sends, it does not drive again before it arms the robot. `./dev fuzz` tries ten thousand.
+// A host at one port drives and never stops asking for motion; another host, at the other port or beside it at the same one,
+// halts the robot. Whatever the first one sends, it does not drive again before it arms the robot. `./dev fuzz` tries ten thousand.
 namespace astro {
 namespace {
 
@@ -48,18 +48,20 @@ class TwoPorts {
     const auto before_ms = random_.between(1, 4000);
     for (std::int64_t i = 0; i < before_ms; ++i) step_with_driver();
     moved_at_halt_ = drive().gives_power();
+    const int port = random_.chance(0.7) ? kOther : kDriver;
+    const std::uint16_t onlooker = port == kDriver ? protocol::kOnlookerBit : 0;
     switch (halt.message) {
       case protocol::Stop::kId:
-        send(protocol::Stop{}, kOther);
+        send(protocol::Stop{}, port, onlooker);
         break;
       case protocol::Pause::kId:
-        send(protocol::Pause{}, kOther);
+        send(protocol::Pause{}, port, onlooker);
         break;
       case protocol::Disarm::kId:
-        send(protocol::Disarm{}, kOther);
+        send(protocol::Disarm{}, port, onlooker);
         break;
       default:
-        send(protocol::EmergencyStop{}, kOther);
+        send(protocol::EmergencyStop{}, port, onlooker);
     }
     robot_.step();  // it takes the request
     halted_ = true;
@@ -81,9 +83,10 @@ class TwoPorts {
   const Drive& drive() { return support::drive_of(robot_); }
 
   template <protocol::Message M>
-  void send(const M& message, int port) {
+  void send(const M& message, int port, std::uint16_t onlooker = 0) {
     request_ = static_cast<std::uint16_t>(request_ % 0x7FFF + 1);
-    robot_.board().ports().host_write(port, protocol::Frame(message, request_).bytes());
+    robot_.board().ports().host_write(
+        port, protocol::Frame(message, static_cast<std::uint16_t>(request_ | onlooker)).bytes());
   }
 
   /// One millisecond in which the driver may ask for something that moves the robot, but never arms it.
@@ -96,6 +99,7 @@ class TwoPorts {
   }
 
   void ask_for_motion() {
+    if (random_.chance(0.02)) return send(protocol::Rest{}, kDriver);
     if (random_.chance(0.01)) drives_ = static_cast<int>(random_.between(0, 3));  // in another way
     switch (drives_) {
       case 0:

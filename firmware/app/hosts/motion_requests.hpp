@@ -46,7 +46,7 @@ class MotionRequests {
   }
 
   Answer handle(const HostId& host, const protocol::Rest& request) {
-    if (!permits(host, request)) return not_permitted();
+    if (!permits(host, request) || !ready()) return not_permitted();
     stop();
     return Ack{};
   }
@@ -164,6 +164,11 @@ class MotionRequests {
   template <protocol::Request M>
   bool permits(const HostId& host, const M&) const {
     return sessions_.permits(host, M::kId);
+  }
+  bool ready() {
+    const auto hold = board_.hold_tick();
+    const Drive& drive = state_.get(hold).drive;
+    return drive.armed() && !drive.faults().any();
   }
   [[gnu::cold]] protocol::ErrorReply not_permitted() {
     const auto hold = board_.hold_tick();

@@ -152,8 +152,8 @@ void Drive::stop(const TwistRamp& planned) {
 
 bool Drive::arm() {
   if (!supervisor_.request(Event::arm)) return false;
-  // A pause without a path has nothing that waits for its end. The robot would take commands and not move.
-  if (state() == State::armed && queue_.empty()) paused_ = false;
+  // A pause without a path has nothing that waits for its end. The robot would take segments and not move.
+  if (!on_path() && queue_.empty()) paused_ = false;
   return true;
 }
 

@@ -22,9 +22,10 @@ void pause(ConnectionOptions& options) {
     client->pump(std::chrono::milliseconds(50));
   }
   const protocol::Status status = client->request(protocol::GetStatus{});
-  if (status.mode != protocol::Mode::paused)
-    throw Error("the robot is not paused but " + std::string(protocol::name(status.mode)) +
-                ", faults: " + faults_in_words(status.latched_faults));
+  if (status.latched_faults != 0)
+    throw Error("the robot has stopped because of a fault: " + faults_in_words(status.latched_faults));
+  if (status.mode != protocol::Mode::paused)  // a program that drives by velocities ends when one is refused
+    return console::say("the robot is at rest; the program that drove it has ended its drive");
   console::say("the robot is at rest until 'astrolabe resume'; 'astrolabe stop' ends the drive");
 }
 

@@ -14,6 +14,8 @@ const PortUser* DriverRule::stopper_of(SessionId id) const {
 std::optional<ErrorReply> DriverRule::refusal(SessionId id, std::uint8_t message) const {
   const bool taken = driver_ && driver_ != id && !(confirmed_ && rule_.stopped());
   if (message == Arm::kId) return taken ? std::optional(ErrorReply{ErrorCode::busy, 0}) : std::nullopt;
+  if (message == Resume::kId && !rule_.driver())
+    return std::nullopt;  // it may be for a driver at another port
   if (rule_.permits(id, message)) return std::nullopt;
   return ErrorReply{taken ? ErrorCode::busy : ErrorCode::not_armed, 0};
 }
@@ -31,15 +33,27 @@ void DriverRule::note_halt(SessionId id, std::uint8_t message, const PortUser& b
 
 void DriverRule::note_answer(SessionId id, std::uint8_t request, std::optional<ErrorCode> refused) {
   if (!refused) rule_.note(id, request);
-  if (request == Arm::kId && driver_ == id) {
-    confirmed_ = confirmed_ || !refused;
-    if (!refused) stopped_.erase(id);
-    if (!confirmed_) end_drive();
-  }
+  if (request == Arm::kId) note_answer_to_arm(id, !refused);
   // Somebody at another port of the robot has stopped it.
-  if (refused == ErrorCode::not_armed && rule_.drives(id)) rule_.note(id, Stop::kId);
+  const bool motion = request == Velocity::kId || request == WheelVoltage::kId || request == AddSegment::kId;
+  if (motion && refused == ErrorCode::not_armed && rule_.drives(id)) rule_.note(id, Stop::kId);
   const bool disarms = request == Disarm::kId || request == Reboot::kId || request == EnterBootloader::kId;
   if (disarms && !refused) end_drive();
+}
+
+/// A program that the robot lets drive is the driver, also if another's Disarm ended its claim in between.
+void DriverRule::note_answer_to_arm(SessionId id, bool accepted) {
+  if (accepted) {
+    driver_ = id;
+    confirmed_ = true;
+    stopped_.erase(id);
+  } else if (driver_ == id && !confirmed_) {
+    end_drive();
+  }
+}
+
+std::optional<SessionId> DriverRule::confirmed_driver() const {
+  return confirmed_ && !rule_.stopped() ? driver_ : std::nullopt;
 }
 
 void DriverRule::end_drive() {

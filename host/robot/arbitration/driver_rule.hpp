@@ -21,8 +21,8 @@ class DriverRule {
  public:
   std::optional<SessionId> driver() const { return driver_; }
   bool drives(SessionId id) const { return driver_ == id; }
-  /// The driver, once the robot has accepted its Arm.
-  std::optional<SessionId> confirmed_driver() const { return confirmed_ ? driver_ : std::nullopt; }
+  /// The driver, once the robot has accepted its Arm and until somebody stops it.
+  std::optional<SessionId> confirmed_driver() const;
   /// The program that stopped this one's drive; null if none has since it armed the robot.
   const PortUser* stopper_of(SessionId id) const;
 
@@ -46,6 +46,8 @@ class DriverRule {
   void clear();
 
  private:
+  void note_answer_to_arm(SessionId id, bool accepted);
+
   protocol::DrivingRule<SessionId> rule_;
   std::optional<SessionId> driver_;  // from when it asks for it, the rule's from when the robot has agreed
   bool confirmed_ = false;           // the robot has agreed

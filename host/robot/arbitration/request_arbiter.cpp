@@ -81,6 +81,7 @@ void RequestArbiter::cancel_motion(SessionId by, std::uint8_t halt) {
     const Header request = session.current()->header;
     if (!request_rules::is_cancelled_by(request.message_id, halt)) continue;
     turns_.end(id);
+    driver_.note_answer(id, request.message_id, why);
     reply_with(session, request, ErrorReply{why, 0});
   }
 }

@@ -22,9 +22,7 @@ std::string addition(protocol::ErrorCode code, std::uint16_t detail) {
 }
 
 /// The clause of protocol::meaning without its explanation of the detail, which is for programs.
-std::string clause(std::string_view what, protocol::ErrorCode code) {
-  if (what == protocol::Pause::kName && code == protocol::ErrorCode::moving)
-    return "only a path can be paused, and it drives by velocities";
+std::string clause(protocol::ErrorCode code) {
   const std::string_view all = protocol::meaning(code);
   return std::string(all.substr(0, all.find("; detail")));
 }
@@ -32,7 +30,7 @@ std::string clause(std::string_view what, protocol::ErrorCode code) {
 std::string sentence(std::string_view what, protocol::ErrorCode code, std::uint16_t detail,
                      std::string_view why) {
   return "the robot refused " + std::string(what) + " (" + std::string(protocol::name(code)) +
-         "): " + (why.empty() ? clause(what, code) + addition(code, detail) : std::string(why));
+         "): " + (why.empty() ? clause(code) + addition(code, detail) : std::string(why));
 }
 
 }  // namespace

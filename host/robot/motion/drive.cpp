@@ -216,7 +216,10 @@ void DriveSession::command(const M& motion) {
 
 void DriveSession::explain(const RobotRefused& refused) {
   if (refused.code() == ErrorCode::faulted) fail(static_cast<Fault>(refused.detail()));
-  if (refused.code() == ErrorCode::not_armed) fail_ended("the drive ended early", "stopped");
+  if (refused.code() == ErrorCode::not_armed) {
+    const bool paused = client_.request(GetStatus{}).mode == Mode::paused;
+    fail_ended("the drive ended early", paused ? "paused" : "stopped");
+  }
   if (refused.code() == ErrorCode::busy && port_users(client_).driver_pid != 0) fail_busy();
 }
 

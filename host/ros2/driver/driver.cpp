@@ -112,7 +112,6 @@ void Driver::run(const std::function<bool()>& goes_on) {
 void Driver::begin(RobotSession& session) {
   newest_.reset();
   parameters_.begin(session, session.client().now());
-  driving_.begin(session);
   const auto timeout_ms = session.numbers().find("command_timeout");
   const double left_ms = timeout_ms == session.numbers().end() ? 0 : timeout_ms->second;
   if (robot::stop_left_drive(session.client(), microseconds(std::llround(1e3 * left_ms))))
@@ -184,7 +183,7 @@ void Driver::lose(const Error& why) {
     link_.lose(why);
   }
   newest_.reset();
-  driving_.lose();
+  driving_.release();
 }
 
 std::optional<std::int64_t> Driver::utc_of_robot_ns(std::int64_t device_time_us) {

@@ -40,6 +40,15 @@ bool comes_to_rest(RobotSession& session) {
   return false;
 }
 
+/// To the robot all programs that have driven through one port are one host, so it lets this one take over a path that another
+/// has left behind.
+void require_free(RobotSession& session) {
+  const protocol::Status status = session.ask(protocol::GetStatus{});
+  const bool drives = protocol::gives_power(status.mode) && status.mode != protocol::Mode::stopping;
+  if (drives || status.mode == protocol::Mode::paused || status.queued_segments != 0)
+    throw Error("the robot drives, or waits on a path, for another program: stop it first");
+}
+
 std::string why_not(RobotSession& session, const robot::RobotRefused& refused) {
   const robot::PortUsers users = robot::port_users(session.client());
   if (refused.code() == ErrorCode::busy && users.driver_pid != 0)
@@ -52,6 +61,7 @@ std::string why_not(RobotSession& session, const robot::RobotRefused& refused) {
 }  // namespace
 
 std::string Driving::arm(RobotSession& session) {
+  if (!armed_) require_free(session);
   const std::uint32_t latched = session.ask(protocol::GetFaults{}).latched;
   if ((latched & ~robot::kFaultsLeftBehind) != 0)
     throw robot::DriveFault(
@@ -79,17 +89,18 @@ void Driving::disarm(RobotSession& session) {
   release();
 }
 
-void Driving::stop(RobotSession& session) {
+std::string Driving::stop(RobotSession& session) {
   command_.clear();
   if (velocities_after_stop_ && armed_ && halt_ == Halt::none) {
     try {
       session.ask(protocol::Rest{});
-      return;
+      return "ramps to rest, and goes on with the next velocity";
     } catch (const robot::RobotRefused&) {  // somebody else has stopped the robot
     }
   }
   session.ask(protocol::Stop{});
   halt_ = Halt::stopped;
+  return "ramps to rest, and moves for nobody until it is armed again";
 }
 
 void Driving::pause(RobotSession& session) {
@@ -106,17 +117,6 @@ void Driving::resume(RobotSession& session) {
 void Driving::release() {
   command_.clear();
   armed_ = false;
-}
-
-void Driving::lose() {
-  left_armed_ = left_armed_ || armed_;
-  release();
-}
-
-void Driving::begin(RobotSession& session) {
-  if (!left_armed_) return;
-  session.ask(protocol::Stop{});
-  left_armed_ = false;
 }
 
 void Driving::step(RobotSession& session, microseconds now) {

@@ -31,18 +31,14 @@ class Driving {
   /// Throws astro::Error for any other latched fault, and if another program drives.
   std::string arm(RobotSession& session);
   void disarm(RobotSession& session);
-  /// Ramps to rest, whoever drives. Returns once that is certain: the robot has taken the stop, and moves for nobody until an arm.
-  void stop(RobotSession& session);
+  /// Ramps to rest, whoever drives; returns what was done. Then the robot moves for nobody until an arm, unless
+  /// `velocities_after_stop` holds and this node drives.
+  std::string stop(RobotSession& session);
   /// Ramps to rest, and keeps what is left of a path. Until resume() or arm() velocities are ignored.
   void pause(RobotSession& session);
   void resume(RobotSession& session);
   /// The robot is not armed for this node any more.
   void release();
-  /// The link was lost.
-  void lose();
-  /// A new connection begins. A robot that was armed here when the last one was lost is told to stop: with a command_timeout of 0
-  /// it has driven on.
-  void begin(RobotSession& session);
   bool armed() const { return armed_; }
   /// Why velocities are ignored; "" if they drive the robot.
   std::string_view why_ignored() const;
@@ -55,7 +51,7 @@ class Driving {
     if (refused) ignore(*refused, now.steady);
   }
 
-  /// Tells the robot what is due: a new velocity at once, the same one again before the robot's own time-out, Stop at the end.
+  /// Tells the robot what is due: a new velocity at once, the same one again before the robot's own time-out, Rest at the end.
   void step(RobotSession& session, microseconds now);
 
   const CommandCounts& counts() const { return counts_; }
@@ -72,7 +68,6 @@ class Driving {
   bool velocities_after_stop_;
   bool armed_ = false;
   Halt halt_ = Halt::none;
-  bool left_armed_ = false;  // when the link was lost, and not told to stop since
   CommandCounts counts_;
 };
 

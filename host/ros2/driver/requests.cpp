@@ -19,9 +19,7 @@ Requests::Requests(std::span<Middleware* const> middlewares, const Names& names,
 void Requests::serve_all() {
   serve("arm", [this](RobotSession& session) { return robot_.driving.arm(session); });
   serve("disarm", [this](RobotSession& session) { return robot_.driving.disarm(session), "disarmed"; });
-  serve("stop", [this](RobotSession& session) {
-    return robot_.driving.stop(session), "ramps to rest, and moves for nobody until it is armed again";
-  });
+  serve("stop", [this](RobotSession& session) { return robot_.driving.stop(session); });
   serve("emergency_stop", [this](RobotSession& session) {
     robot_.driving.release();
     session.ask(protocol::EmergencyStop{});

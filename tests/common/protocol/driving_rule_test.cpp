@@ -40,6 +40,8 @@ TEST_F(Rule, TheHostThatArmedLastDrivesAndNobodyElse) {
   rule.note(kOther, Arm::kId);
   expect(false, false, true);
   EXPECT_TRUE(rule.permits(kOther, Velocity::kId));
+  rule.note(kThird, Stop::kId);
+  EXPECT_TRUE(rule.permits(kThird, Resume::kId)) << "it resumes nothing, because a stop empties the queue";
 }
 
 TEST_F(Rule, AskingAndHaltingIsForEverybodyAlways) {
@@ -92,7 +94,8 @@ TEST_F(Rule, AStopWithinAPauseIsNotEndedByResume) {
 TEST_F(Rule, WhenTheDriverHasGoneNobodyDrives) {
   rule.end();
   EXPECT_EQ(rule.driver(), std::nullopt);
-  expect(false, false, true);
+  expect(false, false, false);
+  EXPECT_FALSE(rule.permits(kOther, Resume::kId));
 }
 
 TEST_F(Rule, RestAndMotionKeepThePermission) {

@@ -377,13 +377,25 @@ TEST_F(Driving, APauseEndsAVelocityAndNoOtherVelocityMovesTheRobotUntilItIsResum
 
 TEST_F(Driving, ARobotThatWasPausedWithoutAPathIsReadyOnceItIsArmedAgain) {
   arm();
-  ask(protocol::Pause{});
-  run_ms(10);
-  ASSERT_EQ(mode(), Mode::paused);
+  for (const bool in_the_ramp : {false, true}) {
+    const double from_m = x_m();
+    if (in_the_ramp) ask(protocol::Velocity{100'000, 0}), run_ms(150);
+    ask(protocol::Pause{});
+    run_ms(10);
+    ASSERT_EQ(mode(), in_the_ramp ? Mode::stopping : Mode::paused);
+    arm();
+    add(robot::line(0.1));
+    EXPECT_TRUE(until_rest());
+    EXPECT_NEAR(x_m(), from_m + 0.1, in_the_ramp ? 0.03 : 0.002);  // and the way of the velocity and its ramp
+  }
+}
+
+TEST_F(Driving, ARestIsRefusedByARobotThatDoesNotDrive) {
+  EXPECT_EQ(refusal(protocol::Rest{}).code(), ErrorCode::not_armed);
   arm();
-  add(robot::line(0.1));
-  EXPECT_TRUE(until_rest());
-  EXPECT_NEAR(x_m(), 0.1, 0.002);
+  ask(protocol::Velocity{100'000, 0});
+  silence_ms(2000);
+  EXPECT_EQ(refusal(protocol::Rest{}).code(), ErrorCode::faulted);
 }
 
 TEST_F(Driving, ARestEndsAVelocityAndTheNextOneDrivesAgain) {

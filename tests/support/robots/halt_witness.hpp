@@ -85,7 +85,8 @@ class HaltWitness {
   }
 
   bool may(const Host& from, std::uint8_t message) const {
-    if (message == protocol::Resume::kId) return from != driver_ || (!stopped() && !paused_by_another());
+    if (message == protocol::Resume::kId)
+      return driver_ != Host{} && (from != driver_ || (!stopped() && !paused_by_another()));
     if (from != driver_ || stopped()) return false;
     return !paused() || message == protocol::AddSegment::kId;
   }

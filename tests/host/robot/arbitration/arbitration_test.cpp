@@ -111,6 +111,7 @@ TEST_F(ADrive, ThatAnotherStoppedResumesOnlyByArming) {
   ASSERT_NE(rule.stopper_of(kDriver), nullptr);
   EXPECT_EQ(rule.stopper_of(kDriver)->pid, 22U) << "the first of two";
   for (const std::uint8_t message : kMotion) EXPECT_EQ(refused(kDriver, message), ErrorCode::not_armed);
+  EXPECT_EQ(rule.confirmed_driver(), std::nullopt) << "nobody drives";
   EXPECT_EQ(refused(kDriver, Arm::kId), std::nullopt);
   EXPECT_EQ(refused(kOther, Arm::kId), std::nullopt) << "the place is free";
   rule.note_answer(kDriver, Arm::kId, ErrorCode::faulted);
@@ -144,6 +145,35 @@ TEST_F(ADrive, ThatSomebodyAtAnotherPortStoppedIsOverForThisPortToo) {
   EXPECT_EQ(rule.driver(), kDriver) << "its frames still keep the armed robot alive";
   EXPECT_EQ(refused(kDriver, AddSegment::kId), ErrorCode::not_armed);
   EXPECT_EQ(refused(kOther, Arm::kId), std::nullopt);
+}
+
+TEST_F(ADrive, WhoseArmWasCancelledByAStopLeavesThePlaceFree) {
+  DriverRule fresh;
+  fresh.note_request(kOther, Arm::kId);
+  fresh.note_halt(kThird, Stop::kId, {33, "astrolabe stop"});
+  fresh.note_answer(kOther, Arm::kId, ErrorCode::not_armed);
+  EXPECT_EQ(fresh.refusal(kThird, Arm::kId), std::nullopt);
+}
+
+TEST_F(ADrive, BeginsWithTheRobotsWordThoughADisarmWasAnsweredInBetween) {
+  DriverRule fresh;
+  fresh.note_halt(kThird, Disarm::kId, {33, "astrolabe stop"});
+  fresh.note_request(kOther, Arm::kId);
+  fresh.note_answer(kThird, Disarm::kId, std::nullopt);
+  fresh.note_answer(kOther, Arm::kId, std::nullopt);
+  EXPECT_EQ(fresh.confirmed_driver(), kOther);
+  EXPECT_EQ(fresh.refusal(kOther, Velocity::kId), std::nullopt);
+}
+
+TEST_F(ADrive, ThatSomebodyAtAnotherPortPausedIsNotOverBecauseAResumeWasRefused) {
+  rule.note_answer(kDriver, Resume::kId, ErrorCode::not_armed);
+  EXPECT_EQ(refused(kDriver, AddSegment::kId), std::nullopt);
+  EXPECT_EQ(refused(kOther, Arm::kId), ErrorCode::busy);
+}
+
+TEST_F(ADrive, AtAnotherPortIsResumedThroughThisOne) {
+  const DriverRule fresh;
+  EXPECT_EQ(fresh.refusal(kOther, Resume::kId), std::nullopt);
 }
 
 TEST_F(ADrive, OfAProgramThatHasGoneIsNobodyElses) {
