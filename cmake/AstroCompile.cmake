@@ -7,6 +7,7 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O2 -g1")
 
 option(ASTROLABE_SANITIZE "AddressSanitizer and UBSan, any finding ends the program" OFF)
+option(ASTROLABE_SANITIZE_ALL "with the sanitizers: also the tests that `./dev check` leaves to `./dev fuzz`" OFF)
 option(ASTROLABE_FUZZ "libFuzzer targets instead of tests; needs clang" OFF)
 option(ASTROLABE_COVERAGE "gcov instrumentation" OFF)
 set(ASTROLABE_UNITY 8 CACHE STRING "how many source files of a host build are compiled at a time; 1: each alone")

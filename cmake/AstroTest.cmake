@@ -6,9 +6,11 @@
 #               the end
 #   PLAIN       a program that the sanitizers leave out: whole programs on the emulated chip, campaigns of power cuts. What of
 #               the host's code it walks through, shorter programs walk through under them, but for its own rig
+#   ON_DEMAND   a program that `./dev check` leaves out under the sanitizers and `./dev fuzz 60 sanitizers` does not: the real
+#               programs as processes, and what goes once more through code that shorter tests go through under them
 #   REPEATING   tests, by GoogleTest's patterns, that the sanitizers leave out because they do a hundred times what others
 #               do once
-# `./dev test` runs all of them, `./dev check` those that the sanitizers take.
+# `./dev test` runs all of them, `./dev check` those that the sanitizers take each time.
 find_package(GTest REQUIRED)
 find_package(Threads REQUIRED)
 include(GoogleTest)
@@ -39,8 +41,14 @@ target_precompile_headers(astro_test_headers PRIVATE
   <gmock/gmock.h> <gtest/gtest.h> <algorithm> <array> <chrono> <cmath> <cstdint> <cstdio> <filesystem> <fstream>
   <functional> <map> <memory> <numbers> <optional> <random> <span> <sstream> <string> <string_view> <vector>)
 
+# Builds what the tests of this build run, and nothing else. What a test runs besides an astro_test joins by astro_tests_run.
+add_custom_target(astro_tests)
+function(astro_tests_run)
+  add_dependencies(astro_tests ${ARGN})
+endfunction()
+
 function(astro_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "LONG;PLAIN" "" "SOURCES;OPTIMISED;REPEATING;DEPENDS;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "LONG;PLAIN;ON_DEMAND" "" "SOURCES;OPTIMISED;REPEATING;DEPENDS;LIBRARIES")
   add_executable(${name}.test ${arg_SOURCES})
   target_link_libraries(${name}.test PRIVATE astro_compile ${arg_DEPENDS} ${arg_LIBRARIES}
     GTest::gmock GTest::gtest_main Threads::Threads astro_test_compile)
@@ -62,10 +70,11 @@ function(astro_test name)
   if(ASTROLABE_SANITIZE)
     # Debian's libfastrtps deletes its endpoints as another type than it has made.
     list(APPEND environment "ASAN_OPTIONS=new_delete_type_mismatch=0")
-    if(arg_PLAIN)
+    if(arg_PLAIN OR (arg_ON_DEMAND AND NOT ASTROLABE_SANITIZE_ALL))
       set_target_properties(${name}.test PROPERTIES EXCLUDE_FROM_ALL TRUE)
       return()
     endif()
+    astro_tests_run(${name}.test)
     # Many tests in one process: to start a program costs more under the sanitizers than most tests.
     set(shards 1)
     if(arg_LONG)
@@ -78,6 +87,7 @@ function(astro_test name)
         ENVIRONMENT "${environment};GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${index}")
     endforeach()
   else()
+    astro_tests_run(${name}.test)
     gtest_discover_tests(${name}.test TEST_PREFIX "${name}: " DISCOVERY_TIMEOUT 60
       PROPERTIES TIMEOUT 300 COST ${cost} ENVIRONMENT "${environment}")
   endif()

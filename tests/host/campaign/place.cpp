@@ -74,10 +74,12 @@ Words joined(Words words, const Words& more) {
   return words;
 }
 
-int differing(const ParameterSet& a, const ParameterSet& b) {
-  int count = 0;
-  for (const auto& [name, value] : a) count += b.contains(name) && b.at(name) == value ? 0 : 1;
-  return count;
+/// The names of those that differ.
+Words changed(const ParameterSet& a, const ParameterSet& b) {
+  Words names;
+  for (const auto& [name, value] : a)
+    if (!b.contains(name) || b.at(name) != value) names.push_back(name);
+  return names;
 }
 
 // A calibration differs from drive to drive; what the robot carries must be what the file says, all of it.
@@ -154,17 +156,16 @@ void expect_old_or_new(const Scenario& scenario, const Place& place, bool ended_
       break;
     case Scenario::Robot::old_or_new:
       EXPECT_TRUE(now == known.new_parameters || (!ended_well && now == known.old_parameters))
-          << differing(now, known.old_parameters) << " parameters are not old, "
-          << differing(now, known.new_parameters) << " not new";
+          << "not old: " << testing::PrintToString(changed(now, known.old_parameters))
+          << ", not new: " << testing::PrintToString(changed(now, known.new_parameters));
       break;
     case Scenario::Robot::calibrated:
       expect_calibrated_or_old(place, known.old_parameters, now);
       break;
     case Scenario::Robot::tuned:
-      // Measured gains differ in their last digits from run to run; of a set that was loaded all differ.
+      // Measured gains differ in their last digits from run to run; of a set that was loaded all differ from the old ones.
       if (now != known.old_parameters) {
-        EXPECT_NEAR(differing(now, known.old_parameters),
-                    differing(known.new_parameters, known.old_parameters), 1);
+        EXPECT_EQ(changed(now, known.old_parameters), changed(known.new_parameters, known.old_parameters));
       }
       break;
   }

@@ -38,6 +38,12 @@ void give_runs(const Place& place) {
                "--port", place.port()});
 }
 
+/// So far from what tuning measures that none of them can be what is loaded.
+void give_wrong_motors(const Place& place) {
+  do_or_throw({"params", "set", "kp=45", "ki=900", "kS_left=0.4", "kS_right=0.4", "kV_left=11.5",
+               "kV_right=11.5", "kA_left=0.9", "kA_right=0.9", "--yes", "--port", place.port()});
+}
+
 std::vector<Scenario> make() {
   using Robot = Scenario::Robot;
   return {
@@ -93,7 +99,7 @@ std::vector<Scenario> make() {
                       "--yes",   "--truth", "sim", "--out",  place.path("x")};
        },
        true, nullptr, Robot::calibrated},
-      {"tune", nothing,
+      {"tune", give_wrong_motors,
        [](const Place& place) {
          return Words{"tune", "--on-ground", "--yes", "--upload", "--out", place.path("tune.html")};
        },

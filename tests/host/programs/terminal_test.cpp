@@ -51,8 +51,7 @@ TEST_F(Terminal, TeleopDrivesByKeysAndLeavesTheTerminalAsItWas) {
 }
 
 TEST_F(Terminal, TeleopDrivesByNoKeyThatWasPressedBeforeItBegan) {
-  TerminalProgram teleop(command({"drive", "teleop"}));
-  teleop.type("w");
+  TerminalProgram teleop(command({"drive", "teleop"}), {.typed_ahead = "w"});
   ASSERT_TRUE(teleop.shows("space   stop")) << teleop.seen();
   ASSERT_TRUE(teleop.shows("+0.00 m/s")) << teleop.seen();
   teleop.type("q");
@@ -206,8 +205,7 @@ TEST_F(Terminal, ParameterListIsCutToItsWidth) {
 }
 
 TEST_F(Terminal, NoAnswerThatWasTypedBeforeItsQuestionWritesTheFlash) {
-  TerminalProgram set(command({"params", "set", "c_R=1.001", "c_L=0.999"}));
-  set.type("y\n");
+  TerminalProgram set(command({"params", "set", "c_R=1.001", "c_L=0.999"}), {.typed_ahead = "y\n"});
   ASSERT_TRUE(set.shows("[y/N]")) << set.seen();
   set.type("\n");
   EXPECT_EQ(set.wait(), 1);

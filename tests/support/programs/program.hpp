@@ -99,7 +99,7 @@ inline Outcome astrolabe(const std::vector<std::string>& arguments) {
 
 /// Waits, without sleeping a fixed time, until `condition` holds; false after `limit`.
 template <class Condition>
-bool eventually(Condition condition, std::chrono::seconds limit = std::chrono::seconds(30)) {
+bool eventually(Condition condition, std::chrono::seconds limit = std::chrono::seconds(100)) {
   const auto end = std::chrono::steady_clock::now() + limit;
   while (!condition()) {
     if (std::chrono::steady_clock::now() > end) return false;
@@ -131,9 +131,11 @@ class Simulator {
   Program program_;
 };
 
-/// The robot bears it if its host is silent for 10 s instead of 0.2 s.
-inline void forgive_late_hosts(const std::string& port) {
-  const Outcome outcome = astrolabe({"params", "set", "command_timeout=10000", "--yes", "--port", port});
+/// The robot bears it if its host is silent for so long instead of 0.2 s.
+inline void forgive_late_hosts(const std::string& port,
+                               std::chrono::milliseconds silence = std::chrono::seconds(10)) {
+  const Outcome outcome = astrolabe(
+      {"params", "set", "command_timeout=" + std::to_string(silence.count()), "--yes", "--port", port});
   if (outcome.code != 0) throw std::runtime_error("the time-out cannot be set: " + outcome.err);
 }
 

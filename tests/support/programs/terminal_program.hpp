@@ -1,5 +1,6 @@
 #pragma once
 
+#include <fcntl.h>
 #include <poll.h>
 #include <pty.h>
 #include <signal.h>
@@ -20,6 +21,7 @@ namespace astro::support {
 struct TerminalKind {
   unsigned short columns = 80, rows = 24;
   const char* name = "xterm";  // what TERM says
+  std::string typed_ahead{};   // keys that are pressed before the program begins
 };
 
 /// A child process with a terminal of its own, as a person would run it.
@@ -31,15 +33,22 @@ class TerminalProgram {
     arguments.push_back(nullptr);
     winsize size{kind.rows, kind.columns, 0, 0};
     std::array<char, 64> name{};
+    std::array<int, 2> go{};
+    if (pipe2(go.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
     pid_ = forkpty(&master_, name.data(), nullptr, &size);
     if (pid_ < 0) throw std::runtime_error("forkpty failed");
     if (pid_ == 0) {
+      char begin = 0;
+      if (read(go[0], &begin, 1) != 1) _exit(125);
       setenv("TERM", kind.name, 1);
-      alarm(120);  // whatever the test does, the child ends; the timer survives exec
+      alarm(240);  // whatever the test does, the child ends; the timer survives exec
       execv(arguments[0], arguments.data());
       _exit(127);
     }
     keeper_ = open(name.data(), O_RDWR | O_NOCTTY);  // the terminal outlives the child
+    if (!kind.typed_ahead.empty()) type(kind.typed_ahead);
+    if (write(go[1], "g", 1) != 1) throw std::runtime_error("the child cannot be started");
+    for (const int end : go) close(end);
   }
   ~TerminalProgram() {
     if (pid_ > 0) {
@@ -58,7 +67,7 @@ class TerminalProgram {
   void send(int signal) const { kill(pid_, signal); }
 
   /// Reads until `text` has been shown since the last call that found its text; false after `limit`.
-  bool shows(const std::string& text, std::chrono::seconds limit = std::chrono::seconds(30)) {
+  bool shows(const std::string& text, std::chrono::seconds limit = std::chrono::seconds(100)) {
     const auto end = std::chrono::steady_clock::now() + limit;
     while (true) {
       const std::size_t at = seen_.find(text, looked_at_);

@@ -42,7 +42,7 @@ class TmuxProgram {
   /// Waits until `text` has been shown behind what was found last; false after `limit`. `meanwhile` is called again and again while it waits.
   bool shows(
       const std::string& text, const std::function<void()>& meanwhile = [] {},
-      std::chrono::seconds limit = std::chrono::seconds(60)) {
+      std::chrono::seconds limit = std::chrono::seconds(100)) {
     const auto end = std::chrono::steady_clock::now() + limit;
     while (true) {
       const std::string all = seen();
@@ -57,7 +57,7 @@ class TmuxProgram {
   }
 
   /// The exit code, once it has ended; -1 after `limit`.
-  int wait(std::chrono::seconds limit = std::chrono::seconds(60)) const {
+  int wait(std::chrono::seconds limit = std::chrono::seconds(100)) const {
     const auto end = std::chrono::steady_clock::now() + limit;
     while (std::chrono::steady_clock::now() < end) {
       const std::string state = tmux("display -p '#{pane_dead} #{pane_dead_status}'");

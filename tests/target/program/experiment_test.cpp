@@ -21,9 +21,10 @@ TEST(ExperimentOverAPty, CalibratesTheImageAsItCalibratesTheSimulatedRobot) {
   const std::vector<std::string> robot{"--slip", "0", "--seed", "1"};
   std::vector<std::string> simulated_robot = robot;
   simulated_robot.emplace_back("--fast");
-  const support::Simulator simulator(simulated_robot);
+  const support::PatientSimulator simulator(simulated_robot);
   const json simulated = umbmark(simulator.port(), simulator.folder() / "x");
   const EmulatorProgram emulator(robot);
+  support::forgive_late_hosts(emulator.usb());
   const json emulated = umbmark(emulator.usb(), emulator.folder() / "x");
   ASSERT_FALSE(simulated.empty() || emulated.empty());
   const auto E_mm = [](const json& result, const char* phase) {

@@ -91,7 +91,7 @@ TEST(EmulatorProgram, DrivesForOneProgramAtATime) {
   // Not about a host that falls silent, which the first would do where the machine is busy; nor about a drive that is over before
   // the second has asked: with --fast an idle machine drives ten seconds in one.
   ASSERT_EQ(astrolabe({"params", "set", "command_timeout=5000", "--yes", "--port", emulator.usb()}).code, 0);
-  support::Program first({ASTROLABE_PROGRAM, "drive", "line", "100", "--port", emulator.serial()});
+  support::Program first({ASTROLABE_PROGRAM, "drive", "line", "5000", "--port", emulator.serial()});
   const auto mode = [&] {
     const Outcome info = astrolabe({"info", "--port", emulator.usb(), "--json"});
     return info.code == 0 ? support::parse_json(info.out)["mode"].get<std::string>() : info.err;
@@ -137,7 +137,8 @@ TEST(EmulatorProgram, PausedAndResumedFromTheOtherPortADriveEndsWhereItShould) {
   const EmulatorProgram emulator;
   // Longer than a busy machine lets the driver wait, shorter than what is left of the drive after the pause.
   ASSERT_EQ(astrolabe({"params", "set", "command_timeout=3000", "--yes", "--port", emulator.usb()}).code, 0);
-  support::Program drive({ASTROLABE_PROGRAM, "drive", "line", "8", "--port", emulator.serial(), "--json"});
+  support::Program drive(
+      {ASTROLABE_PROGRAM, "drive", "line", "8", "--speed", "0.2", "--port", emulator.serial(), "--json"});
   const auto mode = [&] {
     const Outcome info = astrolabe({"info", "--port", emulator.usb(), "--json"});
     return info.code == 0 ? support::parse_json(info.out)["mode"].get<std::string>() : info.err;

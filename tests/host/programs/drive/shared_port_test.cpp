@@ -48,7 +48,7 @@ TEST_F(OnePort, AnEmergencyStopWorksBesideADrive) {
   Program stop = start({"stop", "--emergency"});
   const std::string who = process(stop) + "stop --emergency";
   EXPECT_EQ(stop.wait(), 0) << stop.err();
-  EXPECT_LT(seconds_to_rest(now_us()), kToRest_s);  // motors off: friction alone brings it to rest
+  EXPECT_LT(seconds_to_rest(now_us()), 1.2);  // motors off: friction alone brings it to rest
   EXPECT_EQ(program.wait(), 1);
   EXPECT_THAT(program.err(), AllOf(HasSubstr("emergency_stop"), HasSubstr(who)));
   EXPECT_EQ(info()["faults"], json::array({"emergency_stop"}));
@@ -115,14 +115,15 @@ TEST_F(OnePort, AMonitorAndARecordingRunBesideADriveToItsEnd) {
 TEST_F(OnePort, TheEndOfAProgramThatServedADriveDoesNotDisturbIt) {
   Program monitor = start({"monitor", "--json"});
   ASSERT_TRUE(shows_samples(monitor));
-  Program program = drive({"line", "1", "--speed", "0.4", "--json"});
+  Program program =
+      drive({"line", "3", "--speed", "0.4", "--json"});  // so that it lasts until it was looked at
   ASSERT_TRUE(has_gone(0.1)) << program.err();
   monitor.send(SIGINT);
   EXPECT_EQ(monitor.wait(), 130);
   EXPECT_TRUE(program.running());
   EXPECT_EQ(info()["mode"], "segment") << "and others find the port served";
   EXPECT_EQ(program.wait(), 0) << program.err();
-  EXPECT_NEAR(support::parse_json(program.out())["moved"]["x_m"], 1, 0.005);
+  EXPECT_NEAR(support::parse_json(program.out())["moved"]["x_m"], 3, 0.015);
   EXPECT_EQ(run({"info"}).code, 0) << "the port is free again";
 }
 

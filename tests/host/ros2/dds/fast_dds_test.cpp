@@ -17,7 +17,7 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 using testing::ElementsAre;
 
-constexpr auto kLong = std::chrono::seconds(10);  // only a failure waits so long
+constexpr auto kLong = std::chrono::seconds(60);  // only a failure waits so long
 
 std::unique_ptr<Participant> open(const std::string& name = "test", const std::string& user_data = "") {
   return open_fast_dds({support::test_domain()}, name, user_data);

@@ -449,7 +449,7 @@ TEST_F(FoxgloveServerOnLoopback, ASlowViewerLosesTheOldestMessagesAndAFastOneNon
     const Bytes got = hear_binary(fast);
     ASSERT_EQ(load<std::int64_t>(got, 5), i) << "the fast one loses none";
   }
-  EXPECT_LT(longest, std::chrono::seconds(1)) << "publish() does not wait; a busy machine may";
+  EXPECT_LT(longest, kLong) << "publish() does not wait";
   std::vector<std::int64_t> got;
   std::string warning;
   ASSERT_TRUE(eventually([&] {
@@ -500,7 +500,7 @@ TEST_F(FoxgloveServerOnLoopback, ItsEndIsToldToTheViewers) {
   model_.reset();
   const auto begin = steady_clock::now();
   server_.reset();
-  EXPECT_LT(steady_clock::now() - begin, std::chrono::seconds(5));
+  EXPECT_LT(steady_clock::now() - begin, kLong);
   while (!viewer.ended()) viewer.receive(milliseconds(100));
 }
 

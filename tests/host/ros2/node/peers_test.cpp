@@ -314,14 +314,13 @@ TEST_F(NodeAmongPeers, ASubscriberThatHangsDoesNotHoldThePublisherUp) {
   }
 }
 
-// Fifty starts with their figures: tests/bench, ros2_discovery.
-TEST_F(NodeAmongPeers, FindsAPeerAndIsFoundWithinSeconds) {
+// How soon, in fifty starts: tests/bench, ros2_discovery.
+TEST_F(NodeAmongPeers, FindsAPeerAndIsFoundAtEachStart) {
   for (const PeerKind kind : kKinds) {
     PeerProgram* peer = start(kind);
     if (peer == nullptr) continue;
     peer->say("sub /odom odometry");
     for (int start = 1; start <= 3; ++start) {
-      const auto begin = steady_clock::now();
       const auto node = open();
       const auto odom = node->advertise({"/odom", message_type<msg::Odometry>()});
       const std::string mine = fmt::format("x={} ", 0.1 * (1000 * start));
@@ -330,8 +329,6 @@ TEST_F(NodeAmongPeers, FindsAPeerAndIsFoundWithinSeconds) {
         const auto lines = peer->lines("got /odom");
         return !lines.empty() && lines.back().find(mine) != std::string::npos;
       }));
-      EXPECT_LT(std::chrono::duration<double>(steady_clock::now() - begin).count(), 5)
-          << "1 s on an idle machine";
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 #include "host/ros2/cdr/codec.hpp"
 #include "host/ros2/foxglove/foxglove_server.hpp"
@@ -62,6 +63,7 @@ class Topic {
 };
 
 constexpr std::int64_t kPeriod_ns = 1'000'000;
+constexpr std::int64_t kAhead = 400;  // 1.6 MB, less than half of what the server keeps for a viewer
 
 class Robot {
  public:
@@ -77,6 +79,10 @@ class Robot {
     middleware.subscribe({"/cmd_vel", message_type<msg::Twist>()}, [this](ByteView bytes) {
       if (const auto twist = decode<msg::Twist>(bytes)) echo_.say(*twist, 0);
     });
+    middleware.subscribe({"/heard", message_type<msg::String>()}, [this](ByteView bytes) {
+      if (const auto number = decode<msg::String>(bytes))
+        heard_ = std::strtoll(number->data.c_str(), nullptr, 10);
+    });
     middleware.serve({"/emergency_stop", msg::Trigger::kType, message_type<msg::Trigger::Request>(),
                       message_type<msg::Trigger::Response>()},
                      [](ByteView) {
@@ -84,6 +90,9 @@ class Robot {
                      });
     middleware.serve_parameters(table_);
   }
+
+  /// The last message that a viewer said to have heard; 0 if none has.
+  std::int64_t heard() const { return heard_; }
 
   void step(std::int64_t number) {
     const std::int64_t now = number * kPeriod_ns;
@@ -115,6 +124,7 @@ class Robot {
   Topic<msg::String> flood_;
   Topic<msg::Twist> echo_;
   Topic<msg::String> model_;
+  std::int64_t heard_ = 0;
 };
 
 bool stdin_has_ended() {
@@ -135,14 +145,14 @@ int main() {
   server.poll();
   std::printf("%d\n", server.port());
   std::fflush(stdout);
-  auto next = std::chrono::steady_clock::now();
-  for (std::int64_t number = 1; !stdin_has_ended(); ++number) {
-    robot.step(number);
-    next += std::chrono::nanoseconds(kPeriod_ns);
-    do {
-      server.wait(
-          std::chrono::duration_cast<std::chrono::microseconds>(next - std::chrono::steady_clock::now()));
-      server.poll();
-    } while (std::chrono::steady_clock::now() < next);
+  for (std::int64_t number = 1; !stdin_has_ended();) {
+    server.poll();
+    // No faster than the viewer that says what it has heard; few until one does.
+    if (robot.heard() > 0 && number - robot.heard() > kAhead) {
+      server.wait(std::chrono::milliseconds(1));
+      continue;
+    }
+    if (robot.heard() == 0) server.wait(std::chrono::milliseconds(20));
+    robot.step(number++);
   }
 }
