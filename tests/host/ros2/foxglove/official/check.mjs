@@ -14,7 +14,7 @@ const server = spawn(process.argv[2], [], { stdio: ["pipe", "pipe", "inherit"] }
 const [line] = await once(server.stdout, "data");
 const url = `ws://127.0.0.1:${String(line).trim()}`;
 
-const limit = setTimeout(() => fail("not done within 100 s"), 100_000);
+const limit = setTimeout(() => fail("not done within 280 s"), 280_000);
 function fail(why) {
   console.error(why);
   server.kill();
@@ -58,9 +58,9 @@ class Viewer {
   }
 
   async has(condition, what) {
-    const end = Date.now() + 90_000;
+    const end = Date.now() + 250_000;
     while (!condition(this)) {
-      if (Date.now() > end) fail(`no ${what} within 90 s`);
+      if (Date.now() > end) fail(`no ${what} within 250 s`);
       await new Promise((resolve) => setTimeout(resolve, 5));
     }
   }
