@@ -1,11 +1,15 @@
 #pragma once
 
 #include <fcntl.h>
-#include <fmt/format.h>
+#include <net/if.h>
+#include <poll.h>
 #include <sched.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <string>
 
@@ -55,15 +59,28 @@ class TwoComputers {
     there_ = current();
     if (unshare(CLONE_NEWNET) != 0) return false;
     here_ = current();
-    const std::string other = fmt::format("/proc/{}/fd/{}", getpid(), there_);
+    const std::string other = "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(there_);
     return ip("link set lo up") && ip("link add card0 type veth peer name card0 netns " + other) &&
-           set_up(kHere) && on_the_other([] { return ip("link set lo up") && set_up(kThere); });
+           set_up(kHere) &&
+           on_the_other([] { return ip("link set lo up") && set_up(kThere) && carries(); }) && carries();
   }
   static bool set_up(const std::string& address) {
     return ip("addr add " + address + "/24 dev card0") && ip("link set card0 up");
   }
   static bool ip(const std::string& words) {
     return std::system(("ip " + words + " 2>/dev/null").c_str()) == 0;
+  }
+  /// The system says so a moment later. DDS leaves out a card that is not running when it starts.
+  static bool carries() {
+    const int any = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    ifreq card{};
+    std::strcpy(card.ifr_name, "card0");
+    for (int i = 0; i < 5000 && (card.ifr_flags & IFF_RUNNING) == 0; ++i) {
+      poll(nullptr, 0, 1);
+      if (ioctl(any, SIOCGIFFLAGS, &card) != 0) break;
+    }
+    close(any);
+    return (card.ifr_flags & IFF_RUNNING) != 0;
   }
   static int current() { return open("/proc/thread-self/ns/net", O_RDONLY | O_CLOEXEC); }
   static void enter(int network) {

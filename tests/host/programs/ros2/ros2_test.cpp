@@ -4,6 +4,7 @@
 
 #include "tests/host/programs/ros2/robot_among_peers.hpp"
 #include "tests/support/links/pty_cable.hpp"
+#include "tests/support/ros2/two_computers.hpp"
 
 namespace astro {
 namespace {
@@ -30,6 +31,22 @@ class Ros2 : public support::RobotAmongPeers {
     ask(peer, kind + " /cmd_vel " + std::to_string(v_mps) + ' ' + std::to_string(omega_radps),
         "sent /cmd_vel");
   }
+  static void expect_to_see_the_robot(PeerProgram& peer) {
+    for (const auto& [topic, type] :
+         {std::pair("/odom", "odometry"), std::pair("/tf", "transforms"),
+          std::pair("/joint_states", "joints"), std::pair("/battery_state", "battery"),
+          std::pair("/diagnostics", "diagnostics"), std::pair("/tf_static", "transforms latched"),
+          std::pair("/robot_description", "text latched")})
+      subscribe(peer, topic, type);
+    EXPECT_THAT(next(peer, "/odom"), AllOf(HasSubstr("frame=odom"), HasSubstr("child=base_footprint")));
+    EXPECT_THAT(next(peer, "/tf"), HasSubstr("odom>base_footprint"));
+    EXPECT_THAT(next(peer, "/joint_states"), HasSubstr("left_wheel_joint:"));
+    EXPECT_NEAR(number_in(next(peer, "/battery_state"), "voltage"), 12, 0.3);
+    EXPECT_THAT(next(peer, "/diagnostics"), HasSubstr("connected"));
+    // Published before this peer was there.
+    EXPECT_TRUE(eventually([&] { return !peer.lines("got /tf_static ").empty(); }));
+    EXPECT_TRUE(eventually([&] { return !peer.lines("got /robot_description").empty(); }));
+  }
   static constexpr double kThere_m = 0.05;
 
   /// Turns to where the corner is, and drives there.
@@ -52,20 +69,26 @@ class Ros2 : public support::RobotAmongPeers {
 TEST_F(Ros2, PeersOfBothKindsSeeWhatTheRobotDoes) {
   for (const PeerKind kind : kinds()) {
     PeerProgram peer(kind, support::test_domain());
-    for (const auto& [topic, type] :
-         {std::pair("/odom", "odometry"), std::pair("/tf", "transforms"),
-          std::pair("/joint_states", "joints"), std::pair("/battery_state", "battery"),
-          std::pair("/diagnostics", "diagnostics"), std::pair("/tf_static", "transforms latched"),
-          std::pair("/robot_description", "text latched")})
-      subscribe(peer, topic, type);
-    EXPECT_THAT(next(peer, "/odom"), AllOf(HasSubstr("frame=odom"), HasSubstr("child=base_footprint")));
-    EXPECT_THAT(next(peer, "/tf"), HasSubstr("odom>base_footprint"));
-    EXPECT_THAT(next(peer, "/joint_states"), HasSubstr("left_wheel_joint:"));
-    EXPECT_NEAR(number_in(next(peer, "/battery_state"), "voltage"), 12, 0.3);
-    EXPECT_THAT(next(peer, "/diagnostics"), HasSubstr("connected"));
-    // Published before this peer was there.
-    EXPECT_TRUE(eventually([&] { return !peer.lines("got /tf_static ").empty(); }));
-    EXPECT_TRUE(eventually([&] { return !peer.lines("got /robot_description").empty(); }));
+    expect_to_see_the_robot(peer);
+  }
+}
+
+TEST_F(Ros2, PeersOfBothKindsOnAnotherComputerSeeTheRobotAndCallIt) {
+  support::test_domain();  // its name is of this computer
+  const auto two = support::TwoComputers::make();
+  if (!two) GTEST_SKIP() << "network namespaces take root and the command ip";
+  start_node({"--range", "subnet"});
+  std::vector<std::unique_ptr<PeerProgram>> peers;
+  two->on_the_other([&] {
+    for (const PeerKind kind : kinds())
+      peers.push_back(std::make_unique<PeerProgram>(kind, support::test_domain(), "subnet"));
+  });
+  for (const auto& peer : peers) {
+    expect_to_see_the_robot(*peer);
+    for (const char* service :
+         {"/emergency_stop", "/clear_faults", "/arm", "/stop", "/disarm", "/reset_odometry"})
+      EXPECT_THAT(call(*peer, service), HasSubstr("yes")) << service;
+    EXPECT_THAT(ask(*peer, "get /astrolabe c_R", "value"), HasSubstr("value c_R yes"));
   }
 }
 
@@ -224,6 +247,12 @@ TEST_F(Ros2, ARobotWhoseNodeIsKilledStopsByItself) {
     return outcome.out;
   };
   EXPECT_TRUE(eventually([&] { return mode().find("command_timeout") != std::string::npos; }));
+  const auto gone = [&] {
+    const std::size_t before = peer.lines("writer /odom").size();
+    ask(peer, "writers /odom", "writers /odom");
+    return peer.lines("writer /odom").size() == before;
+  };
+  EXPECT_TRUE(eventually(gone, std::chrono::seconds(10))) << "others need not wait for the 20 s of Fast DDS";
 }
 
 TEST_F(Ros2, WhatAKilledNodeLeftDrivingWithoutATimeOutIsStoppedByTheNextOne) {

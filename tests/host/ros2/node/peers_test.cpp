@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "host/ros2/cdr/codec.hpp"
+#include "host/ros2/dds/fast_dds.hpp"
 #include "host/ros2/messages/geometry.hpp"
 #include "host/ros2/messages/odometry.hpp"
 #include "host/ros2/messages/parameters.hpp"
@@ -193,6 +194,42 @@ TEST_F(NodeAmongPeers, BothCallServicesInTheMannerOfTheirRmwInterleavedAHundredT
       EXPECT_EQ(switched[i], i % 2 == 0 ? "reply /hall/enable yes on" : "reply /hall/enable no off");
   }
   EXPECT_EQ(calls, static_cast<int>(kCalls * peers.size())) << "each call is carried out once";
+}
+
+TEST_F(NodeAmongPeers, TheFirstCallOfAFreshClientIsAnsweredAndCarriedOutOnce) {
+  constexpr int kClients = 10;
+  const auto node = open();
+  int calls = 0;
+  serve_calls(*node, calls);
+  for (const PeerKind kind : kKinds) {
+    calls = 0;
+    for (int i = 1; i <= kClients; ++i) {
+      peers_.clear();
+      PeerProgram* peer = start(kind);
+      if (peer == nullptr) break;
+      ASSERT_EQ(ask(*node, *peer, "call /hall/count", "reply"),
+                fmt::format("reply /hall/count yes call {}", i));
+      EXPECT_EQ(calls, i);
+    }
+  }
+}
+
+// Its lease is 10 s.
+TEST_F(NodeAmongPeers, ACyclonePeerThatEndsIsGoneAtOnce) {
+  const auto participant = dds::open_fast_dds({support::test_domain()}, "test", "");
+  const auto writer = participant->create_writer({"rt/odom", dds_type_name(msg::Odometry::kType)});
+  PeerProgram* peer = start(PeerKind::cyclone);
+  if (peer == nullptr) GTEST_SKIP() << "CycloneDDS is not installed";
+  const auto within = [&](double seconds, std::size_t readers) {
+    const auto end = steady_clock::now() + std::chrono::duration<double>(seconds);
+    while (participant->remote_endpoints().size() != readers && steady_clock::now() < end)
+      participant->wait(milliseconds(5));
+    return participant->remote_endpoints().size() == readers;
+  };
+  peer->say("sub /odom odometry");
+  ASSERT_TRUE(within(30, 1));
+  peers_.clear();
+  EXPECT_TRUE(within(5, 0));
 }
 
 TEST_F(NodeAmongPeers, BothGetSetListAndDescribeParametersAndHearOfChanges) {

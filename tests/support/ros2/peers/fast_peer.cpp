@@ -1,18 +1,17 @@
 // A peer on Fast DDS. Services are called in the manner of rmw_fastrtps: the message alone, and beside it which reader waits for
 // the reply.
 //
-//   fast_peer DOMAIN [humble]     humble: ros_discovery_info is read with identifiers of 24 bytes
+//   fast_peer DOMAIN [humble|subnet]    humble: ros_discovery_info is read with identifiers of 24 bytes; subnet: other computers,
+//                                       too
 #include <poll.h>
 
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <list>
 #include <map>
 
 #include "host/ros2/cdr/codec.hpp"
-#include "host/ros2/dds/fast_dds.hpp"
 #include "host/ros2/messages/diagnostics.hpp"
 #include "host/ros2/messages/geometry.hpp"
 #include "host/ros2/messages/graph.hpp"
@@ -24,6 +23,7 @@
 #include "host/ros2/types/type_description.hpp"
 #include "tests/support/ros2/peers/peer.hpp"
 #include "tests/support/ros2/peers/peer_text.hpp"
+#include "tests/support/ros2/peers/stock_participant.hpp"
 
 namespace astro::support {
 namespace {
@@ -76,8 +76,9 @@ std::map<std::string, Kind> all_kinds(bool humble) {
 
 class FastPeer : public Peer {
  public:
-  FastPeer(int domain, bool humble)
-      : kinds_(all_kinds(humble)), participant_(dds::open_fast_dds({domain}, "peer", "enclave=/;")) {}
+  FastPeer(int domain, std::string_view option)
+      : kinds_(all_kinds(option == "humble")),
+        participant_(open_stock_participant(domain, option == "subnet")) {}
 
   bool subscribe(const std::string& topic, const std::string& name, bool latched) override {
     const auto found = kinds_.find(name);
@@ -213,7 +214,6 @@ class FastPeer : public Peer {
 
 int main(int count, char** arguments) {
   if (count < 2) return 2;
-  astro::support::FastPeer peer(std::atoi(arguments[1]),
-                                count > 2 && std::strcmp(arguments[2], "humble") == 0);
+  astro::support::FastPeer peer(std::atoi(arguments[1]), count > 2 ? arguments[2] : "");
   return astro::support::run(peer);
 }
