@@ -46,7 +46,7 @@ void require_free(RobotSession& session) {
   const protocol::Status status = session.ask(protocol::GetStatus{});
   const bool drives = protocol::gives_power(status.mode) && status.mode != protocol::Mode::stopping;
   if (drives || status.mode == protocol::Mode::paused || status.queued_segments != 0)
-    throw Error("the robot drives, or waits on a path, for another program: stop it first");
+    throw Error("the robot drives, or waits on a path, for another program");
 }
 
 std::string why_not(RobotSession& session, const robot::RobotRefused& refused) {

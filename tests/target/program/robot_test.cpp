@@ -106,7 +106,9 @@ TEST(EmulatorProgram, DrivesForOneProgramAtATime) {
 /// `astrolabe stop` at one port while `astrolabe drive` at another, or the same, repeats its velocity.
 void expect_that_a_stop_ends_a_velocity(const std::string& driver, const std::string& stopper) {
   const EmulatorProgram emulator;
-  const auto port = [&](const std::string& name) { return name == "usb" ? emulator.usb() : emulator.serial(); };
+  const auto port = [&](const std::string& name) {
+    return name == "usb" ? emulator.usb() : emulator.serial();
+  };
   // Not about a host that falls silent, which the driver would do where the machine is busy.
   ASSERT_EQ(astrolabe({"params", "set", "command_timeout=5000", "--yes", "--port", emulator.usb()}).code, 0);
   support::Program drive(
