@@ -15,9 +15,12 @@ namespace astro::campaign {
 using Words = std::vector<std::string>;
 using ParameterSet = std::map<std::string, std::string>;  // name and value, as the robot reports them
 
-/// A folder, and a robot with nothing but its defaults.
+/// A folder, and a robot with nothing but its defaults, except that it waits for its host for 2 s: traced programs are slow on a
+/// busy machine. Less than the 3 s after which outputs are off.
 class Place {
  public:
+  Place() { support::forgive_late_hosts(port(), std::chrono::seconds(2)); }
+
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
   std::string folder() const { return folder_.path().string(); }
   std::string port() const { return simulator_.port(); }

@@ -153,14 +153,14 @@ TEST(Umbmark, YesLoadsNothingThatIsNotBetterAndEndsWithAReportOfWhatWasDriven) {
 TEST(Umbmark, CtrlCStopsTheRobotAndTheSameCommandGoesOn) {
   const Simulator simulator;
   const std::string out = (simulator.folder() / "x").string();
-  const std::vector<std::string> arguments = umbmark(simulator, out, {"--runs", "4", "--no-extras"});
+  const std::vector<std::string> arguments = umbmark(simulator, out, {"--runs", "2", "--no-extras"});
   std::vector<std::string> command = arguments;
   command.insert(command.begin(), ASTROLABE_PROGRAM);
   support::Program first(command);
   ASSERT_TRUE(support::eventually(
       [&] { return first.err().find("recorded before: square cw 1") != std::string::npos; }));
   first.send(SIGINT);
-  ASSERT_EQ(first.wait(), 130) << "fifteen more runs were to come";
+  ASSERT_EQ(first.wait(), 130) << "seven more runs were to come";
   const nlohmann::json info =
       support::parse_json(astrolabe({"info", "--port", simulator.port(), "--json"}).out);
   EXPECT_EQ(info["mode"], "disarmed");
