@@ -45,7 +45,9 @@ bool comes_to_rest(RobotSession& session) {
 void require_free(RobotSession& session) {
   const protocol::Status status = session.ask(protocol::GetStatus{});
   const bool drives = protocol::gives_power(status.mode) && status.mode != protocol::Mode::stopping;
-  if (drives || status.mode == protocol::Mode::paused || status.queued_segments != 0)
+  if (!drives && status.mode != protocol::Mode::paused && status.queued_segments == 0) return;
+  const robot::PortUsers users = robot::port_users(session.client());
+  if (users.driver_pid == 0)
     throw Error("the robot drives, or waits on a path, for another program");
 }
 
