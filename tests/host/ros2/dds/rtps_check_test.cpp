@@ -10,6 +10,7 @@ namespace astro::ros2::dds {
 namespace {
 
 using support::bytes_in;
+using support::operator+;
 using support::words;
 using testing::ElementsAreArray;
 using testing::IsEmpty;
@@ -17,11 +18,6 @@ using testing::IsEmpty;
 constexpr std::uint8_t kPad = 0x01, kAcknowledgement = 0x06, kHeartbeat = 0x07, kGap = 0x08, kTime = 0x09,
                        kSource = 0x0c, kReplyIp4 = 0x0d, kDestination = 0x0e, kReply = 0x0f, kMissing = 0x12,
                        kFragments = 0x13, kData = 0x15, kDataFragment = 0x16, kStatistics = 0x80;
-
-Bytes operator+(Bytes a, const Bytes& b) {
-  append(a, ByteView(b));
-  return a;
-}
 
 Bytes header() {
   return bytes_in(
