@@ -61,12 +61,15 @@ std::vector<Guid> FastWriter::readers() const {
 
 void FastWriter::on_publication_matched(fast::DataWriter* writer,
                                         const fast::PublicationMatchedStatus& status) {
-  const Guid reader = to_guid(status.last_subscription_handle);
+  const rtps::GUID_t other = rtps::iHandle2GUID(status.last_subscription_handle);
+  const Acknowledgement first{to_guid(other), to_guid(writer->guid())};
   if (status.current_count_change > 0)
-    acknowledged_.expect({reader, to_guid(writer->guid())});
+    acknowledged_.expect(first);
   else
-    acknowledged_.forget({reader, to_guid(writer->guid())});
-  readers_.note(reader, status.current_count_change);
+    acknowledged_.forget(first);
+  if (other.is_on_same_process_as(writer->guid()))
+    acknowledged_.note(first);  // it gets them without the wire
+  readers_.note(first.reader, status.current_count_change);
 }
 
 FastReader::FastReader(fast::Subscriber& subscriber, fast::Topic* topic, const Topic& wanted, Bell& bell)

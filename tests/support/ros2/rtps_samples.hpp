@@ -154,6 +154,11 @@ inline Bytes bytes_in(std::string_view hex) {
   return bytes;
 }
 
+inline Bytes operator+(Bytes a, const Bytes& b) {
+  append(a, ByteView(b));
+  return a;
+}
+
 /// Words of 32 bits, little-endian.
 inline Bytes words(std::initializer_list<std::uint32_t> values) {
   Bytes bytes;

@@ -10,6 +10,7 @@ namespace astro::ros2::dds {
 namespace {
 
 using support::bytes_in;
+using support::operator+;
 using support::words;
 using support::operator+;
 using testing::ElementsAreArray;

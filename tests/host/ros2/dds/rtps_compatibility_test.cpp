@@ -9,21 +9,22 @@ namespace astro::ros2::dds {
 namespace {
 
 using support::bytes_in;
+using support::operator+;
 using support::words;
 using support::operator+;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
 // CycloneDDS's reader 0x204 to the writer 0x903 of Fast DDS, before it has heard of it.
-constexpr std::string_view kHeader = "525450530201011001105eec4d1e36fad7135fec";
-constexpr std::string_view kTo = "0e010c00010fb0b85d73e9d200000000";
+constexpr std::string_view kFromCyclone = "525450530201011001105eec4d1e36fad7135fec";
+constexpr std::string_view kToFastDds = "0e010c00010fb0b85d73e9d200000000";
 constexpr std::string_view kEndpoints = "0000020400000903";
 
 /// First number (upper half, lower half), bits, and what follows.
 Bytes acknowledgement(const Bytes& numbers) {
   const Bytes body = bytes_in(kEndpoints) + numbers;
-  return bytes_in(kHeader) + bytes_in(kTo) + Bytes{0x06, 0x01, static_cast<std::uint8_t>(body.size()), 0} +
-         body;
+  return bytes_in(kFromCyclone) + bytes_in(kToFastDds) +
+         Bytes{0x06, 0x01, static_cast<std::uint8_t>(body.size()), 0} + body;
 }
 
 Guid guid_in(std::string_view hex) {
@@ -46,7 +47,8 @@ TEST(Compatibility, CountsOfAcknowledgementsStayInOrder) {
 }
 
 TEST(Compatibility, EachSubmessageIsReadInItsByteOrder) {
-  const Bytes before = bytes_in(kHeader) + bytes_in(kTo) + bytes_in("06000018") + bytes_in(kEndpoints);
+  const Bytes before =
+      bytes_in(kFromCyclone) + bytes_in(kToFastDds) + bytes_in("06000018") + bytes_in(kEndpoints);
   EXPECT_EQ(for_fast_dds(before + bytes_in("00000000000000010000000000000000")),
             before + bytes_in("00000000000000000000000000000001"));
 }
@@ -84,7 +86,7 @@ TEST(Acknowledgements, OfAReaderThatHasOnlyFoundTheWriterDoNotCount) {
 
 TEST(Acknowledgements, ThatDoNotSayToWhomDoNotCount) {
   const Bytes body = bytes_in(kEndpoints) + words({0, 5, 0, 9});
-  EXPECT_THAT(acknowledgements_in(bytes_in(kHeader) + bytes_in("06011800") + body), IsEmpty());
+  EXPECT_THAT(acknowledgements_in(bytes_in(kFromCyclone) + bytes_in("06011800") + body), IsEmpty());
   EXPECT_THAT(acknowledgements_in({}), IsEmpty());
 }
 

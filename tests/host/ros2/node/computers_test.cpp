@@ -19,7 +19,7 @@ using support::PeerProgram;
 using support::RobotNode;
 using support::TwoComputers;
 
-constexpr auto kFound = std::chrono::seconds(30);  // only a failure waits so long
+constexpr auto kTimeout = std::chrono::seconds(30);  // only a failure waits so long
 
 /// IPv4 packets of any kind that come to a computer.
 class Arrivals {
@@ -69,7 +69,7 @@ class NodeOnANetwork : public testing::Test {
   }
   template <class Condition>
   static bool eventually(RobotNode* robot, Condition condition) {
-    const auto end = steady_clock::now() + kFound;
+    const auto end = steady_clock::now() + kTimeout;
     while (!condition()) {
       if (steady_clock::now() > end) return false;
       robot != nullptr ? robot->step() : static_cast<void>(poll(nullptr, 0, 1));
