@@ -166,9 +166,4 @@ inline Bytes words(std::initializer_list<std::uint32_t> values) {
   return bytes;
 }
 
-inline Bytes operator+(Bytes a, const Bytes& b) {
-  append(a, ByteView(b));
-  return a;
-}
-
 }  // namespace astro::ros2::support
