@@ -29,7 +29,8 @@ void take(ByteView input) {
   const ByteView again = ros2::dds::sound_part(sound);
   require(again.size() == sound.size(), "it is sound when it is judged again");
   ros2::dds::acknowledgements_in(sound);
-  if (const auto changed = ros2::dds::for_fast_dds(sound))
+  ros2::dds::AcknowledgementCounts counts;
+  if (const auto changed = ros2::dds::for_fast_dds(sound, counts))
     require(changed->size() == sound.size() && ros2::dds::sound_part(*changed).size() == sound.size(),
             "what is changed for Fast DDS is as long and as sound");
 }

@@ -50,7 +50,7 @@ class GatedTransport : public transport::ChainingTransport {
     if (!descriptor_.gate->is_open() || !may_talk_to(there)) return;
     const ByteView sound = sound_part({bytes, size});
     if (sound.empty()) return;
-    const auto changed = for_fast_dds(sound);
+    const auto changed = for_fast_dds(sound, counts_);
     const ByteView read = changed ? ByteView(*changed) : sound;
     receiver->OnDataReceived(read.data(), static_cast<std::uint32_t>(read.size()), here, there);
     // Only now: Fast DDS has answered the acknowledgement when somebody writes because of it.
@@ -75,6 +75,7 @@ class GatedTransport : public transport::ChainingTransport {
   }
 
   GatedDescriptor descriptor_;
+  AcknowledgementCounts counts_;
 };
 
 transport::TransportInterface* GatedDescriptor::create_transport() const { return new GatedTransport(*this); }

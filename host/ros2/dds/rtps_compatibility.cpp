@@ -14,10 +14,27 @@ bool is_a(const Submessage& submessage, Kind kind) {
   return submessage.id == static_cast<std::uint8_t>(kind);
 }
 
+/// Whom what follows in a datagram comes from, and whom it is for; empty if that was not said.
+struct Route {
+  ByteView from, to;
+};
+
 template <class Each>
 void for_each_submessage(ByteView datagram, Each each) {
-  for (auto next = submessage_at(kRtpsHeader, datagram); next; next = submessage_at(next->end, datagram))
-    each(*next);
+  if (datagram.size() < kRtpsHeader) return;
+  Route route{datagram.subspan(kGuidPrefixAt, kGuidPrefix), {}};
+  for (auto next = submessage_at(kRtpsHeader, datagram); next; next = submessage_at(next->end, datagram)) {
+    if (is_a(*next, Kind::info_source)) route.from = next->body.subspan(8, kGuidPrefix);
+    if (is_a(*next, Kind::info_destination)) route.to = next->body.first(kGuidPrefix);
+    each(*next, route);
+  }
+}
+
+Guid guid_of(ByteView prefix, ByteView entity) {
+  Guid guid;
+  std::ranges::copy(prefix, guid.bytes.begin());
+  std::ranges::copy(entity, guid.bytes.begin() + kGuidPrefix);
+  return guid;
 }
 
 /// What an acknowledgement says, and where in its body.
@@ -29,6 +46,9 @@ struct Acknowledged {
 
   /// That the reader has found the writer and not yet heard of it: in the words of Fast DDS, and of CycloneDDS.
   bool is_first() const { return bits == 0 && (first == 0 || (first == 1 && count == 0)); }
+  Acknowledgement on(const Route& route) const {
+    return {guid_of(route.from, reader), guid_of(route.to, writer)};
+  }
 };
 
 Acknowledged read_acknowledgement(const Submessage& submessage) {
@@ -55,46 +75,37 @@ void put(std::span<std::uint8_t> into, std::uint32_t word, std::endian order) {
   store(into, 0, order == std::endian::native ? word : __builtin_bswap32(word));
 }
 
-void change(const Submessage& submessage, std::span<std::uint8_t> datagram) {
+void change(const Submessage& submessage, const Route& route, AcknowledgementCounts& counts,
+            std::span<std::uint8_t> datagram) {
   if (names_a_key_alone(submessage)) datagram[submessage.begin + 1] ^= kKeyFlag | kDataFlag;
   if (!is_a(submessage, Kind::acknowledgement)) return;
   const Acknowledged read = read_acknowledgement(submessage);
   const auto body = datagram.subspan(submessage.begin + kSubmessageHeader);
   const std::endian order = order_in(submessage.flags);
   if (read.is_first()) put(body.subspan(read.low_word_of_first), 0, order);
-  put(body.subspan(read.count_at), read.count + 1, order);
-}
-
-Guid guid_of(ByteView prefix, ByteView entity) {
-  Guid guid;
-  std::ranges::copy(prefix, guid.bytes.begin());
-  std::ranges::copy(entity, guid.bytes.begin() + kGuidPrefix);
-  return guid;
+  put(body.subspan(read.count_at), counts.next(read.on(route)), order);
 }
 
 }  // namespace
 
-std::optional<Bytes> for_fast_dds(ByteView datagram) {
+std::optional<Bytes> for_fast_dds(ByteView datagram, AcknowledgementCounts& counts) {
   bool differs = false;
-  for_each_submessage(datagram, [&](const Submessage& each) {
+  for_each_submessage(datagram, [&](const Submessage& each, const Route&) {
     differs = differs || is_a(each, Kind::acknowledgement) || names_a_key_alone(each);
   });
   if (!differs) return std::nullopt;
   Bytes changed(datagram.begin(), datagram.end());
-  for_each_submessage(datagram, [&](const Submessage& each) { change(each, changed); });
+  for_each_submessage(
+      datagram, [&](const Submessage& each, const Route& route) { change(each, route, counts, changed); });
   return changed;
 }
 
 std::vector<Acknowledgement> acknowledgements_in(ByteView datagram) {
   std::vector<Acknowledgement> all;
-  if (datagram.size() < kRtpsHeader) return all;
-  ByteView from = datagram.subspan(kGuidPrefixAt, kGuidPrefix), to;
-  for_each_submessage(datagram, [&](const Submessage& each) {
-    if (is_a(each, Kind::info_source)) from = each.body.subspan(8, kGuidPrefix);
-    if (is_a(each, Kind::info_destination)) to = each.body.first(kGuidPrefix);
-    if (!is_a(each, Kind::acknowledgement) || to.empty()) return;
+  for_each_submessage(datagram, [&](const Submessage& each, const Route& route) {
+    if (!is_a(each, Kind::acknowledgement) || route.to.empty()) return;
     const Acknowledged read = read_acknowledgement(each);
-    if (!read.is_first()) all.push_back({guid_of(from, read.reader), guid_of(to, read.writer)});
+    if (!read.is_first()) all.push_back(read.on(route));
   });
   return all;
 }
