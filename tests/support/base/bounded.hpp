@@ -34,7 +34,7 @@ struct Taken {
 /// Runs `work` in a copy of this process whose address space may grow by 1 GiB, so that work without a bound
 /// ends in std::bad_alloc and not in the machine's swap; ends it after 60 s. Prints the figures.
 template <class Work>
-Taken measured(Work work) {
+Taken measured_once(Work work) {
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("no pipe");
   const pid_t child = fork();
@@ -86,6 +86,16 @@ Taken measured(Work work) {
                 1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
   std::cout << "  " << taken.peak_bytes / 1048576 << " MiB, " << taken.cpu_s
             << " s: " << taken.complaint.substr(0, 300) << '\n';
+  return taken;
+}
+
+/// The same. Work that took longer than `most_s` is done again up to four times, and the least time counts: a machine that is busy
+/// with something else only adds to it.
+template <class Work>
+Taken measured(Work work, double most_s = 1) {
+  Taken taken = measured_once(work);
+  for (int i = 0; i < 4 && taken.cpu_s > most_s; ++i)
+    taken.cpu_s = std::min(taken.cpu_s, measured_once(work).cpu_s);
   return taken;
 }
 
