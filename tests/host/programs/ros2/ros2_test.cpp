@@ -20,6 +20,11 @@ class Ros2 : public support::RobotAmongPeers {
  protected:
   Ros2() { start_robot(); }
 
+  void set_no_timeout() const {
+    const auto set = support::astrolabe({"params", "set", "command_timeout=0", "--yes", "--port", port()});
+    ASSERT_EQ(set.code, 0) << set.err;
+  }
+
   struct Pose {
     double x_m = 0, y_m = 0, heading_rad = 0;
   };
@@ -256,10 +261,10 @@ TEST_F(Ros2, ARobotWhoseNodeIsKilledStopsByItself) {
 }
 
 TEST_F(Ros2, WhatAKilledNodeLeftDrivingWithoutATimeOutIsStoppedByTheNextOne) {
-  ASSERT_EQ(support::astrolabe({"params", "set", "command_timeout=0", "--yes", "--port", port()}).code, 0);
   PeerProgram peer(PeerKind::fast, support::test_domain());
   subscribe(peer, "/odom", "odometry");
-  next(peer, "/odom");
+  next(peer, "/odom");  // the robot is there
+  set_no_timeout();
   EXPECT_THAT(call(peer, "/arm"), HasSubstr("yes"));
   ask(peer, "drive /cmd_vel twist 0.2 0.5 1", "sent /cmd_vel");
   node_->send(SIGKILL);
@@ -270,7 +275,8 @@ TEST_F(Ros2, WhatAKilledNodeLeftDrivingWithoutATimeOutIsStoppedByTheNextOne) {
 }
 
 TEST_F(Ros2, ADriveOfAnotherProgramGoesOnWhenANodeStarts) {
-  ASSERT_EQ(support::astrolabe({"params", "set", "command_timeout=0", "--yes", "--port", port()}).code, 0);
+  ASSERT_TRUE(eventually([&] { return std::filesystem::exists(port()); }));
+  set_no_timeout();
   node_->send(SIGINT);
   node_->wait();
   support::Program other(
