@@ -45,10 +45,9 @@ bool comes_to_rest(RobotSession& session) {
 void require_free(RobotSession& session) {
   const protocol::Status status = session.ask(protocol::GetStatus{});
   const bool drives = protocol::gives_power(status.mode) && status.mode != protocol::Mode::stopping;
-  if (!drives && status.mode != protocol::Mode::paused && status.queued_segments == 0) return;
+  if (!drives && status.queued_segments == 0) return;  // what is left of a paused path waits in the queue
   const robot::PortUsers users = robot::port_users(session.client());
-  if (users.driver_pid == 0)
-    throw Error("the robot drives, or waits on a path, for another program");
+  if (users.driver_pid == 0) throw Error("the robot drives, or waits on a path, for another program");
 }
 
 std::string why_not(RobotSession& session, const robot::RobotRefused& refused) {

@@ -90,8 +90,8 @@ TEST(EmulatorProgram, DrivesForOneProgramAtATime) {
   const EmulatorProgram emulator;
   // Not about a host that falls silent, which the first would do where the machine is busy; nor about a drive that is over before
   // the second has asked: with --fast an idle machine drives ten seconds in one.
-  ASSERT_EQ(astrolabe({"params", "set", "command_timeout=5000", "--yes", "--port", emulator.usb()}).code, 0);
-  support::Program first({ASTROLABE_PROGRAM, "drive", "line", "5000", "--port", emulator.serial()});
+  ASSERT_EQ(astrolabe({"params", "set", "command_timeout=0", "--yes", "--port", emulator.usb()}).code, 0);
+  support::Program first({ASTROLABE_PROGRAM, "drive", "line", "900", "--port", emulator.serial()});
   const auto mode = [&] {
     const Outcome info = astrolabe({"info", "--port", emulator.usb(), "--json"});
     return info.code == 0 ? support::parse_json(info.out)["mode"].get<std::string>() : info.err;
@@ -110,7 +110,7 @@ void expect_that_a_stop_ends_a_velocity(const std::string& driver, const std::st
     return name == "usb" ? emulator.usb() : emulator.serial();
   };
   // Not about a host that falls silent, which the driver would do where the machine is busy.
-  ASSERT_EQ(astrolabe({"params", "set", "command_timeout=5000", "--yes", "--port", emulator.usb()}).code, 0);
+  ASSERT_EQ(astrolabe({"params", "set", "command_timeout=0", "--yes", "--port", emulator.usb()}).code, 0);
   support::Program drive(
       {ASTROLABE_PROGRAM, "drive", "velocity", "0.5", "0", "--for", "80000", "--port", port(driver)});
   const auto mode = [&] {

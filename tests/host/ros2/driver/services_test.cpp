@@ -196,6 +196,30 @@ TEST_F(Services, APauseHoldsAgainstVelocitiesUntilItIsResumed) {
   EXPECT_EQ(bench.mode(), Mode::velocity);
 }
 
+TEST_F(Services, APauseOfAnotherProgramEndsThePermissionAndArmGivesItBack) {
+  bench.call("/arm");
+  bench.drive_ms(500, 0.3, 0);
+  robot::Client other(std::make_unique<simulation::InProcessTransport>(bench.robot, 1));
+  other.connect();
+  other.request(protocol::Pause{});
+  bench.drive_ms(2000, 0.3, 0);
+  EXPECT_EQ(bench.mode(), Mode::paused);
+  EXPECT_TRUE(bench.call("/arm").success);
+  bench.drive_ms(100, 0.3, 0);
+  EXPECT_EQ(bench.mode(), Mode::velocity);
+}
+
+TEST_F(Services, APathThatAnotherProgramHasLeftIsNotTakenOver) {
+  robot::Client other(std::make_unique<simulation::InProcessTransport>(bench.robot, 1));
+  other.connect();
+  other.request(protocol::Arm{});
+  other.request(protocol::AddSegment{protocol::SegmentKind::line, 1, 1'000'000'000, 0, 0, 0, 0});
+  bench.run_ms(50);
+  const auto answer = bench.call("/arm");
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message, HasSubstr("drives, or waits on a path, for another program"));
+}
+
 TEST_F(Services, PauseNeedsAnArmedRobot) {
   const auto answer = bench.call("/pause");
   EXPECT_FALSE(answer.success);
