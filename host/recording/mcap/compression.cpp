@@ -14,6 +14,12 @@ namespace {
 
 std::optional<Bytes> expand_zstd(ByteView bytes, std::uint64_t size) {
   if (size > (bytes.size() / 4 + 1) * (std::uint64_t{128} << 10)) return std::nullopt;
+  // What is no frame, or a single frame that says another size, is refused before memory for the claimed size is filled.
+  const std::uint64_t told = bytes.empty() ? 0 : ZSTD_getFrameContentSize(bytes.data(), bytes.size());
+  if (told == ZSTD_CONTENTSIZE_ERROR) return std::nullopt;
+  if (told != ZSTD_CONTENTSIZE_UNKNOWN && told != size &&
+      ZSTD_findFrameCompressedSize(bytes.data(), bytes.size()) == bytes.size())
+    return std::nullopt;
   Bytes out(static_cast<std::size_t>(size));
   const std::size_t got = ZSTD_decompress(out.data(), out.size(), bytes.data(), bytes.size());
   if (ZSTD_isError(got) != 0 || got != size) return std::nullopt;
