@@ -8,9 +8,9 @@
 namespace astro::protocol {
 
 /// Who may move the robot, and until when: the rule that makes a stop hold. The robot applies it to the hosts at its
-/// ports, and the program that shares a port with others applies it to these.
+/// ports, and a program that shares its port with others applies it to those programs.
 ///
-///   Arm            makes its sender the driver and ends what is said below
+///   Arm            makes its sender the driver, and ends a stop or a pause
 ///   Velocity, WheelVoltage, AddSegment, Rest
 ///                  are for the driver alone
 ///   Stop, Disarm, EmergencyStop of anybody

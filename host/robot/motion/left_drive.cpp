@@ -6,8 +6,9 @@ namespace astro::robot {
 
 bool stop_left_drive(Client& client, microseconds command_timeout) {
   constexpr RetryPolicy kPatience{std::chrono::milliseconds(60), 8};
-  constexpr microseconds kSoon = std::chrono::seconds(1);
-  if (command_timeout > microseconds::zero() && command_timeout <= kSoon) return false;
+  constexpr microseconds kLongestTrusted =
+      std::chrono::seconds(1);  // by then the robot has stopped by itself
+  if (command_timeout > microseconds::zero() && command_timeout <= kLongestTrusted) return false;
   // The mode first: a program that begins to drive after that is among those that are asked for next.
   const protocol::Mode mode = client.request(protocol::GetStatus{}, kPatience).mode;
   if (!protocol::gives_power(mode) || mode == protocol::Mode::stopping) return false;
