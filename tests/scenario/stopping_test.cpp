@@ -102,6 +102,27 @@ TEST_P(NotObeying, StopEndsWithoutPowerAlsoWithAHostThatStays) {
   EXPECT_LE(ms, 3000);
 }
 
+// Whoever says Stop is there, so the silence that is allowed in a ramp begins with it. Otherwise the bridges would open at full
+// speed, and the robot would roll on.
+TEST(Stopping, OfARobotWhoseDriverHasLongFallenSilentRampsToRest) {
+  for (const std::int32_t timeout_ms : {0, 60'000}) {
+    DriveRig rig(support::mismatched_robot(), with({{Param::command_timeout, timeout_ms}}));
+    rig.hold_velocity(0.6, 0);
+    rig.run_ms(2000);
+    rig.release();
+    rig.silent = true;
+    rig.run_ms(5000);
+    ASSERT_GT(rig.drive().twist().v_umps, 500'000) << "it drives on";
+    rig.drive().stop();
+    while (rig.drive().mode() == Mode::stopping) {
+      ASSERT_TRUE(rig.powered());
+      rig.step();
+    }
+    EXPECT_EQ(rig.drive().mode(), Mode::idle);
+    EXPECT_LT(std::abs(rig.drive().twist().v_umps), 5'000);
+  }
+}
+
 // 0.4 m/s^2 against the gains of a robot that nobody has tuned: the set point is at rest, the wheels are not.
 TEST(Stopping, WheelsThatRollOnASecondAfterTheirSetPointStandsAreAFault) {
   DriveRig rig(support::mismatched_robot(), with({{Param::kp, q16(5)}, {Param::ki, 0}}));

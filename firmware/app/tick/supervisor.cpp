@@ -46,8 +46,10 @@ bool Supervisor::request(Event event) {
   if (gives_power && faults_.any()) return false;
   const State before = state_;
   if (!astro::advance(state_, event)) return false;
-  if (state_ == State::stopping && before != State::stopping) begin_ramp();
-  if (event == Event::arm) host_seen();
+  const bool begins_to_stop = state_ == State::stopping && before != State::stopping;
+  if (begins_to_stop) begin_ramp();
+  // The host that asks is there, whether it is the one that drove or another.
+  if (begins_to_stop || event == Event::arm) host_seen();
   // The ramp after a fault has ended by itself or by a request.
   if (faults_.any() && (state_ == State::armed || state_ == State::disarmed)) state_ = State::fault;
   return true;

@@ -191,7 +191,7 @@ class Session {
         if (!hooks_.put_back(spec)) throw Error(broken_off);
         client_.reconnect(kReconnectPatience);
       } catch (const Error&) {
-        if (on_its_way) hooks_.run.notice(broken_off);
+        if (on_its_way && !hooks_.run.interrupted()) hooks_.run.notice(broken_off);
         throw;
       }
     }

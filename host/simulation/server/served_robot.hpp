@@ -18,10 +18,8 @@ class ServedRobot {
   /// Virtual time; may restart at 0 with the robot.
   virtual std::uint64_t now_us() = 0;
 
-  /// Whether it drives by what its host has to repeat, velocities or voltages, and stops by itself if nothing comes in time.
-  virtual bool awaits_commands() { return false; }
   /// Whether it drives, and stops by itself if its host gives no sign of life.
-  virtual bool drives() { return awaits_commands(); }
+  virtual bool drives() { return false; }
 
   // The robot's ports, numbered from 0: `pty` of ServerConfig leads to port 0, `second_pty` to port 1.
 

@@ -23,17 +23,19 @@ using namespace std::chrono_literals;
 
 constexpr std::uintmax_t kMostFlashBytes = std::uintmax_t{8} << 20;  // the largest of a Teensy's family
 constexpr std::uint64_t kRunAhead_us = 100'000;  // virtual time that may pass after bytes from the host
-// The same while the robot awaits commands. A sign of life between two of them lets time pass once more, and even two of them must not
-// take the robot to its command time-out of 200 ms. More than 50 ms, after which hosts give a sign of life by the robot's clock.
-constexpr std::uint64_t kRunAheadOfCommands_us = 60'000;
+// The same while the robot drives. Bytes that are none of its driver's, but another program's or a relay's own, let time pass once
+// more, which must not take the robot to its command time-out of 200 ms. More than 50 ms, after which drivers give a sign of life
+// by the robot's clock.
+constexpr std::uint64_t kRunAheadOfDriver_us = 80'000;
 // The same in real time while the robot drives. The shortest command time-out is 200 ms.
 constexpr std::uint64_t kSilenceOfDriver_us = 150'000;
 // Turns of this server, each of a millisecond at least, for which a host may take no bytes, or send none, before time goes on
 // without it. On a busy machine a program gets no turn for some hundred milliseconds, and a robot that stops by its own time-out
 // then surprises its owner. Turns and not seconds, because a machine that gives the host no time gives this server little, too.
-constexpr int kPatience = 1000;
+// Fast motion promises nothing about real time, and a virtual machine may hold up one of its processors for some seconds.
+constexpr int kPatience = 1000, kPatienceInFastMotion = 10'000;
 constexpr int kStepsPerPoll = 50;  // virtual ms between two checks of the host while running ahead
-constexpr int kStepsPerPollOfCommands = 10;
+constexpr int kStepsPerPollOfDriver = 20;
 
 sim::Config with_flash(sim::Config config, const fs::path& path) {
   config.flash = load_flash(path);
@@ -47,10 +49,12 @@ class ServedVirtualRobot : public ServedRobot {
   ServedVirtualRobot(const sim::Config& config, const MocapConfig& mocap) : robot_(config, mocap) {}
 
   void step() override { robot_.step(); }
-  bool awaits_commands() override {
-    return mode() == protocol::Mode::velocity || mode() == protocol::Mode::wheels;
+  bool drives() override {
+    const auto hold = robot_.board().hold_tick();
+    const protocol::Mode mode = robot_.robot().drive(hold).mode();
+    return mode == protocol::Mode::segment || mode == protocol::Mode::velocity ||
+           mode == protocol::Mode::wheels;
   }
-  bool drives() override { return mode() == protocol::Mode::segment || awaits_commands(); }
   std::uint64_t now_us() override { return robot_.now_us(); }
   std::size_t room(int port) override { return robot_.board().ports().host_room(port); }
   void write(int port, std::span<const std::uint8_t> bytes) override {
@@ -63,11 +67,6 @@ class ServedVirtualRobot : public ServedRobot {
   std::span<const std::uint8_t> flash() override { return robot_.board().flash().content(); }
 
  private:
-  protocol::Mode mode() {
-    const auto hold = robot_.board().hold_tick();
-    return robot_.robot().drive(hold).mode();
-  }
-
   VirtualRobot robot_;
 };
 
@@ -108,7 +107,7 @@ void Server::run(const std::function<bool()>& stop) {
     receive();
     const bool host_is_behind = transmit();
     if (runs_ahead(host_is_behind)) {
-      const int steps = robot_->awaits_commands() ? kStepsPerPollOfCommands : kStepsPerPoll;
+      const int steps = robot_->drives() ? kStepsPerPollOfDriver : kStepsPerPoll;
       for (int i = 0; i < steps; ++i) step();
       pace_.restart(Clock::now() + Pace::kStep);
     } else if (pace_.due(Clock::now())) {
@@ -154,12 +153,12 @@ bool Server::connected() const {
 bool Server::host_is_late() {
   const std::uint64_t silence_us = robot_->now_us() - last_heard_us_;
   if (!config_.fast) return silence_us >= kSilenceOfDriver_us && robot_->drives();
-  return silence_us >= (robot_->awaits_commands() ? kRunAheadOfCommands_us : kRunAhead_us);
+  return silence_us >= (robot_->drives() ? kRunAheadOfDriver_us : kRunAhead_us);
 }
 
 /// Virtual time waits for a host that is late because its machine is busy, but not for one that hangs or has gone.
 void Server::wait_for_host() {
-  if (!connected() || turns_waited_ >= kPatience) return;
+  if (!connected() || turns_waited_ >= (config_.fast ? kPatienceInFastMotion : kPatience)) return;
   const Clock::time_point now = Clock::now();
   if (now - turn_at_ >= Pace::kStep) {
     ++turns_waited_;

@@ -37,9 +37,9 @@ std::vector<std::uint8_t> load_flash(const std::filesystem::path& path);
 ///
 /// Real time: one virtual millisecond per real millisecond; while the robot drives, time waits for a driver that is late, as in
 /// fast motion. Fast: virtual time runs ahead as long as a host
-/// sends something at least every 100 virtual ms, or 60 while it drives by repeated commands (its client pings by the robot's clock) and reads what it is
-/// sent; otherwise it falls back to real time, so that the robot's command time-out still notices a host that
-/// dies.
+/// sends something at least every 100 virtual ms, or 80 while the robot drives (its client pings by the robot's clock), and reads
+/// what it is sent; else it waits for the host, and after ten seconds falls back to real time, so that the robot's command time-out
+/// still notices a host that hangs. One that has gone is not waited for.
 class Server {
  public:
   /// A VirtualRobot. Throws astro::Error if a pty, the file of the flash or a port cannot be used.

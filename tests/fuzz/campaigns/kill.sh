@@ -10,7 +10,7 @@ cmake --preset host -DASTROLABE_TESTS=ON >/dev/null
 cmake --build build/host --target host.campaign.test
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
-if ! ASTRO_KILLS=$kills ASTRO_SEED=$seed build/host/tests/host.campaign.test --gtest_filter='*Killed*:*FlashFile*' \
+if ! ASTROLABE_THOROUGH=1 ASTRO_KILLS=$kills ASTRO_SEED=$seed build/host/tests/host.campaign.test --gtest_filter='*Killed*:*FlashFile*' \
   >"$log" 2>&1; then
   cat "$log"
   echo "fails with ASTROLABE_KILLS=$kills ASTROLABE_SEED=$seed"

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "tests/host/campaign/place.hpp"
+#include "tests/support/base/thorough.hpp"
 #include "tests/target/firmware_file.hpp"
 
 // SIGKILL at a system call of every command that writes. What it leaves behind is old or new, or says by its
@@ -145,6 +146,7 @@ FlashLife FlashFile::live(const test::TemporaryFolder& folder, Interference inte
 }
 
 TEST_P(FlashFile, HoldsOneOfTheSetsAndAllThatWasAcknowledged) {
+  if (GetParam() == "emulator" && !support::thorough()) GTEST_SKIP() << support::kLeftToThorough;
   std::size_t calls = 0;
   {
     const test::TemporaryFolder folder;

@@ -13,12 +13,21 @@
 
 namespace astro::test {
 
-/// A FakeRobot, a relay and the programs at it, in one virtual time: whoever reads makes it pass.
+/// A FakeRobot or another robot, a relay and the programs at it, in one virtual time: whoever reads makes it pass.
 class RelayRig {
  public:
   using Bytes = FakeRobot::Bytes;
 
+  RelayRig() = default;
+  RelayRig(const RelayRig&) = delete;
+  RelayRig& operator=(const RelayRig&) = delete;
+
   FakeRobot robot;
+  // The robot behind the relay: the frames that it sends because of these bytes, and in its next millisecond.
+  std::function<std::vector<Bytes>(const Bytes&)> receive = [this](const Bytes& bytes) {
+    return robot.receive(bytes);
+  };
+  std::function<std::vector<Bytes>()> tick = [this] { return robot.tick(); };
   robot::Relay relay;
   std::vector<protocol::Header> at_robot;  // of all requests, in the order in which they came
   // Whether a frame arrives; asked for each.
@@ -30,7 +39,7 @@ class RelayRig {
   /// One millisecond.
   void step() {
     now += std::chrono::milliseconds(1);
-    to_relay(robot.tick());
+    to_relay(tick());
     relay.tick(now);
     carry();
   }
@@ -47,7 +56,7 @@ class RelayRig {
       const protocol::Header header = header_of(frame);
       if (!arrives(true, header)) continue;
       at_robot.push_back(header);
-      to_relay(robot.receive(frame));
+      to_relay(receive(frame));
     }
   }
 

@@ -47,7 +47,12 @@ class Program {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  void send(int signal) const { kill(pid_, signal); }
+  /// After SIGSTOP it waits until nothing of the program runs any more: kill() returns before another processor heeds it.
+  void send(int signal) const {
+    kill(pid_, signal);
+    siginfo_t stopped;
+    if (signal == SIGSTOP) waitid(P_PID, static_cast<id_t>(pid_), &stopped, WSTOPPED | WEXITED | WNOWAIT);
+  }
   pid_t pid() const { return pid_; }
 
   /// Exit code, or 128 + the signal that ended it.

@@ -40,13 +40,15 @@ class HaltWitness {
     if (message == Arm::kId || message == Pause::kId || message == Resume::kId) rested_ = false;
   }
 
-  /// After every millisecond.
-  void look(protocol::Mode mode) {
+  /// After every millisecond. `ramp_ms`: how long the robot may take from its top speed to rest.
+  void look(protocol::Mode mode, int ramp_ms) {
     using protocol::Mode;
     const bool on_path = mode == Mode::segment;
     const bool drives = on_path || mode == Mode::velocity || mode == Mode::wheels;
-    // A path that is paused ramps down in its own mode.
-    if (drives && (stopped() || (paused() && (rested_ || !on_path))) && violation_.empty())
+    // A path that is paused ramps down in its own mode, and in no more time than a ramp takes.
+    pausing_ms_ = paused() && on_path ? pausing_ms_ + 1 : 0;
+    const bool may_still_ramp = on_path && !rested_ && pausing_ms_ <= ramp_ms;
+    if (drives && (stopped() || (paused() && !may_still_ramp)) && violation_.empty())
       violation_ = "the robot drives after a halt that nobody has lifted";
     rested_ = rested_ || !drives;
   }
@@ -94,6 +96,7 @@ class HaltWitness {
   Host driver_;
   std::vector<Request> since_;  // halts and Resumes that were taken since the last Arm, the oldest first
   bool rested_ = false;         // since the last Arm, Pause or Resume the robot has been seen not to drive
+  int pausing_ms_ = 0;          // for how long it has been on a path that is paused
   std::string violation_;
 };
 

@@ -2,12 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <string_view>
 
 #include "common/params/table.hpp"
 #include "host/emulator/robot/emulated_robot.hpp"
 #include "host/robot/client/client.hpp"
+#include "tests/support/base/thorough.hpp"
 #include "tests/target/firmware_file.hpp"
 
 namespace astro::emulator {
@@ -120,13 +120,12 @@ class Places {
   bool worth_a_cut(std::uint64_t at) const {
     const auto near = [at](std::uint64_t edge) { return at + kNear >= edge && at <= edge + kNear; };
     // 15 words: sharp and torn cuts take turns.
-    return !erases_ || every_word() || at % 60 == 0 || std::any_of(edges_.begin(), edges_.end(), near);
+    return !erases_ || support::thorough() || at % 60 == 0 || std::any_of(edges_.begin(), edges_.end(), near);
   }
 
  private:
   static constexpr std::size_t kSector = 4096, kNear = 16, kAroundPayload = 16;
   static constexpr int kPage = 256;
-  static bool every_word() { return std::getenv("ASTRO_CUT_EVERY_WORD") != nullptr; }  // ./dev fuzz
   static bool begins(const Content& content, std::size_t at) {
     return std::equal(kMagic.begin(), kMagic.end(), content.begin() + static_cast<std::ptrdiff_t>(at));
   }
@@ -158,9 +157,11 @@ TEST_P(PowerCut, LeavesTheOldSetOrTheNewOne) {
   const std::uint64_t whole = robot.flash().bytes_worked() - begun;
   const Places places(before, robot.content(), erases);
   int old_sets = 0, new_sets = 0;
+  // An odd share, so that sharp and torn cuts go on to take turns.
+  const auto share = static_cast<unsigned>(support::how_often(7, 1));
   unsigned place = 0;
   for (std::uint64_t cut = 0; cut <= whole; cut += 4) {
-    if (!places.worth_a_cut(cut) || place++ % parts != part) continue;
+    if (!places.worth_a_cut(cut) || place++ % (parts * share) != part) continue;
     robot.put_back(before);
     robot.flash().cut_power_after(cut, cut % 8 == 0 ? sim::Tear::sharp : sim::Tear::torn);
     const bool said_done = robot.commit(kNew);

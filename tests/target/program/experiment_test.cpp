@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/base/json.hpp"
+#include "tests/support/base/thorough.hpp"
 #include "tests/target/program/emulator.hpp"
 
 namespace astro::target {
@@ -18,6 +19,7 @@ json umbmark(const std::string& port, const std::filesystem::path& out) {
 
 // No slip: then one run each way round says what twenty would, and the improvement is the method's.
 TEST(ExperimentOverAPty, CalibratesTheImageAsItCalibratesTheSimulatedRobot) {
+  if (!support::thorough()) GTEST_SKIP() << support::kLeftToThorough;
   const std::vector<std::string> robot{"--slip", "0", "--seed", "1"};
   std::vector<std::string> simulated_robot = robot;
   simulated_robot.emplace_back("--fast");

@@ -17,6 +17,7 @@
 #include "host/robot/motion/paths.hpp"
 #include "host/robot/parameters/upload.hpp"
 #include "tests/support/base/remarks.hpp"
+#include "tests/support/base/thorough.hpp"
 #include "tests/support/robots/desk.hpp"
 
 namespace astro::experiment {
@@ -67,6 +68,7 @@ TEST(Experiment, MakesTheThesisRobotAtLeastFiveTimesBetter) {
 // A single experiment of five noisy runs may be unlucky: what is left is mostly the standard error of a mean
 // of five.
 TEST(Experiment, MakesTheThesisRobotFiveTimesBetterInTheMedianOverSeeds) {
+  if (!support::thorough()) GTEST_SKIP() << support::kLeftToThorough;
   std::vector<double> factors;
   for (std::uint64_t seed = 1; seed <= 9; ++seed)
     factors.push_back(calibrate(thesis_robot(kThesisSlip_m, seed), squares_only(5)).improvement());
@@ -249,6 +251,7 @@ RunSet squares_of_phase(const PhaseResult& phase) {
 }
 
 TEST(Experiment, FindsThatGentleArcsTurnAboutAnotherWheelbaseAndDrivesCirclesThreeTimesBetter) {
+  if (!support::thorough()) GTEST_SKIP() << support::kLeftToThorough;
   WithAndWithoutE circles, squares;
   MlChoice without_e;
   without_e.with_e = false;

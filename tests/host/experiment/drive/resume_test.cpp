@@ -107,8 +107,10 @@ class BreakingLine : public robot::Transport {
   bool plugged_in_ = false;
 };
 
-/// An experiment whose line breaks when the second run has begun. `put_back`: whether somebody puts the robot back.
-std::vector<std::string> driven_over_a_line_that_breaks(const fs::path& folder, bool put_back) {
+/// An experiment whose line breaks when the second run has begun. `put_back`: whether somebody puts the robot back;
+/// `interrupted`: whether somebody interrupts it at that moment.
+std::vector<std::string> driven_over_a_line_that_breaks(const fs::path& folder, bool put_back,
+                                                        bool interrupted = false) {
   Desk desk(thesis_robot(0, 1));
   bool breaks = false;
   robot::Client client(
@@ -118,6 +120,7 @@ std::vector<std::string> driven_over_a_line_that_breaks(const fs::path& folder, 
   ExperimentHooks hooks;
   hooks.run_started = [&](const RunSpec& spec, int, int) { events.push_back("drives " + spec.title()); };
   hooks.run.segment_done = [&](std::uint16_t) { breaks = events.size() > 1; };
+  hooks.run.interrupted = [&] { return breaks && interrupted; };
   hooks.run.notice = [&](const Remark& remark) { events.push_back(remark.fact); };
   hooks.put_back = [&](const RunSpec& spec) {
     events.push_back("asks about " + spec.title());
@@ -147,6 +150,12 @@ TEST_F(Resume, ARunWhoseLinkWasLostIsDrivenAgainOnceTheRobotIsPutBack) {
   ASSERT_GE(events.size(), 7U);
   EXPECT_EQ(events[4], "asks about before: square ccw 1");
   EXPECT_EQ(events.back(), "drives after: square ccw 1");
+}
+
+TEST_F(Resume, InterruptedOnceTheLinkIsLostItAsksNobodyAndDoesNotSayThatTheRobotStands) {
+  const std::vector<std::string> events = driven_over_a_line_that_breaks(folder_.path(), true, true);
+  EXPECT_THAT(events, testing::ElementsAre("drives before: square cw 1", "drives before: square ccw 1",
+                                           HasSubstr("may still be moving")));
 }
 
 /// Ground truth of a simulator that ends in the middle of a run.

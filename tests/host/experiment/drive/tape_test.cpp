@@ -7,6 +7,7 @@
 #include "host/base/text/degrees.hpp"
 #include "host/recording/run/planar_pose.hpp"
 #include "host/truth/manual/manual_source.hpp"
+#include "tests/support/base/thorough.hpp"
 #include "tests/support/robots/desk.hpp"
 
 // A person with a tape measure beside the robot of the thesis, with all its slip, who makes mistakes.
@@ -160,6 +161,7 @@ TEST(Tape, FindsTheRobotOfTheThesisWithItsScaleAndKnowsHowWell) {
 }
 
 TEST(Tape, BearsFourMistakesInDifferentRunsAndALineThatNobodyCorrects) {
+  if (!support::thorough()) GTEST_SKIP() << support::kLeftToThorough;
   double squares = 0;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const Calibration& without = honest(seed);
@@ -188,6 +190,7 @@ TEST(Tape, IsAsGoodAsWithoutMistakesIfThePersonCorrectsWhatIsAskedAbout) {
 }
 
 TEST(Tape, BearsADroppedDigitInTheVeryFirstRun) {
+  if (!support::thorough()) GTEST_SKIP() << support::kLeftToThorough;
   for (const char* first : {"before: square cw 1", "before: square ccw 1"})
     for (std::uint64_t seed = 1; seed <= kSeeds / 2; ++seed) {
       const Calibration& without = honest(seed);

@@ -11,6 +11,7 @@
 #include "host/experiment/analysis/calibration.hpp"
 #include "host/experiment/files/run_set.hpp"
 #include "host/experiment/film/film_truth.hpp"
+#include "tests/support/base/thorough.hpp"
 
 /// Drives that a film shows, calibrated from it and from the true poses.
 namespace astro::experiment {
@@ -57,6 +58,7 @@ film::FilmFigures stated_figures() {
 }
 
 TEST(FilmCalibration, FindsWhatTheTruePosesFind) {
+  if (!support::thorough()) GTEST_SKIP() << support::kLeftToThorough;
   if (!fs::exists(camera_data() / "dev.mp4")) GTEST_SKIP() << "the film is not beside this checkout";
   RunSet set = read_run_set(camera_data() / "runs");
   const Calibration exact = calibrate(with_true_poses(set), {MethodChoice::Family::ml, {}});

@@ -9,6 +9,7 @@
 #include "tests/support/base/bounded.hpp"
 #include "tests/support/base/mutations.hpp"
 #include "tests/support/base/temporary_folder.hpp"
+#include "tests/support/base/thorough.hpp"
 
 // Damaged files and files of the wrong kind, through all that an import does with them: each is read or refused by its name,
 // within the limits of bounded.hpp.
@@ -150,19 +151,19 @@ TEST_P(HostileSamples, AreReadWhole) {
   EXPECT_EQ(importer.refused, 0) << sample_.format;
 }
 
-TEST_P(HostileSamples, OfWhichAThousandMutationsAreReadOrRefusedByNameAndPlace) {
+TEST_P(HostileSamples, OfWhichManyMutationsAreReadOrRefusedByNameAndPlace) {
   constexpr unsigned kSeed = 20'261'123;
   // The sanitizers see a tenth of them here, and more from the fuzz targets.
-  constexpr int kMutations = support::kMeasuresMemory ? 1200 : 120;
+  const int mutations = support::how_often(120, 1200);
   SCOPED_TRACE(sample_.format + ", seed " + std::to_string(kSeed));
   const Taken taken = measured([&] {
     support::Mutator mutator(kSeed);
     Importer importer(folder_.path());
-    for (int i = 0; i < kMutations; ++i) {
+    for (int i = 0; i < mutations; ++i) {
       test::save(at(sample_.name), damaged(mutator, sample_));
       importer.take(at(sample_.name), sample_.holds);
     }
-    std::cout << "  " << sample_.format << ": " << kMutations << " mutations, " << importer.read
+    std::cout << "  " << sample_.format << ": " << mutations << " mutations, " << importer.read
               << " times read, " << importer.refused << " times refused, the slowest in "
               << 1000 * importer.slowest_s << " ms\n"
               << std::flush;

@@ -10,6 +10,7 @@
 #include "host/base/text/degrees.hpp"
 #include "host/recording/run/planar_pose.hpp"
 #include "host/truth/manual/manual_source.hpp"
+#include "tests/support/base/thorough.hpp"
 #include "tests/support/robots/wall_desk.hpp"
 
 // Wall and ruler against a tape measure, on the same fifty simulated robots.
@@ -127,6 +128,7 @@ void print(const char* what, const Errors& errors) {
 }
 
 TEST(FiftyRobots, AreCalibratedByWallAndRulerInTenMinutesGently) {
+  if (!support::thorough()) GTEST_SKIP() << support::kLeftToThorough;
   std::vector<Errors> wall, in_se, umbmark, robust;
   double minutes = 0, hardest_N = 0, stalled_s = 0;
   for (std::uint64_t seed = 1; seed <= kRobots; ++seed) {

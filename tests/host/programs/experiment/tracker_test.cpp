@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "tests/support/base/json.hpp"
+#include "tests/support/base/thorough.hpp"
 #include "tests/support/programs/program.hpp"
 #include "tests/support/ros2/domain.hpp"
 
@@ -132,6 +133,7 @@ struct WholeExperiment {
 };
 
 TEST(TrackerOnTheNetwork, CalibratesInAWholeExperimentAsTheSimulatorsOwnTruthDoes) {
+  if (!support::thorough()) GTEST_SKIP() << support::kLeftToThorough;
   WholeExperiment own("sim"), by_vrpn("vrpn"), by_natnet("natnet"), by_ros2("ros2");
   const nlohmann::json sim = own.calibration(), vrpn = by_vrpn.calibration(),
                        natnet = by_natnet.calibration(), ros2 = by_ros2.calibration();

@@ -7,6 +7,7 @@
 #include "host/recording/run/planar_pose.hpp"
 #include "host/truth/live/socket_source.hpp"
 #include "tests/support/base/json.hpp"
+#include "tests/support/base/thorough.hpp"
 #include "tests/support/film/film_stage.hpp"
 #include "tests/support/programs/program.hpp"
 #include "tests/support/programs/tmux_program.hpp"
@@ -110,6 +111,7 @@ TEST_F(FilmedUmbmark, WaitsAtATerminalUntilSomebodyFilms) {
 }
 
 TEST_F(FilmedUmbmark, TakesAFilmOfEachPhaseAndLoadsTheFactorsThatItShows) {
+  if (!support::thorough()) GTEST_SKIP() << support::kLeftToThorough;
   const Outcome driven = umbmark("film");
   ASSERT_EQ(driven.code, 1);
   ASSERT_THAT(driven.err, HasSubstr("all runs of phase 'before' are driven, but their film is missing"));

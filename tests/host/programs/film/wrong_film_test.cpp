@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "tests/support/base/thorough.hpp"
 #include "tests/support/film/wrong_films.hpp"
 #include "tests/support/programs/program.hpp"
 
@@ -46,6 +48,9 @@ struct WrongWords {
 class WrongFilm : public testing::TestWithParam<std::string> {};
 
 TEST_P(WrongFilm, IsRefusedWithWhatToFilmDifferently) {
+  const std::set<std::string> rendered_quickly{"ends-too-early", "mirrored-print", "moved-camera"};
+  if (!support::thorough() && !rendered_quickly.contains(GetParam()))
+    GTEST_SKIP() << support::kLeftToThorough;
   const Sentence& sentence = sentences().at(GetParam());
   const test::TemporaryFolder temporary;
   const fs::path folder = temporary.path(), film = folder / "film.mp4", factors = folder / "factors.toml";
@@ -69,6 +74,7 @@ TEST(WrongFilmAlone, ShowsThatTheRobotDrivesOutOfThePicture) {
 
 // A film that is good, and figures that are not.
 TEST(WrongFigures, AreNamedWithWhatTheFilmShows) {
+  if (!support::thorough()) GTEST_SKIP() << support::kLeftToThorough;
   const test::TemporaryFolder folder;
   support::film::wrong_film("ends-too-early")->write(folder.path());
   const std::string film = (folder.path() / "film.mp4").string();

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "tests/host/programs/ros2/robot_among_peers.hpp"
+#include "tests/support/base/thorough.hpp"
 #include "tests/support/links/pty_cable.hpp"
 #include "tests/support/ros2/two_computers.hpp"
 
@@ -117,7 +118,8 @@ TEST_F(Ros2, PeersOfBothKindsDriveASquareByBothKindsOfCommand) {
   }
 }
 
-TEST_F(Ros2, EachServiceAnswersPeersOfBothKindsInTurnAHundredTimes) {
+TEST_F(Ros2, EachServiceAnswersPeersOfBothKindsInTurnManyTimes) {
+  const int times = support::how_often(20, 100);
   std::vector<std::unique_ptr<PeerProgram>> peers;
   for (const PeerKind kind : kinds())
     peers.push_back(std::make_unique<PeerProgram>(kind, support::test_domain()));
@@ -129,7 +131,7 @@ TEST_F(Ros2, EachServiceAnswersPeersOfBothKindsInTurnAHundredTimes) {
       {"/arm", "yes"},   {"/pause", "yes"},       {"/resume", "yes"},         {"/stop", "yes"},
       {"/resume", "no"}, {"/disarm", "yes"},      {"/reset_odometry", "yes"}, {"/emergency_stop", "yes"},
       {"/arm", "no"},    {"/clear_faults", "yes"}};
-  for (int i = 0; i < 100; ++i)
+  for (int i = 0; i < times; ++i)
     for (const auto& [service, answer] : services)
       for (const auto& peer : peers)
         ASSERT_THAT(call(*peer, service), HasSubstr(' ' + answer)) << service << i;
@@ -154,7 +156,7 @@ TEST_F(Ros2, PeersOfBothKindsSetAndReadParametersAndThePose) {
   }
 }
 
-TEST_F(Ros2, TwentyPulledCablesStopTheRobotAndAreRecoveredWithoutAJump) {
+TEST_F(Ros2, PulledCablesStopTheRobotAndAreRecoveredWithoutAJump) {
   ASSERT_TRUE(eventually([&] { return std::filesystem::exists(port()); }));
   node_port_ = (folder_.path() / "cable").string();
   test::PtyCable cable(port(), node_port_);
@@ -162,7 +164,8 @@ TEST_F(Ros2, TwentyPulledCablesStopTheRobotAndAreRecoveredWithoutAJump) {
   PeerProgram peer(PeerKind::fast, support::test_domain());
   subscribe(peer, "/odom", "odometry");
   double worst_m = 0;
-  for (int i = 0; i < 20; ++i) {
+  const int pulls = support::how_often(4, 20);
+  for (int i = 0; i < pulls; ++i) {
     next(peer, "/odom");
     ASSERT_THAT(call(peer, "/arm"), HasSubstr("yes")) << i;
     ask(peer, "drive /cmd_vel twist 0.3 0.5 0.5", "sent /cmd_vel");
@@ -178,7 +181,7 @@ TEST_F(Ros2, TwentyPulledCablesStopTheRobotAndAreRecoveredWithoutAJump) {
     ask(peer, "drive /cmd_vel twist 0.3 0.5 0.2", "sent /cmd_vel");
     EXPECT_LT(std::abs(number_in(next(peer, "/odom"), "v")), 0.01) << i;
   }
-  std::printf("20 pulls: at most %.0f mm between the last message before and the first one after\n",
+  std::printf("%d pulls: at most %.0f mm between the last message before and the first one after\n", pulls,
               1e3 * worst_m);
   // What it can have driven since the message before the pull: 0.3 m/s for some periods, 0.25 s and half of 0.6 s.
   EXPECT_LT(worst_m, 0.3);

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "host/ros2/recorded/ros_messages.hpp"
+#include "tests/support/base/thorough.hpp"
 #include "tests/support/robots/calibrated_robots.hpp"
 #include "tests/support/robots/desk.hpp"
 #include "tests/support/ros2/robot_on_ros.hpp"
@@ -81,6 +82,7 @@ class RandomDrive {
 };
 
 TEST(PublishedCovariance, IsThatOfTheErrorsOfTwoHundredRobots) {
+  if (!support::thorough()) GTEST_SKIP() << support::kLeftToThorough;
   std::mt19937_64 random(kSeed);
   const FactorCovariance covariance = left_by_a_calibration();
   std::array<Nees, kMoments_s.size()> mean{};

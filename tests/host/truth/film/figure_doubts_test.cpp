@@ -8,6 +8,7 @@
 
 #include "host/truth/film/track/scene_search.hpp"
 #include "tests/host/truth/film/synthetic_scene.hpp"
+#include "tests/support/base/thorough.hpp"
 
 // A person measured something wrongly: the film and the other figures show it.
 namespace astro::film {
@@ -101,6 +102,7 @@ TEST(FigureDoubts, HaveNothingAgainstFiguresThatARulerShows) {
 }
 
 TEST(FigureDoubts, NameTheFigureThatAllOthersContradict) {
+  if (!support::thorough()) GTEST_SKIP() << support::kLeftToThorough;
   const Filmed film(support::phone_scene());
   for (const Mistake& mistake : mistakes()) {
     FilmFigures figures = film.true_figures();
