@@ -147,8 +147,9 @@ int answer = 0;  // one command runs in a process
 
 void answer_no() { answer = kAnswerIsNo; }
 
-Program::Program(const char* name, const std::string& what) : app_(std::make_unique<CLI::App>(what, name)) {
-  set_program_name(name);
+Program::Program(const char* name, const char* what) {
+  set_program_name(name);  // first: complaints about what follows name the program
+  app_ = std::make_unique<CLI::App>(what, name);
 }
 
 Program::~Program() = default;

@@ -18,7 +18,7 @@ inline constexpr int kAnswerIsNo = 3;
 class Program {
  public:
   /// From here on the program complains under this name, which has to live as long as the process.
-  Program(const char* name, const std::string& what);
+  Program(const char* name, const char* what);
   ~Program();
 
   /// The command to which options and subcommands are added.

@@ -9,6 +9,7 @@
 
 #include "host/calibration/likelihood/pose_uncertainty.hpp"
 #include "host/recording/run/telemetry_sample.hpp"
+#include "tests/support/base/thorough.hpp"
 #include "tests/support/robots/calibrated_robots.hpp"
 #include "tests/support/robots/desk.hpp"
 
@@ -101,6 +102,7 @@ double normalised(const Eigen::Vector3d& error, const Eigen::Matrix3d& covarianc
 }
 
 TEST(OdometryUncertainty, IsThatOfTheErrorsOfTwoHundredRobots) {
+  if (!support::thorough()) GTEST_SKIP() << support::kLeftToThorough;
   std::mt19937_64 random(kSeed);
   const FactorCovariance covariance = left_by_a_calibration();
   // What drivers of other robots publish, as somebody once typed it.

@@ -16,7 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void save(const fs::path& path, const std::string& text) {
+constexpr const char* kFound = "Found by Astrolabe, to be uploaded to the robot that drove.";
+
+void save(const fs::path& path, const std::string& what, const std::string& body) {
+  const std::string text = toml_file(what, body);
   require_own_kind(path, "[parameters]", "calibration or parameter file");
   PartFile file(path);
   file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
@@ -159,8 +162,8 @@ double slip_of(const toml::table& file, const fs::path& path) {
 
 void write_calibration(const fs::path& path, const Calibration& calibration) {
   const calibration::WheelFactors &factors = calibration.factors, &loaded = calibration.loaded;
-  std::string text = "# Found by Astrolabe, to be uploaded to the robot that drove.\n\n";
-  text += "# Spins turn about b, gentle arcs about b (1 + e).\n[parameters]\n" + factor_lines(factors);
+  std::string text =
+      "# Spins turn about b, gentle arcs about b (1 + e).\n[parameters]\n" + factor_lines(factors);
   const FactorErrors& se = calibration.se;
   text += "[standard_errors]\n" + factor_lines(se.c_r, se.c_l, se.b_m, se.e) + '\n';
   if (const MlResult* ml = calibration.ml())
@@ -168,7 +171,7 @@ void write_calibration(const fs::path& path, const Calibration& calibration) {
   if (calibration.wheel) text += nominal_lines(*calibration.wheel);
   if (!calibration.robot.id.empty()) text += robot_lines(calibration.robot);
   text += "# The factors that were loaded in the robot while it drove.\n[carried]\n" + factor_lines(loaded);
-  save(path, text + calibration_lines(calibration) + verdict_lines(calibration.judgement));
+  save(path, kFound, text + calibration_lines(calibration) + verdict_lines(calibration.judgement));
 }
 
 void write_parameters(const fs::path& path, const ParameterValues& values) {
@@ -181,9 +184,8 @@ void write_parameters(const fs::path& path, const ParameterValues& values) {
     }
   }
   std::ostringstream text;
-  text << "# The parameters of a robot, exported by Astrolabe.\n\n"
-       << toml::table{{"parameters", parameters}} << '\n';
-  save(path, text.str());
+  text << toml::table{{"parameters", parameters}} << '\n';
+  save(path, "The parameters of a robot, exported by Astrolabe.", text.str());
 }
 
 void write_parameter_file(const fs::path& path, const ParameterFile& file) {
@@ -193,7 +195,7 @@ void write_parameter_file(const fs::path& path, const ParameterFile& file) {
     return text + '\n';
   };
   std::ostringstream text;
-  text << "# Found by Astrolabe, to be uploaded to the robot that drove.\n\n[parameters]\n";
+  text << "[parameters]\n";
   for (const auto& [name, value] : file.parameters) {
     if (const double* number = std::get_if<double>(&value)) {
       text << fmt::format("{} = {}\n", name, real_text(*number));
@@ -211,7 +213,7 @@ void write_parameter_file(const fs::path& path, const ParameterFile& file) {
        << "\"\nabsolute = " << (file.absolute ? "true" : "false")
        << "\n\n# On drives that the calibration had not seen.\n[verdict]\nverdict = \""
        << name_of(file.verdict) << "\"\nsentence = " << toml::value(file.verdict_sentence) << '\n';
-  save(path, text.str());
+  save(path, kFound, text.str());
 }
 
 ParameterFile read_parameter_file(const fs::path& path) {

@@ -172,14 +172,14 @@ std::string ros2_yaml(const ParameterFile& file, const DiffDrive& parameters, co
 }
 
 std::string toml_text(const fs::path& path, const std::optional<DiffDrive>& parameters) {
-  std::string text = "# Found by Astrolabe, to be uploaded to the robot that drove.\n";
+  std::string text;
   for (const auto& [section, node] : extended(path, parameters)) {
     const toml::table* table = node.as_table();
     if (table == nullptr) continue;  // only tables of values are exported
-    text += fmt::format("\n[{}]\n", section.str());
+    text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", section.str());
     for (const auto& [key, value] : *table) text += fmt::format("{} = {}\n", key.str(), value_text(value));
   }
-  return text;
+  return toml_file("Found by Astrolabe, to be uploaded to the robot that drove.", text);
 }
 
 std::string json_text(const fs::path& path, const std::optional<DiffDrive>& parameters) {

@@ -67,7 +67,19 @@ class Nesting {
   int line_ = 1, brackets_ = 0, dots_ = 0;
 };
 
+constexpr std::string_view kAnnounced = " The last line is '# end'.\n", kEnd = "# end\n";
+
+/// Its end may be followed by what somebody has added.
+bool is_cut_off(std::string_view text) {
+  const std::string_view first = text.substr(0, std::min(text.find('\n') + 1, text.size()));
+  return first.ends_with(kAnnounced) && text.find("\n" + std::string(kEnd)) == std::string_view::npos;
+}
+
 }  // namespace
+
+std::string toml_file(const std::string& what, const std::string& body) {
+  return fmt::format("# {}{}\n{}\n{}", what, kAnnounced, body, kEnd);
+}
 
 toml::table parse_toml(const std::filesystem::path& path) {
   const Bytes bytes = load_file(path, kMaxSettingsBytes);
@@ -75,6 +87,8 @@ toml::table parse_toml(const std::filesystem::path& path) {
   if (const int line = Nesting(text).exceeds(kMostLevels); line > 0)
     throw Error(fmt::format("'{}' line {} nests more than {} levels deep, which no file of Astrolabe does",
                             path.string(), line, kMostLevels));
+  if (is_cut_off(text))
+    throw Error(fmt::format("'{}' is cut off: its last line, '# end', is missing", path.string()));
   try {
     return toml::parse(text, path.string());
   } catch (const toml::parse_error& error) {

@@ -46,7 +46,7 @@ repeat() { # what, how often (0: until the seconds have passed), further ctest a
     once "$what" "$number" "$@"
   done
 }
-repeat all "$repeats" -j "$(nproc)"
+repeat all "$repeats" -j "$((2 * $(nproc)))"
 repeat programs "$program_repeats" -j "$((2 * $(nproc)))" -R "$programs"
 echo "$failed_runs runs in which a test failed, $failures failures beside ${#loops[@]} busy loops; logs are in $folder"
 exit $((failed_runs > 0))

@@ -52,6 +52,21 @@ TEST_F(CalibrationFile, KeepsAnEstimateFromEndPosesToTheLastBit) {
   EXPECT_FALSE(read.slip_K_m.has_value());
 }
 
+// b cut from 0.2886 to 0.28 is a number, and the verdict and the robot's identity stand at the end.
+TEST_F(CalibrationFile, ThatIsCutOffAnywhereIsRefused) {
+  const std::filesystem::path whole = folder_.path() / "whole.toml";
+  write_calibration(whole, example());
+  std::ifstream in(whole);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  ASSERT_NO_THROW(read_parameter_file(file(text)));
+  for (std::size_t size = 0; size < text.size(); ++size)
+    EXPECT_THROW(read_parameter_file(file(text.substr(0, size))), Error) << "after " << size << " bytes";
+  const std::size_t in_b = text.find("0.2886") + 4;
+  EXPECT_THAT([&] { read_parameter_file(file(text.substr(0, in_b))); },
+              ThrowsMessage<Error>(HasSubstr("calib.toml' is cut off")));
+  EXPECT_NO_THROW(read_parameter_file(file(text + "\n[notes]\nby = \"me\"\n")));
+}
+
 TEST_F(CalibrationFile, KeepsCovarianceAndNominalWheelOfMaximumLikelihood) {
   Calibration found = example();
   MlResult ml;

@@ -179,6 +179,7 @@ TEST(Tape, BearsFourMistakesInDifferentRunsAndALineThatNobodyCorrects) {
 }
 
 TEST(Tape, IsAsGoodAsWithoutMistakesIfThePersonCorrectsWhatIsAskedAbout) {
+  if (!support::thorough()) GTEST_SKIP() << support::kLeftToThorough;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const Calibration& without = honest(seed);
     const Outcome with = calibrate(seed, kMistakes, true);

@@ -11,6 +11,7 @@
 #include "host/simulation/study/summary.hpp"
 #include "tests/host/calibration/end_poses/square_runs.hpp"
 #include "tests/support/base/remarks.hpp"
+#include "tests/support/base/thorough.hpp"
 
 namespace astro::simulation::study {
 namespace {
@@ -110,6 +111,7 @@ TEST(TyresStudy, ReachesTheBoundOfEAndOfTheFactorsWithAnHonestCovariance) {
 }
 
 TEST(TyresStudy, WhatSpinsWindUpIsTakenNeitherForSlipNorForAnotherWheelbase) {
+  if (!support::thorough()) GTEST_SKIP() << support::kLeftToThorough;
   TrialSetup setup;
   setup.trials = 100;
   setup.runs = 2;
