@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "host/base/error.hpp"
+#include "host/commands/drive/ask_driven.hpp"
 #include "host/commands/drive/commands.hpp"
 #include "host/commands/shared/connection.hpp"
 #include "host/commands/shared/robot_view.hpp"
@@ -14,7 +15,7 @@ namespace {
 void pause(ConnectionOptions& options) {
   const auto client = connect(options);
   constexpr auto kTimeToRest = std::chrono::seconds(5);
-  client->request(protocol::Pause{});
+  ask_driven(*client, protocol::Pause{}, "there is nothing to pause: nobody drives the robot");
   const microseconds deadline = client->now() + kTimeToRest;
   while (protocol::gives_power(client->request(protocol::GetStatus{}).mode)) {
     if (console::interrupted() || client->now() >= deadline)

@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "host/commands/drive/ask_driven.hpp"
 #include "host/commands/drive/commands.hpp"
 #include "host/commands/shared/connection.hpp"
 #include "host/console/console.hpp"
@@ -13,7 +14,9 @@ void add_resume(console::Command app) {
   add_connection(command, *options);
   console::examples(command, {"astrolabe resume"});
   command.callback([options] {
-    connect(*options)->request(protocol::Resume{});
+    ask_driven(
+        *connect(*options), protocol::Resume{},
+        "there is nothing to resume: the drive was stopped or has ended; 'astrolabe drive' begins another");
     console::say("the robot goes on");
   });
 }

@@ -23,10 +23,10 @@ using namespace std::chrono_literals;
 
 constexpr std::uintmax_t kMostFlashBytes = std::uintmax_t{8} << 20;  // the largest of a Teensy's family
 constexpr std::uint64_t kRunAhead_us = 100'000;  // virtual time that may pass after bytes from the host
-// The same while the robot drives. Bytes that are none of its driver's, but another program's or a relay's own, let time pass once
-// more, which must not take the robot to its command time-out of 200 ms. More than 50 ms, after which drivers give a sign of life
+// The same while the robot drives. A sign of life between two velocities, or bytes of another program or of a relay, let time pass
+// once more, which must not take the robot to its command time-out of 200 ms. More than 50 ms, after which drivers give a sign of life
 // by the robot's clock.
-constexpr std::uint64_t kRunAheadOfDriver_us = 80'000;
+constexpr std::uint64_t kRunAheadOfDriver_us = 70'000;
 // The same in real time while the robot drives. The shortest command time-out is 200 ms.
 constexpr std::uint64_t kSilenceOfDriver_us = 150'000;
 // Turns of this server, each of a millisecond at least, for which a host may take no bytes, or send none, before time goes on
@@ -35,7 +35,7 @@ constexpr std::uint64_t kSilenceOfDriver_us = 150'000;
 // Fast motion promises nothing about real time, and a virtual machine may hold up one of its processors for some seconds.
 constexpr int kPatience = 1000, kPatienceInFastMotion = 10'000;
 constexpr int kStepsPerPoll = 50;  // virtual ms between two checks of the host while running ahead
-constexpr int kStepsPerPollOfDriver = 20;
+constexpr int kStepsPerPollOfDriver = 15;
 
 sim::Config with_flash(sim::Config config, const fs::path& path) {
   config.flash = load_flash(path);

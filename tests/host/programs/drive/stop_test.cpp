@@ -139,6 +139,14 @@ TEST_F(CutShort, ADriveThatCanNoLongerBeRecordedRampsToRestAndSaysWhy) {
   EXPECT_EQ(text.find("cannot write", once + 1), std::string::npos) << "told once: " << text;
 }
 
+TEST_F(CutShort, PauseAndResumeOfARobotThatNobodyDrivesSaySo) {
+  for (const char* const word : {"pause", "resume"}) {
+    const Outcome outcome = astrolabe({word, "--port", simulator_.port()});
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_THAT(outcome.err, HasSubstr(std::string("there is nothing to ") + word));
+  }
+}
+
 TEST_F(CutShort, ClosedStandardStreamsAreNotTheRobotsLine) {
   const auto bad_frames = [&] { return info()["rx_bad_frames"].get<int>(); };
   const int before = bad_frames();
