@@ -108,13 +108,11 @@ TEST(TagDetector, FindsNothingInAWindowThatIsSmallerThanATag) {
 
 TEST(TagDetector, RefusesAPictureInWhichItCannotCount) {
   TagDetector detector;
-  for (const auto& [width, height] : {std::pair{32'768, 16}, {16, 32'768}})
-    EXPECT_THAT(
-        [&] {
-          const GrayFrame frame = checkered(width, height);
-          detector.detect(frame, whole_of(frame), 1);
-        },
-        ThrowsTelling(HasSubstr("tags cannot be looked for in a picture of"), Help::none));
+  for (const auto& [width, height] : {std::pair{32'768, 16}, {16, 32'768}}) {
+    const GrayFrame frame = checkered(width, height);
+    EXPECT_THAT([&] { detector.detect(frame, whole_of(frame), 1); },
+                ThrowsTelling(HasSubstr("tags cannot be looked for in a picture of"), Help::none));
+  }
 }
 
 }  // namespace
