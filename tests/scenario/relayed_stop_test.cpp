@@ -33,7 +33,7 @@ class RelayedFirmware : public test::RelayRig {
     };
     tick = [this] {
       robot_.step();
-      witness.look(support::drive_of(robot_).mode(), kLongestRamp_ms);
+      witness.look(support::drive_of(robot_).mode(), robot_.robot().parameters());
       return sent_at_shared_port();
     };
     run(std::chrono::milliseconds(60));  // through boot
@@ -44,9 +44,6 @@ class RelayedFirmware : public test::RelayRig {
   HaltWitness witness;
 
  private:
-  // Of the usual parameters: 0.75 m/s at 0.5 m/s^2 and 20 m/s^3 take 1.55 s.
-  static constexpr int kLongestRamp_ms = 1600;
-
   static sim::Config config(std::uint64_t seed) {
     sim::Config config;
     config.seed = seed;

@@ -29,7 +29,7 @@ namespace astro {
 ///   tick_overrun      a tick came too late, or a thousand ticks took longer or shorter than a second
 ///   command_timeout   no velocity or voltage for longer than the parameter of that name
 ///   link_lost         nothing came from the host that drives: on a path for `command_timeout`, in a ramp for
-///                     kSilence_ms, at rest for the longer of the two
+///                     kSilence_ms (from its beginning on, for whoever stops the robot is there), at rest for the longer of the two
 ///   stop_timeout      the wheels still turn although their set point has been zero for a second
 ///
 /// Every ramp to rest ends: its set point reaches zero within the time that the motion limits give, and the

@@ -16,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFound = "Found by Astrolabe, to be uploaded to the robot that drove.";
-
 void save(const fs::path& path, const std::string& what, const std::string& body) {
   const std::string text = toml_file(what, body);
   require_own_kind(path, "[parameters]", "calibration or parameter file");
@@ -171,7 +169,7 @@ void write_calibration(const fs::path& path, const Calibration& calibration) {
   if (calibration.wheel) text += nominal_lines(*calibration.wheel);
   if (!calibration.robot.id.empty()) text += robot_lines(calibration.robot);
   text += "# The factors that were loaded in the robot while it drove.\n[carried]\n" + factor_lines(loaded);
-  save(path, kFound, text + calibration_lines(calibration) + verdict_lines(calibration.judgement));
+  save(path, kFoundFactors, text + calibration_lines(calibration) + verdict_lines(calibration.judgement));
 }
 
 void write_parameters(const fs::path& path, const ParameterValues& values) {
@@ -213,7 +211,7 @@ void write_parameter_file(const fs::path& path, const ParameterFile& file) {
        << "\"\nabsolute = " << (file.absolute ? "true" : "false")
        << "\n\n# On drives that the calibration had not seen.\n[verdict]\nverdict = \""
        << name_of(file.verdict) << "\"\nsentence = " << toml::value(file.verdict_sentence) << '\n';
-  save(path, kFound, text.str());
+  save(path, kFoundFactors, text.str());
 }
 
 ParameterFile read_parameter_file(const fs::path& path) {

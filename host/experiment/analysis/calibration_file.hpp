@@ -12,6 +12,9 @@
 /// keep what is to be loaded under [parameters], by table name and in SI units.
 namespace astro::experiment {
 
+/// What the first line of a file with factors says of it.
+inline constexpr const char* kFoundFactors = "Found by Astrolabe, to be uploaded to the robot that drove.";
+
 using ParameterValues = std::map<std::string, robot::Value>;
 
 /// Writes [parameters] c_R, c_L, b, e, kappa0; [standard_errors] and, from maximum likelihood, [covariance] and [slip];
@@ -45,7 +48,7 @@ struct ParameterFile {
 /// Writes what read_parameter_file reads: for calibrations that are no Calibration, because they were not found from recordings.
 void write_parameter_file(const std::filesystem::path& path, const ParameterFile& file);
 
-/// Throws astro::Error naming the file, and the line where TOML knows it: no such file, not TOML, no
+/// Throws astro::Error naming the file, and the line where TOML knows it: no such file, cut off, not TOML, no
 /// [parameters], a value that is neither number nor text, a damaged [covariance] or [nominal].
 ParameterFile read_parameter_file(const std::filesystem::path& path);
 

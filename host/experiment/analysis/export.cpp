@@ -179,7 +179,7 @@ std::string toml_text(const fs::path& path, const std::optional<DiffDrive>& para
     text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", section.str());
     for (const auto& [key, value] : *table) text += fmt::format("{} = {}\n", key.str(), value_text(value));
   }
-  return toml_file("Found by Astrolabe, to be uploaded to the robot that drove.", text);
+  return toml_file(kFoundFactors, text);
 }
 
 std::string json_text(const fs::path& path, const std::optional<DiffDrive>& parameters) {

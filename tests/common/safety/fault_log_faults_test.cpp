@@ -33,9 +33,9 @@ struct CutSweep {
     const std::uint64_t before = whole.bytes_worked();
     ASSERT_TRUE(append(whole, n));
     const std::uint64_t work = whole.bytes_worked() - before;
-    // Each time at every seventh byte: no power of two, so that all bytes of words take part.
+    // Each time at every seventh byte, of each entry from another one on, so that all entries together have all bytes cut.
     const auto step = static_cast<std::uint64_t>(support::how_often(7, 1));
-    for (std::uint64_t cut = 0; cut <= work; cut += step) {
+    for (std::uint64_t cut = n % step; cut <= work; cut += step) {
       Flash broken = flash;
       broken.cut_power_after(cut, tear, cut + n);
       const bool done = append(broken, n);

@@ -6,6 +6,6 @@ set -euo pipefail
 cmake --preset host -DASTROLABE_TESTS=ON >/dev/null
 cmake --build build/host
 ended=0
-ASTROLABE_THOROUGH=1 ctest --test-dir build/host -j "$(nproc)" --output-on-failure --timeout 1500 || ended=$?
+ASTROLABE_THOROUGH=1 ctest --test-dir build/host -j "$(nproc)" --output-on-failure || ended=$?
 tests/ci/summary.sh build/host/Testing/Temporary/LastTest.log
 exit "$ended"

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "common/params/parameter_set.hpp"
 #include "common/protocol/messages.hpp"
 
 namespace astro::support {
@@ -40,14 +42,15 @@ class HaltWitness {
     if (message == Arm::kId || message == Pause::kId || message == Resume::kId) rested_ = false;
   }
 
-  /// After every millisecond. `ramp_ms`: how long the robot may take from its top speed to rest.
-  void look(protocol::Mode mode, int ramp_ms) {
+  /// After every millisecond. `set`: the robot's parameters, whose limits say how long a ramp may take.
+  void look(protocol::Mode mode, const ParameterSet& set) {
     using protocol::Mode;
     const bool on_path = mode == Mode::segment;
     const bool drives = on_path || mode == Mode::velocity || mode == Mode::wheels;
     // A path that is paused ramps down in its own mode, and in no more time than a ramp takes.
     pausing_ms_ = paused() && on_path ? pausing_ms_ + 1 : 0;
-    const bool may_still_ramp = on_path && !rested_ && pausing_ms_ <= ramp_ms;
+    const bool may_still_ramp =
+        on_path && !rested_ && (pausing_ms_ == 0 || pausing_ms_ <= longest_ramp_ms(set));
     if (drives && (stopped() || (paused() && !may_still_ramp)) && violation_.empty())
       violation_ = "the robot drives after a halt that nobody has lifted";
     rested_ = rested_ || !drives;
@@ -62,6 +65,21 @@ class HaltWitness {
     Host from;
     std::uint8_t message = 0;
   };
+
+  /// From top speed to rest. A ramp that begins while the robot still speeds up takes that back first, so both of its rounded
+  /// ends and one more count.
+  static int longest_ramp_ms(const ParameterSet& set) {
+    const auto ramp_s = [](double speed, double acceleration, double jerk) {
+      return speed / acceleration + (jerk > 0 ? 2 * acceleration / jerk : 0);
+    };
+    const double along_s =
+        ramp_s(1e-6 * set.get(Param::speed_limit), 1e-6 * set.get(Param::acceleration_limit),
+               1e-3 * set.get(Param::jerk_limit));
+    const double around_s =
+        ramp_s(1e-6 * set.get(Param::yaw_rate_limit), 1e-6 * set.get(Param::yaw_acceleration_limit),
+               1e-3 * set.get(Param::yaw_jerk_limit));
+    return static_cast<int>(1000 * std::max(along_s, around_s)) + 50;
+  }
 
   bool stopped() const {
     for (const Request& each : since_)

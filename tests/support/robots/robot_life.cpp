@@ -94,20 +94,6 @@ ParameterSet random_set(Random& random) {
   return set;
 }
 
-/// From top speed to rest. A ramp that begins while the robot still speeds up takes that back first, so both of its rounded
-/// ends and one more count.
-int longest_ramp_ms(const ParameterSet& set) {
-  const auto ramp_s = [](double speed, double acceleration, double jerk) {
-    return speed / acceleration + (jerk > 0 ? 2 * acceleration / jerk : 0);
-  };
-  const double along_s = ramp_s(1e-6 * set.get(Param::speed_limit), 1e-6 * set.get(Param::acceleration_limit),
-                                1e-3 * set.get(Param::jerk_limit)),
-               around_s = ramp_s(1e-6 * set.get(Param::yaw_rate_limit),
-                                 1e-6 * set.get(Param::yaw_acceleration_limit),
-                                 1e-3 * set.get(Param::yaw_jerk_limit));
-  return static_cast<int>(1000 * std::max(along_s, around_s)) + 50;
-}
-
 // ---- its life
 
 class Life {
@@ -359,7 +345,7 @@ class Life {
 
   void look() {
     const Drive& drive = drive_of(robot_);
-    witness_.look(drive.mode(), longest_ramp_ms(robot_.robot().parameters()));
+    witness_.look(drive.mode(), robot_.robot().parameters());
     if (!witness_.violation().empty()) return violate(witness_.violation().c_str());
     const Mode mode = drive.mode();
     ++silent_ms_;

@@ -157,11 +157,13 @@ TEST_P(PowerCut, LeavesTheOldSetOrTheNewOne) {
   const std::uint64_t whole = robot.flash().bytes_worked() - begun;
   const Places places(before, robot.content(), erases);
   int old_sets = 0, new_sets = 0;
-  // An odd share, so that sharp and torn cuts go on to take turns.
-  const auto share = static_cast<unsigned>(support::how_often(7, 1));
+  // Each time at every seventh place: an odd number, so that sharp and torn cuts take turns, and smaller than what is cut round an edge.
+  const auto step = static_cast<unsigned>(support::how_often(7, 1));
   unsigned place = 0;
   for (std::uint64_t cut = 0; cut <= whole; cut += 4) {
-    if (!places.worth_a_cut(cut) || place++ % (parts * share) != part) continue;
+    if (!places.worth_a_cut(cut)) continue;
+    const unsigned now = place++;
+    if (now % step != 0 || now / step % parts != part) continue;
     robot.put_back(before);
     robot.flash().cut_power_after(cut, cut % 8 == 0 ? sim::Tear::sharp : sim::Tear::torn);
     const bool said_done = robot.commit(kNew);

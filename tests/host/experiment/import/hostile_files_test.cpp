@@ -153,7 +153,6 @@ TEST_P(HostileSamples, AreReadWhole) {
 
 TEST_P(HostileSamples, OfWhichManyMutationsAreReadOrRefusedByNameAndPlace) {
   constexpr unsigned kSeed = 20'261'123;
-  // The sanitizers see a tenth of them here, and more from the fuzz targets.
   const int mutations = support::how_often(120, 1200);
   SCOPED_TRACE(sample_.format + ", seed " + std::to_string(kSeed));
   const Taken taken = measured([&] {
