@@ -28,17 +28,26 @@ ParameterRow describe_row(const ParameterInfo& info) {
 
 }  // namespace
 
-RemoteParameters RemoteParameters::fetch(Client& client, int tries) {
-  RemoteParameters parameters(client, tries);
+RemoteParameters RemoteParameters::begin(Client& client, int tries) {
   if (client.robot().parameter_count > kMostParameters)
     throw Error("the robot at " + client.name() + " says that it has " +
                 std::to_string(client.robot().parameter_count) + " parameters, more than " +
                 std::to_string(kMostParameters) + ": its firmware is damaged or not Astrolabe's");
-  for (std::uint16_t index = 0; index < client.robot().parameter_count; ++index) {
-    parameters.rows_.push_back(describe_row(parameters.ask(GetParameterInfo{index})));
-    parameters.read_value(parameters.rows_.back());
-  }
+  return {client, tries};
+}
+
+RemoteParameters RemoteParameters::fetch(Client& client, int tries) {
+  RemoteParameters parameters = begin(client, tries);
+  while (!parameters.is_complete()) parameters.read_next();
   return parameters;
+}
+
+bool RemoteParameters::is_complete() const { return rows_.size() >= client_->robot().parameter_count; }
+
+void RemoteParameters::read_next() {
+  ParameterRow row = describe_row(ask(GetParameterInfo{static_cast<std::uint16_t>(rows_.size())}));
+  read_value(row);
+  rows_.push_back(std::move(row));
 }
 
 void RemoteParameters::read_value(ParameterRow& row) {

@@ -23,6 +23,12 @@ class RemoteParameters {
   /// than kMostParameters. `tries`: how often each request is sent, now and later, before the link counts as lost.
   static RemoteParameters fetch(Client& client, int tries = RetryPolicy().tries);
 
+  /// The same a little at a time, for callers that must not wait for all of it: begin() asks nothing yet, and each read_next()
+  /// reads one parameter, until is_complete().
+  static RemoteParameters begin(Client& client, int tries = RetryPolicy().tries);
+  bool is_complete() const;
+  void read_next();
+
   const std::vector<ParameterRow>& rows() const { return rows_; }
   const ParameterRow* find(std::string_view name) const;
 
@@ -59,6 +65,8 @@ class RemoteParameters {
 
   /// Reads all values again: one request per parameter.
   void refresh();
+  /// Those of the row with this index.
+  void refresh(std::size_t index) { read_value(rows_.at(index)); }
 
  private:
   RemoteParameters(Client& client, int tries) : client_(&client), tries_(tries) {}

@@ -19,6 +19,8 @@ constexpr std::int64_t kSecond_ns = 1'000'000'000;
 // While velocities drive the robot, none of them waits behind a sleep that is longer than a control tick. Otherwise only
 // services wait, and processor time counts more.
 constexpr microseconds kTick = milliseconds(1), kIdle = milliseconds(5);
+/// No step reads more of a table of parameters than this takes, because a stop waits for the step.
+constexpr microseconds kShareOfTable = milliseconds(5);
 
 std::uint16_t period_ms(double rate_hz) {
   return static_cast<std::uint16_t>(std::clamp(std::lround(1000 / rate_hz), 1L, 60'000L));
@@ -35,7 +37,7 @@ Driver::Driver(std::vector<Middleware*> middlewares, OpenPort open, DriverOption
       link_(std::move(open), options_.clock, period_ms(options_.rate_hz)),
       driving_(options_.cmd_vel_timeout, options_.velocities_after_stop),
       odometry_(options_.errors),
-      parameters_([this] { return link_.session(); }, [this] { return driving_.armed(); }, own_parameters(),
+      parameters_([this] { return known_session(); }, [this] { return driving_.armed(); }, own_parameters(),
                   [this](RobotSession& session) {
                     odometry_.note_parameters(session);
                     describe_robot(session);
@@ -111,11 +113,26 @@ void Driver::run(const std::function<bool()>& goes_on) {
 
 void Driver::begin(RobotSession& session) {
   newest_.reset();
-  parameters_.begin(session, session.client().now());
-  const auto timeout_ms = session.numbers().find("command_timeout");
-  const double left_ms = timeout_ms == session.numbers().end() ? 0 : timeout_ms->second;
-  if (robot::stop_left_drive(session.client(), microseconds(std::llround(1e3 * left_ms))))
+  const double timeout_ms = session.numbers().at("command_timeout");
+  if (robot::stop_left_drive(session.client(), microseconds(std::llround(1e3 * timeout_ms))))
     options_.notice("the robot drove, and no program here drives it: it was stopped");
+}
+
+RobotSession* Driver::known_session() {
+  RobotSession* session = link_.session();
+  return session != nullptr && session->knows_parameters() ? session : nullptr;
+}
+
+/// Reads some of the parameters that are not known, or that somebody wants to know anew. False if there was nothing to read.
+bool Driver::read_on(RobotSession& session) {
+  const microseconds most = driving_.armed() ? kTick : kShareOfTable;
+  if (session.knows_parameters()) return parameters_.step(session, most);
+  if (session.read_parameters(most)) begin_odometry(session);
+  return true;
+}
+
+void Driver::begin_odometry(RobotSession& session) {
+  parameters_.begin(session.client().now());
   odometry_.begin(session, std::exchange(restarted_, false));
   describe_robot(session);
   if (std::exchange(set_up_, true)) return;
@@ -134,7 +151,7 @@ void Driver::describe_robot(RobotSession& session) {
 
 void Driver::attend(RobotSession& session, microseconds most) {
   driving_.step(session, utc_.steady());
-  session.pump(most);
+  session.pump(read_on(session) ? microseconds::zero() : most);
   if (session.restarted()) throw robot::LinkLost("the robot has restarted");
   if (session.take_fault()) driving_.release();
   while (const auto telemetry = session.take_sample()) take(session, *telemetry);
@@ -143,7 +160,7 @@ void Driver::attend(RobotSession& session, microseconds most) {
 
 void Driver::take(RobotSession& session, const protocol::Telemetry& telemetry) {
   newest_ = telemetry;
-  if (!utc_.known()) return;
+  if (!utc_.known() || !session.knows_parameters()) return;
   const auto at = session.client().clock().to_host(telemetry.device_time_us);
   if (!at) return;  // no round trip has shown yet when that was
   const std::int64_t time_ns = std::min(utc_.utc_ns(at->us), utc_.now_ns());
@@ -223,8 +240,8 @@ DriverState Driver::state() {
     state.why_no_robot = options_.words(link_.why());
     return state;
   }
-  state.other_factors =
-      options_.calibrated && !same(*options_.calibrated, odometry_.track().geometry().factors);
+  state.other_factors = options_.calibrated && session->knows_parameters() &&
+                        !same(*options_.calibrated, odometry_.track().geometry().factors);
   const robot::Client& client = session->client();
   state.port = client.name();
   state.telemetry = newest_;

@@ -45,7 +45,7 @@ struct DriverOptions {
 /// robot, while the link is lost, and after the robot has restarted; it says so in /diagnostics and publishes no odometry meanwhile.
 ///
 /// Threads  one: that which calls step(). A robot that falls silent keeps it for half a second, and for two within a commit of
-///          parameters.
+///          parameters. A slow line keeps it for a few requests, never for a table of parameters.
 class Driver {
  public:
   /// The middlewares must outlive the driver, and be polled by nobody else.
@@ -73,6 +73,9 @@ class Driver {
  private:
   void attend(RobotSession& session, microseconds most);
   void begin(RobotSession& session);
+  void begin_odometry(RobotSession& session);
+  bool read_on(RobotSession& session);
+  RobotSession* known_session();
   void take(RobotSession& session, const protocol::Telemetry& telemetry);
   void publish(const protocol::Telemetry& telemetry, std::int64_t time_ns);
   void describe_robot(RobotSession& session);

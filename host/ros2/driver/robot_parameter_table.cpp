@@ -17,8 +17,6 @@ using robot::ParameterRow;
 
 namespace {
 
-/// Other programs may change the robot's parameters, too, so values are read again after this; not while the robot is armed,
-/// because on a slow line the whole table takes as long as the robot's own time-out.
 constexpr microseconds kFresh = std::chrono::seconds(1);
 
 ParameterType type_of(const ParameterRow& row) {
@@ -164,30 +162,39 @@ std::vector<msg::ParameterDescriptor> RobotParameterTable::descriptors() {
   return all;
 }
 
-void RobotParameterTable::refresh(RobotSession& session) {
-  const microseconds now = session.client().now();
-  if (of_ == &session && (busy_() || now - read_at_ < kFresh)) return;
+bool RobotParameterTable::is_fresh() {
+  RobotSession* session = session_();
+  if (session == nullptr || busy_() || (!next_ && session->client().now() - read_at_ < kFresh)) return true;
+  if (!next_) next_ = 0;
+  return false;
+}
+
+bool RobotParameterTable::step(RobotSession& session, microseconds most) {
+  if (!next_ || busy_()) return false;
+  robot::RemoteParameters& robot = session.parameters();
+  const microseconds until = session.client().now() + most;
+  do {
+    robot.refresh((*next_)++);
+  } while (*next_ < robot.rows().size() && session.client().now() < until);
+  if (*next_ < robot.rows().size()) return true;
+  next_.reset();
+  read_at_ = session.client().now();
+  note(session);
+  return false;
+}
+
+void RobotParameterTable::note(RobotSession& session) {
   const auto before = session.numbers();
-  session.parameters().refresh();
   session.note_parameters();
-  of_ = &session;
-  read_at_ = now;
   if (session.numbers() != before) changed_(session);
 }
 
 std::optional<msg::ParameterValue> RobotParameterTable::value(std::string_view name) {
   if (const OwnParameter* one = own(name)) return one->value;
   RobotSession* session = session_();
-  if (session == nullptr || session->parameters().find(name) == nullptr) return std::nullopt;
-  try {
-    refresh(*session);
-    return value_of(session->parameters().row(name));
-  } catch (const robot::LinkLost& error) {
-    lost_(error);
-  } catch (
-      const Error&) {  // other firmware at the same port: it refuses, or answers what cannot be understood
-  }
-  return std::nullopt;
+  if (session == nullptr) return std::nullopt;
+  const ParameterRow* row = session->parameters().find(name);
+  return row == nullptr ? std::nullopt : std::optional(value_of(*row));
 }
 
 msg::SetParametersResult RobotParameterTable::set(std::span<const msg::Parameter> parameters) {
@@ -239,15 +246,17 @@ std::string RobotParameterTable::put_at_start(std::span<const msg::Parameter> pa
 
 void RobotParameterTable::put_in_force(RobotSession& session, std::span<const msg::Parameter> parameters) {
   robot::RemoteParameters& robot = session.parameters();
-  refresh(session);
   std::map<std::string, robot::Value> values;
   for (const msg::Parameter& each : parameters) values[each.name] = wanted(robot.row(each.name), each.value);
   require_near(robot, values);
   robot.revert();
   for (const auto& [name, value] : values) robot.stage(name, value);
   robot.commit();
-  of_ = nullptr;
-  refresh(session);
+  for (const auto& [name, value] : values) {
+    const ParameterRow& row = robot.row(name);
+    robot.refresh(static_cast<std::size_t>(&row - robot.rows().data()));
+  }
+  note(session);
   for (const auto& [name, value] : values) {
     const ParameterRow& row = robot.row(name);
     if (row.active != robot::to_raw(row, value))

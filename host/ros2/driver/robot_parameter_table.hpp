@@ -19,16 +19,20 @@ struct OwnParameter {
 
 /// The robot's parameters as parameters of the node, with their ranges and units, and a few of the node.
 /// A set is staged, committed to the robot's flash as a whole, and read back; the robot refuses it while it drives, and a value
-/// that a person would have to confirm (host/robot/parameters/far_change.hpp) is refused here. While there is no robot, only the
-/// node's own are there.
+/// that a person would have to confirm (host/robot/parameters/far_change.hpp) is refused here. While there is no robot, or its
+/// parameters are not known yet, only the node's own are there.
+///
+/// Other programs may change the robot's parameters, too. Whoever asks is_fresh() has values of more than a second read again,
+/// which step() does a little at a time; not while the robot is armed, because then nobody can change them, and on a slow line
+/// the whole table takes as long as the robot's own time-out.
 class RobotParameterTable : public ParameterTable {
  public:
-  /// The session now, or null.
+  /// The session now; null if there is none, or its parameters are not known yet.
   using Session = std::function<RobotSession*()>;
   /// Whether the robot is in use, so that its link has no time for a table of values that nobody can change meanwhile.
   using Busy = std::function<bool()>;
 
-  /// `changed` is called after values were put in force; `lost` if the link is lost meanwhile; `words` puts a refusal into words.
+  /// `changed` is called after values have changed; `lost` if the link is lost in a set; `words` puts a refusal into words.
   RobotParameterTable(Session session, Busy busy, std::vector<OwnParameter> own,
                       std::function<void(RobotSession&)> changed, std::function<void(const Error&)> lost,
                       std::function<std::string(const Error&)> words)
@@ -39,20 +43,24 @@ class RobotParameterTable : public ParameterTable {
         lost_(std::move(lost)),
         words_(std::move(words)) {}
 
+  bool is_fresh() override;
   std::vector<msg::ParameterDescriptor> descriptors() override;
   std::optional<msg::ParameterValue> value(std::string_view name) override;
   msg::SetParametersResult set(std::span<const msg::Parameter> parameters) override;
 
-  /// A session begins, whose values have just been read.
-  void begin(const RobotSession& session, microseconds now) {
-    of_ = &session;
+  /// The values of a new session have just been read.
+  void begin(microseconds now) {
     read_at_ = now;
+    next_.reset();
   }
+  /// Reads some values if somebody waits for them: one at least, more while this takes less than `most`. True if more are to be
+  /// read. Throws what a request throws.
+  bool step(RobotSession& session, microseconds most);
   /// Sets those that the robot has and that differ. "" if they are in force, otherwise why not.
   std::string put_at_start(std::span<const msg::Parameter> parameters);
 
  private:
-  void refresh(RobotSession& session);
+  void note(RobotSession& session);
   void put_in_force(RobotSession& session, std::span<const msg::Parameter> parameters);
   OwnParameter* own(std::string_view name);
   std::string why_not_own(const msg::Parameter& wanted);
@@ -64,8 +72,8 @@ class RobotParameterTable : public ParameterTable {
   std::function<void(RobotSession&)> changed_;
   std::function<void(const Error&)> lost_;
   std::function<std::string(const Error&)> words_;
-  const RobotSession* of_ = nullptr;  // whose values were read ...
-  microseconds read_at_{};            // ... and when
+  microseconds read_at_{};           // when all values had been read
+  std::optional<std::size_t> next_;  // the one that is read again next; none: nobody waits
 };
 
 msg::ParameterValue to_flag(bool value);

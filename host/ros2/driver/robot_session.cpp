@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/params/table.hpp"
 #include "host/robot/client/handshake.hpp"
 
 namespace astro::ros2 {
@@ -19,9 +20,9 @@ constexpr std::size_t kMostSamples =
 RobotSession::RobotSession(std::unique_ptr<robot::Transport> transport,
                            const std::optional<protocol::HelloReply>& known,
                            std::uint16_t telemetry_period_ms)
-    : client_(std::make_unique<robot::Client>(std::move(transport))), period_ms_(telemetry_period_ms) {
-  const protocol::HelloReply& answers = client_->connect(kHandshake);
-  if (known) robot::require_same_robot(client_->name(), *known, answers);
+    : client_(connected(std::move(transport), known)),
+      period_ms_(telemetry_period_ms),
+      parameters_(robot::RemoteParameters::begin(*client_, kPatience.tries)) {
   on_boot_ = client_->on<protocol::Booted>([this](const protocol::Booted&) { restarted_ = true; });
   on_fault_ = client_->on<protocol::FaultRaised>([this](const protocol::FaultRaised&) { fault_ = true; });
   on_telemetry_ = client_->on<protocol::Telemetry>([this](const protocol::Telemetry& sample) {
@@ -29,10 +30,29 @@ RobotSession::RobotSession(std::unique_ptr<robot::Transport> transport,
     if (samples_.size() == kMostSamples) samples_.pop_front();
     samples_.push_back(sample);
   });
-  parameters_.emplace(robot::RemoteParameters::fetch(*client_, kPatience.tries));
-  note_parameters();
+  numbers_["command_timeout"] =
+      ask(protocol::GetParameter{static_cast<std::uint16_t>(Param::command_timeout)}).active;
   ask_for_telemetry();
   telemetry_at_ = client_->now();
+}
+
+std::unique_ptr<robot::Client> RobotSession::connected(std::unique_ptr<robot::Transport> transport,
+                                                       const std::optional<protocol::HelloReply>& known) {
+  auto client = std::make_unique<robot::Client>(std::move(transport));
+  const protocol::HelloReply& answers = client->connect(kHandshake);
+  if (known) robot::require_same_robot(client->name(), *known, answers);
+  return client;
+}
+
+bool RobotSession::read_parameters(microseconds most) {
+  const microseconds until = client_->now() + most;
+  while (!parameters_.is_complete()) {
+    parameters_.read_next();
+    if (client_->now() >= until) break;
+  }
+  if (!parameters_.is_complete()) return false;
+  note_parameters();
+  return true;
 }
 
 void RobotSession::ask_for_telemetry() {

@@ -16,7 +16,7 @@ using std::chrono::steady_clock;
 constexpr std::chrono::seconds kComparePeriod{1};
 /// A poll() begins no question after this, so that a thousand of them do not keep the robot's thread.
 constexpr std::chrono::milliseconds kShare{2};
-enum Rank : int { kUrgent, kMessage, kQuestion };
+enum Rank : int { kUrgent, kMessage, kQuestion, kLater };
 
 std::string new_session_id() {
   std::random_device random;
@@ -87,15 +87,15 @@ void FoxgloveServer::serve_parameters(ParameterTable& table) {
 void FoxgloveServer::poll() {
   server_->start();
   answer_waiting();
-  if (table_ != nullptr && steady_clock::now() >= compare_at_) {
-    tell_changes();
-    compare_at_ = steady_clock::now() + kComparePeriod;
-  }
+  if (steady_clock::now() >= compare_at_) tell_changes();
   server_->flush();
 }
 
 /// What stops the robot, then messages, of which only the newest are kept and none may wait until it is stale, then questions.
-int FoxgloveServer::rank(const Request& request) const {
+/// Those about parameters wait while these are being read.
+int FoxgloveServer::rank(const Request& request) {
+  if (std::holds_alternative<ParametersAsked>(request) || std::holds_alternative<ParametersGiven>(request))
+    return table_ == nullptr || table_->is_fresh() ? kQuestion : kLater;
   if (std::holds_alternative<MessageArrived>(request)) return kMessage;
   const auto* call = std::get_if<CallArrived>(&request);
   return call != nullptr && urgent_.contains(call->service) ? kUrgent : kQuestion;
@@ -165,6 +165,8 @@ void FoxgloveServer::take(const ParametersGiven& given) {
 void FoxgloveServer::take(const NoticeArrived& arrived) { settings_.notice(arrived.remark); }
 
 void FoxgloveServer::tell_changes() {
+  if (table_ == nullptr || (*watched_ && !table_->is_fresh())) return;
+  compare_at_ = steady_clock::now() + kComparePeriod;
   // Whether anybody watches is known in the other thread: asked now, seen the next time.
   server_->post([watched = watched_](Hub& hub) { *watched = hub.parameters_are_watched(); });
   if (!*watched_) return told_.clear();

@@ -51,7 +51,7 @@ class FoxgloveServer : public Middleware {
   void wait(std::chrono::microseconds timeout) override { requests_.wait(timeout); }
 
  private:
-  int rank(const Request& request) const;
+  int rank(const Request& request);
   void answer_waiting();
   void take(const MessageArrived& arrived);
   void take(const CallArrived& arrived);

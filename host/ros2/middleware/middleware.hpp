@@ -42,7 +42,8 @@ struct ServiceDescription {
   std::string name;       // absolute: "/arm"
   std::string_view type;  // "std_srvs/srv/Trigger"
   MessageType request, response;
-  bool urgent = false;  // answered before all others that wait, whatever came first
+  bool urgent = false;                    // answered before all others that wait, whatever came first
+  std::function<bool()> may_answer = {};  // until then calls wait; none: always
 };
 
 class Publisher {

@@ -12,7 +12,7 @@ namespace astro::ros2 {
 /// As rcl_interfaces/msg/ParameterType numbers them.
 enum class ParameterType : std::uint8_t { not_set = 0, boolean = 1, integer = 2, real = 3, text = 4 };
 
-/// The parameters of a node, as ROS 2 shows them, whatever stands behind them.
+/// The parameters of a node, as ROS 2 shows them, whatever stands behind them. Nothing of it waits but set().
 class ParameterTable {
  public:
   ParameterTable() = default;
@@ -20,6 +20,9 @@ class ParameterTable {
   ParameterTable& operator=(const ParameterTable&) = delete;
   virtual ~ParameterTable() = default;
 
+  /// Whether values are as new as anybody may expect. If not, they are being read, and whoever wants to know or to set one
+  /// waits without keeping this thread: a stop must not wait for a table.
+  virtual bool is_fresh() { return true; }
   /// Names, types, ranges and what they mean; empty while they are not known.
   virtual std::vector<msg::ParameterDescriptor> descriptors() = 0;
   /// Nothing if there is no such parameter.

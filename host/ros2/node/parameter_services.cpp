@@ -54,8 +54,10 @@ template <class Service>
 void ParameterServices::serve(Middleware& middleware, const std::string& name) {
   using Request = typename Service::Request;
   using Response = typename Service::Response;
-  const ServiceDescription description{node_ + name, Service::kType, message_type<Request>(),
-                                       message_type<Response>()};
+  const ServiceDescription description{
+      node_ + name, Service::kType, message_type<Request>(), message_type<Response>(), false, [this] {
+        return table_.is_fresh();
+      }};
   middleware.serve(description, [this](ByteView bytes) -> std::optional<Bytes> {
     const std::optional<Request> request = decode<Request>(bytes);
     if (!request || too_long(*request)) return std::nullopt;

@@ -24,7 +24,8 @@ Service::Service(dds::Participant& participant, const ServiceDescription& servic
       on_request_(std::move(on_request)),
       writer_(participant.create_writer(topic_of(wire_name_of_replies(service.name), service.response, id))),
       reader_(participant.create_reader(topic_of(wire_name_of_requests(service.name), service.request, id))),
-      urgent_(service.urgent) {}
+      urgent_(service.urgent),
+      may_answer_(service.may_answer) {}
 
 void Service::poll(Clock::time_point now) {
   collect();
@@ -34,11 +35,12 @@ void Service::poll(Clock::time_point now) {
 }
 
 void Service::collect() {
+  if (waiting_.size() >= kDepth) return;  // DDS keeps the newest meanwhile, and no more than kDepth of them
   for (dds::Sample& sample : reader_->take()) waiting_.push_back(std::move(sample));
 }
 
 bool Service::answer_next(Clock::time_point now) {
-  if (waiting_.empty()) return false;
+  if (waiting_.empty() || (may_answer_ && !may_answer_())) return false;
   const dds::Sample sample = std::move(waiting_.front());
   waiting_.pop_front();
   answer(sample, now);
@@ -56,7 +58,7 @@ void Service::answer(const dds::Sample& sample, Clock::time_point now) {
 
 void Service::send_replies(Clock::time_point now) {
   if (held_.empty()) return;
-  const std::vector<dds::Guid> readers = writer_->readers();
+  const std::vector<dds::Guid> readers = writer_->certain_readers();
   std::erase_if(held_, [&](const Reply& reply) {
     const bool found = is_found(reply, readers);
     if (found) send(reply);

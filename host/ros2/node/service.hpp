@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <string>
 #include <variant>
@@ -33,7 +34,7 @@ class Service {
 
   /// The same step by step, so that something else can be done between two requests, each of which may take long.
   void collect();
-  /// False if none of what was collected waits any more.
+  /// False if nothing of what was collected can be answered now.
   bool answer_next(Clock::time_point now);
   void send_replies(Clock::time_point now);
 
@@ -60,6 +61,7 @@ class Service {
   std::deque<dds::Sample> waiting_;  // collected
   std::deque<Reply> held_;
   bool urgent_;
+  std::function<bool()> may_answer_;
 };
 
 }  // namespace astro::ros2

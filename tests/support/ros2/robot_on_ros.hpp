@@ -22,6 +22,8 @@ class Cable {
   /// As a bad line does: it stays open, and nothing comes through one way.
   void lose_requests(bool lose) { loses_requests_ = lose; }
   void lose_answers(bool lose) { loses_answers_ = lose; }
+  /// Whatever the host says reaches the robot so much later, as over a slow radio; it waits for an answer in any case.
+  void delay_ms(int ms) { delay_ms_ = ms; }
   /// The host's computer slept so long, and its clock stood.
   void sleep(microseconds time) { slept_ += time; }
   microseconds slept() const { return slept_; }
@@ -41,6 +43,7 @@ class Cable {
         : InProcessTransport(std::move(robot)), cable_(cable), opened_at_(cable.pulls_) {}
     void write(std::span<const std::uint8_t> bytes) override {
       require_whole();
+      for (int i = 0; i < cable_.delay_ms_; ++i) cable_.robot_->step();
       if (!cable_.loses_requests_) InProcessTransport::write(bytes);
     }
     std::size_t read(std::span<std::uint8_t> into, microseconds timeout) override {
@@ -62,7 +65,7 @@ class Cable {
   bool plugged() const { return plugged_for_ == pulls_; }
 
   std::shared_ptr<simulation::VirtualRobot> robot_;
-  int pulls_ = 0, plugged_for_ = 0;
+  int pulls_ = 0, plugged_for_ = 0, delay_ms_ = 0;
   microseconds slept_{};
   bool loses_requests_ = false, loses_answers_ = false;
 };

@@ -119,7 +119,7 @@ TEST_F(Commands, ATwistThatMayHaveWaitedForTheTimeOutMovesNothing) {
 TEST_F(Commands, AnOldStampMovesNothing) {
   arm();
   say_stamped(0.3, bench.utc_ns() - 501'000'000);
-  bench.run_ms(100);
+  bench.run_ms(250);  // reasons are told five times a second
   EXPECT_EQ(bench.mode(), Mode::idle);
   EXPECT_THAT(bench.diagnosed("commands", "last ignored because"), HasSubstr("old"));
 }
@@ -127,7 +127,7 @@ TEST_F(Commands, AnOldStampMovesNothing) {
 TEST_F(Commands, NanMovesNothing) {
   arm();
   bench.say_velocity(std::nan(""), 0);
-  bench.run_ms(100);
+  bench.run_ms(250);  // reasons are told five times a second
   EXPECT_EQ(bench.mode(), Mode::idle);
   EXPECT_THAT(bench.diagnosed("commands", "last ignored because"), HasSubstr("NaN"));
 }
@@ -135,7 +135,7 @@ TEST_F(Commands, NanMovesNothing) {
 TEST_F(Commands, ADamagedMessageMovesNothing) {
   arm();
   bench.ros.say_bytes("/cmd_vel", msg::Twist::kType, {0, 1, 0, 0, 1, 2, 3});
-  bench.run_ms(100);
+  bench.run_ms(250);  // reasons are told five times a second
   EXPECT_EQ(bench.mode(), Mode::idle);
   EXPECT_THAT(bench.diagnosed("commands", "last ignored because"), HasSubstr("damaged"));
 }

@@ -11,6 +11,7 @@ namespace astro::ros2 {
 namespace {
 
 using protocol::Mode;
+using std::chrono::milliseconds;
 using support::RobotOnRos;
 using testing::HasSubstr;
 
@@ -128,6 +129,35 @@ TEST_F(Link, ARobotThatAKilledProgramLeftDrivingWithoutATimeOutIsStoppedAtTheSta
     EXPECT_FALSE(left.moves());
     EXPECT_EQ(left.mode(), Mode::idle);
   }
+}
+
+TEST_F(Link, ARobotThatIsFoundDrivingOnASlowLineIsStoppedBeforeItsParametersAreRead) {
+  constexpr int kRoundTrip_ms = 40;
+  RobotOnRos left;
+  left.set_elsewhere("command_timeout", 0);
+  OtherHost killed(left);
+  left.cable.delay_ms(kRoundTrip_ms);
+  left.driver->step();
+  EXPECT_EQ(left.mode(), Mode::stopping);
+  EXPECT_LE(left.now(), milliseconds(12 * kRoundTrip_ms)) << "the table alone takes 80 round trips";
+}
+
+TEST_F(Link, StopsAndArmsFromTheFirstStepOnThoughParametersAreStillBeingRead) {
+  constexpr int kRoundTrip_ms = 40;
+  RobotOnRos fresh;
+  fresh.cable.delay_ms(kRoundTrip_ms);
+  fresh.driver->step();
+  EXPECT_EQ(fresh.ros.parameters->descriptors().size(), 8) << "those of the node alone";
+  EXPECT_TRUE(fresh.call("/arm").success);
+  fresh.drive_ms(500, 0.2, 0);
+  EXPECT_EQ(fresh.mode(), Mode::velocity);
+  const microseconds before = fresh.now();
+  EXPECT_TRUE(fresh.call("/stop").success);
+  EXPECT_TRUE(fresh.call("/emergency_stop").success);
+  EXPECT_LE(fresh.now() - before, milliseconds(4 * kRoundTrip_ms));
+  EXPECT_EQ(fresh.ros.parameters->descriptors().size(), 8) << "still";
+  EXPECT_TRUE(fresh.run_until([&] { return fresh.ros.parameters->descriptors().size() > 40; }, 20'000));
+  EXPECT_TRUE(fresh.run_until([&] { return !fresh.ros.published["/odom"].messages.empty(); }));
 }
 
 TEST_F(Link, ARobotThatIsDrivenOverItsOtherPortDrivesOnThroughTheStart) {

@@ -14,7 +14,11 @@ using testing::HasSubstr;
 class Parameters : public testing::Test {
  protected:
   Parameters() { bench.run_ms(300); }
-  ParameterTable& table() { return *bench.ros.parameters; }
+  /// After whatever waiting a middleware would do.
+  ParameterTable& table() {
+    EXPECT_TRUE(bench.run_until([&] { return bench.ros.parameters->is_fresh(); }));
+    return *bench.ros.parameters;
+  }
   double real(std::string_view name) { return table().value(name).value().double_value; }
   msg::ParameterDescriptor descriptor(std::string_view name) {
     for (const auto& each : table().descriptors())
@@ -149,6 +153,26 @@ TEST_F(Parameters, AreNotReadAgainWhileTheRobotIsArmed) {
   bench.call("/disarm");
   real("c_R");
   EXPECT_GT(bench.now(), before);
+}
+
+TEST_F(Parameters, AreReadALittleAtATimeOnASlowLineSoThatAStopNeverWaitsForTheTable) {
+  constexpr int kRoundTrip_ms = 40;
+  bench.cable.delay_ms(kRoundTrip_ms);
+  bench.set_elsewhere("c_R", 1.003);
+  bench.run_ms(1500);
+  ASSERT_FALSE(bench.ros.parameters->is_fresh()) << "they are older than a second";
+  microseconds longest{};
+  int steps = 0;
+  for (; !bench.ros.parameters->is_fresh(); ++steps) {
+    const microseconds before = bench.now();
+    bench.driver->step();
+    longest = std::max(longest, bench.now() - before);
+    ASSERT_LT(steps, 1000);
+  }
+  // A step may read one value, send a Ping and ask for telemetry.
+  EXPECT_LE(longest, std::chrono::milliseconds(4 * kRoundTrip_ms));
+  EXPECT_GT(steps, 30) << "one for nearly each parameter";
+  EXPECT_NEAR(bench.ros.parameters->value("c_R").value().double_value, 1.003, 1e-9);
 }
 
 TEST_F(Parameters, NewSizesAreInTheNextDescription) {

@@ -370,6 +370,32 @@ TEST_F(FoxgloveServerOnLoopback, ManyQuestionsKeepTheRobotNoLongerThanAShareAndN
   EXPECT_TRUE(eventually([&] { return slow.asked == kQuestions; }));
 }
 
+/// A table whose values are being read.
+class UnreadTable : public SmallTable {
+ public:
+  bool is_fresh() override { return read; }
+  bool read = false;
+};
+
+TEST_F(FoxgloveServerOnLoopback, QuestionsAboutParametersThatAreBeingReadWaitAndAStopDoesNot) {
+  start();
+  UnreadTable table;
+  server_->serve_parameters(table);
+  Viewer viewer(server_->port());
+  hear(viewer, "advertiseServices");
+  viewer.send(R"({"op":"getParameters","parameterNames":[],"id":"all"})");
+  viewer.send(R"({"op":"setParameters","parameters":[{"name":"b","value":1.5}],"id":"set"})");
+  viewer.send(Bytes{2, 2, 0, 0, 0, 9, 0, 0, 0, 3, 0, 0, 0, 'c', 'd', 'r', 0, 1, 0, 0, 0});
+  Bytes stopped{3, 2, 0, 0, 0, 9, 0, 0, 0, 3, 0, 0, 0, 'c', 'd', 'r'};
+  append(stopped, encode(msg::Trigger::Response{true, "/emergency_stop"}));
+  EXPECT_EQ(hear_binary(viewer), stopped);
+  EXPECT_EQ(table.b, 0.2);
+  table.read = true;
+  EXPECT_EQ(hear(viewer, "parameterValues")["id"], "all");
+  EXPECT_EQ(hear(viewer, "parameterValues")["id"], "set");
+  EXPECT_EQ(table.b, 1.5);
+}
+
 TEST_F(FoxgloveServerOnLoopback, OtherwiseViewersMayOnlyLookAndStop) {
   start(false);
   Viewer viewer(server_->port());

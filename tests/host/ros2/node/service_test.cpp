@@ -133,6 +133,44 @@ TEST_F(ServiceOnAFakeWire, ActsAtOnceButHoldsTheReplyUntilTheClientsReaderIsFoun
   EXPECT_EQ(requests_, 2);
 }
 
+TEST_F(ServiceOnAFakeWire, AReplyAlsoWaitsForAReaderThatIsThereButHasNotFoundTheWriter) {
+  find(cyclone_reader_);
+  out().found = false;
+  cyclone_request(true, 5, 1);
+  service_.poll(kNow);
+  EXPECT_THAT(out().written, IsEmpty());
+  out().found = true;
+  service_.poll(kNow);
+  EXPECT_THAT(out().written, SizeIs(1));
+}
+
+TEST_F(ServiceOnAFakeWire, CallsWaitUntilTheyMayBeAnswered) {
+  bool may_answer = false;
+  ServiceDescription description = kDescription;
+  description.name = "/later";
+  description.may_answer = [&] { return may_answer; };
+  Service later(participant_, description, "8", [this](ByteView bytes) { return respond(bytes); });
+  wire_.writer_of("rr/laterReply").readers.push_back(cyclone_reader_);
+  CdrWriter out;
+  out.number(std::uint64_t{5});
+  out.number(std::int64_t{1});
+  out.number(std::uint8_t{1});
+  wire_.reader_of("rq/laterRequest").waiting.push_back({out.bytes(), {cyclone_writer_, 1}, std::nullopt});
+  later.poll(kNow);
+  EXPECT_EQ(requests_, 0);
+  // Meanwhile a flood is left to DDS, which has its bounds.
+  auto& flood = wire_.reader_of("rq/laterRequest").waiting;
+  for (int i = 0; i < 2; ++i) {
+    flood.assign(Service::kDepth, {{}, {cyclone_writer_, 2}, std::nullopt});
+    later.poll(kNow);
+  }
+  EXPECT_THAT(flood, SizeIs(Service::kDepth));
+  may_answer = true;
+  later.poll(kNow);
+  EXPECT_EQ(requests_, 1);
+  EXPECT_THAT(wire_.writer_of("rr/laterReply").written, SizeIs(1));
+}
+
 TEST_F(ServiceOnAFakeWire, AClientThatIsNotFoundForTwoSecondsGetsNoReply) {
   fast_request(true, 1);
   service_.poll(kNow);
