@@ -53,7 +53,7 @@ void FastWriter::send(ByteView payload, const SampleId* related) {
   writer_->write(&sample, parameters);
 }
 
-std::vector<Guid> FastWriter::readers() const {
+std::vector<Guid> FastWriter::certain_readers() const {
   return readers_.those([&](const Guid& reader, std::chrono::steady_clock::duration since) {
     return since >= kWithoutAcknowledgement || acknowledged_.has({reader, guid()});
   });

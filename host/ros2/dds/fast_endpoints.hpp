@@ -84,7 +84,8 @@ class FastWriter : public Writer, fast::DataWriterListener {
   FastWriter& operator=(const FastWriter&) = delete;
 
   Guid guid() const override { return to_guid(writer_->guid()); }
-  std::vector<Guid> readers() const override;
+  std::vector<Guid> readers() const override { return readers_.all(); }
+  std::vector<Guid> certain_readers() const override;
 
  private:
   void send(ByteView payload, const SampleId* related) override;

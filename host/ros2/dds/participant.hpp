@@ -66,8 +66,11 @@ class Writer {
   void write(ByteView payload, const SampleId& related) { send(payload, &related); }
 
   virtual Guid guid() const = 0;
-  /// Readers that get what is written from now on. They come and go by themselves.
+  /// Those that read this topic. They come and go by themselves.
   virtual std::vector<Guid> readers() const = 0;
+  /// Those of them that are known to have found this writer, or have had the time to: what is written now reaches them. Of a
+  /// reader with best effort only the time shows it.
+  virtual std::vector<Guid> certain_readers() const { return readers(); }
 
  private:
   virtual void send(ByteView payload, const SampleId* related) = 0;

@@ -29,7 +29,8 @@ class FakeWire {
     Topic topic;
     Guid guid;
     std::vector<Written> written{};
-    std::vector<Guid> readers{};  // that have found it
+    std::vector<Guid> readers{};
+    bool found = true;  // by all of them
     bool gone = false;
   };
   struct ReaderEnd {
@@ -84,6 +85,9 @@ class FakeParticipant : public Participant {
     ~FakeWriter() override { end_.gone = true; }
     Guid guid() const override { return end_.guid; }
     std::vector<Guid> readers() const override { return end_.readers; }
+    std::vector<Guid> certain_readers() const override {
+      return end_.found ? end_.readers : std::vector<Guid>();
+    }
 
    private:
     void send(ByteView payload, const SampleId* related) override {

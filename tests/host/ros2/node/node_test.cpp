@@ -59,6 +59,15 @@ TEST_F(NodeOnAFakeWire, ATopicHasItsNameItsTypeItsHashAndItsQualityOnTheWire) {
   EXPECT_EQ(written("rt/tf_static").at(0).payload, encode(msg::TFMessage{}));
 }
 
+// A reader with best effort never says that it has found a writer: whoever waited for that would publish nothing to it.
+TEST_F(NodeOnAFakeWire, ATopicIsPublishedToAReaderThatHasNotBeenHeardYet) {
+  const auto publisher = node_->advertise({"/pose", message_type<msg::TFMessage>(), true, false, 10});
+  auto& end = wire_.writer_of("rt/pose");
+  end.readers.push_back(guid_of(9, 4));
+  end.found = false;
+  EXPECT_TRUE(publisher->has_subscribers());
+}
+
 TEST_F(NodeOnAFakeWire, MessagesComeInPollUnderTheTypeOfTheirReader) {
   std::vector<std::string> came;
   node_->subscribe({"/cmd_vel", message_type<msg::Twist>()}, [&](ByteView) { came.emplace_back("Twist"); });

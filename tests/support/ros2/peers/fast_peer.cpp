@@ -170,7 +170,7 @@ class FastPeer : public Peer {
   bool publish(const std::string& topic, const M& message) {
     std::unique_ptr<dds::Writer>& writer = writers_[{topic, M::kType}];
     if (!writer) writer = participant_->create_writer({"rt" + topic, dds_type_name(M::kType)});
-    if (!until([&] { return !writer->readers().empty(); })) return false;
+    if (!until([&] { return !writer->certain_readers().empty(); })) return false;
     writer->write(encode(message));
     return true;
   }
@@ -186,7 +186,8 @@ class FastPeer : public Peer {
       client.reader = participant_->create_reader(
           {"rr" + service + "Reply", dds_type_name(Service::Response::kType), kClientQos});
     }
-    if (!until([&] { return !client.writer->readers().empty() && !client.reader->writers().empty(); }))
+    if (!until(
+            [&] { return !client.writer->certain_readers().empty() && !client.reader->writers().empty(); }))
       return std::nullopt;
     client.writer->write(encode(request), {client.reader->guid(), kUnknown});
     const dds::SampleId id{client.reader->guid(), ++client.number};
