@@ -15,7 +15,7 @@ namespace astro::protocol {
 
 /// Increases with every change of the schema, including new enumeration values. Hello, HelloReply and
 /// ErrorReply keep their layout in all versions, so that peers of different versions can say so.
-inline constexpr std::uint16_t kProtocolVersion = 4;
+inline constexpr std::uint16_t kProtocolVersion = 5;
 
 struct Ack {
   static constexpr std::uint8_t kId = 0x7E;

@@ -24,6 +24,7 @@ struct Status {
   std::uint32_t tick_longest_us = 0;
   std::uint32_t rx_bad_frames = 0;
   ResetCause reset_cause{};
+  std::uint8_t stopped_by_another = 0;
 
   static constexpr std::uint8_t kId = 0x83;
   static constexpr std::string_view kName = "Status";
@@ -40,6 +41,8 @@ struct Status {
       Field{&Status::tick_longest_us, "tick_longest_us", "us", "longest time between two ticks since start"},
       Field{&Status::rx_bad_frames, "rx_bad_frames", "frames", "damaged frames at all ports"},
       Field{&Status::reset_cause, "reset_cause", "", "why the processor last started"},
+      Field{&Status::stopped_by_another, "stopped_by_another", "",
+            "1 if another host stopped or disarmed the robot since the host that asks armed it"},
   };
   bool operator==(const Status&) const = default;
 };

@@ -96,17 +96,19 @@ class OwnPort : public robot::Transport {
 class Programs {
  public:
   explicit Programs(std::uint64_t seed) : random_(seed), rig_(seed) {
-    for (std::uint32_t pid = 1; pid <= 3; ++pid)
-      shared_.push_back(std::make_unique<test::RelayedProgram>(rig_, pid, "astrolabe"));
+    for (int who = 0; who < kOwnProgram; ++who) start(who);
     own_.connect();
   }
 
   /// Until something is violated.
   void live(int acts) {
-    for (int i = 0; i < acts && rig_.witness.violation().empty(); ++i) act();
+    for (int i = 0; i < acts && violation().empty(); ++i) act();
   }
 
-  const std::string& violation() const { return rig_.witness.violation(); }
+  const std::string& violation() const {
+    return left_driving_.empty() ? rig_.witness.violation() : left_driving_;
+  }
+  int killed_while_driving() const { return killed_while_driving_; }
   int taken() const { return taken_; }
   int refused_after_halt() const { return refused_after_halt_; }
 
@@ -123,14 +125,35 @@ class Programs {
     if (what < 0.24) return ask(who, Disarm{});
     if (what < 0.25) return ask(who, EmergencyStop{});
     if (what < 0.27) return ask(who, ClearFaults{});
-    if (what < 0.32) return ask(who, Rest{});
-    if (what < 0.36) return ask(who, WheelVoltage{3000, 3000});
+    if (what < 0.31 && who != kOwnProgram) return kill(who);
+    if (what < 0.34) return ask(who, Rest{});
+    if (what < 0.37) return ask(who, WheelVoltage{3000, 3000});
     if (what < 0.55)
       return ask(who, AddSegment{.kind = SegmentKind::line,
                                  .tag = 1,
                                  .length_nm = random_.between(-500'000'000, 500'000'000)});
     if (what < 0.62) return rig_.run(std::chrono::milliseconds(random_.between(1, 2500)));
     ask(who, Velocity{static_cast<std::int32_t>(random_.between(-700'000, 700'000)), 0});
+  }
+
+  void start(int who) {
+    shared_[static_cast<std::size_t>(who)] =
+        std::make_unique<test::RelayedProgram>(rig_, who + 1, "astrolabe");
+  }
+
+  /// Its connection ends, and another program takes its place. The robot stops for one that drives.
+  void kill(int who) {
+    const bool drives = rig_.relay.driver() == shared_[static_cast<std::size_t>(who)]->id();
+    const bool halted = rig_.witness.halted();
+    const long stops = rig_.count(Stop::kId);
+    shared_[static_cast<std::size_t>(who)]->leave();
+    rig_.run(std::chrono::milliseconds(2));
+    const bool stopped = rig_.count(Stop::kId) > stops;
+    killed_while_driving_ += drives && !halted ? 1 : 0;
+    if (stopped) rig_.witness.answered({who, false}, Stop::kId, true);
+    if (drives && !halted && !stopped)
+      left_driving_ = "nobody stopped the robot for a driver that was killed";
+    start(who);
   }
 
   template <Request M>
@@ -160,27 +183,32 @@ class Programs {
 
   support::Random random_;
   RelayedFirmware rig_;
-  std::vector<std::unique_ptr<test::RelayedProgram>> shared_;
+  std::array<std::unique_ptr<test::RelayedProgram>, kOwnProgram> shared_;
   OwnPort own_port_{rig_};
   robot::Client own_{own_port_};
-  int taken_ = 0, refused_after_halt_ = 0;
+  int taken_ = 0, refused_after_halt_ = 0, killed_while_driving_ = 0;
+  std::string left_driving_;
 };
 
 TEST(RelayedStop, HoldsForProgramsOfOnePortAndOfTheOther) {
   const std::uint64_t count = support::number_from("ASTROLABE_STOPS", 50);
   const std::uint64_t first = support::number_from("ASTROLABE_STOPS_SEED", 20'261'125);
-  int taken = 0, refused = 0;
+  int taken = 0, refused = 0, killed = 0;
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
     Programs programs(seed);
     programs.live(200);
     ASSERT_EQ(programs.violation(), "") << "ASTROLABE_STOPS=1 ASTROLABE_STOPS_SEED=" << seed << " repeats it";
     taken += programs.taken();
     refused += programs.refused_after_halt();
+    killed += programs.killed_while_driving();
   }
-  fmt::print("{} lives from seed {}: {} motion requests were taken, {} refused after a halt\n", count, first,
-             taken, refused);
+  fmt::print(
+      "{} lives from seed {}: {} motion requests were taken, {} refused after a halt; {} drivers were "
+      "killed\n",
+      count, first, taken, refused, killed);
   EXPECT_GT(taken, 2 * static_cast<int>(count)) << "the robot drove";
   EXPECT_GT(refused, 2 * static_cast<int>(count)) << "the halts mattered";
+  EXPECT_GT(killed, static_cast<int>(count) / 50) << "drivers were killed while they drove";
 }
 
 }  // namespace

@@ -61,6 +61,11 @@ class HostSessions {
 
   Session& session(int port) { return sessions_[port]; }
   bool drives(const HostId& host) const { return rule_.drives(host); }
+  /// Somebody else has stopped the robot since a program at this host's port armed it. Programs at one port are one host, which
+  /// is an onlooker while it does not drive.
+  bool stopped_by_another(const HostId& host) const {
+    return rule_.stopped_by_another() && rule_.driver()->port == host.port;
+  }
   bool permits(const HostId& host, std::uint8_t message) const { return rule_.permits(host, message); }
 
   /// Frames that were damaged, of all ports.

@@ -65,8 +65,9 @@ class RequestHandler {
     return protocol::Pong{board_.clock().now_us()};
   }
 
-  Answer<protocol::Status> handle(const HostId&, const protocol::GetStatus&) {
+  Answer<protocol::Status> handle(const HostId& host, const protocol::GetStatus&) {
     const std::uint32_t bad_frames = sessions_.bad_frames();
+    const bool stopped_by_another = sessions_.stopped_by_another(host);
     const auto hold = board_.hold_tick();
     const TickState& state = state_.get(hold);
     return protocol::Status{.device_time_us = board_.clock().now_us(),
@@ -79,7 +80,8 @@ class RequestHandler {
                             .tick_overruns = state.clock.overruns(),
                             .tick_longest_us = state.clock.longest_us(),
                             .rx_bad_frames = bad_frames,
-                            .reset_cause = on_the_wire(board_.system().reset_cause())};
+                            .reset_cause = on_the_wire(board_.system().reset_cause()),
+                            .stopped_by_another = stopped_by_another ? std::uint8_t{1} : std::uint8_t{0}};
   }
 
   Answer<protocol::ParameterInfo> handle(const HostId&, const protocol::GetParameterInfo& request) {

@@ -7,8 +7,8 @@ namespace astro::robot {
 using namespace protocol;  // NOLINT(google-build-using-namespace): this file is all messages
 
 const PortUser* DriverRule::stopper_of(SessionId id) const {
-  const auto found = stopped_.find(id);
-  return found == stopped_.end() ? nullptr : &found->second;
+  const auto found = stoppers_.find(id);
+  return found == stoppers_.end() || !found->second ? nullptr : &*found->second;
 }
 
 std::optional<ErrorReply> DriverRule::refusal(SessionId id, std::uint8_t message) const {
@@ -24,11 +24,14 @@ void DriverRule::note_request(SessionId id, std::uint8_t message) {
   if (message != Arm::kId || driver_ == id) return;
   driver_ = id;
   confirmed_ = false;
+  stoppers_.try_emplace(id);
 }
 
 void DriverRule::note_halt(SessionId id, std::uint8_t message, const PortUser& by) {
   rule_.note(id, message);
-  if (request_rules::stops(message) && driver_ && driver_ != id) stopped_.try_emplace(*driver_, by);
+  if (!request_rules::stops(message)) return;
+  for (auto& [stopped, stopper] : stoppers_)
+    if (stopped != id && !stopper) stopper = by;
 }
 
 void DriverRule::note_answer(SessionId id, std::uint8_t request, std::optional<ErrorCode> refused) {
@@ -46,7 +49,7 @@ void DriverRule::note_answer_to_arm(SessionId id, bool accepted) {
   if (accepted) {
     driver_ = id;
     confirmed_ = true;
-    stopped_.erase(id);
+    stoppers_[id].reset();
   } else if (driver_ == id && !confirmed_) {
     end_drive();
   }
@@ -63,16 +66,12 @@ void DriverRule::end_drive() {
 
 void DriverRule::release(SessionId id) {
   if (driver_ == id) end_drive();
-}
-
-void DriverRule::remove(SessionId id) {
-  release(id);
-  stopped_.erase(id);
+  stoppers_.erase(id);
 }
 
 void DriverRule::clear() {
   end_drive();
-  stopped_.clear();
+  stoppers_.clear();
 }
 
 }  // namespace astro::robot

@@ -16,6 +16,7 @@ namespace astro::robot {
 ///        busy.
 /// End    it disarms the robot, says Hello or disconnects, or a fault is raised. Once it was stopped, by whomever, the next
 ///        program that arms the robot takes its place.
+/// Gone   the robot is stopped if its driver disconnects or says Hello (RequestArbiter).
 /// Stop   a driver that was stopped gets not_armed for whatever would move the robot, until it arms the robot again.
 class DriverRule {
  public:
@@ -23,8 +24,10 @@ class DriverRule {
   bool drives(SessionId id) const { return driver_ == id; }
   /// The driver, once the robot has accepted its Arm and until somebody stops it.
   std::optional<SessionId> confirmed_driver() const;
-  /// The program that stopped this one's drive; null if none has since it armed the robot.
+  /// The program that stopped the robot since this one armed it, during its drive or after; null if none has.
   const PortUser* stopper_of(SessionId id) const;
+  /// This program has asked to drive since it connected.
+  bool has_driven(SessionId id) const { return stoppers_.contains(id); }
 
   /// Why the request must not go to the robot; nothing if it may.
   std::optional<protocol::ErrorReply> refusal(SessionId id, std::uint8_t message) const;
@@ -38,10 +41,8 @@ class DriverRule {
   void note_answer(SessionId id, std::uint8_t request, std::optional<protocol::ErrorCode> refused);
   /// Nobody drives any more.
   void end_drive();
-  /// This program does not drive any more.
+  /// This program begins anew, or has disconnected: it does not drive any more.
   void release(SessionId id);
-  /// The program has disconnected.
-  void remove(SessionId id);
   /// The robot has restarted.
   void clear();
 
@@ -51,7 +52,7 @@ class DriverRule {
   protocol::DrivingRule<SessionId> rule_;
   std::optional<SessionId> driver_;  // from when it asks for it, the rule's from when the robot has agreed
   bool confirmed_ = false;           // the robot has agreed
-  std::map<SessionId, PortUser> stopped_;  // by whom
+  std::map<SessionId, std::optional<PortUser>> stoppers_;  // of those who have asked to drive
 };
 
 }  // namespace astro::robot

@@ -13,8 +13,9 @@ using std::chrono::milliseconds;
 
 namespace {
 
-constexpr SessionId kSelf = 0;
-constexpr microseconds kRepeat = milliseconds(60);  // of the relay's own request
+// The relay itself: what stops the robot for a driver that has gone, and what asks for telemetry.
+constexpr SessionId kGuard = -1, kSelf = 0;
+constexpr microseconds kRepeat = milliseconds(60);  // of the relay's own requests
 
 /// After this time the program itself has given up: a Client tries for one second, and for four at a commit.
 constexpr microseconds longest_turn(std::uint8_t message) {
@@ -23,12 +24,17 @@ constexpr microseconds longest_turn(std::uint8_t message) {
 
 }  // namespace
 
-RequestArbiter::RequestArbiter() { join(kSelf, {}); }
+RequestArbiter::RequestArbiter() {
+  join(kGuard, {});
+  join(kSelf, {});
+}
 
 void RequestArbiter::join(SessionId id, PortUser user) { sessions_.try_emplace(id, id, std::move(user)); }
 
 void RequestArbiter::release(SessionId id) {
   sessions_.at(id).forget();
+  // Also if it seems to be stopped: what happens at the robot's other port is not known here.
+  drive_left_ = drive_left_ || driver_.drives(id);
   driver_.release(id);
   staging_.release(id);
   turns_.end(id);
@@ -37,7 +43,6 @@ void RequestArbiter::release(SessionId id) {
 
 void RequestArbiter::leave(SessionId id) {
   release(id);
-  driver_.remove(id);
   sessions_.erase(id);
 }
 
@@ -58,6 +63,7 @@ bool RequestArbiter::repeats(SessionId id, const Header& request) const {
 }
 
 void RequestArbiter::take(SessionId id, ByteView body, microseconds now) {
+  stop_left_drive(now);
   ProgramSession& session = sessions_.at(id);
   const Header header = *peek(body);  // a framer's body always has a header
   if (header.message_id == Ping::kId) return send(session, session.ping(header, body), now);
@@ -71,6 +77,15 @@ void RequestArbiter::take(SessionId id, ByteView body, microseconds now) {
   }
   if (session.has_under_way(header)) return repeat(session, now);
   begin(session, Exchange(header, body), now);
+}
+
+/// Before anything else is sent, so that it does not stop the next driver.
+void RequestArbiter::stop_left_drive(microseconds now) {
+  if (!std::exchange(drive_left_, false)) return;
+  last_stop_ = static_cast<std::uint16_t>(last_stop_ == 0xFFFF ? 1 : last_stop_ + 1);
+  const Header header{Stop::kId, last_stop_};
+  Exchange& exchange = sessions_.at(kGuard).begin(Exchange(header, body_of(Stop{}, last_stop_)));
+  to_robot_.send(exchange, true, now);  // in the driver's name: to the robot it is no stop by another
 }
 
 /// An answer of the robot that still comes is dropped, so an Arm that was sent before a Stop does not undo it.
@@ -197,10 +212,24 @@ void RequestArbiter::take_answer(ByteView body, microseconds now) {
     turns_.end(id);
     note_answer(session, asked.message_id, body);
     session.end();
-    const Bytes answer = with_request_id(body, asked.request_id);
-    reply(session, asked, staging_.hides_from(id) ? without_staged(answer) : answer);
+    reply(session, asked, for_program(session, asked, body));
     return next_onlooker(now);
   }
+}
+
+/// To the robot all programs at this port are one, so what it says to one may be meant for another.
+Bytes RequestArbiter::for_program(const ProgramSession& session, const Header& asked, ByteView body) const {
+  Bytes answer = with_request_id(body, asked.request_id);
+  if (asked.message_id == GetParameter::kId && staging_.hides_from(session.id()))
+    return without_staged(answer);
+  if (asked.message_id != GetStatus::kId) return answer;
+  const auto status = decode<Status>(answer);
+  if (!status.ok()) return answer;
+  Status own = *status;
+  const bool stopped = driver_.stopper_of(session.id()) != nullptr ||
+                       (own.stopped_by_another != 0 && driver_.has_driven(session.id()));
+  own.stopped_by_another = stopped ? 1 : 0;
+  return body_of(own, asked.request_id);
 }
 
 void RequestArbiter::note_answer(const ProgramSession& session, std::uint8_t request, ByteView body) {
@@ -210,6 +239,7 @@ void RequestArbiter::note_answer(const ProgramSession& session, std::uint8_t req
     refused = error.ok() ? error->code : ErrorCode::malformed;
   }
   driver_.note_answer(session.id(), request, refused);
+  if (request == Arm::kId && !refused) sessions_.at(kGuard).end();   // or it would stop the new driver
   if (request == CommitParameters::kId && !refused) hello_.reset();  // the robot's name may have changed
   if (request != Hello::kId) return;
   const auto hello = decode<HelloReply>(body);
@@ -234,20 +264,23 @@ void RequestArbiter::note_restart() {
 }
 
 void RequestArbiter::tick(microseconds now) {
-  ProgramSession& self = sessions_.at(kSelf);
-  const Exchange* own = self.current();
-  if (auto request = telemetry_.next_request())
-    begin(self, std::move(*request), now);
-  else if (own != nullptr && own->is_sent() && now >= own->sent_at + kRepeat)
-    repeat(self, now);
+  stop_left_drive(now);
+  if (auto request = telemetry_.next_request()) begin(sessions_.at(kSelf), std::move(*request), now);
+  for (const SessionId id : {kGuard, kSelf}) {
+    const Exchange* own = sessions_.at(id).current();
+    if (own != nullptr && own->is_sent() && now >= own->sent_at + kRepeat) repeat(sessions_.at(id), now);
+  }
   next_onlooker(now);
 }
 
 std::optional<microseconds> RequestArbiter::next_tick() const {
+  if (drive_left_) return microseconds::zero();  // at once
   std::optional<microseconds> next = turns_.deadline();
-  const Exchange* own = sessions_.at(kSelf).current();
-  if (own != nullptr && own->is_sent())
-    next = std::min(next.value_or(microseconds::max()), own->sent_at + kRepeat);
+  for (const SessionId id : {kGuard, kSelf}) {
+    const Exchange* own = sessions_.at(id).current();
+    if (own != nullptr && own->is_sent())
+      next = std::min(next.value_or(microseconds::max()), own->sent_at + kRepeat);
+  }
   return next;
 }
 

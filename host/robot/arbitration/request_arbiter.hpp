@@ -27,11 +27,13 @@ struct Reply {
 ///            program that asked (exchange.hpp, robot_queue.hpp).
 /// Driver     one program at a time drives; the others are refused as busy (driver_rule.hpp). Requests of
 ///            programs that do not drive take turns (turns.hpp).
+/// Gone       a driver that disconnects, or says Hello, without having disarmed the robot leaves nobody who would: the relay does.
 /// Halt       Stop, EmergencyStop, Disarm and Pause never wait. Requests for motion that other programs sent
 ///            before, and that wait or have no answer yet, end as refused: the robot does not get them later.
 /// Hello      answered from the robot's last HelloReply, because a Hello ends a session at the robot.
-/// Telemetry  the robot sends one stream that serves all (telemetry_stream.hpp). Its setting is the only
-///            request of the relay itself, and the only one that it repeats until the robot answers.
+/// Telemetry  the robot sends one stream that serves all (telemetry_stream.hpp). Its setting and that Stop are the only
+///            requests of the relay itself, and the only ones that it repeats until the robot answers.
+/// Status     of a program that has driven: whether another has stopped the robot since, at this port or at another.
 /// Parameters if two programs change them at the same time, the one whose staged values are gone is refused as
 ///            staging_lost (staging_area.hpp).
 class RequestArbiter {
@@ -39,7 +41,7 @@ class RequestArbiter {
   RequestArbiter();
 
   void join(SessionId id, PortUser user);
-  /// Drops everything that the program requested. The robot's own time-out ends its drive.
+  /// Drops everything that the program requested. If it drives, the robot is stopped with the next request or tick.
   void release(SessionId id);
   void leave(SessionId id);
 
@@ -73,6 +75,8 @@ class RequestArbiter {
   void reply_with(ProgramSession& session, const Header& request, const M& message);
   bool answer_here(ProgramSession& session, const Header& header, ByteView body);
   PortUsers users_for(SessionId session) const;
+  void stop_left_drive(microseconds now);
+  Bytes for_program(const ProgramSession& session, const Header& asked, ByteView body) const;
   void take_telemetry(ProgramSession& session, const Header& header, ByteView body);
   void take_hello(ProgramSession& session, Exchange exchange, microseconds now);
   void begin(ProgramSession& session, Exchange exchange, microseconds now);
@@ -84,7 +88,7 @@ class RequestArbiter {
   void note_answer(const ProgramSession& session, std::uint8_t request, ByteView body);
   void note_restart();
 
-  std::map<SessionId, ProgramSession> sessions_;  // the first is the relay itself, which asks for telemetry
+  std::map<SessionId, ProgramSession> sessions_;  // the first two are the relay itself
   std::vector<Reply> replies_;
   std::optional<protocol::HelloReply> hello_;
   RobotQueue to_robot_;
@@ -92,6 +96,8 @@ class RequestArbiter {
   Turns turns_;
   TelemetryStream telemetry_;
   StagingArea staging_;
+  bool drive_left_ = false;  // by a driver that has gone
+  std::uint16_t last_stop_ = 0;
 };
 
 }  // namespace astro::robot

@@ -98,8 +98,9 @@ void DriveSession::rest_and_disarm() {
 void DriveSession::wait_until_free() {
   const microseconds deadline = client_.now() + kTimeToNotice;
   while (true) {
-    const Mode mode = client_.request(GetStatus{}).mode;
-    if (mode == Mode::disarmed || mode == Mode::fault) return;
+    const Status status = client_.request(GetStatus{});
+    if (status.stopped_by_another != 0) fail_ended("the robot does not drive on", "stopped");
+    if (status.mode == Mode::disarmed || status.mode == Mode::fault) return;
     if (client_.now() >= deadline) fail_busy();
     client_.pump(kRestPoll);
   }

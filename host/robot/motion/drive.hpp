@@ -58,7 +58,7 @@ class DriveSession {
  public:
   /// Arms. Clears command_timeout and link_lost first, which an earlier program left behind by ending, and
   /// says so in a notice; any other latched fault is thrown. Throws Error, without touching the robot, if it
-  /// stays armed for another program.
+  /// stays armed for another program, or if another one has stopped it since this one drove.
   explicit DriveSession(Client& client, DriveHooks hooks = {});
   DriveSession(const DriveSession&) = delete;
   DriveSession& operator=(const DriveSession&) = delete;

@@ -300,6 +300,33 @@ TEST_F(Frames, APathThatIsResumedAfterItsDriverHasGoneEndsByTheTimeout) {
   EXPECT_NEAR(board().truth().x_m, paused_at_m, 0.01);
 }
 
+TEST_F(Frames, AHostThatHasDrivenIsToldThatAnotherHasStoppedTheRobotSince) {
+  const auto stopped = [&] { return ask(protocol::GetStatus{}).stopped_by_another == 1; };
+  for (const bool disarmed : {true, false}) {
+    ask(protocol::Arm{});
+    ask(protocol::Stop{});
+    if (disarmed) ask(protocol::Disarm{});
+    EXPECT_FALSE(stopped()) << "it has stopped it itself";
+    send(protocol::Stop{}, 1);
+    received();
+    EXPECT_TRUE(stopped());
+    ask(protocol::Disarm{});
+    EXPECT_TRUE(stopped()) << "still";
+    send(protocol::GetStatus{}, 2);  // at the other port
+    const auto answers = received();
+    ASSERT_EQ(answers.size(), 1U);
+    EXPECT_EQ(protocol::decode<protocol::Status>(answers[0].body)->stopped_by_another, 0)
+        << "it has not driven";
+    ask(protocol::Arm{});
+    EXPECT_FALSE(stopped()) << "it has armed all the same";
+    send(protocol::Disarm{}, 3);
+    received();
+    EXPECT_TRUE(stopped());
+    ask(protocol::Hello{});
+    EXPECT_FALSE(stopped()) << "a new program has the port";
+  }
+}
+
 TEST_F(Frames, NobodyElseArmsDuringADriveNorWhileItIsPaused) {
   received();
   ask(protocol::Arm{});

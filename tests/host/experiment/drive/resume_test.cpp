@@ -78,6 +78,22 @@ TEST_F(Resume, AnInterruptedRobotStandsAndIsDisarmed) {
   EXPECT_EQ(desk_.client.request(protocol::GetStatus{}).mode, protocol::Mode::disarmed);
 }
 
+TEST_F(Resume, AStopThatComesBetweenTwoRunsEndsTheExperimentWhichGoesOnWhenItIsStartedAgain) {
+  robot::Client person(std::make_unique<simulation::InProcessTransport>(desk_.robot, 1));
+  person.connect();
+  int started = 0;
+  ExperimentHooks hooks;
+  hooks.run_started = [&](const RunSpec&, int, int) {
+    if (++started == 2) person.request(protocol::Stop{});
+  };
+  EXPECT_THAT([&] { run(small_plan(), hooks); },
+              ThrowsMessage<Error>(HasSubstr("another program stopped the robot")));
+  EXPECT_EQ(started, 2);
+  EXPECT_EQ(desk_.client.request(protocol::GetStatus{}).mode, protocol::Mode::disarmed);
+  desk_.client.connect();  // as the next program does
+  EXPECT_EQ(run(small_plan()).phases.size(), 2U);
+}
+
 /// A line that breaks once, while the robot is on its way.
 class BreakingLine : public robot::Transport {
  public:

@@ -241,14 +241,13 @@ TEST_F(OnePort, ARecordedDriveThatIsInterruptedKeepsWhatItRecorded) {
 
 // The robot distinguishes onlookers from its driver: the pings of a monitor do not keep the drive of a killed
 // program alive.
-TEST_F(OnePort, KilledBesideAMonitorThatServesItADriveEndsByTheRobotsTimeOut) {
+TEST_F(OnePort, KilledBesideAMonitorThatServesItADriveIsStoppedByTheMonitor) {
   Program monitor = start({"monitor", "--json"});
   ASSERT_TRUE(shows_samples(monitor));
   Program program = drive({"line", "20", "--speed", "0.4"});
   ASSERT_TRUE(has_gone(0.3)) << program.err();
   program.send(SIGKILL);
   EXPECT_LT(seconds_to_rest(now_us()), kToRest_s);
-  EXPECT_EQ(info()["faults"], json::array({"link_lost"}));
   EXPECT_TRUE(monitor.running());
 }
 

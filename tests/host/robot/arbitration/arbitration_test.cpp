@@ -121,6 +121,23 @@ TEST_F(ADrive, ThatAnotherStoppedResumesOnlyByArming) {
   EXPECT_EQ(rule.stopper_of(kDriver), nullptr);
 }
 
+TEST_F(ADrive, ThatIsOverIsStillTheBusinessOfItsDriverWhichMayHaveMoreToDrive) {
+  EXPECT_FALSE(rule.has_driven(kOther));
+  rule.note_halt(kDriver, Disarm::kId, {11, "astrolabe umbmark"});
+  rule.note_answer(kDriver, Disarm::kId, std::nullopt);
+  EXPECT_EQ(rule.stopper_of(kDriver), nullptr);
+  rule.note_halt(kThird, Stop::kId, {33, "astrolabe stop"});
+  ASSERT_NE(rule.stopper_of(kDriver), nullptr);
+  EXPECT_EQ(rule.stopper_of(kDriver)->pid, 33U);
+  EXPECT_EQ(rule.stopper_of(kOther), nullptr) << "it has not driven yet: nothing of it was stopped";
+  rule.note_request(kDriver, Arm::kId);
+  rule.note_answer(kDriver, Arm::kId, std::nullopt);
+  EXPECT_EQ(rule.stopper_of(kDriver), nullptr) << "it has armed all the same";
+  rule.note_halt(kThird, Stop::kId, {33, "astrolabe stop"});
+  rule.release(kDriver);
+  EXPECT_EQ(rule.stopper_of(kDriver), nullptr) << "it has begun anew";
+}
+
 TEST_F(ADrive, ThatTheDriverStoppedItselfResumesOnlyByArmingToo) {
   rule.note_halt(kDriver, Stop::kId, {11, "astrolabe drive"});
   EXPECT_EQ(rule.stopper_of(kDriver), nullptr) << "it knows who it was";
@@ -177,7 +194,7 @@ TEST_F(ADrive, AtAnotherPortIsResumedThroughThisOne) {
 }
 
 TEST_F(ADrive, OfAProgramThatHasGoneIsNobodyElses) {
-  rule.remove(kDriver);
+  rule.release(kDriver);
   EXPECT_EQ(refused(kOther, Velocity::kId), ErrorCode::not_armed) << "the robot may still be armed";
   EXPECT_EQ(refused(kOther, Arm::kId), std::nullopt);
 }

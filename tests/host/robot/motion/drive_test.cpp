@@ -76,6 +76,17 @@ TEST_F(Drive, WhatIsTooLargeIsToldInAFewDigits) {
   EXPECT_EQ(why([&] { session.set_velocity(1e308, 0); }), "a speed in m/s of 1e+308 is not possible");
 }
 
+TEST_F(Drive, DoesNotBeginIfAnotherHasStoppedTheRobotSinceTheLastOne) {
+  link.robot.stopped_by_another = true;
+  try {
+    const DriveSession session(client);
+    ADD_FAILURE() << "it drives on";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "the robot does not drive on: another program stopped the robot");
+  }
+  EXPECT_EQ(link.robot.executed[Arm::kId], 0);
+}
+
 TEST_F(Drive, RunsAPathLongerThanTheQueueInOrderAndDisarmsAtTheEnd) {
   Path path = square(1, Sense::ccw);
   const Path again = path;

@@ -59,7 +59,7 @@ TEST(LeftDriveAtASharedPort, IsLeftAloneWhileTheProgramThatDrivesIsThere) {
   EXPECT_FALSE(stop_left_drive(node.client, kNoTimeout));
   EXPECT_EQ(rig.count(Stop::kId), 0);
   driver.leave();
-  EXPECT_TRUE(stop_left_drive(node.client, kNoTimeout));
+  EXPECT_FALSE(stop_left_drive(node.client, kNoTimeout)) << "the relay has stopped it";
   EXPECT_EQ(rig.count(Stop::kId), 1);
 }
 

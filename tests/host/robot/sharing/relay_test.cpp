@@ -176,6 +176,82 @@ TEST_F(SharedPort, WhatAnotherStoppedDoesNotMoveAgainByTheNextVelocity) {
   EXPECT_EQ(refusal_of(first.client, Velocity{100'000, 0}), "taken");
 }
 
+/// The robot receives everything, but its answers are lost.
+auto deaf_line() {
+  return [](bool to_robot, const Header&) { return to_robot; };
+}
+auto good_line() {
+  return [](bool, const Header&) { return true; };
+}
+
+TEST_F(SharedPort, AStopBetweenTwoDrivesOfAProgramKeepsItFromTheSecond) {
+  DriveSession(first.client).end();
+  second.client.request(Stop{});
+  const auto armed_before = rig.count(Arm::kId);
+  EXPECT_THAT(thrown_by([&] { const DriveSession session(first.client); }),
+              HasSubstr("another program (process id 22, 'astrolabe stop') stopped the robot"));
+  EXPECT_EQ(rig.count(Arm::kId), armed_before);
+  RelayedProgram fresh(rig, 33, "astrolabe drive line 1");
+  EXPECT_NO_THROW(DriveSession(fresh.client).end()) << "whoever begins now means it";
+}
+
+// The robot itself sees one host at this port, whichever program asks.
+TEST_F(SharedPort, AStopAtAnotherPortIsToldToWhoeverHasDrivenHereAndToNobodyElse) {
+  DriveSession(first.client).end();
+  rig.robot.stopped_by_another = true;
+  EXPECT_EQ(first.client.request(GetStatus{}).stopped_by_another, 1);
+  EXPECT_EQ(second.client.request(GetStatus{}).stopped_by_another, 0);
+  first.client.connect();
+  EXPECT_EQ(first.client.request(GetStatus{}).stopped_by_another, 0) << "it has begun anew";
+}
+
+TEST_F(SharedPort, TheRobotIsStoppedForADriverThatIsKilled) {
+  first.client.request(Arm{});
+  first.client.request(Velocity{100'000, 0});
+  first.leave();
+  rig.run(milliseconds(1));
+  EXPECT_EQ(rig.count(Stop::kId), 1);
+  EXPECT_FALSE(is_onlookers(rig.at_robot.back())) << "to the robot its driver has stopped it";
+  rig.run(milliseconds(500));
+  EXPECT_EQ(rig.count(Stop::kId), 1) << "it is answered";
+  EXPECT_EQ(rig.robot.mode, Mode::idle);
+}
+
+TEST_F(SharedPort, TheStopForADriverThatIsGoneIsRepeatedUntilItArrivesOrAnotherDrives) {
+  first.client.request(Arm{});
+  first.client.request(Velocity{100'000, 0});
+  rig.arrives = [](bool to_robot, const Header& header) {
+    return !to_robot || header.message_id != Stop::kId;
+  };
+  first.leave();
+  rig.run(milliseconds(100));
+  ASSERT_EQ(rig.robot.mode, Mode::velocity);
+  rig.arrives = good_line();
+  rig.run(milliseconds(100));
+  EXPECT_EQ(rig.robot.mode, Mode::idle);
+  EXPECT_EQ(rig.count(Stop::kId), 1);
+
+  second.client.request(Arm{});
+  rig.arrives = [](bool to_robot, const Header& header) {
+    return !to_robot || header.message_id != Stop::kId;
+  };
+  second.leave();
+  RelayedProgram next(rig, 44, "astrolabe drive line 1");
+  next.client.request(Arm{});
+  rig.arrives = good_line();
+  rig.run(milliseconds(100));
+  EXPECT_EQ(rig.count(Stop::kId), 1) << "it would stop the wrong one";
+}
+
+TEST_F(SharedPort, ADriverThatHasStoppedOrNeverDroveLeavesQuietly) {
+  DriveSession(first.client).end();
+  const auto stops = rig.count(Stop::kId);
+  first.leave();
+  second.leave();
+  rig.run(milliseconds(200));
+  EXPECT_EQ(rig.count(Stop::kId), stops);
+}
+
 TEST_F(SharedPort, ARepeatedVelocityDoesNotOvertakeAStop) {
   first.client.request(Arm{});
   rig.arrives = [](bool to_robot, const Header& header) { return to_robot || header.message_id != Ack::kId; };
@@ -195,14 +271,6 @@ TEST_F(SharedPort, AfterItsOwnRestADriverGoesOnAndAfterItsOwnStopItArmsAgain) {
   EXPECT_EQ(refusal_of(first.client, Velocity{100, 0}), "not_armed");
   first.client.request(Arm{});
   EXPECT_EQ(refusal_of(first.client, Velocity{100, 0}), "taken");
-}
-
-/// The robot receives everything, but its answers are lost.
-auto deaf_line() {
-  return [](bool to_robot, const Header&) { return to_robot; };
-}
-auto good_line() {
-  return [](bool, const Header&) { return true; };
 }
 
 TEST_F(SharedPort, OfOnlookersOneRequestIsUnderWayAtATime) {
