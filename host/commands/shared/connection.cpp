@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <set>
+
 #include "host/base/error.hpp"
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
@@ -13,21 +16,23 @@
 namespace astro::commands {
 namespace {
 
+/// A robot that is seen at two of its ports is one, and either will do.
 std::string only_robot(unsigned baud) {
-  std::string robots, reasons, last;
-  int count = 0;
+  std::string robots, reasons, first;
+  std::set<std::array<std::uint8_t, 16>> identities;
   for (const robot::FoundPort& found :
        robot::find_robots(robot::candidate_ports(), std::chrono::milliseconds(500), baud)) {
     if (found.robot) {
-      robots += fmt::format("{}{} ({})", count++ == 0 ? "" : ", ", found.port.address,
+      if (first.empty()) first = found.port.address;
+      robots += fmt::format("{}{} ({})", identities.empty() ? "" : ", ", found.port.address,
                             found.robot->robot_name.view());
-      last = found.port.address;
+      identities.insert(found.robot->unique_id);
     } else {
       reasons += (reasons.empty() ? "" : "; ") + in_words(found.reason);
     }
   }
-  if (count == 1) return last;
-  if (count > 1) throw Error("several robots are here, say with --port which one: " + robots);
+  if (identities.size() == 1) return first;
+  if (identities.size() > 1) throw Error("several robots are here, say with --port which one: " + robots);
   if (!reasons.empty()) throw Error("no robot was found: " + reasons);
   throw Error(
       "no robot was found: plug one in, start one with 'astrolabe sim', or name its port with --port");

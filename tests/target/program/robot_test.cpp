@@ -1,6 +1,7 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <termios.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -133,6 +134,30 @@ TEST(EmulatorProgram, AStopThroughTheOtherCableEndsADriveByVelocity) {
 
 TEST(EmulatorProgram, AStopThroughTheSameCableEndsADriveByVelocity) {
   expect_that_a_stop_ends_a_velocity("usb", "usb");
+}
+
+// Whoever has to stop a robot does not look up the names of its ports.
+TEST(EmulatorProgram, AStopWithoutAPortFindsTheOneRobotAtItsTwoCables) {
+  namespace fs = std::filesystem;
+  const EmulatorProgram emulator;
+  const fs::path here = emulator.folder() / "here", folder = here / ("astrolabe-" + std::to_string(getuid()));
+  fs::create_directories(folder);
+  fs::permissions(folder, fs::perms::owner_all);
+  fs::create_symlink(emulator.usb(), folder / "usb.pty");
+  fs::create_symlink(emulator.serial(), folder / "serial.pty");
+  ASSERT_EQ(astrolabe({"params", "set", "command_timeout=0", "--yes", "--port", emulator.usb()}).code, 0);
+  support::Program drive(
+      {ASTROLABE_PROGRAM, "drive", "velocity", "0.5", "0", "--for", "80000", "--port", emulator.serial()});
+  const auto mode = [&] {
+    const Outcome info = astrolabe({"info", "--port", emulator.usb(), "--json"});
+    return info.code == 0 ? support::parse_json(info.out)["mode"].get<std::string>() : info.err;
+  };
+  ASSERT_TRUE(support::eventually([&] { return mode() == "velocity"; }));
+  support::Program stop({"/usr/bin/env", "XDG_RUNTIME_DIR=" + here.string(), ASTROLABE_PROGRAM, "stop"});
+  EXPECT_EQ(stop.wait(), 0) << stop.err();
+  EXPECT_THAT(stop.err(), HasSubstr("the robot is at rest and disarmed"));
+  EXPECT_EQ(drive.wait(), 1);
+  EXPECT_EQ(mode(), "disarmed");
 }
 
 TEST(EmulatorProgram, PausedAndResumedFromTheOtherPortADriveEndsWhereItShould) {
