@@ -10,7 +10,6 @@ option(ASTROLABE_SANITIZE "AddressSanitizer and UBSan, any finding ends the prog
 option(ASTROLABE_SANITIZE_ALL "with the sanitizers: also the tests that `./dev check` leaves to `./dev fuzz`" OFF)
 option(ASTROLABE_FUZZ "libFuzzer targets instead of tests; needs clang" OFF)
 option(ASTROLABE_COVERAGE "gcov instrumentation" OFF)
-set(ASTROLABE_UNITY 8 CACHE STRING "how many source files of a host build are compiled at a time; 1: each alone")
 
 add_library(astro_compile INTERFACE)
 target_include_directories(astro_compile INTERFACE ${CMAKE_SOURCE_DIR})
@@ -38,22 +37,12 @@ if(ASTROLABE_SANITIZE)
   target_compile_definitions(astro_compile INTERFACE ASTRO_SANITIZE)
   target_link_options(astro_compile INTERFACE -fsanitize=address,undefined)
 endif()
-if(ASTROLABE_TARGET STREQUAL host AND ASTROLABE_UNITY GREATER 1)
-  # Most of what a file costs to compile is what its neighbours include and instantiate, too.
-  set(CMAKE_UNITY_BUILD ON)
-  set(CMAKE_UNITY_BUILD_BATCH_SIZE ${ASTROLABE_UNITY})
-endif()
 if(ASTROLABE_FUZZ)
   # GCC's warnings are the ones that count; clang has others. Coverage counters in everything, libFuzzer's main in the targets only.
   target_compile_options(astro_compile INTERFACE -w
     -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -O1 -g1)
   target_link_options(astro_compile INTERFACE -fsanitize=address,undefined)
 endif()
-# astro_alone(files...): compiled each alone, because a name in them also stands, with another meaning, in another file of
-# the target.
-function(astro_alone)
-  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-endfunction()
 # For code that only the desk runs. The checks of pointers for null, alignment, size and overflow cost a third of its
 # compilation and half of its run time, because they keep small functions from being inlined, and there AddressSanitizer finds
 # every invalid access. What the robot runs has all checks.
