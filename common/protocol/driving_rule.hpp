@@ -22,7 +22,7 @@ namespace astro::protocol {
 ///                  the same. Nobody resumes the path of a driver that has gone.
 ///
 /// A program that arms several times, one run after another, must hear of a stop that came between two of its runs: it asks
-/// for the status first (Status::stopped_by_another).
+/// for the status before each Arm (Status::stops_by_others), and an Arm of a host that has not asked since is refused.
 ///
 /// A fault needs no row, because it takes an Arm to drive after one.
 ///
@@ -34,8 +34,6 @@ class DrivingRule {
   bool drives(const Host& host) const { return driver_ == host; }
   /// Somebody has stopped the robot since its driver armed it.
   bool stopped() const { return stopped_; }
-  /// Somebody else than the driver has, perhaps after the driver's own stop.
-  bool stopped_by_another() const { return driver_ && stopped_by_another_; }
 
   /// Whether this request of this host may be carried out. True for all that do not move the robot.
   bool permits(const Host& from, std::uint8_t message) const {
@@ -58,13 +56,12 @@ class DrivingRule {
     switch (message) {
       case Arm::kId:
         driver_ = from;
-        stopped_ = stopped_by_another_ = paused_ = paused_by_other_ = false;
+        stopped_ = paused_ = paused_by_other_ = false;
         return;
       case Stop::kId:
       case Disarm::kId:
       case EmergencyStop::kId:
         stopped_ = true;
-        stopped_by_another_ = stopped_by_another_ || !drives(from);
         return;
       case Pause::kId:
         paused_ = true;
@@ -83,7 +80,7 @@ class DrivingRule {
 
  private:
   std::optional<Host> driver_;
-  bool stopped_ = false, stopped_by_another_ = false;
+  bool stopped_ = false;
   bool paused_ = false, paused_by_other_ = false;
 };
 

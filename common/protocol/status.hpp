@@ -24,7 +24,7 @@ struct Status {
   std::uint32_t tick_longest_us = 0;
   std::uint32_t rx_bad_frames = 0;
   ResetCause reset_cause{};
-  std::uint8_t stopped_by_another = 0;
+  std::uint16_t stops_by_others = 0;
 
   static constexpr std::uint8_t kId = 0x83;
   static constexpr std::string_view kName = "Status";
@@ -41,8 +41,9 @@ struct Status {
       Field{&Status::tick_longest_us, "tick_longest_us", "us", "longest time between two ticks since start"},
       Field{&Status::rx_bad_frames, "rx_bad_frames", "frames", "damaged frames at all ports"},
       Field{&Status::reset_cause, "reset_cause", "", "why the processor last started"},
-      Field{&Status::stopped_by_another, "stopped_by_another", "",
-            "1 if another host stopped or disarmed the robot since the host that asks armed it"},
+      Field{&Status::stops_by_others, "stops_by_others", "",
+            "Stop, Disarm and EmergencyStop of hosts at other ports, without those of a driver that ends its "
+            "own drive; wraps"},
   };
   bool operator==(const Status&) const = default;
 };

@@ -51,6 +51,7 @@ enum class Help : std::uint8_t {
   update_both,
   end_program,
   end_some_programs,
+  start_again,
   await_or_end_program,
   await_or_kill_program,  // {process id}
   list_parameters,

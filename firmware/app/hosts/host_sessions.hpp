@@ -60,12 +60,20 @@ class HostSessions {
   }
 
   Session& session(int port) { return sessions_[port]; }
-  bool drives(const HostId& host) const { return rule_.drives(host); }
-  /// Somebody else has stopped the robot since a program at this host's port armed it. Programs at one port are one host, which
-  /// is an onlooker while it does not drive.
-  bool stopped_by_another(const HostId& host) const {
-    return rule_.stopped_by_another() && rule_.driver()->port == host.port;
+  /// A program has opened the port, so the one that had it before is gone. Returns whether that one drove.
+  bool end_drive(int port) {
+    sessions_[port].stops_unread = false;
+    const bool drove = rule_.driver() && rule_.driver()->port == port;
+    if (drove) rule_.end();
+    return drove;
   }
+  bool drives(const HostId& host) const { return rule_.drives(host); }
+  /// For the status that this host gets.
+  std::uint16_t read_stops(const HostId& host) {
+    sessions_[host.port].stops_unread = false;
+    return sessions_[host.port].stops_by_others;
+  }
+  bool has_unread_stops(const HostId& host) const { return sessions_[host.port].stops_unread; }
   bool permits(const HostId& host, std::uint8_t message) const { return rule_.permits(host, message); }
 
   /// Frames that were damaged, of all ports.
@@ -97,6 +105,7 @@ class HostSessions {
       const auto request = protocol::decode<M>(body);
       if (request) {
         const auto reply = handler.handle(host, *request);
+        if (reply) note_stop(host, header.message_id);
         if (reply) rule_.note(host, header.message_id);
         respond(port, header, reply);
       } else {
@@ -106,14 +115,22 @@ class HostSessions {
     if (!known) respond(port, header, protocol::Answer<protocol::Ack>({ErrorCode::unknown_message}));
   }
 
-  /// A request of the driver is a sign of life that keeps its drive going; none of an onlooker or at another port is. A
-  /// Hello at the driver's port means that a new program has opened the port, so the one that drove is gone.
+  /// A request of the driver is a sign of life that keeps its drive going; none of an onlooker or at another port is.
   void note_arrival(const HostId& host, std::uint8_t message) {
-    if (message == protocol::Hello::kId) {
-      if (!host.onlooker && rule_.driver() && rule_.driver()->port == host.port) rule_.end();
-    } else if (rule_.drives(host)) {
-      const auto hold = board_.hold_tick();
-      state_.get(hold).drive.host_seen();
+    if (message == protocol::Hello::kId || !rule_.drives(host)) return;
+    const auto hold = board_.hold_tick();
+    state_.get(hold).drive.host_seen();
+  }
+
+  /// Who ends its own drive stops nobody else's, and what programs at one port do to each other is known there.
+  void note_stop(const HostId& host, std::uint8_t message) {
+    const bool stops = message == protocol::Stop::kId || message == protocol::Disarm::kId ||
+                       message == protocol::EmergencyStop::kId;
+    if (!stops || rule_.drives(host)) return;
+    for (Session& each : sessions_) {
+      if (&each == &sessions_[host.port]) continue;
+      ++each.stops_by_others;
+      each.stops_unread = true;
     }
   }
 

@@ -23,10 +23,18 @@ class MotionRequests {
                  const HostSessions<Board>& sessions, const Restart<Board>& restart)
       : board_(board), state_(state), parameters_(parameters), sessions_(sessions), restart_(restart) {}
 
+  /// Ramps to rest and empties the queue.
+  void stop() {
+    end_waiting_segments();
+    ramp_to_rest();
+  }
+
   /// The host that arms drives from then on, so nobody can arm while a drive of another host is under way or
   /// waits.
+  /// Of a host that may not know yet that another has stopped the robot it is refused: it might be the next of many runs.
   Answer handle(const HostId& host, const protocol::Arm&) {
     if (restart_.scheduled()) return error(ErrorCode::busy);
+    if (sessions_.has_unread_stops(host)) return error(ErrorCode::not_armed);
     const auto hold = board_.hold_tick();
     Drive& drive = state_.get(hold).drive;
     if (!sessions_.drives(host) && (drive.state() == State::driving || drive.queued() != 0))
@@ -131,10 +139,6 @@ class MotionRequests {
  private:
   using ErrorCode = protocol::ErrorCode;
 
-  void stop() {
-    end_waiting_segments();
-    ramp_to_rest();
-  }
   [[gnu::noinline]] void ramp_to_rest() {
     TwistRamp ramp = begun_ramp_to_rest();
     ramp.set_target({});

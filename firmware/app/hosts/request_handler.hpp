@@ -48,6 +48,8 @@ class RequestHandler {
   Answer<Ack> handle(const HostId& host, const M& request) { return motion_.handle(host, request); }
 
   [[gnu::cold]] Answer<protocol::HelloReply> handle(const HostId& host, const protocol::Hello& request) {
+    // The program that drove has gone, and with a time-out of zero nothing else would stop the robot.
+    if (!host.onlooker && sessions_.end_drive(host.port)) motion_.stop();
     if (request.protocol_version != protocol::kProtocolVersion)
       return error(ErrorCode::wrong_version, protocol::kProtocolVersion);
     if (!host.onlooker) begin_session(host.port);
@@ -67,7 +69,7 @@ class RequestHandler {
 
   Answer<protocol::Status> handle(const HostId& host, const protocol::GetStatus&) {
     const std::uint32_t bad_frames = sessions_.bad_frames();
-    const bool stopped_by_another = sessions_.stopped_by_another(host);
+    const std::uint16_t stops_by_others = sessions_.read_stops(host);
     const auto hold = board_.hold_tick();
     const TickState& state = state_.get(hold);
     return protocol::Status{.device_time_us = board_.clock().now_us(),
@@ -81,7 +83,7 @@ class RequestHandler {
                             .tick_longest_us = state.clock.longest_us(),
                             .rx_bad_frames = bad_frames,
                             .reset_cause = on_the_wire(board_.system().reset_cause()),
-                            .stopped_by_another = stopped_by_another ? std::uint8_t{1} : std::uint8_t{0}};
+                            .stops_by_others = stops_by_others};
   }
 
   Answer<protocol::ParameterInfo> handle(const HostId&, const protocol::GetParameterInfo& request) {

@@ -20,6 +20,9 @@ struct Session {
   std::uint64_t telemetry_due_us = 0;
   std::uint32_t telemetry_fields = 0;
 
+  std::uint16_t stops_by_others = 0;  // hosts at other ports have stopped the robot so often
+  bool stops_unread = false;          // and at least once since a host at this port asked for the status
+
   bool telemetry_due(std::uint64_t now_us) const {
     return telemetry_period_us != 0 && now_us >= telemetry_due_us;
   }

@@ -53,6 +53,7 @@ constexpr Sentence kSentences[] = {
     {Help::update_both, "; update both"},
     {Help::end_program, ": end that program first"},
     {Help::end_some_programs, ": end some of them"},
+    {Help::start_again, ": once it may drive, start this command again"},
     {Help::await_or_end_program, ": let it go on, or end it"},
     {Help::await_or_kill_program, ": let it go on, or end it with 'kill -9 {}'"},
     {Help::list_parameters, ": 'astrolabe params list' shows those it has"},

@@ -184,6 +184,7 @@ class Session {
       try {
         return record_run(client_, truth_, path, info, hooks);
       } catch (const Interrupted&) {
+        if (on_its_way) hooks_.run.notice(broken_off);
         throw;
       } catch (const robot::LinkLost& lost) {
         if (hooks_.run.interrupted()) throw;

@@ -16,7 +16,7 @@ namespace astro::robot {
 ///        busy.
 /// End    it disarms the robot, says Hello or disconnects, or a fault is raised. Once it was stopped, by whomever, the next
 ///        program that arms the robot takes its place.
-/// Gone   the robot is stopped if its driver disconnects or says Hello (RequestArbiter).
+/// Gone   the robot is stopped for a driver that disconnects or says Hello (RequestArbiter).
 /// Stop   a driver that was stopped gets not_armed for whatever would move the robot, until it arms the robot again.
 class DriverRule {
  public:
@@ -24,10 +24,14 @@ class DriverRule {
   bool drives(SessionId id) const { return driver_ == id; }
   /// The driver, once the robot has accepted its Arm and until somebody stops it.
   std::optional<SessionId> confirmed_driver() const;
-  /// The program that stopped the robot since this one armed it, during its drive or after; null if none has.
+  /// The program that stopped the robot since this one armed it or connected; null if none has.
   const PortUser* stopper_of(SessionId id) const;
-  /// This program has asked to drive since it connected.
-  bool has_driven(SessionId id) const { return stoppers_.contains(id); }
+  /// How often others have stopped the robot, for the status that this program gets: `at_robot` is the robot's own count for this
+  /// port, to which all programs here are one.
+  std::uint16_t tell_stops(SessionId id, std::uint16_t at_robot);
+  /// It drives, and no stop at this port has ended that for certain: what happens at the robot's other port shows only in what
+  /// the robot refuses, and a pause there looks like a stop.
+  bool may_move(SessionId id) const { return drives(id) && !(confirmed_ && certainly_stopped_); }
 
   /// Why the request must not go to the robot; nothing if it may.
   std::optional<protocol::ErrorReply> refusal(SessionId id, std::uint8_t message) const;
@@ -41,18 +45,30 @@ class DriverRule {
   void note_answer(SessionId id, std::uint8_t request, std::optional<protocol::ErrorCode> refused);
   /// Nobody drives any more.
   void end_drive();
-  /// This program begins anew, or has disconnected: it does not drive any more.
+  void join(SessionId id) { stops_.try_emplace(id); }
+  /// This program begins anew, or will: it does not drive any more.
   void release(SessionId id);
-  /// The robot has restarted.
-  void clear();
+  /// The program has disconnected.
+  void remove(SessionId id);
 
  private:
   void note_answer_to_arm(SessionId id, bool accepted);
 
   protocol::DrivingRule<SessionId> rule_;
   std::optional<SessionId> driver_;  // from when it asks for it, the rule's from when the robot has agreed
+  std::optional<SessionId> last_;    // who has armed the robot last: it may stop what nobody else drives
   bool confirmed_ = false;           // the robot has agreed
-  std::map<SessionId, std::optional<PortUser>> stoppers_;  // of those who have asked to drive
+  bool certainly_stopped_ = false;   // the robot has carried out a stop since
+  /// What a program knows of the stops of others.
+  struct Stops {
+    std::optional<PortUser> by;
+    std::uint16_t own = 0;  // of all
+    std::optional<std::uint16_t> told;
+  };
+  std::uint16_t stops_of_others(SessionId id) const;
+
+  std::map<SessionId, Stops> stops_;  // of all programs
+  std::uint16_t all_stops_ = 0, stops_at_robot_ = 0;
 };
 
 }  // namespace astro::robot

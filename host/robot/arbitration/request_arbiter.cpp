@@ -13,8 +13,6 @@ using std::chrono::milliseconds;
 
 namespace {
 
-// The relay itself: what stops the robot for a driver that has gone, and what asks for telemetry.
-constexpr SessionId kGuard = -1, kSelf = 0;
 constexpr microseconds kRepeat = milliseconds(60);  // of the relay's own requests
 
 /// After this time the program itself has given up: a Client tries for one second, and for four at a commit.
@@ -29,12 +27,14 @@ RequestArbiter::RequestArbiter() {
   join(kSelf, {});
 }
 
-void RequestArbiter::join(SessionId id, PortUser user) { sessions_.try_emplace(id, id, std::move(user)); }
+void RequestArbiter::join(SessionId id, PortUser user) {
+  driver_.join(id);
+  sessions_.try_emplace(id, id, std::move(user));
+}
 
 void RequestArbiter::release(SessionId id) {
   sessions_.at(id).forget();
-  // Also if it seems to be stopped: what happens at the robot's other port is not known here.
-  drive_left_ = drive_left_ || driver_.drives(id);
+  drive_left_ = drive_left_ || driver_.may_move(id);
   driver_.release(id);
   staging_.release(id);
   turns_.end(id);
@@ -43,6 +43,7 @@ void RequestArbiter::release(SessionId id) {
 
 void RequestArbiter::leave(SessionId id) {
   release(id);
+  driver_.remove(id);
   sessions_.erase(id);
 }
 
@@ -63,11 +64,12 @@ bool RequestArbiter::repeats(SessionId id, const Header& request) const {
 }
 
 void RequestArbiter::take(SessionId id, ByteView body, microseconds now) {
-  stop_left_drive(now);
+  stop_for_gone_driver(now);
   ProgramSession& session = sessions_.at(id);
   const Header header = *peek(body);  // a framer's body always has a header
   if (header.message_id == Ping::kId) return send(session, session.ping(header, body), now);
   if (session.has_answered(header)) return replies_.push_back({id, session.answer()});
+  if (header.message_id == Arm::kId && owes_stop()) return;  // the program repeats it
   if (answer_here(session, header, body)) return;
   if (const auto refused = driver_.refusal(id, header.message_id))
     return reply_with(session, header, *refused);
@@ -80,11 +82,11 @@ void RequestArbiter::take(SessionId id, ByteView body, microseconds now) {
 }
 
 /// Before anything else is sent, so that it does not stop the next driver.
-void RequestArbiter::stop_left_drive(microseconds now) {
+void RequestArbiter::stop_for_gone_driver(microseconds now) {
   if (!std::exchange(drive_left_, false)) return;
-  last_stop_ = static_cast<std::uint16_t>(last_stop_ == 0xFFFF ? 1 : last_stop_ + 1);
-  const Header header{Stop::kId, last_stop_};
-  Exchange& exchange = sessions_.at(kGuard).begin(Exchange(header, body_of(Stop{}, last_stop_)));
+  constexpr std::uint16_t kId = 1;  // the robot gets one of the queue's
+  cancel_motion(kGuard, Stop::kId);
+  Exchange& exchange = sessions_.at(kGuard).begin(Exchange({Stop::kId, kId}, body_of(Stop{}, kId)));
   to_robot_.send(exchange, true, now);  // in the driver's name: to the robot it is no stop by another
 }
 
@@ -152,8 +154,7 @@ void RequestArbiter::begin(ProgramSession& session, Exchange exchange, microseco
 }
 
 /// The first Hello goes to the robot, where it ends the session of an earlier program; so does one after
-/// which the robot's answer may differ. All others are answered here, because they would end the driver's
-/// session.
+/// which the robot's answer may differ, as an onlooker's, which ends none. All others are answered here.
 void RequestArbiter::take_hello(ProgramSession& session, Exchange exchange, microseconds now) {
   const auto hello = decode<Hello>(exchange.body);
   const Header header = exchange.header;
@@ -161,7 +162,7 @@ void RequestArbiter::take_hello(ProgramSession& session, Exchange exchange, micr
   release(session.id());
   if (!hello_) {
     Exchange& current = session.begin(std::move(exchange));
-    if (driver_.driver()) return turns_.wait(session.id());
+    if (driver_.driver() || greeted_) return turns_.wait(session.id());
     to_robot_.send(current, true, now);  // with a driver's id, which shows that nobody drives
   } else if (hello->protocol_version != hello_->protocol_version) {
     reply_with(session, header, ErrorReply{ErrorCode::wrong_version, hello_->protocol_version});
@@ -218,7 +219,7 @@ void RequestArbiter::take_answer(ByteView body, microseconds now) {
 }
 
 /// To the robot all programs at this port are one, so what it says to one may be meant for another.
-Bytes RequestArbiter::for_program(const ProgramSession& session, const Header& asked, ByteView body) const {
+Bytes RequestArbiter::for_program(const ProgramSession& session, const Header& asked, ByteView body) {
   Bytes answer = with_request_id(body, asked.request_id);
   if (asked.message_id == GetParameter::kId && staging_.hides_from(session.id()))
     return without_staged(answer);
@@ -226,9 +227,7 @@ Bytes RequestArbiter::for_program(const ProgramSession& session, const Header& a
   const auto status = decode<Status>(answer);
   if (!status.ok()) return answer;
   Status own = *status;
-  const bool stopped = driver_.stopper_of(session.id()) != nullptr ||
-                       (own.stopped_by_another != 0 && driver_.has_driven(session.id()));
-  own.stopped_by_another = stopped ? 1 : 0;
+  own.stops_by_others = driver_.tell_stops(session.id(), own.stops_by_others);
   return body_of(own, asked.request_id);
 }
 
@@ -239,12 +238,12 @@ void RequestArbiter::note_answer(const ProgramSession& session, std::uint8_t req
     refused = error.ok() ? error->code : ErrorCode::malformed;
   }
   driver_.note_answer(session.id(), request, refused);
-  if (request == Arm::kId && !refused) sessions_.at(kGuard).end();   // or it would stop the new driver
   if (request == CommitParameters::kId && !refused) hello_.reset();  // the robot's name may have changed
   if (request != Hello::kId) return;
   const auto hello = decode<HelloReply>(body);
   if (!hello.ok()) return;
   hello_ = *hello;
+  greeted_ = true;
   telemetry_.renew();  // a Hello ends the telemetry of its port
 }
 
@@ -256,7 +255,8 @@ void RequestArbiter::take_event(ByteView body) {
 /// After a restart the robot has forgotten all of this.
 void RequestArbiter::note_restart() {
   hello_.reset();
-  driver_.clear();
+  greeted_ = false;
+  driver_.end_drive();
   staging_.clear();
   telemetry_.clear();
   turns_.clear();
@@ -264,7 +264,7 @@ void RequestArbiter::note_restart() {
 }
 
 void RequestArbiter::tick(microseconds now) {
-  stop_left_drive(now);
+  stop_for_gone_driver(now);
   if (auto request = telemetry_.next_request()) begin(sessions_.at(kSelf), std::move(*request), now);
   for (const SessionId id : {kGuard, kSelf}) {
     const Exchange* own = sessions_.at(id).current();

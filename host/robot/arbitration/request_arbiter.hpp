@@ -27,13 +27,14 @@ struct Reply {
 ///            program that asked (exchange.hpp, robot_queue.hpp).
 /// Driver     one program at a time drives; the others are refused as busy (driver_rule.hpp). Requests of
 ///            programs that do not drive take turns (turns.hpp).
-/// Gone       a driver that disconnects, or says Hello, without having disarmed the robot leaves nobody who would: the relay does.
+/// Gone       a driver that disconnects, or says Hello, and may move the robot leaves nobody who would stop it: the relay does.
+///            Until the robot has said that it stops, nobody else's Arm goes to it.
 /// Halt       Stop, EmergencyStop, Disarm and Pause never wait. Requests for motion that other programs sent
 ///            before, and that wait or have no answer yet, end as refused: the robot does not get them later.
 /// Hello      answered from the robot's last HelloReply, because a Hello ends a session at the robot.
 /// Telemetry  the robot sends one stream that serves all (telemetry_stream.hpp). Its setting and that Stop are the only
 ///            requests of the relay itself, and the only ones that it repeats until the robot answers.
-/// Status     of a program that has driven: whether another has stopped the robot since, at this port or at another.
+/// Status     its count of the stops of others is that of the program that asks: those at this port are known here alone.
 /// Parameters if two programs change them at the same time, the one whose staged values are gone is refused as
 ///            staging_lost (staging_area.hpp).
 class RequestArbiter {
@@ -56,6 +57,8 @@ class RequestArbiter {
   /// Must be called at next_tick(); may be called at any time.
   void tick(microseconds now);
   std::optional<microseconds> next_tick() const;
+  /// A driver has gone, and the robot has not yet said that it stops.
+  bool owes_stop() const { return drive_left_ || sessions_.at(kGuard).current() != nullptr; }
 
   /// The replies since the last call.
   std::vector<Reply> take_replies() { return std::exchange(replies_, {}); }
@@ -69,14 +72,16 @@ class RequestArbiter {
 
  private:
   using Header = protocol::Header;
+  // The relay itself: what stops the robot for a driver that has gone, and what asks for telemetry.
+  static constexpr SessionId kGuard = -1, kSelf = 0;
 
   void reply(ProgramSession& session, const Header& request, ByteView body);
   template <protocol::Message M>
   void reply_with(ProgramSession& session, const Header& request, const M& message);
   bool answer_here(ProgramSession& session, const Header& header, ByteView body);
   PortUsers users_for(SessionId session) const;
-  void stop_left_drive(microseconds now);
-  Bytes for_program(const ProgramSession& session, const Header& asked, ByteView body) const;
+  void stop_for_gone_driver(microseconds now);
+  Bytes for_program(const ProgramSession& session, const Header& asked, ByteView body);
   void take_telemetry(ProgramSession& session, const Header& header, ByteView body);
   void take_hello(ProgramSession& session, Exchange exchange, microseconds now);
   void begin(ProgramSession& session, Exchange exchange, microseconds now);
@@ -97,7 +102,7 @@ class RequestArbiter {
   TelemetryStream telemetry_;
   StagingArea staging_;
   bool drive_left_ = false;  // by a driver that has gone
-  std::uint16_t last_stop_ = 0;
+  bool greeted_ = false;     // the robot, since it started
 };
 
 }  // namespace astro::robot

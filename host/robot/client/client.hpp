@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -7,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "common/protocol/frame.hpp"
@@ -72,6 +74,13 @@ class Client {
     return std::get<Listeners<M>>(listeners_).add(std::move(callback));
   }
 
+  /// Whether another host or program has stopped the robot since this was asked before; not the first time. Whoever drives
+  /// several times asks before each: a stop that came in between was meant for the next drive, too. Survives reconnect().
+  bool learns_of_stop(const protocol::Status& status) {
+    const auto before = std::exchange(stops_known_, status.stops_by_others);
+    return before && *before != status.stops_by_others;
+  }
+
   microseconds now() const { return transport_.now(); }
   const std::string& name() const { return transport_.name(); }
   /// Newest time of the robot's clock in any message; 0 before the first.
@@ -132,8 +141,9 @@ class Client {
   std::optional<Sent> ping_;         // under way
   int lost_pings_ = 0;               // in a row
   microseconds last_sent_{}, last_ping_{};
-  std::uint64_t device_us_ = 0;           // newest seen
-  std::uint64_t answered_device_us_ = 0;  // newest seen when the last answer came
+  std::uint64_t device_us_ = 0;               // newest seen
+  std::uint64_t answered_device_us_ = 0;      // newest seen when the last answer came
+  std::optional<std::uint16_t> stops_known_;  // Status::stops_by_others
   bool connecting_ = false;
   bool echo_ = false;  // the line sends back what we send
 };

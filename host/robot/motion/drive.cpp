@@ -42,8 +42,8 @@ Fault first_fault(std::uint32_t mask) {
 DriveSession::DriveSession(Client& client, DriveHooks hooks) : client_(client), hooks_(std::move(hooks)) {
   on_done_ = client_.on<SegmentDone>([this](const SegmentDone& done) {
     done_ = std::max(done_, done.tag);
-    if (done.outcome == SegmentOutcome::aborted) aborted_ = done.tag;
-    hooks_.segment_done(done);
+    if (done.outcome != SegmentOutcome::aborted) return hooks_.segment_done(done);
+    if (aborted_ == 0) aborted_ = done.tag;  // those that waited behind it follow
   });
   on_fault_ = client_.on<FaultRaised>([this](const FaultRaised& raised) {
     if (!fault_) fault_ = raised.fault;
@@ -94,13 +94,22 @@ void DriveSession::rest_and_disarm() {
   client_.request(Disarm{});
 }
 
+/// A stop that came between two drives of this program was meant for the next one, too.
+Status DriveSession::status_unless_stopped() {
+  const Status status = client_.request(GetStatus{});
+  if (!client_.learns_of_stop(status)) return status;
+  const PortUsers users = port_users(client_);
+  throw Error(another_program(users.stopper_pid, users.stopper_command) +
+                  " has stopped the robot since this one drove it last",
+              {Help::start_again});
+}
+
 /// A program that was killed leaves an armed robot behind; the robot notices it by its time-out.
 void DriveSession::wait_until_free() {
   const microseconds deadline = client_.now() + kTimeToNotice;
   while (true) {
-    const Status status = client_.request(GetStatus{});
-    if (status.stopped_by_another != 0) fail_ended("the robot does not drive on", "stopped");
-    if (status.mode == Mode::disarmed || status.mode == Mode::fault) return;
+    const Mode mode = status_unless_stopped().mode;
+    if (mode == Mode::disarmed || mode == Mode::fault) return;
     if (client_.now() >= deadline) fail_busy();
     client_.pump(kRestPoll);
   }
@@ -118,6 +127,7 @@ void DriveSession::arm() {
     hooks_.notice({"cleared " + fault_names(report.latched) + ", which an earlier drive left behind"});
   }
   fault_.reset();
+  status_unless_stopped();  // the last thing before
   command(Arm{});
 }
 
@@ -232,6 +242,7 @@ void DriveSession::fail_busy() {
 
 /// The reason may arrive after the end: after a fault the robot reports the aborted segment first.
 void DriveSession::fail_ended(const std::string& what, const std::string& done_to_robot) {
+  client_.learns_of_stop(client_.request(GetStatus{}));  // whoever goes on after this does so on purpose
   const FaultReport report = client_.request(GetFaults{});
   if (report.latched != 0) fail(report.first != Fault::none ? report.first : first_fault(report.latched));
   const PortUsers users = port_users(client_);

@@ -43,7 +43,7 @@ struct DriveHooks {
   std::function<bool()> interrupted = [] { return false; };
   /// Sentences worth showing that are not errors.
   std::function<void(const Remark&)> notice = [](const Remark&) {};
-  /// Each segment that ended; tags count from 1 in the order of the run.
+  /// Each segment that was driven to its end; tags count from 1 in the order of the run.
   std::function<void(const protocol::SegmentDone&)> segment_done = [](const protocol::SegmentDone&) {};
 };
 
@@ -87,6 +87,7 @@ class DriveSession {
   void end();
 
  private:
+  protocol::Status status_unless_stopped();
   void wait_until_free();
   void arm();
   bool add(const protocol::AddSegment& segment);

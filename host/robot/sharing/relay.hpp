@@ -42,6 +42,8 @@ class Relay {
   void close_all(FarewellReason reason);
 
   std::optional<SessionId> driver() const { return requests_.driver(); }
+  /// A driver has gone, and the robot has not yet said that it stops.
+  bool owes_stop() const { return requests_.owes_stop(); }
 
  private:
   RelaySession* find(SessionId id);

@@ -26,6 +26,8 @@ constexpr microseconds kLineTimeout =
     milliseconds(1000);  // time after which a line that takes no bytes is lost
 constexpr microseconds kFarewellTimeout =
     milliseconds(2000);  // for a program that does not read its Farewell
+constexpr microseconds kStopTimeout =
+    milliseconds(3000);  // for a robot that does not say that it stops for a driver that has gone
 constexpr microseconds kDescriptorRetry = milliseconds(100);
 
 microseconds steady_now() {
@@ -233,7 +235,12 @@ void RelayServer::serve_in_background() {
   if (shared_.listener)
     ::listen(shared_.listener.get(), kBacklog);  // again, so that SO_PEERCRED names this process
   stop_ = false;
-  while (guests_ > 0 && !lost_) turn();
+  microseconds last_guest = steady_now();
+  const auto stops = [&] { return relay_.owes_stop() && steady_now() - last_guest < kStopTimeout; };
+  while ((guests_ > 0 || stops()) && !lost_) {
+    turn();
+    if (guests_ > 0) last_guest = steady_now();
+  }
   ::_exit(0);
 }
 

@@ -30,6 +30,9 @@ class ContinuousOdometry {
   /// has yet to be told its last pose.
   bool take(RobotSession& session, const protocol::Telemetry& telemetry);
 
+  /// No robot has yet to be told its last pose, which it takes only at rest.
+  bool is_settled() const { return !restoring_ && !(first_ && pose_); }
+
   /// Of the newest sample that was taken.
   const recording::OdometrySample& sample() const { return sample_; }
   const OdometryTrack& track() const { return track_; }

@@ -37,7 +37,10 @@ Driver::Driver(std::vector<Middleware*> middlewares, OpenPort open, DriverOption
       link_(std::move(open), options_.clock, period_ms(options_.rate_hz)),
       driving_(options_.cmd_vel_timeout, options_.velocities_after_stop),
       odometry_(options_.errors),
-      parameters_([this] { return known_session(); }, [this] { return driving_.armed(); }, own_parameters(),
+      parameters_([this] { return link_.session(); }, [this] { return driving_.armed(); }, own_parameters(),
+                  [this] {
+                    for (Middleware* each : middlewares_) each->poll_urgent();
+                  },
                   [this](RobotSession& session) {
                     odometry_.note_parameters(session);
                     describe_robot(session);
@@ -118,11 +121,6 @@ void Driver::begin(RobotSession& session) {
     options_.notice("the robot drove, and no program here drives it: it was stopped");
 }
 
-RobotSession* Driver::known_session() {
-  RobotSession* session = link_.session();
-  return session != nullptr && session->knows_parameters() ? session : nullptr;
-}
-
 /// Reads some of the parameters that are not known, or that somebody wants to know anew. False if there was nothing to read.
 bool Driver::read_on(RobotSession& session) {
   const microseconds most = driving_.armed() ? kTick : kShareOfTable;
@@ -151,7 +149,9 @@ void Driver::describe_robot(RobotSession& session) {
 
 void Driver::attend(RobotSession& session, microseconds most) {
   driving_.step(session, utc_.steady());
-  session.pump(read_on(session) ? microseconds::zero() : most);
+  const bool reads = read_on(session);
+  if (link_.session() != &session) return;  // lost while its parameters were set
+  session.pump(reads ? microseconds::zero() : most);
   if (session.restarted()) throw robot::LinkLost("the robot has restarted");
   if (session.take_fault()) driving_.release();
   while (const auto telemetry = session.take_sample()) take(session, *telemetry);

@@ -75,7 +75,6 @@ class Driver {
   void begin(RobotSession& session);
   void begin_odometry(RobotSession& session);
   bool read_on(RobotSession& session);
-  RobotSession* known_session();
   void take(RobotSession& session, const protocol::Telemetry& telemetry);
   void publish(const protocol::Telemetry& telemetry, std::int64_t time_ns);
   void describe_robot(RobotSession& session);

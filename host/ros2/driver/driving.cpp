@@ -42,8 +42,7 @@ bool comes_to_rest(RobotSession& session) {
 
 /// To the robot all programs that have driven through one port are one host, so it lets this one take over a path that another
 /// has left behind.
-void require_free(RobotSession& session) {
-  const protocol::Status status = session.ask(protocol::GetStatus{});
+void require_free(RobotSession& session, const protocol::Status& status) {
   const bool drives = protocol::gives_power(status.mode) && status.mode != protocol::Mode::stopping;
   if (!drives && status.queued_segments == 0) return;  // what is left of a paused path waits in the queue
   const robot::PortUsers users = robot::port_users(session.client());
@@ -62,7 +61,9 @@ std::string why_not(RobotSession& session, const robot::RobotRefused& refused) {
 }  // namespace
 
 std::string Driving::arm(RobotSession& session) {
-  if (!armed_) require_free(session);
+  // Also for the robot, which takes an Arm only of a host that can know of all stops.
+  const protocol::Status status = session.ask(protocol::GetStatus{});
+  if (!armed_) require_free(session, status);
   const std::uint32_t latched = session.ask(protocol::GetFaults{}).latched;
   if ((latched & ~robot::kFaultsLeftBehind) != 0)
     throw robot::DriveFault(

@@ -17,7 +17,12 @@ Requests::Requests(std::span<Middleware* const> middlewares, const Names& names,
 }
 
 void Requests::serve_all() {
-  serve("arm", [this](RobotSession& session) { return robot_.driving.arm(session); });
+  serve("arm", [this](RobotSession& session) {
+    if (!session.knows_parameters() || !robot_.odometry.is_settled())
+      throw Error(
+          "the robot was found just now, and its parameters and its pose are not known yet: call again");
+    return robot_.driving.arm(session);
+  });
   serve("disarm", [this](RobotSession& session) { return robot_.driving.disarm(session), "disarmed"; });
   serve("stop", [this](RobotSession& session) { return robot_.driving.stop(session); });
   serve("emergency_stop", [this](RobotSession& session) {

@@ -157,20 +157,28 @@ std::vector<msg::ParameterDescriptor> RobotParameterTable::descriptors() {
     descriptor.read_only = !one.on_set;
     all.push_back(descriptor);
   }
-  if (RobotSession* session = session_())
+  if (RobotSession* session = known_session())
     for (const ParameterRow& row : session->parameters().rows()) all.push_back(describe(row));
   return all;
 }
 
+RobotSession* RobotParameterTable::known_session() {
+  RobotSession* session = session_();
+  return session != nullptr && session->knows_parameters() ? session : nullptr;
+}
+
 bool RobotParameterTable::is_fresh() {
   RobotSession* session = session_();
-  if (session == nullptr || busy_() || (!next_ && session->client().now() - read_at_ < kFresh)) return true;
+  if (session == nullptr) return true;
+  if (!session->knows_parameters()) return false;
+  if (busy_() || (!next_ && session->client().now() - read_at_ < kFresh)) return true;
   if (!next_) next_ = 0;
   return false;
 }
 
 bool RobotParameterTable::step(RobotSession& session, microseconds most) {
-  if (!next_ || busy_()) return false;
+  if (busy_()) next_.reset();  // what was read before a drive is old after it
+  if (!next_) return false;
   robot::RemoteParameters& robot = session.parameters();
   const microseconds until = session.client().now() + most;
   do {
@@ -191,7 +199,7 @@ void RobotParameterTable::note(RobotSession& session) {
 
 std::optional<msg::ParameterValue> RobotParameterTable::value(std::string_view name) {
   if (const OwnParameter* one = own(name)) return one->value;
-  RobotSession* session = session_();
+  RobotSession* session = known_session();
   if (session == nullptr) return std::nullopt;
   const ParameterRow* row = session->parameters().find(name);
   return row == nullptr ? std::nullopt : std::optional(value_of(*row));
@@ -215,8 +223,9 @@ msg::SetParametersResult RobotParameterTable::set(std::span<const msg::Parameter
 
 /// Puts them in force; "" if that was done.
 std::string RobotParameterTable::why_not_robots(std::span<const msg::Parameter> parameters) {
-  RobotSession* session = session_();
-  if (session == nullptr) return "there is no robot";
+  RobotSession* session = known_session();
+  if (session == nullptr)
+    return session_() == nullptr ? "there is no robot" : "the robot's parameters are still being read";
   try {
     put_in_force(*session, parameters);
     return "";
@@ -229,7 +238,7 @@ std::string RobotParameterTable::why_not_robots(std::span<const msg::Parameter> 
 }
 
 std::string RobotParameterTable::put_at_start(std::span<const msg::Parameter> parameters) {
-  RobotSession* session = session_();
+  RobotSession* session = known_session();
   if (session == nullptr) return "there is no robot";
   std::vector<msg::Parameter> fresh;
   try {
@@ -244,15 +253,29 @@ std::string RobotParameterTable::put_at_start(std::span<const msg::Parameter> pa
   return fresh.empty() ? "" : why_not_robots(fresh);
 }
 
+/// From the work on a set, for whatever must not wait for it.
+void RobotParameterTable::look_up(RobotSession& session) {
+  meanwhile_();
+  if (session_() != &session) throw robot::LinkLost("the robot was lost while its parameters were set");
+}
+
 void RobotParameterTable::put_in_force(RobotSession& session, std::span<const msg::Parameter> parameters) {
   robot::RemoteParameters& robot = session.parameters();
   std::map<std::string, robot::Value> values;
   for (const msg::Parameter& each : parameters) values[each.name] = wanted(robot.row(each.name), each.value);
   require_near(robot, values);
+  // The robot would refuse the commit, after all values have been sent.
+  if (protocol::gives_power(session.ask(protocol::GetStatus{}).mode))
+    throw robot::RobotRefused(protocol::CommitParameters::kName, protocol::ErrorCode::moving, 0);
   robot.revert();
-  for (const auto& [name, value] : values) robot.stage(name, value);
+  for (const auto& [name, value] : values) {
+    look_up(session);
+    robot.stage(name, value);
+  }
+  look_up(session);
   robot.commit();
   for (const auto& [name, value] : values) {
+    look_up(session);
     const ParameterRow& row = robot.row(name);
     robot.refresh(static_cast<std::size_t>(&row - robot.rows().data()));
   }

@@ -23,22 +23,24 @@ struct OwnParameter {
 /// parameters are not known yet, only the node's own are there.
 ///
 /// Other programs may change the robot's parameters, too. Whoever asks is_fresh() has values of more than a second read again,
-/// which step() does a little at a time; not while the robot is armed, because then nobody can change them, and on a slow line
-/// the whole table takes as long as the robot's own time-out.
+/// which step() does a little at a time. While the robot is armed the values count that were read before: they change no more
+/// until it is at rest, and on a slow line the whole table takes as long as the robot's own time-out.
 class RobotParameterTable : public ParameterTable {
  public:
-  /// The session now; null if there is none, or its parameters are not known yet.
+  /// The session now, or null.
   using Session = std::function<RobotSession*()>;
   /// Whether the robot is in use, so that its link has no time for a table of values that nobody can change meanwhile.
   using Busy = std::function<bool()>;
 
   /// `changed` is called after values have changed; `lost` if the link is lost in a set; `words` puts a refusal into words.
+  /// `meanwhile` is called between the requests of a set, which are many: it may stop the robot, and lose the link.
   RobotParameterTable(Session session, Busy busy, std::vector<OwnParameter> own,
-                      std::function<void(RobotSession&)> changed, std::function<void(const Error&)> lost,
-                      std::function<std::string(const Error&)> words)
+                      std::function<void()> meanwhile, std::function<void(RobotSession&)> changed,
+                      std::function<void(const Error&)> lost, std::function<std::string(const Error&)> words)
       : session_(std::move(session)),
         busy_(std::move(busy)),
         own_(std::move(own)),
+        meanwhile_(std::move(meanwhile)),
         changed_(std::move(changed)),
         lost_(std::move(lost)),
         words_(std::move(words)) {}
@@ -60,7 +62,9 @@ class RobotParameterTable : public ParameterTable {
   std::string put_at_start(std::span<const msg::Parameter> parameters);
 
  private:
+  RobotSession* known_session();
   void note(RobotSession& session);
+  void look_up(RobotSession& session);
   void put_in_force(RobotSession& session, std::span<const msg::Parameter> parameters);
   OwnParameter* own(std::string_view name);
   std::string why_not_own(const msg::Parameter& wanted);
@@ -69,6 +73,7 @@ class RobotParameterTable : public ParameterTable {
   Session session_;
   Busy busy_;
   std::vector<OwnParameter> own_;
+  std::function<void()> meanwhile_;
   std::function<void(RobotSession&)> changed_;
   std::function<void(const Error&)> lost_;
   std::function<std::string(const Error&)> words_;

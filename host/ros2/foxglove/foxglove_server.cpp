@@ -112,6 +112,12 @@ void FoxgloveServer::answer_waiting() {
   }
 }
 
+void FoxgloveServer::poll_urgent() {
+  const auto rank_of = [this](const Request& request) { return rank(request); };
+  while (const auto request = requests_.pop(rank_of, kUrgent))
+    std::visit([this](const auto& each) { take(each); }, *request);
+}
+
 void FoxgloveServer::take(const MessageArrived& arrived) { on_message_[arrived.inlet - 1](arrived.message); }
 
 void FoxgloveServer::take(const CallArrived& arrived) {

@@ -48,6 +48,7 @@ class FoxgloveServer : public Middleware {
   void serve(const ServiceDescription& service, OnRequest on_request) override;
   void serve_parameters(ParameterTable& table) override;
   void poll() override;
+  void poll_urgent() override;
   void wait(std::chrono::microseconds timeout) override { requests_.wait(timeout); }
 
  private:

@@ -83,6 +83,8 @@ class Middleware {
 
   /// Calls back for all that has come, and sends what is due. Never waits.
   virtual void poll() = 0;
+  /// Answers only what is urgent, also from within a callback that takes long.
+  virtual void poll_urgent() {}
   /// Returns when something has come for poll(), or at the latest after `timeout`.
   virtual void wait(std::chrono::microseconds timeout) = 0;
 };

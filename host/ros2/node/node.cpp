@@ -89,6 +89,10 @@ class Node : public Middleware {
     for (Service& service : services_) service.send_replies(Service::Clock::now());
     watch_others(TwinWatch::Clock::now());
   }
+  void poll_urgent() override {
+    for (Service& service : services_)
+      if (service.urgent()) service.poll(Service::Clock::now());
+  }
   void wait(std::chrono::microseconds timeout) override {
     participant_->wait(left_ ? std::chrono::microseconds::zero() : timeout);
   }
@@ -130,7 +134,7 @@ class Node : public Middleware {
     if (twin_.note(is_there, now)) on_twin_(name);
   }
 
-  /// Services take turns. False if no call waits.
+  /// Services take turns. False if no call can be answered.
   bool answer_one() {
     for (std::size_t i = 0; i < services_.size(); ++i) {
       Service& service = services_.front();
@@ -138,10 +142,6 @@ class Node : public Middleware {
       if (service.answer_next(Service::Clock::now())) return true;
     }
     return false;
-  }
-  void poll_urgent() {
-    for (Service& service : services_)
-      if (service.urgent()) service.poll(Service::Clock::now());
   }
   std::string next_service_id() {
     return fmt::format("{:02x}.{}", fmt::join(participant_->guid().bytes, "."), services_.size());

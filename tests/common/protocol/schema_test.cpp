@@ -70,7 +70,7 @@ TEST(Schema, ExplainsEveryMessageAndNamesEveryFieldOnce) {
 // byte of their members once, so a missing one shows as a size too small.
 TEST(Schema, SendsEveryMember) {
   EXPECT_EQ(kBodySize<HelloReply>, 3U + 2 + 3 + 16 + 24 + 24 + 2 + 2);
-  EXPECT_EQ(kBodySize<Status>, 3U + 8 + 1 + 4 + 2 + 2 + 4 + 4 + 4 + 4 + 4 + 1 + 1);
+  EXPECT_EQ(kBodySize<Status>, 3U + 8 + 1 + 4 + 2 + 2 + 4 + 4 + 4 + 4 + 4 + 1 + 2);
   EXPECT_EQ(kBodySize<Velocity>, 3U + 4 + 4);
   EXPECT_EQ(kBodySize<AddSegment>, 3U + 1 + 2 + 8 + 8 + 4 + 4 + 4);
   EXPECT_EQ(kBodySize<WheelVoltage>, 3U + 4 + 4);

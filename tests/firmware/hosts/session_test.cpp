@@ -246,8 +246,29 @@ TEST_F(Frames, ANewSessionDoesNotKeepTheDriveOfTheLastOneAlive) {
   ask(robot::line(5).front());
   run_ms(300);
   client_.connect();
-  run_ms(3000);  // pings all the time
-  EXPECT_EQ(drive().faults().first(), Fault::link_lost);
+  run_ms(6000);  // pings all the time
+  EXPECT_EQ(drive().faults().first(), Fault::link_lost) << "armed, and its host has gone";
+}
+
+TEST_F(Frames, AProgramThatOpensTheDriversPortMeansThatTheDriverHasGoneAndStopsTheRobot) {
+  ask(protocol::RevertParameters{});
+  ask(protocol::StageParameter{static_cast<std::uint16_t>(Param::command_timeout), 0, {}});
+  ask(protocol::CommitParameters{});
+  for (const bool paused : {false, true}) {
+    ask(protocol::Arm{});
+    ask(robot::line(5).front());
+    run_ms(1500);
+    if (paused) ask(protocol::Pause{});
+    client_.connect();
+    EXPECT_EQ(drive().queued(), 0U);
+    run_ms(3000);  // the longest ramp, and the wheels
+    EXPECT_EQ(mode(), protocol::Mode::idle);
+    const double stands_at_m = board().truth().x_m;
+    send(protocol::Resume{}, 1);
+    received();
+    run_ms(500);
+    EXPECT_NEAR(board().truth().x_m, stands_at_m, 0.002) << "nobody resumes what it has left";
+  }
 }
 
 TEST_F(Frames, AfterTheDriverSaidHelloTrafficAtNoPortKeepsItsDriveAlive) {
@@ -258,7 +279,7 @@ TEST_F(Frames, AfterTheDriverSaidHelloTrafficAtNoPortKeepsItsDriveAlive) {
     send(robot::line(5).front(), 102, driver);
     silence_ms(150);
     send(protocol::Hello{}, 103, driver);
-    for (std::uint16_t i = 0; i < 30; ++i) {
+    for (std::uint16_t i = 0; i < 60; ++i) {
       send(protocol::Ping{}, static_cast<std::uint16_t>(110 + i), other);
       silence_ms(100);
       received(0);
@@ -300,31 +321,52 @@ TEST_F(Frames, APathThatIsResumedAfterItsDriverHasGoneEndsByTheTimeout) {
   EXPECT_NEAR(board().truth().x_m, paused_at_m, 0.01);
 }
 
-TEST_F(Frames, AHostThatHasDrivenIsToldThatAnotherHasStoppedTheRobotSince) {
-  const auto stopped = [&] { return ask(protocol::GetStatus{}).stopped_by_another == 1; };
-  for (const bool disarmed : {true, false}) {
-    ask(protocol::Arm{});
-    ask(protocol::Stop{});
-    if (disarmed) ask(protocol::Disarm{});
-    EXPECT_FALSE(stopped()) << "it has stopped it itself";
-    send(protocol::Stop{}, 1);
-    received();
-    EXPECT_TRUE(stopped());
-    ask(protocol::Disarm{});
-    EXPECT_TRUE(stopped()) << "still";
-    send(protocol::GetStatus{}, 2);  // at the other port
-    const auto answers = received();
-    ASSERT_EQ(answers.size(), 1U);
-    EXPECT_EQ(protocol::decode<protocol::Status>(answers[0].body)->stopped_by_another, 0)
-        << "it has not driven";
-    ask(protocol::Arm{});
-    EXPECT_FALSE(stopped()) << "it has armed all the same";
-    send(protocol::Disarm{}, 3);
-    received();
-    EXPECT_TRUE(stopped());
-    ask(protocol::Hello{});
-    EXPECT_FALSE(stopped()) << "a new program has the port";
-  }
+TEST_F(Frames, TheStatusCountsWhatHostsAtOtherPortsHaveStopped) {
+  const auto stops = [&] { return ask(protocol::GetStatus{}).stops_by_others; };
+  ask(protocol::Arm{});
+  ask(protocol::Stop{});
+  ask(protocol::Disarm{});
+  send(protocol::Stop{}, protocol::kOnlookerBit + 1, 0);
+  silence_ms(2);
+  EXPECT_EQ(stops(), 0) << "whoever shares the port knows of that one";
+  send(protocol::Stop{}, 1);
+  send(protocol::Disarm{}, 2);
+  send(protocol::EmergencyStop{}, 3);
+  received();
+  EXPECT_EQ(stops(), 3);
+  ask(protocol::Hello{});
+  EXPECT_EQ(stops(), 3) << "a program that has lost its line for a moment still learns of them";
+  send(protocol::GetStatus{}, 4);
+  const auto answers = received();
+  ASSERT_EQ(answers.size(), 1U);
+  EXPECT_EQ(protocol::decode<protocol::Status>(answers[0].body)->stops_by_others, 1)
+      << "at the other port: that of the onlooker, for the driver has ended its own drive";
+}
+
+TEST_F(Frames, WhoEndsItsOwnDriveStopsNobodyElse) {
+  ask(protocol::Arm{});
+  ask(protocol::Disarm{});
+  send(protocol::Arm{}, 1);
+  send(protocol::Stop{}, 2);
+  send(protocol::Disarm{}, 3);
+  received();
+  EXPECT_EQ(ask(protocol::GetStatus{}).stops_by_others, 0);
+  send(protocol::Disarm{}, protocol::kOnlookerBit + 4);
+  received();
+  EXPECT_EQ(ask(protocol::GetStatus{}).stops_by_others, 1);
+}
+
+TEST_F(Frames, AnArmOfAHostThatCannotKnowOfAStopIsRefused) {
+  ask(protocol::Arm{});
+  ask(protocol::Disarm{});
+  ask(protocol::GetStatus{});
+  send(protocol::Stop{}, 1);
+  received();
+  EXPECT_EQ(refusal(protocol::Arm{}).code(), ErrorCode::not_armed);
+  EXPECT_EQ(mode(), protocol::Mode::disarmed);
+  ask(protocol::GetStatus{});
+  ask(protocol::Arm{});
+  EXPECT_EQ(mode(), protocol::Mode::idle);
 }
 
 TEST_F(Frames, NobodyElseArmsDuringADriveNorWhileItIsPaused) {

@@ -44,10 +44,10 @@ class FakeRobot {
   std::optional<protocol::ErrorReply> refuse_next;  // whatever the next new request is
   std::uint16_t greatest_request_id = 0;
   bool mute_events = false;
-  bool stopped = false;             // since it was armed
-  bool stopped_by_another = false;  // as it says in its status
-  bool never_rests = false;         // Stop leaves it in the ramp
-  bool staging_is_ours = false;     // false again once another session has opened the staging area
+  bool stopped = false;               // since it was armed
+  std::uint16_t stops_by_others = 0;  // as it says in its status
+  bool never_rests = false;           // Stop leaves it in the ramp
+  bool staging_is_ours = false;       // false again once another session has opened the staging area
 
   FakeRobot() {
     identity.board = "fake";
@@ -198,7 +198,7 @@ class FakeRobot {
     status.latched_faults = latched;
     status.queued_segments = static_cast<std::uint16_t>(queue_.empty() ? 0 : queue_.size() - 1);
     status.running_tag = queue_.empty() ? std::uint16_t{0} : queue_.front().tag;
-    status.stopped_by_another = stopped_by_another ? 1 : 0;
+    status.stops_by_others = stops_by_others;
     push(status, id);
   }
   void answer(const protocol::GetFaults&, std::uint16_t id) {

@@ -31,6 +31,7 @@ class FakeMiddleware : public ros2::Middleware {
   bool anybody_listens = true;
   bool types_share_names = false;
   std::function<void(microseconds)> on_wait = [](microseconds) {};
+  std::function<void()> on_urgent = [] {};
 
   std::unique_ptr<ros2::Publisher> advertise(const ros2::TopicDescription& topic) override {
     published[topic.name].description = topic;
@@ -50,6 +51,7 @@ class FakeMiddleware : public ros2::Middleware {
     for (; !waiting_.empty(); waiting_.pop_front()) waiting_.front()();
     if (std::exchange(fails_, false)) throw Error("the middleware has failed");
   }
+  void poll_urgent() override { on_urgent(); }
   void wait(microseconds timeout) override { on_wait(timeout); }
 
   void fail_at_next_poll() { fails_ = true; }

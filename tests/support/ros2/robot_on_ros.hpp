@@ -18,6 +18,8 @@ class Cable {
   explicit Cable(std::shared_ptr<simulation::VirtualRobot> robot) : robot_(std::move(robot)) {}
 
   void pull() { ++pulls_; }
+  /// Pulls it when the host has written so often from now on.
+  void pull_after(int writes) { writes_left_ = writes; }
   void plug_in() { plugged_for_ = pulls_; }
   /// As a bad line does: it stays open, and nothing comes through one way.
   void lose_requests(bool lose) { loses_requests_ = lose; }
@@ -39,10 +41,11 @@ class Cable {
  private:
   class Line : public simulation::InProcessTransport {
    public:
-    Line(const Cable& cable, std::shared_ptr<simulation::VirtualRobot> robot)
+    Line(Cable& cable, std::shared_ptr<simulation::VirtualRobot> robot)
         : InProcessTransport(std::move(robot)), cable_(cable), opened_at_(cable.pulls_) {}
     void write(std::span<const std::uint8_t> bytes) override {
       require_whole();
+      if (cable_.writes_left_ > 0 && --cable_.writes_left_ == 0) cable_.pull();
       for (int i = 0; i < cable_.delay_ms_; ++i) cable_.robot_->step();
       if (!cable_.loses_requests_) InProcessTransport::write(bytes);
     }
@@ -58,14 +61,14 @@ class Cable {
     void require_whole() const {
       if (cable_.pulls_ != opened_at_) throw robot::LinkLost("the cable was pulled");
     }
-    const Cable& cable_;
+    Cable& cable_;
     int opened_at_;
   };
 
   bool plugged() const { return plugged_for_ == pulls_; }
 
   std::shared_ptr<simulation::VirtualRobot> robot_;
-  int pulls_ = 0, plugged_for_ = 0, delay_ms_ = 0;
+  int pulls_ = 0, plugged_for_ = 0, delay_ms_ = 0, writes_left_ = 0;
   microseconds slept_{};
   bool loses_requests_ = false, loses_answers_ = false;
 };

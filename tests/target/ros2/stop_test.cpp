@@ -73,6 +73,7 @@ TEST_F(TwoCables, AHaltThroughTheNodeHoldsAgainstAProgramAtTheSerialPort) {
   for (const char* service : {"/stop", "/pause", "/disarm", "/emergency_stop"}) {
     run_ms(2000);
     other_.request(protocol::ClearFaults{});
+    other_.request(protocol::GetStatus{});  // or the robot takes no Arm after the node's stop
     other_.request(protocol::Arm{});
     expect_halt(fmt::format("serial port drives, {} of the node", service), drive,
                 [&] { EXPECT_TRUE(call(service)); });

@@ -87,7 +87,7 @@ TEST_F(Resume, AStopThatComesBetweenTwoRunsEndsTheExperimentWhichGoesOnWhenItIsS
     if (++started == 2) person.request(protocol::Stop{});
   };
   EXPECT_THAT([&] { run(small_plan(), hooks); },
-              ThrowsMessage<Error>(HasSubstr("another program stopped the robot")));
+              ThrowsMessage<Error>(HasSubstr("another program has stopped the robot")));
   EXPECT_EQ(started, 2);
   EXPECT_EQ(desk_.client.request(protocol::GetStatus{}).mode, protocol::Mode::disarmed);
   desk_.client.connect();  // as the next program does

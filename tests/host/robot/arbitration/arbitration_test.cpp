@@ -58,9 +58,14 @@ TEST(Turns, AProgramThatEndsLosesItsTurnAndItsPlace) {
 
 class ADrive : public testing::Test {
  protected:
-  ADrive() {
+  ADrive() : rule(fresh_rule()) {
     rule.note_request(kDriver, Arm::kId);
     rule.note_answer(kDriver, Arm::kId, std::nullopt);
+  }
+  static DriverRule fresh_rule() {
+    DriverRule fresh;
+    for (const SessionId id : {kDriver, kOther, kThird}) fresh.join(id);
+    return fresh;
   }
   std::optional<ErrorCode> refused(SessionId id, std::uint8_t message) const {
     const auto refusal = rule.refusal(id, message);
@@ -82,7 +87,7 @@ TEST_F(ADrive, BelongsToTheFirstAndIsDeniedToOthersWhoMayStillAskAndStop) {
 }
 
 TEST_F(ADrive, IsConfirmedByTheRobotAndGivenBackIfItRefuses) {
-  DriverRule fresh;
+  DriverRule fresh = fresh_rule();
   fresh.note_request(kOther, Arm::kId);
   EXPECT_EQ(fresh.driver(), kOther);
   EXPECT_EQ(fresh.confirmed_driver(), std::nullopt);
@@ -122,20 +127,31 @@ TEST_F(ADrive, ThatAnotherStoppedResumesOnlyByArming) {
 }
 
 TEST_F(ADrive, ThatIsOverIsStillTheBusinessOfItsDriverWhichMayHaveMoreToDrive) {
-  EXPECT_FALSE(rule.has_driven(kOther));
   rule.note_halt(kDriver, Disarm::kId, {11, "astrolabe umbmark"});
   rule.note_answer(kDriver, Disarm::kId, std::nullopt);
-  EXPECT_EQ(rule.stopper_of(kDriver), nullptr);
+  const int told = rule.tell_stops(kDriver, 5);
+  EXPECT_EQ(refused(kDriver, Arm::kId), std::nullopt);
   rule.note_halt(kThird, Stop::kId, {33, "astrolabe stop"});
-  ASSERT_NE(rule.stopper_of(kDriver), nullptr);
+  EXPECT_EQ(refused(kDriver, Arm::kId), ErrorCode::not_armed) << "it cannot know yet";
+  EXPECT_EQ(refused(kOther, Arm::kId), std::nullopt) << "a program that never asked begins now";
+  EXPECT_EQ(rule.tell_stops(kDriver, 5), told + 1);
   EXPECT_EQ(rule.stopper_of(kDriver)->pid, 33U);
-  EXPECT_EQ(rule.stopper_of(kOther), nullptr) << "it has not driven yet: nothing of it was stopped";
+  EXPECT_EQ(refused(kDriver, Arm::kId), std::nullopt) << "it knows";
   rule.note_request(kDriver, Arm::kId);
   rule.note_answer(kDriver, Arm::kId, std::nullopt);
-  EXPECT_EQ(rule.stopper_of(kDriver), nullptr) << "it has armed all the same";
-  rule.note_halt(kThird, Stop::kId, {33, "astrolabe stop"});
-  rule.release(kDriver);
-  EXPECT_EQ(rule.stopper_of(kDriver), nullptr) << "it has begun anew";
+  EXPECT_EQ(rule.stopper_of(kDriver), nullptr);
+}
+
+TEST_F(ADrive, OfAnotherMayBeEndedByThatOneWithoutStoppingWhoDroveBefore) {
+  rule.note_answer(kDriver, Disarm::kId, std::nullopt);
+  rule.note_request(kOther, Arm::kId);
+  rule.note_answer(kOther, Arm::kId, std::nullopt);
+  const int told = rule.tell_stops(kDriver, 0);
+  rule.note_halt(kOther, Stop::kId, {22, "astrolabe drive"});
+  rule.end_drive();  // by a fault
+  rule.note_halt(kOther, Disarm::kId, {22, "astrolabe drive"});
+  EXPECT_EQ(rule.stopper_of(kDriver), nullptr);
+  EXPECT_EQ(rule.tell_stops(kDriver, 0), told);
 }
 
 TEST_F(ADrive, ThatTheDriverStoppedItselfResumesOnlyByArmingToo) {
@@ -165,7 +181,7 @@ TEST_F(ADrive, ThatSomebodyAtAnotherPortStoppedIsOverForThisPortToo) {
 }
 
 TEST_F(ADrive, WhoseArmWasCancelledByAStopLeavesThePlaceFree) {
-  DriverRule fresh;
+  DriverRule fresh = fresh_rule();
   fresh.note_request(kOther, Arm::kId);
   fresh.note_halt(kThird, Stop::kId, {33, "astrolabe stop"});
   fresh.note_answer(kOther, Arm::kId, ErrorCode::not_armed);
@@ -173,7 +189,7 @@ TEST_F(ADrive, WhoseArmWasCancelledByAStopLeavesThePlaceFree) {
 }
 
 TEST_F(ADrive, BeginsWithTheRobotsWordThoughADisarmWasAnsweredInBetween) {
-  DriverRule fresh;
+  DriverRule fresh = fresh_rule();
   fresh.note_halt(kThird, Disarm::kId, {33, "astrolabe stop"});
   fresh.note_request(kOther, Arm::kId);
   fresh.note_answer(kThird, Disarm::kId, std::nullopt);

@@ -77,13 +77,30 @@ TEST_F(Drive, WhatIsTooLargeIsToldInAFewDigits) {
 }
 
 TEST_F(Drive, DoesNotBeginIfAnotherHasStoppedTheRobotSinceTheLastOne) {
-  link.robot.stopped_by_another = true;
+  DriveSession(client).end();
+  link.robot.stops_by_others = 2;
   try {
     const DriveSession session(client);
     ADD_FAILURE() << "it drives on";
   } catch (const Error& error) {
-    EXPECT_STREQ(error.what(), "the robot does not drive on: another program stopped the robot");
+    EXPECT_STREQ(error.what(), "another program has stopped the robot since this one drove it last");
+    EXPECT_EQ(error.remedy().help, Help::start_again);
   }
+  EXPECT_EQ(link.robot.executed[Arm::kId], 1);
+  EXPECT_NO_THROW(DriveSession(client).end()) << "it knows by now, and so does whoever lets it go on";
+}
+
+TEST_F(Drive, OfAFreshProgramIsNotHeldUpByAnOldStop) {
+  link.robot.stops_by_others = 7;
+  EXPECT_NO_THROW(DriveSession(client).end());
+}
+
+TEST_F(Drive, DoesNotBeginIfTheStopComesWhileItPreparesToArm) {
+  link.fate = [&](bool to_robot, std::uint8_t message) {
+    if (to_robot && message == GetFaults::kId) ++link.robot.stops_by_others;
+    return Fate::arrives;
+  };
+  EXPECT_THROW(DriveSession{client}, Error);
   EXPECT_EQ(link.robot.executed[Arm::kId], 0);
 }
 
@@ -270,15 +287,20 @@ TEST_F(Drive, ThatIsEndedTellsThatTheRobotDidNotConfirmIt) {
 }
 
 TEST_F(Drive, SaysThatAnotherProgramStoppedTheRobot) {
-  DriveSession session(client);
+  DriveHooks hooks;
+  int driven = 0;
+  hooks.segment_done = [&](const SegmentDone&) { ++driven; };
+  DriveSession session(client, hooks);
   link.fate = [&, met = false](bool, std::uint8_t id) mutable {
     if (id == Ping::kId && !std::exchange(met, true)) {
       link.robot.receive(protocol::Frame(Stop{}, 999).bytes());
-      link.robot.event(SegmentDone{1, SegmentOutcome::aborted, link.robot.device_us});
+      for (std::uint16_t tag = 1; tag <= 3; ++tag)  // with those that wait behind it
+        link.robot.event(SegmentDone{tag, SegmentOutcome::aborted, link.robot.device_us});
     }
     return Fate::arrives;
   };
   EXPECT_THAT(support::told_by([&] { session.run(line(1)); }).fact, HasSubstr("segment 1 was aborted"));
+  EXPECT_EQ(driven, 0);
 }
 
 TEST_F(Drive, StoppingOneselfIsNoError) {

@@ -189,20 +189,37 @@ TEST_F(SharedPort, AStopBetweenTwoDrivesOfAProgramKeepsItFromTheSecond) {
   second.client.request(Stop{});
   const auto armed_before = rig.count(Arm::kId);
   EXPECT_THAT(thrown_by([&] { const DriveSession session(first.client); }),
-              HasSubstr("another program (process id 22, 'astrolabe stop') stopped the robot"));
+              HasSubstr("another program (process id 22, 'astrolabe stop') has stopped the robot since"));
   EXPECT_EQ(rig.count(Arm::kId), armed_before);
   RelayedProgram fresh(rig, 33, "astrolabe drive line 1");
   EXPECT_NO_THROW(DriveSession(fresh.client).end()) << "whoever begins now means it";
 }
 
-// The robot itself sees one host at this port, whichever program asks.
-TEST_F(SharedPort, AStopAtAnotherPortIsToldToWhoeverHasDrivenHereAndToNobodyElse) {
-  DriveSession(first.client).end();
-  rig.robot.stopped_by_another = true;
-  EXPECT_EQ(first.client.request(GetStatus{}).stopped_by_another, 1);
-  EXPECT_EQ(second.client.request(GetStatus{}).stopped_by_another, 0);
+TEST_F(SharedPort, TheStatusCountsTheStopsOfAllOthersAtThisPortAndAtAnother) {
+  const auto told = [](Client& client) { return client.request(GetStatus{}).stops_by_others; };
+  const int to_first = told(first.client), to_second = told(second.client);
+  second.client.request(Stop{});
+  EXPECT_EQ(told(first.client), to_first + 1);
+  EXPECT_EQ(told(second.client), to_second) << "it has done so itself";
+  ++rig.robot.stops_by_others;
+  EXPECT_EQ(told(first.client), to_first + 2);
+  EXPECT_EQ(told(second.client), to_second + 1);
   first.client.connect();
-  EXPECT_EQ(first.client.request(GetStatus{}).stopped_by_another, 0) << "it has begun anew";
+  EXPECT_EQ(told(first.client), to_first + 2) << "it goes on counting";
+}
+
+// Between the status and the Arm of a program that drives several times.
+TEST_F(SharedPort, AnArmOfAProgramThatCannotKnowOfAStopIsRefused) {
+  first.client.request(GetStatus{});
+  second.client.request(Stop{});
+  EXPECT_EQ(refusal_of(first.client, Arm{}), "not_armed");
+  first.client.request(GetStatus{});
+  EXPECT_EQ(refusal_of(first.client, Arm{}), "taken");
+  first.client.request(Disarm{});
+  first.client.request(GetStatus{});
+  ++rig.robot.stops_by_others;
+  second.client.request(GetStatus{});  // by which the robot has told this port
+  EXPECT_EQ(refusal_of(first.client, Arm{}), "not_armed");
 }
 
 TEST_F(SharedPort, TheRobotIsStoppedForADriverThatIsKilled) {
@@ -217,30 +234,60 @@ TEST_F(SharedPort, TheRobotIsStoppedForADriverThatIsKilled) {
   EXPECT_EQ(rig.robot.mode, Mode::idle);
 }
 
-TEST_F(SharedPort, TheStopForADriverThatIsGoneIsRepeatedUntilItArrivesOrAnotherDrives) {
+/// Stops do not reach the robot.
+auto stopless_line() {
+  return [](bool to_robot, const Header& header) { return !to_robot || header.message_id != Stop::kId; };
+}
+
+TEST_F(SharedPort, TheStopForADriverThatIsGoneIsRepeatedUntilTheRobotAnswers) {
   first.client.request(Arm{});
   first.client.request(Velocity{100'000, 0});
-  rig.arrives = [](bool to_robot, const Header& header) {
-    return !to_robot || header.message_id != Stop::kId;
-  };
+  rig.arrives = stopless_line();
   first.leave();
   rig.run(milliseconds(100));
   ASSERT_EQ(rig.robot.mode, Mode::velocity);
+  EXPECT_TRUE(rig.relay.owes_stop());
   rig.arrives = good_line();
   rig.run(milliseconds(100));
   EXPECT_EQ(rig.robot.mode, Mode::idle);
   EXPECT_EQ(rig.count(Stop::kId), 1);
+  EXPECT_FALSE(rig.relay.owes_stop());
+}
 
-  second.client.request(Arm{});
-  rig.arrives = [](bool to_robot, const Header& header) {
-    return !to_robot || header.message_id != Stop::kId;
-  };
-  second.leave();
-  RelayedProgram next(rig, 44, "astrolabe drive line 1");
-  next.client.request(Arm{});
+// It would take the drive over, or be stopped in place of the one that has gone.
+TEST_F(SharedPort, NobodyArmsBeforeTheRobotHasStoppedForADriverThatIsGone) {
+  first.client.request(Arm{});
+  first.client.request(Velocity{100'000, 0});
+  rig.arrives = stopless_line();
+  first.leave();
+  second.send(Arm{}, 500);
+  rig.run(milliseconds(50));
+  EXPECT_EQ(rig.count(Arm::kId), 1) << "that of the first";
   rig.arrives = good_line();
   rig.run(milliseconds(100));
-  EXPECT_EQ(rig.count(Stop::kId), 1) << "it would stop the wrong one";
+  second.send(Arm{}, 500);  // as a client does after 60 ms
+  rig.run(milliseconds(100));
+  EXPECT_EQ(rig.count(Arm::kId), 2);
+  EXPECT_EQ(rig.count(Stop::kId), 1);
+  EXPECT_EQ(refusal_of(second.client, Velocity{100, 0}), "taken");
+}
+
+// The robot's name may have changed, so it is asked again; but a Hello of the port's owner would end what it knows of the port.
+TEST_F(SharedPort, AfterACommitAProgramThatComesIsAnOnlookerToTheRobot) {
+  first.client.request(RevertParameters{});
+  first.client.request(CommitParameters{});
+  const auto hellos = rig.count(Hello::kId);
+  RelayedProgram next(rig, 33, "astrolabe info");
+  EXPECT_EQ(rig.count(Hello::kId), hellos + 1);
+  EXPECT_TRUE(
+      is_onlookers(*std::find_if(rig.at_robot.rbegin(), rig.at_robot.rend(),
+                                 [](const Header& header) { return header.message_id == Hello::kId; })));
+}
+
+TEST_F(SharedPort, AProgramThatEndsItsOwnDriveStopsNobodyElse) {
+  DriveSession(first.client).end();
+  DriveSession(second.client).end();
+  EXPECT_NO_THROW(DriveSession(first.client).end());
 }
 
 TEST_F(SharedPort, ADriverThatHasStoppedOrNeverDroveLeavesQuietly) {

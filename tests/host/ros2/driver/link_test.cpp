@@ -142,15 +142,14 @@ TEST_F(Link, ARobotThatIsFoundDrivingOnASlowLineIsStoppedBeforeItsParametersAreR
   EXPECT_LE(left.now(), milliseconds(12 * kRoundTrip_ms)) << "the table alone takes 80 round trips";
 }
 
-TEST_F(Link, StopsAndArmsFromTheFirstStepOnThoughParametersAreStillBeingRead) {
+TEST_F(Link, StopsFromTheFirstStepOnAndArmsOnceParametersAreKnown) {
   constexpr int kRoundTrip_ms = 40;
   RobotOnRos fresh;
   fresh.cable.delay_ms(kRoundTrip_ms);
   fresh.driver->step();
   EXPECT_EQ(fresh.ros.parameters->descriptors().size(), 8) << "those of the node alone";
-  EXPECT_TRUE(fresh.call("/arm").success);
-  fresh.drive_ms(500, 0.2, 0);
-  EXPECT_EQ(fresh.mode(), Mode::velocity);
+  EXPECT_FALSE(fresh.ros.parameters->is_fresh()) << "who asks for others waits";
+  EXPECT_THAT(fresh.call("/arm").message, HasSubstr("not known yet: call again"));
   const microseconds before = fresh.now();
   EXPECT_TRUE(fresh.call("/stop").success);
   EXPECT_TRUE(fresh.call("/emergency_stop").success);
@@ -158,6 +157,44 @@ TEST_F(Link, StopsAndArmsFromTheFirstStepOnThoughParametersAreStillBeingRead) {
   EXPECT_EQ(fresh.ros.parameters->descriptors().size(), 8) << "still";
   EXPECT_TRUE(fresh.run_until([&] { return fresh.ros.parameters->descriptors().size() > 40; }, 20'000));
   EXPECT_TRUE(fresh.run_until([&] { return !fresh.ros.published["/odom"].messages.empty(); }));
+  EXPECT_TRUE(fresh.call("/clear_faults").success);
+  EXPECT_TRUE(fresh.call("/arm").success);
+}
+
+// Else it might drive before it has been told where it stands, and be told so after the drive.
+TEST_F(Link, AfterARestartOnASlowLineTheRobotIsArmedOnceItKnowsItsPose) {
+  EXPECT_TRUE(comes_back());
+  bench.call("/arm");
+  bench.drive_ms(2000, 0.3, 0);
+  bench.run_ms(1500);
+  const auto off_m = [&] { return odometry().pose.pose.position.x - bench.robot->board().truth().x_m; };
+  const double off_before_m = off_m();
+  bench.cable.delay_ms(40);
+  bench.robot->restart(hal::ResetCause::software);
+  int refused = 0;
+  EXPECT_TRUE(bench.run_until(
+      [&] {
+        const bool armed = bench.call("/arm").success;
+        refused += armed ? 0 : 1;
+        return armed;
+      },
+      20'000));
+  EXPECT_GT(refused, 0);
+  bench.drive_ms(2000, 0.3, 0);
+  bench.run_ms(1500);
+  EXPECT_NEAR(off_m(), off_before_m, 0.003);  // it was not told where it stood before the drive
+}
+
+TEST_F(Link, ThatIsLostWhileParametersAreSetAtTheStartIsLostAndFoundAgain) {
+  DriverOptions options = RobotOnRos::of_both_types();
+  options.robot_parameters = {{"c_R", to_parameter(1.002)}};
+  for (int writes = 90; writes < 110; ++writes) {  // from the last rows of the table to the commit and beyond
+    RobotOnRos breaks(RobotOnRos::quiet(), options);
+    breaks.cable.pull_after(writes);
+    breaks.run_ms(1000);
+    breaks.cable.plug_in();
+    EXPECT_TRUE(breaks.run_until([&] { return breaks.ros.parameters->descriptors().size() > 40; })) << writes;
+  }
 }
 
 TEST_F(Link, ARobotThatIsDrivenOverItsOtherPortDrivesOnThroughTheStart) {

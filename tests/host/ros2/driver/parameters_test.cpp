@@ -175,6 +175,36 @@ TEST_F(Parameters, AreReadALittleAtATimeOnASlowLineSoThatAStopNeverWaitsForTheTa
   EXPECT_NEAR(bench.ros.parameters->value("c_R").value().double_value, 1.003, 1e-9);
 }
 
+TEST_F(Parameters, ASetOfManyLooksForAStopBetweenItsRequests) {
+  const std::vector<msg::Parameter> many{{"c_R", to_parameter(1.002)}, {"c_L", to_parameter(0.998)},
+                                         {"b", to_parameter(0.2886)},  {"kp", to_parameter(61)},
+                                         {"ki", to_parameter(1210)},   {"e", to_parameter(0.01)}};
+  int looks = 0;
+  microseconds longest{}, last = bench.now();
+  bench.cable.delay_ms(40);
+  bench.ros.on_urgent = [&] {
+    longest = std::max(longest, bench.now() - last);
+    last = bench.now();
+    if (++looks == 4) {
+      EXPECT_TRUE(bench.call("/emergency_stop").success);
+    }
+  };
+  const std::string reason = table().set(many).reason;
+  EXPECT_GE(looks, 2 * static_cast<int>(many.size())) << "each is sent and read back; " << reason;
+  EXPECT_EQ(bench.mode(), protocol::Mode::fault);
+  // The first look comes after the status and the opening of the staging area; a commit writes flash.
+  EXPECT_LE(longest, std::chrono::milliseconds(40 * 4 + 250));
+}
+
+TEST_F(Parameters, ASetWhoseLinkIsLostByWhatCameInBetweenIsRefused) {
+  bench.ros.on_urgent = [&] {
+    bench.cable.pull();
+    bench.call("/emergency_stop");  // by which the driver notices
+  };
+  EXPECT_THAT(set({{"c_R", to_parameter(1.002)}}).reason, HasSubstr("lost while its parameters were set"));
+  EXPECT_EQ(bench.ros.parameters->descriptors().size(), 8);
+}
+
 TEST_F(Parameters, NewSizesAreInTheNextDescription) {
   bench.ros.take<msg::String>("/robot_description");
   EXPECT_TRUE(set({{"b", to_parameter(0.3)}}).successful);

@@ -81,7 +81,7 @@ class FoxgloveServerOnLoopback : public testing::Test {
                        [this](ByteView bytes) { commands_.emplace_back(bytes.begin(), bytes.end()); });
     for (const char* name : {"/arm", "/emergency_stop"})
       server_->serve({name, msg::Trigger::kType, message_type<msg::Trigger::Request>(),
-                      message_type<msg::Trigger::Response>()},
+                      message_type<msg::Trigger::Response>(), name == std::string_view("/emergency_stop")},
                      [name](ByteView request) -> std::optional<Bytes> {
                        if (!decode<msg::Trigger::Request>(request)) return std::nullopt;
                        return encode(msg::Trigger::Response{true, name});
@@ -368,6 +368,26 @@ TEST_F(FoxgloveServerOnLoopback, ManyQuestionsKeepTheRobotNoLongerThanAShareAndN
   EXPECT_EQ(commands_.size(), 1U) << "although it came last";
   EXPECT_LE(slow.asked, 2) << "each takes 1 ms, and none begins after 2 ms";
   EXPECT_TRUE(eventually([&] { return slow.asked == kQuestions; }));
+}
+
+TEST_F(FoxgloveServerOnLoopback, FromWithinALongCallbackWhatIsUrgentIsAnsweredAndNothingElse) {
+  start();
+  Viewer viewer(server_->port());
+  hear(viewer, "advertiseServices");
+  viewer.send(Bytes{2, 1, 0, 0, 0, 8, 0, 0, 0, 3, 0, 0, 0, 'c', 'd', 'r', 0, 1, 0, 0, 0});  // /arm
+  viewer.send(Bytes{2, 2, 0, 0, 0, 9, 0, 0, 0, 3, 0, 0, 0, 'c', 'd', 'r', 0, 1, 0, 0, 0});
+  const auto answered = [&] {
+    const auto message = viewer.receive(milliseconds(5));
+    return message && !message->is_text ? int{message->bytes.at(5)} : 0;  // the number of the call
+  };
+  const auto end = steady_clock::now() + kLong;
+  int call = 0;
+  while (call == 0 && steady_clock::now() < end) {
+    server_->poll_urgent();
+    call = answered();
+  }
+  EXPECT_EQ(call, 9);
+  EXPECT_TRUE(eventually([&] { return answered() == 8; }));
 }
 
 /// A table whose values are being read.
