@@ -26,3 +26,6 @@ done
 echo
 echo "How the factors were found, from the drives before:"
 "$astrolabe" calibrate runs "$folder/experiment/before"
+
+echo
+echo "The report with both: $folder/experiment/report.html"

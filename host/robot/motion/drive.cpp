@@ -110,6 +110,7 @@ void DriveSession::wait_until_free() {
   while (true) {
     const Mode mode = status_unless_stopped().mode;
     if (mode == Mode::disarmed || mode == Mode::fault) return;
+    if (client_.now() >= deadline && mode == Mode::idle) fail_armed();
     if (client_.now() >= deadline) fail_busy();
     client_.pump(kRestPoll);
   }
@@ -232,6 +233,14 @@ void DriveSession::explain(const RobotRefused& refused) {
     fail_ended("the drive ended early", paused ? "paused" : "stopped");
   }
   if (refused.code() == ErrorCode::busy && port_users(client_).driver_pid != 0) fail_busy();
+}
+
+/// Without a command time-out a robot whose driver was killed stays armed.
+void DriveSession::fail_armed() {
+  const PortUsers users = port_users(client_);
+  if (users.driver_pid != 0) fail_busy();
+  throw Error("the robot stands and is armed, for another program or for one that has gone",
+              {Help::stop_other_program});
 }
 
 void DriveSession::fail_busy() {

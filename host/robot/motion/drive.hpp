@@ -102,6 +102,7 @@ class DriveSession {
   [[noreturn]] void fail(Fault fault);
   [[noreturn]] void fail_ended(const std::string& what, const std::string& done_to_robot);
   [[noreturn]] void fail_busy();
+  [[noreturn]] void fail_armed();
 
   Client& client_;
   DriveHooks hooks_;

@@ -90,6 +90,14 @@ TEST_F(Drive, DoesNotBeginIfAnotherHasStoppedTheRobotSinceTheLastOne) {
   EXPECT_NO_THROW(DriveSession(client).end()) << "it knows by now, and so does whoever lets it go on";
 }
 
+TEST_F(Drive, DoesNotTakeOverARobotThatStaysArmedForSomebodyWhoMayHaveGone) {
+  link.robot.mode = Mode::idle;
+  const Remark why = support::told_by([&] { DriveSession{client}; });
+  EXPECT_THAT(why.fact, HasSubstr("stands and is armed, for another program or for one that has gone"));
+  EXPECT_EQ(why.remedy.help, Help::stop_other_program);
+  EXPECT_EQ(link.robot.executed[Arm::kId], 0);
+}
+
 TEST_F(Drive, OfAFreshProgramIsNotHeldUpByAnOldStop) {
   link.robot.stops_by_others = 7;
   EXPECT_NO_THROW(DriveSession(client).end());
