@@ -50,16 +50,13 @@ endfunction()
 function(astro_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "LONG;PLAIN;ON_DEMAND" "" "SOURCES;OPTIMISED;REPEATING;DEPENDS;LIBRARIES")
   add_executable(${name}.test ${arg_SOURCES})
-  target_link_libraries(${name}.test PRIVATE astro_compile ${arg_DEPENDS} ${arg_LIBRARIES}
+  target_link_libraries(${name}.test PRIVATE astro_compile ${arg_DEPENDS} ${arg_LIBRARIES} tests.support.places
     GTest::gmock GTest::gtest_main Threads::Threads astro_test_compile)
   target_precompile_headers(${name}.test REUSE_FROM astro_test_headers)
   set_target_properties(${name}.test PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   # The precompiled headers are not optimised, and GCC refuses to mix. -O1: more finds warnings that are none in checks.
   set_source_files_properties(${arg_OPTIMISED} PROPERTIES SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON
     COMPILE_OPTIONS $<IF:$<BOOL:${ASTROLABE_SANITIZE}>,-O1,-O2>)
-  # Real data lives beside a developer's checkout only; tests that use it skip where it is absent.
-  target_compile_definitions(${name}.test PRIVATE
-    ASTRO_SOURCE_DIR="${CMAKE_SOURCE_DIR}" ASTRO_SHARED_DATA="${CMAKE_SOURCE_DIR}/../shared/data")
   set(cost 0)
   if(arg_LONG)
     set(cost 1)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/calibration/preparation/relative_pose.hpp"
+#include "tests/support/base/places.hpp"
 
 // The closed form against the answers that its authors published for a Khepera III with a laser scanner.
 namespace astro::golden {
@@ -16,7 +17,7 @@ using calibration::RelativePose;
 using nlohmann::json;
 
 std::filesystem::path file_of(const std::string& name) {
-  return std::filesystem::path(ASTRO_SHARED_DATA) / "censi_khepera" / name;
+  return support::shared_data() / "censi_khepera" / name;
 }
 
 std::vector<RelativePose> pieces_of(const std::string& subset) {

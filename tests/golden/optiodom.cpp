@@ -1,4 +1,5 @@
 #include "tests/golden/optiodom.hpp"
+#include "tests/support/base/places.hpp"
 
 #include <zlib.h>
 
@@ -70,7 +71,7 @@ Trajectory synchronised(const std::string& dataset, int run, const char* kind) {
 }  // namespace
 
 fs::path optiodom_folder() {
-  const fs::path folder = fs::path(ASTRO_SHARED_DATA) / "sousa_optiodom";
+  const fs::path folder = support::shared_data() / "sousa_optiodom";
   return fs::exists(folder) ? folder : fs::path();
 }
 

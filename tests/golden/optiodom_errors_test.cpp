@@ -8,6 +8,7 @@
 
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "tests/golden/optiodom.hpp"
+#include "tests/support/base/places.hpp"
 
 // Whether sets of drives of one real robot differ by what their standard errors say.
 namespace astro::golden {
@@ -22,7 +23,8 @@ constexpr double kOneInTwenty = 9.488, kOneInAHundred = 13.277;
 class OptiodomStandardErrors : public testing::Test {
  protected:
   void SetUp() override {
-    if (optiodom_folder().empty()) GTEST_SKIP() << "not at hand: " << ASTRO_SHARED_DATA << "/sousa_optiodom";
+    if (optiodom_folder().empty())
+      GTEST_SKIP() << "not at hand: " << support::shared_data() / "sousa_optiodom";
   }
 
   static Runs squares(const char* dataset) {

@@ -1,4 +1,5 @@
 #include "tests/golden/optiodom.hpp"
+#include "tests/support/base/places.hpp"
 
 #include <gtest/gtest.h>
 
@@ -28,7 +29,8 @@ constexpr WheelFactors kNominal{1, 1, kOptiodomWheelbase_m};
 class Optiodom : public testing::Test {
  protected:
   void SetUp() override {
-    if (optiodom_folder().empty()) GTEST_SKIP() << "not at hand: " << ASTRO_SHARED_DATA << "/sousa_optiodom";
+    if (optiodom_folder().empty())
+      GTEST_SKIP() << "not at hand: " << support::shared_data() / "sousa_optiodom";
   }
 
   static std::vector<Trajectory> raw() {

@@ -14,6 +14,7 @@
 #include "host/calibration/end_poses/umbmark.hpp"
 #include "tests/golden/printed.hpp"
 #include "tests/golden/thesis_tables.hpp"
+#include "tests/support/base/places.hpp"
 
 // What the thesis's own tables give, to every digit printed in a recomputation of them: from the embedded
 // values and from the CSV files of the tables through the reader, where these files are at hand.
@@ -50,7 +51,7 @@ const std::vector<TableCase> kTables{
 /// Row `i` of kTables: embedded, or through the CSV reader; nothing where the file is not at hand.
 std::optional<std::vector<EndPose>> load(std::size_t i, bool from_file) {
   if (!from_file) return end_poses(*kTables[i].rows);
-  const std::string path = std::string(ASTRO_SHARED_DATA "/thesis_tables/") + kTables[i].file;
+  const std::string path = support::shared_data() / "thesis_tables" / kTables[i].file;
   if (!std::filesystem::exists(path)) return std::nullopt;
   std::ifstream file(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
@@ -152,7 +153,7 @@ class ThesisTables : public testing::TestWithParam<bool> {
     for (std::size_t i = 0; i < kTables.size(); ++i) {
       const auto table = load(i, GetParam());
       if (!table)
-        GTEST_SKIP() << "not at hand: " << ASTRO_SHARED_DATA << "/thesis_tables/" << kTables[i].file;
+        GTEST_SKIP() << "not at hand: " << support::shared_data() / "thesis_tables" / kTables[i].file;
       tables_.push_back(*table);
     }
   }

@@ -20,6 +20,8 @@ class ServedRobot {
 
   /// Whether it drives, and stops by itself if its host gives no sign of life.
   virtual bool drives() { return false; }
+  /// Whether its host gives the motors' voltages itself, and regulates with them.
+  virtual bool is_regulated() { return false; }
 
   // The robot's ports, numbered from 0: `pty` of ServerConfig leads to port 0, `second_pty` to port 1.
 

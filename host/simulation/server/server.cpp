@@ -27,6 +27,9 @@ constexpr std::uint64_t kRunAhead_us = 100'000;  // virtual time that may pass a
 // once more, which must not take the robot to its command time-out of 200 ms. More than 50 ms, after which drivers give a sign of life
 // by the robot's clock.
 constexpr std::uint64_t kRunAheadOfDriver_us = 70'000;
+// The same while a host regulates the motors' voltages itself, once in 20 ms at the slowest: what it decides must meet the robot that
+// it has seen, or its loop swings on a busy machine as it would on no robot.
+constexpr std::uint64_t kRunAheadOfRegulator_us = 30'000;
 // The same in real time while the robot drives. The shortest command time-out is 200 ms.
 constexpr std::uint64_t kSilenceOfDriver_us = 150'000;
 // Turns of this server, each of a millisecond at least, for which a host may take no bytes, or send none, before time goes on
@@ -35,7 +38,7 @@ constexpr std::uint64_t kSilenceOfDriver_us = 150'000;
 // Fast motion promises nothing about real time, and a virtual machine may hold up one of its processors for some seconds.
 constexpr int kPatience = 1000, kPatienceInFastMotion = 10'000;
 constexpr int kStepsPerPoll = 50;  // virtual ms between two checks of the host while running ahead
-constexpr int kStepsPerPollOfDriver = 15;
+constexpr int kStepsPerPollOfDriver = 15, kStepsPerPollOfRegulator = 1;
 
 sim::Config with_flash(sim::Config config, const fs::path& path) {
   config.flash = load_flash(path);
@@ -54,6 +57,10 @@ class ServedVirtualRobot : public ServedRobot {
     const protocol::Mode mode = robot_.robot().drive(hold).mode();
     return mode == protocol::Mode::segment || mode == protocol::Mode::velocity ||
            mode == protocol::Mode::wheels;
+  }
+  bool is_regulated() override {
+    const auto hold = robot_.board().hold_tick();
+    return robot_.robot().drive(hold).mode() == protocol::Mode::wheels;
   }
   std::uint64_t now_us() override { return robot_.now_us(); }
   std::size_t room(int port) override { return robot_.board().ports().host_room(port); }
@@ -107,7 +114,9 @@ void Server::run(const std::function<bool()>& stop) {
     receive();
     const bool host_is_behind = transmit();
     if (runs_ahead(host_is_behind)) {
-      const int steps = robot_->drives() ? kStepsPerPollOfDriver : kStepsPerPoll;
+      const int steps = robot_->is_regulated() ? kStepsPerPollOfRegulator
+                        : robot_->drives()     ? kStepsPerPollOfDriver
+                                               : kStepsPerPoll;
       for (int i = 0; i < steps; ++i) step();
       pace_.restart(Clock::now() + Pace::kStep);
     } else if (pace_.due(Clock::now())) {
@@ -153,6 +162,7 @@ bool Server::connected() const {
 bool Server::host_is_late() {
   const std::uint64_t silence_us = robot_->now_us() - last_heard_us_;
   if (!config_.fast) return silence_us >= kSilenceOfDriver_us && robot_->drives();
+  if (robot_->is_regulated()) return silence_us >= kRunAheadOfRegulator_us;
   return silence_us >= (robot_->drives() ? kRunAheadOfDriver_us : kRunAhead_us);
 }
 

@@ -37,7 +37,8 @@ std::vector<std::uint8_t> load_flash(const std::filesystem::path& path);
 ///
 /// Real time: one virtual millisecond per real millisecond; while the robot drives, time waits for a driver that is late, as in
 /// fast motion. Fast: virtual time runs ahead as long as a host
-/// sends something at least every 100 virtual ms, or 70 while the robot drives (its client pings by the robot's clock), and reads
+/// sends something at least every 100 virtual ms, or 70 while the robot drives (its client pings by the robot's clock), or 30 while
+/// a host regulates the motors' voltages, and reads
 /// what it is sent; else it waits for the host, and after ten seconds falls back to real time, so that the robot's command time-out
 /// still notices a host that hangs. One that has gone is not waited for.
 class Server {

@@ -5,12 +5,13 @@
 #include <string>
 
 #include "tests/common/protocol/readme_text.hpp"
+#include "tests/support/base/places.hpp"
 
 namespace astro::protocol {
 namespace {
 
 TEST(ProtocolReadme, DescribesTheSchemaAsItIs) {
-  std::ifstream in(ASTRO_SOURCE_DIR "/common/protocol/README.md");
+  std::ifstream in(support::checkout() / "common/protocol/README.md");
   const std::string readme{std::istreambuf_iterator<char>(in), {}};
   ASSERT_NE(with_generated_part(readme), "") << "README.md is missing or has lost its marker lines";
   EXPECT_TRUE(readme == with_generated_part(readme))

@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <string>
 
+#include "tests/support/base/places.hpp"
+
 /// Recordings of real trackers, which lie beside a developer's checkout only.
 namespace astro::test {
 
-inline std::string shared_file(const std::string& path) {
-  return std::string(ASTRO_SHARED_DATA) + "/" + path;
-}
+inline std::string shared_file(const std::string& path) { return support::shared_data() / path; }
 
 /// The text of a file, unpacked if it is one of gzip.
 inline std::string text_of_file(const std::string& path) {

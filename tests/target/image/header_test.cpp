@@ -6,6 +6,7 @@
 #include <sstream>
 #include <vector>
 
+#include "tests/support/base/places.hpp"
 #include "tests/target/image/hex_file.hpp"
 
 namespace astro::target {
@@ -83,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(Of, ImageHeader, testing::Values("astrolabe-teensy40", 
                          [](const auto& of) { return std::string(of.param).substr(0, 5); });
 
 TEST(GoldenWords, AreTheIndependentlyCollectedOnes) {
-  const std::filesystem::path path = ASTRO_SHARED_DATA "/../facts/teensy40/fcb_ivt_golden.csv";
+  const std::filesystem::path path = support::shared_data() / "../facts/teensy40/fcb_ivt_golden.csv";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not on this machine";
   std::ifstream file(path);
   Words collected;

@@ -31,6 +31,7 @@ std::span<const Row> written_rows() {
 #define FIELD(type, reg, name, lsb, width) {"field", #type, #reg " " #name, lsb, width},
   static constexpr Row all[] = {
 #include "hal/teensy40/registers/all.def"
+#include "tests/support/base/places.hpp"
   };
 #undef TYPE
 #undef INSTANCE
@@ -85,7 +86,7 @@ std::vector<std::string> differences(const Rows& written, const Rows& collected)
 }
 
 TEST(Registers, AgreeWithTheIndependentlyCollectedOnes) {
-  const std::filesystem::path path = ASTRO_SHARED_DATA "/../facts/teensy40/registers.csv";
+  const std::filesystem::path path = support::shared_data() / "../facts/teensy40/registers.csv";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not on this machine";
   std::ifstream file(path);
   const Rows written = spread_over_instances(written_rows());

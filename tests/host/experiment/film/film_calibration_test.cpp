@@ -11,6 +11,7 @@
 #include "host/experiment/analysis/calibration.hpp"
 #include "host/experiment/files/run_set.hpp"
 #include "host/experiment/film/film_truth.hpp"
+#include "tests/support/base/places.hpp"
 #include "tests/support/base/thorough.hpp"
 
 /// Drives that a film shows, calibrated from it and from the true poses.
@@ -19,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path camera_data() { return fs::path(ASTRO_SHARED_DATA) / "camera"; }
+fs::path camera_data() { return support::shared_data() / "camera"; }
 
 std::vector<recording::TruthSample> true_poses() {
   std::ifstream file(camera_data() / "truth" / "truth_poses.csv");

@@ -7,6 +7,7 @@
 #include "host/experiment/import/import_drives.hpp"
 #include "host/recording/files/rosbag_export.hpp"
 #include "tests/host/experiment/import/drive_files.hpp"
+#include "tests/support/base/places.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 
 // The raw files of a real robot under OptiTrack (Sousa et al., MIT licence), as its owners wrote them.
@@ -16,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using calibration::WheelFactors;
 
-const fs::path kSquares = fs::path(ASTRO_SHARED_DATA) / "sousa_optiodom/square";
+const fs::path kSquares = support::shared_data() / "sousa_optiodom/square";
 
 class RealDrives : public testing::Test {
  protected:

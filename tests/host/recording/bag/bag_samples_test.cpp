@@ -2,6 +2,7 @@
 
 #include "host/ros2/recorded/stamped_pose.hpp"
 #include "tests/host/recording/bag/made_bags.hpp"
+#include "tests/support/base/places.hpp"
 
 // Bags that other programs wrote, beside a developer's checkout. The figures come from the command sqlite3 and from the
 // metadata.yaml of the recorders.
@@ -22,7 +23,7 @@ class BagSamples : public ::testing::Test {
     EXPECT_TRUE(seen.report.warnings.empty()) << name;
     return seen;
   }
-  const fs::path folder_ = fs::path(ASTRO_SHARED_DATA) / "samples";
+  const fs::path folder_ = support::shared_data() / "samples";
 };
 
 TEST_F(BagSamples, ABagOfHumbleReads) {

@@ -6,6 +6,7 @@
 #include "host/recording/foreign/unclear_choice.hpp"
 #include "host/ros2/recorded/stamped_pose.hpp"
 #include "tests/host/recording/bag/made_bags.hpp"
+#include "tests/support/base/places.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 
 namespace astro::recording {
@@ -181,7 +182,7 @@ TEST_F(PoseTopics, PosesOutOfOrderAreSortedAndRepeatedOnesLeftOut) {
 
 // A run of a robot before a Vicon system, written by the Python library rosbags.
 TEST_F(PoseTopics, TheTruthOfARealRunIsRecognisedInBothStorages) {
-  const fs::path samples = fs::path(ASTRO_SHARED_DATA) / "samples/generated_by_rosbags";
+  const fs::path samples = support::shared_data() / "samples/generated_by_rosbags";
   if (!fs::is_directory(samples)) GTEST_SKIP() << "no samples in " << samples;
   const PoseTopic database = poses_in_bag(samples / "qbii_sqlite3"),
                   mcap = poses_in_bag(samples / "qbii_mcap");

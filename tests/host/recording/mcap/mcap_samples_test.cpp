@@ -7,6 +7,7 @@
 #include "host/base/files.hpp"
 #include "host/recording/mcap/reader.hpp"
 #include "host/ros2/recorded/ros_messages.hpp"
+#include "tests/support/base/places.hpp"
 
 namespace astro::recording {
 namespace {
@@ -36,7 +37,7 @@ class McapSamples : public ::testing::Test {
     report_ = read_mcap(load_file(folder_ / name), handlers);
   }
 
-  const fs::path folder_ = fs::path(ASTRO_SHARED_DATA) / "samples/mcap";
+  const fs::path folder_ = support::shared_data() / "samples/mcap";
   std::map<std::string, int> counts_;
   double x_sum_m_ = 0;
   OdometrySample last_;

@@ -4,6 +4,7 @@
 #include <set>
 #include <sstream>
 
+#include "tests/support/base/places.hpp"
 #include "tests/support/ros2/robot_on_ros.hpp"
 
 /// The tables of host/ros2/README.md say what the driver does.
@@ -14,7 +15,7 @@ using testing::ElementsAreArray;
 
 /// The rows of the table under a heading, each as "cell | cell | ..." of the first `columns` columns.
 std::set<std::string> table(const std::string& heading, int columns) {
-  std::ifstream file(ASTRO_SOURCE_DIR "/host/ros2/README.md");
+  std::ifstream file(support::checkout() / "host/ros2/README.md");
   std::set<std::string> rows;
   bool inside = false;
   for (std::string line; std::getline(file, line);) {

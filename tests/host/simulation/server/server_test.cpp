@@ -176,6 +176,42 @@ TEST(Server, InRealTimeWaitsForADriverThatIsLateButNotForEver) {
   thread.join();
 }
 
+/// Its host gives voltages. Counts the milliseconds since it last heard of its host.
+class Regulated : public Driving {
+ public:
+  bool is_regulated() override { return true; }
+  void step() override {
+    Driving::step();
+    ++silent_ms;
+  }
+  void write(int port, std::span<const std::uint8_t> bytes) override {
+    Driving::write(port, bytes);
+    silent_ms = 0;
+  }
+  std::atomic<int> silent_ms = 1'000'000;
+};
+
+// Else the voltage that the host finds right meets another robot than the one it has seen.
+TEST(Server, InFastMotionWaitsForAHostThatRegulatesVoltages) {
+  const test::TemporaryFolder folder;
+  auto owned = std::make_unique<Regulated>();
+  const Regulated& robot = *owned;
+  ServerConfig config{folder.path() / "robot.pty"};
+  config.fast = true;
+  Server server(std::move(owned), config);
+  std::atomic<bool> stop = false;
+  std::thread thread([&] { server.run([&] { return stop.load(); }); });
+  const auto host = robot::open_transport(folder.path() / "robot.pty");
+  host->write(std::array{std::uint8_t{'a'}});
+  const auto end = steady_clock::now() + seconds(60);  // only a failure waits so long
+  while ((!robot.heard || robot.silent_ms < 30) && steady_clock::now() < end) ::poll(nullptr, 0, 1);
+  ::poll(nullptr, 0, 100);  // time for a thousand more, were it not to wait ten seconds
+  EXPECT_GE(robot.silent_ms, 30);
+  EXPECT_LE(robot.silent_ms, 32);
+  stop = true;
+  thread.join();
+}
+
 std::string refusal(const std::filesystem::path& flash) {
   const test::TemporaryFolder folder;
   try {

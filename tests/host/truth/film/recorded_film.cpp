@@ -1,4 +1,5 @@
 #include "tests/host/truth/film/recorded_film.hpp"
+#include "tests/support/base/places.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +11,7 @@
 namespace astro::support {
 
 std::filesystem::path recorded_film() {
-  const std::filesystem::path film = std::filesystem::path(ASTRO_SHARED_DATA) / "camera" / "dev.mp4";
+  const std::filesystem::path film = support::shared_data() / "camera" / "dev.mp4";
   return std::filesystem::exists(film) ? film : "";
 }
 

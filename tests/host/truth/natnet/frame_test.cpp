@@ -12,6 +12,7 @@
 
 #include "host/truth/natnet/frame.hpp"
 #include "host/truth/natnet/models.hpp"
+#include "tests/support/base/places.hpp"
 
 namespace astro::truth::natnet {
 namespace {
@@ -211,7 +212,7 @@ class NatNetOfMotive : public testing::Test {
     return frames;
   }
 
-  fs::path folder_ = fs::path(ASTRO_SHARED_DATA) / "samples/natnet";
+  fs::path folder_ = support::shared_data() / "samples/natnet";
 };
 
 TEST_F(NatNetOfMotive, ServerAndModelsAreRead) {

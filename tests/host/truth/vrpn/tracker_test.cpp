@@ -10,6 +10,7 @@
 #include "host/truth/vrpn/directory.hpp"
 #include "host/truth/vrpn/reader.hpp"
 #include "host/truth/vrpn/tracker.hpp"
+#include "tests/support/base/places.hpp"
 
 namespace astro::truth::vrpn {
 namespace {
@@ -273,8 +274,7 @@ TEST(VrpnDirectory, ADescriptionThatCannotBeReadNamesNothing) {
 // ---- a recording of the upstream server, which is beside a developer's checkout
 
 TEST(VrpnUpstream, ThreeSecondsOfItsServerAreReadWhole) {
-  const std::filesystem::path path =
-      std::filesystem::path(ASTRO_SHARED_DATA) / "samples/vrpn/vrpn_07.38_server_tcp_3s.bin";
+  const std::filesystem::path path = support::shared_data() / "samples/vrpn/vrpn_07.38_server_tcp_3s.bin";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "not at hand: " << path;
   std::ifstream file(path, std::ios::binary);
   const Bytes bytes(std::istreambuf_iterator<char>(file), {});
