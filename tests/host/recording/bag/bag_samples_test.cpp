@@ -23,7 +23,7 @@ class BagSamples : public ::testing::Test {
     EXPECT_TRUE(seen.report.warnings.empty()) << name;
     return seen;
   }
-  const fs::path folder_ = support::shared_data() / "samples";
+  const fs::path folder_ = astro::support::shared_data() / "samples";
 };
 
 TEST_F(BagSamples, ABagOfHumbleReads) {

@@ -182,7 +182,7 @@ TEST_F(PoseTopics, PosesOutOfOrderAreSortedAndRepeatedOnesLeftOut) {
 
 // A run of a robot before a Vicon system, written by the Python library rosbags.
 TEST_F(PoseTopics, TheTruthOfARealRunIsRecognisedInBothStorages) {
-  const fs::path samples = support::shared_data() / "samples/generated_by_rosbags";
+  const fs::path samples = astro::support::shared_data() / "samples/generated_by_rosbags";
   if (!fs::is_directory(samples)) GTEST_SKIP() << "no samples in " << samples;
   const PoseTopic database = poses_in_bag(samples / "qbii_sqlite3"),
                   mcap = poses_in_bag(samples / "qbii_mcap");

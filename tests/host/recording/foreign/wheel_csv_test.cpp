@@ -209,7 +209,7 @@ TEST(WheelCsv, RandomDamageNeverHarmsTheReader) {
 // The raw log of a public data set: no header, a byte order mark, ticks per interval of 50 ms.
 TEST(WheelCsv, ARawLogOfARealRobotReads) {
   const std::filesystem::path path =
-      support::shared_data() / "sousa_optiodom/circular/231220200121/231220200121_run-06_odo.csv";
+      astro::support::shared_data() / "sousa_optiodom/circular/231220200121/231220200121_run-06_odo.csv";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no sample " << path;
   FileSource source(path);
   const WheelTrack track = wheels_in_table(source, path.string(), {"time_s,left_counts,right_counts", true});

@@ -37,7 +37,7 @@ class McapSamples : public ::testing::Test {
     report_ = read_mcap(load_file(folder_ / name), handlers);
   }
 
-  const fs::path folder_ = support::shared_data() / "samples/mcap";
+  const fs::path folder_ = astro::support::shared_data() / "samples/mcap";
   std::map<std::string, int> counts_;
   double x_sum_m_ = 0;
   OdometrySample last_;
