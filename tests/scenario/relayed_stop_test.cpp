@@ -143,7 +143,9 @@ class Programs {
 
   /// Its connection ends, and another program takes its place. The robot stops for one that drives.
   void kill(int who) {
-    const bool drives = rig_.relay.driver() == shared_[static_cast<std::size_t>(who)]->id();
+    // One that was stopped, and whose robot drives for the other port since, is none.
+    const bool drives = rig_.relay.driver() == shared_[static_cast<std::size_t>(who)]->id() &&
+                        rig_.witness.driver().port == who;
     const bool halted = rig_.witness.halted();
     const long stops = rig_.count(Stop::kId);
     shared_[static_cast<std::size_t>(who)]->leave();

@@ -57,6 +57,8 @@ class HaltWitness {
   }
 
   bool halted() const { return stopped() || paused(); }
+  /// Who has armed the robot last.
+  const Host& driver() const { return driver_; }
   /// Empty if nothing was violated.
   const std::string& violation() const { return violation_; }
 
