@@ -30,8 +30,8 @@ class MotionRequests {
   }
 
   /// The host that arms drives from then on, so nobody can arm while a drive of another host is under way or
-  /// waits.
-  /// Of a host that may not know yet that another has stopped the robot it is refused: it might be the next of many runs.
+  /// waits. A host that may not know yet that another has stopped the robot is refused: its Arm may begin the next of many
+  /// runs.
   Answer handle(const HostId& host, const protocol::Arm&) {
     if (restart_.scheduled()) return error(ErrorCode::busy);
     if (sessions_.has_unread_stops(host)) return error(ErrorCode::not_armed);

@@ -74,7 +74,7 @@ void add_drive_options(console::Command command, DriveOptions& options) {
 
 void drive(DriveOptions& options, const DriveJob& job) {
   DriveRecording::check(options.record);
-  const auto client = connect(options.connection);
+  const auto client = connect_to_drive(options.connection);
   job.connected(*client);
   std::optional<DriveRecording> recording;
   if (!options.record.empty()) recording.emplace(options.record, *client);

@@ -58,7 +58,7 @@ void drive(RecordOptions& options) {
   if (fs::exists(options.out) && !fs::is_directory(options.out))
     throw Error(
         fmt::format("'{}' is a file, and each run gets one of its own: name a folder", options.out.string()));
-  const auto client = connect(options.connection);
+  const auto client = connect_to_drive(options.connection);
   const auto truth = open_truth(options.truth, options.connection.port);
   if (options.truth.source == "none")
     console::say("without --truth nothing can be calibrated from these runs");

@@ -171,7 +171,7 @@ void run(UmbmarkOptions& options) {
     throw Error(fmt::format("--truth-folder: there is no folder '{}': make it, or name another",
                             options.truth.folder.string()));
   if (options.truth.folder.empty()) options.truth.folder = options.out / "truth";
-  const auto client = connect(options.connection);
+  const auto client = connect_to_drive(options.connection);
   robot::Path all;
   for (const experiment::RunSpec& spec : experiment::runs_of_phase(options.plan, 0, 1)) {
     const robot::Path path = experiment::path_of(options.plan, spec);

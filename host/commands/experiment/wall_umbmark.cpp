@@ -113,7 +113,7 @@ void add_wall_options(console::Command command, WallOptions& options) {
 
 void run_wall(ConnectionOptions& connection, const experiment::WallPlan& plan, const WallSettings& settings) {
   plan.check();
-  const auto client = connect(connection);
+  const auto client = connect_to_drive(connection);
   const int readings = brief(plan, *client, settings);
   const truth::LengthUnit unit = settings.unit  ? *settings.unit
                                  : readings > 0 ? ask_length_unit(console::ask)

@@ -61,7 +61,12 @@ std::unique_ptr<robot::Client> connect(ConnectionOptions& options) {
   if (options.port.empty()) options.port = only_robot(options.baud);
   auto client = std::make_unique<robot::Client>(open_port(options));
   client->connect();
-  client->learns_of_stop(client->request(protocol::GetStatus{}));  // of those that come from now on
+  return client;
+}
+
+std::unique_ptr<robot::Client> connect_to_drive(ConnectionOptions& options) {
+  auto client = connect(options);
+  client->learns_of_stop(client->request(protocol::GetStatus{}));
   return client;
 }
 

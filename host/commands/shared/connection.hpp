@@ -27,6 +27,10 @@ std::unique_ptr<robot::Transport> open_port(const ConnectionOptions& options);
 /// port used.
 std::unique_ptr<robot::Client> connect(ConnectionOptions& options);
 
+/// The same for a command that drives: a stop of somebody else that comes from now on keeps it from its first drive, too. Not for one
+/// that stops the robot, whose first request must be the stop: a question waits behind those of other programs.
+std::unique_ptr<robot::Client> connect_to_drive(ConnectionOptions& options);
+
 /// Hooks that ask for Ctrl-C and print notices on stderr.
 robot::DriveHooks drive_hooks();
 

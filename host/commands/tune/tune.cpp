@@ -114,7 +114,7 @@ void conclude(const TuneOptions& options, const TuneResult& result) {
 void run(TuneOptions& options) {
   find_out_where(options);
   check_out(options.out);
-  const auto client = connect(options.connection);
+  const auto client = connect_to_drive(options.connection);
   agree(options);
   TuneResult result = measure(*client, options);
   write_report(options, result, *client);  // what was measured is kept, whatever comes

@@ -151,7 +151,7 @@ console::Check a_sighting() {
 
 void check_wiring(WiringOptions& options) {
   check(options);
-  const auto client = connect(options.connection);
+  const auto client = connect_to_drive(options.connection);
   agree(options);
   const auto facts = motor::facts_of(robot::RemoteParameters::fetch(*client));
   const WiringVerdict verdict = look_at_wires(*client, facts, options);

@@ -46,7 +46,7 @@ class DriverRule {
   /// Nobody drives any more.
   void end_drive();
   void join(SessionId id) { stops_.try_emplace(id); }
-  /// This program begins anew, or will: it does not drive any more.
+  /// The program has said Hello again, or its connection ends: it does not drive any more.
   void release(SessionId id);
   /// The program has disconnected.
   void remove(SessionId id);
@@ -56,14 +56,15 @@ class DriverRule {
 
   protocol::DrivingRule<SessionId> rule_;
   std::optional<SessionId> driver_;  // from when it asks for it, the rule's from when the robot has agreed
-  std::optional<SessionId> last_;    // who has armed the robot last: it may stop what nobody else drives
-  bool confirmed_ = false;           // the robot has agreed
-  bool certainly_stopped_ = false;   // the robot has carried out a stop since
+  std::optional<SessionId>
+      last_;  // who has armed the robot last; its stops end its own drive and count for nobody else
+  bool confirmed_ = false;          // the robot has agreed
+  bool certainly_stopped_ = false;  // the robot has carried out a stop since
   /// What a program knows of the stops of others.
   struct Stops {
     std::optional<PortUser> by;
-    std::uint16_t own = 0;  // of all
-    std::optional<std::uint16_t> told;
+    std::uint16_t own = 0;              // those among all_stops_ that it has sent itself
+    std::optional<std::uint16_t> told;  // in its last status; none: it has not asked yet
   };
   std::uint16_t stops_of_others(SessionId id) const;
 

@@ -17,7 +17,7 @@ using robot::ParameterRow;
 
 namespace {
 
-constexpr microseconds kFresh = std::chrono::seconds(1);
+constexpr microseconds kFresh = std::chrono::seconds(1);  // after this, values are read again
 
 ParameterType type_of(const ParameterRow& row) {
   switch (row.kind) {

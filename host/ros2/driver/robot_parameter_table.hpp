@@ -22,9 +22,9 @@ struct OwnParameter {
 /// that a person would have to confirm (host/robot/parameters/far_change.hpp) is refused here. While there is no robot, or its
 /// parameters are not known yet, only the node's own are there.
 ///
-/// Other programs may change the robot's parameters, too. Whoever asks is_fresh() has values of more than a second read again,
-/// which step() does a little at a time. While the robot is armed the values count that were read before: they change no more
-/// until it is at rest, and on a slow line the whole table takes as long as the robot's own time-out.
+/// Other programs may change the robot's parameters, too. If somebody asks is_fresh() more than a second after the values were read,
+/// step() reads them again, a little at a time. While the robot is armed the old values stand: nobody can change them until it is
+/// at rest, and on a slow line the whole table takes as long as the robot's own time-out.
 class RobotParameterTable : public ParameterTable {
  public:
   /// The session now, or null.

@@ -1,8 +1,14 @@
 #include <gmock/gmock.h>
+#include <poll.h>
+#include <unistd.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
+#include "tests/support/links/fake_robot.hpp"
+#include "tests/support/links/pty.hpp"
 #include "tests/support/robots/watched_drive.hpp"
 
 // Drives that are cut short, against a simulator in real time; the virtual cameras show what the robot really
@@ -23,6 +29,35 @@ class CutShort : public support::WatchedDrive {
  protected:
   using support::WatchedDrive::WatchedDrive;
 };
+
+/// What a robot at a pty is sent, without its questions about the status, which another program might hold up.
+void answer_all_but_the_status(test::Pty& pty, test::FakeRobot& robot, Program& program) {
+  test::FakeRobot::Bytes frame;
+  protocol::Framer framer;
+  while (program.running()) {
+    pollfd ready{pty.master(), POLLIN, 0};
+    std::array<std::uint8_t, 256> bytes{};
+    const ssize_t count = ::poll(&ready, 1, 10) > 0 ? ::read(pty.master(), bytes.data(), bytes.size()) : 0;
+    for (ssize_t i = 0; i < count; ++i) {
+      const std::uint8_t byte = bytes.at(static_cast<std::size_t>(i));
+      frame.push_back(byte);
+      const auto body = framer.push(byte);
+      if (byte != 0) continue;  // the end of a frame
+      const auto whole = std::exchange(frame, {});
+      if (body && body->front() == protocol::GetStatus::kId) continue;
+      for (const auto& answer : robot.receive(whole))
+        EXPECT_EQ(::write(pty.master(), answer.data(), answer.size()), static_cast<ssize_t>(answer.size()));
+    }
+  }
+}
+
+TEST(EmergencyStop, OfTheCommandLineAsksTheRobotNothingBefore) {
+  test::Pty pty;
+  test::FakeRobot robot;
+  Program stop({ASTROLABE_PROGRAM, "stop", "--emergency", "--port", pty.path()});
+  answer_all_but_the_status(pty, robot, stop);
+  EXPECT_EQ(robot.executed[protocol::EmergencyStop::kId], 1) << stop.err();  // this robot then refuses it
+}
 
 TEST_F(CutShort, KilledDuringAPathTheRobotStopsByItselfAndDrivesAgain) {
   Program program = drive({"line", "20", "--speed", "0.4"});
