@@ -54,35 +54,35 @@ struct Host {
   robot::Client client;
 };
 
+std::int64_t us_since(steady_clock::time_point begin) {
+  return std::chrono::duration_cast<std::chrono::microseconds>(steady_clock::now() - begin).count();
+}
+
+// Measured from the robot's start, because a server that a busy machine held up may catch up with what it has missed since.
 TEST(Server, InRealTimeNeverRunsAheadOfTheWallClock) {
+  const auto start = steady_clock::now();
   const Served served(false);
   Host host(served);
-  const auto wall = steady_clock::now();
-  const std::uint64_t start_us = host.device_us();
-  std::uint64_t passed_us = 0;
-  for (; passed_us < 300'000; passed_us = host.device_us() - start_us) {
+  std::uint64_t now_us = host.device_us();
+  for (const std::uint64_t first_us = now_us; now_us - first_us < 300'000; now_us = host.device_us()) {
     // Without any requests, because each request may cause an early step as its answer.
     for (const auto begin = steady_clock::now(); steady_clock::now() - begin < milliseconds(400);)
       ::poll(nullptr, 0, 5);
   }
-  const auto wall_us =
-      std::chrono::duration_cast<std::chrono::microseconds>(steady_clock::now() - wall).count();
   constexpr std::int64_t kTwoWords_us = 2 * 1000;
-  EXPECT_LE(static_cast<std::int64_t>(passed_us), wall_us + kTwoWords_us);
+  EXPECT_LE(static_cast<std::int64_t>(now_us), us_since(start) + kTwoWords_us);
 }
 
 TEST(Server, InRealTimeNeverRunsAheadForAHostThatSpeaksOften) {
+  const auto start = steady_clock::now();
   const Served served(false);
   Host host(served);
-  const auto wall = steady_clock::now();
-  const std::uint64_t start_us = host.device_us();
-  std::uint64_t now_us = start_us;
+  std::uint64_t now_us = 0;
   int words = 0;
-  for (; steady_clock::now() - wall < milliseconds(400); ++words) now_us = host.device_us();
-  const auto wall_us =
-      std::chrono::duration_cast<std::chrono::microseconds>(steady_clock::now() - wall).count();
+  for (const auto begin = steady_clock::now(); steady_clock::now() - begin < milliseconds(400); ++words)
+    now_us = host.device_us();
   constexpr std::int64_t kTwoSteps_us = 2 * 1000;
-  EXPECT_LE(static_cast<std::int64_t>(now_us - start_us), wall_us + kTwoSteps_us) << words << " words";
+  EXPECT_LE(static_cast<std::int64_t>(now_us), us_since(start) + kTwoSteps_us) << words << " words";
 }
 
 /// Stores a byte that it receives in its flash after some time, and then acknowledges it.
