@@ -5,9 +5,6 @@
 namespace astro {
 namespace {
 
-constexpr std::uint32_t kSettled_ticks = 50;        // stopped and close to the path's end for so long
-constexpr std::uint32_t kSettleAtMost_ticks = 700;  // a robot held by friction will not get any closer
-
 // Scales both components by one factor, so that a command beyond the limits keeps its curvature.
 BodyTwist within_limits(const BodyTwist& twist, const MotionLimits& limits) {
   const std::int64_t v = magnitude(twist.v_umps);
@@ -18,15 +15,6 @@ BodyTwist within_limits(const BodyTwist& twist, const MotionLimits& limits) {
   if (wanted <= most) return twist;
   return {static_cast<std::int32_t>(twist.v_umps * most / wanted),
           static_cast<std::int32_t>(twist.omega_uradps * most / wanted)};
-}
-
-// Somebody has carried the robot away from the point where its path continues, or turned it.
-bool strayed(const Pose& reference, const Pose& actual) {
-  constexpr std::int64_t kFar = (std::int64_t{1} << Pose::kPositionBits) / 20;  // 50 mm
-  const std::int64_t x = reference.x - actual.x, y = reference.y - actual.y;
-  constexpr std::int32_t kFar_32 = 0x0400'0000;  // 1/64 turn
-  const auto turn_32 = static_cast<std::int32_t>((reference.theta - actual.theta) >> 32);
-  return x > kFar || x < -kFar || y > kFar || y < -kFar || exceeds(turn_32, kFar_32);
 }
 
 }  // namespace
@@ -44,7 +32,7 @@ void Drive::configure(const Configuration& configuration) {
   ramp_.set_rates(configuration.rates);
   odometry_.set_geometry(geometry_);
   wheels_.configure(configuration.wheels);
-  follower_.set_gains(configuration.set);
+  path_.set_gains(configuration.set);
   supervisor_.configure(configuration.thresholds);
 }
 
@@ -52,8 +40,9 @@ Drive::Output Drive::advance(const TickInput& input) {
   now_us_ = input.now_us;
   const Wheels::Steps steps = wheels_.read(input);
   odometry_.advance(steps.left, steps.right, wheels_.speeds());
+  const State before = state();
   supervisor_.advance(input, steps.plausible, steering_, wheels_);
-  if (state() != seen_) follow_state();
+  if (state() != before) follow_state();
   return output(set_point(), input);
 }
 
@@ -79,8 +68,7 @@ protocol::Mode Drive::mode() const {
 // ---- what a change of state entails, whoever caused it
 
 void Drive::follow_state() {
-  seen_ = state();
-  switch (seen_) {
+  switch (state()) {
     case State::stopping:
       return begin_ramp();
     case State::armed:
@@ -147,20 +135,19 @@ void Drive::stop(const TwistRamp& planned) {
   if (state() != State::stopping) return follow_state();
   ramp_ = planned;
   end_steering();
-  state_is_followed();
 }
 
 bool Drive::arm() {
   if (!supervisor_.request(Event::arm)) return false;
   // A pause without a path has nothing that waits for its end. The robot would take segments and not move.
-  if (!on_path() && queue_.empty()) paused_ = false;
+  if (!on_path() && path_.waiting() == 0) paused_ = false;
   return true;
 }
 
 bool Drive::pause() {
   if (!armed()) return false;
   if (on_path()) {
-    follower_.cut_short();
+    path_.cut_short();
   } else if (state() == State::driving) {
     stop();
   }
@@ -205,7 +192,6 @@ bool Drive::drive_velocity(const TwistRamp& planned) {
   end_segments();
   paused_ = false;
   steering_ = Steering::repeated;
-  state_is_followed();
   return true;
 }
 
@@ -216,7 +202,6 @@ bool Drive::drive_wheels(const WheelVoltages& voltages) {
   end_segments();
   paused_ = false;
   steering_ = Steering::open_loop;
-  state_is_followed();
   voltages_ = voltages;
   return true;
 }
@@ -224,24 +209,11 @@ bool Drive::drive_wheels(const WheelVoltages& voltages) {
 bool Drive::add_segment(const Segment& segment, std::uint16_t tag) {
   if (!armed() || faults().any() || queue_full()) return false;
   if (steering_ == Steering::repeated || steering_ == Steering::open_loop) stop();
-  queue_.push({segment, tag});
+  path_.add(segment, tag);
   return true;
 }
 
 // ---- segments
-
-bool Drive::wants_plan(Segment& segment, std::uint8_t& ticket) const {
-  if (planned_ || queue_.empty()) return false;
-  segment = queue_.front().segment;
-  ticket = ticket_;
-  return true;
-}
-
-void Drive::take_plan(const Trapezoid& profile, std::uint8_t ticket) {
-  if (ticket != ticket_ || queue_.empty()) return;
-  next_ = profile;
-  planned_ = true;
-}
 
 void Drive::plan() {
   Segment segment;
@@ -252,79 +224,40 @@ void Drive::plan() {
   take_plan(profile, ticket);
 }
 
-void Drive::report(SegmentEvent::Kind kind, std::uint16_t tag) { events_.push({now_us_, tag, kind}); }
-
 void Drive::end_segments() {
-  if (steering_ == Steering::path) report(SegmentEvent::Kind::aborted, running_.tag);
-  if (steering_ == Steering::path) steering_ = Steering::none;
-  end_waiting();
+  if (steering_ == Steering::path) {
+    path_.abort(now_us_);
+    steering_ = Steering::none;
+  }
+  path_.drop_waiting(now_us_);
 }
 
 void Drive::drop_waiting() {
-  if (armed() && !faults().any()) end_waiting();
-}
-
-void Drive::end_waiting() {
-  events_.push_all(queue_, [now_us = now_us_](const QueuedSegment& one) {
-    return SegmentEvent{now_us, one.tag, SegmentEvent::Kind::aborted};
-  });
-  planned_ = path_open_ = false;
-  ++ticket_;
+  if (armed() && !faults().any()) path_.drop_waiting(now_us_);
 }
 
 void Drive::start_path() {
   if (!supervisor_.request(Event::drive)) return;
-  state_is_followed();
   steering_ = Steering::path;
-  if (!path_open_ || strayed(follower_.reference(), odometry_.pose())) follower_.begin_path(odometry_.pose());
-  start_segment();
-}
-
-void Drive::start_segment() {
-  running_ = queue_.pop();
-  follower_.begin(next_);
-  planned_ = false;
-  ++ticket_;
-  settling_ticks_ = 0;
-  settled_.reset();
-  report(SegmentEvent::Kind::started, running_.tag);
-}
-
-// After a pause the rest of the segment is driven first.
-void Drive::put_back(Segment rest) {
-  rest.speed_umps = running_.segment.speed_umps;
-  rest.yaw_rate_uradps = running_.segment.yaw_rate_uradps;
-  queue_.push_front({rest, running_.tag});
-  planned_ = false;
-  ++ticket_;
+  path_.begin_at(odometry_.pose(), now_us_);
 }
 
 void Drive::end_segment() {
-  const Segment left = follower_.profile().rest();
-  if (left.length_nm != 0 || left.angle_32 != 0 || left.dwell_ms != 0) {
-    put_back(left);
-  } else {
-    report(SegmentEvent::Kind::completed, running_.tag);
-  }
-  path_open_ = !queue_.empty();
-  if (!paused_ && planned_) return start_segment();
+  path_.end(now_us_);
+  if (!paused_ && path_.ready()) return path_.begin_next(now_us_);
   steering_ = Steering::none;
   supervisor_.request(Event::rest);
-  state_is_followed();
 }
 
 Drive::SetPoint Drive::set_point() {
-  if (state() == State::armed && planned_ && !paused_) start_path();
+  if (state() == State::armed && path_.ready() && !paused_) start_path();
   switch (state()) {
     case State::driving:
       return steering_ == Steering::path ? set_point_of_path() : set_point_of_ramp();
     case State::stopping: {
       const SetPoint ramp = set_point_of_ramp();
       if (ramp_.arrived()) supervisor_.set_point_is_zero();
-      if (ramp_.arrived() && wheels_.stopped()) {
-        supervisor_.request(Event::rest);
-        seen_ = State::stopping;  // so that the next tick adapts to the new state
-      }
+      if (ramp_.arrived() && wheels_.stopped()) supervisor_.request(Event::rest);
       return ramp;
     }
     default:
@@ -338,14 +271,8 @@ Drive::SetPoint Drive::set_point_of_ramp() {
 }
 
 Drive::SetPoint Drive::set_point_of_path() {
-  const PathFollower::Command command = follower_.advance(odometry_.pose());
-  if (follower_.arrived()) {
-    // A segment goes from rest to rest: the next one begins when the wheels have stopped at its end, or when
-    // they will not get any closer.
-    ++settling_ticks_;
-    const bool rests = settled_.advance(wheels_.stopped() && follower_.close(), kSettled_ticks);
-    if (rests || settling_ticks_ >= kSettleAtMost_ticks) end_segment();
-  }
+  const PathFollower::Command command = path_.advance(odometry_.pose());
+  if (path_.arrived() && path_.settled(wheels_.stopped())) end_segment();
   return {within_limits(command.twist, limits_), command.acceleration};
 }
 

@@ -2,13 +2,11 @@
 
 #include <cstdint>
 
-#include "common/control/path_follower.hpp"
 #include "common/control/twist_ramp.hpp"
 #include "common/kinematics/odometry.hpp"
 #include "common/params/parameter_set.hpp"
 #include "common/protocol/enums.hpp"
-#include "common/safety/watch.hpp"
-#include "firmware/app/tick/segment_queue.hpp"
+#include "firmware/app/tick/segment_path.hpp"
 #include "firmware/app/tick/supervisor.hpp"
 #include "firmware/app/tick/wheels.hpp"
 #include "hal/interface/board.hpp"
@@ -17,6 +15,18 @@ namespace astro {
 
 /// The robot's behaviour without a board: once a tick it takes counts, supply voltage and time and returns
 /// the duty. Drive decides what moves the wheels; the Supervisor decides whether they may move.
+///
+/// What moves the wheels follows from the supervisor's state and, while that is `driving`, from the steering:
+///
+///   armed                  nothing; a path begins by itself as soon as its first segment has a profile, unless paused
+///   driving, repeated      ramp_, towards a velocity that a host must repeat
+///   driving, path          path_, segment by segment; paused: to rest on the path, and then armed
+///   driving, open_loop     voltages_, which a host must repeat
+///   stopping               ramp_, towards zero; at rest armed, or after a fault off
+///   any other              nothing: the bridges are open
+///
+/// The supervisor may leave a state by itself, when a deadline has passed or a check has failed. Drive then follows in the
+/// same tick, before it computes a set point (follow_state).
 ///
 /// Concurrency  none of its own: tick and main loop share it through Shared.
 class Drive {
@@ -62,7 +72,7 @@ class Drive {
   bool add_segment(const Segment& segment, std::uint16_t tag);  // refused unless armed and with room
   void set_pose(const Pose& pose) {                             // precondition: stopped_without_power()
     odometry_.set_pose(pose);
-    path_open_ = false;
+    path_.pose_was_set();
   }
   void raise(Fault fault);
   bool clear_faults() { return supervisor_.clear(); }  // refused while the wheels are driven
@@ -90,10 +100,9 @@ class Drive {
 
   // The profile of the next segment takes divisions and roots, so it is computed outside the tick.
 
-  /// The segment that needs a profile, and the ticket that take_plan() asks for; false if none needs one.
-  bool wants_plan(Segment& segment, std::uint8_t& ticket) const;
-  /// Ignores the profile if the queue has changed since the ticket was given.
-  void take_plan(const Trapezoid& profile, std::uint8_t ticket);
+  /// As SegmentPath has them.
+  bool wants_plan(Segment& segment, std::uint8_t& ticket) const { return path_.wants_plan(segment, ticket); }
+  void take_plan(const Trapezoid& profile, std::uint8_t ticket) { path_.take_plan(profile, ticket); }
   /// Does both, for owners whose tick cannot interrupt them.
   void plan();
 
@@ -104,18 +113,16 @@ class Drive {
   bool gives_power() const { return supervisor_.permission() == Permission::drive; }
   bool stopped_without_power() const { return !gives_power() && wheels_.stopped(); }
   /// Also true while there is no room for the event that another segment's end would need.
-  bool queue_full() const {
-    return queue_.size() >= kQueueLength || queue_.size() + events_.size() + 2 > kEventsLength;
-  }
+  bool queue_full() const { return path_.full(); }
   Mode mode() const;
   const Pose& pose() const { return odometry_.pose(); }
   const Wheels& wheels() const { return wheels_; }
-  const PathFollower& follower() const { return follower_; }
+  const PathFollower& follower() const { return path_.follower(); }
   BodyTwist twist() const { return to_body(geometry_, wheels_.speeds()); }
   const FaultLatch& faults() const { return supervisor_.faults(); }
-  std::uint16_t running_tag() const { return on_path() ? running_.tag : std::uint16_t{0}; }
-  std::size_t queued() const { return queue_.size(); }
-  SegmentEvents& events() { return events_; }
+  std::uint16_t running_tag() const { return on_path() ? path_.tag() : std::uint16_t{0}; }
+  std::size_t queued() const { return path_.waiting(); }
+  SegmentEvents& events() { return path_.events(); }
   /// True once after the supervisor has checked a tick.
   bool take_supervised() { return supervisor_.take_checked(); }
 
@@ -128,18 +135,13 @@ class Drive {
 
   bool on_path() const { return steering_ == Steering::path && state() == State::driving; }
   void follow_state();
-  void state_is_followed() { seen_ = state(); }
   BodyTwist start_of_ramp() const;
   void begin_ramp();
   void end_steering();
   bool request_stop();
   void end_segments();
-  void end_waiting();
   void start_path();
-  void start_segment();
   void end_segment();
-  void put_back(Segment rest);
-  void report(SegmentEvent::Kind kind, std::uint16_t tag);
   SetPoint set_point();
   SetPoint set_point_of_ramp();
   SetPoint set_point_of_path();
@@ -151,24 +153,14 @@ class Drive {
 
   Odometry odometry_{Geometry{}};
   Wheels wheels_;
-  PathFollower follower_;
-  TwistRamp ramp_;
   Supervisor supervisor_;
-  State seen_ = State::boot;  // the state that everything else here has been adapted to
+  /// Other than none while the state is `driving`, and until a change of it has been followed.
   Steering steering_ = Steering::none;
+  bool paused_ = false;  // no segment begins
   WheelVoltages voltages_;
-
-  SegmentQueue queue_;
-  SegmentEvents events_;
-  QueuedSegment running_;
-  Trapezoid next_;  // profile of the front of the queue
-  bool planned_ = false;
-  bool paused_ = false;
-  bool path_open_ = false;   // the next segment continues the path of the last one
-  std::uint8_t ticket_ = 0;  // changes whenever the front of the queue does
-  std::uint32_t settling_ticks_ = 0;
-  Watch settled_;
   std::uint64_t now_us_ = 0;
+  SegmentPath path_;
+  TwistRamp ramp_;
 };
 
 /// Sets a board's bridges as a tick has decided.

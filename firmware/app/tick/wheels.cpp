@@ -76,7 +76,7 @@ void Wheels::configure(const Configuration& configuration) {
 }
 
 std::int32_t Wheels::step(Side& side, std::int32_t counts) const {
-  const std::int32_t step = wrapping_difference(counts, side.seen) * side.encoder_sign;
+  const std::int32_t step = wrapping_product(wrapping_difference(counts, side.seen), side.encoder_sign);
   side.seen = counts;
   side.edges += step < 0 ? 0 - static_cast<std::uint32_t>(step) : static_cast<std::uint32_t>(step);
   return step;

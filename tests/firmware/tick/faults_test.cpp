@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "common/fixed/wrapping.hpp"
 #include "tests/support/robots/bench_robot.hpp"
 
 // After every fault the outputs are off within the stated time, the fault is latched under its name, and
@@ -119,6 +120,19 @@ TEST_F(Faults, AnEncoderThatJumpsIsNotBelieved) {
   silence_ms(1);
   EXPECT_NEAR(static_cast<double>(drive().pose().x - x), 0, 0x1p40 * 0.001) << "the pose did not jump";
   silence_ms(1);
+  expect_latched(Fault::encoder);
+}
+
+TEST_F(Faults, AReversedEncoderThatJumpsByHalfItsRangeIsNotBelieved) {
+  ask(protocol::RevertParameters{});
+  for (const Param polarity : {Param::motor_polarity_left, Param::encoder_polarity_left})
+    ask(protocol::StageParameter{static_cast<std::uint16_t>(polarity), -1, {}});
+  ask(protocol::CommitParameters{});
+  drive_line();
+  const hal::EncoderCounts now = board().encoders().read();
+  board().encoders().preset(
+      {wrapping_sum(now.left, INT32_MIN), now.right});  // of which the negative is itself
+  silence_ms(2);
   expect_latched(Fault::encoder);
 }
 
