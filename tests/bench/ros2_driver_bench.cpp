@@ -9,7 +9,7 @@
 
 #include "host/ros2/cdr/codec.hpp"
 #include "host/ros2/dds/fast_dds.hpp"
-#include "host/ros2/messages/odometry.hpp"
+#include "host/ros2/messages/geometry.hpp"
 #include "host/ros2/types/type_description.hpp"
 #include "tests/support/programs/program.hpp"
 #include "tests/support/ros2/domain.hpp"

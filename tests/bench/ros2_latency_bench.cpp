@@ -11,7 +11,7 @@
 
 #include "host/ros2/cdr/codec.hpp"
 #include "host/ros2/dds/fast_dds.hpp"
-#include "host/ros2/messages/odometry.hpp"
+#include "host/ros2/messages/geometry.hpp"
 #include "host/ros2/node/node.hpp"
 #include "tests/support/ros2/domain.hpp"
 

@@ -1,5 +1,6 @@
 // ROS 2 messages.
 #include "host/ros2/cdr/cdr.hpp"
+#include "host/recording/run/sample_messages.hpp"
 #include "host/ros2/recorded/joint_state.hpp"
 #include "host/ros2/recorded/ros_messages.hpp"
 #include "host/ros2/recorded/stamped_pose.hpp"
@@ -9,10 +10,10 @@
 namespace astro::fuzz {
 
 void take(ByteView input) {
-  ros2::decode_odometry(input);
-  ros2::decode_truth(input);
-  if (const auto counts = ros2::decode_counts(input))
-    require(ros2::decode_counts(ros2::encode_counts(*counts))->left == counts->left,
+  recording::decode_odometry(input);
+  recording::decode_truth(input);
+  if (const auto counts = recording::decode_counts(input))
+    require(recording::decode_counts(recording::encode_counts(*counts))->left == counts->left,
             "counts come back from their message");
   for (const char* type :
        {"geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/PoseWithCovarianceStamped",
@@ -36,9 +37,9 @@ std::vector<Bytes> seeds() {
   writer.string("text");
   writer.number(1.0);
   writer.number(std::uint16_t{1});
-  return {ros2::encode_odometry({}),
-          ros2::encode_counts({1, 2, 3}),
-          ros2::encode_truth({}),
+  return {recording::encode_odometry({}),
+          recording::encode_counts({1, 2, 3}),
+          recording::encode_truth({}),
           writer.bytes(),
           ros2::encode_joint_state({1, {"l", "r"}, {1, 2}, {3, 4}, {}}),
           ros2::encode_tf({{1, "a", "b", 1, 2, 3, 0, 0, 0, 1}}),

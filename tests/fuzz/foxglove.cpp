@@ -3,8 +3,7 @@
 
 #include "host/ros2/foxglove/hub.hpp"
 #include "host/ros2/messages/geometry.hpp"
-#include "host/ros2/messages/services.hpp"
-#include "host/ros2/messages/text.hpp"
+#include "host/ros2/messages/std.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace astro::fuzz {

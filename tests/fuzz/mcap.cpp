@@ -5,6 +5,7 @@
 #include "host/recording/mcap/reader.hpp"
 #include "host/recording/mcap/writer.hpp"
 #include "host/recording/run/run_metadata.hpp"
+#include "host/recording/run/sample_messages.hpp"
 #include "host/ros2/recorded/ros_messages.hpp"
 #include "tests/fuzz/target.hpp"
 
@@ -54,16 +55,16 @@ Bytes chunk_of(const Run& run) {
     mcap::append_record(chunk, mcap::Op::channel, mcap::encode(mcap::Channel{id, id, name, "cdr", {}}));
   };
   topic(1, "/odom", ros2::odometry_type());
-  topic(2, "/wheel_counts", ros2::wheel_counts_type());
+  topic(2, "/wheel_counts", recording::wheel_counts_type());
   topic(3, "/truth", ros2::pose_stamped_type());
   const auto message = [&](std::uint16_t channel, const Bytes& data) {
     mcap::append_record(chunk, mcap::Op::message, mcap::encode(mcap::Message{channel, 0, 0, 0, data}));
   };
   for (const OdometrySample& sample : run.odometry) {
-    message(1, ros2::encode_odometry(sample));
-    message(2, ros2::encode_counts({sample.time_us, sample.left_counts, sample.right_counts}));
+    message(1, recording::encode_odometry(sample));
+    message(2, recording::encode_counts({sample.time_us, sample.left_counts, sample.right_counts}));
   }
-  for (const TruthSample& sample : run.truth) message(3, ros2::encode_truth(sample));
+  for (const TruthSample& sample : run.truth) message(3, recording::encode_truth(sample));
   return chunk;
 }
 
@@ -86,7 +87,8 @@ std::vector<Bytes> seeds() {
   const auto schema = writer.add_schema(ros2::odometry_type().name, "ros2msg", "x");
   const auto channel = writer.add_channel(schema, "/odom", "cdr", {{"key", "value"}});
   writer.write_metadata({std::string(kRunRecordName), to_map({run.info, {}, {}})});
-  for (const OdometrySample& sample : run.odometry) writer.write(channel, 0, ros2::encode_odometry(sample));
+  for (const OdometrySample& sample : run.odometry)
+    writer.write(channel, 0, recording::encode_odometry(sample));
   writer.close();
   all[1] = chunk_of(run);
   all[1].insert(all[1].begin(), 1);

@@ -3,7 +3,6 @@
 #include "host/base/error.hpp"
 #include "host/ros2/cdr/codec.hpp"
 #include "host/ros2/messages/geometry.hpp"
-#include "host/ros2/messages/odometry.hpp"
 #include "host/truth/ros2/node_names.hpp"
 #include "host/truth/ros2/ros_pose_stream.hpp"
 #include "host/truth/source/floor_track.hpp"

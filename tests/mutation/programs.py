@@ -16,9 +16,8 @@ SCENARIOS = ["fault_matrix_test.cpp", "stopping_test.cpp", "lives_test.cpp"]
 # The simulated robot with a client in process: what its tests link of the host's tools.
 HOST = ["base/numbers.cpp", "base/plain_text.cpp", "robot/client/client.cpp", "robot/client/clock_map.cpp",
         "robot/client/handshake.cpp", "robot/client/refusal.cpp", "robot/motion/drive.cpp",
-        "robot/motion/other_program.cpp", "robot/motion/paths.cpp",
-        "robot/motion/rest.cpp", "robot/parameters/parameter_row.cpp", "robot/parameters/parameter_rules.cpp",
-        "robot/parameters/parameters.cpp", "robot/port/ports.cpp", "robot/port/terminal_user.cpp",
+        "robot/motion/other_program.cpp", "robot/motion/paths.cpp", "robot/motion/rest.cpp",
+        "robot/parameters/parameter_row.cpp", "robot/parameters/parameters.cpp", "robot/port/ports.cpp",
         "robot/sharing/port_socket.cpp", "simulation/robot/in_process.cpp", "simulation/robot/virtual_mocap.cpp",
         "simulation/robot/virtual_robot.cpp"]
 PRECOMPILED = ["gmock/gmock.h", "gtest/gtest.h", "algorithm", "array", "chrono", "cmath", "filesystem", "functional",

@@ -1,5 +1,7 @@
 #include "host/base/text/numbers.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -22,6 +24,12 @@ std::string to_text(double value) {
   std::array<char, 32> text{};  // the longest shortest double has 24 characters
   const auto result = std::to_chars(text.data(), text.data() + text.size(), value);
   return std::string(text.data(), result.ptr);
+}
+
+double without_minus_zero(double value, int decimals) {
+  if (!(value < 0) && value != 0) return value;
+  const std::string text = fmt::format("{:.{}f}", value, decimals);
+  return text.find_first_of("123456789in") == std::string::npos ? 0.0 : value;  // "inf" and "nan" stay
 }
 
 std::string seconds_text(std::int64_t time_us) {

@@ -14,6 +14,10 @@ namespace astro {
 /// The shortest decimal that reads back as the same double; "nan", "inf", "-inf" for those.
 std::string to_text(double value);
 
+/// `value`, or 0 if with this many decimals it would be printed as "-0.00": a minus sign before zeros looks
+/// like an error. Compares the printed text, so that ties round as fmt rounds them.
+double without_minus_zero(double value, int decimals);
+
 /// Seconds with six decimals, exact: 1234567 -> "1.234567".
 std::string seconds_text(std::int64_t time_us);
 

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "host/calibration/motion/arc.hpp"
-#include "host/calibration/motion/interval_near.hpp"
 #include "host/calibration/motion/wheel_path.hpp"
 
 namespace astro::calibration {

@@ -9,7 +9,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/text/degrees.hpp"
-#include "host/base/text/shown.hpp"
+#include "host/base/text/numbers.hpp"
 
 namespace astro::calibration {
 namespace {

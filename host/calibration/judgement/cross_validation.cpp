@@ -83,8 +83,9 @@ struct Followed {
   std::vector<double> cost;  // -2 log likelihood of each run
 };
 
-Followed followed(const Group& runs, const WheelFactors& factors, const MlOptions& options, Held held) {
-  const MlFit fit(runs.prepared, factors, options, held, runs.start);
+Followed followed(const Group& runs, const WheelFactors& factors, const MlOptions& options,
+                  const FixedParameters& held) {
+  const MlFit fit = MlFit::of(runs.prepared, factors, options, held, runs.start);
   Followed out{path_errors(fit, factors).runs, {}};
   for (const InnovationSums& sums : fit.sums()) out.cost.push_back(sums.cost);
   return out;
@@ -153,15 +154,15 @@ CrossValidation cross_validate(std::span<const Trajectory> runs, const WheelFact
   with_noise.spacing_m = all.spacing_m;
   with_noise.with_e = all.factors.e != 0;
   const PreparedRuns prepared = prepare(runs, in_use, options.clock_known, Density::independent);
-  const MlFit fit(prepared, in_use, with_noise);
-  const MlFit fit_in_use(prepared, in_use, with_noise, Held::factors, fit.unknowns());
+  const MlFit fit = MlFit::of(prepared, in_use, with_noise);
+  const MlFit fit_in_use = MlFit::of(prepared, in_use, with_noise, {.factors = true}, fit.unknowns());
   const std::size_t groups = std::min(kMostGroups, prepared.runs.size());
   for (std::size_t i = 0; i < groups && prepared.runs.size() > 1; ++i) {
     const std::vector<std::size_t> members = members_of(i, groups, prepared.runs.size());
     try {
       const Pool others = without(fit, members);
       const WheelFactors found = found_by(others, fit);
-      const Held held = sessions_are_known(prepared, members) ? Held::factors_and_sessions : Held::factors;
+      const FixedParameters held{.factors = true, .session = sessions_are_known(prepared, members)};
       const Followed by_found = followed(group_of(prepared, fit, others, members), found, with_noise, held);
       const Pool others_in_use = without(fit_in_use, members);
       const Followed by_in_use =

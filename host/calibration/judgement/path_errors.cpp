@@ -73,7 +73,7 @@ PathErrors path_errors(std::span<const Trajectory> runs, const WheelFactors& fac
   // The factors are given, so what a spin winds up cannot pass for another wheelbase, and samples in spins show lever arm and
   // clock best.
   for (PreparedRun& run : prepared.runs) run.knots_m = run.path_m;
-  PathErrors errors = path_errors(MlFit(prepared, factors, options, Held::factors), factors);
+  PathErrors errors = path_errors(MlFit::of(prepared, factors, options, {.factors = true}), factors);
   errors.left_out = prepared.left_out;
   return errors;
 }

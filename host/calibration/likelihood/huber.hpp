@@ -2,8 +2,6 @@
 
 #include <Eigen/Core>
 
-#include "host/calibration/likelihood/robust_mode.hpp"
-
 /// Huber's loss for a truth sample after wheels that slip.
 ///
 /// An innovation r is the sum of wheel slip and tracker error, with covariances P and R, and either can have
@@ -20,6 +18,9 @@
 /// RobustMode::tracker s stays 1.
 /// Source  Huber 1964, Ann. Math. Stat. 35(1), for the loss; Masreliez & Martin 1977 for such a filter.
 namespace astro::calibration {
+
+/// Whose errors Huber's loss down-weights where they are beyond the 99 % quantile.
+enum class RobustMode { none, tracker, tracker_and_wheels };
 
 struct HuberLoss {
   double cost = 0;

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "host/calibration/likelihood/huber.hpp"
 #include "host/calibration/likelihood/moves.hpp"
 #include "host/calibration/likelihood/noise_slope.hpp"
-#include "host/calibration/likelihood/robust_mode.hpp"
 #include "host/calibration/likelihood/sample_selection.hpp"
 #include "host/calibration/likelihood/unknowns.hpp"
 #include "host/calibration/motion/trajectory.hpp"

@@ -5,7 +5,6 @@
 #include "host/calibration/likelihood/huber.hpp"
 #include "host/calibration/likelihood/matrix3.hpp"
 #include "host/calibration/likelihood/moves.hpp"
-#include "host/calibration/likelihood/robust_mode.hpp"
 #include "host/calibration/likelihood/sample_selection.hpp"
 #include "host/calibration/motion/trajectory.hpp"
 

@@ -10,8 +10,11 @@
 
 #include "host/base/error.hpp"
 #include "host/calibration/likelihood/agreement.hpp"
-#include "host/calibration/likelihood/expected_bound.hpp"
+#include "host/calibration/likelihood/innovation.hpp"
 #include "host/calibration/likelihood/ml_fit.hpp"
+#include "host/calibration/likelihood/moves.hpp"
+#include "host/calibration/likelihood/normal_equations.hpp"
+#include "host/calibration/likelihood/sample_selection.hpp"
 #include "host/calibration/likelihood/start_values.hpp"
 #include "host/calibration/preparation/courses.hpp"
 #include "host/calibration/preparation/sessions.hpp"
@@ -26,6 +29,57 @@ constexpr double kShowsE = 0.05;  // an e with a larger standard error is not wo
 // Rounding can turn an infinite variance into one that is not positive.
 double root(double variance) {
   return variance > 0 ? std::sqrt(variance) : std::numeric_limits<double>::infinity();
+}
+
+FixedParameters fixed_in_bound(std::span<const PreparedRun> runs, bool with_e, bool clock_known) {
+  FixedParameters fixed;
+  fixed.clock = clock_known;
+  fixed.e = !with_e;
+  fixed.lever_yaw =
+      std::none_of(runs.begin(), runs.end(), [](const PreparedRun& run) { return run.has_headings; });
+  return fixed;
+}
+
+/// The covariance that the factors would have if all unknowns of the runs were at given values: the Cramer-Rao bound.
+class ExpectedBound {
+ public:
+  /// `runs` is only asked whether any of them has headings.
+  ExpectedBound(std::span<const PreparedRun> runs, const WheelFactors& factors, const LeverArm& lever,
+                const NoiseModel& noise, bool clock_known, double spacing_m);
+
+  void add(const PreparedRun& run, const ClockFit& clock);
+  /// With the runs that were added. Each further one can only lessen it.
+  FactorMatrix covariance() const { return pool_.factor_covariance(); }
+
+ private:
+  const WheelFactors factors_;
+  const LeverArm lever_;
+  const NoiseModel noise_;
+  const double spacing_m_;
+  const FixedParameters fixed_;
+  Pool pool_;
+};
+
+ExpectedBound::ExpectedBound(std::span<const PreparedRun> runs, const WheelFactors& factors,
+                             const LeverArm& lever, const NoiseModel& noise, bool clock_known,
+                             double spacing_m)
+    : factors_(factors),
+      lever_(lever),
+      noise_(noise),
+      spacing_m_(spacing_m),
+      fixed_(fixed_in_bound(runs, factors.e != 0, clock_known)),
+      pool_(fixed_) {}
+
+void ExpectedBound::add(const PreparedRun& run, const ClockFit& clock) {
+  Unknowns u = Unknowns::Zero();
+  u.head<kShared>() << factors_.c_r, factors_.c_l, factors_.b_m, factors_.e, lever_.x_m, lever_.y_m,
+      lever_.yaw_rad, clock.skew;
+  u[kClockOffset] = clock.offset_s;
+  InnovationSums sums;
+  sums.session = run.session;
+  const SampleSelection samples = selection_of(run.path_m, spacing_m_);
+  sums.information = expected_information(Moves(run, u, kUsualKappa0, {samples}), noise_, samples);
+  pool_.add(reduced(sums, fixed_, 0));
 }
 
 std::vector<RunFit> summarise_runs(const MlFit& fit, std::span<const Disagreement> found,
@@ -179,11 +233,11 @@ void require_observable(const PreparedRuns& prepared, const WheelFactors& loaded
 /// An e that the noise alone would allow is not taken for shown if the widened errors, which the estimate claims, do not.
 MlEstimate estimate_with_what_is_shown(const PreparedRuns& prepared, const WheelFactors& loaded,
                                        MlOptions options) {
-  MlEstimate estimate = summarise(MlFit(prepared, loaded, options));
+  MlEstimate estimate = summarise(MlFit::of(prepared, loaded, options));
   const OneUnknown e{estimate.factors.e, estimate.se.e};
   if (options.with_e || e.value == 0 || is_shown(e)) return estimate;
   options.with_e = false;
-  estimate = summarise(MlFit(prepared, loaded, options));
+  estimate = summarise(MlFit::of(prepared, loaded, options));
   estimate.curvature = CurvatureEffect{e.value, e.standard_error, false};
   return estimate;
 }

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 #include <utility>
 
 #include "host/base/error.hpp"
@@ -70,39 +69,45 @@ bool is_shown(const OneUnknown& e) {
          std::abs(e.value) < kLargestE;
 }
 
-MlFit::MlFit(const PreparedRuns& prepared, const WheelFactors& loaded, const MlOptions& options, Held held,
-             std::span<const Unknowns> start)
+MlFit MlFit::of(const PreparedRuns& prepared, const WheelFactors& loaded, const MlOptions& options,
+                FixedParameters held, std::span<const Unknowns> start) {
+  MlFit fit(prepared, loaded, options, held,
+            start.empty() ? start_values(prepared, loaded) : std::vector(start.begin(), start.end()));
+  fit.fit(options, !start.empty());
+  if (!fit.fixed_.factors && !options.with_e)
+    fit.fit_e(options);
+  else if (!fit.fixed_.e)
+    fit.e_ = fit.e_to_first_order();
+  return fit;
+}
+
+MlFit::MlFit(const PreparedRuns& prepared, const WheelFactors& loaded, const MlOptions& options,
+             FixedParameters held, std::vector<Unknowns> start)
     : runs_(prepared.runs),
       loaded_(loaded),
-      unknowns_(start.empty() ? start_values(prepared, loaded)
-                              : std::vector<Unknowns>(start.begin(), start.end())),
+      fixed_{.factors = held.factors,
+             .e = held.factors || !options.with_e.value_or(false),
+             .session = held.session,
+             .clock = options.clock_known,
+             .lever_yaw = std::none_of(runs_.begin(), runs_.end(),
+                                       [](const PreparedRun& run) { return run.has_headings; })},
       least_noise_(options.noise ? *options.noise : start_noise(prepared)) {
-  fixed_.factors = held != Held::nothing;
-  fixed_.session = held == Held::factors_and_sessions;
-  fixed_.e = fixed_.factors || !options.with_e.value_or(false);
-  fixed_.clock = options.clock_known;
-  fixed_.lever_yaw =
-      std::none_of(runs_.begin(), runs_.end(), [](const PreparedRun& run) { return run.has_headings; });
-  for (Unknowns& u : unknowns_) {
+  state_.unknowns = std::move(start);
+  for (Unknowns& u : state_.unknowns) {
     if (fixed_.clock) u[kSkew] = u[kClockOffset] = 0;
     if (fixed_.factors)
       u.head<kFactors>() << loaded.c_r, loaded.c_l, loaded.b_m, loaded.e;
     else if (fixed_.e)
       u[kE] = 0;
   }
-  fit(options, !start.empty());
-  if (!fixed_.factors && !options.with_e)
-    fit_e(options);
-  else if (!fixed_.e)
-    e_ = e_to_first_order();
 }
 
 void MlFit::fit(const MlOptions& options, bool started) {
   passed_ = false;
-  moves_.clear();  // those of a fit before lack its last step
-  last_steps_.clear();
+  state_.moves.clear();  // those of a fit before lack its last step
+  state_.last_steps.clear();
   robust_ = RobustMode::none;
-  noise_ = least_noise_;
+  state_.noise = least_noise_;
   // The first fit is least squares, because a sample that looks like an outlier to a first guess may be right.
   if (!started) {
     choose_samples(kRoughSpacing * loaded_.b_m, 1);
@@ -129,12 +134,11 @@ void MlFit::fit_e(const MlOptions& options) {
   fixed_.e = false;
   e_ = e_to_first_order();
   if (is_shown(e_)) {
-    auto without = std::tuple(unknowns_, moves_, last_steps_, noise_, spacing_m_, phases_, sums_, stretches_);
+    State without = state_;
     fit(options, true);
     e_ = e_to_first_order();
     if (is_shown(e_)) return;
-    std::tie(unknowns_, moves_, last_steps_, noise_, spacing_m_, phases_, sums_, stretches_) =
-        std::move(without);
+    state_ = std::move(without);
     passed_ = false;
     e_ = e_to_first_order();
   }
@@ -142,8 +146,8 @@ void MlFit::fit_e(const MlOptions& options) {
 }
 
 OneUnknown MlFit::e_to_first_order() const {
-  const double now = unknowns_.front()[kE];
-  const Pool pool = pool_of(sums_, fixed_, now);
+  const double now = state_.unknowns.front()[kE];
+  const Pool pool = pool_of(state_.sums, fixed_, now);
   return {now + pool.factor_step()[kE], std::sqrt(pool.factor_covariance()(kE, kE))};
 }
 
@@ -152,7 +156,7 @@ std::vector<Moves> MlFit::moves_of(std::span<const Unknowns> unknowns) const {
   moves.reserve(runs_.size());
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     std::vector<SampleSelection> selections;
-    for (int phase = 0; phase < phases_ && spacing_m_ > 0; ++phase)
+    for (int phase = 0; phase < state_.phases && state_.spacing_m > 0; ++phase)
       selections.push_back(samples_of(runs_[i], phase));
     moves.emplace_back(runs_[i], unknowns[i], kappa0(), selections);
   }
@@ -160,11 +164,11 @@ std::vector<Moves> MlFit::moves_of(std::span<const Unknowns> unknowns) const {
 }
 
 void MlFit::choose_samples(double spacing_m, int phases) {
-  if (!moves_.empty() && spacing_m == spacing_m_ && phases == phases_) return;
+  if (!state_.moves.empty() && spacing_m == state_.spacing_m && phases == state_.phases) return;
   passed_ = false;
-  spacing_m_ = spacing_m;
-  phases_ = phases;
-  moves_ = moves_of(unknowns_);
+  state_.spacing_m = spacing_m;
+  state_.phases = phases;
+  state_.moves = moves_of(state_.unknowns);
 }
 
 double MlFit::cost_of(std::span<const InnovationSums> sums, double e) const {
@@ -180,12 +184,13 @@ void MlFit::fit_with_noise(const Settled& settled) {
   for (int round = 0; round < kMostRounds; ++round) {
     require_plausible();
     if (!passed_) pass_with_noise();
-    const std::vector<Unknowns> steps = gauss_newton_step(sums_, fixed_, 0, unknowns_.front()[kE]);
+    const std::vector<Unknowns> steps =
+        gauss_newton_step(state_.sums, fixed_, 0, state_.unknowns.front()[kE]);
     const double expected = fall_of(steps);
     const NoiseModel noise = next_noise();
-    const double noise_moved = distance(noise_, noise);
+    const double noise_moved = distance(state_.noise, noise);
     if (noise_moved < settled.noise && expected < settled.fall) return;
-    noise_ = noise;
+    state_.noise = noise;
     const bool goes_wrong = expected > kNear && expected > before;
     before = expected;
     if (expected < kFar && !goes_wrong)
@@ -198,21 +203,21 @@ void MlFit::fit_with_noise(const Settled& settled) {
 
 /// A step that is so small that the next pass would only confirm it: what that would say follows from the last one's information.
 void MlFit::take_last_step() {
-  const std::vector<Unknowns> steps = gauss_newton_step(sums_, fixed_, 0, unknowns_.front()[kE]);
+  const std::vector<Unknowns> steps = gauss_newton_step(state_.sums, fixed_, 0, state_.unknowns.front()[kE]);
   if (!(fall_of(steps) < kSettled.fall)) return;
   passed_ = false;
-  last_steps_ = steps;
+  state_.last_steps = steps;
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    unknowns_[i] += steps[i];
-    make_step(sums_[i], steps[i]);
+    state_.unknowns[i] += steps[i];
+    make_step(state_.sums[i], steps[i]);
   }
 }
 
 void MlFit::take(std::span<const Unknowns> steps) {
   passed_ = false;
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    unknowns_[i] += steps[i];
-    moves_[i].change(unknowns_[i]);
+    state_.unknowns[i] += steps[i];
+    state_.moves[i].change(state_.unknowns[i]);
   }
 }
 
@@ -221,31 +226,31 @@ void MlFit::find_spacing() {
   fit_with_noise(kRoughly);
   double widest_m = 0;  // further apart than this, each run would have the same few samples
   for (const PreparedRun& run : runs_) widest_m = std::max(widest_m, widest_spacing_m(run.path_m.back()));
-  while (spacing_m_ < widest_m && !innovations_are_independent()) {
-    choose_samples(std::max(2 * spacing_m_, kLeastSpacing * loaded_.b_m), 1);
+  while (state_.spacing_m < widest_m && !innovations_are_independent()) {
+    choose_samples(std::max(2 * state_.spacing_m, kLeastSpacing * loaded_.b_m), 1);
     fit_with_noise(kRoughly);
   }
-  if (spacing_m_ > 0) choose_samples(spacing_m_, kMostPhases);
+  if (state_.spacing_m > 0) choose_samples(state_.spacing_m, kMostPhases);
 }
 
 bool MlFit::innovations_are_independent() const {
   const int fitted = kShared + kOwn * static_cast<int>(runs_.size());
   std::vector<std::vector<Eigen::Vector3d>> by_run;
-  for (const Moves& run : moves_)
-    by_run.push_back(standardised_innovations(run, noise_, robust_, samples_of(run.run(), 0)));
+  for (const Moves& run : state_.moves)
+    by_run.push_back(standardised_innovations(run, state_.noise, robust_, samples_of(run.run(), 0)));
   if (!are_independent(by_run, fitted)) return false;
   std::vector<std::vector<Eigen::Vector3d>> spacings(1);
   for (const auto& run : by_run) spacings[0].insert(spacings[0].end(), run.begin(), run.end());
   // What comes and goes within a few samples shows in the sums over neighbours.
-  SampleSelection samples{std::max(2 * spacing_m_, kLeastSpacing / 2 * loaded_.b_m)};
+  SampleSelection samples{std::max(2 * state_.spacing_m, kLeastSpacing / 2 * loaded_.b_m)};
   std::vector<Moves> moves;
   for (std::size_t i = 0; i < runs_.size(); ++i)
-    moves.push_back(spacing_m_ == 0 ? moves_[i].joined(samples)
-                                    : Moves(runs_[i], unknowns_[i], kappa0(), {samples}));
+    moves.push_back(state_.spacing_m == 0 ? state_.moves[i].joined(samples)
+                                          : Moves(runs_[i], state_.unknowns[i], kappa0(), {samples}));
   while (true) {
     std::vector<Eigen::Vector3d>& wider = spacings.emplace_back();
     for (const Moves& run : moves) {
-      const auto of_run = standardised_innovations(run, noise_, robust_, samples);
+      const auto of_run = standardised_innovations(run, state_.noise, robust_, samples);
       wider.insert(wider.end(), of_run.begin(), of_run.end());
     }
     if (wider.size() < fewest_innovations(fitted)) break;
@@ -259,33 +264,34 @@ std::vector<InnovationSums> MlFit::pass(std::span<const Moves> moves, RobustMode
   std::vector<InnovationSums> sums;
   for (const Moves& run : moves) {
     std::vector<InnovationSums> passes;
-    for (int phase = 0; phase < phases_; ++phase)
-      passes.push_back(innovations(run, noise_, robust, samples_of(run.run(), phase)));
+    for (int phase = 0; phase < state_.phases; ++phase)
+      passes.push_back(innovations(run, state_.noise, robust, samples_of(run.run(), phase)));
     sums.push_back(mean_of(passes));
   }
   return sums;
 }
 
 std::vector<InnovationSums> MlFit::sums_with_full_slip_weight() const {
-  std::vector<InnovationSums> sums = pass(moves_, std::min(robust_, RobustMode::tracker));
-  for (std::size_t i = 0; i < last_steps_.size(); ++i) make_step(sums[i], last_steps_[i]);
+  std::vector<InnovationSums> sums = pass(state_.moves, std::min(robust_, RobustMode::tracker));
+  for (std::size_t i = 0; i < state_.last_steps.size(); ++i) make_step(sums[i], state_.last_steps[i]);
   return sums;
 }
 
 std::vector<std::vector<InnovationSums>> MlFit::sums_by_stretch() const {
-  std::vector<std::vector<InnovationSums>> sums = stretches_.empty() ? stretches_anew() : stretches_;
-  for (std::size_t i = 0; i < last_steps_.size(); ++i)
-    for (InnovationSums& stretch : sums[i]) make_step(stretch, last_steps_[i]);
+  std::vector<std::vector<InnovationSums>> sums =
+      state_.stretches.empty() ? stretches_anew() : state_.stretches;
+  for (std::size_t i = 0; i < state_.last_steps.size(); ++i)
+    for (InnovationSums& stretch : sums[i]) make_step(stretch, state_.last_steps[i]);
   return sums;
 }
 
 std::vector<std::vector<InnovationSums>> MlFit::stretches_anew() const {
   std::vector<std::vector<InnovationSums>> sums;
-  for (const Moves& run : moves_) {
+  for (const Moves& run : state_.moves) {
     std::vector<std::vector<InnovationSums>> passes;
-    for (int phase = 0; phase < phases_; ++phase)
+    for (int phase = 0; phase < state_.phases; ++phase)
       passes.push_back(
-          innovations_by_stretch(run, noise_, robust_, samples_of(run.run(), phase), kStretches));
+          innovations_by_stretch(run, state_.noise, robust_, samples_of(run.run(), phase), kStretches));
     sums.push_back(mean_of_stretches(passes));
   }
   return sums;
@@ -293,22 +299,22 @@ std::vector<std::vector<InnovationSums>> MlFit::stretches_anew() const {
 
 void MlFit::pass_with_noise() {
   ++iterations_;
-  sums_.clear();
-  stretches_.clear();
+  state_.sums.clear();
+  state_.stretches.clear();
   noise_slope_ = {};
-  for (const Moves& run : moves_) {
+  for (const Moves& run : state_.moves) {
     std::vector<InnovationSums> passes;
     std::vector<std::vector<InnovationSums>> in_stretches;
-    for (int phase = 0; phase < phases_; ++phase) {
+    for (int phase = 0; phase < state_.phases; ++phase) {
       const auto [of_run, of_stretches, of_noise] =
-          innovations_and_noise(run, noise_, robust_, samples_of(run.run(), phase), kStretches);
+          innovations_and_noise(run, state_.noise, robust_, samples_of(run.run(), phase), kStretches);
       passes.push_back(of_run);
       in_stretches.push_back(of_stretches);
-      noise_slope_.gradient += of_noise.gradient / phases_;
-      noise_slope_.curvature += of_noise.curvature / phases_;
+      noise_slope_.gradient += of_noise.gradient / state_.phases;
+      noise_slope_.curvature += of_noise.curvature / state_.phases;
     }
-    sums_.push_back(mean_of(passes));
-    stretches_.push_back(mean_of_stretches(in_stretches));
+    state_.sums.push_back(mean_of(passes));
+    state_.stretches.push_back(mean_of_stretches(in_stretches));
   }
   passed_ = true;
   // Without headings nothing determines their noise, and only rounding would move it.
@@ -323,29 +329,30 @@ void MlFit::pass_with_noise() {
 /// Thinned truth begins at several samples (phases), so that the result does not depend on one of them. Their
 /// likelihoods are averaged, not added, because all of them contain the same slip.
 SampleSelection MlFit::samples_of(const PreparedRun& run, int phase) const {
-  return selection_of(run.path_m, spacing_m_, static_cast<double>(phase) / phases_);
+  return selection_of(run.path_m, state_.spacing_m, static_cast<double>(phase) / state_.phases);
 }
 
 /// Of the unknowns, with the noise held.
 void MlFit::maximise(const Settled& settled) {
   double damping = 0;
   passed_ = false;
-  stretches_.clear();
-  sums_ = pass(moves_, robust_);
+  state_.stretches.clear();
+  state_.sums = pass(state_.moves, robust_);
   for (int step = 0; step < kMostSteps; ++step) {
-    const std::vector<Unknowns> steps = gauss_newton_step(sums_, fixed_, damping, unknowns_.front()[kE]);
+    const std::vector<Unknowns> steps =
+        gauss_newton_step(state_.sums, fixed_, damping, state_.unknowns.front()[kE]);
     // A damped step is small because of the damping, so it does not show convergence.
     if (damping == 0 && fall_of(steps) < settled.fall) return;
     ++iterations_;
-    std::vector<Unknowns> next = unknowns_;
+    std::vector<Unknowns> next = state_.unknowns;
     for (std::size_t i = 0; i < next.size(); ++i) next[i] += steps[i];
     std::vector<Moves> moves = moves_of(next);
     std::vector<InnovationSums> sums = pass(moves, robust_);
-    const double fall = cost_of(sums_, unknowns_.front()[kE]) - cost_of(sums, next.front()[kE]);
+    const double fall = cost_of(state_.sums, state_.unknowns.front()[kE]) - cost_of(sums, next.front()[kE]);
     if (fall > -kSettled.fall) {
-      unknowns_ = std::move(next);
-      moves_ = std::move(moves);
-      sums_ = std::move(sums);
+      state_.unknowns = std::move(next);
+      state_.moves = std::move(moves);
+      state_.sums = std::move(sums);
       damping = damping < 1e-3 ? 0 : damping / 10;
     } else {
       damping = std::max(10 * damping, 1e-3);
@@ -357,16 +364,16 @@ void MlFit::maximise(const Settled& settled) {
 /// By how much -2 log likelihood falls with these steps if it is as curved as the information says.
 double MlFit::fall_of(std::span<const Unknowns> steps) const {
   double fall = 0;
-  for (std::size_t i = 0; i < steps.size(); ++i) fall += steps[i].dot(sums_[i].gradient);
+  for (std::size_t i = 0; i < steps.size(); ++i) fall += steps[i].dot(state_.sums[i].gradient);
   return fall;
 }
 
 /// By one step of Fisher's scoring in the logarithms of the variances.
 NoiseModel MlFit::next_noise() const {
   const Eigen::Vector3d change = -noise_slope_.curvature.ldlt().solve(noise_slope_.gradient);
-  return {scaled(noise_.K_m, 1, change[0], 1e-13, kLargestK_m),
-          scaled(noise_.sigma_xy_m, 2, change[1], least_noise_.sigma_xy_m / 2, 1),
-          scaled(noise_.sigma_theta_rad, 2, change[2], least_noise_.sigma_theta_rad / 2, 1)};
+  return {scaled(state_.noise.K_m, 1, change[0], 1e-13, kLargestK_m),
+          scaled(state_.noise.sigma_xy_m, 2, change[1], least_noise_.sigma_xy_m / 2, 1),
+          scaled(state_.noise.sigma_theta_rad, 2, change[2], least_noise_.sigma_theta_rad / 2, 1)};
 }
 
 /// The covariance of the factors treats K as known. If the data hardly determine K (good tyres, a short drive;
@@ -379,17 +386,18 @@ void MlFit::widen_uncertain_slip() {
   if (2 * noise_slope_.curvature.inverse()(0, 0) < kSurelyKnown) return;
   double least = std::numeric_limits<double>::infinity();
   while (true) {
-    const double cost = cost_of(sums_, unknowns_.front()[kE]) + log_determinant(sums_, fixed_);
+    const double cost =
+        cost_of(state_.sums, state_.unknowns.front()[kE]) + log_determinant(state_.sums, fixed_);
     least = std::min(least, cost);
     // Written with !(x <= limit) so that a NaN also ends the loop.
-    if (!(cost <= least + kRise && noise_.K_m < kLargestK_m)) return;
-    noise_.K_m *= 2;
+    if (!(cost <= least + kRise && state_.noise.K_m < kLargestK_m)) return;
+    state_.noise.K_m *= 2;
     maximise(kSettled);
   }
 }
 
 void MlFit::require_plausible() const {
-  const Unknowns& u = unknowns_.front();
+  const Unknowns& u = state_.unknowns.front();
   const auto outside = [](double ratio) { return !(ratio > 0.5 && ratio < 2); };
   if (outside(u[kCRight]) || outside(u[kCLeft]) || outside(u[kB] / loaded_.b_m))
     throw Error(

@@ -13,13 +13,6 @@
 /// The search for the most likely unknowns.
 namespace astro::calibration {
 
-/// What a fit leaves as it is given.
-enum class Held {
-  nothing,
-  factors,
-  factors_and_sessions,  // also the lever arms and the skews, which must be in the start values
-};
-
 /// Where a search ends: by how much -2 log likelihood would fall with the next step, and how far the logarithms of the variances
 /// would go.
 struct Settled {
@@ -33,30 +26,51 @@ bool is_shown(const OneUnknown& e);
 /// and truth is thinned until the innovations are independent (whiteness.hpp). If it is not said whether e is to be estimated, that is
 /// done only where the runs show it by their noise (is_shown).
 ///
-/// Throws astro::Error for factors that no robot has, and what start_values throws.
 class MlFit {
  public:
-  /// `prepared` must outlive it. Factors that are held stay as `loaded`. `start`: unknowns of these runs from another fit that
-  /// are nearly right, one for each run; without them start values are sought.
-  MlFit(const PreparedRuns& prepared, const WheelFactors& loaded, const MlOptions& options,
-        Held held = Held::nothing, std::span<const Unknowns> start = {});
+  /// The fit of these runs, which must outlive it.
+  /// held   which of the factors and sessions stay as they are given: the factors as `loaded`, lever arms and skews as in
+  ///        `start`. The other parameters that are fixed follow from the options and the runs.
+  /// start  unknowns of these runs from another fit that are nearly right, one for each run; without them start values are
+  ///        sought.
+  /// Throws astro::Error for factors that no robot has, and what start_values throws.
+  static MlFit of(const PreparedRuns& prepared, const WheelFactors& loaded, const MlOptions& options,
+                  FixedParameters held = {}, std::span<const Unknowns> start = {});
 
   const std::vector<PreparedRun>& runs() const { return runs_; }
-  const std::vector<Unknowns>& unknowns() const { return unknowns_; }  // of each run, their shared part equal
-  const std::vector<InnovationSums>& sums() const { return sums_; }
+  const std::vector<Unknowns>& unknowns() const {
+    return state_.unknowns;
+  }  // of each run, their shared part equal
+  const std::vector<InnovationSums>& sums() const { return state_.sums; }
   /// At the same unknowns, but without down-weighting slips, however unlikely they are.
   std::vector<InnovationSums> sums_with_full_slip_weight() const;
   /// Of each run by its stretches, whose information and gradient add up to those of sums() (innovations_by_stretch).
   std::vector<std::vector<InnovationSums>> sums_by_stretch() const;
-  const NoiseModel& noise() const { return noise_; }
+  const NoiseModel& noise() const { return state_.noise; }
   const FixedParameters& fixed() const { return fixed_; }
   /// The way of the wheels between the truth samples that the filter uses; of short runs less. 0: it uses all.
-  double spacing_m() const { return spacing_m_; }
+  double spacing_m() const { return state_.spacing_m; }
   /// What the runs say about e, estimated or, to first order, not.
   OneUnknown e() const { return e_; }
   int iterations() const { return iterations_; }
 
  private:
+  /// Where the search stands.
+  struct State {
+    std::vector<Unknowns> unknowns;
+    /// With these unknowns, between the samples that the filter uses. They lack `last_steps`, the sums do not.
+    std::vector<Moves> moves;
+    std::vector<Unknowns> last_steps;  // of each run, if they were made
+    NoiseModel noise;
+    double spacing_m = 0;
+    int phases = 1;  // passes along each run, each beginning at another sample
+    std::vector<InnovationSums> sums;
+    std::vector<std::vector<InnovationSums>> stretches;  // of the last pass, if that was with noise
+  };
+
+  MlFit(const PreparedRuns& prepared, const WheelFactors& loaded, const MlOptions& options,
+        FixedParameters held, std::vector<Unknowns> start);
+
   void fit(const MlOptions& options, bool started);
   void fit_e(const MlOptions& options);
   OneUnknown e_to_first_order() const;
@@ -81,22 +95,13 @@ class MlFit {
 
   const std::vector<PreparedRun>& runs_;
   WheelFactors loaded_;
-  std::vector<Unknowns> unknowns_;
-  /// With these unknowns, between the samples that the filter uses. They lack the last steps: what a pass along them says is
-  /// carried on by its information.
-  std::vector<Moves> moves_;
-  std::vector<Unknowns> last_steps_;  // of each run, if they were made
   FixedParameters fixed_;
-  NoiseModel noise_;
   NoiseModel least_noise_;
+  State state_;
   NoiseSlope noise_slope_;  // of the last pass with noise
-  bool passed_ = false;     // sums_ and noise_slope_ are of these unknowns, noise and samples
+  bool passed_ = false;     // the sums and noise_slope_ are of the unknowns, noise and samples of state_
   RobustMode robust_ = RobustMode::none;
-  double spacing_m_ = 0;
-  int phases_ = 1;  // passes along each run, each beginning at another sample
   OneUnknown e_;
-  std::vector<InnovationSums> sums_;
-  std::vector<std::vector<InnovationSums>> stretches_;  // of the last pass, if that was with noise
   int iterations_ = 0;
 };
 

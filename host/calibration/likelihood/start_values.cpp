@@ -11,7 +11,6 @@
 #include "host/calibration/motion/tracker_noise.hpp"
 #include "host/calibration/preparation/mounting.hpp"
 #include "host/calibration/preparation/path_alignment.hpp"
-#include "host/calibration/preparation/pieces.hpp"
 #include "host/calibration/preparation/position_lever.hpp"
 #include "host/calibration/preparation/relative_pose.hpp"
 #include "host/calibration/preparation/sessions.hpp"

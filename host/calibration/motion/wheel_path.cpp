@@ -1,7 +1,5 @@
 #include "host/calibration/motion/wheel_path.hpp"
 
-#include "host/calibration/motion/interval_near.hpp"
-
 namespace astro::calibration {
 namespace {
 

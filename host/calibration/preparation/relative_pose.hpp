@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/calibration/motion/trajectory.hpp"
+#include "host/calibration/preparation/preparation.hpp"
 
 /// Wheel factors and lever arm from relative poses in closed form: no start value, no iteration, no noise
 /// model.
@@ -20,6 +21,10 @@ struct RelativePose {
   std::vector<WheelStep> steps;            // in order
   double x_m = 0, y_m = 0, theta_rad = 0;  // sensor's pose at the end, seen from its pose at the start
 };
+
+/// A run with headings as relative poses, each long enough to exceed the tracker's noise, and short enough that there are many.
+/// `wheelbase_m` need only be roughly right.
+std::vector<RelativePose> pieces_of(const PreparedRun& run, const ClockFit& clock, double wheelbase_m);
 
 /// Metres per unit of wheel travel (wheel radii, if the unit is a radian), wheelbase, and pose of the sensor
 /// on the robot. A radius is negative if the wheel turns the other way than assumed.

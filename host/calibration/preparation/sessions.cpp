@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "host/calibration/preparation/mounting.hpp"
-#include "host/calibration/preparation/pieces.hpp"
 
 namespace astro::calibration {
 namespace {

@@ -1,9 +1,3 @@
-#include "host/commands/calibrate/calibrate_bag.hpp"
-#include "host/commands/calibrate/calibrate_check.hpp"
-#include "host/commands/calibrate/calibrate_end_poses.hpp"
-#include "host/commands/calibrate/calibrate_export.hpp"
-#include "host/commands/calibrate/calibrate_files.hpp"
-#include "host/commands/calibrate/calibrate_runs.hpp"
 #include "host/commands/calibrate/commands.hpp"
 
 namespace astro::commands {

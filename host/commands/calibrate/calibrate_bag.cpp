@@ -1,12 +1,10 @@
-#include "host/commands/calibrate/calibrate_bag.hpp"
-
 #include <memory>
 
 #include "host/base/files.hpp"
 #include "host/commands/calibrate/calibration_output.hpp"
+#include "host/commands/calibrate/commands.hpp"
 #include "host/commands/calibrate/ml_option.hpp"
 #include "host/commands/shared/import_options.hpp"
-#include "host/commands/shared/session_option.hpp"
 #include "host/experiment/analysis/calibration.hpp"
 
 namespace astro::commands {

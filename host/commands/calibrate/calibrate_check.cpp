@@ -1,5 +1,3 @@
-#include "host/commands/calibrate/calibrate_check.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -11,6 +9,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/text/columns.hpp"
+#include "host/commands/calibrate/commands.hpp"
 #include "host/commands/shared/damaged_option.hpp"
 #include "host/commands/shared/import_options.hpp"
 #include "host/commands/shared/robot_view.hpp"

@@ -1,5 +1,3 @@
-#include "host/commands/calibrate/calibrate_end_poses.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -11,6 +9,7 @@
 #include "host/calibration/end_poses/end_pose_csv.hpp"
 #include "host/calibration/end_poses/odd_run.hpp"
 #include "host/commands/calibrate/calibration_output.hpp"
+#include "host/commands/calibrate/commands.hpp"
 #include "host/commands/shared/method_option.hpp"
 #include "host/console/options.hpp"
 #include "host/experiment/analysis/calibration.hpp"

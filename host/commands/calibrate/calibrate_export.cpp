@@ -1,12 +1,10 @@
-#include "host/commands/calibrate/calibrate_export.hpp"
-#include "host/commands/base/remedies.hpp"
-
-#include <iostream>
 #include <memory>
 #include <string_view>
 
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
+#include "host/commands/base/remedies.hpp"
+#include "host/commands/calibrate/commands.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
 #include "host/experiment/analysis/export.hpp"

@@ -1,9 +1,8 @@
-#include "host/commands/calibrate/calibrate_files.hpp"
-
 #include <memory>
 
 #include "host/base/files.hpp"
 #include "host/commands/calibrate/calibration_output.hpp"
+#include "host/commands/calibrate/commands.hpp"
 #include "host/commands/calibrate/ml_option.hpp"
 #include "host/commands/shared/import_options.hpp"
 #include "host/console/wrong_usage.hpp"

@@ -1,5 +1,3 @@
-#include "host/commands/calibrate/calibrate_runs.hpp"
-
 #include <fmt/format.h>
 
 #include <memory>
@@ -8,11 +6,12 @@
 
 #include "host/base/error.hpp"
 #include "host/commands/calibrate/calibration_output.hpp"
+#include "host/commands/calibrate/commands.hpp"
 #include "host/commands/calibrate/ml_option.hpp"
 #include "host/commands/shared/damaged_option.hpp"
 #include "host/commands/shared/film_truth.hpp"
+#include "host/commands/shared/import_options.hpp"
 #include "host/commands/shared/method_option.hpp"
-#include "host/commands/shared/session_option.hpp"
 #include "host/experiment/analysis/calibration.hpp"
 #include "host/experiment/files/folder_sessions.hpp"
 #include "host/experiment/files/run_set.hpp"

@@ -3,7 +3,7 @@
 #include "host/console/command_line.hpp"
 
 /// The subcommands that move a robot and stop it. Each is a file named after it and adds itself to
-/// the program: options, examples in its footer, and a callback that does the work.
+/// the program, or to `drive`: options, examples in its footer, and a callback that does the work.
 ///
 /// Output  data on stdout; everything else (progress, questions, warnings) on stderr.
 /// Errors  a callback throws astro::Error with one sentence; main prints it and exits with 1. Wrong usage exits
@@ -11,6 +11,8 @@
 namespace astro::commands {
 
 void add_drive(console::Command app);
+/// `drive teleop`: steering by keyboard.
+void add_drive_teleop(console::Command drive);
 void add_stop(console::Command app);
 void add_pause(console::Command app);
 void add_resume(console::Command app);

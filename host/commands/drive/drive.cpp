@@ -7,7 +7,6 @@
 #include "host/base/text/sense.hpp"
 #include "host/commands/drive/commands.hpp"
 #include "host/commands/drive/drive_job.hpp"
-#include "host/commands/drive/drive_teleop.hpp"
 #include "host/console/options.hpp"
 
 namespace astro::commands {
@@ -166,7 +165,7 @@ void add_drive(console::Command app) {
   const console::Command command =
       app.add_subcommand("drive", "drive a path, hold a velocity or steer by keyboard");
   command.require_subcommand(1, 1);
-  for (const auto add : {add_line, add_spin, add_arc, add_square, add_circle, add_velocity, add_teleop})
+  for (const auto add : {add_line, add_spin, add_arc, add_square, add_circle, add_velocity, add_drive_teleop})
     add(command);
   console::examples(command, {"astrolabe drive line 1", "astrolabe drive square 3 --cw --speed 0.5",
                               "astrolabe drive teleop"});

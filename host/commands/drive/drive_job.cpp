@@ -1,14 +1,16 @@
 #include "host/commands/drive/drive_job.hpp"
-#include "host/commands/base/flags.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <optional>
+#include <utility>
 
 #include "common/safety/wheel_stopped.hpp"
-#include "host/commands/drive/steering.hpp"
+#include "host/commands/base/flags.hpp"
 #include "host/commands/shared/drive_recording.hpp"
 #include "host/commands/shared/limit_notes.hpp"
 #include "host/commands/shared/path_progress.hpp"
@@ -17,11 +19,61 @@
 #include "host/console/interrupt.hpp"
 #include "host/console/options.hpp"
 #include "host/experiment/drive/record_run.hpp"
+#include "host/recording/run/planar_pose.hpp"
+#include "host/recording/run/telemetry_sample.hpp"
 
 namespace astro::commands {
 namespace {
 
-constexpr std::uint16_t kPeriod_ms = 20;  // Steering needs at most this period
+using protocol::SetTelemetry;
+using protocol::Telemetry;
+
+constexpr microseconds kStep = std::chrono::milliseconds(50);  // from one velocity of Steering to the next
+constexpr std::uint16_t kOdometryPeriod_ms = 20;               // Steering needs at most this period
+
+/// Receives the robot's odometry for as long as the object lives, and keeps the newest sample.
+class OdometryWatch {
+ public:
+  using Listener = std::function<void(const recording::OdometrySample&)>;
+
+  static constexpr std::uint32_t kFields = Telemetry::kPose | Telemetry::kTwist;
+
+  /// `listener` gets every sample; it must not call the client. `fields` must contain kPose.
+  OdometryWatch(robot::Client& client, std::uint16_t period_ms, Listener listener, std::uint32_t fields)
+      : client_(client),
+        subscription_(client.on<Telemetry>([this, hear = std::move(listener)](const Telemetry& telemetry) {
+          if ((telemetry.fields & Telemetry::kPose) == 0) return;
+          newest_ = recording::to_sample(telemetry);
+          hear(newest_);
+        })) {
+    client_.request(SetTelemetry{period_ms, fields});
+  }
+  ~OdometryWatch() {
+    try {
+      client_.request(SetTelemetry{0, 0});
+    } catch (const std::exception&) {  // a lost robot sends no telemetry anyway
+    }
+  }
+  OdometryWatch(const OdometryWatch&) = delete;
+  OdometryWatch& operator=(const OdometryWatch&) = delete;
+
+  /// Waits for a sample that the robot took after this call. Throws LinkLost if none comes.
+  const recording::OdometrySample& fresh() {
+    const auto now_us = static_cast<std::int64_t>(client_.request(protocol::Ping{}).device_time_us);
+    if (!client_.pump_until([&] { return newest_.time_us > now_us; }, std::chrono::seconds(2)))
+      throw robot::LinkLost(client_.name() + " sends no odometry although it was asked to");
+    return newest_;
+  }
+
+ private:
+  robot::Client& client_;
+  recording::OdometrySample newest_;  // all zero before the first
+  robot::Subscription subscription_;
+};
+
+recording::PlanarPose pose_of(const recording::OdometrySample& sample) {
+  return {sample.x_m, sample.y_m, sample.theta_rad};
+}
 
 /// How long the robot moved, by its own clock.
 class Stopwatch {
@@ -72,6 +124,19 @@ void add_drive_options(console::Command command, DriveOptions& options) {
       .type_name("FILE");
 }
 
+void Steering::step(double v_mps, double omega_radps) {
+  session_.set_velocity(v_mps, omega_radps);
+  const std::uint64_t next_us = client_.device_time_us() + static_cast<std::uint64_t>(kStep.count());
+  client_.pump_until([&] { return client_.device_time_us() >= next_us || console::interrupted(); }, kStep);
+}
+
+void Steering::hold(double v_mps, double omega_radps, microseconds duration) {
+  const std::uint64_t end_us =
+      client_.request(protocol::Ping{}).device_time_us + static_cast<std::uint64_t>(duration.count());
+  while (client_.device_time_us() < end_us) step(v_mps, omega_radps);
+  session_.stop();
+}
+
 void drive(DriveOptions& options, const DriveJob& job) {
   DriveRecording::check(options.record);
   const auto client = connect_to_drive(options.connection);
@@ -80,7 +145,7 @@ void drive(DriveOptions& options, const DriveJob& job) {
   if (!options.record.empty()) recording.emplace(options.record, *client);
   Stopwatch stopwatch;
   OdometryWatch odometry(
-      *client, recording ? experiment::kTelemetryPeriod_ms : kPeriod_ms,
+      *client, recording ? experiment::kTelemetryPeriod_ms : kOdometryPeriod_ms,
       [&](const recording::OdometrySample& sample) {
         if (recording) recording->add(sample);
         stopwatch.moved_to(sample);

@@ -4,12 +4,13 @@
 #include <functional>
 #include <string>
 
-#include "host/commands/drive/odometry_watch.hpp"
 #include "host/commands/shared/connection.hpp"
+#include "host/recording/run/run.hpp"
+#include "host/robot/client/client.hpp"
 #include "host/robot/motion/drive.hpp"
 #include "host/robot/motion/paths.hpp"
 
-/// One drive of a command, from connecting to the line that says where the odometry ended.
+/// One drive of a command, from connecting to the line that says where the odometry ended, and what steers meanwhile.
 namespace astro::commands {
 
 struct DriveOptions {
@@ -20,6 +21,23 @@ struct DriveOptions {
 
 /// --port, --baud, --json and --record of every command that drives.
 void add_drive_options(console::Command command, DriveOptions& options);
+
+/// Repeats a velocity often enough for the robot's command time-out. It uses the robot's clock, because the
+/// clock of a simulator in fast motion runs ahead of ours, and needs telemetry at 20 ms or less to see it.
+class Steering {
+ public:
+  Steering(robot::Client& client, robot::DriveSession& session) : client_(client), session_(session) {}
+
+  /// Sends the velocity and waits until the next one is due, at most 50 ms. Throws as DriveSession does.
+  void step(double v_mps, double omega_radps);
+
+  /// Holds the velocity for this duration by the robot's clock, then ramps to rest.
+  void hold(double v_mps, double omega_radps, microseconds duration);
+
+ private:
+  robot::Client& client_;
+  robot::DriveSession& session_;
+};
 
 /// What a drive does while the robot is armed, and its callbacks meanwhile.
 struct DriveJob {

@@ -1,13 +1,11 @@
-#include "host/commands/drive/drive_teleop.hpp"
-
 #include <unistd.h>
 
 #include <memory>
 
 #include "host/base/error.hpp"
+#include "host/commands/drive/commands.hpp"
 #include "host/commands/drive/drive_job.hpp"
 #include "host/commands/drive/drive_teleop_view.hpp"
-#include "host/commands/drive/steering.hpp"
 #include "host/commands/shared/limit_notes.hpp"
 #include "host/console/console.hpp"
 #include "host/console/keys.hpp"
@@ -55,7 +53,7 @@ void run(TeleopOptions& options) {
 
 }  // namespace
 
-void add_teleop(console::Command drive) {
+void add_drive_teleop(console::Command drive) {
   const auto options = std::make_shared<TeleopOptions>();
   const console::Command command = drive.add_subcommand("teleop", "steer by keyboard: arrow keys or W A S D");
   command.add_option("--speed", options->speed_mps, "greatest speed in m/s; each key is a fifth of it")

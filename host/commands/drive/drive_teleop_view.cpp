@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "host/base/text/degrees.hpp"
-#include "host/base/text/shown.hpp"
+#include "host/base/text/numbers.hpp"
 #include "host/commands/shared/robot_view.hpp"
 
 namespace astro::commands {

@@ -1,13 +1,20 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
+#include <string>
 
 #include "host/commands/shared/press_enter.hpp"
 #include "host/experiment/drive/experiment.hpp"
+#include "host/experiment/files/plan.hpp"
 #include "host/truth/manual/reading.hpp"
 
-/// The questions of an experiment whose ground truth people enter, beside those for the numbers themselves.
+/// What a person with a tape measure, who enters the ground truth, is told and asked, beside the questions for the numbers themselves.
 namespace astro::commands {
+
+/// Before the first run: how many runs and readings are left in `folder`, how long they take, and a drawing of where to put the
+/// tape. Lines of at most 80 columns.
+std::string tape_briefing(const experiment::Plan& plan, const std::filesystem::path& folder);
 
 /// The unit of numbers without one; an empty answer is mm.
 truth::LengthUnit ask_length_unit(const AskLine& ask);

@@ -11,7 +11,6 @@
 #include "host/commands/base/remedies.hpp"
 #include "host/commands/experiment/commands.hpp"
 #include "host/commands/experiment/film_dialogue.hpp"
-#include "host/commands/experiment/tape_briefing.hpp"
 #include "host/commands/experiment/tape_dialogue.hpp"
 #include "host/commands/experiment/umbmark_options.hpp"
 #include "host/commands/experiment/wall_umbmark.hpp"

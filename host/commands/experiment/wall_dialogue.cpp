@@ -7,7 +7,7 @@
 #include <cstdlib>
 
 #include "host/base/text/columns.hpp"
-#include "host/base/text/shown.hpp"
+#include "host/base/text/numbers.hpp"
 #include "host/base/text/trimmed.hpp"
 #include "host/console/console.hpp"
 #include "host/experiment/analysis/likelihood_sentences.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "host/base/text/degrees.hpp"
-#include "host/base/text/shown.hpp"
+#include "host/base/text/numbers.hpp"
 #include "host/console/console.hpp"
 #include "host/console/terminal.hpp"
 #include "host/recording/run/telemetry_sample.hpp"

@@ -8,7 +8,7 @@
 #include "host/base/error.hpp"
 #include "host/calibration/motion/trajectory.hpp"
 #include "host/commands/base/remedies.hpp"
-#include "host/commands/shared/fault_help.hpp"
+#include "host/commands/shared/robot_view.hpp"
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
 #include "host/console/options.hpp"

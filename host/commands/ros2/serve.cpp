@@ -1,18 +1,80 @@
+#include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 
+#include "host/base/error.hpp"
+#include "host/commands/base/remedies.hpp"
 #include "host/commands/ros2/commands.hpp"
 #include "host/commands/ros2/foxglove_options.hpp"
 #include "host/commands/ros2/robot_driver.hpp"
-#include "host/commands/ros2/truth_topic.hpp"
 #include "host/commands/shared/truth_option.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
 #include "host/console/wrong_usage.hpp"
+#include "host/recording/run/sample_messages.hpp"
+#include "host/ros2/driver/driver.hpp"
+#include "host/ros2/driver/names.hpp"
 #include "host/ros2/foxglove/foxglove_server.hpp"
+#include "host/ros2/messages/geometry.hpp"
+#include "host/ros2/middleware/middleware.hpp"
+#include "host/ros2/recorded/ros_messages.hpp"
+#include "host/truth/source/source.hpp"
 
 namespace astro::commands {
 namespace {
+
+using std::chrono::steady_clock;
+
+constexpr std::chrono::seconds kRest{1};  // before a source that has failed is asked again
+
+/// Ground truth as the topic truth of the node (geometry_msgs/PoseStamped, in the tracker's frame). Of a tracker that is lost and
+/// found again it says both once; a pose that the tracker does not see is one of NaNs.
+class TruthTopic {
+ public:
+  using Open = std::function<std::unique_ptr<truth::Source>()>;
+
+  /// `open` opens the source again after it was lost, without waiting; null for a source that comes back by itself.
+  /// `middleware` must outlive it.
+  TruthTopic(ros2::Middleware& middleware, const ros2::Names& names, std::unique_ptr<truth::Source> source,
+             Open open)
+      : open_(std::move(open)),
+        source_(std::move(source)),
+        publisher_(
+            middleware.advertise({names.absolute("truth"), ros2::message_type<ros2::msg::PoseStamped>()})) {}
+
+  /// Publishes what has come; never waits. The driver knows what the robot's clock shows.
+  void step(ros2::Driver& driver) {
+    if (steady_clock::now() < ask_at_) return;
+    try {
+      if (!source_) source_ = open_();
+      publish(driver);
+    } catch (const Error& error) {
+      if (open_) source_.reset();
+      if (!std::exchange(lost_, true)) console::say(in_words(error));
+      ask_at_ = steady_clock::now() + kRest;
+    }
+  }
+
+ private:
+  void publish(ros2::Driver& driver) {
+    for (recording::TruthSample sample : source_->poll()) {
+      if (std::exchange(lost_, false)) console::say("ground truth comes again");
+      const auto time_ns = source_->clock() == "robot" ? driver.utc_of_robot_ns(sample.time_us)
+                                                       : driver.utc_of_host_ns(sample.time_us);
+      if (!time_ns) continue;
+      sample.time_us = *time_ns / 1000;
+      publisher_->publish(recording::encode_truth(sample), *time_ns);
+    }
+  }
+
+  Open open_;
+  std::unique_ptr<truth::Source> source_;  // null while it is lost
+  std::unique_ptr<ros2::Publisher> publisher_;
+  bool lost_ = false;
+  steady_clock::time_point ask_at_{};
+};
 
 struct ServeOptions {
   RobotDriverOptions driver;

@@ -18,7 +18,6 @@
 #include "host/console/wrong_usage.hpp"
 #include "host/robot/port/ports.hpp"
 #include "host/simulation/server/pty.hpp"
-#include "host/simulation/server/runtime_link.hpp"
 
 namespace astro::commands {
 namespace {

@@ -10,7 +10,6 @@
 #include "host/base/text/numbers.hpp"
 #include "host/commands/base/remedies.hpp"
 #include "host/commands/shared/film_truth.hpp"
-#include "host/commands/shared/session_option.hpp"
 #include "host/commands/shared/unused_choices.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
@@ -154,6 +153,13 @@ void add_geometry_choices(console::Command command, ImportOptions& options) {
   command.add_option("--wheelbase", options.wheelbase_m, "as the robot's odometry takes it, m")
       .check(console::between(0.02, 10, "m"));
   command.add_flag("--swap-wheels", options.swap_wheels, "left and right are exchanged in the files");
+}
+
+void add_session_flag(console::Command command, bool& session_per_folder) {
+  command.add_flag("--session-per-folder", session_per_folder,
+                   "drives share the place of the tracked body and the\n"
+                   "rate of the clocks within a folder, and only there\n"
+                   "(default: as the drives themselves show)");
 }
 
 void add_import(console::Command command, ImportOptions& options) {

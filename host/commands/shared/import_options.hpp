@@ -41,7 +41,11 @@ void add_geometry_choices(console::Command command, ImportOptions& options);
 /// Films as the truth of recordings of this project; nothing if none is named. Throws as commands::give_truth does.
 void give_films(experiment::RunSet& set, const ImportOptions& options);
 
-/// All of the above, and --session-per-folder.
+/// --session-per-folder (folder_sessions.hpp): between which drives the tracked body or a clock was set up anew. Without it
+/// sessions are found from the data.
+void add_session_flag(console::Command command, bool& session_per_folder);
+
+/// All of the above.
 void add_import(console::Command command, ImportOptions& options);
 
 /// Reads them, and says about each drive what was found and inferred. Throws console::WrongUsage if the numbers of files

@@ -4,10 +4,12 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/protocol/session.hpp"
 #include "common/protocol/status.hpp"
+#include "common/safety/fault.hpp"
 #include "host/recording/run/planar_pose.hpp"
 
 /// What the robot reports, in words and JSON keys that all commands share.
@@ -40,6 +42,9 @@ std::vector<std::string> fault_list(std::uint32_t mask);
 
 /// "none" or the names.
 std::string faults_in_words(std::uint32_t mask);
+
+/// What a fault means and what to check. "" for a fault that this version does not know.
+std::string_view fault_help(Fault fault);
 
 /// "2 h 03 min 10 s", "12.3 s".
 std::string duration_in_words(std::uint64_t us);

@@ -11,8 +11,6 @@
 #include "host/truth/files/file_source.hpp"
 #include "host/truth/live/live_source.hpp"
 #include "host/truth/live/socket_source.hpp"
-#include "host/truth/source/later_source.hpp"
-#include "host/truth/source/no_source.hpp"
 
 namespace astro::commands {
 namespace {

@@ -1,15 +1,258 @@
+#include <fmt/format.h>
+
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "host/base/text/columns.hpp"
+#include "host/base/text/degrees.hpp"
 #include "host/commands/base/flags.hpp"
+#include "host/commands/base/remedies.hpp"
 #include "host/commands/shared/import_options.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/commands/shared/unused_choices.hpp"
 #include "host/commands/truth/commands.hpp"
-#include "host/commands/truth/inspect_view.hpp"
+#include "host/console/console.hpp"
 #include "host/console/wrong_usage.hpp"
+#include "host/experiment/import/file_inspection.hpp"
 
 namespace astro::commands {
+namespace {
+
+using experiment::BagInspection;
+using experiment::FileInspection;
+using experiment::RobotGeometry;
+using experiment::WheelInspection;
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string said(const std::vector<Remark>& remarks) {
+  std::string text;
+  for (const Remark& remark : remarks) text += wrapped(in_words(remark));
+  return text;
+}
+
+/// The positions decide where both show it.
+const std::optional<truth::Direction3>& up_of(const truth::BodyInspection& body) {
+  return body.up.by_positions ? body.up.by_positions : body.up.by_rotations;
+}
+
+std::string noise_text(const std::optional<truth::RestNoise>& noise) {
+  if (!noise) return "no rest";
+  std::string text = fmt::format("{:.2f} {:.2f} {:.2f} mm", 1000 * noise->sd_m[0], 1000 * noise->sd_m[1],
+                                 1000 * noise->sd_m[2]);
+  if (noise->sd_rad > 0) text += fmt::format(", {:.3f}°", degrees(noise->sd_rad));
+  return text;
+}
+
+std::string tracker_text(const truth::Inspection& tracker) {
+  std::string text;
+  const truth::TrackFacts* facts = tracker.bodies.empty() ? nullptr : &tracker.bodies.front().facts;
+  if (facts != nullptr) {
+    text += fmt::format("{}: {} bod{}", facts->format, tracker.bodies.size() + tracker.bodies_left_out,
+                        tracker.bodies.size() + tracker.bodies_left_out == 1 ? "y" : "ies");
+    text += facts->length_unit.empty() ? ", no unit of length stated (taken for metres)"
+                                       : ", lengths in " + facts->length_unit;
+    if (!facts->rotation.empty()) text += ", " + facts->rotation;
+    if (facts->rotation_kind == truth::RotationKind::none) text += ", no orientation";
+    if (facts->rate_hz > 0) text += fmt::format(", {:.6g} Hz stated", facts->rate_hz);
+    if (!facts->start_time.empty()) text += ", started " + facts->start_time;
+    text = wrapped(text + '.');
+  }
+  Rows rows{{"body", "samples", "seconds", "Hz", "lost", "gaps", "longest s", "up", "noise at rest"}};
+  for (const truth::BodyInspection& body : tracker.bodies)
+    rows.push_back({(body.name.name.empty() ? "(no name)" : body.name.name) +
+                        (body.name.id.empty() ? "" : " (" + body.name.id + ")"),
+                    fmt::format("{}", body.samples), fmt::format("{:.1f}", body.duration_s),
+                    body.median_period_s > 0 ? fmt::format("{:.4g}", 1 / body.median_period_s) : "-",
+                    fmt::format("{}", body.lost.all()), fmt::format("{}", body.gaps),
+                    fmt::format("{:.2f}", body.longest_gap_s),
+                    up_of(body) ? truth::axis_text(*up_of(body)) : "-", noise_text(body.noise)});
+  text += console::table(rows);
+  if (tracker.bodies_left_out > 0) text += fmt::format("and {} more bodies\n", tracker.bodies_left_out);
+  for (const truth::BodyInspection& body : tracker.bodies) text += said(body.facts.remarks);
+  return text;
+}
+
+std::string bag_text(const BagInspection& bag) {
+  std::string text = fmt::format("ROS 2 bag of {} file{}.\n", bag.report.files.size(),
+                                 bag.report.files.size() == 1 ? "" : "s");
+  if (bag.run)
+    text = fmt::format("Recording of astrolabe: {}{}.\n", bag.run->kind,
+                       bag.run->robot_name.empty() ? "" : " of " + bag.run->robot_name);
+  Rows rows{{"topic", "type", "messages", "seconds", "Hz", "longest gap s"}};
+  for (const experiment::TopicInspection& one : bag.topics)
+    rows.push_back({one.topic.name, one.topic.type, fmt::format("{}", one.topic.messages),
+                    fmt::format("{:.1f}", 1e-9 * static_cast<double>(one.topic.last_ns - one.topic.first_ns)),
+                    fmt::format("{:.4g}", one.rate_hz), fmt::format("{:.2f}", one.longest_gap_s)});
+  text += console::table(rows, "llrrrr");
+  if (!bag.poses.empty()) {
+    Rows poses{{"poses", "frame", "child frame", "number"}};
+    for (const recording::PoseStream& stream : bag.poses)
+      poses.push_back({stream.topic, stream.frame, stream.child_frame.empty() ? "-" : stream.child_frame,
+                       fmt::format("{}", stream.poses)});
+    text += '\n' + console::table(poses, "lllr");
+  }
+  if (!bag.joints.empty()) {
+    std::string joints;
+    for (const std::string& joint : bag.joints) joints += (joints.empty() ? "" : ", ") + joint;
+    text +=
+        '\n' +
+        wrapped("Joints: " + joints +
+                (bag.wheels ? "; wheels: " + bag.wheels->left + " (left), " + bag.wheels->right + " (right)."
+                            : "; which are the wheels, the names do not tell."));
+  }
+  for (const std::string& warning : bag.report.warnings) text += wrapped(warning);
+  return text;
+}
+
+const char* unit_name(recording::WheelUnit unit) {
+  switch (unit) {
+    case recording::WheelUnit::counts:
+      return "counts";
+    case recording::WheelUnit::radians:
+      return "rad";
+    case recording::WheelUnit::metres:
+      return "m";
+  }
+  return "";
+}
+
+std::string wheels_text(const WheelInspection& wheels) {
+  const char* unit = unit_name(wheels.track.unit);
+  Rows rows{{"samples", "seconds", "Hz", "longest gap s", std::string("left ") + unit,
+             std::string("right ") + unit}};
+  rows.push_back({fmt::format("{}", wheels.track.samples.size()), fmt::format("{:.1f}", wheels.duration_s),
+                  fmt::format("{:.4g}", wheels.rate_hz), fmt::format("{:.2f}", wheels.longest_gap_s),
+                  fmt::format("{:.10g}", wheels.left), fmt::format("{:.10g}", wheels.right)});
+  return "Wheels of a robot; travel from the first to the last row:\n" + console::table(rows, "rrrrrr") +
+         said(wheels.track.remarks);
+}
+
+std::string shown(const std::optional<double>& value) { return value ? fmt::format("{:.9g}", *value) : "-"; }
+
+std::string robot_text(const RobotGeometry& robot) {
+  Rows rows{{"sizes of a robot", ""},
+            {"wheel diameter, m", shown(robot.wheel_diameter_m)},
+            {"counts per turn", shown(robot.counts_per_turn)},
+            {"wheelbase, m", shown(robot.wheelbase_m)},
+            {"c_R", fmt::format("{:.9g}", robot.c_r)},
+            {"c_L", fmt::format("{:.9g}", robot.c_l)}};
+  if (robot.e != 0) rows.push_back({"e", fmt::format("{:.9g}", robot.e)});
+  if (!robot.joints.left.empty()) rows.push_back({"joints", robot.joints.left + ", " + robot.joints.right});
+  return console::table(rows);
+}
+
+nlohmann::json number(const std::optional<double>& value) {
+  return value ? nlohmann::json(*value) : nlohmann::json();
+}
+
+nlohmann::json facts_of(const std::vector<Remark>& remarks) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const Remark& remark : remarks) json.push_back(remark.fact);
+  return json;
+}
+
+nlohmann::json axis_json(const std::optional<truth::Direction3>& axis) {
+  return axis ? nlohmann::json(*axis) : nlohmann::json();
+}
+
+nlohmann::json body_json(const truth::BodyInspection& body) {
+  nlohmann::json json = {{"name", body.name.name},
+                         {"id", body.name.id},
+                         {"format", body.facts.format},
+                         {"length_unit", body.facts.length_unit},
+                         {"rotation", body.facts.rotation},
+                         {"start_time", body.facts.start_time},
+                         {"samples", body.samples},
+                         {"duration_s", body.duration_s},
+                         {"median_period_s", body.median_period_s},
+                         {"lost", body.lost.all()},
+                         {"gaps", body.gaps},
+                         {"longest_gap_s", body.longest_gap_s},
+                         {"up_by_positions", axis_json(body.up.by_positions)},
+                         {"up_by_rotations", axis_json(body.up.by_rotations)},
+                         {"noise", nullptr},
+                         {"remarks", facts_of(body.facts.remarks)}};
+  if (body.noise)
+    json["noise"] = {
+        {"rest_s", body.noise->rest_s}, {"sd_m", body.noise->sd_m}, {"sd_rad", body.noise->sd_rad}};
+  return json;
+}
+
+nlohmann::json bag_json(const BagInspection& bag) {
+  nlohmann::json topics = nlohmann::json::array(), poses = nlohmann::json::array();
+  for (const experiment::TopicInspection& one : bag.topics)
+    topics.push_back({{"name", one.topic.name},
+                      {"type", one.topic.type},
+                      {"messages", one.topic.messages},
+                      {"first_ns", one.topic.first_ns},
+                      {"last_ns", one.topic.last_ns},
+                      {"rate_hz", one.rate_hz},
+                      {"longest_gap_s", one.longest_gap_s}});
+  for (const recording::PoseStream& stream : bag.poses)
+    poses.push_back({{"topic", stream.topic},
+                     {"frame", stream.frame},
+                     {"child_frame", stream.child_frame},
+                     {"poses", stream.poses}});
+  nlohmann::json wheels;
+  if (bag.wheels) wheels = {{"left", bag.wheels->left}, {"right", bag.wheels->right}};
+  return {{"kind", "bag"},
+          {"topics", topics},
+          {"poses", poses},
+          {"joints", bag.joints},
+          {"wheels", wheels},
+          {"truncated", bag.report.truncated},
+          {"damaged", bag.report.damaged},
+          {"warnings", bag.report.warnings}};
+}
+
+nlohmann::json tracker_json(const truth::Inspection& tracker) {
+  nlohmann::json bodies = nlohmann::json::array();
+  for (const truth::BodyInspection& body : tracker.bodies) bodies.push_back(body_json(body));
+  return {{"kind", "tracker"}, {"bodies", bodies}, {"bodies_left_out", tracker.bodies_left_out}};
+}
+
+nlohmann::json wheels_json(const WheelInspection& wheels) {
+  return {{"kind", "wheels"},
+          {"unit", unit_name(wheels.track.unit)},
+          {"samples", wheels.track.samples.size()},
+          {"duration_s", wheels.duration_s},
+          {"rate_hz", wheels.rate_hz},
+          {"longest_gap_s", wheels.longest_gap_s},
+          {"left", wheels.left},
+          {"right", wheels.right},
+          {"remarks", facts_of(wheels.track.remarks)}};
+}
+
+/// What is in a file, as text of at most 120 columns.
+std::string inspection_text(const FileInspection& found) {
+  if (found.bag) return bag_text(*found.bag);
+  if (found.tracker) return tracker_text(*found.tracker);
+  if (found.wheels) return wheels_text(*found.wheels);
+  return robot_text(*found.robot);
+}
+
+nlohmann::json inspection_json(const FileInspection& found) {
+  if (found.bag) return bag_json(*found.bag);
+  if (found.tracker) return tracker_json(*found.tracker);
+  if (found.wheels) return wheels_json(*found.wheels);
+  const RobotGeometry& robot = *found.robot;
+  return {{"kind", "robot"},
+          {"wheel_diameter_m", number(robot.wheel_diameter_m)},
+          {"counts_per_turn", number(robot.counts_per_turn)},
+          {"wheelbase_m", number(robot.wheelbase_m)},
+          {"c_R", robot.c_r},
+          {"c_L", robot.c_l},
+          {"e", robot.e},
+          {"kappa0", robot.kappa0},
+          {"left_joint", robot.joints.left},
+          {"right_joint", robot.joints.right}};
+}
+
+}  // namespace
 
 void add_inspect(console::Command app) {
   struct Options {
@@ -45,7 +288,7 @@ void add_inspect(console::Command app) {
       throw console::WrongUsage(
           "--wheel-columns and --per-interval do not apply here: this is no table of wheels");
     if (options->json) {
-      print_json(to_json(found));
+      print_json(inspection_json(found));
     } else {
       write(inspection_text(found));
     }

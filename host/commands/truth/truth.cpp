@@ -1,6 +1,4 @@
 #include "host/commands/truth/commands.hpp"
-#include "host/commands/truth/truth_film.hpp"
-#include "host/commands/truth/truth_watch.hpp"
 #include "host/console/options.hpp"
 
 namespace astro::commands {

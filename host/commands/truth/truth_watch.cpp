@@ -1,5 +1,3 @@
-#include "host/commands/truth/truth_watch.hpp"
-
 #include <fmt/format.h>
 
 #include <chrono>
@@ -9,14 +7,16 @@
 #include <utility>
 
 #include "host/base/error.hpp"
+#include "host/base/text/degrees.hpp"
 #include "host/commands/base/flags.hpp"
 #include "host/commands/base/remedies.hpp"
 #include "host/commands/shared/robot_view.hpp"
-#include "host/commands/truth/truth_watch_view.hpp"
+#include "host/commands/truth/commands.hpp"
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
 #include "host/console/options.hpp"
 #include "host/truth/live/live_source.hpp"
+#include "host/truth/live/tracker_watch.hpp"
 
 namespace astro::commands {
 namespace {
@@ -57,6 +57,45 @@ class Watch {
   truth::TrackerWatch watch_;
 };
 
+std::string place_of(const truth::TrackerReport& report) {
+  if (!report.pose) return "not seen";
+  return fmt::format("x {:8.4f} m  y {:8.4f} m  {:7.2f} deg", report.pose->x_m, report.pose->y_m,
+                     degrees(report.pose->theta_rad));
+}
+
+std::string noise_of(const truth::TrackerReport& report) {
+  if (!report.rest) return report.pose ? "moves" : "";
+  return fmt::format("noise {:.2f} mm {:.3f} deg", 1e3 * report.rest->position_m,
+                     degrees(report.rest->heading_rad));
+}
+
+/// One line of at most 120 columns.
+std::string line_of(const truth::TrackerReport& report) {
+  return fmt::format("{:6.1f} Hz  jitter {:.2f}/{:.2f} ms  gap {:.0f} ms  missing {}  lost {}  {}  {}",
+                     report.rate_hz, 1e3 * report.sender.jitter_s, 1e3 * report.arrival.jitter_s,
+                     1e3 * report.longest_gap_s, report.missing, report.lost, place_of(report),
+                     noise_of(report));
+}
+
+nlohmann::json json_of(const truth::TrackerReport& report) {
+  nlohmann::json json = {{"poses", report.poses},
+                         {"lost", report.lost},
+                         {"missing", report.missing},
+                         {"rate_hz", report.rate_hz},
+                         {"longest_gap_s", report.longest_gap_s},
+                         {"sender_jitter_s", report.sender.jitter_s},
+                         {"arrival_jitter_s", report.arrival.jitter_s},
+                         {"pose", nullptr},
+                         {"noise_at_rest", nullptr}};
+  if (report.pose)
+    json["pose"] = {
+        {"x_m", report.pose->x_m}, {"y_m", report.pose->y_m}, {"theta_rad", report.pose->theta_rad}};
+  if (report.rest)
+    json["noise_at_rest"] = {{"position_m", report.rest->position_m},
+                             {"heading_rad", report.rest->heading_rad}};
+  return json;
+}
+
 void run(const WatchOptions& options) {
   const truth::TrackerUrl url = truth::tracker_url_in(options.address);
   Watch watch(url);
@@ -74,7 +113,7 @@ void run(const WatchOptions& options) {
     }
     if (!std::exchange(seen, true)) console::say(watch.about());
     if (report.objection && !std::exchange(objected, true)) console::say(in_words(*report.objection));
-    print(options.json ? to_json(report).dump() : line_of(report));
+    print(options.json ? json_of(report).dump() : line_of(report));
   }
   if (!seen) throw Error(watch.silence("no ground truth came from " + url.place()));
 }

@@ -8,7 +8,6 @@
 #include "host/base/text/columns.hpp"
 #include "host/commands/base/flags.hpp"
 #include "host/commands/tune/commands.hpp"
-#include "host/commands/tune/tune_json.hpp"
 #include "host/commands/tune/tune_view.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"

@@ -4,7 +4,7 @@
 #include "host/commands/tune/tune_job.hpp"
 #include "host/report/sections/tuning_report.hpp"
 
-/// What `astrolabe tune` found, for a terminal and for a browser.
+/// What `astrolabe tune` found, for a terminal, for scripts and for a browser.
 namespace astro::commands {
 
 /// Before anything is loaded: motors, gains, and the steps measured and predicted.
@@ -20,6 +20,10 @@ std::string verdict(const TuneResult& result);
 /// What gains cannot correct: one sentence each.
 std::vector<std::string> notes(const TuneResult& result);
 
+/// All of it, for scripts.
+Json to_json(const TuneResult& result);
+
+/// For a browser.
 report::TuningInput report_input(const TuneResult& result, const robot::Client& client);
 
 }  // namespace astro::commands

@@ -8,7 +8,6 @@
 
 #include "host/base/bytes.hpp"
 #include "host/emulator/core/register_names.hpp"
-#include "host/emulator/core/stopped.hpp"
 
 namespace astro::emulator {
 namespace {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "host/emulator/core/bus.hpp"
-#include "host/emulator/core/cached_flash.hpp"
 #include "host/emulator/core/cpu.hpp"
 #include "host/emulator/core/exceptions.hpp"
 #include "host/emulator/core/memory.hpp"

@@ -4,7 +4,9 @@
 #include <span>
 #include <string>
 
-/// The interfaces between the machine and the models of the chip's peripherals.
+#include "host/base/error.hpp"
+
+/// The interfaces between the machine and the models of the chip's peripherals, and how a run ends.
 namespace astro::emulator {
 
 /// Virtual time in cycles of the 600 MHz core. Every instruction takes one cycle: the emulator proves order
@@ -74,6 +76,13 @@ class Model {
   virtual void reset() = 0;
   /// After reset(): what a boot ROM may have done to it before the program begins.
   virtual void leave_rom_state() {}
+};
+
+/// The run has ended because the firmware did something that fails on the chip. The message names the
+/// register and the rule, the program counter and the time.
+class Stopped : public Error {
+ public:
+  using Error::Error;
 };
 
 }  // namespace astro::emulator

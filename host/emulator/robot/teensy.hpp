@@ -16,12 +16,10 @@
 #include "host/emulator/chip/lpuart.hpp"
 #include "host/emulator/chip/pit.hpp"
 #include "host/emulator/chip/reset.hpp"
-#include "host/emulator/chip/rtwdog.hpp"
-#include "host/emulator/chip/wdog.hpp"
+#include "host/emulator/chip/watchdogs.hpp"
 #include "host/emulator/core/chip.hpp"
 #include "host/emulator/robot/world.hpp"
 #include "host/emulator/usb/controller.hpp"
-#include "host/emulator/usb/phy.hpp"
 
 namespace astro::emulator {
 

@@ -5,13 +5,14 @@
 #include <functional>
 #include <span>
 
+#include "host/emulator/chip/stored.hpp"
 #include "host/emulator/core/machine.hpp"
 #include "host/emulator/usb/endpoints.hpp"
 
 namespace astro::emulator {
 
 /// The device controller USB1: its registers towards the firmware, and the bus towards a host. Packets go
-/// through the pipes of its endpoints, whose transfers are in memory (endpoints.hpp, pipe.hpp, queue_head.hpp).
+/// through the pipes of its endpoints, whose transfers are in memory (endpoints.hpp).
 /// Before a known device attaches again, it must be detached long enough for any host to notice.
 ///
 /// Not modelled  isochronous transfers, lists of more than one descriptor, descriptors without IOC, timers.
@@ -64,6 +65,15 @@ class UsbController : public Model {
        known_ = false;  // attached by the firmware or by the program before it; known to a host
   Cycles left_at_ = 0;
   Endpoints endpoints_;
+};
+
+/// The transceiver USBPHY1: registers with copies that set and clear.
+class UsbPhy : public Stored {
+ public:
+  UsbPhy();
+  std::uint32_t read(std::uint32_t offset) override { return value(offset & ~0xFU); }
+  void write(std::uint32_t offset, std::uint32_t value) override;
+  bool ready() const;
 };
 
 }  // namespace astro::emulator

@@ -3,11 +3,82 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "host/emulator/core/machine.hpp"
-#include "host/emulator/usb/pipe.hpp"
 
+/// The endpoints of the USB device controller: their control registers, a pipe for each direction, and what the pipes move, in the
+/// memory behind the queue heads.
 namespace astro::emulator {
+
+/// The queue head of one direction of an endpoint in the machine's memory, with its copy of the transfer
+/// descriptor under way, read and written as the chip's bus master does it.
+///
+/// Errors  what the firmware wrote wrongly ends the run (Machine::fail).
+class QueueHead {
+ public:
+  static constexpr std::uint32_t kBytes = 64;
+
+  QueueHead(Machine& machine, std::uint32_t address)
+      : machine_(machine), bytes_(machine.dma(address, kBytes)) {}
+
+  /// False if the address is no memory of a bus master; nothing else may be called then.
+  bool exists() const { return !bytes_.empty(); }
+
+  std::uint32_t packet_size() const;
+  bool interrupts_on_setup() const;
+  /// A transfer that fills its last packet ends with an empty one.
+  bool ends_with_empty_packet() const;
+  void store_setup(const std::array<std::uint8_t, 8>& packet);
+
+  /// Copies the descriptor that it names. Returns false, and has ended the run, if the firmware made it
+  /// wrongly.
+  bool load_transfer();
+  std::uint32_t bytes_left() const;
+  /// Takes the next bytes of the transfer: where they are in memory.
+  std::span<std::uint8_t> take(std::uint32_t bytes);
+  /// Writes to the descriptor that the transfer is over. Returns false if it is in no memory any more.
+  bool retire();
+
+ private:
+  Machine& machine_;
+  std::span<std::uint8_t> bytes_;
+};
+
+/// How the device answers a transaction. `nothing`: it is not attached, or has another address.
+enum class Handshake : std::uint8_t { ack, nak, stall, nothing };
+
+struct Packet {
+  Handshake handshake = Handshake::nothing;
+  std::vector<std::uint8_t> bytes;
+  bool data1 = false;
+};
+
+/// One direction of an endpoint: whether a transfer is under way (primed), and which of DATA0 and DATA1 the
+/// next packet is. What it moves is in the memory behind its queue head.
+class Pipe {
+ public:
+  bool primed() const { return primed_; }
+  /// Begins the transfer that the queue head names.
+  void prime(QueueHead head);
+  void flush() { primed_ = false; }
+  void begin_with_data0() { data1_ = false; }
+  /// After a SETUP packet DATA1 follows. A primed transfer stays primed.
+  void take_setup();
+
+  // A transaction, while a transfer is under way.
+  Packet in(QueueHead head);
+  /// A packet with the toggle of the one before was repeated by the host: it is acknowledged and dropped.
+  bool expects(bool data1) const { return data1 == data1_; }
+  /// Precondition: the bytes are not more than the transfer takes.
+  void out(QueueHead head, std::span<const std::uint8_t> bytes);
+
+ private:
+  void retire(QueueHead head);
+
+  bool primed_ = false, data1_ = false, empty_packet_due_ = false;
+};
 
 /// The endpoints' control registers (ENDPTCTRL0 to 7), and a pipe for both directions of each.
 class Endpoints {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "host/base/text/degrees.hpp"
-#include "host/base/text/shown.hpp"
+#include "host/base/text/numbers.hpp"
 #include "host/calibration/judgement/remarks.hpp"
 
 namespace astro::experiment {

@@ -35,6 +35,36 @@ std::string in_words(const calibration::WheelFactors& factors) {
   return fmt::format("c_R {:.9f}, c_L {:.9f}, b {:.9f} m{}", factors.c_r, factors.c_l, factors.b_m, e);
 }
 
+RunSet without_truth(const fs::path& folder, const std::vector<RunSpec>& specs, const std::string& source) {
+  RunSet set;
+  for (const RunSpec& spec : specs) {
+    recording::Run run = recording::read_run(file_of(folder, spec));
+    if (run.info.truth_source != source || !run.truth.empty()) continue;
+    set.names.push_back(
+        file_of(folder, spec).lexically_relative(folder).replace_extension().generic_string());
+    set.runs.push_back(std::move(run));
+  }
+  return set;
+}
+
+/// Completes the recordings of a phase whose truth comes after all of them (truth::LaterSource): `give` gets the runs that have
+/// none, and is asked again until none is left. What has truth is kept on the disk at once. False if nothing was missing.
+bool complete_later(const fs::path& folder, const std::vector<RunSpec>& specs, const std::string& source,
+                    const std::vector<std::string>& others, const GiveTruth& give) {
+  RunSet set = without_truth(folder, specs, source);
+  if (set.runs.empty()) return false;
+  while (!set.runs.empty()) {
+    give(specs.front().phase, set, others);
+    for (std::size_t i = 0; i < set.runs.size(); ++i) {
+      if (set.runs[i].truth.empty()) continue;
+      fs::path file = folder / set.names[i];
+      recording::write_run(file += ".mcap", set.runs[i]);
+    }
+    set = without_truth(folder, specs, source);
+  }
+  return true;
+}
+
 class Session {
  public:
   Session(robot::Client& client, truth::Source& truth, const Plan& plan, fs::path folder,

@@ -3,13 +3,16 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "host/base/remedy.hpp"
 #include "host/experiment/analysis/results.hpp"
 #include "host/experiment/drive/change_guard.hpp"
 #include "host/experiment/drive/doubtful_run.hpp"
-#include "host/experiment/drive/later_truth.hpp"
 #include "host/experiment/drive/record_run.hpp"
+#include "host/experiment/files/plan.hpp"
+#include "host/experiment/files/run_set.hpp"
 
 namespace astro::experiment {
 
@@ -27,6 +30,12 @@ enum class Decision {
   later,  // nothing yet: the same experiment asks again
 };
 
+/// Gives runs their truth; those that get none stay without. May throw to end the experiment for now.
+///
+/// `others`  the films of earlier phases (RunInfo::truth_film), which cannot show these runs, though the robot drives the same there
+using GiveTruth =
+    std::function<void(const std::string& phase, RunSet& set, const std::vector<std::string>& others)>;
+
 /// Callbacks through which an experiment shows progress and asks its user.
 struct ExperimentHooks {
   RunHooks run;
@@ -43,7 +52,7 @@ struct ExperimentHooks {
   /// A run whose ground truth comes from a person or a file does not fit the others; it may be an earlier one. Not called
   /// again for a run that is said to be right.
   std::function<Redo(const DoubtfulRun&)> doubt = [](const DoubtfulRun&) { return Redo::no; };
-  /// All runs of a phase are driven, and their truth comes now, for all of them (later_truth.hpp).
+  /// All runs of a phase are driven, and their truth comes now, for all of them.
   GiveTruth give_truth = [](const std::string&, RunSet&, const std::vector<std::string>&) {};
   /// A calibration was found, and would change these parameters of the robot. Called before anything is decided.
   std::function<void(const Calibration&, const std::vector<Change>&)> calibrated =

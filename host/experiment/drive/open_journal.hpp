@@ -23,7 +23,7 @@ bool is_over(const Journal& journal, std::size_t phase);
 
 /// Throws astro::Error naming the recording if the experiment cannot be calibrated or reported on with it: it was cut off, is of
 /// another run, robot or phase's factors, or is a square of which an end is not known. Ground truth that comes once a phase is
-/// driven (later_truth.hpp) may be missing.
+/// driven (ExperimentHooks::give_truth) may be missing.
 void require_usable(const std::filesystem::path& folder, const Journal& journal, const RunSpec& spec,
                     const recording::Run& run);
 

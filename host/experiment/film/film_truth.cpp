@@ -9,7 +9,6 @@
 
 #include "host/base/error.hpp"
 #include "host/experiment/film/readout_search.hpp"
-#include "host/experiment/film/run_coverage.hpp"
 
 namespace astro::experiment {
 namespace {
@@ -23,6 +22,46 @@ struct Shown {
   std::size_t film = 0;
   Placement place;
 };
+
+/// A run's first and last moment, by the film's time.
+struct RunWindow {
+  double from_s = 0, to_s = 0;
+};
+
+/// What of a run a film does not show.
+struct Lack {
+  std::string what;  // "the film ends 3.0 s before it"
+  Help help = Help::film_whole_field;
+  bool left_picture = false;  // the robot drove out of the picture
+};
+
+RunWindow window_of(const recording::Run& run, double offset_s) {
+  return {1e-6 * static_cast<double>(run.odometry.front().time_us) - offset_s,
+          1e-6 * static_cast<double>(run.odometry.back().time_us) - offset_s};
+}
+
+/// The worst that lasts longer than a second. Nothing if all is there.
+std::optional<Lack> lack_of(const RunWindow& run, const film::FilmTrack& track) {
+  constexpr double kLong_s = 1;
+  const film::FilmSightings& seen = track.sightings;
+  if (const double late_s = seen.first_s - run.from_s; late_s > kLong_s)
+    return Lack{fmt::format("the film begins {:.1f} s after it", late_s), Help::film_to_the_end};
+  if (const double early_s = run.to_s - seen.last_s; early_s > kLong_s)
+    return Lack{fmt::format("the film ends {:.1f} s before it", early_s), Help::film_to_the_end};
+  const auto inside_s = [&](const film::HiddenSpan& span) {
+    return std::min(span.to_s, run.to_s) - std::max(span.from_s, run.from_s);
+  };
+  const film::HiddenSpan* worst = nullptr;
+  for (const film::HiddenSpan& span : track.hidden) {
+    if (inside_s(span) <= kLong_s) continue;
+    const auto rank = [&](const film::HiddenSpan& one) { return std::pair(one.left_picture, inside_s(one)); };
+    if (worst == nullptr || rank(span) > rank(*worst)) worst = &span;
+  }
+  if (worst == nullptr) return std::nullopt;
+  return Lack{fmt::format("the robot's tag is {} from {:.1f} to {:.1f} s of the film",
+                          worst->left_picture ? "out of the picture" : "hidden", worst->from_s, worst->to_s),
+              Help::film_whole_field, worst->left_picture};
+}
 
 std::vector<std::size_t> order_of(const RunSet& set) {
   std::vector<std::size_t> order(set.runs.size());

@@ -11,6 +11,7 @@
 #include "host/experiment/import/wheel_file.hpp"
 #include "host/recording/bag/bag_files.hpp"
 #include "host/recording/files/run_file.hpp"
+#include "host/recording/run/sample_messages.hpp"
 #include "host/ros2/recorded/joint_state.hpp"
 #include "host/ros2/recorded/ros_messages.hpp"
 #include "host/truth/bags/bag_truth.hpp"
@@ -73,7 +74,7 @@ BagInspection inspect_bag(const fs::path& path) {
   BagInspection bag = Pass().over(path);
   bag.poses = recording::pose_streams(path);
   const bool own = std::any_of(bag.topics.begin(), bag.topics.end(), [](const TopicInspection& one) {
-    return one.topic.type == ros2::wheel_counts_type().name;
+    return one.topic.type == recording::wheel_counts_type().name;
   });
   if (own && recording::bag_file_kind(path) == recording::BagFileKind::mcap)
     bag.run = recording::read_run_info(path);

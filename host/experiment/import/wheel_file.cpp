@@ -9,6 +9,7 @@
 #include "host/recording/bag/bag.hpp"
 #include "host/recording/bag/bag_files.hpp"
 #include "host/recording/files/run_file.hpp"
+#include "host/recording/run/sample_messages.hpp"
 #include "host/ros2/recorded/ros_messages.hpp"
 
 namespace astro::experiment {
@@ -51,7 +52,7 @@ bool is_own_recording(const fs::path& path) {
   if (recording::bag_file_kind(path) != recording::BagFileKind::mcap) return false;
   const std::vector<recording::BagTopic> topics = recording::read_bag(path).topics;
   return std::any_of(topics.begin(), topics.end(), [](const recording::BagTopic& topic) {
-    return topic.type == ros2::wheel_counts_type().name;
+    return topic.type == recording::wheel_counts_type().name;
   });
 }
 

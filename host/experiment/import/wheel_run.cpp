@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "host/base/error.hpp"
-#include "host/base/whole_microseconds.hpp"
+#include "host/base/microseconds.hpp"
 #include "host/calibration/motion/arc.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
 #include "host/experiment/analysis/squares.hpp"

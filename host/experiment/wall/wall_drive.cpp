@@ -1,5 +1,6 @@
 #include "host/experiment/wall/wall_drive.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -8,6 +9,51 @@
 #include "host/calibration/motion/arc.hpp"
 
 namespace astro::experiment {
+
+/// Notices that a robot which follows its set points pushes against something. For 40 ms a wheel
+///   has more voltage than its feed-forward says for its set point and the steepest acceleration, by what the push limit allows; or
+///   falls 0.12 m/s behind its set point, which shows more at high speed, where the voltage is near its end.
+/// It bounds how long the robot pushes, not how hard: the control loop raises the voltage as it likes. Without it the robot would find
+/// a stall at half of its voltage after 300 ms.
+class WallDriver::ObstacleGuard {
+ public:
+  ObstacleGuard(const WallRobot& robot, double push_V) : robot_(robot), push_V_(push_V) {}
+
+  void look(const WheelMoment& moment);
+  bool pushes() const { return pushes_; }
+
+ private:
+  static constexpr int kSamples = 4;  // of 10 ms
+
+  bool is_held(const WheelMoment& moment, std::size_t side) const;
+  double excess_V(const WheelMoment& moment, std::size_t side) const;
+
+  const WallRobot& robot_;
+  double push_V_;
+  std::array<int, 2> in_a_row_{};
+  bool pushes_ = false;
+};
+
+double WallDriver::ObstacleGuard::excess_V(const WheelMoment& moment, std::size_t side) const {
+  const double set_point_mps = moment.set_point_mps[side];
+  const double usual_V = 2 * robot_.kS_V[side] + robot_.kV_Vspm[side] * std::abs(set_point_mps) +
+                         robot_.kA_Vs2pm[side] * robot_.acceleration_mps2;
+  return moment.voltage_V[side] * std::copysign(1.0, set_point_mps) - usual_V;
+}
+
+bool WallDriver::ObstacleGuard::is_held(const WheelMoment& moment, std::size_t side) const {
+  constexpr double kBehind_mps = 0.12;  // more than a wheel lags behind its set point at full acceleration
+  const double forward = std::copysign(1.0, moment.set_point_mps[side]);
+  return (moment.set_point_mps[side] - moment.speed_mps[side]) * forward > kBehind_mps;
+}
+
+void WallDriver::ObstacleGuard::look(const WheelMoment& moment) {
+  for (std::size_t side = 0; side < 2; ++side) {
+    const bool against = excess_V(moment, side) > push_V_ || is_held(moment, side);
+    in_a_row_[side] = against ? in_a_row_[side] + 1 : 0;
+    pushes_ = pushes_ || in_a_row_[side] >= kSamples;
+  }
+}
 
 robot::Path path_of(const Leg& leg, const calibration::WheelFactors& actual,
                     const calibration::WheelFactors& loaded, robot::PathLimits limits) {

@@ -5,7 +5,6 @@
 #include <span>
 
 #include "host/base/error.hpp"
-#include "host/experiment/wall/obstacle_guard.hpp"
 #include "host/experiment/wall/touch.hpp"
 #include "host/experiment/wall/wall_robot.hpp"
 #include "host/experiment/wall/wheel_watch.hpp"
@@ -14,7 +13,7 @@
 
 namespace astro::experiment {
 
-/// The robot pushed against something while it followed a path, and was stopped (ObstacleGuard).
+/// The robot pushed against something while it followed a path, and was stopped.
 class RanIntoSomething : public Error {
  public:
   using Error::Error;
@@ -58,6 +57,8 @@ class WallDriver {
   Flush square(double within_m);
 
  private:
+  class ObstacleGuard;
+
   robot::DriveHooks drive_hooks(const ObstacleGuard* guard) const;
 
   robot::Client& client_;

@@ -5,7 +5,6 @@
 
 #include "host/motor/bench/bench.hpp"
 #include "host/motor/model/prediction.hpp"
-#include "host/motor/model/step_figures.hpp"
 
 /// The response to a step of the commanded speed, measured and predicted.
 ///

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "host/base/error.hpp"
-#include "host/base/text/shown.hpp"
+#include "host/base/text/numbers.hpp"
 
 namespace astro::motor {
 namespace {

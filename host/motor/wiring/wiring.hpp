@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "host/base/remedy.hpp"
-#include "host/motor/model/sample.hpp"
+#include "host/motor/model/motor_model.hpp"
 
 /// Finds wiring faults of a robot from driving one motor after the other.
 ///

@@ -4,13 +4,34 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "host/emulator/robot/emulated_robot.hpp"
-#include "host/programs/emulator/halfkay.hpp"
 #include "host/simulation/server/served_robot.hpp"
 
 namespace astro::emulator {
+
+/// How an image gets into an emulated Teensy that waits in its boot loader: through a FIFO that exists only
+/// as long as the object. A program that writes an image into it stands in for teensy_loader_cli:
+///
+///   cat firmware.hex > robot.halfkay
+class HalfKay {
+ public:
+  /// Throws astro::Error if the FIFO cannot be made.
+  explicit HalfKay(std::filesystem::path fifo);
+  ~HalfKay();
+  HalfKay(const HalfKay&) = delete;
+  HalfKay& operator=(const HalfKay&) = delete;
+
+  /// The image, when it was written completely; nothing before. Never blocks.
+  std::optional<std::string> receive();
+
+ private:
+  std::filesystem::path path_;
+  int fd_ = -1;
+  std::string received_;
+};
 
 /// An emulated robot behind ptys: port 0 is LPUART6, port 1 is USB. In its boot loader it waits for an image
 /// at `beside` + ".halfkay"; flashing keeps the sectors of the parameters, as on a Teensy.

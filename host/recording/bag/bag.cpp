@@ -1,16 +1,18 @@
 #include "host/recording/bag/bag.hpp"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <system_error>
 
 #include "host/base/byte_source.hpp"
 #include "host/base/error.hpp"
 #include "host/recording/bag/bag_files.hpp"
 #include "host/recording/bag/db3_reader.hpp"
-#include "host/recording/bag/scratch_folder.hpp"
 #include "host/recording/bag/topic_table.hpp"
 #include "host/recording/mcap/compression.hpp"
 #include "host/recording/mcap/reader.hpp"
@@ -21,6 +23,38 @@ namespace {
 
 constexpr std::uint64_t kMebibyte = std::uint64_t{1} << 20;
 constexpr std::size_t kMostWarnings = 8;
+
+/// A folder below TMPDIR that goes with the object, for what must be unpacked or copied before it can be read. Throws
+/// astro::Error if it cannot be made.
+class ScratchFolder {
+ public:
+  ScratchFolder();
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  fs::path operator/(const fs::path& name) const { return path_ / name; }
+
+ private:
+  fs::path path_;
+};
+
+ScratchFolder::ScratchFolder() {
+  std::error_code error;
+  const fs::path parent = fs::temp_directory_path(error);
+  std::string pattern = (parent / "bag-XXXXXX").string();
+  if (error || ::mkdtemp(pattern.data()) == nullptr) {
+    if (!error) error = {errno, std::generic_category()};
+    throw Error("cannot make a temporary folder in " + parent.string() + ": " + error.message(),
+                {Help::check_permissions_and_disk});
+  }
+  path_ = pattern;
+}
+
+ScratchFolder::~ScratchFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
 
 /// The topics of the channels of an MCAP file. A channel may be defined again, and then as another topic.
 class ChannelTopics {

@@ -4,6 +4,7 @@
 #include "host/recording/bag/db3_writer.hpp"
 #include "host/recording/files/log_time.hpp"
 #include "host/recording/files/robot_messages.hpp"
+#include "host/recording/run/sample_messages.hpp"
 #include "host/ros2/recorded/joint_state.hpp"
 #include "host/ros2/recorded/ros_messages.hpp"
 #include "host/ros2/recorded/stamped_pose.hpp"
@@ -17,7 +18,7 @@ class Exporter {
   Exporter(const Run& run, const std::filesystem::path& folder)
       : bag_(folder), robot_(run.info), log_time_(folder, run.info.started_at) {
     odometry_ = add("/odom", ros2::odometry_type());
-    counts_ = add("/wheel_counts", ros2::wheel_counts_type());
+    counts_ = add("/wheel_counts", recording::wheel_counts_type());
     truth_ = add("/truth", ros2::pose_stamped_type());
     transforms_ = add("/tf", ros2::tf_message_type());
     if (!robot_.knows_sizes()) return;
@@ -30,16 +31,16 @@ class Exporter {
     const std::int64_t time_ns = log_time_.ns(sample.time_us);
     describe(time_ns);
     robot_.advance(sample);
-    bag_.write(odometry_, time_ns, ros2::encode_odometry(sample));
+    bag_.write(odometry_, time_ns, recording::encode_odometry(sample));
     bag_.write(counts_, time_ns,
-               ros2::encode_counts({sample.time_us, sample.left_counts, sample.right_counts}));
+               recording::encode_counts({sample.time_us, sample.left_counts, sample.right_counts}));
     bag_.write(transforms_, time_ns, robot_.transforms());
     if (robot_.knows_sizes()) bag_.write(joints_, time_ns, robot_.joints());
   }
   void write(const TruthSample& sample) {
     const std::int64_t time_ns = log_time_.ns(sample.time_us);
     describe(time_ns);
-    bag_.write(truth_, time_ns, ros2::encode_truth(sample));
+    bag_.write(truth_, time_ns, recording::encode_truth(sample));
   }
   void close() { bag_.close(); }
 

@@ -12,6 +12,7 @@
 #include "host/recording/mcap/reader.hpp"
 #include "host/recording/run/planar_pose.hpp"
 #include "host/recording/run/run_metadata.hpp"
+#include "host/recording/run/sample_messages.hpp"
 #include "host/ros2/recorded/ros_messages.hpp"
 
 namespace astro::recording {
@@ -29,7 +30,7 @@ struct Streams {
   // A deque, because a vector that grows by doubling would for a moment take three times the memory of its
   // samples.
   std::deque<OdometrySample> odometry;
-  std::deque<ros2::WheelCounts> counts;
+  std::deque<recording::WheelCounts> counts;
   std::deque<TruthSample> truth;
   bool unreadable = false;
 
@@ -43,11 +44,11 @@ struct Streams {
   void take(const mcap::Channel& channel, const mcap::Schema* schema, const mcap::Message& message) {
     if (schema == nullptr || channel.message_encoding != "cdr") return;
     if (schema->name == ros2::odometry_type().name && channel.topic == "/odom") {
-      keep(odometry, ros2::decode_odometry(message.data));
-    } else if (schema->name == ros2::wheel_counts_type().name && channel.topic == "/wheel_counts") {
-      keep(counts, ros2::decode_counts(message.data));
+      keep(odometry, recording::decode_odometry(message.data));
+    } else if (schema->name == recording::wheel_counts_type().name && channel.topic == "/wheel_counts") {
+      keep(counts, recording::decode_counts(message.data));
     } else if (schema->name == ros2::pose_stamped_type().name && channel.topic == "/truth") {
-      keep(truth, ros2::decode_truth(message.data));
+      keep(truth, recording::decode_truth(message.data));
     }
   }
 };
@@ -101,7 +102,7 @@ RunFile parse(ByteSource& source, const std::string& file, Damage damage) {
 void drop_singles(Streams& streams) {
   std::set<std::int64_t> poses, counts;
   for (const OdometrySample& sample : streams.odometry) poses.insert(sample.time_us);
-  for (const ros2::WheelCounts& sample : streams.counts) counts.insert(sample.time_us);
+  for (const recording::WheelCounts& sample : streams.counts) counts.insert(sample.time_us);
   std::erase_if(streams.odometry, [&](const auto& sample) { return !counts.contains(sample.time_us); });
   std::erase_if(streams.counts, [&](const auto& sample) { return !poses.contains(sample.time_us); });
 }

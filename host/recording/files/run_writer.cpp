@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "host/recording/run/sample_messages.hpp"
 #include "host/ros2/recorded/joint_state.hpp"
 #include "host/ros2/recorded/ros_messages.hpp"
 #include "host/ros2/recorded/stamped_pose.hpp"
@@ -30,7 +31,7 @@ RunWriter::RunWriter(const std::filesystem::path& path, const RunInfo& info, Mca
   record_.info = info;
   mcap_.write_metadata({std::string(kRunRecordName), to_map(record_)});
   odometry_ = add_topic(mcap_, "/odom", ros2::odometry_type());
-  counts_ = add_topic(mcap_, "/wheel_counts", ros2::wheel_counts_type());
+  counts_ = add_topic(mcap_, "/wheel_counts", recording::wheel_counts_type());
   truth_ = add_topic(mcap_, "/truth", ros2::pose_stamped_type());
   transforms_ = add_topic(mcap_, "/tf", ros2::tf_message_type());
   if (!robot_.knows_sizes()) return;
@@ -49,9 +50,9 @@ void RunWriter::add(const OdometrySample& sample) {
   keep_first(record_.first_odometry_heading_rad, sample.theta_rad);
   describe(time_ns);
   robot_.advance(sample);
-  mcap_.write(odometry_, time_ns, ros2::encode_odometry(sample));
+  mcap_.write(odometry_, time_ns, recording::encode_odometry(sample));
   mcap_.write(counts_, time_ns,
-              ros2::encode_counts({sample.time_us, sample.left_counts, sample.right_counts}));
+              recording::encode_counts({sample.time_us, sample.left_counts, sample.right_counts}));
   mcap_.write(transforms_, time_ns, robot_.transforms());
   if (robot_.knows_sizes()) mcap_.write(joints_, time_ns, robot_.joints());
 }
@@ -60,7 +61,7 @@ void RunWriter::add(const TruthSample& sample) {
   const std::uint64_t time_ns = static_cast<std::uint64_t>(log_time_.ns(sample.time_us));
   if (sample.valid) keep_first(record_.first_truth_heading_rad, sample.theta_rad);
   describe(time_ns);
-  mcap_.write(truth_, time_ns, ros2::encode_truth(sample));
+  mcap_.write(truth_, time_ns, recording::encode_truth(sample));
 }
 
 void RunWriter::close(const RunInfo& final) {

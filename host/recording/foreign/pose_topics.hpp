@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -44,7 +45,19 @@ struct PoseSelection {
 /// All streams of poses in the order of the bag, at most 10,000. Errors as read_bag (host/recording/bag).
 std::vector<PoseStream> pose_streams(const std::filesystem::path& path);
 
-/// The poses of the stream that is selected or can be told to be ground truth (pose_choice.hpp). Times are header.stamp, and
+/// Whether a robot or a filter publishes such poses of itself: odometry, transforms and poses with a covariance by their
+/// type, others by their topic's name. A topic whose name speaks of ground truth or of a tracking system holds none.
+bool is_estimate(const PoseStream& stream);
+
+/// The only stream that is selected. If several are, the only one whose topic's name speaks of ground truth, or else the
+/// only one that is no estimate. An estimate is chosen only if the selection names it, because wheels that are
+/// calibrated against their own odometry seem perfect. A remark says what was inferred, and that an estimate was named.
+///
+/// Errors  UnclearChoice with the names of the streams if none or several are left; `path` is for its text.
+const PoseStream& chosen_stream(const std::filesystem::path& path, std::span<const PoseStream> streams,
+                                const PoseSelection& selection, std::vector<Remark>& remarks);
+
+/// The poses of the stream that is selected or can be told to be ground truth (chosen_stream). Times are header.stamp, and
 /// poses without one are left out, or those of the recorder if most have none. A remark says if stamps are far from the
 /// recorder's times or drift against them.
 ///

@@ -5,13 +5,18 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "host/base/formats/csv_table.hpp"
 #include "host/base/text/trimmed.hpp"
 #include "host/recording/foreign/counter_wraps.hpp"
-#include "host/recording/foreign/line_reader.hpp"
-#include "host/recording/foreign/lost_rows.hpp"
 #include "host/recording/foreign/time_text.hpp"
 #include "host/recording/foreign/unclear_choice.hpp"
 #include "host/recording/foreign/wheel_columns.hpp"
@@ -20,6 +25,41 @@ namespace astro::recording {
 namespace {
 
 constexpr std::size_t kMostCells = 1000;
+
+/// The lines of a text file of any size, without their line ends (LF or CRLF) and a byte order mark.
+class LineReader {
+ public:
+  LineReader(ByteSource& file, std::string name) : file_(file), name_(std::move(name)) {}
+
+  /// Nothing after the last line. The text is valid until the next call. Throws astro::Error naming the file and the
+  /// line if a line has more than 64 KiB or a NUL byte.
+  std::optional<std::string_view> next();
+  int line() const { return line_; }  // of the last one, from 1
+
+ private:
+  ByteSource& file_;
+  std::string name_;
+  std::uint64_t at_ = 0;
+  int line_ = 0;
+};
+
+std::optional<std::string_view> LineReader::next() {
+  constexpr std::uint64_t kMostBytes = std::uint64_t{64} << 10;
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (at_ >= file_.size()) return std::nullopt;
+  ++line_;
+  const auto count = static_cast<std::size_t>(std::min(file_.size() - at_, kMostBytes));
+  std::string_view text = as_text(file_.read(at_, count));
+  const std::size_t end = text.find('\n');
+  if (end == std::string_view::npos && count == kMostBytes)
+    refuse(name_, line_, "the line has more than 65536 characters");
+  at_ += end == std::string_view::npos ? count : end + 1;
+  text = text.substr(0, end);
+  if (std::memchr(text.data(), 0, text.size()) != nullptr) refuse(name_, line_, "this is not text");
+  if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
+  if (line_ == 1 && text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  return text;
+}
 
 /// Splits a line at the separator; several blanks are one.
 void split(std::string_view line, char separator, std::vector<std::string_view>& cells) {
@@ -46,6 +86,63 @@ std::optional<double> number(std::string_view cell) {
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(value)) return std::nullopt;
   return value;
+}
+
+struct LostRows {
+  int steps = 0;              // in which rows are missing
+  std::int64_t first_ns = 0;  // end of the first of them
+  double part = 0;            // of the whole travel that is missing with them
+};
+
+constexpr double kEvenStep = 0.2, kLongerStep = 1.5;  // of the usual step
+constexpr double kMostlyEven = 0.75;                  // of all steps
+constexpr double kHeldTravel = 0.75;                  // of the expected travel: a logger that was late
+constexpr std::size_t kFewestRows = 20;
+
+struct Step {
+  double time_ns = 0, travel = 0;  // of both wheels together
+};
+
+std::vector<Step> steps_of(std::span<const WheelSample> sums) {
+  std::vector<Step> steps;
+  for (std::size_t i = 1; i < sums.size(); ++i)
+    steps.push_back(
+        {static_cast<double>(sums[i].time_ns - sums[i - 1].time_ns),
+         std::abs(sums[i].left - sums[i - 1].left) + std::abs(sums[i].right - sums[i - 1].right)});
+  return steps;
+}
+
+double usual_ns(const std::vector<Step>& steps) {
+  std::vector<double> times_ns;
+  for (const Step& step : steps) times_ns.push_back(step.time_ns);
+  const auto middle = times_ns.begin() + static_cast<std::ptrdiff_t>(times_ns.size() / 2);
+  std::nth_element(times_ns.begin(), middle, times_ns.end());
+  return *middle;
+}
+
+/// Rows that a log of travel per interval has lost. Its rows come evenly; after a longer step the row holds the travel of
+/// that step if the logger was late, but no more than any other row if those between are lost. Nothing for a log that is not
+/// even, or where the robot stood in all longer steps.
+std::optional<LostRows> find_lost_rows(std::span<const WheelSample> sums) {
+  if (sums.size() < kFewestRows) return std::nullopt;
+  const std::vector<Step> steps = steps_of(sums);
+  const double usual = usual_ns(steps);
+  const auto even = [&](const Step& step) { return std::abs(step.time_ns - usual) < kEvenStep * usual; };
+  const auto evenly = std::count_if(steps.begin(), steps.end(), even);
+  if (static_cast<double>(evenly) < kMostlyEven * static_cast<double>(steps.size())) return std::nullopt;
+  LostRows lost;
+  double expected = 0, held = 0, whole = 0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    whole += steps[i].travel;
+    if (i == 0 || i + 1 == steps.size() || steps[i].time_ns < kLongerStep * usual) continue;
+    if (!even(steps[i - 1]) || !even(steps[i + 1])) continue;
+    expected += (steps[i - 1].travel + steps[i + 1].travel) / 2 * steps[i].time_ns / usual;
+    held += steps[i].travel;
+    if (lost.steps++ == 0) lost.first_ns = sums[i + 1].time_ns;
+  }
+  if (!(expected > 0) || held > kHeldTravel * expected) return std::nullopt;
+  lost.part = (expected - held) / (whole + expected - held);
+  return lost;
 }
 
 class Table {

@@ -3,16 +3,103 @@
 #include <algorithm>
 
 #include "host/recording/mcap/compression.hpp"
-#include "host/recording/mcap/record_stream.hpp"
 
 namespace astro::recording {
 namespace {
 
 using mcap::Op;
-using mcap::Record;
 
 constexpr std::size_t kMaxWarnings = 8;
 constexpr std::size_t kMagicBytes = sizeof mcap::kMagic;
+
+struct Record {
+  std::uint8_t op = 0;
+  std::uint64_t start = 0;  // position in the file
+  ByteView content;  // empty for records that no reader of ours needs: indexes, attachments, unknown ones
+  bool is_too_large = false;  // needed, but larger than may be held; the content is empty
+};
+
+/// Walks over the records of a file and keeps the checksum of all that it has passed. One record is in memory at a
+/// time, and those that nobody needs not even once as a whole.
+class RecordStream {
+ public:
+  /// Precondition: the file has at least kMagicBytes. `most_bytes`: of a record that is held.
+  RecordStream(ByteSource& file, std::uint64_t most_bytes);
+
+  /// False if there is no whole record any more; `record.start` says where. Opcode 0 does not exist; a file system
+  /// leaves zeros where a power cut prevented the writing of bytes.
+  bool next(Record& record);
+
+  std::uint64_t at() const { return at_; }                         // of the next record
+  std::uint32_t crc_before_record() const { return crc_before_; }  // of all bytes before the last record
+
+  /// The checksum of a range of the file, continuing `before`.
+  std::uint32_t crc_of(std::uint64_t from, std::uint64_t end, std::uint32_t before = 0);
+
+ private:
+  ByteSource& file_;
+  std::uint64_t most_bytes_, at_ = 0;
+  std::uint32_t crc_ = 0, crc_before_ = 0;
+};
+
+bool is_needed(Op op) {
+  switch (op) {
+    case Op::header:
+    case Op::footer:
+    case Op::schema:
+    case Op::channel:
+    case Op::message:
+    case Op::chunk:
+    case Op::metadata:
+    case Op::data_end:
+      return true;
+    default:
+      return false;
+  }
+}
+
+RecordStream::RecordStream(ByteSource& file, std::uint64_t most_bytes)
+    : file_(file), most_bytes_(most_bytes), at_(kMagicBytes), crc_(crc32_ieee(file.read(0, kMagicBytes))) {}
+
+bool RecordStream::next(Record& record) {
+  record.start = at_;
+  if (file_.size() - at_ < mcap::kRecordHeadBytes) return false;
+  ByteCursor head(file_.read(at_, mcap::kRecordHeadBytes));
+  record.op = head.number<std::uint8_t>();
+  const auto length = head.number<std::uint64_t>();
+  if (record.op == 0 || length > file_.size() - at_ - mcap::kRecordHeadBytes) return false;
+  const std::uint64_t end = at_ + mcap::kRecordHeadBytes + length;
+  record.content = {};
+  const bool is_held = is_needed(static_cast<Op>(record.op));
+  record.is_too_large = is_held && length > most_bytes_;
+  crc_before_ = crc_;
+  if (is_held && !record.is_too_large) {
+    const ByteView whole = file_.read(at_, static_cast<std::size_t>(end - at_));
+    crc_ = crc32_ieee(whole, crc_);
+    record.content = whole.subspan(mcap::kRecordHeadBytes);
+  } else {
+    crc_ = crc_of(at_, end, crc_);
+  }
+  at_ = end;
+  return true;
+}
+
+std::uint32_t RecordStream::crc_of(std::uint64_t from, std::uint64_t end, std::uint32_t before) {
+  constexpr std::uint64_t kPieceBytes = std::uint64_t{1} << 20;
+  while (from < end) {
+    const auto count = static_cast<std::size_t>(std::min(end - from, kPieceBytes));
+    before = crc32_ieee(file_.read(from, count), before);
+    from += count;
+  }
+  return before;
+}
+
+/// The next record inside an expanded chunk; its start is not set. False as for RecordStream.
+bool next_inside(ByteCursor& cursor, Record& record) {
+  record.op = cursor.number<std::uint8_t>();
+  record.content = cursor.take(cursor.number<std::uint64_t>());
+  return cursor.ok() && record.op != 0;
+}
 
 bool is_magic(ByteView bytes) { return std::ranges::equal(bytes, mcap::kMagic); }
 
@@ -172,7 +259,7 @@ class Walker {
     ByteCursor cursor(*bytes);
     while (cursor.left() > 0) {
       Record inner;
-      if (!mcap::next_inside(cursor, inner)) return damage("chunk that ends inside a record", record.start);
+      if (!next_inside(cursor, inner)) return damage("chunk that ends inside a record", record.start);
       take_content(inner, record.start);
     }
   }
@@ -210,7 +297,7 @@ class Walker {
   const McapHandlers& handlers_;
   const McapLimits& limits_;
   std::uint64_t file_bytes_;  // to which the limits refer
-  mcap::RecordStream records_;
+  RecordStream records_;
   McapReport report_;
   std::map<std::uint16_t, mcap::Schema> schemas_;
   std::map<std::uint16_t, mcap::Channel> channels_;

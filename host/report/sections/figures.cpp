@@ -1,9 +1,19 @@
 #include "host/report/sections/figures.hpp"
 
-#include <cmath>
-#include <nlohmann/json.hpp>
+#include <fmt/core.h>
 
-#include "host/report/sections/series.hpp"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <tuple>
+
+#include "host/base/text/sense.hpp"
+#include "host/recording/run/aligned_paths.hpp"
+#include "host/report/page/html.hpp"
 #include "host/report/sections/squares.hpp"
 
 namespace astro::report {
@@ -11,6 +21,43 @@ namespace astro::report {
 namespace {
 
 using nlohmann::json;
+using recording::RunInfo;
+
+struct GroupKey {
+  int kind_rank;
+  std::string kind;
+  int direction_rank;
+  long size_mm;
+  bool operator<(const GroupKey& o) const {
+    return std::tie(kind_rank, kind, direction_rank, size_mm) <
+           std::tie(o.kind_rank, o.kind, o.direction_rank, o.size_mm);
+  }
+};
+
+GroupKey group_key_of(const RunInfo& info) {
+  constexpr std::array known{"square", "circle", "line"};
+  const auto found = std::find(known.begin(), known.end(), info.kind);
+  const int direction = info.direction == Sense::cw ? 0 : info.direction == Sense::ccw ? 1 : 2;
+  return {static_cast<int>(found - known.begin()), info.kind, direction,
+          static_cast<long>(info.size_m * 1000 + 0.5)};
+}
+
+/// "clockwise", "counter-clockwise", "".
+std::string direction_name(std::optional<Sense> direction) { return direction ? in_words(*direction) : ""; }
+
+std::string group_title(const RunInfo& info) {
+  std::string title;
+  if (info.kind == "square")
+    title = fmt::format("Squares of {:g} m", info.size_m);
+  else if (info.kind == "circle")
+    title = fmt::format("Circles of {:g} m radius", info.size_m);
+  else if (info.kind == "line")
+    title = fmt::format("Straight lines of {:g} m", info.size_m);
+  else
+    title = info.kind.empty() ? "Other runs" : capitalised(info.kind);
+  const std::string direction = direction_name(info.direction);
+  return direction.empty() ? title : title + ", " + direction;
+}
 
 constexpr std::size_t kPointsPerRun = 1500;
 
@@ -55,7 +102,124 @@ json run_data(const recording::Run& run, std::size_t position) {
           {"y", y},           {"ex", ex},           {"ey", ey}, {"eh", eh}};
 }
 
+/// The number of a run: its index in the recording if there is one, otherwise its position.
+std::string run_number(const RunGroup& group, std::size_t position) {
+  for (const auto& runs : group.phases) {
+    if (position < runs.size() && runs[position]->info.index > 0)
+      return std::to_string(runs[position]->info.index);
+  }
+  return std::to_string(position + 1);
+}
+
+std::string selector(const RunGroup& group, std::size_t number) {
+  if (group.most_runs() < 2) return "";
+  std::string out = R"(<fieldset class="selector" data-runs><legend>Run</legend>)";
+  for (std::size_t i = 0; i < group.most_runs(); ++i) {
+    out += fmt::format(
+        R"(<label><input type="radio" name="runs-{}" value="{}" autocomplete="off"{}><span>{}</span></label>)",
+        number, i, i == 0 ? " checked" : "", run_number(group, i));
+  }
+  return out +
+         fmt::format(
+             R"(<label><input type="radio" name="runs-{}" value="all" autocomplete="off"><span>all</span></label></fieldset>)",
+             number);
+}
+
+std::string path_figure(const ReportInput& input, const RunGroup& group, std::size_t number,
+                        std::size_t phase) {
+  const std::string title = capitalised(input.phases[phase].title);
+  return fmt::format(
+      R"(<figure data-figure="path" data-group="{}" data-phase="{}"><figcaption class="phase-{}">{}, <span class="chosen">run {}</span></figcaption>
+<div class="plot" role="img" aria-label="{}, {}: true path and path by odometry"></div></figure>)",
+      number, phase, phase % kAccents, escape(title), run_number(group, 0), escape(group.title),
+      escape(title));
+}
+
+std::string error_figure(const RunGroup& group, std::size_t number) {
+  const auto tracked = [](const auto& runs) {
+    return std::any_of(runs.begin(), runs.end(), [](auto* run) { return !run->truth.empty(); });
+  };
+  if (std::none_of(group.phases.begin(), group.phases.end(), tracked)) {
+    return R"(<p class="quiet">No ground truth was recorded along these runs, so there are no errors over time.</p>)";
+  }
+  return fmt::format(
+      R"(<figure data-figure="errors" data-group="{}"><figcaption>Errors along the way (ground truth minus odometry), <span class="chosen">run {}</span></figcaption>
+<div class="plot" role="img" aria-label="{}: x, y and heading error over time, every phase"></div></figure>)",
+      number, run_number(group, 0), escape(group.title));
+}
+
+std::string group_section(const ReportInput& input, const RunGroup& group, std::size_t number) {
+  std::string paths;
+  for (std::size_t phase = 0; phase < group.phases.size(); ++phase) {
+    if (!group.phases[phase].empty()) paths += path_figure(input, group, number, phase);
+  }
+  const char* const stretched =
+      group.kind == "line"
+          ? R"(<p class="quiet">Sideways motion is drawn in millimetres, far larger than the way ahead.</p>)"
+          : "";
+  return fmt::format(
+      R"(<section class="group" data-group="{}"><h3>{}</h3>{}{}<div class="panels">{}</div>{}</section>)",
+      number, escape(group.title), selector(group, number), stretched, paths, error_figure(group, number));
+}
+
 }  // namespace
+
+std::size_t RunGroup::most_runs() const {
+  std::size_t most = 0;
+  for (const auto& runs : phases) most = std::max(most, runs.size());
+  return most;
+}
+
+std::vector<RunGroup> group_runs(const std::vector<Phase>& phases) {
+  std::map<GroupKey, RunGroup> groups;
+  for (std::size_t phase = 0; phase < phases.size(); ++phase) {
+    for (const auto& run : phases[phase].runs) {
+      if (run.odometry.empty()) continue;
+      auto& group = groups[group_key_of(run.info)];
+      group.title = group_title(run.info);
+      group.kind = run.info.kind;
+      group.phases.resize(phases.size());
+      group.phases[phase].push_back(&run);
+    }
+  }
+  std::vector<RunGroup> out;
+  for (auto& [key, group] : groups) {
+    for (auto& runs : group.phases) {
+      std::stable_sort(runs.begin(), runs.end(),
+                       [](auto* a, auto* b) { return a->info.index < b->info.index; });
+    }
+    out.push_back(std::move(group));
+  }
+  return out;
+}
+
+std::vector<SeriesPoint> series_of(const recording::Run& run) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const auto paths = recording::align_paths(run);
+  std::vector<SeriesPoint> points;
+  points.reserve(paths.odometry.size());
+  auto error = paths.error.begin();
+  for (const auto& sample : paths.odometry) {
+    points.push_back({sample.time_s, sample.pose, {kNone, kNone, kNone}});
+    // The errors are a subset of the odometry's times, in the same order and with the same bits.
+    if (error != paths.error.end() && error->time_s == sample.time_s) points.back().error = (error++)->pose;
+  }
+  return points;
+}
+
+std::vector<SeriesPoint> thin(std::vector<SeriesPoint> points, std::size_t most) {
+  if (points.size() <= most) return points;
+  std::vector<SeriesPoint> kept;
+  kept.reserve(most);
+  for (std::size_t i = 0; i < most; ++i) kept.push_back(points[i * (points.size() - 1) / (most - 1)]);
+  return kept;
+}
+
+Section run_figures(const ReportInput& input, const std::vector<RunGroup>& groups) {
+  Section out{"runs", "Runs: odometry against ground truth", ""};
+  for (std::size_t i = 0; i < groups.size(); ++i) out.body += group_section(input, groups[i], i);
+  return out;
+}
 
 json figure_data(const std::vector<Phase>& phases, const std::vector<RunGroup>& groups) {
   json out = {{"phases", json::array()}, {"clusters", json::array()}, {"groups", json::array()}};

@@ -4,9 +4,10 @@
 #include <vector>
 
 #include "host/calibration/judgement/before_after.hpp"
+#include "host/report/page/page.hpp"
 #include "host/report/sections/report.hpp"
 
-/// The phases in which squares were driven in both directions, and what is left of the square's error.
+/// The phases in which squares were driven in both directions, what is left of the square's error, and the sections that show it.
 namespace astro::report {
 
 /// True if both directions of the square were driven, which E_max_syst needs.
@@ -21,5 +22,11 @@ std::vector<SquarePhase> square_phases(const ReportInput& input);
 
 /// E_max_syst of a phase in mm, with the number of runs of the direction that it comes from.
 calibration::FigureOfMerit largest_error_mm(const Phase& phase);
+
+/// The largest systematic error of the square in each phase, and the improvement in words.
+Section headline(const ReportInput& input);
+
+/// Where the squares ended: the clusters of end errors of each phase.
+Section scatter(const ReportInput& input);
 
 }  // namespace astro::report

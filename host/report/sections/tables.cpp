@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -119,17 +120,48 @@ std::string merit_row(const Merit& merit, const std::vector<SquarePhase>& square
   return row + "</tr>\n";
 }
 
+std::string phase_row(const Phase& phase) {
+  std::string row = "<tr><th scope=\"row\">" + escape(capitalised(phase.title)) + "</th>";
+  for (const LoadedValue& loaded : phase.loaded)
+    row += cell(with_error(loaded.value, loaded.standard_error, six_digits(loaded.value)));
+  if (!has_squares(phase)) return row + cell("–") + "</tr>\n";
+  const FigureOfMerit error = largest_error_mm(phase);
+  return row + cell(with_error(error.value, error.standard_error, 1)) + "</tr>\n";
+}
+
+std::string pair_of_cells(double before, double after) {
+  const auto shown = [](double value) {
+    return std::isfinite(value) ? fixed(1000 * value, 1) : std::string("–");
+  };
+  return cell(shown(before)) + cell(shown(after));
+}
+
+std::string drive_row(const std::string& name, const DriveFigures& before, const DriveFigures& after) {
+  return "<tr><th scope=\"row\">" + escape(name) + "</th>" + pair_of_cells(before.end_m, after.end_m) +
+         pair_of_cells(std::abs(before.heading_rad), std::abs(after.heading_rad)) +
+         pair_of_cells(before.path_rms_m, after.path_rms_m) + "</tr>\n";
+}
+
 }  // namespace
 
-Section rms_tables(const ReportInput& input) {
-  Section out{"tables", "End errors, run by run", ""};
-  for (const auto& s : square_phases(input)) {
-    const std::string title = escape(capitalised(s.phase->title));
-    out.body += "<div class=\"tables\">" +
-                error_table(title + ", " + in_words(Sense::cw), s.phase->cw, s.phase->squares.cw) +
-                error_table(title + ", " + in_words(Sense::ccw), s.phase->ccw, s.phase->squares.ccw) +
-                "</div>\n";
-  }
+Section drive_comparison(const ReportInput& input) {
+  Section out{"drives", "Drives", ""};
+  if (!input.comparison) return out;
+  const DriveComparison& drives = *input.comparison;
+  std::string rows;
+  for (const DriveRow& drive : drives.drives) rows += drive_row(drive.name, drive.before, drive.after);
+  const std::string first = escape(input.phases.front().title), last = escape(input.phases.back().title);
+  out.body = fmt::format(
+      R"(<p class="sentence">{}</p>
+<table><caption>Odometry less ground truth</caption><thead>
+<tr><th></th><th colspan="2" scope="colgroup">End <span class="unit">mm</span></th>
+<th colspan="2" scope="colgroup">Heading <span class="unit">mrad</span></th>
+<th colspan="2" scope="colgroup">Path, RMS <span class="unit">mm</span></th></tr>
+<tr><th scope="col">Drive</th><th scope="col">{}</th><th scope="col">{}</th><th scope="col">{}</th><th scope="col">{}</th>
+<th scope="col">{}</th><th scope="col">{}</th></tr></thead>
+<tbody>{}</tbody><tfoot>{}</tfoot></table>)",
+      escape(drives.verdict), first, last, first, last, first, last, rows,
+      drive_row("RMS", drives.before, drives.after));
   return out;
 }
 
@@ -143,6 +175,24 @@ Section parameter_table(const ReportInput& input) {
 <thead><tr><th scope="col">Parameter</th><th scope="col">Before</th><th scope="col">After</th>
 <th scope="col">Standard error</th><th scope="col" class="text">Unit</th><th scope="col">Change</th></tr></thead><tbody>)" +
       rows + "</tbody></table></div>";
+  return out;
+}
+
+Section history(const ReportInput& input) {
+  Section out{"history", "History", ""};
+  const bool complete = std::all_of(input.phases.begin(), input.phases.end(), [&](const Phase& phase) {
+    return !phase.loaded.empty() && phase.loaded.size() == input.parameters.size();
+  });
+  if (input.phases.size() < 3 || !complete) return out;
+  std::string head, rows;
+  for (const ParameterRow& p : input.parameters)
+    head += "<th scope=\"col\">" + escape(p.name) +
+            (p.unit.empty() ? "" : R"( <span class="unit">)" + escape(p.unit) + "</span>") + "</th>";
+  for (const Phase& phase : input.phases) rows += phase_row(phase);
+  out.body = fmt::format(
+      R"(<div class="scroll"><table class="wide"><caption>What was loaded in the robot in each phase, with the standard errors of the calibration that found it, and what was left of the square’s error.</caption>
+<thead><tr><th scope="col">Phase</th>{}<th scope="col"><var>E</var><sub>max,syst</sub> <span class="unit">mm</span></th></tr></thead><tbody>{}</tbody></table></div>)",
+      head, rows);
   return out;
 }
 
@@ -160,6 +210,18 @@ Section factor_table(const ReportInput& input) {
       R"(<div class="scroll"><table class="wide"><caption>Factor: the first phase over the phase to its left.</caption>
 <thead><tr><th scope="col">Quantity</th>{}</tr></thead><tbody>{}</tbody></table></div>)",
       head, rows);
+  return out;
+}
+
+Section rms_tables(const ReportInput& input) {
+  Section out{"tables", "End errors, run by run", ""};
+  for (const auto& s : square_phases(input)) {
+    const std::string title = escape(capitalised(s.phase->title));
+    out.body += "<div class=\"tables\">" +
+                error_table(title + ", " + in_words(Sense::cw), s.phase->cw, s.phase->squares.cw) +
+                error_table(title + ", " + in_words(Sense::ccw), s.phase->ccw, s.phase->squares.ccw) +
+                "</div>\n";
+  }
   return out;
 }
 

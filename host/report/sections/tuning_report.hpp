@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "host/motor/model/motor_model.hpp"
-#include "host/motor/model/step_figures.hpp"
+#include "host/motor/model/prediction.hpp"
 #include "host/report/sections/report.hpp"
 
 /// The report of a tuning: the motor models, the gains designed from them, and the predicted and measured

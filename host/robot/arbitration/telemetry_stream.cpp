@@ -1,10 +1,27 @@
 #include "host/robot/arbitration/telemetry_stream.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace astro::robot {
 
 using protocol::SetTelemetry;
+
+bool TelemetryRequest::is_due(std::uint64_t device_us, std::uint16_t stream_ms) {
+  if (!any()) return false;
+  const std::uint64_t period_us = std::uint64_t{1000} * request_.period_ms;
+  if (device_us + 2 * period_us < due_us_) due_us_ = 0;  // the robot's clock has restarted
+  if (device_us + std::uint64_t{500} * stream_ms < due_us_) return false;
+  due_us_ = due_us_ == 0 || due_us_ + period_us <= device_us ? device_us + period_us : due_us_ + period_us;
+  return true;
+}
+
+SetTelemetry TelemetryRequest::merge(const SetTelemetry& a, const TelemetryRequest& other) {
+  const SetTelemetry& b = other.request_;
+  if (!other.any()) return a;
+  if (a.period_ms == 0) return b;
+  return {std::min(a.period_ms, b.period_ms), a.fields | b.fields};
+}
 
 void TelemetryStream::request(SessionId id, const SetTelemetry& wanted) {
   requests_[id] = TelemetryRequest(wanted);

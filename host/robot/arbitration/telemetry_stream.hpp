@@ -5,11 +5,38 @@
 #include <optional>
 
 #include "common/protocol/messages.hpp"
+#include "common/protocol/telemetry.hpp"
 #include "host/robot/arbitration/exchange.hpp"
 #include "host/robot/arbitration/port_user.hpp"
-#include "host/robot/arbitration/telemetry_request.hpp"
 
 namespace astro::robot {
+
+/// The telemetry that one of several programs at a port requested, selected from a stream that serves all of
+/// them.
+class TelemetryRequest {
+ public:
+  TelemetryRequest() = default;
+  explicit TelemetryRequest(const protocol::SetTelemetry& request) : request_(request) {}
+
+  bool any() const { return request_.period_ms != 0; }
+
+  /// True if this sample of a stream with period `stream_ms` must be passed on. Keeps the mean rate: each due
+  /// sample is at most half a period of the stream early or late.
+  bool is_due(std::uint64_t device_us, std::uint16_t stream_ms);
+
+  /// The requested groups that are in the sample; all others are blank, as if never sent.
+  protocol::Telemetry filter(protocol::Telemetry sample) const {
+    sample.fields &= request_.fields;
+    return sample;
+  }
+
+  /// One stream that serves both: all groups of either, at the shorter period.
+  static protocol::SetTelemetry merge(const protocol::SetTelemetry& a, const TelemetryRequest& other);
+
+ private:
+  protocol::SetTelemetry request_;
+  std::uint64_t due_us_ = 0;  // on the robot's clock; 0: at once
+};
 
 /// The one stream of telemetry that the robot sends: what must be requested so that it serves all programs,
 /// and which part of a sample each of them gets.

@@ -1,23 +1,51 @@
 #include "host/robot/port/ports.hpp"
 
 #include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <sstream>
 
 #include "host/base/error.hpp"
 #include "host/base/system_error.hpp"
-#include "host/robot/port/serial_port.hpp"
-#include "host/robot/port/terminal_user.hpp"
 
 namespace astro::robot {
 
 namespace fs = std::filesystem;
 
 namespace {
+
+/// As the kernel writes a device in /proc/PID/stat: proc(5), field 7, tty_nr.
+long tty_number(dev_t device) {
+  const unsigned low = minor(device);
+  return static_cast<long>((low & 0xFFU) | (major(device) << 8) | ((low & ~0xFFU) << 12));
+}
+
+struct Process {
+  std::string name;
+  long tty = 0;
+};
+
+std::optional<Process> read_stat(const fs::path& folder) {
+  std::ifstream file(folder / "stat");
+  std::stringstream text;
+  text << file.rdbuf();
+  const std::string all = text.str();
+  const auto open = all.find('(');
+  const auto close = all.rfind(')');  // a name may hold brackets and blanks
+  if (open == std::string::npos || close == std::string::npos) return std::nullopt;
+  std::istringstream rest(all.substr(close + 1));
+  std::string state;
+  long parent = 0, group = 0, session = 0;
+  Process process{all.substr(open + 1, close - open - 1), 0};
+  if (!(rest >> state >> parent >> group >> session >> process.tty)) return std::nullopt;
+  return process;
+}
 
 std::vector<fs::path> entries(const fs::path& folder) {
   std::vector<fs::path> paths;
@@ -81,6 +109,17 @@ std::vector<Port> candidate_ports(const fs::path& devices, const fs::path& simul
     if (path.extension() == ".pty") add(ports, path, true);
   }
   return ports;
+}
+
+std::optional<std::string> terminal_user(dev_t device) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator("/proc", error)) {
+    const std::string name = entry.path().filename();
+    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+    const auto process = read_stat(entry.path());
+    if (process && process->tty == tty_number(device)) return process->name;
+  }
+  return std::nullopt;
 }
 
 }  // namespace astro::robot

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,5 +28,9 @@ std::filesystem::path make_runtime_folder();
 /// lead nowhere are left out, and so is a runtime folder that somebody else owns. Opens nothing.
 std::vector<Port> candidate_ports(const std::filesystem::path& devices = "/dev",
                                   const std::filesystem::path& simulators = runtime_folder());
+
+/// Name of a process whose controlling terminal this device is. A pty's number is reused when its simulator
+/// has ended: without this check the link of a dead simulator can lead into somebody's shell.
+std::optional<std::string> terminal_user(dev_t device);
 
 }  // namespace astro::robot

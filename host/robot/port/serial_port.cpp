@@ -1,5 +1,4 @@
 #include "host/robot/port/serial_port.hpp"
-#include "host/robot/port/terminal_user.hpp"
 
 // termios2, for any baud, is the kernel's; glibc's <termios.h> cannot be included beside it.
 #include <asm/ioctls.h>

@@ -17,8 +17,24 @@ namespace {
 // programs.
 constexpr std::ptrdiff_t kMostSlots = 32;
 constexpr std::size_t kMostSessions = 96;
+constexpr std::size_t kTelemetryLimit_bytes = 1U << 16;
+constexpr std::size_t kQueueLimit_bytes = 1U << 18;
 
 }  // namespace
+
+bool RelaySession::takes_telemetry() const { return out.bytes() <= kTelemetryLimit_bytes; }
+
+bool RelaySession::push(ByteView frame) {
+  if (out.bytes() + frame.size() > kQueueLimit_bytes) return false;
+  out.push(frame);
+  return true;
+}
+
+void RelaySession::close(FarewellReason reason) {
+  closing = Farewell{reason};
+  if (reason == FarewellReason::reads_too_slowly) out.drop_waiting();
+  if (greets) out.push(protocol::Frame(*closing, 0).bytes());
+}
 
 RelaySession* Relay::find(SessionId id) {
   const auto found =

@@ -1,19 +1,23 @@
 #include "host/robot/sharing/relay_server.hpp"
 
+#include <fcntl.h>
 #include <poll.h>
+#include <signal.h>
 #include <sys/eventfd.h>
+#include <sys/prctl.h>
 #include <sys/socket.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <span>
 
 #include "host/base/blocked_signals.hpp"
 #include "host/base/error.hpp"
 #include "host/base/system_error.hpp"
-#include "host/robot/sharing/background_process.hpp"
 #include "host/robot/sharing/port_socket.hpp"
 
 namespace astro::robot {
@@ -43,6 +47,28 @@ bool write_all(int descriptor, FrameQueue& queue, bool is_socket) {
     if (count < 0) return errno == EAGAIN || errno == EINTR;
     queue.taken(static_cast<std::size_t>(count));
   }
+  return true;
+}
+
+/// Leaves a process behind that goes on with what this one was doing. Forks twice, so that no process has to wait for
+/// the one that stays. Call it while this process has one thread.
+///
+/// Returns true in the process that stays: in a session of its own, with the default signal handlers, and with no open
+/// descriptors but `keep` and empty standard streams. Returns false in this process, also if it could not be done.
+bool leave_process_behind(const char* name, std::span<const int> keep) {
+  const pid_t child = ::fork();
+  if (child > 0) ::waitpid(child, nullptr, 0);
+  if (child != 0) return false;
+  if (::fork() != 0) ::_exit(0);
+  ::setsid();
+  ::prctl(PR_SET_NAME, name);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_DFL);
+  ::signal(SIGPIPE, SIG_IGN);
+  ::alarm(0);
+  const int most = static_cast<int>(::sysconf(_SC_OPEN_MAX));
+  for (int number = 0; number < std::min(most, 65'536); ++number)
+    if (std::find(keep.begin(), keep.end(), number) == keep.end()) ::close(number);
+  for (int number = 0; number < 3; ++number) ::open("/dev/null", O_RDWR);
   return true;
 }
 

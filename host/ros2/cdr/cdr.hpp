@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstdint>
 #include <string_view>
 
 #include "host/base/bytes.hpp"
@@ -110,5 +111,13 @@ class CdrReader {
   bool ok_ = false;
   bool big_endian_ = false;
 };
+
+inline constexpr std::int64_t kNanosPerSecond = 1'000'000'000;
+
+/// builtin_interfaces/Time: seconds (i32) and nanoseconds (u32). Any two numbers make a time: the largest is 2^31 + 4 s.
+inline std::int64_t take_time_ns(CdrReader& in) {
+  const std::int64_t seconds = in.number<std::int32_t>();
+  return seconds * kNanosPerSecond + in.number<std::uint32_t>();
+}
 
 }  // namespace astro::ros2

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "host/ros2/driver/robot_session.hpp"
+#include "host/ros2/driver/robot_link.hpp"
 #include "host/ros2/odometry/odometry_track.hpp"
 
 namespace astro::ros2 {

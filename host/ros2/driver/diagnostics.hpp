@@ -7,7 +7,7 @@
 
 #include "host/ros2/driver/continuous_odometry.hpp"
 #include "host/ros2/driver/driving.hpp"
-#include "host/ros2/messages/diagnostics.hpp"
+#include "host/ros2/messages/nodes.hpp"
 
 namespace astro::ros2 {
 

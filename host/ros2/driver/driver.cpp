@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/robot/motion/left_drive.hpp"
+#include "host/robot/motion/other_program.hpp"
 #include "host/robot/motion/rest.hpp"
 #include "host/ros2/cdr/codec.hpp"
-#include "host/ros2/messages/clock.hpp"
+#include "host/ros2/messages/std.hpp"
 #include "host/ros2/recorded/ros_messages.hpp"
 
 namespace astro::ros2 {

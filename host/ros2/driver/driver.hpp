@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "host/ros2/driver/base_messages.hpp"
 #include "host/ros2/driver/continuous_odometry.hpp"
 #include "host/ros2/driver/diagnostics.hpp"
 #include "host/ros2/driver/driving.hpp"

@@ -1,17 +1,79 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+#include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
+#include "host/calibration/likelihood/matrix3.hpp"
+#include "host/recording/run/run.hpp"
+#include "host/robot/client/client.hpp"
+#include "host/ros2/cdr/codec.hpp"
 #include "host/ros2/driver/names.hpp"
-#include "host/ros2/driver/outlet.hpp"
-#include "host/ros2/messages/diagnostics.hpp"
-#include "host/ros2/messages/odometry.hpp"
+#include "host/ros2/messages/geometry.hpp"
+#include "host/ros2/messages/nodes.hpp"
 #include "host/ros2/messages/sensors.hpp"
+#include "host/ros2/messages/std.hpp"
 #include "host/ros2/messages/telemetry.hpp"
-#include "host/ros2/messages/text.hpp"
+#include "host/ros2/middleware/middleware.hpp"
+#include "host/ros2/odometry/twist_uncertainty.hpp"
+#include "host/ros2/recorded/robot_model.hpp"
 
+/// What the driver publishes: messages out of what the robot measured in one tick, and where they go. Frames by REP 105: odom ->
+/// base_footprint -> base_link -> wheels.
 namespace astro::ros2 {
+
+struct BaseState {
+  std::int64_t time_ns = 0;  // since 1970
+  recording::OdometrySample sample;
+  calibration::Symmetric3 covariance;  // of the sample's pose
+  TwistCovariance twist;
+  std::int64_t left_counts = 0, right_counts = 0;  // of the wheels; they do not wrap
+};
+
+/// The variance of what a robot on a floor does not measure: z, roll and pitch.
+inline constexpr double kNotMeasured = 1e6;
+
+msg::Odometry odometry(const BaseState& state, const Names& names);
+/// odom -> base_footprint unless somebody else publishes it, and base_link -> each wheel if the model is complete.
+msg::TFMessage transforms(const BaseState& state, const RobotModel& model, const Names& names,
+                          bool with_odometry = true);
+/// base_footprint -> base_link, which is the same place: the floor between the wheels. Nothing if odometry is that of base_link.
+msg::TFMessage fixed_transforms(std::int64_t time_ns, const Names& names);
+/// Angles and speeds of the wheels. `factors`: those that the robot's speeds are made with. Precondition: the model is complete.
+msg::JointState joints(const BaseState& state, const protocol::Telemetry& telemetry, const RobotModel& model,
+                       const calibration::WheelFactors& factors);
+msg::BatteryState battery(std::int64_t time_ns, double voltage_V, const Names& names);
+msg::Telemetry telemetry(const BaseState& state, const protocol::Telemetry& telemetry, const Names& names);
+
+/// A topic on several middlewares at once: a message is encoded once for all, and not at all if nobody would get it.
+template <Message M>
+class Outlet {
+ public:
+  /// `topic.type` is filled in. Throws astro::Error if a middleware refuses the topic.
+  Outlet(std::span<Middleware* const> middlewares, TopicDescription topic) : latched_(topic.latched) {
+    topic.type = message_type<M>();
+    for (Middleware* each : middlewares) publishers_.push_back(each->advertise(topic));
+  }
+
+  /// A latched topic always is: somebody may subscribe later.
+  bool wanted() const {
+    return latched_ || std::any_of(publishers_.begin(), publishers_.end(),
+                                   [](const auto& each) { return each->has_subscribers(); });
+  }
+
+  void publish(const M& message, std::int64_t time_ns) {
+    if (!wanted()) return;
+    const Bytes bytes = encode(message);
+    for (const auto& each : publishers_) each->publish(bytes, time_ns);
+  }
+
+ private:
+  std::vector<std::unique_ptr<Publisher>> publishers_;
+  bool latched_;
+};
 
 /// All that the driver publishes. host/ros2/README.md has the same as a table, and a test compares both.
 class Publications {

@@ -11,7 +11,7 @@
 #include "host/ros2/driver/names.hpp"
 #include "host/ros2/driver/robot_link.hpp"
 #include "host/ros2/messages/geometry.hpp"
-#include "host/ros2/messages/services.hpp"
+#include "host/ros2/messages/std.hpp"
 #include "host/ros2/middleware/middleware.hpp"
 
 namespace astro::ros2 {

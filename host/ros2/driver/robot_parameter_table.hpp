@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/ros2/driver/robot_session.hpp"
+#include "host/ros2/driver/robot_link.hpp"
 #include "host/ros2/middleware/parameter_table.hpp"
 
 namespace astro::ros2 {

@@ -3,13 +3,15 @@
 #include <atomic>
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "host/ros2/middleware/middleware.hpp"
 
-/// What a server offers to all its clients. Ids count from 1 in the order in which things were added.
+/// What a server offers to all its clients, and who is there. Ids count from 1 in the order in which things were added.
 namespace astro::ros2::foxglove {
 
 /// One message of one channel; all clients share it.
@@ -53,5 +55,22 @@ template <class T>
 auto* find(T& list, std::uint32_t id) {
   return id == 0 || id > list.size() ? nullptr : &list[id - 1];
 }
+
+/// Who publishes, subscribes and serves what, by name.
+struct ConnectionGraph {
+  using Ends =
+      std::map<std::string, std::set<std::string>>;  // the name of a topic or a service, and who is there
+
+  Ends published, subscribed, services;
+
+  /// All topics that somebody publishes or subscribes.
+  std::set<std::string> topics() const {
+    std::set<std::string> names;
+    for (const Ends* ends : {&published, &subscribed})
+      for (const auto& [name, who] : *ends) names.insert(name);
+    return names;
+  }
+  bool operator==(const ConnectionGraph&) const = default;
+};
 
 }  // namespace astro::ros2::foxglove

@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "host/ros2/foxglove/catalogue.hpp"
-#include "host/ros2/foxglove/connection_graph.hpp"
 #include "host/ros2/messages/parameters.hpp"
 
 /// What the server sends: JSON, and binary frames whose first byte says what they are. Text that is no UTF-8 is repaired.

@@ -11,7 +11,6 @@
 #include "host/ros2/foxglove/catalogue.hpp"
 #include "host/ros2/foxglove/client_messages.hpp"
 #include "host/ros2/foxglove/client_queue.hpp"
-#include "host/ros2/foxglove/connection_graph.hpp"
 #include "host/ros2/foxglove/requests.hpp"
 
 namespace astro::ros2::foxglove {

@@ -2,9 +2,9 @@
 
 #include <array>
 
-#include "host/ros2/messages/time.hpp"
+#include "host/ros2/messages/std.hpp"
 
-/// Geometry: metres, radians, quaternions.
+/// geometry_msgs, tf2_msgs and nav_msgs: metres, radians, quaternions.
 namespace astro::ros2::msg {
 
 struct Vector3 {
@@ -131,6 +131,20 @@ struct TFMessage {
   static constexpr std::string_view kType = "tf2_msgs/msg/TFMessage";
   static constexpr std::tuple kFields{Field{&TFMessage::transforms, "transforms"}};
   bool operator==(const TFMessage&) const = default;
+};
+
+/// The pose is in header.frame_id, the twist in child_frame_id.
+struct Odometry {
+  Header header;
+  std::string child_frame_id;
+  PoseWithCovariance pose;
+  TwistWithCovariance twist;
+
+  static constexpr std::string_view kType = "nav_msgs/msg/Odometry";
+  static constexpr std::tuple kFields{Field{&Odometry::header, "header"},
+                                      Field{&Odometry::child_frame_id, "child_frame_id"},
+                                      Field{&Odometry::pose, "pose"}, Field{&Odometry::twist, "twist"}};
+  bool operator==(const Odometry&) const = default;
 };
 
 }  // namespace astro::ros2::msg

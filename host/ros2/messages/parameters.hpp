@@ -2,8 +2,9 @@
 
 #include <cstddef>
 
-#include "host/ros2/messages/time.hpp"
+#include "host/ros2/messages/std.hpp"
 
+/// The parameters of a node, and the services by which it shows and changes them: rcl_interfaces.
 namespace astro::ros2::msg {
 
 /// Of the values the one that `type` names counts.
@@ -118,6 +119,128 @@ struct ParameterEvent {
                                       Field{&ParameterEvent::changed_parameters, "changed_parameters"},
                                       Field{&ParameterEvent::deleted_parameters, "deleted_parameters"}};
   bool operator==(const ParameterEvent&) const = default;
+};
+
+struct GetParameters {
+  static constexpr std::string_view kType = "rcl_interfaces/srv/GetParameters";
+
+  struct Request {
+    std::vector<std::string> names;
+
+    static constexpr std::string_view kType = "rcl_interfaces/srv/GetParameters_Request";
+    static constexpr std::tuple kFields{Field{&Request::names, "names"}};
+    bool operator==(const Request&) const = default;
+  };
+
+  struct Response {
+    std::vector<ParameterValue> values;
+
+    static constexpr std::string_view kType = "rcl_interfaces/srv/GetParameters_Response";
+    static constexpr std::tuple kFields{Field{&Response::values, "values"}};
+    bool operator==(const Response&) const = default;
+  };
+};
+
+struct GetParameterTypes {
+  static constexpr std::string_view kType = "rcl_interfaces/srv/GetParameterTypes";
+
+  struct Request {
+    std::vector<std::string> names;
+
+    static constexpr std::string_view kType = "rcl_interfaces/srv/GetParameterTypes_Request";
+    static constexpr std::tuple kFields{Field{&Request::names, "names"}};
+    bool operator==(const Request&) const = default;
+  };
+
+  struct Response {
+    std::vector<std::uint8_t> types;
+
+    static constexpr std::string_view kType = "rcl_interfaces/srv/GetParameterTypes_Response";
+    static constexpr std::tuple kFields{Field{&Response::types, "types"}};
+    bool operator==(const Response&) const = default;
+  };
+};
+
+struct SetParameters {
+  static constexpr std::string_view kType = "rcl_interfaces/srv/SetParameters";
+
+  struct Request {
+    std::vector<Parameter> parameters;
+
+    static constexpr std::string_view kType = "rcl_interfaces/srv/SetParameters_Request";
+    static constexpr std::tuple kFields{Field{&Request::parameters, "parameters"}};
+    bool operator==(const Request&) const = default;
+  };
+
+  struct Response {
+    std::vector<SetParametersResult> results;
+
+    static constexpr std::string_view kType = "rcl_interfaces/srv/SetParameters_Response";
+    static constexpr std::tuple kFields{Field{&Response::results, "results"}};
+    bool operator==(const Response&) const = default;
+  };
+};
+
+struct SetParametersAtomically {
+  static constexpr std::string_view kType = "rcl_interfaces/srv/SetParametersAtomically";
+
+  struct Request {
+    std::vector<Parameter> parameters;
+
+    static constexpr std::string_view kType = "rcl_interfaces/srv/SetParametersAtomically_Request";
+    static constexpr std::tuple kFields{Field{&Request::parameters, "parameters"}};
+    bool operator==(const Request&) const = default;
+  };
+
+  struct Response {
+    SetParametersResult result;
+
+    static constexpr std::string_view kType = "rcl_interfaces/srv/SetParametersAtomically_Response";
+    static constexpr std::tuple kFields{Field{&Response::result, "result"}};
+    bool operator==(const Response&) const = default;
+  };
+};
+
+struct ListParameters {
+  static constexpr std::string_view kType = "rcl_interfaces/srv/ListParameters";
+
+  struct Request {
+    std::vector<std::string> prefixes;
+    std::uint64_t depth = 0;
+
+    static constexpr std::string_view kType = "rcl_interfaces/srv/ListParameters_Request";
+    static constexpr std::tuple kFields{Field{&Request::prefixes, "prefixes"},
+                                        Field{&Request::depth, "depth"}};
+    bool operator==(const Request&) const = default;
+  };
+
+  struct Response {
+    ListParametersResult result;
+
+    static constexpr std::string_view kType = "rcl_interfaces/srv/ListParameters_Response";
+    static constexpr std::tuple kFields{Field{&Response::result, "result"}};
+    bool operator==(const Response&) const = default;
+  };
+};
+
+struct DescribeParameters {
+  static constexpr std::string_view kType = "rcl_interfaces/srv/DescribeParameters";
+
+  struct Request {
+    std::vector<std::string> names;
+
+    static constexpr std::string_view kType = "rcl_interfaces/srv/DescribeParameters_Request";
+    static constexpr std::tuple kFields{Field{&Request::names, "names"}};
+    bool operator==(const Request&) const = default;
+  };
+
+  struct Response {
+    std::vector<ParameterDescriptor> descriptors;
+
+    static constexpr std::string_view kType = "rcl_interfaces/srv/DescribeParameters_Response";
+    static constexpr std::tuple kFields{Field{&Response::descriptors, "descriptors"}};
+    bool operator==(const Response&) const = default;
+  };
 };
 
 }  // namespace astro::ros2::msg

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "host/ros2/messages/time.hpp"
+#include "host/ros2/messages/std.hpp"
 
 namespace astro::ros2::msg {
 

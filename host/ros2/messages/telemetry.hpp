@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/ros2/messages/time.hpp"
+#include "host/ros2/messages/std.hpp"
 
 namespace astro::ros2::msg {
 

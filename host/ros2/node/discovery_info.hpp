@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "host/ros2/dds/participant.hpp"
-#include "host/ros2/messages/graph.hpp"
+#include "host/ros2/messages/nodes.hpp"
 #include "host/ros2/types/names.hpp"
 
 /// The topic ros_discovery_info, on which each participant says which nodes it has and which endpoints belong to them. From it

@@ -3,7 +3,7 @@
 #include <functional>
 #include <span>
 
-#include "host/ros2/messages/parameter_services.hpp"
+#include "host/ros2/messages/parameters.hpp"
 #include "host/ros2/middleware/parameter_table.hpp"
 
 namespace astro::ros2 {

@@ -1,20 +1,44 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <variant>
 
 #include "host/ros2/dds/participant.hpp"
 #include "host/ros2/middleware/middleware.hpp"
-#include "host/ros2/node/request_styles.hpp"
 
+/// The two ways in which ROS 2 calls services over DDS, which do not understand each other:
+///
+///   rmw_fastrtps    the message alone; which reader waits for the reply, and for which request, is carried beside the payload
+///   rmw_cyclonedds  16 bytes in front of the message, a client's number and the request's, which the reply repeats; the
+///                   client's two endpoints show the same "clientid=...;"
+///
+/// Source  rmw_fastrtps_shared_cpp: rmw_request.cpp, rmw_response.cpp; rmw_cyclonedds_cpp: serdata.cpp, rmw_node.cpp.
 namespace astro::ros2 {
 
-/// A service for clients of either kind (request_styles.hpp), with one reader and one writer, because both kinds wait until as
-/// many readers of requests are there as writers of replies.
+/// In the manner of rmw_fastrtps. `id.writer` is the client's reader of replies, or its writer of requests where an old client
+/// does not say.
+struct FastCaller {
+  dds::SampleId id;
+};
+
+/// In the manner of rmw_cyclonedds.
+struct CycloneCaller {
+  std::string client_id;  // as its endpoints show it
+  std::uint64_t client = 0;
+  std::int64_t number = 0;
+};
+
+/// The value of "key=value;" in an endpoint's user data, "" if there is none.
+std::string value_in(std::string_view user_data, std::string_view key);
+
+/// A service for clients of either kind, with one reader and one writer, because both kinds wait until as many readers of requests
+/// are there as writers of replies.
 ///
 /// A request is carried out when it comes. Its reply waits until the client's reader of replies has been found, for what is
 /// written before does not reach it; a client that is not found within kHeldFor gets none.

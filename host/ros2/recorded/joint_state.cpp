@@ -1,7 +1,7 @@
 #include "host/ros2/recorded/joint_state.hpp"
 
+#include "host/ros2/cdr/cdr.hpp"
 #include "host/ros2/cdr/codec.hpp"
-#include "host/ros2/cdr/ros_stamp.hpp"
 #include "host/ros2/messages/sensors.hpp"
 
 namespace astro::ros2 {

@@ -1,9 +1,11 @@
 #include "host/ros2/recorded/stamped_pose.hpp"
 
 #include <algorithm>
+#include <initializer_list>
+#include <string>
 
+#include "host/ros2/cdr/cdr.hpp"
 #include "host/ros2/cdr/codec.hpp"
-#include "host/ros2/cdr/ros_stamp.hpp"
 
 namespace astro::ros2 {
 namespace {
@@ -52,6 +54,17 @@ const PoseType* pose_type(std::string_view name) {
   return nullptr;
 }
 
+bool names_any(std::string_view topic, std::initializer_list<std::string_view> words) {
+  std::string lower(topic);
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return std::ranges::any_of(words,
+                             [&](std::string_view word) { return lower.find(word) != std::string::npos; });
+}
+
+bool speaks_of_truth(std::string_view topic) {
+  return names_any(topic, {"mocap", "vrpn", "optitrack", "vicon", "qualisys", "natnet", "truth"});
+}
+
 }  // namespace
 
 const RosType& tf_message_type() {
@@ -86,6 +99,17 @@ Bytes encode_tf(const std::vector<StampedPose>& transforms) {
                                   pose.child_frame,
                                   {{pose.x_m, pose.y_m, pose.z_m}, {pose.qx, pose.qy, pose.qz, pose.qw}}});
   return encode(message);
+}
+
+bool speaks_of_tracker(std::string_view topic) {
+  return speaks_of_truth(topic) || names_any(topic, {"tracker"});
+}
+
+bool may_be_estimate(std::string_view topic, std::string_view type) {
+  if (speaks_of_truth(topic)) return false;
+  return type == "nav_msgs/msg/Odometry" || type == tf_message_type().name ||
+         type == "geometry_msgs/msg/PoseWithCovarianceStamped" ||
+         names_any(topic, {"odom", "amcl", "slam", "ekf", "localization", "estimat", "filtered", "goal"});
 }
 
 }  // namespace astro::ros2

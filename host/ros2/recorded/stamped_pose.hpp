@@ -38,4 +38,13 @@ const RosType& tf_message_type();
 /// A TFMessage of these transforms. Precondition: times within 2^31 s.
 Bytes encode_tf(const std::vector<StampedPose>& transforms);
 
+/// Whether the name of a topic says that its poses come from a tracker: tracking systems by name, "tracker", and what
+/// simulators call the true pose.
+bool speaks_of_tracker(std::string_view topic);
+
+/// Whether the robot itself may have computed the poses of a topic, as far as its name and type say: the topics of odometry,
+/// of filters and of localisation, and the types that they publish, unless the name says the contrary. A "tracker" may as
+/// well be a controller that tracks a path, so that word says nothing here.
+bool may_be_estimate(std::string_view topic, std::string_view type);
+
 }  // namespace astro::ros2

@@ -1,7 +1,7 @@
 #include "host/ros2/recorded/text_message.hpp"
 
 #include "host/ros2/cdr/codec.hpp"
-#include "host/ros2/messages/text.hpp"
+#include "host/ros2/messages/std.hpp"
 
 namespace astro::ros2 {
 const RosType& string_type() {

@@ -4,7 +4,7 @@
 #include "host/ros2/cdr/codec.hpp"
 #include "host/ros2/dds/fast_dds.hpp"
 #include "host/ros2/messages/geometry.hpp"
-#include "host/ros2/messages/graph.hpp"
+#include "host/ros2/messages/nodes.hpp"
 #include "host/ros2/types/names.hpp"
 #include "host/ros2/types/type_description.hpp"
 

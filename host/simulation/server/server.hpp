@@ -1,5 +1,7 @@
 #pragma once
 
+#include <poll.h>
+
 #include <chrono>
 #include <cstdint>
 #include <deque>
@@ -7,11 +9,12 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "host/simulation/robot/virtual_robot.hpp"
-#include "host/simulation/server/channel.hpp"
 #include "host/simulation/server/pace.hpp"
 #include "host/simulation/server/path_claim.hpp"
+#include "host/simulation/server/pty.hpp"
 #include "host/simulation/server/served_robot.hpp"
 #include "host/simulation/server/truth_server.hpp"
 #include "host/simulation/tracker/network_tracker.hpp"
@@ -32,6 +35,33 @@ struct ServerConfig {
 
 /// The content of a flash file; empty if there is none. Throws astro::Error if it cannot be read.
 std::vector<std::uint8_t> load_flash(const std::filesystem::path& path);
+
+/// One port of a robot at one pty. The pty exists while the robot's port does.
+class Channel {
+ public:
+  /// Errors as Pty.
+  Channel(ServedRobot& robot, int port, std::filesystem::path link);
+
+  /// Passes bytes from the host to the robot; returns false if there were none.
+  bool receive();
+  /// Passes bytes from the robot to the host; returns true if some are left because the host has not taken
+  /// them.
+  bool transmit();
+  /// Follows changes: the robot's port appears or disappears, a program opens or closes the pty.
+  void update_connection();
+
+  bool connected() const { return connected_; }
+  /// For poll(), while connected.
+  pollfd waits_for() const;
+
+ private:
+  ServedRobot& robot_;
+  int port_;
+  std::filesystem::path link_;
+  std::optional<Pty> pty_;
+  bool connected_ = false;
+  std::vector<std::uint8_t> outgoing_;
+};
 
 /// A simulated robot behind a pty, for as long as the process lives.
 ///

@@ -11,9 +11,9 @@
 #include <numbers>
 
 #include "host/base/error.hpp"
+#include "host/base/microseconds.hpp"
 #include "host/base/text/degrees.hpp"
-#include "host/base/text/shown.hpp"
-#include "host/base/whole_microseconds.hpp"
+#include "host/base/text/numbers.hpp"
 
 namespace astro::truth {
 namespace {

@@ -41,7 +41,7 @@ struct FloorFindings {
   /// The path turns left where the orientation turns right: one of the two is a mirror image, so the positions
   /// were reflected.
   bool mirrored = false;
-  double handedness = 0;  // that shows it, before the reflection (floor_points.hpp)
+  double handedness = 0;  // that shows it, before the reflection (wheel_match.hpp)
 
   double path_m = 0;
   double turned_rad = 0;  // from the first to the last valid sample; NaN without headings

@@ -1,11 +1,116 @@
 #include "host/truth/floor/inspection.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 
+#include "host/truth/files/rotations.hpp"
 #include "host/truth/files/tracker_file.hpp"
 
 namespace astro::truth {
 namespace {
+
+constexpr std::int64_t kWindow_ns = 500'000'000;
+constexpr std::size_t kFewestSamples = 8;
+
+/// x, y, z and the rotation against the window's first sample as a vector.
+using Coordinates = std::array<double, 6>;
+
+Coordinates coordinates_of(const Pose3& pose, const Pose3& first) {
+  Quaternion q = rotation_of(pose) * conjugate(rotation_of(first));
+  const double sign = q.w < 0 ? -2 : 2;  // small angles: the vector part is half of the angle
+  return {pose.x_m, pose.y_m, pose.z_m, sign * q.x, sign * q.y, sign * q.z};
+}
+
+/// Sums of a window, whole and in halves.
+struct Window {
+  std::size_t count = 0;
+  Coordinates variance{};
+  double moved = 0;  // the largest difference between the means of the halves, in its standard errors
+  double moved_m = 0;
+};
+
+Window summary_of(const std::vector<TrackedPose>& samples, std::size_t begin, std::size_t end) {
+  Window out;
+  out.count = end - begin;
+  const std::size_t half = out.count / 2;
+  std::array<Coordinates, 2> means{};
+  const Pose3& first = samples[begin].pose;
+  for (std::size_t i = begin; i < end; ++i) {
+    const Coordinates c = coordinates_of(samples[i].pose, first);
+    const bool late = i - begin >= half;
+    for (std::size_t k = 0; k < c.size(); ++k)
+      means[late][k] += c[k] / static_cast<double>(late ? out.count - half : half);
+  }
+  const double n = static_cast<double>(out.count);
+  for (std::size_t i = begin; i < end; ++i) {
+    const Coordinates c = coordinates_of(samples[i].pose, first);
+    const bool late = i - begin >= half;
+    for (std::size_t k = 0; k < c.size(); ++k)
+      out.variance[k] += std::pow(c[k] - means[late][k], 2) / (n - 2);
+  }
+  for (std::size_t k = 0; k < 6; ++k) {
+    const double step = std::abs(means[1][k] - means[0][k]);
+    if (step > 0) out.moved = std::max(out.moved, step / std::sqrt(4 * out.variance[k] / n + 1e-18));
+    if (k < 3) out.moved_m = std::max(out.moved_m, step);
+  }
+  return out;
+}
+
+std::vector<Window> windows_of(const std::vector<TrackedPose>& samples) {
+  std::vector<Window> out;
+  for (std::size_t begin = 0, end = 0; begin < samples.size(); begin = std::max(end, begin + 1)) {
+    end = begin;
+    while (end < samples.size() && samples[end].valid &&
+           samples[end].time_ns - samples[begin].time_ns < kWindow_ns)
+      ++end;
+    const bool whole =
+        end < samples.size() && samples[end].time_ns - samples[begin].time_ns < kWindow_ns * 3 / 2;
+    if (whole && samples[end].valid && end - begin >= kFewestSamples)
+      out.push_back(summary_of(samples, begin, end));
+  }
+  return out;
+}
+
+/// The mean squared spread of the stillest windows, by which a rest is recognised.
+double stillest_spread(std::vector<Window> windows) {
+  const auto spread = [](const Window& w) { return w.variance[0] + w.variance[1] + w.variance[2]; };
+  const auto still = windows.begin() + static_cast<std::ptrdiff_t>(windows.size() / 20);
+  std::nth_element(windows.begin(), still, windows.end(),
+                   [&](const Window& a, const Window& b) { return spread(a) < spread(b); });
+  return spread(*still);
+}
+
+/// Standard deviations within windows of half a second in which the body does not move more than its noise lets
+/// expect, about the mean of each window, so that a slow drift of the tracker does not count.
+/// Nothing if there is no second of rest.
+///
+/// A body that was glued to the same numbers (invalid samples) does not count as at rest.
+std::optional<RestNoise> find_rest_noise(const BodyTrack& track) {
+  constexpr double kMoved = 6, kSpread = 9;  // standard errors; ratio of variances
+  constexpr double kSlow_m = 5e-4;           // in half a window: 2 mm/s
+  const std::vector<Window> windows = windows_of(track.samples);
+  if (windows.empty()) return std::nullopt;
+  const double still = stillest_spread(windows);
+  RestNoise out;
+  Coordinates sums{};
+  double degrees_of_freedom = 0;
+  for (const Window& window : windows) {
+    const double spread = window.variance[0] + window.variance[1] + window.variance[2];
+    if (spread > kSpread * still + 1e-18 || (window.moved > kMoved && window.moved_m > kSlow_m)) continue;
+    if (window.moved_m > 10 * kSlow_m) continue;
+    out.rest_s += 1e-9 * kWindow_ns;
+    const double weight = static_cast<double>(window.count - 2);
+    for (std::size_t k = 0; k < 6; ++k) sums[k] += weight * window.variance[k];
+    degrees_of_freedom += weight;
+  }
+  if (out.rest_s < 1) return std::nullopt;
+  for (std::size_t k = 0; k < 3; ++k) out.sd_m[k] = std::sqrt(sums[k] / degrees_of_freedom);
+  if (track.facts.rotation_kind != RotationKind::none)
+    out.sd_rad = std::sqrt(*std::max_element(sums.begin() + 3, sums.end()) / degrees_of_freedom);
+  return out;
+}
 
 double median_period(const std::vector<TrackedPose>& samples) {
   std::vector<std::int64_t> steps;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,11 +9,17 @@
 #include "host/truth/files/body_choice.hpp"
 #include "host/truth/files/body_track.hpp"
 #include "host/truth/floor/lost_tracking.hpp"
-#include "host/truth/floor/rest_noise.hpp"
 #include "host/truth/floor/up_axis.hpp"
 
 /// What is in a recording, before anything is done with it.
 namespace astro::truth {
+
+/// The tracker's noise, as a body at rest shows it.
+struct RestNoise {
+  double rest_s = 0;             // how long the body stood, all rests together
+  std::array<double, 3> sd_m{};  // per axis of the file
+  double sd_rad = 0;             // of the rotation about the worst axis; 0 without rotations
+};
 
 struct BodyInspection {
   BodyName name;

@@ -10,7 +10,6 @@
 #include "host/base/environment.hpp"
 #include "host/base/error.hpp"
 #include "host/ros2/dds/fast_dds.hpp"
-#include "host/ros2/recorded/estimates.hpp"
 #include "host/ros2/recorded/stamped_pose.hpp"
 #include "host/ros2/types/names.hpp"
 #include "host/ros2/types/type_description.hpp"

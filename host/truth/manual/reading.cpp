@@ -8,7 +8,6 @@
 
 #include "host/base/text/degrees.hpp"
 #include "host/base/text/numbers.hpp"
-#include "host/base/text/shown.hpp"
 #include "host/base/text/trimmed.hpp"
 
 namespace astro::truth {

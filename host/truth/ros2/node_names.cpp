@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "host/ros2/cdr/codec.hpp"
-#include "host/ros2/messages/graph.hpp"
+#include "host/ros2/messages/nodes.hpp"
 
 namespace astro::truth {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host/recording/run/run.hpp"
@@ -46,6 +47,28 @@ class Source {
   virtual std::string name() const = 0;
   /// "robot", "host" (this computer's steady clock, in microseconds), or what else the times mean.
   virtual std::string clock() const = 0;
+};
+
+/// No ground truth.
+class NoSource : public Source {
+ public:
+  std::vector<recording::TruthSample> poll() override { return {}; }
+  std::string name() const override { return ""; }
+  std::string clock() const override { return ""; }
+};
+
+/// Ground truth that comes for many runs at once, after all of them: a film. Until then the recordings have none, and their
+/// `truth_source` says what they wait for.
+class LaterSource : public Source {
+ public:
+  explicit LaterSource(std::string name) : name_(std::move(name)) {}
+
+  std::vector<recording::TruthSample> poll() override { return {}; }
+  std::string name() const override { return name_; }
+  std::string clock() const override { return name_; }
+
+ private:
+  std::string name_;
 };
 
 }  // namespace astro::truth

@@ -13,6 +13,12 @@ extern "C" const char* __lsan_default_options() { return "print_suppressions=0";
 
 namespace astro::truth::tags {
 
+std::optional<Paper> paper_named(std::string_view name) {
+  for (const Paper& paper : {kA4, kLetter})
+    if (paper.name == name) return paper;
+  return std::nullopt;
+}
+
 Canvas::Canvas(_cairo* context, double units_per_mm) : context_(context) {
   cairo_save(context_);
   cairo_scale(context_, units_per_mm, units_per_mm);

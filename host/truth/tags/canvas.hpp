@@ -1,11 +1,25 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 struct _cairo;  // cairo_t, so that nobody else has to include its header
 
 namespace astro::truth::tags {
+
+/// A sheet of paper, upright.
+struct Paper {
+  std::string_view name;
+  double width_mm, height_mm;
+};
+
+inline constexpr Paper kA4{"a4", 210, 297};
+inline constexpr Paper kLetter{"letter", 215.9, 279.4};
+
+/// Nothing for any other name.
+std::optional<Paper> paper_named(std::string_view name);
 
 /// A place on a sheet: millimetres from its upper left corner, x right, y down.
 struct Place {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "host/base/error.hpp"
-#include "host/truth/tags/ruler.hpp"
 #include "host/truth/tags/tag_picture.hpp"
 
 namespace astro::truth::tags {
@@ -51,6 +51,23 @@ void draw_tag(Canvas& canvas, const TagSheet& sheet, Place centre) {
   const double arm_mm = std::min(3.0, cell_mm / 4);
   canvas.line({centre.x_mm - arm_mm, centre.y_mm}, {centre.x_mm + arm_mm, centre.y_mm}, 0.3, 0.5);
   canvas.line({centre.x_mm, centre.y_mm - arm_mm}, {centre.x_mm, centre.y_mm + arm_mm}, 0.3, 0.5);
+}
+
+constexpr double kRuler_mm = 100;
+
+/// A ruler of kRuler_mm with a mark each millimetre and a number each ten, by which a person checks the printer's scale. The
+/// marks stand on a line that begins at `zero`; numbers are below it.
+void draw_ruler(Canvas& canvas, Place zero) {
+  constexpr double kMark_mm = 0.15;
+  // The line ends where the outer marks do.
+  canvas.line({zero.x_mm - kMark_mm / 2, zero.y_mm}, {zero.x_mm + kRuler_mm + kMark_mm / 2, zero.y_mm}, 0.2);
+  for (int mm = 0; mm <= static_cast<int>(kRuler_mm); ++mm) {
+    const double height_mm = mm % 10 == 0 ? 5 : mm % 5 == 0 ? 3.5 : 2;
+    const double x_mm = zero.x_mm + mm;
+    canvas.line({x_mm, zero.y_mm - height_mm}, {x_mm, zero.y_mm}, kMark_mm);
+    if (mm % 10 == 0) canvas.text({x_mm, zero.y_mm + 3.6}, std::to_string(mm), 2.8, Align::centre);
+  }
+  canvas.text({zero.x_mm + kRuler_mm + 3.5, zero.y_mm + 3.6}, "mm", 2.8);
 }
 
 void draw_head(Canvas& canvas, const TagSheet& sheet, double middle_mm, double width_mm) {

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "host/truth/tags/canvas.hpp"
-#include "host/truth/tags/paper.hpp"
 
 namespace astro::truth::tags {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "host/emulator/core/stopped.hpp"
+#include "host/emulator/core/machine.hpp"
 #include "host/emulator/robot/teensy.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 

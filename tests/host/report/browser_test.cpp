@@ -6,6 +6,7 @@
 #include "tests/host/report/example_input.hpp"
 
 namespace astro::report {
+namespace {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -106,4 +107,5 @@ TEST_F(ReportInBrowser, RunsNoScriptFromItsInput) {
   EXPECT_THAT(dom, Not(HasSubstr("<a href=\"https")));
 }
 
+}  // namespace
 }  // namespace astro::report

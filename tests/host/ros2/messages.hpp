@@ -2,16 +2,11 @@
 
 #include <tuple>
 
-#include "host/ros2/messages/clock.hpp"
-#include "host/ros2/messages/diagnostics.hpp"
 #include "host/ros2/messages/geometry.hpp"
-#include "host/ros2/messages/graph.hpp"
-#include "host/ros2/messages/log.hpp"
-#include "host/ros2/messages/odometry.hpp"
-#include "host/ros2/messages/parameter_services.hpp"
+#include "host/ros2/messages/nodes.hpp"
+#include "host/ros2/messages/parameters.hpp"
 #include "host/ros2/messages/sensors.hpp"
-#include "host/ros2/messages/services.hpp"
-#include "host/ros2/messages/text.hpp"
+#include "host/ros2/messages/std.hpp"
 
 namespace astro::ros2 {
 

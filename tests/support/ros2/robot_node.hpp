@@ -9,8 +9,7 @@
 
 #include "host/ros2/cdr/codec.hpp"
 #include "host/ros2/messages/geometry.hpp"
-#include "host/ros2/messages/odometry.hpp"
-#include "host/ros2/messages/services.hpp"
+#include "host/ros2/messages/std.hpp"
 #include "host/ros2/node/node.hpp"
 
 namespace astro::support {

@@ -2,7 +2,7 @@
 
 #include <iostream>
 
-#include "host/emulator/core/stopped.hpp"
+#include "host/emulator/core/machine.hpp"
 #include "host/emulator/robot/teensy.hpp"
 #include "tests/target/firmware_file.hpp"
 

@@ -10,10 +10,9 @@
 
 #include "host/emulator/robot/emulated_robot.hpp"
 #include "host/ros2/driver/driver.hpp"
-#include "host/ros2/messages/diagnostics.hpp"
 #include "host/ros2/messages/geometry.hpp"
-#include "host/ros2/messages/odometry.hpp"
-#include "host/ros2/messages/services.hpp"
+#include "host/ros2/messages/nodes.hpp"
+#include "host/ros2/messages/std.hpp"
 #include "tests/support/ros2/fake_middleware.hpp"
 #include "tests/target/firmware_file.hpp"
 

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "host/truth/film/camera/scene_value.hpp"
-
 namespace astro::film {
 namespace {
 

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "host/truth/film/camera/scene_value.hpp"
-
 namespace astro::film {
 namespace {
 

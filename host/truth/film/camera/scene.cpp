@@ -1,9 +1,8 @@
 #include "host/truth/film/camera/scene.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
-
-#include "host/truth/film/camera/edge_shift.hpp"
 
 namespace astro::film {
 namespace {
@@ -65,6 +64,19 @@ std::optional<double> distance_between(const Scene& scene, int from, int to) {
   const FloorTag *a = tag(from), *b = tag(to);
   if (a == nullptr || b == nullptr) return std::nullopt;
   return std::hypot(b->x_m - a->x_m, b->y_m - a->y_m);
+}
+
+TagCorners with_edges_shifted(const TagCorners& corners, double shift_px) {
+  TagCorners shifted = corners;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Eigen::Vector2d before = (corners[i] - corners[(i + 3) % 4]).normalized();
+    const Eigen::Vector2d after = (corners[(i + 1) % 4] - corners[i]).normalized();
+    // The shift n has a component of 1 along the inward normals (y, -x) of both edges.
+    const double across = before.x() * after.y() - before.y() * after.x();
+    if (across == 0) continue;
+    shifted[i] += (after - before) * (shift_px / -across);
+  }
+  return shifted;
 }
 
 TagCorners floor_corners(const Scene& scene, std::size_t index) {
@@ -192,6 +204,19 @@ Scene moved(const Scene& scene, const Eigen::VectorXd& change) {
     to.tags[i].yaw_rad += at(first + 2);
   }
   return to;
+}
+
+Measured measured_by(const Scene& scene, const std::vector<SceneParameter>& parameters,
+                     const Eigen::MatrixXd& covariance, const SceneValue& value) {
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(covariance.rows());
+  Eigen::VectorXd change = gradient;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    change[at] = parameters[i].step;
+    gradient[at] = (value(moved(scene, change)) - value(moved(scene, -change))) / (2 * parameters[i].step);
+    change[at] = 0;
+  }
+  return {value(scene), std::sqrt(std::max(0.0, gradient.dot(covariance * gradient)))};
 }
 
 }  // namespace astro::film

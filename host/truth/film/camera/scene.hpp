@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,6 +42,10 @@ struct RobotVelocity {
 
 /// The distance between the centres of two floor tags; nothing if the scene lacks one.
 std::optional<double> distance_between(const Scene& scene, int from, int to);
+
+/// The corners of a tag whose four edges are shifted by `shift_px` into the black. Blur, sharpening and a tone curve that is
+/// not the assumed one shift all edges alike.
+TagCorners with_edges_shifted(const TagCorners& corners, double shift_px);
 
 /// Where the corners of floor tag `index` are seen.
 TagCorners floor_corners(const Scene& scene, std::size_t index);
@@ -89,5 +94,12 @@ double parameter_value(const Scene& scene, std::size_t index);
 
 /// The scene with its parameters changed by `change`, in the order of parameters_of.
 Scene moved(const Scene& scene, const Eigen::VectorXd& change);
+
+/// A number that follows from a scene.
+using SceneValue = std::function<double(const Scene&)>;
+
+/// The value with the standard error that the covariance of the scene's parameters gives it, to first order.
+Measured measured_by(const Scene& scene, const std::vector<SceneParameter>& parameters,
+                     const Eigen::MatrixXd& covariance, const SceneValue& value);
 
 }  // namespace astro::film

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <vector>
-
-#include "host/truth/film/tags/linear_light.hpp"
 
 namespace astro::film {
 namespace {
@@ -162,6 +161,19 @@ std::optional<RefinedTag> refined_once(const GrayFrame& frame, const TagCorners&
 }
 
 }  // namespace
+
+const std::array<float, 256>& linear_light() {
+  static const std::array<float, 256> table = [] {
+    std::array<float, 256> light{};
+    for (std::size_t i = 0; i < light.size(); ++i) {
+      const double value = static_cast<double>(i) / 255;
+      light[i] =
+          static_cast<float>(value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
+    }
+    return light;
+  }();
+  return table;
+}
 
 std::optional<RefinedTag> refine_corners(const GrayFrame& frame, const TagCorners& start) {
   std::optional<RefinedTag> tag = refined_once(frame, start);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "host/base/error.hpp"
 #include "host/truth/film/camera/scale_error.hpp"
 #include "host/truth/film/track/figure_doubts.hpp"
 #include "host/truth/film/track/film_checks.hpp"
@@ -43,6 +44,32 @@ std::vector<FloorTagReport> report_on(const FilmTrack& track) {
     all.push_back({track.scene.tags[i].id, shortest_side(seen),
                    static_cast<double>(track.motion.seen[i]) / looks, std::sqrt(squares / 8)});
   }
+  return all;
+}
+
+/// Within one side of the tag: the next picture may not have all of it.
+bool at_border(const RobotTagSeen& one, const FilmInfo& info) {
+  const double side = longest_side(one.corners);
+  const Eigen::Vector2d center = center_of(one.corners);
+  return std::min({center.x(), center.y(), info.width - center.x(), info.height - center.y()}) < 1.5 * side;
+}
+
+/// All that last longer than half a second: also before the tag is seen first, and after it is seen last.
+std::vector<HiddenSpan> hidden_spans(const FilmSightings& seen, const FilmInfo& info) {
+  constexpr double kLong_s = 0.5;
+  std::vector<HiddenSpan> all;
+  HiddenSpan span{seen.first_s};
+  const auto end_at = [&](double to_s) {
+    span.to_s = to_s;
+    if (span.to_s - span.from_s > kLong_s) all.push_back(span);
+  };
+  for (const RobotTagSeen& one : seen.robot) {
+    const bool border = at_border(one, info);
+    span.left_picture = span.left_picture || border;
+    end_at(one.pts_s);
+    span = {one.pts_s, 0, border};
+  }
+  end_at(seen.last_s);
   return all;
 }
 

@@ -12,7 +12,6 @@
 #include "host/truth/film/track/film_figures.hpp"
 #include "host/truth/film/track/film_poses.hpp"
 #include "host/truth/film/track/film_sightings.hpp"
-#include "host/truth/film/track/hidden_spans.hpp"
 #include "host/truth/film/video/film_info.hpp"
 
 /// A film of a robot with a tag on it, between tags on the floor: from the file to the robot's path.
@@ -24,6 +23,13 @@ struct FloorTagReport {
   double side_px = 0;     // its shortest side
   double seen_share = 0;  // of the looks at the floor
   double misfit_px = 0;   // rms of its corners, per coordinate, about the scene
+};
+
+/// Where a film does not show the robot's tag, by the times of the pictures.
+struct HiddenSpan {
+  double from_s = 0, to_s = 0;
+  /// The tag was last seen, or seen again, at the border of the picture. Otherwise something covers it.
+  bool left_picture = false;
 };
 
 struct FilmTrack {

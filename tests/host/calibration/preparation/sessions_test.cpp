@@ -8,7 +8,6 @@
 
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "host/calibration/preparation/mounting.hpp"
-#include "host/calibration/preparation/pieces.hpp"
 #include "tests/host/calibration/ml_drives.hpp"
 
 namespace astro::calibration {

@@ -7,7 +7,6 @@
 #include <functional>
 #include <sstream>
 
-#include "host/commands/experiment/tape_briefing.hpp"
 #include "tests/support/base/person.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 

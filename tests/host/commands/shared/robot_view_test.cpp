@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "host/base/text/shown.hpp"
+#include "host/base/text/numbers.hpp"
 
 namespace astro::commands {
 namespace {
@@ -32,6 +32,12 @@ TEST(Durations, AreInUnitsThatPeopleUse) {
   EXPECT_EQ(duration_in_words(59'900'000), "59.9 s");
   EXPECT_EQ(duration_in_words(61'000'000), "1 min 01 s");
   EXPECT_EQ(duration_in_words(7'384'000'000), "2 h 03 min 04 s");
+}
+
+TEST(FaultHelp, SaysSomethingAboutEveryFault) {
+  for (std::size_t i = 1; i < kFaultNames.size(); ++i)
+    EXPECT_GT(fault_help(static_cast<Fault>(i)).size(), 20U) << kFaultNames[i];
+  EXPECT_EQ(fault_help(static_cast<Fault>(200)), "");
 }
 
 }  // namespace

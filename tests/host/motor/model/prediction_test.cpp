@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "host/motor/model/step_figures.hpp"
-
 namespace astro::motor {
 namespace {
 

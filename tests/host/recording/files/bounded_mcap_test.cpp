@@ -8,6 +8,7 @@
 #include "host/recording/mcap/compression.hpp"
 #include "host/recording/mcap/reader.hpp"
 #include "host/recording/mcap/writer.hpp"
+#include "host/recording/run/sample_messages.hpp"
 #include "host/ros2/recorded/ros_messages.hpp"
 #include "tests/host/recording/support.hpp"
 #include "tests/support/base/bounded.hpp"
@@ -123,7 +124,7 @@ TEST(BoundedMcap, SamplesThatPackFarBetterThanAnyDriveAreRefused) {
       definitions, mcap::Op::schema,
       mcap::encode(mcap::Schema{1, std::string(ros2::pose_stamped_type().name), "ros2msg", ""}));
   mcap::append_record(definitions, mcap::Op::channel, mcap::encode(mcap::Channel{1, 1, "/truth", "cdr", {}}));
-  const Bytes pose = ros2::encode_truth({});
+  const Bytes pose = recording::encode_truth({});
   mcap::append_record(message, mcap::Op::message, mcap::encode(mcap::Message{1, 0, 0, 0, pose}));
   while (chunk.size() < 12 * kMebibyte) append(chunk, message);  // the same pose a hundred thousand times
   Bytes file = start_of_file();

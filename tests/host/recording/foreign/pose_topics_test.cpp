@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include "host/recording/foreign/pose_choice.hpp"
 #include "host/recording/foreign/unclear_choice.hpp"
 #include "host/ros2/recorded/stamped_pose.hpp"
 #include "tests/host/recording/bag/made_bags.hpp"

@@ -6,6 +6,7 @@
 
 #include "host/base/files.hpp"
 #include "host/recording/mcap/reader.hpp"
+#include "host/recording/run/sample_messages.hpp"
 #include "host/ros2/recorded/ros_messages.hpp"
 #include "tests/support/base/places.hpp"
 
@@ -29,7 +30,7 @@ class McapSamples : public ::testing::Test {
                               const mcap::Message& message) {
       ++counts_[channel.topic];
       if (schema == nullptr || schema->name != ros2::odometry_type().name) return;
-      const auto odometry = ros2::decode_odometry(message.data);
+      const auto odometry = recording::decode_odometry(message.data);
       ASSERT_TRUE(odometry);
       x_sum_m_ += odometry->x_m;
       last_ = *odometry;

@@ -14,6 +14,7 @@
 #include "tests/host/report/example_input.hpp"
 
 namespace astro::report {
+namespace {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -220,4 +221,5 @@ TEST(ReportTemplate, NeverLooksForPlaceholdersInsideValues) {
   EXPECT_THROW(fill("{{missing}}", {}), std::out_of_range);
 }
 
+}  // namespace
 }  // namespace astro::report

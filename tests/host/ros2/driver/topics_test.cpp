@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/ros2/messages/clock.hpp"
+#include "host/ros2/messages/std.hpp"
 #include "host/ros2/recorded/ros_messages.hpp"
 #include "tests/support/ros2/robot_on_ros.hpp"
 

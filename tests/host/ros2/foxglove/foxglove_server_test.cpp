@@ -7,8 +7,7 @@
 #include "host/base/error.hpp"
 #include "host/ros2/cdr/codec.hpp"
 #include "host/ros2/messages/geometry.hpp"
-#include "host/ros2/messages/services.hpp"
-#include "host/ros2/messages/text.hpp"
+#include "host/ros2/messages/std.hpp"
 #include "tests/host/ros2/foxglove/viewer.hpp"
 #include "tests/support/base/json.hpp"
 

@@ -5,8 +5,7 @@
 #include <iostream>
 
 #include "host/ros2/messages/geometry.hpp"
-#include "host/ros2/messages/services.hpp"
-#include "host/ros2/messages/text.hpp"
+#include "host/ros2/messages/std.hpp"
 #include "tests/support/base/json.hpp"
 #include "tests/support/base/mutations.hpp"
 

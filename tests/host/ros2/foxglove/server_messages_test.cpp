@@ -2,8 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "host/ros2/messages/services.hpp"
-#include "host/ros2/messages/text.hpp"
+#include "host/ros2/messages/std.hpp"
 #include "tests/support/base/json.hpp"
 
 namespace astro::ros2::foxglove {

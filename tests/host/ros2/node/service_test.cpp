@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "host/ros2/cdr/codec.hpp"
-#include "host/ros2/messages/services.hpp"
+#include "host/ros2/messages/std.hpp"
 #include "tests/host/ros2/node/fake_participant.hpp"
 
 namespace astro::ros2 {

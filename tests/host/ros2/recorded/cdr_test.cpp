@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "host/recording/run/sample_messages.hpp"
 #include "host/ros2/recorded/ros_messages.hpp"
 
 namespace astro::recording {
@@ -43,7 +44,7 @@ TEST(Cdr, MessagesHaveTheSizesThatOtherWritersGiveThem) {
   transforms.string("base_footprint");
   put_doubles(transforms, 7);
   EXPECT_EQ(transforms.bytes().size(), 108U);
-  EXPECT_EQ(ros2::encode_odometry({}).size(), 724U);
+  EXPECT_EQ(recording::encode_odometry({}).size(), 724U);
 }
 
 TEST(Cdr, NumbersStartAtMultiplesOfTheirSizeCountedFromBehindTheHeader) {
@@ -109,20 +110,20 @@ TEST(Cdr, ReaderRefusesStringsThatReachPastTheEndOrLackTheNul) {
 }
 
 TEST(RosMessages, CutAnywhereTheyAreRefused) {
-  const Bytes odometry = ros2::encode_odometry({1, 2, 3, 0.5, 5, 6, 7, 8});
-  const Bytes truth = ros2::encode_truth({1, 2, 3, 0.5, true});
-  const Bytes counts = ros2::encode_counts({1, 2, 3});
-  ASSERT_TRUE(ros2::decode_truth(truth));
-  ASSERT_TRUE(ros2::decode_counts(counts));
-  ASSERT_TRUE(ros2::decode_odometry(odometry));
+  const Bytes odometry = recording::encode_odometry({1, 2, 3, 0.5, 5, 6, 7, 8});
+  const Bytes truth = recording::encode_truth({1, 2, 3, 0.5, true});
+  const Bytes counts = recording::encode_counts({1, 2, 3});
+  ASSERT_TRUE(recording::decode_truth(truth));
+  ASSERT_TRUE(recording::decode_counts(counts));
+  ASSERT_TRUE(recording::decode_odometry(odometry));
   for (std::size_t size = 0; size < odometry.size(); ++size) {
-    EXPECT_FALSE(ros2::decode_odometry(ByteView(odometry).first(size))) << size;
+    EXPECT_FALSE(recording::decode_odometry(ByteView(odometry).first(size))) << size;
   }
   for (std::size_t size = 0; size < truth.size(); ++size) {
-    EXPECT_FALSE(ros2::decode_truth(ByteView(truth).first(size))) << size;
+    EXPECT_FALSE(recording::decode_truth(ByteView(truth).first(size))) << size;
   }
   for (std::size_t size = 0; size < counts.size(); ++size) {
-    EXPECT_FALSE(ros2::decode_counts(ByteView(counts).first(size))) << size;
+    EXPECT_FALSE(recording::decode_counts(ByteView(counts).first(size))) << size;
   }
 }
 
@@ -130,19 +131,19 @@ TEST(RosMessages, StampsHoldTimesBeforeZeroAndRefuseThoseBeyondThirtyTwoBitsOfSe
   for (const std::int64_t time_us : {std::int64_t{-1}, std::int64_t{-1'000'000}, std::int64_t{0},
                                      std::int64_t{1'999'999}, std::int64_t{2'147'483'647'999'999}}) {
     ASSERT_TRUE(ros2::fits_stamp(time_us));
-    EXPECT_EQ(ros2::decode_counts(ros2::encode_counts({time_us, 0, 0}))->time_us, time_us);
+    EXPECT_EQ(recording::decode_counts(recording::encode_counts({time_us, 0, 0}))->time_us, time_us);
   }
   EXPECT_FALSE(ros2::fits_stamp(std::int64_t{2'147'483'648'000'000}));
   EXPECT_FALSE(ros2::fits_stamp(std::int64_t{-2'147'483'648'000'001}));
 }
 
 TEST(RosMessages, AHeadingIsTheSameForBothSignsOfItsQuaternion) {
-  Bytes message = ros2::encode_truth({0, 0, 0, 1.0, true});
-  const double theta_rad = ros2::decode_truth(message)->theta_rad;
+  Bytes message = recording::encode_truth({0, 0, 0, 1.0, true});
+  const double theta_rad = recording::decode_truth(message)->theta_rad;
   for (std::size_t at = message.size() - 9; at < message.size(); at += 8)
     message[at] ^= 0x80;  // signs of z, w
   EXPECT_NEAR(theta_rad, 1.0, 1e-15);
-  EXPECT_DOUBLE_EQ(ros2::decode_truth(message)->theta_rad, theta_rad);
+  EXPECT_DOUBLE_EQ(recording::decode_truth(message)->theta_rad, theta_rad);
 }
 
 }  // namespace

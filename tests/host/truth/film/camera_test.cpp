@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "host/truth/film/camera/camera.hpp"
-#include "host/truth/film/camera/edge_shift.hpp"
 #include "host/truth/film/camera/floor_start.hpp"
 #include "host/truth/film/camera/planar_pose.hpp"
+#include "host/truth/film/camera/scene.hpp"
 #include "tests/host/truth/film/synthetic_scene.hpp"
 
 namespace astro::film {

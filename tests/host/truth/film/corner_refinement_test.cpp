@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "host/truth/film/tags/corner_refinement.hpp"
-#include "host/truth/film/tags/linear_light.hpp"
 
 namespace astro::film {
 namespace {

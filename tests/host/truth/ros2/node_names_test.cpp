@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "host/ros2/cdr/codec.hpp"
-#include "host/ros2/messages/graph.hpp"
+#include "host/ros2/messages/nodes.hpp"
 #include "tests/support/base/bounded.hpp"
 #include "tests/support/base/mutations.hpp"
 

@@ -7,7 +7,6 @@
 #include "host/base/error.hpp"
 #include "host/ros2/cdr/codec.hpp"
 #include "host/ros2/messages/geometry.hpp"
-#include "host/ros2/messages/odometry.hpp"
 #include "tests/support/base/bounded.hpp"
 #include "tests/support/base/mutations.hpp"
 #include "tests/support/ros2/big_endian.hpp"

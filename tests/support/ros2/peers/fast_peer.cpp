@@ -12,14 +12,11 @@
 #include <map>
 
 #include "host/ros2/cdr/codec.hpp"
-#include "host/ros2/messages/diagnostics.hpp"
 #include "host/ros2/messages/geometry.hpp"
-#include "host/ros2/messages/graph.hpp"
-#include "host/ros2/messages/odometry.hpp"
-#include "host/ros2/messages/parameter_services.hpp"
+#include "host/ros2/messages/nodes.hpp"
+#include "host/ros2/messages/parameters.hpp"
 #include "host/ros2/messages/sensors.hpp"
-#include "host/ros2/messages/services.hpp"
-#include "host/ros2/messages/text.hpp"
+#include "host/ros2/messages/std.hpp"
 #include "host/ros2/types/type_description.hpp"
 #include "tests/support/ros2/peers/peer.hpp"
 #include "tests/support/ros2/peers/peer_text.hpp"

@@ -10,11 +10,10 @@
 
 #include "host/ros2/cdr/codec.hpp"
 #include "host/ros2/foxglove/foxglove_server.hpp"
-#include "host/ros2/messages/diagnostics.hpp"
-#include "host/ros2/messages/odometry.hpp"
+#include "host/ros2/messages/geometry.hpp"
+#include "host/ros2/messages/nodes.hpp"
 #include "host/ros2/messages/sensors.hpp"
-#include "host/ros2/messages/services.hpp"
-#include "host/ros2/messages/text.hpp"
+#include "host/ros2/messages/std.hpp"
 
 namespace {
 
