@@ -7,18 +7,18 @@ set(count 0)
 
 # Texts in which the program's name is part of a format or of a protocol, so that it cannot change. File:text.
 set(format_constants
-  "host/recording/files/run_writer.cpp:astrolabe"         # the writing library, in the header of an MCAP file
-  "host/recording/run/run_metadata.hpp:astrolabe.run"     # the metadata record of a run
-  "host/ros2/messages/telemetry.hpp:astrolabe_msgs/msg/Telemetry"
-  "host/ros2/recorded/ros_messages.cpp:astrolabe_msgs/msg/WheelCounts"
+  "host/recording/run_writer.cpp:astrolabe"         # the writing library, in the header of an MCAP file
+  "host/recording/run_metadata.hpp:astrolabe.run"     # the metadata record of a run
+  "host/formats/messages/telemetry.hpp:astrolabe_msgs/msg/Telemetry"
+  "host/recording/sample_messages.cpp:astrolabe_msgs/msg/WheelCounts"
   "host/robot/port/ports.cpp:astrolabe-"                  # the folder of simulated ports
   "host/robot/sharing/port_socket.cpp:astrolabe-"         # the socket of a shared port
   "host/robot/sharing/relay_server.cpp:astrolabe-relay"   # the thread's name, as `ps` and debuggers show it
   "host/simulation/server/path_claim.cpp:astrolabe-pty-{:016x}"  # the lock of a simulated port
   "host/simulation/server/truth_server.cpp:astrolabe-mocap 1\\n"
   "host/simulation/study/shard_file.cpp:astrolabe study 3"
-  "host/truth/film/video/film_info.cpp:-i"                # arguments of ffmpeg
-  "host/truth/film/video/frame_stream.cpp:-f"
+  "host/film/picture/film_info.cpp:-i"                # arguments of ffmpeg
+  "host/film/picture/frame_stream.cpp:-f"
   "host/truth/live/socket_source.cpp:astrolabe-mocap 1")
 
 # A subcommand is a file of its name: calibrate_runs.cpp is `calibrate runs`, check_wiring.cpp is `check-wiring`.

@@ -11,13 +11,13 @@
 #include <fstream>
 #include <random>
 
-#include "host/experiment/import/file_inspection.hpp"
-#include "host/experiment/import/truth_file.hpp"
-#include "host/experiment/import/wheel_file.hpp"
-#include "host/recording/bag/bag.hpp"
-#include "host/recording/bag/sqlite.hpp"
-#include "host/ros2/recorded/stamped_pose.hpp"
-#include "tests/host/experiment/import/file_samples.hpp"
+#include "host/formats/files/bag.hpp"
+#include "host/formats/files/sqlite.hpp"
+#include "host/formats/messages/stamped_pose.hpp"
+#include "host/import/drives/file_inspection.hpp"
+#include "host/import/drives/truth_file.hpp"
+#include "host/import/drives/wheel_file.hpp"
+#include "tests/host/import/drives/file_samples.hpp"
 
 namespace {
 
@@ -63,7 +63,7 @@ Bytes mcap_file(const std::string& compression) {
 void write_database(const fs::path& path) {
   sqlite3* raw = nullptr;
   sqlite3_open(path.c_str(), &raw);
-  const recording::Database database(raw);
+  const bag::Database database(raw);
   sqlite3_exec(
       raw,
       "PRAGMA journal_mode=OFF;PRAGMA synchronous=OFF;CREATE TABLE topics(id INTEGER PRIMARY KEY,name "
@@ -72,7 +72,7 @@ void write_database(const fs::path& path) {
       "NULL,timestamp INTEGER NOT NULL,data BLOB NOT NULL);CREATE INDEX timestamp_idx ON messages(timestamp);"
       "INSERT INTO topics VALUES(1,'/mocap/tf','tf2_msgs/msg/TFMessage','cdr');BEGIN",
       nullptr, nullptr, nullptr);
-  recording::Statement insert(raw, "INSERT INTO messages(topic_id,timestamp,data) VALUES(1,?,?)");
+  bag::Statement insert(raw, "INSERT INTO messages(topic_id,timestamp,data) VALUES(1,?,?)");
   Poses poses;
   for (int i = 0; i < kMessages; ++i) {
     const Bytes message = poses.next();
@@ -104,21 +104,21 @@ bool reaches(const char* what, double bar_mbps, double bytes, Work work) {
 
 void decode_all(const fs::path& path) {
   int poses = 0;
-  recording::BagHandlers handlers;
-  handlers.message = [&](const recording::BagTopic& topic, const recording::BagMessage& message) {
+  bag::BagHandlers handlers;
+  handlers.message = [&](const bag::BagTopic& topic, const bag::BagMessage& message) {
     poses += static_cast<int>(ros2::poses_in(topic.type, message.data)->size());
   };
-  recording::read_bag(path, handlers);
+  bag::read_bag(path, handlers);
   if (poses != kMessages) throw std::runtime_error("not all poses were read");
 }
 
 /// All that is done with bags: their messages decoded, the file inspected, the poses imported.
 bool bag_reaches(const std::string& name, double bar_mbps, double bytes, const fs::path& path) {
   bool good = reaches((name + ", messages decoded").c_str(), bar_mbps, bytes, [&] { decode_all(path); });
-  good = reaches((name + ", inspected").c_str(), bar_mbps, bytes, [&] { experiment::inspect_file(path); }) &&
+  good = reaches((name + ", inspected").c_str(), bar_mbps, bytes, [&] { importing::inspect_file(path); }) &&
          good;
   return reaches((name + ", poses imported").c_str(), bar_mbps, bytes,
-                 [&] { experiment::read_truth(path); }) &&
+                 [&] { importing::read_truth(path); }) &&
          good;
 }
 
@@ -143,9 +143,9 @@ int main() {
   bool good = bag_reaches("MCAP", 100, size(stored), stored);
   good = bag_reaches("MCAP of zstd", 100, size(stored), packed) && good;
   good = bag_reaches("db3", 50, size(database), database) && good;
-  good = reaches("CSV of wheels", 50, size(table), [&] { experiment::read_wheels(table); }) && good;
+  good = reaches("CSV of wheels", 50, size(table), [&] { importing::read_wheels(table); }) && good;
   good =
-      reaches("CSV of wheels, inspected", 50, size(table), [&] { experiment::inspect_file(table); }) && good;
+      reaches("CSV of wheels, inspected", 50, size(table), [&] { importing::inspect_file(table); }) && good;
   fs::remove_all(folder);
   return good ? 0 : 1;
 }

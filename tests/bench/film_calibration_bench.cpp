@@ -9,7 +9,7 @@
 
 #include "host/experiment/analysis/calibration.hpp"
 #include "host/experiment/files/run_set.hpp"
-#include "host/experiment/film/film_truth.hpp"
+#include "host/film/runs/film_truth.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 #include "tests/support/film/film_set.hpp"
 
@@ -56,7 +56,8 @@ Misses misses_of(const experiment::Calibration& found, const sim::Config& robot)
 Misses judge(const FilmCase& film, const fs::path& folder) {
   if (!fs::exists(folder / "stated.json")) film.write(folder);
   experiment::RunSet set = experiment::read_run_set(folder / "runs");
-  attach_films(set, {{film.name, film::follow_film(folder / "film.mp4", figures_of(film))}}, std::nullopt);
+  film::attach_films(set, {{film.name, film::follow_film(folder / "film.mp4", figures_of(film))}},
+                     std::nullopt);
   const experiment::Calibration found = calibrate(set, {experiment::MethodChoice::Family::ml, {}});
   const Misses misses = misses_of(found, film.robot);
   const calibration::MlEstimate& estimate = found.ml()->estimate;

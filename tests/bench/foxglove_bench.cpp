@@ -9,15 +9,16 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "host/ros2/cdr/codec.hpp"
-#include "host/ros2/foxglove/foxglove_server.hpp"
-#include "host/ros2/messages/geometry.hpp"
-#include "tests/host/ros2/foxglove/viewer.hpp"
+#include "host/formats/cdr/codec.hpp"
+#include "host/formats/messages/geometry.hpp"
+#include "host/live/foxglove/foxglove_server.hpp"
+#include "tests/host/live/foxglove/viewer.hpp"
 
 namespace {
 
 using namespace astro;        // NOLINT(google-build-using-namespace): a program
 using namespace astro::ros2;  // NOLINT(google-build-using-namespace)
+using namespace astro::live;  // NOLINT(google-build-using-namespace)
 using std::chrono::steady_clock;
 
 constexpr int kTopics = 20, kRate_hz = 1000;

@@ -14,11 +14,11 @@
 #include <functional>
 #include <random>
 
-#include "host/experiment/import/file_inspection.hpp"
-#include "host/recording/bag/db3_writer.hpp"
-#include "host/recording/files/run_writer.hpp"
-#include "host/recording/mcap/writer.hpp"
-#include "host/ros2/recorded/stamped_pose.hpp"
+#include "host/formats/files/db3_writer.hpp"
+#include "host/formats/files/mcap_writer.hpp"
+#include "host/formats/messages/stamped_pose.hpp"
+#include "host/import/drives/file_inspection.hpp"
+#include "host/recording/run_writer.hpp"
 
 namespace {
 
@@ -80,7 +80,7 @@ Bytes transform(std::int64_t time_ns, std::mt19937_64& random) {
 void write_mcap(const fs::path& path, double least_mb) {
   PartFile file(path);
   double written_mb = 0;
-  recording::McapWriter writer(
+  bag::McapWriter writer(
       [&](ByteView bytes) {
         file.write(bytes);
         written_mb += 1e-6 * static_cast<double>(bytes.size());
@@ -96,7 +96,7 @@ void write_mcap(const fs::path& path, double least_mb) {
 }
 
 void write_database(const fs::path& folder, double least_mb) {
-  recording::Db3Writer bag(folder);
+  bag::Db3Writer bag(folder);
   const int topic = bag.add_topic("/tf", ros2::tf_message_type().name, "");
   std::mt19937_64 random(1);
   constexpr double kRowBytes = 134;  // with its cell in the index
@@ -109,7 +109,7 @@ void write_database(const fs::path& folder, double least_mb) {
 /// Prints the cost of inspecting the file; whether it is within the bar on memory.
 bool inspects(const char* what, const fs::path& path) {
   constexpr double kBar_mb = 64;
-  const Cost cost = cost_of([&] { experiment::inspect_file(path); });
+  const Cost cost = cost_of([&] { importing::inspect_file(path); });
   fmt::print("inspect {:22} {:6.0f} MB: {:5.1f} s, {:.0f} MB of memory (bar {:.0f})\n", what, megabytes(path),
              cost.cpu_s, cost.memory_mb, kBar_mb);
   return cost.memory_mb <= kBar_mb;

@@ -31,7 +31,7 @@ double ms_since(steady_clock::time_point begin) {
 void sleep_ms(int time_ms) { poll(nullptr, 0, time_ms); }
 
 int be_a_node(const char* domain, const char* range) {
-  RobotNode node({std::atoi(domain), ros2::dds::range_in(range).value()});
+  RobotNode node({std::atoi(domain), dds::range_in(range).value()});
   for (;;) node.step();
 }
 

@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <chrono>
 
-#include "host/ros2/cdr/codec.hpp"
-#include "host/ros2/dds/fast_dds.hpp"
-#include "host/ros2/messages/geometry.hpp"
-#include "host/ros2/types/type_description.hpp"
+#include "host/formats/cdr/codec.hpp"
+#include "host/formats/cdr/type_description.hpp"
+#include "host/formats/messages/geometry.hpp"
+#include "host/live/dds/fast_dds.hpp"
 #include "tests/support/programs/program.hpp"
 #include "tests/support/ros2/domain.hpp"
 

@@ -9,15 +9,16 @@
 #include <chrono>
 #include <ctime>
 
-#include "host/ros2/cdr/codec.hpp"
-#include "host/ros2/dds/fast_dds.hpp"
-#include "host/ros2/messages/geometry.hpp"
-#include "host/ros2/node/node.hpp"
+#include "host/formats/cdr/codec.hpp"
+#include "host/formats/messages/geometry.hpp"
+#include "host/live/dds/fast_dds.hpp"
+#include "host/live/ros2/node.hpp"
 #include "tests/support/ros2/domain.hpp"
 
 namespace {
 
 using namespace astro;
+using namespace astro::live;
 using namespace astro::ros2;
 using std::chrono::microseconds;
 using std::chrono::steady_clock;

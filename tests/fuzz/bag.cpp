@@ -1,20 +1,20 @@
 // Bags of either storage, packed or not, and the wheels and poses in them.
-#include "host/recording/bag/bag.hpp"
+#include "host/formats/files/bag.hpp"
 #include "host/base/error.hpp"
-#include "host/recording/bag/sqlite.hpp"
-#include "host/recording/foreign/joint_wheels.hpp"
-#include "host/recording/foreign/pose_topics.hpp"
-#include "host/recording/mcap/compression.hpp"
-#include "host/recording/mcap/writer.hpp"
-#include "host/ros2/recorded/joint_state.hpp"
-#include "host/ros2/recorded/stamped_pose.hpp"
+#include "host/formats/files/compression.hpp"
+#include "host/formats/files/mcap_writer.hpp"
+#include "host/formats/files/sqlite.hpp"
+#include "host/formats/messages/joint_state.hpp"
+#include "host/formats/messages/stamped_pose.hpp"
+#include "host/import/wheels/joint_wheels.hpp"
+#include "host/import/wheels/pose_topics.hpp"
 #include "tests/fuzz/input_file.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace astro::fuzz {
 namespace {
 
-using namespace recording;  // NOLINT(google-build-using-namespace): this file is all recordings
+using namespace bag;  // NOLINT(google-build-using-namespace): this file is all recordings
 using fuzz::Bytes;
 using fuzz::ByteView;
 
@@ -83,9 +83,9 @@ void take(ByteView input) {
     require(passed <= counted, "every message that is passed on is counted");
     require(report.damaged || passed == counted, "only damaged messages are left out");
   });
-  try_to([&] { wheels_in_bag(path); });
-  try_to([&] { poses_in_bag(path); });
-  try_to([&] { poses_in_bag(path, {"/tf", "", ""}); });
+  try_to([&] { importing::wheels_in_bag(path); });
+  try_to([&] { importing::poses_in_bag(path); });
+  try_to([&] { importing::poses_in_bag(path, {"/tf", "", ""}); });
 }
 
 std::vector<Bytes> seeds() {

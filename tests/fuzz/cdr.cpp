@@ -1,10 +1,10 @@
 // ROS 2 messages.
-#include "host/ros2/cdr/cdr.hpp"
-#include "host/recording/run/sample_messages.hpp"
-#include "host/ros2/recorded/joint_state.hpp"
-#include "host/ros2/recorded/ros_messages.hpp"
-#include "host/ros2/recorded/stamped_pose.hpp"
-#include "host/ros2/recorded/text_message.hpp"
+#include "host/formats/cdr/cdr.hpp"
+#include "host/formats/messages/joint_state.hpp"
+#include "host/formats/messages/ros_messages.hpp"
+#include "host/formats/messages/stamped_pose.hpp"
+#include "host/formats/messages/text_message.hpp"
+#include "host/recording/sample_messages.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace astro::fuzz {

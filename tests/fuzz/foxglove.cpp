@@ -1,16 +1,17 @@
 // What a viewer sends over a WebSocket: messages, each after its length (u16) and a byte that says whether it is text.
 #include <algorithm>
 
-#include "host/ros2/foxglove/hub.hpp"
-#include "host/ros2/messages/geometry.hpp"
-#include "host/ros2/messages/std.hpp"
+#include "host/formats/messages/geometry.hpp"
+#include "host/formats/messages/std.hpp"
+#include "host/live/foxglove/hub.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace astro::fuzz {
 namespace {
 
-using namespace ros2;            // NOLINT(google-build-using-namespace): this file is all of it
-using namespace ros2::foxglove;  // NOLINT(google-build-using-namespace)
+using namespace live;      // NOLINT(google-build-using-namespace): this file is all of it
+using namespace ros2;      // NOLINT(google-build-using-namespace): this file is all of it
+using namespace foxglove;  // NOLINT(google-build-using-namespace)
 
 Bytes message(bool is_text, std::string_view content) {
   Bytes bytes;

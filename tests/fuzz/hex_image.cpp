@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "host/base/error.hpp"
-#include "host/base/formats/firmware_image.hpp"
+#include "host/formats/files/firmware_image.hpp"
 #include "tests/fuzz/input_file.hpp"
 #include "tests/fuzz/target.hpp"
 

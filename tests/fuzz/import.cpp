@@ -1,11 +1,11 @@
 // Files of any format through all that an import does with them: what is in them, wheels and truth, the drive that they
 // make with a good file, sizes of a robot. The first byte says what the rest is taken for.
 #include "host/base/error.hpp"
-#include "host/experiment/import/file_inspection.hpp"
-#include "host/experiment/import/import_drives.hpp"
+#include "host/import/drives/file_inspection.hpp"
+#include "host/import/drives/import_drives.hpp"
 #include "tests/fuzz/input_file.hpp"
 #include "tests/fuzz/target.hpp"
-#include "tests/host/experiment/import/file_samples.hpp"
+#include "tests/host/import/drives/file_samples.hpp"
 
 namespace astro::fuzz {
 namespace {
@@ -30,7 +30,7 @@ void try_to(const fs::path& path, Work work) {
 struct Bench {
   InputFile file{"input"}, toml{"input.toml"}, yaml{"input.yaml"};
   fs::path wheels = file.folder() / "wheels", truth = file.folder() / "truth";
-  experiment::ImportChoices choices;
+  importing::ImportChoices choices;
 
   Bench() {
     test::write_counts(wheels, test::short_drive());
@@ -40,9 +40,9 @@ struct Bench {
     choices.geometry.wheelbase_m = 0.29;
   }
 
-  void import(const experiment::DriveFiles& files, const fs::path& input) {
+  void import(const importing::DriveFiles& files, const fs::path& input) {
     try_to(input, [&] {
-      const experiment::ImportedDrives drives = experiment::import_drives(std::span(&files, 1), choices);
+      const importing::ImportedDrives drives = importing::import_drives(std::span(&files, 1), choices);
       for (const recording::Run& run : drives.set.runs) {
         for (std::size_t i = 1; i < run.odometry.size(); ++i)
           require(run.odometry[i].time_us >= run.odometry[i - 1].time_us, "odometry is in order of time");
@@ -62,7 +62,7 @@ void take(ByteView input) {
                          : use == Use::yaml ? bench.yaml
                                             : bench.file)
                             .holding(input.subspan(1));
-  try_to(path, [&] { experiment::inspect_file(path); });
+  try_to(path, [&] { importing::inspect_file(path); });
   if (use == Use::toml || use == Use::yaml) return;
   bench.import({use == Use::truth ? bench.wheels : path, use == Use::wheels ? bench.truth : path}, path);
 }

@@ -1,17 +1,18 @@
 // Recordings: the container with all that it holds, and a run put together from it. The first byte says
 // whether the rest is a file, or the content of a chunk of an otherwise intact file, behind its checksums.
 #include "host/base/error.hpp"
-#include "host/recording/files/run_file.hpp"
-#include "host/recording/mcap/reader.hpp"
-#include "host/recording/mcap/writer.hpp"
-#include "host/recording/run/run_metadata.hpp"
-#include "host/recording/run/sample_messages.hpp"
-#include "host/ros2/recorded/ros_messages.hpp"
+#include "host/formats/files/mcap_reader.hpp"
+#include "host/formats/files/mcap_writer.hpp"
+#include "host/formats/messages/ros_messages.hpp"
+#include "host/recording/run_file.hpp"
+#include "host/recording/run_metadata.hpp"
+#include "host/recording/sample_messages.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace astro::fuzz {
 namespace {
 
+using namespace bag;        // NOLINT(google-build-using-namespace): this file is all recordings
 using namespace recording;  // NOLINT(google-build-using-namespace): this file is all recordings
 using fuzz::Bytes;
 using fuzz::ByteView;

@@ -1,7 +1,7 @@
 // Datagrams of a NatNet server, in every version: frames, models and the server's facts.
-#include "host/truth/natnet/frame.hpp"
-#include "host/truth/natnet/models.hpp"
 #include "host/truth/source/floor_track.hpp"
+#include "host/truth/trackers/natnet_frame.hpp"
+#include "host/truth/trackers/natnet_models.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace astro::fuzz {

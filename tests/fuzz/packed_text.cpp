@@ -3,7 +3,7 @@
 
 #include "host/base/error.hpp"
 #include "tests/fuzz/target.hpp"
-#include "tests/host/experiment/import/file_samples.hpp"
+#include "tests/host/import/drives/file_samples.hpp"
 #include "tests/host/truth/files/own_recordings.hpp"
 
 namespace astro::fuzz {
@@ -20,7 +20,7 @@ void take(ByteView input) {
 std::vector<Bytes> seeds() {
   Bytes parts = support::gzip(test::kMotive);
   append(parts, ByteView(support::gzip(test::kTum)));
-  return {parts, support::gzip(""), test::gzip(std::string(100'000, '\n'))};
+  return {parts, support::gzip(""), support::gzip(std::string(100'000, '\n'))};
 }
 
 }  // namespace astro::fuzz

@@ -1,11 +1,11 @@
 // Messages of ROS 2 from anybody, to a stream of poses: the first byte of the input says of which type, and whether they are
 // of /tf_static.
 #include "host/base/error.hpp"
-#include "host/ros2/cdr/codec.hpp"
-#include "host/ros2/messages/geometry.hpp"
-#include "host/truth/ros2/node_names.hpp"
-#include "host/truth/ros2/ros_pose_stream.hpp"
+#include "host/formats/cdr/codec.hpp"
+#include "host/formats/messages/geometry.hpp"
 #include "host/truth/source/floor_track.hpp"
+#include "host/truth/trackers/node_names.hpp"
+#include "host/truth/trackers/ros_pose_stream.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace astro::fuzz {

@@ -1,6 +1,6 @@
 // Datagrams from anybody, judged before Fast DDS reads them.
-#include "host/ros2/dds/rtps_check.hpp"
-#include "host/ros2/dds/rtps_compatibility.hpp"
+#include "host/live/dds/rtps_check.hpp"
+#include "host/live/dds/rtps_compatibility.hpp"
 #include "tests/fuzz/target.hpp"
 #include "tests/support/ros2/rtps_samples.hpp"
 
@@ -23,22 +23,21 @@ bool is_chain(ByteView sound) {
 }  // namespace
 
 void take(ByteView input) {
-  const ByteView sound = ros2::dds::sound_part(input);
+  const ByteView sound = dds::sound_part(input);
   require(sound.empty() || sound.data() == input.data(), "what is passed on is where the datagram begins");
   require(sound.empty() || is_chain(sound), "it is whole submessages");
-  const ByteView again = ros2::dds::sound_part(sound);
+  const ByteView again = dds::sound_part(sound);
   require(again.size() == sound.size(), "it is sound when it is judged again");
-  ros2::dds::acknowledgements_in(sound);
-  ros2::dds::AcknowledgementCounts counts;
-  if (const auto changed = ros2::dds::for_fast_dds(sound, counts))
-    require(changed->size() == sound.size() && ros2::dds::sound_part(*changed).size() == sound.size(),
+  dds::acknowledgements_in(sound);
+  dds::AcknowledgementCounts counts;
+  if (const auto changed = dds::for_fast_dds(sound, counts))
+    require(changed->size() == sound.size() && dds::sound_part(*changed).size() == sound.size(),
             "what is changed for Fast DDS is as long and as sound");
 }
 
 std::vector<Bytes> seeds() {
   std::vector<Bytes> seeds;
-  for (const std::string_view sample : ros2::support::kRtpsSamples)
-    seeds.push_back(ros2::support::bytes_in(sample));
+  for (const std::string_view sample : support::kRtpsSamples) seeds.push_back(support::bytes_in(sample));
   return seeds;
 }
 

@@ -4,7 +4,7 @@
 #include "host/base/error.hpp"
 #include "host/truth/live/vrpn_stream.hpp"
 #include "host/truth/source/floor_track.hpp"
-#include "host/truth/vrpn/tracker.hpp"
+#include "host/truth/trackers/vrpn_tracker.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace astro::fuzz {

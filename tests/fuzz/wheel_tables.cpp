@@ -1,7 +1,7 @@
 // Tables of wheels, and the parameters of controllers (YAML). The first byte says which of them the rest is.
 #include "host/base/error.hpp"
-#include "host/recording/foreign/diff_drive_yaml.hpp"
-#include "host/recording/foreign/wheel_csv.hpp"
+#include "host/import/wheels/diff_drive_yaml.hpp"
+#include "host/import/wheels/wheel_csv.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace astro::fuzz {
@@ -11,11 +11,11 @@ void take(ByteView input) {
   const ByteView rest = input.subspan(1);
   try {
     if (input[0] % 2 == 0) {
-      recording::diff_drive_parameters(text_of(rest), "x.yaml");
+      importing::diff_drive_parameters(text_of(rest), "x.yaml");
       return;
     }
     MemorySource source(rest);
-    const recording::WheelTrack track = recording::wheels_in_table(
+    const importing::WheelTrack track = importing::wheels_in_table(
         source, "x.csv", {(input[0] & 2) != 0 ? "time_s,left_m,right_m" : "", (input[0] & 4) != 0});
     for (std::size_t i = 1; i < track.samples.size(); ++i)
       require(track.samples[i].time_ns > track.samples[i - 1].time_ns, "times increase");

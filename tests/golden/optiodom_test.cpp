@@ -8,12 +8,12 @@
 #include <numbers>
 #include <tuple>
 
-#include "host/calibration/clock/clock_search.hpp"
 #include "host/calibration/end_poses/umbmark.hpp"
 #include "host/calibration/judgement/cross_validation.hpp"
 #include "host/calibration/judgement/path_errors.hpp"
 #include "host/calibration/judgement/remarks.hpp"
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
+#include "host/calibration/motion/clock_search.hpp"
 
 // A real robot that knew nothing of this project: OptiTrack and ticks of Sousa et al.
 namespace astro::golden {

@@ -14,8 +14,8 @@ ORDER = {
 TOO_LONG = {"fault_log_faults_test.cpp", "power_cut_test.cpp", "thousand_commits_test.cpp", "wear_test.cpp"}
 SCENARIOS = ["fault_matrix_test.cpp", "stopping_test.cpp", "lives_test.cpp"]
 # The simulated robot with a client in process: what its tests link of the host's tools.
-HOST = ["base/numbers.cpp", "base/plain_text.cpp", "robot/client/client.cpp", "robot/client/clock_map.cpp",
-        "robot/client/handshake.cpp", "robot/client/refusal.cpp", "robot/motion/drive.cpp",
+HOST = ["base/text/numbers.cpp", "base/system_error.cpp", "base/text/plain_text.cpp", "robot/client/client.cpp",
+        "robot/client/clock_map.cpp", "robot/client/handshake.cpp", "robot/client/refusal.cpp", "robot/motion/drive.cpp",
         "robot/motion/other_program.cpp", "robot/motion/paths.cpp", "robot/motion/rest.cpp",
         "robot/parameters/parameter_row.cpp", "robot/parameters/parameters.cpp", "robot/port/ports.cpp",
         "robot/sharing/port_socket.cpp", "simulation/robot/in_process.cpp", "simulation/robot/virtual_mocap.cpp",

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "host/calibration/likelihood/pose_uncertainty.hpp"
-#include "host/recording/run/telemetry_sample.hpp"
+#include "host/recording/telemetry_sample.hpp"
 #include "tests/support/base/thorough.hpp"
 #include "tests/support/robots/calibrated_robots.hpp"
 #include "tests/support/robots/desk.hpp"

@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "host/base/text/sense.hpp"
-#include "host/recording/run/planar_pose.hpp"
-#include "host/recording/run/telemetry_sample.hpp"
+#include "host/recording/planar_pose.hpp"
+#include "host/recording/telemetry_sample.hpp"
 #include "host/robot/motion/drive.hpp"
 #include "host/robot/motion/paths.hpp"
 #include "tests/support/robots/desk.hpp"

@@ -74,7 +74,7 @@ extern const std::uint8_t image_start, image_length;
 [[gnu::used]] const VectorTable image_vector_table{0x4320'00D1,         reset, 0, 0, &boot_data,
                                                    &image_vector_table, 0,     0};
 
-/// Identifies the image to programs that flash it (host/base/formats/firmware_image).
+/// Identifies the image to programs that flash it (host/formats/files/firmware_image).
 [[gnu::section(".image_info")]] extern const ImageInfo image_info;
 [[gnu::used]] const ImageInfo image_info{};
 

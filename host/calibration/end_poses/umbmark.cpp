@@ -23,7 +23,7 @@ struct RunCounts {
 
 using Parameters = Eigen::Vector2d;  // ln E_d, ln E_b, so that no step makes a ratio negative
 using Residuals = Eigen::Vector4d;
-using Jacobian = Eigen::Matrix<double, 4, 2>;
+using PositionJacobian = Eigen::Matrix<double, 4, 2>;
 
 /// What the fit makes small: the exact replay of both directions against the measured end positions, each weighted by how often
 /// it was driven.
@@ -41,10 +41,10 @@ struct EndPositions {
             weight_ccw * (ccw.x_m - mean.ccw.x_m), weight_ccw * (ccw.y_m - mean.ccw.y_m)};
   }
 
-  Jacobian derivative(const Parameters& p) const {
+  PositionJacobian derivative(const Parameters& p) const {
     constexpr double kStep =
         1e-5;  // errors of 1e-11 by rounding and 1e-10 by curvature, far below the fit's own error
-    Jacobian out;
+    PositionJacobian out;
     for (int column = 0; column < 2; ++column) {
       const Parameters step = kStep * Parameters::Unit(column);
       out.col(column) = ((*this)(p + step) - (*this)(p - step)) / (2 * kStep);
@@ -66,7 +66,7 @@ Parameters best_fit(const EndPositions& positions, Parameters p) {
     // The normal equations square the condition number, so their step is rounded more than that of an orthogonal
     // decomposition. That costs at most another step: the iteration ends where the slope vanishes. Where the
     // curvature is singular, the step is not finite, and the loop ends below.
-    const Jacobian jacobian = positions.derivative(p);
+    const PositionJacobian jacobian = positions.derivative(p);
     const Parameters slope = jacobian.transpose() * positions(p);
     const Eigen::Matrix2d curvature = jacobian.transpose() * jacobian;
     const Parameters step = -curvature.inverse() * slope;

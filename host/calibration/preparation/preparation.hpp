@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "host/base/remedy.hpp"
-#include "host/calibration/clock/clock_search.hpp"
+#include "host/calibration/motion/clock_search.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
 #include "host/calibration/preparation/prepared_run.hpp"
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "host/calibration/clock/clock_search.hpp"
+#include "host/calibration/motion/clock_search.hpp"
 #include "host/calibration/motion/wheel_path.hpp"
 #include "host/calibration/preparation/prepared_run.hpp"
 

@@ -19,8 +19,8 @@
 #include "host/console/interrupt.hpp"
 #include "host/console/options.hpp"
 #include "host/experiment/drive/record_run.hpp"
-#include "host/recording/run/planar_pose.hpp"
-#include "host/recording/run/telemetry_sample.hpp"
+#include "host/recording/planar_pose.hpp"
+#include "host/recording/telemetry_sample.hpp"
 
 namespace astro::commands {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "host/commands/shared/connection.hpp"
-#include "host/recording/run/run.hpp"
+#include "host/recording/run.hpp"
 #include "host/robot/client/client.hpp"
 #include "host/robot/motion/drive.hpp"
 #include "host/robot/motion/paths.hpp"

@@ -4,7 +4,7 @@
 
 #include "host/console/keys.hpp"
 #include "host/console/terminal.hpp"
-#include "host/recording/run/run.hpp"
+#include "host/recording/run.hpp"
 
 /// What `teleop` shows.
 namespace astro::commands {

@@ -6,11 +6,11 @@
 #include "host/commands/shared/robot_view.hpp"
 #include "host/console/options.hpp"
 #include "host/console/wrong_usage.hpp"
-#include "host/recording/files/csv_export.hpp"
-#include "host/recording/files/rosbag_export.hpp"
-#include "host/recording/files/run_file.hpp"
-#include "host/recording/files/run_folder.hpp"
-#include "host/recording/files/tum_export.hpp"
+#include "host/recording/csv_export.hpp"
+#include "host/recording/rosbag_export.hpp"
+#include "host/recording/run_file.hpp"
+#include "host/recording/run_folder.hpp"
+#include "host/recording/tum_export.hpp"
 
 namespace astro::commands {
 namespace {

@@ -35,7 +35,7 @@ std::vector<fs::path> paths_in(const std::string& answer) {
 }
 
 /// The robot drives the same in each phase, so that the film of another one would fit.
-void refuse_other(const experiment::NamedFilm& film, const FilmRequest& request) {
+void refuse_other(const film::NamedFilm& film, const FilmRequest& request) {
   if (std::find(request.others.begin(), request.others.end(), film.track.fingerprint) != request.others.end())
     throw Error("'" + film.name + "' shows the runs of an earlier phase", {Help::name_film_of_runs});
 }
@@ -44,8 +44,8 @@ void refuse_other(const experiment::NamedFilm& film, const FilmRequest& request)
 bool taken(const std::vector<fs::path>& paths, experiment::RunSet& set, const FilmRequest& request) {
   try {
     experiment::RunSet with = set;
-    const std::vector<experiment::NamedFilm> films = follow_films(paths, request.figures);
-    for (const experiment::NamedFilm& film : films) refuse_other(film, request);
+    const std::vector<film::NamedFilm> films = follow_films(paths, request.figures);
+    for (const film::NamedFilm& film : films) refuse_other(film, request);
     give_truth(with, films, request.figures);
     set = std::move(with);
     return true;

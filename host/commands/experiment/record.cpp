@@ -18,8 +18,8 @@
 #include "host/console/wrong_usage.hpp"
 #include "host/experiment/drive/record_run.hpp"
 #include "host/experiment/files/robot_identity.hpp"
-#include "host/recording/files/csv_export.hpp"
-#include "host/recording/files/run_writer.hpp"
+#include "host/recording/csv_export.hpp"
+#include "host/recording/run_writer.hpp"
 #include "host/robot/parameters/parameters.hpp"
 
 namespace astro::commands {

@@ -14,7 +14,7 @@
 #include "host/commands/shared/path_progress.hpp"
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
-#include "host/recording/files/run_file.hpp"
+#include "host/recording/run_file.hpp"
 
 namespace astro::commands {
 namespace {

@@ -10,8 +10,8 @@
 #include "host/console/console.hpp"
 #include "host/console/wrong_usage.hpp"
 #include "host/experiment/analysis/report_input.hpp"
-#include "host/experiment/import/drive_report.hpp"
-#include "host/report/sections/report.hpp"
+#include "host/import/drives/drive_report.hpp"
+#include "host/report/report.hpp"
 
 namespace astro::commands {
 
@@ -38,10 +38,10 @@ experiment::RunSet read_filmed(const ResultsOption& results, const ImportOptions
 report::ReportInput of_drives(const experiment::RunSet& set, const std::filesystem::path& with) {
   const experiment::Calibration found =
       experiment::calibrate(set, {experiment::MethodChoice::Family::ml, {}});
-  if (with.empty()) return experiment::drive_report(set, found);
+  if (with.empty()) return importing::drive_report(set, found);
   experiment::NamedFactors factors = experiment::factors_of_file(with, found.wheel.value());
   factors.name = with.filename().string();
-  return experiment::drive_report(set, found, factors);
+  return importing::drive_report(set, found, factors);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include "host/commands/shared/press_enter.hpp"
 #include "host/experiment/drive/experiment.hpp"
 #include "host/experiment/files/plan.hpp"
-#include "host/truth/manual/reading.hpp"
+#include "host/truth/source/reading.hpp"
 
 /// What a person with a tape measure, who enters the ground truth, is told and asked, beside the questions for the numbers themselves.
 namespace astro::commands {

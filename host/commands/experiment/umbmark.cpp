@@ -33,7 +33,7 @@
 #include "host/experiment/analysis/report_input.hpp"
 #include "host/experiment/drive/experiment.hpp"
 #include "host/experiment/files/method_names.hpp"
-#include "host/report/sections/report.hpp"
+#include "host/report/report.hpp"
 
 namespace astro::commands {
 namespace {
@@ -123,7 +123,7 @@ void brief(UmbmarkOptions& options) {
 
 /// Laps in front of a wall in place of squares, with the options that mean the same.
 void run_with_wall(UmbmarkOptions& options) {
-  experiment::WallPlan& plan = options.wall.plan;
+  wall::WallPlan& plan = options.wall.plan;
   if (options.line.count() > 0) plan.line_m = options.plan.line_m;
   if (options.speed.count() > 0) plan.speed_mps = options.plan.speed_mps;
   if (options.yaw_rate.count() > 0) plan.yaw_rate_radps = options.plan.yaw_rate_radps;

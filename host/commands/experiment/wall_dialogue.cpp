@@ -11,7 +11,7 @@
 #include "host/base/text/trimmed.hpp"
 #include "host/console/console.hpp"
 #include "host/experiment/analysis/likelihood_sentences.hpp"
-#include "host/experiment/wall/wall_programme.hpp"
+#include "host/wall/wall_programme.hpp"
 
 namespace astro::commands {
 namespace {
@@ -28,14 +28,14 @@ constexpr const char* kDrawing = R"(
 )";
 
 /// With what the robot may go further as its wheels are larger than it believes.
-double depth_m(const experiment::WallPlan& plan) {
-  const experiment::BodySize& body = plan.body;
+double depth_m(const wall::WallPlan& plan) {
+  const wall::BodySize& body = plan.body;
   const double turning_m = 2 * (body.turning_gap_m() + body.front_to_axle_m);
-  return (1 + experiment::kFurther) *
+  return (1 + wall::kFurther) *
          std::max(plan.line_m + turning_m, plan.readings > 0 ? plan.gap_m + body.length_m : 0.0);
 }
 
-std::string scale_text(const std::optional<calibration::WallScale>& scale) {
+std::string scale_text(const std::optional<wall::WallScale>& scale) {
   if (!scale) return "S is as loaded: nobody read a ruler.";
   if (scale->readings == 1) return "S is from one reading of the ruler, which nothing else checks.";
   std::string text = fmt::format("S is from {} readings of the ruler.", scale->readings);
@@ -54,7 +54,7 @@ std::string in_minutes(double minutes) {
   return minutes <= 1 ? "a minute" : fmt::format("{:.0f} minutes", std::ceil(minutes));
 }
 
-std::string ruler_text(const experiment::WallPlan& plan, int readings) {
+std::string ruler_text(const wall::WallPlan& plan, int readings) {
   if (plan.readings == 0) return "Without a ruler the scale of the wheels stays as it is. ";
   if (readings == 0) return "";
   const char* times = readings == 1 ? "once" : readings == 2 ? "twice" : nullptr;
@@ -64,8 +64,8 @@ std::string ruler_text(const experiment::WallPlan& plan, int readings) {
 
 }  // namespace
 
-std::string wall_briefing(const experiment::WallPlan& plan, const calibration::WallCourse& course,
-                          int readings, double driven_s) {
+std::string wall_briefing(const wall::WallPlan& plan, const wall::WallCourse& course, int readings,
+                          double driven_s) {
   const double minutes = std::min(plan.most_minutes, course.time_s / 60) - driven_s / 60;
   const std::string text = fmt::format(
       "The robot squares itself against a straight, firm wall, with a push of at most {:g} N; backs off, "
@@ -106,8 +106,7 @@ std::optional<double> ask_gap(const AskLine& ask, double expected_m, truth::Leng
   }
 }
 
-std::optional<double> ask_gap_again(const AskLine& ask, const calibration::GapDoubt& doubt,
-                                    truth::LengthUnit unit) {
+std::optional<double> ask_gap_again(const AskLine& ask, const wall::GapDoubt& doubt, truth::LengthUnit unit) {
   const std::string why = doubt.why + (doubt.possible ? "." : ", which no calibration mends.");
   const std::string question =
       wrapped(why) +
@@ -123,8 +122,8 @@ std::optional<double> ask_gap_again(const AskLine& ask, const calibration::GapDo
   }
 }
 
-std::string title_of(const calibration::WallMove& move) {
-  using Kind = calibration::WallMove::Kind;
+std::string title_of(const wall::WallMove& move) {
+  using Kind = wall::WallMove::Kind;
   const char* way = move.turns > 0 ? "counter-clockwise" : "clockwise";
   const int turns = std::abs(move.turns);
   switch (move.kind) {
@@ -139,9 +138,9 @@ std::string title_of(const calibration::WallMove& move) {
   }
 }
 
-std::string wall_result_text(const experiment::WallResult& result) {
+std::string wall_result_text(const wall::WallResult& result) {
   using experiment::with_error;
-  const calibration::WallEstimate& found = result.estimate;
+  const wall::WallEstimate& found = result.estimate;
   const calibration::WheelFactors& factors = found.factors;
   const auto deviation = [&](int index) { return std::sqrt(found.covariance(index, index)); };
   std::vector<std::vector<std::string>> rows{

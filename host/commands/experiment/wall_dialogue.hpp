@@ -3,19 +3,19 @@
 #include <optional>
 #include <string>
 
-#include "host/calibration/wall/gap_doubt.hpp"
-#include "host/calibration/wall/wall_plan.hpp"
 #include "host/commands/shared/press_enter.hpp"
-#include "host/experiment/wall/wall_experiment.hpp"
-#include "host/truth/manual/reading.hpp"
+#include "host/truth/source/reading.hpp"
+#include "host/wall/gap_doubt.hpp"
+#include "host/wall/wall_experiment.hpp"
+#include "host/wall/wall_plan.hpp"
 
 /// What a person with a wall and a ruler is told and asked.
 namespace astro::commands {
 
 /// Before the first move: what the robot will do, for how long, how much floor it needs, and where to put robot and ruler. `readings`: how many gaps are still to be
 /// read; `driven_s`: of an earlier start of the same calibration. Lines of at most 80 columns.
-std::string wall_briefing(const experiment::WallPlan& plan, const calibration::WallCourse& course,
-                          int readings, double driven_s);
+std::string wall_briefing(const wall::WallPlan& plan, const wall::WallCourse& course, int readings,
+                          double driven_s);
 
 /// Waits for Enter alone: the robot faces the wall.
 void ask_facing_wall(const AskLine& ask);
@@ -24,13 +24,12 @@ void ask_facing_wall(const AskLine& ask);
 std::optional<double> ask_gap(const AskLine& ask, double expected_m, truth::LengthUnit unit);
 
 /// The gap once more, after a doubt: a length, or "yes" that what was read is right, if it is possible.
-std::optional<double> ask_gap_again(const AskLine& ask, const calibration::GapDoubt& doubt,
-                                    truth::LengthUnit unit);
+std::optional<double> ask_gap_again(const AskLine& ask, const wall::GapDoubt& doubt, truth::LengthUnit unit);
 
 /// "2 laps counter-clockwise", for a progress bar.
-std::string title_of(const calibration::WallMove& move);
+std::string title_of(const wall::WallMove& move);
 
 /// The result as a person reads it, at most 80 columns wide.
-std::string wall_result_text(const experiment::WallResult& result);
+std::string wall_result_text(const wall::WallResult& result);
 
 }  // namespace astro::commands

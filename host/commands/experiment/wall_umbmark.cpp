@@ -8,7 +8,6 @@
 
 #include "host/base/interrupted.hpp"
 #include "host/base/text/columns.hpp"
-#include "host/calibration/wall/wall_judgement.hpp"
 #include "host/commands/base/remedies.hpp"
 #include "host/commands/experiment/tape_dialogue.hpp"
 #include "host/commands/experiment/wall_dialogue.hpp"
@@ -18,15 +17,16 @@
 #include "host/console/interrupt.hpp"
 #include "host/console/program.hpp"
 #include "host/experiment/analysis/judgement_sentences.hpp"
-#include "host/experiment/wall/wall_calibration.hpp"
-#include "host/experiment/wall/wall_experiment.hpp"
-#include "host/experiment/wall/wall_programme.hpp"
+#include "host/wall/wall_calibration.hpp"
+#include "host/wall/wall_experiment.hpp"
+#include "host/wall/wall_judgement.hpp"
+#include "host/wall/wall_programme.hpp"
 
 namespace astro::commands {
 namespace {
 
-using experiment::WallHooks;
-using experiment::WallResult;
+using wall::WallHooks;
+using wall::WallResult;
 
 WallHooks hooks_for(truth::LengthUnit unit, console::Progress& progress) {
   const AskLine ask = [&progress](const std::string& prompt) {
@@ -41,10 +41,8 @@ WallHooks hooks_for(truth::LengthUnit unit, console::Progress& progress) {
   };
   hooks.placed = [ask] { ask_facing_wall(ask); };
   hooks.read_gap = [ask, unit](double expected_m) { return ask_gap(ask, expected_m, unit); };
-  hooks.read_again = [ask, unit](const calibration::GapDoubt& doubt) {
-    return ask_gap_again(ask, doubt, unit);
-  };
-  hooks.move_started = [&progress](const calibration::WallMove& move, int number, int total) {
+  hooks.read_again = [ask, unit](const wall::GapDoubt& doubt) { return ask_gap_again(ask, doubt, unit); };
+  hooks.move_started = [&progress](const wall::WallMove& move, int number, int total) {
     progress.show(static_cast<double>(number - 1) / total,
                   fmt::format("{} of about {}: {}", number, total, title_of(move)));
   };
@@ -66,27 +64,26 @@ bool load(robot::Client& client, const experiment::ParameterFile& file, const st
 }
 
 /// Says what the robot will do, and returns how many gaps somebody has to read.
-int brief(const experiment::WallPlan& plan, robot::Client& client, const WallSettings& settings) {
-  const experiment::WallRobot robot = experiment::wall_robot_of(robot::RemoteParameters::fetch(client));
-  const auto journal = experiment::read_wall_journal(settings.out);
+int brief(const wall::WallPlan& plan, robot::Client& client, const WallSettings& settings) {
+  const wall::WallRobot robot = wall::wall_robot_of(robot::RemoteParameters::fetch(client));
+  const auto journal = wall::read_wall_journal(settings.out);
   int readings = plan.readings;
   if (journal) {
-    const auto next =
-        experiment::next_move(*journal, calibration::estimate_wall(journal->drive, journal->loaded), robot);
+    const auto next = wall::next_move(*journal, wall::estimate_wall(journal->drive, journal->loaded), robot);
     if (!next) return 0;
     const bool one_more =
-        next->kind == calibration::WallMove::Kind::gap;  // those that were read contradict each other
-    readings = std::max(experiment::gaps_left(*journal), one_more ? 1 : 0);
+        next->kind == wall::WallMove::Kind::gap;  // those that were read contradict each other
+    readings = std::max(wall::gaps_left(*journal), one_more ? 1 : 0);
   }
-  const auto course = calibration::plan_course(experiment::wishes_of(plan, robot), robot.loaded);
+  const auto course = wall::plan_course(wall::wishes_of(plan, robot), robot.loaded);
   console::say(wall_briefing(plan, course, readings, journal ? journal->driven_s : 0));
   return readings;
 }
 
-WallResult drive(robot::Client& client, const experiment::WallPlan& plan, const WallSettings& settings,
+WallResult drive(robot::Client& client, const wall::WallPlan& plan, const WallSettings& settings,
                  const WallHooks& hooks) {
   try {
-    return experiment::run_wall_experiment(client, plan, settings.out, hooks);
+    return wall::run_wall_experiment(client, plan, settings.out, hooks);
   } catch (const Interrupted&) {
     throw Interrupted("interrupted; the same command goes on with what was driven");
   }
@@ -95,7 +92,7 @@ WallResult drive(robot::Client& client, const experiment::WallPlan& plan, const 
 }  // namespace
 
 void add_wall_options(console::Command command, WallOptions& options) {
-  experiment::WallPlan& plan = options.plan;
+  wall::WallPlan& plan = options.plan;
   const auto add = [&](const std::string& name, auto& value, const std::string& what) {
     options.own.emplace_back(name,
                              command.add_option(name, value, "--truth wall: " + what).capture_default_str());
@@ -111,7 +108,7 @@ void add_wall_options(console::Command command, WallOptions& options) {
   add("--robot-width", plan.body.width_m, "m");
 }
 
-void run_wall(ConnectionOptions& connection, const experiment::WallPlan& plan, const WallSettings& settings) {
+void run_wall(ConnectionOptions& connection, const wall::WallPlan& plan, const WallSettings& settings) {
   plan.check();
   const auto client = connect_to_drive(connection);
   const int readings = brief(plan, *client, settings);
@@ -121,9 +118,8 @@ void run_wall(ConnectionOptions& connection, const experiment::WallPlan& plan, c
   console::Progress progress("driving");
   const WallResult result = drive(*client, plan, settings, hooks_for(unit, progress));
   progress.clear();
-  const auto judgement =
-      calibration::judge_wall(result.journal.drive, result.estimate, result.journal.loaded);
-  const experiment::ParameterFile file = experiment::parameter_file_of(result, judgement);
+  const auto judgement = wall::judge_wall(result.journal.drive, result.estimate, result.journal.loaded);
+  const experiment::ParameterFile file = wall::parameter_file_of(result, judgement);
   const std::filesystem::path path = std::filesystem::absolute(settings.out / "calib.toml");
   experiment::write_parameter_file(path, file);
   if (settings.json) {

@@ -8,14 +8,14 @@
 
 #include "host/commands/shared/connection.hpp"
 #include "host/console/command_line.hpp"
-#include "host/experiment/wall/wall_journal.hpp"
-#include "host/truth/manual/reading.hpp"
+#include "host/truth/source/reading.hpp"
+#include "host/wall/wall_journal.hpp"
 
 /// `umbmark --truth wall`: the calibration with a wall and a ruler, which drives laps in place of squares.
 namespace astro::commands {
 
 struct WallOptions {
-  experiment::WallPlan plan;
+  wall::WallPlan plan;
   std::vector<std::pair<std::string, console::Option>> own;  // which no other truth has
 };
 
@@ -30,6 +30,6 @@ struct WallSettings {
 };
 
 /// Drives, estimates, writes `out`/calib.toml, and loads it if it is agreed. Throws as run_wall_experiment and load_parameters do.
-void run_wall(ConnectionOptions& connection, const experiment::WallPlan& plan, const WallSettings& settings);
+void run_wall(ConnectionOptions& connection, const wall::WallPlan& plan, const WallSettings& settings);
 
 }  // namespace astro::commands

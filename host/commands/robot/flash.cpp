@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "host/base/error.hpp"
-#include "host/base/formats/firmware_image.hpp"
 #include "host/commands/base/remedies.hpp"
 #include "host/commands/robot/commands.hpp"
 #include "host/commands/robot/loader.hpp"
@@ -14,6 +13,7 @@
 #include "host/commands/shared/robot_view.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
+#include "host/formats/files/firmware_image.hpp"
 #include "host/robot/client/handshake.hpp"
 #include "host/robot/parameters/parameters.hpp"
 #include "host/robot/port/ports.hpp"

@@ -8,7 +8,7 @@
 #include "host/base/text/numbers.hpp"
 #include "host/console/console.hpp"
 #include "host/console/terminal.hpp"
-#include "host/recording/run/telemetry_sample.hpp"
+#include "host/recording/telemetry_sample.hpp"
 
 namespace astro::commands {
 namespace {

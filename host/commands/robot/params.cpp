@@ -17,7 +17,7 @@
 #include "host/console/terminal.hpp"
 #include "host/console/wrong_usage.hpp"
 #include "host/experiment/analysis/calibration_file.hpp"
-#include "host/experiment/import/robot_geometry.hpp"
+#include "host/import/drives/robot_geometry.hpp"
 #include "host/robot/parameters/upload.hpp"
 
 namespace astro::commands {
@@ -145,10 +145,10 @@ void export_to_file(const ParamsOptions& options, RemoteParameters& robot) {
 
 /// What a file says is to be loaded, of either kind.
 experiment::ParameterFile importable(const ParamsOptions& options) {
-  if (!experiment::is_controller_file(options.file)) return experiment::read_parameter_file(options.file);
+  if (!importing::is_controller_file(options.file)) return experiment::read_parameter_file(options.file);
   experiment::ParameterFile file;
   file.parameters =
-      experiment::parameters_of(experiment::read_robot_file(options.file, options.controller), options.file);
+      importing::parameters_of(importing::read_robot_file(options.file, options.controller), options.file);
   return file;
 }
 

@@ -5,7 +5,7 @@
 #include "host/base/error.hpp"
 #include "host/commands/base/remedies.hpp"
 #include "host/console/command_line.hpp"
-#include "host/recording/files/run_file.hpp"
+#include "host/recording/run_file.hpp"
 
 /// Incomplete recordings, in commands that compute something from recordings.
 namespace astro::commands {

@@ -3,7 +3,7 @@
 #include <exception>
 #include <filesystem>
 
-#include "host/recording/files/run_writer.hpp"
+#include "host/recording/run_writer.hpp"
 #include "host/robot/client/client.hpp"
 
 namespace astro::commands {

@@ -6,7 +6,7 @@
 
 #include "host/base/text/numbers.hpp"
 #include "host/console/options.hpp"
-#include "host/truth/manual/reading.hpp"
+#include "host/truth/source/reading.hpp"
 
 namespace astro::commands {
 namespace {

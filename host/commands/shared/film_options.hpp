@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "host/console/command_line.hpp"
-#include "host/truth/film/track/film_figures.hpp"
+#include "host/film/track/film_figures.hpp"
 
 namespace astro::commands {
 

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kPrefix = "film:";
 
-void say_report(const experiment::FilmReport& report) {
+void say_report(const film::FilmReport& report) {
   for (const auto& run : report.runs)
     console::say(fmt::format("{}: {:.2f} to {:.2f} s of '{}' (turning and driving agree by {:.3f})", run.run,
                              run.from_s, run.to_s, run.film, run.place.likeness.visible));
@@ -49,9 +49,8 @@ void add_film_truth(console::Command command, FilmTruthOption& option) {
   add_film_options(command, option.figures, "film: ");
 }
 
-std::vector<experiment::NamedFilm> follow_films(const std::vector<fs::path>& films,
-                                                const FilmOptions& figures) {
-  std::vector<experiment::NamedFilm> all;
+std::vector<film::NamedFilm> follow_films(const std::vector<fs::path>& films, const FilmOptions& figures) {
+  std::vector<film::NamedFilm> all;
   for (const fs::path& path : films) {
     console::Progress progress("looking at '" + path.filename().string() + "'");
     film::FilmTrack track = film::follow_film(path, figures_of(figures), [&](double done) {
@@ -71,11 +70,11 @@ std::vector<experiment::NamedFilm> follow_films(const std::vector<fs::path>& fil
   return all;
 }
 
-void give_truth(experiment::RunSet& set, const std::vector<experiment::NamedFilm>& films,
+void give_truth(experiment::RunSet& set, const std::vector<film::NamedFilm>& films,
                 const FilmOptions& figures) {
   const std::optional<double> readout_s =
       figures.readout_ms ? std::optional(1e-3 * *figures.readout_ms) : std::nullopt;
-  say_report(experiment::attach_films(set, films, readout_s));
+  say_report(film::attach_films(set, films, readout_s));
 }
 
 void require_film_for(const FilmOptions& figures, bool film) {

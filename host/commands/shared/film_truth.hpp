@@ -7,7 +7,7 @@
 
 #include "host/commands/shared/film_options.hpp"
 #include "host/experiment/files/run_set.hpp"
-#include "host/experiment/film/film_truth.hpp"
+#include "host/film/runs/film_truth.hpp"
 
 /// Ground truth from films of printed tags: --truth film:FILE of the commands that calibrate and judge.
 namespace astro::commands {
@@ -23,11 +23,11 @@ struct FilmTruthOption {
 void add_film_truth(console::Command command, FilmTruthOption& option);
 
 /// Follows each film, with progress. Throws what film::follow_film throws.
-std::vector<experiment::NamedFilm> follow_films(const std::vector<std::filesystem::path>& films,
-                                                const FilmOptions& figures);
+std::vector<film::NamedFilm> follow_films(const std::vector<std::filesystem::path>& films,
+                                          const FilmOptions& figures);
 
-/// The films as truth of the runs; says what was found. Throws what experiment::attach_films throws.
-void give_truth(experiment::RunSet& set, const std::vector<experiment::NamedFilm>& films,
+/// The films as truth of the runs; says what was found. Throws what film::attach_films throws.
+void give_truth(experiment::RunSet& set, const std::vector<film::NamedFilm>& films,
                 const FilmOptions& figures);
 
 /// Both, if films are named. Throws console::WrongUsage if figures of tags are given without a film.

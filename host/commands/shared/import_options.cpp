@@ -19,8 +19,8 @@
 namespace astro::commands {
 namespace {
 
-using experiment::ImportChoices;
-using experiment::RobotGeometry;
+using importing::ImportChoices;
+using importing::RobotGeometry;
 
 /// "y", "-z", or three numbers between commas.
 std::optional<truth::Direction3> axis_in(std::string_view text) {
@@ -54,7 +54,7 @@ console::Check is_axis() {
 RobotGeometry geometry_of(const ImportOptions& options) {
   RobotGeometry geometry;
   if (!options.robot_file.empty())
-    geometry = experiment::read_robot_file(options.robot_file, options.controller);
+    geometry = importing::read_robot_file(options.robot_file, options.controller);
   RobotGeometry given;
   given.wheel_diameter_m = options.wheel_diameter_m;
   given.counts_per_turn = options.counts_per_turn;
@@ -101,7 +101,7 @@ void add_drive_files(console::Command command, ImportOptions& options) {
       .one_each_time();
 }
 
-void add_table_choices(console::Command command, recording::WheelTable& table) {
+void add_table_choices(console::Command command, importing::WheelTable& table) {
   command
       .add_option("--wheel-columns", table.columns,
                   "the columns of a CSV without names, as\ntime_s,left_counts,right_counts (or _rad, _m)")
@@ -190,7 +190,7 @@ void give_films(experiment::RunSet& set, const ImportOptions& options) {
 
 namespace {
 
-void say_drives(const experiment::ImportedDrives& drives) {
+void say_drives(const importing::ImportedDrives& drives) {
   for (std::size_t i = 0; i < drives.reports.size(); ++i) {
     console::say(drives.set.names[i] + ": " + drives.reports[i].summary);
     for (const Remark& remark : drives.reports[i].remarks)
@@ -209,7 +209,7 @@ experiment::RunSet read_filmed_drives(const ImportOptions& options) {
   if (!options.up.empty() || !options.unit.empty() || options.mirrored != "auto" || !options.body.empty())
     throw console::WrongUsage("--up, --truth-unit, --truth-mirrored and --body do not apply to films");
   refuse_unused_choices(options);
-  experiment::ImportedDrives drives = experiment::import_wheels(options.wheels, choices_of(options));
+  importing::ImportedDrives drives = importing::import_wheels(options.wheels, choices_of(options));
   say_drives(drives);
   if (options.session_per_folder) drives.set.sessions = experiment::sessions_by_folder(options.wheels);
   give_films(drives.set, options);
@@ -225,10 +225,10 @@ experiment::RunSet read_drive_files(const ImportOptions& options) {
     throw console::WrongUsage(fmt::format("there are {} --wheels and {} --truth: each drive needs both",
                                           options.wheels.size(), options.truth.size()));
   refuse_unused_choices(options);
-  std::vector<experiment::DriveFiles> files;
+  std::vector<importing::DriveFiles> files;
   for (std::size_t i = 0; i < options.wheels.size(); ++i)
     files.push_back({options.wheels[i], options.truth[i]});
-  experiment::ImportedDrives drives = experiment::import_drives(files, choices_of(options));
+  importing::ImportedDrives drives = importing::import_drives(files, choices_of(options));
   if (options.session_per_folder)
     drives.set.sessions = experiment::sessions_by_folder(options.wheels, options.truth);
   say_drives(drives);

@@ -7,14 +7,14 @@
 
 #include "host/commands/shared/film_options.hpp"
 #include "host/console/command_line.hpp"
-#include "host/experiment/import/import_drives.hpp"
+#include "host/import/drives/import_drives.hpp"
 
 /// Options of commands that take drives which other programs recorded.
 namespace astro::commands {
 
 struct ImportOptions {
   std::vector<std::filesystem::path> wheels, truth;  // of the same length
-  recording::WheelTable table;
+  importing::WheelTable table;
   std::string wheels_topic, truth_topic, body, up, unit, mirrored = "auto", controller;
   std::vector<std::string> joints, frames;
   bool swap_wheels = false, session_per_folder = false;
@@ -32,7 +32,7 @@ struct ImportOptions {
 void add_drive_files(console::Command command, ImportOptions& options);
 
 /// How to read files of these kinds: what is not said is recognised or asked for in an error.
-void add_table_choices(console::Command command, recording::WheelTable& table);
+void add_table_choices(console::Command command, importing::WheelTable& table);
 void add_bag_choices(console::Command command, ImportOptions& options);
 void add_body_choice(console::Command command, ImportOptions& options);
 void add_tracker_choices(console::Command command, ImportOptions& options);
@@ -49,7 +49,7 @@ void add_session_flag(console::Command command, bool& session_per_folder);
 void add_import(console::Command command, ImportOptions& options);
 
 /// Reads them, and says about each drive what was found and inferred. Throws console::WrongUsage if the numbers of files
-/// differ or an option applies to none of them (unused_choices.hpp), and what experiment::import_drives throws.
+/// differ or an option applies to none of them (unused_choices.hpp), and what importing::import_drives throws.
 experiment::RunSet read_drive_files(const ImportOptions& options);
 
 }  // namespace astro::commands

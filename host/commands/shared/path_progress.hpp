@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "host/recording/run/run.hpp"
+#include "host/recording/run.hpp"
 #include "host/robot/motion/paths.hpp"
 
 namespace astro::commands {

@@ -10,7 +10,7 @@
 #include "common/protocol/session.hpp"
 #include "common/protocol/status.hpp"
 #include "common/safety/fault.hpp"
-#include "host/recording/run/planar_pose.hpp"
+#include "host/recording/planar_pose.hpp"
 
 /// What the robot reports, in words and JSON keys that all commands share.
 namespace astro::commands {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "host/console/command_line.hpp"
-#include "host/truth/manual/manual_source.hpp"
-#include "host/truth/manual/reading.hpp"
+#include "host/truth/source/manual_source.hpp"
+#include "host/truth/source/reading.hpp"
 #include "host/truth/source/source.hpp"
 
 namespace astro::commands {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "host/console/wrong_usage.hpp"
-#include "host/recording/bag/bag.hpp"
+#include "host/formats/files/bag.hpp"
 
 namespace astro::commands {
 namespace {
@@ -19,25 +19,25 @@ bool is_missing(const fs::path& path) {
 }
 
 bool any_bag(const Files& files) {
-  return std::ranges::any_of(
-      files, [](const fs::path& path) { return is_missing(path) || recording::is_bag(path); });
+  return std::ranges::any_of(files,
+                             [](const fs::path& path) { return is_missing(path) || bag::is_bag(path); });
 }
 
 bool any_text(const Files& files) {
-  return std::ranges::any_of(
-      files, [](const fs::path& path) { return is_missing(path) || !recording::is_bag(path); });
+  return std::ranges::any_of(files,
+                             [](const fs::path& path) { return is_missing(path) || !bag::is_bag(path); });
 }
 
 /// A recording of ours has wheels of its own, unless a topic of joints is named.
 bool any_with_joints(const ImportOptions& options) {
   return std::ranges::any_of(options.wheels, [&](const fs::path& path) {
-    return is_missing(path) || (recording::is_bag(path) &&
-                                (!options.wheels_topic.empty() || !experiment::is_own_recording(path)));
+    return is_missing(path) ||
+           (bag::is_bag(path) && (!options.wheels_topic.empty() || !importing::is_own_recording(path)));
   });
 }
 
 bool has_controllers(const fs::path& path) {
-  return !path.empty() && (is_missing(path) || experiment::is_controller_file(path));
+  return !path.empty() && (is_missing(path) || importing::is_controller_file(path));
 }
 
 struct Choice {

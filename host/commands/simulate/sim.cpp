@@ -4,13 +4,13 @@
 
 #include "host/base/environment.hpp"
 #include "host/base/text/numbers.hpp"
-#include "host/commands/serving/served_robot_options.hpp"
+#include "host/commands/base/served_robot_options.hpp"
 #include "host/commands/simulate/commands.hpp"
+#include "host/commands/simulate/ros_pose_publisher.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
 #include "host/console/wrong_usage.hpp"
-#include "host/ros2/types/names.hpp"
-#include "host/simulation/ros2/ros_pose_publisher.hpp"
+#include "host/formats/cdr/names.hpp"
 
 namespace astro::commands {
 namespace {
@@ -24,10 +24,10 @@ void publish_in_ros2(Options& options) {
     throw console::WrongUsage(
         "with --fast virtual time runs ahead of the clocks that a tracker's clients go by: leave it out, or "
         "--ros2-topic");
-  ros2::dds::DiscoveryWishes wishes;
-  if (options.server.tracker.everywhere) wishes.range = ros2::dds::Range::subnet;
-  const ros2::dds::Discovery discovery = ros2::dds::discovery_from(wishes, environment_variable);
-  options.server.tracker.also = std::make_shared<simulation::RosPosePublisher>(options.ros_topic, discovery);
+  dds::DiscoveryWishes wishes;
+  if (options.server.tracker.everywhere) wishes.range = dds::Range::subnet;
+  const dds::Discovery discovery = dds::discovery_from(wishes, environment_variable);
+  options.server.tracker.also = std::make_shared<RosPosePublisher>(options.ros_topic, discovery);
   console::say(fmt::format("its pose is at ros2:{}?domain={}", options.ros_topic, discovery.domain));
 }
 

@@ -17,15 +17,15 @@
 #include "host/commands/truth/commands.hpp"
 #include "host/console/console.hpp"
 #include "host/console/wrong_usage.hpp"
-#include "host/experiment/import/file_inspection.hpp"
+#include "host/import/drives/file_inspection.hpp"
 
 namespace astro::commands {
 namespace {
 
-using experiment::BagInspection;
-using experiment::FileInspection;
-using experiment::RobotGeometry;
-using experiment::WheelInspection;
+using importing::BagInspection;
+using importing::FileInspection;
+using importing::RobotGeometry;
+using importing::WheelInspection;
 using Rows = std::vector<std::vector<std::string>>;
 
 std::string said(const std::vector<Remark>& remarks) {
@@ -83,14 +83,14 @@ std::string bag_text(const BagInspection& bag) {
     text = fmt::format("Recording of astrolabe: {}{}.\n", bag.run->kind,
                        bag.run->robot_name.empty() ? "" : " of " + bag.run->robot_name);
   Rows rows{{"topic", "type", "messages", "seconds", "Hz", "longest gap s"}};
-  for (const experiment::TopicInspection& one : bag.topics)
+  for (const importing::TopicInspection& one : bag.topics)
     rows.push_back({one.topic.name, one.topic.type, fmt::format("{}", one.topic.messages),
                     fmt::format("{:.1f}", 1e-9 * static_cast<double>(one.topic.last_ns - one.topic.first_ns)),
                     fmt::format("{:.4g}", one.rate_hz), fmt::format("{:.2f}", one.longest_gap_s)});
   text += console::table(rows, "llrrrr");
   if (!bag.poses.empty()) {
     Rows poses{{"poses", "frame", "child frame", "number"}};
-    for (const recording::PoseStream& stream : bag.poses)
+    for (const importing::PoseStream& stream : bag.poses)
       poses.push_back({stream.topic, stream.frame, stream.child_frame.empty() ? "-" : stream.child_frame,
                        fmt::format("{}", stream.poses)});
     text += '\n' + console::table(poses, "lllr");
@@ -108,13 +108,13 @@ std::string bag_text(const BagInspection& bag) {
   return text;
 }
 
-const char* unit_name(recording::WheelUnit unit) {
+const char* unit_name(importing::WheelUnit unit) {
   switch (unit) {
-    case recording::WheelUnit::counts:
+    case importing::WheelUnit::counts:
       return "counts";
-    case recording::WheelUnit::radians:
+    case importing::WheelUnit::radians:
       return "rad";
-    case recording::WheelUnit::metres:
+    case importing::WheelUnit::metres:
       return "m";
   }
   return "";
@@ -184,7 +184,7 @@ nlohmann::json body_json(const truth::BodyInspection& body) {
 
 nlohmann::json bag_json(const BagInspection& bag) {
   nlohmann::json topics = nlohmann::json::array(), poses = nlohmann::json::array();
-  for (const experiment::TopicInspection& one : bag.topics)
+  for (const importing::TopicInspection& one : bag.topics)
     topics.push_back({{"name", one.topic.name},
                       {"type", one.topic.type},
                       {"messages", one.topic.messages},
@@ -192,7 +192,7 @@ nlohmann::json bag_json(const BagInspection& bag) {
                       {"last_ns", one.topic.last_ns},
                       {"rate_hz", one.rate_hz},
                       {"longest_gap_s", one.longest_gap_s}});
-  for (const recording::PoseStream& stream : bag.poses)
+  for (const importing::PoseStream& stream : bag.poses)
     poses.push_back({{"topic", stream.topic},
                      {"frame", stream.frame},
                      {"child_frame", stream.child_frame},
@@ -282,8 +282,8 @@ void add_inspect(console::Command app) {
     ImportOptions& choices = options->choices;
     choices.wheels = choices.truth = {options->file};
     refuse_unused_choices(choices);
-    const experiment::FileInspection found =
-        experiment::inspect_file(options->file, choices.table, {choices.truth_topic, "", ""});
+    const importing::FileInspection found =
+        importing::inspect_file(options->file, choices.table, {choices.truth_topic, "", ""});
     if (!found.wheels && (choices.table.per_interval || !choices.table.columns.empty()))
       throw console::WrongUsage(
           "--wheel-columns and --per-interval do not apply here: this is no table of wheels");

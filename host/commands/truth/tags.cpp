@@ -12,15 +12,15 @@
 #include "host/commands/truth/commands.hpp"
 #include "host/console/options.hpp"
 #include "host/console/wrong_usage.hpp"
-#include "host/truth/tags/pdf.hpp"
-#include "host/truth/tags/tag_picture.hpp"
-#include "host/truth/tags/tag_sheet.hpp"
-#include "host/truth/tags/text_sheet.hpp"
+#include "host/film/paper/pdf.hpp"
+#include "host/film/paper/tag_picture.hpp"
+#include "host/film/paper/tag_sheet.hpp"
+#include "host/film/paper/text_sheet.hpp"
 
 namespace astro::commands {
 namespace {
 
-namespace tags = truth::tags;
+namespace tags = film::paper;
 
 struct TagsOptions {
   std::filesystem::path pdf;

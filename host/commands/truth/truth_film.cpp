@@ -18,11 +18,11 @@
 #include "host/commands/truth/truth_film_view.hpp"
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
-#include "host/report/page/page.hpp"
-#include "host/report/sections/film_report.hpp"
-#include "host/truth/film/preview/preview.hpp"
-#include "host/truth/film/track/film_checks.hpp"
-#include "host/truth/film/track/film_track.hpp"
+#include "host/film/runs/preview.hpp"
+#include "host/film/track/film_checks.hpp"
+#include "host/film/track/film_track.hpp"
+#include "host/report/film_report.hpp"
+#include "host/report/page.hpp"
 
 namespace astro::commands {
 namespace {

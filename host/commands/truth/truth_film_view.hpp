@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "host/commands/shared/robot_view.hpp"
-#include "host/truth/film/track/film_track.hpp"
+#include "host/film/track/film_track.hpp"
 
 namespace astro::commands {
 

@@ -6,8 +6,8 @@
 
 #include "host/commands/shared/connection.hpp"
 #include "host/motor/bench/robot_facts.hpp"
-#include "host/motor/wiring/roll.hpp"
-#include "host/motor/wiring/wiring.hpp"
+#include "host/motor/model/roll.hpp"
+#include "host/motor/model/wiring.hpp"
 
 /// The parts of `astrolabe check-wiring` that need no program around them: an answer, and the roll by hand.
 namespace astro::commands {

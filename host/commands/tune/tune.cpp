@@ -12,7 +12,7 @@
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
 #include "host/console/wrong_usage.hpp"
-#include "host/report/page/page.hpp"
+#include "host/report/page.hpp"
 
 namespace astro::commands {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "host/commands/shared/robot_view.hpp"
 #include "host/commands/tune/tune_job.hpp"
-#include "host/report/sections/tuning_report.hpp"
+#include "host/report/tuning_report.hpp"
 
 /// What `astrolabe tune` found, for a terminal, for scripts and for a browser.
 namespace astro::commands {

@@ -4,7 +4,7 @@
 
 #include "hal/teensy40/registers/registers.hpp"
 #include "host/base/bytes.hpp"
-#include "host/base/formats/firmware_image.hpp"
+#include "host/formats/files/firmware_image.hpp"
 
 namespace astro::emulator {
 namespace {

@@ -18,8 +18,8 @@
 #include "host/emulator/chip/reset.hpp"
 #include "host/emulator/chip/watchdogs.hpp"
 #include "host/emulator/core/chip.hpp"
+#include "host/emulator/robot/controller.hpp"
 #include "host/emulator/robot/world.hpp"
-#include "host/emulator/usb/controller.hpp"
 
 namespace astro::emulator {
 

@@ -6,7 +6,7 @@
 
 #include "host/base/error.hpp"
 #include "host/experiment/files/number_named.hpp"
-#include "host/recording/run/run_metadata.hpp"
+#include "host/recording/run_metadata.hpp"
 
 namespace astro::experiment {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "host/recording/run/run.hpp"
+#include "host/recording/run.hpp"
 
 namespace astro::experiment {
 

@@ -8,7 +8,7 @@
 #include "host/calibration/motion/trajectory.hpp"
 #include "host/experiment/analysis/squares.hpp"
 #include "host/experiment/files/run_set.hpp"
-#include "host/recording/run/run.hpp"
+#include "host/recording/run.hpp"
 
 namespace astro::experiment {
 

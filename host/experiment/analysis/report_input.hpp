@@ -1,7 +1,7 @@
 #pragma once
 
 #include "host/experiment/analysis/results.hpp"
-#include "host/report/sections/report.hpp"
+#include "host/report/report.hpp"
 
 namespace astro::experiment {
 

@@ -11,8 +11,8 @@
 #include "host/experiment/files/experiment_folder.hpp"
 #include "host/experiment/files/factors_json.hpp"
 #include "host/experiment/files/robot_identity.hpp"
-#include "host/recording/files/run_folder.hpp"
-#include "host/report/sections/comparison.hpp"
+#include "host/recording/run_folder.hpp"
+#include "host/report/comparison.hpp"
 
 namespace astro::experiment {
 namespace {

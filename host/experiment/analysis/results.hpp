@@ -13,8 +13,8 @@
 #include "host/experiment/analysis/recordings.hpp"
 #include "host/experiment/analysis/squares.hpp"
 #include "host/experiment/files/journal.hpp"
-#include "host/recording/files/run_file.hpp"
-#include "host/recording/run/run.hpp"
+#include "host/recording/run.hpp"
+#include "host/recording/run_file.hpp"
 
 /// The results of an experiment, computed from the recordings in its folder.
 namespace astro::experiment {

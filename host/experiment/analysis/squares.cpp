@@ -13,8 +13,8 @@
 #include "host/experiment/analysis/trajectories.hpp"
 #include "host/experiment/files/curvature_named.hpp"
 #include "host/experiment/files/same_number.hpp"
-#include "host/recording/run/end_error.hpp"
-#include "host/recording/run/run_metadata.hpp"
+#include "host/recording/end_error.hpp"
+#include "host/recording/run_metadata.hpp"
 
 namespace astro::experiment {
 namespace {

@@ -10,7 +10,7 @@
 #include "host/calibration/end_poses/odd_run.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
 #include "host/experiment/files/run_set.hpp"
-#include "host/recording/run/run.hpp"
+#include "host/recording/run.hpp"
 
 /// From recordings to the end errors of squares and the lengths of lines, and to the factors with which they were driven.
 namespace astro::experiment {

@@ -5,7 +5,7 @@
 
 #include "host/calibration/motion/trajectory.hpp"
 #include "host/experiment/files/run_set.hpp"
-#include "host/recording/run/run.hpp"
+#include "host/recording/run.hpp"
 
 /// From recordings to the trajectories that maximum likelihood takes.
 namespace astro::experiment {

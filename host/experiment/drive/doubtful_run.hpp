@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "host/experiment/files/plan.hpp"
-#include "host/recording/run/run.hpp"
+#include "host/recording/run.hpp"
 
 namespace astro::experiment {
 

@@ -2,7 +2,7 @@
 
 #include "host/base/error.hpp"
 #include "host/experiment/files/experiment_folder.hpp"
-#include "host/recording/files/run_file.hpp"
+#include "host/recording/run_file.hpp"
 
 namespace astro::experiment {
 

@@ -17,7 +17,7 @@
 #include "host/experiment/drive/phase_recordings.hpp"
 #include "host/experiment/files/experiment_folder.hpp"
 #include "host/experiment/files/robot_identity.hpp"
-#include "host/recording/files/run_file.hpp"
+#include "host/recording/run_file.hpp"
 #include "host/robot/parameters/upload.hpp"
 
 namespace astro::experiment {

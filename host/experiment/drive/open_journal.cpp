@@ -11,9 +11,9 @@
 #include "host/experiment/files/experiment_folder.hpp"
 #include "host/experiment/files/robot_identity.hpp"
 #include "host/experiment/files/same_number.hpp"
-#include "host/recording/files/run_file.hpp"
-#include "host/recording/run/end_error.hpp"
-#include "host/recording/run/run_metadata.hpp"
+#include "host/recording/end_error.hpp"
+#include "host/recording/run_file.hpp"
+#include "host/recording/run_metadata.hpp"
 #include "host/robot/client/handshake.hpp"
 
 namespace astro::experiment {

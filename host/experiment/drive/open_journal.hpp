@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "host/experiment/files/journal.hpp"
-#include "host/recording/run/run.hpp"
+#include "host/recording/run.hpp"
 #include "host/robot/client/client.hpp"
 
 namespace astro::experiment {

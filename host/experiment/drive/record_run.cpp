@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "host/base/error.hpp"
-#include "host/recording/run/telemetry_sample.hpp"
+#include "host/recording/telemetry_sample.hpp"
 
 namespace astro::experiment {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 using namespace std::chrono_literals;
 using protocol::Telemetry;
 
-constexpr auto kRest = 700ms;  // at each end; host/recording/run/rest.hpp needs more than 200 ms
+constexpr auto kRest = 700ms;  // at each end; host/recording/rest.hpp needs more than 200 ms
 constexpr std::uint32_t kFields = Telemetry::kPose | Telemetry::kCounts | Telemetry::kTwist;
 constexpr int kSamplesPerLook = 5;  // at the truth
 

@@ -6,7 +6,7 @@
 
 #include "host/base/remedy.hpp"
 #include "host/experiment/files/plan.hpp"
-#include "host/recording/run/run.hpp"
+#include "host/recording/run.hpp"
 #include "host/robot/motion/drive.hpp"
 #include "host/robot/motion/paths.hpp"
 #include "host/truth/source/source.hpp"

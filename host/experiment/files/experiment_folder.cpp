@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "host/recording/files/run_file.hpp"
+#include "host/recording/run_file.hpp"
 
 namespace astro::experiment {
 

@@ -6,7 +6,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
-#include "host/base/formats/json_weight.hpp"
+#include "host/base/text/json_weight.hpp"
 #include "host/experiment/files/factors_json.hpp"
 
 namespace astro::experiment {

@@ -8,7 +8,7 @@
 
 #include "host/base/text/sense.hpp"
 #include "host/calibration/end_poses/umbmark.hpp"
-#include "host/recording/run/run.hpp"
+#include "host/recording/run.hpp"
 
 /// What an experiment drives, in which order, and the name of each run.
 namespace astro::experiment {

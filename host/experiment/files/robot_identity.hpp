@@ -3,7 +3,7 @@
 #include <string>
 
 #include "common/protocol/session.hpp"
-#include "host/recording/run/run.hpp"
+#include "host/recording/run.hpp"
 
 /// The identity of a robot, for recordings and calibrations.
 namespace astro::experiment {

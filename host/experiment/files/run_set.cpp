@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "host/base/error.hpp"
-#include "host/recording/files/run_folder.hpp"
+#include "host/recording/run_folder.hpp"
 
 namespace astro::experiment {
 namespace {

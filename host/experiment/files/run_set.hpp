@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "host/recording/files/run_file.hpp"
-#include "host/recording/run/run.hpp"
+#include "host/recording/run.hpp"
+#include "host/recording/run_file.hpp"
 
 namespace astro::experiment {
 

@@ -4,7 +4,7 @@
 
 #include "host/motor/model/design.hpp"
 #include "host/motor/model/prediction.hpp"
-#include "host/motor/wiring/wiring.hpp"
+#include "host/motor/model/wiring.hpp"
 #include "host/robot/parameters/parameters.hpp"
 
 namespace astro::motor {

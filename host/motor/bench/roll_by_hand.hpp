@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "host/motor/bench/bench.hpp"
-#include "host/motor/wiring/roll.hpp"
+#include "host/motor/model/roll.hpp"
 
 /// Records what the wheels count while a person rolls the robot by hand, with its bridges open.
 namespace astro::motor {

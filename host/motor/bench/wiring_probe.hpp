@@ -1,7 +1,7 @@
 #pragma once
 
 #include "host/motor/bench/bench.hpp"
-#include "host/motor/wiring/wiring.hpp"
+#include "host/motor/model/wiring.hpp"
 
 namespace astro::motor {
 

@@ -6,7 +6,7 @@
 
 #include "host/base/error.hpp"
 #include "host/commands/base/remedies.hpp"
-#include "host/commands/serving/served_robot_options.hpp"
+#include "host/commands/base/served_robot_options.hpp"
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
 #include "host/console/options.hpp"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "host/robot/arbitration/relay_messages.hpp"
 #include "host/robot/client/handshake.hpp"
 #include "host/robot/client/restore.hpp"
+#include "host/robot/sharing/relay_messages.hpp"
 
 namespace astro::robot {
 

@@ -8,8 +8,8 @@
 #include "common/safety/fault.hpp"
 #include "host/base/interrupted.hpp"
 #include "host/base/remedy.hpp"
-#include "host/robot/arbitration/relay_messages.hpp"
 #include "host/robot/client/client.hpp"
+#include "host/robot/sharing/relay_messages.hpp"
 
 namespace astro::robot {
 

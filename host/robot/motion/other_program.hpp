@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "host/robot/arbitration/relay_messages.hpp"
 #include "host/robot/client/client.hpp"
+#include "host/robot/sharing/relay_messages.hpp"
 
 /// Other programs that use the robot's port: who they are, for sentences about what one of them did to a drive, and the drive that one
 /// left behind.

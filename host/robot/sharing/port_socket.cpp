@@ -15,7 +15,7 @@
 #include "common/protocol/framer.hpp"
 #include "host/base/error.hpp"
 #include "host/base/system_error.hpp"
-#include "host/robot/arbitration/relay_messages.hpp"
+#include "host/robot/sharing/relay_messages.hpp"
 
 namespace astro::robot {
 

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "host/base/remedy.hpp"
-#include "host/robot/arbitration/port_user.hpp"
 #include "host/robot/port/descriptor.hpp"
 #include "host/robot/port/transport.hpp"
+#include "host/robot/sharing/port_user.hpp"
 
 /// The socket by which programs find the one that holds a port: an abstract one of Linux, named by the port's
 /// key. It ends with the program that listens, and it does not depend on environment variables: an emergency

@@ -5,7 +5,7 @@
 
 #include "common/protocol/frame.hpp"
 #include "common/protocol/messages.hpp"
-#include "host/robot/arbitration/request_rules.hpp"
+#include "host/robot/sharing/request_rules.hpp"
 
 namespace astro::robot {
 

@@ -5,10 +5,10 @@
 
 #include "common/protocol/framer.hpp"
 #include "host/base/bytes.hpp"
-#include "host/robot/arbitration/frame_queue.hpp"
-#include "host/robot/arbitration/port_user.hpp"
-#include "host/robot/arbitration/relay_messages.hpp"
-#include "host/robot/arbitration/request_arbiter.hpp"
+#include "host/robot/sharing/frame_queue.hpp"
+#include "host/robot/sharing/port_user.hpp"
+#include "host/robot/sharing/relay_messages.hpp"
+#include "host/robot/sharing/request_arbiter.hpp"
 
 namespace astro::robot {
 

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "hal/sim/chassis.hpp"
-#include "host/recording/run/run.hpp"
+#include "host/recording/run.hpp"
 
 namespace astro::simulation {
 

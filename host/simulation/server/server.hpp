@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "host/simulation/robot/virtual_robot.hpp"
+#include "host/simulation/server/network_tracker.hpp"
 #include "host/simulation/server/pace.hpp"
 #include "host/simulation/server/path_claim.hpp"
 #include "host/simulation/server/pty.hpp"
 #include "host/simulation/server/served_robot.hpp"
 #include "host/simulation/server/truth_server.hpp"
-#include "host/simulation/tracker/network_tracker.hpp"
 
 namespace astro::simulation {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/recording/run/run.hpp"
+#include "host/recording/run.hpp"
 
 namespace astro::simulation {
 

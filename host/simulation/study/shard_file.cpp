@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/base/error.hpp"
-#include "host/base/formats/json_weight.hpp"
+#include "host/base/text/json_weight.hpp"
 #include "host/base/text/numbers.hpp"
 
 namespace astro::simulation::study {

@@ -9,7 +9,7 @@
 #include "host/base/error.hpp"
 #include "host/experiment/analysis/trajectories.hpp"
 #include "host/experiment/drive/record_run.hpp"
-#include "host/recording/run/end_error.hpp"
+#include "host/recording/end_error.hpp"
 #include "host/robot/motion/paths.hpp"
 #include "host/robot/parameters/upload.hpp"
 #include "host/simulation/robot/camera_truth.hpp"

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "host/truth/manual/manual_source.hpp"
+#include "host/truth/source/manual_source.hpp"
 
 namespace astro::truth {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/base/formats/csv_table.hpp"
+#include "host/formats/files/csv_table.hpp"
 #include "host/truth/files/rotations.hpp"
 
 namespace astro::truth {

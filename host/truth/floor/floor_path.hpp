@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host/base/remedy.hpp"
-#include "host/recording/run/run.hpp"
+#include "host/recording/run.hpp"
 #include "host/truth/files/body_track.hpp"
 #include "host/truth/floor/up_axis.hpp"
 #include "host/truth/floor/wheel_match.hpp"

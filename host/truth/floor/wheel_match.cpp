@@ -5,7 +5,7 @@
 #include <complex>
 #include <numbers>
 
-#include "host/calibration/clock/clock_search.hpp"
+#include "host/calibration/motion/clock_search.hpp"
 
 namespace astro::truth {
 namespace {

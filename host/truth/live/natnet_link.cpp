@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "host/base/error.hpp"
-#include "host/truth/natnet/frame.hpp"
+#include "host/truth/trackers/natnet_frame.hpp"
 
 namespace astro::truth {
 

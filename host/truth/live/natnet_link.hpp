@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "host/base/net/socket.hpp"
+#include "host/base/socket.hpp"
 #include "host/truth/live/sighting.hpp"
 #include "host/truth/live/tracker_link.hpp"
 #include "host/truth/live/tracker_url.hpp"
-#include "host/truth/natnet/models.hpp"
-#include "host/truth/natnet/packet.hpp"
+#include "host/truth/trackers/natnet_models.hpp"
+#include "host/truth/trackers/natnet_packet.hpp"
 
 namespace astro::truth {
 

@@ -9,14 +9,14 @@
 #include "host/base/blocked_signals.hpp"
 #include "host/base/environment.hpp"
 #include "host/base/error.hpp"
-#include "host/ros2/dds/fast_dds.hpp"
-#include "host/ros2/recorded/stamped_pose.hpp"
-#include "host/ros2/types/names.hpp"
-#include "host/ros2/types/type_description.hpp"
+#include "host/formats/cdr/names.hpp"
+#include "host/formats/cdr/type_description.hpp"
+#include "host/formats/messages/stamped_pose.hpp"
+#include "host/live/dds/fast_dds.hpp"
 
 namespace astro::truth {
 
-namespace dds = ros2::dds;
+namespace dds = dds;
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
 

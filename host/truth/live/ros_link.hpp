@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "host/ros2/dds/participant.hpp"
+#include "host/live/dds/participant.hpp"
 #include "host/truth/live/tracker_link.hpp"
 #include "host/truth/live/tracker_url.hpp"
-#include "host/truth/ros2/node_names.hpp"
-#include "host/truth/ros2/ros_pose_stream.hpp"
+#include "host/truth/trackers/node_names.hpp"
+#include "host/truth/trackers/ros_pose_stream.hpp"
 
 namespace astro::truth {
 
@@ -28,7 +28,7 @@ class RosLink : public TrackerLink {
  public:
   /// In the domain and range that the URL names, or else the environment. Throws astro::Error if that cannot be.
   explicit RosLink(const TrackerUrl& url);
-  RosLink(const TrackerUrl& url, const ros2::dds::Discovery& discovery);
+  RosLink(const TrackerUrl& url, const dds::Discovery& discovery);
 
   void work(std::chrono::microseconds now) override;
   void wait(std::chrono::microseconds timeout) override { participant_->wait(timeout); }
@@ -42,7 +42,7 @@ class RosLink : public TrackerLink {
 
  private:
   using microseconds = std::chrono::microseconds;
-  using Guid = ros2::dds::Guid;
+  using Guid = dds::Guid;
 
   void look_around();
   void open_reader(const std::string& type);
@@ -52,12 +52,12 @@ class RosLink : public TrackerLink {
   std::vector<std::string> pose_topics() const;
 
   std::string topic_;
-  ros2::dds::Discovery discovery_;
-  std::unique_ptr<ros2::dds::Participant> participant_;  // before its readers
-  std::unique_ptr<ros2::dds::Reader> nodes_reader_, reader_, fixed_reader_;
+  dds::Discovery discovery_;
+  std::unique_ptr<dds::Participant> participant_;  // before its readers
+  std::unique_ptr<dds::Reader> nodes_reader_, reader_, fixed_reader_;
   NodeNames nodes_;
-  std::vector<ros2::dds::RemoteEndpoint> others_;  // as of the last look
-  std::string type_;                               // under which the topic is read; "": not yet
+  std::vector<dds::RemoteEndpoint> others_;  // as of the last look
+  std::string type_;                         // under which the topic is read; "": not yet
   RosPoseStream stream_;
   Waiting<Sighting> sightings_;
   std::optional<Guid> publisher_;  // whose poses are taken

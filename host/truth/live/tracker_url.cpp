@@ -5,7 +5,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/text/numbers.hpp"
-#include "host/ros2/types/names.hpp"
+#include "host/formats/cdr/names.hpp"
 
 namespace astro::truth {
 namespace {
@@ -73,13 +73,13 @@ class Parser {
     }
     if (name == "domain") {
       const auto domain = unsigned_in(value);
-      if (!domain || *domain > ros2::dds::kMostDomains) return false;
+      if (!domain || *domain > dds::kMostDomains) return false;
       url.where.domain = static_cast<int>(*domain);
       return true;
     }
     if (name != "range") return false;
-    url.where.range = ros2::dds::range_in(std::string(value));
-    return url.where.range && *url.where.range != ros2::dds::Range::off;
+    url.where.range = dds::range_in(std::string(value));
+    return url.where.range && *url.where.range != dds::Range::off;
   }
 
   [[noreturn]] void fail(const std::string& why) const {

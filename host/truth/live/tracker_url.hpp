@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "host/ros2/dds/discovery.hpp"
+#include "host/live/dds/discovery.hpp"
 #include "host/truth/source/pose3.hpp"
 
 namespace astro::truth {
@@ -17,14 +17,14 @@ namespace astro::truth {
 ///
 /// A character that has a meaning here is written as %XX in the names of bodies and frames. An IPv6 address stands in
 /// brackets. A topic of ROS 2 has no host. Which node publishes it, and where, ROS 2 finds out by itself: in the domain and
-/// on the computers that the environment names, unless the address says others (host/ros2/dds/discovery.hpp).
+/// on the computers that the environment names, unless the address says others (host/live/dds/discovery.hpp).
 struct TrackerUrl {
   std::string scheme, host;
   std::uint16_t port = 0;  // 0: the protocol's own
   std::string body;        // "": the only one; in ROS 2 its frame
   UpAxis up = UpAxis::z;
   std::string topic, parent;  // of ROS 2 alone; the parent is the tracker's frame, "": that of the messages
-  ros2::dds::DiscoveryWishes where{};  // of ROS 2 alone
+  dds::DiscoveryWishes where{};  // of ROS 2 alone
 
   /// The same, with the protocol's own port where none is named.
   TrackerUrl with_usual_port(std::uint16_t usual) const;

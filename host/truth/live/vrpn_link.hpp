@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/net/socket.hpp"
+#include "host/base/socket.hpp"
 #include "host/truth/live/tracker_link.hpp"
 #include "host/truth/live/tracker_url.hpp"
 #include "host/truth/live/vrpn_stream.hpp"

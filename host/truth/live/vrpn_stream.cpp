@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "host/truth/vrpn/tracker.hpp"
+#include "host/truth/trackers/vrpn_tracker.hpp"
 
 namespace astro::truth {
 namespace {

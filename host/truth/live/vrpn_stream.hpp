@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "host/truth/live/sighting.hpp"
-#include "host/truth/vrpn/directory.hpp"
-#include "host/truth/vrpn/reader.hpp"
+#include "host/truth/trackers/vrpn_directory.hpp"
+#include "host/truth/trackers/vrpn_reader.hpp"
 
 namespace astro::truth {
 

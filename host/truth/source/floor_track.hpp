@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "host/recording/run/run.hpp"
+#include "host/recording/run.hpp"
 #include "host/truth/source/pose3.hpp"
 
 namespace astro::truth {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "host/base/text/degrees.hpp"
-#include "host/recording/run/planar_pose.hpp"
+#include "host/recording/planar_pose.hpp"
 
 namespace astro::truth {
 namespace {

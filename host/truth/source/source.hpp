@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/recording/run/run.hpp"
+#include "host/recording/run.hpp"
 
 /// Where ground truth comes from while a robot drives.
 namespace astro::truth {

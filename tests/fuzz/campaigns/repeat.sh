@@ -8,7 +8,7 @@ set -euo pipefail
 seconds=$1
 repeats=${ASTROLABE_REPEATS:-0}
 program_repeats=${ASTROLABE_PROGRAM_REPEATS:-0}
-programs=${ASTROLABE_TESTS:-'^(host\.(campaign|programs|robot|ros2|simulation|truth)|target\.program)'}
+programs=${ASTROLABE_TESTS:-'^(host\.(campaign|live|programs|robot|simulation|truth)|target\.program)'}
 cmake --preset host -DASTROLABE_TESTS=ON >/dev/null
 cmake --build build/host
 folder=build/repeat

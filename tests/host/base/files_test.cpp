@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "host/base/folder_lock.hpp"
-#include "host/recording/files/run_folder.hpp"
+#include "host/recording/run_folder.hpp"
 #include "tests/host/recording/support.hpp"
 #include "tests/support/base/bounded.hpp"
 #include "tests/support/base/remarks.hpp"

@@ -7,7 +7,7 @@
 
 #include "host/base/files.hpp"
 #include "host/experiment/analysis/calibration_file.hpp"
-#include "host/recording/files/run_file.hpp"
+#include "host/recording/run_file.hpp"
 #include "tests/support/base/json.hpp"
 
 namespace astro::campaign {

@@ -11,8 +11,8 @@
 
 #include "host/base/bytes.hpp"
 #include "host/base/text/sense.hpp"
-#include "host/recording/run/planar_pose.hpp"
-#include "host/recording/run/run.hpp"
+#include "host/recording/planar_pose.hpp"
+#include "host/recording/run.hpp"
 
 /// What several tests of recordings need.
 namespace astro::recording::support {

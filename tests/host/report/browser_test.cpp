@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "host/report/page/assets.hpp"
+#include "host/report/assets.hpp"
 #include "tests/host/report/example_input.hpp"
 
 namespace astro::report {

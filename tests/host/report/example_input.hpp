@@ -1,7 +1,7 @@
 #pragma once
 
 #include "host/base/text/sense.hpp"
-#include "host/report/sections/report.hpp"
+#include "host/report/report.hpp"
 
 /// Inputs for the report: the end errors that the thesis measured (tables 11 to 14) with drives that make
 /// errors of the same kind.

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/truth/manual/manual_source.hpp"
+#include "host/truth/source/manual_source.hpp"
 
 namespace astro::support {
 

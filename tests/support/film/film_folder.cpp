@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "host/recording/files/run_file.hpp"
+#include "host/recording/run_file.hpp"
 
 namespace astro::support::film {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "hal/sim/config.hpp"
-#include "host/recording/run/run.hpp"
+#include "host/recording/run.hpp"
 #include "host/robot/motion/paths.hpp"
 #include "tests/support/film/picture/pose_track.hpp"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "host/experiment/wall/wall_experiment.hpp"
+#include "host/wall/wall_experiment.hpp"
 #include "tests/support/robots/desk.hpp"
 
 /// A simulated robot in front of a wall, and a person with a ruler.
@@ -41,8 +41,8 @@ class WallDesk {
     const double read_mm = 1000 * board().wall()->front_gap_m(board().truth()) + 0.5 * normal_(person_);
     return std::round(read_mm) / 1000;
   }
-  experiment::WallHooks hooks() {
-    experiment::WallHooks hooks;
+  wall::WallHooks hooks() {
+    wall::WallHooks hooks;
     hooks.placed = [this] { put(); };
     hooks.read_gap = [this](double) { return std::optional(read_gap_m()); };
     return hooks;
@@ -50,11 +50,11 @@ class WallDesk {
   sim::Board& board() { return desk.robot->board(); }
 
   // Errors of an estimate: relative.
-  double E_d_error(const calibration::WallEstimate& found) const { return found.E_d / config.true_ed - 1; }
-  double b_error(const calibration::WallEstimate& found) const {
+  double E_d_error(const wall::WallEstimate& found) const { return found.E_d / config.true_ed - 1; }
+  double b_error(const wall::WallEstimate& found) const {
     return found.b_per_scale_m / (config.true_wheelbase_m / config.scale) - 1;
   }
-  double scale_error(const calibration::WallEstimate& found) const {
+  double scale_error(const wall::WallEstimate& found) const {
     return (found.factors.c_r + found.factors.c_l) / 2 / config.scale - 1;
   }
 

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "host/ros2/cdr/message.hpp"
+#include "host/formats/cdr/message.hpp"
 
 namespace astro::support {
 

@@ -11,42 +11,42 @@
 #include <vector>
 
 #include "host/base/error.hpp"
-#include "host/ros2/cdr/codec.hpp"
-#include "host/ros2/middleware/middleware.hpp"
+#include "host/formats/cdr/codec.hpp"
+#include "host/live/driver/middleware.hpp"
 
 namespace astro::test {
 
 /// A middleware without a wire: a test reads what was published, and says and asks what others would.
-class FakeMiddleware : public ros2::Middleware {
+class FakeMiddleware : public live::Middleware {
  public:
   struct Topic {
-    ros2::TopicDescription description;
+    live::TopicDescription description;
     std::vector<std::pair<std::int64_t, Bytes>> messages;  // time_ns and bytes, since they were last taken
   };
 
   std::map<std::string, Topic> published;
-  std::vector<ros2::TopicDescription> subscribed;
-  std::map<std::string, ros2::ServiceDescription> services;
-  ros2::ParameterTable* parameters = nullptr;
+  std::vector<live::TopicDescription> subscribed;
+  std::map<std::string, live::ServiceDescription> services;
+  live::ParameterTable* parameters = nullptr;
   bool anybody_listens = true;
   bool types_share_names = false;
   std::function<void(microseconds)> on_wait = [](microseconds) {};
   std::function<void()> on_urgent = [] {};
 
-  std::unique_ptr<ros2::Publisher> advertise(const ros2::TopicDescription& topic) override {
+  std::unique_ptr<live::Publisher> advertise(const live::TopicDescription& topic) override {
     published[topic.name].description = topic;
     return std::make_unique<FakePublisher>(*this, topic.name);
   }
-  void subscribe(const ros2::TopicDescription& topic, OnMessage on_message) override {
+  void subscribe(const live::TopicDescription& topic, OnMessage on_message) override {
     subscribed.push_back(topic);
     subscriptions_.push_back({topic.name, std::string(topic.type.name), std::move(on_message)});
   }
   bool types_may_share_a_name() const override { return types_share_names; }
-  void serve(const ros2::ServiceDescription& service, OnRequest on_request) override {
+  void serve(const live::ServiceDescription& service, OnRequest on_request) override {
     services[service.name] = service;
     requests_[service.name] = std::move(on_request);
   }
-  void serve_parameters(ros2::ParameterTable& table) override { parameters = &table; }
+  void serve_parameters(live::ParameterTable& table) override { parameters = &table; }
   void poll() override {
     for (; !waiting_.empty(); waiting_.pop_front()) waiting_.front()();
     if (std::exchange(fails_, false)) throw Error("the middleware has failed");
@@ -100,7 +100,7 @@ class FakeMiddleware : public ros2::Middleware {
     std::string topic, type;
     OnMessage on_message;
   };
-  class FakePublisher : public ros2::Publisher {
+  class FakePublisher : public live::Publisher {
    public:
     FakePublisher(FakeMiddleware& of, std::string topic) : of_(of), topic_(std::move(topic)) {}
     void publish(ByteView message, std::int64_t time_ns) override {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "host/ros2/cdr/codec.hpp"
-#include "host/ros2/messages/geometry.hpp"
-#include "host/ros2/messages/std.hpp"
-#include "host/ros2/node/node.hpp"
+#include "host/formats/cdr/codec.hpp"
+#include "host/formats/messages/geometry.hpp"
+#include "host/formats/messages/std.hpp"
+#include "host/live/ros2/node.hpp"
 
 namespace astro::support {
 
@@ -21,9 +21,10 @@ class RobotNode {
   static constexpr std::array kTopics{"/odom", "/a", "/b", "/c", "/d", "/e"};  // all are odometry
   static constexpr std::array kServices{"/stop", "/s", "/t", "/u", "/v", "/w", "/x", "/y"};
 
-  explicit RobotNode(const ros2::dds::Discovery& discovery)
-      : node_(ros2::open_node({{"robot"}, ros2::GidSize::iron_and_later}, discovery)) {
+  explicit RobotNode(const dds::Discovery& discovery)
+      : node_(live::open_node({{"robot"}, live::GidSize::iron_and_later}, discovery)) {
     using namespace ros2;
+    using live::message_type;
     for (const char* topic : kTopics)
       publishers_.push_back(node_->advertise({topic, message_type<msg::Odometry>()}));
     node_->subscribe({"/cmd_vel", message_type<msg::Twist>(), false}, [](ByteView) {});
@@ -50,8 +51,8 @@ class RobotNode {
   std::map<std::string, int> calls;
 
  private:
-  std::unique_ptr<ros2::Middleware> node_;
-  std::vector<std::unique_ptr<ros2::Publisher>> publishers_;
+  std::unique_ptr<live::Middleware> node_;
+  std::vector<std::unique_ptr<live::Publisher>> publishers_;
   std::chrono::steady_clock::time_point next_{};
 };
 

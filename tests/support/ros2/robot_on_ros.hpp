@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "host/ros2/driver/driver.hpp"
+#include "host/live/driver/driver.hpp"
 #include "host/simulation/robot/in_process.hpp"
 #include "tests/support/robots/drive_of.hpp"
 #include "tests/support/ros2/fake_middleware.hpp"
@@ -78,19 +78,19 @@ class RobotOnRos {
  public:
   static constexpr std::int64_t kStart_ns = 1'790'000'000'000'000'000;  // of the time since 1970
 
-  explicit RobotOnRos(const sim::Config& config = quiet(), ros2::DriverOptions options = of_both_types())
+  explicit RobotOnRos(const sim::Config& config = quiet(), live::DriverOptions options = of_both_types())
       : robot(std::make_shared<simulation::VirtualRobot>(config, simulation::MocapConfig{})), cable(robot) {
     options.clock = {[this] { return now(); },
                      [this] { return kStart_ns + now().count() * 1000 + utc_steps_ns; }};
     ros.on_wait = [this](microseconds most) { silence_ms(static_cast<int>(most.count() / 1000)); };
     driver.emplace(
-        std::vector<ros2::Middleware*>{&ros}, [this] { return cable.open(); }, std::move(options));
+        std::vector<live::Middleware*>{&ros}, [this] { return cable.open(); }, std::move(options));
   }
 
   /// So that tests may say either.
-  static ros2::DriverOptions of_both_types() {
-    ros2::DriverOptions options;
-    options.cmd_vel_type = ros2::CommandType::both;
+  static live::DriverOptions of_both_types() {
+    live::DriverOptions options;
+    options.cmd_vel_type = live::CommandType::both;
     return options;
   }
   static sim::Config quiet() {
@@ -176,7 +176,7 @@ class RobotOnRos {
   std::shared_ptr<simulation::VirtualRobot> robot;
   Cable cable;
   test::FakeMiddleware ros;
-  std::optional<ros2::Driver> driver;
+  std::optional<live::Driver> driver;
   std::int64_t utc_steps_ns = 0;  // the system's clock is corrected by this
 
  private:

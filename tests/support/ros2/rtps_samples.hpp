@@ -7,7 +7,7 @@
 #include "host/base/bytes.hpp"
 
 /// Datagrams that Debian's Fast DDS 2.9.1 and CycloneDDS 0.10.2 have sent to a node over loopback, in hexadecimal.
-namespace astro::ros2::support {
+namespace astro::support {
 
 /// Fast DDS announces a participant.
 inline constexpr std::string_view kFastParticipant =
@@ -166,4 +166,4 @@ inline Bytes words(std::initializer_list<std::uint32_t> values) {
   return bytes;
 }
 
-}  // namespace astro::ros2::support
+}  // namespace astro::support

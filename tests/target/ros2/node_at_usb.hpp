@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "host/emulator/robot/emulated_robot.hpp"
-#include "host/ros2/driver/driver.hpp"
-#include "host/ros2/messages/geometry.hpp"
-#include "host/ros2/messages/nodes.hpp"
-#include "host/ros2/messages/std.hpp"
+#include "host/formats/messages/geometry.hpp"
+#include "host/formats/messages/nodes.hpp"
+#include "host/formats/messages/std.hpp"
+#include "host/live/driver/driver.hpp"
 #include "tests/support/ros2/fake_middleware.hpp"
 #include "tests/target/firmware_file.hpp"
 
@@ -24,13 +24,13 @@ using std::chrono::milliseconds;
 class NodeAtUsb : public testing::Test {
  protected:
   NodeAtUsb() {
-    DriverOptions options;
-    options.cmd_vel_type = CommandType::twist;
+    live::DriverOptions options;
+    options.cmd_vel_type = live::CommandType::twist;
     options.clock = {[this] { return now(); },
                      [this] { return 1'790'000'000'000'000'000 + now().count() * 1000; }};
     ros_.on_wait = [this](microseconds most) { silence_ms(static_cast<int>(most.count() / 1000)); };
     driver_.emplace(
-        std::vector<Middleware*>{&ros_}, [this] { return open(); }, std::move(options));
+        std::vector<live::Middleware*>{&ros_}, [this] { return open(); }, std::move(options));
   }
 
   microseconds now() const { return microseconds(static_cast<std::int64_t>(robot_->teensy().now_us())); }
@@ -98,7 +98,7 @@ class NodeAtUsb : public testing::Test {
   std::shared_ptr<emulator::EmulatedRobot> robot_ =
       std::make_shared<emulator::EmulatedRobot>(target::kImage, quiet(), simulation::MocapConfig{});
   test::FakeMiddleware ros_;
-  std::optional<Driver> driver_;
+  std::optional<live::Driver> driver_;
 };
 
 }  // namespace astro::ros2

@@ -4,18 +4,18 @@
 
 #include <functional>
 
-#include "host/calibration/wall/wall_plan.hpp"
+#include "host/wall/wall_plan.hpp"
 #include "tests/support/base/columns.hpp"
 #include "tests/support/base/person.hpp"
 
 namespace astro::commands {
 namespace {
 
-using calibration::WallMove;
 using support::Person;
 using testing::HasSubstr;
+using wall::WallMove;
 
-calibration::WallCourse course() { return calibration::plan_course({}, {1, 1, 0.29}); }
+wall::WallCourse course() { return wall::plan_course({}, {1, 1, 0.29}); }
 
 TEST(WallDialogue, SaysHowHardAndHowLongAndHowMuchFloorInEightyColumns) {
   const std::string text = wall_briefing({}, course(), 2, 0);
@@ -30,7 +30,7 @@ TEST(WallDialogue, SaysWhatIsLeftOfAnEarlierStart) {
 }
 
 TEST(WallDialogue, SaysThatTheScaleStaysWithoutARuler) {
-  experiment::WallPlan plan;
+  wall::WallPlan plan;
   plan.readings = 0;
   EXPECT_THAT(wall_briefing(plan, course(), 0, 0), HasSubstr("Without a ruler"));
 }
@@ -58,7 +58,7 @@ TEST(WallDialogue, AsksForNoGapThatWasRead) {
 
 TEST(WallDialogue, TakesAnotherGapOrAYesAfterADoubt) {
   Person person({"perhaps", "", "1998", "y", "yes", "none"});
-  const calibration::GapDoubt doubt{calibration::GapDoubt::Mistake::unknown, 1.9, true, "1900 mm was read"};
+  const wall::GapDoubt doubt{wall::GapDoubt::Mistake::unknown, 1.9, true, "1900 mm was read"};
   EXPECT_NEAR(*ask_gap_again(std::ref(person), doubt, truth::LengthUnit::mm), 1.998, 1e-12);
   EXPECT_EQ(person.asked.size(), 3U);
   EXPECT_EQ(ask_gap_again(std::ref(person), doubt, truth::LengthUnit::mm), 1.9);
@@ -70,8 +70,7 @@ TEST(WallDialogue, TakesAnotherGapOrAYesAfterADoubt) {
 
 TEST(WallDialogue, TakesNoYesForAGapThatCannotBe) {
   Person person({"yes", "y", "1e308 m", "nan", "1998"});
-  const calibration::GapDoubt doubt{calibration::GapDoubt::Mistake::other_unit, 0.2, false,
-                                    "200 mm was read"};
+  const wall::GapDoubt doubt{wall::GapDoubt::Mistake::other_unit, 0.2, false, "200 mm was read"};
   EXPECT_NEAR(*ask_gap_again(std::ref(person), doubt, truth::LengthUnit::mm), 1.998, 1e-12);
   EXPECT_EQ(person.asked.size(), 5U);
   EXPECT_THAT(person.asked[0], HasSubstr("which no calibration mends"));

@@ -10,7 +10,7 @@
 #include "host/base/error.hpp"
 #include "host/experiment/analysis/recordings.hpp"
 #include "host/experiment/files/run_set.hpp"
-#include "host/recording/files/run_file.hpp"
+#include "host/recording/run_file.hpp"
 #include "tests/support/base/remarks.hpp"
 #include "tests/support/robots/desk.hpp"
 

@@ -13,7 +13,7 @@
 #include "host/experiment/drive/record_run.hpp"
 #include "host/experiment/files/experiment_folder.hpp"
 #include "host/experiment/files/method_names.hpp"
-#include "host/recording/files/run_file.hpp"
+#include "host/recording/run_file.hpp"
 #include "host/robot/motion/paths.hpp"
 #include "host/robot/parameters/upload.hpp"
 #include "tests/support/base/remarks.hpp"

@@ -12,7 +12,7 @@
 #include "host/experiment/drive/experiment.hpp"
 #include "host/experiment/files/experiment_folder.hpp"
 #include "host/experiment/files/method_names.hpp"
-#include "host/recording/files/run_file.hpp"
+#include "host/recording/run_file.hpp"
 #include "host/robot/parameters/upload.hpp"
 #include "tests/support/robots/desk.hpp"
 

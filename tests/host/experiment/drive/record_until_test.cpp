@@ -4,8 +4,8 @@
 
 #include "host/base/error.hpp"
 #include "host/experiment/drive/record_run.hpp"
-#include "host/recording/files/run_file.hpp"
-#include "host/recording/files/run_writer.hpp"
+#include "host/recording/run_file.hpp"
+#include "host/recording/run_writer.hpp"
 #include "tests/support/base/bounded.hpp"
 #include "tests/support/robots/desk.hpp"
 

@@ -6,9 +6,9 @@
 #include <map>
 
 #include "host/experiment/analysis/report_input.hpp"
-#include "host/recording/files/run_file.hpp"
+#include "host/recording/run_file.hpp"
 #include "host/robot/parameters/upload.hpp"
-#include "host/truth/manual/manual_source.hpp"
+#include "host/truth/source/manual_source.hpp"
 #include "tests/host/experiment/files/older_journal.hpp"
 #include "tests/support/base/remarks.hpp"
 #include "tests/support/robots/desk.hpp"

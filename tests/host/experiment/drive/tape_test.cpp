@@ -5,8 +5,8 @@
 #include <map>
 
 #include "host/base/text/degrees.hpp"
-#include "host/recording/run/planar_pose.hpp"
-#include "host/truth/manual/manual_source.hpp"
+#include "host/recording/planar_pose.hpp"
+#include "host/truth/source/manual_source.hpp"
 #include "tests/support/base/thorough.hpp"
 #include "tests/support/robots/desk.hpp"
 

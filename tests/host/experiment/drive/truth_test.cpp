@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "host/experiment/drive/record_run.hpp"
-#include "host/recording/run/end_error.hpp"
+#include "host/recording/end_error.hpp"
 #include "host/truth/files/file_source.hpp"
-#include "host/truth/manual/manual_source.hpp"
+#include "host/truth/source/manual_source.hpp"
 #include "tests/support/base/person.hpp"
 #include "tests/support/robots/desk.hpp"
 

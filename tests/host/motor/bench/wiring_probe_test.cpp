@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "host/motor/wiring/roll.hpp"
+#include "host/motor/model/roll.hpp"
 #include "host/robot/motion/paths.hpp"
 #include "tests/host/motor/bench/rig.hpp"
 

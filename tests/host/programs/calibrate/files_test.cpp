@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "tests/host/calibration/ml_drives.hpp"
-#include "tests/host/experiment/import/drive_files.hpp"
+#include "tests/host/import/drives/drive_files.hpp"
 #include "tests/support/base/json.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 #include "tests/support/programs/program.hpp"

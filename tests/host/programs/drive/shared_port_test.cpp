@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "host/recording/files/run_file.hpp"
+#include "host/recording/run_file.hpp"
 #include "tests/support/robots/watched_drive.hpp"
 
 // Several programs at one port, as people run them. Bounds on the robot's motion are on its own clock.

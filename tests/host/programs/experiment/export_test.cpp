@@ -3,7 +3,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "host/recording/files/run_file.hpp"
+#include "host/recording/run_file.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 #include "tests/support/programs/program.hpp"
 

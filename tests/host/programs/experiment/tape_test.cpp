@@ -6,7 +6,7 @@
 #include <map>
 
 #include "host/base/text/degrees.hpp"
-#include "host/recording/run/planar_pose.hpp"
+#include "host/recording/planar_pose.hpp"
 #include "host/truth/live/socket_source.hpp"
 #include "tests/support/base/columns.hpp"
 #include "tests/support/base/json.hpp"

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "host/recording/run/planar_pose.hpp"
+#include "host/recording/planar_pose.hpp"
 #include "host/truth/live/socket_source.hpp"
 #include "tests/support/base/columns.hpp"
 #include "tests/support/base/json.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/recording/run/planar_pose.hpp"
+#include "host/recording/planar_pose.hpp"
 #include "host/truth/live/socket_source.hpp"
 #include "tests/support/base/json.hpp"
 #include "tests/support/base/thorough.hpp"

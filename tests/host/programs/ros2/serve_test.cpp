@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "host/ros2/cdr/codec.hpp"
-#include "host/ros2/messages/geometry.hpp"
-#include "host/ros2/messages/std.hpp"
-#include "tests/host/ros2/foxglove/viewer.hpp"
+#include "host/formats/cdr/codec.hpp"
+#include "host/formats/messages/geometry.hpp"
+#include "host/formats/messages/std.hpp"
+#include "tests/host/live/foxglove/viewer.hpp"
 #include "tests/support/base/json.hpp"
 #include "tests/support/programs/program.hpp"
 

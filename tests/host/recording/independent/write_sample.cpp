@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "host/base/text/sense.hpp"
-#include "host/recording/files/csv_export.hpp"
-#include "host/recording/files/run_file.hpp"
+#include "host/recording/csv_export.hpp"
+#include "host/recording/run_file.hpp"
 
 /// Writes a run as <folder>/sample.mcap and as CSV for the independent check: ten seconds of a circle with
 /// the tracker lost for a while.

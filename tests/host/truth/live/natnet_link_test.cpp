@@ -8,7 +8,7 @@
 #include <array>
 #include <utility>
 
-#include "host/truth/natnet/frame.hpp"
+#include "host/truth/trackers/natnet_frame.hpp"
 
 // The client's side of NatNet: the sense of its datagrams, and its sockets over loopback in virtual time.
 namespace astro::truth {

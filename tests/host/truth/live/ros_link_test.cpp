@@ -8,11 +8,11 @@
 
 #include "host/base/error.hpp"
 #include "host/commands/base/remedies.hpp"
-#include "host/ros2/cdr/codec.hpp"
-#include "host/ros2/dds/fast_dds.hpp"
-#include "host/ros2/messages/geometry.hpp"
-#include "host/ros2/messages/nodes.hpp"
-#include "host/ros2/types/type_description.hpp"
+#include "host/formats/cdr/codec.hpp"
+#include "host/formats/cdr/type_description.hpp"
+#include "host/formats/messages/geometry.hpp"
+#include "host/formats/messages/nodes.hpp"
+#include "host/live/dds/fast_dds.hpp"
 #include "host/truth/live/listening_link.hpp"
 #include "host/truth/live/live_source.hpp"
 #include "tests/support/ros2/domain.hpp"
@@ -21,7 +21,7 @@
 namespace astro::truth {
 namespace {
 
-namespace dds = ros2::dds;
+namespace dds = dds;
 namespace msg = ros2::msg;
 using std::chrono::microseconds;
 using std::chrono::milliseconds;

@@ -77,7 +77,7 @@ TEST(TrackerUrl, ATopicOfRos2HasFramesAndADomainInPlaceOfAHost) {
   EXPECT_EQ(url.body, "my&robot/base");
   EXPECT_EQ(url.up, UpAxis::y);
   EXPECT_EQ(url.where.domain, 7);
-  EXPECT_EQ(url.where.range, ros2::dds::Range::subnet);
+  EXPECT_EQ(url.where.range, dds::Range::subnet);
   EXPECT_EQ(url.place(), "ROS 2");
   const TrackerUrl usual = tracker_url_in("ros2:/vrpn_mocap/robot_1/pose");
   EXPECT_EQ(usual.topic, "/vrpn_mocap/robot_1/pose");

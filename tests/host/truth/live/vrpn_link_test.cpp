@@ -6,7 +6,7 @@
 #include <charconv>
 
 #include "host/base/error.hpp"
-#include "host/truth/vrpn/tracker.hpp"
+#include "host/truth/trackers/vrpn_tracker.hpp"
 
 // The client's side of a connection, over loopback and in virtual time.
 namespace astro::truth {

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "host/truth/vrpn/tracker.hpp"
+#include "host/truth/trackers/vrpn_tracker.hpp"
 #include "tests/support/base/bounded.hpp"
 
 namespace astro::truth {

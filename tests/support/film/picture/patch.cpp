@@ -12,13 +12,13 @@ using Eigen::Vector3d;
 TagPaper::TagPaper(int id, double side_m, double margin_cells, bool mirrored)
     : id_(id),
       side_m_(side_m),
-      half_paper_m_(side_m / 2 + side_m / truth::tags::kCells * margin_cells),
+      half_paper_m_(side_m / 2 + side_m / ::astro::film::paper::kCells * margin_cells),
       per_side_(static_cast<float>(1 / side_m)) {
-  const truth::tags::TagPicture picture = truth::tags::tag_picture(id);
-  for (int row = 0; row < truth::tags::kCells; ++row)
-    for (int column = 0; column < truth::tags::kCells; ++column)
-      white_[static_cast<std::size_t>(row * truth::tags::kCells + column)] =
-          picture.white(row, mirrored ? truth::tags::kCells - 1 - column : column);
+  const ::astro::film::paper::TagPicture picture = ::astro::film::paper::tag_picture(id);
+  for (int row = 0; row < ::astro::film::paper::kCells; ++row)
+    for (int column = 0; column < ::astro::film::paper::kCells; ++column)
+      white_[static_cast<std::size_t>(row * ::astro::film::paper::kCells + column)] =
+          picture.white(row, mirrored ? ::astro::film::paper::kCells - 1 - column : column);
 }
 
 std::array<Vector3d, 4> Patch::corners_m() const {

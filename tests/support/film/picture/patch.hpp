@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "host/truth/tags/tag_picture.hpp"
+#include "host/film/paper/tag_picture.hpp"
 #include "tests/support/film/picture/camera.hpp"
 
 /// Flat rectangles of grey or with a tag: what films are made of.
@@ -20,18 +20,20 @@ class TagPaper {
   double side_m() const { return side_m_; }
   double half_paper_m() const { return half_paper_m_; }
   bool black(float x_m, float y_m) const {
-    const float column = (x_m * per_side_ + 0.5F) * static_cast<float>(truth::tags::kCells);
-    const float row = (0.5F - y_m * per_side_) * static_cast<float>(truth::tags::kCells);
-    constexpr float kEnd = truth::tags::kCells;
+    const float column = (x_m * per_side_ + 0.5F) * static_cast<float>(::astro::film::paper::kCells);
+    const float row = (0.5F - y_m * per_side_) * static_cast<float>(::astro::film::paper::kCells);
+    constexpr float kEnd = ::astro::film::paper::kCells;
     if (!(column >= 0 && column < kEnd && row >= 0 && row < kEnd)) return false;
-    return !white_[static_cast<std::size_t>(row) * truth::tags::kCells + static_cast<std::size_t>(column)];
+    return !white_[static_cast<std::size_t>(row) * ::astro::film::paper::kCells +
+                   static_cast<std::size_t>(column)];
   }
 
  private:
   int id_;
   double side_m_, half_paper_m_;
   float per_side_;
-  std::array<bool, static_cast<std::size_t>(truth::tags::kCells* truth::tags::kCells)> white_{};
+  std::array<bool, static_cast<std::size_t>(::astro::film::paper::kCells* ::astro::film::paper::kCells)>
+      white_{};
 };
 
 inline constexpr float kPaper = 0.80F, kInk = 0.035F;  // reflectance

@@ -11,13 +11,13 @@
 #include <list>
 #include <map>
 
-#include "host/ros2/cdr/codec.hpp"
-#include "host/ros2/messages/geometry.hpp"
-#include "host/ros2/messages/nodes.hpp"
-#include "host/ros2/messages/parameters.hpp"
-#include "host/ros2/messages/sensors.hpp"
-#include "host/ros2/messages/std.hpp"
-#include "host/ros2/types/type_description.hpp"
+#include "host/formats/cdr/codec.hpp"
+#include "host/formats/cdr/type_description.hpp"
+#include "host/formats/messages/geometry.hpp"
+#include "host/formats/messages/nodes.hpp"
+#include "host/formats/messages/parameters.hpp"
+#include "host/formats/messages/sensors.hpp"
+#include "host/formats/messages/std.hpp"
 #include "tests/support/ros2/peers/peer.hpp"
 #include "tests/support/ros2/peers/peer_text.hpp"
 #include "tests/support/ros2/peers/stock_participant.hpp"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "host/ros2/cdr/message.hpp"
+#include "host/formats/cdr/message.hpp"
 
 /// Messages as text, in the same words whether they are structs of this project or of idlc, whose fields have the same names.
 namespace astro::support {

@@ -12,13 +12,13 @@
 #include <map>
 #include <stdexcept>
 
-#include "host/ros2/dds/fast_endpoints.hpp"
-#include "host/ros2/dds/fast_others.hpp"
+#include "host/live/dds/fast_endpoints.hpp"
+#include "host/live/dds/fast_others.hpp"
 
 namespace astro::support {
 namespace {
 
-using namespace ros2::dds;
+using namespace dds;
 namespace transport = eprosima::fastdds::rtps;
 
 fast::DomainParticipantQos settings(bool subnet) {

@@ -1,0 +1,123 @@
+#include "host/film/picture/film_info.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <utility>
+
+#include "host/base/error.hpp"
+#include "host/base/files.hpp"
+#include "host/base/text/numbers.hpp"
+#include "host/film/picture/child_process.hpp"
+
+namespace astro::film {
+namespace {
+
+constexpr std::size_t kMostSaid = 65'536;
+
+/// "30000/1001" or "30"; 0 if it is neither.
+double ratio_in(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  const double above = number_in(text.substr(0, slash)).value_or(0);
+  const double below = slash == std::string::npos ? 1 : number_in(text.substr(slash + 1)).value_or(0);
+  return below > 0 ? above / below : 0;
+}
+
+using Fields = std::map<std::string, std::string>;
+
+Fields fields_in(const std::string& text) {
+  Fields fields;
+  std::istringstream lines(text);
+  std::string section;
+  for (std::string line; std::getline(lines, line);) {
+    if (line == "[FORMAT]") section = "format.";
+    // A container that states the length of the film only as a whole says N/A for the stream.
+    if (const std::size_t sign = line.find('='); sign != std::string::npos && line.substr(sign + 1) != "N/A")
+      fields.emplace(section + line.substr(0, sign), line.substr(sign + 1));
+  }
+  return fields;
+}
+
+double number_of(const Fields& fields, const std::string& name) {
+  const auto found = fields.find(name);
+  const double value = found == fields.end() ? 0 : ratio_in(found->second);
+  return std::isfinite(value) && value > -1e9 && value < 1e9 ? value : 0;
+}
+
+/// From the first picture to the end. That of a container that has no more than its whole begins at 0.
+double duration_of(const Fields& fields) {
+  if (const double own_s = number_of(fields, "duration"); own_s > 0) return own_s;
+  return std::max(
+      0.0, number_of(fields, "format.duration") - std::max(0.0, number_of(fields, "format.start_time")));
+}
+
+/// The first box of MP4 and MOV says which of them it is; ffprobe believes the name of the file.
+bool begins_as_film(const std::filesystem::path& film) {
+  std::array<char, 8> head{};
+  std::ifstream(film, std::ios::binary).read(head.data(), head.size());
+  return std::string_view(head.data() + 4, 4) == "ftyp";
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& film, const std::string& why) {
+  if (why.find("moov atom not found") != std::string::npos && begins_as_film(film))
+    throw Error("'" + film.string() +
+                    "' is a truncated film: its table of pictures, which a camera writes last, is missing",
+                {Help::take_original_film});
+  throw Error("'" + film.string() + "' is not a film that ffprobe can read", {Help::name_film});
+}
+
+}  // namespace
+
+std::vector<std::string> as_input(const std::filesystem::path& film) {
+  constexpr const char* kContainers = "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,mpegts";
+  return {"-protocol_whitelist", "file", "-format_whitelist", kContainers, "-i", "file:" + film.string()};
+}
+
+FilmInfo read_film_info(const std::filesystem::path& film) {
+  require_file(film);
+  std::string said;
+  std::vector<std::string> words{
+      "ffprobe",
+      "-loglevel",
+      "error",
+      "-select_streams",
+      "v:0",
+      "-show_entries",
+      "stream=codec_name,width,height,avg_frame_rate,nb_frames,duration:stream_side_data="
+      "rotation:format=duration,start_time",
+      "-of",
+      "default"};
+  for (std::string& word : as_input(film)) words.push_back(std::move(word));
+  ChildProcess probe(std::move(words), [&](std::string_view line) {
+    if (said.size() < kMostSaid) said.append(line.substr(0, 400)).append("\n");
+  });
+  std::array<std::uint8_t, 8192> buffer;
+  const std::size_t count = probe.read(buffer);
+  const bool good = probe.finish();
+  const Fields fields = fields_in(std::string(buffer.begin(), buffer.begin() + static_cast<long>(count)));
+  FilmInfo info;
+  info.width = static_cast<int>(number_of(fields, "width"));
+  info.height = static_cast<int>(number_of(fields, "height"));
+  if (!good || info.width <= 0 || info.height <= 0) refuse(film, said);
+  info.rotation_deg = static_cast<int>(std::lround(number_of(fields, "rotation")));
+  if (fields.contains("codec_name")) info.codec = fields.at("codec_name");
+  info.frames_per_s = number_of(fields, "avg_frame_rate");
+  info.duration_s = duration_of(fields);
+  info.frames = static_cast<std::size_t>(std::max(0.0, number_of(fields, "nb_frames")));
+  // No phone has more than 8K, 7680 x 4320. To look for tags takes ten bytes for each pixel.
+  constexpr int kLeast = 64, kMost = 8192;
+  if (info.width < kLeast || info.height < kLeast || info.width > kMost || info.height > kMost)
+    throw Error(
+        fmt::format("'{}' has pictures of {} x {} pixels, and those with {} to {} pixels on each side can "
+                    "be followed",
+                    film.string(), info.width, info.height, kLeast, kMost),
+        {Help::name_film});
+  return info;
+}
+
+}  // namespace astro::film

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "host/film/picture/tag_corners.hpp"
+
+namespace astro::film {
+
+/// Where the floor tags are seen at a moment; nothing for one that is hidden.
+struct FloorLook {
+  double pts_s = 0;
+  std::vector<std::optional<TagCorners>> tags;  // in the order of the scene's tags
+};
+
+/// How the picture has moved since the mean of the film: pixels of something that stands, by how much they are off.
+struct PictureMotion {
+  double pts_s = 0;
+  Eigen::Vector2d shift_px{0, 0};   // at `about`
+  double turn_rad = 0, growth = 0;  // about that point
+  Eigen::Vector2d about_px{0, 0};
+
+  Eigen::Vector2d at(const Eigen::Vector2d& pixel) const;
+};
+
+/// The floor tags over a whole film: where they are on average, and how the picture moved against that.
+struct CameraMotion {
+  std::vector<TagCorners> means;      // of each tag
+  std::vector<std::size_t> seen;      // in how many looks
+  std::vector<PictureMotion> course;  // smoothed; empty if there are too few looks
+  double most_px = 0;                 // of the smoothed shift, against the beginning
+  double most_at_s = 0;               // when it was half that far for the first time
+  double shake_px = 0;                // rms of what smoothing takes away
+
+  /// The corners as a camera that stands would have seen them.
+  TagCorners steadied(double pts_s, const TagCorners& corners) const;
+};
+
+/// A slow sag is followed and taken out of the corners; whether it may be is for the caller to judge.
+///
+/// `start`  where the tags are about, for those that were never looked at
+CameraMotion camera_motion(const std::vector<FloorLook>& looks, const std::vector<TagCorners>& start);
+
+}  // namespace astro::film

@@ -1,0 +1,266 @@
+#include "host/film/track/figure_doubts.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "host/base/error.hpp"
+#include "host/base/interrupted.hpp"
+#include "host/film/track/scene_search.hpp"
+
+namespace astro::film {
+namespace {
+
+constexpr double kDoubtful = 3.5;  // standard errors; one in two thousand figures that are right
+constexpr double kUneasy = 2;      // one in twenty
+
+using FigureMember = std::optional<double> FilmFigures::*;
+
+/// Nothing for a tape, of which there may be several.
+FigureMember member_of(FigureKind kind) {
+  switch (kind) {
+    case FigureKind::floor_side:
+      return &FilmFigures::floor_side_m;
+    case FigureKind::robot_side:
+      return &FilmFigures::robot_side_m;
+    case FigureKind::robot_height:
+      return &FilmFigures::robot_height_m;
+    default:
+      return nullptr;
+  }
+}
+
+bool is_given(const FilmFigures& given, FigureKind kind) {
+  const FigureMember member = member_of(kind);
+  return member == nullptr || (given.*member).has_value();
+}
+
+FilmFigures without(FilmFigures given, const FigureCheck& figure) {
+  if (const FigureMember member = member_of(figure.kind); member != nullptr)
+    (given.*member).reset();
+  else
+    given.tapes.erase(given.tapes.begin() + static_cast<std::ptrdiff_t>(figure.tape));
+  return given;
+}
+
+/// What this figure is without it, from the scene that was found so.
+double value_in(const Scene& scene, const FilmFigures& given, const FigureCheck& figure) {
+  switch (figure.kind) {
+    case FigureKind::floor_side:
+      return scene.floor_side_m;
+    case FigureKind::robot_side:
+      return scene.robot_side_m;
+    case FigureKind::robot_height:
+      return scene.robot_height_m;
+    default: {
+      const FilmFigures::Length& tape = given.tapes[figure.tape];
+      return distance_between(scene, tape.from, tape.to).value_or(0);
+    }
+  }
+}
+
+std::string name_of(const FilmFigures& given, const FigureCheck& figure) {
+  switch (figure.kind) {
+    case FigureKind::floor_side:
+      return "the side of the floor tags";
+    case FigureKind::robot_side:
+      return "the side of the robot's tag";
+    case FigureKind::robot_height:
+      return "the height of the robot's tag";
+    default:
+      return fmt::format("the distance from floor tag {} to {}", given.tapes[figure.tape].from,
+                         given.tapes[figure.tape].to);
+  }
+}
+
+std::string length(double length_m) {
+  return length_m < 1 ? fmt::format("{:.1f} mm", 1e3 * length_m) : fmt::format("{:.3f} m", length_m);
+}
+
+double worst(const std::vector<FigureCheck>& checks) {
+  double most = 0;
+  for (const FigureCheck& one : checks) most = std::max(most, one.off());
+  return most;
+}
+
+/// With a height or a side that is far off, the robot's tag fits no picture, and then says nothing against it.
+bool shows_robot(const SceneFit& fit) {
+  constexpr double kFits_px = 1;
+  return !fit.robot.empty() && fit.robot_rms_px < kFits_px;
+}
+
+/// Refits with other figures; nothing unless those agree, and the robot's tag is above the floor.
+std::optional<SceneFit> agreeing_fit(const FilmFigures& others, const Refit& refit) {
+  try {
+    SceneFit fit = refit(others);
+    if (fit.converged && shows_robot(fit) && fit.scene.robot_height_m >= 0 &&
+        worst(given_figures(others, fit)) < kDoubtful)
+      return fit;
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const Error&) {  // no camera fits: these figures explain nothing
+  }
+  return std::nullopt;
+}
+
+/// A figure with what it would be instead.
+struct Correction {
+  FigureCheck figure;
+  double value_m;
+};
+
+bool is_gross(const FilmFigures& given, const Correction& one) {
+  constexpr double kPart = 0.05, kHeight_m = 0.03;
+  const double off_m = std::abs(one.figure.measured.value - one.value_m);
+  const bool far =
+      off_m > (one.figure.kind == FigureKind::robot_height ? kHeight_m : kPart * std::abs(one.value_m));
+  return far && without(given, one.figure).scale_measured();
+}
+
+std::string clause(const FilmFigures& given, const Correction& one) {
+  return fmt::format("{} is {} and not {}", name_of(given, one.figure), length(one.value_m),
+                     length(one.figure.measured.value));
+}
+
+/// What nobody gave is not as usual: goes on without what is usual. unusual_sides() speaks of the sides.
+std::optional<FigureDoubt> unusual(const FilmFigures& given, const Refit& refit) {
+  if (given.floor_side_m && given.robot_side_m && given.robot_height_m) return std::nullopt;
+  FilmFigures open = given;
+  open.as_usual = false;
+  const auto fit = agreeing_fit(open, refit);
+  if (!fit) return std::nullopt;
+  FigureDoubt doubt{{}, false, open, fit};
+  constexpr double kNotable = 1.5;  // standard errors of what is usual
+  const Measured usual = figures_with_errors(given).robot_height_m;
+  if (!given.robot_height_m && std::abs(fit->scene.robot_height_m - usual.value) > kNotable * usual.sigma)
+    doubt.remark = {
+        fmt::format("by the film and what was measured, the height of the robot's tag is {} and not {}, as "
+                    "is usual",
+                    length(fit->scene.robot_height_m), length(usual.value)),
+        {Help::give_tag_height}};
+  return doubt;
+}
+
+std::optional<std::string> exchange(const FilmFigures& given, const Refit& refit) {
+  const auto try_pair = [&](FigureMember a, FigureMember b, const char* names) -> std::optional<std::string> {
+    if (!(given.*a) || !(given.*b)) return std::nullopt;
+    FilmFigures other = given;
+    std::swap(other.*a, other.*b);
+    if (!agreeing_fit(other, refit)) return std::nullopt;
+    return fmt::format("{}, {} and {}, are exchanged", names, length(*(given.*a)), length(*(given.*b)));
+  };
+  if (auto sides = try_pair(&FilmFigures::robot_side_m, &FilmFigures::floor_side_m,
+                            "the sides of the robot's tag and of the floor tags"))
+    return sides;
+  return try_pair(&FilmFigures::robot_side_m, &FilmFigures::robot_height_m,
+                  "side and height of the robot's tag");
+}
+
+struct Explanation {
+  std::string clause;
+  bool gross;
+};
+
+/// Both sides are wrong by one factor, as a printer scales.
+std::optional<Explanation> printed_smaller(const FilmFigures& given, const Refit& refit) {
+  constexpr double kSame = 0.015;
+  if (!given.floor_side_m || !given.robot_side_m || given.tapes.empty()) return std::nullopt;
+  FilmFigures others = given;
+  others.floor_side_m.reset();
+  others.robot_side_m.reset();
+  const auto fit = agreeing_fit(others, refit);
+  if (!fit) return std::nullopt;
+  const double floor = fit->scene.floor_side_m / *given.floor_side_m,
+               robot = fit->scene.robot_side_m / *given.robot_side_m;
+  constexpr double kLeast = 0.85, kMost = 1.01;  // printers shrink to fit a page
+  const double mean = (floor + robot) / 2;
+  if (std::abs(floor - robot) > kSame || mean < kLeast || mean > kMost) return std::nullopt;
+  return Explanation{fmt::format("all tags are printed at {:.1f} % of the sides that were given", 100 * mean),
+                     false};
+}
+
+std::vector<Explanation> explanations(const FilmFigures& given, const std::vector<FigureCheck>& checks,
+                                      const Refit& refit) {
+  std::vector<Explanation> all;
+  for (const FigureCheck& figure : checks)
+    if (const auto fit = agreeing_fit(without(given, figure), refit)) {
+      const Correction one{figure, value_in(fit->scene, given, figure)};
+      all.push_back({clause(given, one), is_gross(given, one)});
+    }
+  if (const auto smaller = printed_smaller(given, refit)) all.push_back(*smaller);
+  return all;
+}
+
+/// No single figure explains it.
+FigureDoubt several(const FilmFigures& given, const std::vector<FigureCheck>& checks) {
+  std::vector<std::string> clauses;
+  bool gross = true;
+  for (const FigureCheck& figure : checks) {
+    if (figure.off() < kDoubtful) continue;
+    const Correction one{figure, figure.by_others.value};
+    clauses.push_back(clause(given, one));
+    gross = gross && is_gross(given, one);
+  }
+  return {{fmt::format("at least two of what was measured are wrong; each by all else, {}",
+                       fmt::join(clauses, ", ")),
+           {Help::measure_figure_again}},
+          gross,
+          given};
+}
+
+}  // namespace
+
+std::vector<FigureCheck> given_figures(const FilmFigures& given, const SceneFit& fit) {
+  std::vector<FigureCheck> checks = check_figures(fit.scene, figures_with_errors(given), fit.covariance);
+  std::erase_if(checks, [&](const FigureCheck& one) { return !is_given(given, one.kind); });
+  return checks;
+}
+
+double growth_of_error(const std::vector<FigureCheck>& checks) {
+  const double off = worst(checks);
+  return off > kUneasy ? off : 1;
+}
+
+std::vector<UnusualSide> unusual_sides(const FilmFigures& given, const Scene& scene) {
+  constexpr double kUnusual = 0.03;  // a printer that fits a sheet to the page, or a figure that is wrong
+  const Figures usual = figures_with_errors(FilmFigures{});
+  std::vector<UnusualSide> all;
+  const auto look = [&](FigureKind kind, double usual_m, double found_m) {
+    const UnusualSide side{kind, usual_m, found_m};
+    if (!is_given(given, kind) && side.part() > kUnusual) all.push_back(side);
+  };
+  look(FigureKind::floor_side, usual.floor_side_m.value, scene.floor_side_m);
+  look(FigureKind::robot_side, usual.robot_side_m.value, scene.robot_side_m);
+  return all;
+}
+
+std::optional<FigureDoubt> doubt_about_figures(const FilmFigures& given, const SceneFit& fit,
+                                               const Refit& refit) {
+  const std::vector<FigureCheck> checks = given_figures(given, fit);
+  const double off = worst(checks);
+  const bool robot_fits = shows_robot(fit);
+  if (checks.empty() || (off < kDoubtful && robot_fits)) return std::nullopt;
+  if (auto other = unusual(given, refit)) return other;
+  const std::vector<Explanation> all = explanations(given, checks, refit);
+  if (all.size() != 1)
+    if (const auto exchanged = exchange(given, refit)) return FigureDoubt{{*exchanged}, true, given};
+  if (all.empty() && (!robot_fits || off < kDoubtful)) return std::nullopt;  // no figure is to blame
+  if (all.empty()) return several(given, checks);
+  std::vector<std::string> clauses;
+  bool gross = true;
+  for (const Explanation& one : all) {
+    clauses.push_back(one.clause);
+    gross = gross && one.gross;
+  }
+  const std::string fact = all.size() == 1 ? "by the film and all else that was measured, " + clauses.front()
+                                           : fmt::format("what was measured contradicts itself: either {}",
+                                                         fmt::join(clauses, ", or "));
+  // Without the robot's tag nothing can be computed.
+  return FigureDoubt{{fact, {Help::measure_figure_again}}, gross || !robot_fits, given};
+}
+
+}  // namespace astro::film

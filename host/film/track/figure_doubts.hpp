@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "host/base/remedy.hpp"
+#include "host/film/camera/figure_check.hpp"
+#include "host/film/camera/scene_fit.hpp"
+#include "host/film/track/film_figures.hpp"
+
+/// A figure that somebody mistyped, measured at the wrong place or gave for another one bends camera and scale, and shows only in that
+/// the others contradict it.
+namespace astro::film {
+
+/// The figures that a person gave, each against all else.
+std::vector<FigureCheck> given_figures(const FilmFigures& given, const SceneFit& fit);
+
+/// By how much the error of the scale grows because what was measured agrees badly: 1 up to two standard errors, then as many as they are.
+double growth_of_error(const std::vector<FigureCheck>& checks);
+
+/// A side that nobody gave, and that by what was given is not as it is printed: the sheets are of another size, or what was given is wrong, which
+/// nothing tells apart.
+struct UnusualSide {
+  FigureKind kind = FigureKind::floor_side;
+  double usual_m = 0, found_m = 0;
+
+  double part() const { return std::abs(found_m / usual_m - 1); }
+};
+/// Those that are more than 3 % off.
+std::vector<UnusualSide> unusual_sides(const FilmFigures& given, const Scene& scene);
+
+struct FigureDoubt {
+  /// Which figure it is as far as the film shows it, and what it would be by all else; "" if unusual_sides() says it.
+  Remark remark;
+  bool gross = false;   // no measurement is so bad: a mistake, with which nothing should be computed
+  FilmFigures figures;  // with which to go on: those that were given, perhaps without what is usual
+  std::optional<SceneFit> fit = {};  // of these, if they are not those that were given
+};
+
+using Refit = std::function<SceneFit(const FilmFigures&)>;
+
+/// Nothing if nothing was measured, or all of it agrees within 3.5 standard errors and the robot's tag fits. Otherwise the scene is found again under
+/// each explanation, and the first kind that brings the figures together is said:
+///   what nobody gave is not as usual: sheets printed in another size, a robot that is not 0.12 m high; never gross
+///   two figures that are easily confused are exchanged
+///   one figure is wrong; or both sides by a common factor, as a printer scales; several of these if the film cannot tell them apart
+///   more than one is wrong
+/// Gross is a mistake of more than 5 % of a length, or 30 mm of the height, that another measured length shows, or with which the
+/// robot's tag is not found.
+///
+/// Cost    none if all agrees, else a `refit` for each explanation.
+/// Errors  Interrupted, of `refit`; other errors of `refit` only say that an explanation does not hold.
+std::optional<FigureDoubt> doubt_about_figures(const FilmFigures& given, const SceneFit& fit,
+                                               const Refit& refit);
+
+}  // namespace astro::film

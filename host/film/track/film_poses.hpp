@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "host/film/camera/scene.hpp"
+#include "host/film/track/film_sightings.hpp"
+
+namespace astro::film {
+
+/// The robot's tag on the floor, in the frame of the first floor tag.
+struct FilmPose {
+  double pts_s = 0;        // of the picture
+  double time_s = 0;       // of the pose: when the tag's rows were read
+  RobotPose pose;          // heading not wrapped
+  RobotVelocity velocity;  // from neighbouring pictures
+  Eigen::Matrix3d covariance =
+      Eigen::Matrix3d::Zero();  // of x, y and theta; errors of neighbouring pictures are alike
+  double rms_px = 0;            // of what remains of the corners
+};
+
+struct FilmPoses {
+  std::vector<FilmPose> poses;
+  double corner_px = 0;     // standard error of a corner's coordinate, from what remains
+  std::size_t dropped = 0;  // pictures whose corners fit no tag: half hidden, or blurred
+};
+
+/// The pose in each picture of a known scene. Dropped are those whose corners miss by more than four times the median and by more
+/// than half a pixel.
+///
+/// Cost  0.1 ms for a picture.
+FilmPoses film_poses(const Scene& scene, const std::vector<RobotTagSeen>& seen);
+
+}  // namespace astro::film

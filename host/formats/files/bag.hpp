@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "host/base/bytes.hpp"
+
+/// Bags, the recordings of ROS 2, in either of their two storages and whatever their compression, read in one pass
+/// from front to back in constant memory.
+namespace astro::bag {
+
+struct BagTopic {
+  std::string name, type;  // "/tf", "tf2_msgs/msg/TFMessage"
+  std::string encoding;    // of the messages: "cdr" for those of ROS 2
+  std::uint64_t messages = 0;
+  std::int64_t first_ns = 0, last_ns = 0;  // the least and the greatest log time
+
+  bool operator==(const BagTopic&) const = default;
+};
+
+/// One message. The log time is when the recorder received it; most messages have a stamp of their publisher inside.
+struct BagMessage {
+  std::int64_t log_time_ns = 0;
+  ByteView data;  // valid during the call
+};
+
+struct BagHandlers {
+  /// Which topics' messages are passed on; if it is empty, all are. Asked at least once for each topic.
+  std::function<bool(const BagTopic&)> wants;
+  /// In the order of the file. If it is empty, messages are only counted.
+  std::function<void(const BagTopic&, const BagMessage&)> message;
+};
+
+struct BagReport {
+  std::vector<std::filesystem::path> files;  // in the order in which they were read
+  std::vector<BagTopic> topics;              // in the order of the file
+  bool truncated = false;                    // an end is missing; what is before it was read
+  bool damaged = false;                      // something inside is wrong and was left out
+  std::vector<std::string> warnings;         // the first few reasons, whole phrases that name the file
+};
+
+/// Whether the path looks like a bag by its content: a file that begins like an SQLite database, an MCAP file or
+/// zstd, or a folder that has such files.
+bool is_bag(const std::filesystem::path& path);
+
+/// Reads a `.db3` or `.mcap` file, one of those compressed as a whole (`.zstd`), or a folder with any number of them
+/// and perhaps a metadata.yaml, which then tells their order. Messages that are compressed one by one are expanded.
+/// Temporary files are made below TMPDIR for files compressed as a whole, and for databases whose recorder was killed
+/// (they have a non-empty -wal or -journal beside them); the bag itself is never written to.
+///
+/// Limits  nothing expands to more than 256 times its file and 64 MiB.
+/// Errors  astro::Error naming the file if it does not exist, cannot be read or is no bag. What the handlers throw
+///         passes through.
+BagReport read_bag(const std::filesystem::path& path, const BagHandlers& handlers = {});
+
+}  // namespace astro::bag

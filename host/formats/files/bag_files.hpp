@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "host/base/bytes.hpp"
+
+namespace astro::bag {
+
+enum class BagFileKind : std::uint8_t { none, database, mcap, zstd };
+
+/// What a file is by its first bytes; none if it cannot be read, too.
+BagFileKind bag_file_kind(const std::filesystem::path& path);
+
+struct BagFiles {
+  std::vector<std::filesystem::path> files;
+  std::vector<std::string> warnings;  // of files that metadata.yaml names and that are not there
+};
+
+/// The files of a bag in the order of their messages: of a folder those that its metadata.yaml names, otherwise all that
+/// look like parts of bags, by name with numbers in their order (bag_2 before bag_10); of a file, itself. Only the last
+/// part of a path in metadata.yaml counts: old bags name their folder before it, and no bag reaches out of its folder.
+/// Throws astro::Error naming the path if there is none.
+BagFiles bag_files(const std::filesystem::path& path);
+
+}  // namespace astro::bag

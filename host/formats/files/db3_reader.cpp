@@ -1,0 +1,203 @@
+#include "host/formats/files/db3_reader.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <unordered_map>
+
+#include "host/base/byte_source.hpp"
+#include "host/base/error.hpp"
+#include "host/formats/files/sqlite.hpp"
+
+namespace astro::bag {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kRowBytes = std::uint64_t{1} << 20;    // of a row, beyond what the file holds
+constexpr std::uint64_t kFreeBytes = std::uint64_t{24} << 20;  // of a message, beyond the size of the file
+constexpr int kOperationsPerCall = 10'000;  // of SQLite's virtual machine, until it asks whether to go on
+
+/// What SQLite may do with a file of that size. A row takes at least 6 bytes of it, and some 20 operations.
+struct Effort {
+  std::uint64_t left = 0;
+  static int ask(void* effort) {
+    auto& left = static_cast<Effort*>(effort)->left;
+    if (left < kOperationsPerCall) return 1;
+    left -= kOperationsPerCall;
+    return 0;
+  }
+};
+
+/// What the first page says of the file; zeros if there is none.
+struct Header {
+  std::uint64_t page_bytes = 0, pages = 0;
+
+  explicit Header(const fs::path& path) {
+    FileSource file(path);
+    constexpr std::size_t kHeaderBytes = 100;
+    if (file.size() < kHeaderBytes) return;
+    const ByteView header = file.read(0, kHeaderBytes);
+    const std::uint64_t page = header[16] * 256U + header[17];
+    page_bytes = page == 1 ? 65'536 : page;
+    for (std::size_t i = 28; i < 32; ++i) pages = pages << 8U | header[i];
+  }
+  std::uint64_t file_bytes() const { return page_bytes * pages; }
+};
+
+class Db3Reader {
+ public:
+  Db3Reader(const Db3File& file, TopicTable& topics, BagReport& report)
+      : file_(file), topics_(topics), report_(report) {
+    std::error_code ignored;
+    size_ = fs::file_size(file.path, ignored);
+    if (file.with_log) size_ += fs::file_size(fs::path(file.path) += "-wal", ignored) + 1;
+    expansion_ = {kFreeBytes + file.stored_bytes, (std::uint64_t{64} << 20) + 256 * file.stored_bytes};
+    effort_.left = 10'000'000 + 16 * size_;
+    sqlite3* raw = nullptr;
+    const int flags = (file.with_log ? SQLITE_OPEN_READWRITE : SQLITE_OPEN_READONLY) | SQLITE_OPEN_URI |
+                      SQLITE_OPEN_NOMUTEX;
+    const std::string uri = sqlite_uri(file.path, file.with_log ? "mode=rw" : "immutable=1");
+    const int opened = sqlite3_open_v2(uri.c_str(), &raw, flags, nullptr);
+    database_.reset(raw);
+    if (opened != SQLITE_OK) refuse("cannot be opened: " + why());
+    harden();
+    if (!file.with_log) allow_cut();
+  }
+
+  void read() {
+    require_tables();
+    read_topics();
+    read_messages();
+  }
+
+ private:
+  using Entry = TopicTable::Entry;
+
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw Error(file_.name + " " + what, {Help::name_right_file});
+  }
+  std::string why() const { return sqlite3_errmsg(database_.get()); }
+  void damage(const std::string& what) {
+    (cut_ ? report_.truncated : report_.damaged) = true;
+    warn(what);
+  }
+  void warn(const std::string& what) {
+    if (report_.warnings.size() < 8) report_.warnings.push_back(file_.name + ": " + what);
+  }
+
+  void harden() {
+    sqlite3* db = database_.get();
+    sqlite3_db_config(db, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
+    sqlite3_db_config(db, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
+    sqlite3_db_config(db, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+    const std::uint64_t most = std::min<std::uint64_t>(
+        {kRowBytes + size_, kFreeBytes + file_.stored_bytes, std::numeric_limits<int>::max()});
+    sqlite3_limit(db, SQLITE_LIMIT_LENGTH, static_cast<int>(most));
+    sqlite3_progress_handler(db, kOperationsPerCall, &Effort::ask, &effort_);
+  }
+
+  /// SQLite refuses a file that is shorter than its header says, unless the schema may be repaired.
+  void allow_cut() {
+    const std::uint64_t expected = Header(file_.path).file_bytes();
+    if (size_ >= expected) return;
+    cut_ = report_.truncated = true;
+    warn("the file ends at byte " + std::to_string(size_) + " of " + std::to_string(expected));
+    Statement(database_.get(), "PRAGMA writable_schema=ON").step();
+  }
+
+  void require_tables() {
+    for (const std::string table : {"topics", "messages"}) {
+      Statement found(
+          database_.get(),
+          "SELECT rootpage > 0 FROM sqlite_master WHERE type = 'table' AND name = '" + table + "'");
+      const int step = found.step();
+      if (step == SQLITE_NOTADB || step == SQLITE_CANTOPEN) refuse("is not a database: " + why());
+      if (step != SQLITE_ROW && step != SQLITE_DONE) refuse("cannot be read as a bag: " + why());
+      if (step == SQLITE_DONE || found.integer(0) == 0)
+        refuse("is a database, but not a bag: it has no table '" + table + "'");
+      Statement computed(database_.get(),
+                         "SELECT count(*) FROM pragma_table_xinfo('" + table + "') WHERE hidden <> 0");
+      if (computed.step() != SQLITE_ROW || computed.integer(0) != 0)
+        refuse("is not a bag: its table '" + table + "' has computed columns");
+    }
+  }
+
+  /// Whether rows still come in rising order; a damaged file can have pages that lead round in a circle.
+  bool rises(const Statement& row) {
+    const bool rising = !last_row_ || row.integer(0) > *last_row_;
+    last_row_ = row.integer(0);
+    if (!rising) damage("rows that are out of order");
+    return rising;
+  }
+
+  void read_topics() {
+    Statement rows(
+        database_.get(),
+        "SELECT rowid, id, name, type, serialization_format FROM topics NOT INDEXED ORDER BY rowid");
+    if (rows.prepared() != SQLITE_OK) refuse("is not a bag of any known version: " + why());
+    last_row_.reset();
+    int step = 0;
+    while ((step = rows.step()) == SQLITE_ROW && rises(rows)) {
+      Entry* entry = topics_.entry(as_text(rows.bytes(2)), as_text(rows.bytes(3)), as_text(rows.bytes(4)));
+      if (entry == nullptr) return damage("more topics than this reader takes");
+      by_id_.try_emplace(rows.integer(1), entry);
+    }
+    if (step != SQLITE_ROW && step != SQLITE_DONE) damage("topics that cannot be read (" + why() + ")");
+  }
+
+  /// The data of topics that nobody wants are not even read from the file.
+  std::string query() const {
+    std::string ids;
+    for (const auto& [id, entry] : by_id_)
+      if (entry->wanted) ids += (ids.empty() ? "" : ",") + std::to_string(id);
+    return "SELECT rowid, topic_id, timestamp, CASE WHEN topic_id IN (" + ids +
+           ") THEN data END FROM messages NOT INDEXED ORDER BY rowid";
+  }
+
+  void read_messages() {
+    Statement rows(database_.get(), query());
+    if (rows.prepared() != SQLITE_OK) refuse("is not a bag of any known version: " + why());
+    last_row_.reset();
+    int step = 0;
+    while ((step = rows.step()) == SQLITE_ROW && rises(rows)) take(rows);
+    if (step == SQLITE_ROW || step == SQLITE_DONE) return;
+    damage("messages that cannot be read, from row " + std::to_string(last_row_.value_or(0)) + " on (" +
+           why() + ")");
+  }
+
+  void take(const Statement& row) {
+    const auto entry = by_id_.find(row.integer(1));
+    if (entry == by_id_.end()) return damage("a message of an unknown topic");
+    const bool has_data = row.is_blob(3);
+    if (!row.is_integer(2) || has_data != entry->second->wanted)
+      return damage("a message without time or data");
+    if (!topics_.take(*entry->second, row.integer(2), row.bytes(3), expansion_))
+      damage("a compressed message that does not expand");
+  }
+
+  const Db3File& file_;
+  TopicTable& topics_;
+  BagReport& report_;
+  Database database_;
+  std::uint64_t size_ = 0;
+  TopicTable::ExpansionLimit expansion_;
+  Effort effort_;
+  bool cut_ = false;
+  std::optional<std::int64_t> last_row_;
+  std::unordered_map<std::int64_t, Entry*> by_id_;
+};
+
+}  // namespace
+
+std::uint64_t bytes_in_whole_pages(const fs::path& path) {
+  const std::uint64_t size = fs::file_size(path);
+  const std::uint64_t page = Header(path).page_bytes;
+  return page == 0 ? size : size / page * page;
+}
+
+void read_db3(const Db3File& file, TopicTable& topics, BagReport& report) {
+  Db3Reader(file, topics, report).read();
+}
+
+}  // namespace astro::bag

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace astro::bag {
+
+/// A value in a YAML file and the keys that lead to it: "controller/ros__parameters/wheel_radius". The entries of a
+/// list are numbered from 0: "left_wheel_names/0".
+struct YamlScalar {
+  std::string path, value;
+  int line = 0;         // from 1
+  bool quoted = false;  // a text, whatever it looks like
+};
+
+/// All scalars of YAML text in their order. Anchors are read where they stand and aliases are left out, so that text
+/// cannot multiply itself. Throws astro::Error naming `name` and the line for text that is no YAML, nests deeper
+/// than 64 levels, or would take more than 16 MiB; keep the text below 1 MiB.
+std::vector<YamlScalar> yaml_scalars(std::string_view text, std::string_view name);
+
+}  // namespace astro::bag

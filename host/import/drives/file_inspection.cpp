@@ -1,0 +1,135 @@
+#include "host/import/drives/file_inspection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "host/base/bytes.hpp"
+#include "host/formats/files/bag_files.hpp"
+#include "host/formats/messages/joint_state.hpp"
+#include "host/formats/messages/ros_messages.hpp"
+#include "host/import/drives/bag_truth.hpp"
+#include "host/import/drives/text_file.hpp"
+#include "host/import/drives/wheel_file.hpp"
+#include "host/recording/run_file.hpp"
+#include "host/recording/sample_messages.hpp"
+#include "host/truth/files/tracker_file.hpp"
+
+namespace astro::importing {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostJoints = 1000;
+
+double seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
+
+double rate_hz(std::uint64_t samples, double duration_s) {
+  return duration_s > 0 ? static_cast<double>(samples - 1) / duration_s : 0;
+}
+
+/// What one pass over a bag shows of each topic.
+class Pass {
+ public:
+  BagInspection over(const fs::path& path) {
+    bag::BagHandlers handlers;
+    handlers.message = [this](const bag::BagTopic& topic, const bag::BagMessage& message) {
+      take(topic, message);
+    };
+    BagInspection out;
+    out.report = bag::read_bag(path, handlers);
+    for (const bag::BagTopic& topic : out.report.topics)
+      out.topics.push_back({topic, rate_hz(topic.messages, seconds(topic.last_ns - topic.first_ns)),
+                            gaps_[topic.name].longest_s});
+    out.joints.assign(joints_.begin(), joints_.end());
+    out.wheels = recognise_wheels(out.joints);
+    return out;
+  }
+
+ private:
+  struct Gap {
+    std::int64_t last_ns = 0;
+    bool any = false;
+    double longest_s = 0;
+  };
+
+  void take(const bag::BagTopic& topic, const bag::BagMessage& message) {
+    Gap& gap = gaps_[topic.name];
+    if (gap.any)
+      gap.longest_s = std::max(gap.longest_s, std::abs(seconds(message.log_time_ns - gap.last_ns)));
+    gap = {message.log_time_ns, true, gap.longest_s};
+    if (topic.type != ros2::joint_state_type().name || joints_.size() >= kMostJoints) return;
+    if (const auto state = ros2::decode_joint_state(message.data))
+      for (const std::string& name : state->names)
+        if (joints_.size() < kMostJoints) joints_.insert(name);
+  }
+
+  std::map<std::string, Gap, std::less<>> gaps_;
+  std::set<std::string> joints_;
+};
+
+BagInspection inspect_bag(const fs::path& path) {
+  BagInspection bag = Pass().over(path);
+  bag.poses = pose_streams(path);
+  const bool own = std::any_of(bag.topics.begin(), bag.topics.end(), [](const TopicInspection& one) {
+    return one.topic.type == recording::wheel_counts_type().name;
+  });
+  if (own && bag::bag_file_kind(path) == bag::BagFileKind::mcap) bag.run = recording::read_run_info(path);
+  return bag;
+}
+
+WheelInspection inspect_wheels(WheelTrack track) {
+  WheelInspection out;
+  out.track = std::move(track);
+  const std::vector<WheelSample>& samples = out.track.samples;
+  out.duration_s = seconds(samples.back().time_ns - samples.front().time_ns);
+  out.rate_hz = rate_hz(samples.size(), out.duration_s);
+  for (std::size_t i = 1; i < samples.size(); ++i)
+    out.longest_gap_s = std::max(out.longest_gap_s, seconds(samples[i].time_ns - samples[i - 1].time_ns));
+  out.left = samples.back().left - samples.front().left;
+  out.right = samples.back().right - samples.front().right;
+  return out;
+}
+
+/// Only its end tells the kind of a file of settings: text with columns is never called so.
+bool is_settings(const fs::path& path) {
+  const fs::path end = path.extension();
+  return end == ".toml" || end == ".yaml" || end == ".yml";
+}
+
+/// Nothing if the file is no recording of a tracker; its text is not in memory any more then.
+std::optional<truth::Inspection> inspect_tracker(const fs::path& path) {
+  const Bytes bytes = text_of_file(path);
+  const std::string_view text = as_text(bytes);
+  if (truth::recognise(text) == truth::FileKind::unknown) return std::nullopt;
+  return truth::inspect(text, path.string());
+}
+
+FileInspection inspect_text(const fs::path& path, const WheelTable& table) {
+  FileInspection out;
+  if (table.columns.empty()) out.tracker = inspect_tracker(path);
+  if (!out.tracker) out.wheels = inspect_wheels(read_wheel_table(path, table));
+  return out;
+}
+
+}  // namespace
+
+FileInspection inspect_file(const fs::path& path, const WheelTable& table, const PoseSelection& topic) {
+  FileInspection out;
+  if (bag::is_bag(path) && topic.topic.empty()) {
+    out.bag = inspect_bag(path);
+  } else if (bag::is_bag(path)) {
+    truth::BodyTrack track = track_in_bag(path, topic);
+    out.tracker = truth::Inspection{};
+    out.tracker->bodies.push_back(truth::inspect(track));
+  } else if (is_settings(path)) {
+    out.robot = read_robot_file(path);
+  } else {
+    out = inspect_text(path, table);
+  }
+  return out;
+}
+
+}  // namespace astro::importing

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/formats/files/bag.hpp"
+#include "host/import/drives/robot_geometry.hpp"
+#include "host/import/wheels/joint_names.hpp"
+#include "host/import/wheels/pose_topics.hpp"
+#include "host/import/wheels/wheel_csv.hpp"
+#include "host/recording/run.hpp"
+#include "host/truth/floor/inspection.hpp"
+
+/// What is in a file that somebody else wrote, before anything is done with it.
+namespace astro::importing {
+
+struct TopicInspection {
+  bag::BagTopic topic;
+  double rate_hz = 0;        // from the first to the last message
+  double longest_gap_s = 0;  // between messages
+};
+
+struct BagInspection {
+  bag::BagReport report;
+  std::vector<TopicInspection> topics;
+  std::vector<PoseStream> poses;          // ground truth, or a robot's own odometry
+  std::vector<std::string> joints;        // of all messages of joints, at most 1000
+  std::optional<JointPair> wheels;        // which of them are the wheels, if their names tell
+  std::optional<recording::RunInfo> run;  // the file is a recording of this project
+};
+
+struct WheelInspection {
+  WheelTrack track;
+  double rate_hz = 0, duration_s = 0, longest_gap_s = 0;
+  double left = 0, right = 0;  // travel from the first to the last sample, in the track's unit
+};
+
+/// Exactly one is there.
+struct FileInspection {
+  std::optional<BagInspection> bag;
+  std::optional<truth::Inspection> tracker;
+  std::optional<WheelInspection> wheels;
+  std::optional<RobotGeometry> robot;
+};
+
+/// The kind is recognised by the content, that of settings (.toml, .yaml) by the end of the name; `table` describes wheels without names of columns. `topic`: of a bag, the one
+/// stream of poses that is inspected as a tracker's recording, which takes 72 bytes of memory for each pose; without
+/// it a bag of any size is read in constant memory.
+///
+/// Throws astro::Error naming the file if it is none of these, and what the readers throw.
+FileInspection inspect_file(const std::filesystem::path& path, const WheelTable& table = {},
+                            const PoseSelection& topic = {});
+
+}  // namespace astro::importing

@@ -1,0 +1,283 @@
+#include "host/import/drives/import_drives.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "host/base/error.hpp"
+#include "host/formats/files/bag.hpp"
+#include "host/formats/messages/text_message.hpp"
+#include "host/import/drives/wheel_run.hpp"
+#include "host/import/wheels/described_wheels.hpp"
+
+namespace astro::importing {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The last `parts` parts of the path, without the extension.
+std::string name_of(const fs::path& path, std::size_t parts) {
+  const fs::path whole = fs::absolute(path).lexically_normal();
+  fs::path name = (whole.has_filename() ? whole : whole.parent_path()).filename().replace_extension();
+  fs::path folder = (whole.has_filename() ? whole : whole.parent_path()).parent_path();
+  for (; parts > 1 && folder.has_filename(); --parts, folder = folder.parent_path())
+    name = folder.filename() / name;
+  return name.string();
+}
+
+/// As short as they can be without being equal.
+std::vector<std::string> names_of(std::span<const DriveFiles> files) {
+  constexpr std::size_t kMostParts = 8;
+  for (std::size_t parts = 1;; ++parts) {
+    std::vector<std::string> names;
+    std::map<std::string, int> uses;
+    for (const DriveFiles& one : files) ++uses[names.emplace_back(name_of(one.wheels, parts))];
+    if (uses.size() == files.size()) return names;
+    if (parts < kMostParts) continue;
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (uses[names[i]] > 1) names[i] += " (" + std::to_string(i + 1) + ")";
+    return names;
+  }
+}
+
+void refuse_twins(std::span<const DriveFiles> files) {
+  for (std::size_t i = 0; i < files.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (fs::weakly_canonical(files[i].wheels) == fs::weakly_canonical(files[j].wheels))
+        throw Error("'" + files[i].wheels.string() +
+                        "' is given twice, and a drive that counts twice would seem more certain than it is",
+                    {Help::name_other_file});
+}
+
+/// A copy under another name would count twice as well.
+void refuse_copy(const recording::Run& run, std::span<const recording::Run> others, const std::string& name,
+                 std::span<const std::string> names) {
+  const auto same_wheels = [](const recording::OdometrySample& a, const recording::OdometrySample& b) {
+    return a.time_us == b.time_us && a.left_counts == b.left_counts && a.right_counts == b.right_counts;
+  };
+  const auto same_truth = [](const recording::TruthSample& a, const recording::TruthSample& b) {
+    return a.time_us == b.time_us && a.x_m == b.x_m && a.y_m == b.y_m;
+  };
+  for (std::size_t i = 0; i < others.size(); ++i)
+    if (std::ranges::equal(run.odometry, others[i].odometry, same_wheels) &&
+        std::ranges::equal(run.truth, others[i].truth, same_truth))
+      throw Error("'" + name + "' is a copy of '" + names[i] +
+                      "', and a drive that counts twice would seem more certain than it is",
+                  {Help::name_other_file});
+}
+
+constexpr std::size_t kLongestDescription = 4
+                                            << 20;  // of a description; those with meshes only name the files
+
+struct Described {
+  std::string topic, urdf;
+};
+
+/// Of all descriptions with these joints the last one: sizes may have been corrected while the robot drove.
+std::optional<Described> description_in(const fs::path& bag, const JointPair& joints) {
+  std::optional<Described> found;
+  bag::BagHandlers handlers;
+  handlers.wants = [](const bag::BagTopic& topic) {
+    return topic.type == ros2::string_type().name && topic.encoding == "cdr" &&
+           (topic.name == "robot_description" || topic.name.ends_with("/robot_description"));
+  };
+  handlers.message = [&](const bag::BagTopic& topic, const bag::BagMessage& message) {
+    if (message.data.size() > kLongestDescription) return;
+    auto urdf = ros2::decode_text(message.data);
+    if (urdf && describes(*urdf, joints)) found = Described{topic.name, std::move(*urdf)};
+  };
+  bag::read_bag(bag, handlers);
+  return found;
+}
+
+/// `given`, and what it lacks of wheel diameter and wheelbase from the robot's description (URDF) that was recorded in the bag beside
+/// the wheels: the topic robot_description, in whatever namespace, that has their joints. A remark says what it is.
+///
+/// Nothing is looked for if nothing is missing, or if `wheels` come from no bag. Throws astro::Error naming the bag if a description
+/// has the wheels and not their sizes, and what recording::read_bag throws.
+RobotGeometry completed_by_description(RobotGeometry given, const fs::path& bag, const WheelTrack& wheels,
+                                       std::vector<Remark>& remarks) {
+  if ((given.wheel_diameter_m && given.wheelbase_m) || wheels.joints.left.empty()) return given;
+  const std::optional<Described> found = description_in(bag, wheels.joints);
+  if (!found) return given;
+  DescribedWheels sizes;
+  try {
+    sizes = described_wheels(found->urdf, wheels.joints);
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}, {}: {}", bag.string(), found->topic, error.what()),
+                {Help::give_wheel_diameter});
+  }
+  if (!given.wheel_diameter_m) given.wheel_diameter_m = 2 * sizes.radius_m;
+  if (!given.wheelbase_m) given.wheelbase_m = sizes.separation_m;
+  remarks.push_back({fmt::format("{} has wheels of {:.6g} m, {:.6g} m apart", found->topic,
+                                 2 * sizes.radius_m, sizes.separation_m)});
+  return given;
+}
+
+/// The robot's description is in the bag of each drive, or in that of an earlier one.
+class Geometry {
+ public:
+  explicit Geometry(const RobotGeometry& given) : given_(given), last_(given) {}
+
+  const RobotGeometry& of(const fs::path& file, ImportedWheels& wheels) {
+    RobotGeometry described = completed_by_description(given_, file, wheels.track, wheels.track.remarks);
+    if (described.wheel_diameter_m != given_.wheel_diameter_m || described.wheelbase_m != given_.wheelbase_m)
+      last_ = std::move(described);
+    return last_;
+  }
+
+ private:
+  const RobotGeometry& given_;
+  RobotGeometry last_;
+};
+
+/// A drive whose wheels and whose ground truth other programs recorded.
+struct PairedDrive {
+  /// As our own recordings: dead reckoning with the factors of the geometry as odometry, and the path on the floor as
+  /// truth, each with the times of its own clock ("tracker"). Angles and metres of travel are counts of kAngleCounts
+  /// for a turn (analysis/trajectories.hpp).
+  recording::Run run;
+  DriveReport report;
+};
+
+/// Times of wheels and tracker as they are in their files, so in microseconds of any origin. Several samples are one
+/// motion if there are more than 40 minutes of them at 100 Hz.
+std::vector<truth::WheelMotion> motion_of(const std::vector<recording::OdometrySample>& odometry) {
+  constexpr std::size_t kMostMotions = 250'000;
+  const std::size_t stride = odometry.size() / kMostMotions + 1;
+  std::vector<truth::WheelMotion> motion;
+  motion.reserve(odometry.size() / stride);
+  for (std::size_t last = stride; last < odometry.size(); last += stride) {
+    truth::WheelMotion sum{
+        0.5e-6 * static_cast<double>(odometry[last - stride].time_us + odometry[last].time_us), 0, 0};
+    double span_s = 0;
+    for (std::size_t i = last - stride + 1; i <= last; ++i) {
+      const double dt_s = 1e-6 * static_cast<double>(odometry[i].time_us - odometry[i - 1].time_us);
+      sum.speed_mps += dt_s * odometry[i].v_mps;
+      sum.yaw_rate_radps += dt_s * odometry[i].omega_radps;
+      span_s += dt_s;
+    }
+    if (!(span_s > 0)) continue;  // within one microsecond
+    motion.push_back({sum.time_s, sum.speed_mps / span_s, sum.yaw_rate_radps / span_s});
+  }
+  return motion;
+}
+
+void settle_direction(const std::string& name, const truth::FloorFindings& findings,
+                      std::vector<Remark>& remarks) {
+  constexpr double kClear_m = 0.03;  // more than a tracker's origin is off its floor
+  // Exchanged wheels under an axis that points down turn as they should.
+  if (!findings.turns_against_wheels && !findings.up_given && findings.height_m < -kClear_m)
+    throw Error(
+        fmt::format(
+            "'{}': the body is {:.2f} m below the tracker's origin, so the axis that seems to point up "
+            "may point down and the wheels may be exchanged",
+            name, -findings.height_m),
+        {Help::exchange_wheels_or_give_up});
+  if (!findings.turns_against_wheels) return;
+  const std::string fact = "'" + name + "': the wheels turn the robot the other way than the ground truth";
+  if (findings.up_given) throw Error(fact, {Help::exchange_wheels_or_change_up});
+  if (findings.height_m > kClear_m) {
+    remarks.push_back({"the wheels show that the tracker's axis that seems to point up points down"});
+    return;
+  }
+  if (findings.height_m < -kClear_m)
+    throw Error(
+        fmt::format("{}, and the body is {:.2f} m above the tracker's origin", fact, -findings.height_m),
+        {Help::exchange_wheels_or_give_up});
+  throw Error(fact + ", and nothing shows which of the two is a mirror image",
+              {Help::exchange_wheels_or_give_up});
+}
+
+/// Samples in a second, from the first to the last.
+template <class Sample>
+double rate_hz(const std::vector<Sample>& samples) {
+  const double span_s = 1e-9 * static_cast<double>(samples.back().time_ns - samples.front().time_ns);
+  return span_s > 0 ? static_cast<double>(samples.size() - 1) / span_s : 0;
+}
+
+std::string summary_of(const ImportedTruth& truth, const truth::FloorFindings& floor) {
+  return fmt::format("; {} poses{} ({}) at {:.4g} Hz, {} lost; {} is up", truth.track.samples.size(),
+                     truth.track.name.empty() ? "" : " of '" + truth.track.name + "'",
+                     truth.track.facts.format, rate_hz(truth.track.samples), truth.lost.all(),
+                     truth::axis_text(floor.up));
+}
+
+/// Puts both together. Where the wheels turn the robot the other way than the ground truth does, one of three things is
+/// wrong, and the motion alone cannot show which: the up axis, left and right wheel, or the recording is a mirror image. The
+/// height of the body above the origin decides if it is clear, because trackers have their origin on the floor: below it,
+/// the axis was reversed. Otherwise nothing is guessed, because exchanged wheels would give the left factor to the
+/// right wheel. Where both turn alike but the body is below the origin, two of the three may be wrong and hide each other,
+/// so the axis must be given.
+PairedDrive pair_up(const std::string& name, ImportedWheels wheels, const ImportedTruth& truth,
+                    const RobotGeometry& given, const truth::FloorChoices& choices) {
+  WheelRun made = run_of_wheels(name, std::move(wheels), given);
+  PairedDrive drive{std::move(made.run), {{}, std::move(made.summary), std::move(made.remarks)}};
+  drive.run.info.truth_source = "file";
+  drive.run.info.truth_clock = "tracker";
+  std::vector<Remark>& all = drive.report.remarks;
+  const auto add = [&](const std::vector<Remark>& remarks) {
+    all.insert(all.end(), remarks.begin(), remarks.end());
+  };
+  add(truth.track.facts.remarks);
+  truth::FloorPath floor = truth::place_on_floor(truth.track, motion_of(drive.run.odometry), choices);
+  drive.run.truth = std::move(floor.samples);
+  drive.report.floor = std::move(floor.findings);
+  add(drive.report.floor.remarks);
+  settle_direction(name, drive.report.floor, all);
+  drive.report.summary += summary_of(truth, drive.report.floor);
+  return drive;
+}
+
+/// The errors of pairing are about both files.
+PairedDrive paired(const std::string& name, const DriveFiles& files, const ImportChoices& choices,
+                   Geometry& geometry) {
+  ImportedWheels wheels = read_wheels(files.wheels, choices.wheels);
+  const RobotGeometry& sizes = geometry.of(files.wheels, wheels);
+  const ImportedTruth truth = read_truth(files.truth, choices.truth);
+  try {
+    return pair_up(name, std::move(wheels), truth, sizes, choices.floor);
+  } catch (const Error& error) {
+    throw Error("'" + files.wheels.string() + "' with '" + files.truth.string() + "': " + error.what(),
+                error.remedy());
+  }
+}
+
+}  // namespace
+
+ImportedDrives import_wheels(std::span<const fs::path> wheels, const ImportChoices& choices) {
+  std::vector<DriveFiles> files;
+  for (const fs::path& path : wheels) files.push_back({path, {}});
+  refuse_twins(files);
+  Geometry geometry(choices.geometry);
+  ImportedDrives drives;
+  drives.set.names = names_of(files);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    ImportedWheels read = read_wheels(files[i].wheels, choices.wheels);
+    const RobotGeometry& sizes = geometry.of(files[i].wheels, read);
+    WheelRun made = run_of_wheels(drives.set.names[i], std::move(read), sizes);
+    refuse_copy(made.run, drives.set.runs, drives.set.names[i], drives.set.names);
+    drives.set.runs.push_back(std::move(made.run));
+    drives.reports.push_back({{}, std::move(made.summary), std::move(made.remarks)});
+  }
+  return drives;
+}
+
+ImportedDrives import_drives(std::span<const DriveFiles> files, const ImportChoices& choices) {
+  refuse_twins(files);
+  Geometry geometry(choices.geometry);
+  ImportedDrives drives;
+  drives.set.names = names_of(files);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    PairedDrive drive = paired(drives.set.names[i], files[i], choices, geometry);
+    refuse_copy(drive.run, drives.set.runs, drives.set.names[i], drives.set.names);
+    drives.set.runs.push_back(std::move(drive.run));
+    drives.reports.push_back(std::move(drive.report));
+  }
+  return drives;
+}
+
+}  // namespace astro::importing

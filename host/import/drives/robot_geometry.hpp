@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "host/calibration/motion/wheel_factors.hpp"
+#include "host/experiment/analysis/calibration_file.hpp"
+#include "host/import/wheels/joint_names.hpp"
+#include "host/import/wheels/wheel_track.hpp"
+
+namespace astro::importing {
+
+/// The wheels of any robot as its own program takes them: nominal sizes, and what its odometry multiplied them by
+/// while it drove.
+struct RobotGeometry {
+  std::optional<double> wheel_diameter_m, counts_per_turn, wheelbase_m;
+  double c_r = 1, c_l = 1;
+  double e = 0, kappa0 = calibration::kUsualKappa0;
+  JointPair joints;      // "" unless the file names the wheels' joints
+  std::string name, id;  // of the robot, "" if unknown
+
+  /// The factors of its odometry. Precondition: the wheelbase is known.
+  calibration::WheelFactors factors() const { return {c_r, c_l, *wheelbase_m, e, kappa0}; }
+  /// What `over` says, and the rest of this.
+  RobotGeometry overridden_by(const RobotGeometry& over) const;
+};
+
+/// Whether the file is read as YAML below. Throws astro::Error naming the file if it cannot be read.
+bool is_controller_file(const std::filesystem::path& path);
+
+/// The geometry in a file, of which the content tells the kind:
+///   TOML   [parameters] wheel_diameter, counts_per_motor_rev, gear_numerator, gear_denominator (1 unless given), b, c_R,
+///          c_L, e, kappa0, in SI units: as the robot's parameters are exported; or a calibration that the robot carries, with
+///          its [nominal] wheel
+///   YAML   parameters of ROS 2's diff_drive_controller; `node` chooses among several. Its multipliers are c_R and c_L, and
+///          the wheelbase is wheel_separation times its multiplier.
+///
+/// Throws astro::Error naming the file if it cannot be read, and importing::UnclearChoice for the node.
+RobotGeometry read_robot_file(const std::filesystem::path& path, const std::string& node = {});
+
+/// The parameters with which a robot makes the same of its counts as the program whose geometry this is: c_R, c_L, b, e, and
+/// wheel_diameter if it is known. Throws astro::Error naming the file if the wheelbase is not known.
+experiment::ParameterValues parameters_of(const RobotGeometry& geometry, const std::filesystem::path& path);
+
+/// The same if it has what travel in this unit needs: a wheelbase, the diameter (also that which metres assume, because c_R
+/// and c_L refer to it), and for counts how many make a turn. Throws astro::Error that names what is missing.
+RobotGeometry complete_geometry(RobotGeometry geometry, WheelUnit unit);
+
+}  // namespace astro::importing

@@ -1,0 +1,39 @@
+#include "host/import/drives/truth_file.hpp"
+
+#include "host/base/bytes.hpp"
+#include "host/formats/files/bag.hpp"
+#include "host/import/drives/bag_truth.hpp"
+#include "host/import/drives/text_file.hpp"
+#include "host/truth/files/rotations.hpp"
+#include "host/truth/files/tracker_file.hpp"
+
+namespace astro::importing {
+namespace {
+
+truth::BodyTrack read(const std::filesystem::path& path, const TruthSelection& selection) {
+  if (bag::is_bag(path)) return track_in_bag(path, selection.poses);
+  const Bytes text = text_of_file(path);
+  return truth::read_track(as_text(text), path.string(), selection.body);
+}
+
+void change_unit(truth::BodyTrack& track, const std::string& unit) {
+  const double stated = truth::metres_per(track.facts.length_unit).value_or(1);
+  const double factor = truth::metres_per(unit).value() / stated;
+  for (truth::TrackedPose& sample : track.samples) {
+    sample.pose.x_m *= factor;
+    sample.pose.y_m *= factor;
+    sample.pose.z_m *= factor;
+  }
+  track.facts.length_unit = unit;
+}
+
+}  // namespace
+
+ImportedTruth read_truth(const std::filesystem::path& path, const TruthSelection& selection) {
+  ImportedTruth truth{read(path, selection), {}};
+  if (!selection.length_unit.empty()) change_unit(truth.track, selection.length_unit);
+  truth.lost = truth::mark_lost(truth.track);
+  return truth;
+}
+
+}  // namespace astro::importing

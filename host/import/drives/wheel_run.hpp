@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/base/remedy.hpp"
+#include "host/import/drives/robot_geometry.hpp"
+#include "host/import/drives/wheel_file.hpp"
+#include "host/recording/run.hpp"
+
+namespace astro::importing {
+
+/// A drive of which only the wheels are known so far.
+struct WheelRun {
+  recording::Run run;           // dead reckoning with the factors of the geometry as odometry; no truth
+  std::string summary;          // how many samples, how often
+  std::vector<Remark> remarks;  // what was inferred or left out
+};
+
+/// Angles and metres of travel are counts of kAngleCounts for a turn (analysis/trajectories.hpp).
+///
+/// Throws astro::Error: a wheel turns 100 times between two samples, or leaps faster than 20 m/s; what complete_geometry
+/// throws.
+WheelRun run_of_wheels(const std::string& name, ImportedWheels wheels, const RobotGeometry& given);
+
+}  // namespace astro::importing

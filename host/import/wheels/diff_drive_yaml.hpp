@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace astro::importing {
+
+/// What a file of parameters of ROS 2's diff_drive_controller says of a robot. The multipliers are what the robot
+/// carried while it drove: a wheel's radius is wheel_radius times its multiplier.
+struct DiffDriveParameters {
+  std::string node;  // "diff_drive_controller", "/robot/base_controller"
+  double wheel_radius_m = 0, wheel_separation_m = 0;
+  double left_wheel_radius_multiplier = 1, right_wheel_radius_multiplier = 1, wheel_separation_multiplier = 1;
+  std::vector<std::string> left_wheel_names, right_wheel_names;
+};
+
+/// The parameters of the controller `node`, or of the only one that has a wheel_radius or a wheel_separation. `name` is
+/// that of the file. Throws UnclearChoice (unclear_choice.hpp) if there is no such controller or several, and astro::Error
+/// naming the file and the line if the text is no YAML or a value is no number above 0.
+DiffDriveParameters diff_drive_parameters(std::string_view text, std::string_view name,
+                                          std::string_view node = {});
+
+}  // namespace astro::importing

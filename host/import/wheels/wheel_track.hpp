@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "host/base/remedy.hpp"
+#include "host/import/wheels/joint_names.hpp"
+
+/// What the wheels of any robot did, as it was recorded and before any geometry is applied.
+namespace astro::importing {
+
+enum class WheelUnit : std::uint8_t { counts, radians, metres };
+
+/// Travel since some start, forward positive. Counts are whole numbers up to 2^53 unless the file has others.
+struct WheelSample {
+  std::int64_t time_ns = 0;
+  double left = 0, right = 0;
+
+  bool operator==(const WheelSample&) const = default;
+};
+
+enum class WheelClock : std::uint8_t {
+  file,     // the time column of a table
+  stamp,    // header.stamp: the clock of the robot's driver
+  receipt,  // when the recorder received it, because the messages have no stamp
+};
+
+/// Times increase strictly; travel neither wraps nor is counted per interval any more.
+struct WheelTrack {
+  WheelUnit unit = WheelUnit::counts;
+  WheelClock clock = WheelClock::file;
+  std::vector<WheelSample> samples;
+  std::vector<Remark> remarks;  // what was inferred or left out
+  JointPair joints;             // of a bag: those of the wheels
+};
+
+}  // namespace astro::importing

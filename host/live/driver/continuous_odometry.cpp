@@ -1,0 +1,134 @@
+#include "host/live/driver/continuous_odometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "host/base/error.hpp"
+#include "host/recording/telemetry_sample.hpp"
+
+namespace astro::live {
+
+using calibration::Symmetric3;
+
+namespace {
+
+constexpr double kFarthest_m = 4e6;  // what the robot can hold
+
+std::int64_t position(double metres) {
+  if (!(std::abs(metres) <= kFarthest_m)) throw Error("a position must be a number within 4000 km");
+  return std::llround(std::ldexp(metres, 40));
+}
+
+/// 2^-64 turn.
+std::uint64_t angle(double theta_rad) {
+  const double turns = theta_rad / (2 * std::numbers::pi);
+  return static_cast<std::uint64_t>(std::ldexp(turns - std::floor(turns), 64));
+}
+
+double in_seconds(microseconds time) { return 1e-6 * static_cast<double>(time.count()); }
+
+}  // namespace
+
+void ContinuousOdometry::begin(RobotSession& session, bool restarted) {
+  note_parameters(session);
+  restarted_ = restarted_ || restarted;
+  first_ = true;
+  ignore_until_us_ = 0;
+}
+
+void ContinuousOdometry::note_parameters(RobotSession& session) {
+  track_.set_geometry(OdometryGeometry::of(session.numbers()));
+}
+
+void ContinuousOdometry::set_pose(RobotSession& session, double x_m, double y_m, double theta_rad,
+                                  const Symmetric3& covariance) {
+  if (!std::isfinite(theta_rad)) throw Error("a heading must be a number");
+  unanswered_.reset();
+  try {
+    put(session, {position(x_m), position(y_m), angle(theta_rad)}, theta_rad, covariance);
+  } catch (const robot::LinkLost&) {
+    unanswered_ = {x_m, y_m, theta_rad, covariance};
+    throw;
+  }
+  restoring_ = false;
+  event_ = "the pose was set";
+}
+
+void ContinuousOdometry::put(RobotSession& session, const protocol::SetPose& pose, double theta_rad,
+                             const Symmetric3& covariance) {
+  session.ask(pose);
+  track_.restart(theta_rad, covariance);  // whatever becomes of the link from here on
+  // A sample may be under way that is older than the answer.
+  ignore_until_us_ = session.device_now_us();
+}
+
+bool ContinuousOdometry::take(RobotSession& session, const protocol::Telemetry& telemetry) {
+  if (telemetry.device_time_us <= ignore_until_us_) return false;
+  if (std::exchange(first_, false) && pose_) restoring_ = has_restarted(session, telemetry);
+  if (restoring_) {
+    restore(session, telemetry);
+    return false;
+  }
+  restarted_ = false;
+  sample_ = recording::to_sample(telemetry);
+  settle_unanswered();
+  if (!track_.take(sample_)) event_ = "another program has set the pose";
+  pose_ = telemetry.pose;
+  seen_at_ = session.client().now();
+  seen_device_us_ = telemetry.device_time_us;
+  return true;
+}
+
+/// A robot that took the pose stands there, because it takes none while it moves and nobody has armed it since.
+void ContinuousOdometry::settle_unanswered() {
+  constexpr double kThere_m = 1e-3, kThere_rad = 5e-3;  // flickering counts
+  const auto put = std::exchange(unanswered_, std::nullopt);
+  if (!put || std::hypot(sample_.x_m - put->x_m, sample_.y_m - put->y_m) > kThere_m) return;
+  if (std::abs(std::remainder(sample_.theta_rad - put->theta_rad, 2 * std::numbers::pi)) > kThere_rad) return;
+  track_.restart(put->theta_rad, put->covariance);
+  event_ = "the pose was set";
+}
+
+/// The clock of a robot that has restarted is behind that of one that has not. It need not be if this computer slept meanwhile,
+/// whose clock then stood; but then the robot's counts and its pose are zero, and both were not.
+bool ContinuousOdometry::has_restarted(RobotSession& session, const protocol::Telemetry& telemetry) const {
+  constexpr double kSlowest = 0.999,
+                   kLate_s = 0.5;  // ten times worse than a poor crystal; a sample that waited
+  const recording::OdometrySample now = recording::to_sample(telemetry);
+  const auto is_new = [](const recording::OdometrySample& at) {
+    return at.left_counts == 0 && at.right_counts == 0 && at.x_m == 0 && at.y_m == 0 && at.theta_rad == 0;
+  };
+  if (is_new(now) && !is_new(sample_)) return true;
+  const double since_s = in_seconds(session.client().now() - seen_at_);
+  const double expected_s = 1e-6 * static_cast<double>(seen_device_us_) + kSlowest * since_s - kLate_s;
+  return restarted_ || 1e-6 * static_cast<double>(telemetry.device_time_us) < expected_s;
+}
+
+void ContinuousOdometry::restore(RobotSession& session, const protocol::Telemetry& telemetry) {
+  constexpr microseconds kBetweenTries = std::chrono::milliseconds(100);
+  const microseconds now = session.client().now();
+  if (now < next_try_) return;
+  next_try_ = now + kBetweenTries;
+  const double running_s = 1e-6 * static_cast<double>(telemetry.device_time_us);
+  const Symmetric3 unseen = rolled_unseen(std::max(0.0, in_seconds(now - seen_at_) - running_s));
+  try {
+    put(session, {pose_->x, pose_->y, pose_->theta}, sample_.theta_rad, track_.covariance() + unseen);
+  } catch (const robot::RobotRefused&) {
+    return;  // it still rolls
+  }
+  restoring_ = restarted_ = false;
+  unanswered_.reset();
+  event_ = "the robot has restarted: its odometry continues from the last pose, with a larger covariance";
+}
+
+/// A robot without power rolls on from its last speed; a robot at rest may have been pushed by a hand at its switch.
+Symmetric3 ContinuousOdometry::rolled_unseen(double until_restart_s) const {
+  constexpr double kLongest_s = 2, kRoll_s = 1, kPush_m = 0.01, kPush_rad = 0.02;
+  const double moved_s = std::min(until_restart_s, kLongest_s) + kRoll_s;
+  const double way_m = std::abs(sample_.v_mps) * moved_s + kPush_m;
+  const double turn_rad = std::abs(sample_.omega_radps) * moved_s + kPush_rad;
+  return {way_m * way_m, 0, 0, way_m * way_m, 0, turn_rad * turn_rad};
+}
+
+}  // namespace astro::live

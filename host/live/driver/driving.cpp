@@ -1,0 +1,227 @@
+#include "host/live/driver/driving.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/base/text/numbers.hpp"
+#include "host/robot/motion/drive.hpp"
+#include "host/robot/motion/other_program.hpp"
+
+namespace astro::live {
+
+using protocol::ErrorCode;
+using std::chrono::milliseconds;
+
+namespace {
+
+bool all_finite(const ros2::msg::Vector3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// What a message to the robot can hold and no robot can do: faster commands keep their curvature, as the robot keeps it when
+/// it reduces a command to its limits.
+protocol::Velocity to_velocity(double v_mps, double omega_radps) {
+  constexpr double kMost = 2000;
+  const double share = std::min(1.0, kMost / std::max({std::abs(v_mps), std::abs(omega_radps), 1.0}));
+  const auto micro = [&](double value) {
+    return static_cast<std::int32_t>(std::lround(1e6 * share * value));
+  };
+  return {micro(v_mps), micro(omega_radps)};
+}
+
+std::string text_of(microseconds time) { return to_text(1e-6 * static_cast<double>(time.count())) + " s"; }
+
+double number(RobotSession& session, const char* name, double otherwise) {
+  const auto found = session.numbers().find(name);
+  return found == session.numbers().end() ? otherwise : found->second;
+}
+
+/// So often that the robot may miss three in a row.
+microseconds refresh_of(RobotSession& session) {
+  constexpr double kSlowest_ms = 50;
+  const double timeout_ms = number(session, "command_timeout", 0);
+  return microseconds(
+      std::llround(1e3 * (timeout_ms > 0 ? std::min(timeout_ms / 4, kSlowest_ms) : kSlowest_ms)));
+}
+
+bool beyond_limits(RobotSession& session, const protocol::Velocity& velocity) {
+  return std::abs(1e-6 * velocity.v_umps) > number(session, "speed_limit", HUGE_VAL) ||
+         std::abs(1e-6 * velocity.omega_uradps) > number(session, "yaw_rate_limit", HUGE_VAL);
+}
+
+/// Whether the robot has come to rest soon enough that whoever waits does not wait in vain.
+bool comes_to_rest(RobotSession& session) {
+  for (int i = 0; i < 12; ++i) {
+    if (!protocol::gives_power(session.ask(protocol::GetStatus{}).mode)) return true;
+    session.client().pump(milliseconds(50));
+  }
+  return false;
+}
+
+/// To the robot all programs that have driven through one port are one host, so it lets this one take over a path that another
+/// has left behind.
+void require_free(RobotSession& session, const protocol::Status& status) {
+  const bool drives = protocol::gives_power(status.mode) && status.mode != protocol::Mode::stopping;
+  if (!drives && status.queued_segments == 0) return;  // what is left of a paused path waits in the queue
+  const robot::PortUsers users = robot::port_users(session.client());
+  if (users.driver_pid == 0) throw Error("the robot drives, or waits on a path, for another program");
+}
+
+std::string why_not(RobotSession& session, const robot::RobotRefused& refused) {
+  const robot::PortUsers users = robot::port_users(session.client());
+  if (refused.code() == ErrorCode::busy && users.driver_pid != 0)
+    return "the robot drives for " + robot::another_program(users.driver_pid, users.driver_command);
+  if (refused.code() == ErrorCode::not_armed && users.stopper_pid != 0)
+    return "the robot was stopped by " + robot::another_program(users.stopper_pid, users.stopper_command);
+  return refused.what();
+}
+
+}  // namespace
+
+std::optional<std::string> VelocityCommand::take(const ros2::msg::Twist& twist, const Moment& now) {
+  if (now.waited >= timeout_)
+    return "it may have waited for " + text_of(now.waited) + "; the time-out is " + text_of(timeout_);
+  return hold(twist, now.steady + timeout_ - now.waited);
+}
+
+std::optional<std::string> VelocityCommand::take(const ros2::msg::TwistStamped& twist, const Moment& now) {
+  const std::int64_t stamp_ns = ros2::msg::nanoseconds(twist.header.stamp);
+  if (stamp_ns == 0) return take(twist.twist, now);
+  const microseconds age((now.utc_ns - stamp_ns) / 1000);
+  if (age > timeout_) return "its stamp is " + text_of(age) + " old; the time-out is " + text_of(timeout_);
+  if (age < -kFutureTolerance) return "its stamp is " + text_of(-age) + " in the future";
+  return hold(twist.twist, now.steady + timeout_ - std::max(age, microseconds::zero()));
+}
+
+std::optional<std::string> VelocityCommand::hold(const ros2::msg::Twist& twist, microseconds until) {
+  if (!all_finite(twist.linear) || !all_finite(twist.angular)) return "it holds NaN or infinity";
+  held_ = Held{to_velocity(twist.linear.x, twist.angular.z), until, std::nullopt};
+  return std::nullopt;
+}
+
+VelocityCommand::Due VelocityCommand::due(microseconds now, microseconds refresh) {
+  if (!held_) return Due::nothing;
+  if (now >= held_->until) {
+    held_.reset();
+    return Due::stop;
+  }
+  if (held_->sent && now - *held_->sent < refresh) return Due::nothing;
+  held_->sent = now;
+  return Due::velocity;
+}
+
+std::string Driving::arm(RobotSession& session) {
+  // Also for the robot, which takes an Arm only of a host that can know of all stops.
+  const protocol::Status status = session.ask(protocol::GetStatus{});
+  if (!armed_) require_free(session, status);
+  const std::uint32_t latched = session.ask(protocol::GetFaults{}).latched;
+  if ((latched & ~robot::kFaultsLeftBehind) != 0)
+    throw robot::DriveFault(
+        "the robot is not armed because of a latched fault: " + robot::fault_names(latched),
+        robot::first_fault(latched & ~robot::kFaultsLeftBehind));
+  if (latched != 0) {
+    if (!comes_to_rest(session)) throw Error("the robot is not armed yet: it still ramps to rest");
+    session.ask(protocol::ClearFaults{});
+  }
+  try {
+    session.ask(protocol::Arm{});
+  } catch (const robot::RobotRefused& refused) {
+    throw Error(why_not(session, refused));
+  }
+  command_.clear();
+  armed_ = true;
+  halt_ = Halt::none;
+  return latched == 0
+             ? "armed"
+             : "armed; cleared " + robot::fault_names(latched) + ", which an earlier drive left behind";
+}
+
+void Driving::disarm(RobotSession& session) {
+  session.ask(protocol::Disarm{});
+  release();
+}
+
+std::string Driving::stop(RobotSession& session) {
+  command_.clear();
+  if (velocities_after_stop_ && armed_ && halt_ == Halt::none) {
+    try {
+      session.ask(protocol::Rest{});
+      return "ramps to rest, and goes on with the next velocity";
+    } catch (const robot::RobotRefused&) {  // somebody else has stopped the robot
+    }
+  }
+  session.ask(protocol::Stop{});
+  halt_ = Halt::stopped;
+  return "ramps to rest, and moves for nobody until it is armed again";
+}
+
+void Driving::pause(RobotSession& session) {
+  command_.clear();
+  session.ask(protocol::Pause{});
+  if (halt_ == Halt::none) halt_ = Halt::paused;
+}
+
+void Driving::resume(RobotSession& session) {
+  session.ask(protocol::Resume{});
+  if (halt_ == Halt::paused) halt_ = Halt::none;
+}
+
+void Driving::release() {
+  command_.clear();
+  armed_ = false;
+}
+
+void Driving::step(RobotSession& session, microseconds now) {
+  switch (command_.due(now, refresh_of(session))) {
+    case VelocityCommand::Due::nothing:
+      return;
+    case VelocityCommand::Due::stop:
+      return send_rest(session, now);
+    case VelocityCommand::Due::velocity:
+      return send(session, now);
+  }
+}
+
+void Driving::send_rest(RobotSession& session, microseconds now) {
+  if (!armed_) return;
+  try {
+    session.ask(protocol::Rest{});
+  } catch (const robot::RobotRefused& refused) {  // it is in other hands, or at rest with a fault
+    release();
+    ignore(why_not(session, refused), now);
+  }
+}
+
+void Driving::send(RobotSession& session, microseconds now) {
+  if (const std::string_view why = why_ignored(); !why.empty()) {
+    command_.clear();
+    return ignore(std::string(why), now);
+  }
+  try {
+    session.ask(command_.velocity());
+    counts_.reduced = beyond_limits(session, command_.velocity());
+  } catch (const robot::RobotRefused& refused) {
+    release();
+    ignore(why_not(session, refused), now);
+  }
+}
+
+std::string_view Driving::why_ignored() const {
+  if (!armed_) return "the robot is not armed";
+  switch (halt_) {
+    case Halt::stopped:
+      return "the robot was stopped and must be armed again";
+    case Halt::paused:
+      return "the robot is paused";
+    default:
+      return "";
+  }
+}
+
+void Driving::ignore(const std::string& why, microseconds now) {
+  ++counts_.ignored;
+  counts_.last_reason = why;
+  counts_.ignored_at = now;
+}
+
+}  // namespace astro::live

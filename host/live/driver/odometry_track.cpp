@@ -1,0 +1,79 @@
+#include "host/live/driver/odometry_track.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "common/fixed/wrapping.hpp"
+#include "host/calibration/motion/arc.hpp"
+
+namespace astro::live {
+
+using calibration::Symmetric3;
+
+namespace {
+
+/// Between samples that follow one another the path is an arc, and a robot is where that arc ends, to less than this.
+constexpr double kJump_m = 0.02, kJump_rad = 0.05;
+constexpr double kGap_s = 0.25;       // after a longer one nobody knows the path
+constexpr double kBeyondLimit = 1.5;  // a robot that overshoots its limits, or is pushed
+
+}  // namespace
+
+void OdometryTrack::set_geometry(const OdometryGeometry& geometry) {
+  const Symmetric3 start = uncertainty_ ? uncertainty_->covariance() : Symmetric3{};
+  geometry_ = geometry;
+  errors_ = stated_errors_.value_or(uncalibrated_errors(geometry.factors.b_m));
+  uncertainty_.emplace(geometry.factors, errors_);
+  uncertainty_->restart(heading_rad_.value_or(0), start);
+}
+
+void OdometryTrack::restart(double heading_rad, const Symmetric3& start) {
+  heading_rad_ = heading_rad;
+  last_.reset();
+  if (uncertainty_) uncertainty_->restart(heading_rad, start);
+}
+
+bool OdometryTrack::take(const recording::OdometrySample& sample) {
+  bool follows_wheels = true;
+  if (last_) {
+    const auto right = wrapping_difference(sample.right_counts, last_->right_counts);
+    const auto left = wrapping_difference(sample.left_counts, last_->left_counts);
+    right_counts_ += right;
+    left_counts_ += left;
+    follows_wheels = follows(sample, geometry_.count_m * right, geometry_.count_m * left);
+    if (follows_wheels) uncertainty_->travel(geometry_.count_m * right, geometry_.count_m * left);
+  }
+  if (!heading_rad_ || !follows_wheels) uncertainty_->restart(sample.theta_rad);
+  heading_rad_ = sample.theta_rad;
+  last_ = sample;
+  return follows_wheels;
+}
+
+bool OdometryTrack::follows(const recording::OdometrySample& sample, double right_m, double left_m) const {
+  const double gap_s = 1e-6 * static_cast<double>(sample.time_us - last_->time_us);
+  recording::OdometrySample expected = *last_;
+  calibration::advance(expected, right_m, left_m, geometry_.factors);
+  const double turn_rad = std::remainder(sample.theta_rad - expected.theta_rad, 2 * std::numbers::pi);
+  if (std::abs(turn_rad) >= kJump_rad + possible_turn_rad(gap_s)) return false;
+  if (gap_s > kGap_s) expected = *last_;
+  return std::hypot(sample.x_m - expected.x_m, sample.y_m - expected.y_m) < kJump_m + possible_way_m(gap_s);
+}
+
+/// How far from where it was a robot can be after a gap; within a short one the arc says it.
+double OdometryTrack::possible_way_m(double gap_s) const {
+  return gap_s > kGap_s ? kBeyondLimit * geometry_.fastest_mps * gap_s : 0;
+}
+
+/// The heading follows from the counts alone, whatever the path, but for what curvature does to the wheelbase.
+double OdometryTrack::possible_turn_rad(double gap_s) const {
+  if (geometry_.factors.e == 0 || gap_s <= kGap_s) return 0;
+  return kBeyondLimit * std::abs(geometry_.factors.e) * geometry_.fastest_radps * gap_s;
+}
+
+Symmetric3 OdometryTrack::covariance() const {
+  const double count_variance = geometry_.count_m * geometry_.count_m / 12, b_m = geometry_.factors.b_m;
+  const Symmetric3 counts{count_variance / 2, 0, 0, count_variance / 2, 0, 2 * count_variance / (b_m * b_m)};
+  return counts + uncertainty_->covariance();
+}
+
+}  // namespace astro::live

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "host/live/driver/host_clock.hpp"
+#include "host/robot/client/client.hpp"
+#include "host/robot/parameters/parameters.hpp"
+
+namespace astro::live {
+
+/// One connection to a robot, from the handshake until it is lost: its parameters and the stream of its telemetry. Requests
+/// are given up after half a second, and a commit of parameters, for which the robot may have to erase flash, after two, so that
+/// whoever waits for the driver waits no longer. The robot can be stopped at once: its parameter table is read later.
+class RobotSession {
+ public:
+  /// Shakes hands and asks for telemetry. Throws astro::Error with the reason if no robot answers, or another one than `known`.
+  RobotSession(std::unique_ptr<robot::Transport> transport, const std::optional<protocol::HelloReply>& known,
+               std::uint16_t telemetry_period_ms);
+
+  template <protocol::Request M>
+  typename M::Reply ask(const M& message) {
+    return client_->request(message, kPatience);
+  }
+
+  /// Waits until telemetry or an event has come, at most this long.
+  void pump(microseconds most);
+  /// The next sample of telemetry in the order in which they came.
+  std::optional<protocol::Telemetry> take_sample();
+
+  /// The robot's clock in microseconds, read just now.
+  std::uint64_t device_now_us() { return ask(protocol::Ping{}).device_time_us; }
+  /// If none came for some periods, asks for telemetry again.
+  void keep_telemetry();
+
+  bool restarted() const { return restarted_; }
+  /// True once after a fault was raised.
+  bool take_fault() { return std::exchange(fault_, false); }
+
+  robot::Client& client() { return *client_; }
+  /// Reads some of the parameter table, one parameter at least, more while this takes less than `most`. True if all are known.
+  bool read_parameters(microseconds most);
+  bool knows_parameters() const { return parameters_.is_complete(); }
+  robot::RemoteParameters& parameters() { return parameters_; }
+  /// Before all parameters are known: the command time-out alone.
+  const std::map<std::string, double>& numbers() const { return numbers_; }
+  /// After the parameters have changed.
+  void note_parameters() { numbers_ = parameters_.numbers(); }
+  microseconds telemetry_age() const { return client_->now() - telemetry_at_; }
+
+ private:
+  static constexpr robot::RetryPolicy kPatience{std::chrono::milliseconds(60), 8};
+
+  static std::unique_ptr<robot::Client> connected(std::unique_ptr<robot::Transport> transport,
+                                                  const std::optional<protocol::HelloReply>& known);
+  void ask_for_telemetry();
+
+  std::unique_ptr<robot::Client> client_;
+  std::uint16_t period_ms_;
+  robot::RemoteParameters parameters_;
+  std::map<std::string, double> numbers_;
+  std::deque<protocol::Telemetry> samples_;
+  microseconds telemetry_at_{}, asked_at_{};
+  bool restarted_ = false, fault_ = false;
+  robot::Subscription on_telemetry_, on_fault_, on_boot_;
+};
+
+/// Opens the robot's port; throws astro::Error with the reason if that is not possible now.
+using OpenPort = std::function<std::unique_ptr<robot::Transport>()>;
+
+/// The way to one robot, which may not be there yet, go away and come back. The first robot that answers is the one: another
+/// one at the same port is not taken for it, because its odometry and its parameters are others.
+class RobotLink {
+ public:
+  RobotLink(OpenPort open, HostClock clock, std::uint16_t telemetry_period_ms)
+      : open_(std::move(open)), clock_(std::move(clock)), period_ms_(telemetry_period_ms) {}
+
+  /// Null while there is no robot.
+  RobotSession* session() { return session_.get(); }
+
+  /// Tries to reach the robot, if it is time for another try. True if there is a session now, a new one.
+  bool seek();
+  /// The session has ended, for this reason.
+  void lose(const Error& why);
+
+  /// Why there is no session.
+  const Error& why() const { return why_; }
+  /// The robot that answered first.
+  const std::optional<protocol::HelloReply>& robot() const { return robot_; }
+  /// How many times it was lost.
+  int losses() const { return losses_; }
+
+ private:
+  OpenPort open_;
+  HostClock clock_;
+  std::uint16_t period_ms_;
+  std::unique_ptr<RobotSession> session_;
+  std::optional<protocol::HelloReply> robot_;
+  Error why_{"no robot was found yet"};
+  std::optional<microseconds> tried_;
+  int losses_ = 0;
+};
+
+}  // namespace astro::live

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "host/live/foxglove/catalogue.hpp"
+
+namespace astro::foxglove {
+
+/// One WebSocket message: `head`, then the payload of `sample` if there is one.
+struct Frame {
+  bool is_text = false;
+  std::string head;
+  SharedSample sample;
+  std::uint32_t subscription = 0;  // of a sample
+
+  std::size_t size() const { return head.size() + (sample ? sample->payload.size() : 0); }
+};
+
+/// What waits to be sent to one client. Control messages (answers, lists, latched topics) go first and are never dropped; of
+/// data the oldest is dropped when more waits than fits.
+///
+/// Bounds  data: 4 MiB or 16384 messages, about a second of a robot's fastest telemetry: a browser may stand still for so long,
+///         and what is older is of no use to somebody who watches. Control messages: 4 MiB or 4096; beyond that the client must be disconnected.
+class ClientQueue {
+ public:
+  static constexpr std::size_t kMostData = 16384, kMostDataBytes = 4 << 20;
+  static constexpr std::size_t kMostControl = 4096, kMostControlBytes = 4 << 20;
+
+  void push_text(std::string text) { push_control({true, std::move(text), nullptr, 0}); }
+  void push_binary(std::string bytes) { push_control({false, std::move(bytes), nullptr, 0}); }
+  /// Of a latched topic.
+  void push_latched(std::uint32_t subscription, SharedSample sample);
+  void push_data(std::uint32_t subscription, SharedSample sample);
+
+  /// What is to be sent next; nothing if nothing waits.
+  std::optional<Frame> pop();
+  /// Removes what waits for a subscription: a client may give its number to another channel.
+  void forget(std::uint32_t subscription);
+
+  bool overflowed() const { return overflowed_; }
+  bool empty() const { return control_.empty() && data_.empty(); }
+  /// Data messages since the start.
+  std::uint64_t dropped() const { return dropped_; }
+
+ private:
+  struct Waiting {
+    std::uint32_t subscription;
+    SharedSample sample;
+  };
+  void push_control(Frame frame);
+  void drop_oldest();
+
+  std::deque<Frame> control_;
+  std::deque<Waiting> data_;
+  std::size_t control_bytes_ = 0, data_bytes_ = 0;
+  std::uint64_t dropped_ = 0;
+  bool overflowed_ = false;
+};
+
+}  // namespace astro::foxglove

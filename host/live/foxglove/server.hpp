@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/live/foxglove/hub.hpp"
+
+namespace astro::foxglove {
+
+struct Address {
+  std::string ip = "127.0.0.1";  // of this computer's networks; "0.0.0.0" or "::": all of them
+  std::uint16_t port = 8765;     // 0: any that is free
+};
+
+/// A hub on the network, on a thread of its own, so that whatever the robot's thread does, viewers are served, and whatever a
+/// viewer does, the robot's thread does not wait.
+class Server {
+ public:
+  /// Work on the hub, done in the server's thread.
+  using Task = std::function<void(Hub&)>;
+
+  /// Listens, but serves nobody yet. `origins`: see origin.hpp. Throws astro::Error that names the address if it cannot be had.
+  Server(const Address& address, std::vector<std::string> origins, std::unique_ptr<Hub> hub,
+         RequestSink sink);
+  /// Says goodbye to all clients; waits no longer than a fifth of a second for that.
+  ~Server();
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  std::uint16_t port() const;
+
+  /// Begins to serve; a second call does nothing. Tasks that were posted before come first.
+  void start();
+  /// From any thread. Tasks are done in their order.
+  void post(Task task);
+  /// The same for data: it is done with the next post() or flush(), so that many messages wake the other thread once; and it is left
+  /// out when thousands of tasks wait already, because the computer is too busy.
+  void post_data(Task task);
+  void flush();
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace astro::foxglove

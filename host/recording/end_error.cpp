@@ -1,0 +1,43 @@
+#include "host/recording/end_error.hpp"
+
+#include "host/base/error.hpp"
+#include "host/recording/rest.hpp"
+#include "host/recording/run_metadata.hpp"
+
+namespace astro::recording {
+namespace {
+
+Rest required(const std::optional<Rest>& rest, const Run& run, const std::string& end) {
+  if (!rest) {
+    throw Error(run_name(run.info) + " does not stand still for 0.2 s at its " + end, {Help::stand_still});
+  }
+  if (!rest->truth) {
+    throw Error(run_name(run.info) + " has no valid ground truth while it stands at its " + end,
+                {Help::check_tracker});
+  }
+  return *rest;
+}
+
+}  // namespace
+
+RunEnds ends_of(const Run& run) {
+  if (run.odometry.empty()) throw Error(run_name(run.info) + " holds no odometry", {Help::record_again});
+  const Rest start = required(rest_at_start(run), run, "start");
+  const Rest end = required(rest_at_end(run), run, "end");
+  if (start.to_us >= end.from_us) {
+    throw Error(run_name(run.info) + " never moves: its wheel counts stay the same from start to end");
+  }
+  if (!std::isfinite(start.truth->theta_rad)) {
+    throw Error(run_name(run.info) +
+                " has no heading of ground truth at its start: without it the end cannot " + "be placed");
+  }
+  return {in_frame_of(*start.truth, *end.truth), in_frame_of(start.odometry, end.odometry)};
+}
+
+EndError end_error(const Run& run) {
+  const auto [absolute, odometry] = ends_of(run);
+  return {absolute.x_m - odometry.x_m, absolute.y_m - odometry.y_m,
+          wrapped_rad(absolute.theta_rad - odometry.theta_rad)};
+}
+
+}  // namespace astro::recording

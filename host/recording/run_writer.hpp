@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+
+#include "host/base/files.hpp"
+#include "host/formats/files/mcap_writer.hpp"
+#include "host/recording/log_time.hpp"
+#include "host/recording/robot_messages.hpp"
+#include "host/recording/run_metadata.hpp"
+
+namespace astro::recording {
+
+/// Records a run while it is driven. The recording is in `<path>.part` until close() gives it its name, so
+/// that a run that was cut off is never mistaken for a complete one; if the program is killed, the `.part`
+/// (renamed) can be read up to about its last two seconds.
+///
+/// Topics  /odom nav_msgs/msg/Odometry (odom -> base_link), /wheel_counts astrolabe_msgs/msg/WheelCounts,
+///         /truth geometry_msgs/msg/PoseStamped (frame truth); run info as Metadata "astrolabe.run". For viewers /tf and,
+///         if the run knows the robot's sizes, /joint_states and /robot_description (robot_messages.hpp).
+/// Times   stamps inside the messages are the robot's clock. MCAP's own times are UTC, so that viewers show
+///         when it was driven and not 1970: the first message is at RunInfo::started_at, the others at their
+///         distance from it by the robot's clock. Without a started_at they are the robot's clock, too.
+/// Limits  the poses of invalid truth samples are not kept; between two samples of a stream the heading must
+///         change by less than half a turn, or whole turns are lost.
+/// Errors  astro::Error naming the file: it cannot be written, or a time is not within +-2^31 s.
+class RunWriter {
+ public:
+  RunWriter(const std::filesystem::path& path, const RunInfo& info, bag::McapWriterOptions options = {});
+
+  void add(const OdometrySample& sample);
+  void add(const TruthSample& sample);
+  /// `final` replaces the info given at the start. Nothing may be added afterwards.
+  void close(const RunInfo& final);
+
+ private:
+  void describe(std::uint64_t time_ns);
+
+  PartFile file_;
+  bag::McapWriter mcap_;
+  RunRecord record_;
+  LogTime log_time_;
+  RobotMessages robot_;
+  bool described_ = false;
+  std::uint16_t odometry_ = 0, counts_ = 0, truth_ = 0, transforms_ = 0, joints_ = 0, description_ = 0;
+};
+
+}  // namespace astro::recording

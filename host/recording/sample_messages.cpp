@@ -1,0 +1,92 @@
+#include "host/recording/sample_messages.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "host/formats/cdr/codec.hpp"
+
+namespace astro::recording {
+namespace {
+
+/// Our own: WheelCounts on the wire.
+struct CountsMessage {
+  ros2::msg::Time stamp;
+  std::int32_t left = 0, right = 0;
+
+  static constexpr std::string_view kType = "astrolabe_msgs/msg/WheelCounts";
+  static constexpr std::tuple kFields{ros2::Field{&CountsMessage::stamp, "stamp"},
+                                      ros2::Field{&CountsMessage::left, "left"},
+                                      ros2::Field{&CountsMessage::right, "right"}};
+};
+
+ros2::msg::Time to_stamp(std::int64_t time_us) { return ros2::msg::to_time(time_us * 1000); }
+
+/// Rounded downwards, before 1970 as well.
+std::int64_t time_us_of(const ros2::msg::Time& stamp) {
+  const std::int64_t time_ns = ros2::msg::nanoseconds(stamp), nanos = time_ns % 1000;
+  return (time_ns - (nanos < 0 ? nanos + 1000 : nanos)) / 1000;
+}
+
+}  // namespace
+
+const ros2::RosType& wheel_counts_type() {
+  static const ros2::RosType type = ros2::ros_type<CountsMessage>();
+  return type;
+}
+
+Bytes encode_odometry(const OdometrySample& sample) {
+  ros2::msg::Odometry message;
+  message.header = {to_stamp(sample.time_us), std::string(ros2::kOdomFrame)};
+  message.child_frame_id = ros2::kBaseFrame;
+  message.pose.pose = ros2::planar_pose(sample.x_m, sample.y_m, sample.theta_rad);
+  message.twist.twist.linear.x = sample.v_mps;
+  message.twist.twist.angular.z = sample.omega_radps;
+  return ros2::encode(message);
+}
+
+Bytes encode_counts(const WheelCounts& counts) {
+  return ros2::encode(CountsMessage{to_stamp(counts.time_us), counts.left, counts.right});
+}
+
+Bytes encode_truth(const TruthSample& sample) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  ros2::msg::PoseStamped message;
+  message.header = {to_stamp(sample.time_us), std::string(ros2::kTruthFrame)};
+  message.pose = sample.valid ? ros2::planar_pose(sample.x_m, sample.y_m, sample.theta_rad)
+                              : ros2::msg::Pose{{kNan, kNan, kNan}, {kNan, kNan, kNan, kNan}};
+  return ros2::encode(message);
+}
+
+std::optional<OdometrySample> decode_odometry(ByteView bytes) {
+  const auto message = ros2::decode<ros2::msg::Odometry>(bytes);
+  if (!message) return std::nullopt;
+  OdometrySample sample;
+  const ros2::msg::Pose& pose = message->pose.pose;
+  sample.time_us = time_us_of(message->header.stamp);
+  sample.x_m = pose.position.x;
+  sample.y_m = pose.position.y;
+  sample.theta_rad = ros2::heading_of(pose.orientation);
+  sample.v_mps = message->twist.twist.linear.x;
+  sample.omega_radps = message->twist.twist.angular.z;
+  return sample;
+}
+
+std::optional<WheelCounts> decode_counts(ByteView bytes) {
+  const auto message = ros2::decode<CountsMessage>(bytes);
+  if (!message) return std::nullopt;
+  return WheelCounts{time_us_of(message->stamp), message->left, message->right};
+}
+
+std::optional<TruthSample> decode_truth(ByteView bytes) {
+  const auto message = ros2::decode<ros2::msg::PoseStamped>(bytes);
+  if (!message) return std::nullopt;
+  TruthSample sample;
+  sample.time_us = time_us_of(message->header.stamp);
+  sample.x_m = message->pose.position.x;
+  sample.y_m = message->pose.position.y;
+  sample.theta_rad = ros2::heading_of(message->pose.orientation);
+  sample.valid = !std::isnan(sample.x_m) && !std::isnan(sample.y_m);
+  return sample;
+}
+
+}  // namespace astro::recording

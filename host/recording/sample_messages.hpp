@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+
+#include "host/base/bytes.hpp"
+#include "host/formats/messages/ros_messages.hpp"
+#include "host/recording/run.hpp"
+
+/// The samples of a run as ROS 2 messages. Times are the robot's clock in `header.stamp`, which takes +-2^31 s and whole
+/// nanoseconds.
+namespace astro::recording {
+
+/// Running encoder counts at one instant. No ROS type holds integer counts that wrap, so this type is our
+/// own.
+struct WheelCounts {
+  std::int64_t time_us = 0;
+  std::int32_t left = 0, right = 0;
+};
+
+const ros2::RosType& wheel_counts_type();  // astrolabe_msgs/msg/WheelCounts: stamp, left, right
+
+Bytes encode_odometry(const OdometrySample& sample);  // all but the counts
+Bytes encode_counts(const WheelCounts& counts);
+/// A sample that is not valid becomes a pose of NaNs, which viewers draw as a gap; a valid one whose heading
+/// is NaN becomes a position with an orientation of NaNs.
+Bytes encode_truth(const TruthSample& sample);
+
+/// Nothing if the message is too short for its type. theta is in (-pi, pi]; orientations that are not planar
+/// are reduced to their rotation about z, whatever the sign of the quaternion.
+std::optional<OdometrySample> decode_odometry(ByteView message);
+std::optional<WheelCounts> decode_counts(ByteView message);
+std::optional<TruthSample> decode_truth(ByteView message);
+
+}  // namespace astro::recording

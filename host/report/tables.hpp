@@ -1,0 +1,24 @@
+#pragma once
+
+#include "host/report/page.hpp"
+#include "host/report/report.hpp"
+
+/// The tables of the page, in the order in which they stand there.
+namespace astro::report {
+
+/// The verdict on drives of any shape, and each drive with the factors before and after. Empty without a comparison.
+Section drive_comparison(const ReportInput& input);
+
+/// The parameters before and after, with standard errors.
+Section parameter_table(const ReportInput& input);
+
+/// All phases in a row; only for three and more, as two are the parameter table.
+Section history(const ReportInput& input);
+
+/// Figures of merit of the squares, phase by phase, with improvement factors. Empty for fewer than two phases.
+Section factor_table(const ReportInput& input);
+
+/// The end error of every square.
+Section rms_tables(const ReportInput& input);
+
+}  // namespace astro::report

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <list>
+#include <string>
+
+#include "host/base/socket.hpp"
+#include "host/simulation/server/virtual_tracker.hpp"
+#include "host/truth/trackers/natnet_packet.hpp"
+
+namespace astro::simulation {
+
+/// A NatNet server with one rigid body, which sends to each client that asks and keeps asking. Frames go to the
+/// socket that the client asked from.
+///
+/// Bounds  16 clients. One that has not been heard for five seconds is dropped.
+class NatNetServer {
+ public:
+  /// `at`: its address for commands. Throws astro::Error if that is in use.
+  NatNetServer(const net::Address& at, std::string body, truth::natnet::Version version);
+
+  /// Takes what clients send. `now_us`: on the tracker's clock.
+  void work(std::int64_t now_us);
+  /// `now_us`: when the frame leaves.
+  void send(const TrackedFrame& frame, std::int64_t now_us);
+
+  net::Address address() const { return net::Address::local(socket_); }
+  std::uint16_t port() const { return address().port(); }
+  std::size_t clients() const { return clients_.size(); }
+
+ private:
+  struct Client {
+    net::Address address;
+    std::int64_t heard_us = 0;
+  };
+
+  void take(const net::Datagram& datagram, std::int64_t now_us);
+  bool note_client(const net::Address& from, bool connects, std::int64_t now_us);
+
+  net::Socket socket_;
+  std::string body_;
+  truth::natnet::Version version_;
+  std::list<Client> clients_;
+};
+
+}  // namespace astro::simulation

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <list>
+#include <string>
+
+#include "host/base/socket.hpp"
+#include "host/simulation/server/virtual_tracker.hpp"
+#include "host/truth/trackers/vrpn_directory.hpp"
+#include "host/truth/trackers/vrpn_reader.hpp"
+
+namespace astro::simulation {
+
+/// A VRPN server with one tracked body, for our own client and for those of others: serves whoever connects by
+/// TCP, calls back whoever asks by UDP, and answers pings. Poses go by TCP in either case.
+///
+/// Bounds  16 clients. One that does not read is disconnected beyond 64 KiB; one that sends nonsense, at once.
+class VrpnServer {
+ public:
+  /// `at`: its address for TCP and UDP. Throws astro::Error if that is in use.
+  VrpnServer(const net::Address& at, std::string body);
+
+  /// Takes new clients and what they send. `now_us`: on the tracker's clock.
+  void work(std::int64_t now_us);
+  void send(const TrackedFrame& frame);
+
+  net::Address address() const { return net::Address::local(listener_); }
+  std::uint16_t port() const { return address().port(); }
+  std::size_t clients() const { return clients_.size(); }
+
+ private:
+  struct Client {
+    net::Socket socket;
+    bool called = false;  // and has not answered yet
+    bool closed = false;
+    Bytes waiting{};
+    truth::vrpn::StreamReader reader{};
+    truth::vrpn::Directory directory{};
+  };
+
+  void add(net::Socket socket, bool called, std::int64_t now_us);
+  void accept(std::int64_t now_us);
+  void take_requests(std::int64_t now_us);
+  static void follow_call(Client& client);
+  void read(Client& client, std::int64_t now_us);
+  void answer(Client& client, const truth::vrpn::Message& message, std::int64_t now_us);
+  static void write(Client& client);
+
+  net::Socket listener_, requests_;
+  std::string body_;
+  std::list<Client> clients_;
+  std::uint32_t sequence_ = 0;
+};
+
+}  // namespace astro::simulation

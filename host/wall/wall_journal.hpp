@@ -1,0 +1,51 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "host/experiment/files/robot_identity.hpp"
+#include "host/wall/drive_against_wall.hpp"
+#include "host/wall/wall_plan.hpp"
+#include "host/wall/wall_robot.hpp"
+
+namespace astro::wall {
+
+/// What a calibration against a wall is asked to do.
+struct WallPlan {
+  WallTargets targets;
+  double line_m = 3;  // of the laps
+  int readings = 2;   // of the ruler
+  double gap_m = 2;   // which it shows
+  double speed_mps = 0.7, yaw_rate_radps = 1.8;
+  double most_minutes = 10;  // of driving
+  PushLimit push;
+  BodySize body;
+
+  /// Throws astro::Error naming the value that cannot be driven.
+  void check() const;
+};
+
+/// wall.json: what was driven so far, so that it can go on. All counts are in travel of a nominal wheel.
+struct WallJournal {
+  WallPlan plan;
+  experiment::RobotIdentity robot;
+  std::string started_at;
+  double count_m = 0;                // the nominal wheel to which the travels refer
+  calibration::WheelFactors loaded;  // when it began
+  WallDrive drive;
+  std::vector<WallMove> moves;  // that were driven and kept
+  double driven_s = 0;
+};
+
+std::optional<WallJournal> read_wall_journal(const std::filesystem::path& folder);
+void write_wall_journal(const std::filesystem::path& folder, const WallJournal& journal);
+
+/// The journal in `folder`, or one that begins now and is written.
+///
+/// Throws astro::Error if the folder holds another plan, another robot's drive, one of another wheel, or a damaged file.
+WallJournal open_wall_journal(const std::filesystem::path& folder, const WallPlan& plan,
+                              const experiment::RobotIdentity& robot, const WallRobot& facts);
+
+}  // namespace astro::wall

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+
+#include "host/calibration/motion/wheel_factors.hpp"
+#include "host/robot/parameters/parameters.hpp"
+
+/// What a robot's parameters and its owner say about it, as far as a wall matters.
+namespace astro::wall {
+
+/// Outline of the body over the floor, as far as its owner measured it; only roughly needed.
+struct BodySize {
+  double front_to_axle_m = 0.1625, length_m = 0.325, width_m = 0.337;
+
+  /// The gap in which it can turn on the spot, with a hand's breadth to spare.
+  double turning_gap_m() const;
+};
+
+/// How hard the robot may push, and what decides which voltage that is: torque at the wheel of a motor that is held, from its
+/// data sheet.
+struct PushLimit {
+  double force_N = 12;  // of both wheels together
+  double stall_Nm = 1.76, stall_V = 12;
+};
+
+struct WallRobot {
+  double count_m = 0;  // travel of one count of a nominal wheel (c = 1)
+  double wheel_diameter_m = 0;
+  calibration::WheelFactors loaded;
+  std::array<double, 2> kS_V{}, kV_Vspm{}, kA_Vs2pm{};  // left, right
+  double speed_limit_mps = 0, yaw_rate_limit_radps = 0;
+  double acceleration_mps2 = 0, yaw_acceleration_radps2 = 0;
+  double half_voltage_V = 0;  // above this the robot takes a wheel that stands for stalled
+};
+
+/// Throws astro::Error where the robot lacks a parameter.
+WallRobot wall_robot_of(const robot::RemoteParameters& robot);
+
+/// The voltage at which both motors, held, push with force_N together. A motor that turns pushes less, by its back-EMF; what
+/// friction takes is not counted on. So no voltage up to this one pushes harder, but for the blow of the body that stops:
+///
+///   torque = (stall_Nm / (stall_V - kS)) V      because at stall_V friction has taken kS off
+///   force  = 2 torque / (diameter / 2)
+///
+/// Throws astro::Error if the wheels would not start turning on it (kS and as much again), or if it is so high that the robot
+/// would report a stall.
+double push_voltage_V(const PushLimit& limit, const WallRobot& robot);
+
+}  // namespace astro::wall

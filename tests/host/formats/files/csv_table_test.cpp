@@ -1,0 +1,43 @@
+#include "host/formats/files/csv_table.hpp"
+
+#include <gmock/gmock.h>
+
+#include <string>
+
+#include "tests/support/base/bounded.hpp"
+
+// Implausible tables are refused with the line number, without holding the whole table in memory.
+namespace astro {
+namespace {
+
+using testing::HasSubstr;
+
+void expect_refused(const std::string& text, const std::string& reason) {
+  const support::Taken taken = support::measured([&] { split_csv(text, "t.csv"); });
+  EXPECT_BOUNDED(taken, text.size());
+  EXPECT_THAT(taken.complaint, HasSubstr("t.csv, line "));
+  EXPECT_THAT(taken.complaint, HasSubstr(reason));
+}
+
+TEST(CsvTable, RefusesALineOfFiftyMegabytesOfCommas) {
+  expect_refused(std::string(50'000'000, ','), "more than 1000 cells");
+  expect_refused("x_m,y_m\n" + std::string(50'000'000, ','), "more than 1000 cells");
+}
+
+TEST(CsvTable, RefusesMoreShortRowsThanItCanHold) {
+  expect_refused("x,y\n" + support::filled("0,0\n", 50'000'000), "more cells than can be held");
+  expect_refused(std::string(998, ',') + "x\n" + support::filled(std::string(998, ',') + "1\n", 50'000'000),
+                 "more cells than can be held");
+}
+
+TEST(CsvTable, TakesATruthFileOfAnHour) {
+  const std::string text =
+      "time_s,x_m,y_m,theta_rad\n" + support::filled("1234.567,1.2345,-0.4321,0.0123\n", 12'000'000);
+  const support::Taken taken =
+      support::measured([&] { EXPECT_GT(split_csv(text, "t.csv").rows.size(), 100U * 3600); });
+  EXPECT_EQ(taken.complaint, "");
+  EXPECT_TRUE(taken.ended);
+}
+
+}  // namespace
+}  // namespace astro

@@ -1,0 +1,308 @@
+#include "host/import/drives/import_drives.hpp"
+
+#include <gmock/gmock.h>
+
+#include "host/experiment/analysis/calibration.hpp"
+#include "host/import/drives/file_inspection.hpp"
+#include "host/recording/rosbag_export.hpp"
+#include "host/recording/run_file.hpp"
+#include "tests/host/calibration/ml_drives.hpp"
+#include "tests/host/import/drives/drive_files.hpp"
+#include "tests/host/import/drives/file_samples.hpp"
+#include "tests/support/base/remarks.hpp"
+#include "tests/support/base/temporary_folder.hpp"
+
+namespace astro::importing {
+namespace {
+
+namespace fs = std::filesystem;
+using calibration::Trajectory;
+using calibration::WheelFactors;
+using support::Tells;
+using support::told_by;
+using testing::HasSubstr;
+
+class Import : public testing::Test {
+ protected:
+  /// Six squares of a robot with known factors. Its counts are whole.
+  static const std::vector<Trajectory>& drives() {
+    static const std::vector<Trajectory> runs = [] {
+      simulation::study::DriveModel model = calibration::astro_drive();
+      model.metres_per_count = test::kMetresPerCount;
+      model.clock_offset_s = 0.031;
+      return calibration::squares(model, 6, 2);
+    }();
+    return runs;
+  }
+
+  static ImportChoices choices() {
+    ImportChoices choices;
+    choices.geometry.wheel_diameter_m = test::kDiameter_m;
+    choices.geometry.counts_per_turn = test::kCountsPerTurn;
+    choices.geometry.wheelbase_m = 0.29;
+    return choices;
+  }
+
+  fs::path at(const std::string& name) const { return folder_.path() / name; }
+
+  /// Each drive by these two writers.
+  std::vector<DriveFiles> files(const auto& wheels, const auto& truth) const {
+    std::vector<DriveFiles> list;
+    for (std::size_t i = 0; i < drives().size(); ++i)
+      list.push_back(
+          {wheels(at(fmt::format("w{}", i)), drives()[i]), truth(at(fmt::format("t{}", i)), drives()[i])});
+    return list;
+  }
+
+  static experiment::Calibration calibrated(const std::vector<DriveFiles>& files,
+                                            const ImportChoices& choices) {
+    return experiment::calibrate(import_drives(files, choices).set,
+                                 {experiment::MethodChoice::Family::ml, {}});
+  }
+
+  static void expect_like(const WheelFactors& found, const WheelFactors& expected, double tolerance) {
+    EXPECT_NEAR(found.c_r, expected.c_r, tolerance);
+    EXPECT_NEAR(found.c_l, expected.c_l, tolerance);
+    EXPECT_NEAR(found.b_m / expected.b_m, 1, tolerance);
+  }
+
+  WheelFactors by_counts_and_tum() const {
+    return calibrated(files([](auto path, auto& run) { return test::write_counts(path, run); },
+                            [](auto path, auto& run) { return test::write_tum(path, run); }),
+                      choices())
+        .factors;
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+/// Times are rounded to a microsecond, in which the robot goes 0.3 um; the files have at least as many digits.
+constexpr double kRounding = 1e-6;
+
+TEST_F(Import, FindsTheFactorsOfARobotThatHasNeverHeardOfThisProgram) {
+  const experiment::Calibration found =
+      calibrated(files([](auto path, auto& run) { return test::write_counts(path, run); },
+                       [](auto path, auto& run) { return test::write_tum(path, run); }),
+                 choices());
+  const WheelFactors actual = calibration::astro_drive().actual;
+  EXPECT_NEAR(found.factors.c_r, actual.c_r, 4 * found.se.c_r);
+  EXPECT_NEAR(found.factors.c_l, actual.c_l, 4 * found.se.c_l);
+  EXPECT_NEAR(found.factors.b_m, actual.b_m, 4 * found.se.b_m);
+  EXPECT_EQ(found.judgement.verdict, calibration::Verdict::better);
+}
+
+TEST_F(Import, FindsTheSameWhateverTheFormatsOfTheWheels) {
+  const WheelFactors expected = by_counts_and_tum();
+  const auto tum = [](auto path, auto& run) { return test::write_tum(path, run); };
+  expect_like(calibrated(files([](auto p, auto& run) { return test::write_degrees(p, run); }, tum), choices())
+                  .factors,
+              expected, kRounding);
+  expect_like(
+      calibrated(files([](auto p, auto& run) { return test::write_metres(p, run); }, tum), choices()).factors,
+      expected, kRounding);
+  ImportChoices per_interval = choices();
+  per_interval.wheels.table = {"time_s,right_counts,left_counts", true};
+  expect_like(
+      calibrated(files([](auto p, auto& run) { return test::write_counts_per_interval(p, run); }, tum),
+                 per_interval)
+          .factors,
+      expected, kRounding);
+}
+
+TEST_F(Import, FindsTheSameWhateverTheFormatsOfTheTruth) {
+  const WheelFactors expected = by_counts_and_tum();
+  const auto counts = [](auto path, auto& run) { return test::write_counts(path, run); };
+  expect_like(
+      calibrated(files(counts, [](auto p, auto& run) { return test::write_motive(p, run); }), choices())
+          .factors,
+      expected, kRounding);
+  expect_like(
+      calibrated(files(counts, [](auto p, auto& run) { return test::write_plain_millimetres(p, run); }),
+                 choices())
+          .factors,
+      expected, kRounding);
+}
+
+TEST_F(Import, FindsTheSameInABagThatHoldsBoth) {
+  std::vector<DriveFiles> bags;
+  for (std::size_t i = 0; i < drives().size(); ++i) {
+    const fs::path bag = test::write_bag(at(fmt::format("bag{}", i)), drives()[i], test::y_up);
+    bags.push_back({bag, bag});
+  }
+  ImportChoices joints = choices();
+  joints.geometry.counts_per_turn.reset();  // joints are angles
+  expect_like(calibrated(bags, joints).factors, by_counts_and_tum(), kRounding);
+  EXPECT_THAT(import_drives(bags, joints).reports[0].summary,
+              HasSubstr("of '/tracker/pose' (ROS 2 bag, /tracker/pose of geometry_msgs/msg/PoseStamped)"));
+}
+
+TEST_F(Import, FindsTheSameWhereTheClocksHaveNothingInCommon) {
+  const WheelFactors expected = by_counts_and_tum();
+  const auto since_1970 = [](auto path, auto& run) { return test::write_tum(path, run, test::z_up, 1.7e9); };
+  const auto since_boot = [](auto path, auto& run) { return test::write_counts(path, run, 86'400); };
+  // An epoch time in a double has 0.24 us.
+  expect_like(calibrated(files(since_boot, since_1970), choices()).factors, expected, 3 * kRounding);
+}
+
+TEST_F(Import, NamesTheDrivesAfterTheirFiles) {
+  fs::create_directories(at("a"));
+  fs::create_directories(at("b"));
+  const fs::path truth = test::write_tum(at("truth.tum"), drives()[0]);
+  const fs::path truth2 = test::write_tum(at("truth2.tum"), drives()[1]);
+  const std::vector<DriveFiles> pairs{{test::write_counts(at("a/ticks.csv"), drives()[0]), truth},
+                                      {test::write_counts(at("b/ticks.csv"), drives()[1]), truth2}};
+  EXPECT_THAT(import_drives(pairs, choices()).set.names, testing::ElementsAre("a/ticks", "b/ticks"));
+  EXPECT_THAT(import_drives(std::vector{pairs[0]}, choices()).set.names, testing::ElementsAre("ticks"));
+}
+
+TEST_F(Import, RefusesADriveThatIsGivenTwice) {
+  const fs::path wheels = test::write_counts(at("w.csv"), drives()[0]);
+  const fs::path truth = test::write_tum(at("t.tum"), drives()[0]);
+  const std::vector<DriveFiles> twice{{wheels, truth}, {at("./w.csv"), truth}};
+  EXPECT_THAT(told_by([&] { import_drives(twice, choices()); }),
+              Tells(HasSubstr("given twice"), Help::name_other_file));
+}
+
+class Directions : public Import {
+ protected:
+  ImportedDrives imported(const test::Frame& frame, const ImportChoices& choices,
+                          double height_m = test::kHeight_m) {
+    return import_drives(
+        std::vector<DriveFiles>{{test::write_counts(at("w.csv"), drives()[0]),
+                                 test::write_tum(at("t.tum"), drives()[0], frame, 0, height_m)}},
+        choices);
+  }
+};
+
+TEST_F(Directions, AnAxisThatPointsDownIsRecognisedByTheHeightOfTheBody) {
+  const ImportedDrives found = imported(test::z_down, choices());
+  EXPECT_NEAR(found.reports[0].floor.up[2], -1, 1e-6);
+  EXPECT_THAT(found.reports[0].summary, HasSubstr("-z is up"));
+  EXPECT_NEAR(found.reports[0].floor.height_m, test::kHeight_m, 1e-3);
+}
+
+TEST_F(Directions, ExchangedWheelsUnderABodyAboveTheFloorAreRefusedAndNotTakenForAMirrorImage) {
+  ImportChoices exchanged = choices();
+  exchanged.wheels.exchanged = true;
+  EXPECT_THAT(told_by([&] { imported(test::z_up, exchanged); }),
+              Tells(HasSubstr("0.21 m above the tracker's origin"), Help::exchange_wheels_or_give_up));
+}
+
+TEST_F(Directions, ExchangedWheelsUnderAnAxisThatPointsDownDoNotHideEachOther) {
+  ImportChoices exchanged = choices();
+  exchanged.wheels.exchanged = true;  // as the file would have them
+  EXPECT_THAT(
+      told_by([&] { imported(test::z_down, exchanged); }),
+      Tells(HasSubstr("the body is 0.21 m below the tracker's origin"), Help::exchange_wheels_or_give_up));
+  ImportChoices below = choices();
+  below.floor.up = truth::Direction3{0, 0, 1};
+  EXPECT_NO_THROW(imported(test::z_up, below, -test::kHeight_m))
+      << "a tracker whose origin is not on the floor";
+  EXPECT_THROW(imported(test::z_up, choices(), -test::kHeight_m), Error);
+}
+
+TEST_F(Directions, WhereNothingShowsWhatIsMirroredNothingIsGuessed) {
+  ImportChoices exchanged = choices();
+  exchanged.wheels.exchanged = true;
+  EXPECT_THAT(told_by([&] { imported(test::z_up, exchanged, 0); }),
+              Tells(HasSubstr("nothing shows which"), Help::exchange_wheels_or_give_up));
+}
+
+TEST_F(Directions, AGivenAxisAgainstTheWheelsIsRefused) {
+  ImportChoices down = choices();
+  down.floor.up = truth::Direction3{0, 0, -1};
+  EXPECT_THAT(told_by([&] { imported(test::z_up, down); }),
+              Tells(HasSubstr("the other way"), Help::exchange_wheels_or_change_up));
+}
+
+TEST_F(Import, SaysWhichSizeIsMissing) {
+  const std::vector<DriveFiles> pair{
+      {test::write_counts(at("w.csv"), drives()[0]), test::write_tum(at("t.tum"), drives()[0])}};
+  const auto without = [&](std::optional<double> RobotGeometry::*size) {
+    ImportChoices some = choices();
+    (some.geometry.*size).reset();
+    return told_by([&] { import_drives(pair, some); }).remedy.help;
+  };
+  EXPECT_EQ(without(&RobotGeometry::wheel_diameter_m), Help::give_wheel_diameter);
+  EXPECT_EQ(without(&RobotGeometry::counts_per_turn), Help::give_counts_per_turn);
+  EXPECT_EQ(without(&RobotGeometry::wheelbase_m), Help::give_wheelbase);
+}
+
+TEST_F(Import, RefusesACopyOfADriveUnderAnotherName) {
+  const std::vector<DriveFiles> pairs{
+      {test::write_counts(at("w1.csv"), drives()[0]), test::write_tum(at("t1.tum"), drives()[0])},
+      {test::write_counts(at("w2.csv"), drives()[0]), test::write_tum(at("t2.tum"), drives()[0])}};
+  EXPECT_THAT(told_by([&] { import_drives(pairs, choices()); }),
+              Tells(HasSubstr("'w2' is a copy of 'w1'"), Help::name_other_file));
+}
+
+TEST_F(Import, KnowsTheRobotOfARecordingOfOurs) {
+  const std::vector<DriveFiles> pair{
+      {test::write_counts(at("w.csv"), drives()[0]), test::write_tum(at("t.tum"), drives()[0])}};
+  const recording::Run run = import_drives(pair, choices()).set.runs[0];
+  recording::write_run(at("own.mcap"), run);
+  const std::vector<DriveFiles> own{{at("own.mcap"), at("t.tum")}};
+  const recording::Run back = import_drives(own, {}).set.runs[0];  // no sizes are given
+  EXPECT_EQ(back.info.parameters, run.info.parameters);
+  ASSERT_EQ(back.odometry.size(), run.odometry.size());
+  EXPECT_EQ(back.odometry.back().left_counts - back.odometry.front().left_counts,
+            run.odometry.back().left_counts - run.odometry.front().left_counts);
+}
+
+TEST_F(Import, SaysThatSizesGivenBesideARecordingOfOursAreNotUsed) {
+  const std::vector<DriveFiles> pair{
+      {test::write_counts(at("w.csv"), drives()[0]), test::write_tum(at("t.tum"), drives()[0])}};
+  recording::write_run(at("own.mcap"), import_drives(pair, choices()).set.runs[0]);
+  const std::vector<DriveFiles> own{{at("own.mcap"), at("t.tum")}};
+  const auto remarks = [&](const ImportChoices& given) {
+    const ImportedDrives drives = import_drives(own, given);
+    std::string all;
+    for (const Remark& remark : drives.reports[0].remarks) all += remark.fact + '\n';
+    return all;
+  };
+  EXPECT_THAT(remarks(choices()), testing::Not(HasSubstr("not used"))) << "they are the same";
+  ImportChoices other = choices();
+  other.geometry.wheelbase_m = 0.5;
+  EXPECT_THAT(remarks(other), HasSubstr("the sizes that were given are not used"));
+}
+
+TEST_F(Import, RefusesWheelsThatLeap) {
+  std::ofstream(at("w.csv")) << "time_s,left_rad,right_rad\n0,0,0\n0.01,1e6,1e6\n0.02,1e6,1e6\n";
+  const std::vector<DriveFiles> pair{{at("w.csv"), test::write_tum(at("t.tum"), drives()[0])}};
+  EXPECT_THAT(told_by([&] { import_drives(pair, choices()); }),
+              Tells(HasSubstr("turns more than 100 times"), Help::check_wheel_units));
+}
+
+TEST_F(Import, RefusesACounterThatStartsAgain) {
+  std::string rows = "time_s,left_counts,right_counts\n";
+  for (int i = 0; i < 100; ++i) rows += fmt::format("{},{},{}\n", 0.02 * i, 20000 + 60 * i, 60 * i);
+  std::ofstream(at("w.csv")) << rows << "2.0,0,0\n2.02,60,60\n";
+  const std::vector<DriveFiles> pair{{at("w.csv"), test::write_tum(at("t.tum"), drives()[0])}};
+  EXPECT_THAT(told_by([&] { import_drives(pair, choices()); }),
+              Tells(HasSubstr("a wheel leaps by 1.67 m between the samples at 1.980 s and 2.000 s"),
+                    Help::cut_recording_or_check_wheel_units));
+}
+
+TEST_F(Import, AnotherUnitIsTakenInPlaceOfTheFilesOwn) {
+  ImportChoices wrong = choices();
+  wrong.truth.length_unit = "cm";
+  const std::vector<DriveFiles> pair{
+      {test::write_counts(at("w.csv"), drives()[0]), test::write_tum(at("t.tum"), drives()[0])}};
+  EXPECT_NEAR(import_drives(pair, wrong).reports[0].floor.length_ratio, 0.01, 1e-3);
+}
+
+TEST_F(Import, TakesOurRecordingsThatWereExportedOrPackedAsBagsOfOthers) {
+  const recording::Run run = test::own_run(test::short_drive());
+  recording::export_rosbag(run, at("exported"));
+  recording::write_run(at("own.mcap"), run);
+  test::save(at("own.mcap.zstd"), bag::compress_zstd(load_file(at("own.mcap"))));
+  for (const char* name : {"exported", "exported/exported_0.db3", "own.mcap.zstd"}) {
+    const FileInspection found = inspect_file(at(name));
+    EXPECT_FALSE(found.bag->run) << name;
+    EXPECT_EQ(read_wheels(at(name)).track.samples.size(), run.odometry.size()) << name;
+  }
+  EXPECT_EQ(inspect_file(at("own.mcap")).bag->run->kind, "free");
+}
+
+}  // namespace
+}  // namespace astro::importing

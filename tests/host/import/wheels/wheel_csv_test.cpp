@@ -1,0 +1,222 @@
+#include "host/import/wheels/wheel_csv.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+#include "host/base/error.hpp"
+#include "host/import/wheels/time_text.hpp"
+#include "host/import/wheels/unclear_choice.hpp"
+#include "tests/support/base/bounded.hpp"
+#include "tests/support/base/places.hpp"
+
+namespace astro::importing {
+namespace {
+
+using astro::support::measured;
+using astro::support::Taken;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+WheelTrack wheels(std::string_view text, const WheelTable& table = {}) {
+  MemorySource source(as_bytes(text));
+  return wheels_in_table(source, "w.csv", table);
+}
+
+std::string why(std::string_view text, const WheelTable& table = {}) {
+  try {
+    wheels(text, table);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(WheelCsv, TheHeaderTellsUnitsAndOrder) {
+  const WheelTrack counts = wheels("time_s,left_counts,right_counts\n0,1,2\n0.05,3,5\n");
+  EXPECT_EQ(counts.unit, WheelUnit::counts);
+  EXPECT_THAT(counts.samples, ElementsAre(WheelSample{0, 1, 2}, WheelSample{50'000'000, 3, 5}));
+  const WheelTrack degrees =
+      wheels("Right wheel [deg];note;Left wheel [deg];Stamp (ms)\n180;x;-90;5\n360;;0;6\n");
+  EXPECT_EQ(degrees.unit, WheelUnit::radians);
+  ASSERT_EQ(degrees.samples.size(), 2U);
+  EXPECT_EQ(degrees.samples[0].time_ns, 5'000'000);
+  EXPECT_DOUBLE_EQ(degrees.samples[0].left, -std::numbers::pi / 2);
+  EXPECT_DOUBLE_EQ(degrees.samples[0].right, std::numbers::pi);
+  const WheelTrack metres =
+      wheels("\xEF\xBB\xBFt_ns\tL_mm\tR_mm\r\n7\t1000\t2000\r\n\r\n# note\r\n8\t+1e3\t2500\r\n");
+  EXPECT_EQ(metres.unit, WheelUnit::metres);
+  EXPECT_THAT(metres.samples, ElementsAre(WheelSample{7, 1, 2}, WheelSample{8, 1, 2.5}));
+}
+
+TEST(WheelCsv, ATableWithoutAHeaderIsDescribedFromOutside) {
+  const WheelTable table{"time_s,-,left_ticks,right_ticks", false};
+  EXPECT_THAT(wheels("1 x 2 3\n2   x 4 5 \n", table).samples,
+              ElementsAre(WheelSample{1'000'000'000, 2, 3}, WheelSample{2'000'000'000, 4, 5}));
+  EXPECT_THAT(wheels("a,b,c,d\n1,x,2,3\n2,x,4,5\n", table).samples.size(), 2U) << "the header is passed over";
+}
+
+/// A log of travel per interval, 20 rows a second, of a robot that stands, drives and stands. Some rows are lost, or the logger
+/// was late and the row after holds the travel of both.
+std::string interval_log(const std::vector<int>& missing, bool held_back) {
+  std::string text = "time_s,left_counts,right_counts\n";
+  int owed = 0;
+  for (int row = 0; row < 200; ++row) {
+    const int travel = row < 30 || row >= 170 ? 0 : 20 + row % 3;
+    if (std::find(missing.begin(), missing.end(), row) != missing.end()) {
+      owed += held_back ? travel : 0;
+      continue;
+    }
+    text += fmt::format("{:.2f},{},{}\n", 0.05 * row, travel + owed, travel + owed);
+    owed = 0;
+  }
+  return text;
+}
+
+TEST(WheelCsv, TravelPerIntervalOfWhichRowsAreLostIsRefused) {
+  const WheelTable intervals{"", true};
+  EXPECT_THAT(
+      why(interval_log({60, 90, 91, 140}, false), intervals),
+      HasSubstr(
+          "has lost rows in 3 places, the first before 3.050 s: after longer steps the wheels have gone no "
+          "further than in others, so 2.9 % of the travel is missing"));
+  EXPECT_EQ(why(interval_log({60, 90, 91, 140}, true), intervals), "") << "the logger was late";
+  EXPECT_EQ(why(interval_log({5, 6, 180}, false), intervals), "") << "the robot stood";
+  EXPECT_EQ(why(interval_log({60, 90, 91, 140}, false)), "") << "counters lose nothing";
+}
+
+TEST(WheelCsv, TravelPerIntervalIsSummed) {
+  const auto expected = ElementsAre(WheelSample{1, 1, 2}, WheelSample{2, 4, 2}, WheelSample{3, 2, 9});
+  EXPECT_THAT(wheels("time_ns,delta_left_counts,delta_right_counts\n1,1,2\n2,3,0\n3,-2,7\n").samples,
+              expected);
+  EXPECT_THAT(
+      wheels("time_ns,left_counts_per_interval,right_counts_per_interval\n1,1,2\n2,3,0\n3,-2,7\n").samples,
+      expected);
+  EXPECT_THAT(wheels("time_ns,left_counts,right_counts\n1,1,2\n2,3,0\n3,-2,7\n", {"", true}).samples,
+              expected);
+  EXPECT_THAT(why("time_ns,delta_left_counts,delta_right_counts\n1,1,2\n2,,0\n3,-2,7\n"),
+              HasSubstr("w.csv, line 3: a cell is empty"));
+}
+
+TEST(WheelCsv, TimesOfTheEpochAreExactToANanosecond) {
+  EXPECT_THAT(wheels("stamp_s,left_m,right_m\n1700000000.123456789,0,0\n1700000000.123456790,0,0\n").samples,
+              ElementsAre(WheelSample{1700000000123456789, 0, 0}, WheelSample{1700000000123456790, 0, 0}));
+  EXPECT_EQ(time_in("-0.5", 1'000'000'000), -500'000'000);
+  EXPECT_EQ(time_in("1.5e3", 1'000'000'000), 1'500'000'000'000);
+  EXPECT_EQ(time_in("12.9", 1), 12);
+  EXPECT_EQ(time_in("1.0005", 1000), 1000);
+  for (const char* bad : {"", ".", "-", "1.2.3", "1-2", "nan", "inf", "9300000000", "1e300", "12 3", "0x10"})
+    EXPECT_FALSE(time_in(bad, 1'000'000'000)) << bad;
+}
+
+TEST(WheelCsv, CountersAndAnglesThatStartAgainAreMadeContinuous) {
+  const WheelTrack wide = wheels("time_ns,left_counts,right_counts\n1,65000,100\n2,200,65500\n3,900,65000\n");
+  EXPECT_THAT(wide.samples, ElementsAre(WheelSample{1, 65000, 100}, WheelSample{2, 65736, -36},
+                                        WheelSample{3, 66436, -536}));
+  EXPECT_EQ(wide.remarks.size(), 2U);
+  const WheelTrack full = wheels("time_ns,left_counts,right_counts\n1,2147483000,5\n2,-2147483000,9\n");
+  EXPECT_THAT(full.samples, ElementsAre(WheelSample{1, 2147483000, 5}, WheelSample{2, 2147484296, 9}));
+  const WheelTrack turns = wheels("time_ns,left_rad,right_rad\n1,3.0,0\n2,-3.0,50\n");
+  EXPECT_NEAR(turns.samples[1].left, 2 * std::numbers::pi - 3.0, 1e-12);
+  EXPECT_EQ(turns.samples[1].right, 50);
+}
+
+TEST(WheelCsv, ACounterThatStartsAgainIsNotTakenForAWrap) {
+  std::string rows = "time_s,left_counts,right_counts\n";
+  for (int i = 0; i < 40; ++i) rows += fmt::format("{},{},{}\n", 0.02 * i, 40000 + 60 * i, 100 + 50 * i);
+  const std::string restarted = rows + "0.8,0,0\n0.82,60,50\n";
+  EXPECT_THAT(why(restarted), HasSubstr("w.csv: the left wheel jumps from 42340 to 0 at 0.800000 s"));
+  // Eight seconds of messages are lost, and in this time the left wheel passes the end of its range.
+  const WheelTrack gap = wheels(rows + "8.8,844,10000\n");
+  EXPECT_EQ(gap.samples.back().left, 65536 + 844);
+  EXPECT_EQ(gap.remarks.size(), 1U);
+}
+
+TEST(WheelCsv, ACounterThatOnlyCountsFarDoesNotWrap) {
+  const WheelTrack far = wheels("time_ns,left_counts,right_counts\n1,0,0\n2,20000,70000\n3,40000,140000\n");
+  EXPECT_THAT(far.samples,
+              ElementsAre(WheelSample{1, 0, 0}, WheelSample{2, 20000, 70000}, WheelSample{3, 40000, 140000}));
+  EXPECT_TRUE(far.remarks.empty());
+}
+
+TEST(WheelCsv, WhatIsUnclearIsRefusedWithItsColumns) {
+  try {
+    wheels("Time (s),x (cm),left velocity (),right velocity ()\n0,0,0,0\n");
+    FAIL();
+  } catch (const UnclearChoice& unclear) {
+    EXPECT_THAT(unclear.choices(),
+                ElementsAre("Time (s)", "x (cm)", "left velocity ()", "right velocity ()"));
+  }
+  EXPECT_THAT(why("time_s,left_m,right_rad\n0,0,0\n"), HasSubstr("do not tell"));
+  EXPECT_THAT(why("time_s,left_m,left_m,right_m\n0,0,0,0\n"), HasSubstr("do not tell"));
+  EXPECT_THAT(why("0,0,0\n1,1,1\n"), HasSubstr("do not tell"));
+}
+
+TEST(WheelCsv, BadCellsAreNamedWithLineAndColumn) {
+  const std::string head = "time_s,left_counts,right_counts\n0,0,0\n";
+  EXPECT_THAT(why(head + "1,x,2\n"), HasSubstr("w.csv, line 3: column 2: 'x' is not a number"));
+  EXPECT_THAT(why(head + "1,2,nan\n"), HasSubstr("column 3: 'nan' is not a number"));
+  EXPECT_THAT(why(head + "soon,2,1\n"), HasSubstr("column 1: 'soon' is not a time"));
+  EXPECT_THAT(why(head + "-1,2,1\n"), HasSubstr("line 3: the time is before"));
+  EXPECT_THAT(why(head), HasSubstr("fewer than two rows"));
+  EXPECT_THAT(why(std::string("a\0b\n", 4)), HasSubstr("line 1: this is not text"));
+  EXPECT_THAT(why(std::string(70'000, '1')), HasSubstr("more than 65536"));
+}
+
+TEST(WheelCsv, RowsWithEmptyCellsAndRepeatedTimesAreCounted) {
+  const WheelTrack track = wheels("time_s,left_counts,right_counts\n0,0,0\n1,,1\n2,2,2\n2,3,3\n3,4,4\n");
+  EXPECT_EQ(track.samples.size(), 3U);
+  ASSERT_EQ(track.remarks.size(), 2U);
+  EXPECT_THAT(track.remarks[0].fact, HasSubstr("1 rows with empty cells"));
+}
+
+TEST(WheelCsv, HugeTablesStayInBounds) {
+  constexpr std::size_t kSize = std::size_t{8} << 20;
+  for (const std::string& text :
+       {support::filled("1,2,3\n", kSize), support::filled(",", kSize), support::filled("\n", kSize),
+        "time_ns,left_m,right_m\n" + support::filled("1,2,3\n", kSize)}) {
+    const Taken taken = measured([&] { wheels(text); });
+    EXPECT_BOUNDED(taken, text.size());
+  }
+}
+
+TEST(WheelCsv, RandomDamageNeverHarmsTheReader) {
+  constexpr unsigned kSeed = 20240615;
+  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  std::mt19937 random(kSeed);
+  const std::string seed = "time_s,left_counts,right_counts\n0.5,1,2\n0.75,3e2,-4\n1.25,+5,6.5\n";
+  constexpr std::string_view kMarks = ",;\t\n\r.-+e09\"# \xFF\0x";
+  int read = 0;
+  for (int round = 0; round < 3000; ++round) {
+    std::string bad = seed;
+    for (std::size_t edits = 1 + random() % 4; edits > 0; --edits)
+      bad[random() % bad.size()] = kMarks[random() % kMarks.size()];
+    try {
+      const WheelTrack track = wheels(bad);
+      ++read;
+      for (std::size_t i = 1; i < track.samples.size(); ++i)
+        EXPECT_GT(track.samples[i].time_ns, track.samples[i - 1].time_ns) << bad;
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), HasSubstr("w.csv"));
+    }
+  }
+  EXPECT_GT(read, 100);
+}
+
+// The raw log of a public data set: no header, a byte order mark, ticks per interval of 50 ms.
+TEST(WheelCsv, ARawLogOfARealRobotReads) {
+  const std::filesystem::path path =
+      astro::support::shared_data() / "sousa_optiodom/circular/231220200121/231220200121_run-06_odo.csv";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no sample " << path;
+  FileSource source(path);
+  const WheelTrack track = wheels_in_table(source, path.string(), {"time_s,left_counts,right_counts", true});
+  ASSERT_GT(track.samples.size(), 100U);
+  EXPECT_EQ(track.samples[0], (WheelSample{3'489'700'000'000, 0, 0}));
+  EXPECT_EQ(track.samples[3], (WheelSample{3'489'850'000'000, 133, 173}));
+}
+
+}  // namespace
+}  // namespace astro::importing

@@ -1,0 +1,108 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <random>
+
+#include "host/formats/messages/ros_messages.hpp"
+#include "tests/support/base/thorough.hpp"
+#include "tests/support/robots/calibrated_robots.hpp"
+#include "tests/support/robots/desk.hpp"
+#include "tests/support/ros2/robot_on_ros.hpp"
+
+/// The covariance in /odom is that of the errors in /odom: over many robots, each of which differs from its parameters as a
+/// calibration leaves it, the errors of its pose divided by their covariance have the mean square of their number.
+namespace astro::live {
+namespace {
+
+using calibration::FactorCovariance;
+using support::drawn, support::left_by_a_calibration;
+using support::kDrives, support::kLeast, support::kMoments_s, support::kMost;
+
+constexpr unsigned kSeed = 20261124;
+
+DriverOptions calibrated(const FactorCovariance& covariance) {
+  DriverOptions options = support::RobotOnRos::of_both_types();
+  options.errors = calibration::OdometryErrors{support::kThesisSlip_m, covariance};
+  options.velocities_after_stop = true;  // the drive stops several times to be compared with the truth
+  return options;
+}
+
+/// Normalised squared errors of a pose.
+struct Nees {
+  double ours = 0, typed = 0;
+};
+
+Nees normalised(const ros2::msg::Odometry& odometry, const sim::Pose& truth) {
+  const ros2::msg::PoseWithCovariance& pose = odometry.pose;
+  const Eigen::Vector3d error{
+      pose.pose.position.x - truth.x_m, pose.pose.position.y - truth.y_m,
+      std::remainder(ros2::heading_of(pose.pose.orientation) - truth.theta_rad, 2 * std::numbers::pi)};
+  constexpr std::array<std::size_t, 3> kRows{0, 1, 5};
+  Eigen::Matrix3d covariance;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k)
+      covariance(i, k) =
+          pose.covariance[6 * kRows[static_cast<std::size_t>(i)] + kRows[static_cast<std::size_t>(k)]];
+  // What drivers of other robots publish, as somebody once typed it.
+  const Eigen::Matrix3d typed = Eigen::Vector3d(1e-3, 1e-3, 1e-2).asDiagonal();
+  return {error.dot(covariance.llt().solve(error)), error.dot(typed.llt().solve(error))};
+}
+
+/// A drive at random by /cmd_vel.
+class RandomDrive {
+ public:
+  RandomDrive(const sim::Config& config, const FactorCovariance& covariance, std::uint64_t seed)
+      : bench_(config, calibrated(covariance)), random_(seed) {
+    bench_.run_ms(300);
+    EXPECT_TRUE(bench_.call("/arm").success);
+  }
+
+  Nees until(double time_s) {
+    std::uniform_real_distribution<double> speed(-0.2, 0.4), yaw_rate(-0.8, 0.8);
+    for (; driven_s_ < time_s; ++driven_s_) {
+      const double v_mps = speed(random_), omega_radps = yaw_rate(random_);
+      for (int i = 0; i < 5; ++i) {
+        bench_.say_velocity(v_mps, omega_radps);
+        bench_.run_ms(200);
+      }
+    }
+    bench_.call("/stop");  // so that truth and the last message are of one moment
+    bench_.run_ms(2000);
+    return normalised(bench_.ros.newest<ros2::msg::Odometry>("/odom"), bench_.robot->board().truth());
+  }
+
+ private:
+  support::RobotOnRos bench_;
+  std::mt19937_64 random_;
+  double driven_s_ = 0;
+};
+
+TEST(PublishedCovariance, IsThatOfTheErrorsOfTwoHundredRobots) {
+  if (!support::thorough()) GTEST_SKIP() << support::kLeftToThorough;
+  std::mt19937_64 random(kSeed);
+  const FactorCovariance covariance = left_by_a_calibration();
+  std::array<Nees, kMoments_s.size()> mean{};
+  for (int i = 0; i < kDrives; ++i) {
+    RandomDrive drive(drawn(covariance, random), covariance, random());
+    for (std::size_t moment = 0; moment < kMoments_s.size(); ++moment) {
+      const Nees nees = drive.until(kMoments_s[moment]);
+      mean[moment].ours += nees.ours / kDrives;
+      mean[moment].typed += nees.typed / kDrives;
+    }
+  }
+  std::printf("%d robots, seed %u: mean normalised squared error of /odom, of 3 (95 %%: %.2f to %.2f)\n",
+              kDrives, kSeed, kLeast, kMost);
+  for (std::size_t moment = 0; moment < kMoments_s.size(); ++moment) {
+    std::printf("  after %2d s  %.2f   with a constant diagonal %.3g\n", kMoments_s[moment],
+                mean[moment].ours, mean[moment].typed);
+    EXPECT_GT(mean[moment].ours, kLeast) << kMoments_s[moment];
+    EXPECT_LT(mean[moment].ours, kMost) << kMoments_s[moment];
+  }
+}
+
+}  // namespace
+}  // namespace astro::live

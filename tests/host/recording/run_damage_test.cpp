@@ -1,0 +1,111 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "host/base/error.hpp"
+#include "host/base/files.hpp"
+#include "host/recording/run_file.hpp"
+#include "host/recording/run_writer.hpp"
+#include "tests/host/recording/support.hpp"
+
+namespace astro::recording {
+namespace {
+
+using support::complaint;
+using support::TempFolder;
+
+/// A small run in many chunks: every odometry sample closes one.
+Run small_run() {
+  recording::Run run;
+  run.info.kind = "line";
+  for (int i = 0; i < 6; ++i) {
+    run.odometry.push_back({1'000'000 * i, 0.1 * i, 0, 0.01 * i, 0.1, 0, 100 * i, 100 * i});
+  }
+  return run;
+}
+
+Bytes small_file(const TempFolder& folder) {
+  const recording::Run run = small_run();
+  RunWriter writer(folder / "whole.mcap", run.info, {1, 1});
+  for (const OdometrySample& sample : run.odometry) writer.add(sample);
+  writer.close(run.info);
+  return load_file(folder / "whole.mcap");
+}
+
+TEST(DamagedRun, CutAtEveryByteItIsRefusedOrGivesAPrefixWithAWarning) {
+  const TempFolder folder;
+  const recording::Run run = small_run();
+  const Bytes file = small_file(folder);
+  std::size_t kept = 0;
+  for (std::size_t size = 0; size < file.size(); ++size) {
+    recording::Run cut;
+    if (!complaint([&] { cut = run_from_bytes(ByteView(file).first(size), "cut.mcap"); }).empty()) {
+      EXPECT_EQ(kept, 0U) << "once the run record stands in the file it reads, at " << size;
+      continue;
+    }
+    EXPECT_NE(cut.warning.find("cut.mcap"), std::string::npos) << size;
+    EXPECT_EQ(cut.info.kind, "line");
+    EXPECT_GE(cut.odometry.size(), kept) << size;
+    kept = cut.odometry.size();
+    for (std::size_t i = 0; i < kept; ++i) {
+      EXPECT_EQ(cut.odometry[i].time_us, run.odometry[i].time_us) << size;
+      EXPECT_EQ(cut.odometry[i].right_counts, run.odometry[i].right_counts) << size;
+    }
+  }
+  EXPECT_EQ(kept, run.odometry.size());
+}
+
+TEST(DamagedRun, AFlippedBitIsNeverReadSilently) {
+  const TempFolder folder;
+  Bytes file = small_file(folder);
+  for (std::size_t at = 0; at < file.size(); ++at) {
+    const auto flip = static_cast<std::uint8_t>(1 << (at % 8));
+    file[at] ^= flip;
+    recording::Run run;
+    const std::string error = complaint([&] { run = run_from_bytes(file, "flipped.mcap"); });
+    file[at] ^= flip;
+    EXPECT_TRUE(!error.empty() || !run.warning.empty()) << "byte " << at;
+    if (!error.empty()) {
+      EXPECT_NE(error.find("flipped.mcap"), std::string::npos) << error;
+    }
+  }
+}
+
+TEST(DamagedRun, WhoseEndIsThereIsCalledDamagedAndNeverCutOff) {
+  const TempFolder folder;
+  const Bytes file = small_file(folder);
+  // Every byte, lengths of records included, except the last 8, which are the end mark.
+  for (std::size_t at = 8; at < file.size() - 8; ++at)
+    for (const std::uint8_t flip : {std::uint8_t{0x01}, std::uint8_t{0x80}}) {
+      Bytes bad = file;
+      bad[at] ^= flip;
+      const std::string error = complaint([&] { run_from_bytes(bad, "flipped.mcap"); });
+      EXPECT_THAT(error, testing::HasSubstr("flipped.mcap is")) << "byte " << at;
+      EXPECT_THAT(error, testing::Not(testing::HasSubstr("cut off"))) << "byte " << at;
+    }
+}
+
+TEST(DamagedRun, IsReadAsFarAsItGoesIfThatIsWanted) {
+  const TempFolder folder;
+  const recording::Run run = small_run();
+  Bytes file = small_file(folder);
+  int read = 0;
+  for (std::size_t at = file.size() / 4; at < file.size() / 2; ++at) {
+    file[at] ^= 0x10;
+    try {
+      const recording::Run some = run_from_bytes(file, "flipped.mcap", Damage::accepted);
+      ++read;
+      EXPECT_THAT(some.warning, testing::HasSubstr("flipped.mcap is damaged"));
+      for (const OdometrySample& sample : some.odometry) {
+        const auto i = static_cast<std::size_t>(sample.time_us / 1'000'000);
+        EXPECT_EQ(sample.x_m, run.odometry[i].x_m) << "byte " << at;
+        EXPECT_EQ(sample.left_counts, run.odometry[i].left_counts) << "byte " << at;
+      }
+    } catch (const Error&) {  // the record that makes it a run may be damaged
+    }
+    file[at] ^= 0x10;
+  }
+  EXPECT_GT(read, 0);
+}
+
+}  // namespace
+}  // namespace astro::recording
