@@ -4,7 +4,7 @@ include_guard(GLOBAL)
 # Several host builds of one tree share that folder: one at a time.
 set(one_at_a_time flock ${CMAKE_SOURCE_DIR}/build/teensy40.lock)
 add_custom_target(teensy40_images
-  COMMAND ${one_at_a_time} ${CMAKE_COMMAND} --preset teensy40 > ${CMAKE_BINARY_DIR}/teensy40.log
+  COMMAND ${one_at_a_time} ${CMAKE_COMMAND} --preset teensy40 -DASTROLABE_WERROR=${ASTROLABE_WERROR} > ${CMAKE_BINARY_DIR}/teensy40.log
   COMMAND ${one_at_a_time} ${CMAKE_COMMAND} --build ${CMAKE_SOURCE_DIR}/build/teensy40
   WORKING_DIRECTORY ${CMAKE_SOURCE_DIR} VERBATIM USES_TERMINAL)
 

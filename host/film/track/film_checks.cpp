@@ -256,6 +256,8 @@ void refuse_track(const fs::path& film, const FilmTrack& track) {
                 {Help::film_uncut});
 }
 
+namespace {
+
 /// At the end the robot still drives: the film was stopped too early.
 bool drives_at_end(const FilmTrack& track) {
   const FilmPose& last = track.found.poses.back();
@@ -304,6 +306,8 @@ bool ever_moves(const FilmTrack& track) {
 double focal_length_error(const FilmTrack& track) {
   return std::sqrt(track.covariance(0, 0)) / track.scene.camera.f_px;
 }
+
+}  // namespace
 
 std::vector<Remark> remarks_on(const FilmTrack& track, const FloorSurvey& survey) {
   constexpr double kRough_px = 0.5, kRoughScale = 2.5e-3, kRoughFocus = 0.02;

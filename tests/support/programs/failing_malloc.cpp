@@ -127,6 +127,8 @@ __attribute__((visibility("default"), noinline)) void* realloc(void* old, std::s
   return fails() ? nullptr : __libc_realloc(old, size);
 }
 
+int __libc_start_main(int (*main)(int, char**, char**), int count, char** arguments, void (*init)(),
+                      void (*fini)(), void (*loader_fini)(), void* stack_end);
 __attribute__((visibility("default"))) int __libc_start_main(int (*main)(int, char**, char**), int count,
                                                              char** arguments, void (*init)(), void (*fini)(),
                                                              void (*loader_fini)(), void* stack_end) {
