@@ -216,7 +216,10 @@ class WebSocketConnection : public Connection, public std::enable_shared_from_th
     if (session_ == nullptr) return;
     rules_.hub->leave(session_->id());
     session_ = nullptr;
-    rules_.notice({fmt::format("the viewer at {} has gone", peer_)});
+    try {
+      rules_.notice({fmt::format("the viewer at {} has gone", peer_)});
+    } catch (const std::exception&) {  // a destructor ends connections, too
+    }
   }
 
   std::string peer_;

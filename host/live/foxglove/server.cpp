@@ -97,9 +97,25 @@ class Server::Impl {
     while (true) try {
         io_.run();
         return;
-      } catch (const std::exception& error) {  // of one connection's handler, such as no memory
-        rules_.notice({fmt::format("a viewer could not be served: {}", error.what())});
+      } catch (const std::exception& error) {  // of any handler, such as no memory
+        say(error);
+        go_on();
       }
+  }
+
+  /// Whoever is told may throw as well, which must not end the server.
+  void say(const std::exception& error) noexcept {
+    try {
+      rules_.notice({fmt::format("a viewer could not be served: {}", error.what())});
+    } catch (const std::exception&) {
+    }
+  }
+
+  /// A handler that threw may have been the one that accepts viewers or reports to them, which then has not begun again.
+  void go_on() {
+    if (closing_) return;
+    if (!accepts_) accept_later();
+    if (!reports_) report_later();
   }
 
   /// Under mutex_.
@@ -114,7 +130,11 @@ class Server::Impl {
       tasks.swap(tasks_);
       awake_ = false;
     }
-    for (const Task& task : tasks) task(*hub_);
+    for (const Task& task : tasks) try {
+        task(*hub_);
+      } catch (const std::exception& error) {
+        say(error);  // and the tasks behind it are done all the same
+      }
     send_waiting();
   }
 
@@ -124,7 +144,9 @@ class Server::Impl {
   }
 
   void accept() {
+    accepts_ = true;
     acceptor_.async_accept([this](error_code error, tcp::socket socket) {
+      accepts_ = false;
       if (error == asio::error::operation_aborted) return;
       if (error) return accept_later();  // no descriptor is free, for one
       send_waiting();                    // forgets those that have ended
@@ -159,15 +181,19 @@ class Server::Impl {
   }
 
   void accept_later() {
+    accepts_ = true;
     rest_timer_.expires_after(kRestAfterFailure);
     rest_timer_.async_wait([this](error_code error) {
+      accepts_ = false;
       if (!error) accept();
     });
   }
 
   void report_later() {
+    reports_ = true;
     report_timer_.expires_after(kReportPeriod);
     report_timer_.async_wait([this](error_code error) {
+      reports_ = false;
       if (error) return;
       hub_->report();
       send_waiting();
@@ -176,6 +202,7 @@ class Server::Impl {
   }
 
   void say_goodbye() {
+    closing_ = true;
     error_code ignored;
     acceptor_.close(ignored);
     rest_timer_.cancel();
@@ -199,6 +226,8 @@ class Server::Impl {
   tcp::acceptor acceptor_;
   asio::steady_timer report_timer_, rest_timer_;
   std::vector<std::shared_ptr<Connection>> connections_;
+  bool accepts_ = false, reports_ = false;  // or waits to do so
+  bool closing_ = false;
   std::mutex mutex_;
   std::vector<Task> tasks_;  // under mutex_
   bool awake_ = false;       // under mutex_: somebody has told the thread of the tasks
