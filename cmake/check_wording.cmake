@@ -7,8 +7,8 @@ set(count 0)
 
 # Texts in which the program's name is part of a format or of a protocol, so that it cannot change. File:text.
 set(format_constants
-  "host/recording/run_writer.cpp:astrolabe"         # the writing library, in the header of an MCAP file
-  "host/recording/run_metadata.hpp:astrolabe.run"     # the metadata record of a run
+  "host/recording/run_writer.cpp:astrolabe"               # the writing library, in the header of an MCAP file
+  "host/recording/run_metadata.hpp:astrolabe.run"         # the metadata record of a run
   "host/formats/messages/telemetry.hpp:astrolabe_msgs/msg/Telemetry"
   "host/recording/sample_messages.cpp:astrolabe_msgs/msg/WheelCounts"
   "host/robot/port/ports.cpp:astrolabe-"                  # the folder of simulated ports
@@ -17,7 +17,7 @@ set(format_constants
   "host/simulation/server/path_claim.cpp:astrolabe-pty-{:016x}"  # the lock of a simulated port
   "host/simulation/server/truth_server.cpp:astrolabe-mocap 1\\n"
   "host/simulation/study/shard_file.cpp:astrolabe study 3"
-  "host/film/picture/film_info.cpp:-i"                # arguments of ffmpeg
+  "host/film/picture/film_info.cpp:-i"                    # arguments of ffmpeg
   "host/film/picture/frame_stream.cpp:-f"
   "host/truth/live/socket_source.cpp:astrolabe-mocap 1")
 

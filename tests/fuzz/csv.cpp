@@ -1,7 +1,7 @@
 // Tables that people type or trackers export: end poses of one direction or both, and ground truth of a run.
 #include "host/base/error.hpp"
+#include "host/base/text/csv_table.hpp"
 #include "host/calibration/end_poses/end_pose_csv.hpp"
-#include "host/formats/files/csv_table.hpp"
 #include "host/truth/files/file_source.hpp"
 #include "tests/fuzz/input_file.hpp"
 #include "tests/fuzz/target.hpp"

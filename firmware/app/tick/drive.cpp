@@ -257,7 +257,8 @@ Drive::SetPoint Drive::set_point() {
     case State::stopping: {
       const SetPoint ramp = set_point_of_ramp();
       if (ramp_.arrived()) supervisor_.set_point_is_zero();
-      if (ramp_.arrived() && wheels_.stopped()) supervisor_.request(Event::rest);
+      // After a fault the ramp ends in the state `fault`, otherwise in `armed`.
+      if (ramp_.arrived() && wheels_.stopped() && supervisor_.request(Event::rest)) follow_state();
       return ramp;
     }
     default:

@@ -10,9 +10,9 @@
 #include <string>
 
 #include "host/base/error.hpp"
+#include "host/base/text/csv_table.hpp"
 #include "host/base/text/degrees.hpp"
 #include "host/base/text/sense.hpp"
-#include "host/formats/files/csv_table.hpp"
 
 namespace astro::calibration {
 namespace {

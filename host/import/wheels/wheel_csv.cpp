@@ -14,8 +14,8 @@
 #include <string_view>
 #include <vector>
 
+#include "host/base/text/csv_table.hpp"
 #include "host/base/text/trimmed.hpp"
-#include "host/formats/files/csv_table.hpp"
 #include "host/import/wheels/counter_wraps.hpp"
 #include "host/import/wheels/time_text.hpp"
 #include "host/import/wheels/unclear_choice.hpp"

@@ -68,10 +68,6 @@ class Server::Impl {
 
   void start() {
     if (thread_.joinable()) return;
-    asio::post(io_, [this] {
-      accept();
-      report_later();
-    });
     const BlockedSignals blocked;  // they are for the robot's thread
     thread_ = std::thread([this] { run(); });
   }
@@ -95,11 +91,11 @@ class Server::Impl {
  private:
   void run() {
     while (true) try {
+        begin();
         io_.run();
         return;
       } catch (const std::exception& error) {  // of any handler, such as no memory
         say(error);
-        go_on();
       }
   }
 
@@ -111,10 +107,11 @@ class Server::Impl {
     }
   }
 
-  /// A handler that threw may have been the one that accepts viewers or reports to them, which then has not begun again.
-  void go_on() {
-    if (closing_) return;
-    if (!accepts_) accept_later();
+  /// At the start, and after a handler threw: it may have been the one that accepts viewers or reports to them, which then has not
+  /// begun anew, or one that says goodbye, which must not keep the program.
+  void begin() {
+    if (closing_) return io_.stop();
+    if (!accepts_) accept();
     if (!reports_) report_later();
   }
 
@@ -144,7 +141,6 @@ class Server::Impl {
   }
 
   void accept() {
-    accepts_ = true;
     acceptor_.async_accept([this](error_code error, tcp::socket socket) {
       accepts_ = false;
       if (error == asio::error::operation_aborted) return;
@@ -157,6 +153,7 @@ class Server::Impl {
       }
       accept();
     });
+    accepts_ = true;
   }
 
   /// There is always one, because fewer may watch than may be connected. So whoever wants to stop the robot gets in.
@@ -181,16 +178,15 @@ class Server::Impl {
   }
 
   void accept_later() {
-    accepts_ = true;
     rest_timer_.expires_after(kRestAfterFailure);
     rest_timer_.async_wait([this](error_code error) {
       accepts_ = false;
       if (!error) accept();
     });
+    accepts_ = true;
   }
 
   void report_later() {
-    reports_ = true;
     report_timer_.expires_after(kReportPeriod);
     report_timer_.async_wait([this](error_code error) {
       reports_ = false;
@@ -199,6 +195,7 @@ class Server::Impl {
       send_waiting();
       report_later();
     });
+    reports_ = true;
   }
 
   void say_goodbye() {

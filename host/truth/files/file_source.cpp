@@ -10,10 +10,10 @@
 
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
+#include "host/base/text/csv_table.hpp"
 #include "host/base/text/degrees.hpp"
 #include "host/base/text/numbers.hpp"
 #include "host/base/utc.hpp"
-#include "host/formats/files/csv_table.hpp"
 #include "host/truth/source/plausibility.hpp"
 
 namespace astro::truth {

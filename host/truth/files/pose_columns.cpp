@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/formats/files/csv_table.hpp"
+#include "host/base/text/csv_table.hpp"
 #include "host/truth/files/rotations.hpp"
 
 namespace astro::truth {

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "host/base/error.hpp"
+#include "host/base/text/csv_table.hpp"
 #include "host/base/text/trimmed.hpp"
-#include "host/formats/files/csv_table.hpp"
 
 namespace astro::truth {
 namespace {

@@ -104,6 +104,26 @@ TEST_F(Faults, OverVoltage) {
   expect_latched(Fault::over_voltage);
 }
 
+TEST_F(Faults, ASegmentThatWaitsInARampWhichAFaultEndsIsNeverDriven) {
+  ask(protocol::Arm{});
+  ask(protocol::Velocity{300'000, 0});
+  run_ms(190);
+  ask(protocol::Velocity{300'000, 0});
+  run_ms(150);
+  ask(robot::line(1).front());  // begins once the robot rests
+  board().battery().set_open_circuit_V(9.0);
+  ASSERT_EQ(mode(), Mode::stopping);
+  run_ms(150);
+  expect_latched(Fault::under_voltage);
+  EXPECT_EQ(drive().queued(), 0U);
+  board().battery().set_open_circuit_V(12.0);
+  run_ms(200);
+  ask(protocol::ClearFaults{});
+  ask(protocol::Arm{});
+  run_ms(500);
+  EXPECT_EQ(mode(), Mode::idle) << "who clears and arms has asked for no drive";
+}
+
 TEST_F(Faults, AWheelThatIsHeldStalls) {
   ask(protocol::Arm{});
   board().set_load(sim::Side::left, {.torque_Nm = 0, .drag_Nm = 100});

@@ -4,8 +4,8 @@
 #include <numbers>
 #include <sstream>
 
+#include "host/base/text/csv_table.hpp"
 #include "host/base/text/numbers.hpp"
-#include "host/formats/files/csv_table.hpp"
 #include "host/truth/files/tracker_file.hpp"
 #include "host/truth/floor/floor_path.hpp"
 #include "host/truth/floor/lost_tracking.hpp"

@@ -1,4 +1,4 @@
-#include "host/formats/files/csv_table.hpp"
+#include "host/base/text/csv_table.hpp"
 
 #include <gmock/gmock.h>
 
